@@ -60,7 +60,7 @@ void writeChunk(const Layout& layout, uint32_t number, const PlaceNames& names, 
   const std::vector<Exit> exits = exitsOf(layout, chunk);
   const bool extraWeight = hasExtraWeight(exits);
   if (extraWeight) out += "u32 extra = 0;\n";
-  RungWriter writer(layout, names, options, extraWeight, out);
+  RungWriter writer(layout, names, extraWeight, out);
   std::vector<bool> labels(chunk.rungCount, false); // all jumps to a rung are above it
   const auto label = [&](const Destination& to) {
     if (to.inside()) labels[to.rung - chunk.firstRung] = true;

@@ -89,9 +89,8 @@ std::string cacheSeal(std::string_view object) {
 CacheKeys::CacheKeys(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, std::string_view machine,
                      std::string_view version)
     : layout_(layout) {
-  std::string text =
-      fmt::format("{} {} {} {} {} {}\n", version, machine, RUNG_ABI_VERSION, static_cast<int>(options.level),
-                  options.debugInfo, options.sabotage ? static_cast<int>(*options.sabotage) : -1);
+  std::string text = fmt::format("{} {} {} {} {}\n", version, machine, RUNG_ABI_VERSION,
+                                 static_cast<int>(options.level), options.debugInfo);
   text += layout.text();
   if (options.debugInfo) text += fmt::format("{:x}\n", codeHash) + ir::print(layout.module()); // it has all names
   whole_ = sha256(text);

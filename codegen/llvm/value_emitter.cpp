@@ -243,7 +243,7 @@ ChunkEmitter::Value* ChunkEmitter::load(const Op& op) {
 }
 
 void ChunkEmitter::store(const Op& op) {
-  Value* value = spoil(op.code, arg(op, 0));
+  Value* value = arg(op, 0);
   if (op.type == Type::Bit) {
     const BitLocation place = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
     if (!place.wholeByte) return writeBit(at(place.offset), builder_.getInt8(static_cast<uint8_t>(place.bit)), value);
@@ -255,7 +255,7 @@ void ChunkEmitter::store(const Op& op) {
 }
 
 void ChunkEmitter::slotStore(const Op& op) {
-  Value* value = spoil(op.code, arg(op, 0));
+  Value* value = arg(op, 0);
   if (op.type == Type::Bit) value = asByte(value);
   builder_.CreateAlignedStore(value, at(layout_.slot(SlotId{op.ref})), llvm::Align(1));
 }
@@ -303,7 +303,7 @@ void ChunkEmitter::storeAt(const Op& op) {
   if (op.count == 0) return;
   const bool isBit = op.code == OpCode::StoreBitAt;
   const Element place = element(op, isBit);
-  Value* value = spoil(op.code, arg(op, isBit ? 2 : 1));
+  Value* value = arg(op, isBit ? 2 : 1);
   llvm::BasicBlock* write = block("write");
   llvm::BasicBlock* done = block("done");
   builder_.CreateCondBr(place.inside, write, done);

@@ -5,6 +5,8 @@
 #include <unordered_map>
 
 #include "codegen/cpp/cpp_emitter.h"
+#include "ir/chunks/cut.h"
+#include "ir/layout/memory_layout.h"
 
 namespace rung::codegen {
 
@@ -22,7 +24,7 @@ private:
 class RungWriter {
 public:
   // `extraWeight`: the chunk adds up its extra weight in a variable `extra`.
-  RungWriter(const ir::Layout& layout, const PlaceNames& names, bool extraWeight, std::string& out)
+  RungWriter(const ir::MemoryLayout& layout, const PlaceNames& names, bool extraWeight, std::string& out)
       : layout_(layout), module_(layout.module()), names_(names), extraWeight_(extraWeight), out_(out) {}
 
   // `number` is the rung's number over all routines, `file` its source's name.
@@ -52,7 +54,7 @@ private:
   std::string a(const ir::Op& op, int i) const { return v(ir::arg(*rung_, op, i)); }
   std::string placeComment(const ir::Op& op) const;
 
-  const ir::Layout& layout_;
+  const ir::MemoryLayout& layout_;
   const ir::Module& module_;
   const PlaceNames& names_;
   const bool extraWeight_;

@@ -16,6 +16,7 @@
 
 #include "codegen/jit/object_cache.h"
 #include "codegen/llvm/llvm_module.h"
+#include "ir/chunks/cut.h"
 #include "ir/layout/program_image.h"
 #include "ir/support/check.h"
 #include "rtlib/host/realtime.h"
@@ -25,7 +26,7 @@ namespace rung::codegen {
 using namespace ir;
 
 struct JitEngine::State {
-  State(const Layout& layout, uint64_t codeHash) : image(layout, codeHash), functions(layout.chunks().size()) {}
+  State(const Layout& layout, uint64_t codeHash) : image(layout, codeHash), functions(layout.cut().chunks().size()) {}
 
   ProgramImage image;
   std::unique_ptr<JitCode> code;
@@ -45,15 +46,15 @@ constexpr uint32_t kOpsPerPiece = 8192;
 
 std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
 
-uint32_t operationsOf(const Layout& layout, const Chunk& chunk) {
-  const std::vector<Rung>& rungs = layout.module().at(chunk.routine).rungs;
+uint32_t operationsOf(const Module& module, const Chunk& chunk) {
+  const std::vector<Rung>& rungs = module.at(chunk.routine).rungs;
   uint32_t ops = 0;
   for (uint32_t i = 0; i < chunk.rungCount; ++i) ops += static_cast<uint32_t>(rungs[chunk.firstRung + i].ops.size());
   return ops;
 }
 
 // Each of chunks that follow one another.
-std::vector<ModulePart> cutPieces(const Layout& layout, std::span<const uint32_t> chunks) {
+std::vector<ModulePart> cutPieces(const Cut& cut, std::span<const uint32_t> chunks) {
   std::vector<ModulePart> pieces;
   uint32_t ops = 0;
   for (const uint32_t chunk : chunks) {
@@ -63,7 +64,7 @@ std::vector<ModulePart> cutPieces(const Layout& layout, std::span<const uint32_t
       ops = 0;
     }
     ++pieces.back().chunkCount;
-    ops += operationsOf(layout, layout.chunks()[chunk]);
+    ops += operationsOf(cut.module(), cut.chunks()[chunk]);
   }
   return pieces;
 }
@@ -97,7 +98,7 @@ class Compiler {
 public:
   Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine,
            std::span<const uint32_t> chunks, JitReport& report)
-      : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout, chunks)),
+      : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout.cut(), chunks)),
         cache_(options.cacheFolder), report_(report) {
     report_ = {.modules = static_cast<uint32_t>(pieces_.size())};
     if (options.cacheFolder.empty()) return;
@@ -211,7 +212,7 @@ Result<std::unique_ptr<JitEngine>> compileJit(const Layout& layout, uint64_t cod
   if (!code.ok()) return code.failure();
   auto state = std::make_unique<JitEngine::State>(layout, codeHash);
   state->code = std::move(code).value();
-  std::vector<uint32_t> all(layout.chunks().size());
+  std::vector<uint32_t> all(layout.cut().chunks().size());
   std::iota(all.begin(), all.end(), 0);
   const Result<void> compiled = state->code->compile(
       layout, codeHash, all, [&](uint32_t chunk, rung_chunk_fn function) { state->functions[chunk] = function; });

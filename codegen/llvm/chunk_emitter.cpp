@@ -22,7 +22,7 @@ ChunkEmitter::ChunkEmitter(llvm::Module& target, const Layout& layout, const Llv
 }
 
 llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
-  const Chunk& place = layout_.chunks()[chunk];
+  const Chunk& place = layout_.cut().chunks()[chunk];
   bitsAreBytes_ = hasMostlyBytes(place);
   const Routine& routine = module_.at(place.routine);
   const Rung& first = routine.rungs[place.firstRung];
@@ -32,7 +32,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   function_ = llvm::Function::Create(signature, llvm::GlobalValue::InternalLinkage, name, target_);
   function_->setDoesNotThrow();
   function_->addFnAttr("frame-pointer", "non-leaf");
-  if (!hostReadsMemory(layout_, place)) function_->addParamAttr(0, llvm::Attribute::NoAlias);
+  if (!hostReadsMemory(module_, place)) function_->addParamAttr(0, llvm::Attribute::NoAlias);
   if (extendsWords_) function_->addRetAttr(llvm::Attribute::SExt);
   mem_ = function_->getArg(0);
   mem_->setName("mem");
@@ -46,12 +46,12 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   firstRung_ = place.firstRung;
   rungBlocks_.assign(place.rungCount, nullptr);
   if (debug_ != nullptr) showMemory();
-  const std::vector<Exit> exits = exitsOf(layout_, place);
+  const std::vector<Exit> exits = exitsOf(layout_.cut(), place);
   extra_ = nullptr;
   if (hasExtraWeight(exits)) builder_.CreateStore(num(0), scratch(extra_, builder_.getInt32Ty()));
   for (uint32_t i = place.firstRung; i < place.firstRung + place.rungCount; ++i) {
     if (!beginRung(i)) continue;
-    emitRung(routine.rungs[i], layout_.rungNumber(place.routine, i));
+    emitRung(routine.rungs[i], layout_.cut().rungNumber(place.routine, i));
     emitExit(exits[i - place.firstRung]);
   }
   return function_;

@@ -9,6 +9,7 @@
 #include "codegen/llvm/abi_types.h"
 #include "codegen/llvm/debug_info.h"
 #include "codegen/llvm/llvm_module.h"
+#include "ir/chunks/cut.h"
 
 namespace rung::codegen {
 

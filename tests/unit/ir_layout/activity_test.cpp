@@ -43,7 +43,7 @@ struct Ran {
 
 // Most scans come without a change, so that there is time to rest.
 Ran compareScans(const Module& module, uint64_t seed) {
-  const Layout layout(module, {.maxChunkRungs = 1 + static_cast<uint32_t>(seed % 3)});
+  const Layout layout(module, {.cut = {.maxChunkRungs = 1 + static_cast<uint32_t>(seed % 3)}});
   Running all(layout, false);
   Running active(layout, true);
   RandomSource random(seed);

@@ -59,7 +59,7 @@ TEST_P(JitLevels, RunsCallsAndTraps) {
     const Layout layout(module, {});
     engine = compiled(layout, {.code = {.level = GetParam(), .target = {}}});
     ASSERT_NE(engine, nullptr);
-    EXPECT_EQ(engine->program().layout_hash, layout.hash());
+    EXPECT_EQ(engine->program().layout_hash, layout.memory().hash());
   } // the engine needs neither
   EXPECT_EQ(engine->name(), "jit");
   host::Instance instance(engine->program());
@@ -156,7 +156,7 @@ TEST_F(JitCache, LeavesWhatDiffers) {
   EXPECT_EQ(taken({}, 2), 0u) << "another program";
   EXPECT_EQ(taken({.level = LlvmLevel::Fast}), 0u);
   EXPECT_EQ(taken({.debugInfo = false}), 0u);
-  layout_ = Layout(module_, {.maxChunkRungs = 1});
+  layout_ = Layout(module_, {.cut = {.maxChunkRungs = 1}});
   EXPECT_EQ(taken({}), 0u) << "other chunks";
   EXPECT_EQ(files().size(), 5u);
 }
@@ -222,7 +222,7 @@ TEST_F(JitCacheOfOthers, AnotherProgram) {
 TEST_F(JitCacheOfOthers, AnotherCut) {
   const auto [other, own] = filesOf(
       [&] {
-        layout_ = Layout(module_, {.maxChunkRungs = 1});
+        layout_ = Layout(module_, {.cut = {.maxChunkRungs = 1}});
         taken({});
       },
       [&] {
@@ -256,7 +256,7 @@ TEST_F(JitCacheOfOthers, AnotherIdentity) {
 // What makes code is in the key, each by itself.
 TEST(CacheKeys, CoverWhatMakesCode) {
   Module module = copyModule(64);
-  const Layout layout(module, {.maxChunkRungs = 16});
+  const Layout layout(module, {.cut = {.maxChunkRungs = 16}});
   const ModulePart whole{.chunkCount = 4};
   const auto keyOf = [&](const Layout& own, const ModulePart& piece, std::string_view version = "1",
                          std::string_view machine = "m") { return CacheKeys(own, 1, {}, machine, version).of(piece); };
@@ -266,8 +266,8 @@ TEST(CacheKeys, CoverWhatMakesCode) {
   EXPECT_NE(keyOf(layout, whole, "1", "n"), key) << "machine";
   EXPECT_NE(keyOf(layout, {.firstChunk = 2, .chunkCount = 2}), keyOf(layout, {.firstChunk = 1, .chunkCount = 2}));
   EXPECT_NE(keyOf(layout, {.firstChunk = 2, .chunkCount = 2}), keyOf(layout, {.firstChunk = 2, .chunkCount = 1}));
-  EXPECT_NE(keyOf(Layout(module, {.maxChunkRungs = 8}), whole), key) << "other chunks";
-  EXPECT_NE(keyOf(Layout(module, {.maxChunkRungs = 16, .expandBits = false}), whole), key) << "other memory";
+  EXPECT_NE(keyOf(Layout(module, {.cut = {.maxChunkRungs = 8}}), whole), key) << "other chunks";
+  EXPECT_NE(keyOf(Layout(module, {.cut = {.maxChunkRungs = 16}, .expandBits = false}), whole), key) << "other memory";
   module.routines[0].rungs[0].begin.line = 99;
   EXPECT_NE(keyOf(layout, whole), key) << "another text: debug information";
 }
@@ -279,7 +279,7 @@ TEST(CacheKeys, AreThoseOfPieces) {
   const ModulePart first{.chunkCount = 2};
   const ModulePart second{.firstChunk = 2, .chunkCount = 2};
   const auto keyOf = [&](const ModulePart& piece) {
-    const Layout layout(module, {.maxChunkRungs = 16});
+    const Layout layout(module, {.cut = {.maxChunkRungs = 16}});
     return CacheKeys(layout, 1, code, "m", "1").of(piece);
   };
   const CacheKey before = keyOf(first);
@@ -307,7 +307,7 @@ TEST(CacheKeys, CoverTheWeightsOfWays) {
   module.routines[0].rungs[2].weight = 7;
   const Layout after(module, {}); // both belong to this module: they differ in what they have calculated
   const ModulePart whole{.chunkCount = 1};
-  EXPECT_EQ(before.text(), after.text());
+  EXPECT_EQ(before.memory().text(), after.memory().text());
   EXPECT_NE(CacheKeys(before, 1, {}, "m", "1").of(whole), CacheKeys(after, 1, {}, "m", "1").of(whole));
 }
 

@@ -90,7 +90,7 @@ TEST_F(Aarch64, EveryOperation) {
 TEST_F(Aarch64, RandomProgramsFast) {
   for (uint64_t seed = 1; seed <= 12; ++seed) {
     const Module module = randomModule(seed);
-    const Layout layout(module, {.maxChunkRungs = 4});
+    const Layout layout(module, {.cut = {.maxChunkRungs = 4}});
     EXPECT_EQ(thereLines(layout, {.level = LlvmLevel::Fast, .target = "aarch64-linux-gnu"}), hereLines(layout))
         << "seed " << seed;
   }

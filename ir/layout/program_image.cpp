@@ -5,8 +5,8 @@
 #include <map>
 #include <string_view>
 
+#include "ir/chunks/heaviest.h"
 #include "ir/layout/accesses.h"
-#include "ir/layout/heaviest.h"
 #include "ir/support/check.h"
 #include "ir/support/version.h"
 

@@ -1,5 +1,5 @@
 // The weight of the heaviest run: compared with all ways of small programs, one after the other.
-#include "ir/layout/heaviest.h"
+#include "ir/chunks/heaviest.h"
 
 #include <gtest/gtest.h>
 

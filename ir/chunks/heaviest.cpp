@@ -1,5 +1,5 @@
 // The longest path through the graph of rungs (see heaviest.h), without recursion: a routine may have 50,000 of them.
-#include "ir/layout/heaviest.h"
+#include "ir/chunks/heaviest.h"
 
 #include <algorithm>
 #include <vector>

@@ -8,11 +8,8 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <llvm/ExecutionEngine/JITEventListener.h>
 #include <llvm/ExecutionEngine/Orc/Debugging/DebuggerSupport.h>
 #include <llvm/ExecutionEngine/Orc/LLJIT.h>
-#include <llvm/ExecutionEngine/Orc/RTDyldObjectLinkingLayer.h>
-#include <llvm/ExecutionEngine/SectionMemoryManager.h>
 
 #include "codegen/jit/object_cache.h"
 #include "codegen/llvm/llvm_module.h"
@@ -160,23 +157,13 @@ private:
   std::string trouble_;
 };
 
-// JITLink is LLVM's newer linker, but only the older one gives perf the lines of functions that are not exported.
 Result<std::unique_ptr<llvm::orc::LLJIT>> makeLinker(const JitOptions& options) {
   llvm::orc::LLJITBuilder builder;
   builder.setPlatformSetUp(
       llvm::orc::setUpInactivePlatform); // no constructors, no thread-local data: nothing to set up
-  if (options.perf)
-    builder.setObjectLinkingLayerCreator([&](llvm::orc::ExecutionSession& session, const llvm::Triple&) {
-      auto layer = std::make_unique<llvm::orc::RTDyldObjectLinkingLayer>(
-          session, [] { return std::make_unique<llvm::SectionMemoryManager>(); });
-      if (llvm::JITEventListener* listener = llvm::JITEventListener::createPerfJITEventListener())
-        layer->registerJITEventListener(*listener);
-      if (options.gdb) layer->registerJITEventListener(*llvm::JITEventListener::createGDBRegistrationListener());
-      return layer;
-    });
   llvm::Expected<std::unique_ptr<llvm::orc::LLJIT>> jit = builder.create();
   if (!jit) return failure(textOf(jit.takeError()));
-  if (options.gdb && !options.perf)
+  if (options.gdb)
     if (llvm::Error error = llvm::orc::enableDebuggerSupport(**jit)) return failure(textOf(std::move(error)));
   return std::move(*jit);
 }

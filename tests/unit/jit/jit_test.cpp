@@ -105,24 +105,6 @@ TEST(Jit, TellsADebugger) {
   EXPECT_NE(compiled(layout, {.code = {}, .gdb = true}), nullptr);
 }
 
-TEST(Jit, TellsPerf) {
-  const fs::path folder = fs::path(testing::TempDir()) / fmt::format("rung-perf-{}", getpid());
-  fs::create_directories(folder);
-  ASSERT_EQ(setenv("JITDUMPDIR", folder.c_str(), 1), 0);
-  const Module module = sampleModule();
-  const Layout layout(module, {});
-  EXPECT_NE(compiled(layout, {.code = {}, .perf = true}), nullptr);
-  std::string dump;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".dump") {
-      std::ifstream in(entry.path(), std::ios::binary);
-      dump.assign(std::istreambuf_iterator<char>(in), {});
-    }
-  fs::remove_all(folder);
-  EXPECT_THAT(dump, HasSubstr("MAIN.0"));
-  EXPECT_THAT(dump, HasSubstr("sample.lad"));
-}
-
 class JitCache : public testing::Test {
 protected:
   void SetUp() override { fs::remove_all(folder_); }

@@ -223,16 +223,12 @@ std::string RungWriter::pure(const Op& op) {
   case OpCode::FDiv: return call("fdiv");
   case OpCode::FNeg: return call("fneg");
   case OpCode::FAbs: return call("rung::sem::fabs");
-  case OpCode::FSqrt: return call("fsqrt");
+#define RUNG_OP(name, text)
+#define RUNG_EVALUABLE_OP(name, text)
+#define RUNG_REAL_FUNCTION(name, function)                                                                             \
+  case OpCode::name: return call(#function);
+#include "ir/core/ops.def"
   case OpCode::FPow: return call("fpow");
-  case OpCode::FSin: return call("fsin");
-  case OpCode::FCos: return call("fcos");
-  case OpCode::FTan: return call("ftan");
-  case OpCode::FAsin: return call("fasin");
-  case OpCode::FAcos: return call("facos");
-  case OpCode::FAtan: return call("fatan");
-  case OpCode::FExp: return call("fexp");
-  case OpCode::FLog: return call("flog");
   case OpCode::FToInt: return call(fmt::format("fToInt<{}>", cppType(op.type)));
   case OpCode::FToIntNearest: return call("fToIntNearest");
   case OpCode::IntToF: return call("intToF");

@@ -101,16 +101,11 @@ ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
   case OpCode::FSub:
   case OpCode::FMul:
   case OpCode::FDiv:
-  case OpCode::FSqrt:
   case OpCode::FPow:
-  case OpCode::FSin:
-  case OpCode::FCos:
-  case OpCode::FTan:
-  case OpCode::FAsin:
-  case OpCode::FAcos:
-  case OpCode::FAtan:
-  case OpCode::FExp:
-  case OpCode::FLog:
+#define RUNG_OP(name, text)
+#define RUNG_EVALUABLE_OP(name, text)
+#define RUNG_REAL_FUNCTION(name, function) case OpCode::name:
+#include "ir/core/ops.def"
   case OpCode::FToInt:
   case OpCode::FToIntNearest: return callSem(op);
   case OpCode::Load: return load(op);

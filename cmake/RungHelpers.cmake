@@ -1,14 +1,10 @@
 # The few functions by which every folder declares its targets.
 include(GoogleTest)
 
-# Adds those of the given folders that have a CMakeLists.txt; a new one is noticed by the next build.
+# Adds the given folders, each of which has a CMakeLists.txt; one that is not there is an error.
 macro(rung_add_subdirectories)
   foreach(rung_folder IN ITEMS ${ARGN})
-    file(GLOB rung_folder_list CONFIGURE_DEPENDS
-      "${CMAKE_CURRENT_SOURCE_DIR}/${rung_folder}/CMakeLists.txt")
-    if(rung_folder_list)
-      add_subdirectory(${rung_folder})
-    endif()
+    add_subdirectory(${rung_folder})
   endforeach()
 endmacro()
 

@@ -34,7 +34,7 @@ void writeHead(const Layout& layout, const CppOptions& options, std::string& out
   for (const std::string& file : module.files) writeComment(file, " from ", out);
   if (options.debugInfo) {
     out += '\n';
-    writeMemoryStruct(layout, out);
+    writeMemoryStruct(layout.memory(), out);
     out += "#define RUNG_DEBUG\n";
   }
   out += "#include \"rung/gen.hpp\"\n\nusing namespace rung::gen;\n\n";
@@ -50,17 +50,17 @@ void writeRungComment(const Routine& routine, uint32_t index, std::string& out) 
 
 void writeChunk(const Layout& layout, uint32_t number, const PlaceNames& names, const CppOptions& options,
                 std::string& out) {
-  const Chunk& chunk = layout.chunks()[number];
+  const Chunk& chunk = layout.cut().chunks()[number];
   const Module& module = layout.module();
   const Routine& routine = module.at(chunk.routine);
   // Its own lines belong to no source.
   put(out, "\n#line 1 \"rung_chunk\"\nstatic uint32_t chunk_{}(uint8_t *{}block, rung_ctx *ctx, uint32_t) {{\n", number,
-      hostReadsMemory(layout, chunk) ? "" : "__restrict ");
+      hostReadsMemory(module, chunk) ? "" : "__restrict ");
   if (options.debugInfo) out += "RUNG_SHOW_MEMORY\n";
-  const std::vector<Exit> exits = exitsOf(layout, chunk);
+  const std::vector<Exit> exits = exitsOf(layout.cut(), chunk);
   const bool extraWeight = hasExtraWeight(exits);
   if (extraWeight) out += "u32 extra = 0;\n";
-  RungWriter writer(layout, names, options, extraWeight, out);
+  RungWriter writer(layout.memory(), names, extraWeight, out);
   std::vector<bool> labels(chunk.rungCount, false); // all jumps to a rung are above it
   const auto label = [&](const Destination& to) {
     if (to.inside()) labels[to.rung - chunk.firstRung] = true;
@@ -74,7 +74,7 @@ void writeChunk(const Layout& layout, uint32_t number, const PlaceNames& names, 
     if (labels[i - chunk.firstRung]) out += rungLabel(i) + ":\n";
     out += "{\n";
     const std::string file = rung.begin.file.valid() ? cppString(module.files[rung.begin.file.index]) : "\"\"";
-    writer.write(rung, layout.rungNumber(chunk.routine, i), std::string_view(file).substr(1, file.size() - 2));
+    writer.write(rung, layout.cut().rungNumber(chunk.routine, i), std::string_view(file).substr(1, file.size() - 2));
     writer.writeExit(exit);
     out += "}\n";
   }
@@ -87,10 +87,10 @@ std::string emitCpp(const Layout& layout, uint64_t codeHash, const CppOptions& o
   std::string out;
   const PlaceNames names(layout.module());
   writeHead(layout, options, out);
-  for (uint32_t i = 0; i < layout.chunks().size(); ++i) writeChunk(layout, i, names, options, out);
+  for (uint32_t i = 0; i < layout.cut().chunks().size(); ++i) writeChunk(layout, i, names, options, out);
   out += "\n#line 1 \"rung_tables\"";
   put(out, "\nstatic const rung_chunk_fn {}[] = {{\n", kChunkTable);
-  for (size_t i = 0; i < layout.chunks().size(); ++i) put(out, "    chunk_{},\n", i);
+  for (size_t i = 0; i < layout.cut().chunks().size(); ++i) put(out, "    chunk_{},\n", i);
   out += "};\n";
   const ProgramImage image(layout, codeHash);
   writeTables(image.program(), kChunkTable, out);

@@ -2,7 +2,6 @@
 // tables. Above each rung stand its comment and its source text, #line gives debuggers the PLC source, comments name
 // the symbols.
 #pragma once
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,8 +14,6 @@ struct CppOptions {
   // For a compiler that is asked for debug information: memory has the program's names, and is up to date where a line
   // begins.
   bool debugInfo = false;
-  // For the tests of the comparison only: this operation is emitted wrongly.
-  std::optional<ir::OpCode> sabotage;
 };
 
 // The text of the file. `codeHash` goes into the program's tables.

@@ -41,7 +41,7 @@ class StructWriter {
 public:
   explicit StructWriter(std::string& out) : out_(out) {}
 
-  void write(const Layout& layout) {
+  void write(const MemoryLayout& layout) {
     const std::vector<MemoryMember> members = memoryMembers(layout);
     out_ += "// The memory block, for debuggers.\nstruct __attribute__((packed)) rung_memory {\n";
     uint64_t at = 0;
@@ -122,6 +122,6 @@ private:
 
 } // namespace
 
-void writeMemoryStruct(const Layout& layout, std::string& out) { StructWriter(out).write(layout); }
+void writeMemoryStruct(const MemoryLayout& layout, std::string& out) { StructWriter(out).write(layout); }
 
 } // namespace rung::codegen

@@ -2,11 +2,11 @@
 #pragma once
 #include <string>
 
-#include "ir/layout/layout.h"
+#include "ir/layout/memory_layout.h"
 
 namespace rung::codegen {
 
 // `struct rung_memory`. It needs no header, so that the names meet no macros.
-void writeMemoryStruct(const ir::Layout& layout, std::string& out);
+void writeMemoryStruct(const ir::MemoryLayout& layout, std::string& out);
 
 } // namespace rung::codegen

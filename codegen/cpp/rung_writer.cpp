@@ -113,16 +113,9 @@ void RungWriter::write(const Rung& rung, uint32_t number, std::string_view file)
 
 // ---- operations --------------------------------------------------------------------------------------------------
 
-std::string RungWriter::spoil(OpCode code, Type type, std::string text) const {
-  if (options_.sabotage != code) return text;
-  if (type == Type::Bit) return fmt::format("!({})", text);
-  if (type == Type::F64) return fmt::format("fromBits(toBits({}) ^ 1)", text);
-  return fmt::format("static_cast<{}>(({}) ^ 1)", cppType(type), text);
-}
-
 void RungWriter::declare(const Op& op, const std::string& expression, std::string_view comment) {
   const Type type = typeOf(*rung_, op.result);
-  statement(fmt::format("const {} {} = {};", cppType(type), v(op.result), spoil(op.code, type, expression)), comment);
+  statement(fmt::format("const {} {} = {};", cppType(type), v(op.result), expression), comment);
 }
 
 std::string RungWriter::placeComment(const Op& op) const {
@@ -144,7 +137,7 @@ std::string RungWriter::load(const Op& op) const {
 }
 
 void RungWriter::store(const Op& op) {
-  const std::string value = spoil(op.code, op.type, a(op, 0));
+  const std::string value = a(op, 0);
   if (op.type == Type::Bit) {
     const BitLocation at = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
     statement(at.wholeByte ? fmt::format("RUNG_SET_FLAG({}, {});", at.offset, value)
@@ -162,12 +155,12 @@ void RungWriter::storeAt(const Op& op) {
   const uint32_t unit = module_.spaces[op.ref].unitBytes;
   const uint32_t base = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
   if (op.code == OpCode::StoreBitAt)
-    statement(fmt::format("RUNG_SET_BIT_AT({}u, {}u, {}u, {}, {}, {});", base, op.count, unit, a(op, 0), a(op, 1),
-                          spoil(op.code, op.type, a(op, 2))),
-              placeComment(op));
+    statement(
+        fmt::format("RUNG_SET_BIT_AT({}u, {}u, {}u, {}, {}, {});", base, op.count, unit, a(op, 0), a(op, 1), a(op, 2)),
+        placeComment(op));
   else
     statement(fmt::format("RUNG_SET_AT({}, {}u, {}u, {}u, {}, {});", memoryType(op.type), base, op.count, unit,
-                          a(op, 0), spoil(op.code, op.type, a(op, 1))),
+                          a(op, 0), a(op, 1)),
               placeComment(op));
 }
 
@@ -230,16 +223,12 @@ std::string RungWriter::pure(const Op& op) {
   case OpCode::FDiv: return call("fdiv");
   case OpCode::FNeg: return call("fneg");
   case OpCode::FAbs: return call("rung::sem::fabs");
-  case OpCode::FSqrt: return call("fsqrt");
+#define RUNG_OP(name, text)
+#define RUNG_EVALUABLE_OP(name, text)
+#define RUNG_REAL_FUNCTION(name, function)                                                                             \
+  case OpCode::name: return call(#function);
+#include "ir/core/ops.def"
   case OpCode::FPow: return call("fpow");
-  case OpCode::FSin: return call("fsin");
-  case OpCode::FCos: return call("fcos");
-  case OpCode::FTan: return call("ftan");
-  case OpCode::FAsin: return call("fasin");
-  case OpCode::FAcos: return call("facos");
-  case OpCode::FAtan: return call("fatan");
-  case OpCode::FExp: return call("fexp");
-  case OpCode::FLog: return call("flog");
   case OpCode::FToInt: return call(fmt::format("fToInt<{}>", cppType(op.type)));
   case OpCode::FToIntNearest: return call("fToIntNearest");
   case OpCode::IntToF: return call("intToF");
@@ -288,7 +277,7 @@ void RungWriter::writeOp(const Op& op) {
   case OpCode::StoreBitAt: return storeAt(op);
   case OpCode::SlotStore: {
     const uint32_t offset = layout_.slot(SlotId{op.ref});
-    const std::string value = spoil(op.code, op.type, a(op, 0));
+    const std::string value = a(op, 0);
     return statement(op.type == Type::Bit ? fmt::format("RUNG_SET_FLAG({}, {});", offset, value)
                                           : fmt::format("RUNG_MEM({}, {}) = {};", memoryType(op.type), offset, value),
                      module_.slots[op.ref].key);
@@ -312,7 +301,7 @@ void RungWriter::writeOp(const Op& op) {
   case OpCode::ProfEnter:
   case OpCode::ProfLeave: return host(op);
   case OpCode::Trap:
-    return statement(fmt::format("RUNG_TRAP({}, {}u, {}u, {}u)", spoil(op.code, Type::Bit, a(op, 0)), op.ref, number_,
+    return statement(fmt::format("RUNG_TRAP({}, {}u, {}u, {}u)", a(op, 0), op.ref, number_,
                                  op.line != 0 ? op.line : rung_->begin.line),
                      module_.faults[op.ref]);
   case OpCode::Note: return statement("// " + commentText(rung_->notes[op.ref]));
@@ -335,14 +324,14 @@ void RungWriter::openIf(const Op& op, size_t index) {
     statement(fmt::format("{} {};", cppType(typeOf(*rung_, id)), v(id)));
   }
   regions_.push_back({index, &end});
-  statement(fmt::format("if ({}) {{", spoil(op.code, Type::Bit, a(op, 0))));
+  statement(fmt::format("if ({}) {{", a(op, 0)));
   ++indent_;
 }
 
 void RungWriter::yield(const Op& op, const Op& end) {
   for (uint32_t i = 0; i < end.resultCount; ++i) {
     const ValueId id{end.result.index + i};
-    statement(fmt::format("{} = {};", v(id), spoil(op.code, typeOf(*rung_, id), a(op, static_cast<int>(i)))));
+    statement(fmt::format("{} = {};", v(id), a(op, static_cast<int>(i))));
   }
 }
 
@@ -352,12 +341,9 @@ void RungWriter::openLoop(const Op& op, size_t index) {
   const std::string pass = v(op.result);
   for (uint32_t i = 1; i < op.resultCount; ++i) {
     const ValueId id{op.result.index + i};
-    statement(fmt::format("{} {} = {};", cppType(typeOf(*rung_, id)), v(id),
-                          spoil(op.code, typeOf(*rung_, id), a(op, static_cast<int>(i - 1)))));
+    statement(fmt::format("{} {} = {};", cppType(typeOf(*rung_, id)), v(id), a(op, static_cast<int>(i - 1))));
   }
-  const bool wrongCount = options_.sabotage == op.code && op.resultCount == 1;
-  statement(fmt::format("for (u32 {0} = 0; {0} < {1}u; ++{0}) {{", pass,
-                        wrongCount && op.count > 0 ? op.count - 1 : op.count));
+  statement(fmt::format("for (u32 {0} = 0; {0} < {1}u; ++{0}) {{", pass, op.count));
   ++indent_;
 }
 
@@ -374,26 +360,19 @@ void RungWriter::closeLoop(const Op& op) {
   statement("}");
   for (uint32_t i = 0; i < op.resultCount; ++i) {
     const ValueId id{op.result.index + i};
-    statement(fmt::format("const {} {} = {};", cppType(typeOf(*rung_, id)), v(id),
-                          spoil(op.code, typeOf(*rung_, id), v(ValueId{begin.result.index + 1 + i}))));
+    statement(
+        fmt::format("const {} {} = {};", cppType(typeOf(*rung_, id)), v(id), v(ValueId{begin.result.index + 1 + i})));
   }
 }
 
 // ---- host --------------------------------------------------------------------------------------------------------
 
 void RungWriter::host(const Op& op) {
-  if (op.code == OpCode::ProfEnter) {
-    const std::string_view wrong = options_.sabotage == op.code ? " ctx->prof[{0}u].count += 1;" : "";
-    return statement(fmt::format(fmt::runtime("RUNG_PROF_ENTER({0}u);" + std::string(wrong)), number_));
-  }
-  if (op.code == OpCode::ProfLeave) {
-    const bool wrong = options_.sabotage == op.code;
-    return statement(wrong ? "// not counted" : fmt::format("RUNG_PROF_LEAVE({}u);", number_));
-  }
+  if (op.code == OpCode::ProfEnter) return statement(fmt::format("RUNG_PROF_ENTER({}u);", number_));
+  if (op.code == OpCode::ProfLeave) return statement(fmt::format("RUNG_PROF_LEAVE({}u);", number_));
   if (op.code == OpCode::Message) {
     const bool real = typeOf(*rung_, arg(*rung_, op, 3)) == Type::F64;
-    return statement(fmt::format("RUNG_MESSAGE({}u, {}, {}, {}, {}, {}u, {}u)", op.ref,
-                                 spoil(op.code, Type::I32, a(op, 0)), a(op, 1), a(op, 2),
+    return statement(fmt::format("RUNG_MESSAGE({}u, {}, {}, {}, {}, {}u, {}u)", op.ref, a(op, 0), a(op, 1), a(op, 2),
                                  real ? fmt::format("toBits({})", a(op, 3)) : a(op, 3), real ? 1 : 0, number_));
   }
   const std::string array = fmt::format("a{}", op.result.index);

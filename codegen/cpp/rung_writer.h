@@ -5,6 +5,8 @@
 #include <unordered_map>
 
 #include "codegen/cpp/cpp_emitter.h"
+#include "ir/chunks/cut.h"
+#include "ir/layout/memory_layout.h"
 
 namespace rung::codegen {
 
@@ -22,10 +24,8 @@ private:
 class RungWriter {
 public:
   // `extraWeight`: the chunk adds up its extra weight in a variable `extra`.
-  RungWriter(const ir::Layout& layout, const PlaceNames& names, const CppOptions& options, bool extraWeight,
-             std::string& out)
-      : layout_(layout), module_(layout.module()), names_(names), options_(options), extraWeight_(extraWeight),
-        out_(out) {}
+  RungWriter(const ir::MemoryLayout& layout, const PlaceNames& names, bool extraWeight, std::string& out)
+      : layout_(layout), module_(layout.module()), names_(names), extraWeight_(extraWeight), out_(out) {}
 
   // `number` is the rung's number over all routines, `file` its source's name.
   void write(const ir::Rung& rung, uint32_t number, std::string_view file);
@@ -53,13 +53,10 @@ private:
   std::string v(ir::ValueId id) const { return "v" + std::to_string(id.index); }
   std::string a(const ir::Op& op, int i) const { return v(ir::arg(*rung_, op, i)); }
   std::string placeComment(const ir::Op& op) const;
-  // The text, or a wrong one when this operation is to be sabotaged.
-  std::string spoil(ir::OpCode code, ir::Type type, std::string text) const;
 
-  const ir::Layout& layout_;
+  const ir::MemoryLayout& layout_;
   const ir::Module& module_;
   const PlaceNames& names_;
-  const CppOptions& options_;
   const bool extraWeight_;
   std::string& out_;
   const ir::Rung* rung_ = nullptr;

@@ -8,14 +8,12 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <llvm/ExecutionEngine/JITEventListener.h>
 #include <llvm/ExecutionEngine/Orc/Debugging/DebuggerSupport.h>
 #include <llvm/ExecutionEngine/Orc/LLJIT.h>
-#include <llvm/ExecutionEngine/Orc/RTDyldObjectLinkingLayer.h>
-#include <llvm/ExecutionEngine/SectionMemoryManager.h>
 
 #include "codegen/jit/object_cache.h"
 #include "codegen/llvm/llvm_module.h"
+#include "ir/chunks/cut.h"
 #include "ir/layout/program_image.h"
 #include "ir/support/check.h"
 #include "rtlib/host/realtime.h"
@@ -25,7 +23,7 @@ namespace rung::codegen {
 using namespace ir;
 
 struct JitEngine::State {
-  State(const Layout& layout, uint64_t codeHash) : image(layout, codeHash), functions(layout.chunks().size()) {}
+  State(const Layout& layout, uint64_t codeHash) : image(layout, codeHash), functions(layout.cut().chunks().size()) {}
 
   ProgramImage image;
   std::unique_ptr<JitCode> code;
@@ -45,15 +43,15 @@ constexpr uint32_t kOpsPerPiece = 8192;
 
 std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
 
-uint32_t operationsOf(const Layout& layout, const Chunk& chunk) {
-  const std::vector<Rung>& rungs = layout.module().at(chunk.routine).rungs;
+uint32_t operationsOf(const Module& module, const Chunk& chunk) {
+  const std::vector<Rung>& rungs = module.at(chunk.routine).rungs;
   uint32_t ops = 0;
   for (uint32_t i = 0; i < chunk.rungCount; ++i) ops += static_cast<uint32_t>(rungs[chunk.firstRung + i].ops.size());
   return ops;
 }
 
 // Each of chunks that follow one another.
-std::vector<ModulePart> cutPieces(const Layout& layout, std::span<const uint32_t> chunks) {
+std::vector<ModulePart> cutPieces(const Cut& cut, std::span<const uint32_t> chunks) {
   std::vector<ModulePart> pieces;
   uint32_t ops = 0;
   for (const uint32_t chunk : chunks) {
@@ -63,7 +61,7 @@ std::vector<ModulePart> cutPieces(const Layout& layout, std::span<const uint32_t
       ops = 0;
     }
     ++pieces.back().chunkCount;
-    ops += operationsOf(layout, layout.chunks()[chunk]);
+    ops += operationsOf(cut.module(), cut.chunks()[chunk]);
   }
   return pieces;
 }
@@ -97,7 +95,7 @@ class Compiler {
 public:
   Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine,
            std::span<const uint32_t> chunks, JitReport& report)
-      : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout, chunks)),
+      : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout.cut(), chunks)),
         cache_(options.cacheFolder), report_(report) {
     report_ = {.modules = static_cast<uint32_t>(pieces_.size())};
     if (options.cacheFolder.empty()) return;
@@ -159,23 +157,13 @@ private:
   std::string trouble_;
 };
 
-// JITLink is LLVM's newer linker, but only the older one gives perf the lines of functions that are not exported.
 Result<std::unique_ptr<llvm::orc::LLJIT>> makeLinker(const JitOptions& options) {
   llvm::orc::LLJITBuilder builder;
   builder.setPlatformSetUp(
       llvm::orc::setUpInactivePlatform); // no constructors, no thread-local data: nothing to set up
-  if (options.perf)
-    builder.setObjectLinkingLayerCreator([&](llvm::orc::ExecutionSession& session, const llvm::Triple&) {
-      auto layer = std::make_unique<llvm::orc::RTDyldObjectLinkingLayer>(
-          session, [] { return std::make_unique<llvm::SectionMemoryManager>(); });
-      if (llvm::JITEventListener* listener = llvm::JITEventListener::createPerfJITEventListener())
-        layer->registerJITEventListener(*listener);
-      if (options.gdb) layer->registerJITEventListener(*llvm::JITEventListener::createGDBRegistrationListener());
-      return layer;
-    });
   llvm::Expected<std::unique_ptr<llvm::orc::LLJIT>> jit = builder.create();
   if (!jit) return failure(textOf(jit.takeError()));
-  if (options.gdb && !options.perf)
+  if (options.gdb)
     if (llvm::Error error = llvm::orc::enableDebuggerSupport(**jit)) return failure(textOf(std::move(error)));
   return std::move(*jit);
 }
@@ -211,7 +199,7 @@ Result<std::unique_ptr<JitEngine>> compileJit(const Layout& layout, uint64_t cod
   if (!code.ok()) return code.failure();
   auto state = std::make_unique<JitEngine::State>(layout, codeHash);
   state->code = std::move(code).value();
-  std::vector<uint32_t> all(layout.chunks().size());
+  std::vector<uint32_t> all(layout.cut().chunks().size());
   std::iota(all.begin(), all.end(), 0);
   const Result<void> compiled = state->code->compile(
       layout, codeHash, all, [&](uint32_t chunk, rung_chunk_fn function) { state->functions[chunk] = function; });

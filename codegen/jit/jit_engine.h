@@ -16,7 +16,6 @@ namespace rung::codegen {
 struct JitOptions {
   LlvmOptions code;        // for this machine: `target` is empty
   bool gdb = false;        // tell a debugger of the code
-  bool perf = false;       // write a jitdump for `perf inject` (below $JITDUMPDIR, else the home directory)
   std::string cacheFolder; // keeps object files there and takes them from there; empty: no cache
   uint32_t threads = 1;    // that compile at the same time
 };

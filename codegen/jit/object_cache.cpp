@@ -8,6 +8,7 @@
 #include <llvm/Object/ObjectFile.h>
 #include <llvm/Support/SHA256.h>
 
+#include "ir/chunks/cut.h"
 #include "ir/support/put.h"
 #include "ir/text/text.h"
 
@@ -38,12 +39,12 @@ void putRung(const ir::Rung& rung, uint32_t number, std::string& text) {
 }
 
 // The cut of a chunk, its rungs, and where they go with which extra weight.
-void putChunk(const ir::Layout& layout, const ir::Chunk& chunk, std::string& text) {
-  const ir::Routine& routine = layout.module().at(chunk.routine);
+void putChunk(const ir::Cut& cut, const ir::Chunk& chunk, std::string& text) {
+  const ir::Routine& routine = cut.module().at(chunk.routine);
   put(text, "chunk {} {} {}\n", routine.name, chunk.firstRung, chunk.rungCount);
   for (uint32_t i = chunk.firstRung; i < chunk.firstRung + chunk.rungCount; ++i)
-    putRung(routine.rungs[i], layout.rungNumber(chunk.routine, i), text);
-  for (const ir::Exit& exit : ir::exitsOf(layout, chunk)) {
+    putRung(routine.rungs[i], cut.rungNumber(chunk.routine, i), text);
+  for (const ir::Exit& exit : ir::exitsOf(cut, chunk)) {
     put(text, "{}", static_cast<int>(exit.kind));
     putDestination(exit.taken, text);
     putDestination(exit.otherwise, text);
@@ -89,17 +90,17 @@ std::string cacheSeal(std::string_view object) {
 CacheKeys::CacheKeys(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, std::string_view machine,
                      std::string_view version)
     : layout_(layout) {
-  std::string text =
-      fmt::format("{} {} {} {} {} {}\n", version, machine, RUNG_ABI_VERSION, static_cast<int>(options.level),
-                  options.debugInfo, options.sabotage ? static_cast<int>(*options.sabotage) : -1);
-  text += layout.text();
+  std::string text = fmt::format("{} {} {} {} {}\n", version, machine, RUNG_ABI_VERSION,
+                                 static_cast<int>(options.level), options.debugInfo);
+  text += layout.memory().text();
   if (options.debugInfo) text += fmt::format("{:x}\n", codeHash) + ir::print(layout.module()); // it has all names
   whole_ = sha256(text);
 }
 
 CacheKey CacheKeys::of(const ModulePart& piece) const {
   std::string text = fmt::format("{} {} {}\n", llvm::toHex(whole_, true), piece.firstChunk, piece.chunkCount);
-  for (uint32_t i = 0; i < piece.chunkCount; ++i) putChunk(layout_, layout_.chunks()[piece.firstChunk + i], text);
+  for (uint32_t i = 0; i < piece.chunkCount; ++i)
+    putChunk(layout_.cut(), layout_.cut().chunks()[piece.firstChunk + i], text);
   return sha256(text);
 }
 

@@ -22,7 +22,7 @@ ChunkEmitter::ChunkEmitter(llvm::Module& target, const Layout& layout, const Llv
 }
 
 llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
-  const Chunk& place = layout_.chunks()[chunk];
+  const Chunk& place = layout_.cut().chunks()[chunk];
   bitsAreBytes_ = hasMostlyBytes(place);
   const Routine& routine = module_.at(place.routine);
   const Rung& first = routine.rungs[place.firstRung];
@@ -32,7 +32,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   function_ = llvm::Function::Create(signature, llvm::GlobalValue::InternalLinkage, name, target_);
   function_->setDoesNotThrow();
   function_->addFnAttr("frame-pointer", "non-leaf");
-  if (!hostReadsMemory(layout_, place)) function_->addParamAttr(0, llvm::Attribute::NoAlias);
+  if (!hostReadsMemory(module_, place)) function_->addParamAttr(0, llvm::Attribute::NoAlias);
   if (extendsWords_) function_->addRetAttr(llvm::Attribute::SExt);
   mem_ = function_->getArg(0);
   mem_->setName("mem");
@@ -46,12 +46,12 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   firstRung_ = place.firstRung;
   rungBlocks_.assign(place.rungCount, nullptr);
   if (debug_ != nullptr) showMemory();
-  const std::vector<Exit> exits = exitsOf(layout_, place);
+  const std::vector<Exit> exits = exitsOf(layout_.cut(), place);
   extra_ = nullptr;
   if (hasExtraWeight(exits)) builder_.CreateStore(num(0), scratch(extra_, builder_.getInt32Ty()));
   for (uint32_t i = place.firstRung; i < place.firstRung + place.rungCount; ++i) {
     if (!beginRung(i)) continue;
-    emitRung(routine.rungs[i], layout_.rungNumber(place.routine, i));
+    emitRung(routine.rungs[i], layout_.cut().rungNumber(place.routine, i));
     emitExit(exits[i - place.firstRung]);
   }
   return function_;
@@ -109,14 +109,6 @@ void ChunkEmitter::emitRung(const Rung& rung, uint32_t number) {
   RUNG_CHECK(regions_.empty(), "regions are closed within their rung");
 }
 
-ChunkEmitter::Value* ChunkEmitter::spoil(OpCode code, Value* value) {
-  if (!sabotaged(code)) return value;
-  if (value->getType()->isDoubleTy())
-    return builder_.CreateBitCast(builder_.CreateXor(builder_.CreateBitCast(value, builder_.getInt64Ty()), 1),
-                                  value->getType());
-  return builder_.CreateXor(value, llvm::ConstantInt::get(value->getType(), 1));
-}
-
 void ChunkEmitter::emitOp(const Op& op) {
   switch (op.code) {
   case OpCode::Store: return store(op);
@@ -131,11 +123,11 @@ void ChunkEmitter::emitOp(const Op& op) {
   case OpCode::Message: return message(op);
   case OpCode::Trap: return trap(op);
   case OpCode::Note: return;
-  case OpCode::ProfEnter: return profEnter(op);
-  case OpCode::ProfLeave: return profLeave(op);
+  case OpCode::ProfEnter: return profEnter();
+  case OpCode::ProfLeave: return profLeave();
   default: break; // one result each; result() lists them
   }
-  values_[op.result.index] = spoil(op.code, result(op));
+  values_[op.result.index] = result(op);
 }
 
 // ---- regions -----------------------------------------------------------------------------------------------------
@@ -143,18 +135,16 @@ void ChunkEmitter::emitOp(const Op& op) {
 void ChunkEmitter::openIf(const Op& op) {
   llvm::BasicBlock* then = block("then");
   llvm::BasicBlock* other = block("else");
-  builder_.CreateCondBr(isSet(spoil(op.code, arg(op, 0))), then, other);
+  builder_.CreateCondBr(isSet(arg(op, 0)), then, other);
   regions_.push_back({.opener = &op, .head = builder_.GetInsertBlock(), .other = other, .end = other});
   builder_.SetInsertPoint(then);
 }
 
 void ChunkEmitter::turnElse(const Op& op) {
   Region& region = regions_.back();
-  for (int i = 0; i < op.argCount; ++i) region.yields.push_back(spoil(op.code, arg(op, i)));
-  // Without values a wrong else has to show in what runs: it falls into the second region.
-  const bool wrong = sabotaged(op.code) && op.argCount == 0;
+  for (int i = 0; i < op.argCount; ++i) region.yields.push_back(arg(op, i));
   region.end = block("endif");
-  builder_.CreateBr(wrong ? region.other : region.end);
+  builder_.CreateBr(region.end);
   region.firstExit = builder_.GetInsertBlock();
   builder_.SetInsertPoint(region.other);
 }
@@ -163,7 +153,7 @@ void ChunkEmitter::closeIf(const Op& op) {
   const Region region = std::move(regions_.back());
   regions_.pop_back();
   std::vector<Value*> yields;
-  for (int i = 0; i < op.argCount; ++i) yields.push_back(spoil(op.code, arg(op, i)));
+  for (int i = 0; i < op.argCount; ++i) yields.push_back(arg(op, i));
   builder_.CreateBr(region.end);
   llvm::BasicBlock* secondExit = builder_.GetInsertBlock();
   builder_.SetInsertPoint(region.end);
@@ -183,8 +173,6 @@ void ChunkEmitter::closeIf(const Op& op) {
 }
 
 void ChunkEmitter::openLoop(const Op& op) {
-  // A wrong loop makes one pass too few; one that has none, one too many.
-  const uint32_t count = !sabotaged(op.code) ? op.count : op.count > 0 ? op.count - 1 : 1;
   std::vector<Value*> first{num(0)};
   for (int i = 0; i < op.argCount; ++i) first.push_back(arg(op, i));
   llvm::BasicBlock* before = builder_.GetInsertBlock();
@@ -197,7 +185,7 @@ void ChunkEmitter::openLoop(const Op& op) {
     region.phis.back()->addIncoming(first[i], before);
     values_[op.result.index + i] = region.phis.back();
   }
-  builder_.CreateCondBr(builder_.CreateICmpULT(region.phis[0], num(count)), body, region.other);
+  builder_.CreateCondBr(builder_.CreateICmpULT(region.phis[0], num(op.count)), body, region.other);
   builder_.SetInsertPoint(body);
   regions_.push_back(std::move(region));
 }
@@ -205,14 +193,12 @@ void ChunkEmitter::openLoop(const Op& op) {
 void ChunkEmitter::closeLoop(const Op& op) {
   const Region region = std::move(regions_.back());
   regions_.pop_back();
-  // Without values a wrong end has to show in what runs: it leaves after the first pass.
-  const bool wrong = sabotaged(op.code) && op.resultCount == 0;
   llvm::BasicBlock* latch = builder_.GetInsertBlock();
-  if (!wrong) region.phis[0]->addIncoming(builder_.CreateAdd(region.phis[0], num(1)), latch);
+  region.phis[0]->addIncoming(builder_.CreateAdd(region.phis[0], num(1)), latch);
   for (size_t i = 1; i < region.phis.size(); ++i) region.phis[i]->addIncoming(arg(op, static_cast<int>(i) - 1), latch);
-  builder_.CreateBr(wrong ? region.other : region.head);
+  builder_.CreateBr(region.head);
   builder_.SetInsertPoint(region.other);
-  for (size_t i = 0; i < op.resultCount; ++i) values_[op.result.index + i] = spoil(op.code, region.phis[i + 1]);
+  for (size_t i = 0; i < op.resultCount; ++i) values_[op.result.index + i] = region.phis[i + 1];
 }
 
 // ---- host --------------------------------------------------------------------------------------------------------
@@ -250,7 +236,7 @@ void ChunkEmitter::message(const Op& op) {
   Value* value = arg(op, 3);
   const bool real = value->getType()->isDoubleTy();
   set(AbiTypes::kMessageOp, num(op.ref));
-  set(AbiTypes::kNumber, spoil(op.code, arg(op, 0)));
+  set(AbiTypes::kNumber, arg(op, 0));
   set(AbiTypes::kChannel, arg(op, 1));
   set(AbiTypes::kIndex, arg(op, 2));
   set(AbiTypes::kValue, real ? builder_.CreateBitCast(value, builder_.getInt64Ty()) : value);
@@ -270,7 +256,7 @@ ChunkEmitter::Value* ChunkEmitter::serviceRequest(const Op& op) {
 void ChunkEmitter::trap(const Op& op) {
   llvm::BasicBlock* fault = block("fault");
   llvm::BasicBlock* go = block("go");
-  builder_.CreateCondBr(isSet(spoil(op.code, arg(op, 0))), fault, go);
+  builder_.CreateCondBr(isSet(arg(op, 0)), fault, go);
   builder_.SetInsertPoint(fault);
   Value* record = ctxField(AbiTypes::kFault);
   const auto set = [&](AbiTypes::FaultField field, uint32_t value) {
@@ -311,16 +297,12 @@ ChunkEmitter::Value* ChunkEmitter::ticks() {
   return builder_.getInt64(0);
 }
 
-void ChunkEmitter::profEnter(const Op& op) {
+void ChunkEmitter::profEnter() {
   Value* prof = profOfRung();
   builder_.CreateStore(ticks(), profField(prof, AbiTypes::kStarted));
-  if (!sabotaged(op.code)) return;
-  Value* count = profField(prof, AbiTypes::kCount);
-  builder_.CreateStore(builder_.CreateAdd(builder_.CreateLoad(builder_.getInt64Ty(), count), builder_.getInt64(1)),
-                       count);
 }
 
-void ChunkEmitter::profLeave(const Op& op) {
+void ChunkEmitter::profLeave() {
   Value* prof = profOfRung();
   llvm::Type* i64 = builder_.getInt64Ty();
   const auto load = [&](AbiTypes::ProfField field) { return builder_.CreateLoad(i64, profField(prof, field)); };
@@ -328,7 +310,7 @@ void ChunkEmitter::profLeave(const Op& op) {
     builder_.CreateStore(value, profField(prof, field));
   };
   Value* used = builder_.CreateSub(ticks(), load(AbiTypes::kStarted));
-  store(AbiTypes::kCount, builder_.CreateAdd(load(AbiTypes::kCount), builder_.getInt64(sabotaged(op.code) ? 2 : 1)));
+  store(AbiTypes::kCount, builder_.CreateAdd(load(AbiTypes::kCount), builder_.getInt64(1)));
   store(AbiTypes::kTotal, builder_.CreateAdd(load(AbiTypes::kTotal), used));
   Value* max = load(AbiTypes::kMax);
   store(AbiTypes::kMax, builder_.CreateSelect(builder_.CreateICmpUGT(used, max), used, max));
@@ -413,7 +395,7 @@ void ChunkEmitter::emitSwitch(const Exit& exit) {
 // Behind an if with the condition of the jump its two regions go their ways without meeting.
 bool ChunkEmitter::leaveFromRegions(const Exit& exit) {
   const bool same = join_ && join_->cond == exit.cond && join_->end == builder_.GetInsertBlock() && join_->end->empty();
-  if (!same || options_.sabotage) return false;
+  if (!same) return false;
   join_->whenTrue->getTerminator()->replaceSuccessorWith(join_->end, blockOf(exit.taken));
   join_->whenFalse->getTerminator()->replaceSuccessorWith(join_->end, blockOf(exit.otherwise));
   builder_.SetInsertPoint(join_->whenTrue);

@@ -9,6 +9,7 @@
 #include "codegen/llvm/abi_types.h"
 #include "codegen/llvm/debug_info.h"
 #include "codegen/llvm/llvm_module.h"
+#include "ir/chunks/cut.h"
 
 namespace rung::codegen {
 
@@ -78,8 +79,8 @@ private:
   Value* serviceRequest(const ir::Op& op);
   Value* callHost(AbiTypes::HostField function, llvm::Type* result, std::vector<Value*> args);
   void trap(const ir::Op& op);
-  void profEnter(const ir::Op& op);
-  void profLeave(const ir::Op& op);
+  void profEnter();
+  void profLeave();
   Value* ticks();
 
   llvm::BasicBlock* rungBlock(uint32_t rung);
@@ -90,10 +91,6 @@ private:
   void emitSwitch(const ir::Exit& exit);
   bool leaveFromRegions(const ir::Exit& exit);
   void pushReturn(uint32_t chunk);
-
-  // The value, or a wrong one when this operation is to be sabotaged.
-  Value* spoil(ir::OpCode code, Value* value);
-  bool sabotaged(ir::OpCode code) const { return options_.sabotage == code; }
 
   Value* arg(const ir::Op& op, int i) const { return values_[ir::arg(*rung_, op, i).index]; }
   llvm::Type* type(ir::Type type) const;

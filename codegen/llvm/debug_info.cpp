@@ -18,7 +18,7 @@ class MemoryType {
 public:
   MemoryType(llvm::DIBuilder& builder, llvm::DIFile* file) : builder_(builder), file_(file) {}
 
-  llvm::DIType* make(const Layout& layout) {
+  llvm::DIType* make(const MemoryLayout& layout) {
     const std::vector<MemoryMember> members = memoryMembers(layout);
     std::vector<llvm::Metadata*> fields;
     for (const MemoryMember& member : members) fields.push_back(field(member));
@@ -70,7 +70,7 @@ private:
 
 } // namespace
 
-DebugInfo::DebugInfo(llvm::Module& target, const Layout& layout, bool optimised)
+DebugInfo::DebugInfo(llvm::Module& target, const MemoryLayout& layout, bool optimised)
     : target_(target), builder_(std::make_unique<llvm::DIBuilder>(target)), optimised_(optimised) {
   const Module& source = layout.module();
   target.addModuleFlag(llvm::Module::Warning, "Debug Info Version", llvm::DEBUG_METADATA_VERSION);

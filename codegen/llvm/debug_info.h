@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ir/layout/layout.h"
+#include "ir/layout/memory_layout.h"
 
 namespace llvm {
 class BasicBlock;
@@ -27,7 +27,7 @@ namespace rung::codegen {
 
 class DebugInfo {
 public:
-  DebugInfo(llvm::Module& target, const ir::Layout& layout, bool optimised);
+  DebugInfo(llvm::Module& target, const ir::MemoryLayout& layout, bool optimised);
   ~DebugInfo();
 
   // What follows belongs to `function`. Without a file it has no lines.

@@ -2,7 +2,6 @@
 // and no linker is called: both work inside the process. This header is free of LLVM.
 #pragma once
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,8 +20,6 @@ struct LlvmOptions {
   LlvmLevel level = LlvmLevel::Opt;
   bool debugInfo = true; // lines and names of the PLC source
   std::string target;    // one of llvmTargets(); empty: this machine
-  // For the tests of the comparison only: this operation is emitted wrongly.
-  std::optional<ir::OpCode> sabotage;
 };
 
 // The triples that `target` may name.

@@ -26,14 +26,11 @@ extern "C" double rung_sem_fadd_f64(double a, double b) noexcept { return fadd(a
 extern "C" double rung_sem_fsub_f64(double a, double b) noexcept { return fsub(a, b); }
 extern "C" double rung_sem_fmul_f64(double a, double b) noexcept { return fmul(a, b); }
 extern "C" double rung_sem_fdiv_f64(double a, double b) noexcept { return fdiv(a, b); }
-extern "C" double rung_sem_fsqrt_f64(double a) noexcept { return fsqrt(a); }
 extern "C" double rung_sem_fpow_f64(double a, double b) noexcept { return fpow(a, b); }
-extern "C" double rung_sem_fsin_f64(double a) noexcept { return fsin(a); }
-extern "C" double rung_sem_fcos_f64(double a) noexcept { return fcos(a); }
-extern "C" double rung_sem_ftan_f64(double a) noexcept { return ftan(a); }
-extern "C" double rung_sem_fasin_f64(double a) noexcept { return fasin(a); }
-extern "C" double rung_sem_facos_f64(double a) noexcept { return facos(a); }
-extern "C" double rung_sem_fatan_f64(double a) noexcept { return fatan(a); }
-extern "C" double rung_sem_fexp_f64(double a) noexcept { return fexp(a); }
-extern "C" double rung_sem_flog_f64(double a) noexcept { return flog(a); }
+#define RUNG_OP(name, text)
+#define RUNG_EVALUABLE_OP(name, text)
+#define RUNG_REAL_FUNCTION(name, function)                                                                             \
+  extern "C" double rung_sem_##function##_f64(double a) noexcept { return function(a); }
+#include "ir/core/ops.def"
+
 extern "C" u64 rung_sem_f_to_int_nearest_i64(double a) noexcept { return fToIntNearest(a); }

@@ -31,7 +31,7 @@ bool ChunkEmitter::hasMostlyBytes(const Chunk& chunk) const {
       if (op.type != Type::Bit) continue;
       if (opInfo(op.code).attr == Attr::Slot) ++bytes;
       if (op.code == OpCode::Load || op.code == OpCode::Store)
-        ++(layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm)).wholeByte ? bytes : others);
+        ++(layout_.memory().bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm)).wholeByte ? bytes : others);
       if (op.code == OpCode::And || op.code == OpCode::Or || op.code == OpCode::Xor)
         others += isTruth[ir::arg(rung, op, 0).index] || isTruth[ir::arg(rung, op, 1).index] ? 2 : 0;
     }
@@ -101,23 +101,18 @@ ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
   case OpCode::FSub:
   case OpCode::FMul:
   case OpCode::FDiv:
-  case OpCode::FSqrt:
   case OpCode::FPow:
-  case OpCode::FSin:
-  case OpCode::FCos:
-  case OpCode::FTan:
-  case OpCode::FAsin:
-  case OpCode::FAcos:
-  case OpCode::FAtan:
-  case OpCode::FExp:
-  case OpCode::FLog:
+#define RUNG_OP(name, text)
+#define RUNG_EVALUABLE_OP(name, text)
+#define RUNG_REAL_FUNCTION(name, function) case OpCode::name:
+#include "ir/core/ops.def"
   case OpCode::FToInt:
   case OpCode::FToIntNearest: return callSem(op);
   case OpCode::Load: return load(op);
   case OpCode::LoadAt: return loadAt(op);
   case OpCode::LoadBitAt: return loadBitAt(op);
   case OpCode::SlotLoad: {
-    Value* place = at(layout_.slot(SlotId{op.ref}));
+    Value* place = at(layout_.memory().slot(SlotId{op.ref}));
     if (op.type == Type::Bit) return readFlag(place);
     return builder_.CreateAlignedLoad(type(op.type), place, llvm::Align(1));
   }
@@ -234,30 +229,30 @@ void ChunkEmitter::writeBit(Value* address, Value* bit, Value* value) {
 
 ChunkEmitter::Value* ChunkEmitter::load(const Op& op) {
   if (op.type == Type::Bit) {
-    const BitLocation place = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
+    const BitLocation place = layout_.memory().bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
     if (!place.wholeByte) return readBit(at(place.offset), builder_.getInt8(static_cast<uint8_t>(place.bit)));
     return readFlag(at(place.offset));
   }
-  const uint32_t offset = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
+  const uint32_t offset = layout_.memory().byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
   return builder_.CreateAlignedLoad(type(op.type), at(offset), llvm::Align(1));
 }
 
 void ChunkEmitter::store(const Op& op) {
-  Value* value = spoil(op.code, arg(op, 0));
+  Value* value = arg(op, 0);
   if (op.type == Type::Bit) {
-    const BitLocation place = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
+    const BitLocation place = layout_.memory().bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
     if (!place.wholeByte) return writeBit(at(place.offset), builder_.getInt8(static_cast<uint8_t>(place.bit)), value);
     builder_.CreateStore(asByte(value), at(place.offset));
     return;
   }
-  const uint32_t offset = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
+  const uint32_t offset = layout_.memory().byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
   builder_.CreateAlignedStore(value, at(offset), llvm::Align(1));
 }
 
 void ChunkEmitter::slotStore(const Op& op) {
-  Value* value = spoil(op.code, arg(op, 0));
+  Value* value = arg(op, 0);
   if (op.type == Type::Bit) value = asByte(value);
-  builder_.CreateAlignedStore(value, at(layout_.slot(SlotId{op.ref})), llvm::Align(1));
+  builder_.CreateAlignedStore(value, at(layout_.memory().slot(SlotId{op.ref})), llvm::Align(1));
 }
 
 // A place of a window that a computed index may miss.
@@ -269,7 +264,7 @@ struct ChunkEmitter::Element {
 
 ChunkEmitter::Element ChunkEmitter::element(const Op& op, bool isBit) {
   const uint32_t unit = module_.spaces[op.ref].unitBytes;
-  const uint32_t base = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
+  const uint32_t base = layout_.memory().byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
   Value* inside = builder_.CreateICmpULT(arg(op, 0), num(op.count));
   if (isBit) inside = builder_.CreateAnd(inside, builder_.CreateICmpULT(arg(op, 1), num(uint64_t{unit} * 8)));
   const auto legal = [&](Value* index) {
@@ -303,7 +298,7 @@ void ChunkEmitter::storeAt(const Op& op) {
   if (op.count == 0) return;
   const bool isBit = op.code == OpCode::StoreBitAt;
   const Element place = element(op, isBit);
-  Value* value = spoil(op.code, arg(op, isBit ? 2 : 1));
+  Value* value = arg(op, isBit ? 2 : 1);
   llvm::BasicBlock* write = block("write");
   llvm::BasicBlock* done = block("done");
   builder_.CreateCondBr(place.inside, write, done);

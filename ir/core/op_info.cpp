@@ -1,6 +1,8 @@
 // The rows of the table of operations (see op_info.h).
 #include "ir/core/op_info.h"
 
+#include "ir/core/eval.h"
+
 namespace rung::ir {
 namespace {
 
@@ -625,13 +627,20 @@ constexpr bool rowsInOrder() {
   constexpr std::string_view kNames[] = {
 #define RUNG_OP(name, text) text,
 #include "ir/core/ops.def"
-#undef RUNG_OP
+  };
+  constexpr bool kEvaluable[] = {
+#define RUNG_OP(name, text) false,
+#define RUNG_EVALUABLE_OP(name, text) true,
+#include "ir/core/ops.def"
   };
   for (int i = 0; i < kOpCount; ++i)
-    if (static_cast<int>(kOps[i].code) != i || kOps[i].name != kNames[i] || kOps[i].doc.empty()) return false;
+    if (static_cast<int>(kOps[i].code) != i || kOps[i].name != kNames[i] || kOps[i].doc.empty() ||
+        isEvaluable(kOps[i]) != kEvaluable[i])
+      return false;
   return true;
 }
-static_assert(rowsInOrder(), "op_info.cpp: one row for each line of ops.def, in its order, with its name and a doc");
+static_assert(rowsInOrder(),
+              "op_info.cpp: one row for each line of ops.def, in its order, with its name, its kind and a doc");
 
 } // namespace
 

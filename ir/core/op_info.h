@@ -13,13 +13,11 @@ namespace rung::ir {
 enum class OpCode : uint8_t {
 #define RUNG_OP(name, text) name,
 #include "ir/core/ops.def"
-#undef RUNG_OP
 };
 
 inline constexpr int kOpCount = 0
 #define RUNG_OP(name, text) +1 // NOLINT(bugprone-macro-parentheses): a sum is made of them
 #include "ir/core/ops.def"
-#undef RUNG_OP
     ;
 
 // What an operand or the result must be, in terms of the operation's own type T (`Op::type`).

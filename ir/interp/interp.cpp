@@ -57,14 +57,15 @@ Destination leave(const Exit& exit, std::span<const uint64_t> values, rung_ctx& 
 
 InterpEngine::InterpEngine(const Layout& layout, uint64_t codeHash, Counting counting)
     : layout_(layout), counting_(counting), image_(layout, codeHash),
-      functions_(layout.chunks().size(), &chunkFunction), exits_(layout.rungCount()), partners_(layout.rungCount()) {
+      functions_(layout.cut().chunks().size(), &chunkFunction), exits_(layout.cut().rungCount()),
+      partners_(layout.cut().rungCount()) {
   image_.program().chunk_fns = functions_.data();
   image_.program().activity_count = 0; // others are compared with it, so it runs every chunk
   const std::vector<Routine>& routines = layout.module().routines;
   for (uint32_t r = 0; r < routines.size(); ++r)
     for (uint32_t i = 0; i < routines[r].rungs.size(); ++i) {
-      const uint32_t number = layout.rungNumber(RoutineId{r}, i);
-      exits_[number] = exitOf(layout, RoutineId{r}, i);
+      const uint32_t number = layout.cut().rungNumber(RoutineId{r}, i);
+      exits_[number] = exitOf(layout.cut(), RoutineId{r}, i);
       partners_[number] = partnersOf(routines[r].rungs[i]);
       mostValues_ = std::max(mostValues_, routines[r].rungs[i].values.size());
       for (const Op& op : routines[r].rungs[i].ops) mostArgs_ = std::max<size_t>(mostArgs_, op.argCount);
@@ -79,7 +80,7 @@ uint32_t InterpEngine::chunkFunction(uint8_t* mem, rung_ctx* ctx, uint32_t chunk
 }
 
 uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const {
-  const Chunk& place = layout_.chunks()[chunk];
+  const Chunk& place = layout_.cut().chunks()[chunk];
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): cleared a rung at a time
   std::array<uint64_t, kOnStack> few;
   std::vector<uint64_t> many;
@@ -89,10 +90,10 @@ uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) con
   Destination next{.rung = place.firstRung};
   while (next.inside()) {
     const Rung& rung = layout_.module().at(place.routine).rungs[next.rung];
-    const uint32_t number = layout_.rungNumber(place.routine, next.rung);
+    const uint32_t number = layout_.cut().rungNumber(place.routine, next.rung);
     const std::span<uint64_t> values = room.first(rung.values.size());
     std::ranges::fill(values, uint64_t{0});
-    RungRun run(layout_, rung, number, partners_[number], mem, ctx, values, room.last(mostArgs_), counting_,
+    RungRun run(layout_.memory(), rung, number, partners_[number], mem, ctx, values, room.last(mostArgs_), counting_,
                 observer_.get());
     const bool completed = run.run();
     if (observer_ != nullptr) observer_->rungRan(number, completed ? values : std::span<const uint64_t>());

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "ir/chunks/cut.h"
 #include "ir/core/memory_use.h"
 #include "ir/layout/layout.h"
 #include "ir/layout/program_image.h"

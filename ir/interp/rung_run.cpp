@@ -184,59 +184,15 @@ void RungRun::evaluate(const Op& op) {
 // NOLINTNEXTLINE(readability-function-size): a case for every operation
 size_t RungRun::step(const Op& op, size_t index) {
   switch (op.code) {
-  case OpCode::Const: give(op, static_cast<uint64_t>(op.imm)); break;
-  case OpCode::Add:
-  case OpCode::Sub:
-  case OpCode::Mul:
-  case OpCode::DivS:
-  case OpCode::DivU:
-  case OpCode::RemS:
-  case OpCode::RemU:
-  case OpCode::Neg:
-  case OpCode::And:
-  case OpCode::Or:
-  case OpCode::Xor:
-  case OpCode::Not:
-  case OpCode::Shl:
-  case OpCode::ShrU:
-  case OpCode::ShrS:
-  case OpCode::PopCount:
-  case OpCode::BcdEncode:
-  case OpCode::BcdDecode:
-  case OpCode::Eq:
-  case OpCode::Ne:
-  case OpCode::LtS:
-  case OpCode::LeS:
-  case OpCode::LtU:
-  case OpCode::LeU:
-  case OpCode::Select:
-  case OpCode::ZExt:
-  case OpCode::SExt:
-  case OpCode::Trunc:
-  case OpCode::FAdd:
-  case OpCode::FSub:
-  case OpCode::FMul:
-  case OpCode::FDiv:
-  case OpCode::FNeg:
-  case OpCode::FAbs:
-  case OpCode::FSqrt:
-  case OpCode::FPow:
-  case OpCode::FSin:
-  case OpCode::FCos:
-  case OpCode::FTan:
-  case OpCode::FAsin:
-  case OpCode::FAcos:
-  case OpCode::FAtan:
-  case OpCode::FExp:
-  case OpCode::FLog:
-  case OpCode::FEq:
-  case OpCode::FLt:
-  case OpCode::FLe:
-  case OpCode::FToInt:
-  case OpCode::FToIntNearest:
-  case OpCode::IntToF:
-  case OpCode::BitsToF:
-  case OpCode::FToBits: evaluate(op); break;
+  case OpCode::Const:
+    give(op, static_cast<uint64_t>(op.imm));
+    break;
+// Without effects: one function evaluates them all.
+#define RUNG_OP(name, text)
+#define RUNG_EVALUABLE_OP(name, text) case OpCode::name:
+#include "ir/core/ops.def"
+    evaluate(op);
+    break;
   case OpCode::Load: load(op); break;
   case OpCode::Store: store(op); break;
   case OpCode::LoadAt: loadAt(op); break;

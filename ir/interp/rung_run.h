@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ir/interp/interp.h"
-#include "ir/layout/layout.h"
+#include "ir/layout/memory_layout.h"
 
 namespace rung::ir {
 
@@ -13,8 +13,8 @@ class RungRun {
 public:
   // `values` has a place for each value of the rung and holds their bits (see ir/core/eval.h); `carried` has one for
   // each operand of any operation. All outlive the run.
-  RungRun(const Layout& layout, const Rung& rung, uint32_t number, const std::vector<uint32_t>& partners, uint8_t* mem,
-          rung_ctx& ctx, std::span<uint64_t> values, std::span<uint64_t> carried, Counting counting,
+  RungRun(const MemoryLayout& layout, const Rung& rung, uint32_t number, const std::vector<uint32_t>& partners,
+          uint8_t* mem, rung_ctx& ctx, std::span<uint64_t> values, std::span<uint64_t> carried, Counting counting,
           RungObserver* observer)
       : layout_(layout), rung_(rung), number_(number), partners_(partners), mem_(mem), ctx_(ctx), values_(values),
         carried_(carried), counting_(counting), observer_(observer) {}
@@ -51,7 +51,7 @@ private:
   uint64_t clock() const;
   void countRung();
 
-  const Layout& layout_;
+  const MemoryLayout& layout_;
   const Rung& rung_;
   const uint32_t number_;
   const std::vector<uint32_t>& partners_;

@@ -26,7 +26,7 @@ void forUses(const Module& module, const Routine& routine, Visit visit) {
 bool isOneBit(const Use& use) { return use.type == Type::Bit && !use.computed; }
 
 // In the memory block.
-std::vector<rung_span> bytesOf(const Layout& layout, const Use& use) {
+std::vector<rung_span> bytesOf(const MemoryLayout& layout, const Use& use) {
   if (isOneBit(use)) return {{layout.bit(use.place.space, use.place.first).offset, 1}};
   return layout.pieces(bytesOf(use.place));
 }
@@ -103,7 +103,7 @@ std::vector<rung_span> joined(std::vector<rung_span> spans) {
 
 } // namespace
 
-std::vector<rung_written> writtenBits(const Layout& layout) {
+std::vector<rung_written> writtenBits(const MemoryLayout& layout) {
   const Module& module = layout.module();
   WrittenSpans spans;
   for (const Routine& routine : module.routines)
@@ -118,7 +118,7 @@ std::vector<rung_written> writtenBits(const Layout& layout) {
   return spans.joined();
 }
 
-std::vector<rung_span> readBytes(const Layout& layout, TaskId id) {
+std::vector<rung_span> readBytes(const MemoryLayout& layout, TaskId id) {
   const Module& module = layout.module();
   const Task& task = module.tasks[id.index];
   std::vector<rung_span> spans;
@@ -158,7 +158,7 @@ bool staysInRoutine(const Routine& routine, const Chunk& chunk) {
 
 } // namespace
 
-Touched touchedBytes(const Layout& layout, const Chunk& chunk) {
+Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk) {
   const Module& module = layout.module();
   const Routine& routine = module.at(chunk.routine);
   Touched out;

@@ -2,15 +2,16 @@
 #pragma once
 #include <vector>
 
-#include "ir/layout/layout.h"
+#include "ir/chunks/cut.h"
+#include "ir/layout/memory_layout.h"
 
 namespace rung::ir {
 
 // All that chunks may write: ascending, none overlaps the next.
-std::vector<rung_written> writtenBits(const Layout& layout);
+std::vector<rung_written> writtenBits(const MemoryLayout& layout);
 
 // What a run of the task may read, its `begin` copies included: ascending, none touches the next.
-std::vector<rung_span> readBytes(const Layout& layout, TaskId task);
+std::vector<rung_span> readBytes(const MemoryLayout& layout, TaskId task);
 
 // What a chunk touches of the memory block, ascending, none touches the next.
 struct Touched {
@@ -18,6 +19,6 @@ struct Touched {
   std::vector<rung_span> all; // may be read or written; empty where the chunk must always run: its effect depends on
                               // more than memory, or it may touch too much to compare
 };
-Touched touchedBytes(const Layout& layout, const Chunk& chunk);
+Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk);
 
 } // namespace rung::ir

@@ -72,7 +72,7 @@ struct Address {
 
 class Collector {
 public:
-  explicit Collector(const Layout& layout) : layout_(layout), module_(layout.module()) {
+  explicit Collector(const MemoryLayout& layout) : layout_(layout), module_(layout.module()) {
     for (const Space& space : module_.spaces)
       cells_.emplace_back(static_cast<size_t>(space.units) * space.unitBytes, nullptr);
   }
@@ -190,7 +190,7 @@ private:
     return name;
   }
 
-  const Layout& layout_;
+  const MemoryLayout& layout_;
   const Module& module_;
   std::vector<std::vector<const Symbol*>> cells_; // per space and byte: the symbol whose cell it belongs to
   std::set<Address> namedBits_;
@@ -206,6 +206,6 @@ uint32_t bytesOf(const std::vector<MemoryMember>& members) {
   return static_cast<uint32_t>((end + 7) / 8);
 }
 
-std::vector<MemoryMember> memoryMembers(const Layout& layout) { return Collector(layout).run(); }
+std::vector<MemoryMember> memoryMembers(const MemoryLayout& layout) { return Collector(layout).run(); }
 
 } // namespace rung::ir

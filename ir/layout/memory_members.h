@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ir/layout/layout.h"
+#include "ir/layout/memory_layout.h"
 
 namespace rung::ir {
 
@@ -25,7 +25,7 @@ struct MemoryMember {
 };
 
 // Sorted by place. Without constants, and without what is hidden from users.
-std::vector<MemoryMember> memoryMembers(const Layout& layout);
+std::vector<MemoryMember> memoryMembers(const MemoryLayout& layout);
 // Bytes up to the last member. gdb reads a whole struct for the sake of a bit field in it, and by default no more than
 // 65536 bytes: the struct has no more than it needs.
 uint32_t bytesOf(const std::vector<MemoryMember>& members);

@@ -5,8 +5,8 @@
 #include <map>
 #include <string_view>
 
+#include "ir/chunks/heaviest.h"
 #include "ir/layout/accesses.h"
-#include "ir/layout/heaviest.h"
 #include "ir/support/check.h"
 #include "ir/support/version.h"
 
@@ -23,9 +23,9 @@ public:
     p.name = text(module_.name);
     p.dialect = text(module_.dialect);
     p.compiler = compilerName();
-    p.layout_hash = layout_.hash();
+    p.layout_hash = layout_.memory().hash();
     p.code_hash = codeHash;
-    p.memory_size = layout_.memorySize();
+    p.memory_size = layout_.memory().size();
     p.memory_align = 64;
     p.instrumented = module_.instrumented ? 1 : 0;
     p.main_task = module_.mainTask.index;
@@ -45,7 +45,7 @@ public:
     addSteps(module_.fast, image_.fast_);
     addSteps(module_.slices, image_.slices_);
     addTexts();
-    image_.writes_ = writtenBits(layout_);
+    image_.writes_ = writtenBits(layout_.memory());
     link();
   }
 
@@ -55,7 +55,7 @@ private:
   void addSpaces() {
     for (uint32_t i = 0; i < module_.spaces.size(); ++i) {
       const Space& space = module_.spaces[i];
-      const std::vector<rung_range>& ranges = image_.ranges_.emplace_back(layout_.space(SpaceId{i}).ranges);
+      const std::vector<rung_range>& ranges = image_.ranges_.emplace_back(layout_.memory().space(SpaceId{i}).ranges);
       image_.spaces_.push_back({text(space.name), space.unitBytes, space.units * space.unitBytes, space.flags,
                                 static_cast<uint32_t>(ranges.size()), ranges.data()});
     }
@@ -78,7 +78,7 @@ private:
       for (uint32_t i = 0; i < module_.routines[r].rungs.size(); ++i)
         for (const Op& op : module_.routines[r].rungs[i].ops)
           if (op.code == OpCode::SlotLoad || op.code == OpCode::SlotStore)
-            first[op.ref] = std::min(first[op.ref], layout_.rungNumber(RoutineId{r}, i));
+            first[op.ref] = std::min(first[op.ref], layout_.cut().rungNumber(RoutineId{r}, i));
     return first;
   }
 
@@ -87,7 +87,7 @@ private:
     for (uint32_t i = 0; i < module_.slots.size(); ++i) {
       const Slot& slot = module_.slots[i];
       if (!slot.transient)
-        image_.slots_.push_back({text(slot.key), layout_.slot(SlotId{i}), abiType(slot.type), rungs[i], 0});
+        image_.slots_.push_back({text(slot.key), layout_.memory().slot(SlotId{i}), abiType(slot.type), rungs[i], 0});
     }
     std::ranges::sort(image_.slots_, {}, [](const rung_slot& slot) { return std::string_view(slot.key); });
   }
@@ -96,22 +96,22 @@ private:
     for (const Continuation& c : module_.continuations) {
       std::vector<const char*>& points = image_.points_.emplace_back();
       for (const std::string& point : c.points) points.push_back(text(point));
-      image_.continuations_.push_back({text(c.key),
-                                       c.slot.valid() ? layout_.slot(c.slot) : layout_.byte(c.space, c.byte),
-                                       static_cast<uint32_t>(points.size()), points.data()});
+      image_.continuations_.push_back(
+          {text(c.key), c.slot.valid() ? layout_.memory().slot(c.slot) : layout_.memory().byte(c.space, c.byte),
+           static_cast<uint32_t>(points.size()), points.data()});
     }
     std::ranges::sort(image_.continuations_, {}, [](const rung_continuation& c) { return std::string_view(c.key); });
   }
 
   void addInits() {
-    for (const Init& init : module_.inits) addInit(layout_.byte(init.space, init.byte), init.data);
+    for (const Init& init : module_.inits) addInit(layout_.memory().byte(init.space, init.byte), init.data);
     for (uint32_t i = 0; i < module_.slots.size(); ++i) {
       const Slot& slot = module_.slots[i];
       if (slot.init == 0) continue;
       std::vector<uint8_t> bytes(std::max(1u, byteWidth(slot.type)));
       for (size_t b = 0; b < bytes.size(); ++b)
         bytes[b] = static_cast<uint8_t>(static_cast<uint64_t>(slot.init) >> (8 * b));
-      addInit(layout_.slot(SlotId{i}), bytes);
+      addInit(layout_.memory().slot(SlotId{i}), bytes);
     }
   }
 
@@ -123,7 +123,7 @@ private:
 
   void addSpans(const std::vector<SpaceSpan>& spans, std::vector<rung_span>& out) {
     for (const SpaceSpan& span : spans) {
-      const std::vector<rung_span> pieces = layout_.pieces(span);
+      const std::vector<rung_span> pieces = layout_.memory().pieces(span);
       out.insert(out.end(), pieces.begin(), pieces.end());
     }
   }
@@ -180,7 +180,7 @@ private:
     uint32_t scale;
   };
   Piece piece(SpaceId space, uint32_t byte, uint32_t size) {
-    for (const rung_range& range : layout_.space(space).ranges) {
+    for (const rung_range& range : layout_.memory().space(space).ranges) {
       if (byte < range.first_byte || byte - range.first_byte >= range.byte_count) continue;
       const uint32_t scale = range.repr == RUNG_REPR_PACKED ? 1 : 8;
       const uint32_t into = byte - range.first_byte;
@@ -195,7 +195,7 @@ private:
       const Task& task = module_.tasks[i];
       rung_task out{};
       out.name = text(task.name);
-      out.entry = layout_.entry(task.entry);
+      out.entry = layout_.cut().entry(task.entry);
       out.period_us = task.periodUs;
       out.budget = task.budget;
       out.budget_fault = task.budgetFault.index;
@@ -206,15 +206,15 @@ private:
       addCopies(task.end);
       out.end_count = static_cast<uint32_t>(image_.copies_.size()) - out.end_first;
       out.part_first = static_cast<uint32_t>(image_.partEnds_.size());
-      const std::vector<uint32_t>& ends = layout_.partEnds(TaskId{i});
+      const std::vector<uint32_t>& ends = layout_.cut().partEnds(TaskId{i});
       image_.partEnds_.insert(image_.partEnds_.end(), ends.begin(), ends.end());
       // A short program gives fewer borders than parts: the parts after the last border are empty.
       image_.partEnds_.insert(image_.partEnds_.end(), task.parts - ends.size(), RUNG_PC_DONE);
       out.part_count = task.parts;
-      const HeaviestRun heaviest = heaviestRun(layout_, TaskId{i});
+      const HeaviestRun heaviest = heaviestRun(layout_.cut(), TaskId{i});
       out.heaviest = heaviest.weight;
       out.circles = heaviest.circles ? 1 : 0;
-      const std::vector<rung_span> reads = readBytes(layout_, TaskId{i});
+      const std::vector<rung_span> reads = readBytes(layout_.memory(), TaskId{i});
       out.read_first = static_cast<uint32_t>(image_.reads_.size());
       out.read_count = static_cast<uint32_t>(reads.size());
       image_.reads_.insert(image_.reads_.end(), reads.begin(), reads.end());
@@ -223,15 +223,16 @@ private:
   }
 
   void addChunks() {
-    for (const Chunk& chunk : layout_.chunks())
-      image_.chunks_.push_back({layout_.rungNumber(chunk.routine, chunk.firstRung), chunk.rungCount, chunk.weight});
+    for (const Chunk& chunk : layout_.cut().chunks())
+      image_.chunks_.push_back(
+          {layout_.cut().rungNumber(chunk.routine, chunk.firstRung), chunk.rungCount, chunk.weight});
   }
 
   // A measured rung counts its runs.
   void addActivity() {
     if (!module_.activity || module_.instrumented) return;
-    for (const Chunk& chunk : layout_.chunks()) {
-      const Touched touched = touchedBytes(layout_, chunk);
+    for (const Chunk& chunk : layout_.cut().chunks()) {
+      const Touched touched = touchedBytes(layout_.memory(), chunk);
       rung_activity out{};
       out.written_first = static_cast<uint32_t>(image_.activitySpans_.size());
       out.written_count = static_cast<uint32_t>(touched.written.size());
@@ -244,12 +245,12 @@ private:
   }
 
   void addRungs() {
-    image_.rungs_.resize(layout_.rungCount());
-    std::vector<const std::string*> homes(layout_.rungCount());
+    image_.rungs_.resize(layout_.cut().rungCount());
+    std::vector<const std::string*> homes(layout_.cut().rungCount());
     for (uint32_t r = 0; r < module_.routines.size(); ++r) {
       for (uint32_t i = 0; i < module_.routines[r].rungs.size(); ++i) {
         const Rung& rung = module_.routines[r].rungs[i];
-        const uint32_t number = layout_.rungNumber(RoutineId{r}, i);
+        const uint32_t number = layout_.cut().rungNumber(RoutineId{r}, i);
         homes[number] = &homeOf(module_.routines[r], rung);
         image_.rungs_[number] = {rung.title.empty() ? "" : text(rung.title),
                                  rung.begin.file.index,

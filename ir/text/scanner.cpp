@@ -156,12 +156,6 @@ uint32_t Scanner::u32() {
   return static_cast<uint32_t>(value);
 }
 
-uint16_t Scanner::u16() {
-  const uint64_t value = u64();
-  if (value > UINT16_MAX) fail("number too large");
-  return static_cast<uint16_t>(value);
-}
-
 int64_t Scanner::i64() {
   const bool minus = accept('-');
   const uint64_t value = u64();

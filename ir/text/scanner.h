@@ -34,7 +34,6 @@ public:
   std::string text();
   uint64_t u64();
   uint32_t u32();
-  uint16_t u16();
   int64_t i64(); // a minus sign is allowed; values above INT64_MAX wrap
   double real();
   std::string_view hexDigits();

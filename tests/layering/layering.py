@@ -7,9 +7,9 @@ from pathlib import Path
 
 # Folder -> folders it may include besides itself and EVERYBODYS; the longest matching folder counts. "rtlib/abi" is also
 # "rung/NAME.h".
-FRONTEND = {"ir/support", "ir/core", "ir/idioms", "rtlib/abi", "rtlib/nc"}
+FRONTEND = {"ir/support", "ir/core", "rtlib/abi", "rtlib/nc"}
 IR = {"ir/support", "ir/core", "rtlib/abi"}
-ALL_IR = IR | {"ir/idioms", "ir/text", "ir/verify", "ir/passes", "ir/layout", "ir/interp"}
+ALL_IR = IR | {"ir/text", "ir/verify", "ir/passes", "ir/chunks", "ir/layout", "ir/interp"}
 DIALECT = FRONTEND | {"frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
                       "frontend/ladder/text", "frontend/dialects"}
 DIALECTS = {f"frontend/dialects/{name}" for name in ("gsk", "nct", "technol")}
@@ -26,14 +26,13 @@ MODULES = {
     "rtlib/runtime": {"rtlib/abi", "rtlib/core", "rtlib/nc/control", "rtlib/nc/names", "rtlib/host", "rtlib/profile"},
     "ir/support": set(),
     "ir/core": IR,
-    "ir/idioms": IR,
     "ir/text": IR,
     "ir/verify": IR | {"ir/text"},
     "ir/uses": IR,
-    "ir/passes": IR | {"ir/idioms", "ir/text", "ir/verify"},
-    "ir/layout": IR,
-    "ir/interp": IR | {"ir/layout", "ir/passes", "rtlib/core", "rtlib/host"},  # an engine, as codegen/jit is
-    "ir/random": IR,
+    "ir/passes": IR | {"ir/text", "ir/verify"},
+    "ir/chunks": IR,
+    "ir/layout": IR | {"ir/chunks"},
+    "ir/interp": IR | {"ir/chunks", "ir/layout", "ir/passes", "rtlib/core", "rtlib/host"},  # an engine, as codegen/jit is
     "frontend/syntax": FRONTEND,
     "frontend/table": FRONTEND | {"frontend/syntax"},
     "frontend/ladder": FRONTEND | {"frontend/syntax"},

@@ -57,7 +57,6 @@ codegen::LlvmOptions llvmOptions(const EngineOptions& options) {
   codegen::LlvmOptions llvm;
   llvm.level = options.optimise ? codegen::LlvmLevel::Opt : codegen::LlvmLevel::Fast;
   llvm.debugInfo = options.debugger;
-  llvm.sabotage = options.sabotage;
   return llvm;
 }
 
@@ -112,7 +111,6 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
     return buildAndLoad(engineName(kind), [&] {
       codegen::CppOptions emit;
       emit.debugInfo = options.debugger;
-      emit.sabotage = options.sabotage;
       codegen::CppBuildOptions build;
       build.compiler = options.cppCompiler.empty() ? defaultCppCompiler() : options.cppCompiler;
       build.optimisation = options.optimise ? "-O2" : "-O0";

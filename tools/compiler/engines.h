@@ -30,12 +30,11 @@ std::optional<EngineKind> engineFromName(std::string_view name);
 std::span<const EngineKind> allEngines();
 
 struct EngineOptions {
-  bool optimise = true;               // false: fastest compilation
-  bool debugger = false;              // with debug information, and the code of the JIT is reported to gdb
-  std::string cacheFolder;            // JIT: see JitOptions; empty: no cache
-  std::string cppCompiler;            // empty: the first of clang++-19, g++, c++ that is installed
-  bool countOperations = false;       // interp: profile counters count operations executed, not time
-  std::optional<ir::OpCode> sabotage; // for the tests of the comparison
+  bool optimise = true;         // false: fastest compilation
+  bool debugger = false;        // with debug information, and the code of the JIT is reported to gdb
+  std::string cacheFolder;      // JIT: see JitOptions; empty: no cache
+  std::string cppCompiler;      // empty: the first of clang++-19, g++, c++ that is installed
+  bool countOperations = false; // interp: profile counters count operations executed, not time
   // Interpreter: makes what observes the program's rungs. May be empty.
   std::function<std::unique_ptr<ir::RungObserver>(const Compiled&)> observer;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "ir/chunks/cut.h"
 #include "ir/passes/force.h"
 #include "ir/passes/pipeline.h"
 
@@ -27,8 +28,8 @@ ForcedProgram::ForcedProgram(const Compiled& source, std::span<const rung_forced
 
 std::vector<uint32_t> ForcedProgram::chunksUnlike(const ir::Module& other) const {
   std::vector<uint32_t> unlike;
-  for (uint32_t i = 0; i < layout.chunks().size(); ++i) {
-    const ir::Chunk& chunk = layout.chunks()[i];
+  for (uint32_t i = 0; i < layout.cut().chunks().size(); ++i) {
+    const ir::Chunk& chunk = layout.cut().chunks()[i];
     const auto here = module.at(chunk.routine).rungs.begin() + chunk.firstRung;
     const auto there = other.at(chunk.routine).rungs.begin() + chunk.firstRung;
     if (!std::equal(here, here + chunk.rungCount, there, sameCode)) unlike.push_back(i);

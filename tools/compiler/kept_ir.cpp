@@ -84,7 +84,7 @@ Result<Compiled> irOf(std::string_view object, const Hashes& program) {
   ir::runPasses(*out.module, out.passes);
   out.layout = std::make_unique<ir::Layout>(*out.module, ir::LayoutOptions{});
   out.codeHash = hashBytes(ir::print(*out.module));
-  if (Hashes{out.codeHash, out.layout->hash()} != program)
+  if (Hashes{out.codeHash, out.layout->memory().hash()} != program)
     return failure("this compiler makes another program of its IR; compile it again");
   return out;
 }

@@ -124,7 +124,7 @@ Result<std::string> textOf(const compiler::Compiled& compiled, const BuildOption
   else if (options.what == "ir")
     text = ir::print(*compiled.module);
   else if (options.what == "layout")
-    text = compiled.layout->text();
+    text = compiled.layout->memory().text();
   else if (options.what == "llvm")
     text = codegen::emitLlvmIr(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
   else

@@ -8,11 +8,11 @@
 #include <random>
 #include <thread>
 
-#include "ir/random/random.h"
 #include "ir/support/hash.h"
 #include "rtlib/host/forcing.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/host/replacement.h"
+#include "tests/random/random.h"
 #include "tests/support/differential.h"
 #include "tools/compiler/recompiler.h"
 #include "tools/compiler/tiered.h"
@@ -43,7 +43,7 @@ ir::Module variantOf(ir::Module module, uint32_t variant) {
 
 struct Variant {
   Variant(const ir::Module& module, EngineKind engineKind)
-      : kind(engineKind), compiled(testing::compiledFromBuilt(module, {.maxChunkRungs = 4})),
+      : kind(engineKind), compiled(testing::compiledFromBuilt(module, {.cut = {.maxChunkRungs = 4}})),
         engine(makeEngine(kind, compiled, {}).value()) {}
   const rung_program& program() const { return engine->program(); }
 

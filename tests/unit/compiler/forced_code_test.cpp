@@ -6,10 +6,10 @@
 
 #include <random>
 
-#include "ir/random/random.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/host/forcing.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
 #include "tests/support/differential.h"
 
 namespace rung::compiler {

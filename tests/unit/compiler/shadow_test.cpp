@@ -9,9 +9,9 @@
 
 #include "ir/interp/interp.h"
 #include "ir/passes/pipeline.h"
-#include "ir/random/random.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
 
 namespace rung::host {
 namespace {

@@ -9,11 +9,11 @@
 #include <random>
 #include <unistd.h>
 
-#include "ir/random/random.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/host/forcing.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
 #include "tests/support/differential.h"
 #include "tools/compiler/recompiler.h"
 
@@ -25,7 +25,7 @@ using Random = std::mt19937_64;
 // The program as the interpreter runs it, and the same in tiers.
 struct Both {
   explicit Both(const ir::Module& module, codegen::JitOptions options = {})
-      : compiled(testing::compiledFromBuilt(module, {.maxChunkRungs = 4})), reference(*compiled.layout, 0),
+      : compiled(testing::compiledFromBuilt(module, {.cut = {.maxChunkRungs = 4}})), reference(*compiled.layout, 0),
         expected(reference), engine(TieredEngine::make(compiled, options, ir::Counting::Ticks).value()),
         tested(*engine) {}
 

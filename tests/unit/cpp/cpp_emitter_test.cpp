@@ -87,7 +87,7 @@ TEST_P(BuiltWith, RunsCallsAndTraps) {
   const auto engine = host::SoEngine::open(path, error);
   ASSERT_NE(engine, nullptr) << error;
   EXPECT_EQ(engine->program().code_hash, 42u);
-  EXPECT_EQ(engine->program().layout_hash, layout.hash());
+  EXPECT_EQ(engine->program().layout_hash, layout.memory().hash());
   host::Instance instance(engine->program());
   instance.scan();
   EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "Y0.0")), 0u);

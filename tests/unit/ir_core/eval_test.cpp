@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "ir/core/eval.h"
-#include "ir/random/random.h"
 #include "rung/sem.hpp"
+#include "tests/random/random.h"
 
 namespace rung::ir {
 namespace {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "ir/core/parts.h"
-#include "ir/random/random.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
 #include "tests/unit/ir_interp/machine.h"
 
 namespace rung::ir {
@@ -214,7 +214,7 @@ uint64_t digitsOf(std::string_view routines, std::string_view inits = {}) {
   uint64_t digits = 0;
   for (const uint32_t chunkRungs : {1u, 2u, 32u}) {
     LayoutOptions options;
-    options.maxChunkRungs = chunkRungs;
+    options.cut.maxChunkRungs = chunkRungs;
     Machine m(moduleFromText(program(routines, inits)), options);
     m->scan();
     EXPECT_FALSE(m->faulted());
@@ -283,10 +283,10 @@ std::string heavy(uint32_t number, uint32_t weight, std::string_view transfer = 
 }
 std::vector<std::pair<uint32_t, uint32_t>> chunksOf(const std::string& rungs, uint32_t maxRungs) {
   LayoutOptions options;
-  options.maxChunkRungs = maxRungs;
+  options.cut.maxChunkRungs = maxRungs;
   const Machine m(moduleFromText(program(routine(rungs))), options);
   std::vector<std::pair<uint32_t, uint32_t>> chunks;
-  for (const Chunk& chunk : m.layout().chunks()) chunks.emplace_back(chunk.firstRung, chunk.weight);
+  for (const Chunk& chunk : m.layout().cut().chunks()) chunks.emplace_back(chunk.firstRung, chunk.weight);
   return chunks;
 }
 using Chunks = std::vector<std::pair<uint32_t, uint32_t>>; // first rung, weight
@@ -322,7 +322,7 @@ TEST(InterpChunks, TheWatchdogCountsWhatIsRun) {
   const std::string rungs = count + heavy(1, 50) + heavy(2, 2, "} goto 0");
   for (const uint32_t chunkRungs : {1u, 64u}) {
     LayoutOptions options;
-    options.maxChunkRungs = chunkRungs;
+    options.cut.maxChunkRungs = chunkRungs;
     Machine light(moduleFromText(program(routine(rungs), "init B[0] 01\n")), options);
     light->scan();
     EXPECT_TRUE(light->faulted());
@@ -494,7 +494,7 @@ TEST(InterpDeathTest, NeedsItsContext) {
 TEST(InterpModules, LayoutDoesNotShow) {
   LayoutOptions packed;
   packed.expandBits = false;
-  packed.maxChunkRungs = 1;
+  packed.cut.maxChunkRungs = 1;
   for (uint64_t seed = 0; seed < 300; ++seed) {
     Module module = randomModule(seed);
     // Parts are cut at chunks and faults of budgets come at chunks.
@@ -525,7 +525,7 @@ TEST(InterpModules, EveryOperationRunsAndLeavesATrace) {
 // Every other engine takes such a byte for 0 or 1 as well: one that holds more has been written wrongly.
 TEST(InterpModules, TheByteOfABitHoldsZeroOrOne) {
   Machine m = machineOf("%0:bit = load B[0.3]\nstore.bit B[0.4], %0");
-  const BitLocation bit = m.layout().bit(findSpace(m.module(), "B"), 3);
+  const BitLocation bit = m.layout().memory().bit(findSpace(m.module(), "B"), 3);
   ASSERT_TRUE(bit.wholeByte);
   m->block()[bit.offset] = 1;
   m->scan();

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "ir/interp/interp.h"
-#include "ir/random/random.h"
 #include "rtlib/host/instance.h"
+#include "tests/random/random.h"
 #include "tests/support/count_allocations.h"
 
 namespace rung::ir {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ir/interp/interp.h"
-#include "ir/random/random.h"
 #include "rtlib/host/instance.h"
+#include "tests/random/random.h"
 
 namespace rung::ir {
 namespace {
@@ -88,7 +88,7 @@ TEST(Accesses, SpansAreAscendingAndApart) {
     const Module module = randomModule(seed);
     const Layout layout(module, {});
     for (uint32_t task = 0; task < module.tasks.size(); ++task) {
-      const std::vector<rung_span> spans = readBytes(layout, TaskId{task});
+      const std::vector<rung_span> spans = readBytes(layout.memory(), TaskId{task});
       for (size_t i = 1; i < spans.size(); ++i) ASSERT_GT(spans[i].offset, spans[i - 1].offset + spans[i - 1].size);
       most = std::max(most, static_cast<uint32_t>(spans.size()));
     }

@@ -5,11 +5,11 @@
 
 #include "ir/core/builder.h"
 #include "ir/interp/interp.h"
-#include "ir/random/random.h"
-#include "ir/random/random_source.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
+#include "tests/random/random_source.h"
 
 namespace rung::ir {
 namespace {
@@ -43,7 +43,7 @@ struct Ran {
 
 // Most scans come without a change, so that there is time to rest.
 Ran compareScans(const Module& module, uint64_t seed) {
-  const Layout layout(module, {.maxChunkRungs = 1 + static_cast<uint32_t>(seed % 3)});
+  const Layout layout(module, {.cut = {.maxChunkRungs = 1 + static_cast<uint32_t>(seed % 3)}});
   Running all(layout, false);
   Running active(layout, true);
   RandomSource random(seed);

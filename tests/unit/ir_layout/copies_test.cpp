@@ -35,7 +35,7 @@ std::string copiesOf(const Module& module) {
   const ProgramImage image(layout, 0);
   const auto place = [&](uint32_t offset) {
     for (uint32_t s = 0; s < module.spaces.size(); ++s)
-      if (const uint32_t begin = layout.byte(SpaceId{s}, 0); offset >= begin && offset < begin + 16)
+      if (const uint32_t begin = layout.memory().byte(SpaceId{s}, 0); offset >= begin && offset < begin + 16)
         return module.spaces[s].name + std::to_string(offset - begin);
     return std::string("nowhere");
   };

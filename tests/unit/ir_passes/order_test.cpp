@@ -6,9 +6,9 @@
 
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"
-#include "ir/random/random.h"
-#include "ir/random/random_source.h"
 #include "ir/text/text.h"
+#include "tests/random/random.h"
+#include "tests/random/random_source.h"
 #include "tests/unit/ir_passes/passes_testing.h"
 
 namespace rung::ir {

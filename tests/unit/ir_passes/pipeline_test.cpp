@@ -9,12 +9,12 @@
 #include "ir/interp/interp.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/pipeline.h"
-#include "ir/random/random.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
 #include "tests/unit/ir_passes/passes_testing.h"
 
 namespace rung::ir {
@@ -118,8 +118,8 @@ std::string slotDifference(const Running& a, const Running& b) {
   for (uint32_t i = 0; i < a.module.slots.size(); ++i) {
     const Slot& slot = a.module.slots[i];
     const uint32_t bytes = std::max(1u, byteWidth(slot.type));
-    if (!slot.transient && std::memcmp(a.instance.block().data() + a.layout.slot(SlotId{i}),
-                                       b.instance.block().data() + b.layout.slot(SlotId{i}), bytes) != 0)
+    if (!slot.transient && std::memcmp(a.instance.block().data() + a.layout.memory().slot(SlotId{i}),
+                                       b.instance.block().data() + b.layout.memory().slot(SlotId{i}), bytes) != 0)
       return fmt::format("slot {}", slot.key);
   }
   return {};

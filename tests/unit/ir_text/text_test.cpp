@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "ir/core/builder.h"
-#include "ir/random/random.h"
 #include "ir/text/text.h"
+#include "tests/random/random.h"
 #include "tests/unit/ir_text/module_equal.h"
 
 namespace rung::ir {

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "ir/core/builder.h"
-#include "ir/random/random.h"
 #include "ir/verify/verify.h"
+#include "tests/random/random.h"
 
 namespace rung::ir {
 namespace {

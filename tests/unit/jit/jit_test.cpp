@@ -59,7 +59,7 @@ TEST_P(JitLevels, RunsCallsAndTraps) {
     const Layout layout(module, {});
     engine = compiled(layout, {.code = {.level = GetParam(), .target = {}}});
     ASSERT_NE(engine, nullptr);
-    EXPECT_EQ(engine->program().layout_hash, layout.hash());
+    EXPECT_EQ(engine->program().layout_hash, layout.memory().hash());
   } // the engine needs neither
   EXPECT_EQ(engine->name(), "jit");
   host::Instance instance(engine->program());
@@ -105,24 +105,6 @@ TEST(Jit, TellsADebugger) {
   EXPECT_NE(compiled(layout, {.code = {}, .gdb = true}), nullptr);
 }
 
-TEST(Jit, TellsPerf) {
-  const fs::path folder = fs::path(testing::TempDir()) / fmt::format("rung-perf-{}", getpid());
-  fs::create_directories(folder);
-  ASSERT_EQ(setenv("JITDUMPDIR", folder.c_str(), 1), 0);
-  const Module module = sampleModule();
-  const Layout layout(module, {});
-  EXPECT_NE(compiled(layout, {.code = {}, .perf = true}), nullptr);
-  std::string dump;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".dump") {
-      std::ifstream in(entry.path(), std::ios::binary);
-      dump.assign(std::istreambuf_iterator<char>(in), {});
-    }
-  fs::remove_all(folder);
-  EXPECT_THAT(dump, HasSubstr("MAIN.0"));
-  EXPECT_THAT(dump, HasSubstr("sample.lad"));
-}
-
 class JitCache : public testing::Test {
 protected:
   void SetUp() override { fs::remove_all(folder_); }
@@ -156,10 +138,9 @@ TEST_F(JitCache, LeavesWhatDiffers) {
   EXPECT_EQ(taken({}, 2), 0u) << "another program";
   EXPECT_EQ(taken({.level = LlvmLevel::Fast}), 0u);
   EXPECT_EQ(taken({.debugInfo = false}), 0u);
-  EXPECT_EQ(taken({.target = {}, .sabotage = OpCode::FAdd}), 0u);
-  layout_ = Layout(module_, {.maxChunkRungs = 1});
+  layout_ = Layout(module_, {.cut = {.maxChunkRungs = 1}});
   EXPECT_EQ(taken({}), 0u) << "other chunks";
-  EXPECT_EQ(files().size(), 6u);
+  EXPECT_EQ(files().size(), 5u);
 }
 
 TEST_F(JitCache, LeavesWhatIsDamaged) {
@@ -223,7 +204,7 @@ TEST_F(JitCacheOfOthers, AnotherProgram) {
 TEST_F(JitCacheOfOthers, AnotherCut) {
   const auto [other, own] = filesOf(
       [&] {
-        layout_ = Layout(module_, {.maxChunkRungs = 1});
+        layout_ = Layout(module_, {.cut = {.maxChunkRungs = 1}});
         taken({});
       },
       [&] {
@@ -257,7 +238,7 @@ TEST_F(JitCacheOfOthers, AnotherIdentity) {
 // What makes code is in the key, each by itself.
 TEST(CacheKeys, CoverWhatMakesCode) {
   Module module = copyModule(64);
-  const Layout layout(module, {.maxChunkRungs = 16});
+  const Layout layout(module, {.cut = {.maxChunkRungs = 16}});
   const ModulePart whole{.chunkCount = 4};
   const auto keyOf = [&](const Layout& own, const ModulePart& piece, std::string_view version = "1",
                          std::string_view machine = "m") { return CacheKeys(own, 1, {}, machine, version).of(piece); };
@@ -267,8 +248,8 @@ TEST(CacheKeys, CoverWhatMakesCode) {
   EXPECT_NE(keyOf(layout, whole, "1", "n"), key) << "machine";
   EXPECT_NE(keyOf(layout, {.firstChunk = 2, .chunkCount = 2}), keyOf(layout, {.firstChunk = 1, .chunkCount = 2}));
   EXPECT_NE(keyOf(layout, {.firstChunk = 2, .chunkCount = 2}), keyOf(layout, {.firstChunk = 2, .chunkCount = 1}));
-  EXPECT_NE(keyOf(Layout(module, {.maxChunkRungs = 8}), whole), key) << "other chunks";
-  EXPECT_NE(keyOf(Layout(module, {.maxChunkRungs = 16, .expandBits = false}), whole), key) << "other memory";
+  EXPECT_NE(keyOf(Layout(module, {.cut = {.maxChunkRungs = 8}}), whole), key) << "other chunks";
+  EXPECT_NE(keyOf(Layout(module, {.cut = {.maxChunkRungs = 16}, .expandBits = false}), whole), key) << "other memory";
   module.routines[0].rungs[0].begin.line = 99;
   EXPECT_NE(keyOf(layout, whole), key) << "another text: debug information";
 }
@@ -280,7 +261,7 @@ TEST(CacheKeys, AreThoseOfPieces) {
   const ModulePart first{.chunkCount = 2};
   const ModulePart second{.firstChunk = 2, .chunkCount = 2};
   const auto keyOf = [&](const ModulePart& piece) {
-    const Layout layout(module, {.maxChunkRungs = 16});
+    const Layout layout(module, {.cut = {.maxChunkRungs = 16}});
     return CacheKeys(layout, 1, code, "m", "1").of(piece);
   };
   const CacheKey before = keyOf(first);
@@ -308,7 +289,7 @@ TEST(CacheKeys, CoverTheWeightsOfWays) {
   module.routines[0].rungs[2].weight = 7;
   const Layout after(module, {}); // both belong to this module: they differ in what they have calculated
   const ModulePart whole{.chunkCount = 1};
-  EXPECT_EQ(before.text(), after.text());
+  EXPECT_EQ(before.memory().text(), after.memory().text());
   EXPECT_NE(CacheKeys(before, 1, {}, "m", "1").of(whole), CacheKeys(after, 1, {}, "m", "1").of(whole));
 }
 

@@ -12,12 +12,12 @@
 #include <stdexcept>
 #include <unistd.h>
 
-#include "ir/random/random.h"
 #include "ir/support/check.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
 #include "rtlib/nc/names/names.h"
+#include "tests/random/random.h"
 #include "tests/unit/llvm/sample_module.h"
 
 namespace rung::codegen {
@@ -59,7 +59,7 @@ TEST(LlvmEmitter, FastTextIsTheRungsAsTheyStand) {
   const Result<std::string> ir =
       emitLlvmIr(layout, 42, {.level = LlvmLevel::Fast, .debugInfo = false, .target = "x86_64-linux-gnu"});
   ASSERT_TRUE(ir.ok()) << ir.error();
-  const std::string place = "i64 " + std::to_string(layout.byte(SpaceId{2}, 4));
+  const std::string place = "i64 " + std::to_string(layout.memory().byte(SpaceId{2}, 4));
   EXPECT_EQ(replaced(functionText(ir.value(), "COUNT.0"), place, "i64 COUNT_PLACE"),
             R"(define internal i32 @COUNT.0(ptr noalias %mem, ptr %ctx, i32 %chunk) #0 {
 entry:
@@ -172,7 +172,7 @@ TEST(LlvmSharedObject, RunsCallsAndTraps) {
   const auto engine = host::SoEngine::open(file.path, error);
   ASSERT_NE(engine, nullptr) << error;
   EXPECT_EQ(engine->program().code_hash, 42u);
-  EXPECT_EQ(engine->program().layout_hash, layout.hash());
+  EXPECT_EQ(engine->program().layout_hash, layout.memory().hash());
   host::Instance instance(engine->program());
   EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D6")), 7u) << "an initial value";
   EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.0"), 1), std::nullopt);

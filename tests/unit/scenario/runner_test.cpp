@@ -7,6 +7,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "tests/support/saboteur.h"
 #include "tools/scenario/runner.h"
 
 namespace rung::scenario {
@@ -201,11 +202,22 @@ TEST_F(ScenarioRunner, ThreadsShareEngines) {
   EXPECT_EQ(passed, 8);
 }
 
+// The store keeps the JIT's code of the program as it is; the interpreter, which comes later, has the program with a
+// wrong operation.
 TEST_F(ScenarioRunner, AWrongEngineIsCaughtThoughTheScenarioExpectsNothing) {
   RunOptions options;
   options.engines = {EngineKind::Interp, EngineKind::Jit};
   EXPECT_TRUE(runText("set 5100.00 1\nscan\n", options).passed);
-  options.engine.sabotage = ir::OpCode::And;
+  EngineStore store;
+  options.store = &store;
+  options.engines = {EngineKind::Jit};
+  options.started = [](Session&, const compiler::Compiled& compiled) {
+    ir::sabotage(*compiled.module, ir::OpCode::And);
+    return std::string();
+  };
+  EXPECT_TRUE(runText("set 5100.00 1\nscan\n", options).passed);
+  options.started = nullptr;
+  options.engines = {EngineKind::Interp, EngineKind::Jit};
   const RunResult result = runText("set 5100.00 1\nscan\n", options);
   ASSERT_FALSE(result.passed);
   EXPECT_NE(result.problems[0].message.find("engines disagree: interp against jit"), std::string::npos)

@@ -4,10 +4,10 @@
 
 #include <set>
 
-#include "ir/random/random.h"
 #include "ir/support/hash.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
+#include "tests/random/random.h"
 
 namespace rung::ir {
 namespace {

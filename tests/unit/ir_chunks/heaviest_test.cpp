@@ -1,5 +1,5 @@
 // The weight of the heaviest run: compared with all ways of small programs, one after the other.
-#include "ir/layout/heaviest.h"
+#include "ir/chunks/heaviest.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "ir/random/random.h"
+#include "tests/random/random.h"
 
 namespace rung::ir {
 namespace {
@@ -49,7 +49,7 @@ TEST(HeaviestRun, IsThatOfAllWays) {
     Module module = randomModule(seed, {.rungs = 6, .ops = 4});
     for (Routine& routine : module.routines)
       for (size_t i = 0; i < routine.rungs.size(); ++i) routine.rungs[i].weight = 1 + static_cast<uint32_t>(i % 3);
-    const Layout layout(module, {.maxChunkRungs = 2});
+    const Cut cut(module, {.maxChunkRungs = 2});
     for (uint32_t t = 0; t < module.tasks.size(); ++t) {
       Task& task = module.tasks[t];
       if (task.parts != 1) continue;
@@ -57,12 +57,12 @@ TEST(HeaviestRun, IsThatOfAllWays) {
       const std::optional<uint64_t> expected = heaviestWay(module, task.entry, 0, open);
       endless += expected ? 0 : 1;
       bounded += expected ? 1 : 0;
-      const HeaviestRun found = heaviestRun(layout, TaskId{t});
+      const HeaviestRun found = heaviestRun(cut, TaskId{t});
       EXPECT_EQ(found.circles, !expected.has_value());
       if (expected) EXPECT_EQ(found.weight, *expected);
       EXPECT_GT(found.weight, 0u);
       task.budget = 2;
-      EXPECT_EQ(heaviestRun(layout, TaskId{t}).weight, std::min(found.weight, 2u));
+      EXPECT_EQ(heaviestRun(cut, TaskId{t}).weight, std::min(found.weight, 2u));
     }
   }
   EXPECT_GT(bounded, 50u);
@@ -88,7 +88,7 @@ TEST(HeaviestRun, IsThatOfTheHeaviestPart) {
       for (uint32_t i = from; i < to; ++i) weight += rungs[i].weight;
       most = std::max(most, weight);
     }
-    EXPECT_EQ(heaviestRun(Layout(module, {.maxChunkRungs = 3}), TaskId{0}).weight, most);
+    EXPECT_EQ(heaviestRun(Cut(module, {.maxChunkRungs = 3}), TaskId{0}).weight, most);
   }
 }
 
@@ -103,7 +103,7 @@ TEST(HeaviestRun, OfManyRungs) {
   }
   module.tasks[0].parts = 1;
   module.tasks[0].borders.clear();
-  EXPECT_EQ(heaviestRun(Layout(module, {}), TaskId{0}).weight, 400'000u);
+  EXPECT_EQ(heaviestRun(Cut(module, {}), TaskId{0}).weight, 400'000u);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // The boundary values (see random.h).
-#include "ir/random/random.h"
 #include "ir/support/check.h"
+#include "tests/random/random.h"
 
 namespace rung::ir {
 namespace {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "ir/core/builder.h"
-#include "ir/random/random.h"
-#include "ir/random/random_source.h"
+#include "tests/random/random.h"
+#include "tests/random/random_source.h"
 
 namespace rung::ir {
 

@@ -1,5 +1,5 @@
 // Random operations (see random_rung.h).
-#include "ir/random/random_rung.h"
+#include "tests/random/random_rung.h"
 
 #include <algorithm>
 

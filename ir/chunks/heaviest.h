@@ -3,7 +3,7 @@
 #pragma once
 #include <cstdint>
 
-#include "ir/layout/layout.h"
+#include "ir/chunks/cut.h"
 
 namespace rung::ir {
 
@@ -13,6 +13,6 @@ struct HeaviestRun {
 };
 
 // Of a task, or of the heaviest of its parts where it is cut.
-HeaviestRun heaviestRun(const Layout& layout, TaskId task);
+HeaviestRun heaviestRun(const Cut& cut, TaskId task);
 
 } // namespace rung::ir

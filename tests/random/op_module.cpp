@@ -3,7 +3,7 @@
 
 #include "ir/core/builder.h"
 #include "ir/core/eval.h"
-#include "ir/random/random.h"
+#include "tests/random/random.h"
 
 namespace rung::ir {
 namespace {
@@ -68,58 +68,10 @@ private:
     case OpCode::Note: return inRung([&](RungBuilder& b) { b.note("a remark"), result(b, b.i32(1)); });
     case OpCode::ProfEnter:
     case OpCode::ProfLeave: return profile();
-    case OpCode::Add:
-    case OpCode::Sub:
-    case OpCode::Mul:
-    case OpCode::DivS:
-    case OpCode::DivU:
-    case OpCode::RemS:
-    case OpCode::RemU:
-    case OpCode::Neg:
-    case OpCode::And:
-    case OpCode::Or:
-    case OpCode::Xor:
-    case OpCode::Not:
-    case OpCode::Shl:
-    case OpCode::ShrU:
-    case OpCode::ShrS:
-    case OpCode::PopCount:
-    case OpCode::BcdEncode:
-    case OpCode::BcdDecode:
-    case OpCode::Eq:
-    case OpCode::Ne:
-    case OpCode::LtS:
-    case OpCode::LeS:
-    case OpCode::LtU:
-    case OpCode::LeU:
-    case OpCode::Select:
-    case OpCode::ZExt:
-    case OpCode::SExt:
-    case OpCode::Trunc:
-    case OpCode::FAdd:
-    case OpCode::FSub:
-    case OpCode::FMul:
-    case OpCode::FDiv:
-    case OpCode::FNeg:
-    case OpCode::FAbs:
-    case OpCode::FSqrt:
-    case OpCode::FPow:
-    case OpCode::FSin:
-    case OpCode::FCos:
-    case OpCode::FTan:
-    case OpCode::FAsin:
-    case OpCode::FAcos:
-    case OpCode::FAtan:
-    case OpCode::FExp:
-    case OpCode::FLog:
-    case OpCode::FEq:
-    case OpCode::FLt:
-    case OpCode::FLe:
-    case OpCode::FToInt:
-    case OpCode::FToIntNearest:
-    case OpCode::IntToF:
-    case OpCode::BitsToF:
-    case OpCode::FToBits: break; // evaluable, see above
+#define RUNG_OP(name, text)
+#define RUNG_EVALUABLE_OP(name, text) case OpCode::name:
+#include "ir/core/ops.def"
+      break; // see above
     }
   }
 

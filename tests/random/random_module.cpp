@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "ir/core/parts.h"
-#include "ir/random/random.h"
-#include "ir/random/random_rung.h"
 #include "ir/support/check.h"
+#include "tests/random/random.h"
+#include "tests/random/random_rung.h"
 
 namespace rung::ir {
 namespace {

@@ -1,5 +1,5 @@
 // The longest path through the graph of rungs (see heaviest.h), without recursion: a routine may have 50,000 of them.
-#include "ir/layout/heaviest.h"
+#include "ir/chunks/heaviest.h"
 
 #include <algorithm>
 #include <vector>
@@ -20,9 +20,8 @@ class Ways {
 public:
   // `callees`: the ways through routines that are called; null: these here. Ways end before the chunk `limit` and those
   // after it.
-  Ways(const Layout& layout, Ways* callees, uint32_t limit)
-      : layout_(layout), callees_(callees), limit_(limit), marks_(layout.rungCount(), Mark::New),
-        weights_(layout.rungCount(), 0) {}
+  Ways(const Cut& cut, Ways* callees, uint32_t limit)
+      : cut_(cut), callees_(callees), limit_(limit), marks_(cut.rungCount(), Mark::New), weights_(cut.rungCount(), 0) {}
 
   uint64_t from(Place start) {
     stack_.push_back(start);
@@ -48,8 +47,8 @@ public:
 private:
   enum class Mark : uint8_t { New, Open, Done };
 
-  uint32_t number(Place place) const { return layout_.rungNumber(place.routine, place.rung); }
-  const std::vector<Rung>& rungsOf(RoutineId routine) const { return layout_.module().at(routine).rungs; }
+  uint32_t number(Place place) const { return cut_.rungNumber(place.routine, place.rung); }
+  const std::vector<Rung>& rungsOf(RoutineId routine) const { return cut_.module().at(routine).rungs; }
 
   // The ways from here have to be known first. One that leads back to a rung that is open closes a circle, and counts
   // as ending there.
@@ -80,7 +79,7 @@ private:
   void forNext(Place place, const Transfer& transfer, Visit visit) const {
     const auto go = [&](uint32_t rung) {
       if (rung >= rungsOf(place.routine).size()) return;
-      const Destination to = layout_.destination(place.routine, place.rung, rung);
+      const Destination to = cut_.destination(place.routine, place.rung, rung);
       if (to.inside() || to.chunk < limit_) visit(Place{.routine = place.routine, .rung = rung});
     };
     const bool continues =
@@ -90,7 +89,7 @@ private:
     for (const uint32_t target : transfer.targets) go(target);
   }
 
-  const Layout& layout_;
+  const Cut& cut_;
   Ways* callees_;
   uint32_t limit_;
   std::vector<Mark> marks_;       // by rung number
@@ -101,9 +100,9 @@ private:
 
 } // namespace
 
-HeaviestRun heaviestRun(const Layout& layout, TaskId id) {
-  const Task& task = layout.module().tasks[id.index];
-  Ways whole(layout, nullptr, RUNG_NONE);
+HeaviestRun heaviestRun(const Cut& cut, TaskId id) {
+  const Task& task = cut.module().tasks[id.index];
+  Ways whole(cut, nullptr, RUNG_NONE);
   uint64_t most = 0;
   bool circles = false;
   if (task.parts <= 1) {
@@ -111,12 +110,12 @@ HeaviestRun heaviestRun(const Layout& layout, TaskId id) {
   } else {
     // A part begins at any chunk from the end of the one before it.
     uint32_t begin = 0;
-    std::vector<uint32_t> ends = layout.partEnds(id);
+    std::vector<uint32_t> ends = cut.partEnds(id);
     ends.push_back(RUNG_NONE);
     for (const uint32_t end : ends) {
-      Ways part(layout, &whole, end);
-      for (uint32_t c = begin; c < std::min<size_t>(end, layout.chunks().size()); ++c) {
-        const Chunk& chunk = layout.chunks()[c];
+      Ways part(cut, &whole, end);
+      for (uint32_t c = begin; c < std::min<size_t>(end, cut.chunks().size()); ++c) {
+        const Chunk& chunk = cut.chunks()[c];
         if (chunk.routine == task.entry)
           most = std::max(most, part.from({.routine = chunk.routine, .rung = chunk.firstRung}));
       }

@@ -61,7 +61,7 @@ struct Found {
 };
 
 Found findAddress(Context& context, const Word& word) {
-  if (const UserSymbol* symbol = context.names.useSymbol(context.analysis, word))
+  if (const UserName* symbol = context.names.use(context.analysis, word, UserName::Kind::Symbol))
     return {symbol->bad ? std::nullopt : std::optional(NamedAddress{symbol->address, symbol->definition}), true};
   if (const auto text = splitAddress(word.text)) return {addressOf(context.diagnostics, *text, word), true};
   if (const auto signal = context.names.useSignal(context.analysis, word)) return {signal, true};
@@ -71,7 +71,7 @@ Found findAddress(Context& context, const Word& word) {
 void suggestName(const Context& context, const Word& word, DiagBuilder& report) {
   if (!context.diagnostics.suggests()) return;
   Similar similar(word.text);
-  for (const UserSymbol& symbol : context.names.symbols()) similar.offer(symbol.name);
+  for (const UserName& symbol : context.names.symbols()) similar.offer(symbol.name);
   report.meant(word.range, similar.best());
   if (!similar.best().empty()) return;
   if (const nc::Signal* signal = similarSignal(word.text))
@@ -123,57 +123,51 @@ frontend::NamedPlace placeOf(const Address& address, uint32_t bytes) {
   return {{&areaInfo(address.area).letter, 1}, address.byte * 8 + address.bit, address.isBit ? 1 : bytes * 8};
 }
 
-bool Names::declare(Diagnostics& diagnostics, const Word& name) {
+UserName* Names::declare(Diagnostics& diagnostics, const Word& name, UserName::Kind kind) {
   if (name.quoted || !isFreeName(name.text)) {
     diagnostics.report(Diag::BadOperand, name.range)
         << name.text << "free name: a letter, then letters, digits and _, and no command, address, label or subprogram";
-    return false;
+    return nullptr;
   }
-  const auto [at, isNew] = declared_.emplace(std::string(name.text), name.range);
-  if (!isNew) diagnostics.report(Diag::DuplicateSymbol, name.range).note(at->second, "declared here") << name.text;
-  return isNew;
+  const uint32_t index =
+      table_.declare({.name = name.text, .declared = name.range, .kind = kind, .bad = true}, diagnostics);
+  return index == frontend::kNoName ? nullptr : &table_[index];
 }
 
 void Names::addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment) {
-  if (!declare(context.diagnostics, name)) return;
-  UserSymbol symbol{std::string(name.text), std::string(comment), {}, true, name.range};
+  UserName* symbol = declare(context.diagnostics, name, UserName::Kind::Symbol);
+  if (symbol == nullptr) return;
+  symbol->comment = comment;
   if (const auto text = splitAddress(value.text)) {
     if (const auto address = addressOf(context.diagnostics, *text, value)) {
-      symbol.address = *address;
-      symbol.bad = !checkArea(context.diagnostics, value, text->area, text->byte, 1);
+      symbol->address = *address;
+      symbol->bad = !checkArea(context.diagnostics, value, text->area, text->byte, 1);
     }
   } else if (const auto signal = useSignal(context.analysis, value)) {
-    symbol.address = *signal;
-    symbol.bad = false;
+    symbol->address = *signal;
+    symbol->bad = false;
   } else {
     context.diagnostics.report(Diag::BadOperand, value.range) << value.text << "bit or byte address or signal";
   }
-  symbol.definition = context.analysis.define({.name = name.text, .comment = comment, .range = name.range});
-  if (!symbol.bad) context.analysis.definition(symbol.definition).place = placeOf(symbol.address, 1);
-  symbolByName_.emplace(symbol.name, static_cast<uint32_t>(symbols_.size()));
-  symbols_.push_back(std::move(symbol));
+  symbol->definition = context.analysis.define({.name = name.text, .comment = comment, .range = name.range});
+  if (!symbol->bad) context.analysis.definition(symbol->definition).place = placeOf(symbol->address, 1);
 }
 
 void Names::addConstant(Context& context, const Word& name, const Word& value) {
-  if (!declare(context.diagnostics, name)) return;
+  UserName* constant = declare(context.diagnostics, name, UserName::Kind::Constant);
+  if (constant == nullptr) return;
   const auto number = parseConstant(value.text);
   if (!number) context.diagnostics.report(Diag::BadOperand, value.range) << value.text << "constant";
-  const uint32_t definition = context.analysis.define({.name = name.text, .range = name.range, .value = value.text});
-  constants_.emplace(std::string(name.text), UserConstant{number.value_or(0), !number, definition});
+  constant->value = number.value_or(0);
+  constant->bad = !number;
+  constant->definition = context.analysis.define({.name = name.text, .range = name.range, .value = value.text});
 }
 
-const UserSymbol* Names::useSymbol(frontend::Analysis& analysis, const Word& word) const {
-  const auto at = symbolByName_.find(word.text);
-  if (at == symbolByName_.end()) return nullptr;
-  analysis.use(word.range, symbols_[at->second].definition);
-  return &symbols_[at->second];
-}
-
-const UserConstant* Names::useConstant(frontend::Analysis& analysis, const Word& word) const {
-  const auto at = constants_.find(word.text);
-  if (at == constants_.end()) return nullptr;
-  analysis.use(word.range, at->second.definition);
-  return &at->second;
+const UserName* Names::use(frontend::Analysis& analysis, const Word& word, UserName::Kind kind) const {
+  const uint32_t index = table_.find(word.text);
+  if (index == frontend::kNoName || table_[index].kind != kind) return nullptr;
+  analysis.use(word.range, table_[index].definition);
+  return &table_[index];
 }
 
 std::optional<NamedAddress> Names::useSignal(frontend::Analysis& analysis, const Word& word) {

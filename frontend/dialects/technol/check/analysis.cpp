@@ -73,7 +73,7 @@ void addOperand(const TypedProgram& typed, const Operand& operand, Analysis& ana
   if (place.bits == 0) return;
   const std::span<const NameUse> names = typed.namesOf(operand);
   analysis.use({.range = operand.range,
-                .base = names.empty() ? kNoDefinition : names.front().symbol,
+                .base = names.empty() ? kNoDefinition : names.front().definition,
                 .place = place,
                 .computed = operand.indexed ? "[BX]" : "",
                 .access = operand.access});
@@ -83,10 +83,10 @@ void addOperand(const TypedProgram& typed, const Operand& operand, Analysis& ana
 
 Analysis analysisOf(const Program& program, const TypedProgram& typed) {
   Analysis analysis;
+  // So that the index of a symbol is that of its definition.
   for (const Symbol& symbol : program.symbols.all()) analysis.define(definitionOf(program.sources, symbol));
   for (const std::vector<NameUse>* names : {&program.symbols.uses(), &typed.names})
-    for (const NameUse& name : *names)
-      if (name.symbol != kNone) analysis.use(name.range, name.symbol);
+    for (const NameUse& name : *names) analysis.use(name.range, name.definition);
   for (const Operand& operand : typed.operands) addOperand(typed, operand, analysis);
   analysis.settle();
   return analysis;

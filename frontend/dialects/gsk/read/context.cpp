@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/rows/instructions.h"
+#include "ir/support/ascii.h"
 #include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
 
-bool isLetter(char c) { return text::upper(c) >= 'A' && text::upper(c) <= 'Z'; }
-bool isNameChar(char c) { return isLetter(c) || (c >= '0' && c <= '9') || c == '_'; }
+bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_'; }
 
 bool isCommand(std::string_view text) {
   if (findFunction(text) != nullptr) return true;
@@ -70,19 +70,18 @@ Found findAddress(Context& context, const Word& word) {
 
 void suggestName(const Context& context, const Word& word, DiagBuilder& report) {
   if (!context.diagnostics.suggests()) return;
-  Similar similar(word.text);
-  for (const UserName& symbol : context.names.symbols()) similar.offer(symbol.name);
-  report.meant(word.range, similar.best());
-  if (!similar.best().empty()) return;
+  const std::string_view similar = mostSimilar(word.text, context.names.symbols(), &UserName::name);
+  report.meant(word.range, similar);
+  if (!similar.empty()) return;
   if (const nc::Signal* signal = similarSignal(word.text))
     report.note(
         fmt::format("did you mean {} ({}, {})?", signal->symbol, textOf(signalAddress(*signal)), signal->meaning));
 }
 
 // Of an instruction: names of other controls (TON, CTU) are like none of these.
-void suggest(SourceRange range, const Similar& similar, DiagBuilder& report) {
-  report.meant(range, similar.best());
-  if (similar.best().empty()) report.note("`rungc explain gsk` lists the instructions by what they do");
+void suggest(SourceRange range, std::string_view similar, DiagBuilder& report) {
+  report.meant(range, similar);
+  if (similar.empty()) report.note("`rungc explain gsk` lists the instructions by what they do");
 }
 
 void reportUnknown(Context& context, const Word& word, std::string_view what) {
@@ -188,10 +187,7 @@ void reportUnknownCommand(Context& context, const Word& word, std::span<const st
     report.note(fmt::format("{} is a function: write `FUNC {}`", row->info.mnemonic, row->info.mnemonic));
     return;
   }
-  if (!context.diagnostics.suggests()) return;
-  Similar similar(word.text);
-  for (std::string_view command : commands) similar.offer(command);
-  suggest(word.range, similar, report);
+  if (context.diagnostics.suggests()) suggest(word.range, mostSimilar(word.text, commands), report);
 }
 
 void reportUnknownFunction(Context& context, std::string_view name, SourceRange range) {
@@ -201,7 +197,7 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
   Similar similar(name);
   for (const Row& row : allRows())
     if (row.info.number >= 0) similar.offer(row.info.mnemonic);
-  suggest(range, similar, report);
+  suggest(range, similar.best(), report);
 }
 
 void countStep(Context& context, SourceRange range) {

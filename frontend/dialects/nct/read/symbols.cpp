@@ -2,6 +2,7 @@
 #include "frontend/dialects/nct/read/symbols.h"
 
 #include "frontend/dialects/nct/read/operand_parser.h"
+#include "ir/support/ascii.h"
 #include "ir/support/similar.h"
 
 namespace rung::nct {
@@ -18,7 +19,7 @@ struct Alias {
 constexpr Alias kAliases[] = {{"AP_DISP", "AP_DISPD"}, {"SP_SENDD", "SP_SEND"}};
 
 bool isName(std::string_view text) {
-  return !text.empty() && !(text[0] >= '0' && text[0] <= '9') && text[0] != '-' && text[0] != '+' &&
+  return !text.empty() && !isDigit(text[0]) && text[0] != '-' && text[0] != '+' &&
          text.find_first_of(".,:#*@%!/\"") == std::string_view::npos;
 }
 

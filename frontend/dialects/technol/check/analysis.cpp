@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ir/support/ascii.h"
+
 namespace rung::frontend::technol {
 namespace {
 

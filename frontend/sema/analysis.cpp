@@ -28,8 +28,12 @@ void Analysis::settle() {
   std::ranges::stable_sort(names_, {}, beginOf<NameUse>);
   std::ranges::stable_sort(operands_, {}, beginOf<OperandUse>);
   std::ranges::stable_sort(targets_, {}, beginOf<TargetUse>);
-  const auto again = std::ranges::unique(names_, {}, &NameUse::range); // of operands that a check reads twice
-  names_.erase(again.begin(), again.end());
+  const auto once = [](auto& uses, auto range) { // of operands that a check reads twice
+    const auto again = std::ranges::unique(uses, {}, range);
+    uses.erase(again.begin(), again.end());
+  };
+  once(names_, &NameUse::range);
+  once(targets_, &TargetUse::range);
 }
 
 const OperandUse* Analysis::operandAt(SourceRange range) const { return useAt(operands_, range); }

@@ -5,18 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/ascii.h"
 #include "ir/support/utf8.h"
 
 namespace rung {
 namespace {
 
 bool isBlank(char c) { return c == ' ' || c == '\t'; }
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 bool contains(std::string_view set, char c) { return set.find(c) != std::string_view::npos; }
 

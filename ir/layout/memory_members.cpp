@@ -8,6 +8,8 @@
 #include <tuple>
 #include <unordered_set>
 
+#include "ir/support/ascii.h"
+
 namespace rung::ir {
 namespace {
 
@@ -34,12 +36,10 @@ constexpr std::string_view kReserved[] = {"alignas",   "alignof",   "and",      
                                           "xor",       "xor_eq"};
 static_assert(std::ranges::is_sorted(kReserved));
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
 std::string identifier(std::string_view name) {
   std::string out;
   if (name.empty() || isDigit(name.front())) out += '_';
-  for (const char c : name) out += isDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ? c : '_';
+  for (const char c : name) out += isDigit(c) || isLetter(c) ? c : '_';
   if (std::ranges::binary_search(kReserved, std::string_view(out))) out += '_';
   return out;
 }

@@ -1,6 +1,7 @@
 // "Did you mean …": the known word that is most like a misspelt one.
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -23,5 +24,13 @@ private:
   size_t bound_;     // candidates must be closer
   std::string_view best_;
 };
+
+/// The closest of the names of the candidates, which live longer than the result; empty when none is close.
+template <class Candidates, class NameOf = std::identity>
+std::string_view mostSimilar(std::string_view word, Candidates&& candidates, NameOf nameOf = {}) {
+  Similar similar(word);
+  for (const auto& candidate : candidates) similar.offer(std::invoke(nameOf, candidate));
+  return similar.best();
+}
 
 } // namespace rung

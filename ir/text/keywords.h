@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "ir/core/module.h"
+#include "ir/support/ascii.h"
 #include "rung/program.h"
 
 namespace rung::ir {
@@ -51,8 +52,6 @@ constexpr const Keyword* findKeyword(std::span<const Keyword> list, uint32_t val
 }
 
 // What may stand in a name without quotes; the first character is no digit.
-constexpr bool isNameChar(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '@' || c == '.';
-}
+constexpr bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '@' || c == '.'; }
 
 } // namespace rung::ir

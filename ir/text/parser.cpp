@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "ir/support/ascii.h"
 #include "ir/text/keywords.h"
 #include "ir/text/rung_parser.h"
 #include "ir/text/text.h"
@@ -169,8 +170,7 @@ private:
     const std::string_view digits = scanner_.hexDigits();
     if (digits.size() % 2 != 0) scanner_.fail("two hexadecimal digits a byte expected");
     for (size_t i = 0; i + 1 < digits.size(); i += 2) {
-      const auto digit = [&](char c) { return static_cast<uint8_t>(c <= '9' ? c - '0' : (c & 0x5F) - 'A' + 10); };
-      init.data.push_back(static_cast<uint8_t>(digit(digits[i]) * 16 + digit(digits[i + 1])));
+      init.data.push_back(static_cast<uint8_t>(hexDigit(digits[i]) * 16 + hexDigit(digits[i + 1])));
     }
     module_.inits.push_back(std::move(init));
   }

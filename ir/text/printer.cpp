@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unordered_map>
 
+#include "ir/support/ascii.h"
 #include "ir/support/put.h"
 #include "ir/text/keywords.h"
 #include "ir/text/text.h"
@@ -39,7 +40,7 @@ std::string inQuotes(std::string_view text) {
 }
 
 bool isWord(std::string_view name) {
-  if (name.empty() || (name[0] >= '0' && name[0] <= '9')) return false;
+  if (name.empty() || isDigit(name[0])) return false;
   for (char c : name)
     if (!isNameChar(c)) return false;
   return true;

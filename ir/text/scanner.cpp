@@ -5,21 +5,10 @@
 #include <charconv>
 #include <fmt/format.h>
 
+#include "ir/support/ascii.h"
 #include "ir/text/keywords.h"
 
 namespace rung::ir {
-namespace {
-
-int hexValue(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  return -1;
-}
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
-} // namespace
-
 void Scanner::fail(std::string message) {
   if (!ok()) return;
   message_ = std::move(message);
@@ -119,8 +108,8 @@ std::string Scanner::text() {
       else if (c == 't')
         c = '\t';
       else if (c == 'x') {
-        const int high = more() ? hexValue(text_[pos_]) : -1;
-        const int low = pos_ + 1 < text_.size() ? hexValue(text_[pos_ + 1]) : -1;
+        const int high = more() ? hexDigit(text_[pos_]) : -1;
+        const int low = pos_ + 1 < text_.size() ? hexDigit(text_[pos_ + 1]) : -1;
         if (high < 0 || low < 0) fail("two hexadecimal digits expected after \\x");
         pos_ = std::min(pos_ + 2, text_.size());
         c = static_cast<char>(high * 16 + low);
@@ -176,7 +165,7 @@ double Scanner::real() {
 std::string_view Scanner::hexDigits() {
   skipBlanks();
   const size_t begin = pos_;
-  while (more() && hexValue(text_[pos_]) >= 0) ++pos_;
+  while (more() && hexDigit(text_[pos_]) >= 0) ++pos_;
   return text_.substr(begin, pos_ - begin);
 }
 

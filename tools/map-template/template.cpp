@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "ir/support/ascii.h"
 #include "rtlib/nc/signals.h"
+#include "rtlib/text/letters.h"
 #include "rung/runtime.hpp"
 #include "rung/types.hpp"
 #include "tools/mapping/file.h"
@@ -41,10 +43,8 @@ PinType pinTypeOf(uint32_t type) {
 std::string pinNameOf(std::string_view name) {
   std::string pin;
   for (const char c : name) {
-    const bool upper = c >= 'A' && c <= 'Z';
-    const bool kept = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (upper || kept)
-      pin += static_cast<char>(upper ? c - 'A' + 'a' : c);
+    if (isLetter(c) || isDigit(c))
+      pin += text::lower(c);
     else if (!pin.empty() && pin.back() != '-')
       pin += '-';
     if (pin.size() == kLongestPin) break;

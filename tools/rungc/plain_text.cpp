@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "ir/support/ascii.h"
 #include "ir/support/utf8.h"
 
 namespace rung::rungc {
@@ -34,8 +35,7 @@ Row cellsOf(std::string_view line) {
     else if (line[i] != '|')
       cell += line[i];
     else {
-      const size_t first = cell.find_first_not_of(' ');
-      cells.push_back(first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(' ') - first + 1));
+      cells.emplace_back(trimmed(cell));
       cell.clear();
     }
   }

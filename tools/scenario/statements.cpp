@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "ir/support/ascii.h"
 #include "ir/support/similar.h"
 #include "tools/scenario/replace_report.h"
 #include "tools/scenario/words.h"
@@ -21,13 +22,7 @@ constexpr Synonym kSynonyms[] = {{"wait", "run"},     {"sleep", "run"},    {"del
                                  {"step", "scan"},    {"cycle", "scan"},   {"echo", "print"},    {"show", "print"},
                                  {"log", "print"},    {"load", "program"}, {"import", "include"}};
 
-std::string withoutBlanks(std::string_view line) {
-  const size_t first = std::min(line.find_first_not_of(" \t\r"), line.size());
-  const size_t last = line.find_last_not_of(" \t\r");
-  return std::string(line.substr(first, last + 1 - first));
-}
-
-bool startsWithDigit(std::string_view text) { return !text.empty() && text[0] >= '0' && text[0] <= '9'; }
+bool startsWithDigit(std::string_view text) { return !text.empty() && isDigit(text[0]); }
 
 // Statements that decide how the program is compiled and started.
 bool shapesStart(Kind kind) {
@@ -355,7 +350,7 @@ ParsedLine parseLine(std::string_view line) {
   if (!problem.empty()) return {{}, std::move(problem), true};
   if (words.empty()) return {};
   ParsedLine parsed = LineParser(std::move(words)).run();
-  if (parsed.statement) parsed.statement->text = withoutBlanks(line);
+  if (parsed.statement) parsed.statement->text = trimmed(line);
   return parsed;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
+#include "ir/support/ascii.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
@@ -19,8 +20,6 @@ struct TimeUnit {
 constexpr TimeUnit kTimeUnits[] = {{"us", 1.0}, {"ms", 1e3}, {"s", 1e6}, {"min", 60e6}};
 constexpr double kMostSeconds = 50; // a larger number without a unit was probably meant in milliseconds
 constexpr double kLongestUs = 9e15; // far from the end of 64 bits
-
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 std::optional<double> parseReal(std::string_view text) {
   const std::string copy(text);

@@ -11,6 +11,7 @@
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/ladder/text/drawing.h"
+#include "ir/support/ascii.h"
 #include "ir/support/check.h"
 #include "rtlib/text/letters.h"
 #include "tools/view/names.h"
@@ -28,12 +29,6 @@ using ladder::StatementKind;
 constexpr size_t kUsesShown = 8;    // of a coil, at the right rail
 constexpr size_t kWritersShown = 1; // of a contact
 constexpr size_t kTitle = 120;      // characters of a comment that may be a title
-
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
 
 // Without the ruling lines that authors frame comments with, `--- inputs -------`.
 std::string_view plain(std::string_view text) {

@@ -6,13 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/ascii.h"
+
 namespace rung::view {
 namespace {
 
 // What a path may have in a link as it is.
 bool isPlain(char c) {
-  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-         std::string_view("/._-~").find(c) != std::string_view::npos;
+  return isDigit(c) || isLetter(c) || std::string_view("/._-~").find(c) != std::string_view::npos;
 }
 
 std::string encoded(std::string_view path) {

@@ -1,6 +1,7 @@
 // The dialect's compile function: read the files, check the program, build the module (see nct.h).
 #include "frontend/dialects/nct/nct.h"
 
+#include <array>
 #include <charconv>
 #include <unordered_set>
 
@@ -115,9 +116,7 @@ private:
       const SourceRange range = join(statement.name.front().range, statement.name.back().range);
       DiagBuilder report = diagnostics_.report(Diag::UnknownModule, range);
       report << sources_.text(range) << "MAIN or INT0";
-      Similar meant(sources_.text(range));
-      for (const std::string_view known : {"MAIN", "INT0"}) meant.offer(known);
-      report.meant(range, meant.best());
+      report.meant(range, mostSimilar(sources_.text(range), std::array{"MAIN", "INT0"}));
       nameless_ = true;
       return reported_;
     }

@@ -129,12 +129,6 @@ inline Symbol namedSymbol(const Token& name, SymbolKind kind, uint32_t file, boo
 std::string_view describe(ir::Type type);
 std::string_view describe(const Symbol& symbol);
 
-// A name in the source, and the symbol that it is.
-struct NameUse {
-  SourceRange range;
-  uint32_t symbol = kNone;
-};
-
 struct SourceFile {
   FileId id;
   bool main = false;

@@ -116,9 +116,7 @@ void Parser::reportUnknown(const Word& keyword) {
     report.note("a comment begins with ';'");
     return;
   }
-  Similar similar(keyword.text);
-  for (std::string_view known : kKeywords) similar.offer(known);
-  report.meant(keyword.range, similar.best());
+  report.meant(keyword.range, mostSimilar(keyword.text, kKeywords));
 }
 
 /// Splits the line; false when its words are not even words.

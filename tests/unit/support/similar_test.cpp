@@ -9,9 +9,7 @@ namespace rung {
 namespace {
 
 std::string_view best(std::string_view word, std::initializer_list<std::string_view> candidates) {
-  Similar similar(word);
-  for (std::string_view candidate : candidates) similar.offer(candidate);
-  return similar.best();
+  return mostSimilar(word, candidates);
 }
 
 TEST(Similar, OneChange) {

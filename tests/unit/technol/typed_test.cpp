@@ -34,8 +34,8 @@ public:
   // "NAME=SYMBOL" of each name in an operand.
   std::vector<std::string> names(const Operand& operand) const {
     std::vector<std::string> found;
-    for (const NameUse& use : typed_.namesOf(operand))
-      found.push_back(std::string(text(use.range)) + "=" + std::string(program_.symbols[use.symbol].name));
+    for (const frontend::NameUse& use : typed_.namesOf(operand))
+      found.push_back(std::string(text(use.range)) + "=" + std::string(program_.symbols[use.definition].name));
     return found;
   }
 

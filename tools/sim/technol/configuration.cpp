@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "ir/support/ascii.h"
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
@@ -13,13 +14,6 @@
 
 namespace rung::sim::technol {
 namespace {
-
-int digitOf(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
 
 // Gives the bytes that a text means, one at a time: its characters, or those of pairs of hexadecimal digits with
 // blanks between them.
@@ -32,7 +26,7 @@ public:
     while (hex_ && at_ < text_.size() && text_[at_] == ' ') ++at_;
     if (at_ >= text_.size()) return false;
     if (hex_) {
-      byte = static_cast<uint8_t>(digitOf(text_[at_]) * 16 + digitOf(text_[at_ + 1]));
+      byte = static_cast<uint8_t>(hexDigit(text_[at_]) * 16 + hexDigit(text_[at_ + 1]));
       at_ += 2;
     } else {
       byte = static_cast<uint8_t>(text_[at_++]);
@@ -47,7 +41,7 @@ private:
         ++i;
         continue;
       }
-      if (i + 1 >= text.size() || digitOf(text[i]) < 0 || digitOf(text[i + 1]) < 0) return false;
+      if (i + 1 >= text.size() || hexDigit(text[i]) < 0 || hexDigit(text[i + 1]) < 0) return false;
       i += 2;
     }
     return true;

@@ -1,6 +1,5 @@
 // Ladder text to the source model. The ladder parser has no use for comments, so the lines are walked beside what it
 // found; comments of a drawing go to the commands that its elements stand for.
-#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -8,8 +7,8 @@
 #include "frontend/dialects/gsk/convert/hints.h"
 #include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/dialects/gsk/read/condition.h"
-#include "frontend/dialects/gsk/read/title.h"
 #include "frontend/ladder/text/drawing.h"
+#include "ir/support/ascii.h"
 #include "ir/support/check.h"
 #include "rtlib/text/letters.h"
 

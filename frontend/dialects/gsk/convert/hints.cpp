@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/read/title.h"
+#include "ir/support/ascii.h"
 
 namespace rung::gsk::convert {
 namespace {

@@ -1,7 +1,7 @@
 // Small functions of the model.
 #include "frontend/dialects/gsk/convert/source_model.h"
 
-#include "frontend/dialects/gsk/read/title.h"
+#include "ir/support/ascii.h"
 
 namespace rung::gsk::convert {
 

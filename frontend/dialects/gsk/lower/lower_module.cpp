@@ -99,10 +99,10 @@ void ModuleLowering::addSpaces() {
 }
 
 void ModuleLowering::addSymbols() {
-  for (const UserSymbol& symbol : context_.names.symbols())
+  for (const UserName& symbol : context_.names.symbols())
     module_->symbols.push_back(
-        {.name = symbol.name,
-         .comment = symbol.comment,
+        {.name = std::string(symbol.name),
+         .comment = std::string(symbol.comment),
          .space = levels_[0].spaces[indexOf(symbol.address.area)],
          .byte = symbol.address.byte,
          .bit = symbol.address.bit,

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/ascii.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::gsk {
@@ -12,22 +13,13 @@ namespace {
 
 constexpr uint64_t kSaturated = 1ull << 62;
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
-std::optional<uint32_t> hexDigit(char c) {
-  if (isDigit(c)) return static_cast<uint32_t>(c - '0');
-  const char u = text::upper(c);
-  if (u >= 'A' && u <= 'F') return static_cast<uint32_t>(u - 'A' + 10);
-  return std::nullopt;
-}
-
 std::optional<int64_t> parseHex(std::string_view text) {
   if (text.empty()) return std::nullopt;
   uint64_t value = 0;
   for (char c : text) {
-    const auto digit = hexDigit(c);
-    if (!digit) return std::nullopt;
-    value = std::min(value * 16 + *digit, kSaturated);
+    const int digit = hexDigit(c);
+    if (digit < 0) return std::nullopt;
+    value = std::min(value * 16 + static_cast<uint32_t>(digit), kSaturated);
   }
   return static_cast<int64_t>(value);
 }

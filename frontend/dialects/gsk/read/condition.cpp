@@ -6,7 +6,7 @@
 #include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/dialects/gsk/read/list_reader.h"
 #include "frontend/dialects/gsk/read/network_builder.h"
-#include "frontend/dialects/gsk/read/title.h"
+#include "ir/support/ascii.h"
 
 namespace rung::gsk {
 namespace {

@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/rows/instructions.h"
+#include "ir/support/ascii.h"
 #include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
 
-bool isLetter(char c) { return text::upper(c) >= 'A' && text::upper(c) <= 'Z'; }
-bool isNameChar(char c) { return isLetter(c) || (c >= '0' && c <= '9') || c == '_'; }
+bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_'; }
 
 bool isCommand(std::string_view text) {
   if (findFunction(text) != nullptr) return true;
@@ -61,7 +61,7 @@ struct Found {
 };
 
 Found findAddress(Context& context, const Word& word) {
-  if (const UserSymbol* symbol = context.names.useSymbol(context.analysis, word))
+  if (const UserName* symbol = context.names.use(context.analysis, word, UserName::Kind::Symbol))
     return {symbol->bad ? std::nullopt : std::optional(NamedAddress{symbol->address, symbol->definition}), true};
   if (const auto text = splitAddress(word.text)) return {addressOf(context.diagnostics, *text, word), true};
   if (const auto signal = context.names.useSignal(context.analysis, word)) return {signal, true};
@@ -70,19 +70,18 @@ Found findAddress(Context& context, const Word& word) {
 
 void suggestName(const Context& context, const Word& word, DiagBuilder& report) {
   if (!context.diagnostics.suggests()) return;
-  Similar similar(word.text);
-  for (const UserSymbol& symbol : context.names.symbols()) similar.offer(symbol.name);
-  report.meant(word.range, similar.best());
-  if (!similar.best().empty()) return;
+  const std::string_view similar = mostSimilar(word.text, context.names.symbols(), &UserName::name);
+  report.meant(word.range, similar);
+  if (!similar.empty()) return;
   if (const nc::Signal* signal = similarSignal(word.text))
     report.note(
         fmt::format("did you mean {} ({}, {})?", signal->symbol, textOf(signalAddress(*signal)), signal->meaning));
 }
 
 // Of an instruction: names of other controls (TON, CTU) are like none of these.
-void suggest(SourceRange range, const Similar& similar, DiagBuilder& report) {
-  report.meant(range, similar.best());
-  if (similar.best().empty()) report.note("`rungc explain gsk` lists the instructions by what they do");
+void suggest(SourceRange range, std::string_view similar, DiagBuilder& report) {
+  report.meant(range, similar);
+  if (similar.empty()) report.note("`rungc explain gsk` lists the instructions by what they do");
 }
 
 void reportUnknown(Context& context, const Word& word, std::string_view what) {
@@ -123,57 +122,51 @@ frontend::NamedPlace placeOf(const Address& address, uint32_t bytes) {
   return {{&areaInfo(address.area).letter, 1}, address.byte * 8 + address.bit, address.isBit ? 1 : bytes * 8};
 }
 
-bool Names::declare(Diagnostics& diagnostics, const Word& name) {
+UserName* Names::declare(Diagnostics& diagnostics, const Word& name, UserName::Kind kind) {
   if (name.quoted || !isFreeName(name.text)) {
     diagnostics.report(Diag::BadOperand, name.range)
         << name.text << "free name: a letter, then letters, digits and _, and no command, address, label or subprogram";
-    return false;
+    return nullptr;
   }
-  const auto [at, isNew] = declared_.emplace(std::string(name.text), name.range);
-  if (!isNew) diagnostics.report(Diag::DuplicateSymbol, name.range).note(at->second, "declared here") << name.text;
-  return isNew;
+  const uint32_t index =
+      table_.declare({.name = name.text, .declared = name.range, .kind = kind, .bad = true}, diagnostics);
+  return index == frontend::kNoName ? nullptr : &table_[index];
 }
 
 void Names::addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment) {
-  if (!declare(context.diagnostics, name)) return;
-  UserSymbol symbol{std::string(name.text), std::string(comment), {}, true, name.range};
+  UserName* symbol = declare(context.diagnostics, name, UserName::Kind::Symbol);
+  if (symbol == nullptr) return;
+  symbol->comment = comment;
   if (const auto text = splitAddress(value.text)) {
     if (const auto address = addressOf(context.diagnostics, *text, value)) {
-      symbol.address = *address;
-      symbol.bad = !checkArea(context.diagnostics, value, text->area, text->byte, 1);
+      symbol->address = *address;
+      symbol->bad = !checkArea(context.diagnostics, value, text->area, text->byte, 1);
     }
   } else if (const auto signal = useSignal(context.analysis, value)) {
-    symbol.address = *signal;
-    symbol.bad = false;
+    symbol->address = *signal;
+    symbol->bad = false;
   } else {
     context.diagnostics.report(Diag::BadOperand, value.range) << value.text << "bit or byte address or signal";
   }
-  symbol.definition = context.analysis.define({.name = name.text, .comment = comment, .range = name.range});
-  if (!symbol.bad) context.analysis.definition(symbol.definition).place = placeOf(symbol.address, 1);
-  symbolByName_.emplace(symbol.name, static_cast<uint32_t>(symbols_.size()));
-  symbols_.push_back(std::move(symbol));
+  symbol->definition = context.analysis.define({.name = name.text, .comment = comment, .range = name.range});
+  if (!symbol->bad) context.analysis.definition(symbol->definition).place = placeOf(symbol->address, 1);
 }
 
 void Names::addConstant(Context& context, const Word& name, const Word& value) {
-  if (!declare(context.diagnostics, name)) return;
+  UserName* constant = declare(context.diagnostics, name, UserName::Kind::Constant);
+  if (constant == nullptr) return;
   const auto number = parseConstant(value.text);
   if (!number) context.diagnostics.report(Diag::BadOperand, value.range) << value.text << "constant";
-  const uint32_t definition = context.analysis.define({.name = name.text, .range = name.range, .value = value.text});
-  constants_.emplace(std::string(name.text), UserConstant{number.value_or(0), !number, definition});
+  constant->value = number.value_or(0);
+  constant->bad = !number;
+  constant->definition = context.analysis.define({.name = name.text, .range = name.range, .value = value.text});
 }
 
-const UserSymbol* Names::useSymbol(frontend::Analysis& analysis, const Word& word) const {
-  const auto at = symbolByName_.find(word.text);
-  if (at == symbolByName_.end()) return nullptr;
-  analysis.use(word.range, symbols_[at->second].definition);
-  return &symbols_[at->second];
-}
-
-const UserConstant* Names::useConstant(frontend::Analysis& analysis, const Word& word) const {
-  const auto at = constants_.find(word.text);
-  if (at == constants_.end()) return nullptr;
-  analysis.use(word.range, at->second.definition);
-  return &at->second;
+const UserName* Names::use(frontend::Analysis& analysis, const Word& word, UserName::Kind kind) const {
+  const uint32_t index = table_.find(word.text);
+  if (index == frontend::kNoName || table_[index].kind != kind) return nullptr;
+  analysis.use(word.range, table_[index].definition);
+  return &table_[index];
 }
 
 std::optional<NamedAddress> Names::useSignal(frontend::Analysis& analysis, const Word& word) {
@@ -194,10 +187,7 @@ void reportUnknownCommand(Context& context, const Word& word, std::span<const st
     report.note(fmt::format("{} is a function: write `FUNC {}`", row->info.mnemonic, row->info.mnemonic));
     return;
   }
-  if (!context.diagnostics.suggests()) return;
-  Similar similar(word.text);
-  for (std::string_view command : commands) similar.offer(command);
-  suggest(word.range, similar, report);
+  if (context.diagnostics.suggests()) suggest(word.range, mostSimilar(word.text, commands), report);
 }
 
 void reportUnknownFunction(Context& context, std::string_view name, SourceRange range) {
@@ -207,7 +197,7 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
   Similar similar(name);
   for (const Row& row : allRows())
     if (row.info.number >= 0) similar.offer(row.info.mnemonic);
-  suggest(range, similar, report);
+  suggest(range, similar.best(), report);
 }
 
 void countStep(Context& context, SourceRange range) {

@@ -4,33 +4,32 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "frontend/dialects/gsk/read/address.h"
 #include "frontend/dialects/gsk/read/signals.h"
 #include "frontend/sema/analysis.h"
+#include "frontend/sema/names.h"
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
 
 namespace rung::gsk {
 
-struct UserSymbol {
-  std::string name;
-  std::string comment;
-  Address address;
-  bool bad = false; // its declaration was reported: uses stay silent
-  SourceRange range;
-  uint32_t definition = 0; // in the analysis
-};
+// A name that the program declares.
+struct UserName {
+  enum class Kind : uint8_t { Symbol, Constant };
 
-struct UserConstant {
-  int64_t value = 0;
-  bool bad = false;
+  std::string_view name;
+  SourceRange declared;
+  Kind kind = Kind::Symbol;
   uint32_t definition = 0; // in the analysis
+  bool bad = false;        // its declaration was reported: uses stay silent
+  std::string_view comment;
+  Address address;   // of a symbol
+  int64_t value = 0; // of a constant
 };
 
 // An address as an operand has it.
@@ -45,20 +44,20 @@ public:
   void addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment);
   void addConstant(Context& context, const Word& name, const Word& value);
 
-  // What a word means, which the analysis has as a use of it then; null for no name of the program.
-  const UserSymbol* useSymbol(frontend::Analysis& analysis, const Word& word) const;
-  const UserConstant* useConstant(frontend::Analysis& analysis, const Word& word) const;
+  // What a word means, which the analysis has as a use of it then; null for no name of the program of this kind.
+  const UserName* use(frontend::Analysis& analysis, const Word& word, UserName::Kind kind) const;
   // The same of a signal's name.
   std::optional<NamedAddress> useSignal(frontend::Analysis& analysis, const Word& word);
-  const std::vector<UserSymbol>& symbols() const { return symbols_; }
+  // In the order of their declarations.
+  auto symbols() const {
+    return table_.all() | std::views::filter([](const UserName& name) { return name.kind == UserName::Kind::Symbol; });
+  }
 
 private:
-  bool declare(Diagnostics& diagnostics, const Word& name);
+  // Enters a name, bad until its value is read; null when it was reported.
+  UserName* declare(Diagnostics& diagnostics, const Word& name, UserName::Kind kind);
 
-  std::vector<UserSymbol> symbols_;
-  std::map<std::string, uint32_t, std::less<>> symbolByName_;
-  std::map<std::string, UserConstant, std::less<>> constants_;
-  std::map<std::string, SourceRange, std::less<>> declared_;
+  frontend::NameTable<UserName> table_;
   std::map<const nc::Signal*, uint32_t> signals_; // those that are used: their definitions
 };
 

@@ -10,6 +10,7 @@
 #include "frontend/dialects/gsk/read/condition.h"
 #include "frontend/dialects/gsk/read/network_builder.h"
 #include "frontend/dialects/gsk/read/title.h"
+#include "ir/support/ascii.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::gsk {

@@ -18,7 +18,7 @@ struct ConstantWord {
   bool reported = false;
 };
 ConstantWord constantWord(Context& context, const Word& word, std::string_view what) {
-  if (const UserConstant* constant = context.names.useConstant(context.analysis, word)) {
+  if (const UserName* constant = context.names.use(context.analysis, word, UserName::Kind::Constant)) {
     if (constant->bad) return {std::nullopt, true};
     return {constant->value};
   }

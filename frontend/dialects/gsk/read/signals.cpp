@@ -69,9 +69,8 @@ const nc::Signal* foreignSignal(Machine machine, const Address& address, uint32_
 }
 
 const nc::Signal* similarSignal(std::string_view name) {
-  Similar similar(name);
-  for (const nc::Signal& signal : nc::gskSignals()) similar.offer(signal.symbol);
-  return similar.best().empty() ? nullptr : findSignalByName(similar.best());
+  const std::string_view similar = mostSimilar(name, nc::gskSignals(), &nc::Signal::symbol);
+  return similar.empty() ? nullptr : findSignalByName(similar);
 }
 
 std::string explainSignal(std::string_view word) {

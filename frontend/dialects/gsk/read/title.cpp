@@ -3,25 +3,17 @@
 
 #include <algorithm>
 
-#include "rtlib/text/letters.h"
+#include "ir/support/ascii.h"
 
 namespace rung::gsk {
 namespace {
 
 bool isDecoration(std::string_view text) {
-  return std::none_of(text.begin(), text.end(), [](char c) {
-    return (c >= '0' && c <= '9') || (text::upper(c) >= 'A' && text::upper(c) <= 'Z') ||
-           static_cast<signed char>(c) < 0;
-  });
+  return std::ranges::none_of(text,
+                              [](char c) { return isDigit(c) || isLetter(c) || static_cast<signed char>(c) < 0; });
 }
 
 } // namespace
-
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
-}
 
 std::optional<std::string_view> sectionIn(std::string_view comment) {
   constexpr std::string_view kBegin = "section \"";

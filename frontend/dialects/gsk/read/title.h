@@ -11,8 +11,6 @@ namespace rung::gsk {
 
 // `section "text"` in a comment of a command list stands for ladder text's statement: its text.
 std::optional<std::string_view> sectionIn(std::string_view comment);
-// Without blanks and tabs at both ends.
-std::string_view trimmed(std::string_view text);
 // Whether a comment can be a title.
 bool isTitle(std::string_view comment);
 

@@ -21,13 +21,7 @@ struct Reference {
 
 constexpr std::string_view kStructural[] = {"END", "JMP", "JME", "SBS", "SBN", "RET"};
 
-bool looksStructural(std::string_view mnemonic) {
-  return std::ranges::any_of(kStructural, [&](std::string_view name) {
-    Similar similar(mnemonic);
-    similar.offer(name);
-    return !similar.best().empty();
-  });
-}
+bool looksStructural(std::string_view mnemonic) { return !mostSimilar(mnemonic, kStructural).empty(); }
 
 // Something in the rung could not be read that might have been an END, a jump, a label or a subroutine's beginning or
 // end.

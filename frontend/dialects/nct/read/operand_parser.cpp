@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "ir/support/ascii.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "rtlib/text/number.h"
@@ -15,8 +16,6 @@ constexpr std::string_view kDecimalRange = "-2147483648 to 2147483647";
 constexpr std::string_view kHexRange = "0 to FFFFFFFF";
 constexpr std::string_view kRealRange = "the range of a double";
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isHexDigit(char c) { return isDigit(c) || (c >= 'A' && c <= 'F') || (c >= 'a' && c <= 'f'); }
 bool allDigits(std::string_view text) { return !text.empty() && std::ranges::all_of(text, isDigit); }
 
 // A number of too many digits is too large for everything.
@@ -55,7 +54,7 @@ struct ConstantReader {
   }
 
   std::optional<Constant> hexadecimal(std::string_view digits) {
-    if (digits.empty() || !std::ranges::all_of(digits, isHexDigit)) return malformed();
+    if (digits.empty() || !std::ranges::all_of(digits, [](char c) { return hexDigit(c) >= 0; })) return malformed();
     const auto value = text::numberIn<uint32_t>(digits, 16);
     if (!value) return tooLarge(kHexRange);
     return Constant{.kind = ConstantKind::Hex, .integer = static_cast<int32_t>(*value), .real = 0};
@@ -328,11 +327,9 @@ Operand parseScopeSymbol(const Word& word, Diagnostics& diagnostics) {
     operand.constant.integer = found - symbols.begin();
     return operand;
   }
-  Similar similar(word.text);
-  for (const nc::nct::ScopeSymbol& symbol : symbols) similar.offer(symbol.name);
   DiagBuilder report = diagnostics.report(Diag::UnknownScopeSymbol, word.range);
   report << word.text;
-  report.meant(word.range, similar.best());
+  report.meant(word.range, mostSimilar(word.text, symbols, &nc::nct::ScopeSymbol::name));
   return operand;
 }
 

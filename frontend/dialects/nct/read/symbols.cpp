@@ -2,6 +2,7 @@
 #include "frontend/dialects/nct/read/symbols.h"
 
 #include "frontend/dialects/nct/read/operand_parser.h"
+#include "ir/support/ascii.h"
 #include "ir/support/similar.h"
 
 namespace rung::nct {
@@ -18,7 +19,7 @@ struct Alias {
 constexpr Alias kAliases[] = {{"AP_DISP", "AP_DISPD"}, {"SP_SENDD", "SP_SEND"}};
 
 bool isName(std::string_view text) {
-  return !text.empty() && !(text[0] >= '0' && text[0] <= '9') && text[0] != '-' && text[0] != '+' &&
+  return !text.empty() && !isDigit(text[0]) && text[0] != '-' && text[0] != '+' &&
          text.find_first_of(".,:#*@%!/\"") == std::string_view::npos;
 }
 
@@ -40,14 +41,14 @@ std::string_view aliasOf(std::string_view name) {
 
 SymbolTable::SymbolTable(const Config& config, frontend::Analysis& analysis, Diagnostics& diagnostics)
     : config_(config), analysis_(analysis), diagnostics_(diagnostics) {
-  enter(word("PLCNVRAM", config.plcNvram));
-  enter(word("PLCRAM", config.plcRam));
+  table_.enter(word("PLCNVRAM", config.plcNvram));
+  table_.enter(word("PLCRAM", config.plcRam));
   uint32_t bit = 0;
   for (std::string_view name : kFlagNames) {
     Symbol flag = word(name, kFlagsWord);
     flag.kind = SymbolKind::Bit;
     flag.bit = bit++;
-    enter(flag);
+    table_.enter(flag);
   }
   direction_.resize(config.plcNvram);
   for (const nc::Signal& signal : nc::nctSignals()) {
@@ -57,17 +58,10 @@ SymbolTable::SymbolTable(const Config& config, frontend::Analysis& analysis, Dia
   }
 }
 
-Symbol* SymbolTable::enter(Symbol symbol) {
-  symbol.index = static_cast<uint32_t>(symbols_.size());
-  symbols_.push_back(symbol);
-  byName_.emplace(symbol.name, &symbols_.back());
-  return &symbols_.back();
-}
-
-Symbol* SymbolTable::enterPredefined(std::string_view name) {
-  if (name == kFlagsName) return enter(word(name, kFlagsWord));
+uint32_t SymbolTable::enterPredefined(std::string_view name) {
+  if (name == kFlagsName) return table_.enter(word(name, kFlagsWord));
   const nc::Signal* signal = nc::findSignal(nc::nctSignals(), aliasOf(name));
-  if (signal == nullptr) return nullptr;
+  if (signal == nullptr) return frontend::kNoName;
   Symbol symbol = word(name, signal->byteOffset / 4);
   if (signal->type == nc::SignalType::Bit) {
     symbol.kind = SymbolKind::Bit;
@@ -75,14 +69,21 @@ Symbol* SymbolTable::enterPredefined(std::string_view name) {
   }
   symbol.signal = signal;
   symbol.comment = signal->meaning;
-  return enter(symbol);
+  return table_.enter(symbol);
+}
+
+uint32_t SymbolTable::indexOf(std::string_view name) {
+  const uint32_t known = table_.find(name);
+  return known != frontend::kNoName ? known : enterPredefined(name);
 }
 
 const Symbol* SymbolTable::find(std::string_view name) {
-  const auto found = byName_.find(name);
-  if (found == byName_.end()) return enterPredefined(name);
-  if (found->second->pending) resolve(*found->second);
-  return found->second;
+  const uint32_t index = indexOf(name);
+  if (index == frontend::kNoName) return nullptr;
+  Symbol& found = table_[index];
+  found.index = index;
+  if (found.pending) resolve(found);
+  return &found;
 }
 
 const Symbol* SymbolTable::use(std::string_view name, SourceRange range) {
@@ -92,9 +93,8 @@ const Symbol* SymbolTable::use(std::string_view name, SourceRange range) {
 }
 
 void SymbolTable::defineAll() {
-  for (const Symbol& symbol : symbols_) {
-    frontend::Definition definition{.name = symbol.name, .comment = symbol.comment};
-    if (symbol.declaration != nullptr) definition.range = symbol.declaration->name.range;
+  for (const Symbol& symbol : table_.all()) {
+    frontend::Definition definition{.name = symbol.name, .comment = symbol.comment, .range = symbol.declared};
     if (symbol.kind == SymbolKind::Constant) definition.value = symbol.declaration->value.text;
     const bool known = symbol.kind == SymbolKind::Word || symbol.kind == SymbolKind::Bit;
     if (known) definition.place = {"M", symbol.word * 32 + symbol.bit, symbol.kind == SymbolKind::Bit ? 1u : 32u};
@@ -104,7 +104,7 @@ void SymbolTable::defineAll() {
 
 std::string_view SymbolTable::similarTo(std::string_view name) const {
   Similar similar(name);
-  for (const Symbol& symbol : symbols_) similar.offer(symbol.name);
+  for (const Symbol& symbol : table_.all()) similar.offer(symbol.name);
   // Names of the program come first.
   if (similar.best().empty())
     for (const nc::Signal& signal : nc::nctSignals()) similar.offer(signal.symbol);
@@ -118,35 +118,26 @@ void SymbolTable::declare(const ladder::Declaration& declaration) {
     diagnostics_.report(Diag::BadOperand, declaration.name.range) << name << "name of a symbol";
     return;
   }
-  auto found = byName_.find(name);
-  const Symbol* first = found == byName_.end() ? enterPredefined(name) : found->second;
-  if (first != nullptr) {
-    auto report = diagnostics_.report(Diag::DuplicateSymbol, declaration.name.range);
-    if (first->declaration != nullptr)
-      report.note(first->declaration->name.range, "first declared here");
-    else
-      report.note("it is predefined");
-    report << name;
-    return;
-  }
+  indexOf(name); // one of the NC is declared already
   Symbol symbol = word(name, 0);
+  symbol.declared = declaration.name.range;
   symbol.kind = SymbolKind::Bad;
   symbol.comment = declaration.comment;
   symbol.declaration = &declaration;
   symbol.pending = true;
-  enter(symbol);
+  table_.declare(symbol, diagnostics_);
 }
 
 void SymbolTable::declareBad(std::string_view name) {
-  if (byName_.contains(name) || enterPredefined(name) != nullptr) return;
+  if (indexOf(name) != frontend::kNoName) return;
   Symbol symbol = word(name, 0);
   symbol.kind = SymbolKind::Bad;
-  enter(symbol);
+  table_.enter(symbol);
 }
 
 void SymbolTable::resolveAll() {
-  for (size_t i = 0; i < symbols_.size(); ++i)
-    if (symbols_[i].pending) resolve(symbols_[i]);
+  for (uint32_t i = 0; i < table_.all().size(); ++i)
+    if (table_[i].pending) resolve(table_[i]);
 }
 
 void SymbolTable::resolve(Symbol& symbol) {

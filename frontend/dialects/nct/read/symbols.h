@@ -3,13 +3,13 @@
 #pragma once
 #include <deque>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "frontend/dialects/nct/config.h"
 #include "frontend/dialects/nct/read/operand.h"
 #include "frontend/ladder/text/ladder_file.h"
 #include "frontend/sema/analysis.h"
+#include "frontend/sema/names.h"
 #include "rtlib/nc/nct/signals.h"
 
 namespace rung::nct {
@@ -24,8 +24,9 @@ std::string_view aliasOf(std::string_view name);
 enum class SymbolKind : uint8_t { Bad, Word, Bit, Constant };
 
 struct Symbol {
-  uint32_t index = 0; // in SymbolTable::all and Analysis::definitions
+  uint32_t index = 0; // in SymbolTable::all and Analysis::definitions, of one that was found
   std::string_view name;
+  SourceRange declared;
   SymbolKind kind = SymbolKind::Bad; // Bad: its declaration was reported, uses stay silent
   uint32_t word = 0;
   uint32_t bit = 0;
@@ -59,7 +60,7 @@ public:
   // Says in the analysis what all names are. To be called last.
   void defineAll();
   // All names but those of the NC that nothing mentions, in the order of entering.
-  const std::deque<Symbol>& all() const { return symbols_; }
+  const std::deque<Symbol>& all() const { return table_.all(); }
 
   const Config& config() const { return config_; }
   // An input of the NC lives in this word.
@@ -67,8 +68,9 @@ public:
   bool isNcWord(uint32_t word) const { return word >= kFirstNcWord && word < config_.plcNvram; }
 
 private:
-  Symbol* enter(Symbol symbol);
-  Symbol* enterPredefined(std::string_view name);
+  // The index of a name, which enters the table when it is one of the NC; kNoName when there is no such name.
+  uint32_t indexOf(std::string_view name);
+  uint32_t enterPredefined(std::string_view name);
   void resolve(Symbol& symbol);
   void resolveConstant(Symbol& symbol);
   void resolveAddress(Symbol& symbol);
@@ -77,10 +79,9 @@ private:
   const Config& config_;
   frontend::Analysis& analysis_;
   Diagnostics& diagnostics_;
-  std::deque<Symbol> symbols_;
-  std::unordered_map<std::string_view, Symbol*> byName_;
-  std::vector<uint8_t> direction_; // by word of the NC area
-  int depth_ = 0;                  // of declarations that refer to each other
+  frontend::NameTable<Symbol> table_; // in the order of Analysis::definitions
+  std::vector<uint8_t> direction_;    // by word of the NC area
+  int depth_ = 0;                     // of declarations that refer to each other
 };
 
 } // namespace rung::nct

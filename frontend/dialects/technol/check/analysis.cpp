@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ir/support/ascii.h"
+
 namespace rung::frontend::technol {
 namespace {
 
@@ -45,6 +47,13 @@ Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
   return definition;
 }
 
+// A label or procedure is a place in the program too; it is numbered as symbols are.
+void addTarget(const Symbol& symbol, uint32_t number, SourceRange range, bool defines, Analysis& analysis) {
+  const bool isLabel = symbol.kind == SymbolKind::Label;
+  if (range.valid() && (isLabel || symbol.kind == SymbolKind::Procedure))
+    analysis.use({.range = range, .scope = isLabel ? "label" : "procedure", .number = number, .defines = defines});
+}
+
 // Of an operand that names an address: a bit, or as much as its type or size says.
 NamedPlace placeOf(const Operand& operand) {
   if (!operand.place.space.valid()) return {};
@@ -73,7 +82,7 @@ void addOperand(const TypedProgram& typed, const Operand& operand, Analysis& ana
   if (place.bits == 0) return;
   const std::span<const NameUse> names = typed.namesOf(operand);
   analysis.use({.range = operand.range,
-                .base = names.empty() ? kNoDefinition : names.front().symbol,
+                .base = names.empty() ? kNoDefinition : names.front().definition,
                 .place = place,
                 .computed = operand.indexed ? "[BX]" : "",
                 .access = operand.access});
@@ -83,10 +92,15 @@ void addOperand(const TypedProgram& typed, const Operand& operand, Analysis& ana
 
 Analysis analysisOf(const Program& program, const TypedProgram& typed) {
   Analysis analysis;
-  for (const Symbol& symbol : program.symbols.all()) analysis.define(definitionOf(program.sources, symbol));
+  for (const Symbol& symbol : program.symbols.all()) {
+    const uint32_t index = analysis.define(definitionOf(program.sources, symbol)); // that of the symbol too
+    addTarget(symbol, index, analysis.definition(index).range, true, analysis);
+  }
   for (const std::vector<NameUse>* names : {&program.symbols.uses(), &typed.names})
-    for (const NameUse& name : *names)
-      if (name.symbol != kNone) analysis.use(name.range, name.symbol);
+    for (const NameUse& name : *names) {
+      analysis.use(name.range, name.definition);
+      addTarget(program.symbols[name.definition], name.definition, name.range, false, analysis);
+    }
   for (const Operand& operand : typed.operands) addOperand(typed, operand, analysis);
   analysis.settle();
   return analysis;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frontend/dialects/technol/check/operand.h"
+#include "frontend/sema/analysis.h"
 
 namespace rung::frontend::technol {
 
@@ -29,7 +30,7 @@ struct Typed {
 struct TypedProgram {
   std::vector<Typed> statements; // by their index in Program::statements; those outside code have nothing
   std::vector<Operand> operands;
-  std::vector<NameUse> names;
+  std::vector<NameUse> names; // by the index of the symbol
 
   std::span<const Operand> operandsOf(const Typed& statement) const {
     return std::span(operands).subspan(statement.firstOperand, statement.operandCount);

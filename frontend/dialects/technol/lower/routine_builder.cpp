@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frontend/dialects/technol/read/lexer.h"
+#include "ir/support/ascii.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
 

@@ -1,14 +1,13 @@
 // The lexer of TECHNOL (see lexer.h).
 #include "frontend/dialects/technol/read/lexer.h"
 
+#include "ir/support/ascii.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
 namespace rung::frontend::technol {
 namespace {
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '?' || c == '@'; }
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\f'; }
 bool isPunct(char c) { return std::string_view(":,.+-()[]$<>").find(c) != std::string_view::npos; }
@@ -66,12 +65,6 @@ size_t commentOf(std::string_view line) {
     if (line[i] == ';' && !quoted) return i;
   }
   return std::string_view::npos;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 bool tokenize(const SourceLine& line, std::vector<Token>& out, Diagnostics& diagnostics) {

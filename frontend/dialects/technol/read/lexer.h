@@ -34,9 +34,6 @@ bool tokenize(const SourceLine& line, std::vector<Token>& out, Diagnostics& diag
 // Offset of the comment's `;` in a line, or npos.
 size_t commentOf(std::string_view line);
 
-// Without the blanks at both ends.
-std::string_view trimmed(std::string_view text);
-
 struct Number {
   bool isReal = false;
   int64_t value = 0;

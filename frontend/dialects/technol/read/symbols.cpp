@@ -119,18 +119,17 @@ void SymbolTable::checkName(const Symbol& symbol) {
   }
 }
 
-// The entry that a name of this file would collide with; null when there is none.
-uint32_t* SymbolTable::inOwnFile(const std::string& key, const Symbol& symbol) {
-  Scope& own = locals_[symbol.file];
-  if (auto local = own.find(key); local != own.end()) return &local->second;
-  const auto global = globals_.find(key);
-  if (global == globals_.end()) return nullptr;
-  return !symbol.local || symbols_[global->second].file == symbol.file ? &global->second : nullptr;
+// The symbol that a name of this file would collide with; kNone when there is none.
+uint32_t SymbolTable::inOwnFile(const Symbol& symbol) const {
+  const uint32_t own = table_.find(symbol.name, {kFirstFile + symbol.file});
+  if (own != kNone) return own;
+  const uint32_t global = table_.find(symbol.name, {kGlobal});
+  return global == kNone || !symbol.local || table_[global].file == symbol.file ? global : kNone;
 }
 
 // Whether both declarations may stand: the same constant twice, or a mechanism and a cell of one name (man. l.12304).
 bool SymbolTable::merge(uint32_t earlier, Symbol& symbol) {
-  Symbol& first = symbols_[earlier];
+  Symbol& first = table_[earlier];
   if (first.kind == SymbolKind::Constant && symbol.kind == SymbolKind::Constant && first.value == symbol.value)
     return true;
   if (first.kind == SymbolKind::Structure && symbol.kind == SymbolKind::Structure && first.value == symbol.value)
@@ -146,60 +145,48 @@ bool SymbolTable::merge(uint32_t earlier, Symbol& symbol) {
   return true;
 }
 
-uint32_t SymbolTable::declare(Symbol symbol) {
-  checkName(symbol);
-  const std::string key = symbolKey(symbol.name);
-  const auto index = static_cast<uint32_t>(symbols_.size());
-  if (uint32_t* earlier = inOwnFile(key, symbol)) {
-    if (merge(*earlier, symbol)) {
-      if (symbol.kind == SymbolKind::Constant || symbol.kind == SymbolKind::Structure) return *earlier;
-      if (symbol.kind == SymbolKind::Cell) *earlier = index; // the cell carries both meanings
-    } else {
-      const SourceRange first = symbols_[*earlier].declared;
-      const bool sameLine = first == symbol.declared;
-      diagnostics_.report(Diag::DuplicateSymbol, symbol.declared)
-              .note(first, sameLine ? "by the macro's first use; T_LOCAL gives each use a name of its own"
-                                    : "first declared here")
-          << symbol.name;
-    }
-    symbols_.push_back(symbol);
-    return index;
-  }
-  const Predefined* constant = findPredefined(key);
+void SymbolTable::checkPredeclared(const Symbol& symbol) {
+  const Predefined* constant = findPredefined(symbolKey(symbol.name));
   const bool sameConstant = constant && symbol.kind == SymbolKind::Constant && symbol.value == constant->value;
-  const nc::Signal* signal = nc::findSignal(nc::technolSignals(), key, "I");
-  if (signal || (constant && !sameConstant))
-    diagnostics_.report(Diag::DuplicateSymbol, symbol.declared).note("it is predefined by the control") << symbol.name;
-  (symbol.local ? locals_[symbol.file] : globals_).emplace(key, index);
-  symbols_.push_back(symbol);
-  return index;
+  const nc::Signal* signal = nc::findSignal(nc::technolSignals(), symbolKey(symbol.name), "I");
+  if (signal || (constant && !sameConstant)) reportDuplicate(diagnostics_, symbol.name, symbol.declared, {});
 }
 
-uint32_t SymbolTable::predeclared(std::string_view name, const std::string& key) {
-  if (const auto found = predeclared_.find(key); found != predeclared_.end()) return found->second;
-  uint32_t index = kNone;
-  if (const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "I")) {
-    index = static_cast<uint32_t>(symbols_.size());
-    symbols_.push_back(fromSignal(*signal));
-  } else if (const Predefined* constant = findPredefined(key)) {
-    index = static_cast<uint32_t>(symbols_.size());
-    Symbol symbol;
-    symbol.name = constant->name;
-    symbol.kind = SymbolKind::Constant;
-    symbol.predeclared = true;
-    symbol.value = constant->value;
-    symbols_.push_back(symbol);
+uint32_t SymbolTable::declare(Symbol symbol) {
+  checkName(symbol);
+  const uint32_t earlier = inOwnFile(symbol);
+  if (earlier == kNone) {
+    checkPredeclared(symbol);
+    return table_.enter(symbol, scopeOf(symbol));
   }
-  predeclared_.emplace(key, index);
-  return index;
+  const Symbol& first = table_[earlier];
+  if (!merge(earlier, symbol)) {
+    const bool sameLine = first.declared == symbol.declared;
+    reportDuplicate(diagnostics_, symbol.name, symbol.declared, first.declared,
+                    sameLine ? "by the macro's first use; T_LOCAL gives each use a name of its own" : kFirstDeclared);
+    return table_.add(symbol);
+  }
+  if (symbol.kind == SymbolKind::Constant || symbol.kind == SymbolKind::Structure) return earlier;
+  // The cell carries both meanings.
+  return symbol.kind == SymbolKind::Cell ? table_.enter(symbol, scopeOf(first)) : table_.add(symbol);
+}
+
+uint32_t SymbolTable::enterPredeclared(std::string_view name) {
+  if (const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "I"))
+    return table_.enter(fromSignal(*signal), kControl);
+  const Predefined* constant = findPredefined(symbolKey(name));
+  if (!constant) return kNone;
+  Symbol symbol;
+  symbol.name = constant->name;
+  symbol.kind = SymbolKind::Constant;
+  symbol.predeclared = true;
+  symbol.value = constant->value;
+  return table_.enter(symbol, kControl);
 }
 
 uint32_t SymbolTable::find(std::string_view name, uint32_t file) {
-  const std::string key = symbolKey(name);
-  const Scope& own = locals_[file];
-  if (const auto local = own.find(key); local != own.end()) return local->second;
-  if (const auto global = globals_.find(key); global != globals_.end()) return global->second;
-  return predeclared(name, key);
+  const uint32_t known = table_.find(name, {kFirstFile + file, kGlobal, kControl});
+  return known != kNone ? known : enterPredeclared(name);
 }
 
 uint32_t SymbolTable::require(const Token& name, uint32_t file) {
@@ -288,7 +275,7 @@ std::string SymbolTable::similar(const Use& use) const {
     if (!member.best().empty()) return std::string(member.best());
   }
   Similar own(name);
-  for (const Symbol& symbol : symbols_)
+  for (const Symbol& symbol : table_.all())
     if (!symbol.predeclared && (!symbol.local || symbol.file == use.file)) own.offer(symbol.name);
   if (!own.best().empty()) return std::string(own.best());
   Similar interface(name);
@@ -304,25 +291,19 @@ uint32_t SymbolTable::findWeight(std::string_view name, uint32_t file) {
   const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "W");
   if (!signal) return kNone;
   // A weight is only a bit number; the program adds the byte itself (man. l.9359).
-  const auto added = static_cast<uint32_t>(symbols_.size());
   Symbol symbol = fromSignal(*signal);
   symbol.protection = Protection::None;
   symbol.space = {};
-  symbols_.push_back(symbol);
-  predeclared_[symbolKey(name)] = added;
-  return added;
+  return table_.enter(symbol, kControl);
 }
 
 uint32_t SymbolTable::findMember(const char* structure, std::string_view member) {
   if (*structure == 0) return kNone;
   const std::string full = std::string(structure) + "." + std::string(member);
-  const auto [entry, isNew] = members_.emplace(text::upper(full), kNone);
-  if (isNew) {
-    if (const nc::Signal* signal = nc::findSignal(nc::technolSignals(), full, structure)) {
-      entry->second = static_cast<uint32_t>(symbols_.size());
-      symbols_.push_back(fromSignal(*signal));
-    }
-  }
+  const nc::Signal* signal = nc::findSignal(nc::technolSignals(), full, structure);
+  if (signal == nullptr) return kNone;
+  const auto [entry, isNew] = members_.emplace(signal, kNone);
+  if (isNew) entry->second = table_.add(fromSignal(*signal));
   return entry->second;
 }
 

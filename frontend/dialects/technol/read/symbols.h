@@ -10,7 +10,10 @@
 #include <vector>
 
 #include "frontend/dialects/technol/records.h"
+#include "frontend/sema/analysis.h"
+#include "frontend/sema/names.h"
 #include "ir/support/diagnostics.h"
+#include "rtlib/nc/signal.h"
 
 namespace rung::frontend::technol {
 
@@ -41,9 +44,9 @@ std::span<const Predefined> predefinedConstants();
 
 class SymbolTable {
 public:
-  explicit SymbolTable(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  explicit SymbolTable(Diagnostics& diagnostics) : diagnostics_(diagnostics) { table_.addScope(); }
 
-  void addFile() { locals_.emplace_back(); }
+  void addFile() { table_.addScope(); }
   // Enters a name of `symbol.file` and returns its index. Reports duplicate-symbol, shared-name, reserved-word and
   // name-too-long; a duplicate gets a symbol of its own that no name leads to.
   uint32_t declare(Symbol symbol);
@@ -64,19 +67,22 @@ public:
   // A member of an interface structure; kNone when it has none of this name.
   uint32_t findMember(const char* structure, std::string_view member);
 
-  Symbol& operator[](uint32_t index) { return symbols_[index]; }
-  const Symbol& operator[](uint32_t index) const { return symbols_[index]; }
-  const std::vector<Symbol>& all() const { return symbols_; }
-  // Of names that were required, in the order of asking.
+  Symbol& operator[](uint32_t index) { return table_[index]; }
+  const Symbol& operator[](uint32_t index) const { return table_[index]; }
+  const std::deque<Symbol>& all() const { return table_.all(); }
+  // Of names that were required, by the index of the symbol, in the order of asking.
   const std::vector<NameUse>& uses() const { return uses_; }
 
 private:
-  using Scope = std::unordered_map<std::string, uint32_t>;
+  // Scopes: the global names, those of the control that are in use, and each file's own.
+  static constexpr uint32_t kGlobal = 0, kControl = 1, kFirstFile = 2;
+  static uint32_t scopeOf(const Symbol& symbol) { return symbol.local ? kFirstFile + symbol.file : kGlobal; }
 
-  uint32_t* inOwnFile(const std::string& key, const Symbol& symbol);
+  uint32_t inOwnFile(const Symbol& symbol) const;
   bool merge(uint32_t earlier, Symbol& symbol);
   void checkName(const Symbol& symbol);
-  uint32_t predeclared(std::string_view name, const std::string& key);
+  void checkPredeclared(const Symbol& symbol);
+  uint32_t enterPredeclared(std::string_view name);
   struct Use {
     Token name;
     uint32_t file = 0;
@@ -86,14 +92,11 @@ private:
   std::string similar(const Use& use) const;
 
   Diagnostics& diagnostics_;
-  std::vector<Symbol> symbols_;
+  NameTable<Symbol, symbolKey> table_;
   std::vector<NameUse> uses_;
-  Scope globals_;
-  Scope predeclared_; // interface and constants in use, and names known to be none of these
-  Scope members_;
-  std::vector<Scope> locals_;
-  std::map<std::string, std::vector<Use>> undefined_; // by key
-  static constexpr uint32_t kMostSuggestions = 100;   // each looks at all names
+  std::unordered_map<const nc::Signal*, uint32_t> members_; // of structures of the control, those that are in use
+  std::map<std::string, std::vector<Use>> undefined_;       // by key
+  static constexpr uint32_t kMostSuggestions = 100;         // each looks at all names
   uint32_t suggestions_ = 0;
 };
 

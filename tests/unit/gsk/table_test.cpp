@@ -45,7 +45,7 @@ size_t listLength(const std::string& field) {
 }
 
 TEST(GskTable, AgreesWithTheInventory) {
-  std::ifstream file("frontend/dialects/gsk/rows/instructions.csv");
+  std::ifstream file("tests/unit/gsk/instructions.csv");
   ASSERT_TRUE(file);
   std::string line;
   std::getline(file, line);

@@ -47,7 +47,7 @@ size_t operandsIn(const std::string& column) {
 }
 
 TEST(NctTable, HoldsTheWholeInventory) {
-  std::ifstream file("frontend/dialects/nct/rows/instructions.csv");
+  std::ifstream file("tests/unit/nct/instructions.csv");
   ASSERT_TRUE(file) << "run in the root of the repository";
   std::string line;
   std::getline(file, line);

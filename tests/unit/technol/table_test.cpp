@@ -58,7 +58,7 @@ void agree(const Row& row, const std::vector<std::string>& csv) {
 }
 
 TEST(TechnolTable, AgreesWithTheInventory) {
-  std::ifstream file("frontend/dialects/technol/rows/instructions.csv");
+  std::ifstream file("tests/unit/technol/instructions.csv");
   ASSERT_TRUE(file) << "run in the root of the repository";
   std::map<std::string_view, const Row*> rows;
   for (const Row& row : allRows())

@@ -55,7 +55,6 @@ struct Dialect {
   std::span<const nc::ConfigKey> configKeys;    // of compile (CompileOptions::config) and of the simulated control
   // The rows, in the order of the reference.
   std::span<const InstructionInfo* const> instructions;
-  std::span<const OperandKindInfo> operandKinds;
   const nc::SignalTable& (*signals)();                // of the control's interface
   std::span<const std::string_view> shownSpaces = {}; // whose cells the control shows or passes on
   // Whether a row of `instructions` can be compiled; the others give the diagnostic not-built-yet or service-not-built.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <source_location>
 #include <span>
 #include <string_view>
 
@@ -28,11 +29,22 @@ struct FixedList {
 
 enum class Access : uint8_t { Read, Write, ReadWrite, None };
 
-// One operand in the order of the source. `kind` is a class of operands that the dialect names and documents (see
-// OperandKindInfo); min and max bound a constant where min <= max.
+// A kind of operands. Those of a dialect are constexpr objects of a struct derived from this one, which has what the
+// dialect's checks ask for; the rows point to them.
+struct OperandKindInfo {
+  std::string_view name;
+  std::string_view doc;       // what may be written
+  std::string_view good{};    // an operand that is right
+  std::string_view bad{};     // one that is wrong
+  std::string_view badCode{}; // the diagnostic that `bad` raises
+  // Where it is defined: the reference lists the kinds that rows use in the order of their definitions.
+  uint32_t line = std::source_location::current().line();
+};
+
+// One operand in the order of the source; min and max bound a constant where min <= max.
 struct OperandInfo {
   std::string_view name;
-  std::string_view kind;
+  const OperandKindInfo* kind = nullptr;
   Access access = Access::Read;
   std::string_view doc{};
   int64_t min = 1;
@@ -90,14 +102,5 @@ constexpr bool isAlias(const InstructionInfo& info, std::string_view word, Same 
     if (same(alias, word)) return true;
   return false;
 }
-
-// A class of operands, for the reference and for tests generated from the rows.
-struct OperandKindInfo {
-  std::string_view kind;
-  std::string_view doc;       // what may be written
-  std::string_view good{};    // an operand that is right
-  std::string_view bad{};     // one that is wrong
-  std::string_view badCode{}; // the diagnostic that `bad` raises
-};
 
 } // namespace rung::frontend

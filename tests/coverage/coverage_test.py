@@ -67,7 +67,7 @@ class GskRows(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        with (ROOT / "frontend/dialects/gsk/rows/instructions.csv").open() as file:
+        with (ROOT / "tests/unit/gsk/instructions.csv").open() as file:
             cls.rows = [(row["mnemonic"], row["func_number"]) for row in csv.DictReader(file)]
         cls.built = {mnemonic for mnemonic, _ in Coverage.instructions("gsk")}
         cls.functions = {number: mnemonic for mnemonic, number in cls.rows if number}

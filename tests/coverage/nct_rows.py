@@ -134,7 +134,7 @@ class NctRows(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        with (ROOT / "frontend/dialects/nct/rows/instructions.csv").open() as file:
+        with (ROOT / "tests/unit/nct/instructions.csv").open() as file:
             cls.rows = {row["mnemonic"]: row for row in csv.DictReader(file)}
         with (ROOT / "rtlib/nc/nct/signals.csv").open() as file:
             signals = list(csv.DictReader(file))

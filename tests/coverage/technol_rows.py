@@ -72,7 +72,7 @@ class TechnolRows(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        with (ROOT / "frontend/dialects/technol/rows/instructions.csv").open() as file:
+        with (ROOT / "tests/unit/technol/instructions.csv").open() as file:
             cls.rows = [row["mnemonic"] for row in csv.DictReader(file)]
         page = subprocess.run([cls.RUNGC, "doc", "technol"], capture_output=True, check=True).stdout.decode()
         entries = {re.match(r"\S+", entry)[0].rstrip(":"): entry for entry in re.split(r"^### ", page, flags=re.MULTILINE)[1:]}

@@ -18,6 +18,7 @@ using frontend::Access;
 using frontend::Dialect;
 using frontend::InstructionInfo;
 using frontend::OperandInfo;
+using frontend::OperandKindInfo;
 using frontend::Output;
 using frontend::PinInfo;
 using frontend::Placement;
@@ -61,6 +62,16 @@ std::string cell(std::string_view text) {
   return out;
 }
 
+// The kinds of the rows' operands, each once, in the order of their definitions.
+std::vector<const OperandKindInfo*> operandKindsOf(const Dialect& dialect) {
+  std::vector<const OperandKindInfo*> kinds;
+  for (const InstructionInfo* row : dialect.instructions)
+    for (const OperandInfo& operand : row->operands.all())
+      if (std::ranges::find(kinds, operand.kind) == kinds.end()) kinds.push_back(operand.kind);
+  std::ranges::sort(kinds, {}, &OperandKindInfo::line);
+  return kinds;
+}
+
 // How it joins with others.
 std::string shapeText(const InstructionInfo& row) {
   std::string text;
@@ -87,7 +98,7 @@ void appendInstruction(const Dialect& dialect, const InstructionInfo& row, std::
     out += "| operand | kind | access | range | meaning |\n| --- | --- | --- | --- | --- |\n";
     for (const OperandInfo& o : row.operands.all())
       put(out, "| {}{}{} | {} | {} | {} | {} |\n", o.name, o.optional ? " (optional)" : "", o.repeated ? " …" : "",
-          o.kind, accessText(o.access), o.min <= o.max ? fmt::format("{}…{}", o.min, o.max) : "", cell(o.doc));
+          o.kind->name, accessText(o.access), o.min <= o.max ? fmt::format("{}…{}", o.min, o.max) : "", cell(o.doc));
     out += '\n';
   }
   if (const std::string shape = shapeText(row); !shape.empty()) put(out, "{}\n\n", shape);
@@ -184,7 +195,7 @@ std::string dialectReference(const Dialect& dialect) {
       if (row->group == group) appendInstruction(dialect, *row, out);
   }
   out += "## Kinds of operands\n\n| kind | what may be written |\n| --- | --- |\n";
-  for (const auto& kind : dialect.operandKinds) put(out, "| {} | {} |\n", kind.kind, cell(kind.doc));
+  for (const OperandKindInfo* kind : operandKindsOf(dialect)) put(out, "| {} | {} |\n", kind->name, cell(kind->doc));
   out += "\n## Configuration\n\n`config KEY VALUE` in a scenario, `KEY = VALUE` in the table [config] of rung.toml, "
          "`--config KEY=VALUE` on the command line.\n\n";
   out += kConfigHead;

@@ -82,7 +82,6 @@ const frontend::Dialect kGsk = {
     .extensions = kExtensions,
     .configKeys = nc::gskConfigKeys(),
     .instructions = instructionInfos(),
-    .operandKinds = operandKindInfos(),
     .signals = nc::gskSignals,
     .shownSpaces = kShownSpaces,
     .isBuilt = isBuilt,

@@ -9,28 +9,7 @@ namespace rung::gsk {
 namespace {
 
 std::string textOf(const Param& param) {
-  if (param.isAddress) return textOf(param.address);
-  switch (param.kind) {
-  case Kind::Mask: return fmt::format("{:04b}", param.value);
-  case Kind::Label: return fmt::format("L{}", param.value);
-  case Kind::Subprogram: return fmt::format("P{}", param.value);
-  case Kind::FormatA: return fmt::format("{:04}", param.value);
-  case Kind::Bit:
-  case Kind::Coil:
-  case Kind::Format:
-  case Kind::Byte:
-  case Kind::Word:
-  case Kind::Dword:
-  case Kind::Data:
-  case Kind::Block:
-  case Kind::Constant:
-  case Kind::ConstantOrData:
-  case Kind::Number:
-  case Kind::DataTable:
-  case Kind::WorkArea:
-  case Kind::Record: return fmt::format("{}", param.value);
-  }
-  return {};
+  return param.isAddress ? textOf(param.address) : fmt::format(fmt::runtime(param.kind->written), param.value);
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 
 #include "frontend/dialects/gsk/read/address.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
+#include "frontend/dialects/gsk/rows/operand_kinds.h"
 #include "ir/support/source.h"
 
 namespace rung::gsk {
@@ -61,7 +62,7 @@ struct CoilStep {
 };
 
 struct Param {
-  Kind kind = Kind::Byte;
+  const OperandKind* kind = &kinds::kConstant;
   bool isAddress = false;
   bool bad = false; // reported
   Address address;

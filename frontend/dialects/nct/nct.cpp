@@ -200,7 +200,6 @@ const frontend::Dialect kNct = {
     .extensions = kExtensions,
     .configKeys = nc::nctConfigKeys(),
     .instructions = allInfos(),
-    .operandKinds = operandKinds(),
     .signals = nc::nctSignals,
     .isBuilt = isBuilt,
     .findBox = findBoxInfo,

@@ -118,7 +118,6 @@ const Dialect kTechnol = {
     .extensions = kExtensions,
     .configKeys = nc::technolConfigKeys(),
     .instructions = technol::instructionInfos(),
-    .operandKinds = technol::operandKindInfos(),
     .signals = nc::technolSignals,
     .shownSpaces = kShownSpaces,
     .isBuilt = isBuilt,

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "frontend/dialects/gsk/rows/operand_kinds.h"
+
 namespace rung::gsk::test {
 namespace {
 
@@ -84,13 +86,13 @@ std::string ProgramGenerator::bit(bool written) {
   return fmt::format("{}{:0{}}.{}", area, below(100), 1 + below(4), below(8));
 }
 
-std::string ProgramGenerator::respelled(std::string operand, std::string_view kind) {
+std::string ProgramGenerator::respelled(std::string operand, const frontend::OperandKindInfo* kind) {
   if (isAddress(operand)) {
     if (chance(30)) operand.insert(1, "00");
     if (chance(20)) operand[0] = static_cast<char>(operand[0] + ('a' - 'A'));
-  } else if (kind == kindName(Kind::Constant) && chance(50)) {
+  } else if (kind == &kinds::kConstant && chance(50)) {
     operand = chance(50) && !constants_.empty() ? one(constants_) : fmt::format("0x{:02X}", below(100));
-  } else if (kind == kindName(Kind::Number) && chance(30)) {
+  } else if (kind == &kinds::kNumber && chance(30)) {
     operand.insert(0, "00");
   }
   return operand;

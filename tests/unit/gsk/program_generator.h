@@ -31,7 +31,7 @@ private:
   void between();
   void declarations();
   std::string bit(bool written);
-  std::string respelled(std::string operand, std::string_view kind);
+  std::string respelled(std::string operand, const frontend::OperandKindInfo* kind);
   void logic(uint32_t values);
   void block(uint32_t contacts, uint32_t depth);
   void coils();

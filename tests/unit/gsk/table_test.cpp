@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "frontend/dialects/gsk/rows/instructions.h"
+#include "frontend/dialects/gsk/rows/operand_kinds.h"
 #include "tests/unit/gsk/compile.h"
 
 namespace rung::gsk::test {
@@ -44,7 +45,7 @@ size_t listLength(const std::string& field) {
 }
 
 TEST(GskTable, AgreesWithTheInventory) {
-  std::ifstream file("frontend/dialects/gsk/rows/instructions.csv");
+  std::ifstream file("tests/unit/gsk/instructions.csv");
   ASSERT_TRUE(file);
   std::string line;
   std::getline(file, line);
@@ -80,11 +81,6 @@ TEST(GskTable, EveryInstructionBuiltHasItsScenario) {
   }
 }
 
-const OperandKindInfo& kindInfo(std::string_view kind) {
-  return *std::find_if(operandKindInfos().begin(), operandKindInfos().end(),
-                       [&](const OperandKindInfo& k) { return k.kind == kind; });
-}
-
 // A call of a function in Level 2, one command a line.
 struct Call {
   const Row& row;
@@ -95,9 +91,9 @@ struct Call {
   explicit Call(const Row& r)
       : row(r), conditions(r.info.pins.size()), coil(r.info.output == Output::Always ? "OUT R20.0\n" : "") {
     for (const auto& operand : r.info.operands.all())
-      parameters.push_back(operand.min <= operand.max && operand.kind == "number"
+      parameters.push_back(operand.min <= operand.max && operand.kind == &kinds::kNumber
                                ? std::to_string(operand.min)
-                               : std::string(kindInfo(operand.kind).good));
+                               : std::string(operand.kind->good));
   }
   std::string text() const {
     std::string text = "FUNC 0\n";
@@ -131,7 +127,7 @@ TEST(GskTable, BadOperandsGiveTheCodeOfTheirKind) {
   for (const Row* row : plainRows()) {
     for (size_t i = 0; i < row->info.operands.size(); ++i) {
       Call call(*row);
-      const OperandKindInfo& kind = kindInfo(row->info.operands[i].kind);
+      const OperandKindInfo& kind = *row->info.operands[i].kind;
       call.parameters[i] = kind.bad;
       EXPECT_TRUE(hasCode(call.codes(), call.functionLine() + 1 + i, kind.badCode))
           << row->info.mnemonic << " " << row->info.operands[i].name << ": " << testing::PrintToString(call.codes());
@@ -143,7 +139,7 @@ TEST(GskTable, RangesOfNumbersAreExact) {
   for (const Row* row : plainRows()) {
     for (size_t i = 0; i < row->info.operands.size(); ++i) {
       const auto& operand = row->info.operands[i];
-      if (operand.kind != "number" || row->hasTable) continue;
+      if (operand.kind != &kinds::kNumber || row->hasTable) continue;
       Call call(*row);
       for (const auto& [value, good] :
            {std::pair(operand.min, true), {operand.max, true}, {operand.min - 1, false}, {operand.max + 1, false}}) {

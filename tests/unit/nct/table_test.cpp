@@ -7,6 +7,7 @@
 
 #include "frontend/dialects/nct/nct.h"
 #include "frontend/dialects/nct/rows/instructions.h"
+#include "frontend/dialects/nct/rows/operand_kinds.h"
 #include "ir/verify/verify.h"
 #include "tests/unit/nct/support.h"
 
@@ -46,7 +47,7 @@ size_t operandsIn(const std::string& column) {
 }
 
 TEST(NctTable, HoldsTheWholeInventory) {
-  std::ifstream file("frontend/dialects/nct/rows/instructions.csv");
+  std::ifstream file("tests/unit/nct/instructions.csv");
   ASSERT_TRUE(file) << "run in the root of the repository";
   std::string line;
   std::getline(file, line);
@@ -126,13 +127,6 @@ TEST(NctTable, ExamplesCompile) {
   }
 }
 
-const OperandKindInfo& kindOf(std::string_view name) {
-  for (const OperandKindInfo& kind : operandKinds())
-    if (kind.kind == name) return kind;
-  ADD_FAILURE() << "undocumented kind " << name;
-  return operandKinds()[0];
-}
-
 // A program with one box whose operands are `operands`.
 Compiled withOperands(const NctInstruction& row, const std::vector<std::string>& operands) {
   std::string box = std::string("{") + std::string(row.info.mnemonic);
@@ -155,10 +149,9 @@ bool has(const Compiled& c, std::string_view code) {
 std::vector<std::string> goodOperands(const NctInstruction& row) {
   std::vector<std::string> good;
   for (const OperandInfo& info : row.info.operands.all()) {
-    const std::string_view kind = info.kind;
-    good.push_back(info.min <= info.max ? "#" + std::to_string(info.min)
-                   : kind == "scope"    ? "Measured"
-                                        : std::string(kindOf(kind).good));
+    good.push_back(info.min <= info.max          ? "#" + std::to_string(info.min)
+                   : info.kind == &kinds::kScope ? "Measured"
+                                                 : std::string(info.kind->good));
   }
   return good;
 }
@@ -181,7 +174,7 @@ TEST(NctTable, GeneratedOperandErrors) {
         EXPECT_TRUE(has(withOperands(row, changed), "operand-count")) << name << ' ' << i;
       }
       changed = good;
-      const OperandKindInfo& kind = kindOf(info.kind);
+      const OperandKindInfo& kind = *info.kind;
       changed[i] = kind.bad;
       if (!kind.bad.empty()) {
         EXPECT_TRUE(has(withOperands(row, changed), kind.badCode)) << name << ' ' << info.name;
@@ -208,9 +201,9 @@ struct Drawn {
 std::string elementOf(const NctInstruction& row, const std::string& modifier) {
   std::vector<std::string> operands = goodOperands(row);
   for (size_t i = 0; i < operands.size(); ++i) {
-    const std::string_view kind = row.info.operands[i].kind;
-    if (kind == "label" || kind == "scope" || kind == "text" || modifier.empty()) continue;
-    operands[i] = modifier + (kind == "bit" ? "7000.05" : "7000");
+    const OperandKind& kind = kindOf(row.info.operands[i]);
+    if (kind.parse != OperandClass::Value || modifier.empty()) continue;
+    operands[i] = modifier + (kind.form == Form::Bit ? "7000.05" : "7000");
     break;
   }
   const std::string name(row.info.mnemonic);
@@ -274,8 +267,8 @@ TEST(NctTable, EveryPinIsDrawnAndHasACondition) {
 TEST(NctTable, ModifiersBelongToContactsAndCoils) {
   for (const NctInstruction& row : allInstructions()) {
     const auto& operands = row.info.operands.all();
-    const bool addressable = std::ranges::any_of(
-        operands, [](const OperandInfo& o) { return o.kind != "label" && o.kind != "scope" && o.kind != "text"; });
+    const bool addressable =
+        std::ranges::any_of(operands, [](const OperandInfo& o) { return kindOf(o).parse == OperandClass::Value; });
     if (!addressable) continue;
     const bool always = row.info.output == Output::Always;
     for (const char* edge : {"@", "%"})

@@ -43,14 +43,15 @@ public:
 private:
   bool lost(const Word& word, const Param& param);
   bool checkOne(const OperandInfo& info, const Word& word, Param& param);
-  bool checkFormat(const Word& word, Param& param, bool selects);
+  bool checkFormat(const Word& word, Param& param);
   bool checkNumber(const OperandInfo& info, const Word& word, Param& param);
   bool checkConstant(const Word& word, Param& param);
   bool checkMask(const Word& word, Param& param);
-  bool checkNamed(const OperandInfo& info, const Word& word, Param& param, char letter);
-  bool checkPlace(const Word& word, Kind kind);
+  bool checkNamed(const OperandInfo& info, const Word& word, Param& param);
+  bool checkValue(const OperandInfo& info, const Word& word, Param& param);
+  bool checkPlace(const Word& word, const OperandKind& kind);
   bool checkAddress(const OperandInfo& info, const Word& word, Param& param);
-  uint32_t lengthOf(Kind kind) const;
+  uint32_t lengthOf(const OperandKind& kind) const;
 
   Context& context_;
   Function& function_;
@@ -59,32 +60,19 @@ private:
   uint32_t blockLength_ = 1;
 };
 
-uint32_t ParameterCheck::lengthOf(Kind kind) const {
-  switch (kind) {
-  case Kind::Word: return 2;
-  case Kind::Dword:
-  case Kind::WorkArea: return 4;
-  case Kind::Data:
-  case Kind::DataTable:
-  case Kind::ConstantOrData: return lengthKnown_ ? function_.length : 1;
-  case Kind::Block: return blockLength_;
-  case Kind::Record: return function_.row->recordBytes;
-  case Kind::Byte:
-  case Kind::Bit:
-  case Kind::Coil:
-  case Kind::Format:
-  case Kind::FormatA:
-  case Kind::Constant:
-  case Kind::Number:
-  case Kind::Mask:
-  case Kind::Label:
-  case Kind::Subprogram: return 1;
+uint32_t ParameterCheck::lengthOf(const OperandKind& kind) const {
+  switch (kind.length) {
+  case Length::OfKind: return kind.bytes;
+  case Length::OfFormat: return lengthKnown_ ? function_.length : 1;
+  case Length::OfNumber: return blockLength_;
+  case Length::OfRow: return function_.row->recordBytes;
   }
   return 1;
 }
 
 // `1`, `2`, `4` with any leading zeros; a00n: up to four digits (P20).
-bool ParameterCheck::checkFormat(const Word& word, Param& param, bool selects) {
+bool ParameterCheck::checkFormat(const Word& word, Param& param) {
+  const bool selects = param.kind->selects;
   const auto digits = parseDigits(word.text);
   const uint64_t value = digits.value_or(0);
   const bool constant = value == 1 || value == 2 || value == 4;
@@ -138,12 +126,13 @@ bool ParameterCheck::checkMask(const Word& word, Param& param) {
 }
 
 // Labels and subprograms. Number 0 stands in two places of the manual and is accepted (P2).
-bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param& param, char letter) {
-  const bool named = !word.text.empty() && text::upper(word.text[0]) == letter;
+bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param& param) {
+  const std::string_view letter = param.kind->written.substr(0, 1);
+  const bool named = !word.text.empty() && text::upper(word.text[0]) == letter[0];
   const auto number = named ? parseDigits(word.text.substr(1)) : std::nullopt;
   if (!number) {
     context_.diagnostics.report(Diag::BadOperand, word.range)
-        << word.text << (letter == 'L' ? "label such as L1" : "subprogram such as P1");
+        << word.text << fmt::format("{} such as {}1", param.kind->name, letter);
     return false;
   }
   param.value = static_cast<int64_t>(*number);
@@ -155,65 +144,56 @@ bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param
   if (param.value == 0) context_.diagnostics.report(Diag::LabelZero, word.range) << info.doc;
   const Control control = function_.row->control;
   context_.analysis.use({.range = word.range,
-                         .scope = letter == 'L' ? "L" : "P",
+                         .scope = letter,
                          .number = static_cast<uint32_t>(param.value),
                          .defines = control == Control::Lbl || control == Control::Sp});
   return true;
 }
 
-// A data table and a work area have an area of their own, whatever their length.
-bool ParameterCheck::checkPlace(const Word& word, Kind kind) {
-  if (kind != Kind::DataTable && kind != Kind::WorkArea) return true;
+// Some kinds have an area of their own, whatever their length.
+bool ParameterCheck::checkPlace(const Word& word, const OperandKind& kind) {
+  if (!kind.area) return true;
   const auto first = byteOperand(context_, word, 1);
   if (!first) return false;
-  const bool table = kind == Kind::DataTable;
-  if (first->area == (table ? Area::D : Area::R)) return true;
-  context_.diagnostics.report(table ? Diag::NotADataTable : Diag::WorkAreaNotInR, word.range) << word.text;
+  if (first->area == *kind.area) return true;
+  context_.diagnostics.report(kind.elsewhere, word.range) << word.text;
   return false;
 }
 
 bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Param& param) {
-  if (!checkPlace(word, param.kind)) return false;
-  const uint32_t length = lengthOf(param.kind);
+  if (!checkPlace(word, *param.kind)) return false;
+  const uint32_t length = lengthOf(*param.kind);
   const auto address = byteOperand(context_, word, length);
   if (!address) return false;
   param.isAddress = true;
   param.address = *address;
   context_.analysis.use(
       {.range = word.range, .base = address->name, .place = placeOf(*address, length), .access = info.access});
-  param.bytes = param.kind == Kind::DataTable ? areaInfo(address->area).bytes - address->byte : length;
+  param.bytes = param.kind->rest ? areaInfo(address->area).bytes - address->byte : length;
   return info.access == Access::Read || checkWritable(context_, *address, length, word.range);
 }
 
 // An operand without a place was reported where it was read.
 bool ParameterCheck::lost(const Word& word, const Param& param) {
   if (word.range.valid()) return false;
-  if (param.kind == Kind::Format || param.kind == Kind::FormatA) lengthKnown_ = false;
+  if (param.kind->parse == OperandClass::Format) lengthKnown_ = false;
   return true;
 }
 
+bool ParameterCheck::checkValue(const OperandInfo& info, const Word& word, Param& param) {
+  const OperandKind& kind = *param.kind;
+  if (kind.constant && kind.address && !lengthKnown_) return false; // whether it is a constant is not known either
+  const bool isConstant = kind.constant && (!kind.address || constantOperand_);
+  return isConstant ? checkConstant(word, param) : checkAddress(info, word, param);
+}
+
 bool ParameterCheck::checkOne(const OperandInfo& info, const Word& word, Param& param) {
-  switch (param.kind) {
-  case Kind::Format: return checkFormat(word, param, false);
-  case Kind::FormatA: return checkFormat(word, param, true);
-  case Kind::Constant: return checkConstant(word, param);
-  case Kind::Number: return checkNumber(info, word, param);
-  case Kind::Mask: return checkMask(word, param);
-  case Kind::Label: return checkNamed(info, word, param, 'L');
-  case Kind::Subprogram: return checkNamed(info, word, param, 'P');
-  case Kind::ConstantOrData:
-    if (!lengthKnown_) return false; // whether it is a constant is not known either
-    return constantOperand_ ? checkConstant(word, param) : checkAddress(info, word, param);
-  case Kind::Bit:
-  case Kind::Coil:
-  case Kind::Byte:
-  case Kind::Word:
-  case Kind::Dword:
-  case Kind::Data:
-  case Kind::Block:
-  case Kind::DataTable:
-  case Kind::WorkArea:
-  case Kind::Record: return checkAddress(info, word, param);
+  switch (param.kind->parse) {
+  case OperandClass::Value: return checkValue(info, word, param);
+  case OperandClass::Number: return checkNumber(info, word, param);
+  case OperandClass::Mask: return checkMask(word, param);
+  case OperandClass::Named: return checkNamed(info, word, param);
+  case OperandClass::Format: return checkFormat(word, param);
   }
   return false;
 }
@@ -230,7 +210,7 @@ bool ParameterCheck::check(const std::vector<Word>& words) {
   }
   bool good = true;
   for (size_t i = 0; i < words.size(); ++i) {
-    Param param{.kind = kindOf(operands[i]), .range = words[i].range};
+    Param param{.kind = &kindOf(operands[i]), .range = words[i].range};
     param.bad = lost(words[i], param) || !checkOne(operands[i], words[i], param);
     good = good && !param.bad;
     function_.params.push_back(param);

@@ -1,7 +1,6 @@
 // The instruction table of the dialect: one row an instruction, with its lowering. Everything that is data about an
 // instruction stands here only; README.md tells how to add one.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -11,35 +10,6 @@
 namespace rung::gsk {
 
 class FunctionLowering;
-
-// Classes of operands; the rows name them by kindName().
-enum class Kind : uint8_t {
-  Bit,            // bit to be read
-  Coil,           // bit to be written
-  Format,         // 1, 2 or 4: length in bytes
-  FormatA,        // a00n: 0 constant or 1 address, length
-  Byte,           // address of 1 byte
-  Word,           // address of 2 bytes
-  Dword,          // address of 4 bytes
-  Data,           // address of as many bytes as the format says
-  Block,          // address of as many bytes as the first operand says (MOVN)
-  Constant,       // constant that fits the format
-  ConstantOrData, // as the format's `a` says
-  Number,         // number in the range of the row
-  Mask,           // four binary digits
-  Label,          // L1-L9999
-  Subprogram,     // P1-P512
-  DataTable,      // address in D
-  WorkArea,       // address of 4 bytes in R
-  Record,         // address of as many bytes as Row::recordBytes says
-};
-inline constexpr int kKindCount = 18;
-inline constexpr std::array<std::string_view, kKindCount> kKindNames = {
-    "bit",       "coil",     "format",           "format-a", "byte", "word",  "dword",      "data",
-    "block",     "constant", "constant-or-data", "number",   "mask", "label", "subprogram", "data-table",
-    "work-area", "record"};
-constexpr std::string_view kindName(Kind kind) { return kKindNames[static_cast<size_t>(kind)]; }
-Kind kindOf(const frontend::OperandInfo& operand);
 
 // Instructions that shape the program; everything else is Plain.
 enum class Control : uint8_t { Plain, End1, End2, Sp, Spe, Jmp, Jmpe, Jmpb, Jmpc, Lbl, Call, CallU, Com, Come };
@@ -67,6 +37,5 @@ const Row* findFunction(std::string_view mnemonic);
 const frontend::InstructionInfo* findBox(std::string_view mnemonic);
 
 std::span<const frontend::InstructionInfo* const> instructionInfos();
-std::span<const frontend::OperandKindInfo> operandKindInfos();
 
 } // namespace rung::gsk

@@ -5,6 +5,7 @@
 
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
+#include "frontend/dialects/gsk/rows/operand_kinds.h"
 
 namespace rung::gsk {
 
@@ -14,29 +15,31 @@ using frontend::Output;
 using frontend::PinInfo;
 using frontend::Placement;
 
-constexpr OperandInfo in(std::string_view name, Kind kind, std::string_view doc = {}) {
-  return {.name = name, .kind = kindName(kind), .access = Access::Read, .doc = doc};
+constexpr OperandInfo in(std::string_view name, const OperandKind& kind, std::string_view doc = {}) {
+  return {.name = name, .kind = &kind, .access = Access::Read, .doc = doc};
 }
-constexpr OperandInfo out(std::string_view name, Kind kind, std::string_view doc = {}) {
-  return {.name = name, .kind = kindName(kind), .access = Access::Write, .doc = doc};
+constexpr OperandInfo out(std::string_view name, const OperandKind& kind, std::string_view doc = {}) {
+  return {.name = name, .kind = &kind, .access = Access::Write, .doc = doc};
 }
-constexpr OperandInfo inout(std::string_view name, Kind kind, std::string_view doc = {}) {
-  return {.name = name, .kind = kindName(kind), .access = Access::ReadWrite, .doc = doc};
+constexpr OperandInfo inout(std::string_view name, const OperandKind& kind, std::string_view doc = {}) {
+  return {.name = name, .kind = &kind, .access = Access::ReadWrite, .doc = doc};
 }
 constexpr OperandInfo number(std::string_view name, int64_t min, int64_t max, std::string_view doc = {}) {
-  return {.name = name, .kind = "number", .access = Access::None, .doc = doc, .min = min, .max = max};
+  return {.name = name, .kind = &kinds::kNumber, .access = Access::None, .doc = doc, .min = min, .max = max};
 }
 constexpr OperandInfo record(std::string_view name, Access access, std::string_view doc) {
-  return {.name = name, .kind = kindName(Kind::Record), .access = access, .doc = doc};
+  return {.name = name, .kind = &kinds::kRecord, .access = access, .doc = doc};
 }
 inline constexpr OperandInfo kFormat = {
-    .name = "format", .kind = "format", .access = Access::None, .doc = "length in bytes"};
-inline constexpr OperandInfo kFormatA = {
-    .name = "format", .kind = "format-a", .access = Access::None, .doc = "constant or address, and length in bytes"};
+    .name = "format", .kind = &kinds::kFormat, .access = Access::None, .doc = "length in bytes"};
+inline constexpr OperandInfo kFormatA = {.name = "format",
+                                         .kind = &kinds::kFormatA,
+                                         .access = Access::None,
+                                         .doc = "constant or address, and length in bytes"};
 inline constexpr OperandInfo kLabel = {
-    .name = "label", .kind = "label", .access = Access::None, .doc = "L1-L9999", .min = 1, .max = 9999};
+    .name = "label", .kind = &kinds::kLabel, .access = Access::None, .doc = "L1-L9999", .min = 1, .max = 9999};
 inline constexpr OperandInfo kSubprogram = {
-    .name = "subprogram", .kind = "subprogram", .access = Access::None, .doc = "P1-P512", .min = 1, .max = 512};
+    .name = "subprogram", .kind = &kinds::kSubprogram, .access = Access::None, .doc = "P1-P512", .min = 1, .max = 512};
 
 inline constexpr PinInfo kAct = {.name = "ACT", .doc = "1: execute"};
 inline constexpr PinInfo kRst = {.name = "RST", .doc = "1: the output becomes 0; goes before ACT (P17)"};
@@ -56,6 +59,6 @@ constexpr Row basic(std::string_view mnemonic, std::string_view title, OperandIn
   row.info.doc = doc;
   return row;
 }
-inline constexpr OperandInfo kBitRead = in("bit", Kind::Bit);
+inline constexpr OperandInfo kBitRead = in("bit", kinds::kBit);
 
 } // namespace rung::gsk

@@ -21,7 +21,7 @@ inline constexpr Row kNcRows[] = {
               .operands = {record("control data", Access::ReadWrite,
                                   "10 bytes and the data: words function, end code, length L, number M, attribute N, "
                                   "then L bytes"),
-                           out("result", Kind::Byte, "bit 0: an error")},
+                           out("result", kinds::kByte, "bit 0: an error")},
               .output = Output::Always,
               .stateful = true,
               .ref = "5.45, l.3089",
@@ -45,7 +45,7 @@ inline constexpr Row kNcRows[] = {
               .operands = {record("control data", Access::ReadWrite,
                                   "10 bytes and the data: words function, end code, length L, number M, attribute N, "
                                   "then L bytes, signed"),
-                           out("result", Kind::Byte, "bit 0: an error")},
+                           out("result", kinds::kByte, "bit 0: an error")},
               .output = Output::Always,
               .stateful = true,
               .ref = "5.46, l.3148",
@@ -63,7 +63,7 @@ inline constexpr Row kNcRows[] = {
               .operands = {number("group", 1, 8, "1 A to 8 H"),
                            record("control data", Access::Read,
                                   "8 bytes: +1 command (bit 7 EMSBK), +2 data 1 (2 bytes), +4 data 2 (4 bytes)"),
-                           out("result", Kind::Byte, "bit 5: unknown command")},
+                           out("result", kinds::kByte, "bit 5: unknown command")},
               .output = Output::Always,
               .stateful = true,
               .ref = "5.47, l.3241",
@@ -80,8 +80,8 @@ inline constexpr Row kNcRows[] = {
               .number = 48,
               .pins = {kAct},
               .operands = {record("zones", Access::Read, "29 bytes: axis number, then limits I to VII of 4 bytes"),
-                           out("area", Kind::Byte, "bit 7 the lowest zone, bit 0 the highest"),
-                           out("result", Kind::Byte, "bit 0: no such axis, bit 1: limits not ascending")},
+                           out("area", kinds::kByte, "bit 7 the lowest zone, bit 0 the highest"),
+                           out("result", kinds::kByte, "bit 0: no such axis, bit 1: limits not ascending")},
               .ref = "5.48, l.3397",
               .doc = "The bit of the zone that holds the machine position of the axis becomes 1, the others 0. Limits "
                      "are signed, in 0.001 mm, and ascend; a position at a limit is in the zone above; limits may be "
@@ -96,7 +96,7 @@ inline constexpr Row kNcRows[] = {
               .pins = {kAct},
               .operands = {record("control data", Access::Read,
                                   "9 bytes: axis number, lower limit (4 bytes), upper limit (4 bytes)"),
-                           out("result", Kind::Byte, "bit 0: no such axis, bit 1: limits not ascending")},
+                           out("result", kinds::kByte, "bit 0: no such axis, bit 1: limits not ascending")},
               .output = Output::Always,
               .stateful = true,
               .ref = "5.49, l.3490",

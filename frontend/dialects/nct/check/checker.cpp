@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/nct/read/operand_parser.h"
+#include "frontend/dialects/nct/rows/operand_kinds.h"
 #include "ir/support/similar.h"
 
 namespace rung::nct {
@@ -14,19 +15,6 @@ using frontend::OperandInfo;
 using frontend::Output;
 using frontend::Placement;
 using ladder::ElementKind;
-
-enum class Class : uint8_t { Bit, Word, Double, Label, Scope, Other };
-
-Class classOf(std::string_view kind) {
-  if (kind == "bit") return Class::Bit;
-  if (kind == "label") return Class::Label;
-  if (kind == "double" || kind == "udouble" || kind == "float") return Class::Double;
-  if (kind == "scope") return Class::Scope;
-  if (kind == "text") return Class::Other;
-  return Class::Word;
-}
-bool takesConstant(std::string_view kind) { return kind == "int" || kind == "dec" || kind == "hex" || kind == "float"; }
-bool inUserMemory(std::string_view kind) { return kind == "uword" || kind == "udouble"; }
 
 std::string_view describe(Form form) {
   switch (form) {
@@ -45,14 +33,6 @@ std::string_view describe(ConstantKind kind) {
   case ConstantKind::Real: return "a floating-point constant";
   }
   return "";
-}
-// What a kind of operand takes, in the words of a message.
-std::string_view wanted(std::string_view kind) {
-  if (kind == "int") return "#decimal, #$hexadecimal or a word";
-  if (kind == "dec") return "#decimal or a word";
-  if (kind == "hex") return "#$hexadecimal or a word";
-  if (kind == "float") return "*floating-point or a double";
-  return "a word";
 }
 
 // How messages name an element.
@@ -245,17 +225,15 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
   if (element.kind == ElementKind::Box && !checkCount(*typed.rung, element, row)) return false;
   bool ok = true;
   for (size_t i = 0; i < words.size(); ++i) {
-    switch (classOf(row.info.operands[i].kind)) {
-    case Class::Label: ok = readLabel(typedElement, words[i]) && ok; continue;
-    case Class::Scope:
+    switch (kindOf(row.info.operands[i]).parse) {
+    case OperandClass::Label: ok = readLabel(typedElement, words[i]) && ok; continue;
+    case OperandClass::Scope:
       typed.operands.push_back(parseScopeSymbol(words[i], diagnostics_));
       ++typedElement.operandCount;
       ok = typed.operands.back().form != Form::Bad && ok;
       continue;
-    case Class::Other: continue;
-    case Class::Bit:
-    case Class::Word:
-    case Class::Double: break;
+    case OperandClass::Text: continue;
+    case OperandClass::Value: break;
     }
     if (element.kind == ElementKind::Box) {
       typed.operands.push_back(parseOperand(words[i], symbols_, diagnostics_));
@@ -280,14 +258,14 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
 // --- operands
 // -----------------------------------------------------------------------------------------------------------
 bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Operand& operand) {
-  const OperandInfo& info = row.info.operands[index];
+  const OperandKind& kind = kindOf(row.info.operands[index]);
   const std::string_view text = operand.source->text;
   const SourceRange range = operand.source->range;
   if (operand.form == Form::Constant) {
-    if (takesConstant(info.kind)) return checkConstant(row, index, operand);
+    if (kind.constants != 0) return checkConstant(row, index, operand);
     if (operand.fromSymbol)
       diagnostics_.report(Diag::SymbolKindMismatch, range)
-          << text << "a constant" << (info.kind == "bit" ? "a bit" : "an address");
+          << text << "a constant" << (kind.form == Form::Bit ? "a bit" : "an address");
     else
       diagnostics_.report(Diag::OperandNotRegister, range) << static_cast<int>(index + 1)
                                                            << (row.shape == Shape::Contact ? "a contact"
@@ -295,9 +273,8 @@ bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Op
                                                                                            : row.info.mnemonic);
     return false;
   }
-  const Form needed = classOf(info.kind) == Class::Bit ? Form::Bit : Form::Word;
-  if (operand.form != needed) {
-    diagnostics_.report(Diag::SymbolKindMismatch, range) << text << describe(operand.form) << describe(needed);
+  if (operand.form != kind.form) {
+    diagnostics_.report(Diag::SymbolKindMismatch, range) << text << describe(operand.form) << describe(kind.form);
     return false;
   }
   return checkRegister(row, index, operand);
@@ -305,9 +282,10 @@ bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Op
 
 bool RungChecker::checkRegister(const NctInstruction& row, size_t index, const Operand& operand) {
   const OperandInfo& info = row.info.operands[index];
+  const OperandKind& kind = kindOf(info);
   const Address& address = operand.address;
   const SourceRange range = operand.source->range;
-  if (classOf(info.kind) == Class::Double) {
+  if (kind.words == 2) {
     if (address.word == kWords - 1 && address.isFixed()) {
       diagnostics_.report(Diag::DoubleAt9999, range);
       return false;
@@ -318,7 +296,7 @@ bool RungChecker::checkRegister(const NctInstruction& row, size_t index, const O
     }
   }
   const uint32_t userMemory = symbols_.config().plcNvram;
-  if (inUserMemory(info.kind) && address.isFixed() && address.word < userMemory) {
+  if (kind.userMemory && address.isFixed() && address.word < userMemory) {
     diagnostics_.report(Diag::UserAreaRequired, range) << operand.source->text << fmt::format("{:04}", userMemory);
     return false;
   }
@@ -333,7 +311,7 @@ bool RungChecker::checkDestination(const OperandInfo& info, const Operand& opera
     diagnostics_.report(Diag::WriteToFlags, range);
     return false;
   }
-  const bool isDouble = classOf(info.kind) == Class::Double;
+  const bool isDouble = kindOf(info).words == 2;
   if (symbols_.isInputWord(address.word) || (isDouble && symbols_.isInputWord(address.word + 1)))
     diagnostics_.report(Diag::WriteToInput, range).severity(Severity::Warning)
         << operand.source->text
@@ -344,10 +322,8 @@ bool RungChecker::checkDestination(const OperandInfo& info, const Operand& opera
 
 bool RungChecker::checkConstant(const NctInstruction& row, size_t index, const Operand& operand) {
   const OperandInfo& info = row.info.operands[index];
-  const ConstantKind kind = operand.constant.kind;
-  const bool fits = (kind == ConstantKind::Decimal && (info.kind == "int" || info.kind == "dec")) ||
-                    (kind == ConstantKind::Hex && (info.kind == "int" || info.kind == "hex")) ||
-                    (kind == ConstantKind::Real && info.kind == "float");
+  const ConstantKind is = operand.constant.kind;
+  const bool fits = (kindOf(info).constants & setOf(is)) != 0;
   const int64_t value = operand.constant.integer;
   if (fits && info.min <= info.max && (value < info.min || value > info.max)) {
     diagnostics_.report(Diag::ConstantOutOfRange, operand.source->range)
@@ -356,7 +332,7 @@ bool RungChecker::checkConstant(const NctInstruction& row, size_t index, const O
   }
   if (!fits)
     diagnostics_.report(Diag::OperandTypeMismatch, operand.source->range)
-        << operand.source->text << describe(kind) << row.info.mnemonic << wanted(info.kind);
+        << operand.source->text << describe(is) << row.info.mnemonic << kindOf(info).wanted;
   return fits;
 }
 
@@ -406,7 +382,7 @@ std::string_view computedPart(const Operand& operand) {
 // Of a bit whose number is in a register the word.
 frontend::NamedPlace placeOf(const OperandInfo& info, const Address& address) {
   if (address.isBit && address.bitRegister == kNoRegister) return {"M", address.word * 32 + address.bit, 1};
-  return {"M", address.word * 32, classOf(info.kind) == Class::Double ? 64u : 32u};
+  return {"M", address.word * 32, kindOf(info).words * 32};
 }
 
 void RungChecker::note(const OperandInfo& info, const Operand& operand) {

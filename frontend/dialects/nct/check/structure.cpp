@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/dialects/nct/rows/operand_kinds.h"
 #include "frontend/sema/call_graph.h"
 #include "ir/support/similar.h"
 
@@ -30,7 +31,8 @@ bool hidesStructure(const TypedRung& rung, const SourceManager& sources) {
     if (element.element->kind == ladder::ElementKind::Error)
       return std::ranges::any_of(ladder::boxWords(sources.text(element.element->range)), looksStructural);
     if (element.row == nullptr) return looksStructural(element.element->mnemonic);
-    return element.row->info.operands.size() == 1 && element.row->info.operands[0].kind == "label" && !element.label;
+    return element.row->info.operands.size() == 1 &&
+           kindOf(element.row->info.operands[0]).parse == OperandClass::Label && !element.label;
   };
   return std::ranges::any_of(rung.elements, hides);
 }

@@ -13,7 +13,6 @@ namespace rung::nct {
 namespace {
 
 using frontend::InstructionInfo;
-using frontend::OperandKindInfo;
 
 constexpr size_t kRowCount = std::size(kBitRows) + std::size(kWordRows) + std::size(kFloatRows) +
                              std::size(kMessageRows) + std::size(kControlRows) + std::size(kNcRows);
@@ -61,24 +60,6 @@ constexpr bool complete() {
 }
 static_assert(complete(), "every row says what it is, where the manual describes it, and has a name of its own");
 
-constexpr OperandKindInfo kKinds[] = {
-    {"bit",
-     "A bit: 0056.17, a bit symbol, 0056:REG (the bit's number in a register), each with ,#3 or ,REG to move by whole "
-     "words.",
-     "7000.05", "7000", "symbol-kind-mismatch"},
-    {"word", "A double word: 0056, a word symbol, with ,#3 or ,REG.", "7000", "#5", "operand-not-register"},
-    {"uword", "A double word of the user memory, from PLCNVRAM on.", "7000", "2000", "user-area-required"},
-    {"double", "The first of two words of a double; an index is even.", "7000", "9999", "double-at-9999"},
-    {"udouble", "The first of two words of a double in user memory.", "7000", "2000", "user-area-required"},
-    {"int", "#14, #-25, #$FF or a word.", "#-25", "*1.5", "operand-type-mismatch"},
-    {"dec", "#14 or a word.", "#14", "#$FF", "operand-type-mismatch"},
-    {"hex", "#$FF or a word.", "#$FF", "#14", "operand-type-mismatch"},
-    {"float", "*3.5 or a double.", "*3.5", "#3", "operand-type-mismatch"},
-    {"label", "#0 to #99.", "#5", "#100", "label-out-of-range"},
-    {"scope", "The name of a quantity of the NC.", "ActPosAx", "ActPosXx", "unknown-scope-symbol"},
-    {"text", "A text in quotes.", "\"Spindle\"", "", ""},
-};
-
 constexpr size_t indexOf(std::string_view mnemonic) {
   for (size_t i = 0; i < kRowCount; ++i)
     if (kRows[i].info.mnemonic == mnemonic) return i;
@@ -89,7 +70,6 @@ constexpr size_t indexOf(std::string_view mnemonic) {
 
 std::span<const NctInstruction> allInstructions() { return kRows; }
 std::span<const InstructionInfo* const> allInfos() { return kInfos; }
-std::span<const OperandKindInfo> operandKinds() { return kKinds; }
 
 const NctInstruction* findBox(std::string_view mnemonic) {
   const auto found =

@@ -42,7 +42,6 @@ struct NctInstruction {
 // In the order of the manual.
 std::span<const NctInstruction> allInstructions();
 std::span<const frontend::InstructionInfo* const> allInfos();
-std::span<const frontend::OperandKindInfo> operandKinds();
 
 // A box by its mnemonic or one of its other spellings, also section (SEC); null for contacts and coils, and when there
 // is none.

@@ -2,6 +2,7 @@
 #pragma once
 #include "frontend/dialects/nct/lower/lowering.h"
 #include "frontend/dialects/nct/rows/instructions.h"
+#include "frontend/dialects/nct/rows/operand_kinds.h"
 
 namespace rung::nct {
 
@@ -16,7 +17,7 @@ inline constexpr NctInstruction kBitRows[] = {
               .title = "open contact on a bit",
               .group = "bit",
               .pins = {P{"IN", "power from the left"}},
-              .operands = {O{"Address", "bit", Access::Read,
+              .operands = {O{"Address", &kinds::kBit, Access::Read,
                              "direct, indirect or indexed; @, % or, in INT0, ! before it"}},
               .output = Output::Always,
               .placement = Placement::Anywhere,
@@ -33,7 +34,7 @@ inline constexpr NctInstruction kBitRows[] = {
               .title = "open contact on a double word",
               .group = "bit",
               .pins = {P{"IN", "power from the left"}},
-              .operands = {O{"Address", "word", Access::Read, "may be indexed; @ or % before it"}},
+              .operands = {O{"Address", &kinds::kWord, Access::Read, "may be indexed; @ or % before it"}},
               .output = Output::Always,
               .placement = Placement::Anywhere,
               .stateful = true,
@@ -48,7 +49,7 @@ inline constexpr NctInstruction kBitRows[] = {
               .title = "closed contact on a bit",
               .group = "bit",
               .pins = {P{"IN", "power from the left"}},
-              .operands = {O{"Address", "bit", Access::Read,
+              .operands = {O{"Address", &kinds::kBit, Access::Read,
                              "direct, indirect or indexed; @, % or, in INT0, ! before it"}},
               .output = Output::Always,
               .placement = Placement::Anywhere,
@@ -64,7 +65,7 @@ inline constexpr NctInstruction kBitRows[] = {
               .title = "closed contact on a double word",
               .group = "bit",
               .pins = {P{"IN", "power from the left"}},
-              .operands = {O{"Address", "word", Access::Read, "may be indexed; @ or % before it"}},
+              .operands = {O{"Address", &kinds::kWord, Access::Read, "may be indexed; @ or % before it"}},
               .output = Output::Always,
               .placement = Placement::Anywhere,
               .stateful = true,
@@ -78,7 +79,7 @@ inline constexpr NctInstruction kBitRows[] = {
               .title = "coil",
               .group = "bit",
               .pins = {P{"IN", "condition"}},
-              .operands = {O{"Address", "bit", Access::Write, "may be indexed; in INT0 ! before it"}},
+              .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed; in INT0 ! before it"}},
               .ref = "6.1.5, l.918",
               .doc = "The bit becomes 1 with power and 0 without it, in every evaluation.",
               .example = "|--[START]--(MOTOR)"},
@@ -90,7 +91,7 @@ inline constexpr NctInstruction kBitRows[] = {
               .title = "negated coil",
               .group = "bit",
               .pins = {P{"IN", "condition"}},
-              .operands = {O{"Address", "bit", Access::Write, "may be indexed; in INT0 ! before it"}},
+              .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed; in INT0 ! before it"}},
               .ref = "6.1.6, l.952",
               .doc = "The bit becomes 0 with power and 1 without it, in every evaluation.",
               .example = "|--[RUNNING]--(/IDLE)"},
@@ -102,7 +103,7 @@ inline constexpr NctInstruction kBitRows[] = {
               .title = "set a bit",
               .group = "bit",
               .pins = {P{"IN", "condition"}},
-              .operands = {O{"Address", "bit", Access::Write, "may be indexed; in INT0 ! before it"}},
+              .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed; in INT0 ! before it"}},
               .ref = "6.1.7, l.986",
               .doc = "With power the bit becomes 1, without it nothing changes.",
               .example = "|--[START]--(S LATCH)"},
@@ -114,7 +115,7 @@ inline constexpr NctInstruction kBitRows[] = {
               .title = "reset a bit",
               .group = "bit",
               .pins = {P{"IN", "condition"}},
-              .operands = {O{"Address", "bit", Access::Write, "may be indexed; in INT0 ! before it"}},
+              .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed; in INT0 ! before it"}},
               .ref = "6.1.8, l.1019",
               .doc = "With power the bit becomes 0, without it nothing changes.",
               .example = "|--[STOP]--(R LATCH)"},
@@ -126,7 +127,7 @@ inline constexpr NctInstruction kBitRows[] = {
               .title = "pulse on the rising edge of the condition",
               .group = "bit",
               .pins = {P{"IN", "condition", true}},
-              .operands = {O{"Address", "bit", Access::Write, "may be indexed"}},
+              .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed"}},
               .stateful = true,
               .ref = "6.1.9, l.1052",
               .doc = "The bit is 1 in the evaluation in which the condition turns TRUE and 0 in all others: a pulse of "
@@ -139,7 +140,7 @@ inline constexpr NctInstruction kBitRows[] = {
               .title = "pulse on the falling edge of the condition",
               .group = "bit",
               .pins = {P{"IN", "condition", true}},
-              .operands = {O{"Address", "bit", Access::Write, "may be indexed"}},
+              .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed"}},
               .stateful = true,
               .ref = "6.1.10, l.1085",
               .doc = "The bit is 1 in the evaluation in which the condition turns FALSE and 0 in all others.",
@@ -151,8 +152,11 @@ inline constexpr NctInstruction kBitRows[] = {
               .title = "title of a section",
               .group = "structure",
               .pins = {P{"IN", "the left rail"}},
-              .operands = {O{
-                  .name = "Remark", .kind = "text", .access = Access::None, .doc = "text in quotes", .optional = true}},
+              .operands = {O{.name = "Remark",
+                             .kind = &kinds::kText,
+                             .access = Access::None,
+                             .doc = "text in quotes",
+                             .optional = true}},
               .placement = Placement::AtRail,
               .ref = "6.2.2, l.1193",
               .doc =

@@ -15,7 +15,7 @@ constexpr NctInstruction controlRow(RowText text, std::string_view operand, Plac
                               .doc = text.doc,
                               .example = text.example},
                      .flow = flow};
-  if (!operand.empty()) row.info.operands = {O{operand, "label", Access::None, "#0 to #99"}};
+  if (!operand.empty()) row.info.operands = {O{operand, &kinds::kLabel, Access::None, "#0 to #99"}};
   return row;
 }
 

@@ -10,9 +10,9 @@ constexpr NctInstruction floatBinaryRow(RowText text, std::string_view first, st
                    .title = text.title,
                    .group = "float",
                    .pins = {kEnable},
-                   .operands = {O{"Result", "double", Access::Write, "where the result goes"},
-                                O{first, "float", Access::Read, "constant or register"},
-                                O{second, "float", Access::Read, "constant or register"}},
+                   .operands = {O{"Result", &kinds::kDouble, Access::Write, "where the result goes"},
+                                O{first, &kinds::kFloat, Access::Read, "constant or register"},
+                                O{second, &kinds::kFloat, Access::Read, "constant or register"}},
                    .output = Output::Optional,
                    .ref = text.ref,
                    .doc = text.doc,
@@ -22,16 +22,17 @@ constexpr NctInstruction floatBinaryRow(RowText text, std::string_view first, st
 }
 
 constexpr NctInstruction floatRow(RowText text, int variant) {
-  return convertRow(text, "float", "double", "float", lowerFloatFunction, variant);
+  return convertRow(text, "float", kinds::kDouble, kinds::kFloat, lowerFloatFunction, variant);
 }
 
-constexpr NctInstruction compareRow(RowText text, std::string_view valueKind, std::string_view dataKind, Lower lower) {
+constexpr NctInstruction compareRow(RowText text, const OperandKind& valueKind, const OperandKind& dataKind,
+                                    Lower lower) {
   return {.info = {.mnemonic = text.mnemonic,
                    .title = text.title,
                    .group = "compare",
                    .pins = {kEnable},
-                   .operands = {O{"Value", valueKind, Access::Read, "left side, a register"},
-                                O{"Data", dataKind, Access::Read, "right side"}},
+                   .operands = {O{"Value", &valueKind, Access::Read, "left side, a register"},
+                                O{"Data", &dataKind, Access::Read, "right side"}},
                    .output = Output::None,
                    .ref = text.ref,
                    .doc = text.doc,
@@ -39,14 +40,14 @@ constexpr NctInstruction compareRow(RowText text, std::string_view valueKind, st
           .lower = lower};
 }
 
-constexpr NctInstruction compareContactRow(RowText text, std::string_view valueKind, std::string_view dataKind,
+constexpr NctInstruction compareContactRow(RowText text, const OperandKind& valueKind, const OperandKind& dataKind,
                                            Lower lower, int variant) {
   return {.info = {.mnemonic = text.mnemonic,
                    .title = text.title,
                    .group = "compare-contact",
                    .pins = {P{"IN", "power from the left"}},
-                   .operands = {O{"Value", valueKind, Access::Read, "left side, a register"},
-                                O{"Data", dataKind, Access::Read, "right side"}},
+                   .operands = {O{"Value", &valueKind, Access::Read, "left side, a register"},
+                                O{"Data", &dataKind, Access::Read, "right side"}},
                    .output = Output::Always,
                    .placement = Placement::Anywhere,
                    .ref = text.ref,
@@ -56,10 +57,10 @@ constexpr NctInstruction compareContactRow(RowText text, std::string_view valueK
           .variant = variant};
 }
 constexpr NctInstruction intContact(RowText text, int variant) {
-  return compareContactRow(text, "word", "int", lowerCompareContact, variant);
+  return compareContactRow(text, kinds::kWord, kinds::kInteger, lowerCompareContact, variant);
 }
 constexpr NctInstruction floatContact(RowText text, int variant) {
-  return compareContactRow(text, "double", "float", lowerFloatContact, variant);
+  return compareContactRow(text, kinds::kDouble, kinds::kFloat, lowerFloatContact, variant);
 }
 
 inline constexpr NctInstruction kFloatRows[] = {
@@ -115,33 +116,33 @@ inline constexpr NctInstruction kFloatRows[] = {
     convertRow({"BIN", "BCD to binary", "6.11.1, l.2449",
                 "Eight BCD digits become an integer. A digit above 9: FL_ER, not executed.",
                 "|--[N_ON]--{BIN 7000 #$1234}"},
-               "conversion", "word", "hex", lowerBin, 0),
+               "conversion", kinds::kWord, kinds::kHex, lowerBin, 0),
     convertRow({"BCD", "binary to BCD", "6.11.2, l.2464",
                 "An integer of 0 to 99999999 becomes eight BCD digits. Others: FL_ER, not executed.",
                 "|--[N_ON]--{BCD 7000 7001}"},
-               "conversion", "word", "int", lowerBcd, 0),
+               "conversion", kinds::kWord, kinds::kInteger, lowerBcd, 0),
     convertRow({"FLT", "integer to double", "6.11.3, l.2475", "Result := the signed integer as a double.",
                 "|--[N_ON]--{FLT 7000 7002}"},
-               "conversion", "double", "int", lowerFlt, 0),
+               "conversion", kinds::kDouble, kinds::kInteger, lowerFlt, 0),
     convertRow({"FIX", "double to integer", "6.11.4, l.2494",
                 "Result := the double, rounded toward zero. Outside 32 bits: FL_ER, not executed.",
                 "|--[N_ON]--{FIX 7000 7002}"},
-               "conversion", "word", "float", lowerFix, 0),
+               "conversion", kinds::kWord, kinds::kFloat, lowerFix, 0),
     convertRow(
         {"DEG", "radians to degrees", "6.11.5, l.2519", "Result := operand * 180 / pi.", "|--[N_ON]--{DEG 7000 7002}"},
-        "conversion", "double", "float", lowerAngle, kToDegrees),
+        "conversion", kinds::kDouble, kinds::kFloat, lowerAngle, kToDegrees),
     convertRow(
         {"RAD", "degrees to radians", "6.11.6, l.2534", "Result := operand * pi / 180.", "|--[N_ON]--{RAD 7000 7002}"},
-        "conversion", "double", "float", lowerAngle, kToRadians),
+        "conversion", kinds::kDouble, kinds::kFloat, lowerAngle, kToRadians),
 
     compareRow({"CMP", "compare two integers", "6.12.1, l.2553",
                 "Sets exactly one of FL_GT, FL_EQ and FL_LT; they keep their values until the next CMP or FCMP.",
                 "|--[N_ON]--{CMP 7000 #5}"},
-               "word", "int", lowerCompare),
+               kinds::kWord, kinds::kInteger, lowerCompare),
     compareRow({"FCMP", "compare two doubles", "6.12.1, l.2553",
                 "Sets exactly one of FL_GT, FL_EQ and FL_LT. With a NaN: none of them, and FL_ER.",
                 "|--[N_ON]--{FCMP 7000 *5.0}"},
-               "double", "float", lowerFloatCompare),
+               kinds::kDouble, kinds::kFloat, lowerFloatCompare),
 
     intContact({"CLT", "contact a < b", "6.12.2, l.2613", "Power passes when Value < Data, signed.",
                 "|--{CLT 7000 #5}--(7001.00)"},

@@ -4,16 +4,16 @@
 
 namespace rung::nct {
 
-constexpr NctInstruction messageRow(RowText text, std::string_view variableKind, int variant) {
+constexpr NctInstruction messageRow(RowText text, const OperandKind& variableKind, int variant) {
   return {.info = {.mnemonic = text.mnemonic,
                    .title = text.title,
                    .group = "message",
                    .pins = {P{"EN", "shows on its rising, deletes on its falling edge", true}},
-                   .operands = {O{"Message Number", "dec", Access::Read, "1 to 999", 1, 999},
-                                O{"Channel Index", "dec", Access::Read, "0 to 99", 0, 99},
-                                O{"Arbitrary Index", "dec", Access::Read, "0 to 99", 0, 99},
+                   .operands = {O{"Message Number", &kinds::kDecimal, Access::Read, "1 to 999", 1, 999},
+                                O{"Channel Index", &kinds::kDecimal, Access::Read, "0 to 99", 0, 99},
+                                O{"Arbitrary Index", &kinds::kDecimal, Access::Read, "0 to 99", 0, 99},
                                 O{.name = "Optional Variable",
-                                  .kind = variableKind,
+                                  .kind = &variableKind,
                                   .doc = "printed in the text",
                                   .optional = true}},
                    .output = Output::Always,
@@ -31,26 +31,26 @@ inline constexpr NctInstruction kMessageRows[] = {
          "The rising edge of the input shows the message, the falling edge deletes it. The output is TRUE while it is "
          "on the screen, from the next cycle on.",
          "|--[FAULT]--{MSG #20 #0 #0 #0}--[N_CLRMSG]--(R FAULT)"},
-        "dec", kMessageOnScreen),
+        kinds::kDecimal, kMessageOnScreen),
     messageRow({"MSGF", "floating-point message, screen", "6.13.1, l.2775", "As MSG, with a double.",
                 "|--[FAULT]--{MSGF #20 #0 #0 *1.5}--[N_CLRMSG]--(R FAULT)"},
-               "float", kMessageOnScreen | kMessageOfReal),
+               kinds::kFloat, kMessageOnScreen | kMessageOfReal),
     messageRow({"ALR", "integer message, screen and log", "6.13.1, l.2775",
                 "As MSG, and the rising edge writes code and text to the log.",
                 "|--[FAULT]--{ALR #20 #0 #0 #0}--[N_CLRMSG]--(R FAULT)"},
-               "dec", kMessageOnScreen | kMessageToLog),
+               kinds::kDecimal, kMessageOnScreen | kMessageToLog),
     messageRow({"ALRF", "floating-point message, screen and log", "6.13.1, l.2775", "As ALR, with a double.",
                 "|--[FAULT]--{ALRF #20 #0 #0 *1.5}--[N_CLRMSG]--(R FAULT)"},
-               "float", kMessageOnScreen | kMessageToLog | kMessageOfReal),
+               kinds::kFloat, kMessageOnScreen | kMessageToLog | kMessageOfReal),
     messageRow({"REM", "integer message, log", "6.13.1, l.2775",
                 "The rising edge writes code and text to the log; nothing is shown. The output is TRUE when that is "
                 "done, until the "
                 "input turns FALSE.",
                 "|--[FAULT]--{REM #20 #0 #0 #0}--(R FAULT)"},
-               "dec", kMessageToLog),
+               kinds::kDecimal, kMessageToLog),
     messageRow({"REMF", "floating-point message, log", "6.13.1, l.2775", "As REM, with a double.",
                 "|--[FAULT]--{REMF #20 #0 #0 *1.5}--(R FAULT)"},
-               "float", kMessageToLog | kMessageOfReal),
+               kinds::kFloat, kMessageToLog | kMessageOfReal),
 };
 
 } // namespace rung::nct

@@ -2,7 +2,6 @@
 #include "frontend/dialects/technol/check/operand_parser.h"
 #include "frontend/dialects/technol/read/reader.h"
 #include "frontend/dialects/technol/rows/operand_count.h"
-#include "ir/support/check.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
@@ -98,21 +97,19 @@ bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out)
   bool ok = true;
   for (size_t i = 0; i < operands.size(); ++i) {
     const OperandInfo& info = infos[std::min(i, infos.size() - 1)];
-    const OperandKind* kind = findOperandKind(info.kind);
-    RUNG_CHECK(kind != nullptr, "a row names an unknown class of operands");
     Operand& operand = out.emplace_back();
     operand.range = rangeOf(program_.sources, operands[i], statement.range());
     operand.tokens = operands[i];
     operand.access = info.access;
     operand.firstName = static_cast<uint32_t>(names_.size());
-    ok = one(info, *kind, operands[i], operand) && ok;
+    ok = one(info, kindOf(info), operands[i], operand) && ok;
     operand.nameCount = static_cast<uint32_t>(names_.size()) - operand.firstName;
     // The type of a count holds for the time, too (man. l.2133).
     inherited_ = i == 0 && (statement.row->effects & kWaits) && operand.prefixed ? naturalPrefix(operand.type) : 0;
   }
   inherited_ = 0;
   while (out.size() - first < infos.size()) out.emplace_back().range = statement.range();
-  if (ok && infos.size() >= 2 && infos[0].kind == "timer cell") ok = waitOperands(std::span(out).subspan(first));
+  if (ok && infos.size() >= 2 && kindOf(infos[0]).timed) ok = waitOperands(std::span(out).subspan(first));
   return ok;
 }
 
@@ -274,25 +271,25 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
 bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
   if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) {
     if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number)
-      return wrongKind(out, "a number", "a " + std::string(kind.info.kind));
-    return syntax("the name of a " + std::string(kind.info.kind), tokens);
+      return wrongKind(out, "a number", "a " + std::string(kind.name));
+    return syntax("the name of a " + std::string(kind.name), tokens);
   }
   const uint32_t index = require(tokens[0]);
   if (index == kNone) return false;
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
-  const bool shared = kind.name == SymbolKind::Mechanism && symbol.mechanism != kNone;
-  if (symbol.kind != kind.name && !shared) return wrongKind(out, describe(symbol), "a " + std::string(kind.info.kind));
+  const bool shared = kind.symbol == SymbolKind::Mechanism && symbol.mechanism != kNone;
+  if (symbol.kind != kind.symbol && !shared) return wrongKind(out, describe(symbol), "a " + std::string(kind.name));
   out.index = shared ? symbol.mechanism : symbol.index;
-  out.form = kind.name == SymbolKind::Label       ? Operand::Form::Label
-             : kind.name == SymbolKind::Mechanism ? Operand::Form::Mechanism
-                                                  : Operand::Form::Procedure;
+  out.form = kind.symbol == SymbolKind::Label       ? Operand::Form::Label
+             : kind.symbol == SymbolKind::Mechanism ? Operand::Form::Mechanism
+                                                    : Operand::Form::Procedure;
   return true;
 }
 
 bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
                             Operand& out) {
-  if (kind.info.kind == "register") {
+  if (kind.ownName) {
     if (tokens.size() == 1 && text::equalsIgnoringCase(tokens[0].text, info.name))
       return out.form = Operand::Form::Register, true;
     program_.diagnostics.report(Diag::UnsupportedAssembler, statement_->range()).note("in this language: LOD and STO")
@@ -308,11 +305,11 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
     return true;
   }
   if (width) {
-    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range).note(kind.info.doc)
+    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range).note(kind.doc)
         << width->name << statement_->row->info.mnemonic;
     return false;
   }
-  if (!kind.constant) return syntax(kind.info.doc.substr(0, kind.info.doc.find(';')), tokens);
+  if (!kind.constant) return syntax(kind.doc.substr(0, kind.doc.find(';')), tokens);
   const std::optional<int64_t> number = constantValue(program_, file_, tokens, statement_->range(), &names_);
   if (!number) return false;
   out.form = Operand::Form::Integer;
@@ -347,7 +344,7 @@ bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> token
       out.value = program_.symbols[note(tokens[0], member)].byte;
       return true;
     }
-  const std::string wanted(kind.info.kind);
+  const std::string wanted(kind.name);
   if (tokens.size() != 1) return syntax("a " + wanted, tokens);
   const bool unknown = tokens[0].kind == TokenKind::Name && program_.symbols.find(tokens[0].text, file_) == kNone;
   if (!unknown) return wrongKind(out, "no " + wanted, "a " + wanted);
@@ -395,7 +392,7 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
   Address address;
   if (!this->address(indexed ? plain : tokens, address)) return false;
   if (!address.hasBase) return wrongKind(out, "a constant", "a variable");
-  const bool wantsText = kind.info.kind.starts_with("text");
+  const bool wantsText = kind.onlyTexts;
   if (address.isBit || (wantsText && !address.isText))
     return wrongKind(out, "no text", wantsText ? "a text" : "a variable");
   address.indexed = address.indexed || indexed;
@@ -403,7 +400,7 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
   out.size = static_cast<uint32_t>(std::max<int64_t>(address.end - address.byte, 0));
   out.begin = address.begin;
   out.end = address.end;
-  const uint32_t bytes = kind.info.kind == "end" && !address.indexed ? 0 : 1; // an end lies behind its memory
+  const uint32_t bytes = kind.behind && !address.indexed ? 0 : 1; // an end lies behind its memory
   return setPlace(address, address.byte, bytes, out) && checkWrite(info, address.protection, address.name, out.range);
 }
 

@@ -6,13 +6,13 @@ namespace rung::frontend::technol {
 
 // NAME or NAME[n]
 bool OperandParser::variable(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
-  const std::string wanted = "a " + std::string(kind.info.kind);
+  const std::string wanted = "a " + std::string(kind.name);
   if (tokens[0].kind == TokenKind::Number || tokens[0].kind == TokenKind::Text)
     return wrongKind(out, tokens[0].kind == TokenKind::Number ? "a number" : "a text", wanted);
   if (tokens[0].kind != TokenKind::Name) return syntax("a name", tokens);
   const bool indexed = tokens.size() > 3 && tokens[1].is('[') && tokens.back().is(']');
   if (tokens.size() != 1 && !(indexed && kind.constant)) return syntax("a name alone", tokens);
-  const bool byNumber = kind.info.kind == kBitName;
+  const bool byNumber = kind.weight;
   const uint32_t index = byNumber ? bitSymbol(tokens[0]) : require(tokens[0]);
   if (index == kNone) return false;
   const Symbol& symbol = program_.symbols[index];
@@ -24,7 +24,7 @@ bool OperandParser::variable(const OperandKind& kind, std::span<const Token> tok
     return true;
   }
   out.value = -1;
-  if (indexed && kind.info.kind == kLogicalInput) {
+  if (indexed && kind.input) {
     const auto number =
         constantValue(program_, file_, tokens.subspan(2, tokens.size() - 3), statement_->range(), &names_);
     if (!number) return false;
@@ -35,7 +35,7 @@ bool OperandParser::variable(const OperandKind& kind, std::span<const Token> tok
 
 bool OperandParser::exchanged(const OperandKind& kind, const Symbol& symbol, Operand& out) {
   const Exchanged* found = symbol.exchanged == kNone ? nullptr : &program_.exchanged[symbol.exchanged];
-  if (kind.info.kind == kLogicalInput) {
+  if (kind.input) {
     if (found == nullptr || found->kind != nc::ExchangeKind::DefIn)
       return wrongKind(out, "not an input of DEF_IN", "an input of DEF_IN");
     const int64_t count = nc::isText(found->type) ? 1 : found->count;

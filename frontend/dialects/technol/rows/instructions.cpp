@@ -1,5 +1,5 @@
 // The table (see instructions.h): the rows of all chapters in one list, and ways to find one. Mnemonics, operands and
-// lines of the manual are those of instructions.csv.
+// lines of the manual are those of tests/unit/technol/instructions.csv.
 #include "frontend/dialects/technol/rows/instructions.h"
 
 #include <algorithm>

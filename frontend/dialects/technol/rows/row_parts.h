@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "frontend/dialects/technol/rows/instructions.h"
+#include "frontend/dialects/technol/rows/operand_kinds.h"
 
 namespace rung::frontend::technol {
 
@@ -23,14 +24,14 @@ constexpr Row rowOf(Row shape, std::string_view mnemonic, std::string_view title
   return shape;
 }
 
-constexpr OperandInfo in(std::string_view name, std::string_view kind, std::string_view doc) {
-  return {.name = name, .kind = kind, .doc = doc};
+constexpr OperandInfo in(std::string_view name, const OperandKind& kind, std::string_view doc) {
+  return {.name = name, .kind = &kind, .doc = doc};
 }
-constexpr OperandInfo out(std::string_view name, std::string_view kind, std::string_view doc) {
-  return {.name = name, .kind = kind, .access = Access::Write, .doc = doc};
+constexpr OperandInfo out(std::string_view name, const OperandKind& kind, std::string_view doc) {
+  return {.name = name, .kind = &kind, .access = Access::Write, .doc = doc};
 }
-constexpr OperandInfo inout(std::string_view name, std::string_view kind, std::string_view doc) {
-  return {.name = name, .kind = kind, .access = Access::ReadWrite, .doc = doc};
+constexpr OperandInfo inout(std::string_view name, const OperandKind& kind, std::string_view doc) {
+  return {.name = name, .kind = &kind, .access = Access::ReadWrite, .doc = doc};
 }
 constexpr OperandInfo ranged(OperandInfo operand, int64_t min, int64_t max) {
   operand.min = min;
@@ -46,12 +47,12 @@ constexpr OperandInfo repeated(OperandInfo operand) {
   return operand;
 }
 constexpr OperandInfo lengthOf(std::string_view name, std::string_view doc, bool optional) {
-  return {.name = name, .kind = "length", .doc = doc, .min = 0, .max = kMostBytes, .optional = optional};
+  return {.name = name, .kind = &kinds::kLength, .doc = doc, .min = 0, .max = kMostBytes, .optional = optional};
 }
 // Where instructions of EX kind stand (man. l.2166-2171).
 inline constexpr std::string_view kSequentialUnits = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE";
 // Which part of DR the instruction works on.
-constexpr OperandInfo widthOf(std::string_view kind) {
+constexpr OperandInfo widthOf(const OperandKind& kind) {
   return optional(in("width", kind, "the part of DR; without it 16 bits"));
 }
 

@@ -7,24 +7,25 @@
 
 namespace rung::frontend::technol {
 
-inline constexpr OperandInfo kFlagValue = {.name = "value", .kind = "flag", .doc = "0 or 1", .min = 0, .max = 1};
+inline constexpr OperandInfo kFlagValue = {.name = "value", .kind = &kinds::kFlag, .doc = "0 or 1", .min = 0, .max = 1};
 
 inline constexpr Row kJoinShape = {
     .info = {.group = "bit logic",
-             .operands = {optional(in("bit", "bit", "joined with RLO; without it the value stored last"))}},
+             .operands = {optional(in("bit", kinds::kBit, "joined with RLO; without it the value stored last"))}},
     .effects = kJoins | kSetsRlo | kReadsRlo,
     .lower = lowerJoin};
-inline constexpr Row kEdgeShape = {
-    .info = {.group = "bit logic", .operands = {in("bit", "plain bit", "the bit that is watched")}, .stateful = true},
-    .effects = kSetsRlo,
-    .lower = lowerEdge};
+inline constexpr Row kEdgeShape = {.info = {.group = "bit logic",
+                                            .operands = {in("bit", kinds::kPlainBit, "the bit that is watched")},
+                                            .stateful = true},
+                                   .effects = kSetsRlo,
+                                   .lower = lowerEdge};
 
 inline constexpr Row kBitRows[] = {
     // ---- bit logic (man. ch. 3.5-3.7) -----------------------------------------------------------------------------
     {.info = {.mnemonic = "LDR",
               .title = "load a bit",
               .group = "bit logic",
-              .operands = {in("bit", "bit", "what RLO becomes")},
+              .operands = {in("bit", kinds::kBit, "what RLO becomes")},
               .ref = "3.5, l.174",
               .doc = "RLO becomes the bit. Where an equation is open already, RLO is stored on the stack first.",
               .example = "LDR  A1\nLA   -B1\nWR   OUT1"},
@@ -68,7 +69,7 @@ inline constexpr Row kBitRows[] = {
     {.info = {.mnemonic = "WR",
               .title = "write",
               .group = "bit write",
-              .operands = {repeated(out("bit", "plain bit", "becomes RLO"))},
+              .operands = {repeated(out("bit", kinds::kPlainBit, "becomes RLO"))},
               .terminating = true,
               .ref = "3.7, l.380",
               .doc = "Each bit becomes RLO; RLO and DR stay.",
@@ -78,7 +79,7 @@ inline constexpr Row kBitRows[] = {
     {.info = {.mnemonic = "FL",
               .title = "set or clear",
               .group = "bit write",
-              .operands = {kFlagValue, repeated(out("bit", "plain bit", "becomes the value"))},
+              .operands = {kFlagValue, repeated(out("bit", kinds::kPlainBit, "becomes the value"))},
               .ref = "3.7, l.396",
               .doc = "Each bit becomes 0 or 1, whatever RLO is.",
               .example = "FL   1,LAMP,PUMP"},
@@ -87,7 +88,7 @@ inline constexpr Row kBitRows[] = {
     {.info = {.mnemonic = "FL1",
               .title = "set or clear if RLO",
               .group = "bit write",
-              .operands = {kFlagValue, repeated(out("bit", "plain bit", "becomes the value"))},
+              .operands = {kFlagValue, repeated(out("bit", kinds::kPlainBit, "becomes the value"))},
               .terminating = true,
               .ref = "3.7, l.420",
               .doc = "As FL, but only while RLO is 1.",
@@ -98,7 +99,7 @@ inline constexpr Row kBitRows[] = {
     {.info = {.mnemonic = "MOVR",
               .title = "move a bit",
               .group = "bit write",
-              .operands = {out("dst", "plain bit", "becomes the source"), in("src", "bit", "is read")},
+              .operands = {out("dst", kinds::kPlainBit, "becomes the source"), in("src", kinds::kBit, "is read")},
               .ref = "3.7, l.447",
               .doc = "One bit becomes another; RLO and DR stay.",
               .example = "MOVR LAMP,-DOOR"},
@@ -107,7 +108,7 @@ inline constexpr Row kBitRows[] = {
     {.info = {.mnemonic = "MOVR1",
               .title = "move a bit if RLO",
               .group = "bit write",
-              .operands = {out("dst", "plain bit", "becomes the source"), in("src", "bit", "is read")},
+              .operands = {out("dst", kinds::kPlainBit, "becomes the source"), in("src", kinds::kBit, "is read")},
               .terminating = true,
               .ref = "3.7, l.448",
               .doc = "As MOVR, but only while RLO is 1.",
@@ -118,7 +119,7 @@ inline constexpr Row kBitRows[] = {
     {.info = {.mnemonic = "LDR_LIC",
               .title = "load a licence",
               .group = "bit logic",
-              .operands = {in("feature", "licence", "what is asked for")},
+              .operands = {in("feature", kinds::kLicence, "what is asked for")},
               .ref = "8.4.7, l.7631",
               .doc =
                   "RLO becomes 1 while the licence is valid, or the hardware key connected. Where an equation is open "
@@ -130,7 +131,7 @@ inline constexpr Row kBitRows[] = {
     {.info = {.mnemonic = "JUM",
               .title = "jump",
               .group = "jump",
-              .operands = {in("adr", "label", "where control goes")},
+              .operands = {in("adr", kinds::kLabel, "where control goes")},
               .ref = "3.8, l.484",
               .doc = "Control goes to the label, which is in the same unit.",
               .example = "      JUM  NEXT\n      FL   1,LAMP\nNEXT: LOD  COUNT"},
@@ -142,7 +143,7 @@ inline constexpr Row kBitRows[] = {
               .aliases = {"JLO"},
               .title = "jump if 0",
               .group = "jump",
-              .operands = {in("adr", "label", "where control goes")},
+              .operands = {in("adr", kinds::kLabel, "where control goes")},
               .terminating = true,
               .ref = "3.8, l.485",
               .doc = "Control goes to the label when RLO is 0.",
@@ -154,7 +155,7 @@ inline constexpr Row kBitRows[] = {
     {.info = {.mnemonic = "JL1",
               .title = "jump if 1",
               .group = "jump",
-              .operands = {in("adr", "label", "where control goes")},
+              .operands = {in("adr", kinds::kLabel, "where control goes")},
               .terminating = true,
               .ref = "3.8, l.486",
               .doc = "Control goes to the label when RLO is 1.",

@@ -9,37 +9,37 @@ namespace rung::frontend::technol {
 
 // A cell has at most 8 bits (man. l.1280).
 inline constexpr OperandInfo kShiftCount = {
-    .name = "n", .kind = "shift count", .doc = "by how many bits", .min = 0, .max = 255};
+    .name = "n", .kind = &kinds::kShiftCount, .doc = "by how many bits", .min = 0, .max = 255};
 
 inline constexpr Row kStoreIfShape = {
-    .info = {.group = "data", .operands = {out("val", "cell", "becomes DR")}, .terminating = true},
+    .info = {.group = "data", .operands = {out("val", kinds::kCell, "becomes DR")}, .terminating = true},
     .effects = kReadsDr | kReadsRlo,
     .check = checkRealUse,
     .lower = lowerStore};
 inline constexpr Row kSumShape = {
-    .info = {.group = "arithmetic", .operands = {in("val", "value", "the second operand")}},
+    .info = {.group = "arithmetic", .operands = {in("val", kinds::kValue, "the second operand")}},
     .effects = kReadsDr | kSetsDr,
     .check = checkArithmetic,
     .lower = lowerArithmetic};
 inline constexpr Row kProductShape = {
-    .info = {.group = "arithmetic", .operands = {in("val", "narrow value", "the second operand")}},
+    .info = {.group = "arithmetic", .operands = {in("val", kinds::kNarrowValue, "the second operand")}},
     .effects = kReadsDr | kSetsDr,
     .check = checkArithmetic,
     .lower = lowerArithmetic};
 inline constexpr Row kBitwiseShape = {
-    .info = {.group = "bitwise", .operands = {in("val", "bitwise value", "the second operand")}},
+    .info = {.group = "bitwise", .operands = {in("val", kinds::kBitwiseValue, "the second operand")}},
     .effects = kReadsDr | kSetsDr,
     .lower = lowerBitwise};
-inline constexpr Row kUnaryShape = {.info = {.group = "DR operation", .operands = {widthOf("width")}},
+inline constexpr Row kUnaryShape = {.info = {.group = "DR operation", .operands = {widthOf(kinds::kWidth)}},
                                     .effects = kReadsDr | kSetsDr,
                                     .check = checkRealUse,
                                     .lower = lowerUnary};
 inline constexpr Row kShiftShape = {
-    .info = {.group = "DR operation", .operands = {kShiftCount, widthOf("integer width")}},
+    .info = {.group = "DR operation", .operands = {kShiftCount, widthOf(kinds::kIntegerWidth)}},
     .effects = kReadsDr | kSetsDr,
     .lower = lowerShift};
 inline constexpr Row kCompareShape = {
-    .info = {.group = "comparison", .operands = {in("val", "value", "compared with DR")}},
+    .info = {.group = "comparison", .operands = {in("val", kinds::kValue, "compared with DR")}},
     .effects = kReadsDr | kSetsRlo,
     .check = checkRealUse,
     .lower = lowerCompare};
@@ -49,7 +49,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "LOD",
               .title = "load",
               .group = "data",
-              .operands = {in("val", "signed value", "is loaded")},
+              .operands = {in("val", kinds::kSignedValue, "is loaded")},
               .ref = "3.10, l.673",
               .doc = "DR becomes the value, sign-extended to 64 bits. With REAL. or a real constant DR_REAL becomes "
                      "it, and DR its integer.",
@@ -60,7 +60,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "STO",
               .title = "store",
               .group = "data",
-              .operands = {out("val", "cell", "becomes DR")},
+              .operands = {out("val", kinds::kCell, "becomes DR")},
               .ref = "3.10, l.740",
               .doc = "The cell becomes the low bits of DR; with REAL. it becomes DR_REAL.",
               .example = "LOD  COUNT\nSTO  LIMIT"},
@@ -75,7 +75,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "MOVE",
               .title = "move",
               .group = "data",
-              .operands = {out("dst", "cell", "becomes the source"), in("src", "cell", "is read")},
+              .operands = {out("dst", kinds::kCell, "becomes the source"), in("src", kinds::kCell, "is read")},
               .ref = "3.10, l.795",
               .doc = "One cell becomes another of the same type; RLO and DR stay.",
               .example = "MOVE LIMIT,COUNT"},
@@ -85,7 +85,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "MOVE1",
               .title = "move if 1",
               .group = "data",
-              .operands = {out("dst", "cell", "becomes the source"), in("src", "cell", "is read")},
+              .operands = {out("dst", kinds::kCell, "becomes the source"), in("src", kinds::kCell, "is read")},
               .terminating = true,
               .ref = "3.10, l.797",
               .doc = "As MOVE, but only while RLO is 1.",
@@ -146,7 +146,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "BIN",
               .title = "BCD to binary",
               .group = "DR operation",
-              .operands = {widthOf("double width")},
+              .operands = {widthOf(kinds::kDoubleWidth)},
               .ref = "3.13, l.1233",
               .doc = "The digits in DR become their number. With DWRD bit 31 marks a negative number.",
               .example = "LOD  COUNT\nBIN\nSTO  COUNT"},
@@ -155,7 +155,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "BCD",
               .title = "binary to BCD",
               .group = "DR operation",
-              .operands = {widthOf("double width")},
+              .operands = {widthOf(kinds::kDoubleWidth)},
               .ref = "3.13, l.1234",
               .doc = "The number in DR becomes its digits, at most 4, with DWRD 8.",
               .example = "LOD  POS\nBCD  DWRD\nSTO  POS"},
@@ -189,7 +189,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "EQ1",
               .title = "equal if RLO",
               .group = "comparison",
-              .operands = {in("val", "value", "compared with DR")},
+              .operands = {in("val", kinds::kValue, "compared with DR")},
               .ref = "3.14, l.1370",
               .doc = "As EQ while RLO is 1; else RLO stays 0. A chain compares areas.",
               .example = "LOD  COUNT\nEQ   5\nLOD  LIMIT\nEQ1  7\nWR   LAMP"},
@@ -206,7 +206,7 @@ inline constexpr Row kDataRows[] = {
               .name =
                   "bits",
               .kind =
-                  "bits of DR",
+                  &kinds::kBitsOfDr,
               .doc = "16 bits without it",
               .min = 0,
               .max = 31,
@@ -220,7 +220,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "CONRD",
               .title = "RLO to DR",
               .group = "conversion",
-              .operands = {widthOf("double width")},
+              .operands = {widthOf(kinds::kDoubleWidth)},
               .terminating = true,
               .ref = "3.15, l.1462",
               .doc = "DR becomes FFFFh for RLO 1 and 0 for 0; with DWRD FFFFFFFFh.",
@@ -231,7 +231,7 @@ inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "REAL",
               .title = "integer to real",
               .group = "conversion",
-              .operands = {widthOf("integer width")},
+              .operands = {widthOf(kinds::kIntegerWidth)},
               .ref = "3.15, l.1503",
               .doc = "DR_REAL becomes the signed integer in DR; DR keeps it, sign-extended.",
               .example = "LOD  COUNT\nREAL\nMULB REAL.RATIO\nSTO  REAL.RATIO"},

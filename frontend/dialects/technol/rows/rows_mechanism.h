@@ -7,8 +7,8 @@
 namespace rung::frontend::technol {
 
 inline constexpr OperandList kTimedOperands = {
-    inout("count", "timer cell", "counts the cycles"), in("time", "time", "cycles of the PLC"),
-    in("error", "label", "where a time-out leads"), optional(in("code", "constant", "DR at the time-out"))};
+    inout("count", kinds::kTimerCell, "counts the cycles"), in("time", kinds::kTime, "cycles of the PLC"),
+    in("error", kinds::kLabel, "where a time-out leads"), optional(in("code", kinds::kConstant, "DR at the time-out"))};
 
 // A state of a unit that waits.
 constexpr Row stateShape(OperandList operands, uint16_t effects, LowerFn lower, CheckFn check = nullptr) {
@@ -27,7 +27,7 @@ inline constexpr Row kMechanismRows[] = {
     {.info = {.mnemonic = "MECH_BEGIN",
               .title = "mechanism",
               .group = "mechanism",
-              .operands = {in("mech", "declaration", "a new name")},
+              .operands = {in("mech", kinds::kDeclaration, "a new name")},
               .stateful = true,
               .ref = "4.2, l.2037",
               .doc = "Begins a mechanism: code that is executed one part per cycle while its bit is 1. "
@@ -37,7 +37,7 @@ inline constexpr Row kMechanismRows[] = {
     {.info = {.mnemonic = "MECH_END",
               .title = "end of a mechanism",
               .group = "mechanism",
-              .operands = {in("mech", "declaration", "the name of its MECH_BEGIN")},
+              .operands = {in("mech", kinds::kDeclaration, "the name of its MECH_BEGIN")},
               .ref = "4.2, l.2038",
               .doc = "Ends a mechanism: its bit becomes 0, and it starts at its beginning the next time.",
               .example = "MECH_BEGIN CLAMP\nFL   1,PUMP\nEX\nLDR  READY\nEX0\nFL   0,PUMP\nMECH_END CLAMP"},
@@ -45,7 +45,7 @@ inline constexpr Row kMechanismRows[] = {
     {.info = {.mnemonic = "MECH_INIT",
               .title = "initialise a mechanism",
               .group = "mechanism",
-              .operands = {in("mech", "mechanism", "is stopped")},
+              .operands = {in("mech", kinds::kMechanism, "is stopped")},
               .ref = "4.2, l.2039",
               .doc = "The mechanism is stopped and starts at its beginning the next time.",
               .example = "MECH_INIT CLAMP"},
@@ -68,8 +68,9 @@ inline constexpr Row kMechanismRows[] = {
           "wait while 1, with time-out", "4.2, l.2093",
           "As EX1, but at most for the time; then control goes to the label with the code in DR.",
           "LDR  DOOR\nTEX1 -,250,ERROR,5", 1),
-    rowOf(stateShape({inout("count", "timer cell", "counts the cycles"), in("time", "time", "cycles of the PLC")},
-                     kWaits, lowerWait),
+    rowOf(stateShape(
+              {inout("count", kinds::kTimerCell, "counts the cycles"), in("time", kinds::kTime, "cycles of the PLC")},
+              kWaits, lowerWait),
           "TIM", "wait", "4.2, l.2136", "Waits for the time.", "TIM  -,50"),
 };
 

@@ -7,12 +7,12 @@
 namespace rung::frontend::technol {
 
 inline constexpr OperandList kMessageOperands = {
-    optional(ranged(in("error", "message value", "number; in DR without it"), 0, 65535)),
-    optional(in("subid", "message value", "additional number")),
-    optional(ranged(in("set", "message switch", "of a persistent message: 1 shows, 0 removes"), 0, 1)),
-    optional(in("par1", "message value", "value in the text")),
-    optional(in("par2", "message value", "value in the text")),
-    optional(in("par3", "message value", "value in the text"))};
+    optional(ranged(in("error", kinds::kMessageValue, "number; in DR without it"), 0, 65535)),
+    optional(in("subid", kinds::kMessageValue, "additional number")),
+    optional(ranged(in("set", kinds::kMessageSwitch, "of a persistent message: 1 shows, 0 removes"), 0, 1)),
+    optional(in("par1", kinds::kMessageValue, "value in the text")),
+    optional(in("par2", kinds::kMessageValue, "value in the text")),
+    optional(in("par3", kinds::kMessageValue, "value in the text"))};
 
 inline constexpr Row kMessageRows[] = {
     // ---- messages (man. ch. 14) and the ends of start and shutdown (man. ch. 5) -----------------------------------
@@ -42,17 +42,18 @@ inline constexpr Row kMessageRows[] = {
     {.info = {.mnemonic = "EDEF",
               .title = "ties a bit to a message",
               .group = "message",
-              .operands = {in("val", "status byte", "byte of the bit; not given: the bit has its own place"),
-                           in("bit", "status bit", "state that makes the message"),
-                           ranged(in("error", "message number", "number"), 0, 65535),
-                           in("subid", "message value", "additional number"),
-                           ranged(in("mod", "constant",
+              .operands = {in("val", kinds::kStatusByte, "byte of the bit; not given: the bit has its own place"),
+                           in("bit", kinds::kStatusBit, "state that makes the message"),
+                           ranged(in("error", kinds::kMessageNumber, "number"), 0, 65535),
+                           in("subid", kinds::kMessageValue, "additional number"),
+                           ranged(in("mod", kinds::kConstant,
                                      "bits 0, 1: beginning, bits 2, 3: end; 01 rising, 10 falling "
                                      "edge, 00 never"),
                                   0, 10),
-                           optional(in("par1", "message value", "value in the text, read when the message comes up")),
-                           optional(in("par2", "message value", "value in the text")),
-                           optional(in("par3", "message value", "value in the text"))},
+                           optional(
+                               in("par1", kinds::kMessageValue, "value in the text, read when the message comes up")),
+                           optional(in("par2", kinds::kMessageValue, "value in the text")),
+                           optional(in("par3", kinds::kMessageValue, "value in the text"))},
               .ref = "14.3.2, l.5192",
               .doc = "Ties a bit to a message: at the end of each scan the control looks whether the bit has changed. "
                      "The message comes up at the edge that `mod` names as beginning, transient, or persistent where "

@@ -3,37 +3,41 @@
 #pragma once
 #include "frontend/dialects/technol/check/rules.h"
 #include "frontend/dialects/technol/lower/lower.h"
-#include "frontend/dialects/technol/rows/operand_kinds.h"
 #include "frontend/dialects/technol/rows/row_parts.h"
 #include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/exchange.h"
 
 namespace rung::frontend::technol {
 
-inline constexpr OperandInfo kIdentifier = in("ID", "text or literal", "identifier");
-constexpr OperandInfo defaultOf(std::string_view kind) {
+inline constexpr OperandInfo kIdentifier = in("ID", kinds::kTextOrLiteral, "identifier");
+constexpr OperandInfo defaultOf(const OperandKind& kind) {
   return optional(in("default", kind, "value where it is not found"));
 }
 
-inline constexpr OperandInfo kNewInput = out("bit", kNewBit, "is declared");
-inline constexpr OperandInfo kNewCell = out("val", kNewReal, "is declared");
-inline constexpr OperandInfo kNewName = out("val", kNewVariable, "is declared");
-inline constexpr OperandInfo kExchangeType = in("type", "type", "of the variable");
-inline constexpr OperandInfo kDefaultBit = {
-    .name = "def", .kind = "default bit", .doc = "value without configuration", .min = 0, .max = 1, .optional = true};
-inline constexpr OperandInfo kDefaultReal = optional(in("def", "default real", "value without configuration"));
+inline constexpr OperandInfo kNewInput = out("bit", kinds::kNewBit, "is declared");
+inline constexpr OperandInfo kNewCell = out("val", kinds::kNewReal, "is declared");
+inline constexpr OperandInfo kNewName = out("val", kinds::kNewVariable, "is declared");
+inline constexpr OperandInfo kExchangeType = in("type", kinds::kType, "of the variable");
+inline constexpr OperandInfo kDefaultBit = {.name = "def",
+                                            .kind = &kinds::kDefaultBit,
+                                            .doc = "value without configuration",
+                                            .min = 0,
+                                            .max = 1,
+                                            .optional = true};
+inline constexpr OperandInfo kDefaultReal = optional(in("def", kinds::kDefaultReal, "value without configuration"));
 inline constexpr OperandInfo kDefaultValue = {.name = "def",
-                                              .kind = "default value",
+                                              .kind = &kinds::kDefaultValue,
                                               .doc = "value where nothing is connected",
                                               .min = INT64_MIN,
                                               .max = INT64_MAX,
                                               .optional = true};
-inline constexpr OperandInfo kFast = optional(in("period", "FAST", "how often it is served; without it every cycle"));
-inline constexpr OperandInfo kPeriod = optional(in("period", "period", "how often a connection is served"));
-inline constexpr OperandInfo kShareName = in("name", "text or literal", "its name");
-inline constexpr OperandInfo kLeast = optional(in("min", "limit or length", "least value, or bytes of a text"));
-inline constexpr OperandInfo kMost = optional(in("max", "real cell", "greatest value"));
-inline constexpr OperandInfo kBit = in("bit", kBitName, "which bit of the byte");
+inline constexpr OperandInfo kFast =
+    optional(in("period", kinds::kFast, "how often it is served; without it every cycle"));
+inline constexpr OperandInfo kPeriod = optional(in("period", kinds::kPeriod, "how often a connection is served"));
+inline constexpr OperandInfo kShareName = in("name", kinds::kTextOrLiteral, "its name");
+inline constexpr OperandInfo kLeast = optional(in("min", kinds::kLimitOrLength, "least value, or bytes of a text"));
+inline constexpr OperandInfo kMost = optional(in("max", kinds::kRealCell, "greatest value"));
+inline constexpr OperandInfo kBit = in("bit", kinds::kBitName, "which bit of the byte");
 
 constexpr Row definitionShape(OperandList operands) {
   return {.info = {.group = "inputs and outputs", .operands = operands},
@@ -92,7 +96,7 @@ inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "UPDATE_IN",
               .title = "takes over a logical input at once",
               .group = "inputs and outputs",
-              .operands = {out("val", kLogicalInput, "takes the value")},
+              .operands = {out("val", kinds::kLogicalInput, "takes the value")},
               .ref = "27.7, l.13413",
               .doc = "The input, or the element of an array, takes the value that the output connected to it has "
                      "now; meant for inputs with the period ONDEMAND, which nothing else serves. Where nothing is "
@@ -104,7 +108,7 @@ inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "SHARE_VAR",
               .title = "gives a variable a public name",
               .group = "sharing",
-              .operands = {in("val", "address", "is shared"), kShareName, kExchangeType, kLeast, kMost},
+              .operands = {in("val", kinds::kAddress, "is shared"), kShareName, kExchangeType, kLeast, kMost},
               .ref = "18.2.1, l.13618",
               .doc = "Screens and scenarios find the variable or text by the name, and with it two reals that hold "
                      "its least and its greatest value. They only read it; DEF_IN declares what they may write. "
@@ -116,7 +120,7 @@ inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "SHARE_BIT",
               .title = "gives a bit a public name",
               .group = "sharing",
-              .operands = {in("byte", "address", "is the bit's byte"), kShareName, kBit},
+              .operands = {in("byte", kinds::kAddress, "is the bit's byte"), kShareName, kBit},
               .ref = "18.2.1, l.13705",
               .doc = "Screens and scenarios find the bit of the byte by the name. The byte is any, the name of the "
                      "bit gives its number. RLO becomes 1 where it is shared, 0 where the name has another meaning "
@@ -125,33 +129,34 @@ inline constexpr Row kNcRows[] = {
      .effects = kInitOnly | kSetsRlo,
      .check = checkShareBit,
      .lower = lowerShareBit},
-    rowOf(configurationShape({out("val", "integer cell", "is read"), kIdentifier, defaultOf("bitwise value")}),
-          "CNF_GET_INT", "integer of the configuration", "16.1, l.16111",
-          "Reads an integer parameter of the configuration. RLO becomes 1 where it is found; else 0, and the default "
-          "is stored, if there is one.",
-          "CNF_GET_INT POS,'TIM_WATER',6", static_cast<int>(nc::ConfigurationKind::Integer)),
-    rowOf(configurationShape({out("val", "real cell", "is read"), kIdentifier, defaultOf("real value")}),
+    rowOf(
+        configurationShape({out("val", kinds::kIntegerCell, "is read"), kIdentifier, defaultOf(kinds::kBitwiseValue)}),
+        "CNF_GET_INT", "integer of the configuration", "16.1, l.16111",
+        "Reads an integer parameter of the configuration. RLO becomes 1 where it is found; else 0, and the default "
+        "is stored, if there is one.",
+        "CNF_GET_INT POS,'TIM_WATER',6", static_cast<int>(nc::ConfigurationKind::Integer)),
+    rowOf(configurationShape({out("val", kinds::kRealCell, "is read"), kIdentifier, defaultOf(kinds::kRealValue)}),
           "CNF_GET_REAL", "real of the configuration", "16.1, l.16112",
           "Reads a real parameter of the configuration. RLO becomes 1 where it is found; else 0, and the default is "
           "stored, if there is one.",
           "CNF_GET_REAL RATIO,'GAIN',CNST.0.2", static_cast<int>(nc::ConfigurationKind::Real)),
-    rowOf(configurationShape({out("poin", "text", "is read"), kIdentifier, defaultOf("text or literal")}),
+    rowOf(configurationShape({out("poin", kinds::kText, "is read"), kIdentifier, defaultOf(kinds::kTextOrLiteral)}),
           "CNF_GET_STR", "text of the configuration", "16.1, l.16113",
           "Reads a text of the configuration, as far as there is room. RLO becomes 1 where it is found; else 0, and "
           "the default is stored, if there is one.",
           "CNF_GET_STR TEXT1,'TITLE','Ready'", static_cast<int>(nc::ConfigurationKind::Text)),
-    rowOf(configurationShape({out("poin", "text", "is read"), kIdentifier, defaultOf("text or literal")}),
+    rowOf(configurationShape({out("poin", kinds::kText, "is read"), kIdentifier, defaultOf(kinds::kTextOrLiteral)}),
           "CNF_GET_BIN", "bytes of the configuration", "16.1, l.16114",
           "Reads bytes of the configuration, without a terminator. RLO becomes 1 where it is found; else 0, and the "
           "default is stored, if there is one.",
           "CNF_GET_BIN TEXT1,'MASK'", static_cast<int>(nc::ConfigurationKind::Binary)),
-    rowOf(configurationShape({out("bit", "plain bit", "is read"), kIdentifier, defaultOf("bit or flag")}),
+    rowOf(configurationShape({out("bit", kinds::kPlainBit, "is read"), kIdentifier, defaultOf(kinds::kBitOrFlag)}),
           "CNF_GET_BIT", "bit of the configuration", "16.1, l.16115",
           "Reads a bit of the configuration: 1 unless the integer is 0. RLO becomes 1 where it is found; else 0, and "
           "the default is stored, if there is one.",
           "CNF_GET_BIT LAMP,'LIM_SWITCH',0", static_cast<int>(nc::ConfigurationKind::Bit)),
-    rowOf(configurationShape({out("val", "integer cell", "is read"), kIdentifier}, kSetsRlo | kSetsDr), "CONST_GET",
-          "constant of the PLC", "16.2, l.16355",
+    rowOf(configurationShape({out("val", kinds::kIntegerCell, "is read"), kIdentifier}, kSetsRlo | kSetsDr),
+          "CONST_GET", "constant of the PLC", "16.2, l.16355",
           "Reads a constant of the PLC into the cell and DR. RLO becomes 1 where it is found; else RLO and DR become 0 "
           "and the cell stays.",
           "CONST_GET POS,'PUMP_START'", static_cast<int>(nc::ConfigurationKind::Constant)),

@@ -7,12 +7,13 @@
 
 namespace rung::frontend::technol {
 
-inline constexpr OperandInfo kTarget = out("text1", "text", "the target");
-inline constexpr OperandInfo kSource = in("text2", "text or literal", "the source");
+inline constexpr OperandInfo kTarget = out("text1", kinds::kText, "the target");
+inline constexpr OperandInfo kSource = in("text2", kinds::kTextOrLiteral, "the source");
 inline constexpr OperandInfo kCharacters = lengthOf("num", "at most so many characters", true);
 
 inline constexpr Row kNumberTextShape = {
-    .info = {.group = "text", .operands = {out("text1", "text", "of 1 to 10 characters"), widthOf("double width")}},
+    .info = {.group = "text",
+             .operands = {out("text1", kinds::kText, "of 1 to 10 characters"), widthOf(kinds::kDoubleWidth)}},
     .effects = kReadsDr,
     .check = checkNumberToText,
     .lower = lowerNumberToText};
@@ -22,8 +23,8 @@ inline constexpr Row kTextRows[] = {
     {.info = {.mnemonic = "MV",
               .title = "move memory",
               .group = "memory",
-              .operands = {in("src", "address", "where the bytes are"), out("dest", "address", "where they go"),
-                           lengthOf("num", "how many bytes", false)},
+              .operands = {in("src", kinds::kAddress, "where the bytes are"),
+                           out("dest", kinds::kAddress, "where they go"), lengthOf("num", "how many bytes", false)},
               .ref = "3.15, l.1484",
               .doc = "Copies bytes from the first address to the second, also where the areas overlap. RLO and DR "
                      "stay.",
@@ -33,8 +34,8 @@ inline constexpr Row kTextRows[] = {
     {.info = {.mnemonic = "CLEAR",
               .title = "clear memory",
               .group = "memory",
-              .operands = {out("begin", "beginning", "the first byte, or which data"),
-                           in("end", "end", "the first byte that stays, or ALL")},
+              .operands = {out("begin", kinds::kBeginning, "the first byte, or which data"),
+                           in("end", kinds::kEnd, "the first byte that stays, or ALL")},
               .ref = "3.15, l.1521",
               .doc =
                   "Bytes become 0 from the first address up to the second, which stays. GLOBAL,ALL brings all "
@@ -72,7 +73,7 @@ inline constexpr Row kTextRows[] = {
     {.info = {.mnemonic = "STRCMP",
               .title = "compare texts",
               .group = "text",
-              .operands = {in("text1", "text", "is compared"), in("text2", "text or literal", "with this"),
+              .operands = {in("text1", kinds::kText, "is compared"), in("text2", kinds::kTextOrLiteral, "with this"),
                            kCharacters},
               .ref = "3.18, l.1844",
               .doc = "RLO is 1 when the texts are equal up to and with the second one's terminator, or in as many "
@@ -84,7 +85,7 @@ inline constexpr Row kTextRows[] = {
     {.info = {.mnemonic = "MEMCPY",
               .title = "copy bytes of texts",
               .group = "text",
-              .operands = {kTarget, in("text2", "text", "the source"), lengthOf("num", "how many bytes", true)},
+              .operands = {kTarget, in("text2", kinds::kText, "the source"), lengthOf("num", "how many bytes", true)},
               .ref = "3.18, l.1901",
               .doc = "Copies bytes from the second text to the first, a terminator as any other, until the first is "
                      "full or as many as the third operand says.",
@@ -94,7 +95,7 @@ inline constexpr Row kTextRows[] = {
     {.info = {.mnemonic = "MEMCMP",
               .title = "compare bytes of texts",
               .group = "text",
-              .operands = {in("text1", "text", "is compared"), in("text2", "text", "with this"),
+              .operands = {in("text1", kinds::kText, "is compared"), in("text2", kinds::kText, "with this"),
                            lengthOf("num", "how many bytes", true)},
               .ref = "3.18, l.1934",
               .doc = "RLO is 1 when the texts have the same bytes, as many as the second holds or the third operand "

@@ -9,10 +9,10 @@ namespace rung::frontend::technol {
 inline constexpr std::string_view kCounterDoc = "Counts when RLO goes from 0 to 1. Then RLO shows whether the count "
                                                 "equals the preset in DR, and DR becomes the count.";
 inline constexpr Row kTimedBlockShape = {
-    .info = {.group = "timed block", .operands = {in("end", "label", "ends the block")}, .stateful = true},
+    .info = {.group = "timed block", .operands = {in("end", kinds::kLabel, "ends the block")}, .stateful = true},
     .role = Role::Timed};
 inline constexpr Row kCounterShape = {
-    .info = {.group = "counter", .operands = {inout("count", "counter cell", "is counted")}, .stateful = true},
+    .info = {.group = "counter", .operands = {inout("count", kinds::kCounterCell, "is counted")}, .stateful = true},
     .effects = kReadsRlo | kSetsRlo | kReadsDr | kSetsDr,
     .lower = lowerCounter};
 
@@ -37,7 +37,7 @@ inline constexpr Row kTimingRows[] = {
     {.info = {.mnemonic = "TM",
               .title = "timer",
               .group = "timer",
-              .operands = {optional(inout("count", "timer cell", "counts the runs"))},
+              .operands = {optional(inout("count", kinds::kTimerCell, "counts the runs"))},
               .stateful = true,
               .ref = "3.11, l.884",
               .doc = "While RLO is 0 the count is 0. While RLO is 1 it counts up to the preset in DR; RLO is 1 when it "

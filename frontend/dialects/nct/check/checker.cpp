@@ -5,6 +5,7 @@
 
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "frontend/dialects/nct/rows/operand_kinds.h"
+#include "frontend/sema/operand_count.h"
 #include "ir/support/similar.h"
 
 namespace rung::nct {
@@ -194,21 +195,6 @@ bool RungChecker::checkPins(const ladder::Rung& rung, const ladder::Element& ele
   return ok;
 }
 
-bool RungChecker::checkCount(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
-  const std::span<const Word> words = rung.operandsOf(element);
-  size_t least = 0;
-  for (const OperandInfo& info : row.info.operands.all()) least += info.optional ? 0 : 1;
-  const size_t most = row.info.operands.size();
-  if (words.size() >= least && words.size() <= most) return true;
-  const SourceRange range = words.size() > most ? words[most].range : element.mnemonicRange;
-  diagnostics_.report(Diag::OperandCount, range)
-      << row.info.mnemonic
-      << (least == most ? fmt::format("{} operand{}", most, most == 1 ? "" : "s")
-                        : fmt::format("{} or {} operands", least, most))
-      << static_cast<int>(words.size());
-  return false;
-}
-
 // Jumps and subroutines of a module share one set of numbers (l.2942, l.2996).
 bool RungChecker::readLabel(TypedElement& element, const Word& word) {
   element.label = parseLabel(word, symbols_, diagnostics_);
@@ -222,7 +208,10 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
   const ladder::Element& element = *typedElement.element;
   const NctInstruction& row = *typedElement.row;
   const std::span<const Word> words = typed.rung->operandsOf(element);
-  if (element.kind == ElementKind::Box && !checkCount(*typed.rung, element, row)) return false;
+  const size_t most = row.info.operands.size();
+  const SourceRange count = words.size() > most ? words[most].range : element.mnemonicRange;
+  if (element.kind == ElementKind::Box && !frontend::countFits(row.info, words.size(), count, diagnostics_))
+    return false;
   bool ok = true;
   for (size_t i = 0; i < words.size(); ++i) {
     switch (kindOf(row.info.operands[i]).parse) {

@@ -34,7 +34,6 @@ private:
   bool checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool checkPins(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
-  bool checkCount(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool readOperands(TypedRung& typed, TypedElement& element);
   bool readLabel(TypedElement& element, const Word& word);
   bool checkOperand(const NctInstruction& row, size_t index, const Operand& operand);

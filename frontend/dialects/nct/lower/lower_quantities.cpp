@@ -226,6 +226,16 @@ ValueId lowerScope(Lowering& box) {
   return inquire(box, inquiry, valid, [&] { return inquiry.run(ask, take); });
 }
 
+// The manual has the limits of a constant variable only (l.3201); a channel that is never there is found at run time.
+void checkMacro(std::span<const Operand> operands, const Config&, Diagnostics& diagnostics) {
+  const Operand& channel = operands.back();
+  if (channel.form != Form::Constant || (channel.constant.integer >= 0 && channel.constant.integer < kChannels)) return;
+  diagnostics.report(Diag::ConstantOutOfRange, channel.source->range)
+          .severity(Severity::Warning)
+          .note("there is no such channel: FL_ER is 1 and the output FALSE whenever this is executed")
+      << channel.source->text << fmt::format("0 to {}", kChannels - 1);
+}
+
 void checkScope(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics) {
   const nc::nct::ScopeSymbol& symbol = symbolOf(operands[1]);
   const auto check = [&](const ScopeParameter& parameter, const Operand& operand) {

@@ -190,11 +190,11 @@ ir::ValueId lowerMacro(Lowering& box);       // MACR, MACW
 ir::ValueId lowerScope(Lowering& box);       // SCP
 ir::ValueId lowerAxisCommand(Lowering& box); // MOVCMND
 
-// --- checks
-// -----------------------------------------------------------------------------------------------------------
+// Checks of operands.
 void checkTimer(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
 void checkReadFunction(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
 void checkWriteFunction(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
+void checkMacro(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
 void checkScope(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
 
 } // namespace rung::nct

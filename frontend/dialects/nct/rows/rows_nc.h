@@ -17,7 +17,8 @@ constexpr NctInstruction macroRow(RowText text, frontend::FixedList<O, 8> operan
                    .doc = text.doc,
                    .example = text.example},
           .lower = lowerMacro,
-          .variant = variant};
+          .variant = variant,
+          .check = checkMacro};
 }
 
 constexpr NctInstruction arrayServiceRow(RowText text, int variant, Check check) {

@@ -1,7 +1,7 @@
 // Operands other than addresses (see operand_parser.h).
 #include "frontend/dialects/technol/check/operand_parser.h"
 #include "frontend/dialects/technol/read/reader.h"
-#include "frontend/dialects/technol/rows/operand_count.h"
+#include "frontend/sema/operand_count.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"

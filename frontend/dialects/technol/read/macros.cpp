@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "frontend/dialects/technol/rows/operand_count.h"
+#include "frontend/sema/operand_count.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {

@@ -4,7 +4,7 @@
 
 #include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/file_reader.h"
-#include "frontend/dialects/technol/rows/operand_count.h"
+#include "frontend/sema/operand_count.h"
 #include "ir/support/ascii.h"
 #include "rtlib/text/letters.h"
 

@@ -4,9 +4,9 @@
 #include "frontend/table/instruction.h"
 #include "ir/support/diagnostics.h"
 
-namespace rung::frontend::technol {
+namespace rung::frontend {
 
 // Whether an instruction takes `found` operands. False after the report operand-count at `at`, with a list of them.
 bool countFits(const InstructionInfo& info, size_t found, SourceRange at, Diagnostics& diagnostics);
 
-} // namespace rung::frontend::technol
+} // namespace rung::frontend

@@ -1,10 +1,10 @@
 // How many operands (see operand_count.h).
-#include "frontend/dialects/technol/rows/operand_count.h"
+#include "frontend/sema/operand_count.h"
 
 #include <algorithm>
 #include <string>
 
-namespace rung::frontend::technol {
+namespace rung::frontend {
 namespace {
 
 std::string countText(size_t least, size_t most, bool repeated) {
@@ -43,4 +43,4 @@ bool countFits(const InstructionInfo& info, size_t found, SourceRange at, Diagno
   return false;
 }
 
-} // namespace rung::frontend::technol
+} // namespace rung::frontend

@@ -1,8 +1,6 @@
 // The rung builder (see builder.h).
 #include "ir/core/builder.h"
 
-#include <bit>
-
 #include "ir/support/check.h"
 
 namespace rung::ir {

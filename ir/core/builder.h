@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -81,23 +82,35 @@ public:
   void if_(ValueId cond);
   void else_(std::span<const ValueId> yields = {});
   std::vector<ValueId> endIf(std::span<const ValueId> yields = {});
-  // `body` adds the operations of a region without results.
+  // `body` adds the operations of a region without results. An invalid condition: they always run.
   template <class Body>
   void when(ValueId cond, Body body) {
-    if_(cond);
+    if (cond.valid()) if_(cond);
     body();
+    if (cond.valid()) endIf();
+  }
+  // The same, with other operations where the condition is 0.
+  template <class Yes, class No>
+  void when(ValueId cond, Yes yes, No no) {
+    if_(cond);
+    yes();
+    else_();
+    no();
     endIf();
   }
-  // Each branch adds its operations and gives its value, or a std::array of them; gives that of the branch which runs.
+  // Each branch adds its operations and gives its value, or a std::array or a struct of nothing but values; gives that
+  // of the branch which runs.
   template <class Yes, class No>
   auto choose(ValueId cond, Yes yes, No no) {
+    using Result = decltype(yes());
+    static_assert(sizeof(Result) % sizeof(ValueId) == 0);
+    using Values = std::array<ValueId, sizeof(Result) / sizeof(ValueId)>;
     if_(cond);
-    auto result = yes();
-    else_(valuesOf(result));
-    const auto other = no();
-    const std::vector<ValueId> joined = endIf(valuesOf(other));
-    std::ranges::copy(joined, valuesOf(result).begin());
-    return result;
+    Values values = std::bit_cast<Values>(yes());
+    else_(values);
+    const Values others = std::bit_cast<Values>(no());
+    std::ranges::copy(endIf(others), values.begin());
+    return std::bit_cast<Result>(values);
   }
   // Gives the pass number (i32) and then the carried values.
   std::vector<ValueId> loop(uint32_t count, std::span<const ValueId> carried = {});
@@ -118,16 +131,6 @@ public:
   void switchTo(ValueId value, std::vector<uint32_t> targets);
 
 private:
-  static std::span<ValueId> valuesOf(ValueId& value) { return {&value, 1}; }
-  static std::span<const ValueId> valuesOf(const ValueId& value) { return {&value, 1}; }
-  template <size_t N>
-  static std::span<ValueId> valuesOf(std::array<ValueId, N>& values) {
-    return values;
-  }
-  template <size_t N>
-  static std::span<const ValueId> valuesOf(const std::array<ValueId, N>& values) {
-    return values;
-  }
   Op& append(OpCode code, Type type, std::span<const ValueId> args);
   ValueId newResult(Op& op, Type type);
   ValueId resize(OpCode widen, Type type, ValueId a);

@@ -70,6 +70,37 @@ TEST_F(BuilderTest, RegionsGiveTheirResults) {
   EXPECT_EQ(b_.endLoop(std::vector{in[0]}).size(), 1u);
 }
 
+TEST_F(BuilderTest, BranchesGiveValuesArraysAndStructs) {
+  struct Pair {
+    ValueId left, right;
+  };
+  const ValueId cond = b_.bit(true);
+  const ValueId one = b_.i32(1), two = b_.i32(2);
+  EXPECT_EQ(b_.choose(cond, [&] { return one; }, [&] { return two; }).index, 3u);
+  const auto array = b_.choose(cond, [&] { return std::array{one, cond}; }, [&] { return std::array{two, cond}; });
+  EXPECT_EQ(array[1].index, 5u);
+  const Pair pair = b_.choose(cond, [&] { return Pair{one, cond}; }, [&] { return Pair{two, cond}; });
+  EXPECT_EQ(pair.left.index, 6u);
+  EXPECT_EQ(b_.typeOf(pair.right), Type::Bit);
+}
+
+TEST_F(BuilderTest, BranchesWithoutResults) {
+  const ValueId cond = b_.bit(true);
+  const auto codes = [&] {
+    std::vector<OpCode> made;
+    for (const Op& op : rung_.ops) made.push_back(op.code);
+    rung_.ops.clear();
+    return made;
+  };
+  codes();
+  b_.when(cond, [&] { b_.note("a"); });
+  EXPECT_EQ(codes(), (std::vector{OpCode::If, OpCode::Note, OpCode::EndIf}));
+  b_.when({}, [&] { b_.note("a"); });
+  EXPECT_EQ(codes(), std::vector{OpCode::Note});
+  b_.when(cond, [&] { b_.now(); }, [&] { b_.note("b"); });
+  EXPECT_EQ(codes(), (std::vector{OpCode::If, OpCode::Now, OpCode::Else, OpCode::Note, OpCode::EndIf}));
+}
+
 TEST_F(BuilderTest, LinesNotesAndHost) {
   b_.setLine(12);
   b_.note("first");

@@ -21,6 +21,13 @@ inline constexpr uint32_t kMachineAxes = 8;
 class ModuleLowering;
 struct RoutineContext;
 
+inline Address behind(Address address, uint32_t bytes) {
+  address.byte += bytes;
+  return address;
+}
+// Whether a number is in a set of bits by their numbers; one above 63 is in none.
+ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set);
+
 class FunctionLowering {
 public:
   FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const Network& network,

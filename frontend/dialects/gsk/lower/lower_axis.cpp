@@ -1,6 +1,4 @@
 // PLC axis control: hands command blocks to the CNC over the signals of a group (§9; man. l.3241-3393, 7591-7803).
-#include <array>
-
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "rtlib/nc/gsk/axis_commands.h"
 
@@ -27,15 +25,9 @@ public:
 private:
   Address bit(Area area, uint32_t byte, uint8_t number) const { return {area, byte, number, true}; }
   Address buffer() const { return bit(Area::G, group_.control, axis::kEbufBit); }
-  Address data(uint32_t offset) const {
-    Address address = f_.param(1).address;
-    address.byte += offset;
-    return address;
-  }
+  Address data(uint32_t offset) const { return behind(f_.param(1).address, offset); }
   ValueId state(uint8_t value) { return b_.constant(Type::I8, value); }
   ValueId isKnown(ValueId command);
-  template <class Yes, class No>
-  Step fork(ValueId condition, Yes yes, No no);
   Step call(ValueId ready);
   Step idle(ValueId ready);
   void send();
@@ -45,20 +37,10 @@ private:
   const axis::AxisGroup& group_;
 };
 
-template <class Yes, class No>
-Step AxisLowering::fork(ValueId condition, Yes yes, No no) {
-  const auto yields = [](const Step& step) { return std::array{step.state, step.out}; };
-  const auto joined = b_.choose(condition, [&] { return yields(yes()); }, [&] { return yields(no()); });
-  return {joined[0], joined[1]};
-}
-
 ValueId AxisLowering::isKnown(ValueId command) {
   uint64_t set = 0;
   for (const axis::AxisCommand& known : axis::axisCommands()) set |= uint64_t{1} << known.code;
-  const ValueId code = b_.and_(command, b_.constant(Type::I8, axis::kAxisCommandBits));
-  const ValueId bits = b_.constant(Type::I64, static_cast<int64_t>(set));
-  return b_.op(ir::OpCode::Trunc, Type::Bit,
-               {b_.op(ir::OpCode::ShrU, Type::I64, {bits, b_.zextOrTrunc(Type::I32, code)})});
+  return isIn(b_, b_.and_(command, b_.constant(Type::I8, axis::kAxisCommandBits)), set);
 }
 
 // Seven bytes, EMSBK and EC first (P51), then the CNC is told by EBUF (man. l.7672).
@@ -76,7 +58,7 @@ void AxisLowering::send() {
 
 // ACT=1 in the state idle.
 Step AxisLowering::idle(ValueId ready) {
-  return fork(
+  return b_.choose(
       isKnown(f_.load(Type::I8, data(axis::kAxisCommandAt))),
       [&] {
         b_.when(ready, [&] { send(); });
@@ -91,7 +73,7 @@ Step AxisLowering::idle(ValueId ready) {
 // RST=0. OUT comes when EBSY has followed EBUF, whatever ACT is (man. l.3322), and goes when ACT is 0.
 Step AxisLowering::call(ValueId ready) {
   const ValueId old = b_.slotLoad(f_.slot("state", Type::I8));
-  return fork(
+  return b_.choose(
       b_.and_(f_.act(), b_.eq(old, state(kIdle))), [&] { return idle(ready); },
       [&] {
         const ValueId sent = b_.eq(old, state(kSent));
@@ -105,7 +87,7 @@ Step AxisLowering::call(ValueId ready) {
 void AxisLowering::run() {
   const ValueId reset = f_.condition(0);
   f_.store(bit(Area::G, group_.control, axis::kEclrBit), reset);
-  const Step step = fork(
+  const Step step = b_.choose(
       reset, [&] { return Step{state(kIdle), b_.bit(false)}; },
       [&] {
         return call(

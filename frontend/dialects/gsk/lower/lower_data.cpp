@@ -46,15 +46,11 @@ void lowerMoveBlock(FunctionLowering& f) {
     };
     std::vector<Piece> pieces;
     const auto size = static_cast<uint32_t>(f.param(0).value);
-    const auto at = [](Address address, uint32_t offset) {
-      address.byte += offset;
-      return address;
-    };
     uint32_t offset = 0;
     for (uint32_t width : {8u, 4u, 2u, 1u})
       for (; size - offset >= width; offset += width)
-        pieces.push_back({offset, f.load(ir::intOfBytes(width), at(f.param(1).address, offset))});
-    for (const Piece& piece : pieces) f.store(at(f.param(2).address, piece.offset), piece.value);
+        pieces.push_back({offset, f.load(ir::intOfBytes(width), behind(f.param(1).address, offset))});
+    for (const Piece& piece : pieces) f.store(behind(f.param(2).address, piece.offset), piece.value);
   });
 }
 

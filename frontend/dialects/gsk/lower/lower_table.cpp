@@ -93,13 +93,8 @@ namespace {
 // Entries that are compared together: a short table does not cost what the area holds.
 constexpr uint32_t kBlock = 32;
 
-struct Found {
-  ValueId yes; // bit
-  ValueId at;
-};
-
-// The lowest entry of the block from `start` that matches, of those below `limit`.
-Found searchBlock(FunctionLowering& f, ValueId start, ValueId limit, ValueId searched) {
+// Whether an entry of the block from `start` matches, of those below `limit`, and the lowest.
+std::array<ValueId, 2> searchBlock(FunctionLowering& f, ValueId start, ValueId limit, ValueId searched) {
   ir::RungBuilder& b = f.b;
   const Address& table = f.param(2).address;
   const ValueId none[] = {b.bit(false), b.i32(0)};
@@ -127,12 +122,9 @@ void lowerSearch(FunctionLowering& f) {
     const ValueId none[] = {b.bit(false), b.i32(0)};
     const auto block = b.loop((exist + kBlock - 1) / kBlock, none);
     const ValueId start = b.mul(block[0], b.i32(kBlock));
-    const auto search = [&] {
-      const Found here = searchBlock(f, start, limit, searched);
-      return std::array{here.yes, here.at};
-    };
-    const auto found = b.endLoop(b.choose(b.and_(b.ltU(start, limit), b.not_(block[1])), search,
-                                          [&] { return std::array{block[1], block[2]}; }));
+    const auto found = b.endLoop(b.choose(
+        b.and_(b.ltU(start, limit), b.not_(block[1])), [&] { return searchBlock(f, start, limit, searched); },
+        [&] { return std::array{block[1], block[2]}; }));
     f.b.when(found[0], [&] { f.store(f.param(4).address, b.zextOrTrunc(f.dataType(), found[1])); });
     return b.not_(found[0]);
   });

@@ -34,11 +34,7 @@ public:
 
 private:
   bool writes() const { return f_.variant() == kWindowWrite; }
-  Address at(uint32_t offset) const {
-    Address address = f_.param(0).address;
-    address.byte += offset;
-    return address;
-  }
+  Address at(uint32_t offset) const { return behind(f_.param(0).address, offset); }
   ValueId word(uint32_t offset) { return f_.load(Type::I16, at(offset)); }
   ir::SlotId ticket() { return f_.slot("ticket", Type::I32); }
   ir::SlotId length() { return f_.slot("length", Type::I16); }
@@ -49,7 +45,6 @@ private:
   ir::SlotId state() { return f_.slot(std::string("state") + kLock, Type::I8); }
 
   uint32_t room() const;
-  ValueId oneOf(uint64_t set, ValueId number);
   ValueId refusal(ValueId function, ValueId length);
   ValueId dataToWrite(ValueId length);
   ValueId request(ValueId function, ValueId length);
@@ -87,13 +82,6 @@ uint64_t setOf(Belongs belongs) {
   return set;
 }
 
-// A number above 63 is in no set.
-ValueId WindowLowering::oneOf(uint64_t set, ValueId number) {
-  const ValueId bits = b_.constant(Type::I64, static_cast<int64_t>(set));
-  return b_.op(ir::OpCode::Trunc, Type::Bit,
-               {b_.op(ir::OpCode::ShrU, Type::I64, {bits, b_.zextOrTrunc(Type::I32, number)})});
-}
-
 // Bytes from the data to the end of the area, at most as many as the longest data; parameters.cpp has seen to one.
 uint32_t WindowLowering::room() const {
   const Address data = at(window::kWindowDataAt);
@@ -111,9 +99,9 @@ ValueId WindowLowering::refusal(ValueId function, ValueId length) {
     if (window::isWindowLength(bytes)) lengths |= uint64_t{1} << bytes;
   const auto code = [&](uint16_t end) { return b_.constant(Type::I64, end); };
   const ValueId badLength =
-      b_.select(oneOf(lengths, length), code(window::kWindowDone), code(window::kWindowBadLength));
-  const ValueId badStatus = b_.select(oneOf(closed, function), code(window::kWindowNotProvided), badLength);
-  return b_.select(oneOf(known, function), badStatus, code(window::kWindowBadFunction));
+      b_.select(isIn(b_, length, lengths), code(window::kWindowDone), code(window::kWindowBadLength));
+  const ValueId badStatus = b_.select(isIn(b_, function, closed), code(window::kWindowNotProvided), badLength);
+  return b_.select(isIn(b_, function, known), badStatus, code(window::kWindowBadFunction));
 }
 
 ValueId WindowLowering::dataToWrite(ValueId length) {
@@ -154,10 +142,7 @@ Step WindowLowering::nothing(ValueId out) {
 }
 
 Step WindowLowering::fork(ValueId condition, Step (WindowLowering::*yes)(), Step (WindowLowering::*no)()) {
-  const auto yields = [](const Step& s) { return std::array{s.out, s.finished, s.end, s.data, s.length}; };
-  const auto joined =
-      b_.choose(condition, [&] { return yields((this->*yes)()); }, [&] { return yields((this->*no)()); });
-  return {joined[0], joined[1], joined[2], joined[3], joined[4]};
+  return b_.choose(condition, [&] { return (this->*yes)(); }, [&] { return (this->*no)(); });
 }
 
 void WindowLowering::run() {
@@ -214,7 +199,7 @@ Step WindowLowering::start() {
   const uint64_t low = setOf([](const window::WindowFunction& f) {
     return f.access == window::WindowAccess::Read && f.speed == window::WindowSpeed::Low;
   });
-  return fork(oneOf(low, function_), &WindowLowering::lowSpeed, &WindowLowering::immediate);
+  return fork(isIn(b_, function_, low), &WindowLowering::lowSpeed, &WindowLowering::immediate);
 }
 
 // High speed: completed in the scan of the call (man. l.8505).

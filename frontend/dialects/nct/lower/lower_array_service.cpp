@@ -5,7 +5,6 @@
 // keeps its output while EN stays TRUE and asks again only after EN was FALSE; when EN went FALSE too early the answer
 // is dropped, and the buffer is free when it has come.
 #include <algorithm>
-#include <array>
 
 #include "frontend/dialects/nct/lower/lowering.h"
 #include "rtlib/nc/nct/operand_block.h"
@@ -77,8 +76,6 @@ private:
   ValueId poll() { return b_.servicePoll(b_.slotLoad(ticket_)); }
   ValueId answered() { return b_.ne(poll(), b_.i32(RUNG_SERVICE_PENDING)); }
   Step rest(uint8_t state, bool output = false) { return {b_.bit(output), is(state)}; }
-  template <class Yes, class No>
-  Step fork(ValueId condition, Yes yes, No no);
 
   uint32_t blockWords() const;
   WordRange block(const Place& place) const;
@@ -103,13 +100,6 @@ private:
   const Operand& function_;
 };
 
-template <class Yes, class No>
-Step ArrayServiceLowering::fork(ValueId condition, Yes yes, No no) {
-  const auto yields = [](const Step& step) { return std::array{step.output, step.state}; };
-  const auto joined = b_.choose(condition, [&] { return yields(yes()); }, [&] { return yields(no()); });
-  return {joined[0], joined[1]};
-}
-
 // A box that rests costs one comparison.
 ValueId ArrayServiceLowering::run() {
   if (!box_.operands[0].address.isFixed()) first_ = box_.slots.make("first", Type::I32);
@@ -133,13 +123,13 @@ ValueId ArrayServiceLowering::freed(ValueId enable, ValueId state) {
 
 Step ArrayServiceLowering::evaluate(ValueId enable, ValueId state) {
   const ValueId done = b_.eq(state, is(kDone));
-  return fork(
+  return b_.choose(
       enable,
       [&] {
-        return fork(
+        return b_.choose(
             b_.eq(state, is(kIdle)), [&] { return begin(); },
             [&] {
-              return fork(b_.eq(state, is(kPending)), [&] { return await(); }, [&] { return Step{done, state}; });
+              return b_.choose(b_.eq(state, is(kPending)), [&] { return await(); }, [&] { return Step{done, state}; });
             });
       },
       [&] { return Step{b_.bit(false), b_.select(done, is(kIdle), state)}; });
@@ -188,7 +178,7 @@ Step ArrayServiceLowering::begin() {
   ValueId valid = place.valid;
   const ValueId function = box_.memory.integer(function_, valid);
   if (!valid.valid()) return start(place, function);
-  return fork(
+  return b_.choose(
       valid, [&] { return start(place, function); },
       [&] { // there is no block that could take an execution code
         box_.memory.setErrorFlag(true);
@@ -202,7 +192,7 @@ Step ArrayServiceLowering::start(const Place& place, ValueId function) {
   const ValueId refusal = b_.select(
       isKnown(function), b_.select(fits(range, place), b_.i32(nc::nct::kExecuted), b_.i32(nc::nct::kBadAmount)),
       b_.i32(nc::nct::kBadFunction));
-  return fork(
+  return b_.choose(
       b_.eq(refusal, b_.i32(nc::nct::kExecuted)), [&] { return ask(range, place, function); },
       [&] {
         box_.memory.storeIn(range, b_.i32(nc::nct::kCodeWord), refusal);
@@ -232,7 +222,7 @@ Step ArrayServiceLowering::ask(const WordRange& range, const Place& place, Value
 // --- its answer -----------------------------------------------------------------------------------------------------
 
 Step ArrayServiceLowering::await() {
-  return fork(
+  return b_.choose(
       answered(),
       [&] {
         Place place = box_.memory.word(box_.operands[0].address, Reach::Write);

@@ -22,11 +22,7 @@ ValueId isNumber(RungBuilder& b, ValueId x) { return b.op(OpCode::FEq, Type::F64
 // Does `store` when `ok` holds, else only sets FL_ER; gives `ok`. `store` clears FL_ER.
 template <class Store>
 ValueId when(Lowering& box, ValueId ok, Store store) {
-  box.b.if_(ok);
-  store();
-  box.b.else_();
-  box.memory.setErrorFlag(true);
-  box.b.endIf();
+  box.b.when(ok, store, [&] { box.memory.setErrorFlag(true); });
   return ok;
 }
 

@@ -157,9 +157,7 @@ ValueId lowerArray(Lowering& box) {
       const ValueId bits = b.and_(amount, b.i32(31));
       const auto eachWord = [&](auto act) {
         const ValueId i = b.loop(array.mostWords).front();
-        if (!fixed) b.if_(b.ltU(i, array.length));
-        act(i);
-        if (!fixed) b.endIf();
+        b.when(fixed ? ValueId{} : b.ltU(i, array.length), [&] { act(i); });
         b.endLoop();
       };
       eachWord([&](ValueId i) { memory.storeScratch(i, shiftedWord(box, array, i, words, bits)); });

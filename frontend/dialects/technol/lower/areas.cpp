@@ -99,9 +99,7 @@ void eachBelow(Memory& m, const Length& count, auto body) {
   }
   ValueId i = b.loop(blocks ? kBlock : count.most)[0];
   if (blocks) i = b.add(start, i);
-  b.if_(b.ltU(i, count.value));
-  body(i);
-  b.endIf();
+  b.when(b.ltU(i, count.value), [&] { body(i); });
   b.endLoop();
   if (!blocks) return;
   b.endIf();

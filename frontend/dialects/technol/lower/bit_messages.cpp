@@ -92,12 +92,12 @@ void BitMessages::add(BitMessage message, ValueId number, ValueId subId) {
     const ValueId full = b.leU(b.i32(static_cast<int32_t>(message.capacity)), count);
     b.trap(b.and_(fresh, full), m_.fault(nc::kTechnolEdef));
   }
-  b.if_(fresh);
-  for (size_t i = 0; i < fields.size(); ++i)
-    if (fields[i].valid()) entries.store(static_cast<uint32_t>(i) * 4, count, fields[i]);
-  entries.store(kOldField, count, b.zextOrTrunc(Type::I8, now));
-  b.store(entries.count(), b.add(count, b.i32(1)));
-  b.endIf();
+  b.when(fresh, [&] {
+    for (size_t i = 0; i < fields.size(); ++i)
+      if (fields[i].valid()) entries.store(static_cast<uint32_t>(i) * 4, count, fields[i]);
+    entries.store(kOldField, count, b.zextOrTrunc(Type::I8, now));
+    b.store(entries.count(), b.add(count, b.i32(1)));
+  });
   messages_.push_back(message);
 }
 
@@ -121,9 +121,7 @@ public:
     const ValueId count = b_.load(Type::I32, entries_.count());
     const bool several = message_.capacity > 1;
     const ValueId entry = several ? b_.loop(message_.capacity)[0] : b_.i32(0);
-    b_.if_(b_.ltU(entry, count));
-    look(entry);
-    b_.endIf();
+    b_.when(b_.ltU(entry, count), [&] { look(entry); });
     if (several) b_.endLoop();
   }
 
@@ -134,14 +132,10 @@ private:
                                                        b_.i32(static_cast<int32_t>(operand.place.bit)))
                                         : b_.load(Type::Bit, operand.place);
     const ValueId now = b_.zextOrTrunc(Type::I8, bit);
-    b_.if_(b_.ne(now, entries_.load(Type::I8, kOldField, entry)));
-    entries_.store(kOldField, entry, now);
-    b_.if_(bit);
-    at(kRising, entry);
-    b_.else_();
-    at(kFalling, entry);
-    b_.endIf();
-    b_.endIf();
+    b_.when(b_.ne(now, entries_.load(Type::I8, kOldField, entry)), [&] {
+      entries_.store(kOldField, entry, now);
+      b_.when(bit, [&] { at(kRising, entry); }, [&] { at(kFalling, entry); });
+    });
   }
 
   void at(uint32_t edge, ValueId entry) {

@@ -1,6 +1,8 @@
 // The statement at hand (see context.h).
 #include "frontend/dialects/technol/lower/context.h"
 
+#include "frontend/dialects/technol/lower/lower.h"
+
 namespace rung::frontend::technol {
 
 using ir::ValueId;
@@ -19,6 +21,11 @@ void StatementContext::useStack() {
 uint32_t StatementContext::labelOf(uint32_t label) {
   if (labels_[label] == kNone) labels_[label] = out().newLabel();
   return labels_[label];
+}
+
+ValueId StatementContext::guardOf(int condition) {
+  if (condition == kAlways) return {};
+  return condition == kIfRlo ? r().rlo() : b().not_(r().rlo());
 }
 
 ValueId StatementContext::contact(const Operand& operand) {

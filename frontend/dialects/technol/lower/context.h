@@ -26,6 +26,8 @@ public:
   // The label of the code at a program's label, in Program::labels.
   uint32_t labelOf(uint32_t label);
   uint32_t jumpTarget(const Operand& label) { return labelOf(label.index); }
+  // When a statement of this `variant` is carried out: always (an invalid value), or as RLO is.
+  ir::ValueId guardOf(int condition);
   // The bit that LDR, LA, LO and LX ask.
   ir::ValueId contact(const Operand& operand);
   // State of this statement alone.

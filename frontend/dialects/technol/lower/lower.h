@@ -3,12 +3,15 @@
 
 #include <span>
 
+#include "ir/core/op_info.h"
+
 namespace rung::frontend::technol {
 
 class StatementContext;
 struct Operand;
 
 enum BitJoin { kAnd, kOr, kXor };
+inline constexpr ir::OpCode kJoinCodes[] = {ir::OpCode::And, ir::OpCode::Or, ir::OpCode::Xor};
 enum Condition { kAlways, kIfRlo, kIfNotRlo };
 enum Arithmetic { kAdd, kSubtract, kMultiply, kDivide };
 enum Compare { kEqual, kEqualIfRlo, kLess, kGreater, kLessEqual, kGreaterEqual };

@@ -11,24 +11,6 @@ using ir::ValueId;
 
 namespace {
 
-// Runs `body` always, or only while RLO is 1 (or 0).
-template <class Body>
-void conditionally(StatementContext& l, int condition, Body body) {
-  if (condition == kAlways) return body();
-  const ValueId rlo = l.r().rlo();
-  l.b().if_(condition == kIfRlo ? rlo : l.b().not_(rlo));
-  body();
-  l.b().endIf();
-}
-
-ValueId join(StatementContext& l, int kind, ValueId a, ValueId b) {
-  switch (kind) {
-  case kAnd: return l.b().and_(a, b);
-  case kOr: return l.b().or_(a, b);
-  default: return l.b().xor_(a, b);
-  }
-}
-
 // What an address needs is computed in front of a condition's region.
 std::vector<MemoryAccess> reachAll(StatementContext& l, std::span<const Operand> bits, ValueId guard) {
   std::vector<MemoryAccess> places;
@@ -49,7 +31,8 @@ void lowerLicence(StatementContext& l, std::span<const Operand> o, int) {
 
 void lowerJoin(StatementContext& l, std::span<const Operand> o, int kind) {
   const ValueId rlo = l.r().rlo();
-  l.r().setRlo(o[0].given() ? join(l, kind, rlo, l.contact(o[0])) : join(l, kind, l.popped(), rlo));
+  l.r().setRlo(o[0].given() ? l.b().binary(kJoinCodes[kind], rlo, l.contact(o[0]))
+                            : l.b().binary(kJoinCodes[kind], l.popped(), rlo));
 }
 
 void lowerComplement(StatementContext& l, std::span<const Operand>, int) { l.r().setRlo(l.b().not_(l.r().rlo())); }
@@ -73,18 +56,18 @@ void lowerWrite(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 void lowerFlag(StatementContext& l, std::span<const Operand> o, int condition) {
-  const ValueId guard = condition == kAlways ? ValueId{} : l.r().rlo();
+  const ValueId guard = l.guardOf(condition);
   const std::vector<MemoryAccess> places = reachAll(l, o.subspan(1), guard);
-  conditionally(l, condition, [&] {
+  l.b().when(guard, [&] {
     const ValueId flag = l.b().bit(o[0].value != 0);
     for (const MemoryAccess& place : places) l.store(place, flag);
   });
 }
 
 void lowerMoveBit(StatementContext& l, std::span<const Operand> o, int condition) {
-  const ValueId guard = condition == kAlways ? ValueId{} : l.r().rlo();
+  const ValueId guard = l.guardOf(condition);
   const std::vector<MemoryAccess> places = reachAll(l, o, guard);
-  conditionally(l, condition, [&] {
+  l.b().when(guard, [&] {
     const ValueId bit = l.load(places[1], Type::Bit);
     l.store(places[0], o[1].negated ? l.b().not_(bit) : bit);
   });
@@ -94,10 +77,7 @@ void lowerMoveBit(StatementContext& l, std::span<const Operand> o, int condition
 void lowerNothing(StatementContext&, std::span<const Operand>, int) {}
 
 void lowerJump(StatementContext& l, std::span<const Operand> o, int condition) {
-  const uint32_t target = l.jumpTarget(o[0]);
-  if (condition == kAlways) return l.out().jump(target);
-  const ValueId rlo = l.r().rlo();
-  l.out().jump(target, condition == kIfRlo ? rlo : l.b().not_(rlo));
+  l.out().jump(l.jumpTarget(o[0]), l.guardOf(condition));
 }
 
 } // namespace rung::frontend::technol

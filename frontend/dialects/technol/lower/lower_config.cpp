@@ -70,9 +70,7 @@ void getValue(StatementContext& l, std::span<const Operand> o, Kind kind) {
   if (kind == Kind::Constant)
     l.r().setDr(b.select(found, b.zextOrTrunc(Type::I32, b.serviceResult(ticket, kHead)), b.i32(0)));
   if (hasDefault) return l.store(target, b.select(found, value, otherwise));
-  b.if_(found);
-  l.store(target, value);
-  b.endIf();
+  b.when(found, [&] { l.store(target, value); });
 }
 
 // ---- texts ----------------------------------------------------------------------------------------------------------
@@ -91,9 +89,7 @@ void putParts(StatementContext& l, const Text& target, Kind kind, const Words& i
     const ValueId first = b.add(b.mul(part, b.i32(kBytes)), b.i32(int64_t{w} * 8));
     const auto in = b.loop(8, std::array{word});
     const ValueId number = b.add(first, in[0]);
-    b.if_(b.ltU(number, count));
-    storeByte(l, target.area, number, b.zextOrTrunc(Type::I8, in[1]));
-    b.endIf();
+    b.when(b.ltU(number, count), [&] { storeByte(l, target.area, number, b.zextOrTrunc(Type::I8, in[1])); });
     b.endLoop(std::array{b.op(ir::OpCode::ShrU, Type::I64, {in[1], b.i32(8)})});
   }
   b.endLoop();
@@ -115,13 +111,9 @@ void getText(StatementContext& l, std::span<const Operand> o, Kind kind) {
   const ValueId found = answersYes(b, ticket, 0);
   const ValueId length = b.zextOrTrunc(Type::I32, b.serviceResult(ticket, 1));
   l.r().setRlo(found);
-  b.if_(found);
-  putParts(l, target, kind, id, length);
-  if (o[2].given()) {
-    b.else_();
-    putDefault(l, target, source);
-  }
-  b.endIf();
+  const auto put = [&] { putParts(l, target, kind, id, length); };
+  if (!o[2].given()) return b.when(found, put);
+  b.when(found, put, [&] { putDefault(l, target, source); });
 }
 
 } // namespace
@@ -130,10 +122,7 @@ void getText(StatementContext& l, std::span<const Operand> o, Kind kind) {
 void lowerConfiguration(StatementContext& l, std::span<const Operand> o, int kind) {
   const auto wanted = static_cast<Kind>(kind);
   if (wanted != Kind::Text && wanted != Kind::Binary) return getValue(l, o, wanted);
-  const bool isLong = anyIsLong(o);
-  if (isLong) l.out().cut();
-  getText(l, o, wanted);
-  if (isLong) l.out().cut();
+  inOwnRung(l, anyIsLong(o), [&] { getText(l, o, wanted); });
 }
 
 } // namespace rung::frontend::technol

@@ -13,14 +13,6 @@ namespace {
 
 Type widthOf(const Operand& operand) { return operand.given() ? operand.type : Type::I16; }
 
-ValueId bitwise(ir::RungBuilder& b, int kind, ValueId x, ValueId y) {
-  switch (kind) {
-  case kAnd: return b.and_(x, y);
-  case kOr: return b.or_(x, y);
-  default: return b.xor_(x, y);
-  }
-}
-
 // A result that is no number, or a division by zero, is the coprocessor's error.
 ValueId checkedReal(StatementContext& l, ValueId result, ValueId divisor = {}) {
   ir::RungBuilder& b = l.b();
@@ -80,15 +72,8 @@ ValueId compareReals(ir::RungBuilder& b, int relation, ValueId x, ValueId y) {
   }
 }
 
-ValueId guardOf(StatementContext& l, int condition) {
-  if (condition == kAlways) return {};
-  return condition == kIfRlo ? l.r().rlo() : l.b().not_(l.r().rlo());
-}
-
 void storeIf(StatementContext& l, ValueId guard, const MemoryAccess& access, ValueId value) {
-  if (guard.valid()) l.b().if_(guard);
-  l.store(access, value);
-  if (guard.valid()) l.b().endIf();
+  l.b().when(guard, [&] { l.store(access, value); });
 }
 
 } // namespace
@@ -105,7 +90,7 @@ void lowerLoad(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 void lowerStore(StatementContext& l, std::span<const Operand> o, int condition) {
-  const ValueId guard = guardOf(l, condition);
+  const ValueId guard = l.guardOf(condition);
   const ValueId value = o[0].isReal() ? l.r().real() : l.r().dr(o[0].type);
   storeIf(l, guard, l.reach(o[0], guard), value);
 }
@@ -113,7 +98,7 @@ void lowerStore(StatementContext& l, std::span<const Operand> o, int condition) 
 void lowerMove(StatementContext& l, std::span<const Operand> o, int condition) {
   // A REAL is moved as its 64 bits.
   const Type type = o[0].isReal() ? Type::I64 : o[0].type;
-  const ValueId guard = guardOf(l, condition);
+  const ValueId guard = l.guardOf(condition);
   const MemoryAccess from = l.reach(o[1], guard), to = l.reach(o[0], guard);
   storeIf(l, guard, to, l.load(from, type));
 }
@@ -129,7 +114,7 @@ void lowerArithmetic(StatementContext& l, std::span<const Operand> o, int operat
 
 void lowerBitwise(StatementContext& l, std::span<const Operand> o, int kind) {
   const ValueId right = l.value(o[0]);
-  l.r().setDrPart(bitwise(l.b(), kind, l.r().dr(o[0].type), right));
+  l.r().setDrPart(l.b().binary(kJoinCodes[kind], l.r().dr(o[0].type), right));
 }
 
 // EQ1 compares only while RLO is 1, and leaves it 0 otherwise (man. l.1404).

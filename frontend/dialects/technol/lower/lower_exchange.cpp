@@ -68,9 +68,7 @@ void setDefault(StatementContext& l, const Exchanged& variable, const Operand& t
   const ValueId configured = fromBits(b, b.serviceResult(ticket, 2), target.type);
   if (given.given())
     return fill(b, target, variable.count, b.select(found, configured, defaultOf(b, given, target.type)));
-  b.if_(found);
-  fill(b, target, variable.count, configured);
-  b.endIf();
+  b.when(found, [&] { fill(b, target, variable.count, configured); });
 }
 
 } // namespace
@@ -99,9 +97,7 @@ void takeElement(StatementContext& l, const Operand& target, uint32_t offset) {
   at.byte += offset;
   const ValueId place = b.constant(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit));
   const ValueId ticket = b.serviceRequest(l.service(nc::kUpdateService), std::array{place});
-  b.if_(answersYes(b, ticket, 0));
-  b.store(at, fromBits(b, b.serviceResult(ticket, 1), target.type));
-  b.endIf();
+  b.when(answersYes(b, ticket, 0), [&] { b.store(at, fromBits(b, b.serviceResult(ticket, 1), target.type)); });
 }
 
 } // namespace

@@ -25,11 +25,11 @@ ValueId loadedWord(StatementContext& l, const Text& text, uint32_t first, uint32
   ir::RungBuilder& b = l.b();
   const auto in = b.loop(count, std::array{b.constant(Type::I64, 0)});
   const ValueId number = b.add(in[0], b.i32(first));
-  b.if_(b.ltU(number, text.room));
-  const ValueId byte = b.zextOrTrunc(Type::I64, loadByte(l, text.area, number));
-  const ValueId moved = b.op(ir::OpCode::Shl, Type::I64, {byte, b.mul(in[0], b.i32(8))});
-  b.else_(std::array{b.or_(in[1], moved)});
-  return b.endLoop(b.endIf(std::array{in[1]}))[0];
+  const auto join = [&] {
+    const ValueId byte = b.zextOrTrunc(Type::I64, loadByte(l, text.area, number));
+    return b.or_(in[1], b.op(ir::OpCode::Shl, Type::I64, {byte, b.mul(in[0], b.i32(8))}));
+  };
+  return b.endLoop(std::array{b.choose(b.ltU(number, text.room), join, [&] { return in[1]; })})[0];
 }
 
 } // namespace

@@ -21,9 +21,7 @@ ValueId timeFor(StatementContext& l, const CountCell& cell, const Operand& opera
 }
 
 void showLineIf(StatementContext& l, const Sequence& sequence, ValueId cond) {
-  l.b().if_(cond);
-  l.sequences.storeLine(sequence, l.statement().line);
-  l.b().endIf();
+  l.b().when(cond, [&] { l.sequences.storeLine(sequence, l.statement().line); });
 }
 
 } // namespace
@@ -50,11 +48,8 @@ void lowerExWhile(StatementContext& l, std::span<const Operand>, int level) {
   Sequence& s = l.sequences.current();
   const uint32_t next = l.sequences.newState(s);
   const ValueId wait = waits(l, level);
-  l.b().if_(wait);
-  l.sequences.storeLine(s, l.statement().line);
-  l.b().else_();
-  l.sequences.storeState(s, l.b().i32(next));
-  l.b().endIf();
+  l.b().when(
+      wait, [&] { l.sequences.storeLine(s, l.statement().line); }, [&] { l.sequences.storeState(s, l.b().i32(next)); });
   l.out().jump(s.leave, wait);
   l.out().bind(s.states[next]);
 }

@@ -20,11 +20,8 @@ MessageParts partsOf(Memory& m, ValueId number, const Operand& subId, std::span<
 // `set` 1 shows and 0 removes; without it the message is shown.
 void showOrRemove(ir::RungBuilder& b, const MessageParts& m, ValueId set) {
   if (!set.valid()) return send(b, m, RUNG_MESSAGE_SHOW_LOG, 0);
-  b.if_(set);
-  send(b, m, RUNG_MESSAGE_SHOW_LOG, nc::technol::kPersistentWanted);
-  b.else_();
-  send(b, m, RUNG_MESSAGE_CLEAR, nc::technol::kPersistentWanted);
-  b.endIf();
+  const auto give = [&](uint32_t op) { return [&, op] { send(b, m, op, nc::technol::kPersistentWanted); }; };
+  b.when(set, give(RUNG_MESSAGE_SHOW_LOG), give(RUNG_MESSAGE_CLEAR));
 }
 
 } // namespace
@@ -41,14 +38,12 @@ void lowerMessage(StatementContext& l, std::span<const Operand> o, int condition
     set = b.ne(value, b.i32(0));
   }
   const MessageParts message = partsOf(l, number, o[1], o.subspan(3, 3));
-  const ValueId rlo = condition == kIfRlo ? l.r().rlo() : ValueId{};
+  const ValueId rlo = l.guardOf(condition);
   const bool calls =
       l.procedures.onMessage() != kNone && l.program().procedureOf(l.statement().unit) != l.procedures.onMessage();
   const ValueId comesUp = !set.valid() ? rlo : !rlo.valid() ? set : b.and_(rlo, set);
   if (calls) l.procedures.saveRegisters();
-  if (rlo.valid()) b.if_(rlo);
-  showOrRemove(b, message, set);
-  if (rlo.valid()) b.endIf();
+  b.when(rlo, [&] { showOrRemove(b, message, set); });
   if (!calls) return;
   l.r().setDr(b.zextOrTrunc(Type::I64, number));
   l.callProcedure(l.procedures.onMessage(), comesUp);

@@ -11,13 +11,6 @@ using ir::ValueId;
 
 namespace {
 
-void inOwnRung(StatementContext& l, std::span<const Operand> o, auto body) {
-  const bool isLong = anyIsLong(o);
-  if (isLong) l.out().cut();
-  body();
-  if (isLong) l.out().cut();
-}
-
 // One side of a comparison; behind `room` its bytes count as 0.
 struct Side {
   Area area;
@@ -32,32 +25,18 @@ ValueId byteOf(StatementContext& l, const Side& side, ValueId i) {
   return b.select(inside, loadByte(l, side.area, b.select(inside, i, b.i32(0))), zero);
 }
 
-// `state`: equal so far, not ended.
-std::vector<ValueId> comparePasses(StatementContext& l, const Side& left, const Side& right, const Length& count,
-                                   bool texts, uint32_t passes, ValueId start, std::span<const ValueId> state) {
-  ir::RungBuilder& b = l.b();
-  const auto pass = b.loop(passes, state);
-  const ValueId i = b.add(start, pass[0]);
-  const ValueId x = byteOf(l, left, i), y = byteOf(l, right, i);
-  const ValueId counts = b.and_(pass[2], b.ltU(i, count.value));
-  const ValueId equal = b.and_(pass[1], b.or_(b.not_(counts), b.eq(x, y)));
-  const ValueId goes = b.and_(counts, equal);
-  const ValueId next[] = {equal, texts ? b.and_(goes, b.ne(x, b.constant(Type::I8, 0))) : goes};
-  return b.endLoop(next);
-}
-
 // Two areas compared byte by byte. A common 0 ends texts.
 void compare(StatementContext& l, const Side& left, const Side& right, const Length& count, bool texts) {
   ir::RungBuilder& b = l.b();
   if (count.most == 0) return l.r().setRlo(b.bit(true));
-  const ValueId begin[] = {b.bit(true), b.bit(true)};
-  if (count.most <= 2 * kBlock)
-    return l.r().setRlo(comparePasses(l, left, right, count, texts, count.most, b.i32(0), begin)[0]);
-  const auto block = b.loop((count.most + kBlock - 1) / kBlock, begin);
-  const ValueId state[] = {block[1], block[2]};
-  b.if_(block[2]);
-  b.else_(comparePasses(l, left, right, count, texts, kBlock, b.mul(block[0], b.i32(kBlock)), state));
-  l.r().setRlo(b.endLoop(b.endIf(state))[0]);
+  const auto pass = [&](ValueId i, ValueId equalSoFar, ValueId goesOn) {
+    const ValueId x = byteOf(l, left, i), y = byteOf(l, right, i);
+    const ValueId counts = b.and_(goesOn, b.ltU(i, count.value));
+    const ValueId equal = b.and_(equalSoFar, b.or_(b.not_(counts), b.eq(x, y)));
+    const ValueId goes = b.and_(counts, equal);
+    return std::array{equal, texts ? b.and_(goes, b.ne(x, b.constant(Type::I8, 0))) : goes};
+  };
+  l.r().setRlo(passWhile(l, count.most, b.bit(true), pass));
 }
 
 // Copies what is there and clears what is not.
@@ -72,11 +51,11 @@ void copyInside(StatementContext& l, const Area& to, const Area& from, const Len
 // The source comes first (man. l.1484, l.13540; one example has it the other way round).
 void lowerMoveMemory(StatementContext& l, std::span<const Operand> o, int) {
   const bool isLong = !o[2].isConstant() || o[2].value > kManyPasses;
-  if (isLong) l.out().cut();
-  const Length count = countOf(l, o[2]);
-  const Area from = areaOf(l, o[0]), to = areaOf(l, o[1]);
-  copyInside(l, to, from, inside(l, to, count));
-  if (isLong) l.out().cut();
+  inOwnRung(l, isLong, [&] {
+    const Length count = countOf(l, o[2]);
+    const Area from = areaOf(l, o[0]), to = areaOf(l, o[1]);
+    copyInside(l, to, from, inside(l, to, count));
+  });
 }
 
 // From the first address up to the second, which is not cleared.
@@ -97,7 +76,7 @@ void lowerClear(StatementContext& l, std::span<const Operand> o, int) {
 // Ends with the terminator, which is copied too, where the target is full, or behind `num` characters (man.
 // l.1720-1744). A source without a terminator has as many characters as it holds.
 void lowerCopyText(StatementContext& l, std::span<const Operand> o, int) {
-  inOwnRung(l, o, [&] {
+  inOwnRung(l, anyIsLong(o), [&] {
     const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     ir::RungBuilder& b = l.b();
     const Length length = lengthOf(l, from);
@@ -115,7 +94,7 @@ void lowerCopyText(StatementContext& l, std::span<const Operand> o, int) {
 
 // The joined text is cut where the target is full (man. l.1746).
 void lowerAddText(StatementContext& l, std::span<const Operand> o, int) {
-  inOwnRung(l, o, [&] {
+  inOwnRung(l, anyIsLong(o), [&] {
     const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     ir::RungBuilder& b = l.b();
     const Length used = lengthOf(l, to), length = lengthOf(l, from);
@@ -142,7 +121,7 @@ void lowerNumberToText(StatementContext& l, std::span<const Operand> o, int bcd)
 
 // Up to a difference, a common terminator or `num` characters; the second text with its terminator (man. l.1860-1870).
 void lowerCompareText(StatementContext& l, std::span<const Operand> o, int) {
-  inOwnRung(l, o, [&] {
+  inOwnRung(l, anyIsLong(o), [&] {
     const Text left = textOf(l, o[0]), right = textOf(l, o[1]);
     const Length whole = fixedCount(l, right.most + 1);
     const Length count = o[2].given() ? smaller(l, whole, countOf(l, o[2])) : whole;
@@ -152,7 +131,7 @@ void lowerCompareText(StatementContext& l, std::span<const Operand> o, int) {
 
 // Terminators are bytes as any other; without `num` until the target is full (man. l.1911-1925).
 void lowerCopyBytes(StatementContext& l, std::span<const Operand> o, int) {
-  inOwnRung(l, o, [&] {
+  inOwnRung(l, anyIsLong(o), [&] {
     const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     const Length count = o[2].given() ? smaller(l, roomOf(to), countOf(l, o[2])) : roomOf(to);
     copyInside(l, to.area, from.area, count);
@@ -161,7 +140,7 @@ void lowerCopyBytes(StatementContext& l, std::span<const Operand> o, int) {
 
 // Without `num` as many bytes as the second text holds (man. l.1943-1953).
 void lowerCompareBytes(StatementContext& l, std::span<const Operand> o, int) {
-  inOwnRung(l, o, [&] {
+  inOwnRung(l, anyIsLong(o), [&] {
     const Text left = textOf(l, o[0]), right = textOf(l, o[1]);
     const Length count = o[2].given() ? countOf(l, o[2]) : roomOf(right);
     const Length there = inside(l, left.area, count), here = inside(l, right.area, count);

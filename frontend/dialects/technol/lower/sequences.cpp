@@ -55,9 +55,7 @@ void Sequences::beginModule(ModuleKind kind, uint32_t unit) {
 void Sequences::beginMechanism(uint32_t mechanism, uint32_t unit) {
   ir::RungBuilder& b = m_.b();
   const ValueId inactive = b.not_(b.load(Type::Bit, bitOf(mechanism)));
-  b.if_(inactive);
-  b.store(lineOf(mechanism), b.constant(Type::I16, 0));
-  b.endIf();
+  b.when(inactive, [&] { b.store(lineOf(mechanism), b.constant(Type::I16, 0)); });
   Sequence sequence{.unit = unit, .routine = {}, .mechanism = mechanism, .leave = m_.out().newLabel()};
   m_.out().jump(sequence.leave, inactive);
   sequence.continuation.slot = mechanisms_[mechanism].state;

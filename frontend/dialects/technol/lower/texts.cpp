@@ -32,43 +32,20 @@ Text textOf(Memory& m, const Operand& operand) {
   return text;
 }
 
-namespace {
-
-// Passes from `start` on that count characters until the terminator or `room`. `state`: characters so far, whether it
-// goes on.
-std::vector<ValueId> countPasses(Memory& m, const Text& text, uint32_t passes, ValueId start,
-                                 std::span<const ValueId> state) {
-  ir::RungBuilder& b = m.b();
-  const auto pass = b.loop(passes, state);
-  const ValueId i = b.add(start, pass[0]);
-  const ValueId inside = b.and_(pass[2], b.ltU(i, text.room));
-  const ValueId at = b.select(inside, i, b.i32(0));
-  const ValueId goes = b.and_(inside, b.ne(loadByte(m, text.area, at), b.constant(Type::I8, 0)));
-  const ValueId next[] = {b.select(goes, b.add(i, b.i32(1)), pass[1]), goes};
-  return b.endLoop(next);
-}
-
-} // namespace
-
-// Blocks after the end are passed over.
 Length lengthOf(Memory& m, const Text& text) {
   ir::RungBuilder& b = m.b();
   if (text.literal || text.most == 0) return fixedCount(m, text.most);
-  const ValueId none[] = {b.i32(0), b.bit(true)};
-  const auto length = [&](ValueId value) { return Length{.fixed = false, .most = text.most, .value = value}; };
-  if (text.most <= 2 * kBlock) return length(countPasses(m, text, text.most, b.i32(0), none)[0]);
-  const auto block = b.loop((text.most + kBlock - 1) / kBlock, none);
-  const ValueId state[] = {block[1], block[2]};
-  b.if_(block[2]);
-  const auto counted = countPasses(m, text, kBlock, b.mul(block[0], b.i32(kBlock)), state);
-  b.else_(counted);
-  return length(b.endLoop(b.endIf(state))[0]);
+  const auto count = [&](ValueId i, ValueId length, ValueId goesOn) {
+    const ValueId inside = b.and_(goesOn, b.ltU(i, text.room));
+    const ValueId at = b.select(inside, i, b.i32(0));
+    const ValueId goes = b.and_(inside, b.ne(loadByte(m, text.area, at), b.constant(Type::I8, 0)));
+    return std::array{b.select(goes, b.add(i, b.i32(1)), length), goes};
+  };
+  return {.fixed = false, .most = text.most, .value = passWhile(m, text.most, b.i32(0), count)};
 }
 
 void storeTerminator(Memory& m, const Area& area, ValueId at, ValueId cond) {
-  m.b().if_(cond);
-  storeByte(m, area, at, m.b().constant(Type::I8, 0));
-  m.b().endIf();
+  m.b().when(cond, [&] { storeByte(m, area, at, m.b().constant(Type::I8, 0)); });
 }
 
 bool anyIsLong(std::span<const Operand> operands) {

@@ -1,6 +1,8 @@
 // Texts as instructions read and write them (man. ch. 3.18): characters up to a terminator, inside their variable.
 #pragma once
 
+#include <array>
+
 #include "frontend/dialects/technol/lower/areas.h"
 
 namespace rung::frontend::technol {
@@ -21,5 +23,31 @@ Length lengthOf(Memory& m, const Text& text);
 void storeTerminator(Memory& m, const Area& area, ir::ValueId at, ir::ValueId cond);
 // Whether one of the operands is a long text: what works on it has a rung of its own.
 bool anyIsLong(std::span<const Operand> operands);
+
+template <class Body>
+void inOwnRung(Memory& m, bool isLong, Body body) {
+  if (isLong) m.out().cut();
+  body();
+  if (isLong) m.out().cut();
+}
+
+// Passes over the numbers below `most`: `pass` gets a number, the value and whether it goes on, and gives the next two.
+// Blocks after the end are passed over. Gives the last value.
+template <class Pass>
+ir::ValueId passWhile(Memory& m, uint32_t most, ir::ValueId first, Pass pass) {
+  using State = std::array<ir::ValueId, 2>;
+  ir::RungBuilder& b = m.b();
+  const auto run = [&](uint32_t count, ir::ValueId start, const State& state) {
+    const auto in = b.loop(count, state);
+    const auto out = b.endLoop(State(pass(b.add(start, in[0]), in[1], in[2])));
+    return State{out[0], out[1]};
+  };
+  const State begin{first, b.bit(true)};
+  if (most <= 2 * kBlock) return run(most, b.i32(0), begin)[0];
+  const auto block = b.loop((most + kBlock - 1) / kBlock, begin);
+  const State state{block[1], block[2]};
+  const auto inside = [&] { return run(kBlock, b.mul(block[0], b.i32(kBlock)), state); };
+  return b.endLoop(b.choose(state[1], inside, [&] { return state; }))[0];
+}
 
 } // namespace rung::frontend::technol

@@ -39,7 +39,7 @@ MODULES = {
     "frontend/ladder": FRONTEND | {"frontend/syntax", "frontend/table"},
     "frontend/mnemonic": FRONTEND | {"frontend/syntax", "frontend/table"},
     "frontend/sema": FRONTEND | {"frontend/syntax", "frontend/table"},
-    "frontend/lower": FRONTEND | {"frontend/syntax", "frontend/table", "frontend/sema"},
+    "frontend/lower": IR,
     "frontend/dialects": DIALECT | DIALECTS,  # its own files list the dialects
     **{dialect: DIALECT for dialect in DIALECTS},  # a dialect never sees another
     "codegen/process": {"ir/support"},

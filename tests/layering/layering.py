@@ -38,7 +38,7 @@ MODULES = {
     "frontend/ladder": FRONTEND | {"frontend/syntax"},
     "frontend/ladder/text": FRONTEND | {"frontend/syntax", "frontend/table", "frontend/ladder"},
     "frontend/sema": FRONTEND | {"frontend/syntax", "frontend/table"},
-    "frontend/lower": FRONTEND | {"frontend/syntax", "frontend/table", "frontend/sema"},
+    "frontend/lower": IR,
     "frontend/dialects": DIALECT | DIALECTS,  # its own files list the dialects
     **{dialect: DIALECT for dialect in DIALECTS},  # a dialect never sees another
     "codegen/process": {"ir/support"},

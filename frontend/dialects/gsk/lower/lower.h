@@ -68,7 +68,7 @@ public:
   // The machine positions that the NC keeps: 8 cells of 4 bytes, axis n at byte 4(n-1), in 0.001 mm.
   ir::Window machinePositions();
   // Constant bytes in a hidden space; `legal` of them may be the first of an element.
-  ir::Window constants(const std::vector<uint8_t>& bytes, uint32_t legal);
+  ir::Window constants(std::string_view bytes, uint32_t legal);
 
   void setOutput(ir::ValueId w) { output_ = w; }
   ir::ValueId output() const { return output_; }

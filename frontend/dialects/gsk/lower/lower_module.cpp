@@ -26,11 +26,6 @@ uint32_t spaceFlags(AreaUse use) {
   return 0;
 }
 
-ir::SpaceId addSpace(ir::Module& module, std::string name, uint32_t bytes, uint32_t flags) {
-  module.spaces.push_back({.name = std::move(name), .unitBytes = 1, .units = bytes, .flags = flags});
-  return ir::SpaceId{static_cast<uint32_t>(module.spaces.size()) - 1};
-}
-
 size_t indexOf(Area area) { return static_cast<size_t>(area); }
 
 bool isLoweredBy(const Network& network, void (*lower)(FunctionLowering&)) {
@@ -60,7 +55,7 @@ std::unique_ptr<ir::Module> ModuleLowering::run() {
   module_->name = files_.empty() ? "" : stemOf(context_.sources.name(files_[0]));
   module_->dialect = "gsk";
   module_->faults.emplace_back(nc::kGskDeadLoop);
-  addFiles();
+  fileIndex_ = frontend::addFiles(*module_, context_.sources, files_);
   addSpaces();
   addSymbols();
   addPresets();
@@ -76,17 +71,11 @@ std::unique_ptr<ir::Module> ModuleLowering::run() {
   return std::move(module_);
 }
 
-void ModuleLowering::addFiles() {
-  for (FileId file : files_) {
-    fileIndex_.emplace(file.index, ir::FileIndex{static_cast<uint32_t>(module_->files.size())});
-    module_->files.emplace_back(context_.sources.name(file));
-  }
-}
-
 void ModuleLowering::addSpaces() {
   for (size_t i = 0; i < kAreaCount; ++i) {
     const AreaInfo& info = kAreas[i];
-    const ir::SpaceId space = addSpace(*module_, std::string(1, info.letter), info.bytes, spaceFlags(info.use));
+    const ir::SpaceId space = frontend::addSpace(
+        *module_, {.name = std::string(1, info.letter), .units = info.bytes, .flags = spaceFlags(info.use)});
     for (LevelState& level : levels_) {
       level.spaces[i] = space;
       level.used[i].assign(info.bytes, false);
@@ -94,8 +83,7 @@ void ModuleLowering::addSpaces() {
     if (info.retained) module_->retains.push_back({space, 0, info.bytes});
   }
   for (Area area : {Area::X, Area::F})
-    levels_[1].spaces[indexOf(area)] =
-        addSpace(*module_, fmt::format("@{}2", areaInfo(area).letter), areaInfo(area).bytes, RUNG_SPACE_HIDDEN);
+    levels_[1].spaces[indexOf(area)] = addHidden(fmt::format("@{}2", areaInfo(area).letter), areaInfo(area).bytes);
 }
 
 void ModuleLowering::addSymbols() {
@@ -108,8 +96,7 @@ void ModuleLowering::addSymbols() {
          .bit = symbol.address.bit,
          .type = symbol.address.isBit ? RUNG_TYPE_BIT : RUNG_TYPE_I8,
          .flags = areaInfo(symbol.address.area).use == AreaUse::Input ? uint32_t{RUNG_SYMBOL_READONLY} : 0u});
-  std::sort(module_->symbols.begin(), module_->symbols.end(),
-            [](const ir::Symbol& a, const ir::Symbol& b) { return a.name < b.name; });
+  frontend::sortSymbols(*module_);
 }
 
 void ModuleLowering::addPresets() {
@@ -125,7 +112,7 @@ void ModuleLowering::addPresets() {
 void ModuleLowering::makeKeys() {
   for (const Unit& unit : program_.units) {
     std::unordered_map<uint64_t, uint32_t> seen;
-    std::unordered_map<std::string, uint32_t> alike;
+    frontend::Numbering alike;
     std::vector<uint64_t>& keys = keys_.emplace_back();
     std::vector<std::string>& prefixes = slotPrefixes_.emplace_back();
     for (const Network& network : unit.networks) {
@@ -133,9 +120,7 @@ void ModuleLowering::makeKeys() {
       keys.push_back(hashBytes(fmt::format("#{}", seen[text]++), text));
       std::string& prefix = prefixes.emplace_back();
       if (network.function.row == nullptr) continue;
-      prefix = identityOf(network.function);
-      if (const uint32_t number = alike[prefix]++; number != 0) prefix += fmt::format("#{}", number);
-      prefix = fmt::format("{}/{}/", nameOf(unit), prefix);
+      prefix = fmt::format("{}/{}/", nameOf(unit), alike.numbered(identityOf(network.function)));
     }
   }
 }
@@ -154,9 +139,8 @@ void ModuleLowering::planRoutines(LevelState& level) {
   for (uint32_t u = 0; u < program_.units.size(); ++u) {
     const Unit& unit = program_.units[u];
     if (!(level.isLevel2 ? unit.fromLevel2 : unit.fromLevel1)) continue;
-    level.routines[u] = ir::RoutineId{static_cast<uint32_t>(module_->routines.size())};
     const bool twice = unit.fromLevel1 && unit.fromLevel2;
-    module_->routines.push_back({nameOf(unit) + (twice ? (level.isLevel2 ? "@2" : "@1") : ""), {}});
+    level.routines[u] = frontend::addRoutine(*module_, nameOf(unit) + (twice ? (level.isLevel2 ? "@2" : "@1") : ""));
     level.hasClock = level.hasClock || std::any_of(unit.networks.begin(), unit.networks.end(), isTimer);
     level.countsRuns = level.countsRuns || std::any_of(unit.networks.begin(), unit.networks.end(), isWindow);
   }
@@ -303,8 +287,8 @@ void ModuleLowering::addResultRegisters(ir::Task& task) {
       used.begin() + kResultFlags + kResultBytes)
     return;
   const ir::SpaceId relays = levels_[0].spaces[indexOf(Area::R)];
-  const ir::SpaceId level1 = addSpace(*module_, "@R1", kResultBytes, RUNG_SPACE_HIDDEN);
-  const ir::SpaceId level2 = addSpace(*module_, "@R2", kResultBytes, RUNG_SPACE_HIDDEN);
+  const ir::SpaceId level1 = addHidden("@R1", kResultBytes);
+  const ir::SpaceId level2 = addHidden("@R2", kResultBytes);
   task.begin.push_back({.from = {relays, kResultFlags, kResultBytes}, .to = level2});
   task.begin.push_back({.from = {level1, 0, kResultBytes}, .to = relays, .toByte = kResultFlags});
   task.end.push_back({.from = {relays, kResultFlags, kResultBytes}, .to = level1});
@@ -317,29 +301,13 @@ ir::SlotId ModuleLowering::slot(const std::string& key, ir::Type type, int64_t i
   return at->second;
 }
 
-// Named by its contents: after a hot reload another table is another space.
-ir::SpaceId ModuleLowering::constantSpace(const std::vector<uint8_t>& bytes) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const std::string name = fmt::format("@T{:016x}{:04x}", hashBytes(text), bytes.size());
-  const auto [at, isNew] = constants_.emplace(name, ir::SpaceId{});
-  if (isNew) {
-    at->second = addSpace(*module_, name, static_cast<uint32_t>(bytes.size()), RUNG_SPACE_HIDDEN);
-    module_->inits.push_back({at->second, 0, bytes});
-  }
-  return at->second;
-}
-
-ir::ServiceId ModuleLowering::service(std::string_view signature) {
-  std::vector<std::string>& services = module_->services;
-  const auto found = std::find(services.begin(), services.end(), signature);
-  const auto index = static_cast<uint32_t>(found - services.begin());
-  if (found == services.end()) services.emplace_back(signature);
-  return ir::ServiceId{index};
+ir::SpaceId ModuleLowering::constantSpace(std::string_view bytes) {
+  return frontend::constantBytes(*module_, fmt::format("@T{:016x}{:04x}", hashBytes(bytes), bytes.size()), bytes);
 }
 
 // The NC writes it before each slot; a program that does not look at positions has none.
 ir::SpaceId ModuleLowering::machinePositions() {
-  if (!positions_.valid()) positions_ = addSpace(*module_, "@MPOS", 4 * kMachineAxes, RUNG_SPACE_HIDDEN);
+  if (!positions_.valid()) positions_ = addHidden("@MPOS", 4 * kMachineAxes);
   return positions_;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frontend/dialects/gsk/lower/lower.h"
+#include "frontend/lower/module_items.h"
 #include "ir/core/parts.h"
 
 namespace rung::gsk {
@@ -60,8 +61,8 @@ public:
 
   // For FunctionLowering.
   ir::SlotId slot(const std::string& key, ir::Type type, int64_t init, bool transient);
-  ir::SpaceId constantSpace(const std::vector<uint8_t>& bytes);
-  ir::ServiceId service(std::string_view signature);
+  ir::SpaceId constantSpace(std::string_view bytes);
+  ir::ServiceId service(std::string_view signature) { return frontend::service(*module_, signature); }
   ir::SpaceId machinePositions();
   std::span<const LevelState, 2> levels() const { return levels_; }
   ir::SlotId leaveTarget() { return slot("@leave", ir::Type::I32, 0, false); }
@@ -70,7 +71,9 @@ public:
 
 private:
   void addSpaces();
-  void addFiles();
+  ir::SpaceId addHidden(std::string name, uint32_t bytes) {
+    return frontend::addSpace(*module_, {.name = std::move(name), .units = bytes, .flags = RUNG_SPACE_HIDDEN});
+  }
   void addSymbols();
   void addPresets();
   void planRoutines(LevelState& level);
@@ -102,7 +105,6 @@ private:
   std::unique_ptr<ir::Module> module_;
   std::unordered_map<uint32_t, ir::FileIndex> fileIndex_;
   std::unordered_map<std::string, ir::SlotId> slots_;
-  std::unordered_map<std::string, ir::SpaceId> constants_;
   ir::SpaceId positions_;
   std::vector<std::vector<uint64_t>> keys_;              // by unit and network
   std::vector<std::vector<std::string>> slotPrefixes_;   // by unit and network; of networks with a function

@@ -222,7 +222,7 @@ ir::Window FunctionLowering::machinePositions() {
   return {module_.machinePositions(), 0, kLast + 1};
 }
 
-ir::Window FunctionLowering::constants(const std::vector<uint8_t>& bytes, uint32_t legal) {
+ir::Window FunctionLowering::constants(std::string_view bytes, uint32_t legal) {
   return {module_.constantSpace(bytes), 0, legal};
 }
 

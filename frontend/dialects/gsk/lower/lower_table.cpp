@@ -1,6 +1,7 @@
 // Rotation, code conversion and data tables (§7.5, §7.6, §7.11).
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "frontend/dialects/gsk/lower/lower.h"
 
@@ -71,10 +72,9 @@ void lowerRotation(FunctionLowering& f) {
 }
 
 void lowerCodeTable(FunctionLowering& f) {
-  std::vector<uint8_t> bytes;
+  std::string bytes;
   for (int64_t row : f.function.table)
-    for (uint32_t i = 0; i < f.function.length; ++i)
-      bytes.push_back(static_cast<uint8_t>(static_cast<uint64_t>(row) >> (8 * i)));
+    for (uint32_t i = 0; i < f.function.length; ++i) bytes += static_cast<char>(static_cast<uint64_t>(row) >> (8 * i));
   const auto rows = static_cast<uint32_t>(f.function.table.size());
   f.resettable([&] {
     ir::RungBuilder& b = f.b;

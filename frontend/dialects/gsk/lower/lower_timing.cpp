@@ -1,6 +1,7 @@
 // Timers, counters and edges (§7.2, §7.4, §7.13).
 #include "frontend/dialects/gsk/config.h"
 #include "frontend/dialects/gsk/lower/lower.h"
+#include "frontend/lower/edge.h"
 
 namespace rung::gsk {
 namespace {
@@ -71,11 +72,9 @@ void lowerCounter(FunctionLowering& f) {
     before = f.load(Type::Bit, edge);
     f.store(edge, f.act());
   } else {
-    const ir::SlotId edge = f.slot("edge", Type::Bit);
-    before = b.slotLoad(edge);
-    b.slotStore(edge, f.act());
+    before = frontend::exchange(b, f.slot("edge", Type::Bit), f.act());
   }
-  const ValueId pulse = b.and_(f.act(), b.not_(before));
+  const ValueId pulse = frontend::edge(b, before, f.act());
   const ir::SlotId w = f.slot("W", Type::Bit);
   const ValueId keep = b.slotLoad(w);
 
@@ -98,11 +97,7 @@ void lowerCounter(FunctionLowering& f) {
 
 // P39: the memory belongs to the instruction.
 void lowerEdge(FunctionLowering& f) {
-  ir::RungBuilder& b = f.b;
-  const ir::SlotId memory = f.slot("edge", Type::Bit);
-  const ValueId before = b.slotLoad(memory);
-  b.slotStore(memory, f.act());
-  f.setOutput(f.variant() == kRising ? b.and_(f.act(), b.not_(before)) : b.and_(before, b.not_(f.act())));
+  f.setOutput(frontend::pulse(f.b, f.slot("edge", Type::Bit), f.act(), f.variant() == kRising));
 }
 
 } // namespace rung::gsk

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "frontend/dialects/gsk/lower/lower.h"
+#include "frontend/lower/request.h"
 #include "rtlib/nc/gsk/window_functions.h"
 
 namespace rung::gsk {
@@ -12,13 +13,7 @@ using ir::Type;
 using ir::ValueId;
 namespace window = nc::gsk;
 
-// States of a low-speed function (P48).
-enum : uint8_t {
-  kIdle,
-  kPending,   // asked, the lock taken
-  kDone,      // answered, ACT not yet taken away
-  kAbandoned, // ACT was taken away while the request was pending; the answer will be thrown away
-};
+using enum frontend::RequestState; // of a low-speed function (P48); who has asked has the lock
 // The answer is not used before the second scan after the request (P48).
 constexpr uint32_t kAnswerAfterRuns = 2;
 
@@ -126,9 +121,9 @@ ValueId WindowLowering::request(ValueId function, ValueId length) {
 
 // A host that answers with an error, or not at all where it should have, does not provide the function.
 ValueId WindowLowering::endOf(ValueId ticket) {
-  const ValueId answered = b_.eq(b_.servicePoll(ticket), b_.i32(RUNG_SERVICE_DONE));
+  const ValueId executed = frontend::isExecuted(b_, ticket);
   const ValueId end = b_.and_(b_.serviceResult(ticket, 0), b_.constant(Type::I64, UINT16_MAX));
-  return b_.select(answered, end, b_.constant(Type::I64, window::kWindowNotProvided));
+  return b_.select(executed, end, b_.constant(Type::I64, window::kWindowNotProvided));
 }
 
 void WindowLowering::release() {
@@ -171,7 +166,7 @@ Step WindowLowering::whenPending() {
 
 Step WindowLowering::awaited() {
   const ValueId asked = b_.slotLoad(ticket());
-  const ValueId there = b_.ne(b_.servicePoll(asked), b_.i32(RUNG_SERVICE_PENDING));
+  const ValueId there = frontend::isAnswered(b_, asked);
   const ValueId ripe = b_.leS(b_.i32(kAnswerAfterRuns), f_.runsSinceMark());
   const ValueId finished = b_.and_(there, ripe);
   b_.when(finished, [&] { setState(kDone); });
@@ -180,7 +175,7 @@ Step WindowLowering::awaited() {
 
 // Nobody waits for the answer: it is thrown away, and the lock is free when it has come.
 Step WindowLowering::unwanted() {
-  const ValueId there = b_.ne(b_.servicePoll(b_.slotLoad(ticket())), b_.i32(RUNG_SERVICE_PENDING));
+  const ValueId there = frontend::isAnswered(b_, b_.slotLoad(ticket()));
   setState(kAbandoned);
   b_.when(there, [&] { release(); });
   return rest();

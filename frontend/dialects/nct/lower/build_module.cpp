@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "frontend/dialects/nct/lower/lower_rungs.h"
+#include "frontend/lower/module_items.h"
 #include "ir/core/memory_use.h"
 #include "rtlib/nc/faults.h"
 
@@ -34,11 +35,8 @@ public:
                             .spaces = spaces_,
                             .written = written_,
                             .sources = sources_,
-                            .marks = marks_};
-    for (FileId file : files) {
-      context.files[file.index] = {static_cast<uint32_t>(module_.files.size())};
-      module_.files.emplace_back(sources_.name(file));
-    }
+                            .marks = marks_,
+                            .files = frontend::addFiles(module_, sources_, files)};
     const ir::RoutineId main = lowerModule(context, program_.main);
     const WrittenRange byMain = std::exchange(written_, {});
     const ir::RoutineId int0 = program_.int0.exists ? lowerModule(context, program_.int0) : ir::RoutineId{};
@@ -47,10 +45,7 @@ public:
   }
 
 private:
-  ir::SpaceId addSpace(ir::Space space) {
-    module_.spaces.push_back(std::move(space));
-    return {static_cast<uint32_t>(module_.spaces.size() - 1)};
-  }
+  ir::SpaceId addSpace(ir::Space space) { return frontend::addSpace(module_, std::move(space)); }
 
   void addSpaces() {
     const uint32_t both = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT;
@@ -94,7 +89,7 @@ private:
         added.flags |= RUNG_SYMBOL_READONLY;
       setType(added, symbol);
     }
-    std::ranges::sort(module_.symbols, {}, &ir::Symbol::name);
+    frontend::sortSymbols(module_);
   }
 
   static void setType(ir::Symbol& added, const Symbol& symbol) {

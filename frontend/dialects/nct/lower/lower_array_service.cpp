@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/lower/request.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/service_functions.h"
 
@@ -19,42 +20,22 @@ using ir::Type;
 using ir::ValueId;
 using nc::nct::FunctionAccess;
 
-ir::ServiceId Shared::service(std::string_view signature) {
-  const auto found = std::ranges::find(module_.services, signature);
-  const auto index = static_cast<uint32_t>(found - module_.services.begin());
-  if (found == module_.services.end()) module_.services.emplace_back(signature);
-  return {index};
-}
-
 SharedWords Shared::words(std::string_view space, uint32_t count, const std::string& key) {
   ir::SpaceId id = ir::findSpace(module_, space);
-  if (!id.valid()) {
-    id = {static_cast<uint32_t>(module_.spaces.size())};
-    module_.spaces.push_back({.name = std::string(space),
-                              .unitBytes = 4,
-                              .units = 0,
-                              .flags = RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED,
-                              .packedOnly = true});
-  }
+  if (!id.valid())
+    id = frontend::addSpace(module_, {.name = std::string(space),
+                                      .unitBytes = 4,
+                                      .flags = RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED,
+                                      .packedOnly = true});
   const SharedWords words{.space = id, .first = module_.spaces[id.index].units};
   module_.spaces[id.index].units += count;
-  module_.symbols.push_back({.name = "@" + key,
-                             .space = id,
-                             .byte = words.first * 4,
-                             .type = RUNG_TYPE_I32,
-                             .count = count,
-                             .flags = RUNG_SYMBOL_HIDDEN});
+  frontend::nameCells(module_, "@" + key, {.space = id, .byte = words.first * 4}, Type::I32, count);
   return words;
 }
 
 namespace {
 
-enum : uint8_t {
-  kIdle,
-  kPending,
-  kDone,      // answered, EN has not been FALSE since
-  kAbandoned, // EN went FALSE while the request was pending
-};
+using enum frontend::RequestState;
 
 // What an evaluation comes to.
 struct Step {
@@ -73,8 +54,7 @@ public:
 private:
   FunctionAccess access() const { return box_.variant == kWriteArray ? FunctionAccess::Write : FunctionAccess::Read; }
   ValueId is(uint8_t state) { return b_.constant(Type::I8, state); }
-  ValueId poll() { return b_.servicePoll(b_.slotLoad(ticket_)); }
-  ValueId answered() { return b_.ne(poll(), b_.i32(RUNG_SERVICE_PENDING)); }
+  ValueId answered() { return frontend::isAnswered(b_, b_.slotLoad(ticket_)); }
   Step rest(uint8_t state, bool output = false) { return {b_.bit(output), is(state)}; }
 
   uint32_t blockWords() const;
@@ -242,7 +222,7 @@ void ArrayServiceLowering::takeAnswer(const WordRange& range) {
           [&] { box_.memory.storeIn(range, word, b_.loadAt(Type::I32, words(), word)); });
   b_.endLoop();
   const ValueId code = b_.sextOrTrunc(Type::I32, b_.serviceResult(b_.slotLoad(ticket_), 0));
-  const ValueId done = b_.eq(poll(), b_.i32(RUNG_SERVICE_DONE));
+  const ValueId done = frontend::isExecuted(b_, b_.slotLoad(ticket_));
   box_.memory.storeIn(range, b_.i32(nc::nct::kCodeWord), b_.select(done, code, b_.i32(nc::nct::kBadFunction)));
 }
 

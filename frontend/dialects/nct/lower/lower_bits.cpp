@@ -3,6 +3,8 @@
 
 #include "frontend/dialects/nct/lower/lowering.h"
 
+#include "frontend/lower/edge.h"
+
 namespace rung::nct {
 
 using ir::RungBuilder;
@@ -16,26 +18,24 @@ void SlotMaker::setElement(std::string text) {
 }
 
 std::string SlotMaker::key(std::string_view role) {
-  if (!numbered_)
-    if (const uint32_t number = alike_[element_]++; number != 0) element_ += fmt::format("#{}", number);
+  if (!numbered_) element_ = alike_.numbered(element_);
   numbered_ = true;
   return fmt::format("{}/{}/{}", routine_, element_, role);
 }
 
 SlotId SlotMaker::make(std::string_view role, Type type, int64_t init, bool transient) {
-  const SlotId id{static_cast<uint32_t>(module_.slots.size())};
-  module_.slots.push_back({.type = type, .init = init, .transient = transient, .key = key(role)});
-  return id;
+  return frontend::addSlot(module_, {.type = type, .init = init, .transient = transient, .key = key(role)});
+}
+
+ValueId risingEdge(Lowering& box, std::string_view role, size_t pin) {
+  const SlotId slot = box.slots.make(role, Type::Bit);
+  const ValueId power = box.power(pin);
+  const ValueId edge = frontend::edge(box.b, box.b.slotLoad(slot), power);
+  box.b.slotStore(slot, power);
+  return edge;
 }
 
 namespace {
-
-// value and not before, or the other way round; `before` becomes `value`.
-ValueId pulse(RungBuilder& b, SlotId slot, ValueId value, bool rising) {
-  const ValueId before = b.slotLoad(slot);
-  b.slotStore(slot, value);
-  return rising ? b.and_(value, b.not_(before)) : b.and_(before, b.not_(value));
-}
 
 constexpr int64_t kNoAddress = 0xFFFFFFFF; // no bit has this address
 
@@ -49,7 +49,7 @@ ValueId movingPulse(Lowering& box, const Place& place, ValueId value) {
   const ValueId lastAddress = b.slotLoad(addressSlot);
   const ValueId lastValue = b.slotLoad(valueSlot);
   const ValueId same = b.or_(b.eq(address, lastAddress), b.eq(lastAddress, b.i32(kNoAddress)));
-  const ValueId edge = box.edge == '@' ? b.and_(value, b.not_(lastValue)) : b.and_(lastValue, b.not_(value));
+  const ValueId edge = frontend::edge(b, lastValue, value, box.edge == '@');
   const bool guard = place.valid.valid();
   b.slotStore(addressSlot, guard ? b.select(place.valid, address, lastAddress) : address);
   b.slotStore(valueSlot, guard ? b.select(place.valid, value, lastValue) : value);
@@ -66,7 +66,8 @@ ValueId lowerContact(Lowering& box) {
   const Address& address = box.operands[0].address;
   const Place place = onWord ? memory.word(address, Reach::Read) : memory.bit(address, Reach::Read);
   ValueId value = onWord ? b.ne(memory.loadWord(place), b.i32(0)) : memory.loadBit(place);
-  if (box.edge != 0 && place.fixed) value = pulse(b, box.slots.make("edge", Type::Bit), value, box.edge == '@');
+  if (box.edge != 0 && place.fixed)
+    value = frontend::pulse(b, box.slots.make("edge", Type::Bit), value, box.edge == '@');
   if (box.edge != 0 && !place.fixed) value = movingPulse(box, place, value);
   if ((box.variant & kClosed) != 0) value = b.not_(value);
   if (!place.valid.valid()) return box.pass(value);
@@ -91,7 +92,7 @@ ValueId lowerCoil(Lowering& box) {
 }
 
 ValueId lowerPulse(Lowering& box) {
-  const ValueId edge = pulse(box.b, box.slots.make("edge", Type::Bit), box.power(), box.variant == kRising);
+  const ValueId edge = frontend::pulse(box.b, box.slots.make("edge", Type::Bit), box.power(), box.variant == kRising);
   const Place place = box.memory.bit(box.operands[0].address, Reach::Write);
   box.memory.storeBit(place, edge);
   if (place.valid.valid()) box.memory.raiseErrorFlag(box.b.not_(place.valid));

@@ -25,28 +25,12 @@ ValueId lowerCompare(Lowering& box) {
   return {};
 }
 
-namespace {
-
-ValueId compare(RungBuilder& b, CompareVariant variant, ValueId x, ValueId y) {
-  switch (variant) {
-  case kLess: return b.ltS(x, y);
-  case kLessEqual: return b.leS(x, y);
-  case kEqual: return b.eq(x, y);
-  case kNotEqual: return b.ne(x, y);
-  case kGreaterEqual: return b.leS(y, x);
-  case kGreater: return b.ltS(y, x);
-  }
-  return {};
-}
-
-} // namespace
-
 ValueId lowerCompareContact(Lowering& box) {
   RungBuilder& b = box.b;
   ValueId valid;
   const ValueId x = box.memory.integer(box.operands[0], valid);
   const ValueId y = box.memory.integer(box.operands[1], valid);
-  const ValueId holds = compare(b, static_cast<CompareVariant>(box.variant), x, y);
+  const ValueId holds = frontend::compare(b, box.variant, x, y);
   if (!valid.valid()) return box.pass(holds);
   box.memory.raiseErrorFlag(box.gate(b.not_(valid)));
   return box.pass(b.and_(holds, valid));

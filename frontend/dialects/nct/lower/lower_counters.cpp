@@ -38,10 +38,7 @@ ValueId counted(Lowering& box, ValueId value, ValueId start, ValueId end) {
 // is shorter there than selects.
 ValueId lowerCounter(Lowering& box) {
   RungBuilder& b = box.b;
-  const ir::SlotId slot = box.slots.make("clock", Type::Bit);
-  const ValueId clock = box.power(kClock);
-  const ValueId edge = b.and_(clock, b.not_(b.slotLoad(slot)));
-  b.slotStore(slot, clock);
+  const ValueId edge = risingEdge(box, "clock", kClock);
   const Place counter = box.memory.word(box.operands[0].address, Reach::User);
   ValueId valid = counter.valid;
   const ValueId start = count(box, 1, valid);

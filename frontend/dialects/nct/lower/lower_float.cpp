@@ -219,23 +219,6 @@ ValueId lowerFloatCompare(Lowering& box) {
   return {};
 }
 
-namespace {
-
-ValueId compareDoubles(RungBuilder& b, CompareVariant variant, ValueId x, ValueId y) {
-  const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
-  switch (variant) {
-  case kLess: return test(OpCode::FLt, x, y);
-  case kLessEqual: return test(OpCode::FLe, x, y);
-  case kEqual: return test(OpCode::FEq, x, y);
-  case kNotEqual: return b.not_(test(OpCode::FEq, x, y));
-  case kGreaterEqual: return test(OpCode::FLe, y, x);
-  case kGreater: return test(OpCode::FLt, y, x);
-  }
-  return {};
-}
-
-} // namespace
-
 // A NaN is an error like an address outside the memory: no power, FL_ER.
 ValueId lowerFloatContact(Lowering& box) {
   RungBuilder& b = box.b;
@@ -243,7 +226,7 @@ ValueId lowerFloatContact(Lowering& box) {
   const ValueId x = box.memory.real(box.operands[0], valid);
   const ValueId y = box.memory.real(box.operands[1], valid);
   valid = box.memory.both(valid, b.and_(isNumber(b, x), isNumber(b, y)));
-  const ValueId holds = compareDoubles(b, static_cast<CompareVariant>(box.variant), x, y);
+  const ValueId holds = frontend::compare(b, box.variant, x, y);
   box.memory.raiseErrorFlag(box.gate(b.not_(valid)));
   return box.pass(b.and_(holds, valid));
 }

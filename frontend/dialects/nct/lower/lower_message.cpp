@@ -4,6 +4,7 @@
 // say by now. What of it is on the screen (or in the log) the NC tells in a word of the box, see
 // rtlib/nc/nct/messages.h.
 #include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/lower/edge.h"
 #include "rtlib/nc/nct/messages.h"
 
 namespace rung::nct {
@@ -31,10 +32,9 @@ public:
 
   ValueId run() {
     const ValueId input = box_.power();
-    const ValueId before = b_.slotLoad(before_);
-    b_.slotStore(before_, input);
-    b_.when(b_.and_(input, b_.not_(before)), [&] { send(); });
-    b_.when(b_.and_(before, b_.not_(input)), [&] { remove(); });
+    const ValueId before = frontend::exchange(b_, before_, input);
+    b_.when(frontend::edge(b_, before, input, true), [&] { send(); });
+    b_.when(frontend::edge(b_, before, input, false), [&] { remove(); });
     return b_.and_(input, b_.ne(b_.load(Type::I32, place(nc::nct::kShownWord)), b_.i32(0)));
   }
 

@@ -250,11 +250,9 @@ std::vector<RunTime> takeTime(LoweringContext& context, const TypedModule& modul
 
 ir::RoutineId lowerModule(LoweringContext& context, const TypedModule& module) {
   std::vector<ir::RoutineId> routines;
-  for (const Body& body : module.bodies) {
-    routines.push_back({static_cast<uint32_t>(context.module.routines.size())});
-    ir::Routine& routine = context.module.routines.emplace_back();
-    routine.name = body.number ? fmt::format("{}.SBN{}", module.name, *body.number) : std::string(module.name);
-  }
+  for (const Body& body : module.bodies)
+    routines.push_back(frontend::addRoutine(
+        context.module, body.number ? fmt::format("{}.SBN{}", module.name, *body.number) : std::string(module.name)));
   const std::vector<RunTime> times = takeTime(context, module, context.module.routines[routines.front().index]);
   for (uint32_t i = 0; i < module.bodies.size(); ++i) BodyLowering(context, module, routines, times, i).run();
   return routines.front();

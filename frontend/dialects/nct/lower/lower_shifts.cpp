@@ -11,15 +11,6 @@ using ir::ValueId;
 
 namespace {
 
-ValueId risingEdge(Lowering& box) {
-  RungBuilder& b = box.b;
-  const SlotId slot = box.slots.make("edge", Type::Bit);
-  const ValueId power = box.power();
-  const ValueId edge = b.and_(power, b.not_(b.slotLoad(slot)));
-  b.slotStore(slot, power);
-  return edge;
-}
-
 enum RotationPins : size_t { kEnablePin, kShorter, kDirection, kSteps, kBefore };
 
 struct Ring {
@@ -58,7 +49,7 @@ Way findWay(Lowering& box, const Ring& ring) {
 ValueId lowerRotation(Lowering& box) {
   RungBuilder& b = box.b;
   Memory& memory = box.memory;
-  const ValueId edge = risingEdge(box);
+  const ValueId edge = risingEdge(box, "edge", 0);
   const SlotId output = box.slots.make("direction", Type::Bit);
   const Place target = memory.word(box.operands[0].address, Reach::Write);
   ValueId valid = target.valid;
@@ -85,7 +76,7 @@ ValueId lowerRotation(Lowering& box) {
 // Left: the incoming bit enters at bit 0 and bit 31 goes out; right: the other way round. The output keeps its bit.
 ValueId lowerShiftRegister(Lowering& box) {
   RungBuilder& b = box.b;
-  const ValueId edge = risingEdge(box);
+  const ValueId edge = risingEdge(box, "edge", 0);
   const SlotId output = box.slots.make("out", Type::Bit);
   const Place place = box.memory.word(box.operands[0].address, Reach::Write);
   b.when(edge, [&] {

@@ -1,12 +1,13 @@
 // What a lowering function works with: the builder, the memory of the dialect, its operands and the power at its pins.
 #pragma once
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "frontend/dialects/nct/lower/memory.h"
 #include "frontend/dialects/nct/rows/instructions.h"
+#include "frontend/lower/compare.h"
+#include "frontend/lower/module_items.h"
 #include "ir/core/builder.h"
 
 namespace rung::nct {
@@ -25,8 +26,8 @@ private:
   ir::Module& module_;
   std::string_view routine_;
   std::string element_;
-  bool numbered_ = false;                 // element_ has its number
-  std::map<std::string, uint32_t> alike_; // elements with a slot so far, by their text
+  bool numbered_ = false;     // element_ has its number
+  frontend::Numbering alike_; // elements with a slot so far, by their text
 };
 
 // Time as the runs of a task see it.
@@ -51,7 +52,7 @@ class Shared {
 public:
   explicit Shared(ir::Module& module) : module_(module) {}
   // "NAME arguments -> results", see docs/scenario-format.md.
-  ir::ServiceId service(std::string_view signature);
+  ir::ServiceId service(std::string_view signature) { return frontend::service(module_, signature); }
   // Words of this box alone, under its key: a hidden symbol, so that they are found again in a changed program. The
   // space is made when it is asked for first.
   SharedWords words(std::string_view space, uint32_t count, const std::string& key);
@@ -118,6 +119,9 @@ ir::ValueId execute(Lowering& box, Body body) {
   return b.endIf(std::span(&off, 1)).front();
 }
 
+// Of the power at a pin; `role` names the memory of it.
+ir::ValueId risingEdge(Lowering& box, std::string_view role, size_t pin);
+
 // --- lowering functions, by family ----------------------------------------------------------------------------------
 // Contacts: variant bit 0: closed; bit 1: on a word.
 inline constexpr int kClosed = 1;
@@ -179,7 +183,7 @@ ir::ValueId lowerArray(Lowering& box);
 
 ir::ValueId lowerCompare(Lowering& box);      // CMP
 ir::ValueId lowerFloatCompare(Lowering& box); // FCMP
-enum CompareVariant : int { kLess, kLessEqual, kEqual, kNotEqual, kGreaterEqual, kGreater };
+using enum frontend::Relation;
 ir::ValueId lowerCompareContact(Lowering& box);
 ir::ValueId lowerFloatContact(Lowering& box);
 

@@ -119,14 +119,9 @@ void addSymbols(const Program& program, ir::Module& module) {
   addElements(program, module);
   for (int i = 0; i < kHostCells; ++i) {
     const HostCellInfo& cell = hostCell(static_cast<HostCell>(i));
-    module.symbols.push_back({.name = std::string(cell.name),
-                              .space = kRegisterSpace,
-                              .byte = cell.byte,
-                              .type = ir::abiType(cell.type),
-                              .flags = RUNG_SYMBOL_HIDDEN});
+    nameCells(module, std::string(cell.name), {.space = kRegisterSpace, .byte = cell.byte}, cell.type);
   }
-  std::sort(module.symbols.begin(), module.symbols.end(),
-            [](const ir::Symbol& a, const ir::Symbol& b) { return a.name < b.name; });
+  sortSymbols(module);
 }
 
 void numberRungs(ir::Module& module) {

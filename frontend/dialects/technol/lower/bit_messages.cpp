@@ -53,16 +53,12 @@ private:
 
 void BitMessages::reserve(BitMessage& message) {
   ir::Module& module = m_.module();
-  if (!space_.valid()) {
-    space_ = {static_cast<uint32_t>(module.spaces.size())};
-    module.spaces.push_back(
-        {.name = "@EDEF", .unitBytes = 1, .units = 0, .flags = RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED});
-  }
+  if (!space_.valid()) space_ = addSpace(module, {.name = "@EDEF", .flags = RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED});
   const uint32_t bytes = kCountBytes + message.capacity * kEntryBytes;
   message.table = module.spaces[space_.index].units;
   module.spaces[space_.index].units += bytes;
-  state_.nameCells("@" + instructionKey(m_.program(), *message.statement, "EDEF"), space_, message.table, Type::I8,
-                   bytes);
+  state_.nameCells("@" + instructionKey(m_.program(), *message.statement, "EDEF"),
+                   {.space = space_, .byte = message.table}, Type::I8, bytes);
 }
 
 // The bit is sampled when it is tied: what comes later is an edge.

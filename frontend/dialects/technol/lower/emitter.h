@@ -3,11 +3,11 @@
 
 #include <memory>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "frontend/dialects/technol/lower/host_cells.h"
 #include "frontend/dialects/technol/lower/routine_builder.h"
+#include "frontend/lower/module_items.h"
 
 namespace rung::frontend::technol {
 
@@ -20,17 +20,19 @@ public:
   Registers& r() { return out().registers(); }
   RoutineBuilder& out() { return *open_.back(); }
 
-  ir::RoutineId newRoutine(std::string name);
+  ir::RoutineId newRoutine(std::string name) { return addRoutine(module_, std::move(name)); }
   // Opens a routine; the one that was open continues when it is closed.
   void open(ir::RoutineId routine);
   // Gives the routine's weight.
   uint64_t close();
 
-  ir::SlotId newSlot(ir::Type type, std::string key, bool transient = false);
+  ir::SlotId newSlot(ir::Type type, std::string key, bool transient = false) {
+    return addSlot(module_, {.type = type, .transient = transient, .key = std::move(key)});
+  }
   // Stores 0, in rungs of their own.
   void clearSlots(std::span<const ir::SlotId> slots);
-  ir::FaultId fault(std::string_view text);
-  ir::ServiceId service(std::string_view signature);
+  ir::FaultId fault(std::string_view text) { return frontend::fault(module_, text); }
+  ir::ServiceId service(std::string_view signature) { return frontend::service(module_, signature); }
   // A hidden space that holds the bytes.
   ir::SpaceId constantBytes(std::string_view bytes);
   // Stops the program where `bad` is 1: an access outside the memory.
@@ -40,8 +42,6 @@ private:
   ir::Module& module_;
   RegisterSlots registers_;
   std::vector<std::unique_ptr<RoutineBuilder>> open_; // the innermost last
-  std::unordered_map<std::string, ir::FaultId> faults_;
-  std::unordered_map<std::string, ir::SpaceId> constants_;
 };
 
 inline ir::Place place(HostCell cell) { return {.space = kRegisterSpace, .byte = hostCell(cell).byte}; }

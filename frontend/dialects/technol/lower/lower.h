@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "frontend/lower/compare.h"
 #include "ir/core/op_info.h"
 
 namespace rung::frontend::technol {
@@ -14,7 +15,7 @@ enum BitJoin { kAnd, kOr, kXor };
 inline constexpr ir::OpCode kJoinCodes[] = {ir::OpCode::And, ir::OpCode::Or, ir::OpCode::Xor};
 enum Condition { kAlways, kIfRlo, kIfNotRlo };
 enum Arithmetic { kAdd, kSubtract, kMultiply, kDivide };
-enum Compare { kEqual, kEqualIfRlo, kLess, kGreater, kLessEqual, kGreaterEqual };
+inline constexpr int kEqualIfRlo = kGreater + 1; // besides frontend's Relation
 enum Unary { kIncrement, kDecrement, kNegate, kAbsolute };
 enum Count { kCountUp, kCountDown, kCountUpBcd };
 

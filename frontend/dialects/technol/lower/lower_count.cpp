@@ -1,6 +1,7 @@
 // Timers and counters (man. ch. 3.11).
 #include "frontend/dialects/technol/lower/context.h"
 #include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/lower/edge.h"
 
 namespace rung::frontend::technol {
 
@@ -26,7 +27,7 @@ void lowerCounter(StatementContext& l, std::span<const Operand> o, int kind) {
   const CountCell cell = l.countCell(o[0]);
   const ir::SlotId former = l.ownSlot(Type::Bit);
   const ValueId rlo = l.r().rlo();
-  const ValueId rises = b.and_(rlo, b.not_(b.slotLoad(former)));
+  const ValueId rises = edge(b, b.slotLoad(former), rlo);
   b.slotStore(former, rlo);
   const ValueId count = l.state.load(cell);
   const ValueId one = b.constant(cell.type, 1);

@@ -51,27 +51,6 @@ void divide(StatementContext& l, const Operand& operand) {
   l.r().setDr(quotient);
 }
 
-ValueId compareIntegers(ir::RungBuilder& b, int relation, ValueId x, ValueId y) {
-  switch (relation) {
-  case kLess: return b.ltS(x, y);
-  case kGreater: return b.ltS(y, x);
-  case kLessEqual: return b.leS(x, y);
-  case kGreaterEqual: return b.leS(y, x);
-  default: return b.eq(x, y);
-  }
-}
-
-ValueId compareReals(ir::RungBuilder& b, int relation, ValueId x, ValueId y) {
-  const auto test = [&](OpCode code, ValueId p, ValueId q) { return b.op(code, Type::F64, {p, q}); };
-  switch (relation) {
-  case kLess: return test(OpCode::FLt, x, y);
-  case kGreater: return test(OpCode::FLt, y, x);
-  case kLessEqual: return test(OpCode::FLe, x, y);
-  case kGreaterEqual: return test(OpCode::FLe, y, x);
-  default: return test(OpCode::FEq, x, y);
-  }
-}
-
 void storeIf(StatementContext& l, ValueId guard, const MemoryAccess& access, ValueId value) {
   l.b().when(guard, [&] { l.store(access, value); });
 }
@@ -121,8 +100,8 @@ void lowerBitwise(StatementContext& l, std::span<const Operand> o, int kind) {
 void lowerCompare(StatementContext& l, std::span<const Operand> o, int relation) {
   const ValueId rlo = relation == kEqualIfRlo ? l.r().rlo() : ValueId{};
   const ValueId right = l.value(o[0], rlo);
-  const ValueId result = o[0].isReal() ? compareReals(l.b(), relation, l.r().real(), right)
-                                       : compareIntegers(l.b(), relation, l.r().dr(o[0].type), right);
+  const ValueId left = o[0].isReal() ? l.r().real() : l.r().dr(o[0].type);
+  const ValueId result = compare(l.b(), relation == kEqualIfRlo ? kEqual : relation, left, right);
   l.r().setRlo(rlo.valid() ? l.b().and_(rlo, result) : result);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "frontend/dialects/technol/lower/texts.h"
+#include "frontend/lower/request.h"
 #include "rtlib/nc/technol/exchange.h"
 
 namespace rung::frontend::technol {
@@ -58,8 +59,7 @@ ValueId defineRequest(StatementContext& l, std::span<const ValueId> head, const 
 }
 
 ValueId answersYes(ir::RungBuilder& b, ValueId ticket, uint32_t result) {
-  const ValueId answered = b.eq(b.servicePoll(ticket), b.i32(RUNG_SERVICE_DONE));
-  return b.and_(answered, b.ne(b.serviceResult(ticket, result), b.constant(Type::I64, 0)));
+  return b.and_(isExecuted(b, ticket), b.ne(b.serviceResult(ticket, result), b.constant(Type::I64, 0)));
 }
 
 } // namespace rung::frontend::technol

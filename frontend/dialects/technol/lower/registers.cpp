@@ -1,6 +1,8 @@
 // The registers inside a rung (see registers.h).
 #include "frontend/dialects/technol/lower/registers.h"
 
+#include "frontend/lower/module_items.h"
+
 #include <string>
 
 namespace rung::frontend::technol {
@@ -11,8 +13,7 @@ using ir::ValueId;
 
 RegisterSlots makeRegisterSlots(ir::Module& module) {
   const auto make = [&](Type type, std::string key) {
-    module.slots.push_back({.type = type, .transient = true, .key = std::move(key)});
-    return ir::SlotId{static_cast<uint32_t>(module.slots.size()) - 1};
+    return addSlot(module, {.type = type, .transient = true, .key = std::move(key)});
   };
   RegisterSlots slots;
   slots.rlo = make(Type::Bit, "RLO");

@@ -24,8 +24,8 @@ Sequences::Sequences(Memory& memory, State& state) : m_(memory), state_(state) {
     const auto number = static_cast<uint32_t>(mechanisms_.size());
     const std::string name = symbolKey(mechanism.name);
     mechanisms_.push_back({.state = memory.newSlot(Type::I32, "MECH." + name + ".CONT"), .reset = {}, .cells = {}});
-    state.nameCells("@MECH." + name, kMechanismSpace, bitOf(number).byte, Type::Bit);
-    state.nameCells("@MECH." + name + ".LINE", kMechanismSpace, lineOf(number).byte, Type::I16);
+    state.nameCells("@MECH." + name, bitOf(number), Type::Bit);
+    state.nameCells("@MECH." + name + ".LINE", lineOf(number), Type::I16);
   }
 }
 

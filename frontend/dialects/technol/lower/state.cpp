@@ -13,27 +13,12 @@ std::string instructionKey(const Program& program, const Statement& statement, s
   return key;
 }
 
-// The key with a number where several are alike.
-std::string State::numbered(std::string key) {
-  if (const uint32_t number = names_[key]++; number != 0) key += "#" + std::to_string(number);
-  return key;
-}
-
 // The key names module, instruction and operands.
 ir::SlotId State::newSlot(Type type, const Statement& statement, std::string_view what) {
   const Program& program = m_.program();
   const std::string unit(program.units[statement.unit].name);
-  automatic_.push_back(m_.newSlot(type, numbered(unit + "." + instructionKey(program, statement, what))));
+  automatic_.push_back(m_.newSlot(type, names_.numbered(unit + "." + instructionKey(program, statement, what))));
   return automatic_.back();
-}
-
-void State::nameCells(std::string key, ir::SpaceId space, uint32_t byte, Type type, uint32_t count) {
-  m_.module().symbols.push_back({.name = numbered(std::move(key)),
-                                 .space = space,
-                                 .byte = byte,
-                                 .type = ir::abiType(type),
-                                 .count = count,
-                                 .flags = RUNG_SYMBOL_HIDDEN});
 }
 
 CountCell State::countCell(const Operand& operand, const Statement& statement) {

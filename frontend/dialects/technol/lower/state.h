@@ -23,7 +23,9 @@ public:
   // State of a statement alone, e.g. the former value of an edge; `what` names it.
   ir::SlotId newSlot(ir::Type type, const Statement& statement, std::string_view what);
   // Names cells of an allocated space, so that they are found again in a changed program.
-  void nameCells(std::string key, ir::SpaceId space, uint32_t byte, ir::Type type, uint32_t count = 1);
+  void nameCells(std::string key, ir::Place place, ir::Type type, uint32_t count = 1) {
+    frontend::nameCells(m_.module(), names_.numbered(std::move(key)), place, type, count);
+  }
   CountCell countCell(const Operand& operand, const Statement& statement);
   ir::ValueId load(const CountCell& cell);
   void store(const CountCell& cell, ir::ValueId value);
@@ -37,11 +39,9 @@ public:
   std::span<const ir::SlotId> forgotten() const { return forgotten_; }
 
 private:
-  std::string numbered(std::string key);
-
   Memory& m_;
-  std::unordered_map<std::string, uint32_t> names_; // how many have the same
-  std::vector<ir::SlotId> automatic_;               // that instructions made for themselves
+  Numbering names_;
+  std::vector<ir::SlotId> automatic_; // that instructions made for themselves
   std::vector<ir::SlotId> timers_;
   std::vector<ir::SlotId> forgotten_;
 };

@@ -1,0 +1,23 @@
+// Comparisons (see compare.h).
+#include "frontend/lower/compare.h"
+
+namespace rung::frontend {
+
+using ir::OpCode;
+
+ir::ValueId compare(ir::RungBuilder& b, int relation, ir::ValueId x, ir::ValueId y) {
+  const bool real = b.typeOf(x) == ir::Type::F64;
+  const OpCode less = real ? OpCode::FLt : OpCode::LtS;
+  const OpCode atMost = real ? OpCode::FLe : OpCode::LeS;
+  switch (static_cast<Relation>(relation)) {
+  case kLess: return b.binary(less, x, y);
+  case kLessEqual: return b.binary(atMost, x, y);
+  case kEqual: return b.binary(real ? OpCode::FEq : OpCode::Eq, x, y);
+  case kNotEqual: return real ? b.not_(b.binary(OpCode::FEq, x, y)) : b.ne(x, y);
+  case kGreaterEqual: return b.binary(atMost, y, x);
+  case kGreater: return b.binary(less, y, x);
+  }
+  return {};
+}
+
+} // namespace rung::frontend

@@ -1,0 +1,67 @@
+// Items of modules, comparisons and edges, as the dialects' lowerings ask for them.
+#include <gtest/gtest.h>
+
+#include "frontend/lower/compare.h"
+#include "frontend/lower/edge.h"
+#include "frontend/lower/module_items.h"
+
+namespace rung::frontend {
+namespace {
+
+using ir::OpCode;
+
+TEST(ModuleItems, OnceHoweverOftenAsked) {
+  ir::Module module;
+  EXPECT_EQ(service(module, "A x ->").index, 0u);
+  EXPECT_EQ(service(module, "B ->").index, 1u);
+  EXPECT_EQ(service(module, "A x ->").index, 0u);
+  EXPECT_EQ(module.services.size(), 2u);
+  const ir::SpaceId bytes = constantBytes(module, "@T1", "abc");
+  EXPECT_EQ(constantBytes(module, "@T1", "abc"), bytes);
+  EXPECT_NE(constantBytes(module, "@T2", "x"), bytes);
+  EXPECT_EQ(module.at(bytes).units, 3u);
+  EXPECT_EQ(module.inits.size(), 2u);
+}
+
+TEST(ModuleItems, TheSecondOfWhatIsAlikeHasANumber) {
+  Numbering keys;
+  EXPECT_EQ(keys.numbered("a"), "a");
+  EXPECT_EQ(keys.numbered("b"), "b");
+  EXPECT_EQ(keys.numbered("a"), "a#1");
+  EXPECT_EQ(keys.numbered("a"), "a#2");
+}
+
+class OperationsTest : public ::testing::Test {
+protected:
+  ir::OpCode last() const { return rung_.ops.back().code; }
+  ir::Module module_;
+  ir::Rung rung_;
+  ir::RungBuilder b_{module_, rung_};
+};
+
+TEST_F(OperationsTest, ComparisonsByTheTypeOfTheValues) {
+  const ir::ValueId x = b_.i32(1), y = b_.i32(2), r = b_.real(1);
+  compare(b_, kLessEqual, x, y);
+  EXPECT_EQ(last(), OpCode::LeS);
+  compare(b_, kGreater, x, y);
+  EXPECT_EQ(last(), OpCode::LtS);
+  EXPECT_EQ(ir::arg(rung_, rung_.ops.back(), 0), y);
+  compare(b_, kNotEqual, x, y);
+  EXPECT_EQ(last(), OpCode::Ne);
+  compare(b_, kNotEqual, r, r); // 1 with a NaN
+  EXPECT_EQ(last(), OpCode::Not);
+  EXPECT_EQ(rung_.ops[rung_.ops.size() - 2].code, OpCode::FEq);
+}
+
+TEST_F(OperationsTest, AnEdgeRemembersTheValue) {
+  const ir::SlotId slot = addSlot(module_, {.type = ir::Type::Bit, .key = "k"});
+  const ir::ValueId now = b_.bit(true);
+  pulse(b_, slot, now, false);
+  EXPECT_EQ(rung_.ops[1].code, OpCode::SlotLoad);
+  EXPECT_EQ(rung_.ops[2].code, OpCode::SlotStore);
+  EXPECT_EQ(last(), OpCode::And);
+  EXPECT_EQ(ir::arg(rung_, rung_.ops.back(), 0), rung_.ops[1].result); // was, and is not
+}
+
+} // namespace
+} // namespace rung::frontend

@@ -14,6 +14,7 @@ using frontend::OperandInfo;
 using frontend::Output;
 using frontend::PinInfo;
 using frontend::Placement;
+using OperandList = decltype(frontend::InstructionInfo::operands);
 
 constexpr OperandInfo in(std::string_view name, const OperandKind& kind, std::string_view doc = {}) {
   return {.name = name, .kind = &kind, .access = Access::Read, .doc = doc};
@@ -58,6 +59,19 @@ constexpr Row basic(std::string_view mnemonic, std::string_view title, OperandIn
   row.info.ref = ref;
   row.info.doc = doc;
   return row;
+}
+
+// A row of a family, whose rows share a shape and differ in their number, their texts and their variant.
+constexpr Row rowOf(Row shape, int number, std::string_view mnemonic, std::string_view title, std::string_view ref,
+                    std::string_view doc, std::string_view example, int variant = 0) {
+  shape.info.number = number;
+  shape.info.mnemonic = mnemonic;
+  shape.info.title = title;
+  shape.info.ref = ref;
+  shape.info.doc = doc;
+  shape.info.example = example;
+  shape.variant = variant;
+  return shape;
 }
 inline constexpr OperandInfo kBitRead = in("bit", kinds::kBit);
 

@@ -5,6 +5,11 @@
 
 namespace rung::gsk {
 
+constexpr Row moveShape(const OperandKind& kind) {
+  return {.info = {.group = "transfers", .pins = {kAct}, .operands = {in("source", kind), out("target", kind)}},
+          .lower = &lowerMove};
+}
+
 inline constexpr Row kDataRows[] = {
     {.info = {.mnemonic = "MOVE",
               .title = "masked transfer",
@@ -27,28 +32,10 @@ inline constexpr Row kDataRows[] = {
               .doc = "target := source or data. ACT=0: nothing happens.",
               .example = "LD X9.0\nFUNC 11\nPRM D10\nPRM D11\nPRM D12"},
      .lower = &lowerMoveOr},
-    {.info = {.mnemonic = "MOVB",
-              .title = "transfer of a byte",
-              .group = "transfers",
-              .number = 12,
-              .pins = {kAct},
-              .operands = {in("source", kinds::kByte), out("target", kinds::kByte)},
-              .ref = "5.13, l.1643",
-              .doc = "target := source, one byte. ACT=0: nothing happens.",
-              .example = "LD X9.0\nFUNC 12\nPRM D10\nPRM D11"},
-     .lower = &lowerMove,
-     .variant = 1},
-    {.info = {.mnemonic = "MOVW",
-              .title = "transfer of two bytes",
-              .group = "transfers",
-              .number = 13,
-              .pins = {kAct},
-              .operands = {in("source", kinds::kWord), out("target", kinds::kWord)},
-              .ref = "5.14, l.1676",
-              .doc = "target := source, two bytes. ACT=0: nothing happens.",
-              .example = "LD X9.0\nFUNC 13\nPRM D10\nPRM D12"},
-     .lower = &lowerMove,
-     .variant = 2},
+    rowOf(moveShape(kinds::kByte), 12, "MOVB", "transfer of a byte", "5.13, l.1643",
+          "target := source, one byte. ACT=0: nothing happens.", "LD X9.0\nFUNC 12\nPRM D10\nPRM D11", 1),
+    rowOf(moveShape(kinds::kWord), 13, "MOVW", "transfer of two bytes", "5.14, l.1676",
+          "target := source, two bytes. ACT=0: nothing happens.", "LD X9.0\nFUNC 13\nPRM D10\nPRM D12", 2),
     {.info = {.mnemonic = "MOVN",
               .title = "transfer of a block",
               .group = "transfers",
@@ -84,8 +71,8 @@ inline constexpr Row kDataRows[] = {
               .stateful = true,
               .ref = "5.17, l.1788",
               .doc = "Converts between signed binary and BCD of the same length. OUT=1 when a digit is above 9 or the "
-                     "number has too many digits; the "
-                     "result is not written then. Binary to BCD: R1000.1 is the sign, R1000.5 the overflow (P22).",
+                     "number has too many digits; the result is not written then. Binary to BCD: R1000.1 is the sign, "
+                     "R1000.5 the overflow (P22).",
               .example = "LD R0.0\nLD R0.1\nLD R0.2\nLD X9.0\nFUNC 16\nPRM 2\nPRM D10\nPRM D12\nOUT Y9.0"},
      .lower = &lowerBcd},
 

@@ -12,49 +12,33 @@ inline constexpr uint32_t kWindowBlockBytes = nc::gsk::kWindowDataAt + 1;
 inline constexpr uint32_t kZoneBlockBytes = 1 + 7 * 4;  // man. l.3437-3447
 inline constexpr uint32_t kRangeBlockBytes = 1 + 2 * 4; // P56
 
+constexpr Row windowShape(std::string_view block) {
+  return {.info = {.group = "window",
+                   .pins = {kAct},
+                   .operands = {record("control data", Access::ReadWrite, block),
+                                out("result", kinds::kByte, "bit 0: an error")},
+                   .output = Output::Always,
+                   .stateful = true},
+          .recordBytes = kWindowBlockBytes,
+          .lower = &lowerWindow};
+}
+
 inline constexpr Row kNcRows[] = {
-    {.info = {.mnemonic = "WINDR",
-              .title = "window, read",
-              .group = "window",
-              .number = 44,
-              .pins = {kAct},
-              .operands = {record("control data", Access::ReadWrite,
-                                  "10 bytes and the data: words function, end code, length L, number M, attribute N, "
-                                  "then L bytes"),
-                           out("result", kinds::kByte, "bit 0: an error")},
-              .output = Output::Always,
-              .stateful = true,
-              .ref = "5.45, l.3089",
-              .doc = "Reads data of the CNC. OUT=1 when the reading is finished: with a high-speed function in the "
-                     "scan of the call, with a low-speed one not before the third. Low speed: ACT must stay 1 until "
-                     "then and has to be taken away once; of all low-speed functions of the program one runs at a "
-                     "time, others wait while its ACT is 1; when ACT goes too early the answer is thrown away "
-                     "(P48). The end code comes to +2, the data to +10 with end code 0 only; bit 0 of the result is 1 "
-                     "with any other (P47). Without asking the CNC end, in this order: a function that WINDR does not "
-                     "know, 1; one that is not open, 6; a length other than 1, 2, 4, or data over the end of the "
-                     "area, 2 (P49). ACT=0: OUT=0.",
-              .example = "LD R0.0\nFUNC 44\nPRM D100\nPRM R10\nOUT R0.1"},
-     .recordBytes = kWindowBlockBytes,
-     .lower = &lowerWindow,
-     .variant = kWindowRead},
-    {.info = {.mnemonic = "WINDW",
-              .title = "window, write",
-              .group = "window",
-              .number = 45,
-              .pins = {kAct},
-              .operands = {record("control data", Access::ReadWrite,
-                                  "10 bytes and the data: words function, end code, length L, number M, attribute N, "
-                                  "then L bytes, signed"),
-                           out("result", kinds::kByte, "bit 0: an error")},
-              .output = Output::Always,
-              .stateful = true,
-              .ref = "5.46, l.3148",
-              .doc = "Writes data of the CNC, always at low speed. The block is read when the request goes out; else "
-                     "as WINDR.",
-              .example = "LD R0.0\nFUNC 45\nPRM D100\nPRM R10\nOUT R0.1"},
-     .recordBytes = kWindowBlockBytes,
-     .lower = &lowerWindow,
-     .variant = kWindowWrite},
+    rowOf(windowShape("10 bytes and the data: words function, end code, length L, number M, attribute N, then L bytes"),
+          44, "WINDR", "window, read", "5.45, l.3089",
+          "Reads data of the CNC. OUT=1 when the reading is finished: with a high-speed function in the scan of the "
+          "call, with a low-speed one not before the third. Low speed: ACT must stay 1 until then and has to be taken "
+          "away once; of all low-speed functions of the program one runs at a time, others wait while its ACT is 1; "
+          "when ACT goes too early the answer is thrown away (P48). The end code comes to +2, the data to +10 with end "
+          "code 0 only; bit 0 of the result is 1 with any other (P47). Without asking the CNC end, in this order: a "
+          "function that WINDR does not know, 1; one that is not open, 6; a length other than 1, 2, 4, or data over "
+          "the end of the area, 2 (P49). ACT=0: OUT=0.",
+          "LD R0.0\nFUNC 44\nPRM D100\nPRM R10\nOUT R0.1", kWindowRead),
+    rowOf(windowShape(
+              "10 bytes and the data: words function, end code, length L, number M, attribute N, then L bytes, signed"),
+          45, "WINDW", "window, write", "5.46, l.3148",
+          "Writes data of the CNC, always at low speed. The block is read when the request goes out; else as WINDR.",
+          "LD R0.0\nFUNC 45\nPRM D100\nPRM R10\nOUT R0.1", kWindowWrite),
     {.info = {.mnemonic = "AXLCTL",
               .title = "PLC axis control",
               .group = "axis control",

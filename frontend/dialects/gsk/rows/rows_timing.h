@@ -5,58 +5,41 @@
 
 namespace rung::gsk {
 
+constexpr Row timerShape(OperandList operands, Row::Numbers numbers = Row::Numbers::Free) {
+  return {.info = {.group = "timers", .pins = {kAct}, .operands = operands, .output = Output::Always, .stateful = true},
+          .numbers = numbers,
+          .lower = &lowerTimer};
+}
+constexpr Row counterShape(OperandList operands, Row::Numbers numbers = Row::Numbers::Free) {
+  return {.info = {.group = "counters",
+                   .pins = {kCn0, kUpDown, kRst, kCount},
+                   .operands = operands,
+                   .output = Output::Always,
+                   .stateful = true},
+          .numbers = numbers,
+          .lower = &lowerCounter};
+}
+
 inline constexpr Row kTimingRows[] = {
-    {.info = {.mnemonic = "TMR",
-              .title = "on-delay timer",
-              .group = "timers",
-              .number = 2,
-              .pins = {kAct},
-              .operands = {number("number", 1, 100)},
-              .output = Output::Always,
-              .stateful = true,
-              .ref = "5.3, l.1074",
-              .doc = "OUT becomes 1 when ACT has been 1 for the preset time, which is set on the timer page and kept "
-                     "through power-off: "
-                     "timers 1-20 in units of 48 ms, 21-100 in units of 8 ms, the remainder dropped. ACT=0: OUT=0, the "
-                     "time is forgotten. "
-                     "The time counts from the first scan with ACT=1 (P23).",
-              .example = "LD X9.0\nFUNC 2\nPRM 1\nOUT Y9.0"},
-     .numbers = Row::Numbers::Timer,
-     .lower = &lowerTimer,
-     .variant = kTimerPage},
-    {.info = {.mnemonic = "TMRB",
-              .title = "fixed on-delay timer",
-              .group = "timers",
-              .number = 3,
-              .pins = {kAct},
-              .operands = {number("number", 1, 200),
-                           number("preset", 8, 999999, "milliseconds; a remainder of 8 is dropped")},
-              .output = Output::Always,
-              .stateful = true,
-              .ref = "5.4, l.1118",
-              .doc =
-                  "As TMR, but the preset is part of the program, in milliseconds and units of 8 ms. Its numbers are "
-                  "a set of their own.",
-              .example = "LD X9.0\nFUNC 3\nPRM 1\nPRM 1000\nOUT Y9.0"},
-     .numbers = Row::Numbers::Timer,
-     .lower = &lowerTimer,
-     .variant = kTimerFixed},
-    {.info = {.mnemonic = "TMRC",
-              .title = "on-delay timer, preset in memory",
-              .group = "timers",
-              .number = 4,
-              .pins = {kAct},
-              .operands = {number("accuracy", 0, 2, "0: 8 ms, 1: 48 ms, 2: 1 s"),
-                           in("preset", kinds::kWord, "unsigned, in units of the accuracy"),
-                           inout("register", kinds::kWorkArea, "for the control's own use")},
-              .output = Output::Always,
-              .stateful = true,
-              .ref = "5.5, l.1164",
-              .doc = "As TMR, but the preset is a word of memory that may change at any time. The contents of the "
-                     "register are not defined.",
-              .example = "LD X9.0\nFUNC 4\nPRM 0\nPRM D10\nPRM R100\nOUT Y9.0"},
-     .lower = &lowerTimer,
-     .variant = kTimerMemory},
+    rowOf(timerShape({number("number", 1, 100)}, Row::Numbers::Timer), 2, "TMR", "on-delay timer", "5.3, l.1074",
+          "OUT becomes 1 when ACT has been 1 for the preset time, which is set on the timer page and kept through "
+          "power-off: timers 1-20 in units of 48 ms, 21-100 in units of 8 ms, the remainder dropped. ACT=0: OUT=0, the "
+          "time is forgotten. The time counts from the first scan with ACT=1 (P23).",
+          "LD X9.0\nFUNC 2\nPRM 1\nOUT Y9.0", kTimerPage),
+    rowOf(
+        timerShape({number("number", 1, 200), number("preset", 8, 999999, "milliseconds; a remainder of 8 is dropped")},
+                   Row::Numbers::Timer),
+        3, "TMRB", "fixed on-delay timer", "5.4, l.1118",
+        "As TMR, but the preset is part of the program, in milliseconds and units of 8 ms. Its numbers are a set of "
+        "their own.",
+        "LD X9.0\nFUNC 3\nPRM 1\nPRM 1000\nOUT Y9.0", kTimerFixed),
+    rowOf(timerShape({number("accuracy", 0, 2, "0: 8 ms, 1: 48 ms, 2: 1 s"),
+                      in("preset", kinds::kWord, "unsigned, in units of the accuracy"),
+                      inout("register", kinds::kWorkArea, "for the control's own use")}),
+          4, "TMRC", "on-delay timer, preset in memory", "5.5, l.1164",
+          "As TMR, but the preset is a word of memory that may change at any time. The contents of the register are "
+          "not defined.",
+          "LD X9.0\nFUNC 4\nPRM 0\nPRM D10\nPRM R100\nOUT Y9.0", kTimerMemory),
 
     {.info = {.mnemonic = "DECB",
               .title = "binary decoding",
@@ -67,45 +50,21 @@ inline constexpr Row kTimingRows[] = {
                            out("result", kinds::kByte)},
               .ref = "5.6, l.1217",
               .doc = "Bit i of the result becomes 1 when the code equals first code + i, for i = 0-7; the others "
-                     "become 0. Codes are compared as "
-                     "bit patterns (P25). ACT=0: all eight bits become 0.",
+                     "become 0. Codes are compared as bit patterns (P25). ACT=0: all eight bits become 0.",
               .example = "LD F7.0\nFUNC 5\nPRM 2\nPRM F10\nPRM 3\nPRM R200"},
      .lower = &lowerDecode},
 
-    {.info = {.mnemonic = "CTR",
-              .title = "ring counter",
-              .group = "counters",
-              .number = 6,
-              .pins = {kCn0, kUpDown, kRst, kCount},
-              .operands = {number("number", 1, 100)},
-              .output = Output::Always,
-              .stateful = true,
-              .ref = "5.7, l.1271",
-              .doc = "Counts rising edges of ACT. Up: from the start value (CN0) to the preset, the next pulse begins "
-                     "again. Down: from the preset "
-                     "to CN0 (P26). RST=1 sets the start value and OUT=0. OUT=1 when a count arrives at the end of its "
-                     "way. Preset and value lie in "
-                     "C, two bytes each from C(4(n-1)), and are kept through power-off (P8).",
-              .example = "LD R0.0\nLD R0.1\nLD R0.2\nLD X9.0\nFUNC 6\nPRM 1\nOUT Y9.0"},
-     .numbers = Row::Numbers::Counter,
-     .lower = &lowerCounter,
-     .variant = kCounterPage},
-    {.info =
-         {.mnemonic = "CTRC",
-          .title = "ring counter, preset in memory",
-          .group = "counters",
-          .number = 7,
-          .pins = {kCn0, kUpDown, kRst, kCount},
-          .operands = {in("preset", kinds::kWord, "0-32767"),
-                       inout("register", kinds::kDword, "+0 current value, +2 for the control's own use")},
-          .output = Output::Always,
-          .stateful = true,
-          .ref = "5.8, l.1340",
-          .doc =
-              "As CTR, with preset and current value in memory. With its register in R it begins at 0 after power-on.",
-          .example = "LD R0.0\nLD R0.1\nLD R0.2\nLD X9.0\nFUNC 7\nPRM D10\nPRM D12\nOUT Y9.0"},
-     .lower = &lowerCounter,
-     .variant = kCounterMemory},
+    rowOf(
+        counterShape({number("number", 1, 100)}, Row::Numbers::Counter), 6, "CTR", "ring counter", "5.7, l.1271",
+        "Counts rising edges of ACT. Up: from the start value (CN0) to the preset, the next pulse begins again. Down: "
+        "from the preset to CN0 (P26). RST=1 sets the start value and OUT=0. OUT=1 when a count arrives at the end of "
+        "its way. Preset and value lie in C, two bytes each from C(4(n-1)), and are kept through power-off (P8).",
+        "LD R0.0\nLD R0.1\nLD R0.2\nLD X9.0\nFUNC 6\nPRM 1\nOUT Y9.0", kCounterPage),
+    rowOf(counterShape({in("preset", kinds::kWord, "0-32767"),
+                        inout("register", kinds::kDword, "+0 current value, +2 for the control's own use")}),
+          7, "CTRC", "ring counter, preset in memory", "5.8, l.1340",
+          "As CTR, with preset and current value in memory. With its register in R it begins at 0 after power-on.",
+          "LD R0.0\nLD R0.1\nLD R0.2\nLD X9.0\nFUNC 7\nPRM D10\nPRM D12\nOUT Y9.0", kCounterMemory),
 
     {.info = {.mnemonic = "ROTB",
               .title = "rotation control",
@@ -120,8 +79,8 @@ inline constexpr Row kTimingRows[] = {
               .stateful = true,
               .ref = "5.9, l.1425",
               .doc = "Way of a turret or magazine from the current to the target position. OUT: 0 forward (numbers "
-                     "increase), 1 reverse; equal ways go "
-                     "forward (P30). ACT=0, or a position outside the table: result and OUT stay (P31).",
+                     "increase), 1 reverse; equal ways go forward (P30). ACT=0, or a position outside the table: "
+                     "result and OUT stay (P31).",
               .example = "LD R0.0\nLD R0.1\nLD R0.2\nLD R0.3\nLD X9.0\nFUNC 8\nPRM 1\nPRM D10\nPRM D11\nPRM D12\nPRM "
                          "D13\nOUT Y9.0"},
      .lower = &lowerRotation},

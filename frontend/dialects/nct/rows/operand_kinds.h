@@ -27,12 +27,11 @@ constexpr uint8_t setOf(ConstantKind kind) { return static_cast<uint8_t>(1 << st
 
 namespace kinds {
 
-inline constexpr OperandKind kBit{
-    {"bit",
-     "A bit: 0056.17, a bit symbol, 0056:REG (the bit's number in a register), each with ,#3 or ,REG to move by whole "
-     "words.",
-     "7000.05", "7000", "symbol-kind-mismatch"},
-    {.form = Form::Bit}};
+inline constexpr OperandKind kBit{{"bit",
+                                   "A bit: 0056.17, a bit symbol, 0056:REG (the bit's number in a register), each with "
+                                   ",#3 or ,REG to move by whole words.",
+                                   "7000.05", "7000", "symbol-kind-mismatch"},
+                                  {.form = Form::Bit}};
 inline constexpr OperandKind kWord{
     {"word", "A double word: 0056, a word symbol, with ,#3 or ,REG.", "7000", "#5", "operand-not-register"}, {}};
 inline constexpr OperandKind kUserWord{

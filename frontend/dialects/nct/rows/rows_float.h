@@ -78,8 +78,7 @@ inline constexpr NctInstruction kFloatRows[] = {
                    "1st Operand", "2nd Operand", lowerFloatArithmetic, kFloatDiv),
     floatBinaryRow({"PWR", "power", "6.10.5, l.2233",
                     "Result := Base to the power of Exponent; anything to the power of 0 is 1. A negative base, or 0 "
-                    "to a negative "
-                    "exponent: FL_ER, not executed.",
+                    "to a negative exponent: FL_ER, not executed.",
                     "|--[N_ON]--{PWR 7000 7002 *2.0}"},
                    "Base", "Exponent", lowerFloatFunction, kPower),
     floatRow({"SQRT", "square root", "6.10.6, l.2257", "Result := square root. Negative: FL_ER, not executed.",
@@ -91,12 +90,11 @@ inline constexpr NctInstruction kFloatRows[] = {
     floatRow({"COS", "cosine", "6.10.8, l.2285", "Result := cosine of the operand in radians.",
               "|--[N_ON]--{COS 7000 7002}"},
              kCosine),
-    floatRow(
-        {"TAN", "tangent", "6.10.9, l.2297",
-         "Result := tangent of the operand in radians. Where an odd multiple of pi/2 is at most the distance of two "
-         "neighbouring doubles away: FL_ER, not executed.",
-         "|--[N_ON]--{TAN 7000 7002}"},
-        kTangent),
+    floatRow({"TAN", "tangent", "6.10.9, l.2297",
+              "Result := tangent of the operand in radians. Where an odd multiple of pi/2 is at most the distance of "
+              "two neighbouring doubles away: FL_ER, not executed.",
+              "|--[N_ON]--{TAN 7000 7002}"},
+             kTangent),
     floatRow({"ASIN", "arc sine", "6.10.10, l.2315",
               "Result := arc sine in radians. Outside -1 to 1: FL_ER, not executed.", "|--[N_ON]--{ASIN 7000 7002}"},
              kArcSine),

@@ -26,12 +26,11 @@ constexpr NctInstruction messageRow(RowText text, const OperandKind& variableKin
 }
 
 inline constexpr NctInstruction kMessageRows[] = {
-    messageRow(
-        {"MSG", "integer message, screen", "6.13.1, l.2775",
-         "The rising edge of the input shows the message, the falling edge deletes it. The output is TRUE while it is "
-         "on the screen, from the next cycle on.",
-         "|--[FAULT]--{MSG #20 #0 #0 #0}--[N_CLRMSG]--(R FAULT)"},
-        kinds::kDecimal, kMessageOnScreen),
+    messageRow({"MSG", "integer message, screen", "6.13.1, l.2775",
+                "The rising edge of the input shows the message, the falling edge deletes it. The output is TRUE while "
+                "it is on the screen, from the next cycle on.",
+                "|--[FAULT]--{MSG #20 #0 #0 #0}--[N_CLRMSG]--(R FAULT)"},
+               kinds::kDecimal, kMessageOnScreen),
     messageRow({"MSGF", "floating-point message, screen", "6.13.1, l.2775", "As MSG, with a double.",
                 "|--[FAULT]--{MSGF #20 #0 #0 *1.5}--[N_CLRMSG]--(R FAULT)"},
                kinds::kFloat, kMessageOnScreen | kMessageOfReal),
@@ -44,8 +43,7 @@ inline constexpr NctInstruction kMessageRows[] = {
                kinds::kFloat, kMessageOnScreen | kMessageToLog | kMessageOfReal),
     messageRow({"REM", "integer message, log", "6.13.1, l.2775",
                 "The rising edge writes code and text to the log; nothing is shown. The output is TRUE when that is "
-                "done, until the "
-                "input turns FALSE.",
+                "done, until the input turns FALSE.",
                 "|--[FAULT]--{REM #20 #0 #0 #0}--(R FAULT)"},
                kinds::kDecimal, kMessageToLog),
     messageRow({"REMF", "floating-point message, log", "6.13.1, l.2775", "As REM, with a double.",

@@ -52,30 +52,27 @@ inline constexpr NctInstruction kNcRows[] = {
                            O{"Distance", &kinds::kFloat, Access::Read, "in the unit of N0104"}},
               .output = Output::Optional,
               .ref = "6.15, l.3052",
-              .doc =
-                  "Writes a command into the buffer of an axis that the PLC has requested (AP_PLCR=1, AN_PLCA=1), as "
-                  "soon as the buffer is empty (AN_BEPTY=1); the output is TRUE in that cycle. FL_ER=1 and output "
-                  "FALSE: the axis is not the PLC's, the code is wrong, or codes 2 to 5 have speed 0.",
+              .doc = "Writes a command into the buffer of an axis that the PLC has requested (AP_PLCR=1, AN_PLCA=1), "
+                     "as soon as the buffer is empty (AN_BEPTY=1); the output is TRUE in that cycle. FL_ER=1 and "
+                     "output FALSE: the axis is not the PLC's, the code is wrong, or codes 2 to 5 have speed 0.",
               .example = "|--[@GO]--{MOVCMND #0 #1 *100.0 *5.0}"},
      .lower = lowerAxisCommand},
-    macroRow(
-        {"MACR", "read a macro variable", "6.16.1, l.3165",
-         "Result := macro variable #100 to #999 of a channel (index 0 to 7). FL_ER=1 and output FALSE: there is no "
-         "such variable or channel.",
-         "|--[@GO]--{MACR 7000 #500 #0}"},
-        {O{"Result", &kinds::kUserDouble, Access::Write, ""},
-         O{"Variable", &kinds::kDecimal, Access::Read, "100 to 999", 100, 999},
-         O{"Channel", &kinds::kDecimal, Access::Read, "index, 0 to 7"}},
-        kReadMacro),
-    macroRow(
-        {"MACW", "write a macro variable", "6.16.2, l.3217",
-         "Macro variable of a channel := Operand. FL_ER=1 and output FALSE: there is no such variable or channel, or "
-         "P_MAC forbids it.",
-         "|--[@GO]--{MACW #500 7000 #0}"},
-        {O{"Variable", &kinds::kDecimal, Access::Read, "100 to 999", 100, 999},
-         O{"Operand", &kinds::kUserDouble, Access::Read, ""},
-         O{"Channel", &kinds::kDecimal, Access::Read, "index, 0 to 7"}},
-        kWriteMacro),
+    macroRow({"MACR", "read a macro variable", "6.16.1, l.3165",
+              "Result := macro variable #100 to #999 of a channel (index 0 to 7). FL_ER=1 and output FALSE: there is "
+              "no such variable or channel.",
+              "|--[@GO]--{MACR 7000 #500 #0}"},
+             {O{"Result", &kinds::kUserDouble, Access::Write, ""},
+              O{"Variable", &kinds::kDecimal, Access::Read, "100 to 999", 100, 999},
+              O{"Channel", &kinds::kDecimal, Access::Read, "index, 0 to 7"}},
+             kReadMacro),
+    macroRow({"MACW", "write a macro variable", "6.16.2, l.3217",
+              "Macro variable of a channel := Operand. FL_ER=1 and output FALSE: there is no such variable or channel, "
+              "or P_MAC forbids it.",
+              "|--[@GO]--{MACW #500 7000 #0}"},
+             {O{"Variable", &kinds::kDecimal, Access::Read, "100 to 999", 100, 999},
+              O{"Operand", &kinds::kUserDouble, Access::Read, ""},
+              O{"Channel", &kinds::kDecimal, Access::Read, "index, 0 to 7"}},
+             kWriteMacro),
     {.info = {.mnemonic = "SCP",
               .title = "read a quantity of the NC",
               .group = "nc-service",
@@ -87,21 +84,19 @@ inline constexpr NctInstruction kNcRows[] = {
               .output = Output::Optional,
               .stateful = true,
               .ref = "6.17, l.3269",
-              .doc =
-                  "Result := position, speed or another quantity of the NC, as a double. FL_ER=1 and output FALSE: a "
-                  "parameter is out of range.",
+              .doc = "Result := position, speed or another quantity of the NC, as a double. FL_ER=1 and output FALSE: "
+                     "a parameter is out of range.",
               .example = "|--[N_ON]--{SCP 7000 ActPosAx #1 #0}"},
      .lower = lowerScope,
      .check = checkScope},
-    arrayServiceRow(
-        {"MR", "read data of the NC", "6.18.1, l.3394",
-         "Requests data from the NC. Word 0 of the block is the execution code, word 1 the amount of data (the "
-         "number of words after it); the rest depends on the function. The request takes several cycles: the "
-         "output is TRUE when the answer is in the block, whatever its code, and stays so until EN is FALSE. "
-         "When EN is FALSE too early the answer is dropped. A block that does not fit into memory gets code 2, "
-         "an unknown function code 1, at once.",
-         "|--[GO]--{MR 7000 #10}--(R GO)"},
-        kReadArray, checkReadFunction),
+    arrayServiceRow({"MR", "read data of the NC", "6.18.1, l.3394",
+                     "Requests data from the NC. Word 0 of the block is the execution code, word 1 the amount of data "
+                     "(the number of words after it); the rest depends on the function. The request takes several "
+                     "cycles: the output is TRUE when the answer is in the block, whatever its code, and stays so "
+                     "until EN is FALSE. When EN is FALSE too early the answer is dropped. A block that does not fit "
+                     "into memory gets code 2, an unknown function code 1, at once.",
+                     "|--[GO]--{MR 7000 #10}--(R GO)"},
+                    kReadArray, checkReadFunction),
     arrayServiceRow({"MW", "write data of the NC", "6.18.2, l.3468", "As MR, handing data to the NC.",
                      "|--[GO]--{MW 7000 #11}--(R GO)"},
                     kWriteArray, checkWriteFunction),

@@ -7,16 +7,6 @@ namespace rung::nct {
 
 inline constexpr frontend::PinInfo kEnable{"EN", "enables the instruction in every cycle"};
 
-// --- families: rows that differ in a few words
-// --------------------------------------------------------------------------
-struct RowText {
-  std::string_view mnemonic;
-  std::string_view title;
-  std::string_view ref;
-  std::string_view doc;
-  std::string_view example;
-};
-
 // Result and one source.
 constexpr NctInstruction convertRow(RowText text, std::string_view group, const OperandKind& resultKind,
                                     const OperandKind& sourceKind, Lower lower, int variant) {
@@ -122,8 +112,7 @@ inline constexpr NctInstruction kWordRows[] = {
 
     timerRow({"TOND", "on-delay", "6.4.1, l.1391",
               "The output turns TRUE when the input has been TRUE for the set time. The register counts down to 0 from "
-              "the rising edge of the "
-              "input, and holds the set value again while the input is FALSE.",
+              "the rising edge of the input, and holds the set value again while the input is FALSE.",
               "|--[START]--{TOND 7000 #500 #0}--(STARTED)"},
              kOnDelay),
     timerRow({"TOFFD", "off-delay", "6.4.2, l.1407",
@@ -137,16 +126,15 @@ inline constexpr NctInstruction kWordRows[] = {
               "|--[LUBE]--{TPULSE 7000 #3 #1}--(PUMP)"},
              kTimedPulse),
 
-    counterRow({"CNT", "counter", "6.5.1, l.1507",
-                "Each rising edge of CK counts up or down by 1 until the content equals the ending value; there it "
-                "stops until R loads the "
-                "starting value. The output is TRUE while the content equals the compare value.",
-                "|--[PART]--{CNT 7000 #0 #10 #10}--(FULL)"},
-               kStopping),
+    counterRow(
+        {"CNT", "counter", "6.5.1, l.1507",
+         "Each rising edge of CK counts up or down by 1 until the content equals the ending value; there it stops "
+         "until R loads the starting value. The output is TRUE while the content equals the compare value.",
+         "|--[PART]--{CNT 7000 #0 #10 #10}--(FULL)"},
+        kStopping),
     counterRow({"CNTR", "ring counter", "6.5.2, l.1543",
                 "As CNT, but counting up at the ending value leads to the starting value, counting down at the "
-                "starting value to the ending one. "
-                "A start above the end sets FL_ER and nothing is counted.",
+                "starting value to the ending one. A start above the end sets FL_ER and nothing is counted.",
                 "|--[STEP]--{CNTR 7000 #1 #8 #1}--(HOME)"},
                kRing),
 
@@ -166,8 +154,7 @@ inline constexpr NctInstruction kWordRows[] = {
               .stateful = true,
               .ref = "6.6, l.1571",
               .doc = "Finds the way of a turret or magazine from the current position to the goal: the direction "
-                     "(output, TRUE negative) and the "
-                     "position or number of steps to go.",
+                     "(output, TRUE negative) and the position or number of steps to go.",
               .example = "|--[@M6]--{ROT TOGO POS GOAL #1 #12}--(NEGATIVE)"},
      .lower = lowerRotation},
 
@@ -212,14 +199,12 @@ inline constexpr NctInstruction kWordRows[] = {
 
     binaryRow({"ADD", "signed addition", "6.9.1, l.2021",
                "Result := 1st + 2nd modulo 2^32. FL_CY is the unsigned carry; FL_OF: two non-negative numbers gave a "
-               "negative one; FL_UF: two "
-               "negative ones a non-negative one.",
+               "negative one; FL_UF: two negative ones a non-negative one.",
                "|--[@PART]--{ADD PARTS PARTS #1}"},
               "integer", kinds::kInteger, lowerAddSub, kAdd),
     binaryRow({"SUB", "signed subtraction", "6.9.2, l.2043",
                "Result := 1st - 2nd modulo 2^32. FL_CY is the unsigned borrow; FL_OF: non-negative minus negative gave "
-               "a negative number; FL_UF: "
-               "negative minus non-negative a non-negative one.",
+               "a negative number; FL_UF: negative minus non-negative a non-negative one.",
                "|--[@PART]--{SUB LEFT LEFT #1}"},
               "integer", kinds::kInteger, lowerAddSub, kSub),
     binaryRow({"MUL", "signed multiplication", "6.9.3, l.2067",

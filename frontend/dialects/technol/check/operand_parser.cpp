@@ -121,7 +121,6 @@ bool OperandParser::one(const OperandInfo& info, const OperandKind& kind, std::s
   case OperandClass::Value:
     if (kind.text && tokens.size() == 1 && tokens[0].kind == TokenKind::Text) return text(info, kind, tokens, out);
     return value(info, kind, tokens, out);
-  case OperandClass::Label:
   case OperandClass::Name: return named(kind, tokens, out);
   case OperandClass::Keyword: return keyword(info, kind, tokens, out);
   case OperandClass::Text: return text(info, kind, tokens, out);

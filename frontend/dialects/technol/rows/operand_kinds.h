@@ -15,7 +15,7 @@ namespace rung::frontend::technol {
 // Which type prefixes a kind takes.
 enum Prefix : uint8_t { kByte = 1, kWord = 2, kDword = 4, kQword = 8, kHigh = 16, kReal = 32, kCnst = 64 };
 
-enum class OperandClass : uint8_t { Bit, Value, Label, Name, Keyword, Text, Variable };
+enum class OperandClass : uint8_t { Bit, Value, Name, Keyword, Text, Variable };
 
 struct OperandTraits {
   OperandClass parse = OperandClass::Value;
@@ -26,7 +26,7 @@ struct OperandTraits {
   bool notGiven = false;                 // `-` or NIL may
   bool empty = false;                    // nothing may, between commas
   bool text = false;                     // a text may
-  bool weight = false;                   // a bit number without an address may: its place has no space
+  bool weight = false;                   // class Bit: a number of a bit may, without an address; Variable: it does
   uint8_t types = 0xFF;                  // ir::TypeSet of cells
   SymbolKind symbol = SymbolKind::Label; // class Name
   std::string_view keywords = {};        // parted by blanks; beside what else may stand there
@@ -74,27 +74,25 @@ inline constexpr uint8_t kNumberPrefixes = kByte | kWord | kHigh | kDword | kCns
 inline constexpr ir::TypeSet kIntegers = ir::setOf(ir::Type::I8) | ir::setOf(ir::Type::I16) | ir::setOf(ir::Type::I32);
 inline constexpr ir::TypeSet kShort = ir::setOf(ir::Type::I8) | ir::setOf(ir::Type::I16);
 
-inline constexpr OperandKind kBit{
-    {"bit",
-     "A bit, also negated or at an address: `ALFA`, `-ALFA`, `BUN5.ALFA`, `(BUN5+3).ALFA`, `$+1.ALFA`, "
-     "`BUN5[BX].ALFA`, `BLK[0].M3`.",
-     "BIT0", "CELL1", kWrongKind},
-    {.parse = C::Bit, .sign = true}};
+inline constexpr OperandKind kBit{{"bit",
+                                   "A bit, also negated or at an address: `ALFA`, `-ALFA`, `BUN5.ALFA`, "
+                                   "`(BUN5+3).ALFA`, `$+1.ALFA`, `BUN5[BX].ALFA`, `BLK[0].M3`.",
+                                   "BIT0", "CELL1", kWrongKind},
+                                  {.parse = C::Bit, .sign = true}};
 inline constexpr OperandKind kPlainBit{
     {"plain bit", "A bit without a sign, also at an address.", "BIT0", "-BIT0", kWrongKind}, {.parse = C::Bit}};
 inline constexpr OperandKind kFlag{{"flag", "0 or 1.", "1", "2", kRange}, {.cell = false, .constant = true}};
 inline constexpr OperandKind kSignedValue{
     {"signed value",
-     "A cell with its own type or a prefix BYTE. WORD. HIGH. DWRD. QWRD. REAL., or a constant (32 bits, or a "
-     "real with a decimal point); `-` takes it negative.",
+     "A cell with its own type or a prefix BYTE. WORD. HIGH. DWRD. QWRD. REAL., or a constant (32 bits, or a real with "
+     "a decimal point); `-` takes it negative.",
      "CELL1", "BIT0", kWrongKind},
     {.prefixes = kCells | kCnst, .sign = true, .constant = true}};
-inline constexpr OperandKind kValue{
-    {"value",
-     "A cell with its own type or a prefix BYTE. WORD. HIGH. DWRD. QWRD. REAL., or a constant (32 bits, or a "
-     "real with a decimal point).",
-     "CELL1", "BIT0", kWrongKind},
-    {.prefixes = kCells | kCnst, .constant = true}};
+inline constexpr OperandKind kValue{{"value",
+                                     "A cell with its own type or a prefix BYTE. WORD. HIGH. DWRD. QWRD. REAL., or a "
+                                     "constant (32 bits, or a real with a decimal point).",
+                                     "CELL1", "BIT0", kWrongKind},
+                                    {.prefixes = kCells | kCnst, .constant = true}};
 inline constexpr OperandKind kNarrowValue{
     {"narrow value", "As a value, but of at most 32 bits: QWRD. is not allowed (man. l.1076).", "CELL1", "QWRD.ARRAY",
      kPrefix},
@@ -198,8 +196,7 @@ inline constexpr OperandKind kNumberOrNothing{
     {.prefixes = kNumberPrefixes, .constant = true, .notGiven = true, .empty = true, .types = kIntegers}};
 inline constexpr OperandKind kAxis{
     {"axis",
-     "A constant, a cell of at most 32 bits, or the name of an axis, one of X Y Z A B C U V W (man. l.8018, "
-     "l.8302).",
+     "A constant, a cell of at most 32 bits, or the name of an axis, one of X Y Z A B C U V W (man. l.8018, l.8302).",
      "4", "17", kRange},
     {.prefixes = kNumberPrefixes, .constant = true, .types = kIntegers, .keywords = "X Y Z A B C U V W"}};
 inline constexpr OperandKind kSpindle{
@@ -243,8 +240,8 @@ inline constexpr OperandKind kBitName{
     {.parse = C::Variable, .weight = true}};
 inline constexpr OperandKind kType{
     {"type",
-     "TYPE_BIT, TYPE_INT_8, TYPE_UNS_8 or TYPE_BYTE, TYPE_INT_16, TYPE_UNS_16 or TYPE_WORD, TYPE_INT_32, "
-     "TYPE_UNS_32 or TYPE_DWORD, TYPE_INT_64, TYPE_UNS_64 or TYPE_QWORD, TYPE_REAL, TYPE_STR, TYPE_BIN.",
+     "TYPE_BIT, TYPE_INT_8, TYPE_UNS_8 or TYPE_BYTE, TYPE_INT_16, TYPE_UNS_16 or TYPE_WORD, TYPE_INT_32, TYPE_UNS_32 "
+     "or TYPE_DWORD, TYPE_INT_64, TYPE_UNS_64 or TYPE_QWORD, TYPE_REAL, TYPE_STR, TYPE_BIN.",
      "TYPE_DWORD", "5", kWrongKind},
     {.parse = C::Keyword, .keywords = nc::kExchangeTypeWords}};
 inline constexpr OperandKind kFast{{"FAST", "FAST: served every millisecond.", "FAST", "5", kWrongKind},

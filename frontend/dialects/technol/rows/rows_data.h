@@ -44,6 +44,19 @@ inline constexpr Row kCompareShape = {
     .check = checkRealUse,
     .lower = lowerCompare};
 
+constexpr Row moveShape(uint16_t effects) {
+  return {.info = {.group = "data",
+                   .operands = {out("dst", kinds::kCell, "becomes the source"), in("src", kinds::kCell, "is read")},
+                   .terminating = effects == kReadsRlo},
+          .effects = effects,
+          .check = checkMove,
+          .lower = lowerMove};
+}
+// Works on decimal digits in DR.
+constexpr Row decimalShape(LowerFn lower, OperandList operands = {}) {
+  return {.info = {.group = "DR operation", .operands = operands}, .effects = kReadsDr | kSetsDr, .lower = lower};
+}
+
 inline constexpr Row kDataRows[] = {
     // ---- load and store (man. ch. 3.10) ---------------------------------------------------------------------------
     {.info = {.mnemonic = "LOD",
@@ -72,28 +85,10 @@ inline constexpr Row kDataRows[] = {
           "LDR  GO\nLOD  COUNT\nSTO1 LIMIT", kIfRlo),
     rowOf(kStoreIfShape, "STO0", "store if 0", "3.10, l.783", "As STO, but only while RLO is 0.",
           "LDR  GO\nLOD  COUNT\nSTO0 LIMIT", kIfNotRlo),
-    {.info = {.mnemonic = "MOVE",
-              .title = "move",
-              .group = "data",
-              .operands = {out("dst", kinds::kCell, "becomes the source"), in("src", kinds::kCell, "is read")},
-              .ref = "3.10, l.795",
-              .doc = "One cell becomes another of the same type; RLO and DR stay.",
-              .example = "MOVE LIMIT,COUNT"},
-     .check = checkMove,
-     .lower = lowerMove,
-     .variant = kAlways},
-    {.info = {.mnemonic = "MOVE1",
-              .title = "move if 1",
-              .group = "data",
-              .operands = {out("dst", kinds::kCell, "becomes the source"), in("src", kinds::kCell, "is read")},
-              .terminating = true,
-              .ref = "3.10, l.797",
-              .doc = "As MOVE, but only while RLO is 1.",
-              .example = "LDR  GO\nMOVE1 LIMIT,COUNT"},
-     .effects = kReadsRlo,
-     .check = checkMove,
-     .lower = lowerMove,
-     .variant = kIfRlo},
+    rowOf(moveShape(0), "MOVE", "move", "3.10, l.795", "One cell becomes another of the same type; RLO and DR stay.",
+          "MOVE LIMIT,COUNT", kAlways),
+    rowOf(moveShape(kReadsRlo), "MOVE1", "move if 1", "3.10, l.797", "As MOVE, but only while RLO is 1.",
+          "LDR  GO\nMOVE1 LIMIT,COUNT", kIfRlo),
     // ---- arithmetic (man. ch. 3.12) -------------------------------------------------------------------------------
     rowOf(kSumShape, "AD", "add", "3.12, l.1006",
           "The part of DR in the width of the operand becomes the sum; the rest stays. With REAL. or a real constant "
@@ -135,32 +130,13 @@ inline constexpr Row kDataRows[] = {
           "The absolute value of DR in 16 bits; with DWRD in 32, with QWRD in 64 bits, with REAL on DR_REAL. The rest "
           "of DR stays.",
           "LOD  POS\nABS  DWRD\nSTO  POS", kAbsolute),
-    {.info = {.mnemonic = "INRBCD",
-              .title = "increment BCD",
-              .group = "DR operation",
-              .ref = "3.13, l.1203",
-              .doc = "DR plus 1 as four decimal digits; 0 follows 9999.",
-              .example = "LOD  COUNT\nINRBCD\nSTO  COUNT"},
-     .effects = kReadsDr | kSetsDr,
-     .lower = lowerIncrementBcd},
-    {.info = {.mnemonic = "BIN",
-              .title = "BCD to binary",
-              .group = "DR operation",
-              .operands = {widthOf(kinds::kDoubleWidth)},
-              .ref = "3.13, l.1233",
-              .doc = "The digits in DR become their number. With DWRD bit 31 marks a negative number.",
-              .example = "LOD  COUNT\nBIN\nSTO  COUNT"},
-     .effects = kReadsDr | kSetsDr,
-     .lower = lowerBin},
-    {.info = {.mnemonic = "BCD",
-              .title = "binary to BCD",
-              .group = "DR operation",
-              .operands = {widthOf(kinds::kDoubleWidth)},
-              .ref = "3.13, l.1234",
-              .doc = "The number in DR becomes its digits, at most 4, with DWRD 8.",
-              .example = "LOD  POS\nBCD  DWRD\nSTO  POS"},
-     .effects = kReadsDr | kSetsDr,
-     .lower = lowerBcd},
+    rowOf(decimalShape(lowerIncrementBcd), "INRBCD", "increment BCD", "3.13, l.1203",
+          "DR plus 1 as four decimal digits; 0 follows 9999.", "LOD  COUNT\nINRBCD\nSTO  COUNT"),
+    rowOf(decimalShape(lowerBin, {widthOf(kinds::kDoubleWidth)}), "BIN", "BCD to binary", "3.13, l.1233",
+          "The digits in DR become their number. With DWRD bit 31 marks a negative number.",
+          "LOD  COUNT\nBIN\nSTO  COUNT"),
+    rowOf(decimalShape(lowerBcd, {widthOf(kinds::kDoubleWidth)}), "BCD", "binary to BCD", "3.13, l.1234",
+          "The number in DR becomes its digits, at most 4, with DWRD 8.", "LOD  POS\nBCD  DWRD\nSTO  POS"),
     rowOf(kShiftShape, "RL", "shift left", "3.13, l.1262",
           "Logical shift left of 16, 32 or 64 bits of DR; zeros come in.", "LOD  COUNT\nRL   2\nSTO  COUNT", 0),
     rowOf(kShiftShape, "RR", "shift right", "3.13, l.1264",
@@ -202,16 +178,12 @@ inline constexpr Row kDataRows[] = {
          {.mnemonic = "CONDR",
           .title = "DR to RLO",
           .group = "conversion",
-          .operands = {OperandInfo{
-              .name =
-                  "bits",
-              .kind =
-                  &kinds::kBitsOfDr,
-              .doc = "16 bits without it",
-              .min = 0,
-              .max = 31,
-              .optional =
-                  true}},
+          .operands = {OperandInfo{.name = "bits",
+                                   .kind = &kinds::kBitsOfDr,
+                                   .doc = "16 bits without it",
+                                   .min = 0,
+                                   .max = 31,
+                                   .optional = true}},
           .ref = "3.15, l.1461",
           .doc = "RLO shows whether DR is not 0 in 16 bits, with DWRD in 32; with a number RLO becomes that bit of DR.",
           .example = "LOD  COUNT\nCONDR 7\nWR   LAMP"},

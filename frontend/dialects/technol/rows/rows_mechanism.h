@@ -30,8 +30,8 @@ inline constexpr Row kMechanismRows[] = {
               .operands = {in("mech", kinds::kDeclaration, "a new name")},
               .stateful = true,
               .ref = "4.2, l.2037",
-              .doc = "Begins a mechanism: code that is executed one part per cycle while its bit is 1. "
-                     "Declares the bit and the word NAME_LINE.",
+              .doc = "Begins a mechanism: code that is executed one part per cycle while its bit is 1. Declares the "
+                     "bit and the word NAME_LINE.",
               .example = "MECH_BEGIN CLAMP\nFL   1,PUMP\nEX\nLDR  READY\nEX0\nFL   0,PUMP\nMECH_END CLAMP"},
      .role = Role::MechBegin},
     {.info = {.mnemonic = "MECH_END",

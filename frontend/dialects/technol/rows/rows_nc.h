@@ -93,15 +93,16 @@ inline constexpr Row kNcRows[] = {
           "after the other, a bit in each byte of an array of bits. The name is known in all files; DFM and DS declare "
           "it no second time. The variable takes the default, if there is one. Shared by itself.",
           "DEF_OUT TORQUE[8],'Torque',TYPE_REAL", static_cast<int>(nc::ExchangeKind::DefOut)),
-    {.info = {.mnemonic = "UPDATE_IN",
-              .title = "takes over a logical input at once",
-              .group = "inputs and outputs",
-              .operands = {out("val", kinds::kLogicalInput, "takes the value")},
-              .ref = "27.7, l.13413",
-              .doc = "The input, or the element of an array, takes the value that the output connected to it has "
-                     "now; meant for inputs with the period ONDEMAND, which nothing else serves. Where nothing is "
-                     "connected it stays.",
-              .example = "UPDATE_IN INPUT1"},
+    {.info =
+         {.mnemonic = "UPDATE_IN",
+          .title = "takes over a logical input at once",
+          .group = "inputs and outputs",
+          .operands = {out("val", kinds::kLogicalInput, "takes the value")},
+          .ref = "27.7, l.13413",
+          .doc =
+              "The input, or the element of an array, takes the value that the output connected to it has now; meant "
+              "for inputs with the period ONDEMAND, which nothing else serves. Where nothing is connected it stays.",
+          .example = "UPDATE_IN INPUT1"},
      .effects = 0,
      .check = checkUpdate,
      .lower = lowerUpdate},
@@ -110,9 +111,9 @@ inline constexpr Row kNcRows[] = {
               .group = "sharing",
               .operands = {in("val", kinds::kAddress, "is shared"), kShareName, kExchangeType, kLeast, kMost},
               .ref = "18.2.1, l.13618",
-              .doc = "Screens and scenarios find the variable or text by the name, and with it two reals that hold "
-                     "its least and its greatest value. They only read it; DEF_IN declares what they may write. "
-                     "RLO becomes 1 where it is shared, 0 where the name has another meaning already.",
+              .doc = "Screens and scenarios find the variable or text by the name, and with it two reals that hold its "
+                     "least and its greatest value. They only read it; DEF_IN declares what they may write. RLO "
+                     "becomes 1 where it is shared, 0 where the name has another meaning already.",
               .example = "SHARE_VAR POS,'PRESSURE',TYPE_DWORD,RATIO,RATIO"},
      .effects = kInitOnly | kSetsRlo,
      .check = checkShareVariable,
@@ -122,9 +123,9 @@ inline constexpr Row kNcRows[] = {
               .group = "sharing",
               .operands = {in("byte", kinds::kAddress, "is the bit's byte"), kShareName, kBit},
               .ref = "18.2.1, l.13705",
-              .doc = "Screens and scenarios find the bit of the byte by the name. The byte is any, the name of the "
-                     "bit gives its number. RLO becomes 1 where it is shared, 0 where the name has another meaning "
-                     "already.",
+              .doc =
+                  "Screens and scenarios find the bit of the byte by the name. The byte is any, the name of the bit "
+                  "gives its number. RLO becomes 1 where it is shared, 0 where the name has another meaning already.",
               .example = "SHARE_BIT CELL1,'LIMIT',LAMP"},
      .effects = kInitOnly | kSetsRlo,
      .check = checkShareBit,
@@ -132,8 +133,8 @@ inline constexpr Row kNcRows[] = {
     rowOf(
         configurationShape({out("val", kinds::kIntegerCell, "is read"), kIdentifier, defaultOf(kinds::kBitwiseValue)}),
         "CNF_GET_INT", "integer of the configuration", "16.1, l.16111",
-        "Reads an integer parameter of the configuration. RLO becomes 1 where it is found; else 0, and the default "
-        "is stored, if there is one.",
+        "Reads an integer parameter of the configuration. RLO becomes 1 where it is found; else 0, and the default is "
+        "stored, if there is one.",
         "CNF_GET_INT POS,'TIM_WATER',6", static_cast<int>(nc::ConfigurationKind::Integer)),
     rowOf(configurationShape({out("val", kinds::kRealCell, "is read"), kIdentifier, defaultOf(kinds::kRealValue)}),
           "CNF_GET_REAL", "real of the configuration", "16.1, l.16112",

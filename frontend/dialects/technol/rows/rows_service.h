@@ -93,8 +93,7 @@ inline constexpr Row kServiceRows[] = {
     serviceRow("CAN_RECV", "CAN-BUS", {kCan, out("pmsg", kinds::kAddress, "place of 12 bytes for a packet")},
                "9.4, l.3743", "Takes a packet that was received; DR shows whether there was one.", kSetsDr),
     serviceRow("CAN_RECV_REQ", "CAN-BUS", kReceiveRequest, "9.4, l.3779",
-               "Orders packets for an event procedure; RLO shows whether it "
-               "was accepted, DR holds the handle.",
+               "Orders packets for an event procedure; RLO shows whether it was accepted, DR holds the handle.",
                kSetsRlo | kSetsDr),
     serviceRow("CAN_RECV_DEL", "CAN-BUS", {in("handle", kinds::kDwordCell, "handle of the order")}, "9.4, l.3848",
                "Ends an order of packets.", kSetsRlo),
@@ -185,9 +184,7 @@ inline constexpr Row kServiceRows[] = {
                {kCom, optional(out("val", kinds::kIntegerCell, "becomes the character; else DR"))}, "23.3.2, l.21138",
                "Takes a character that was received; RLO 1: there was none.", kSetsRlo | kSetsDr),
     serviceRow("COM_CONTROL", "serial COM", {kCom, in("mode", kinds::kLineCommand, "what to do")}, "23.3.2, l.21165",
-               "Empties the queue of a line, counts it, or reports the line's "
-               "state in DR.",
-               kSetsDr),
+               "Empties the queue of a line, counts it, or reports the line's state in DR.", kSetsDr),
 };
 
 } // namespace rung::frontend::technol

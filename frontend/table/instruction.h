@@ -28,6 +28,12 @@ struct FixedList {
 
 enum class Access : uint8_t { Read, Write, ReadWrite, None };
 
+// What is done to an operand, in words.
+constexpr std::string_view nameOf(Access access) {
+  constexpr std::string_view kNames[] = {"read", "written", "read and written", "named"};
+  return kNames[static_cast<size_t>(access)];
+}
+
 // One operand in the order of the source. `kind` is a class of operands that the dialect names and documents (see
 // OperandKindInfo); min and max bound a constant where min <= max.
 struct OperandInfo {

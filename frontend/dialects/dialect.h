@@ -48,6 +48,8 @@ public:
   virtual std::unique_ptr<ir::Module> build() = 0;
 };
 
+class ReferencePage;
+
 struct Dialect {
   std::string_view name;                        // "gsk"
   std::string_view title;                       // "GSK25iMc / GSK25iTc PLC"
@@ -72,8 +74,8 @@ struct Dialect {
   // thing.
   std::vector<std::string> (*included)(SourceManager& sources, std::span<const FileId> files,
                                        const CompileOptions& options) = nullptr;
-  // Sections of the reference page behind the instructions, in Markdown; null when there are none.
-  std::string (*reference)() = nullptr;
+  // Adds to the reference page what goes behind the instructions.
+  void (*reference)(ReferencePage& page);
   // What a word means that is neither a mnemonic nor a diagnostic, such as a signal's name; "" when nothing. May be
   // null.
   std::string (*explain)(std::string_view word) = nullptr;

@@ -29,6 +29,12 @@ struct FixedList {
 
 enum class Access : uint8_t { Read, Write, ReadWrite, None };
 
+// What is done to an operand, in words.
+constexpr std::string_view nameOf(Access access) {
+  constexpr std::string_view kNames[] = {"read", "written", "read and written", "named"};
+  return kNames[static_cast<size_t>(access)];
+}
+
 // A kind of operands. Those of a dialect are constexpr objects of a struct derived from this one, which has what the
 // dialect's checks ask for; the rows point to them.
 struct OperandKindInfo {

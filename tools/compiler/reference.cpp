@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <vector>
 
+#include "frontend/table/reference.h"
 #include "ir/core/op_info.h"
-#include "ir/support/put.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/signals.h"
 #include "rtlib/text/letters.h"
@@ -22,18 +22,9 @@ using frontend::OperandKindInfo;
 using frontend::Output;
 using frontend::PinInfo;
 using frontend::Placement;
+using frontend::ReferencePage;
 
 namespace {
-
-std::string_view accessText(Access access) {
-  switch (access) {
-  case Access::Read: return "read";
-  case Access::Write: return "written";
-  case Access::ReadWrite: return "read and written";
-  case Access::None: return "-";
-  }
-  return "";
-}
 
 std::string_view outputText(Output output) {
   switch (output) {
@@ -51,15 +42,6 @@ std::string_view placementText(Placement placement) {
   case Placement::Anywhere: return "anywhere";
   }
   return "";
-}
-
-std::string cell(std::string_view text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '|') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out;
 }
 
 // The kinds of the rows' operands, each once, in the order of their definitions.
@@ -84,26 +66,20 @@ std::string shapeText(const InstructionInfo& row) {
   return text;
 }
 
-void appendInstruction(const Dialect& dialect, const InstructionInfo& row, std::string& out) {
-  put(out, "### {}", row.mnemonic);
-  if (row.number >= 0) put(out, " (function {})", row.number);
-  put(out, ": {}\n\n{}\n\n", row.title, row.doc);
-  if (row.pins.size() > 0) {
-    out += "| condition | meaning |\n| --- | --- |\n";
-    for (const PinInfo& pin : row.pins.all())
-      put(out, "| `{}` | {}{} |\n", pin.name, cell(pin.doc), pin.edge ? " (rising edge)" : "");
-    out += '\n';
-  }
-  if (row.operands.size() > 0) {
-    out += "| operand | kind | access | range | meaning |\n| --- | --- | --- | --- | --- |\n";
-    for (const OperandInfo& o : row.operands.all())
-      put(out, "| {}{}{} | {} | {} | {} | {} |\n", o.name, o.optional ? " (optional)" : "", o.repeated ? " …" : "",
-          o.kind->name, accessText(o.access), o.min <= o.max ? fmt::format("{}…{}", o.min, o.max) : "", cell(o.doc));
-    out += '\n';
-  }
-  if (const std::string shape = shapeText(row); !shape.empty()) put(out, "{}\n\n", shape);
-  if (!row.example.empty()) put(out, "```\n{}\n```\n\n", row.example);
-  put(out, "Manual: {}.{}\n\n", row.ref, dialect.isBuilt(row) ? "" : " Not built yet.");
+void add(ReferencePage& page, const Dialect& dialect, const InstructionInfo& row) {
+  const std::string number = row.number < 0 ? "" : fmt::format(" (function {})", row.number);
+  page.part(fmt::format("{}{}: {}", row.mnemonic, number, row.title), row.doc);
+  if (row.pins.size() > 0) page.section("", "", "condition | meaning");
+  for (const PinInfo& pin : row.pins.all())
+    page.row(fmt::format("`{}`", pin.name), fmt::format("{}{}", pin.doc, pin.edge ? " (rising edge)" : ""));
+  if (row.operands.size() > 0) page.section("", "", "operand | kind | access | range | meaning");
+  for (const OperandInfo& o : row.operands.all())
+    page.row(fmt::format("{}{}{}", o.name, o.optional ? " (optional)" : "", o.repeated ? " …" : ""), o.kind->name,
+             o.access == Access::None ? "-" : nameOf(o.access),
+             o.min <= o.max ? fmt::format("{}…{}", o.min, o.max) : "", o.doc);
+  if (const std::string shape = shapeText(row); !shape.empty()) page.section("", shape);
+  if (!row.example.empty()) page.section("", fmt::format("```\n{}\n```", row.example));
+  page.section("", fmt::format("Manual: {}.{}", row.ref, dialect.isBuilt(row) ? "" : " Not built yet."));
 }
 
 std::vector<const DiagInfo*> sortedDiags() {
@@ -120,19 +96,17 @@ std::vector<std::string_view> groupsOf(const Dialect& dialect) {
   return groups;
 }
 
-void appendConfigKey(const nc::ConfigKey& row, std::string& out) {
-  put(out, "| `{}` | {} | {} | {} | {} |\n", nc::shownKey(row), cell(nc::takesOf(row)), cell(row.otherwise),
-      row.reader == nc::ConfigReader::Compiler ? "compiler" : "control", cell(row.doc));
+std::string_view readerOf(const nc::ConfigKey& row) {
+  return row.reader == nc::ConfigReader::Compiler ? "compiler" : "control";
 }
 
-constexpr std::string_view kConfigHead =
-    "| key | takes | without it | read by | meaning |\n| --- | --- | --- | --- | --- |\n";
+std::string_view severityOf(const DiagInfo& info) { return info.severity == Severity::Error ? "error" : "warning"; }
 
-void appendFaults(const Dialect& dialect, std::string& out) {
-  out += "\n## Faults\n\nWhat stops a program of this dialect, as `rungc run` and `expect_fault` show it.\n\n"
-         "| fault | meaning |\n| --- | --- |\n";
-  for (const nc::Fault& fault : nc::faultsOf(dialect.name))
-    put(out, "| `{}` | {} |\n", fault.text, cell(fault.explanation));
+constexpr std::string_view kConfigColumns = "key | takes | without it | read by | meaning";
+
+void addConfigKeys(ReferencePage& page, const Dialect& dialect) {
+  for (const nc::ConfigKey& row : dialect.configKeys)
+    page.row(fmt::format("`{}`", nc::shownKey(row)), nc::takesOf(row), row.otherwise, readerOf(row), row.doc);
 }
 
 // As GitHub makes it of a heading.
@@ -145,86 +119,77 @@ std::string anchorOf(std::string_view heading) {
   return anchor;
 }
 
-struct Section {
-  std::string_view title;
-  std::vector<std::string_view> entries; // titles of its `### NAME: …`
-};
-
-std::vector<Section> sectionsOf(std::string_view page) {
-  std::vector<Section> sections;
-  while (!page.empty()) {
-    const size_t end = std::min(page.find('\n'), page.size());
-    const std::string_view line = page.substr(0, end);
-    page.remove_prefix(std::min(end + 1, page.size()));
-    if (line.starts_with("## ")) sections.push_back({line.substr(3), {}});
-    if (line.starts_with("### ") && !sections.empty() && line.find(": ") != std::string_view::npos)
-      sections.back().entries.push_back(line.substr(4));
-  }
-  return sections;
-}
-
 std::string linkTo(std::string_view heading, std::string_view shown) {
   return fmt::format("[{}](#{})", shown, anchorOf(heading));
 }
 
-// Puts a table of contents before the first section.
-std::string withContents(const std::string& page) {
-  std::string contents = "## Contents\n\n";
-  for (const Section& section : sectionsOf(page)) {
-    contents += "- " + linkTo(section.title, section.title);
-    std::string_view between = ": ";
-    for (const std::string_view entry : section.entries) {
-      contents += std::string(between) + linkTo(entry, entry.substr(0, entry.find_first_of(" :")));
+// With a table of contents before the first section: the sections, and of their parts those called `NAME: …`.
+std::string withContents(ReferencePage& page) {
+  std::string contents = "## Contents\n";
+  std::string_view between;
+  for (const auto& [level, title] : page.headings()) {
+    if (level == 2) {
+      contents += "\n- " + linkTo(title, title);
+      between = ": ";
+    } else if (level == 3 && title.find(": ") != std::string::npos) {
+      contents += std::string(between) + linkTo(title, std::string_view(title).substr(0, title.find_first_of(" :")));
       between = ", ";
     }
-    contents += '\n';
   }
-  const size_t first = page.find("\n## ") + 1;
-  return page.substr(0, first) + contents + '\n' + page.substr(first);
+  std::string text = page.take();
+  return text.insert(text.find("\n## ") + 1, contents + "\n\n");
 }
 
 } // namespace
 
 std::string dialectReference(const Dialect& dialect) {
-  std::string out;
-  put(out, "# {}: reference\n\n{}. Made by `rungc doc {}` from the tables of the dialect; do not edit.\n\n",
-      dialect.name, dialect.title, dialect.name);
+  ReferencePage page;
+  page.section(fmt::format("{}: reference", dialect.name),
+               fmt::format("{}. Made by `rungc doc {}` from the tables of the dialect; do not edit.", dialect.title,
+                           dialect.name),
+               "", 1);
   for (std::string_view group : groupsOf(dialect)) {
-    put(out, "## {}\n\n", group);
+    page.section(group, "");
     for (const InstructionInfo* row : dialect.instructions)
-      if (row->group == group) appendInstruction(dialect, *row, out);
+      if (row->group == group) add(page, dialect, *row);
   }
-  out += "## Kinds of operands\n\n| kind | what may be written |\n| --- | --- |\n";
-  for (const OperandKindInfo* kind : operandKindsOf(dialect)) put(out, "| {} | {} |\n", kind->name, cell(kind->doc));
-  out += "\n## Configuration\n\n`config KEY VALUE` in a scenario, `KEY = VALUE` in the table [config] of rung.toml, "
-         "`--config KEY=VALUE` on the command line.\n\n";
-  out += kConfigHead;
-  for (const nc::ConfigKey& row : dialect.configKeys) appendConfigKey(row, out);
-  appendFaults(dialect, out);
-  if (dialect.reference != nullptr) out += dialect.reference();
-  return withContents(out);
+  page.section("Kinds of operands", "", "kind | what may be written");
+  for (const OperandKindInfo* kind : operandKindsOf(dialect)) page.row(kind->name, kind->doc);
+  page.section("Configuration",
+               "`config KEY VALUE` in a scenario, `KEY = VALUE` in the table [config] of rung.toml, `--config "
+               "KEY=VALUE` on the command line.",
+               kConfigColumns);
+  addConfigKeys(page, dialect);
+  page.section("Faults", "What stops a program of this dialect, as `rungc run` and `expect_fault` show it.",
+               "fault | meaning");
+  for (const nc::Fault& fault : nc::faultsOf(dialect.name))
+    page.row(fmt::format("`{}`", fault.text), fault.explanation);
+  dialect.reference(page);
+  return withContents(page);
 }
 
 std::string diagnosticReference() {
-  std::string out =
-      "# Diagnostics\n\nEvery code that the compiler reports. Made by `rungc doc diagnostics`; do not edit.\n\n";
+  ReferencePage page;
+  page.section("Diagnostics", "Every code that the compiler reports. Made by `rungc doc diagnostics`; do not edit.", "",
+               1);
   for (const DiagInfo* info : sortedDiags())
-    put(out, "## {}\n\n{}: {}\n\n{}\n\n", info->code, info->severity == Severity::Error ? "Error" : "Warning",
-        info->message, info->explanation);
-  return withContents(out);
+    page.section(info->code, fmt::format("{}: {}\n\n{}", info->severity == Severity::Error ? "Error" : "Warning",
+                                         info->message, info->explanation));
+  return withContents(page) + '\n';
 }
 
 std::string operationReference() {
-  std::string out = "# Operations of the IR\n\nMade by `rungc doc ir` from ir/core/op_info.cpp; do not edit.\n\n| "
-                    "operation | types | meaning |\n| --- | --- | --- |\n";
+  ReferencePage page;
+  page.section("Operations of the IR", "Made by `rungc doc ir` from ir/core/op_info.cpp; do not edit.",
+               "operation | types | meaning", 1);
   for (const ir::OpInfo& info : ir::allOps()) {
     std::string types;
     for (int t = 1; t < ir::kTypeCount; ++t)
       if (ir::contains(info.types, static_cast<ir::Type>(t)))
         types += (types.empty() ? "" : " ") + std::string(ir::typeName(static_cast<ir::Type>(t)));
-    put(out, "| `{}` | {} | {} |\n", info.name, types.empty() ? "-" : types, cell(info.doc));
+    page.row(fmt::format("`{}`", info.name), types.empty() ? "-" : types, info.doc);
   }
-  return out;
+  return page.take();
 }
 
 namespace {
@@ -241,8 +206,7 @@ std::string openMessage(std::string_view message) {
 }
 
 std::string shownDiagnostic(const DiagInfo& info) {
-  return fmt::format("{} ({})\n  {}\n\n{}\n", info.code, info.severity == Severity::Error ? "error" : "warning",
-                     openMessage(info.message), info.explanation);
+  return fmt::format("{} ({})\n  {}\n\n{}\n", info.code, severityOf(info), openMessage(info.message), info.explanation);
 }
 
 // A fault by its text, or by the part before its colon or its module: `halt-status 13`, `watchdog`.
@@ -275,13 +239,13 @@ const nc::ConfigKey* configKey(const Dialect& dialect, std::string_view word) {
 void explainInDialect(const Dialect& dialect, std::string_view word, Collected& out) {
   for (const InstructionInfo* row : dialect.instructions)
     if (text::equalsIgnoringCase(row->mnemonic, word) || isAlias(*row, word, text::equalsIgnoringCase)) {
-      std::string text = fmt::format("[{}] ", dialect.name);
-      appendInstruction(dialect, *row, text);
-      out.add(text);
+      ReferencePage page;
+      add(page, dialect, *row);
+      out.add(fmt::format("[{}] {}\n", dialect.name, page.take()));
     }
   if (const nc::ConfigKey* row = configKey(dialect, word))
     out.add(fmt::format("[{}] configuration key {}, read by the {}: {}{}\n  {}\n", dialect.name, nc::shownKey(*row),
-                        row->reader == nc::ConfigReader::Compiler ? "compiler" : "control", nc::takesOf(*row),
+                        readerOf(*row), nc::takesOf(*row),
                         row->otherwise.empty() ? "" : fmt::format("; without it {}", row->otherwise), row->doc));
   for (const nc::Fault& fault : nc::faultsOf(dialect.name))
     if (isFault(fault, text::lower(word)))
@@ -290,36 +254,38 @@ void explainInDialect(const Dialect& dialect, std::string_view word, Collected& 
 }
 
 std::string instructionTopic(const Dialect& dialect) {
-  std::string out = fmt::format("# Instructions of {}\n\n", dialect.name);
+  ReferencePage page;
+  page.section(fmt::format("Instructions of {}", dialect.name), "", "", 1);
   for (std::string_view group : groupsOf(dialect)) {
-    put(out, "## {}\n\n| | |\n| --- | --- |\n", group);
+    page.section(group, "", "|");
     for (const InstructionInfo* row : dialect.instructions)
-      if (row->group == group) put(out, "| {} | {} |\n", row->mnemonic, cell(row->title));
-    out += '\n';
+      if (row->group == group) page.row(row->mnemonic, row->title);
   }
-  return out;
+  return page.take() + '\n';
 }
 
 std::string diagnosticTopic() {
-  std::string out = "# Diagnostics\n\n| | |\n| --- | --- |\n";
-  for (const DiagInfo* info : sortedDiags()) put(out, "| {} | {} |\n", info->code, cell(info->message));
-  return out;
+  ReferencePage page;
+  page.section("Diagnostics", "", "|", 1);
+  for (const DiagInfo* info : sortedDiags()) page.row(info->code, info->message);
+  return page.take();
 }
 
 std::string configTopic() {
-  std::string out;
+  ReferencePage page;
   for (const Dialect* dialect : frontend::allDialects()) {
-    put(out, "{}# Configuration of {}\n\n{}", out.empty() ? "" : "\n", dialect->name, kConfigHead);
-    for (const nc::ConfigKey& row : dialect->configKeys) appendConfigKey(row, out);
+    page.section(fmt::format("Configuration of {}", dialect->name), "", kConfigColumns, 1);
+    addConfigKeys(page, *dialect);
   }
-  return out;
+  return page.take();
 }
 
 std::string faultTopic() {
-  std::string out = "# Faults of a running program\n\n| | |\n| --- | --- |\n";
+  ReferencePage page;
+  page.section("Faults of a running program", "", "|", 1);
   for (const Dialect* dialect : frontend::allDialects())
-    for (const nc::Fault& fault : nc::faultsOf(dialect->name)) put(out, "| {} | {} |\n", fault.text, dialect->name);
-  return out;
+    for (const nc::Fault& fault : nc::faultsOf(dialect->name)) page.row(fault.text, dialect->name);
+  return page.take();
 }
 
 } // namespace
@@ -342,17 +308,18 @@ std::optional<std::string> explainTopic(std::string_view word) {
 }
 
 std::string explainTopics() {
-  std::string out =
-      "`rungc explain WORD` explains an instruction, a signal, a diagnostic, a fault or a configuration key; "
-      "a part of a word lists what contains it.\n\n| topic | |\n| --- | --- |\n";
-  for (const Dialect* dialect : frontend::allDialects()) {
-    std::string groups;
-    for (std::string_view group : groupsOf(*dialect)) groups += (groups.empty() ? "" : ", ") + std::string(group);
-    put(out, "| {} | {} instructions: {} |\n", dialect->name, dialect->instructions.size(), groups);
-  }
-  put(out, "| diagnostics | {} codes of errors and warnings |\n", allDiags().size());
-  out += "| faults | what stops a running program |\n| config | the configuration keys of the dialects |\n";
-  return out;
+  ReferencePage page;
+  page.section("",
+               "`rungc explain WORD` explains an instruction, a signal, a diagnostic, a fault or a configuration key; "
+               "a part of a word lists what contains it.",
+               "topic |");
+  for (const Dialect* dialect : frontend::allDialects())
+    page.row(dialect->name,
+             fmt::format("{} instructions: {}", dialect->instructions.size(), fmt::join(groupsOf(*dialect), ", ")));
+  page.row("diagnostics", fmt::format("{} codes of errors and warnings", allDiags().size()));
+  page.row("faults", "what stops a running program");
+  page.row("config", "the configuration keys of the dialects");
+  return page.take();
 }
 
 std::vector<ReferenceEntry> referenceEntries() {
@@ -371,8 +338,7 @@ std::vector<ReferenceEntry> referenceEntries() {
         entries.push_back({signal.symbol, fmt::format("{} signal", dialect->name), signal.meaning, signal.group});
   }
   for (const DiagInfo* info : sortedDiags())
-    entries.push_back({std::string(info->code), info->severity == Severity::Error ? "error" : "warning",
-                       std::string(info->message), ""});
+    entries.push_back({std::string(info->code), std::string(severityOf(*info)), std::string(info->message), ""});
   return entries;
 }
 

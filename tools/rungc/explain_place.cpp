@@ -14,19 +14,8 @@
 namespace rung::rungc {
 namespace {
 
-using frontend::Access;
 using frontend::Analysis;
 using frontend::Definition;
-
-std::string_view nameOf(Access access) {
-  switch (access) {
-  case Access::Read: return "read";
-  case Access::Write: return "written";
-  case Access::ReadWrite: return "read and written";
-  case Access::None: return "named";
-  }
-  return "";
-}
 
 class Explainer {
 public:

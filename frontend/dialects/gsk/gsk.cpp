@@ -88,7 +88,7 @@ const frontend::Dialect kGsk = {
     .findBox = findBox,
     .check = &check,
     .format = &format,
-    .reference = &referenceSections,
+    .reference = &addReference,
     .explain = &explainSignal,
 };
 

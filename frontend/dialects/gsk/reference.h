@@ -1,11 +1,11 @@
 // What the reference page says beyond the instructions, from the same tables that the compiler and the simulated CNC
 // read.
 #pragma once
-#include <string>
+#include "frontend/table/reference.h"
 
 namespace rung::gsk {
 
-// Markdown: areas, limits, pins, configuration, warnings, window functions, PLC axis commands, signals.
-std::string referenceSections();
+// Areas, limits, pins, warnings, window functions, PLC axis commands, signals.
+void addReference(frontend::ReferencePage& page);
 
 } // namespace rung::gsk

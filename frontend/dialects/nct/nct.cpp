@@ -205,7 +205,7 @@ const frontend::Dialect kNct = {
     .findBox = findBoxInfo,
     .check = check,
     .format = format,
-    .reference = referenceSections,
+    .reference = addReference,
     .explain = explainWord,
 };
 

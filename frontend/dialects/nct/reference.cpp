@@ -4,8 +4,6 @@
 #include "frontend/dialects/nct/config.h"
 #include "frontend/dialects/nct/rows/instructions.h"
 #include "frontend/dialects/nct/signal_text.h"
-#include "frontend/table/markdown.h"
-#include "ir/support/diagnostics.h"
 #include "rtlib/nc/nct/axis_codes.h"
 #include "rtlib/nc/nct/messages.h"
 #include "rtlib/nc/nct/parameters.h"
@@ -16,56 +14,43 @@
 namespace rung::nct {
 namespace {
 
-using frontend::cell;
-using frontend::Page;
+using frontend::ReferencePage;
 
-void memory(Page& page) {
+void memory(ReferencePage& page) {
   const Config limits;
-  page.heading("## Memory");
-  page.line("One array of {} double words, 0000 to {}. A word is written with four digits or as a symbol, a bit "
-            "`0056.17`; `,#3` or `,REG` moves either by words, `:REG` takes the bit's number from a word. A double is "
-            "two words, the lower half first. Manual: l.281-522.\n",
-            kWords, kWords - 1);
-  page.table("| words | name | what | through power-off |");
-  page.line("| 0000 | `FLAGS` | flags of the instructions: FL_ER, FL_UF, FL_OF, FL_CY, FL_GT, FL_EQ, FL_LT from bit 0 "
-            "on; read only | |");
-  page.line(
-      "| {:04} to PLCNVRAM-1 | | signals of the NC, twice: synchronised, and for `!` in INT0 the time-slice memory "
-      "| |",
-      kFirstNcWord);
-  page.line("| PLCNVRAM to PLCRAM-1 | `PLCNVRAM` = {} | user memory | kept |", limits.plcNvram);
-  page.line("| PLCRAM to {} | `PLCRAM` = {} | user memory | cleared |", kWords - 1, limits.plcRam);
+  page.section(
+      "Memory",
+      fmt::format("One array of {} double words, 0000 to {}. A word is written with four digits or as a symbol, "
+                  "a bit `0056.17`; `,#3` or `,REG` moves either by words, `:REG` takes the bit's number from "
+                  "a word. A double is two words, the lower half first. Manual: l.281-522.",
+                  kWords, kWords - 1),
+      "words | name | what | through power-off");
+  page.row("0000", "`FLAGS`",
+           "flags of the instructions: FL_ER, FL_UF, FL_OF, FL_CY, FL_GT, FL_EQ, FL_LT from bit 0 on; read only",
+           std::nullopt);
+  page.row(fmt::format("{:04} to PLCNVRAM-1", kFirstNcWord), std::nullopt,
+           "signals of the NC, twice: synchronised, and for `!` in INT0 the time-slice memory", std::nullopt);
+  page.row("PLCNVRAM to PLCRAM-1", fmt::format("`PLCNVRAM` = {}", limits.plcNvram), "user memory", "kept");
+  page.row(fmt::format("PLCRAM to {}", kWords - 1), fmt::format("`PLCRAM` = {}", limits.plcRam), "user memory",
+           "cleared");
 }
 
-void pins(Page& page) {
-  page.heading("## Pins of boxes");
-  page.line("The first line of a box carries mnemonic and operands and is its first pin; each further line names its "
-            "pin.\n");
-  page.table("| box | pins from top to bottom |");
-  for (const NctInstruction& row : allInstructions()) {
-    if (row.info.pins.size() < 2) continue;
-    std::string names;
-    for (const auto& pin : row.info.pins.all()) (names += names.empty() ? "" : " ") += pin.name;
-    page.line("| {} | {} |", row.info.mnemonic, names);
-  }
+void pins(ReferencePage& page) {
+  page.section(
+      "Pins of boxes",
+      "The first line of a box carries mnemonic and operands and is its first pin; each further line names its "
+      "pin.",
+      "box | pins from top to bottom");
+  for (const NctInstruction& row : allInstructions())
+    if (row.info.pins.size() > 1) page.row(row.info.mnemonic, frontend::pinNames(row.info));
 }
 
-void warnings(Page& page) {
-  page.heading("## Warnings");
-  page.line("All diagnostics: [diagnostics.md](diagnostics.md).\n");
-  page.table("| code | meaning |");
-  for (const Diag id :
-       {Diag::WriteToInput, Diag::SymbolInNcArea, Diag::UnknownFunctionCode, Diag::Int0OnlySignal, Diag::SignalIndex,
-        Diag::MixedOutput, Diag::BackwardJump, Diag::LabelUnused, Diag::SubroutineUnused, Diag::SharedState})
-    page.line("| {} | {} |", diagInfo(id).code, cell(diagInfo(id).explanation));
-}
-
-void executionCodes(Page& page) {
-  page.heading("## Execution codes of MR and MW");
-  page.line("Word 0 of the block, written when the NC has answered. Manual: l.6324-6414.\n");
-  page.table("| code | meaning | manual |");
+void executionCodes(ReferencePage& page) {
+  page.section("Execution codes of MR and MW",
+               "Word 0 of the block, written when the NC has answered. Manual: l.6324-6414.",
+               "code | meaning | manual");
   for (const nc::nct::ExecutionCode& code : nc::nct::executionCodes())
-    page.line("| {} | {} | l.{} |", code.code, cell(code.meaning), code.line);
+    page.row(code.code, code.meaning, fmt::format("l.{}", code.line));
 }
 
 std::string amountsOf(const nc::nct::ServiceFunction& function) {
@@ -96,21 +81,18 @@ std::string codesOf(const nc::nct::ServiceFunction& function) {
   return text;
 }
 
-void functions(Page& page) {
-  page.heading("## Functions of MR and MW");
-  page.line(
-      "The block: word 0 execution code, word 1 amount of data, then the words of data. `rungc explain 'MR 104'` shows "
-      "one function. Manual: l.3390-6320.");
+void functions(ReferencePage& page) {
+  page.section("Functions of MR and MW",
+               "The block: word 0 execution code, word 1 amount of data, then the words of data. `rungc explain 'MR "
+               "104'` shows one function. Manual: l.3390-6320.");
   for (const nc::nct::ServiceFunction& function : nc::nct::serviceFunctions()) {
-    page.heading(fmt::format("### {} {}", mnemonicOf(function.access), function.code));
-    page.line("{}. Amount of data: {}. Execution codes: {}. Manual: {}, l.{}.\n", function.title, amountsOf(function),
-              codesOf(function), function.section, function.line);
-    page.table("| word | use | meaning |");
+    page.part(fmt::format("{} {}", mnemonicOf(function.access), function.code),
+              fmt::format("{}. Amount of data: {}. Execution codes: {}. Manual: {}, l.{}.", function.title,
+                          amountsOf(function), codesOf(function), function.section, function.line),
+              "word | use | meaning");
     for (const nc::nct::BlockWord& word : function.words)
-      page.line("| {} | {} | {} |",
-                word.first == word.last ? fmt::format("{}", word.first)
-                                        : fmt::format("{} to {}", word.first, word.last),
-                useText(word.use), cell(word.meaning));
+      page.row(word.first == word.last ? fmt::format("{}", word.first) : fmt::format("{} to {}", word.first, word.last),
+               useText(word.use), word.meaning);
   }
 }
 
@@ -136,105 +118,106 @@ std::string_view distanceText(nc::nct::AxisDistance distance) {
   return "";
 }
 
-void axisCodes(Page& page) {
-  page.heading("## Codes of MOVCMND");
-  page.line("Axis index 0 to {}; units by parameter N0104 bit IND. Manual: l.3126-3145.\n", nc::nct::kAxes - 1);
-  page.table("| code | as in a part program | what | speed | distance | manual |");
+void axisCodes(ReferencePage& page) {
+  page.section(
+      "Codes of MOVCMND",
+      fmt::format("Axis index 0 to {}; units by parameter N0104 bit IND. Manual: l.3126-3145.", nc::nct::kAxes - 1),
+      "code | as in a part program | what | speed | distance | manual");
   for (const nc::nct::AxisCode& code : nc::nct::axisCodes())
-    page.line("| {} | {} | {} | {} | {} | l.{} |", code.code, cell(code.equivalent), cell(code.title),
-              speedText(code.speed), distanceText(code.distance), code.line);
+    page.row(code.code, code.equivalent, code.title, speedText(code.speed), distanceText(code.distance),
+             fmt::format("l.{}", code.line));
 }
 
-void scopeSymbols(Page& page) {
-  page.heading("## Quantities of SCP");
-  page.line("Axes, spindles and channels are given by their numbers, from 1 on. Manual: l.3323-3388.\n");
-  page.table("| name | value | parameter 1 | parameter 2 | manual |");
+void scopeSymbols(ReferencePage& page) {
+  page.section("Quantities of SCP",
+               "Axes, spindles and channels are given by their numbers, from 1 on. Manual: l.3323-3388.",
+               "name | value | parameter 1 | parameter 2 | manual");
   for (const nc::nct::ScopeSymbol& symbol : nc::nct::scopeSymbols())
-    page.line("| `{}` | {} | {} | {} | l.{} |", symbol.name, cell(symbol.meaning), cell(parameterText(symbol.param1)),
-              cell(parameterText(symbol.param2)), symbol.line);
+    page.row(fmt::format("`{}`", symbol.name), symbol.meaning, parameterText(symbol.param1),
+             parameterText(symbol.param2), fmt::format("l.{}", symbol.line));
 }
 
-void parameters(Page& page) {
-  page.heading("## Parameters");
-  page.line(
+void parameters(ReferencePage& page) {
+  page.section(
+      "Parameters",
       "The parameters that the manual names; MR 31, 32, MW 34, 35 reach these in the simulated NC. What indexes a "
       "parameter and its format follow from its use where the manual does not say; the values are those of a "
-      "new simulated NC (`config axes`, `spindles` set some).\n");
-  page.table("| parameter | name | format | of | value | manual |");
+      "new simulated NC (`config axes`, `spindles` set some).",
+      "parameter | name | format | of | value | manual");
   for (const nc::nct::ParameterRow& row : nc::nct::parameterRows()) {
-    const std::string last = row.numbers > 1 ? fmt::format(" to N{:04}", row.number + row.numbers - 1) : std::string();
-    page.line("| N{:04}{} | {} | {} | {} | {} | l.{} |", row.number, last, cell(row.name),
-              nc::nct::formatName(row.format), nc::nct::indexName(row.index), row.initial, row.line);
+    const std::string last = row.numbers > 1 ? fmt::format(" to N{:04}", row.number + row.numbers - 1) : "";
+    page.row(fmt::format("N{:04}{}", row.number, last), row.name, nc::nct::formatName(row.format),
+             nc::nct::indexName(row.index), row.initial, fmt::format("l.{}", row.line));
   }
 }
 
-void messages(Page& page) {
-  page.heading("## Messages");
-  page.line(
+void messages(ReferencePage& page) {
+  page.section(
+      "Messages",
       "MSG, MSGF, ALR, ALRF, REM and REMF send a message with the rising edge of their input and delete it from the "
       "screen with the falling edge, whatever their operands are by then; its number is the variable's value at "
       "the rising edge. A number, channel or index out of range at run time sets FL_ER, and nothing is sent until "
-      "the next rising edge. Manual: l.2667-2913.\n");
-  page.table("| box | screen | log | variable |");
-  page.line("| MSG, MSGF | yes | no | integer, double |");
-  page.line("| ALR, ALRF | yes | yes | integer, double |");
-  page.line("| REM, REMF | no | yes | integer, double |");
-  page.heading("### Code and text");
-  page.line(
-      "The code AA0CCCDD has the channel index, the number 1 to {} and the arbitrary index. One code is one message "
-      "on the screen: sent again, by whatever box, it comes to the top with its new number, and each of its boxes "
-      "deletes it. `message 20 \"Tool {{#0:F0}} is missing\"` gives the text: `{{#0:F0}}` prints an integer, "
-      "`{{*0:Fi}}` a double with i decimals, rounded. The kind must be the box's (`message-format`); a box whose "
-      "number is in a register prints what it has. A log entry is the code with 8 digits and the text.",
-      nc::nct::kMessages);
-  page.heading("### What the program sees");
-  page.line(
+      "the next rising edge. Manual: l.2667-2913.",
+      "box | screen | log | variable");
+  page.row("MSG, MSGF", "yes", "no", "integer, double");
+  page.row("ALR, ALRF", "yes", "yes", "integer, double");
+  page.row("REM, REMF", "no", "yes", "integer, double");
+  page.part(
+      "Code and text",
+      fmt::format(
+          "The code AA0CCCDD has the channel index, the number 1 to {} and the arbitrary index. One code is one "
+          "message "
+          "on the screen: sent again, by whatever box, it comes to the top with its new number, and each of its boxes "
+          "deletes it. `message 20 \"Tool {{#0:F0}} is missing\"` gives the text: `{{#0:F0}}` prints an integer, "
+          "`{{*0:Fi}}` a double with i decimals, rounded. The kind must be the box's (`message-format`); a box whose "
+          "number is in a register prints what it has. A log entry is the code with 8 digits and the text.",
+          nc::nct::kMessages));
+  page.part(
+      "What the program sees",
       "The output is TRUE while the code is on the screen (REM, REMF: since it is in the log), from the cycle after "
       "the one in which it was sent, in INT0 from the next time slice on; FALSE while the input is. The last message "
       "sent is on top: N_ACTMSG holds its code, N_MSGA and N_MSG0 are 1 while there is one. A message that found no "
-      "room in the queue of its cycle is neither shown nor logged, and the output stays FALSE.\n");
-  page.line(
-      "CANCEL sets N_CLRMSG for one cycle; at the end of that cycle the message that was on top goes. So the output is "
+      "room in the queue of its cycle is neither shown nor logged, and the output stays FALSE.\n\n"
+      "CANCEL sets N_CLRMSG for one cycle; at the end of that cycle the message that was on top goes. So the output "
+      "is "
       "still TRUE when N_CLRMSG is, FALSE from the next cycle on; the message comes back with the next rising edge "
-      "only. In a scenario `set N_CLRMSG 1` does it (one message for each rising edge of N_CLRMSG), or `event cancel`, "
+      "only. In a scenario `set N_CLRMSG 1` does it (one message for each rising edge of N_CLRMSG), or `event "
+      "cancel`, "
       "which also takes `all=1` (Clear all) or `number=20 channel=0 index=1` (CLEAR of a selected message).");
 }
 
-void windows(Page& page) {
-  page.heading("## Windows of MW 70");
-  page.table("| identifier | window | parameter 1 | parameter 2 | manual |");
+void windows(ReferencePage& page) {
+  page.section("Windows of MW 70", "", "identifier | window | parameter 1 | parameter 2 | manual");
   for (const nc::nct::ScreenWindow& window : nc::nct::screenWindows())
-    page.line("| {} | {} | {} | {} | l.{} |", window.identifier, cell(window.title), cell(window.parameter1),
-              cell(window.parameter2), window.line);
+    page.row(window.identifier, window.title, window.parameter1, window.parameter2, fmt::format("l.{}", window.line));
 }
 
-void signals(Page& page) {
-  page.heading("## Signals");
-  page.line("{} names that need no declaration, in the order of the manual. The name alone is the first panel, axis, "
-            "spindle, channel, …; the others are reached by an index from 0 on, `AN_PLCA,#1` or `AN_PLCA,REG`, of a "
-            "double by an even one. Inputs are written by the NC, outputs by the program. Where the manual does not "
-            "print the bit of a word it follows from the order of its table. `rungc explain NAME` shows one entry.",
-            nc::nctSignals().size());
+void signals(ReferencePage& page) {
+  page.section("Signals",
+               fmt::format("{} names that need no declaration, in the order of the manual. The name alone is the first "
+                           "panel, axis, spindle, channel, …; the others are reached by an index from 0 on, "
+                           "`AN_PLCA,#1` or `AN_PLCA,REG`, of a double by an even one. Inputs are written by the NC, "
+                           "outputs by the program. Where the manual does not print the bit of a word it follows from "
+                           "the order of its table. `rungc explain NAME` shows one entry.",
+                           nc::nctSignals().size()));
   std::string_view group;
   for (const nc::Signal& signal : nc::nctSignals()) {
-    if (signal.group != group) {
-      page.heading(fmt::format("### Group {}", signal.group));
-      page.table("| signal | type | direction | index | bit of | meaning | manual |");
-    }
-    group = signal.group;
-    page.line("| `{}` | {} | {} | {} | {} | {} | l.{} |", signal.symbol, typeText(signal),
-              signal.direction == nc::Direction::In ? "input" : "output", indexText(signal), placeText(signal),
-              cell(signal.meaning), signal.manualLine);
+    if (std::exchange(group, signal.group) != signal.group)
+      page.part(fmt::format("Group {}", group), "", "signal | type | direction | index | bit of | meaning | manual");
+    page.row(fmt::format("`{}`", signal.symbol), typeText(signal),
+             signal.direction == nc::Direction::In ? "input" : "output", indexText(signal), placeText(signal),
+             signal.meaning, fmt::format("l.{}", signal.manualLine));
   }
 }
 
 } // namespace
 
-std::string referenceSections() {
-  Page page;
+void addReference(ReferencePage& page) {
   memory(page);
   pins(page);
-  warnings(page);
+  frontend::addWarnings(page, {Diag::WriteToInput, Diag::SymbolInNcArea, Diag::UnknownFunctionCode,
+                               Diag::Int0OnlySignal, Diag::SignalIndex, Diag::MixedOutput, Diag::BackwardJump,
+                               Diag::LabelUnused, Diag::SubroutineUnused, Diag::SharedState});
   functions(page);
   parameters(page);
   messages(page);
@@ -243,7 +226,6 @@ std::string referenceSections() {
   scopeSymbols(page);
   axisCodes(page);
   signals(page);
-  return page.take();
 }
 
 } // namespace rung::nct

@@ -4,10 +4,12 @@
 #include <string>
 #include <string_view>
 
+#include "frontend/table/reference.h"
+
 namespace rung::nct {
 
-// Markdown: memory, pins, configuration, warnings, services of the NC, signals.
-std::string referenceSections();
+// Memory, pins, warnings, services of the NC, signals.
+void addReference(frontend::ReferencePage& page);
 
 // A signal of the NC, a flag, a quantity of SCP, a function such as "MW 70"; "" for anything else.
 std::string explainWord(std::string_view word);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "frontend/dialects/technol/read/symbols.h"
-#include "frontend/table/markdown.h"
 #include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"
@@ -56,58 +55,33 @@ std::string typeOf(const nc::Signal& signal) {
   return text;
 }
 
-void signalTables(Page& page) {
-  page.heading("## Signals");
-  page.line("Cells of the CNC-PLC interface, predeclared with their types. A write to one that is `read only` is "
-            "`write-to-readonly`; to one that is `read` the same code as a warning. `rungc explain NAME` shows one "
-            "entry. Manual: chapter 8 and those of the services.");
-  std::string_view group;
-  for (const nc::Signal& signal : nc::technolSignals()) {
-    if (group != signal.group) {
-      group = signal.group;
-      page.heading(fmt::format("### {}", group));
-      page.table("| symbol | type | access | meaning | manual |");
-    }
-    const std::string use = useText(signal);
-    page.line("| `{}` | {} | {} | {}{}{} | l.{} |", signal.symbol, cell(typeOf(signal)), accessText(signal),
-              cell(signal.meaning), use.empty() ? "" : "; ", cell(use), signal.manualLine);
-  }
-}
-
-void constants(Page& page) {
-  page.heading("## Predefined constants");
-  page.table("| name | value |");
-  for (const Predefined& constant : predefinedConstants()) page.line("| `{}` | {} |", constant.name, constant.value);
-}
-
-void listingSection(Page& page) {
-  page.heading("## Control listing");
-  page.line("`rungc build main.plc more.plc -o program.so --listing program.ls1` writes the lines of the program with "
-            "their numbers, and after it the number of the rung that begins there, as profiles and faults name it. "
-            "`name_LINE` of a mechanism holds the number of the line of the state in which it waits, "
-            "0 when it is not active. The numbers count in each file of the program; a statement of a macro counts in "
-            "the line of its use. Manual: l.2210-2217.");
-}
-
-void warnings(Page& page) {
-  page.heading("## Warnings");
-  page.line("All diagnostics: [diagnostics.md](diagnostics.md).\n");
-  page.table("| code | meaning |");
-  for (const Diag id : {Diag::CntsPrefix, Diag::JloAlias, Diag::MixedRealInteger, Diag::NameTooLong, Diag::ReservedWord,
-                        Diag::SharedName, Diag::StringTooLong, Diag::TextAfterStop, Diag::TmOutsideDftm,
-                        Diag::UnterminatedEquation, Diag::ValueNotPreserved})
-    page.line("| {} | {} |", diagInfo(id).code, cell(diagInfo(id).explanation));
-}
-
 } // namespace
 
-std::string reference() {
-  Page page;
-  listingSection(page);
-  constants(page);
-  signalTables(page);
-  warnings(page);
-  return page.take();
+void addReference(ReferencePage& page) {
+  page.section(
+      "Control listing",
+      "`rungc build main.plc more.plc -o program.so --listing program.ls1` writes the lines of the program with "
+      "their numbers, and after it the number of the rung that begins there, as profiles and faults name it. "
+      "`name_LINE` of a mechanism holds the number of the line of the state in which it waits, 0 when it is "
+      "not active. The numbers count in each file of the program; a statement of a macro counts in the line "
+      "of its use. Manual: l.2210-2217.");
+  page.section("Predefined constants", "", "name | value");
+  for (const Predefined& constant : predefinedConstants()) page.row(fmt::format("`{}`", constant.name), constant.value);
+  page.section("Signals",
+               "Cells of the CNC-PLC interface, predeclared with their types. A write to one that is `read only` is "
+               "`write-to-readonly`; to one that is `read` the same code as a warning. `rungc explain NAME` shows one "
+               "entry. Manual: chapter 8 and those of the services.");
+  std::string_view group;
+  for (const nc::Signal& signal : nc::technolSignals()) {
+    if (std::exchange(group, signal.group) != signal.group)
+      page.part(group, "", "symbol | type | access | meaning | manual");
+    const std::string use = useText(signal);
+    page.row(fmt::format("`{}`", signal.symbol), typeOf(signal), accessText(signal),
+             signal.meaning + (use.empty() ? "" : "; " + use), fmt::format("l.{}", signal.manualLine));
+  }
+  addWarnings(page, {Diag::CntsPrefix, Diag::JloAlias, Diag::MixedRealInteger, Diag::NameTooLong, Diag::ReservedWord,
+                     Diag::SharedName, Diag::StringTooLong, Diag::TextAfterStop, Diag::TmOutsideDftm,
+                     Diag::UnterminatedEquation, Diag::ValueNotPreserved});
 }
 
 namespace {

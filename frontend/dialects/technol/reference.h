@@ -5,10 +5,12 @@
 #include <string>
 #include <string_view>
 
+#include "frontend/table/reference.h"
+
 namespace rung::frontend::technol {
 
 // Signals of the CNC-PLC interface by group, predefined constants, the listing, warnings.
-std::string reference();
+void addReference(ReferencePage& page);
 // A signal, a member of a structure (TIME_INFOS.HOUR), a predefined constant, of any case; "" when it is none.
 std::string explainWord(std::string_view name);
 

@@ -124,7 +124,7 @@ const Dialect kTechnol = {
     .check = check,
     .format = technol::format,
     .included = included,
-    .reference = technol::reference,
+    .reference = technol::addReference,
     .explain = technol::explainWord,
     .listing = technol::listing,
 };

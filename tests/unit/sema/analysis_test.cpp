@@ -11,16 +11,6 @@
 namespace rung::frontend {
 namespace {
 
-std::string_view nameOf(Access access) {
-  switch (access) {
-  case Access::Read: return "read";
-  case Access::Write: return "written";
-  case Access::ReadWrite: return "read and written";
-  case Access::None: return "named";
-  }
-  return "";
-}
-
 class Lister {
 public:
   Lister(const SourceManager& sources, const Analysis& analysis) : sources_(sources), analysis_(analysis) {}

@@ -35,7 +35,6 @@ public:
   SourceNetwork run(const RungText& text);
 
 private:
-  void copy();
   bool isBlocksHint(const LineComment& comment) const;
   void index();
   void remark(const LineComment& comment);
@@ -47,28 +46,14 @@ private:
   const Network& network_;
   Gap& gap_;
   SourceNetwork result_;
-  struct Ends {
-    uint32_t first = kNone;
-    uint32_t last = kNone;
-  };
-  std::map<uint32_t, Ends> ends_; // by line: the commands of its first and last element
+  std::map<uint32_t, LineEnds> ends_; // by line
   std::map<std::string, uint32_t, std::less<>> tags_;
 };
 
-void RungCollector::copy() {
-  for (const Written& written : network_.written)
-    result_.commands.push_back({written.command, written.operand, written.range, {}, {}});
-}
-
 void RungCollector::index() {
-  const auto column = [&](uint32_t command) { return network_.written[command].range.begin; };
-  for (uint32_t i = 0; i < result_.commands.size(); ++i) {
-    const Command command = result_.commands[i].command;
-    if (isBlock(command) || command == Command::Prm || command == Command::Table) continue;
-    Ends& ends = ends_[network_.written[i].line];
-    if (ends.first == kNone || column(i) < column(ends.first)) ends.first = i;
-    if (ends.last == kNone || column(i) > column(ends.last)) ends.last = i;
-  }
+  for (uint32_t i = 0; i < result_.commands.size(); ++i)
+    if (isElement(result_.commands[i].command))
+      ends_[result_.commands[i].line].add(i, [&](uint32_t command) { return result_.commands[command].range.begin; });
 }
 
 void RungCollector::before(uint32_t command, const std::string& text) {
@@ -124,7 +109,7 @@ SourceNetwork RungCollector::run(const RungText& text) {
   result_.row = network_.function.row;
   result_.range = network_.range;
   result_.title = clean(network_.title);
-  copy();
+  for (const Written& written : network_.written) result_.commands.push_back({written});
   index();
   for (const LineComment& comment : text.remarks) remark(comment);
   for (const LineComment& comment : text.lines)
@@ -236,8 +221,7 @@ void LadderCollector::module(uint32_t line) {
   unit.comment = clean(words_.comment);
   if (unit.kind == UnitKind::Subprogram) {
     const Condition condition = conditionAfter(out_.context, file_.file, line);
-    for (const Written& written : condition.commands)
-      unit.condition.push_back({written.command, written.operand, written.range, {}, {}});
+    for (const Written& written : condition.commands) unit.condition.push_back({written});
     conditionEnd_ = condition.lastLine;
   }
   unit_ = static_cast<uint32_t>(out_.program.units.size());

@@ -63,8 +63,7 @@ void ListCollector::read(std::span<const Word> words) {
 void ListCollector::command() {
   RUNG_CHECK(!out_.networks.empty(), "every command belongs to a network");
   const Written& written = out_.networks.front().written[commands_.size()];
-  commands_.push_back(
-      {written.command, written.operand, written.range, std::exchange(before_, {}), clean(words_.comment)});
+  commands_.push_back({written, std::exchange(before_, {}), clean(words_.comment)});
   if (commands_.size() == out_.networks.front().written.size()) finish(out_.takeNetwork());
 }
 
@@ -96,7 +95,7 @@ void ListCollector::finishSubprogram() {
     spill(command, !takesComment);
     if (takesComment) next.comment = command.comment;
     if (command.command == Command::Prm) next.number = command.operand;
-    if (isLogic(command.command)) next.condition.push_back({command.command, command.operand, command.range, {}, {}});
+    if (isLogic(command.command)) next.condition.push_back({Written(command)}); // its comments are in the gap
   }
   next.lead = out_.takeGap();
   out_.program.units.push_back(std::move(next));

@@ -38,22 +38,12 @@ bool sameCommand(const SourceCommand& a, const SourceCommand& b) {
 }
 
 bool sameNetwork(const SourceNetwork& a, const SourceNetwork& b) {
-  return a.title == b.title &&
-         std::equal(a.commands.begin(), a.commands.end(), b.commands.begin(), b.commands.end(), sameCommand);
+  return a.title == b.title && std::ranges::equal(a.commands, b.commands, sameCommand);
 }
 
 bool sameUnit(const SourceUnit& a, const SourceUnit& b) {
-  return a.kind == b.kind && a.number == b.number &&
-         std::equal(a.condition.begin(), a.condition.end(), b.condition.begin(), b.condition.end(), sameCommand) &&
-         std::equal(a.networks.begin(), a.networks.end(), b.networks.begin(), b.networks.end(), sameNetwork);
-}
-
-bool isSame(const SourceProgram& a, const SourceProgram& b) {
-  return std::equal(a.units.begin(), a.units.end(), b.units.begin(), b.units.end(), sameUnit);
-}
-
-bool isElement(Command command) {
-  return convert::isContact(command) || convert::isCoil(command) || command == Command::Func;
+  return a.kind == b.kind && a.number == b.number && std::ranges::equal(a.condition, b.condition, sameCommand) &&
+         std::ranges::equal(a.networks, b.networks, sameNetwork);
 }
 
 // Of a program and what it was converted to: the same commands in the same order.
@@ -64,20 +54,20 @@ std::vector<Origin> originsOf(const SourceProgram& model, const SourceProgram& c
       const auto& written = model.units[u].networks[n].commands;
       const auto& drawn = converted.units[u].networks[n].commands;
       for (size_t i = 0; i < written.size(); ++i)
-        if (isElement(written[i].command)) origins.push_back({drawn[i].range.begin, written[i].range.begin});
+        if (convert::isElement(written[i].command)) origins.push_back({drawn[i].range.begin, written[i].range.begin});
     }
   }
   std::sort(origins.begin(), origins.end(), [](const Origin& a, const Origin& b) { return a.drawn < b.drawn; });
   return origins;
 }
 
-void checkSame(const SourceProgram& model, const std::string& text, convert::Form form, Machine machine) {
-  SourceManager sources;
+// What the model was converted to, read again.
+SourceProgram readBack(SourceManager& sources, FileId file, const SourceProgram& model, Machine machine) {
   Diagnostics diagnostics;
-  const FileId file = sources.addBuffer(form == convert::Form::List ? "converted.pmc" : "converted.lad", text);
-  const auto again = readModel(sources, std::span(&file, 1), machine, diagnostics);
+  auto again = readModel(sources, std::span(&file, 1), machine, diagnostics);
   RUNG_CHECK(again.has_value(), "a converted program has no errors");
-  RUNG_CHECK(isSame(model, *again), "a converted program is the same program");
+  RUNG_CHECK(std::ranges::equal(model.units, again->units, sameUnit), "a converted program is the same program");
+  return std::move(*again);
 }
 
 // False when a network is too large to be drawn.
@@ -104,7 +94,9 @@ std::optional<std::string> convertProgram(SourceManager& sources, std::span<cons
   RUNG_CHECK(model.has_value(), "the program has no errors");
   if (to == convert::Form::Ladder && !checkDrawings(*model, diagnostics)) return std::nullopt;
   std::string text = to == convert::Form::List ? writeList(*model) : writeLadder(*model);
-  checkSame(*model, text, to, machine);
+  SourceManager converted;
+  readBack(converted, converted.addBuffer(to == convert::Form::List ? "converted.pmc" : "converted.lad", text), *model,
+           machine);
   return text;
 }
 
@@ -113,16 +105,15 @@ std::optional<LadderForm> ladderForm(SourceManager& sources, std::span<const Fil
   if (std::all_of(files.begin(), files.end(), [&](FileId file) { return isLadder(sources, file); }))
     return LadderForm{{files.begin(), files.end()}, {}, {}};
   Diagnostics heard; // reported already
-  const auto model = readModel(sources, files, configuredMachine(options, heard), heard);
+  const Machine machine = configuredMachine(options, heard);
+  const auto model = readModel(sources, files, machine, heard);
   RUNG_CHECK(model.has_value(), "the program has no errors");
   if (!checkDrawings(*model, diagnostics)) return std::nullopt;
   LadderForm form;
   for (const SourceUnit& unit : model->units)
     for (const SourceNetwork& network : unit.networks) form.networks.push_back(network.range);
   form.files.push_back(sources.addBuffer("converted.lad", writeLadder(*model)));
-  const auto again = readModel(sources, form.files, configuredMachine(options, heard), heard);
-  RUNG_CHECK(again && isSame(*model, *again), "a converted program is the same program");
-  form.elements = originsOf(*model, *again);
+  form.elements = originsOf(*model, readBack(sources, form.files[0], *model, machine));
   return form;
 }
 

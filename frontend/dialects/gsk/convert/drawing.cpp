@@ -88,7 +88,7 @@ private:
   uint64_t lines_ = 0;
   uint64_t columns_ = 0;
   Drawing drawing_;
-  std::vector<std::pair<uint32_t, uint32_t>> reach_; // by line: columns of its first and last element
+  std::vector<uint32_t> columnOf_; // by command
 };
 
 void Painter::place() {
@@ -196,9 +196,7 @@ void Painter::measure() {
 void Painter::put(uint32_t line, uint32_t column, std::string_view text) {
   if (drawing_.lines.size() <= line) {
     drawing_.lines.resize(line + 1);
-    drawing_.firstOn.resize(line + 1, kNone);
-    drawing_.lastOn.resize(line + 1, kNone);
-    reach_.resize(line + 1);
+    drawing_.ends.resize(line + 1);
   }
   std::string& target = drawing_.lines[line];
   if (target.size() < column + text.size()) target.resize(column + text.size(), ' ');
@@ -208,14 +206,8 @@ void Painter::put(uint32_t line, uint32_t column, std::string_view text) {
 void Painter::element(uint32_t line, uint32_t column, uint32_t command, std::string_view text) {
   put(line, column, text);
   drawing_.lineOf[command] = line;
-  if (drawing_.firstOn[line] == kNone || column < reach_[line].first) {
-    drawing_.firstOn[line] = command;
-    reach_[line].first = column;
-  }
-  if (drawing_.lastOn[line] == kNone || column > reach_[line].second) {
-    drawing_.lastOn[line] = command;
-    reach_[line].second = column;
-  }
+  columnOf_[command] = column;
+  drawing_.ends[line].add(command, [&](uint32_t of) { return columnOf_[of]; });
 }
 
 void Painter::paintParallel(Tree& tree, uint32_t node, std::vector<Spot>& spots) {
@@ -307,6 +299,7 @@ void Painter::paintCoils(uint32_t column) {
 
 Drawing Painter::run() {
   drawing_.lineOf.assign(network_.commands.size(), kNone);
+  columnOf_.resize(network_.commands.size());
   for (uint32_t line = 0; line < lines_; ++line) put(line, 0, "");
   for (Tree& tree : trees_) paint(tree);
   for (size_t pin = 1; pin < trees_.size(); ++pin) { // the line that keeps two trees apart

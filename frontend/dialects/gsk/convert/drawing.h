@@ -12,9 +12,7 @@ struct Drawing {
   std::vector<std::string> lines;
   // By command: the line that its element stands on; kNone for blocks, parameters and table rows.
   std::vector<uint32_t> lineOf;
-  // By line: the first and last element as commands, kNone where there is none. A box counts on its first line only.
-  std::vector<uint32_t> firstOn;
-  std::vector<uint32_t> lastOn;
+  std::vector<LineEnds> ends; // by line; a box counts on its first one only
 };
 
 struct DrawingSize {

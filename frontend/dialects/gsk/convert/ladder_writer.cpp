@@ -72,13 +72,13 @@ void LadderWriter::drawing(const SourceNetwork& network) {
   for (uint32_t i = 0; i < network.commands.size(); ++i) {
     const SourceCommand& command = network.commands[i];
     const uint32_t line = drawing.lineOf[i];
-    if (!command.before.empty() && line != kNone && line > 0 && drawing.firstOn[line] == i &&
+    if (!command.before.empty() && line != kNone && line > 0 && drawing.ends[line].first == i &&
         std::none_of(command.before.begin(), command.before.end(), looksLikeHint))
       above[line] = &command.before;
     else
       for (const std::string& text : command.before) addTagged(true, i, text);
     if (command.comment.empty()) continue;
-    if (line != kNone && drawing.lastOn[line] == i)
+    if (line != kNone && drawing.ends[line].last == i)
       remarks[line] = &command.comment;
     else
       addTagged(false, i, command.comment);

@@ -18,6 +18,10 @@ private:
   }
   void begin(const SourceUnit& unit);
   void network(const SourceNetwork& network);
+  Gap afterPending(const Gap& gap) {
+    pending_.insert(pending_.end(), gap.begin(), gap.end());
+    return std::exchange(pending_, {});
+  }
   // Something with comments in front stands apart.
   void lead(const Gap& gap) {
     if (!gap.empty()) page_.blank();
@@ -34,15 +38,12 @@ void ListWriter::command(const SourceCommand& command) {
 }
 
 void ListWriter::network(const SourceNetwork& network) {
-  Gap gap = std::exchange(pending_, {});
-  gap.insert(gap.end(), network.gap.begin(), network.gap.end());
-  lead(tidy(protect(std::move(gap), network.title)));
+  lead(tidy(protect(afterPending(network.gap), network.title)));
   for (const SourceCommand& command : network.commands) this->command(command);
 }
 
 void ListWriter::begin(const SourceUnit& unit) {
-  Gap gap = std::exchange(pending_, {});
-  gap.insert(gap.end(), unit.lead.begin(), unit.lead.end());
+  Gap gap = afterPending(unit.lead);
   switch (unit.kind) {
   case UnitKind::Level1:
     pending_ = std::move(gap);

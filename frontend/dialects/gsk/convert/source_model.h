@@ -21,16 +21,28 @@ struct Item {
 };
 using Gap = std::vector<Item>;
 
-struct SourceCommand {
-  Command command = Command::Ld;
-  std::string_view operand;        // FUNC: the mnemonic
-  SourceRange range = {};          // as in Written
-  std::vector<std::string> before; // comment lines in front of it; those of the first command stand in the gap
-  std::string comment;             // behind it
+struct SourceCommand : Written {
+  std::vector<std::string> before = {}; // comment lines in front of it; those of the first command stand in the gap
+  std::string comment = {};             // behind it
 };
 
 constexpr bool isContact(Command command) { return isLogic(command) && !isBlock(command); }
 constexpr bool isCoil(Command command) { return command >= Command::Out && command <= Command::Rst; }
+// Whether a drawing has an element of its own for it.
+constexpr bool isElement(Command command) { return isContact(command) || isCoil(command) || command == Command::Func; }
+
+// The commands of the first and the last element of a line; kNone where it has none.
+struct LineEnds {
+  uint32_t first = kNone;
+  uint32_t last = kNone;
+
+  // The places of two commands of the line compare as their columns do.
+  template <class PlaceOf>
+  void add(uint32_t command, PlaceOf placeOf) {
+    if (first == kNone || placeOf(command) < placeOf(first)) first = command;
+    if (last == kNone || placeOf(last) < placeOf(command)) last = command;
+  }
+};
 
 struct SourceNetwork {
   Gap gap;

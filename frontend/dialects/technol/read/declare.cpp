@@ -2,8 +2,8 @@
 #include "frontend/dialects/technol/read/declare.h"
 
 #include "frontend/dialects/technol/read/reader.h"
-#include "frontend/sema/operand_count.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
+#include "frontend/sema/operand_count.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
 

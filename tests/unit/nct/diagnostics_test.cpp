@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::ValuesIn(std::vector<RungCase>{
         {"TooFew", "|--[PEAR]--{MOV 7000}", {"4:13 operand-count"}},
         {"TooMany", "|--[PEAR]--{MOV 7000 #1 #2}", {"4:25 operand-count"}},
-        {"MacroOfNoChannel", "|--[PEAR]--{MACR 7000 #500 #8}", {"4:28 constant-out-of-range"}},
+        {"MacroOfNoChannel", "|--[PEAR]--{MACR 7000 #500 #8}", {"4:28 constant-out-of-range (w)"}},
         {"NoneForJump", "|--[PEAR]--{JMP}", {"4:13 operand-count"}},
         {"SomeForRet", "|--[PEAR]--{RET #1}", {"4:12 ret-outside-subroutine", "4:17 operand-count"}},
         {"IntegerForDouble", "|--[PEAR]--{MOVF 7000 #5}", {"4:23 operand-type-mismatch"}},

@@ -54,7 +54,7 @@ constexpr std::array<const InstructionInfo*, kRowCount> infoPointers() {
 }
 constexpr std::array<const InstructionInfo*, kRowCount> kInfos = infoPointers();
 
-constexpr int kFunctionNumbers = 50;
+constexpr size_t kFunctionNumbers = static_cast<size_t>(std::end(kNcRows)[-1].info.number) + 1; // the highest is last
 constexpr std::array<const Row*, kFunctionNumbers> rowsByNumber() {
   std::array<const Row*, kFunctionNumbers> result{};
   for (const Row& row : kRows)

@@ -266,10 +266,9 @@ def alarm():
     press("key-reset")
     pins(buzzer=False, functions_busy=False)
     wait("LinuxCNC has given up", lambda: state("interp_state") == linuxcnc.INTERP_IDLE)
-    time.sleep(0.3)  # its abort, which switches coolant off, comes by halui and may be later than the program's own end of T
     mode("mdi", linuxcnc.MODE_MDI)
-    mdi("M8")
-    pins(coolant_2=True)
+    # LinuxCNC's abort, which switches coolant off, comes by halui and may be later than the program's own end of T.
+    wait("coolant after the reset", lambda: (mdi("M8"), pin("coolant-2"))[1])
     mdi("M9")
 
 

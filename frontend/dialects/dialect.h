@@ -74,7 +74,7 @@ struct Dialect {
   // thing.
   std::vector<std::string> (*included)(SourceManager& sources, std::span<const FileId> files,
                                        const CompileOptions& options) = nullptr;
-  // Adds to the reference page what goes behind the instructions.
+  // Adds to the reference page what goes after the instructions.
   void (*reference)(ReferencePage& page);
   // What a word means that is neither a mnemonic nor a diagnostic, such as a signal's name; "" when nothing. May be
   // null.

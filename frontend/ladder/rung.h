@@ -60,7 +60,7 @@ struct Element {
   SourceRange range;               ///< with its brackets; a box: its first line
   uint32_t line = 0;               ///< of `range`, from 1
   uint32_t column = 0;             ///< of `range`, from 1, in characters
-  std::string_view remark;         ///< the comment behind the line that this element is the last of
+  std::string_view remark;         ///< the comment after the line that this element is the last of
 };
 
 struct Net {
@@ -72,7 +72,7 @@ struct Net {
 struct Rung {
   bool bad = false;
   bool hasComment = false;
-  std::string_view comment;     ///< the text behind the word `rung`
+  std::string_view comment;     ///< the text after the word `rung`
   SourceRange statement;        ///< the `rung` statement itself
   SourceRange range;            ///< from the word `rung` to the end of the last drawing line
   uint32_t firstLine = 0;       ///< the line of the word `rung`
@@ -120,7 +120,7 @@ void orderElements(Rung& rung, Diagnostics& diagnostics);
 /// An element in its brackets, as it is written without needless blanks.
 std::string elementText(const Element& element, std::span<const Word> operands);
 
-/// One line an element: `e2 [/STOP] n1 -> n2`, pins behind the first as `R=n3`, `.` for no output.
+/// One line an element: `e2 [/STOP] n1 -> n2`, pins after the first as `R=n3`, `.` for no output.
 std::string dumpRung(const Rung& rung);
 
 } // namespace rung::ladder

@@ -96,6 +96,19 @@ struct InstructionInfo {
   std::string_view example{}; // source text
 };
 
+// A row of a family, whose rows share a shape and differ in their texts and their variant.
+template <class Row>
+constexpr Row rowOf(Row shape, std::string_view mnemonic, std::string_view title, std::string_view ref,
+                    std::string_view doc, std::string_view example, int variant = 0) {
+  shape.info.mnemonic = mnemonic;
+  shape.info.title = title;
+  shape.info.ref = ref;
+  shape.info.doc = doc;
+  shape.info.example = example;
+  shape.variant = variant;
+  return shape;
+}
+
 // The pins of a box below its first, which has the mnemonic.
 constexpr std::span<const PinInfo> furtherPinsOf(const InstructionInfo& info) {
   return info.pins.size() < 2 ? std::span<const PinInfo>() : info.pins.all().subspan(1);

@@ -47,7 +47,7 @@ private:
     markHeads(routine);
     measure(rungs);
     std::vector<uint32_t>& chunkOf = cut_.chunkOfRung_.emplace_back();
-    cut_.behind_.emplace_back(rungs.size());
+    cut_.after_.emplace_back(rungs.size());
     const auto count = static_cast<uint32_t>(rungs.size());
     for (uint32_t first = 0; first < count;) {
       const uint32_t end = chunkEnd(first, count);
@@ -80,22 +80,22 @@ private:
 
   void weigh(const std::vector<Rung>& rungs, Chunk& chunk) {
     const uint32_t end = chunk.firstRung + chunk.rungCount;
-    std::vector<uint32_t>& behind = cut_.behind_[chunk.routine.index];
+    std::vector<uint32_t>& after = cut_.after_[chunk.routine.index];
     for (uint32_t i = end; i-- > chunk.firstRung;) {
       const Transfer& transfer = rungs[i].transfer;
       uint32_t least = UINT32_MAX;
       const auto way = [&](uint32_t to) {
-        least = to <= i || to >= end ? 0 : std::min(least, weightOf(rungs[to]) + behind[to]);
+        least = to <= i || to >= end ? 0 : std::min(least, weightOf(rungs[to]) + after[to]);
       };
       if (transfer.kind == TransferKind::Next || transfer.cond.valid()) way(i + 1);
       forTargets(transfer, way);
-      behind[i] = least == UINT32_MAX ? 0 : least; // nowhere in the routine: back to the caller, or the run's end
-      if (leavesRoutine(transfer.kind)) behind[i] = 0;
+      after[i] = least == UINT32_MAX ? 0 : least; // nowhere in the routine: back to the caller, or the run's end
+      if (leavesRoutine(transfer.kind)) after[i] = 0;
     }
-    chunk.weight = weightOf(rungs[chunk.firstRung]) + behind[chunk.firstRung];
+    chunk.weight = weightOf(rungs[chunk.firstRung]) + after[chunk.firstRung];
   }
 
-  // For chunkEnd: operations in front of each rung, and jumps that lead over the border in front of it.
+  // For chunkEnd: operations before each rung, and jumps that lead over the border before it.
   void measure(const std::vector<Rung>& rungs) {
     opsBefore_.assign(1, 0);
     crossing_.assign(rungs.size() + 2, 0);
@@ -162,9 +162,9 @@ uint32_t Cut::chunkAt(RoutineId routine, uint32_t rung) const {
 Destination Cut::destination(RoutineId routine, uint32_t from, uint32_t to) const {
   const std::vector<uint32_t>& chunkOf = chunkOfRung_[routine.index];
   if (to <= from || chunkOf[to] != chunkOf[from]) return {.chunk = chunkAt(routine, to)};
-  const std::vector<uint32_t>& behind = behind_[routine.index];
+  const std::vector<uint32_t>& after = after_[routine.index];
   return {
-      .chunk = chunkOf[to], .rung = to, .extra = weightOf(module_->at(routine).rungs[to]) + behind[to] - behind[from]};
+      .chunk = chunkOf[to], .rung = to, .extra = weightOf(module_->at(routine).rungs[to]) + after[to] - after[from]};
 }
 
 Exit exitOf(const Cut& cut, RoutineId routine, uint32_t rung) {

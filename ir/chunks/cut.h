@@ -3,7 +3,7 @@
 //
 // A chunk is a run of at most `maxChunkRungs` rungs (and about `maxChunkOps` operations) of one routine, entered only
 // at its head. Within it control goes down only: a Goto or Switch to a rung further down in the same chunk stays
-// inside, every other one leaves. So a chunk begins at each routine's start, behind every Call, where a part of a task
+// inside, every other one leaves. So a chunk begins at each routine's start, after every Call, where a part of a task
 // begins, and at every target that is not below its jump in one chunk. Compile time grows linearly with the number of
 // chunks.
 //
@@ -30,7 +30,7 @@ struct Chunk {
   uint32_t weight = 1; // of the lightest way through it
 };
 
-// Where control goes behind a rung: further down in its chunk, or to a chunk, whose number the compiled chunk returns.
+// Where control goes after a rung: further down in its chunk, or to a chunk, whose number the compiled chunk returns.
 struct Destination {
   uint32_t chunk = RUNG_NONE; // RUNG_NONE: back to the caller
   uint32_t rung = RUNG_NONE;  // of the routine, when it lies in the same chunk
@@ -67,7 +67,7 @@ private:
   const Module* module_;
   std::vector<Chunk> chunks_;
   std::vector<std::vector<uint32_t>> chunkOfRung_; // per routine and rung: the chunk it is in
-  std::vector<std::vector<uint32_t>> behind_; // per routine and rung: the lightest way behind it to the chunk's end
+  std::vector<std::vector<uint32_t>> after_;       // per routine and rung: the lightest way after it to the chunk's end
   std::vector<uint32_t> firstRung_;
   uint32_t rungCount_ = 0;
   std::vector<std::vector<uint32_t>> partEnds_;
@@ -85,7 +85,7 @@ struct Exit {
 Exit exitOf(const Cut& cut, RoutineId routine, uint32_t rung);
 // The exits of a chunk's rungs.
 std::vector<Exit> exitsOf(const Cut& cut, const Chunk& chunk);
-// Whether the host may read memory while the chunk runs. Elsewhere nobody but the chunk reaches the memory block, and
+// Whether the host may read memory while the chunk runs. Elsewhere the chunk alone reaches the memory block, and
 // back ends say so to their compilers.
 bool hostReadsMemory(const Module& module, const Chunk& chunk);
 // Whether some way through the chunk costs extra weight.

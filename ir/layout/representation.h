@@ -1,4 +1,4 @@
-// Decides for every byte of every space whether it is packed or expanded (the rule stands in memory_layout.h).
+// Decides for every byte of every space whether it is packed or expanded (the rule is in memory_layout.h).
 #pragma once
 #include <cstdint>
 #include <vector>

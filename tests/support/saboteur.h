@@ -1,5 +1,5 @@
-// Proof that a comparison of engines is worth something: a module in which one operation does something else stands for
-// an emitter that is wrong for this operation. Emitters know nothing of it.
+// Proof that a comparison of engines is worth something: a module in which one operation does something else is taken
+// for an emitter that is wrong for this operation. Emitters know nothing of it.
 #pragma once
 #include "ir/core/module.h"
 

@@ -25,7 +25,7 @@ enum class TokenKind : uint8_t {
 struct Token {
   TokenKind kind;
   uint32_t begin;   ///< offsets in the line, in bytes
-  uint32_t end;     ///< behind the last byte
+  uint32_t end;     ///< after the last byte
   uint32_t column;  ///< of the first character, from 0; wires meet by columns, not by bytes
   uint32_t element; ///< Element: index into Drawing::elements
 };

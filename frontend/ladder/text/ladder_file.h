@@ -35,7 +35,7 @@ struct Section {
 
 enum class StatementKind : uint8_t { Module, Declaration, Section, Rung };
 
-/// The statements behind `dialect` in the order of the file; index is the place in the vector of their kind.
+/// The statements after `dialect` in the order of the file; index is the place in the vector of their kind.
 struct Statement {
   StatementKind kind;
   uint32_t index;
@@ -64,7 +64,7 @@ LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& d
 /// The first word of each box in the text of an Error: what it might have been.
 std::vector<std::string_view> boxWords(std::string_view drawing);
 
-/// The name behind `dialect`, when that is the first statement of the text; empty otherwise. Reports nothing.
+/// The name after `dialect`, when that is the first statement of the text; empty otherwise. Reports nothing.
 std::string_view peekDialect(const SourceManager& sources, FileId file);
 
 } // namespace rung::ladder

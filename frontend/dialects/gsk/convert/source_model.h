@@ -22,8 +22,8 @@ struct Item {
 using Gap = std::vector<Item>;
 
 struct SourceCommand : Written {
-  std::vector<std::string> before = {}; // comment lines in front of it; those of the first command stand in the gap
-  std::string comment = {};             // behind it
+  std::vector<std::string> before = {}; // comment lines before it; those of the first command are in the gap
+  std::string comment = {};             // after it, on its line
 };
 
 constexpr bool isContact(Command command) { return isLogic(command) && !isBlock(command); }
@@ -57,7 +57,7 @@ struct SourceUnit {
   UnitKind kind = UnitKind::Level1;
   std::string_view number;              // "P5", as spelled
   Gap lead;                             // in front of `module`; in a list of END1 or SP
-  std::string comment;                  // behind it
+  std::string comment;                  // after it, on its line
   std::vector<SourceCommand> condition; // of SP, without effect (P13)
   std::vector<SourceNetwork> networks;
 };

@@ -21,7 +21,7 @@ inline constexpr uint32_t kMachineAxes = 8;
 class ModuleLowering;
 struct RoutineContext;
 
-inline Address behind(Address address, uint32_t bytes) {
+inline Address plus(Address address, uint32_t bytes) {
   address.byte += bytes;
   return address;
 }

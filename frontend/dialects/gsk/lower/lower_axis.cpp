@@ -25,7 +25,7 @@ public:
 private:
   Address bit(Area area, uint32_t byte, uint8_t number) const { return {area, byte, number, true}; }
   Address buffer() const { return bit(Area::G, group_.control, axis::kEbufBit); }
-  Address data(uint32_t offset) const { return behind(f_.param(1).address, offset); }
+  Address data(uint32_t offset) const { return plus(f_.param(1).address, offset); }
   ValueId state(uint8_t value) { return b_.constant(Type::I8, value); }
   ValueId isKnown(ValueId command);
   Step call(ValueId ready);

@@ -49,8 +49,8 @@ void lowerMoveBlock(FunctionLowering& f) {
     uint32_t offset = 0;
     for (uint32_t width : {8u, 4u, 2u, 1u})
       for (; size - offset >= width; offset += width)
-        pieces.push_back({offset, f.load(ir::intOfBytes(width), behind(f.param(1).address, offset))});
-    for (const Piece& piece : pieces) f.store(behind(f.param(2).address, piece.offset), piece.value);
+        pieces.push_back({offset, f.load(ir::intOfBytes(width), plus(f.param(1).address, offset))});
+    for (const Piece& piece : pieces) f.store(plus(f.param(2).address, piece.offset), piece.value);
   });
 }
 

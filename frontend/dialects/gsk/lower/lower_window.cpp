@@ -29,7 +29,7 @@ public:
 
 private:
   bool writes() const { return f_.variant() == kWindowWrite; }
-  Address at(uint32_t offset) const { return behind(f_.param(0).address, offset); }
+  Address at(uint32_t offset) const { return plus(f_.param(0).address, offset); }
   ValueId word(uint32_t offset) { return f_.load(Type::I16, at(offset)); }
   ir::SlotId ticket() { return f_.slot("ticket", Type::I32); }
   ir::SlotId length() { return f_.slot("length", Type::I16); }

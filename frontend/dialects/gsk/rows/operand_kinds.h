@@ -15,7 +15,7 @@ enum class Length : uint8_t { OfKind, OfFormat, OfNumber, OfRow };
 
 struct OperandTraits {
   OperandClass parse = OperandClass::Value;
-  bool address = true;               // Value: an address may stand there
+  bool address = true;               // Value: an address may be written
   bool constant = false;             // Value: a constant may; where both may the format says which
   Length length = Length::OfKind;    // of an address
   uint32_t bytes = 1;                // of an address, with OfKind

@@ -61,17 +61,11 @@ constexpr Row basic(std::string_view mnemonic, std::string_view title, OperandIn
   return row;
 }
 
-// A row of a family, whose rows share a shape and differ in their number, their texts and their variant.
+// The same as frontend::rowOf for functions, which have numbers.
 constexpr Row rowOf(Row shape, int number, std::string_view mnemonic, std::string_view title, std::string_view ref,
                     std::string_view doc, std::string_view example, int variant = 0) {
   shape.info.number = number;
-  shape.info.mnemonic = mnemonic;
-  shape.info.title = title;
-  shape.info.ref = ref;
-  shape.info.doc = doc;
-  shape.info.example = example;
-  shape.variant = variant;
-  return shape;
+  return frontend::rowOf(shape, mnemonic, title, ref, doc, example, variant);
 }
 inline constexpr OperandInfo kBitRead = in("bit", kinds::kBit);
 

@@ -6,7 +6,7 @@ namespace rung::gsk {
 
 inline constexpr std::string_view kBehindEnd2 = "the part after END2";
 
-// What begins or ends a part of the program stands alone at the left rail.
+// What begins or ends a part of the program is alone at the left rail.
 constexpr Row markShape(std::string_view group, Control control, OperandList operands = {}, std::string_view tasks = {},
                         void (*lower)(FunctionLowering& f) = &lowerMark) {
   return {.info = {.group = group, .operands = operands, .placement = Placement::AtRail, .tasks = tasks},

@@ -14,8 +14,8 @@ struct OperandTraits {
   Form form = Form::Word;       // of a place: Word or Bit
   uint32_t words = 1;           // of a place
   bool userMemory = false;      // the place is in the user memory
-  uint8_t constants = 0;        // which may stand there: bits of ConstantKind
-  std::string_view wanted = {}; // where constants may: what may stand there, in the words of a message
+  uint8_t constants = 0;        // which may be written: bits of ConstantKind
+  std::string_view wanted = {}; // where constants may: what may be written, in the words of a message
 };
 
 struct OperandKind : frontend::OperandKindInfo, OperandTraits {};

@@ -399,7 +399,7 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
   out.size = static_cast<uint32_t>(std::max<int64_t>(address.end - address.byte, 0));
   out.begin = address.begin;
   out.end = address.end;
-  const uint32_t bytes = kind.behind && !address.indexed ? 0 : 1; // an end lies behind its memory
+  const uint32_t bytes = kind.pastEnd && !address.indexed ? 0 : 1; // an end is after its memory
   return setPlace(address, address.byte, bytes, out) && checkWrite(info, address.protection, address.name, out.range);
 }
 

@@ -21,7 +21,7 @@ struct OperandTraits {
   OperandClass parse = OperandClass::Value;
   uint8_t prefixes = 0;
   bool sign = false;                     // `-` in front
-  bool cell = true;                      // a cell may stand there
+  bool cell = true;                      // a cell may be written
   bool constant = false;                 // a constant may
   bool notGiven = false;                 // `-` or NIL may
   bool empty = false;                    // nothing may, between commas
@@ -29,11 +29,11 @@ struct OperandTraits {
   bool weight = false;                   // class Bit: a number of a bit may, without an address; Variable: it does
   uint8_t types = 0xFF;                  // ir::TypeSet of cells
   SymbolKind symbol = SymbolKind::Label; // class Name
-  std::string_view keywords = {};        // parted by blanks; beside what else may stand there
+  std::string_view keywords = {};        // parted by blanks; beside what else may be written
   const char* structure = nullptr;       // of the control: class Keyword, one of its members
   bool ownName = false;                  // class Keyword: written as the row calls the operand
   bool onlyTexts = false;                // class Text: no other variables
-  bool behind = false;                   // class Text: may lie behind the last byte of its memory
+  bool pastEnd = false;                  // class Text: may be the place after the last byte of its memory
   bool input = false;                    // class Variable: of DEF_IN; else one that the statement declares
   bool timed = false;                    // the operand after it is the time that it counts
 };
@@ -152,7 +152,7 @@ inline constexpr OperandKind kBeginning{
     {.parse = C::Text, .keywords = "GLOBAL INTERNAL"}};
 inline constexpr OperandKind kEnd{
     {"end", "A variable, also with an offset, or ALL after GLOBAL or INTERNAL.", "ARRAY", "5", kWrongKind},
-    {.parse = C::Text, .keywords = "ALL", .behind = true}};
+    {.parse = C::Text, .keywords = "ALL", .pastEnd = true}};
 inline constexpr OperandKind kLength{
     {"length", "A constant, or a BYTE or WORD cell: how many bytes.", "2", "BIT0", kWrongKind},
     {.prefixes = kByte | kWord | kCnst, .constant = true, .types = kShort}};

@@ -12,18 +12,6 @@ using OperandList = decltype(InstructionInfo::operands);
 // Bytes that one instruction may move: a rung makes so many passes.
 inline constexpr int64_t kMostBytes = int64_t{1} << 20;
 
-// A row of a family, whose rows share a shape and differ in their texts and their variant.
-constexpr Row rowOf(Row shape, std::string_view mnemonic, std::string_view title, std::string_view ref,
-                    std::string_view doc, std::string_view example, int variant = 0) {
-  shape.info.mnemonic = mnemonic;
-  shape.info.title = title;
-  shape.info.ref = ref;
-  shape.info.doc = doc;
-  shape.info.example = example;
-  shape.variant = variant;
-  return shape;
-}
-
 constexpr OperandInfo in(std::string_view name, const OperandKind& kind, std::string_view doc) {
   return {.name = name, .kind = &kind, .doc = doc};
 }

@@ -11,6 +11,8 @@
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/scope_symbols.h"
+#include "rtlib/nc/technol/code_page.h"
+#include "rtlib/nc/technol/services.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "tools/scenario/values.h"
@@ -18,6 +20,7 @@
 namespace rung::scenario {
 
 using host::Instance;
+using Form = ServiceSignature::Form;
 
 namespace {
 
@@ -103,17 +106,36 @@ std::string scopeDifference(const ServiceSignature& signature, int64_t found, co
                      known ? symbols[static_cast<size_t>(found)].name : "unknown", key.value.text);
 }
 
-std::string argumentDifference(const ServiceSignature& signature, const rt::ServiceRequest& request, int index,
-                               const KeyValue& key) {
+// A word that a program writes for a number.
+int64_t wantedOf(const Value& value) {
+  const auto word = value.kind == ValueKind::Text ? nc::technol::deviceWord(value.text) : std::nullopt;
+  return word.value_or(rawOf(value));
+}
+
+// A number is compared in as many bytes as there are.
+std::string bytesDifference(const ServiceSignature& signature, std::string_view found, const KeyValue& key) {
+  auto wanted = bytesOf(key.value, text::equalsIgnoringCase(key.key, "data"));
+  if (wanted && key.value.kind != ValueKind::Text) wanted->resize(std::min(wanted->size(), found.size()));
+  return wanted == found ? std::string()
+                         : fmt::format("{}: {} is {} (\"{}\"), expected {}", signature.name(), key.key, hexOf(found),
+                                       nc::shownText(found), key.value.text);
+}
+
+std::string argumentDifference(const ServiceSignature& signature, const Asked& asked, int index, const KeyValue& key) {
+  const rt::ServiceRequest& request = asked.request;
   const int64_t found = request.args[index];
   if (isScopeName(signature, key)) return scopeDifference(signature, found, key);
-  if (signature.isRealArgument(index)) {
+  const Form form = signature.formOfArgument(index);
+  if (form == Form::Text || form == Form::Bytes)
+    return bytesDifference(signature, static_cast<size_t>(index) < asked.bytes.size() ? asked.bytes[static_cast<size_t>(index)] : "", key);
+  if (form == Form::Real) {
     const double real = std::bit_cast<double>(found);
     return real == key.value.real && key.value.kind != ValueKind::Text
                ? std::string()
                : fmt::format("{}: {} is {}, expected {}", signature.name(), key.key, real, key.value.text);
   }
-  const uint64_t difference = static_cast<uint64_t>(found) ^ static_cast<uint64_t>(rawOf(key.value));
+  if (found == nc::technol::kNotGiven) return fmt::format("{}: {} is not given, expected {}", signature.name(), key.key, key.value.text);
+  const uint64_t difference = static_cast<uint64_t>(found) ^ static_cast<uint64_t>(wantedOf(key.value));
   return (difference & maskOf(signature, request, key.key)) == 0
              ? std::string()
              : fmt::format("{}: {} is {}, expected {}", signature.name(), key.key, found, key.value.text);
@@ -135,9 +157,12 @@ ServiceSignature::ServiceSignature(std::string_view text) {
       takesNoAnswer_ = false;
       continue;
     }
-    const bool isReal = word.ends_with(":f");
-    if (isReal) word.resize(word.size() - 2);
-    (takesNoAnswer_ ? arguments_ : results_).push_back({word, isReal});
+    const Form form = word.ends_with(":f")   ? Form::Real
+                      : word.ends_with(":s") ? Form::Text
+                      : word.ends_with(":b") ? Form::Bytes
+                                             : Form::Integer;
+    if (form != Form::Integer) word.resize(word.size() - 2);
+    (takesNoAnswer_ ? arguments_ : results_).push_back({word, form});
   }
 }
 
@@ -148,7 +173,13 @@ int ServiceSignature::result(std::string_view key) const { return indexOf(result
 int ServiceSignature::indexOf(const std::vector<Name>& names, std::string_view key) {
   for (size_t i = 0; i < names.size(); ++i)
     if (text::equalsIgnoringCase(names[i].text, key)) return static_cast<int>(i);
-  return -1;
+  return text::equalsIgnoringCase(key, "data") || text::equalsIgnoringCase(key, "Val") ? dataOf(names) : -1;
+}
+
+int ServiceSignature::dataOf(const std::vector<Name>& names) {
+  const auto found = std::ranges::find_if(
+      names, [](const Name& name) { return name.form == Form::Text || name.form == Form::Bytes; });
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
 std::string ServiceSignature::namesOf(const std::vector<Name>& names) const {
@@ -192,8 +223,20 @@ std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyV
 
 // ---- requests and replies ------------------------------------------------------------------------------------------
 
-std::string requestDifference(const ServiceSignature& signature, const rt::ServiceRequest& request,
-                              std::string_view service, const std::vector<KeyValue>& keys, const Instance* instance) {
+Asked askedNow(const Instance& instance, const ServiceSignature& signature, const rt::ServiceRequest& request) {
+  Asked asked{.request = request, .bytes = {}};
+  for (int i = 0; i < signature.argumentCount(); ++i) {
+    const Form form = signature.formOfArgument(i);
+    if (form != Form::Text && form != Form::Bytes) continue;
+    asked.bytes.resize(static_cast<size_t>(i) + 1);
+    asked.bytes.back() = bytesAt(instance, request.args[i], form == Form::Text);
+  }
+  return asked;
+}
+
+std::string requestDifference(const ServiceSignature& signature, const Asked& asked, std::string_view service,
+                              const std::vector<KeyValue>& keys, const Instance* instance) {
+  const rt::ServiceRequest& request = asked.request;
   if (!signature.isNamed(service)) return fmt::format("the next request is {}, expected {}", signature.name(), service);
   std::optional<Buffer> buffer;
   for (const KeyValue& key : keys) {
@@ -201,7 +244,7 @@ std::string requestDifference(const ServiceSignature& signature, const rt::Servi
     const int index = signature.argument(key.key);
     const std::optional<BlockKey> word = blockKey(signature, key.key);
     if (index >= 0 && static_cast<uint32_t>(index) < request.argCount) {
-      difference = argumentDifference(signature, request, index, key);
+      difference = argumentDifference(signature, asked, index, key);
     } else if (word && instance != nullptr) {
       if (!buffer) buffer.emplace(*instance, signature, request);
       difference = blockDifference(signature, buffer->block(), *word, key);
@@ -213,20 +256,55 @@ std::string requestDifference(const ServiceSignature& signature, const rt::Servi
   return {};
 }
 
-rt::ServiceReply replyOf(const ServiceSignature& signature, uint32_t ticket, const std::vector<KeyValue>& results) {
-  rt::ServiceReply reply;
-  reply.ticket = ticket;
+namespace {
+
+void setResult(rt::ServiceReply& reply, int index, int64_t value) {
+  if (index < 0 || index >= static_cast<int>(RUNG_MAX_SERVICE_ARGS)) return;
+  reply.results[index] = value;
+  reply.resultCount = std::max(reply.resultCount, static_cast<uint32_t>(index) + 1);
+}
+
+int64_t argumentOr(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view name,
+                   int64_t otherwise) {
+  const int index = signature.argument(name);
+  return index < 0 || static_cast<uint32_t>(index) >= request.argCount ? otherwise : request.args[index];
+}
+
+// Bytes are at most as many as were asked for.
+void setBytes(const ServiceSignature& signature, const rt::ServiceRequest& request, const KeyValue& key, Answer& answer) {
+  answer.bytes = bytesOf(key.value, text::equalsIgnoringCase(key.key, "data")).value_or("");
+  const auto most = static_cast<uint64_t>(argumentOr(signature, request, "Len", INT64_MAX));
+  if (answer.bytes.size() > most) answer.bytes.resize(most);
+  setResult(answer.reply, signature.dataResult(), static_cast<int64_t>(answer.bytes.size()));
+}
+
+// What a device says of itself where the scenario does not.
+void setLengths(const ServiceSignature& signature, const rt::ServiceRequest& request, Answer& answer) {
+  const auto size = static_cast<int64_t>(answer.bytes.size());
+  setResult(answer.reply, signature.result("Len"),
+            signature.dataResult() >= 0 ? size : argumentOr(signature, request, "Len", 0));
+  setResult(answer.reply, signature.result("ElemFl"), argumentOr(signature, request, "ElemFl", 0));
+}
+
+} // namespace
+
+Answer answerOf(const ServiceSignature& signature, const rt::ServiceRequest& request,
+                const std::vector<KeyValue>& results) {
+  Answer answer;
+  answer.reply.ticket = request.ticket;
+  for (const KeyValue& key : results)
+    if (const int index = signature.result(key.key); index >= 0 && index == signature.dataResult())
+      setBytes(signature, request, key, answer);
+  setLengths(signature, request, answer);
   for (const KeyValue& key : results) {
-    if (key.key == "error") {
-      if (key.value.integer != 0) reply.state = RUNG_SERVICE_ERROR;
-      continue;
-    }
     const int index = signature.result(key.key);
-    if (index < 0 || index >= static_cast<int>(RUNG_MAX_SERVICE_ARGS)) continue;
-    reply.results[index] = signature.isRealResult(index) ? std::bit_cast<int64_t>(key.value.real) : rawOf(key.value);
-    reply.resultCount = std::max(reply.resultCount, static_cast<uint32_t>(index) + 1);
+    if (key.key == "error")
+      answer.reply.state = key.value.integer != 0 ? RUNG_SERVICE_ERROR : answer.reply.state;
+    else if (index >= 0 && index != signature.dataResult())
+      setResult(answer.reply, index,
+                signature.formOfResult(index) == Form::Real ? std::bit_cast<int64_t>(key.value.real) : rawOf(key.value));
   }
-  return reply;
+  return answer;
 }
 
 void answerBlock(Instance& instance, const ServiceSignature& signature, const rt::ServiceRequest& request,

@@ -6,12 +6,14 @@
 
 #include "rtlib/core/queues.h"
 #include "rtlib/host/instance.h"
+#include "tools/scenario/device_bytes.h"
 #include "tools/scenario/scenario.h"
 
 namespace rung::scenario {
 
 // A service as rung_program names it: "NAME arg1 arg2 -> result1 result2". A name with ":f" after it is a real, whose
-// bits travel. Without "->" the service takes no answer. With an argument `block` the request has an operand block (see
+// bits travel, with ":s" a text and with ":b" bytes, of which the result is the number; these are also called `data`.
+// Without "->" the service takes no answer. With an argument `block` the request has an operand block (see
 // rtlib/nc/nct/operand_block.h), whose words are arguments and results too: w4, or d4 for the double in words 4 and 5.
 class ServiceSignature {
 public:
@@ -21,8 +23,12 @@ public:
   // Index of an argument or result; -1 when there is none of this name.
   int argument(std::string_view key) const;
   int result(std::string_view key) const;
-  bool isRealArgument(int index) const { return arguments_[static_cast<size_t>(index)].isReal; }
-  bool isRealResult(int index) const { return results_[static_cast<size_t>(index)].isReal; }
+  enum class Form : uint8_t { Integer, Real, Text, Bytes };
+  Form formOfArgument(int index) const { return arguments_[static_cast<size_t>(index)].form; }
+  Form formOfResult(int index) const { return results_[static_cast<size_t>(index)].form; }
+  int argumentCount() const { return static_cast<int>(arguments_.size()); }
+  // The result that is a text or bytes, or -1.
+  int dataResult() const { return dataOf(results_); }
   bool takesNoAnswer() const { return takesNoAnswer_; }
   bool hasBlock() const { return argument("block") >= 0; }
   // "function, address": for messages.
@@ -32,8 +38,9 @@ public:
 private:
   struct Name {
     std::string text;
-    bool isReal = false;
+    Form form = Form::Integer;
   };
+  static int dataOf(const std::vector<Name>& names);
   static int indexOf(const std::vector<Name>& names, std::string_view key);
   std::string namesOf(const std::vector<Name>& names) const;
 
@@ -58,11 +65,20 @@ std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyV
                        const std::vector<KeyValue>& results);
 // "" when the request is this service with these arguments; keys that are not given are not compared. `data` of a
 // request that has a `length` compares modulo so many bytes. Words of a block are those in the instance's memory.
-std::string requestDifference(const ServiceSignature& signature, const rt::ServiceRequest& request,
-                              std::string_view service, const std::vector<KeyValue>& keys,
-                              const host::Instance* instance = nullptr);
-// Results in the order of the signature; `error=1` gives the state Error.
-rt::ServiceReply replyOf(const ServiceSignature& signature, uint32_t ticket, const std::vector<KeyValue>& results);
+std::string requestDifference(const ServiceSignature& signature, const Asked& asked, std::string_view service,
+                              const std::vector<KeyValue>& keys, const host::Instance* instance = nullptr);
+// The bytes of its arguments, read now.
+Asked askedNow(const host::Instance& instance, const ServiceSignature& signature, const rt::ServiceRequest& request);
+
+// An answer; `bytes` are those of the result that is a text or bytes.
+struct Answer {
+  rt::ServiceReply reply;
+  std::string bytes;
+};
+// Results in the order of the signature; `error=1` gives the state Error. A length that is not given is that of the
+// bytes, or the one that was asked for.
+Answer answerOf(const ServiceSignature& signature, const rt::ServiceRequest& request,
+                const std::vector<KeyValue>& results);
 // Writes the words among the results into the request's block, before it is completed.
 void answerBlock(host::Instance& instance, const ServiceSignature& signature, const rt::ServiceRequest& request,
                  const std::vector<KeyValue>& results);

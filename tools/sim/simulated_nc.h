@@ -40,11 +40,14 @@ struct NcArgument {
   std::string text;
 };
 
-// Who answers a request before the machine does, within a scan. False: the machine.
+// Who answers a request within a scan besides the machine.
 class Answers {
 public:
   virtual ~Answers() = default;
+  // Before the machine. False: the machine.
   virtual bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) = 0;
+  // Where the machine gives no answer. False: the request waits.
+  virtual bool takeUnanswered(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) = 0;
 };
 
 class SimulatedNc : public runtime::Surroundings {
@@ -60,7 +63,12 @@ public:
   // Null: nobody. They outlive it.
   void setAnswers(Answers* answers) { answers_ = answers; }
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) final {
-    return (answers_ != nullptr && answers_->respond(instance, request, reply)) || serve(instance, request, reply);
+    return (answers_ != nullptr && answers_->respond(instance, request, reply)) || serve(instance, request, reply) ||
+           (answers_ != nullptr && answers_->takeUnanswered(instance, request, reply));
+  }
+  // Somebody has answered a request that waited, between two scans; `bytes` are those of the answer.
+  virtual void answered(host::Instance& instance, const rt::ServiceRequest& request, std::string_view bytes) {
+    (void)instance, (void)request, (void)bytes;
   }
 
   // Switches the control and the machine on.

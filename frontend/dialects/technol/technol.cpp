@@ -106,11 +106,7 @@ std::vector<std::string> included(SourceManager& sources, std::span<const FileId
 
 } // namespace
 
-static bool isBuilt(const InstructionInfo& info) {
-  for (const technol::Row& row : technol::allRows())
-    if (&row.info == &info) return row.role != technol::Role::NotBuilt && row.role != technol::Role::NotBuiltService;
-  return false;
-}
+static bool isBuilt(const InstructionInfo&) { return true; }
 
 const Dialect kTechnol = {
     .name = "technol",

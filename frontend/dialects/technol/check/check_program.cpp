@@ -42,8 +42,7 @@ void PartChecker::check(const Statement& statement, Typed& typed) {
   }
   if (statement.row == nullptr) return equation_.unknown();
   switch (statement.row->role) {
-  case Role::Code:
-  case Role::NotBuiltService: return code(statement, typed);
+  case Role::Code: return code(statement, typed);
   case Role::MechBegin:
   case Role::MechEnd:
   case Role::ProcBegin:

@@ -28,6 +28,7 @@ struct Operand {
   bool negated = false;           // a bit or a value with `-`
   bool indexed = false;           // register BX is added to the address
   bool prefixed = false;          // the type was written
+  bool isText = false;            // of a text variable, whose last byte is its terminator
   uint32_t scale = 1;             // bytes that BX counts
   ir::Type type = ir::Type::None; // of a cell, a constant or a width; F64 for reals
   ir::Place place;

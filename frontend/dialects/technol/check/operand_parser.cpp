@@ -396,10 +396,13 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
     return wrongKind(out, "no text", wantsText ? "a text" : "a variable");
   address.indexed = address.indexed || indexed;
   out.form = Operand::Form::Cell;
+  out.isText = address.isText;
+  if (kind.prefixes != 0 && !out.prefixed && !address.isText) out.type = address.type;
   out.size = static_cast<uint32_t>(std::max<int64_t>(address.end - address.byte, 0));
   out.begin = address.begin;
   out.end = address.end;
-  const uint32_t bytes = kind.pastEnd && !address.indexed ? 0 : 1; // an end is after its memory
+  const uint32_t least = kind.pastEnd && !address.indexed ? 0 : 1; // an end is after its memory
+  const uint32_t bytes = out.type == ir::Type::None ? least : ir::byteWidth(out.type);
   return setPlace(address, address.byte, bytes, out) && checkWrite(info, address.protection, address.name, out.range);
 }
 

@@ -41,4 +41,11 @@ void checkShareVariable(const CheckContext& c, std::span<const Operand> o, int);
 void checkShareBit(const CheckContext& c, std::span<const Operand> o, int);
 void checkConfiguration(const CheckContext& c, std::span<const Operand> o, int kind);
 
+// rules_service.cpp; `form` is the DataForm of the data operand
+void checkService(const CheckContext& c, std::span<const Operand> o, int form);
+void checkPacket(const CheckContext& c, std::span<const Operand> o, int);
+void checkRecord(const CheckContext& c, std::span<const Operand> o, int);
+void checkEtherCatCommand(const CheckContext& c, std::span<const Operand> o, int form);
+void checkUnitItem(const CheckContext& c, std::span<const Operand> o, int);
+
 } // namespace rung::frontend::technol

@@ -119,7 +119,7 @@ void addSymbols(const Program& program, ir::Module& module) {
   addElements(program, module);
   for (int i = 0; i < kHostCells; ++i) {
     const HostCellInfo& cell = hostCell(static_cast<HostCell>(i));
-    nameCells(module, std::string(cell.name), {.space = kRegisterSpace, .byte = cell.byte}, cell.type);
+    nameCells(module, std::string(cell.name), {.space = kRegisterSpace, .byte = cell.byte}, cell.type, cell.count);
   }
   sortSymbols(module);
 }
@@ -216,7 +216,7 @@ void TaskMaker::make() {
                                                            : 0,
                                                   fast);
   }
-  for (const Event& event : lowered_.events) add(std::string(event.name), event.routine, 1, 0, false);
+  for (const Event& event : lowered_.events) add(event.name, event.routine, 1, 0, false);
   module_.mainTask = of(ModuleKind::Main);
   module_.fastTask = of(ModuleKind::Fast);
   if (lowered_.bitMessages.valid())

@@ -23,6 +23,8 @@ constexpr HostCellInfo kHostCellInfos[kHostCells] = {
     {"@INIT.PENDING", Type::I64, 32},
     {"@DONE.PENDING", Type::I64, 40},
     {nc::kLicenceCell, Type::I32, 28},
+    {"@ANALOG.PORT", Type::I32, 48},
+    {"@POS.CONTROL", Type::I64, 64, 16},
 };
 
 } // namespace

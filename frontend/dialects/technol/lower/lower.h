@@ -86,6 +86,36 @@ void lowerUpdate(StatementContext& l, std::span<const Operand> o, int);
 void lowerShareVariable(StatementContext& l, std::span<const Operand> o, int);
 void lowerShareBit(StatementContext& l, std::span<const Operand> o, int);
 
+// lower_service.cpp; `form` is the DataForm of the data operand
+void lowerService(StatementContext& l, std::span<const Operand> o, int form);
+void lowerPolled(StatementContext& l, std::span<const Operand> o, int form);
+void lowerShared(StatementContext& l, std::span<const Operand> o, int form);
+
+// lower_can.cpp
+void lowerCanSend(StatementContext& l, std::span<const Operand> o, int);
+void lowerCanReceive(StatementContext& l, std::span<const Operand> o, int);
+void lowerCanOrder(StatementContext& l, std::span<const Operand> o, int);
+void lowerUnitRead(StatementContext& l, std::span<const Operand> o, int);
+void lowerUnitWrite(StatementContext& l, std::span<const Operand> o, int);
+void lowerDriveSend(StatementContext& l, std::span<const Operand> o, int);
+
+// lower_spindle.cpp
+void lowerAnalogPort(StatementContext& l, std::span<const Operand> o, int);
+void lowerAnalog(StatementContext& l, std::span<const Operand> o, int);
+void lowerAnalogSpindle(StatementContext& l, std::span<const Operand> o, int);
+void lowerToSpindle(StatementContext& l, std::span<const Operand> o, int);
+void lowerToAxis(StatementContext& l, std::span<const Operand> o, int);
+void lowerRamp(StatementContext& l, std::span<const Operand> o, int);
+
+// lower_position.cpp
+void lowerPositionMode(StatementContext& l, std::span<const Operand> o, int);
+void lowerPositionControl(StatementContext& l, std::span<const Operand> o, int);
+
+// lower_com.cpp
+void lowerComSend(StatementContext& l, std::span<const Operand> o, int);
+void lowerComReceive(StatementContext& l, std::span<const Operand> o, int);
+void lowerComControl(StatementContext& l, std::span<const Operand> o, int);
+
 // lower_config.cpp
 void lowerConfiguration(StatementContext& l, std::span<const Operand> o, int kind);
 

@@ -4,6 +4,7 @@
 
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/lower/lower_identifier.h"
+#include "frontend/dialects/technol/lower/putting.h"
 #include "frontend/dialects/technol/lower/texts.h"
 
 #include "rtlib/nc/technol/configuration.h"
@@ -75,24 +76,13 @@ void getValue(StatementContext& l, std::span<const Operand> o, Kind kind) {
 
 // ---- texts ----------------------------------------------------------------------------------------------------------
 
-// Parts of the text, one request each; what the target has no room for is cut off.
-void putParts(StatementContext& l, const Text& target, Kind kind, const Words& id, ValueId found) {
+// What the target has no room for is cut off.
+void putText(StatementContext& l, const Text& target, Kind kind, const Words& id, ValueId found) {
   ir::RungBuilder& b = l.b();
   const Length length{.fixed = false, .most = UINT32_MAX, .value = found};
   const ValueId count = smaller(l, length, roomOf(target)).value;
-  const uint32_t parts = target.most / kBytes + 1;
-  const ValueId part = b.loop(parts)[0];
-  const ValueId ticket = request(l, kind, b.zextOrTrunc(Type::I64, part), id);
-  const uint32_t words = parts > 1 ? kWords : target.most / 8 + 1;
-  for (uint32_t w = 0; w < words; ++w) {
-    const ValueId word = b.serviceResult(ticket, kHead + w);
-    const ValueId first = b.add(b.mul(part, b.i32(kBytes)), b.i32(int64_t{w} * 8));
-    const auto in = b.loop(8, std::array{word});
-    const ValueId number = b.add(first, in[0]);
-    b.when(b.ltU(number, count), [&] { storeByte(l, target.area, number, b.zextOrTrunc(Type::I8, in[1])); });
-    b.endLoop(std::array{b.op(ir::OpCode::ShrU, Type::I64, {in[1], b.i32(8)})});
-  }
-  b.endLoop();
+  putParts(l, target.area, count, target.most, {.bytes = kBytes, .firstWord = kHead},
+           [&](ValueId part) { return request(l, kind, b.zextOrTrunc(Type::I64, part), id); });
   if (kind != Kind::Binary) storeTerminator(l, target.area, count, b.bit(true));
 }
 
@@ -111,7 +101,7 @@ void getText(StatementContext& l, std::span<const Operand> o, Kind kind) {
   const ValueId found = answersYes(b, ticket, 0);
   const ValueId length = b.zextOrTrunc(Type::I32, b.serviceResult(ticket, 1));
   l.r().setRlo(found);
-  const auto put = [&] { putParts(l, target, kind, id, length); };
+  const auto put = [&] { putText(l, target, kind, id, length); };
   if (!o[2].given()) return b.when(found, put);
   b.when(found, put, [&] { putDefault(l, target, source); });
 }

@@ -1,6 +1,7 @@
 // Procedures (see procedures.h).
 #include "frontend/dialects/technol/lower/procedures.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace rung::frontend::technol {
@@ -11,6 +12,12 @@ using ir::ValueId;
 Procedures::Procedures(Memory& memory) : m_(memory), onMessage_(memory.program().procedureNamed(kOnMessage)) {
   for (const Procedure& procedure : memory.program().procedures)
     routines_.push_back(memory.newRoutine("PROC " + symbolKey(procedure.name)));
+}
+
+uint32_t Procedures::eventOf(uint32_t procedure) {
+  const auto found = std::ranges::find(events_, procedure);
+  if (found == events_.end()) return events_.push_back(procedure), static_cast<uint32_t>(events_.size()) - 1;
+  return static_cast<uint32_t>(found - events_.begin());
 }
 
 void Procedures::call(uint32_t procedure, uint32_t depth, ValueId cond) {

@@ -3,6 +3,7 @@
 
 #include "frontend/dialects/technol/lower/areas.h"
 #include "frontend/dialects/technol/lower/presets.h"
+#include "rtlib/nc/technol/services.h"
 
 namespace rung::frontend::technol {
 
@@ -84,20 +85,25 @@ void makeStart(Memory& memory, ir::RoutineId routine, const State& state, const 
 }
 
 // RLO and DR come from the host.
+static Event makeEvent(Memory& memory, std::string name, ir::RoutineId procedure, Clocks& clocks) {
+  const ir::RoutineId routine = memory.newRoutine("@" + name);
+  memory.open(routine);
+  memory.r().clear();
+  memory.r().setRlo(memory.b().load(Type::Bit, place(HostCell::Rlo)));
+  memory.r().setDr(memory.b().load(Type::I64, place(HostCell::Dr)));
+  clocks.callEvent(procedure);
+  memory.close();
+  return {std::move(name), routine};
+}
+
 std::vector<Event> makeEvents(Memory& memory, const Procedures& procedures, Clocks& clocks) {
   std::vector<Event> events;
-  for (const std::string_view name : {"_ON_CMD", "_ON_EVENT"}) {
-    const uint32_t procedure = memory.program().procedureNamed(name);
-    if (procedure == kNone) continue;
-    const ir::RoutineId routine = memory.newRoutine("@" + std::string(name));
-    memory.open(routine);
-    memory.r().clear();
-    memory.r().setRlo(memory.b().load(Type::Bit, place(HostCell::Rlo)));
-    memory.r().setDr(memory.b().load(Type::I64, place(HostCell::Dr)));
-    clocks.callEvent(procedures.routine(procedure));
-    memory.close();
-    events.push_back({name, routine});
-  }
+  for (const std::string_view name : {"_ON_CMD", "_ON_EVENT"})
+    if (const uint32_t procedure = memory.program().procedureNamed(name); procedure != kNone)
+      events.push_back(makeEvent(memory, std::string(name), procedures.routine(procedure), clocks));
+  for (uint32_t number = 0; number < procedures.events().size(); ++number)
+    events.push_back(makeEvent(memory, std::string(nc::technol::kPacketTask) + std::to_string(number),
+                               procedures.routine(procedures.events()[number]), clocks));
   return events;
 }
 

@@ -31,9 +31,9 @@ private:
 // anew, presets of the interface. Call when all code is lowered.
 void makeStart(Memory& memory, ir::RoutineId routine, const State& state, const Clocks& clocks, BitMessages& messages);
 
-// A procedure that the control calls (man. l.1614-1644).
+// A procedure that the control calls (man. l.1614-1644, l.3834).
 struct Event {
-  std::string_view name;
+  std::string name;
   ir::RoutineId routine;
 };
 std::vector<Event> makeEvents(Memory& memory, const Procedures& procedures, Clocks& clocks);

@@ -48,7 +48,6 @@ private:
   void checkSwitch(const Statement& statement);
   void code(Statement& statement, uint32_t index);
   bool mayStandThere(const Statement& statement) const;
-  void notBuilt(Statement& statement, Diag code);
   void checkWait(const Statement& statement);
   void checkLoop(const Statement& statement);
   void attachLabels(Statement& statement, uint32_t index);

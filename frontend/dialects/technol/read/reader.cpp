@@ -263,7 +263,6 @@ void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index)
 void FileReader::checkNoOperands(const Statement& statement) {
   const Role role = statement.row->role;
   if (role == Role::Code || role == Role::MacroBegin || role == Role::MacroEnd) return;
-  if (role == Role::NotBuilt || role == Role::NotBuiltService) return; // their operands are not described yet
   if (!statement.row->info.operands.all().empty() || statement.tokenCount == 0) return;
   const std::span<const Token> tokens = program_.operandTokens(statement);
   countFits(statement.row->info, splitOperands(tokens).size(), rangeOf(program_.sources, tokens, statement.range()),
@@ -296,8 +295,6 @@ void FileReader::structural(Statement& statement, uint32_t index) {
   case Role::LocalEnd: structure_.endLocal(statement); return;
   case Role::Stop: structure_.stop(statement, index); return;
   case Role::Equi: declarations_.constant(statement); return;
-  case Role::NotBuilt: notBuilt(statement, Diag::NotBuiltYet); return;
-  case Role::NotBuiltService: notBuilt(statement, Diag::ServiceNotBuilt); return;
   case Role::MemberSize:
     program_.diagnostics.report(Diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
     return;
@@ -318,19 +315,6 @@ bool FileReader::mayStandThere(const Statement& statement) const {
   if ((statement.row->effects & kInitOnly) == 0 || owner == kNone) return true;
   const Unit& unit = program_.units[owner];
   return unit.kind == UnitKind::Procedure || (unit.kind == UnitKind::Module && unit.module == ModuleKind::Init);
-}
-
-// What is in the wrong place is reported first: it would stay wrong.
-void FileReader::notBuilt(Statement& statement, Diag code) {
-  if (!structure_.allowsCode(statement)) {
-    statement.row = nullptr;
-    return;
-  }
-  const uint16_t effects = statement.row->effects;
-  if (effects & kWaits) ++passed_;
-  if (!mayStandThere(statement)) code = Diag::InitOnlyInstruction;
-  if ((effects & kWaits) && !program_.mayWait(statement.unit)) code = Diag::ExOutsideMechanism;
-  program_.diagnostics.report(code, statement.range()) << statement.row->info.mnemonic;
 }
 
 void FileReader::code(Statement& statement, uint32_t index) {

@@ -26,7 +26,7 @@ inline constexpr ir::SpaceId kBlockSpace{4};     // "BLK": the queue of command 
 inline constexpr ir::SpaceId kExchangeSpace{5};  // "IO": variables of MAP_* and DEF_*
 inline constexpr uint32_t kQueuedBlocks = 16;
 inline constexpr uint32_t kMechanismBytes = 3;
-inline constexpr uint32_t kRegisterBytes = 64;
+inline constexpr uint32_t kRegisterBytes = 192;
 inline constexpr size_t kSignificant = 31;
 
 // Behind a name that is local to one use of a macro; no program can write it.

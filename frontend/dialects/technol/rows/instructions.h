@@ -19,8 +19,6 @@ struct Operand;
 enum class Role : uint8_t {
   Code,     // lowered where it stands
   NoCode,   // accepted, does nothing
-  NotBuilt, // known, but this compiler cannot translate it yet
-  NotBuiltService,
   Module,    // variant: ModuleKind
   ModuleEnd, // variant: ModuleKind
   Local,     // DATA_LOCAL

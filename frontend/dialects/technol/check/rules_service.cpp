@@ -1,0 +1,96 @@
+// Checks of instructions that give data to devices or get them (inventory of the services, 1.4, 3).
+#include <algorithm>
+
+#include "frontend/dialects/technol/check/check_context.h"
+#include "frontend/dialects/technol/check/rules.h"
+#include "frontend/dialects/technol/lower/device_request.h"
+#include "frontend/dialects/technol/rows/operand_kinds.h"
+#include "rtlib/nc/technol/signals.h"
+
+namespace rung::frontend::technol {
+namespace {
+
+constexpr uint32_t kIntegerBytes = 4, kRealBytes = 8, kPacketBytes = 12, kRecordBytes = 2;
+
+// Bytes that an operand has: its type's, or those up to the end of its variable.
+uint32_t bytesOf(const Operand& operand) {
+  return operand.prefixed ? ir::byteWidth(operand.type) : operand.size;
+}
+
+// An index shows when the program runs.
+void holds(const CheckContext& c, const Operand& operand, int64_t bytes) {
+  if (operand.indexed || operand.form != Operand::Form::Cell || bytes <= bytesOf(operand)) return;
+  c.report(Diag::AddressOutOfRange, operand.range)
+      << spell(operand) + "+" + std::to_string(bytes - 1) << (operand.isText ? "the text" : "the variable");
+}
+
+bool isCell(const Operand& operand) { return operand.type != ir::Type::None; }
+
+void checkReal(const CheckContext& c, const Operand& operand) {
+  if (isCell(operand) && ir::byteWidth(operand.type) != kRealBytes)
+    c.wrongKind(operand, describe(operand.type), "a REAL of 8 bytes or a text");
+  else
+    holds(c, operand, kRealBytes);
+}
+
+void checkText(const CheckContext& c, const Operand& operand) {
+  if (operand.form == Operand::Form::Text) return;
+  if (!operand.isText)
+    c.wrongKind(operand, "no text", "a text");
+  else
+    textFits(c, operand);
+}
+
+void checkData(const CheckContext& c, const Operand& operand, DataForm form, int64_t count) {
+  switch (form) {
+  case DataForm::None: return;
+  case DataForm::Integer:
+    if (!isCell(operand)) holds(c, operand, kIntegerBytes);
+    return;
+  case DataForm::Real: return checkReal(c, operand);
+  case DataForm::Text: return checkText(c, operand);
+  case DataForm::Binary: return;
+  case DataForm::Bytes: return holds(c, operand, count);
+  }
+}
+
+} // namespace
+
+// The bytes that a constant asks for; of a cell it shows when the program runs.
+void checkService(const CheckContext& c, std::span<const Operand> o, int form) {
+  const std::span<const OperandInfo> infos = c.statement.row->info.operands.all();
+  int64_t count = 0;
+  for (size_t i = 0; i < o.size(); ++i)
+    if (o[i].form == Operand::Form::Integer &&
+        (text::equalsIgnoringCase(infos[i].name, "Size") || text::equalsIgnoringCase(infos[i].name, "len")))
+      count = o[i].value;
+  for (size_t i = 0; i < o.size(); ++i)
+    if (o[i].given() && kindOf(infos[i]).parse == OperandClass::Text)
+      checkData(c, o[i], static_cast<DataForm>(form), count);
+}
+
+// pmsg, the last operand, has 12 bytes (man. l.9497).
+void checkPacket(const CheckContext& c, std::span<const Operand> o, int) { holds(c, o.back(), kPacketBytes); }
+
+// The first operand is a record of two bytes (man. l.12061).
+void checkRecord(const CheckContext& c, std::span<const Operand> o, int) { holds(c, o[0], kRecordBytes); }
+
+// ECATCMD_GET_STATE and ECATCMD_GET_SLAVE_STATE give a state (man. l.18231).
+void checkEtherCatCommand(const CheckContext& c, std::span<const Operand> o, int form) {
+  constexpr int64_t kStateOfMaster = 20, kStateOfSlave = 21;
+  const bool asks = o[2].form == Operand::Form::Integer && (o[2].value == kStateOfMaster || o[2].value == kStateOfSlave);
+  if (asks && !(o[3].given() && o[4].given()))
+    c.report(Diag::OperandCount, c.statement.range()) << "ECAT_COMMAND with this command" << "5 operands"
+        << static_cast<int64_t>(std::ranges::count_if(o, &Operand::given));
+  checkService(c, o, form);
+}
+
+// Not what the control itself keeps in a unit: packets and pointers (inventory of the services, 9).
+void checkUnitItem(const CheckContext& c, std::span<const Operand> o, int) {
+  const std::string item = spell(o[3]);
+  const nc::Signal* member = nc::findSignal(nc::technolSignals(), "INOUTS." + item, "INOUTS");
+  if (member == nullptr || (member->type != nc::SignalType::Struct && !item.starts_with("pINOUT"))) return;
+  c.wrongKind(o[3], "a structure or an address", "a byte, word or dword of INOUTS");
+}
+
+} // namespace rung::frontend::technol

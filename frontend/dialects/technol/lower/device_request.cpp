@@ -1,0 +1,102 @@
+// Requests to devices (see device_request.h).
+#include "frontend/dialects/technol/lower/device_request.h"
+
+#include "frontend/dialects/technol/lower/putting.h"
+#include "frontend/dialects/technol/rows/operand_kinds.h"
+#include "frontend/lower/request.h"
+#include "ir/support/check.h"
+
+namespace rung::frontend::technol {
+
+using ir::OpCode;
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+const nc::technol::DeviceService& serviceOf(std::string_view mnemonic) {
+  const nc::technol::DeviceService* service = nc::technol::findDeviceService(mnemonic);
+  RUNG_CHECK(service != nullptr, "an instruction without a service");
+  return *service;
+}
+
+// Where a name is among blanks, with what follows its colon left out.
+uint32_t numberOf(std::string_view names, std::string_view wanted) {
+  uint32_t found = 0;
+  forEachWord(names, [&](std::string_view word, int64_t number) {
+    if (word.substr(0, word.find(':')) == wanted) found = static_cast<uint32_t>(number);
+  });
+  return found;
+}
+
+} // namespace
+
+DeviceRequest::DeviceRequest(StatementContext& context)
+    : l_(context), service_(serviceOf(context.mnemonic())), signature_(service_.name) {}
+
+ValueId DeviceRequest::add(std::string name, ValueId value) {
+  signature_ += ' ' + std::move(name);
+  args_.push_back(value);
+  return value;
+}
+
+// Numbers are taken with their own width (inventory of the services, 1.4).
+ValueId DeviceRequest::addOperand(uint32_t number, const Operand& operand, ValueId guard) {
+  ir::RungBuilder& b = l_.b();
+  const OperandInfo& info = l_.statement().row->info.operands[number];
+  const auto word = [&] {
+    switch (operand.form) {
+    case Operand::Form::NotGiven: return b.constant(Type::I64, nc::technol::kNotGiven);
+    case Operand::Form::Bit: return b.zextOrTrunc(Type::I64, l_.bit(operand));
+    case Operand::Form::Cell: {
+      const ValueId value = l_.value(operand, guard);
+      return kindOf(info).twosComplement ? b.sextOrTrunc(Type::I64, value) : b.zextOrTrunc(Type::I64, value);
+    }
+    case Operand::Form::Keyword: return b.constant(Type::I64, kindOf(info).firstWord + operand.value);
+    default: return b.constant(Type::I64, operand.value);
+    }
+  };
+  return add(std::string(info.name), word());
+}
+
+ValueId DeviceRequest::send() {
+  if (!service_.results.empty()) signature_.append(" -> ").append(service_.results);
+  const ValueId ticket = l_.b().serviceRequest(l_.service(signature_), args_);
+  use(ticket);
+  return ticket;
+}
+
+void DeviceRequest::use(ValueId ticket) {
+  ticket_ = ticket;
+  executed_ = {};
+}
+
+ValueId DeviceRequest::result(std::string_view name) {
+  ir::RungBuilder& b = l_.b();
+  if (!executed_.valid()) executed_ = isExecuted(b, ticket_);
+  const uint32_t number = numberOf(service_.results, name);
+  const int64_t refused = number < std::size(service_.refused) ? service_.refused[number] : 0;
+  return b.select(executed_, b.serviceResult(ticket_, number), b.constant(Type::I64, refused));
+}
+
+ValueId DeviceRequest::flag(std::string_view name) {
+  return l_.b().ne(result(name), l_.b().constant(Type::I64, 0));
+}
+
+ValueId DeviceRequest::real(std::string_view name) { return l_.b().op(OpCode::BitsToF, Type::F64, {result(name)}); }
+
+ValueId bytesArgument(ir::RungBuilder& b, const Area& area, ValueId count) {
+  const ValueId fixed = b.constant(Type::I64, nc::technol::bytesArgument(area.space.index, 0, 0));
+  const ValueId size = b.op(OpCode::Shl, Type::I64, {b.zextOrTrunc(Type::I64, count), b.i32(32)});
+  return b.or_(b.or_(fixed, size), b.zextOrTrunc(Type::I64, area.at));
+}
+
+void fetchBytes(StatementContext& l, ValueId ticket, const Area& to, ValueId count, uint32_t most) {
+  const ValueId number = l.b().zextOrTrunc(Type::I64, ticket);
+  putParts(l, to, count, most, {.bytes = nc::technol::kDataBytes, .firstWord = 0}, [&](ValueId part) {
+    return l.b().serviceRequest(l.service(nc::technol::kDataService),
+                                std::array{number, l.b().zextOrTrunc(Type::I64, part)});
+  });
+}
+
+} // namespace rung::frontend::technol

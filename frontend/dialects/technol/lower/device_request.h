@@ -1,0 +1,50 @@
+// A request to a device of the control (rtlib/nc/technol/services.h) as operations: its arguments, its results, and the
+// bytes that its answer brings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "frontend/dialects/technol/lower/areas.h"
+#include "frontend/dialects/technol/lower/context.h"
+#include "rtlib/nc/technol/services.h"
+
+namespace rung::frontend::technol {
+
+// What the data operand of a service holds. Binary: as many bytes as there is room for; Bytes: as many as another operand
+// says.
+enum class DataForm : uint8_t { None, Integer, Real, Text, Binary, Bytes };
+
+class DeviceRequest {
+public:
+  // Of the statement at hand.
+  explicit DeviceRequest(StatementContext& context);
+
+  // Each gives the argument, i64.
+  ir::ValueId add(std::string name, ir::ValueId value);
+  // An operand that is a number, a bit or a word; not given: nc::technol::kNotGiven. `guard` as for Memory::reach.
+  ir::ValueId addOperand(uint32_t number, const Operand& operand, ir::ValueId guard = {});
+  // Gives the ticket.
+  ir::ValueId send();
+  // A result by its name as deviceServices() has it; what the table says where there was no answer.
+  ir::ValueId result(std::string_view name);
+  ir::ValueId flag(std::string_view name); // as a bit
+  ir::ValueId real(std::string_view name);
+  // The request that was sent before.
+  void use(ir::ValueId ticket);
+
+private:
+  StatementContext& l_;
+  const nc::technol::DeviceService& service_;
+  std::string signature_;
+  std::vector<ir::ValueId> args_;
+  ir::ValueId ticket_;
+  ir::ValueId executed_;
+};
+
+// The argument for `count` bytes of an area, i32.
+ir::ValueId bytesArgument(ir::RungBuilder& b, const Area& area, ir::ValueId count);
+// Puts the first `count` bytes of an answer, at most `most`, there.
+void fetchBytes(StatementContext& l, ir::ValueId ticket, const Area& to, ir::ValueId count, uint32_t most);
+
+} // namespace rung::frontend::technol

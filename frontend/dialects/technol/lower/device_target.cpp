@@ -1,0 +1,129 @@
+// Data of devices (see device_target.h).
+#include "frontend/dialects/technol/lower/device_target.h"
+
+#include <algorithm>
+
+#include "frontend/dialects/technol/lower/texts.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+constexpr Type kInteger = Type::I32, kReal = Type::I64; // elements of tables as bytes (man. l.18752)
+
+} // namespace
+
+DeviceTarget::DeviceTarget(StatementContext& context, const Operand& operand, ValueId guard)
+    : l_(&context), operand_(&operand) {
+  if (operand.form == Operand::Form::Text) {
+    area_ = textOf(context, operand).area;
+    return;
+  }
+  access_ = context.reach(operand, guard);
+  const uint32_t bytes = context.bytesOf(operand.place.space);
+  area_ = access_.indexed
+              ? Area{.space = operand.place.space, .bytes = bytes, .fixed = false, .first = 0, .at = access_.index}
+              : fixedArea(context, operand.place.space, bytes, operand.place.byte);
+}
+
+void DeviceTarget::keep(ValueId when) {
+  if (!access_.indexed) return;
+  ir::RungBuilder& b = l_->b();
+  const ir::SlotId slot = l_->ownSlot(Type::I32);
+  b.when(when, [&] { b.slotStore(slot, access_.index); });
+  access_.index = area_.at = b.slotLoad(slot);
+}
+
+uint32_t DeviceTarget::most() const {
+  if (operand_->form == Operand::Form::Text) return static_cast<uint32_t>(operand_->text.size());
+  if (operand_->prefixed) return ir::byteWidth(operand_->type);
+  return operand_->indexed ? static_cast<uint32_t>(operand_->end - operand_->begin) : operand_->size;
+}
+
+ValueId DeviceTarget::roomWithEnd() const {
+  ir::RungBuilder& b = l_->b();
+  if (!access_.indexed) return b.i32(most());
+  const ValueId room = b.sub(b.i32(operand_->end), area_.at);
+  const ValueId inside = b.and_(b.leU(b.i32(operand_->begin), area_.at), b.ltU(area_.at, b.i32(operand_->end)));
+  return b.select(inside, room, b.i32(0));
+}
+
+ValueId DeviceTarget::room() const {
+  const ValueId all = roomWithEnd();
+  if (terminator() == 0) return all;
+  ir::RungBuilder& b = l_->b();
+  return b.select(b.eq(all, b.i32(0)), all, b.sub(all, b.i32(1)));
+}
+
+// A variable of 8 bytes without a type of its own is a QWORD or a REAL (man. l.700-704).
+Type DeviceTarget::cellType() const {
+  if (operand_->type != Type::None) return operand_->type == Type::F64 ? Type::I64 : operand_->type;
+  return !operand_->isText && operand_->size == 8 ? Type::I64 : Type::None;
+}
+
+ValueId DeviceTarget::numberAt(Type type) const {
+  return l_->b().sextOrTrunc(Type::I64, loadByte(*l_, area_, l_->b().i32(0), type));
+}
+
+void DeviceTarget::put(ValueId value, Type type) const {
+  storeByte(*l_, area_, l_->b().i32(0), l_->b().zextOrTrunc(type, value));
+}
+
+void DeviceTarget::require(DataForm form, ValueId guard) const {
+  const bool word = form == DataForm::Integer && cellType() == Type::None;
+  if (!access_.indexed || (!word && form != DataForm::Real)) return;
+  ir::RungBuilder& b = l_->b();
+  const ValueId lacks = b.ltU(roomWithEnd(), b.i32(ir::byteWidth(word ? kInteger : kReal)));
+  l_->protect(guard.valid() ? b.and_(guard, lacks) : lacks);
+}
+
+void DeviceTarget::addWord(DeviceRequest& request, std::string name) const {
+  request.add(std::move(name), l_->b().zextOrTrunc(Type::I64, loadByte(*l_, area_, l_->b().i32(0), Type::I16)));
+}
+
+void DeviceTarget::addTo(DeviceRequest& request, std::string name, DataForm form, ValueId count) const {
+  ir::RungBuilder& b = l_->b();
+  switch (form) {
+  case DataForm::None: return;
+  case DataForm::Integer: {
+    const Type type = cellType();
+    request.add(name, type == Type::None ? numberAt(kInteger) : b.sextOrTrunc(Type::I64, l_->load(access_, type)));
+    return;
+  }
+  case DataForm::Real: request.add(name + ":f", numberAt(kReal)); return;
+  case DataForm::Text: request.add(name + ":s", bytesArgument(b, area_, count)); return;
+  case DataForm::Binary:
+  case DataForm::Bytes: request.add(name + ":b", bytesArgument(b, area_, count)); return;
+  }
+}
+
+void DeviceTarget::take(DeviceRequest& request, ValueId ticket, std::string_view name, DataForm form) const {
+  ir::RungBuilder& b = l_->b();
+  const ValueId value = request.result(name);
+  switch (form) {
+  case DataForm::None: return;
+  case DataForm::Integer: {
+    const Type type = cellType();
+    if (type == Type::None) return put(value, kInteger);
+    return l_->store(access_, b.zextOrTrunc(type, value));
+  }
+  case DataForm::Real: return put(value, kReal);
+  case DataForm::Text:
+  case DataForm::Binary:
+  case DataForm::Bytes: return fetch(ticket, b.zextOrTrunc(Type::I32, value), form);
+  }
+}
+
+void DeviceTarget::fetch(ValueId ticket, ValueId length, DataForm form) const {
+  ir::RungBuilder& b = l_->b();
+  const bool counted = form == DataForm::Bytes;
+  const ValueId room = counted ? roomWithEnd() : this->room();
+  const ValueId count = b.select(b.ltU(length, room), length, room);
+  fetchBytes(*l_, ticket, area_, count, most() - (counted ? 0 : terminator()));
+  if (form == DataForm::Text) storeTerminator(*l_, area_, count, b.bit(true));
+}
+
+} // namespace rung::frontend::technol

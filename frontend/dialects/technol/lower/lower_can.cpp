@@ -1,0 +1,117 @@
+// CAN bus: packets, orders of packets, units, drives (man. ch. 9.4, 9.5, 13.14).
+#include <algorithm>
+
+#include "frontend/dialects/technol/lower/device_bits.h"
+#include "frontend/dialects/technol/lower/device_request.h"
+#include "frontend/dialects/technol/lower/lower.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+// TCANMSGS (man. l.9497-9511).
+constexpr uint32_t kId = 0, kRtr = 2, kLength = 3, kData = 4, kDataBytes = 8, kPacketBytes = kData + kDataBytes;
+constexpr int64_t kIdBits = 0x7FF;
+// Of a packet to a drive: request of service data (man. l.9203, l.9488).
+constexpr int64_t kServiceDataId = 0x600;
+
+ValueId memberOf(StatementContext& l, const Area& packet, uint32_t offset, Type type) {
+  return l.b().zextOrTrunc(Type::I64, loadByte(l, packet, l.b().i32(offset), type));
+}
+void setMember(StatementContext& l, const Area& packet, uint32_t offset, Type type, ValueId value) {
+  storeByte(l, packet, l.b().i32(offset), l.b().zextOrTrunc(type, value));
+}
+Area dataOf(StatementContext& l, const Area& packet) { return shifted(l, packet, l.b().i32(kData)); }
+
+} // namespace
+
+// DR says whether the queue took it (man. l.3709-3742). More than 8 bytes are 8.
+void lowerCanSend(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  const Area packet = areaOf(l, o[1]);
+  const ValueId length = memberOf(l, packet, kLength, Type::I8), most = b.constant(Type::I64, kDataBytes);
+  const ValueId count = b.select(b.ltU(length, most), length, most);
+  DeviceRequest request(l);
+  request.addOperand(0, o[0]);
+  request.add("id", b.and_(memberOf(l, packet, kId, Type::I16), b.constant(Type::I64, kIdBits)));
+  request.add("rtr", memberOf(l, packet, kRtr, Type::I8));
+  request.add("len", count);
+  request.add("data:b", bytesArgument(b, dataOf(l, packet), b.zextOrTrunc(Type::I32, count)));
+  request.send();
+  l.r().setDr(request.result("DR"));
+}
+
+// The packet is written where one was there: DR is 0 (man. l.3743-3778).
+void lowerCanReceive(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  const Area packet = areaOf(l, o[1]);
+  DeviceRequest request(l);
+  request.addOperand(0, o[0]);
+  const ValueId ticket = request.send();
+  const ValueId code = request.result("DR");
+  const ValueId id = request.result("id"), rtr = request.result("rtr"), length = request.result("data");
+  b.when(b.eq(code, b.constant(Type::I64, 0)), [&] {
+    setMember(l, packet, kId, Type::I16, id);
+    setMember(l, packet, kRtr, Type::I8, rtr);
+    setMember(l, packet, kLength, Type::I8, length);
+    setMember(l, packet, kData, Type::I64, b.constant(Type::I64, 0));
+    fetchBytes(l, ticket, dataOf(l, packet), b.zextOrTrunc(Type::I32, length), kDataBytes);
+  });
+  l.r().setDr(code);
+}
+
+// CAN_RECV_REQ can, objl, [objh], idl, [idh], proc, pmsg: without an upper bound it is the lower one (man. l.3814-3831).
+void lowerCanOrder(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  DeviceRequest request(l);
+  request.addOperand(0, o[0]);
+  for (const uint32_t low : {1u, 3u}) {
+    request.addOperand(low, o[low]);
+    request.addOperand(low + 1, o[low + 1].given() ? o[low + 1] : o[low]);
+  }
+  request.add("proc", b.constant(Type::I64, l.procedures.eventOf(o[5].index)));
+  request.add("pmsg:b", bytesArgument(b, areaOf(l, o[6]), b.i32(kPacketBytes)));
+  request.send();
+  l.r().setRlo(request.flag("RLO"));
+  l.r().setDr(request.result("DR"));
+}
+
+// RLO is 1 for an error, and DR stays (man. l.4296-4299).
+void lowerUnitRead(StatementContext& l, std::span<const Operand> o, int) {
+  DeviceRequest request(l);
+  for (uint32_t i = 0; i < o.size(); ++i) request.addOperand(i, o[i]);
+  request.send();
+  const ValueId failed = request.flag("RLO");
+  l.r().setDr(l.b().select(failed, l.r().dr(Type::I64), request.result("DR")));
+  l.r().setRlo(failed);
+}
+
+void lowerUnitWrite(StatementContext& l, std::span<const Operand> o, int) {
+  DeviceRequest request(l);
+  for (uint32_t i = 0; i < o.size(); ++i) request.addOperand(i, o[i]);
+  request.add("val", l.r().dr(Type::I64));
+  request.send();
+  l.r().setRlo(request.flag("RLO"));
+}
+
+// The packet's head is filled in; CAN_AX_BUSY is 0FFh until the drive has answered (man. l.9474-9493).
+void lowerDriveSend(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  const Area packet =
+      fixedArea(l, kInterfaceSpace, l.bytesOf(kInterfaceSpace), placeOf("CAN_AX_SEND_PACKET").byte);
+  DeviceRequest request(l);
+  const ValueId axis = request.addOperand(0, o[0]);
+  b.when(isAxis(b, axis), [&] {
+    setMember(l, packet, kId, Type::I16, b.add(axis, b.constant(Type::I64, kServiceDataId)));
+    setMember(l, packet, kRtr, Type::I8, b.constant(Type::I64, 0));
+    setMember(l, packet, kLength, Type::I8, b.constant(Type::I64, kDataBytes));
+    b.store(placeOf("CAN_AX_BUSY"), b.constant(Type::I8, 0xFF));
+  });
+  request.add("data:b", bytesArgument(b, dataOf(l, packet), b.i32(kDataBytes)));
+  request.send();
+}
+
+} // namespace rung::frontend::technol

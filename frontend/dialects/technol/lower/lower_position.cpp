@@ -1,0 +1,87 @@
+// The positioning unit: motions of an axis that the program controls by two records of its own (man. ch. 19).
+#include "frontend/dialects/technol/lower/device_bits.h"
+#include "frontend/dialects/technol/lower/device_request.h"
+#include "frontend/dialects/technol/lower/lower.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+constexpr uint32_t kRecordBytes = 2, kBits = 1; // the second byte has the bits of the control record (man. l.12101)
+constexpr int64_t kMp = 1, kInic = 4, kControlBits = 15;
+
+// Where the control record of an axis, i64, is kept.
+struct KeptRecord {
+  ir::Window window;
+  ValueId index;
+};
+KeptRecord keptOf(ir::RungBuilder& b, ValueId axis) {
+  const ir::Place at = place(HostCell::PositionControl);
+  const ValueId number = b.zextOrTrunc(Type::I32, b.sub(axis, b.constant(Type::I64, 1)));
+  return {.window = {.space = at.space, .byte = at.byte, .count = (kMostAxes - 1) * 8 + 1},
+          .index = b.mul(number, b.i32(8))};
+}
+
+// The bits of a control record that the unit writes; the others stay (man. l.12101-12133).
+ValueId withBits(ir::RungBuilder& b, ValueId byte, ValueId mask, ValueId bits) {
+  return b.or_(b.and_(byte, b.not_(mask)), b.and_(bits, mask));
+}
+
+// In the record that the last POS_MODE of the axis named, whichever memory it lies in.
+void writeKept(StatementContext& l, ValueId axis, ValueId mask, ValueId bits) {
+  ir::RungBuilder& b = l.b();
+  const KeptRecord kept = keptOf(b, axis);
+  const ValueId record = b.loadAt(Type::I64, kept.window, kept.index);
+  const ValueId at = b.zextOrTrunc(Type::I32, record);
+  for (const ir::SpaceId space : {kInterfaceSpace, kDataSpace}) {
+    const Area area{.space = space, .bytes = l.bytesOf(space), .fixed = false, .first = 0, .at = at};
+    if (area.bytes < kRecordBytes) continue;
+    const int64_t head = nc::technol::bytesArgument(space.index, kRecordBytes, 0);
+    const ValueId isThere = b.eq(b.and_(record, b.constant(Type::I64, ~int64_t{0xFFFF'FFFF})), b.constant(Type::I64, head));
+    b.when(isThere, [&] {
+      storeByte(l, area, b.i32(kBits), withBits(b, loadByte(l, area, b.i32(kBits)), mask, bits));
+    });
+  }
+}
+
+} // namespace
+
+// POS_MODE control,len,accel,axis: the initiator is started, the motion not yet allowed (man. l.12205-12238).
+void lowerPositionMode(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  const Area control = areaOf(l, o[0]);
+  DeviceRequest request(l);
+  request.addOperand(1, o[1]);
+  request.addOperand(2, o[2]);
+  const ValueId axis = request.addOperand(3, o[3]);
+  const ValueId mask = b.constant(Type::I8, kControlBits), bits = b.constant(Type::I8, kInic);
+  storeByte(l, control, b.i32(kBits), withBits(b, loadByte(l, control, b.i32(kBits)), mask, bits));
+  const KeptRecord kept = keptOf(b, axis);
+  b.when(isAxis(b, axis), [&] { b.storeAt(kept.window, kept.index, bytesArgument(b, control, b.i32(kRecordBytes))); });
+  request.send();
+}
+
+// POS_CONTROL status,feed,[mp],axis: without mp the motion is allowed (inventory of the services, 6).
+void lowerPositionControl(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  const Area status = areaOf(l, o[0]);
+  const ValueId allowed = o[2].given() ? l.bit(o[2]) : b.bit(true);
+  DeviceRequest request(l);
+  request.addOperand(1, o[1]);
+  request.add("mp", b.zextOrTrunc(Type::I64, allowed));
+  const ValueId axis = request.addOperand(3, o[3]);
+  request.send();
+  const ValueId word = request.result("status"), control = request.result("control");
+  const ValueId none = b.constant(Type::I64, nc::technol::kNotGiven);
+  b.when(b.ne(word, none), [&] { storeByte(l, status, b.i32(0), b.zextOrTrunc(Type::I16, word)); });
+  const ValueId known = b.ne(control, none);
+  const ValueId mask = b.select(known, b.constant(Type::I8, kControlBits), b.constant(Type::I8, kMp));
+  const ValueId mp = b.zextOrTrunc(Type::I8, allowed);
+  const ValueId bits = b.or_(b.and_(b.zextOrTrunc(Type::I8, control), b.constant(Type::I8, kControlBits - kMp)), mp);
+  writeKept(l, axis, mask, bits);
+}
+
+} // namespace rung::frontend::technol

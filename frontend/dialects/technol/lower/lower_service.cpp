@@ -1,0 +1,152 @@
+// Instructions that ask a device of the control (man. ch. 9, 11-13, 17-19, 23, 26): those that go on at once, and those
+// of EX kind, which are executed in every run of their mechanism until they are answered (inventory 11.3).
+#include <vector>
+
+#include "frontend/dialects/technol/lower/device_target.h"
+#include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/dialects/technol/rows/operand_kinds.h"
+#include "frontend/lower/request.h"
+
+namespace rung::frontend::technol {
+
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+bool isNamed(const OperandInfo& info, std::string_view name) { return text::equalsIgnoringCase(info.name, name); }
+
+bool isData(const OperandInfo& info) { return kindOf(info).parse == OperandClass::Text; }
+bool isRead(const OperandInfo& info) { return info.access != Access::Write; }
+bool isWritten(const OperandInfo& info) { return info.access != Access::Read; }
+
+// The operands of a statement with what their row says of them.
+struct Given {
+  std::span<const OperandInfo> infos;
+  std::span<const Operand> operands;
+  std::vector<DeviceTarget> targets; // of those that are written
+};
+
+// The operand that says how many bytes of the other one are meant; null where the row has none.
+const Operand* lengthIn(const Given& given) {
+  for (size_t i = 0; i < given.operands.size(); ++i)
+    if (isNamed(given.infos[i], "Size") || isNamed(given.infos[i], "Len")) return &given.operands[i];
+  return nullptr;
+}
+
+// Where `guard` is 1, more bytes than the data have from there on stop the program.
+ValueId lengthOf(StatementContext& l, const Given& given, const DeviceTarget& data, ValueId guard) {
+  const Operand* length = lengthIn(given);
+  if (length == nullptr) return data.room();
+  const ValueId count = l.b().zextOrTrunc(Type::I32, l.value(*length, guard));
+  if (!length->isConstant()) {
+    const ValueId beyond = l.b().ltU(data.roomWithEnd(), count);
+    l.protect(guard.valid() ? l.b().and_(guard, beyond) : beyond);
+  }
+  return count;
+}
+
+void addArguments(StatementContext& l, DeviceRequest& request, const Given& given, DataForm form, ValueId guard) {
+  for (uint32_t i = 0; i < given.operands.size(); ++i) {
+    const OperandInfo& info = given.infos[i];
+    if (!isRead(info)) continue;
+    if (!isData(info)) {
+      request.addOperand(i, given.operands[i], guard);
+      continue;
+    }
+    const DeviceTarget data(l, given.operands[i], guard);
+    if (isWritten(info)) { // PLCT_COL_ID: the number of the column lies where its name will be
+      data.addWord(request, std::string(info.name));
+      continue;
+    }
+    data.require(form, guard);
+    const ValueId count = form == DataForm::Bytes ? lengthOf(l, given, data, guard) : data.room();
+    data.addTo(request, std::string(info.name), form, count);
+  }
+}
+
+// What the operands become by an answer.
+void store(DeviceRequest& request, ValueId ticket, const Given& given, DataForm form) {
+  for (uint32_t i = 0; i < given.operands.size(); ++i) {
+    const OperandInfo& info = given.infos[i];
+    if (!isWritten(info) || !given.operands[i].given()) continue;
+    given.targets[i].take(request, ticket, info.name, isData(info) ? form : DataForm::Integer);
+  }
+}
+
+// `guard`: the operands count; not valid: in every run.
+Given givenTo(StatementContext& l, std::span<const Operand> operands, DataForm form, ValueId guard) {
+  Given given{.infos = l.statement().row->info.operands.all(), .operands = operands, .targets = {}};
+  given.targets.resize(operands.size());
+  for (uint32_t i = 0; i < operands.size(); ++i) {
+    if (!isWritten(given.infos[i]) || !operands[i].given()) continue;
+    DeviceTarget& target = given.targets[i] = DeviceTarget(l, operands[i], guard);
+    if (isData(given.infos[i])) {
+      target.require(form, guard);
+      if (form == DataForm::Bytes) lengthOf(l, given, target, guard);
+    }
+    if (guard.valid()) target.keep(guard);
+  }
+  return given;
+}
+
+// Where the unit continues until the instruction is answered: at itself.
+void continueHere(StatementContext& l) {
+  Sequence& s = l.sequences.current();
+  const uint32_t here = l.sequences.newState(s);
+  l.sequences.storeState(s, l.b().i32(here));
+  l.out().bind(s.states[here]);
+}
+
+} // namespace
+
+// Results are RLO and DR as the row's effects say.
+void lowerService(StatementContext& l, std::span<const Operand> o, int form) {
+  const uint16_t effects = l.statement().row->effects;
+  const auto data = static_cast<DataForm>(form);
+  DeviceRequest request(l);
+  addArguments(l, request, givenTo(l, o, data, {}), data, {});
+  request.send();
+  if (effects & kSetsRlo) l.r().setRlo(request.flag("RLO"));
+  if (effects & kSetsDr) l.r().setDr(request.result("DR"));
+}
+
+// PLCT_*, ECAT_*: one request of this place at a time, whose answer is there in the next run at the earliest. Operands
+// are read when it is made; what is written is the place that they named then.
+void lowerPolled(StatementContext& l, std::span<const Operand> o, int form) {
+  continueHere(l);
+  ir::RungBuilder& b = l.b();
+  const ir::SlotId slot = l.ownSlot(Type::I32);
+  l.sequences.current().cells.push_back({.automatic = true, .slot = slot, .access = {}, .type = Type::I32});
+  const ValueId pending = b.slotLoad(slot);
+  const ValueId isNew = b.eq(pending, b.i32(0));
+  const auto data = static_cast<DataForm>(form);
+  const Given given = givenTo(l, o, data, isNew);
+  DeviceRequest request(l);
+  addArguments(l, request, given, data, isNew);
+  const ValueId ticket = b.choose(isNew, [&] { return request.send(); }, [&] { return pending; });
+  request.use(ticket);
+  const ValueId answered = b.and_(b.not_(isNew), isAnswered(b, ticket));
+  const ValueId code = request.result("DR");
+  const ValueId none = b.constant(Type::I64, 0);
+  b.when(b.and_(answered, b.eq(code, none)), [&] { store(request, ticket, given, data); });
+  b.slotStore(slot, b.select(answered, b.i32(0), ticket));
+  l.r().setRlo(answered);
+  l.r().setDr(b.select(answered, code, none));
+}
+
+// SA_READ, SA_WRITE: done in the same run unless the area is locked; then asked anew (man. l.15547-15561).
+void lowerShared(StatementContext& l, std::span<const Operand> o, int form) {
+  continueHere(l);
+  const auto data = static_cast<DataForm>(form);
+  const Given given = givenTo(l, o, data, {});
+  DeviceRequest request(l);
+  addArguments(l, request, given, data, {});
+  const ValueId ticket = request.send();
+  const ValueId done = request.flag("RLO"), code = request.result("DR");
+  l.b().when(done, [&] { store(request, ticket, given, data); });
+  l.r().setRlo(done);
+  l.r().setDr(code);
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,115 @@
+// Analogue outputs, spindles and axes (man. ch. 12, 13.1).
+#include "frontend/dialects/technol/lower/device_bits.h"
+#include "frontend/dialects/technol/lower/device_request.h"
+#include "frontend/dialects/technol/lower/lower.h"
+
+namespace rung::frontend::technol {
+
+using ir::OpCode;
+using ir::Type;
+using ir::ValueId;
+
+namespace {
+
+constexpr int64_t kPorts = 16; // of analogue outputs (man. l.7730)
+
+// The output is there at once (inventory of the services, 4): the answer says which port becomes what.
+void storeOutput(StatementContext& l, DeviceRequest& request) {
+  ir::RungBuilder& b = l.b();
+  const nc::Signal& outputs = interfaceSignal("SU_OUT_PLC");
+  const ValueId number = b.sub(request.result("port"), b.constant(Type::I64, 1));
+  const ValueId value = request.real("out");
+  const ValueId at = b.mul(b.zextOrTrunc(Type::I32, number), b.i32(outputs.strideBytes));
+  const ir::Window window{.space = kInterfaceSpace,
+                          .byte = outputs.byteOffset,
+                          .count = (outputs.count - 1) * outputs.strideBytes + 1};
+  b.when(b.ltU(number, b.constant(Type::I64, kPorts)), [&] { b.storeAt(window, at, value); });
+}
+
+// Without an operand the value is in DR, of 16 bits (man. l.7776).
+void addValue(StatementContext& l, DeviceRequest& request, const Operand& value) {
+  if (value.given())
+    request.addOperand(0, value);
+  else
+    request.add("val", l.b().sextOrTrunc(Type::I64, l.r().dr(Type::I16)));
+}
+
+} // namespace
+
+// The port is that of ANALOG until the next one, in all modules (man. l.7730, l.7783).
+void lowerAnalogPort(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  DeviceRequest request(l);
+  const ValueId port = request.addOperand(0, o[0]);
+  const ValueId exists = b.ltU(b.sub(port, b.constant(Type::I64, 1)), b.constant(Type::I64, kPorts));
+  b.when(exists, [&] { b.store(place(HostCell::AnalogPort), b.zextOrTrunc(Type::I32, port)); });
+  request.send();
+}
+
+// ANALOG [val] to the port, ANALOG val|-, axis [,spi] to a spindle. Before the first ANALOG_PORT there is no port, and
+// nothing happens.
+void lowerAnalog(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  DeviceRequest request(l);
+  addValue(l, request, o[0]);
+  if (o[1].given()) {
+    request.addOperand(1, o[1]);
+    request.addOperand(2, o[2]);
+    request.send();
+    return storeOutput(l, request);
+  }
+  const ValueId port = b.zextOrTrunc(Type::I64, b.load(Type::I32, place(HostCell::AnalogPort)));
+  request.add("port", port);
+  b.when(b.ne(port, b.constant(Type::I64, 0)), [&] {
+    request.send();
+    storeOutput(l, request);
+  });
+}
+
+// ANALOG_SPI val|-, axis
+void lowerAnalogSpindle(StatementContext& l, std::span<const Operand> o, int) {
+  DeviceRequest request(l);
+  addValue(l, request, o[0]);
+  request.addOperand(1, o[1]);
+  request.send();
+  storeOutput(l, request);
+}
+
+// A spindle that is switched off has the output 0 (man. l.7984).
+void lowerToSpindle(StatementContext& l, std::span<const Operand> o, int) {
+  DeviceRequest request(l);
+  for (uint32_t i = 0; i < o.size(); ++i) request.addOperand(i, o[i]);
+  request.send();
+  storeOutput(l, request);
+}
+
+// POLOHV_x is 1 until the axis has been positioned; 0 written there ends it (man. l.7964-7973).
+void lowerToAxis(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  DeviceRequest request(l);
+  ValueId axis;
+  for (uint32_t i = 0; i < o.size(); ++i) axis = request.addOperand(i, o[i]);
+  const ValueId exists = isAxis(b, axis);
+  setBitOfAxis(b, "POLOHV", "POLOHVPI2", axis, exists);
+  setBitOfAxis(b, "PB20PI", "PB20PI2", axis, exists);
+  request.send();
+}
+
+// One step of val towards DR in val's width; DR becomes val (man. l.8274-8299). The difference of two numbers of a width
+// fits the width without a sign.
+void lowerRamp(StatementContext& l, std::span<const Operand> o, int) {
+  ir::RungBuilder& b = l.b();
+  const Type type = o[0].type;
+  const MemoryAccess access = l.reach(o[0]);
+  const ValueId value = l.load(access, type), wanted = l.r().dr(type);
+  const ValueId rises = b.ltS(value, wanted);
+  const ValueId distance =
+      b.zextOrTrunc(Type::I64, b.select(rises, b.sub(wanted, value), b.sub(value, wanted)));
+  const ValueId most = b.zextOrTrunc(Type::I64, l.value(o[1]));
+  const ValueId step = b.zextOrTrunc(type, b.select(b.ltU(distance, most), distance, most));
+  const ValueId next = b.select(rises, b.add(value, step), b.sub(value, step));
+  l.store(access, next);
+  l.r().setDr(next);
+}
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,66 @@
+// How a TECHNOL program asks the devices of its control (man. ch. 9, 11-13, 17-19, 23, 26): a service a mnemonic, whose
+// arguments are the operands that the instruction reads. The compiler writes the request, the control and whoever
+// answers for a device read it, scenarios name it.
+//
+// A service that waits is polled in every run of the instruction until it is answered; all others are answered when they
+// are asked. Bytes that a program gives lie in its memory and are read when it asks; bytes that it gets are fetched by
+// kDataService once the answer is there, in the same run.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "rung/program.h"
+
+namespace rung::nc::technol {
+
+// What is known of a service besides its name. A name among `results` with ":f" after it is a real, with ":s" a text,
+// with ":b" bytes; of both the result is their number.
+struct DeviceService {
+  std::string_view name;    // the mnemonic
+  std::string_view results; // parted by blanks; "": none
+  bool waits = false;
+  // Answered later, though the program goes on at once: by cells of the interface (man. l.7964, l.9491).
+  bool lasts = false;
+  // The first results of one that nobody answers: while a scenario writes down what is asked, and where there is no
+  // such device.
+  int64_t unanswered[2] = {};
+  int64_t refused[2] = {};
+};
+std::span<const DeviceService> deviceServices();
+// By the name of a signature, "CAN_SEND can id -> DR"; null: another service.
+const DeviceService* findDeviceService(std::string_view signature);
+
+// Words among the operands, parted by blanks, and the number that a device gets for the first of them.
+inline constexpr std::string_view kLineCommandWords = "CLEAR RECEIVED STATE"; // of COM_CONTROL
+inline constexpr int64_t kFirstLineCommand = 0;
+inline constexpr std::string_view kSpindleWords = "S"; // of AX_SPI
+inline constexpr int64_t kFirstSpindleWord = 3;
+std::optional<int64_t> deviceWord(std::string_view word);
+
+// An operand that is not given.
+inline constexpr int64_t kNotGiven = INT64_MIN;
+
+// Bytes of the program's memory as one argument: the space's number, how many, and the first.
+constexpr int64_t bytesArgument(uint32_t space, uint32_t count, uint32_t first) {
+  return static_cast<int64_t>(uint64_t{space} << 48 | uint64_t{count} << 32 | first);
+}
+inline constexpr uint32_t kMostArgumentBytes = 0xFFFF;
+struct ArgumentBytes {
+  uint32_t space, count, first;
+};
+constexpr ArgumentBytes bytesOfArgument(int64_t argument) {
+  const auto bits = static_cast<uint64_t>(argument);
+  return {static_cast<uint32_t>(bits >> 48), static_cast<uint32_t>(bits >> 32 & 0xFFFF), static_cast<uint32_t>(bits)};
+}
+
+// The task that runs the procedure of an order of packets: this and the order's argument `proc`.
+inline constexpr std::string_view kPacketTask = "CAN_RECV_REQ.";
+
+// The bytes that the answer to a ticket has brought, 128 of them a part, the first lowest in each word.
+inline constexpr std::string_view kDataService =
+    "@DATA ticket part -> w0 w1 w2 w3 w4 w5 w6 w7 w8 w9 w10 w11 w12 w13 w14 w15";
+inline constexpr uint32_t kDataBytes = RUNG_MAX_SERVICE_ARGS * 8;
+
+} // namespace rung::nc::technol

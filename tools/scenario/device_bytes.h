@@ -1,0 +1,32 @@
+// Bytes and texts that a program and the devices of its control exchange (rtlib/nc/technol/services.h), as scenarios
+// write them: data="0F 00", Val="text", or a number.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rtlib/core/queues.h"
+#include "rtlib/host/instance.h"
+#include "tools/scenario/scenario.h"
+
+namespace rung::scenario {
+
+// Pairs of hexadecimal digits with blanks between them; nothing where it is something else.
+std::optional<std::string> bytesOfHex(std::string_view text);
+std::string hexOf(std::string_view bytes);
+// What a value means as bytes: `isHex` of a text in pairs of digits, else of its characters; of a number its eight
+// bytes, the lowest first.
+std::optional<std::string> bytesOf(const Value& value, bool isHex);
+// Those in the memory of a program that an argument names; of a text up to its terminator.
+std::string bytesAt(const host::Instance& instance, int64_t argument, bool isText);
+// One part of an answer's bytes, for kDataService.
+void putPart(std::string_view bytes, const rt::ServiceRequest& request, rt::ServiceReply& reply);
+
+// A request that a scenario may look at, with the bytes of its arguments as they were when it was made.
+struct Asked {
+  rt::ServiceRequest request;
+  std::vector<std::string> bytes; // by argument; empty: of a request without bytes
+  bool complete = false;          // it has been answered
+};
+
+} // namespace rung::scenario

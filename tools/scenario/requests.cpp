@@ -178,16 +178,19 @@ std::string Requests::reply(Instance& instance, const Statement& s) {
   return {};
 }
 
+// An instruction whose operands may be left out has several signatures of its name.
 std::string Requests::prepare(const Instance& instance, const Statement& s) {
   const rung_program& program = instance.program();
+  std::string problem = fmt::format("this program asks for no service {}", s.name);
   for (uint32_t i = 0; i < program.service_count; ++i) {
     const ServiceSignature signature(host::serviceName(program, i));
     if (!signature.isNamed(s.name)) continue;
-    std::string problem = keyProblem(signature, s.keys, s.results);
-    if (problem.empty()) prepared_.push_back({s.name, s.keys, s.results});
+    problem = keyProblem(signature, s.keys, s.results);
+    if (!problem.empty()) continue;
+    prepared_.push_back({s.name, s.keys, s.results});
     return problem;
   }
-  return fmt::format("this program asks for no service {}", s.name);
+  return problem;
 }
 
 } // namespace rung::scenario

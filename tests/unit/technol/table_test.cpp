@@ -16,8 +16,6 @@ using frontend::InstructionInfo;
 using frontend::OperandInfo;
 using frontend::OperandKindInfo;
 
-bool isBuilt(const Row& row) { return row.role != Role::NotBuilt && row.role != Role::NotBuiltService; }
-
 // ---- the inventory --------------------------------------------------------------------------------------------------
 
 // Fields of one line; quotes may enclose a field.
@@ -84,10 +82,10 @@ TEST(TechnolTable, RowsAreComplete) {
   for (const Row& row : allRows()) {
     const InstructionInfo& info = row.info;
     EXPECT_FALSE(info.title.empty() || info.group.empty() || info.ref.empty() || info.doc.empty()) << info.mnemonic;
-    EXPECT_EQ(isBuilt(row), !info.example.empty()) << info.mnemonic;
+    EXPECT_FALSE(info.example.empty()) << info.mnemonic;
     std::string example(info.example); // `struc` and `ends` are written small
     for (char& c : example) c = static_cast<char>(std::toupper(c));
-    EXPECT_TRUE(example.empty() || example.find(info.mnemonic) != std::string::npos) << info.mnemonic;
+    EXPECT_NE(example.find(info.mnemonic), std::string::npos) << info.mnemonic;
     for (const OperandInfo& operand : info.operands.all()) {
       EXPECT_FALSE(operand.name.empty() || operand.doc.empty()) << info.mnemonic << ' ' << operand.name;
     }
@@ -174,7 +172,6 @@ std::string exampleProgram(const Row& row) {
 
 TEST(TechnolTable, ExamplesCompile) {
   for (const Row& row : allRows()) {
-    if (!isBuilt(row)) continue;
     const Compilation c = compile({exampleProgram(row)});
     if (row.info.mnemonic == "T_INCLUDE") { // its file is not here
       EXPECT_NE(c.text().find("[include-not-found]"), std::string::npos) << c.text();
@@ -184,24 +181,12 @@ TEST(TechnolTable, ExamplesCompile) {
   }
 }
 
-// Where each may stand, in MODULE_INIT. Services are met with their operands below.
-TEST(TechnolTable, InstructionsThatAreNotBuiltSaySo) {
-  for (const Row& row : allRows()) {
-    if (row.role != Role::NotBuilt) continue;
-    const Compilation c = compile({programText(
-        {.data = std::string(kData), .init = frame(std::string(row.info.mnemonic), (row.effects & kWaits) != 0)})});
-    ASSERT_EQ(c.errors().size(), 1u) << row.info.mnemonic << '\n' << c.text();
-    EXPECT_TRUE(c.errors()[0].ends_with(" not-built-yet")) << c.text();
-    EXPECT_NE(c.text().find(row.info.mnemonic), std::string::npos) << c.text();
-  }
-}
-
 // ---- operands -------------------------------------------------------------------------------------------------------
 
 std::vector<const Row*> rowsWithOperands() {
   std::vector<const Row*> rows;
   for (const Row& row : allRows())
-    if (row.role == Role::Code || row.role == Role::NotBuiltService) rows.push_back(&row);
+    if (row.role == Role::Code) rows.push_back(&row);
   return rows;
 }
 
@@ -236,21 +221,15 @@ std::vector<std::string> codesOf(const Compilation& c) {
 
 using Codes = std::vector<std::string>;
 
-// A service that is not built says so beside what is wrong with its operands.
-Codes expected(const Row& row, Codes codes = {}) {
-  if (row.role == Role::NotBuiltService) codes.insert(codes.begin(), "service-not-built");
-  return codes;
-}
-
 // LA, LO and LX without operand need a value on the stack.
 bool popsWithoutOperand(const Row& row) { return (row.effects & kJoins) != 0; }
 
 TEST(TechnolTable, GoodOperandsAreAccepted) {
   for (const Row* row : rowsWithOperands()) {
     const Compilation all = with(*row, goodOperands(*row));
-    EXPECT_EQ(codesOf(all), expected(*row)) << row->info.mnemonic << '\n' << all.text();
+    EXPECT_EQ(codesOf(all), Codes{}) << row->info.mnemonic << '\n' << all.text();
     const Compilation least = with(*row, goodOperands(*row, false));
-    EXPECT_EQ(codesOf(least), expected(*row, popsWithoutOperand(*row) ? Codes{"stack-underflow"} : Codes{}))
+    EXPECT_EQ(codesOf(least), popsWithoutOperand(*row) ? Codes{"stack-underflow"} : Codes{})
         << row->info.mnemonic << '\n'
         << least.text();
   }
@@ -263,7 +242,7 @@ TEST(TechnolTable, BadOperandsGiveTheCodeOfTheirKind) {
       const OperandKindInfo& kind = *row->info.operands[i].kind;
       operands[i] = kind.bad;
       const Compilation c = with(*row, operands);
-      EXPECT_EQ(codesOf(c), expected(*row, {std::string(kind.badCode)}))
+      EXPECT_EQ(codesOf(c), {std::string(kind.badCode)})
           << row->info.mnemonic << ' ' << row->info.operands[i].name << '\n'
           << c.text();
     }
@@ -275,7 +254,7 @@ TEST(TechnolTable, CountsAreChecked) {
     std::vector<std::string> fewer = goodOperands(*row, false), more = goodOperands(*row);
     if (!fewer.empty()) {
       fewer.pop_back();
-      EXPECT_EQ(codesOf(with(*row, fewer)), expected(*row, {"operand-count"})) << row->info.mnemonic;
+      EXPECT_EQ(codesOf(with(*row, fewer)), {"operand-count"}) << row->info.mnemonic;
     }
     const bool repeated = !more.empty() && row->info.operands[more.size() - 1].repeated;
     more.push_back(repeated ? more.back() : "BIT0");

@@ -16,6 +16,7 @@
 #include "tools/sim/technol/configuration.h"
 #include "tools/sim/technol/events.h"
 #include "tools/sim/technol/exchange.h"
+#include "tools/sim/technol/late_answers.h"
 
 namespace rung::sim {
 namespace {
@@ -90,6 +91,10 @@ public:
     const auto constant = [this](std::string_view id) { return configuration_.constant(id); };
     const std::optional<std::string> answer = technol::callEvent(instance, name, keys, constant);
     return answer ? *answer : SimulatedNc::event(instance, name, keys);
+  }
+
+  void answered(host::Instance& instance, const rt::ServiceRequest& request, std::string_view bytes) override {
+    technol::showLateAnswer(instance, request, bytes);
   }
 
   std::string plcCommand(host::Instance& instance, std::string_view command) override {

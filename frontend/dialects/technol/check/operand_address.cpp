@@ -167,6 +167,15 @@ bool OperandParser::addOwnMember(const Token& member, Address& out) {
   return false;
 }
 
+// The parts of a CAN packet are known without a declaration: the manual's examples use them on plain texts of 12 bytes
+// (man. l.3868-3874, l.3892-4046).
+bool OperandParser::addPacketMember(const Token& member, Address& out) {
+  const uint32_t found = program_.symbols.findMember("TCANMSGS", member.text);
+  if (found == kNone) return false;
+  out.byte += program_.symbols[note(member, found)].byte;
+  return true;
+}
+
 // A member of an interface structure brings its type, too; after any other address a member is a constant offset.
 bool OperandParser::addMember(const Token& member, Address& out) {
   if (out.own != kNone && addOwnMember(member, out)) return true;
@@ -182,6 +191,7 @@ bool OperandParser::addMember(const Token& member, Address& out) {
     return true;
   }
   const uint32_t index = note(member, program_.symbols.find(member.text, file_));
+  if (index == kNone && addPacketMember(member, out)) return true;
   if (index == kNone) return program_.symbols.noteUndefined(member, file_, {.structure = out.structure}), false;
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;

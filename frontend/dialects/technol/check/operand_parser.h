@@ -61,6 +61,7 @@ private:
   bool term(std::span<const Token> tokens, int sign, Address& out);
   bool addSymbol(const Token& name, int sign, Address& out);
   bool addMember(const Token& member, Address& out);
+  bool addPacketMember(const Token& member, Address& out);
   bool addOwnMember(const Token& member, Address& out);
   bool setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out);
   bool checkWrite(const OperandInfo& info, Protection protection, std::string_view name, SourceRange range);

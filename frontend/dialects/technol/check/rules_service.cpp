@@ -72,8 +72,11 @@ void checkService(const CheckContext& c, std::span<const Operand> o, int form) {
 // pmsg, the last operand, has 12 bytes (man. l.9497).
 void checkPacket(const CheckContext& c, std::span<const Operand> o, int) { holds(c, o.back(), kPacketBytes); }
 
-// The first operand is a record of two bytes (man. l.12061).
-void checkRecord(const CheckContext& c, std::span<const Operand> o, int) { holds(c, o[0], kRecordBytes); }
+// The first operand is a record of two bytes, the second of which may be another variable (man. l.12061).
+void checkRecord(const CheckContext& c, std::span<const Operand> o, int) {
+  if (o[0].indexed || o[0].place.byte + kRecordBytes <= c.program.bytesOf(o[0].place.space)) return;
+  c.report(Diag::AddressOutOfRange, o[0].range) << spell(o[0]) + "+1" << "the memory";
+}
 
 // ECATCMD_GET_STATE and ECATCMD_GET_SLAVE_STATE give a state (man. l.18231).
 void checkEtherCatCommand(const CheckContext& c, std::span<const Operand> o, int form) {

@@ -274,8 +274,8 @@ inline constexpr Row kServiceRows[] = {
                "`ElemFl` says which element: 40h the value.", "ECAT_SOE_WRITE 0,0,0,A1,36,POS,POS\nEX0"),
     pollingRow("ECAT_COMMAND",
                ofEtherCat({kMaster, kSlave, wordNumber("Cmd", "command, ECATCMD_..."), optional(stored("Val", "answer")),
-                            optional(kLength)},
-                           {checkEtherCatCommand, lowerPolled, DataForm::Bytes}),
+                            optional(out("Len", kinds::kDwordCell, "becomes the length of the answer"))},
+                           {checkEtherCatCommand, lowerPolled, DataForm::Binary}),
                "command to the EtherCAT master", "26.4.3, l.18168",
                "Brings the master or a slave into a state, or reads its state: 1 INIT, 2 PRE-OPERATIONAL, 3 BOOTSTRAP, 4 "
                "SAFE-OPERATIONAL, 8 OPERATIONAL.",

@@ -1,0 +1,117 @@
+// A request to a device of the simulated control, while it is answered, and the bytes of answers that programs fetch
+// afterwards (rtlib/nc/technol/services.h). Nothing here allocates.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "rtlib/core/queues.h"
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/technol/services.h"
+
+namespace rung::sim::technol {
+
+// Bytes of the latest answers, by their tickets.
+class AnswerBytes {
+public:
+  static constexpr uint32_t kMost = nc::technol::kMostArgumentBytes; // of one answer
+
+  AnswerBytes() : bytes_(std::make_unique<std::array<uint8_t, kRoom>>()) {}
+
+  // Room for the bytes of an answer; the oldest answers lose theirs.
+  std::span<uint8_t> make(uint32_t ticket, uint32_t count) {
+    count = std::min(count, kMost);
+    if (kRoom - end_ < count) end_ = 0;
+    Entry& entry = entries_[next_++ % entries_.size()] = {.ticket = ticket, .first = end_, .count = count};
+    end_ += count;
+    return {bytes_->data() + entry.first, count};
+  }
+  // Answers kDataService.
+  void fetch(const rt::ServiceRequest& request, rt::ServiceReply& reply) const {
+    reply.resultCount = RUNG_MAX_SERVICE_ARGS;
+    const auto first = static_cast<uint64_t>(request.args[1]) * nc::technol::kDataBytes;
+    for (const Entry& entry : entries_) {
+      if (entry.ticket != static_cast<uint32_t>(request.args[0]) || first >= entry.count) continue;
+      const uint64_t count = std::min<uint64_t>(entry.count - first, nc::technol::kDataBytes);
+      for (uint64_t i = 0; i < count; ++i)
+        reply.results[i / 8] |= static_cast<int64_t>(uint64_t{(*bytes_)[entry.first + first + i]} << i % 8 * 8);
+      return;
+    }
+  }
+  void clear() { entries_ = {}, end_ = 0; }
+
+private:
+  static constexpr uint32_t kRoom = 1u << 18;
+  struct Entry {
+    uint32_t ticket = 0; // 0: none
+    uint32_t first = 0;
+    uint32_t count = 0;
+  };
+  std::array<Entry, rt::ServiceQueue::kMaxPending> entries_ = {};
+  size_t next_ = 0;
+  uint32_t end_ = 0;
+  std::unique_ptr<std::array<uint8_t, kRoom>> bytes_;
+};
+
+class DeviceCall {
+public:
+  DeviceCall(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply, AnswerBytes& bytes)
+      : instance_(instance), request_(request), reply_(reply), bytes_(bytes) {
+    reply.ticket = request.ticket;
+    reply.state = RUNG_SERVICE_DONE;
+    reply.resultCount = RUNG_MAX_SERVICE_ARGS;
+  }
+
+  host::Instance& instance() const { return instance_; }
+  const rt::ServiceRequest& request() const { return request_; }
+  uint32_t argCount() const { return request_.argCount; }
+  int64_t arg(uint32_t number) const { return request_.args[number]; }
+  int64_t argOr(uint32_t number, int64_t otherwise) const {
+    return arg(number) == nc::technol::kNotGiven ? otherwise : arg(number);
+  }
+  // A number that a device has in 32 bits without a sign; what does not fit is UINT32_MAX.
+  uint32_t number(uint32_t at) const {
+    return arg(at) < 0 || arg(at) > UINT32_MAX ? UINT32_MAX : static_cast<uint32_t>(arg(at));
+  }
+  double real(uint32_t at) const { return std::bit_cast<double>(arg(at)); }
+  // The program's bytes, in `room`, as many as fit.
+  std::span<const uint8_t> bytes(uint32_t at, std::span<uint8_t> room) const {
+    const nc::technol::ArgumentBytes from = nc::technol::bytesOfArgument(arg(at));
+    const auto count = std::min<uint32_t>(from.count, static_cast<uint32_t>(room.size()));
+    const rt::Memory memory = instance_.memory();
+    for (uint32_t i = 0; i < count; ++i) room[i] = memory.readByte(from.space, from.first + i);
+    return room.first(count);
+  }
+  // Up to a terminator.
+  std::string_view text(uint32_t at, std::span<uint8_t> room) const {
+    const std::span<const uint8_t> all = bytes(at, room);
+    const auto end = std::ranges::find(all, 0);
+    return {reinterpret_cast<const char*>(all.data()), static_cast<size_t>(end - all.begin())};
+  }
+
+  void set(uint32_t result, int64_t value) { reply_.results[result] = value; }
+  void setReal(uint32_t result, double value) { set(result, std::bit_cast<int64_t>(value)); }
+  // Room for bytes of the answer, whose number becomes the result.
+  std::span<uint8_t> makeBytes(uint32_t result, uint32_t count) {
+    const std::span<uint8_t> made = bytes_.make(request_.ticket, count);
+    set(result, static_cast<int64_t>(made.size()));
+    return made;
+  }
+  void setBytes(uint32_t result, std::span<const uint8_t> bytes) {
+    std::ranges::copy(bytes.first(std::min<size_t>(bytes.size(), AnswerBytes::kMost)),
+                      makeBytes(result, static_cast<uint32_t>(bytes.size())).begin());
+  }
+  // The answer comes later, by the instance's queue.
+  void wait() { reply_.state = RUNG_SERVICE_PENDING; }
+
+private:
+  host::Instance& instance_;
+  const rt::ServiceRequest& request_;
+  rt::ServiceReply& reply_;
+  AnswerBytes& bytes_;
+};
+
+} // namespace rung::sim::technol

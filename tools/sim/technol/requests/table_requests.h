@@ -1,0 +1,36 @@
+// PLCT_* and SA_*: PLC tables and shared areas of the simulated control (man. ch. 17, 18.3).
+#pragma once
+#include <string_view>
+
+#include "tools/devices/plc_tables.h"
+#include "tools/devices/shared_areas.h"
+#include "tools/sim/technol/requests/device_call.h"
+
+namespace rung::sim::technol {
+
+// What a request asks for; None: no such service.
+enum class TableOrder : uint8_t {
+  None,
+  GetInt,
+  GetReal,
+  GetText,
+  GetBinary,
+  SetInt,
+  SetReal,
+  SetText,
+  SetBinary,
+  ColumnIndex,
+  ColumnId,
+  ColumnType,
+  SelectedLine,
+  Select,
+  Changed,
+  LineCount,
+};
+TableOrder tableOrder(std::string_view service);
+void answerTable(devices::PlcTables& tables, TableOrder order, DeviceCall& call);
+
+void readShared(devices::SharedAreas& areas, DeviceCall& call);
+void writeShared(devices::SharedAreas& areas, DeviceCall& call);
+
+} // namespace rung::sim::technol

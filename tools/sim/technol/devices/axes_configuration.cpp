@@ -1,0 +1,64 @@
+// Configuration of the axes (see axes.h).
+#include <algorithm>
+#include <array>
+
+#include "rtlib/text/number.h"
+#include "tools/sim/technol/devices/axes.h"
+
+namespace rung::sim::technol {
+namespace {
+
+// "" or what is wrong with the letters of axes.
+std::string problemOf(std::string_view letters) {
+  if (letters.empty() || letters.size() > kMaxAxes) return "'axes' needs 1 to 16 letters";
+  for (size_t i = 0; i < letters.size(); ++i) {
+    if (letters[i] < 'A' || letters[i] > 'Z')
+      return "'axes' needs capital letters; found '" + std::string(letters) + "'";
+    if (letters.find(letters[i], i + 1) != std::string_view::npos)
+      return "'axes' has the letter '" + std::string(1, letters[i]) + "' twice";
+  }
+  return {};
+}
+
+std::string_view takeWord(std::string_view& text) {
+  const size_t begin = std::min(text.find_first_not_of(' '), text.size());
+  const size_t end = std::min(text.find(' ', begin), text.size());
+  const std::string_view word = text.substr(begin, end - begin);
+  text.remove_prefix(end);
+  return word;
+}
+
+} // namespace
+
+std::string Axes::configure(std::string_view key, std::string_view value) {
+  if (key == "axes") {
+    std::string problem = problemOf(value);
+    if (problem.empty()) letters_ = value;
+    return problem;
+  }
+  std::string_view rest = key;
+  if (!rest.starts_with("axis.")) return "the axes have no key '" + std::string(key) + "'";
+  rest.remove_prefix(5);
+  const auto number = text::takeNumber<uint32_t>(rest);
+  if (!number || *number < 1 || *number > kMaxAxes || !rest.starts_with('.'))
+    return "'" + std::string(key) + "' needs an axis from 1 to 16: axis.1.Feed";
+  return axes_[*number - 1].attributes.set(rest.substr(1), value);
+}
+
+std::string Axes::addSwitch(uint64_t bit, std::string_view value) {
+  std::string_view rest = value;
+  const auto axis = text::numberIn<uint32_t>(takeWord(rest));
+  const auto low = text::realIn(takeWord(rest));
+  const auto high = text::realIn(takeWord(rest));
+  if (!axis || *axis < 1 || *axis > kMaxAxes || !low || !high || *low > *high || !takeWord(rest).empty())
+    return "a switch needs an axis and two places, the lower first: '1 -1000 -5'; found '" + std::string(value) + "'";
+  switches_.push_back({.bit = bit, .axis = *axis, .low = *low, .high = *high});
+  return {};
+}
+
+bool Axes::isClosed(const Switch& contact) const {
+  const double place = axes_[contact.axis - 1].physical();
+  return place >= contact.low && place <= contact.high;
+}
+
+} // namespace rung::sim::technol

@@ -16,7 +16,7 @@ namespace rung::devices {
 
 class SocketCan final : public CanPort {
 public:
-  static constexpr uint32_t kToBus = 32, kFromBus = 256;
+  static constexpr uint32_t kToBus = 128, kFromBus = 256;
 
   // Since the beginning.
   struct Counts {

@@ -1,0 +1,27 @@
+// What a logical channel is connected to: a simulated bus or an interface of the machine.
+#pragma once
+#include "tools/devices/can/channel.h"
+
+namespace rung::devices {
+
+// Called by the scan's thread: nothing waits.
+class CanPort {
+public:
+  virtual ~CanPort() = default;
+  virtual BusState state() const = 0;
+  // False: there is no room, or the bus takes nothing.
+  virtual bool transmit(const CanPacket& packet) = 0;
+  // The oldest packet that has come; false: none.
+  virtual bool receive(CanPacket& packet) = 0;
+};
+
+// Before each scan: the channel learns how the bus is, and its packets go out. Then whoever calls procedures takes
+// packets from the port one by one and delivers them.
+inline void exchange(CanChannel& channel, CanPort& port) {
+  channel.setState(port.state());
+  CanPacket packet;
+  while (port.state() == BusState::Active && channel.peekToSend(packet) && port.transmit(packet))
+    channel.takeToSend(packet);
+}
+
+} // namespace rung::devices

@@ -1,0 +1,78 @@
+// The control's side of one unit on the CAN bus: its structure INOUTS, its errors and time-outs, and what is asked of
+// it by SDO (man. l.3502-3678, l.4074-4263). All units together are CanUnits (units.h).
+#pragma once
+#include "tools/devices/can/inouts.h"
+#include "tools/devices/can/port.h"
+#include "tools/devices/can/sdo.h"
+
+namespace rung::devices {
+
+// Groups are 1 INOUT08, 2 KLA50 and EPU, 3 handwheel (man. l.3287-3291).
+inline constexpr uint32_t kUnitGroups = 3, kInOut08 = 1, kPanel = 2, kHandwheel = 3;
+inline constexpr uint32_t kMostUnits[kUnitGroups] = {32, 4, 2};
+inline constexpr uint32_t kFirstNode[kUnitGroups] = {0x21, 0x41, 0x45}; // of board 1
+inline constexpr uint32_t kUnitOutputs = 3, kUnitInputs = 4;            // ports OP0 to OP2, IP0 to IP3
+// The manual does not say how long a unit may be silent (l.3534).
+inline constexpr uint32_t kUnitTimeoutMs = 100;
+
+class CanUnit {
+public:
+  // `board` from 1.
+  CanUnit(uint32_t group, uint32_t board, uint8_t control = 0);
+
+  uint32_t group() const { return group_; }
+  uint32_t board() const { return board_; }
+  uint8_t node() const { return static_cast<uint8_t>(kFirstNode[group_ - 1] + board_ - 1); }
+  // CONTROL after a power-on.
+  void setControl(uint8_t control) { control_ = control; }
+
+  void power() { *this = CanUnit(group_, board_, control_); }
+  // A millisecond: time-out, errors, mode, requests.
+  void tick(CanPort& port);
+  // The outputs of a port as the program wants them; `errors` are the bits of ERRLI_PxOUT, which are set here for new
+  // shorts, and which keep the output at 0. `zeroed`: all outputs are 0.
+  void output(uint32_t port, uint8_t wanted, uint8_t& errors, bool zeroed);
+  // RPDO1, as it is sent with each SYNC.
+  CanPacket outputPacket(const std::array<uint8_t, 8>& display);
+
+  // A packet of the unit has come. True: the control alone was meant.
+  bool take(const CanPacket& packet);
+
+  const Inouts& data() const { return data_; }
+  // CAN_SYSIO_WRITE (man. l.4333).
+  void write(InoutsItem item, uint32_t value) { data_.set(item, value); }
+  bool hasTimedOut() const { return timedOut_; }
+  // A serious error lasts, and CONTROL does not say that it is this unit's affair alone (man. l.3541, l.3674).
+  bool zeroesAll() const { return (data_.get(inouts::kErrorStatus) & kZeroAll) != 0; }
+
+private:
+  void watch(CanPort& port);
+  void showErrors();
+  void followMode();
+  void showInputs();
+  void askNext(CanPort& port);
+  void sendRequested(CanPort& port);
+  void takeInputs(const CanPacket& packet);
+  bool takeAnswer(const CanPacket& packet);
+  void finish(const CanPacket& answer);
+  bool isPending(uint32_t requests) const;
+  bool controls(uint8_t bit) const { return (data_.get(inouts::kControl) & bit) != 0; }
+
+  uint32_t group_, board_;
+  uint8_t control_ = 0;
+  Inouts data_;
+  std::array<uint8_t, 8> analogue_{};          // as they came; programs see them in the analogue mode
+  std::array<uint8_t, 4> keys_{};              // and these in the matrix mode
+  std::array<uint8_t, kUnitOutputs> shorts_{}; // that ERRLI_PxOUT knows
+  std::array<uint8_t, kUnitOutputs> sent_{};   // outputs
+  uint8_t registered_ = 0;                     // error register 1001h as the unit reported it
+  uint8_t mode_ = 0;                           // to which the unit is brought
+  uint32_t silentMs_ = 0;
+  bool timedOut_ = false;
+  uint32_t waiting_ = 0;  // requests by SDO, a bit a row of their table
+  uint32_t underWay_ = 0; // the bit of the one that was sent
+  uint32_t askedMs_ = 0;
+  enum class Segment : uint8_t { None, Due, Asked } segment_ = Segment::None; // of a text that is longer than 4 bytes
+};
+
+} // namespace rung::devices

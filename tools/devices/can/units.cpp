@@ -1,0 +1,110 @@
+// All units of the control (see units.h).
+#include "tools/devices/can/units.h"
+
+namespace rung::devices {
+namespace {
+
+constexpr uint8_t kStart = 1, kAllNodes = 0; // network management of CiA 301
+
+bool isItem(InoutsItem item) {
+  const bool width = item.bytes == 1 || item.bytes == 2 || item.bytes == 4;
+  return width && item.offset < inouts::kBytes && item.offset + item.bytes <= inouts::kBytes;
+}
+
+} // namespace
+
+void CanUnits::configure(uint32_t group, uint32_t units) {
+  std::erase_if(units_, [&](const CanUnit& unit) { return unit.group() == group; });
+  const auto after =
+      std::find_if(units_.begin(), units_.end(), [&](const CanUnit& unit) { return unit.group() > group; });
+  const auto place = units_.insert(after, units, CanUnit(group, 1));
+  for (uint32_t i = 0; i < units; ++i) place[i] = CanUnit(group, i + 1);
+}
+
+void CanUnits::setControl(uint32_t group, uint32_t board, uint8_t control) {
+  for (CanUnit& unit : units_)
+    if (unit.group() == group && unit.board() == board) unit.setControl(control);
+}
+
+uint32_t CanUnits::count(uint32_t group) const {
+  return static_cast<uint32_t>(
+      std::count_if(units_.begin(), units_.end(), [&](const CanUnit& unit) { return unit.group() == group; }));
+}
+
+void CanUnits::reset() {
+  for (CanUnit& unit : units_) unit.power();
+  display_ = {};
+  sinceSync_ = 0;
+  started_ = false;
+}
+
+void CanUnits::tick(const UnitOrders& orders, UnitStates& states, CanPort& port) {
+  if (units_.empty()) return;
+  if (!started_) started_ = port.transmit(packetOf(kNodeControl, {kStart, kAllNodes}));
+  for (CanUnit& unit : units_) unit.tick(port);
+  output(orders, states);
+  if (++sinceSync_ >= syncPeriod_) synchronize(orders, port);
+  states.groups = {};
+  for (const CanUnit& unit : units_) show(unit, states);
+}
+
+void CanUnits::output(const UnitOrders& orders, UnitStates& states) {
+  states.zeroed = std::any_of(units_.begin(), units_.end(), [](const CanUnit& unit) { return unit.zeroesAll(); });
+  for (CanUnit& unit : units_) {
+    if (unit.group() != kInOut08) continue;
+    const uint32_t first = kUnitOutputs * (unit.board() - 1);
+    for (uint32_t i = 0; i < kUnitOutputs; ++i)
+      unit.output(i, orders.out[first + i], states.errors[first + i], states.zeroed);
+  }
+}
+
+// The packets of outputs come before SYNC, on which the units take them over and answer with their inputs.
+void CanUnits::synchronize(const UnitOrders& orders, CanPort& port) {
+  sinceSync_ = 0;
+  for (uint32_t i = 0; i < kHandwheels; ++i)
+    if (!orders.displayBusy[i]) display_[i] = orders.display[i];
+  for (CanUnit& unit : units_) port.transmit(unit.outputPacket(display_[(unit.board() - 1) % kHandwheels]));
+  port.transmit(packetOf(kSync, {}));
+}
+
+void CanUnits::show(const CanUnit& unit, UnitStates& states) {
+  const Inouts& data = unit.data();
+  const uint32_t number = unit.board() - 1;
+  if (unit.group() == kInOut08) std::copy_n(&data.at(inouts::kIn), kUnitInputs, &states.in[kUnitInputs * number]);
+  if (unit.group() == kHandwheel) std::copy_n(&data.at(inouts::kIn), 2, states.keys[number].begin());
+  GroupCodes& codes = states.groups[unit.group() - 1];
+  const auto error = static_cast<uint8_t>(data.get(inouts::kError));
+  const auto board = static_cast<uint8_t>(unit.board());
+  if (error != 0 && codes.errorNumber == 0) codes.errorCode = error, codes.errorNumber = board;
+  if (unit.hasTimedOut() && codes.timeoutNumber == 0) codes.timeoutCode = 1, codes.timeoutNumber = board;
+}
+
+bool CanUnits::take(const CanPacket& packet) {
+  for (CanUnit& unit : units_)
+    if (unit.node() == packet.node()) return unit.take(packet);
+  return false;
+}
+
+const Inouts* CanUnits::find(uint32_t group, uint32_t board) const {
+  for (const CanUnit& unit : units_)
+    if (unit.group() == group && unit.board() == board) return &unit.data();
+  return nullptr;
+}
+
+bool CanUnits::read(uint32_t group, uint32_t board, InoutsItem item, uint32_t& value) const {
+  const Inouts* data = find(group, board);
+  if (data == nullptr || !isItem(item)) return false;
+  value = data->get(item);
+  return true;
+}
+
+bool CanUnits::write(uint32_t group, uint32_t board, InoutsItem item, uint32_t value) {
+  for (CanUnit& unit : units_) {
+    if (unit.group() != group || unit.board() != board || !isItem(item)) continue;
+    unit.write(item, value);
+    return true;
+  }
+  return false;
+}
+
+} // namespace rung::devices

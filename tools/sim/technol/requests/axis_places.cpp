@@ -1,0 +1,188 @@
+// Cells of the axes (see axis_places.h).
+#include "tools/sim/technol/requests/axis_places.h"
+
+#include <iterator>
+
+#include "rtlib/nc/control/technol/cells.h"
+
+namespace rung::sim::technol {
+namespace {
+
+template <class Struct, class Member>
+struct Cell {
+  const char* name;
+  Member Struct::* member;
+};
+
+// Bits of each axis.
+constexpr Cell<AxisInputs, AxisMask> kInputMasks[] = {
+    {"MP#PI", &AxisInputs::enabled},        {"MP#MAN", &AxisInputs::manualEnabled}, {"KH#0", &AxisInputs::limitPlus},
+    {"KH#1", &AxisInputs::limitMinus},      {"KR#", &AxisInputs::refSwitch},        {"KRR#", &AxisInputs::reverseSwitch},
+    {"ZPR#", &AxisInputs::slowSwitch},      {"EXM_#0", &AxisInputs::externalPlus},  {"EXM_#1", &AxisInputs::externalMinus}};
+constexpr Cell<AxisOutputs, AxisMask> kOutputMasks[] = {{"MM_#0", &AxisOutputs::manualPlus},
+                                                        {"MM_#1", &AxisOutputs::manualMinus}};
+constexpr Cell<AxisInputs, bool> kInputFlags[] = {{"PO_F", &AxisInputs::block},
+                                                  {"STOPPI", &AxisInputs::stopPi},
+                                                  {"FEED_OVR", &AxisInputs::feedOvr},
+                                                  {"EN_AUTMAN", &AxisInputs::autmanAllowed},
+                                                  {"AUTMAN_REQ", &AxisInputs::autmanReq},
+                                                  {"REQ_EXT_CONT_AUTMAN", &AxisInputs::externalControl},
+                                                  {"REQ_EXT_SELECT_AUTMAN", &AxisInputs::externalSelect},
+                                                  {"REQ_EXT_G00_AUTMAN", &AxisInputs::externalRapid},
+                                                  {"REQ_EXT_FEED_AUTMAN", &AxisInputs::externalFeed},
+                                                  {"REQ_EXT_FEED_G00_AUTMAN", &AxisInputs::externalRapidFeed},
+                                                  {"G95_AUTMAN", &AxisInputs::perRevolution},
+                                                  {"AUTMAN_WHEEL_DIS", &AxisInputs::noWheelSelect},
+                                                  {"AUTMAN_KNOB_TOGGLE", &AxisInputs::selectToggles}};
+constexpr Cell<AxisRequests, bool> kRequestFlags[] = {{"HOMING_SINGLE", &AxisRequests::homingSingle},
+                                                      {"HOMING_PLC", &AxisRequests::homingPlc},
+                                                      {"HOMING_GROUP", &AxisRequests::homingGroup},
+                                                      {"STOP_REQ", &AxisRequests::stopReq},
+                                                      {"STOP_EMERGENCY_REQ", &AxisRequests::stopEmergencyReq},
+                                                      {"AUTMAN_SELECT", &AxisRequests::autmanSelect},
+                                                      {"AUTMAN_CANCEL", &AxisRequests::autmanCancel},
+                                                      {"REQ_ESHIFT", &AxisRequests::shiftSelected},
+                                                      {"ACT_ESHIFT", &AxisRequests::shiftActive}};
+// Words with a bit of each axis.
+constexpr Cell<AxisRequests, AxisMask> kRequestMasks[] = {
+    {"HOMING", &AxisRequests::homing},         {"HOMING_REQ", &AxisRequests::homingReq},
+    {"HOMING_START_REQ", &AxisRequests::homingStartReq}, {"PB_HOMING_AXIS", &AxisRequests::homingAxes},
+    {"NlcAxisEnable", &AxisRequests::nonlinearEnable},   {"SLS_REFER", &AxisRequests::softLimits}};
+constexpr Cell<AxisOutputs, bool> kOutputFlags[] = {{"INPOS", &AxisOutputs::inPosition},
+                                                    {"REFPI", &AxisOutputs::reference},
+                                                    {"ACK_AUTMAN", &AxisOutputs::manual},
+                                                    {"INPOS_STOP", &AxisOutputs::atStop},
+                                                    {"AUTMAN_CONT_NC", &AxisOutputs::panelControl},
+                                                    {"AUTMAN_CONT_TOC", &AxisOutputs::wheelControl},
+                                                    {"AUTMAN_CONT_SELECT", &AxisOutputs::selecting},
+                                                    {"AUTMAN_CONT_G00", &AxisOutputs::rapid}};
+
+std::optional<host::Ref> refOf(const rung_program& program, std::string_view name) {
+  return nc::technol::signalPlace(program, name);
+}
+rt::Place placeIn(const rung_program& program, std::string_view name) {
+  return host::locate({program, nullptr}, refOf(program, name).value_or(host::Ref{}));
+}
+
+template <size_t Count>
+std::array<rt::Place, Count> elements(const rung_program& program, std::string_view name) {
+  std::array<rt::Place, Count> places;
+  const auto array = refOf(program, name);
+  for (uint32_t i = 0; array && i < Count; ++i)
+    if (const auto one = host::element(*array, i)) places[i] = host::locate({program, nullptr}, *one);
+  return places;
+}
+
+std::array<rt::Place, kMaxAxes> bitsOf(const rung_program& program, std::string_view pattern) {
+  std::array<rt::Place, kMaxAxes> places;
+  for (uint32_t axis = 1; axis <= kMaxAxes; ++axis) places[axis - 1] = placeIn(program, nameOfAxis(pattern, axis));
+  return places;
+}
+
+} // namespace
+
+std::string nameOfAxis(std::string_view pattern, uint32_t axis) {
+  constexpr const char* kLetters[] = {"X", "Y", "Z"};
+  const size_t at = pattern.find('#');
+  return std::string(pattern.substr(0, at)) + (axis <= 3 ? kLetters[axis - 1] : std::to_string(axis)) +
+         std::string(pattern.substr(at + 1));
+}
+
+AxisPlaces::AxisPlaces(const rung_program& program) {
+  const auto names = [&](auto& places, const auto& cells) {
+    for (const auto& cell : cells) places.push_back(placeIn(program, cell.name));
+  };
+  for (const auto& cell : kInputMasks) inputMasks_.push_back(bitsOf(program, cell.name));
+  for (const auto& cell : kOutputMasks) outputMasks_.push_back(bitsOf(program, cell.name));
+  names(inputFlags_, kInputFlags);
+  names(outputFlags_, kOutputFlags);
+  names(requestFlags_, kRequestFlags);
+  names(requestMasks_, kRequestMasks);
+  loop_ = bitsOf(program, "VAZBA_#");
+  positioning_ = bitsOf(program, "POLOHV_#");
+  motion_ = bitsOf(program, "PO_OS#PI");
+  direction_ = bitsOf(program, "SM_PO#PI");
+  // BZH09 and BZH10 are one word (man. l.6530).
+  if (const auto word = refOf(program, "BZH09"))
+    feedOverride_ = host::locate({program, nullptr}, host::intRef(word->space, word->byte, 16));
+  feedMultiplier_ = placeIn(program, "FEED_OVR_MULTIPLIER");
+  feed_ = placeIn(program, "EXT_FEED_AUTMAN");
+  rapidFeed_ = placeIn(program, "EXT_FEED_G00_AUTMAN");
+  shiftEnable_ = placeIn(program, "SHIFT_ENABLE");
+  shiftControl_ = placeIn(program, "SHIFT_CONTROL");
+  knobStep_ = placeIn(program, "KNOB_STEP");
+  refpointDist_ = elements<kMaxAxes>(program, "REFPOINT_DIST");
+  servoPosition_ = elements<kMaxAxes>(program, "SERVO_POSITION");
+  positionEx_ = elements<kMaxAxes>(program, "B_POL_EX");
+  positionShort_ = elements<6>(program, "B_POL");
+  shift_ = elements<6>(program, "SHIFT_x");
+  output_ = elements<kMaxAxes>(program, "SU_OUT_PLC");
+  for (uint32_t i = 0; i < kMaxAxes; ++i) knobSelected_[i] = placeIn(program, "KnobSelAx" + std::to_string(i));
+  for (uint32_t space = 1; space <= positionOfSpaces_.size(); ++space)
+    positionOfSpaces_[space - 1] = elements<kMaxAxes>(program, "POSITION_POS" + std::to_string(space) + "_EX");
+}
+
+AxisMask AxisPlaces::maskOf(const rt::Memory& memory, const Bits& bits) {
+  AxisMask mask = 0;
+  for (uint32_t i = 0; i < kMaxAxes; ++i)
+    if (memory.read(bits[i]) != 0) setBit(mask, i);
+  return mask;
+}
+
+void AxisPlaces::putMask(const rt::Memory& memory, const Bits& bits, uint32_t count, AxisMask mask) {
+  for (uint32_t i = 0; i < count; ++i) memory.write(bits[i], has(mask, i) ? 1 : 0);
+}
+
+void AxisPlaces::read(const rt::Memory& memory, AxisMask motion, AxisInputs& in, AxisRequests& requests) const {
+  for (size_t i = 0; i < inputMasks_.size(); ++i) in.*kInputMasks[i].member = maskOf(memory, inputMasks_[i]);
+  for (size_t i = 0; i < inputFlags_.size(); ++i) in.*kInputFlags[i].member = memory.read(inputFlags_[i]) != 0;
+  in.blockMotion = static_cast<AxisMask>(maskOf(memory, motion_) & ~motion);
+  in.feedOverride = static_cast<uint16_t>(memory.read(feedOverride_));
+  in.feedMultiplier = static_cast<uint16_t>(memory.read(feedMultiplier_));
+  in.feed = static_cast<uint16_t>(memory.read(feed_));
+  in.rapidFeed = static_cast<uint16_t>(memory.read(rapidFeed_));
+  in.shiftEnable = static_cast<uint8_t>(memory.read(shiftEnable_));
+  for (uint32_t i = 0; i < kMaxAxes; ++i) {
+    in.refpointDist[i] = memory.readSigned(refpointDist_[i]);
+    in.servoPosition[i] = static_cast<int32_t>(memory.readSigned(servoPosition_[i]));
+  }
+  requests.positioning = maskOf(memory, positioning_);
+  for (size_t i = 0; i < requestMasks_.size(); ++i)
+    requests.*kRequestMasks[i].member = static_cast<AxisMask>(memory.read(requestMasks_[i]));
+  for (size_t i = 0; i < requestFlags_.size(); ++i)
+    requests.*kRequestFlags[i].member = memory.read(requestFlags_[i]) != 0;
+  requests.knobStep = static_cast<uint16_t>(memory.read(knobStep_));
+}
+
+void AxisPlaces::write(const rt::Memory& memory, uint32_t count, AxisMask blockMotion, const AxisRequests& requests,
+                       const AxisOutputs& out) const {
+  for (size_t i = 0; i < outputMasks_.size(); ++i)
+    putMask(memory, outputMasks_[i], count, out.*kOutputMasks[i].member);
+  for (size_t i = 0; i < outputFlags_.size(); ++i) memory.write(outputFlags_[i], out.*kOutputFlags[i].member ? 1 : 0);
+  putMask(memory, motion_, count, static_cast<AxisMask>(out.motion | blockMotion));
+  putMask(memory, direction_, count, out.negative);
+  putMask(memory, positioning_, kMaxAxes, requests.positioning);
+  for (size_t i = 0; i < requestMasks_.size(); ++i)
+    memory.write(requestMasks_[i], requests.*kRequestMasks[i].member);
+  for (size_t i = 0; i < requestFlags_.size(); ++i)
+    memory.write(requestFlags_[i], requests.*kRequestFlags[i].member ? 1 : 0);
+  memory.write(shiftControl_, out.shiftControl);
+  for (uint32_t i = 0; i < shift_.size(); ++i) memory.write(shift_[i], static_cast<uint64_t>(out.shift[i]));
+  for (uint32_t i = 0; i < positionShort_.size() && i < count; ++i)
+    memory.write(positionShort_[i], static_cast<uint64_t>(out.positionShort[i]));
+  for (uint32_t i = 0; i < count; ++i) {
+    memory.write(positionEx_[i], static_cast<uint64_t>(out.positionEx[i]));
+    memory.write(knobSelected_[i], out.knobSelected[i]);
+    for (const auto& places : positionOfSpaces_) memory.write(places[i], static_cast<uint64_t>(out.positionEx[i]));
+  }
+}
+
+void AxisPlaces::writeMotion(const rt::Memory& memory, uint32_t axis, bool moves) const {
+  memory.write(motion_[axis - 1], moves ? 1 : 0);
+}
+
+void AxisPlaces::zeroOutputs(const rt::Memory& memory) const {
+  for (const rt::Place& place : output_) memory.write(place, 0);
+}
+
+} // namespace rung::sim::technol

@@ -1,0 +1,35 @@
+// Instructions of spindles, servos and positioning units, answered by the axes of the simulated control (man. ch. 12,
+// 13.1, 19).
+#pragma once
+#include <string_view>
+
+#include "tools/sim/technol/devices/axes.h"
+#include "tools/sim/technol/requests/axis_places.h"
+#include "tools/sim/technol/requests/device_call.h"
+
+namespace rung::sim::technol {
+
+// What a request asks for; None: no such service.
+enum class AxisOrder : uint8_t {
+  None,
+  AnalogPort,
+  Analog,
+  AnalogSpindle,
+  ToSpindle,
+  MainSpindle,
+  ToAxis,
+  RegulatorX, // and those of the five next axes
+  RegulatorY,
+  RegulatorZ,
+  Regulator4,
+  Regulator5,
+  Regulator6,
+  PositionInit,
+  PositionReset,
+  PositionMode,
+  PositionControl,
+};
+AxisOrder axisOrder(std::string_view service);
+void answerAxis(Axes& axes, const AxisPlaces& places, AxisOrder order, DeviceCall& call);
+
+} // namespace rung::sim::technol

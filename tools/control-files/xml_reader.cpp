@@ -209,7 +209,7 @@ void Attributes::finish() {
   for (const Given& given : given_)
     if (!given.taken)
       reader_.complain("<" + reader_.open_.back().name + "> has no attribute " + inQuotes(given.name) + "; expected " +
-                       listed(asked_));
+                       (asked_.empty() ? "none" : listed(asked_)));
 }
 
 std::optional<std::string_view> Attributes::find(std::string_view name) {

@@ -51,8 +51,10 @@ MODULES = {
 OURS = ("tools/", "frontend/", "codegen/", "ir/", "rtlib/")
 HOSTS = ("tools/rung-hal", "tools/rung-run", "tools/connections", "tools/remote", "tools/sources", "tools/plc", "tools/mapping", "tools/services")
 IN_A_HOST_TOO = ("tools/rung-hal/", "tools/rung-run/", "tools/connections/", "tools/command-line/", "tools/remote/",
-                 "tools/sources/", "tools/plc/", "tools/mapping/", "tools/control-files/", "tools/services/", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
+                 "tools/sources/", "tools/plc/", "tools/mapping/", "tools/control-files/", "tools/devices/", "tools/services/", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
                  "rtlib/text/", "ir/support/similar.h")  # the last: spelling suggestions
+# Devices know neither a program's memory nor a machine: numbers and structs go in and out.
+DEVICES = ("tools/devices/", "tools/control-files/", "rtlib/text/", "rtlib/nc/", "rtlib/host/file.h", "rtlib/host/disk_file.h")
 TABLES = ("rtlib/nc/gsk/", "rtlib/nc/nct/", "rtlib/nc/technol/")  # of the dialects, for tools/services
 FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them
 
@@ -129,6 +131,16 @@ def check_hosts(root):
     return found
 
 
+def check_devices(root):
+    found = []
+    for file in sorted((root / "tools/devices").rglob("*")):
+        if file.suffix in SUFFIXES:
+            for match in INCLUDE.finditer(file.read_text(encoding="utf-8")):
+                if match.group(1).startswith(OURS) and not match.group(1).startswith(DEVICES):
+                    found.append(f"{file.relative_to(root).as_posix()}: may not include {match.group(1)}")
+    return found
+
+
 def check_dialect_names(root):
     """Code, comments and file names of rtlib outside rtlib/nc."""
     found = []
@@ -157,7 +169,7 @@ def check_lowerings(root):
 
 
 def check(root):
-    found = check_hosts(root) + check_dialect_names(root) + check_lowerings(root)
+    found = check_hosts(root) + check_devices(root) + check_dialect_names(root) + check_lowerings(root)
     for top in ("frontend", "ir", "codegen", "rtlib"):
         for file in sorted((root / top).rglob("*")):
             if file.suffix not in SUFFIXES:

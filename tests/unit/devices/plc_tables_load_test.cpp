@@ -1,0 +1,130 @@
+// PLC tables from the contents of their files and back.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/devices/materials.h"
+#include "tools/devices/plc_tables.h"
+
+namespace rung::devices {
+namespace {
+
+using test::dataOf;
+using test::definitionOf;
+using testing::HasSubstr;
+
+std::string lines(std::string_view count, std::string_view lines) {
+  return "<PLCTable>\n<Definition><DefinitionID>Materials</DefinitionID><LinesCount>" + std::string(count) +
+         "</LinesCount></Definition>\n" + std::string(lines) + "</PLCTable>";
+}
+
+std::string mistakes(std::string_view elements) {
+  PlcTables tables;
+  std::string found = tables.load(0, definitionOf(test::kMaterials),
+                                  dataOf(lines("1", "<Line No='0'>" + std::string(elements) + "</Line>")));
+  EXPECT_EQ(tables.exists(0), found.empty());
+  return found;
+}
+
+std::string column(std::string_view id, std::string_view value) {
+  return "<Col ColID='" + std::string(id) + "'>" + std::string(value) + "</Col>";
+}
+
+TEST(PlcTablesLoad, WrongElements) {
+  EXPECT_EQ(mistakes(column("Speed", "1")), "t:3:14: the definition 'Materials' has no column 'Speed'");
+  EXPECT_EQ(mistakes(column("feed", "1")), "t:3:14: the definition 'Materials' has no column 'feed'");
+  EXPECT_EQ(mistakes(column("Feed", "1,5")), "t:3:14: column 'Feed' is '1,5', expected a number");
+  EXPECT_EQ(mistakes(column("Feed", "inf")), "t:3:14: column 'Feed' is 'inf', expected a number");
+  EXPECT_EQ(mistakes(column("Feed", "1e999")), "t:3:14: column 'Feed' is '1e999', expected a number");
+  EXPECT_EQ(mistakes(column("Count", "1.0")),
+            "t:3:14: column 'Count' is '1.0', expected an integer of -2147483648 to 4294967295");
+  EXPECT_THAT(mistakes(column("Count", "99999999999999999999")), HasSubstr("expected an integer"));
+  EXPECT_EQ(mistakes(column("Key", "012")), "t:3:14: column 'Key' is '012', expected pairs of hexadecimal digits");
+  EXPECT_EQ(mistakes(column("Key", "zz")), "t:3:14: column 'Key' is 'zz', expected pairs of hexadecimal digits");
+  EXPECT_EQ(mistakes(column("Název", "Ω")), "t:3:14: column 'Název' is 'Ω', expected characters of Windows-1250");
+  EXPECT_EQ(mistakes(column("Název", std::string(255, 'a'))), "");
+  EXPECT_EQ(mistakes(column("Název", std::string(256, 'a'))),
+            "t:3:14: column 'Název' has 256 characters, expected at most 255");
+  EXPECT_EQ(mistakes(column("Feed", "x") + "\n" + column("Count", "y")),
+            "t:3:14: column 'Feed' is 'x', expected a number\n"
+            "t:4:1: column 'Count' is 'y', expected an integer of -2147483648 to 4294967295");
+}
+
+TEST(PlcTablesLoad, ManyMistakesAreCounted) {
+  std::string many;
+  for (int i = 0; i < 150; ++i) many += column("C" + std::to_string(i), "1");
+  EXPECT_THAT(mistakes(many), HasSubstr("\nand 50 more mistakes"));
+}
+
+TEST(PlcTablesLoad, WrongColumns) {
+  const auto mistakesOf = [](std::string_view id) {
+    TableDefinition definition{.id = "D", .columns = {{.id = std::string(id), .place = "d:3:1"}}, .place = "d:1:1"};
+    return PlcTables().load(0, definition, {.definition = "D", .place = "t:2:1"});
+  };
+  EXPECT_EQ(mistakesOf("Feed"), "");
+  EXPECT_EQ(mistakesOf("Ω"), "d:3:1: the column ID 'Ω' has characters that Windows-1250 does not have");
+  EXPECT_EQ(mistakesOf(std::string(256, 'a')), "d:3:1: the column ID has 256 characters, expected at most 255");
+}
+
+TEST(PlcTablesLoad, TheMemoryOfAllTables) {
+  PlcTables tables;
+  const TableDefinition definition = definitionOf(test::kMaterials); // 524 bytes a line
+  EXPECT_EQ(
+      tables.load(0, definition, dataOf(lines("65535", ""))),
+      "t:2:13: the table needs 34340340 bytes, for 65535 lines and 0 more; 16777216 of the 16777216 of all tables "
+      "are left");
+  EXPECT_EQ(tables.load(0, definition, dataOf(lines("30000", ""))), "");
+  EXPECT_EQ(tables.load(1, definition, dataOf(lines("2000", ""))),
+            "t:2:13: the table needs 1182144 bytes, for 2000 lines and 256 more; 923072 of the 16777216 of all tables "
+            "are left");
+  EXPECT_EQ(tables.load(0, definition, dataOf(lines("2000", ""))), ""); // in the place of the former one
+  EXPECT_EQ(tables.load(1, definition, dataOf(lines("2000", ""))), "");
+  tables.remove(1);
+  EXPECT_FALSE(tables.exists(1));
+  tables.remove(300);
+}
+
+TEST(PlcTablesLoad, Boundaries) {
+  PlcTables tables;
+  const TableDefinition definition{
+      .id = "D", .columns = {{.id = "A", .type = ColumnType::Int, .place = {}}}, .place = {}};
+  TableData most{.definition = "D", .lineCount = 65535, .selected = 65534, .place = "t:1:1"};
+  EXPECT_EQ(tables.load(255, definition, most), "");
+  EXPECT_EQ(tables.setInt(255, 65534, 0, 7), TableError::None);
+  EXPECT_EQ(tables.setInt(255, 65535, 0, 7), TableError::NoLine);
+  EXPECT_EQ(tables.addLine(255), "PLC table 255 has 65535 lines, and there is no memory for another: it is full");
+  EXPECT_EQ(tables.load(256, definition, most), "t:1:1: there is no PLC table 256, expected 0 to 255");
+  EXPECT_EQ(tables.load(3, {.id = "D"}, {.definition = "D", .lineCount = 2}), ""); // no columns
+  EXPECT_EQ(tables.removeLine(3, 0), "");
+  EXPECT_EQ(tables.contents(3)->lines.size(), 1u);
+}
+
+TEST(PlcTablesLoad, WhatIsWrittenIsReadAgain) {
+  PlcTables tables;
+  test::loadMaterials(tables);
+  std::string everything = "\t\n\r";
+  for (int c = 0x20; c < 0x100; ++c) everything += static_cast<char>(c);
+  EXPECT_EQ(tables.setText(0, 1, 2, everything), TableError::None);
+  EXPECT_EQ(tables.setText(0, 0, 2, " \r\n "), TableError::None);
+  const double reals[] = {-0.0, 1.0 / 3, 5e-324, 1.7976931348623157e308};
+  for (const double real : reals) {
+    EXPECT_EQ(tables.setReal(0, 1, 0, real), TableError::None);
+    EXPECT_EQ(tables.select(0, 2), TableError::None);
+    const std::string text = control_files::tableDataText(*tables.contents(0));
+    PlcTables again;
+    EXPECT_EQ(again.load(0, definitionOf(test::kMaterials), dataOf(text)), "");
+    EXPECT_EQ(control_files::tableDataText(*again.contents(0)), text);
+    std::string_view found;
+    EXPECT_EQ(again.getText(0, 1, 2, found), TableError::None);
+    EXPECT_EQ(found, everything);
+    double value = 0;
+    EXPECT_EQ(again.getReal(0, 1, 0, value), TableError::None);
+    EXPECT_EQ(value, real);
+    uint32_t line = 0;
+    EXPECT_EQ(again.selectedLine(0, line), TableError::None);
+    EXPECT_EQ(line, 2u);
+  }
+  EXPECT_FALSE(tables.contents(1).has_value());
+}
+
+} // namespace
+} // namespace rung::devices

@@ -1,0 +1,92 @@
+// The image of PLC tables that outlives a power-off (see plc_tables.h): a head, and each table with a head of its own.
+#include <algorithm>
+#include <cstring>
+
+#include "tools/devices/plc_tables.h"
+
+namespace rung::devices {
+namespace {
+
+constexpr uint64_t kMagic = 0x31304C4254434C50; // "PLCTBL01": changes with the form of the image
+
+struct TableHead {
+  uint64_t origin;
+  uint32_t table;
+  uint32_t count;
+  uint32_t selected;
+  uint32_t bytes;
+};
+
+uint32_t keptBytes(const PlcTable& table) {
+  return static_cast<uint32_t>(sizeof(TableHead) + table.bytes.size()); // all tables have less than 2^24
+}
+
+void append(std::span<uint8_t>& to, const void* from, size_t size) {
+  if (size > 0) std::memcpy(to.data(), from, size);
+  to = to.subspan(size);
+}
+
+// The head of the next table, which is whole; false where the rest is something else.
+bool takeHead(std::span<const uint8_t>& from, TableHead& head) {
+  if (from.size() < sizeof head) return false;
+  std::memcpy(&head, from.data(), sizeof head);
+  from = from.subspan(sizeof head);
+  return head.bytes <= from.size();
+}
+
+bool fits(const TableHead& head, const PlcTable& table) {
+  return head.origin == table.origin && head.bytes == table.bytes.size() && head.count <= table.capacity &&
+         (head.selected == 0 || head.selected < head.count);
+}
+
+void restore(PlcTable& table, const TableHead& head, const uint8_t* bytes) {
+  table.count = head.count;
+  table.selected = head.selected;
+  std::copy_n(bytes, head.bytes, table.bytes.begin());
+  std::fill(table.line(head.count), table.line(table.capacity), uint8_t{0});
+  table.dirty = true;
+}
+
+} // namespace
+
+uint32_t PlcTables::keptSize() const noexcept {
+  uint32_t size = 0;
+  for (const auto& table : tables_)
+    if (table) size += keptBytes(*table);
+  return size == 0 ? 0 : size + static_cast<uint32_t>(sizeof kMagic);
+}
+
+void PlcTables::copyKept(std::span<uint8_t> image) const noexcept {
+  if (image.empty() || image.size() != keptSize()) return;
+  append(image, &kMagic, sizeof kMagic);
+  for (uint32_t i = 0; i < kTables; ++i) {
+    if (!exists(i)) continue;
+    const PlcTable& t = *tables_[i];
+    const TableHead head{t.origin, i, t.count, t.selected, static_cast<uint32_t>(t.bytes.size())};
+    append(image, &head, sizeof head);
+    append(image, t.bytes.data(), t.bytes.size());
+  }
+}
+
+bool PlcTables::restoreKept(std::span<const uint8_t> image) noexcept {
+  forgetChanges();
+  if (image.empty()) return true;
+  if (image.size() < sizeof kMagic || std::memcmp(image.data(), &kMagic, sizeof kMagic) != 0) return false;
+  image = image.subspan(sizeof kMagic);
+  bool all = true;
+  for (TableHead head{}; !image.empty(); image = image.subspan(head.bytes)) {
+    if (!takeHead(image, head)) return false;
+    if (exists(head.table) && fits(head, *tables_[head.table]))
+      restore(*tables_[head.table], head, image.data());
+    else
+      all = false;
+  }
+  return all;
+}
+
+void PlcTables::forgetChanges() noexcept {
+  for (const auto& table : tables_)
+    if (table) table->elementChanged = table->selectionChanged = false;
+}
+
+} // namespace rung::devices

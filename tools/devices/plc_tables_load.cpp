@@ -1,0 +1,154 @@
+// PLC tables from the contents of their files and back (see plc_tables.h).
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "rtlib/nc/technol/code_page.h"
+#include "tools/devices/plc_tables.h"
+
+namespace rung::devices {
+namespace {
+
+constexpr size_t kMostComplaints = 100;
+
+// A table that is being made, with what is wrong with it.
+class Loading {
+public:
+  std::unique_ptr<PlcTable> table = std::make_unique<PlcTable>();
+
+  void complain(const control_files::FilePlace& where, const std::string& what) {
+    if (++count_ > kMostComplaints) return;
+    complaints_ += (complaints_.empty() ? "" : "\n") + where + ": " + what;
+  }
+  bool isRight() const { return count_ == 0; }
+  std::string complaints() {
+    if (count_ > kMostComplaints) complaints_ += "\nand " + std::to_string(count_ - kMostComplaints) + " more mistakes";
+    return std::move(complaints_);
+  }
+
+  void columns(const TableDefinition& definition);
+  void memory(const TableData& data, uint64_t left);
+  void elements(const TableData& data);
+  void origin();
+
+private:
+  std::map<std::string, uint32_t, std::less<>> byId_; // in UTF-8
+  std::string complaints_;
+  size_t count_ = 0;
+};
+
+void Loading::columns(const TableDefinition& definition) {
+  table->definition = definition.id;
+  for (const control_files::TableColumn& column : definition.columns) {
+    std::string id;
+    if (!toMemory(column.id, id))
+      complain(column.place, "the column ID " + control_files::inQuotes(column.id) +
+                                 " has characters that Windows-1250 does not have");
+    if (id.size() > kElementBytes)
+      complain(column.place, "the column ID has " + std::to_string(id.size()) + " characters, expected at most " +
+                                 std::to_string(kElementBytes));
+    byId_.emplace(column.id, static_cast<uint32_t>(table->columns.size()));
+    table->columns.push_back({std::move(id), column.type, table->lineBytes});
+    table->lineBytes += elementSize(column.type);
+  }
+}
+
+void Loading::memory(const TableData& data, uint64_t left) {
+  table->count = data.lineCount;
+  table->selected = data.selected;
+  table->capacity = std::min(data.lineCount + PlcTables::kMoreLines, PlcTables::kMostLines);
+  const uint64_t bytes = uint64_t{table->capacity} * table->lineBytes;
+  if (bytes > left)
+    complain(data.place, "the table needs " + std::to_string(bytes) + " bytes, for " + std::to_string(data.lineCount) +
+                             " lines and " + std::to_string(table->capacity - data.lineCount) + " more; " +
+                             std::to_string(left) + " of the " + std::to_string(PlcTables::kMostBytes) +
+                             " of all tables are left");
+  else
+    table->bytes.resize(bytes);
+}
+
+void Loading::elements(const TableData& data) {
+  for (const control_files::TableLine& line : data.lines)
+    for (const control_files::TableElement& element : line.elements) {
+      const auto found = byId_.find(element.column);
+      if (found == byId_.end()) {
+        complain(element.place, "the definition " + control_files::inQuotes(table->definition) + " has no column " +
+                                    control_files::inQuotes(element.column));
+        continue;
+      }
+      const PlcTable::Column& column = table->columns[found->second];
+      const std::string wrong = readElement(column.type, element.value, table->line(line.number) + column.at);
+      if (!wrong.empty()) complain(element.place, "column " + control_files::inQuotes(element.column) + " " + wrong);
+    }
+}
+
+// FNV-1a.
+class Digest {
+public:
+  void add(const void* bytes, size_t size) {
+    for (size_t i = 0; i < size; ++i) value_ = (value_ ^ static_cast<const uint8_t*>(bytes)[i]) * 0x100000001B3;
+  }
+  uint64_t value() const { return value_; }
+
+private:
+  uint64_t value_ = 0xCBF29CE484222325;
+};
+
+void Loading::origin() {
+  Digest digest;
+  digest.add(table->definition.c_str(), table->definition.size() + 1);
+  for (const PlcTable::Column& column : table->columns) {
+    digest.add(column.id.c_str(), column.id.size() + 1);
+    digest.add(&column.type, sizeof column.type);
+  }
+  digest.add(&table->count, sizeof table->count);
+  digest.add(&table->selected, sizeof table->selected);
+  digest.add(table->bytes.data(), table->bytes.size());
+  table->origin = digest.value();
+}
+
+} // namespace
+
+uint64_t PlcTables::memoryWithout(uint32_t table) const {
+  uint64_t bytes = 0;
+  for (uint32_t i = 0; i < kTables; ++i)
+    if (i != table && exists(i)) bytes += tables_[i]->bytes.size();
+  return bytes;
+}
+
+std::string PlcTables::load(uint32_t table, const TableDefinition& definition, const TableData& data) {
+  if (table >= kTables)
+    return data.place + ": there is no PLC table " + std::to_string(table) + ", expected 0 to " +
+           std::to_string(kTables - 1);
+  Loading loading;
+  loading.columns(definition);
+  loading.memory(data, kMostBytes - memoryWithout(table));
+  if (loading.isRight()) loading.elements(data);
+  if (!loading.isRight()) return loading.complaints();
+  loading.origin();
+  tables_[table] = std::move(loading.table);
+  return {};
+}
+
+void PlcTables::remove(uint32_t table) {
+  if (table < kTables) tables_[table].reset();
+}
+
+void PlcTables::stored(uint32_t table) noexcept {
+  if (exists(table)) tables_[table]->dirty = false;
+}
+
+std::optional<TableData> PlcTables::contents(uint32_t table) const {
+  if (!exists(table)) return std::nullopt;
+  const PlcTable& t = *tables_[table];
+  TableData data{.definition = t.definition, .lineCount = t.count, .selected = t.selected};
+  for (uint32_t i = 0; i < t.count; ++i) {
+    control_files::TableLine& line = data.lines.emplace_back();
+    line.number = i;
+    for (const PlcTable::Column& column : t.columns)
+      line.elements.push_back({nc::shownText(column.id), writtenElement(column.type, t.line(i) + column.at), {}});
+  }
+  return data;
+}
+
+} // namespace rung::devices

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "rtlib/text/number.h"
-
 namespace rung::sim::nct {
 namespace {
 
@@ -23,17 +21,6 @@ constexpr uint32_t kSoeWrongElement = 0x1009; // invalid access to an element
 constexpr uint32_t kSoeWrongLength = 0x7001;  // data too short or too long
 constexpr uint32_t kSoeReadOnly = 0x7004;
 
-// Elements of an IDN by the bits of word 8 (l.6040-6050).
-enum SoeElement : uint32_t { kState, kName, kAttribute, kUnit, kMinimum, kMaximum, kValue, kDefault };
-
-std::optional<uint64_t> integer(std::string_view text) {
-  const bool hex = text.starts_with("0x");
-  if (hex) text.remove_prefix(2);
-  return text::numberIn<uint64_t>(text, hex ? 16 : 10);
-}
-
-uint64_t ones(uint32_t bytes) { return bytes >= 8 ? ~uint64_t{0} : (uint64_t{1} << 8 * bytes) - 1; }
-
 } // namespace
 
 bool Mailbox::serves(bool write, uint32_t function) const { return function == (write ? kWrite : kRead); }
@@ -48,9 +35,9 @@ bool Mailbox::fits(int32_t protocol, int32_t amount) {
 
 bool Mailbox::speaks(const Device& device, Protocol protocol) {
   switch (protocol) {
-  case Protocol::Coe: return device.coe;
-  case Protocol::Soe: return device.soe;
-  case Protocol::Voe: return device.voe;
+  case Protocol::Coe: return device.protocols.coe;
+  case Protocol::Soe: return device.protocols.soe;
+  case Protocol::Voe: return device.protocols.voe;
   }
   return false;
 }
@@ -61,9 +48,10 @@ Mailbox::Device* Mailbox::find(int32_t index) {
   return found == devices_.end() ? nullptr : &*found;
 }
 
-Mailbox::Object* Mailbox::find(const Device& device, Protocol protocol, uint32_t index, uint32_t sub) {
-  for (Object& object : objects_)
-    if (object.device == device.index && object.protocol == protocol && object.index == index && object.sub == sub)
+EthercatObject* Mailbox::find(const Device& device, Protocol protocol, uint32_t index, uint32_t sub) {
+  for (EthercatObject& object : objects_)
+    if (object.slave == device.index && object.isIdn == (protocol == Protocol::Soe) && object.index == index &&
+        object.sub == sub)
       return &object;
   return nullptr;
 }
@@ -112,17 +100,6 @@ int32_t Mailbox::finish(bool write, Block& block, uint32_t error) {
 
 // ---- protocols ---------------------------------------------------------------------------------------------------
 
-void Mailbox::append(uint64_t value, uint32_t bytes) {
-  for (uint32_t i = 0; i < bytes && size_ < buffer_.size(); ++i)
-    buffer_[size_++] = static_cast<uint8_t>(value >> 8 * i);
-}
-
-uint64_t Mailbox::valueOf(std::span<const uint8_t> bytes) {
-  uint64_t value = 0;
-  std::memcpy(&value, bytes.data(), std::min<size_t>(bytes.size(), 8));
-  return value;
-}
-
 uint32_t Mailbox::exchange(bool write, Block& block, Device& device, Protocol protocol) {
   switch (protocol) {
   case Protocol::Coe: return exchangeCoe(write, block, device);
@@ -145,19 +122,20 @@ uint32_t Mailbox::exchangeCoe(bool write, Block& block, Device& device) {
   const uint32_t index = place & 0xFFFF;
   const uint32_t sub = place >> 16 & 0xFF;
   if (block.amount() == 7 && block.word(8) != 0) return exchangeWhole(write, device, index, sub);
-  Object* object = find(device, Protocol::Coe, index, sub);
+  EthercatObject* object = find(device, Protocol::Coe, index, sub);
   if (object == nullptr) {
-    const bool known = std::ranges::any_of(objects_, [&](const Object& o) {
-      return o.device == device.index && o.protocol == Protocol::Coe && o.index == index;
-    });
+    const bool known = std::ranges::any_of(
+        objects_, [&](const EthercatObject& o) { return o.slave == device.index && !o.isIdn && o.index == index; });
     return known ? kCoeNoSubindex : kCoeNoObject;
   }
   if (!write) {
-    append(object->value, object->bytes);
+    MailboxData data{buffer_};
+    data.append(object->value, object->bytes);
+    size_ = data.size;
     return 0;
   }
   if (size_ != object->bytes) return kCoeWrongLength;
-  object->value = valueOf(std::span(buffer_).first(size_));
+  object->value = littleEndian(std::span(buffer_).first(size_));
   return 0;
 }
 
@@ -165,52 +143,39 @@ uint32_t Mailbox::exchangeCoe(bool write, Block& block, Device& device) {
 uint32_t Mailbox::exchangeWhole(bool write, Device& device, uint32_t index, uint32_t sub) {
   if (sub > 1) return kCoeWrongAccess;
   size_t at = 0;
+  MailboxData data{buffer_};
   for (uint32_t i = sub; i <= 0xFF; ++i) {
-    Object* object = find(device, Protocol::Coe, index, i);
+    EthercatObject* object = find(device, Protocol::Coe, index, i);
     if (object == nullptr) continue;
     const uint32_t bytes = i == 0 ? 2 : object->bytes;
     if (!write) {
-      append(object->value, bytes);
+      data.append(object->value, bytes);
     } else if (at + bytes <= size_) {
-      if (i != 0) object->value = valueOf(std::span(buffer_).subspan(at, bytes)); // their number does not change
+      if (i != 0) object->value = littleEndian(std::span(buffer_).subspan(at, bytes)); // their number does not change
     }
     at += bytes;
   }
   if (at == 0) return kCoeNoObject;
+  if (!write) size_ = data.size;
   return write && at != size_ ? kCoeWrongLength : 0;
 }
 
 uint32_t Mailbox::exchangeSoe(bool write, Block& block, Device& device) {
   const auto place = static_cast<uint32_t>(block.word(6));
   const uint32_t idn = place & 0xFFFF;
-  Object* element = find(device, Protocol::Soe, idn, place >> 16 & 0xFF);
+  EthercatObject* element = find(device, Protocol::Soe, idn, place >> 16 & 0xFF);
   if (element == nullptr) return kSoeNoElement;
-  const auto flags = static_cast<uint32_t>(block.word(8)) & 0xFF;
+  const auto flags = static_cast<uint32_t>(block.word(8)) & 0xFF; // bits of SoeElement (l.6040-6050)
   if (flags == 0) return kSoeWrongElement;
   if (write) {
     if (flags != uint32_t{1} << kValue) return kSoeReadOnly;
     if (size_ != element->bytes) return kSoeWrongLength;
-    element->value = valueOf(std::span(buffer_).first(size_));
+    element->value = littleEndian(std::span(buffer_).first(size_));
     return 0;
   }
-  constexpr uint32_t kNameBytes = 8; // "IDN12345"
-  for (uint32_t bit = 0; bit < 8; ++bit) {
-    if ((flags >> bit & 1) == 0) continue;
-    switch (static_cast<SoeElement>(bit)) {
-    case kState: append(0, 2); break;
-    case kName:
-      append(kNameBytes | uint64_t{kNameBytes} << 16, 4); // length now, at most
-      for (const char letter : {'I', 'D', 'N'}) append(static_cast<uint8_t>(letter), 1);
-      for (uint32_t unit = 10000; unit != 0; unit /= 10) append('0' + idn / unit % 10, 1);
-      break;
-    case kAttribute: append(element->bytes, 4); break;
-    case kUnit: append(0, 4); break; // a text of no letters
-    case kMinimum: append(0, element->bytes); break;
-    case kMaximum: append(ones(element->bytes), element->bytes); break;
-    case kValue: append(element->value, element->bytes); break;
-    case kDefault: append(element->initial, element->bytes); break;
-    }
-  }
+  MailboxData data{buffer_};
+  appendSoeElements(*element, flags, data);
+  size_ = data.size;
   return 0;
 }
 
@@ -220,14 +185,7 @@ std::string Mailbox::addDevice(uint32_t index, std::string_view protocols) {
   if (index < 1 || find(static_cast<int32_t>(index)) != nullptr) return "devices are numbered from 1, each once";
   Device device;
   device.index = index;
-  while (!protocols.empty()) {
-    const std::string_view name = protocols.substr(0, protocols.find('+'));
-    protocols.remove_prefix(std::min(protocols.size(), name.size() + 1));
-    if (name != "coe" && name != "soe" && name != "voe") return "protocols are coe, soe, voe, joined by +";
-    device.coe |= name == "coe";
-    device.soe |= name == "soe";
-    device.voe |= name == "voe";
-  }
+  if (std::string wrong = parseProtocols(protocols, device.protocols); !wrong.empty()) return wrong;
   device.vendor.reserve(kMostBytes);
   devices_.push_back(std::move(device));
   return {};
@@ -235,30 +193,10 @@ std::string Mailbox::addDevice(uint32_t index, std::string_view protocols) {
 
 // "1.coe.0x6041.0" and "0x237/2".
 std::string Mailbox::addObject(std::string_view place, std::string_view value) {
-  std::vector<std::string_view> parts;
-  for (std::string_view rest = place;;) {
-    parts.push_back(rest.substr(0, rest.find('.')));
-    if (parts.back().size() == rest.size()) break;
-    rest.remove_prefix(parts.back().size() + 1);
-  }
-  if (parts.size() != 4) return "expected ethercat.DEVICE.coe.INDEX.SUBINDEX or ethercat.DEVICE.soe.IDN.DRIVE";
-  const auto device = integer(parts[0]);
-  const auto index = integer(parts[2]);
-  const auto sub = integer(parts[3]);
-  const size_t slash = value.find('/');
-  const auto number = integer(value.substr(0, slash));
-  const auto bytes = slash == std::string_view::npos ? std::optional<uint64_t>(4) : integer(value.substr(slash + 1));
-  if (!device || !index || !sub || *index > 0xFFFF || *sub > 0xFF) return "wrong number of a device or an object";
-  if (!number || !bytes || *bytes < 1 || *bytes > 8) return "expected VALUE or VALUE/BYTES, 1 to 8 bytes";
-  if (parts[1] != "coe" && parts[1] != "soe") return "objects belong to coe or soe";
-  Object object{.device = static_cast<uint32_t>(*device),
-                .protocol = parts[1] == "coe" ? Protocol::Coe : Protocol::Soe,
-                .index = static_cast<uint32_t>(*index),
-                .sub = static_cast<uint32_t>(*sub),
-                .bytes = static_cast<uint32_t>(*bytes),
-                .initial = *number,
-                .value = *number};
-  if (find(static_cast<int32_t>(object.device)) == nullptr) return "there is no such device yet";
+  EthercatObject object;
+  if (std::string wrong = parseObjectPlace(place, object); !wrong.empty()) return wrong;
+  if (std::string wrong = parseObjectValue(value, object); !wrong.empty()) return wrong;
+  if (find(static_cast<int32_t>(object.slave)) == nullptr) return "there is no such device yet";
   objects_.push_back(object);
   return {};
 }
@@ -267,7 +205,7 @@ Handled Mailbox::config(std::string_view key, std::string_view value) {
   constexpr std::string_view kPrefix = "ethercat.";
   if (!key.starts_with(kPrefix)) return std::nullopt;
   const std::string_view place = key.substr(kPrefix.size());
-  const auto device = integer(place);
+  const auto device = unsignedIn(place);
   const std::string wrong = device ? addDevice(static_cast<uint32_t>(*device), value) : addObject(place, value);
   return wrong.empty() ? std::string() : std::string(key) + ": " + wrong;
 }
@@ -286,8 +224,8 @@ Handled Mailbox::event(std::string_view name, const std::vector<NcArgument>& key
 std::optional<double> Mailbox::quantity(std::string_view name) const {
   const auto key = numbersAfter(name, "ETHERCAT.");
   if (!key || key->size() != 3) return std::nullopt;
-  for (const Object& object : objects_)
-    if (object.device == (*key)[0] && object.index == (*key)[1] && object.sub == (*key)[2])
+  for (const EthercatObject& object : objects_)
+    if (object.slave == (*key)[0] && object.index == (*key)[1] && object.sub == (*key)[2])
       return static_cast<double>(object.value);
   return std::nullopt;
 }
@@ -299,7 +237,7 @@ void Mailbox::powerOn(nc::PowerOn kind) {
     device.vendor.clear();
   }
   if (kind == nc::PowerOn::Warm) return;
-  for (Object& object : objects_) object.value = object.initial;
+  for (EthercatObject& object : objects_) object.value = object.initial;
 }
 
 } // namespace rung::sim::nct

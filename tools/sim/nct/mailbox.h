@@ -5,6 +5,7 @@
 #pragma once
 #include <vector>
 
+#include "tools/sim/ethercat_object.h"
 #include "tools/sim/nct/topic.h"
 
 namespace rung::sim::nct {
@@ -27,38 +28,26 @@ private:
 
   struct Device {
     uint32_t index = 0;
-    bool coe = false, soe = false, voe = false;
+    EthercatProtocols protocols;
     bool silent = false; // answers nothing
     uint32_t error = 0;  // answers this, if not 0
     Buffer vendor;       // what VoE wrote last
   };
-  struct Object {
-    uint32_t device = 0;
-    Protocol protocol = Protocol::Coe;
-    uint32_t index = 0; // or IDN
-    uint32_t sub = 0;   // or drive
-    uint32_t bytes = 4;
-    uint64_t initial = 0;
-    uint64_t value = 0;
-  };
-
   static bool fits(int32_t protocol, int32_t amount);
   static bool speaks(const Device& device, Protocol protocol);
   Device* find(int32_t index);
-  Object* find(const Device& device, Protocol protocol, uint32_t index, uint32_t sub);
+  EthercatObject* find(const Device& device, Protocol protocol, uint32_t index, uint32_t sub);
   // Data into or out of buffer_; an error code of the device, 0: done.
   uint32_t exchange(bool write, Block& block, Device& device, Protocol protocol);
   uint32_t exchangeCoe(bool write, Block& block, Device& device);
   uint32_t exchangeWhole(bool write, Device& device, uint32_t index, uint32_t sub);
   uint32_t exchangeSoe(bool write, Block& block, Device& device);
-  void append(uint64_t value, uint32_t bytes);
-  static uint64_t valueOf(std::span<const uint8_t> bytes);
   int32_t finish(bool write, Block& block, uint32_t error);
   std::string addDevice(uint32_t index, std::string_view protocols);
   std::string addObject(std::string_view place, std::string_view value);
 
   std::vector<Device> devices_;
-  std::vector<Object> objects_;
+  std::vector<EthercatObject> objects_;
   Buffer buffer_ = Buffer(kMostBytes); // room for the data of a request
   size_t size_ = 0;
 };

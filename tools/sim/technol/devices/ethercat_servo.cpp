@@ -1,0 +1,85 @@
+// Servos of EtherCAT drives (see ethercat_servo.h).
+#include "tools/sim/technol/devices/ethercat_servo.h"
+
+namespace rung::sim::technol {
+namespace {
+
+struct Request {
+  bool ServoCells::* bit;
+  ServoState state; // when it is carried out
+};
+// Those that stop a drive come first, so that one that cannot be carried out does not keep a drive on.
+constexpr Request kRequests[] = {{&ServoCells::done, ServoState::Done},
+                                 {&ServoCells::disable, ServoState::On},
+                                 {&ServoCells::init, ServoState::Init},
+                                 {&ServoCells::on, ServoState::On},
+                                 {&ServoCells::enable, ServoState::Enable}};
+
+const Request* requested(const ServoCells& cells) {
+  for (const Request& request : kRequests)
+    if (cells.*request.bit) return &request;
+  return nullptr;
+}
+
+// The control word by which the request gets on from that status. To disable is to take ENABLE away (l.10366): a drive
+// that is not switched on stays so.
+uint16_t controlFor(const Request& request, uint16_t status, uint16_t control) {
+  if (request.bit == &ServoCells::enable) return kControlEnable;
+  if (request.bit == &ServoCells::disable) return control & kControlSwitchOn;
+  if (request.bit != &ServoCells::on) return 0;
+  const bool isReady = status == kReadyToSwitchOn || status == kSwitchedOn || status == kOperationEnabled;
+  return isReady ? kControlSwitchOn : kControlShutdown;
+}
+
+bool isCarriedOut(const Request& request, uint16_t status) {
+  if (request.bit == &ServoCells::init) return true; // its status is readable
+  if (request.bit == &ServoCells::enable) return status == kOperationEnabled;
+  if (request.bit == &ServoCells::disable) return status != kOperationEnabled;
+  const bool isOn = status == kSwitchedOn || status == kOperationEnabled;
+  return request.bit == &ServoCells::done ? !isOn : status == kSwitchedOn;
+}
+
+} // namespace
+
+void EthercatServo::serve(ServoCells& cells) {
+  const Request* request = requested(cells);
+  if (request == nullptr) return;
+  const auto status = static_cast<uint16_t>(cells.status & kStatusMask);
+  control_ = controlFor(*request, status, control_);
+  if (!isCarriedOut(*request, status)) return;
+  cells.*request->bit = false;
+  if (request->bit != &ServoCells::disable || status == kSwitchedOn) cells.state = request->state;
+}
+
+// A drive takes the rise: while the fault lasts, every other scan.
+void EthercatServo::eraseFault(ServoCells& cells) {
+  cells.erase = cells.erase && cells.isFaulty;
+  pulse_ = cells.erase && !pulse_;
+}
+
+void EthercatServo::scan(ServoCells& cells) {
+  if (!cells.isSimulated && !cells.isConnected) return;
+  if (cells.isSimulated) {
+    own_.step(cells.control);
+    cells.status = own_.status();
+    cells.error = own_.error();
+  }
+  cells.isFaulty = (cells.status & kFault) != 0;
+  cells.blocksMotion = (cells.status & kStatusMask) != kOperationEnabled;
+  serve(cells);
+  eraseFault(cells);
+  cells.control = static_cast<uint16_t>(control_ | (pulse_ ? kControlFaultReset : 0));
+}
+
+void EthercatServos::powerOn() {
+  for (EthercatServo& servo : servos_) servo.powerOn();
+  ticks_ = 0;
+}
+
+void EthercatServos::tick(Cells& cells) {
+  if (++ticks_ < kScanTicks) return;
+  ticks_ = 0;
+  for (uint32_t i = 0; i < kCount; ++i) servos_[i].scan(cells[i]);
+}
+
+} // namespace rung::sim::technol

@@ -1,0 +1,58 @@
+// EtherCAT drives as the control's servos order them (TECHNOL manual 13.18, l.10216-10479): what the request bits
+// flEdrv…N do to the control word of a drive, by its status word.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "tools/sim/technol/devices/ds402_drive.h"
+
+namespace rung::sim::technol {
+
+// bEdrvStateN (l.10352; the numbers are not printed there).
+enum class ServoState : uint8_t { Done = 0, Init = 1, On = 2, Enable = 3 };
+
+// Cells of servo N and its ends of connections (l.10328-10390).
+struct ServoCells {
+  // Requests of the program, reset when they are carried out (l.10434-10479).
+  bool init = false, on = false, enable = false, disable = false, done = false, erase = false;
+  bool isSimulated = false; // flEdrvSimulN: a drive of its own answers
+  bool isConnected = false; // a slave gives the status word, and takes the control word
+  uint16_t status = 0;      // wEdrvDriveStatusN, 6041h: in, of a simulated one out
+  uint16_t error = 0;       // wEdrvDriveErrRegN, 603Fh: likewise
+  uint16_t control = 0;     // wEdrvDriveControlN, 6040h: out
+  ServoState state = ServoState::Done;
+  bool isFaulty = false;     // flEdrvErrorN
+  bool blocksMotion = false; // flEdrvMoveDisReqN: the drive is not enabled
+};
+
+class EthercatServo {
+public:
+  void powerOn() { *this = {}; }
+  // Once a scan. A servo that is neither simulated nor connected leaves all cells alone.
+  void scan(ServoCells& cells);
+
+private:
+  void serve(ServoCells& cells);
+  void eraseFault(ServoCells& cells);
+
+  Ds402Drive own_;       // while it is simulated
+  uint16_t control_ = 0; // without the pulse that resets faults
+  bool pulse_ = false;
+};
+
+class EthercatServos {
+public:
+  static constexpr uint32_t kCount = 16;
+  using Cells = std::array<ServoCells, kCount>;
+
+  void powerOn();
+  // One millisecond; the servos work in each 20th, so that one step takes one scan.
+  void tick(Cells& cells);
+
+private:
+  static constexpr uint32_t kScanTicks = 20;
+  std::array<EthercatServo, kCount> servos_;
+  uint32_t ticks_ = 0;
+};
+
+} // namespace rung::sim::technol

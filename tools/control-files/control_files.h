@@ -13,11 +13,9 @@
 #include <vector>
 
 #include "rtlib/nc/control/technol/messages.h"
+#include "tools/control-files/xml_reader.h"
 
 namespace rung::control_files {
-
-// Where something is written, for messages about it: "FILE:LINE:COLUMN".
-using FilePlace = std::string;
 
 // <PlcError No="4" Type="Err" Validity="Transient"><Text>... %d</Text></PlcError>
 struct PlacedMessage : nc::technol::MessageDefinition {

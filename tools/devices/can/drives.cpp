@@ -47,10 +47,11 @@ uint16_t CanDrives::controlWord(Drive& drive, uint16_t command) {
 }
 
 void CanDrives::tick(const DriveOrders& orders, DriveStates& states, CanPort& port) {
+  if (isToSend_) port.transmit(question_); // a bus that takes nothing now does not get it later
+  isToSend_ = false;
   if (count_ == 0) return;
   if (!started_) started_ = port.transmit(packetOf(kNodeControl, {kStartNode, kAllNodes}));
   for (uint32_t i = 0; i < count_; ++i) watch(i + 1, port);
-  if (isToSend_) isToSend_ = !port.transmit(question_);
   if (++sinceSync_ >= syncPeriod_) {
     sinceSync_ = 0;
     for (uint32_t i = 0; i < count_; ++i) {
@@ -78,7 +79,12 @@ void CanDrives::watch(uint32_t number, CanPort& port) {
 
 bool CanDrives::take(const CanPacket& packet) {
   const uint32_t node = packet.node();
-  if (node == 0 || node > count_) return false;
+  const bool isAnswer = node != 0 && node == waitsFor_ && packet.isObject(kSdoAnswer);
+  if (isAnswer) {
+    answer_ = packet;
+    waitsFor_ = 0;
+  }
+  if (node == 0 || node > count_) return isAnswer;
   Drive& drive = drives_[node - 1];
   drive.silentMs = 0;
   if (packet.isObject(kTpdo1)) {
@@ -89,10 +95,7 @@ bool CanDrives::take(const CanPacket& packet) {
   const auto emergency = static_cast<uint16_t>(numberAt(packet.data, 2));
   if (packet.isObject(kEmergency) && emergency != 0)
     report({DriveMessage::kEmergency, static_cast<uint16_t>(node), faultOf(emergency), emergency});
-  if (!packet.isObject(kSdoAnswer) || node != waitsFor_) return false;
-  answer_ = packet;
-  waitsFor_ = 0;
-  return true;
+  return isAnswer;
 }
 
 void CanDrives::send(uint32_t axis, CanPacket& packet) {

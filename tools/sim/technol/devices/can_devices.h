@@ -1,0 +1,123 @@
+// The CAN devices of the simulated control, and the control's side of them: two channels, of which the first one has
+// drives and the second one I/O units, panels and handwheels (man. ch. 9, 13.14). What comes and goes is plain data:
+// it knows no program and no scenario.
+//
+// Order of things: configure; power; then a tick a millisecond. After the ticks of a scan whoever runs the program
+// takes the packets that have come, one by one (takeReceived), and gives them to channel(n).deliver, which says whose
+// procedures are due.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tools/devices/can/drives.h"
+#include "tools/devices/can/units.h"
+#include "tools/sim/technol/devices/can_bus.h"
+
+namespace rung::sim::technol {
+
+struct CanInputs {
+  devices::UnitOrders units;
+  devices::DriveOrders drives;
+  // At the terminals of INOUT08: P1IN and on. Those of panels and handwheels are in their UnitWires.
+  std::array<uint8_t, devices::kInputPorts> terminals{};
+};
+
+struct CanOutputs {
+  devices::UnitStates units;
+  devices::DriveStates drives;
+};
+
+// event CAN_UNIT: keys that it has not are empty.
+struct CanUnitEvent {
+  std::optional<uint8_t> error;                                     // register 1001h; 0: gone
+  std::array<std::optional<uint8_t>, devices::kUnitOutputs> shorts; // of OP0 to OP2
+  std::optional<bool> silent;
+};
+
+// event CAN_DRIVE
+struct CanDriveEvent {
+  std::optional<uint16_t> fault; // error code of the emergency; 0: its cause is gone
+  bool hold = false;             // the cause stays
+  std::optional<uint16_t> mstat; // CAN_DRIVE_MSTAT
+  std::optional<bool> silent;
+};
+
+class CanDevices {
+public:
+  CanDevices();
+  CanDevices(const CanDevices&) = delete;
+  CanDevices& operator=(const CanDevices&) = delete;
+
+  // "CAN[1].InOut08Cnt", "CAN[1].INOUT08[0].CONTROL", "CAN[0].Drives", "drive.2.type" ... "" done, a text: what is
+  // wrong; nothing: a key of something else. Names in any case.
+  std::optional<std::string> configure(std::string_view key, std::string_view value);
+
+  // Power off and on: everything starts anew, what is wired to the units stays.
+  void power();
+  void tick(const CanInputs& in, CanOutputs& out);
+  // START PLC: orders are deleted, all else stays.
+  void startProgram() { orders_.clear(); }
+
+  // ---- instructions
+
+  // CAN_SEND, CAN_RECV, CAN_RECV_REQ; `channel` is 1 or 2.
+  devices::CanChannel& channel(uint32_t channel) { return channels_[channel - 1]; }
+  // CAN_RECV_DEL, CAN_RECV_END.
+  devices::CanOrders& orders() { return orders_; }
+  // CAN_SYSIO_READ, CAN_SYSIO_WRITE: false where the channel is not active, or has no such unit.
+  bool readItem(uint32_t channel, uint32_t group, uint32_t board, devices::InoutsItem item, uint32_t& value) const;
+  bool writeItem(uint32_t channel, uint32_t group, uint32_t board, devices::InoutsItem item, uint32_t value);
+  // CAN_AX_SEND, and the cells CAN_AX_BUSY and CAN_AX_RECV_PACKET.
+  void sendToDrive(uint32_t axis, devices::CanPacket& packet) { driveSide_.send(axis, packet); }
+  uint8_t driveBusy() const { return driveSide_.busy(); }
+  const devices::CanPacket& driveAnswer() const { return driveSide_.answer(); }
+
+  // ---- packets
+
+  // The oldest packet that has come for the program.
+  bool takeReceived(uint32_t channel, devices::CanPacket& packet) { return received_[channel - 1].pop(packet); }
+  // The oldest packet of the program's CAN_SEND that was on the bus; of more than 1024 the oldest is lost.
+  bool takeSent(uint32_t channel, devices::CanPacket& packet) { return sent_[channel - 1].pop(packet); }
+  // Messages 4217 and 4219 of the control.
+  bool takeMessage(devices::DriveMessage& message) { return driveSide_.takeMessage(message); }
+
+  // ---- what a scenario does and sees; "" or what is wrong
+
+  std::string packetEvent(uint32_t channel, const devices::CanPacket& packet);
+  std::string unitEvent(uint32_t group, uint32_t board, const CanUnitEvent& event);
+  std::string driveEvent(uint32_t drive, const CanDriveEvent& event);
+  std::string busEvent(uint32_t channel, bool off);
+
+  // Null: there is no such unit. Boards from 1.
+  UnitWires* wires(uint32_t group, uint32_t board);
+  const devices::Inouts* inouts(uint32_t group, uint32_t board) const { return unitSide_.find(group, board); }
+  const SimulatedUnit* unit(uint32_t group, uint32_t board) const;
+  // An object of a drive; nothing: it has none of these numbers.
+  std::optional<uint32_t> driveObject(uint32_t drive, uint32_t index, uint32_t subindex) const;
+  uint32_t drives() const { return driveSide_.count(); }
+
+private:
+  using Problem = std::optional<std::string>;
+
+  Problem configureChannel(std::string_view key, std::string_view rest, uint32_t channel, std::string_view value);
+  Problem configureUnit(std::string_view key, std::string_view rest, std::string_view value);
+  Problem configureDrive(std::string_view key, std::string_view rest, std::string_view value);
+  Problem configureObject(std::string_view key, std::string_view rest, uint32_t drive, std::string_view value);
+  void setUnits(uint32_t group, uint32_t count);
+  void setDrives(uint32_t count);
+  SimulatedUnit* findUnit(uint32_t group, uint32_t board);
+  SimulatedDrive* findDrive(uint32_t drive);
+  void exchange(uint32_t channel);
+
+  devices::CanOrders orders_;
+  std::array<devices::CanChannel, 2> channels_;
+  std::array<SimulatedCanBus, 2> buses_;
+  devices::CanUnits unitSide_;                                           // on channel 2
+  devices::CanDrives driveSide_;                                         // on channel 1
+  std::array<std::array<uint8_t, 32>, devices::kUnitGroups> controls_{}; // of the configuration
+  std::array<devices::PacketQueue<256>, 2> received_;
+  std::array<devices::PacketQueue<1024>, 2> sent_;
+};
+
+} // namespace rung::sim::technol

@@ -1,0 +1,38 @@
+// The objects of a simulated unit or drive, and its answers to SDO requests for them (CiA 301).
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tools/devices/can/sdo.h"
+
+namespace rung::sim::technol {
+
+enum class ObjectAccess : uint8_t { ReadWrite, ReadOnly, WriteOnly };
+
+struct CanObject {
+  devices::sdo::Object place;
+  uint32_t bytes = 4; // 1, 2, 4
+  uint32_t value = 0;
+  ObjectAccess access = ObjectAccess::ReadOnly;
+};
+
+class CanObjects {
+public:
+  // In place of one that is there.
+  void add(const CanObject& object);
+  const CanObject* find(devices::sdo::Object place) const;
+  uint32_t value(devices::sdo::Object place) const;
+  // Nothing happens where there is no such object.
+  void set(devices::sdo::Object place, uint32_t value);
+
+  // The answer to a request; `written` is the object that it wrote, or null.
+  devices::CanPacket answer(uint32_t node, const devices::CanPacket& request, const CanObject*& written);
+
+private:
+  CanObject* find(devices::sdo::Object place);
+
+  std::vector<CanObject> objects_;
+};
+
+} // namespace rung::sim::technol

@@ -165,6 +165,7 @@ bool isExpectation(Kind kind) {
   case Kind::ExpectLog:
   case Kind::ExpectCall:
   case Kind::ExpectNoCall:
+  case Kind::ExpectSent:
   case Kind::ExpectError:
   case Kind::ExpectWarning:
   case Kind::ExpectFault:

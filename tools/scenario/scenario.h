@@ -31,6 +31,7 @@ enum class Kind : uint8_t {
   ExpectLog,
   ExpectCall,
   ExpectNoCall,
+  ExpectSent,
   Reply,
   Prepare,
   BlockStart,
@@ -76,7 +77,7 @@ struct Statement {
   uint32_t line = 0; // from 1
   std::string text;  // as written, without blanks around it
   std::string name;  // Include: the file; Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the
-                     // service or event; Plc: the command
+                     // service or event; ExpectSent: the port; Plc: the command
   std::vector<std::string> words; // Program, Replace, Shadow: files; Connect: source and destination; Unforce: names
   Value value;                    // Set, Force, Expect, ExpectRange (low); Config; ExpectLog, ExpectFault: the text
   Value high;                     // ExpectRange

@@ -148,6 +148,13 @@ private:
   bool nothing() { return true; }
   bool include() { return takeWord(s_.name, "a file"); }
   bool dialect() { return takeWord(s_.name, "a dialect"); }
+  bool sent() {
+    if (!takeWord(s_.name, "a port")) return false;
+    if (next_ + 1 != words_.size() || words_[next_].text != "none") return takeKeys(s_.keys);
+    s_.keys.push_back({.key = "none", .value = {}});
+    ++next_;
+    return true;
+  }
   bool reply() { return takeKeys(s_.results); }
 
   std::string unknown();
@@ -191,6 +198,9 @@ const P::Row P::kRows[] = {
      Kind::ExpectCall,
      &P::call},
     {{"expect_no_call", "expect_no_call [SERVICE]", "no such request is pending"}, Kind::ExpectNoCall, &P::noCall},
+    {{"expect_sent", "expect_sent PORT KEY=VALUE… | expect_sent PORT none", "TECHNOL: what has left a serial port or a CAN channel"},
+     Kind::ExpectSent,
+     &P::sent},
     {{"reply", "reply [KEY=VALUE …]", "answers the oldest pending request"}, Kind::Reply, &P::reply},
     {{"prepare", "prepare SERVICE [KEY=VALUE …] -> [KEY=VALUE …]", "the answer to the next such request"},
      Kind::Prepare,

@@ -67,6 +67,9 @@ std::string SimulatedNc::blockDone(host::Instance&) { return "this dialect's NC 
 std::string SimulatedNc::event(host::Instance&, std::string_view name, const std::vector<NcArgument>&) {
   return "unknown event '" + std::string(name) + "'";
 }
+std::string SimulatedNc::expectSent(std::string_view, const std::vector<NcArgument>&) {
+  return "this dialect's NC has no ports to send by";
+}
 std::string SimulatedNc::plcCommand(host::Instance&, std::string_view) {
   return "this dialect has no operator commands to the PLC";
 }

@@ -98,6 +98,8 @@ public:
   virtual std::string blockDone(host::Instance& instance);
   virtual std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys);
   virtual std::string plcCommand(host::Instance& instance, std::string_view command);
+  // What has left a port and nobody has seen is as the keys say, or there is nothing (`none`). "" or what is wrong.
+  virtual std::string expectSent(std::string_view port, const std::vector<NcArgument>& keys);
 
   // What is shown is the control's, what is logged is kept here.
   void accept(const host::Instance& instance, const rung_message& message) override;

@@ -40,7 +40,8 @@ constexpr DeviceService kServices[] = {
     {.name = "REGUL_6"},
     {.name = "POS_INIT"},
     {.name = "POS_RESET"},
-    {.name = "POS_MODE"},
+    // Bits of the control record; not given: it stays (man. l.12101-12133).
+    {.name = "POS_MODE", .results = "control", .unanswered = {4}, .refused = {kNotGiven}},
     // The two bytes of the record as a word; refused, bit ERR (man. l.12093).
     {.name = "POS_CONTROL", .results = "status control", .unanswered = {kNotGiven, kNotGiven}, .refused = {0x0400, kNotGiven}},
     {.name = "SA_READ", .results = "RLO DR data:b", .waits = kWaits, .refused = {0, kNone}},

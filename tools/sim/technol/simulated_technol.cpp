@@ -17,6 +17,7 @@
 #include "tools/sim/technol/events.h"
 #include "tools/sim/technol/exchange.h"
 #include "tools/sim/technol/late_answers.h"
+#include "tools/sim/technol/requests/simulated_devices.h"
 
 namespace rung::sim {
 namespace {
@@ -29,6 +30,7 @@ public:
   void powerOn(host::Instance& instance, nc::PowerOn kind) override {
     log_.clear();
     control_.prepare(instance, kind);
+    devices_.powerOn(instance, kind);
     nc::technol::writeCell(instance, nc::kLicenceCell, configuration_.licences());
     exchange_.beforeInit(instance, true);
     control_.start(instance);
@@ -38,11 +40,23 @@ public:
 
   uint32_t works() const override { return control_.works() | exchange_.works(); }
   void onHook(host::Instance& instance, uint32_t work) override {
+    if (work == nc::kHookBeforeInput) {
+      devices_.beforeInput(instance);
+      devices_.takeLog(log_);
+    }
     if (work != nc::kHookAfterInput) exchange_.onHook(instance, work);
     control_.onHook(instance, work);
   }
 
-  void programChanged(host::Instance& instance, const rung_program&) override { exchange_.programChanged(instance); }
+  void onFault(host::Instance& instance) override {
+    control_.onFault(instance);
+    devices_.fault(instance);
+  }
+
+  void programChanged(host::Instance& instance, const rung_program&) override {
+    exchange_.programChanged(instance);
+    devices_.programChanged(instance);
+  }
 
   std::string config(std::string_view key, std::string_view value) override {
     if (const nc::ConfigKey* row = findConfigKey(nc::technolConfigKeys(), key))
@@ -50,6 +64,8 @@ public:
     constexpr std::string_view kKeys[] = {"PlcErrors", "PlcConstants", "PlcConfig"}; // of files, by ControlFileKind
     for (size_t i = 0; i < std::size(kKeys); ++i)
       if (key == kKeys[i]) return readFile(static_cast<control_files::ControlFileKind>(i), value);
+    if (const auto wrong = devices_.configure(key, value, inFolder(value)); wrong && !wrong->empty()) return *wrong;
+    else if (wrong && !text::equalsIgnoringCase(key.substr(0, 4), "CAN[")) return {};
     std::string problem = exchange_.configure(key, value);
     return problem.empty() ? configuration_.set(key, value) : problem;
   }
@@ -57,7 +73,14 @@ public:
     exchange_.connect(source, destination);
     return {};
   }
-  std::vector<NcProblem> connectionProblems() const override { return exchange_.problems(); }
+  std::vector<NcProblem> connectionProblems() const override {
+    std::vector<NcProblem> problems = exchange_.problems();
+    if (!devices_.tableProblem().empty()) problems.push_back({.connection = RUNG_NONE, .text = devices_.tableProblem()});
+    return problems;
+  }
+  uint32_t keptSize() override { return devices_.keptSize(); }
+  void copyKept(std::span<uint8_t> image) noexcept override { devices_.copyKept(image); }
+  void restoreKept(std::span<const uint8_t> image) override { devices_.restoreKept(image); }
 
   // Shared variables have their names beside the program's own; screens write inputs only (man. l.13609).
   std::optional<host::Ref> readPlace(const rung_program& program, std::string_view name) const override {
@@ -71,8 +94,24 @@ public:
   void beforeWrite(host::Instance& instance, const host::Ref& place) override {
     exchange_.beforeWrite(instance, place);
   }
-  std::optional<NcCell> readCell(std::string_view name) const override { return exchange_.cells().read(name); }
-  bool writeCell(std::string_view name, const NcCell& value) override { return exchange_.cells().write(name, value); }
+  std::optional<NcCell> readCell(std::string_view name) const override {
+    const auto cell = devices_.readCell(name);
+    return cell ? cell : exchange_.cells().read(name);
+  }
+  bool writeCell(std::string_view name, const NcCell& value) override {
+    return devices_.writeCell(name, value) || exchange_.cells().write(name, value);
+  }
+  std::optional<double> quantity(std::string_view name) const override {
+    const auto value = devices_.quantity(name);
+    return value ? value : SimulatedNc::quantity(name);
+  }
+  std::string setQuantity(std::string_view name, double value) override {
+    const auto done = devices_.setQuantity(name, value);
+    return done ? *done : SimulatedNc::setQuantity(name, value);
+  }
+  std::string expectSent(std::string_view port, const std::vector<NcArgument>& keys) override {
+    return devices_.expectSent(port, keys);
+  }
 
   std::string blockStart(host::Instance& instance, const std::vector<NcArgument>& keys) override;
   std::string blockDone(host::Instance& instance) override {
@@ -89,6 +128,7 @@ public:
       return {};
     }
     const auto constant = [this](std::string_view id) { return configuration_.constant(id); };
+    if (const auto done = devices_.event(name, keys)) return *done;
     const std::optional<std::string> answer = technol::callEvent(instance, name, keys, constant);
     return answer ? *answer : SimulatedNc::event(instance, name, keys);
   }
@@ -111,7 +151,7 @@ public:
 
 protected:
   bool serve(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
-    if (exchange_.respond(instance, request, reply)) return true;
+    if (devices_.respond(instance, request, reply) || exchange_.respond(instance, request, reply)) return true;
     if (host::serviceName(instance.program(), request.service) != nc::kConfigurationService) return false;
     configuration_.respond(request, reply);
     return true;
@@ -136,6 +176,7 @@ private:
   // MODULE_INIT tells its variables again.
   void start(host::Instance& instance) {
     exchange_.beforeInit(instance, false);
+    devices_.startProgram();
     control_.life().start(instance);
     exchange_.afterInit(instance);
   }
@@ -144,6 +185,7 @@ private:
   control_files::ControlFiles files_;
   technol::Configuration configuration_;
   technol::Exchange exchange_;
+  technol::SimulatedDevices devices_;
 };
 
 // The keys are names of cells of the command block.

@@ -11,7 +11,7 @@ using ir::ValueId;
 namespace {
 
 constexpr uint32_t kRecordBytes = 2, kBits = 1; // the second byte has the bits of the control record (man. l.12101)
-constexpr int64_t kMp = 1, kInic = 4, kControlBits = 15;
+constexpr int64_t kMp = 1, kControlBits = 15;
 
 // Where the control record of an axis, i64, is kept.
 struct KeptRecord {
@@ -49,19 +49,24 @@ void writeKept(StatementContext& l, ValueId axis, ValueId mask, ValueId bits) {
 
 } // namespace
 
-// POS_MODE control,len,accel,axis: the initiator is started, the motion not yet allowed (man. l.12205-12238).
+// POS_MODE control,len,accel,axis: the initiator is started, the motion not yet allowed (man. l.12205-12238). What the
+// unit refuses leaves the record alone, and the former one stays that of POS_CONTROL.
 void lowerPositionMode(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
-  const Area control = areaOf(l, o[0]);
+  const Area record = areaOf(l, o[0]);
   DeviceRequest request(l);
   request.addOperand(1, o[1]);
   request.addOperand(2, o[2]);
   const ValueId axis = request.addOperand(3, o[3]);
-  const ValueId mask = b.constant(Type::I8, kControlBits), bits = b.constant(Type::I8, kInic);
-  storeByte(l, control, b.i32(kBits), withBits(b, loadByte(l, control, b.i32(kBits)), mask, bits));
-  const KeptRecord kept = keptOf(b, axis);
-  b.when(isAxis(b, axis), [&] { b.storeAt(kept.window, kept.index, bytesArgument(b, control, b.i32(kRecordBytes))); });
   request.send();
+  const ValueId bits = request.result("control");
+  const ValueId taken = b.ne(bits, b.constant(Type::I64, nc::technol::kNotGiven));
+  const KeptRecord kept = keptOf(b, axis);
+  b.when(b.and_(taken, isAxis(b, axis)), [&] {
+    const ValueId mask = b.constant(Type::I8, kControlBits);
+    storeByte(l, record, b.i32(kBits), withBits(b, loadByte(l, record, b.i32(kBits)), mask, b.zextOrTrunc(Type::I8, bits)));
+    b.storeAt(kept.window, kept.index, bytesArgument(b, record, b.i32(kRecordBytes)));
+  });
 }
 
 // POS_CONTROL status,feed,[mp],axis: without mp the motion is allowed (inventory of the services, 6).

@@ -2,6 +2,7 @@
 #include "frontend/dialects/technol/lower/sequences.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -71,13 +72,28 @@ void Sequences::end() {
     m_.b().store(bitOf(sequence.mechanism), m_.b().bit(false));
   storeState(sequence, m_.b().i32(0));
   storeLine(sequence, 0);
-  for (const CountCell& cell : sequence.cells) state_.store(cell, m_.b().constant(cell.type, 0));
+  clear(sequence.cells);
+  if (sequence.mechanism == kNone && !sequence.cells.empty()) clearAtBeginning(sequence);
   m_.out().cut();
   m_.out().setLabels(sequence.dispatch, sequence.states);
   m_.out().bind(sequence.leave);
   if (sequence.mechanism != kNone) mechanisms_[sequence.mechanism].cells = std::move(sequence.cells);
   m_.module().continuations.push_back(std::move(sequence.continuation));
   open_.pop_back();
+}
+
+void Sequences::clear(std::span<const CountCell> cells) {
+  for (const CountCell& cell : cells) state_.store(cell, m_.b().constant(cell.type, 0));
+}
+
+// The control may give up a block and begin the next one: what a module counted or asked for is of the former block.
+void Sequences::clearAtBeginning(Sequence& sequence) {
+  RoutineBuilder& out = m_.out();
+  const uint32_t code = std::exchange(sequence.states[0], out.newLabel());
+  out.jump(sequence.leave);
+  out.bind(sequence.states[0]);
+  clear(sequence.cells);
+  out.jump(code);
 }
 
 // Only what the unit itself consists of counts, not a procedure inside it.
@@ -148,7 +164,7 @@ void Sequences::makeResets() {
   for (const Kept& kept : mechanisms_) {
     if (!kept.reset.valid()) continue;
     m_.open(kept.reset);
-    for (const CountCell& cell : kept.cells) state_.store(cell, m_.b().constant(cell.type, 0));
+    clear(kept.cells);
     m_.close();
   }
 }

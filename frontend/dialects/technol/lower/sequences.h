@@ -54,6 +54,8 @@ public:
 
 private:
   void begin(Sequence sequence);
+  void clear(std::span<const CountCell> cells);
+  void clearAtBeginning(Sequence& sequence);
   void addPoint(Sequence& sequence, std::string_view role);
 
   Memory& m_;

@@ -41,6 +41,12 @@ void control(Axes& axes, DeviceCall& call) {
   call.set(1, state.programmed ? state.control : nc::technol::kNotGiven);
 }
 
+void mode(Axes& axes, DeviceCall& call) {
+  const PositioningUnits::Mode mode =
+      axes.posMode(call.arg(2), static_cast<int32_t>(call.arg(0)), static_cast<uint16_t>(call.arg(1)));
+  call.set(0, mode.accepted ? mode.control : nc::technol::kNotGiven);
+}
+
 void position(Axes& axes, const AxisPlaces& places, AxisOrder order, DeviceCall& call) {
   switch (order) {
   case AxisOrder::PositionInit: {
@@ -50,9 +56,7 @@ void position(Axes& axes, const AxisPlaces& places, AxisOrder order, DeviceCall&
     return axes.posInit(axis, call.argOr(1, 0), closed);
   }
   case AxisOrder::PositionReset: return axes.posReset(call.arg(0));
-  case AxisOrder::PositionMode:
-    (void)axes.posMode(call.arg(2), static_cast<int32_t>(call.arg(0)), static_cast<uint16_t>(call.arg(1)));
-    return;
+  case AxisOrder::PositionMode: return mode(axes, call);
   default: return control(axes, call);
   }
 }

@@ -1,0 +1,250 @@
+// Requests to the CAN bus (see can_requests.h).
+#include "tools/sim/technol/requests/can_requests.h"
+
+#include <string>
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/nc/technol/signals.h"
+
+namespace rung::sim::technol {
+
+using devices::CanPacket;
+
+namespace {
+
+bool isChannel(const DeviceCall& call) { return call.arg(0) == 1 || call.arg(0) == 2; }
+uint32_t channelOf(const DeviceCall& call) { return static_cast<uint32_t>(call.arg(0)); }
+
+// An item by its place in INOUTS, which programs name by the member.
+devices::InoutsItem itemAt(int64_t offset) {
+  devices::InoutsItem item{.offset = static_cast<uint32_t>(offset)};
+  for (const nc::Signal& signal : nc::technolSignals())
+    if (std::string_view(signal.area) == "INOUTS" && signal.byteOffset == item.offset) {
+      item.bytes = std::max(1u, nc::elementBytes(signal.type));
+      break;
+    }
+  return item;
+}
+
+} // namespace
+
+bool CanCalls::answer(std::string_view service, DeviceCall& call) {
+  struct Entry {
+    std::string_view name;
+    void (CanCalls::*answer)(DeviceCall&);
+  };
+  static constexpr Entry kOrders[] = {{"CAN_SEND", &CanCalls::send},
+                                      {"CAN_RECV", &CanCalls::receive},
+                                      {"CAN_RECV_REQ", &CanCalls::order},
+                                      {"CAN_RECV_DEL", &CanCalls::endOrder},
+                                      {"CAN_RECV_END", &CanCalls::endOrder},
+                                      {"CAN_SYSIO_READ", &CanCalls::readItem},
+                                      {"CAN_SYSIO_WRITE", &CanCalls::writeItem},
+                                      {"CAN_AX_SEND", &CanCalls::sendToDrive}};
+  for (const Entry& entry : kOrders)
+    if (entry.name == service) return (this->*entry.answer)(call), true;
+  return false;
+}
+
+// can id rtr len data -> DR
+void CanCalls::send(DeviceCall& call) {
+  CanPacket packet{.id = static_cast<uint16_t>(call.arg(1)),
+                   .remote = static_cast<uint8_t>(call.arg(2)),
+                   .length = static_cast<uint8_t>(call.arg(3))};
+  call.bytes(4, packet.data);
+  const auto error = isChannel(call) ? can_.channel(channelOf(call)).send(packet) : devices::CanError::SendQueueFull;
+  call.set(0, static_cast<int64_t>(error));
+}
+
+// can -> DR id rtr data
+void CanCalls::receive(DeviceCall& call) {
+  CanPacket packet;
+  const auto error =
+      isChannel(call) ? can_.channel(channelOf(call)).receive(packet) : devices::CanError::NothingReceived;
+  call.set(0, static_cast<int64_t>(error));
+  call.set(1, packet.id);
+  call.set(2, packet.remote);
+  call.setBytes(3, std::span(packet.data).first(packet.length));
+}
+
+// can objl objh idl idh proc pmsg -> RLO DR
+void CanCalls::order(DeviceCall& call) {
+  if (!isChannel(call)) return;
+  const uint32_t handle = can_.channel(channelOf(call))
+                              .order({.objectLow = call.number(1),
+                                      .objectHigh = call.number(2),
+                                      .nodeLow = call.number(3),
+                                      .nodeHigh = call.number(4)});
+  Order* free = std::ranges::find(orders_, 0u, &Order::handle);
+  if (handle == 0 || free == orders_.end()) return;
+  *free = {.handle = handle, .buffer = call.arg(6), .procedure = static_cast<uint64_t>(call.arg(5))};
+  call.set(0, 1);
+  call.set(1, handle);
+}
+
+// handle -> RLO
+void CanCalls::endOrder(DeviceCall& call) {
+  const bool known = can_.orders().remove(call.number(0));
+  Order* order = std::ranges::find(orders_, call.number(0), &Order::handle);
+  if (known && order != orders_.end()) *order = {};
+  call.set(0, known ? 1 : 0);
+}
+
+// can group board item -> RLO DR
+void CanCalls::readItem(DeviceCall& call) {
+  uint32_t value = 0;
+  const bool known = isChannel(call) &&
+                     can_.readItem(channelOf(call), call.number(1), call.number(2), itemAt(call.arg(3)), value);
+  call.set(0, known ? 0 : 1);
+  call.set(1, value);
+}
+
+// can group board item val -> RLO
+void CanCalls::writeItem(DeviceCall& call) {
+  const bool known = isChannel(call) && can_.writeItem(channelOf(call), call.number(1), call.number(2),
+                                                       itemAt(call.arg(3)), static_cast<uint32_t>(call.arg(4)));
+  call.set(0, known ? 0 : 1);
+}
+
+// axis data
+void CanCalls::sendToDrive(DeviceCall& call) {
+  if (call.number(0) < 1 || call.number(0) > devices::kMostDrives) return;
+  CanPacket packet{.length = devices::kCanDataBytes};
+  call.bytes(1, packet.data);
+  can_.sendToDrive(call.number(0), packet);
+  asksDrive_ = true;
+}
+
+void CanCalls::showDrive(host::Instance& instance) {
+  if (!asksDrive_ || can_.driveBusy() != 0) return;
+  asksDrive_ = false;
+  const rung_program& program = instance.program();
+  const rt::Memory memory = instance.memory();
+  const auto packet = nc::technol::signalPlace(program, "CAN_AX_RECV_PACKET.CAN_ID");
+  const auto busy = nc::technol::signalPlace(program, "CAN_AX_BUSY");
+  if (!packet || !busy) return;
+  const CanPacket& answer = can_.driveAnswer();
+  memory.write(packet->space, packet->byte, 2, answer.id);
+  memory.writeByte(packet->space, packet->byte + 2, answer.remote);
+  memory.writeByte(packet->space, packet->byte + 3, answer.length);
+  for (uint32_t i = 0; i < devices::kCanDataBytes; ++i)
+    memory.writeByte(packet->space, packet->byte + 4 + i, answer.data[i]);
+  host::writeRaw(memory, *busy, 0);
+}
+
+// All twelve bytes of the buffer (inventory of the services, 9), then the procedure with the channel in DR (man.
+// l.3834-3840).
+void CanCalls::run(host::Instance& instance, const CanPlaces& places, uint32_t channel, const CanPacket& packet) {
+  const devices::CanMatches matches = can_.channel(channel).deliver(packet);
+  for (const uint32_t handle : matches.all()) {
+    const Order* order = std::ranges::find(orders_, handle, &Order::handle);
+    if (order == orders_.end() || instance.stopped()) continue;
+    const nc::technol::ArgumentBytes at = nc::technol::bytesOfArgument(order->buffer);
+    const rt::Memory memory = instance.memory();
+    memory.write(at.space, at.first, 2, packet.id);
+    memory.writeByte(at.space, at.first + 2, packet.remote);
+    memory.writeByte(at.space, at.first + 3, packet.length);
+    for (uint32_t i = 0; i < devices::kCanDataBytes; ++i)
+      memory.writeByte(at.space, at.first + 4 + i, packet.data[i]);
+    if (const auto* procedure = places.procedure(order->procedure)) procedure->run(instance, channel, false);
+  }
+}
+
+void CanCalls::deliver(host::Instance& instance, const CanPlaces& places) {
+  CanPacket packet;
+  for (uint32_t channel = 1; channel <= 2; ++channel)
+    while (can_.takeReceived(channel, packet)) run(instance, places, channel, packet);
+}
+
+// ---- cells ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+rt::Place placeIn(const rung_program& program, const std::string& name) {
+  return host::locate({program, nullptr}, nc::technol::signalPlace(program, name).value_or(host::Ref{}));
+}
+
+template <size_t Count>
+std::array<rt::Place, Count> elements(const rung_program& program, std::string_view name) {
+  std::array<rt::Place, Count> places;
+  const auto array = nc::technol::signalPlace(program, name);
+  for (uint32_t i = 0; array && i < Count; ++i)
+    if (const auto one = host::element(*array, i)) places[i] = host::locate({program, nullptr}, *one);
+  return places;
+}
+
+} // namespace
+
+CanPlaces::CanPlaces(const rung_program& program) {
+  for (uint32_t i = 0; i < in_.size(); ++i) in_[i] = placeIn(program, "P" + std::to_string(i + 1) + "IN");
+  for (uint32_t i = 0; i < out_.size(); ++i) {
+    out_[i] = placeIn(program, "P" + std::to_string(i) + "OUT");
+    errors_[i] = placeIn(program, "ERRLI_P" + std::to_string(i) + "OUT");
+  }
+  command_ = elements<devices::kMostDrives>(program, "CAN_DRIVE_CMD");
+  status_ = elements<devices::kMostDrives>(program, "CAN_DRIVE_STAT");
+  manufacturer_ = elements<devices::kMostDrives>(program, "CAN_DRIVE_MSTAT");
+  constexpr const char* kGroups[] = {"CAN_IO_", "CAN_MAT_", "CAN_TOC_"};
+  constexpr const char* kCodes[] = {"ERROR_CODE", "ERROR_NUM", "TIMEOUT_CODE", "TIMEOUT_NUM"};
+  for (uint32_t group = 0; group < std::size(kGroups) && group < codes_.size(); ++group)
+    for (uint32_t i = 0; i < std::size(kCodes); ++i)
+      codes_[group][i] = placeIn(program, std::string(kGroups[group]) + kCodes[i]);
+  for (uint32_t wheel = 0; wheel < devices::kHandwheels; ++wheel) {
+    const std::string number = std::to_string(wheel + 1);
+    keys_[wheel] = {placeIn(program, "PTLTOC_P" + number), placeIn(program, "PTLTOC_P" + number + "_2")};
+    displayBusy_[wheel] = placeIn(program, "BUSY_DISPTOC" + number);
+    if (const auto display = nc::technol::signalPlace(program, "DISPTOC" + number + ".TOC_ROW"))
+      for (uint32_t i = 0; i < display_[wheel].size(); ++i)
+        display_[wheel][i] = host::locate({program, nullptr}, host::intRef(display->space, display->byte + i, 8));
+  }
+  for (uint32_t number = 0;; ++number) {
+    const std::string task = std::string(nc::technol::kPacketTask) + std::to_string(number);
+    if (host::findTask(program, task) == RUNG_NONE) break;
+    procedures_.emplace_back(program, task);
+  }
+}
+
+void CanPlaces::read(const rt::Memory& memory, CanInputs& in, CanOutputs& out) const {
+  // What somebody has put there is at the terminals; what the units have shown is not.
+  for (uint32_t i = 0; i < in_.size(); ++i) {
+    const auto now = static_cast<uint8_t>(memory.read(in_[i]));
+    if (now != out.units.in[i]) in.terminals[i] = now;
+  }
+  for (uint32_t i = 0; i < out_.size(); ++i) {
+    in.units.out[i] = static_cast<uint8_t>(memory.read(out_[i]));
+    out.units.errors[i] = static_cast<uint8_t>(memory.read(errors_[i]));
+  }
+  for (uint32_t wheel = 0; wheel < devices::kHandwheels; ++wheel) {
+    for (uint32_t i = 0; i < display_[wheel].size(); ++i)
+      in.units.display[wheel][i] = static_cast<uint8_t>(memory.read(display_[wheel][i]));
+    in.units.displayBusy[wheel] = memory.read(displayBusy_[wheel]) != 0;
+  }
+  for (uint32_t i = 0; i < command_.size(); ++i)
+    in.drives.command[i] = static_cast<uint16_t>(memory.read(command_[i]));
+}
+
+void CanPlaces::write(const rt::Memory& memory, const CanInputs&, const CanOutputs& out, const CanDevices& can) const {
+  constexpr uint32_t kIoGroup = 1, kInsOfBoard = 4, kOutsOfBoard = 3;
+  for (uint32_t board = 1; can.unit(kIoGroup, board) != nullptr; ++board) {
+    for (uint32_t i = (board - 1) * kInsOfBoard; i < board * kInsOfBoard && i < in_.size(); ++i)
+      memory.write(in_[i], out.units.in[i]);
+    for (uint32_t i = (board - 1) * kOutsOfBoard; i < board * kOutsOfBoard && i < errors_.size(); ++i)
+      memory.write(errors_[i], out.units.errors[i]);
+  }
+  for (uint32_t group = 1; group <= codes_.size(); ++group) {
+    if (can.unit(group, 1) == nullptr) continue;
+    const devices::GroupCodes& codes = out.units.groups[group - 1];
+    const uint8_t values[] = {codes.errorCode, codes.errorNumber, codes.timeoutCode, codes.timeoutNumber};
+    for (uint32_t i = 0; i < std::size(values); ++i) memory.write(codes_[group - 1][i], values[i]);
+  }
+  constexpr uint32_t kWheelGroup = 3;
+  for (uint32_t wheel = 0; wheel < devices::kHandwheels; ++wheel)
+    if (can.unit(kWheelGroup, wheel + 1) != nullptr)
+      for (uint32_t i = 0; i < 2; ++i) memory.write(keys_[wheel][i], out.units.keys[wheel][i]);
+  for (uint32_t i = 0; i < can.drives() && i < status_.size(); ++i) {
+    memory.write(status_[i], out.drives.status[i]);
+    memory.write(manufacturer_[i], out.drives.manufacturer[i]);
+  }
+}
+
+} // namespace rung::sim::technol

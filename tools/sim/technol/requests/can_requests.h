@@ -1,0 +1,73 @@
+// CAN_*: packets, orders, units and drives of the simulated control, and their cells (man. ch. 9, 13.14).
+#pragma once
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "rtlib/nc/control/technol/cells.h"
+#include "tools/sim/technol/devices/can_devices.h"
+#include "tools/sim/technol/requests/device_call.h"
+
+namespace rung::sim::technol {
+
+// Where the cells lie in a program; the tasks of its event procedures.
+class CanPlaces {
+public:
+  CanPlaces() = default; // a program that has nothing
+  explicit CanPlaces(const rung_program& program);
+
+  void read(const rt::Memory& memory, CanInputs& in, CanOutputs& out) const;
+  // Ports of units that exist, and drives 1 to `drives`.
+  void write(const rt::Memory& memory, const CanInputs& in, const CanOutputs& out, const CanDevices& can) const;
+  const nc::technol::Procedure* procedure(uint64_t number) const {
+    return number < procedures_.size() ? &procedures_[number] : nullptr;
+  }
+
+private:
+  std::array<rt::Place, devices::kInputPorts> in_;
+  std::array<rt::Place, devices::kOutputPorts> out_, errors_;
+  std::array<rt::Place, devices::kMostDrives> command_, status_, manufacturer_;
+  std::array<std::array<rt::Place, 4>, devices::kUnitGroups> codes_;
+  std::array<std::array<rt::Place, 2>, devices::kHandwheels> keys_;
+  std::array<std::array<rt::Place, 8>, devices::kHandwheels> display_;
+  std::array<rt::Place, devices::kHandwheels> displayBusy_;
+  std::vector<nc::technol::Procedure> procedures_;
+};
+
+class CanCalls {
+public:
+  explicit CanCalls(CanDevices& can) : can_(can) {}
+
+  // At a power-on and START PLC: no order is left.
+  void clear() { orders_ = {}; }
+  // False: another service.
+  bool answer(std::string_view service, DeviceCall& call);
+  // After the ticks of a scan: what has come goes into the buffers of orders, and their procedures run; else it waits
+  // for CAN_RECV. A program that is stopped has no orders, and its packets are dropped.
+  void deliver(host::Instance& instance, const CanPlaces& places);
+  // The answer of a drive, and whether one is waited for.
+  void showDrive(host::Instance& instance);
+  // CAN_AX_SEND was carried out since the last `showDrive` that found its answer.
+  bool asksDrive() const { return asksDrive_; }
+
+private:
+  struct Order {
+    uint32_t handle = 0; // 0: none
+    int64_t buffer = 0;  // nc::technol::bytesArgument
+    uint64_t procedure = 0;
+  };
+  void send(DeviceCall& call);
+  void receive(DeviceCall& call);
+  void order(DeviceCall& call);
+  void endOrder(DeviceCall& call);
+  void readItem(DeviceCall& call);
+  void writeItem(DeviceCall& call);
+  void sendToDrive(DeviceCall& call);
+  void run(host::Instance& instance, const CanPlaces& places, uint32_t channel, const devices::CanPacket& packet);
+
+  CanDevices& can_;
+  std::array<Order, devices::kMostCanOrders> orders_ = {};
+  bool asksDrive_ = false;
+};
+
+} // namespace rung::sim::technol

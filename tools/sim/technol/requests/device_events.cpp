@@ -1,0 +1,361 @@
+// What a scenario does to the devices, and what it sees of them (see simulated_devices.h; inventory of the services, 15).
+#include <bit>
+#include <cmath>
+
+#include "ir/support/ascii.h"
+#include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
+#include "tools/sim/technol/requests/simulated_devices.h"
+
+namespace rung::sim::technol {
+namespace {
+
+using Keys = std::span<const NcArgument>;
+
+const NcArgument* find(Keys keys, std::string_view name) {
+  for (const NcArgument& key : keys)
+    if (text::equalsIgnoringCase(key.key, name)) return &key;
+  return nullptr;
+}
+
+int64_t number(Keys keys, std::string_view name, int64_t otherwise) {
+  const NcArgument* key = find(keys, name);
+  return key != nullptr && !key->isText ? key->integer : otherwise;
+}
+uint32_t unsignedNumber(Keys keys, std::string_view name, uint32_t otherwise = 0) {
+  return static_cast<uint32_t>(number(keys, name, otherwise));
+}
+std::string textOf(Keys keys, std::string_view name) {
+  const NcArgument* key = find(keys, name);
+  return key != nullptr && key->isText ? key->text : std::string();
+}
+template <class Value>
+std::optional<Value> given(Keys keys, std::string_view name) {
+  const NcArgument* key = find(keys, name);
+  return key == nullptr ? std::nullopt : std::optional(static_cast<Value>(key->integer));
+}
+
+// "" or the first key that the event has not.
+std::string unknownKey(Keys keys, std::string_view event, std::string_view known) {
+  for (const NcArgument& key : keys) {
+    bool found = false;
+    for (std::string_view rest = known; !rest.empty();) {
+      const size_t end = std::min(rest.find(' '), rest.size());
+      found = found || text::equalsIgnoringCase(key.key, rest.substr(0, end));
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    if (!found) return std::string(event) + " has no '" + key.key + "': it has " + std::string(known);
+  }
+  return {};
+}
+
+// Pairs of hexadecimal digits with blanks between them.
+std::optional<std::vector<uint8_t>> bytesOfHex(std::string_view text) {
+  std::vector<uint8_t> bytes;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == ' ') continue;
+    const int high = hexDigit(text[i]), low = i + 1 < text.size() ? hexDigit(text[i + 1]) : -1;
+    if (high < 0 || low < 0) return std::nullopt;
+    bytes.push_back(static_cast<uint8_t>(high * 16 + low));
+    ++i;
+  }
+  return bytes;
+}
+
+// \r, \n, \t, \\ and \xNN.
+std::optional<std::vector<uint8_t>> bytesOfText(std::string_view utf8) {
+  const std::string text = nc::memoryText(utf8);
+  std::vector<uint8_t> bytes;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\\') {
+      bytes.push_back(static_cast<uint8_t>(text[i]));
+      continue;
+    }
+    if (++i >= text.size()) return std::nullopt;
+    constexpr std::string_view kLetters = "rnt\\", kMeant = "\r\n\t\\";
+    if (const size_t at = kLetters.find(text[i]); at != std::string_view::npos) {
+      bytes.push_back(static_cast<uint8_t>(kMeant[at]));
+      continue;
+    }
+    const int high = i + 2 < text.size() && text[i] == 'x' ? hexDigit(text[i + 1]) : -1;
+    const int low = high >= 0 ? hexDigit(text[i + 2]) : -1;
+    if (low < 0) return std::nullopt;
+    bytes.push_back(static_cast<uint8_t>(high * 16 + low));
+    i += 2;
+  }
+  return bytes;
+}
+
+// What `data` or `text` says; nothing where it cannot be read.
+std::optional<std::vector<uint8_t>> bytesOf(Keys keys) {
+  if (find(keys, "text") != nullptr) return bytesOfText(textOf(keys, "text"));
+  return bytesOfHex(textOf(keys, "data"));
+}
+
+std::optional<devices::CanPacket> packetOf(Keys keys) {
+  const auto bytes = bytesOfHex(textOf(keys, "data"));
+  if (!bytes || bytes->size() > devices::kCanDataBytes) return std::nullopt;
+  devices::CanPacket packet{.id = static_cast<uint16_t>(number(keys, "id", 0)),
+                            .remote = static_cast<uint8_t>(number(keys, "rtr", 0)),
+                            .length = static_cast<uint8_t>(bytes->size())};
+  std::ranges::copy(*bytes, packet.data);
+  return packet;
+}
+
+constexpr const char* kBadBytes = "data is pairs of hexadecimal digits, as \"02 55\"";
+
+AxisMask axesOf(Keys keys) {
+  const int64_t axis = number(keys, "axis", 0);
+  if (axis >= 1 && axis <= kMaxAxes) return bitOf(static_cast<uint32_t>(axis - 1));
+  return static_cast<AxisMask>(number(keys, "axes", 0));
+}
+
+// "4.RefSpeed": the axis and the rest; 0 where there is none.
+uint32_t takeNumber(std::string_view& rest) {
+  const size_t end = std::min(rest.find('.'), rest.size());
+  const bool hex = rest.substr(0, end).starts_with("0x");
+  const auto number = hex ? text::numberIn<uint32_t>(rest.substr(2, end - 2), 16) : text::numberIn<uint32_t>(rest.substr(0, end));
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  return number.value_or(UINT32_MAX);
+}
+
+bool takePrefix(std::string_view& name, std::string_view prefix) {
+  if (!text::equalsIgnoringCase(name.substr(0, prefix.size()), prefix)) return false;
+  name.remove_prefix(prefix.size());
+  return true;
+}
+
+} // namespace
+
+std::optional<std::string> SimulatedDevices::event(std::string_view name, Keys keys) {
+  const auto is = [&](std::string_view event) { return text::equalsIgnoringCase(name, event); };
+  const auto checked = [&](std::string_view known, auto act) -> std::optional<std::string> {
+    if (std::string wrong = unknownKey(keys, name, known); !wrong.empty()) return wrong;
+    return std::string(act());
+  };
+  if (is("SA_LOCK"))
+    return checked("area on", [&] {
+      const bool held = areas_.hold(unsignedNumber(keys, "area"), number(keys, "on", 1) != 0);
+      return std::string(held ? "" : "there is no such shared area");
+    });
+  if (is("PLCT"))
+    return checked("table add remove", [&] {
+      const uint32_t table = unsignedNumber(keys, "table");
+      const auto removed = given<uint32_t>(keys, "remove");
+      return removed ? tables_.removeLine(table, *removed) : tables_.addLine(table);
+    });
+  if (!simulated_) return std::nullopt;
+  if (is("STOP")) return checked("emergency", [&] { return axes_.stop(number(keys, "emergency", 0) != 0), std::string(); });
+  if (is("REFERENCE")) return checked("axis axes type", [&] { return axes_.reference(textOf(keys, "type"), axesOf(keys)); });
+  if (is("AUTMAN")) return checked("on", [&] { return axes_.autman(number(keys, "on", 1) != 0), std::string(); });
+  if (is("RTM"))
+    return checked("command state", [&] { return axes_.rtm(textOf(keys, "command"), number(keys, "state", 1) != 0); });
+  if (is("handwheel"))
+    return checked("pulses wheel", [&] { return axes_.handwheel(number(keys, "pulses", 0)), std::string(); });
+  if (is("CAN"))
+    return checked("can id rtr data len", [&] {
+      const auto packet = packetOf(keys);
+      return packet ? can_.packetEvent(unsignedNumber(keys, "can"), *packet) : std::string(kBadBytes);
+    });
+  if (is("CAN_UNIT"))
+    return checked("group board error short0 short1 short2 silent", [&] {
+      CanUnitEvent event{.error = given<uint8_t>(keys, "error"), .shorts = {}, .silent = given<bool>(keys, "silent")};
+      for (size_t i = 0; i < event.shorts.size(); ++i) event.shorts[i] = given<uint8_t>(keys, "short" + std::to_string(i));
+      return can_.unitEvent(unsignedNumber(keys, "group"), unsignedNumber(keys, "board"), event);
+    });
+  if (is("CAN_DRIVE"))
+    return checked("drive fault hold mstat silent", [&] {
+      return can_.driveEvent(unsignedNumber(keys, "drive"), {.fault = given<uint16_t>(keys, "fault"),
+                                                             .hold = number(keys, "hold", 0) != 0,
+                                                             .mstat = given<uint16_t>(keys, "mstat"),
+                                                             .silent = given<bool>(keys, "silent")});
+    });
+  if (is("CAN_BUS"))
+    return checked("can off", [&] { return can_.busEvent(unsignedNumber(keys, "can"), number(keys, "off", 1) != 0); });
+  if (is("COM"))
+    return checked("com text data error", [&] {
+      if (const auto wrong = given<bool>(keys, "error")) return com_.setError(unsignedNumber(keys, "com"), *wrong);
+      const auto bytes = bytesOf(keys);
+      return bytes ? com_.receive(unsignedNumber(keys, "com"), *bytes) : std::string(kBadBytes);
+    });
+  if (is("ethercat"))
+    return checked("device error silent fault link", [&] {
+      const uint32_t device = unsignedNumber(keys, "device");
+      if (const auto link = given<bool>(keys, "link")) return ethercat_.setLink(*link), std::string();
+      if (const auto silent = given<bool>(keys, "silent")) return ethercat_.setSilent(device, *silent);
+      if (const auto fault = given<uint32_t>(keys, "fault")) return ethercat_.fault(device, *fault);
+      return ethercat_.setError(device, unsignedNumber(keys, "error"));
+    });
+  return std::nullopt;
+}
+
+// ---- quantities ----------------------------------------------------------------------------------------------------
+
+std::optional<double> SimulatedDevices::quantity(std::string_view name) const {
+  if (!simulated_) return std::nullopt;
+  if (text::equalsIgnoringCase(name, "MAINSPINDLE")) return axes_.mainSpindle();
+  if (text::equalsIgnoringCase(name, "ECSTATE")) return static_cast<double>(ethercat_.state());
+  const auto ofAxis = [&](std::string_view prefix, auto value) -> std::optional<double> {
+    std::string_view rest = name;
+    if (!takePrefix(rest, prefix)) return std::nullopt;
+    const uint32_t axis = takeNumber(rest);
+    return axes_.exists(axis) && rest.empty() ? std::optional<double>(value(axis)) : std::nullopt;
+  };
+  if (auto v = ofAxis("MPOS.", [&](uint32_t axis) { return axes_.measured(axis); })) return v;
+  if (auto v = ofAxis("TRUE.", [&](uint32_t axis) { return axes_.physical(axis); })) return v;
+  if (auto v = ofAxis("SPEED.", [&](uint32_t axis) { return axes_.speedPerMinute(axis); })) return v;
+  if (auto v = ofAxis("SPINDLE.", [&](uint32_t axis) { return axes_.spindleRole(axis); })) return v;
+  if (auto v = ofAxis("REGUL.", [&](uint32_t axis) { return axes_.regulator(axis); })) return v;
+  std::string_view rest = name;
+  const auto asReal = [](auto value) { return value ? std::optional(static_cast<double>(*value)) : std::nullopt; };
+  if (takePrefix(rest, "ECSTATE.")) return asReal(ethercat_.slaveState(takeNumber(rest)));
+  const auto three = [&](auto act) {
+    const uint32_t a = takeNumber(rest), b = takeNumber(rest), c = takeNumber(rest);
+    return act(a, b, c);
+  };
+  if (takePrefix(rest, "DRIVE.")) return asReal(three([&](auto a, auto b, auto c) { return can_.driveObject(a, b, c); }));
+  if (takePrefix(rest, "ETHERCAT.")) return asReal(three([&](auto a, auto b, auto c) { return ethercat_.object(a, b, c); }));
+  if (takePrefix(rest, "IDN.")) return asReal(three([&](auto a, auto b, auto c) { return ethercat_.idn(a, b, c); }));
+  return std::nullopt;
+}
+
+std::optional<std::string> SimulatedDevices::setQuantity(std::string_view name, double value) {
+  if (!simulated_) return std::nullopt;
+  std::string_view rest = name;
+  const bool measured = takePrefix(rest, "MPOS.");
+  if (measured || takePrefix(rest, "TRUE.")) {
+    const uint32_t axis = takeNumber(rest);
+    if (!axes_.exists(axis)) return "there is no axis of this number";
+    measured ? axes_.setMeasured(axis, value) : axes_.setPhysical(axis, value);
+    return std::string();
+  }
+  const bool object = takePrefix(rest, "ETHERCAT.");
+  if (!object && !takePrefix(rest, "IDN.")) return std::nullopt;
+  const uint32_t a = takeNumber(rest), b = takeNumber(rest), c = takeNumber(rest);
+  const auto bits = static_cast<uint64_t>(static_cast<int64_t>(std::llround(value)));
+  const bool done = object ? ethercat_.setObject(a, b, c, bits) : ethercat_.setIdn(a, b, c, bits);
+  return std::string(done ? "" : "there is no such object");
+}
+
+// ---- cells ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// SA0+n:w, w 1, 2, 4 or 8.
+struct AreaCell {
+  uint32_t area = 0, offset = 0, width = 0;
+};
+std::optional<AreaCell> areaCell(std::string_view name) {
+  if (!takePrefix(name, "SA") || name.size() < 2 || name[1] != '+') return std::nullopt;
+  const size_t colon = name.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  const auto area = text::numberIn<uint32_t>(name.substr(0, 1)), offset = text::numberIn<uint32_t>(name.substr(2, colon - 2)),
+             width = text::numberIn<uint32_t>(name.substr(colon + 1));
+  const bool fits = area && offset && width && (*width == 1 || *width == 2 || *width == 4 || *width == 8) &&
+                    *offset + *width <= devices::SharedAreas::kAreaBytes && *area < devices::SharedAreas::kAreas;
+  return fits ? std::optional(AreaCell{*area, *offset, *width}) : std::nullopt;
+}
+
+// PlcTable0[2].Feed, PlcTable0.LinesCount, PlcTable0.SelLine.
+struct TableCell {
+  uint32_t table = 0;
+  std::optional<uint32_t> line;
+  std::string_view column;
+};
+std::optional<TableCell> tableCell(std::string_view name) {
+  if (!takePrefix(name, "PlcTable")) return std::nullopt;
+  const size_t end = name.find_first_of("[.");
+  const auto table = text::numberIn<uint32_t>(name.substr(0, end));
+  if (!table || end == std::string_view::npos) return std::nullopt;
+  TableCell cell{.table = *table, .line = {}, .column = {}};
+  name.remove_prefix(end);
+  if (name.front() == '[') {
+    const size_t close = name.find(']');
+    cell.line = close == std::string_view::npos ? std::nullopt : text::numberIn<uint32_t>(name.substr(1, close - 1));
+    if (!cell.line) return std::nullopt;
+    name.remove_prefix(close + 1);
+  }
+  if (name.empty() || name.front() != '.') return std::nullopt;
+  cell.column = name.substr(1);
+  return cell;
+}
+
+} // namespace
+
+std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
+  if (const auto at = areaCell(name)) {
+    const auto bytes = const_cast<devices::SharedAreas&>(areas_).bytes(at->area).subspan(at->offset, at->width);
+    NcCell cell{.width = at->width * 8};
+    for (uint32_t i = 0; i < at->width; ++i) cell.bits |= uint64_t{bytes[i]} << 8 * i;
+    return cell;
+  }
+  const auto at = tableCell(name);
+  if (!at || !tables_.exists(at->table)) return std::nullopt;
+  uint32_t number = 0;
+  if (!at->line) {
+    const bool lines = text::equalsIgnoringCase(at->column, "LinesCount");
+    if (!lines && !text::equalsIgnoringCase(at->column, "SelLine")) return std::nullopt;
+    lines ? tables_.lineCount(at->table, number) : tables_.selectedLine(at->table, number);
+    return NcCell{.width = 32, .bits = number};
+  }
+  if (tables_.columnIndex(at->table, nc::memoryText(at->column), number) != devices::TableError::None) return std::nullopt;
+  int32_t integer = 0;
+  if (tables_.getInt(at->table, *at->line, number, integer) == devices::TableError::None)
+    return NcCell{.width = 32, .bits = static_cast<uint32_t>(integer)};
+  double real = 0;
+  if (tables_.getReal(at->table, *at->line, number, real) == devices::TableError::None)
+    return NcCell{.isReal = true, .bits = std::bit_cast<uint64_t>(real)};
+  return std::nullopt;
+}
+
+bool SimulatedDevices::writeCell(std::string_view name, const NcCell& value) {
+  if (const auto at = areaCell(name)) {
+    const auto bytes = areas_.bytes(at->area).subspan(at->offset, at->width);
+    for (uint32_t i = 0; i < at->width; ++i) bytes[i] = static_cast<uint8_t>(value.bits >> 8 * i);
+    return true;
+  }
+  const auto at = tableCell(name);
+  if (!at || !tables_.exists(at->table)) return false;
+  const double number = value.isReal ? std::bit_cast<double>(value.bits) : static_cast<double>(static_cast<int64_t>(value.bits));
+  if (at->line) return tables_.edit(at->table, *at->line, at->column, number).empty();
+  return text::equalsIgnoringCase(at->column, "SelLine") &&
+         tables_.selectByOperator(at->table, static_cast<uint32_t>(number)).empty();
+}
+
+// ---- what has been sent --------------------------------------------------------------------------------------------
+
+std::string SimulatedDevices::expectSent(std::string_view port, Keys keys) {
+  std::string_view rest = port;
+  const bool com = takePrefix(rest, "COM[");
+  if (!com && !takePrefix(rest, "CAN[")) return "ports are COM[n] and CAN[n], not '" + std::string(port) + "'";
+  const auto number = text::numberIn<uint32_t>(rest.substr(0, rest.find(']')));
+  if (!number || *number >= (com ? ComPorts::kMost : 2u)) return "there is no port '" + std::string(port) + "'";
+  const bool none = keys.size() == 1 && text::equalsIgnoringCase(keys[0].key, "none");
+  if (com) {
+    ComLine& line = com_.line(*number);
+    if (none) return line.sent() == 0 ? std::string() : std::to_string(line.sent()) + " bytes have been sent";
+    const auto bytes = bytesOf(keys);
+    if (!bytes) return kBadBytes;
+    if (line.takeSent(*bytes)) return {};
+    std::string found;
+    for (uint32_t i = 0; i < line.sent() && i < bytes->size() + 8; ++i) {
+      const uint8_t byte = line.sentByte(i);
+      constexpr std::string_view kDigits = "0123456789ABCDEF";
+      found += {kDigits[byte >> 4], kDigits[byte & 15], ' '};
+    }
+    return "sent is " + (found.empty() ? std::string("nothing") : found);
+  }
+  devices::CanPacket packet;
+  const bool any = can_.takeSent(*number + 1, packet);
+  if (none) return any ? "a packet has been sent" : std::string();
+  if (!any) return "no packet has been sent";
+  const auto wanted = packetOf(keys);
+  if (!wanted) return kBadBytes;
+  const bool same = packet.id == wanted->id && packet.remote == wanted->remote &&
+                    (packet.remote != 0 || std::ranges::equal(std::span(packet.data).first(packet.length),
+                                                              std::span(wanted->data).first(wanted->length)));
+  return same ? std::string() : "the packet that was sent has another identifier, RTR or data";
+}
+
+} // namespace rung::sim::technol

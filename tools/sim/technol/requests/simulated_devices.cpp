@@ -1,0 +1,174 @@
+// Devices around a program (see simulated_devices.h).
+#include "tools/sim/technol/requests/simulated_devices.h"
+
+#include "rtlib/host/program_info.h"
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
+
+namespace rung::sim::technol {
+namespace {
+
+constexpr uint32_t kUsPerTick = 1000;
+
+// The number after a prefix of the key: PlcTableDef3.
+std::optional<uint32_t> numberAfter(std::string_view key, std::string_view prefix) {
+  if (key.size() <= prefix.size() || !text::equalsIgnoringCase(key.substr(0, prefix.size()), prefix)) return std::nullopt;
+  return text::numberIn<uint32_t>(key.substr(prefix.size()));
+}
+
+} // namespace
+
+SimulatedDevices::SimulatedDevices() = default;
+
+std::optional<std::string> SimulatedDevices::configure(std::string_view key, std::string_view value,
+                                                       const std::string& path) {
+  if (text::equalsIgnoringCase(key, "nc")) {
+    if (value != "simulated" && value != "scripted") return "nc is simulated or scripted, not '" + std::string(value) + "'";
+    simulated_ = value == "simulated";
+    return std::string();
+  }
+  if (const auto table = numberAfter(key, "PlcTableDef")) return files_.setDefinition(*table, path);
+  if (const auto table = numberAfter(key, "PlcTable")) {
+    hasTables_ = true;
+    return files_.setTable(*table, path);
+  }
+  if (text::equalsIgnoringCase(key, "axes") || key.starts_with("axis.")) return axes_.configure(key, value);
+  if (ComPorts::owns(key)) return com_.configure(key, value);
+  if (EtherCat::owns(key)) return ethercat_.configure(key, value);
+  return can_.configure(key, value);
+}
+
+void SimulatedDevices::loadTables() {
+  tablesLoaded_ = true;
+  if (hasTables_) tableProblem_ = files_.load(tables_);
+}
+
+uint32_t SimulatedDevices::keptSize() {
+  if (!tablesLoaded_) loadTables();
+  return tables_.keptSize();
+}
+
+void SimulatedDevices::restoreKept(std::span<const uint8_t> image) {
+  loadTables();
+  tablesRestored_ = tables_.restoreKept(image);
+}
+
+// Tables are stored with each change, so that a warm start finds them as they were (inventory of the services, 15.5).
+void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind) {
+  locate(instance);
+  if (!tablesLoaded_ || (kind == nc::PowerOn::Cold && !tablesRestored_)) loadTables();
+  tablesRestored_ = false;
+  tables_.forgetChanges();
+  areas_.clear();
+  bytes_.clear();
+  axes_.powerUp();
+  com_.powerOn();
+  can_.power();
+  canCalls_.clear();
+  ethercatCalls_.clear();
+  ethercat_.powerOn();
+  servos_.powerOn();
+  axisOutputs_ = {};
+  canInputs_ = {};
+  canOutputs_ = {};
+  motion_ = 0;
+}
+
+void SimulatedDevices::locate(host::Instance& instance) {
+  const rung_program& program = instance.program();
+  services_.clear();
+  for (uint32_t i = 0; i < program.service_count; ++i) services_.push_back(serviceOf(host::serviceName(program, i)));
+  if (!simulated_) return;
+  axisPlaces_ = AxisPlaces(program);
+  canPlaces_ = CanPlaces(program);
+  ethercatPlaces_ = EthercatPlaces(program);
+}
+
+SimulatedDevices::Service SimulatedDevices::serviceOf(std::string_view signature) const {
+  const std::string_view name = signature.substr(0, signature.find(' '));
+  if (signature == nc::technol::kDataService) return {.who = Answerer::Data};
+  if (name == "SA_READ") return {.who = Answerer::ReadArea};
+  if (name == "SA_WRITE") return {.who = Answerer::WriteArea};
+  if (const TableOrder order = tableOrder(name); order != TableOrder::None)
+    return {.who = hasTables_ ? Answerer::Tables : Answerer::None, .order = static_cast<uint8_t>(order)};
+  if (!simulated_) return {};
+  if (const AxisOrder order = axisOrder(name); order != AxisOrder::None)
+    return {.who = Answerer::Axes, .order = static_cast<uint8_t>(order)};
+  if (name.starts_with("COM_")) return {.who = Answerer::Com, .mnemonic = name};
+  if (name.starts_with("CAN_")) return {.who = Answerer::Can, .mnemonic = name};
+  if (name.starts_with("ECAT_")) return {.who = Answerer::Ethercat, .mnemonic = name};
+  return {};
+}
+
+bool SimulatedDevices::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+  if (request.service >= services_.size()) return false;
+  const Service& service = services_[request.service];
+  if (service.who == Answerer::None) return false;
+  DeviceCall call(instance, request, reply, bytes_);
+  switch (service.who) {
+  case Answerer::None: return false;
+  case Answerer::Data: bytes_.fetch(request, reply); return true;
+  case Answerer::Tables: answerTable(tables_, static_cast<TableOrder>(service.order), call); return true;
+  case Answerer::ReadArea: readShared(areas_, call); return true;
+  case Answerer::WriteArea: writeShared(areas_, call); return true;
+  case Answerer::Axes: answerAxis(axes_, axisPlaces_, static_cast<AxisOrder>(service.order), call); return true;
+  case Answerer::Com: return answerCom(com_, service.mnemonic, call);
+  case Answerer::Can: return canCalls_.answer(service.mnemonic, call);
+  case Answerer::Ethercat: return ethercatCalls_.begin(service.mnemonic, call);
+  }
+  return false;
+}
+
+void SimulatedDevices::startProgram() {
+  can_.startProgram();
+  canCalls_.clear();
+  axes_.startPlc();
+}
+
+void SimulatedDevices::fault(host::Instance& instance) {
+  if (!simulated_) return;
+  axes_.fault();
+  axisPlaces_.zeroOutputs(instance.memory());
+}
+
+// ---- time ----------------------------------------------------------------------------------------------------------
+
+void SimulatedDevices::beforeInput(host::Instance& instance) {
+  if (!simulated_) return;
+  const auto ticks = static_cast<uint32_t>(host::scanPeriodUs(instance.program()) / kUsPerTick);
+  tickAxes(instance, ticks);
+  tickOthers(instance, ticks);
+}
+
+void SimulatedDevices::tickAxes(host::Instance& instance, uint32_t ticks) {
+  const rt::Memory memory = instance.memory();
+  axisPlaces_.read(memory, motion_, axisInputs_, axisRequests_);
+  for (uint32_t i = 0; i < ticks; ++i) axes_.tick(axisInputs_, axisRequests_);
+  axes_.show(axisOutputs_);
+  motion_ = axisOutputs_.motion;
+  axisPlaces_.write(memory, axes_.count(), axisInputs_.blockMotion, axisRequests_, axisOutputs_);
+}
+
+void SimulatedDevices::tickOthers(host::Instance& instance, uint32_t ticks) {
+  const rt::Memory memory = instance.memory();
+  canPlaces_.read(memory, canInputs_, canOutputs_);
+  ethercatPlaces_.read(memory, stateBits_, servoCells_);
+  for (uint32_t i = 0; i < ticks; ++i) {
+    com_.tick();
+    can_.tick(canInputs_, canOutputs_);
+    ethercat_.tick(stateBits_);
+    servos_.tick(servoCells_);
+  }
+  canPlaces_.write(memory, canInputs_, canOutputs_, can_);
+  ethercatPlaces_.write(memory, stateBits_, servoCells_);
+  canCalls_.showDrive(instance);
+  canCalls_.deliver(instance, canPlaces_);
+  if (ethercatCalls_.finish(instance, bytes_)) instance.services().deliver();
+}
+
+void SimulatedDevices::takeLog(std::vector<std::string>& log) {
+  Complaint complaint;
+  while (axes_.takeComplaint(complaint)) log.push_back(complaint.text());
+}
+
+} // namespace rung::sim::technol

@@ -1,0 +1,107 @@
+// The devices of the simulated TECHNOL control, connected to a program: who answers its requests, and which cells they
+// read and write (inventory of the services, 1). Shared areas are always there, tables where the configuration names
+// them, all else with `nc simulated`.
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/devices/table_files.h"
+#include "tools/sim/simulated_nc.h"
+#include "tools/sim/technol/requests/axis_requests.h"
+#include "tools/sim/technol/requests/can_requests.h"
+#include "tools/sim/technol/requests/com_requests.h"
+#include "tools/sim/technol/requests/ethercat_calls.h"
+#include "tools/sim/technol/requests/table_requests.h"
+
+namespace rung::sim::technol {
+
+class SimulatedDevices {
+public:
+  SimulatedDevices();
+
+  // Before the first power-on. "" or what is wrong; nothing: a key of something else. `path` is that of a file.
+  std::optional<std::string> configure(std::string_view key, std::string_view value, const std::string& path);
+  bool simulated() const { return simulated_; }
+
+  // Memory has been started; MODULE_INIT follows. A cold start reads the tables' files anew.
+  void powerOn(host::Instance& instance, nc::PowerOn kind);
+  // What is wrong with the tables that were read last, a line each; "": nothing.
+  const std::string& tableProblem() const { return tableProblem_; }
+  void programChanged(host::Instance& instance) { locate(instance); }
+  // START PLC, before MODULE_INIT.
+  void startProgram();
+  // A fault or HALT, after MODULE_HALT.
+  void fault(host::Instance& instance);
+  // The hook before MODULE_INPUT: the devices do what they do in one pass.
+  void beforeInput(host::Instance& instance);
+  // False: nobody here answers.
+  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
+  // Lines for the log since the last call.
+  void takeLog(std::vector<std::string>& log);
+
+  // "" or what is wrong; nothing: another event.
+  std::optional<std::string> event(std::string_view name, std::span<const NcArgument> keys);
+  // Quantities without "NC.".
+  std::optional<double> quantity(std::string_view name) const;
+  std::optional<std::string> setQuantity(std::string_view name, double value);
+  // SA0+n:w and PlcTableN.…
+  std::optional<NcCell> readCell(std::string_view name) const;
+  bool writeCell(std::string_view name, const NcCell& value);
+  // What has left a port, COM[n] or CAN[n], and nobody has seen: it is taken where it is as the keys say. "" or what is
+  // wrong.
+  std::string expectSent(std::string_view port, std::span<const NcArgument> keys);
+
+  // The tables, as the control stores them (SimulatedNc::keptSize).
+  uint32_t keptSize();
+  void copyKept(std::span<uint8_t> image) const noexcept { tables_.copyKept(image); }
+  void restoreKept(std::span<const uint8_t> image);
+
+private:
+  enum class Answerer : uint8_t { None, Data, Tables, ReadArea, WriteArea, Axes, Com, Can, Ethercat };
+  struct Service {
+    Answerer who = Answerer::None;
+    uint8_t order = 0;         // TableOrder or AxisOrder
+    std::string_view mnemonic; // of the program's tables
+  };
+  Service serviceOf(std::string_view signature) const;
+  void locate(host::Instance& instance);
+  void loadTables();
+  void tickAxes(host::Instance& instance, uint32_t ticks);
+  void tickOthers(host::Instance& instance, uint32_t ticks);
+
+  bool simulated_ = false;
+  bool hasTables_ = false;
+  devices::TableFiles files_;
+  devices::PlcTables tables_;
+  devices::SharedAreas areas_;
+  Axes axes_;
+  ComPorts com_;
+  CanDevices can_;
+  CanCalls canCalls_{can_};
+  EtherCat ethercat_;
+  EthercatCalls ethercatCalls_{ethercat_};
+  EthercatServos servos_;
+
+  AnswerBytes bytes_;
+  std::vector<Service> services_; // by the program's numbers
+  AxisPlaces axisPlaces_;
+  CanPlaces canPlaces_;
+  EthercatPlaces ethercatPlaces_;
+  AxisInputs axisInputs_;
+  AxisRequests axisRequests_;
+  AxisOutputs axisOutputs_;
+  AxisMask motion_ = 0; // that the axes have shown
+  CanInputs canInputs_;
+  CanOutputs canOutputs_;
+  devices::ethercat::StateBits stateBits_;
+  EthercatServos::Cells servoCells_;
+  std::string tableProblem_;
+  bool tablesLoaded_ = false;
+  bool tablesRestored_ = false; // for the next power-on
+};
+
+} // namespace rung::sim::technol

@@ -30,7 +30,7 @@ Result<Reading> readName(const host::Instance& instance, const sim::SimulatedNc&
   }
   if (const std::optional<host::Ref> place = nc.readPlace(instance.program(), name))
     return readValue(instance, nc.control(), *place, wantReal);
-  if (const std::optional<sim::NcCell> cell = nc.readCell(name)) return cellReading(*cell);
+  if (const std::optional<sim::NcCell> cell = nc.readCell(name)) return cellReading(*cell, wantReal);
   return failure(unknownName(instance.program(), nc, name));
 }
 
@@ -46,7 +46,7 @@ std::optional<Reading> NamedValue::read(const host::Instance& instance, const si
   if (name_.starts_with(kQuantity))
     return realReading(nc.quantity(std::string_view(name_).substr(kQuantity.size())).value_or(0));
   const std::optional<sim::NcCell> cell = nc.readCell(name_);
-  return cell ? std::optional(cellReading(*cell)) : std::nullopt;
+  return cell ? std::optional(cellReading(*cell, false)) : std::nullopt;
 }
 
 std::vector<std::string> namesOf(const rung_program& program, const sim::SimulatedNc& nc) {

@@ -59,18 +59,25 @@ Reading realReading(double value) {
   return reading;
 }
 
-Reading cellReading(const sim::NcCell& cell) {
-  if (cell.isReal) return realReading(std::bit_cast<double>(cell.bits));
+Reading cellReading(const sim::NcCell& cell, bool wantReal) {
+  const bool isReal = cell.isReal || (wantReal && cell.untyped && cell.width == 64);
+  if (isReal) return realReading(std::bit_cast<double>(cell.bits));
   Reading reading;
+  if (cell.isText) {
+    reading.kind = ValueKind::Text;
+    reading.text = cell.text;
+    return reading;
+  }
   reading.integer = cell.bits;
   reading.width = cell.width;
   reading.real = static_cast<double>(asSigned(cell.bits, cell.width));
   return reading;
 }
 
-sim::NcCell cellOf(const Value& number) {
-  if (number.kind == ValueKind::Real) return {.isReal = true, .bits = std::bit_cast<uint64_t>(number.real)};
-  return {.bits = static_cast<uint64_t>(number.integer)};
+sim::NcCell cellOf(const Value& value) {
+  if (value.kind == ValueKind::Text) return {.isText = true, .text = value.text};
+  if (value.kind == ValueKind::Real) return {.isReal = true, .bits = std::bit_cast<uint64_t>(value.real)};
+  return {.bits = static_cast<uint64_t>(value.integer)};
 }
 
 Reading readValue(const Instance& instance, const nc::Control& control, const Ref& place, bool wantReal) {

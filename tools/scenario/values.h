@@ -28,8 +28,8 @@ std::string show(const Reading& reading);
 // Without the hexadecimal form: "65535 (-1)".
 std::string showShort(const Reading& reading);
 Reading realReading(double value);
-Reading cellReading(const sim::NcCell& cell);
-sim::NcCell cellOf(const Value& number);
+Reading cellReading(const sim::NcCell& cell, bool wantReal);
+sim::NcCell cellOf(const Value& value);
 int64_t signedOf(const Reading& integer);
 
 // The cell of this name, at this place, with the value, for whoever forces it. The name outlives the result.

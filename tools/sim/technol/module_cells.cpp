@@ -137,6 +137,7 @@ std::optional<NcCell> ModuleCells::read(std::string_view name) const {
 }
 
 bool ModuleCells::write(std::string_view name, const NcCell& value) {
+  if (value.isText) return false;
   const std::string inMemory = nc::technol::canonical(nc::memoryText(name));
   const nc::technol::Reference reference = nc::technol::withoutBit(inMemory);
   std::string problem;

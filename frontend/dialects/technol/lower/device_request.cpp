@@ -22,10 +22,11 @@ const nc::technol::DeviceService& serviceOf(std::string_view mnemonic) {
 
 // Where a name is among blanks, with what follows its colon left out.
 uint32_t numberOf(std::string_view names, std::string_view wanted) {
-  uint32_t found = 0;
+  uint32_t found = kNone;
   forEachWord(names, [&](std::string_view word, int64_t number) {
     if (word.substr(0, word.find(':')) == wanted) found = static_cast<uint32_t>(number);
   });
+  RUNG_CHECK(found != kNone, "a result that the service does not have");
   return found;
 }
 

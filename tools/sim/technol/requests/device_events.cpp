@@ -103,6 +103,14 @@ std::optional<devices::CanPacket> packetOf(Keys keys) {
   return packet;
 }
 
+// As a scenario writes them: "0102FF".
+std::string hexOf(std::span<const uint8_t> bytes) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string text;
+  for (const uint8_t byte : bytes) text += {kDigits[byte >> 4], kDigits[byte & 15]};
+  return text;
+}
+
 constexpr const char* kBadBytes = "data is pairs of hexadecimal digits, as \"02 55\"";
 
 AxisMask axesOf(Keys keys) {
@@ -286,7 +294,7 @@ std::optional<TableCell> tableCell(std::string_view name) {
 std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
   if (const auto at = areaCell(name)) {
     const auto bytes = const_cast<devices::SharedAreas&>(areas_).bytes(at->area).subspan(at->offset, at->width);
-    NcCell cell{.width = at->width * 8};
+    NcCell cell{.width = at->width * 8, .untyped = true};
     for (uint32_t i = 0; i < at->width; ++i) cell.bits |= uint64_t{bytes[i]} << 8 * i;
     return cell;
   }
@@ -306,17 +314,24 @@ std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
   double real = 0;
   if (tables_.getReal(at->table, *at->line, number, real) == devices::TableError::None)
     return NcCell{.isReal = true, .bits = std::bit_cast<uint64_t>(real)};
+  std::string_view text;
+  if (tables_.getText(at->table, *at->line, number, text) == devices::TableError::None)
+    return NcCell{.isText = true, .text = nc::shownText(text)};
+  std::span<const uint8_t> bytes;
+  if (tables_.getBinary(at->table, *at->line, number, bytes) == devices::TableError::None)
+    return NcCell{.isText = true, .text = hexOf(bytes)};
   return std::nullopt;
 }
 
 bool SimulatedDevices::writeCell(std::string_view name, const NcCell& value) {
-  if (const auto at = areaCell(name)) {
+  if (const auto at = areaCell(name); at && !value.isText) {
     const auto bytes = areas_.bytes(at->area).subspan(at->offset, at->width);
     for (uint32_t i = 0; i < at->width; ++i) bytes[i] = static_cast<uint8_t>(value.bits >> 8 * i);
     return true;
   }
   const auto at = tableCell(name);
   if (!at || !tables_.exists(at->table)) return false;
+  if (value.isText) return at->line && tables_.edit(at->table, *at->line, at->column, value.text).empty();
   const double number = value.isReal ? std::bit_cast<double>(value.bits) : static_cast<double>(static_cast<int64_t>(value.bits));
   if (at->line) return tables_.edit(at->table, *at->line, at->column, number).empty();
   return text::equalsIgnoringCase(at->column, "SelLine") &&
@@ -338,13 +353,9 @@ std::string SimulatedDevices::expectSent(std::string_view port, Keys keys) {
     const auto bytes = bytesOf(keys);
     if (!bytes) return kBadBytes;
     if (line.takeSent(*bytes)) return {};
-    std::string found;
-    for (uint32_t i = 0; i < line.sent() && i < bytes->size() + 8; ++i) {
-      const uint8_t byte = line.sentByte(i);
-      constexpr std::string_view kDigits = "0123456789ABCDEF";
-      found += {kDigits[byte >> 4], kDigits[byte & 15], ' '};
-    }
-    return "sent is " + (found.empty() ? std::string("nothing") : found);
+    std::vector<uint8_t> found;
+    for (uint32_t i = 0; i < line.sent() && i < bytes->size() + 8; ++i) found.push_back(line.sentByte(i));
+    return "sent is " + (found.empty() ? std::string("nothing") : hexOf(found));
   }
   devices::CanPacket packet;
   const bool any = can_.takeSent(*number + 1, packet);

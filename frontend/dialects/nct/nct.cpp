@@ -32,6 +32,7 @@ public:
     read();
     declare();
     checkRungs();
+    symbols_.reportUndeclared();
     checkModules();
     symbols_.defineAll();
     analysis_.settle();

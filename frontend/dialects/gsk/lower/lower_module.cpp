@@ -87,7 +87,7 @@ void ModuleLowering::addSpaces() {
 }
 
 void ModuleLowering::addSymbols() {
-  for (const UserName& symbol : context_.names.symbols())
+  for (const UserName& symbol : context_.names.ofKind(UserName::Kind::Symbol))
     module_->symbols.push_back(
         {.name = std::string(symbol.name),
          .comment = std::string(symbol.comment),

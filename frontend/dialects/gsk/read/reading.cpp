@@ -36,6 +36,7 @@ bool Reading::read() {
   for (FileId file : lists_) readList(context_, file, units_);
   if (!lists_.empty()) units_.endOfList(lastLineOf(context_.sources, lists_.back()));
   for (const auto& file : ladders_) readLadder(context_, file, units_);
+  reportUndeclared(context_);
   units_.finish(lastLineOf(context_.sources, last_));
   return !units_.garbled();
 }

@@ -7,6 +7,7 @@
 #include "rtlib/text/letters.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace rung::frontend::technol {
 namespace {
@@ -26,6 +27,12 @@ const PrefixName* prefixNamed(std::string_view name) {
   for (const PrefixName& p : kPrefixes)
     if (text::equalsIgnoringCase(name, p.name)) return &p;
   return nullptr;
+}
+
+// Of those that begin with the same letter, or of the others.
+std::string_view similarPrefix(std::string_view name, bool sameLetter) {
+  const auto fits = [&](const PrefixName& p) { return (p.name[0] == text::upper(name[0])) == sameLetter; };
+  return mostSimilar(name, kPrefixes | std::views::filter(fits), &PrefixName::name);
 }
 
 const PrefixName& prefixOf(uint8_t prefix) {
@@ -174,16 +181,10 @@ uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
 bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
   if (tokens.size() < 3 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return false;
   if (program_.symbols.find(tokens[0].text, file_) != kNone) return false;
-  Similar meant(tokens[0].text);
-  const auto offer = [&](bool sameLetter) {
-    for (const PrefixName& p : kPrefixes)
-      if ((p.name[0] == text::upper(tokens[0].text[0])) == sameLetter) meant.offer(p.name);
-  };
-  offer(true);
-  if (meant.best().empty()) offer(false);
-  if (meant.best().empty()) return false;
-  program_.symbols.noteUndefined(tokens[0], file_, {.meant = std::string(meant.best())});
-  return true;
+  std::string_view meant = similarPrefix(tokens[0].text, true);
+  if (meant.empty()) meant = similarPrefix(tokens[0].text, false);
+  if (!meant.empty()) program_.symbols.noteUndefined(tokens[0], file_, {.meant = meant});
+  return !meant.empty();
 }
 
 bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
@@ -349,7 +350,7 @@ bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> token
   if (!unknown) return wrongKind(out, "no " + wanted, "a " + wanted);
   Similar meant(tokens[0].text);
   forEachWord(kind.keywords, [&](std::string_view word, int64_t) { meant.offer(word); });
-  program_.symbols.noteUndefined(tokens[0], file_, {.meant = std::string(meant.best())});
+  program_.symbols.noteUndefined(tokens[0], file_, {.meant = meant.best()});
   return false;
 }
 

@@ -8,8 +8,8 @@
 #include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/dialects/gsk/read/condition.h"
 #include "frontend/ladder/text/drawing.h"
-#include "ir/support/ascii.h"
 #include "ir/support/check.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::gsk::convert {
@@ -146,12 +146,12 @@ private:
 };
 
 void LadderCollector::read(const SourceLine& line) {
-  const std::string_view text = trimmed(line.text);
+  const std::string_view text = text::trimmed(line.text);
   const bool isComment = !text.empty() && text[0] == ';';
   if (text.empty())
     out_.blank();
   else if (isComment)
-    comment(line, trimmed(text.substr(1)));
+    comment(line, text::trimmed(text.substr(1)));
   else if (ladder::beginsDrawing(text[0]))
     drawn(line);
   else
@@ -192,7 +192,7 @@ void LadderCollector::statement(const SourceLine& line) {
   if (keyword == "const") return out_.statement(Item::Kind::Const, words_.words, words_.comment);
   RUNG_CHECK(keyword == "section", "no other statement is without errors");
   out_.gap.push_back({Item::Kind::Section, clean(words_.words[1].text)});
-  if (!trimmed(words_.comment).empty()) out_.comment(words_.comment);
+  if (!text::trimmed(words_.comment).empty()) out_.comment(words_.comment);
 }
 
 // In a list the title is the first line of the last block of comment lines.
@@ -207,7 +207,7 @@ void LadderCollector::openRung() {
   text_ = {};
   std::string title = clean(rung_->comment);
   if (!title.empty()) insertTitle(std::move(title));
-  if (!trimmed(words_.comment).empty()) out_.comment(words_.comment);
+  if (!text::trimmed(words_.comment).empty()) out_.comment(words_.comment);
 }
 
 void LadderCollector::module(uint32_t line) {

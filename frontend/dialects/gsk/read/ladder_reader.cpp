@@ -10,7 +10,7 @@
 #include "frontend/dialects/gsk/read/condition.h"
 #include "frontend/dialects/gsk/read/network_builder.h"
 #include "frontend/dialects/gsk/read/title.h"
-#include "ir/support/ascii.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::gsk {
@@ -264,9 +264,10 @@ void RungReader::emitInputs() {
 // Behind the line with the word `rung`.
 std::optional<std::vector<Logic>> RungReader::hint() const {
   const SourceManager& sources = context_.sources;
-  const std::string_view line = trimmed(sources.lineText(sources.fileOf(rung_.statement.begin), rung_.firstLine + 1));
+  const std::string_view line =
+      text::trimmed(sources.lineText(sources.fileOf(rung_.statement.begin), rung_.firstLine + 1));
   if (!line.starts_with(';')) return std::nullopt;
-  return parseBlocksHint(trimmed(line.substr(1)));
+  return parseBlocksHint(text::trimmed(line.substr(1)));
 }
 
 bool isTableWord(const Word& word) { return text::equalsIgnoringCase(word.text, "TABLE"); }
@@ -378,7 +379,7 @@ void LadderReader::condition(const ladder::Module& module) {
 
 // The text behind the word `rung`; where there is none that can be a title, the rule of command lists.
 std::string_view titleOf(const SourceManager& sources, FileId file, uint32_t from, const ladder::Rung& rung) {
-  const std::string_view own = trimmed(rung.comment);
+  const std::string_view own = text::trimmed(rung.comment);
   return isTitle(own) ? own : titleAbove(sources, file, from, rung.firstLine);
 }
 

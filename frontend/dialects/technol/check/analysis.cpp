@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ir/support/ascii.h"
+#include "rtlib/text/blanks.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -22,7 +22,7 @@ Declared declaredAt(const SourceManager& sources, SourceRange name) {
   const size_t end = sources.offsetOf(name.end) - sources.lineStart(name.begin).offset;
   const std::string_view rest = line.substr(std::min(end, mark), mark - std::min(end, mark));
   const size_t value = std::min(rest.find_first_not_of(", \t"), rest.size());
-  return {trimmed(rest.substr(value)), trimmed(line.substr(std::min(mark + 1, line.size())))};
+  return {text::trimmed(rest.substr(value)), text::trimmed(line.substr(std::min(mark + 1, line.size())))};
 }
 
 // Constants, labels and the like have none.

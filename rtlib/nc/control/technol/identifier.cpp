@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rtlib/nc/control/technol/values.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
@@ -24,7 +25,7 @@ std::optional<std::string_view> digitsOfIndex(std::string_view rest) {
 } // namespace
 
 std::string canonical(std::string_view identifier) {
-  identifier = trimmed(identifier);
+  identifier = text::trimmed(identifier);
   std::string made;
   made.reserve(identifier.size());
   for (size_t i = 0; i < identifier.size(); ++i) {

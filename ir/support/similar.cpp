@@ -45,4 +45,8 @@ void Similar::offer(std::string_view candidate) {
   best_ = candidate;
 }
 
+std::string didYouMean(std::string_view word) {
+  return word.empty() ? "" : "; did you mean " + std::string(word) + "?";
+}
+
 } // namespace rung

@@ -1,6 +1,8 @@
 // Checking rungs (see checker.h). Of an operand only the first mistake is reported, in the order of the inventory.
 #include "frontend/dialects/nct/check/checker.h"
 
+#include <ranges>
+
 #include <fmt/format.h>
 
 #include "frontend/dialects/nct/read/operand_parser.h"
@@ -113,10 +115,10 @@ void RungChecker::reportUnknown(const ladder::Element& element) {
   DiagBuilder report = diagnostics_.report(Diag::UnknownInstruction, element.mnemonicRange);
   report << element.mnemonic;
   if (!diagnostics_.suggests()) return;
-  Similar similar(element.mnemonic);
-  for (const NctInstruction& row : allInstructions())
-    if (row.shape == Shape::Box) similar.offer(row.info.mnemonic);
-  report.meant(element.mnemonicRange, similar.best());
+  const auto isBox = [](const NctInstruction& row) { return row.shape == Shape::Box; };
+  const auto mnemonicOf = [](const NctInstruction& row) { return row.info.mnemonic; };
+  report.meant(element.mnemonicRange,
+               mostSimilar(element.mnemonic, allInstructions() | std::views::filter(isBox), mnemonicOf));
 }
 
 void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element) {

@@ -74,7 +74,7 @@ public:
   // The operand that is written there, exactly; null when that names no place, of memory or of the program.
   const OperandUse* operandAt(SourceRange range) const;
   const TargetUse* targetAt(SourceRange range) const;
-  // What the name that is written there, exactly, means; null when that is no name.
+  // What the name that is written there, exactly, means; null when that is not a name.
   const Definition* nameAt(SourceRange range) const;
 
 private:

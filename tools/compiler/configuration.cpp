@@ -29,7 +29,7 @@ std::string suggestion(const frontend::Dialect& dialect, std::string_view key) {
   return {};
 }
 
-bool stands(const SourceManager& sources, const std::string& text) {
+bool contains(const SourceManager& sources, const std::string& text) {
   for (uint32_t file = 0; file < sources.fileCount(); ++file)
     if (!sources.name(FileId{file}).ends_with(".toml") &&
         text::upper(sources.text(FileId{file})).find(text) != std::string::npos)
@@ -40,12 +40,12 @@ bool stands(const SourceManager& sources, const std::string& text) {
 // By an identifier, or by that before an attribute: `Feed` of `PLC.Input.Feed[2].Default`.
 bool isNamed(const SourceManager& sources, std::string_view key) {
   const std::string name = text::upper(key);
-  if (stands(sources, name)) return true;
+  if (contains(sources, name)) return true;
   const size_t point = name.rfind('.');
   if (point == std::string::npos) return false;
   const std::string owner = name.substr(0, point);
   const std::string identifier = owner.substr(owner.rfind('.') + 1); // npos + 1 is 0
-  return stands(sources, identifier.substr(0, identifier.find('[')));
+  return contains(sources, identifier.substr(0, identifier.find('[')));
 }
 
 } // namespace

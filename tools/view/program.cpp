@@ -164,7 +164,7 @@ private:
   std::vector<NameRow> declared_;
   std::map<size_t, std::optional<ir::BitRange>> places_; // of those with a name
 
-  // In the file at hand.
+  // In the current file.
   LineWords words_;
   std::string comments_; // that nothing has taken yet
   size_t nextStatement_ = 0;
@@ -239,7 +239,7 @@ Place Reader::placeOfElement(SourcePos drawn) const {
   return at == elements.end() || at->drawn != drawn ? Place{} : placeOf(at->written);
 }
 
-// A conversion's hint at what only a command list can say is no comment of the author.
+// A conversion's hint at what only a command list can say is not a comment of the author.
 void Reader::comment(std::string_view text) {
   if (converted() && gsk::parseBlocksHint(text)) return;
   text = plain(text);

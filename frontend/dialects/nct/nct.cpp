@@ -108,7 +108,7 @@ private:
     return std::nullopt;
   }
 
-  // The module that a statement opens; the same name in another file continues it. What stands in an unknown module, or
+  // The module that a statement opens; the same name in another file continues it. What is in an unknown module, or
   // in the second of a name in one file, is looked at rung by rung, but for nothing else.
   TypedModule& open(const ladder::LadderFile& file, const ladder::Module& statement) {
     const std::string_view name = statement.name[0].text;
@@ -170,7 +170,7 @@ private:
   TextKinds textKinds_;
   std::unordered_set<uint32_t> numbers_; // of the texts
   uint32_t drawn_ = 0;                   // rungs so far, over all files
-  bool nameless_ = false;                // rungs stand in no known module, or were not read: MAIN may be among them
+  bool nameless_ = false;                // rungs are in no known module, or were not read: MAIN may be among them
 };
 
 std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,

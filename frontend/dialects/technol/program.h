@@ -84,7 +84,7 @@ struct Program {
   uint32_t procedureNamed(std::string_view name) const;
 };
 
-// Splits at the commas that stand outside brackets, those of structures too; an operand may be empty. No tokens: no
+// Splits at the commas outside brackets, those of structures too; an operand may be empty. No tokens: no
 // operands.
 std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens);
 
@@ -93,7 +93,7 @@ SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens,
 
 // Tokens as written, one blank where there are some.
 std::string spelled(std::span<const Token> tokens);
-// Tokens that are one word, 1A or A-B, where a name should stand: that is a bad name, all else no name at all.
+// Tokens that are one word, 1A or A-B, where a name should be: that is a bad name, all else no name at all.
 bool isOneWord(std::span<const Token> tokens);
 
 } // namespace rung::frontend::technol

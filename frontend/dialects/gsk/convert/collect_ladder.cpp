@@ -1,5 +1,5 @@
 // Ladder text to the source model. The ladder parser has no use for comments, so the lines are walked beside what it
-// found; comments of a drawing go to the commands that its elements stand for.
+// found; comments of a drawing go to the commands that its elements mean.
 #include <map>
 #include <optional>
 
@@ -24,10 +24,10 @@ struct LineComment {
 struct RungText {
   uint32_t firstDrawn = 0;          // line
   std::vector<LineComment> lines;   // lines of their own
-  std::vector<LineComment> remarks; // behind a line of the drawing
+  std::vector<LineComment> remarks; // after a line of the drawing
 };
 
-// A rung and the network that it stands for, to commands with their comments.
+// A rung and the network that it draws, to commands with their comments.
 class RungCollector {
 public:
   RungCollector(const Network& network, Gap& gap) : network_(network), gap_(gap) {}

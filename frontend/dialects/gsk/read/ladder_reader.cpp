@@ -87,7 +87,7 @@ bool RungReader::checkKind(const Element& element) {
   return true;
 }
 
-// What stands on the left of an element. Contacts may follow contacts only; coils may follow a box (l.3562).
+// What is on the left of an element. Contacts may follow contacts only; coils may follow a box (l.3562).
 bool RungReader::checkLeft(const Element& element) {
   for (const ladder::Pin& pin : rung_.pinsOf(element)) {
     for (ElementId id : rung_.driversOf(pin.input)) {
@@ -261,7 +261,7 @@ void RungReader::emitInputs() {
   }
 }
 
-// Behind the line with the word `rung`.
+// After the line with the word `rung`.
 std::optional<std::vector<Logic>> RungReader::hint() const {
   const SourceManager& sources = context_.sources;
   const std::string_view line =
@@ -377,7 +377,7 @@ void LadderReader::condition(const ladder::Module& module) {
   for (const Written& written : condition.commands) countStep(context_, written.range);
 }
 
-// The text behind the word `rung`; where there is none that can be a title, the rule of command lists.
+// The text after the word `rung`; where there is none that can be a title, the rule of command lists.
 std::string_view titleOf(const SourceManager& sources, FileId file, uint32_t from, const ladder::Rung& rung) {
   const std::string_view own = text::trimmed(rung.comment);
   return isTitle(own) ? own : titleAbove(sources, file, from, rung.firstLine);

@@ -119,7 +119,7 @@ bool ParameterCheck::checkMask(const Word& word, Param& param) {
   return true;
 }
 
-// Labels and subprograms. Number 0 stands in two places of the manual and is accepted (P2).
+// Labels and subprograms. Number 0 appears in two places of the manual and is accepted (P2).
 bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param& param) {
   const std::string_view letter = param.kind->written.substr(0, 1);
   const bool named = !word.text.empty() && text::upper(word.text[0]) == letter[0];

@@ -6,7 +6,7 @@
 
 namespace rung::gsk {
 
-// By the name; where it does not tell, ladder text is what has modules or rungs.
+// By the name; where it does not say, ladder text is what has modules or rungs.
 bool isLadder(const SourceManager& sources, FileId file) {
   const std::string_view name = sources.name(file);
   if (name.ends_with(".lad")) return true;

@@ -168,7 +168,7 @@ bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element
     ok = false;
   };
   for (const ladder::Pin& pin : rung.pinsOf(element)) {
-    if (row.info.placement == Placement::BehindContact && pin.input == ladder::kRail)
+    if (row.info.placement == Placement::AfterContact && pin.input == ladder::kRail)
       complain(Diag::FirstColumnNotAllowed, pin.range);
     if (row.info.placement == Placement::AtRail && pin.input != ladder::kRail)
       complain(Diag::FirstColumnRequired, pin.range);

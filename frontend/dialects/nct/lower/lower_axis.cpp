@@ -28,11 +28,11 @@ ValueId isProper(Lowering& box, ValueId axis, ValueId code, ValueId speed) {
   ValueId needsSpeed = b.bit(false);
   for (const nc::nct::AxisCode& known : nc::nct::axisCodes())
     if (known.needsSpeed()) needsSpeed = b.or_(needsSpeed, b.eq(code, b.i32(known.code)));
-  const ValueId stands = b.op(OpCode::FEq, Type::F64, {speed, b.real(0)});
+  const ValueId stopped = b.op(OpCode::FEq, Type::F64, {speed, b.real(0)});
   const ValueId requested = b.and_(axisSignal(box, "AP_PLCR", axis), axisSignal(box, "AN_PLCA", axis));
   const auto codes = static_cast<int64_t>(nc::nct::axisCodes().size());
   const ValueId inRange = b.and_(b.ltU(axis, b.i32(nc::nct::kAxes)), b.ltU(code, b.i32(codes)));
-  return b.and_(b.and_(inRange, requested), b.not_(b.and_(needsSpeed, stands)));
+  return b.and_(b.and_(inRange, requested), b.not_(b.and_(needsSpeed, stopped)));
 }
 
 } // namespace

@@ -66,8 +66,8 @@ ValueId lowerFloatArithmetic(Lowering& box) {
   });
 }
 
-// The operations give NaN where there is no value; what the manual forbids besides that is no logarithm of 0 and no
-// power of a negative base or of 0 to a negative exponent (§6.10.5-§6.10.14). Only powers and exponentials can leave
+// The operations give NaN where there is no value; besides that the manual forbids the logarithm of 0, and powers of
+// a negative base or of 0 to a negative exponent (§6.10.5-§6.10.14). Only powers and exponentials can leave
 // the range of doubles.
 ValueId lowerFloatFunction(Lowering& box) {
   constexpr OpCode kCodes[] = {OpCode::FPow,  OpCode::FSqrt, OpCode::FSin,  OpCode::FCos, OpCode::FTan,

@@ -193,8 +193,8 @@ ValueId loadOwn(Lowering& box, ScopeSource source, ValueId word, ValueId bit) {
 
 } // namespace
 
-// SCP result symbol parameter1 parameter2. The PLC's own memory is at hand; all else the NC knows. A query touches
-// FL_ER only when it cannot be made.
+// SCP result symbol parameter1 parameter2. The PLC's own memory is read directly; all else the NC knows. A query
+// touches FL_ER only when it cannot be made.
 ValueId lowerScope(Lowering& box) {
   RungBuilder& b = box.b;
   Memory& memory = box.memory;

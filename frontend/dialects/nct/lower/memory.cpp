@@ -11,9 +11,9 @@ using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
-void WrittenRange::add(uint32_t begin, uint32_t behind) {
+void WrittenRange::add(uint32_t begin, uint32_t beyond) {
   first = std::min(first, begin);
-  end = std::max(end, behind);
+  end = std::max(end, beyond);
 }
 
 ValueId Memory::both(ValueId a, ValueId b) {

@@ -24,7 +24,7 @@ struct MemorySpaces {
 struct WrittenRange {
   uint32_t first = UINT32_MAX;
   uint32_t end = 0;
-  void add(uint32_t begin, uint32_t behind);
+  void add(uint32_t begin, uint32_t beyond);
 };
 
 // Where an operand may lead at run time.
@@ -94,7 +94,7 @@ public:
 
   // a AND b, where an invalid id means 1.
   ir::ValueId both(ir::ValueId a, ir::ValueId b);
-  // (word number, bit number) of the place as one i32: tells whether an index moved (1.5).
+  // (word number, bit number) of the place as one i32: shows whether an index moved (1.5).
   ir::ValueId bitAddress(const Place& place);
   const Config& config() const { return config_; }
 

@@ -8,7 +8,7 @@
 namespace rung::nct {
 namespace {
 
-// Declarations that refer to each other, one behind the other; bounds the recursion.
+// Declarations that refer to each other, one after the other; bounds the recursion.
 constexpr int kMaxDepth = 200;
 
 struct Alias {
@@ -139,7 +139,7 @@ void SymbolTable::declare(const ladder::Declaration& declaration) {
     diagnostics_.report(Diag::BadOperand, declaration.name.range) << name << "name of a symbol";
     return;
   }
-  indexOf(name); // one of the NC is declared already
+  indexOf(name); // one of the NC is declared by it
   Symbol symbol = word(name, 0);
   symbol.declared = declaration.name.range;
   symbol.kind = SymbolKind::Bad;

@@ -17,19 +17,18 @@ constexpr NctInstruction controlShape(std::string_view operand, Placement placem
 inline constexpr NctInstruction kControlRows[] = {
     rowOf(controlShape("", Placement::AtRail, Flow::End), "END", "end of the cyclic part of a module", "6.14.1, l.2918",
           "The cycle of the module ends here. The subroutines follow it; without any it may be left out.", "|--{END}"),
-    rowOf(controlShape("Jump Number", Placement::BehindContact, Flow::Jump), "JMP", "conditional jump",
-          "6.14.2, l.2936",
+    rowOf(controlShape("Jump Number", Placement::AfterContact, Flow::Jump), "JMP", "conditional jump", "6.14.2, l.2936",
           "With power the program continues at the JME of this number. What is jumped over keeps its outputs and "
           "its memory of edges.",
           "|--[SKIP]--{JMP #5}"),
     rowOf(controlShape("Jump Number", Placement::AtRail, Flow::Label), "JME", "target of a jump", "6.14.2, l.2966",
           "Marks the place at which a JMP of this number continues.", "|--{JME #5}"),
-    rowOf(controlShape("Subroutine Number", Placement::BehindContact, Flow::Call), "SBS", "subroutine call",
+    rowOf(controlShape("Subroutine Number", Placement::AfterContact, Flow::Call), "SBS", "subroutine call",
           "6.14.3, l.2984", "With power the subroutine is executed; then the program continues after this rung.",
           "|--[N_ON]--{SBS #10}"),
     rowOf(controlShape("Subroutine Number", Placement::AtRail, Flow::Subroutine), "SBN", "start of a subroutine",
           "6.14.3, l.3020", "A subroutine reaches to the next SBN or to the end of the module.", "|--{SBN #10}"),
-    rowOf(controlShape("", Placement::BehindContact, Flow::Return), "RET", "return from a subroutine", "6.14.3, l.3036",
+    rowOf(controlShape("", Placement::AfterContact, Flow::Return), "RET", "return from a subroutine", "6.14.3, l.3036",
           "With power the subroutine ends.", "|--[N_ON]--{RET}"),
 };
 

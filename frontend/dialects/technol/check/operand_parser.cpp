@@ -230,7 +230,7 @@ bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, c
   out.form = Operand::Form::Integer;
   out.prefixed = prefix != 0 && prefix != kCnst;
   out.type = prefix == 0 ? ir::Type::I32 : prefixOf(prefix).type;
-  // A sign in front of digits is theirs; in front of a type or a name the loaded value is negated (man. l.703).
+  // A sign before digits is theirs; before a type or a name the loaded value is negated (man. l.703).
   const bool digits = out.negated && out.tokens[1].kind == TokenKind::Number;
   out.value = digits ? -address.byte : address.byte;
   out.negated = out.negated && !digits;
@@ -251,7 +251,7 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
   out.form = Operand::Form::Cell;
   out.prefixed = prefix != 0;
   out.type = prefix != 0 ? prefixOf(prefix).type : address.type;
-  // Where only a real may stand, 8 bytes are one.
+  // Where only a real is possible, 8 bytes are one.
   const bool real = (kind.prefixes & ~kCnst) == kReal && address.end - address.byte >= 8;
   if (out.type == ir::Type::None && real && !address.isText) out.type = ir::Type::F64;
   if (out.type == ir::Type::None) {
@@ -326,7 +326,7 @@ bool OperandParser::wrongPrefix(uint8_t prefix, const Operand& operand) {
   return false;
 }
 
-// A word of the kind that is no number's name in the program.
+// A word of the kind that is not a number's name in the program.
 bool OperandParser::ownWord(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
   if (kind.keywords.empty() || tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
   const uint32_t found = program_.symbols.find(tokens[0].text, file_);

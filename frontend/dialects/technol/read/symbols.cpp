@@ -76,7 +76,7 @@ ir::Type cellType(nc::SignalType type) {
 }
 
 // Cells of chapter 8 that the PLC may only read are protected (man. l.6238, l.6493, l.6517); an example writes one of
-// another chapter (l.5921), so that those only warn. Names of weights are no cells.
+// another chapter (l.5921), so that those only warn. Names of weights are not cells.
 Protection protectionOf(const nc::Signal& signal) {
   if (signal.direction != nc::Direction::In) return Protection::None;
   return std::string_view(signal.group).starts_with("8.") ? Protection::Error : Protection::Warn;
@@ -128,7 +128,7 @@ uint32_t SymbolTable::inOwnFile(const Symbol& symbol) const {
   return global == kNone || !symbol.local || table_[global].file == symbol.file ? global : kNone;
 }
 
-// Whether both declarations may stand: the same constant twice, or a mechanism and a cell of one name (man. l.12304).
+// Whether both declarations are allowed: the same constant twice, or a mechanism and a cell of one name (man. l.12304).
 bool SymbolTable::merge(uint32_t earlier, Symbol& symbol) {
   Symbol& first = table_[earlier];
   if (first.kind == SymbolKind::Constant && symbol.kind == SymbolKind::Constant && first.value == symbol.value)
@@ -262,16 +262,16 @@ void SymbolTable::reportUndefined() {
   });
 }
 
-// The name in sight that is most like a misspelt one; "" when none is close. Members of the structure come first, then
+// The visible name that is most like a misspelt one; "" when none is close. Members of the structure come first, then
 // the program's own names, then those of the control, bits of bytes among them.
 std::string_view SymbolTable::similar(const Undefined& use) const {
   if (!use.hint.meant.empty()) return use.hint.meant;
   if (!diagnostics_.suggests()) return {};
   if (const std::string_view member = similarMember(use.name, use.hint.structure); !member.empty()) return member;
-  const auto inSight = [&](const Symbol& symbol) {
+  const auto isVisible = [&](const Symbol& symbol) {
     return !symbol.predeclared && (!symbol.local || symbol.file == use.file);
   };
-  const std::string_view own = mostSimilar(use.name, table_.all() | std::views::filter(inSight), &Symbol::name);
+  const std::string_view own = mostSimilar(use.name, table_.all() | std::views::filter(isVisible), &Symbol::name);
   return !own.empty() ? own : similarOfControl(use.name);
 }
 

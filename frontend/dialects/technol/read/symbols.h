@@ -29,7 +29,7 @@ inline constexpr uint32_t kMechanismBytes = 3;
 inline constexpr uint32_t kRegisterBytes = 64;
 inline constexpr size_t kSignificant = 31;
 
-// Behind a name that is local to one use of a macro; no program can write it.
+// After a name that is local to one use of a macro; no program can write it.
 inline constexpr char kUseMark = '#';
 
 // Upper case, cut to what counts.
@@ -62,7 +62,7 @@ public:
   void noteUndefined(const Token& name, uint32_t file, Hint hint);
   // Reports undefined-symbol, once for each name, at its first use.
   void reportUndefined();
-  // A bit name that may stand behind an address only.
+  // A bit name that may only follow an address.
   uint32_t findWeight(std::string_view name, uint32_t file);
   // A member of an interface structure; kNone when it has none of this name.
   uint32_t findMember(const char* structure, std::string_view member);

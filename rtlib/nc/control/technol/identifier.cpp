@@ -13,7 +13,7 @@ namespace {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-// Behind a '[': the digits of an index without leading zeros; nothing where there is no index. "" is zero.
+// After a '[': the digits of an index without leading zeros; nothing where there is no index. "" is zero.
 std::optional<std::string_view> digitsOfIndex(std::string_view rest) {
   size_t end = 0;
   while (end < rest.size() && isDigit(rest[end])) ++end;

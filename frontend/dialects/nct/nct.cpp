@@ -26,7 +26,8 @@ public:
   NctProgram(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
              Diagnostics& diagnostics)
       : sources_(sources), ids_(files.begin(), files.end()), marks_(options.marks), diagnostics_(diagnostics),
-        config_(readConfig(options, diagnostics)), symbols_(config_, analysis_, diagnostics), claims_(diagnostics) {}
+        config_(readConfig(options, diagnostics)), symbols_(config_, analysis_, diagnostics),
+        reservations_(diagnostics) {}
 
   void check() {
     read();
@@ -140,7 +141,7 @@ private:
       switch (statement.kind) {
       case ladder::StatementKind::Module:
         module = &open(file, file.modules[statement.index]);
-        checker.emplace(symbols_, claims_, analysis_, diagnostics_, file.modules[statement.index].name[0].text);
+        checker.emplace(symbols_, reservations_, analysis_, diagnostics_, file.modules[statement.index].name[0].text);
         break;
       case ladder::StatementKind::Rung:
         if (file.rungs[statement.index].module == UINT32_MAX) nameless_ = true;
@@ -162,7 +163,7 @@ private:
   const Config config_;
   frontend::Analysis analysis_;
   SymbolTable symbols_;
-  OutputClaims claims_;
+  OutputReservations reservations_;
   std::vector<ladder::LadderFile> files_;
   Program program_;
   TypedModule reported_; // rungs of modules that are none

@@ -43,7 +43,7 @@ std::string nameOf(const ladder::Element& element, const NctInstruction& row) {
   switch (element.kind) {
   case ElementKind::Contact: return "a contact";
   case ElementKind::Coil:
-    return row.claim == Claim::SetReset ? fmt::format("({} )", row.variant == 2 ? 'S' : 'R') : "a coil";
+    return row.reservation == Reservation::SetReset ? fmt::format("({} )", row.variant == 2 ? 'S' : 'R') : "a coil";
   case ElementKind::Box:
   case ElementKind::Error: return std::string(row.info.mnemonic);
   }
@@ -54,30 +54,30 @@ std::string nameOf(const ladder::Element& element, const NctInstruction& row) {
 
 // --- each output once
 // ---------------------------------------------------------------------------------------------------
-void OutputClaims::add(Claim claim, const Operand& operand) {
+void OutputReservations::add(Reservation reservation, const Operand& operand) {
   const Address& address = operand.address;
-  if (claim == Claim::None || !address.isFixed()) return;
+  if (reservation == Reservation::None || !address.isFixed()) return;
   const uint64_t key = address.isBit ? address.word * 32 + address.bit : (1ull << 32) + address.word;
   Owner& owner = owners_[key];
   const SourceRange here = operand.source->range;
-  if (claim == Claim::Once && owner.once.valid()) {
+  if (reservation == Reservation::Once && owner.once.valid()) {
     diagnostics_.report(Diag::DuplicateOutput, here).note(owner.once, "here") << operand.source->text;
     return;
   }
   const bool wasMixed = owner.once.valid() && owner.setReset.valid();
-  if (claim == Claim::Once) owner.once = here;
-  if (claim == Claim::SetReset && !owner.setReset.valid()) owner.setReset = here;
+  if (reservation == Reservation::Once) owner.once = here;
+  if (reservation == Reservation::SetReset && !owner.setReset.valid()) owner.setReset = here;
   if (!wasMixed && owner.once.valid() && owner.setReset.valid())
     diagnostics_.report(Diag::MixedOutput, here)
-            .note(claim == Claim::Once ? owner.setReset : owner.once, "the other one")
+            .note(reservation == Reservation::Once ? owner.setReset : owner.once, "the other one")
         << operand.source->text;
 }
 
 // --- rungs
 // --------------------------------------------------------------------------------------------------------------
-RungChecker::RungChecker(SymbolTable& symbols, OutputClaims& claims, frontend::Analysis& analysis,
+RungChecker::RungChecker(SymbolTable& symbols, OutputReservations& reservations, frontend::Analysis& analysis,
                          Diagnostics& diagnostics, std::string_view module)
-    : symbols_(symbols), claims_(claims), analysis_(analysis), diagnostics_(diagnostics), module_(module),
+    : symbols_(symbols), reservations_(reservations), analysis_(analysis), diagnostics_(diagnostics), module_(module),
       inInt0_(module != "MAIN"), handwheel_(nc::findSignal(nc::nctSignals(), "HWMOVE")),
       fastClock_(nc::findSignal(nc::nctSignals(), "N_P2MS")) {}
 
@@ -242,7 +242,7 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
     if (diagnostics_.errorCount() != before) return false;
   }
   for (const Operand& operand : operands) warnInt0Only(operand);
-  if (!operands.empty()) claims_.add(row.claim, operands[0]);
+  if (!operands.empty()) reservations_.add(row.reservation, operands[0]);
   return true;
 }
 

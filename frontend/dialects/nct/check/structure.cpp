@@ -90,20 +90,20 @@ private:
       return;
     case Flow::Jump:
       if (element.label) jumps_.push_back({*element.label, rung, range});
-      if (element.label) claim(*element.label, false, range);
+      if (element.label) reserve(*element.label, false, range);
       return;
     case Flow::Subroutine:
       if (element.label) subroutine(*element.label, rung, range);
       return;
     case Flow::Call:
       if (element.label) calls_.push_back({*element.label, rung, range});
-      if (element.label) claim(*element.label, true, range);
+      if (element.label) reserve(*element.label, true, range);
       return;
     }
   }
 
   // Jumps and subroutines share one set of numbers (l.2942, l.2996).
-  void claim(uint32_t number, bool forSubroutine, SourceRange range) {
+  void reserve(uint32_t number, bool forSubroutine, SourceRange range) {
     Use& use = uses_[number];
     SourceRange& mine = forSubroutine ? use.subroutine : use.jump;
     const SourceRange other = forSubroutine ? use.jump : use.subroutine;
@@ -132,7 +132,7 @@ private:
   }
 
   void label(uint32_t number, uint32_t rung, SourceRange range) {
-    claim(number, false, range);
+    reserve(number, false, range);
     std::optional<uint32_t>& place = module_.labels[number];
     if (place)
       diagnostics_.report(Diag::DuplicateLabel, range).note(labelRange_[number], "here") << number;
@@ -142,7 +142,7 @@ private:
   }
 
   void subroutine(uint32_t number, uint32_t rung, SourceRange range) {
-    claim(number, true, range);
+    reserve(number, true, range);
     if (!ended_ && !incomplete_) {
       misplaced_ = true;
       diagnostics_.report(Diag::SubroutineBeforeEnd, range) << number;

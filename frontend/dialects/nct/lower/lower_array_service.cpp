@@ -154,7 +154,7 @@ ValueId ArrayServiceLowering::fits(const WordRange& range, const Place& place) {
 }
 
 Step ArrayServiceLowering::begin() {
-  const Place place = box_.memory.word(box_.operands[0].address, Reach::Write);
+  const Place place = box_.memory.word(box_.operands[0].address, AccessBound::Write);
   ValueId valid = place.valid;
   const ValueId function = box_.memory.integer(function_, valid);
   if (!valid.valid()) return start(place, function);
@@ -205,7 +205,7 @@ Step ArrayServiceLowering::await() {
   return b_.choose(
       answered(),
       [&] {
-        Place place = box_.memory.word(box_.operands[0].address, Reach::Write);
+        Place place = box_.memory.word(box_.operands[0].address, AccessBound::Write);
         if (first_.valid()) place.wordNo = b_.slotLoad(first_);
         takeAnswer(block(place));
         return rest(kDone, true);

@@ -18,7 +18,7 @@ ValueId axisSignal(Lowering& box, std::string_view symbol, ValueId axis) {
   const nc::Signal* signal = nc::findSignal(nc::nctSignals(), symbol);
   RUNG_CHECK(signal != nullptr && signal->count == nc::nct::kAxes, "a signal of the axes");
   const ir::Window axes{
-      .space = box.memory.word({}, Reach::Read).space, .byte = signal->byteOffset, .count = signal->count};
+      .space = box.memory.word({}, AccessBound::Read).space, .byte = signal->byteOffset, .count = signal->count};
   return box.b.loadBitAt(axes, axis, box.b.i32(signal->bit));
 }
 

@@ -45,7 +45,7 @@ ValueId lowerFloatArithmetic(Lowering& box) {
   constexpr OpCode kCodes[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
   RungBuilder& b = box.b;
   return execute(box, [&] {
-    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.twoWords(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId x = box.memory.real(box.operands[1], valid);
     const ValueId y = box.memory.real(box.operands[2], valid);
@@ -75,7 +75,7 @@ ValueId lowerFloatFunction(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
     const auto variant = static_cast<FunctionVariant>(box.variant);
-    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.twoWords(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId x = box.memory.real(box.operands[1], valid);
     const ValueId y = variant == kPower ? box.memory.real(box.operands[2], valid) : ValueId{};
@@ -113,7 +113,7 @@ namespace {
 template <class Convert>
 ValueId convertWord(Lowering& box, Convert convert) {
   return execute(box, [&] {
-    const Place target = box.memory.word(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.word(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId source = box.memory.integer(box.operands[1], valid);
     return guarded(box, valid, [&] {
@@ -152,7 +152,7 @@ ValueId lowerBcd(Lowering& box) {
 ValueId lowerFlt(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
-    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.twoWords(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId source = box.memory.integer(box.operands[1], valid);
     return guarded(box, valid, [&] {
@@ -167,7 +167,7 @@ ValueId lowerFlt(Lowering& box) {
 ValueId lowerFix(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
-    const Place target = box.memory.word(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.word(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId source = box.memory.real(box.operands[1], valid);
     return guarded(box, valid, [&] {
@@ -184,7 +184,7 @@ ValueId lowerFix(Lowering& box) {
 ValueId lowerAngle(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
-    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.twoWords(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId source = box.memory.real(box.operands[1], valid);
     const double factor = box.variant == kToDegrees ? 180 / std::numbers::pi : std::numbers::pi / 180;

@@ -44,7 +44,7 @@ std::string identityOf(const NctInstruction& row, std::span<const Operand> opera
     text += ' ';
     if (operand.edge != 0) text += operand.edge;
     text += operand.source->text;
-    if (row.claim == Claim::Once) break;
+    if (row.reservation == Reservation::Once) break;
   }
   return text;
 }

@@ -28,7 +28,7 @@ struct WrittenRange {
 };
 
 // Where an operand may lead at run time.
-enum class Reach : uint8_t {
+enum class AccessBound : uint8_t {
   Read,  // 0000 to 9999
   Write, // 0001 to 9999: FLAGS is the instructions' own (l.723); what goes to the reserved word 0001 is lost
   User,  // PLCNVRAM to 9999: timers and counters (l.1335, l.1463)
@@ -60,10 +60,10 @@ public:
   Memory(ir::RungBuilder& builder, const Config& config, const MemorySpaces& spaces, WrittenRange& written)
       : b_(builder), config_(config), spaces_(spaces), written_(written) {}
 
-  Place word(const Address& address, Reach reach);
-  Place bit(const Address& address, Reach reach);
+  Place word(const Address& address, AccessBound bound);
+  Place bit(const Address& address, AccessBound bound);
   // Two words; a computed index must be even (l.509).
-  Place twoWords(const Address& address, Reach reach);
+  Place twoWords(const Address& address, AccessBound bound);
 
   ir::ValueId loadWord(const Place& place); // i32
   void storeWord(const Place& place, ir::ValueId value);
@@ -99,8 +99,8 @@ public:
   const Config& config() const { return config_; }
 
 private:
-  Place place(const Address& address, Reach reach, uint32_t words);
-  void compute(Place& place, const Address& address, Reach reach, uint32_t words);
+  Place place(const Address& address, AccessBound bound, uint32_t words);
+  void compute(Place& place, const Address& address, AccessBound bound, uint32_t words);
   ir::ValueId loadRegister(uint32_t word);
   ir::ValueId upperWord(ir::ValueId value); // of a double
   bool dropped(const Place& place) const;

@@ -30,12 +30,12 @@ inline constexpr NctInstruction kBitContact =
 inline constexpr NctInstruction kWordContact =
     contactShape({"Address", &kinds::kWord, Access::Read, "may be indexed; @ or % before it"});
 
-constexpr NctInstruction coilShape(Claim claim) {
+constexpr NctInstruction coilShape(Reservation reservation) {
   return {.info = {.group = "bit",
                    .pins = {P{"IN", "condition"}},
                    .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed; in INT0 ! before it"}}},
           .lower = lowerCoil,
-          .claim = claim,
+          .reservation = reservation,
           .shape = Shape::Coil};
 }
 
@@ -45,7 +45,7 @@ inline constexpr NctInstruction kPulseShape = {
              .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed"}},
              .stateful = true},
     .lower = lowerPulse,
-    .claim = Claim::Once};
+    .reservation = Reservation::Once};
 
 inline constexpr NctInstruction kBitRows[] = {
     rowOf(kBitContact, "open-contact-bit", "open contact on a bit", "6.1.1, l.785",
@@ -62,13 +62,13 @@ inline constexpr NctInstruction kBitRows[] = {
           "|--[/STOP]--(MOTOR)", kClosed),
     rowOf(kWordContact, "closed-contact-dword", "closed contact on a double word", "6.1.4, l.896",
           "Power passes when the word is 0.", "|--[/T_WARM]--(WARM)", kClosed | kOnWord),
-    rowOf(coilShape(Claim::Once), "coil", "coil", "6.1.5, l.918",
+    rowOf(coilShape(Reservation::Once), "coil", "coil", "6.1.5, l.918",
           "The bit becomes 1 with power and 0 without it, in every evaluation.", "|--[START]--(MOTOR)", kCoil),
-    rowOf(coilShape(Claim::Once), "negated-coil", "negated coil", "6.1.6, l.952",
+    rowOf(coilShape(Reservation::Once), "negated-coil", "negated coil", "6.1.6, l.952",
           "The bit becomes 0 with power and 1 without it, in every evaluation.", "|--[RUNNING]--(/IDLE)", kNegatedCoil),
-    rowOf(coilShape(Claim::SetReset), "SET", "set a bit", "6.1.7, l.986",
+    rowOf(coilShape(Reservation::SetReset), "SET", "set a bit", "6.1.7, l.986",
           "With power the bit becomes 1, without it nothing changes.", "|--[START]--(S LATCH)", kSet),
-    rowOf(coilShape(Claim::SetReset), "RST", "reset a bit", "6.1.8, l.1019",
+    rowOf(coilShape(Reservation::SetReset), "RST", "reset a bit", "6.1.8, l.1019",
           "With power the bit becomes 0, without it nothing changes.", "|--[STOP]--(R LATCH)", kReset),
     rowOf(kPulseShape, "DIFU", "pulse on the rising edge of the condition", "6.1.9, l.1052",
           "The bit is 1 in the evaluation in which the condition turns TRUE and 0 in all others: a pulse of "

@@ -41,7 +41,7 @@ inline constexpr NctInstruction kTimerShape = {
              .stateful = true},
     .lower = lowerTimer,
     .check = checkTimer,
-    .claim = Claim::Once};
+    .reservation = Reservation::Once};
 
 inline constexpr NctInstruction kCounterShape = {
     .info = {.group = "counter",
@@ -54,7 +54,7 @@ inline constexpr NctInstruction kCounterShape = {
              .output = Output::Always,
              .stateful = true},
     .lower = lowerCounter,
-    .claim = Claim::Once};
+    .reservation = Reservation::Once};
 
 constexpr NctInstruction arrayShape(std::string_view count) {
   return {.info = {.group = "shift",

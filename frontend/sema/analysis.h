@@ -23,9 +23,10 @@ struct NamedPlace {
 struct Definition {
   std::string_view name;
   std::string_view comment;
-  SourceRange range;      // of the name in its declaration; invalid: the control's own
-  NamedPlace place;       // not of a constant
-  std::string_view value; // of a constant, as declared; empty: it is a place
+  SourceRange range;          // of the name in its declaration; invalid: the control's own
+  NamedPlace place;           // not of a constant
+  std::string_view value;     // of a constant, as declared; empty: it is a place
+  bool usedByControl = false; // by its name, whatever the program does
   bool isConstant() const { return !value.empty(); }
 };
 

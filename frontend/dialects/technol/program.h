@@ -35,8 +35,9 @@ struct Exchanged {
   uint32_t count = 1; // elements; bytes of a text
 };
 
-// A procedure that the control has called when a message comes up (man. l.1609).
+// Procedures that the control calls: when a message comes up (man. l.1609), at its commands and events (l.1614-1644).
 inline constexpr std::string_view kOnMessage = "_ON_ESET";
+inline constexpr std::string_view kOnEvents[] = {"_ON_CMD", "_ON_EVENT"};
 
 struct Program {
   Program(SourceManager& sourceManager, Diagnostics& sink) : sources(sourceManager), diagnostics(sink), symbols(sink) {}

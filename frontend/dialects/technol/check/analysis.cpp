@@ -47,6 +47,12 @@ Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
   return definition;
 }
 
+bool isCalledByControl(const Symbol& symbol) {
+  if (symbol.kind != SymbolKind::Procedure) return false;
+  const std::string name = symbolKey(symbol.name);
+  return name == kOnMessage || std::ranges::find(kOnEvents, name) != std::end(kOnEvents);
+}
+
 // A label or procedure is a place in the program too; it is numbered as symbols are.
 void addTarget(const Symbol& symbol, uint32_t number, SourceRange range, bool defines, Analysis& analysis) {
   const bool isLabel = symbol.kind == SymbolKind::Label;
@@ -94,6 +100,7 @@ Analysis analysisOf(const Program& program, const TypedProgram& typed) {
   Analysis analysis;
   for (const Symbol& symbol : program.symbols.all()) {
     const uint32_t index = analysis.define(definitionOf(program.sources, symbol)); // that of the symbol too
+    analysis.definition(index).usedByControl = isCalledByControl(symbol);
     addTarget(symbol, index, analysis.definition(index).range, true, analysis);
   }
   for (const std::vector<NameUse>* names : {&program.symbols.uses(), &typed.names})

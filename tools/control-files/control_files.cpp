@@ -16,6 +16,7 @@
 
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::control_files {
@@ -58,7 +59,7 @@ std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "
 
 // Line breaks with the blanks around them become one blank.
 std::string inOneLine(std::string_view text) {
-  text = nc::technol::trimmed(text);
+  text = text::trimmed(text);
   std::string line;
   for (size_t i = 0; i < text.size();) {
     const size_t end = std::min(text.find_first_not_of(" \t\r\n", i), text.size());
@@ -140,11 +141,11 @@ public:
 
   std::string required(std::string_view name) {
     const auto value = find(name);
-    if (!value || nc::technol::trimmed(*value).empty()) {
+    if (!value || text::trimmed(*value).empty()) {
       reader_.complain("<" + reader_.open_.back().name + "> lacks the attribute " + std::string(name));
       return {};
     }
-    return std::string(nc::technol::trimmed(*value));
+    return std::string(text::trimmed(*value));
   }
   void flag(std::string_view name, bool& value) {
     uint32_t number = value ? 1 : 0;
@@ -350,7 +351,7 @@ Element Reader::elementOf(std::string_view name) {
 void Reader::checkText() {
   const bool foreign =
       open_.empty() || open_.back().element == Element::Foreign || open_.back().element == Element::Plc;
-  const std::string_view text = nc::technol::trimmed(text_);
+  const std::string_view text = text::trimmed(text_);
   if (!foreign && !text.empty())
     complain("<" + open_.back().name + "> holds the text " + inQuotes(inOneLine(text.substr(0, 40))) +
              ", expected elements or nothing");
@@ -441,7 +442,7 @@ void Reader::beginParameter(const char** list) {
 
 void Reader::endParameter() {
   ParameterDefinition& parameter = found_.parameters.back();
-  parameter.value = nc::technol::trimmed(text_);
+  parameter.value = text::trimmed(text_);
   const auto wrong = [&](std::string_view expected) {
     complainAt(parameter.place, "parameter " + parameter.id + " is " + inQuotes(parameter.value) + ", expected " +
                                     std::string(expected));

@@ -19,8 +19,8 @@ enum class HostCell : uint8_t {
   BlockInitDone,
   BlockDoneCont,
   BlockDoneDone,
-  InitOwed,
-  DoneOwed,
+  InitPending,
+  DonePending,
   Licences,
 };
 struct HostCellInfo {

@@ -74,8 +74,8 @@ void Clears::make() {
 void makeStart(Memory& memory, ir::RoutineId routine, const State& state, const Clocks& clocks, BitMessages& messages) {
   memory.open(routine);
   ir::RungBuilder& b = memory.b();
-  b.store(place(HostCell::InitOwed), b.constant(Type::I64, memory.program().filesWith(&SourceFile::finishesInit)));
-  b.store(place(HostCell::DoneOwed), b.constant(Type::I64, 0));
+  b.store(place(HostCell::InitPending), b.constant(Type::I64, memory.program().filesWith(&SourceFile::finishesInit)));
+  b.store(place(HostCell::DonePending), b.constant(Type::I64, 0));
   storeStartPresets(b);
   memory.clearSlots(state.forgotten());
   memory.clearSlots(clocks.phases());
@@ -86,7 +86,7 @@ void makeStart(Memory& memory, ir::RoutineId routine, const State& state, const 
 // RLO and DR come from the host.
 std::vector<Event> makeEvents(Memory& memory, const Procedures& procedures, Clocks& clocks) {
   std::vector<Event> events;
-  for (const std::string_view name : {"_ON_CMD", "_ON_EVENT"}) {
+  for (const std::string_view name : kOnEvents) {
     const uint32_t procedure = memory.program().procedureNamed(name);
     if (procedure == kNone) continue;
     const ir::RoutineId routine = memory.newRoutine("@" + std::string(name));

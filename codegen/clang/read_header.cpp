@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <ranges>
 
 #include <clang/AST/ASTConsumer.h>
 #include <clang/AST/ASTContext.h>
@@ -41,9 +42,7 @@ public:
     return found == structs_.end() ? nullptr : &found->second;
   }
   std::string similarTo(const std::string& name) const {
-    Similar similar(name);
-    for (const auto& [known, unused] : structs_) similar.offer(known);
-    return std::string(similar.best());
+    return std::string(mostSimilar(name, structs_ | std::views::keys));
   }
 
 private:
@@ -187,7 +186,7 @@ public:
 private:
   std::string missing(const std::string& similar) const {
     return "there is no struct " + request_.name + " in " + request_.header +
-           (similar.empty() ? "; name the tag or the typedef, with its namespaces" : "; did you mean " + similar + "?");
+           (similar.empty() ? "; name the tag or the typedef, with its namespaces" : didYouMean(similar));
   }
 
   std::string unfit(const ASTContext& context, const Named& found) const {

@@ -1,5 +1,5 @@
 // C++ back end: a module as one readable C++ file for g++ or clang++, without std and without globals but constant
-// tables. Above each rung stand its comment and its source text, #line gives debuggers the PLC source, comments name
+// tables. Above each rung are its comment and its source text, #line gives debuggers the PLC source, comments name
 // the symbols.
 #pragma once
 #include <string>
@@ -20,7 +20,7 @@ struct CppOptions {
 std::string emitCpp(const ir::Layout& layout, uint64_t codeHash, const CppOptions& options);
 
 struct CppBuildOptions {
-  // A driver, with flags of its own behind it if need be: clang++-19, g++, aarch64-linux-gnu-g++ …
+  // A driver, with flags of its own after it if need be: clang++-19, g++, aarch64-linux-gnu-g++ …
   std::string compiler = "c++";
   std::string optimisation = "-O2";
   bool debugInfo = true;

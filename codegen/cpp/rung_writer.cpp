@@ -32,7 +32,7 @@ std::string_view memoryType(Type type) {
   return {};
 }
 
-// Text that may stand in a line comment: no line end, and no backslash at the end that would continue it.
+// Text that may be in a line comment: no line end, and no backslash at the end that would continue it.
 std::string commentText(std::string_view text) {
   std::string out(text);
   for (char& c : out)
@@ -315,7 +315,7 @@ void RungWriter::writeOp(const Op& op) {
                                         : std::string());
 }
 
-// ---- regions: results of an endif and the carried values of a loop are variables declared in front ---------------
+// ---- regions: results of an endif and the carried values of a loop are variables declared before it --------------
 
 void RungWriter::openIf(const Op& op, size_t index) {
   const Op& end = rung_->ops[endOf_[index]];
@@ -399,7 +399,7 @@ std::string RungWriter::leaving(const std::string& how) const {
 
 void RungWriter::writeExit(const Exit& exit) {
   const std::string when = exit.cond.valid() ? fmt::format("if ({}) ", v(exit.cond)) : "";
-  const bool falls = exit.otherwise.inside(); // the rung below stands below
+  const bool falls = exit.otherwise.inside(); // to the rung below, which is the next text
   if (exit.kind == TransferKind::Next && falls) return;
   beginLine(rung_->transferLine != 0 ? rung_->transferLine : rung_->begin.line, true);
   switch (exit.kind) {

@@ -17,7 +17,7 @@ class TableWriter {
 public:
   TableWriter(std::string_view chunkTable, std::string& out) : chunkTable_(chunkTable), out_(out) {}
 
-  // The initialiser of one struct; arrays it points to are written in front of it.
+  // The initialiser of one struct; arrays it points to are written before it.
   std::string structText(const StructInfo& info, const std::byte* base) {
     std::string text = "{";
     for (const FieldInfo& field : info.fields) {

@@ -1,4 +1,4 @@
-// JIT: a layout becomes machine code in this process, behind the Engine interface. Free of LLVM.
+// JIT: a layout becomes machine code in this process, by the Engine interface. Free of LLVM.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace rung::codegen {
 
 struct JitOptions {
   LlvmOptions code;        // for this machine: `target` is empty
-  bool gdb = false;        // tell a debugger of the code
+  bool gdb = false;        // make the code known to a debugger
   std::string cacheFolder; // keeps object files there and takes them from there; empty: no cache
   uint32_t threads = 1;    // that compile at the same time
 };

@@ -1,4 +1,4 @@
-// Chunks, regions, exits and the host's functions (see chunk_emitter.h); operations with values stand in
+// Chunks, regions, exits and the host's functions (see chunk_emitter.h); operations with values are in
 // value_emitter.cpp.
 #include "codegen/llvm/chunk_emitter.h"
 
@@ -57,7 +57,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   return function_;
 }
 
-// False: control never comes here. All jumps to a rung stand above it.
+// False: control never comes here. All jumps to a rung are above it.
 bool ChunkEmitter::beginRung(uint32_t rung) {
   llvm::BasicBlock* own = rungBlocks_[rung - firstRung_];
   const bool falls = builder_.GetInsertBlock()->getTerminator() == nullptr;
@@ -84,7 +84,7 @@ void ChunkEmitter::showMemory() {
 }
 
 // With debug information stores of earlier lines have reached memory when a line begins, and its loads have not
-// happened: a fence within the thread is no instruction.
+// happened: a fence within the thread is not an instruction.
 void ChunkEmitter::settleMemory(const Op& op) {
   if (debug_ == nullptr || options_.level == LlvmLevel::Fast) return;
   const uint32_t line = op.line != 0 ? op.line : rung_->begin.line;
@@ -392,7 +392,7 @@ void ChunkEmitter::emitSwitch(const Exit& exit) {
   returnValue(builder_.CreateLoad(builder_.getInt32Ty(), entry));
 }
 
-// Behind an if with the condition of the jump its two regions go their ways without meeting.
+// After an if with the condition of the jump its two regions go their ways without meeting.
 bool ChunkEmitter::leaveFromRegions(const Exit& exit) {
   const bool same = join_ && join_->cond == exit.cond && join_->end == builder_.GetInsertBlock() && join_->end->empty();
   if (!same) return false;

@@ -1,5 +1,5 @@
 // Writes chunks as LLVM functions, operation by operation: each value of a rung is one LLVM value, regions are blocks
-// with phis. Plain instructions stand only where LLVM's rule is the IR's rule (never one that may give poison); all
+// with phis. Plain instructions are used only where LLVM's rule is the IR's rule (never one that may give poison); all
 // other arithmetic is a call of the functions of sem.hpp.
 #pragma once
 #include <optional>

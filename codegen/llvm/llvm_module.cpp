@@ -42,7 +42,7 @@ llvm::AttributeList whatIsPassed(llvm::LLVMContext& context, const llvm::Attribu
   return kept;
 }
 
-// The bitcode was made for another machine and with other options: nothing of that may stand in the way of inlining.
+// The bitcode was made for another machine and with other options: nothing of that may prevent inlining.
 // Intrinsics keep theirs: a copy of memory says there how its places are aligned, and becomes a call where they are
 // not.
 void adopt(llvm::Function& function) {

@@ -80,7 +80,7 @@ private:
     return variable;
   }
 
-  // Equal texts stand once.
+  // Equal texts are there once.
   llvm::Constant* textConstant(const char* text) {
     llvm::Constant*& constant = texts_[text];
     if (constant == nullptr) constant = global(llvm::ConstantDataArray::getString(context_, text), "text");

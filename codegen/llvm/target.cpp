@@ -35,7 +35,7 @@ constexpr TargetRow kTargets[] = {
     {"riscv64-linux-gnu", "generic-rv64", "+m,+a,+f,+d,+c", "lp64d", false},
 };
 
-// What LLVM cannot go on with is an internal error like our own: a library throws it (ThrowingChecks).
+// What LLVM cannot continue after is an internal error like our own: a library throws it (ThrowingChecks).
 void fatalError(void*, const char* reason, bool) { checkFailed("LLVM", reason, __FILE__, __LINE__); }
 
 void initialiseLlvm() {
@@ -67,7 +67,7 @@ bool addCodeGenerator(llvm::LLVMTargetMachine& machine, llvm::legacy::PassManage
                       llvm::CodeGenFileType type, std::unique_ptr<llvm::FunctionPass> reader) {
   llvm::TargetPassConfig* config = machine.createPassConfig(passes);
   // x86 reorders instructions itself. The scheduler compares all accesses of a block with each other: it is what would
-  // make time grow faster than the length of a chunk, and the code is no better for it.
+  // make time grow faster than the length of a chunk, and the code gains nothing by it.
   if (machine.getTargetTriple().isX86()) config->disablePass(&llvm::MachineSchedulerID);
   auto* info = new llvm::MachineModuleInfoWrapperPass(&machine);
   if (machine.getOptLevel() != llvm::CodeGenOptLevel::None) { // else instructions are selected one by one

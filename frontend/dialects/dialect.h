@@ -1,4 +1,4 @@
-// What a dialect gives to the rest: its name, its table, and a function from source files to a module. Nothing behind
+// What a dialect gives to the rest: its name, its table, and a function from source files to a module. Nothing after
 // it knows a mnemonic. registry.cpp lists the dialects.
 #pragma once
 #include <map>
@@ -96,7 +96,7 @@ struct Dialect {
 // All dialects, and one by its name; null when there is none.
 std::span<const Dialect* const> allDialects();
 const Dialect* findDialect(std::string_view name);
-// By the text of a file: `dialect NAME` in a ladder text, else by its extension; null when neither tells.
+// By the text of a file: `dialect NAME` in a ladder text, else by its extension; null when neither says so.
 const Dialect* dialectOf(const SourceManager& sources, FileId file);
 
 } // namespace rung::frontend

@@ -3,7 +3,7 @@
 // source, and are the dialect's business, and so is every rule that needs its instruction table.
 //
 // Nets. Everything that wires join is one net. Net 0 of a rung is the left rail. A net has power when one of the
-// elements that drive it passes power. Net ids and element ids are counted per rung. Elements stand in the order of
+// elements that drive it passes power. Net ids and element ids are counted per rung. Elements are in the order of
 // evaluation: an element comes after all elements that drive its inputs; among those that are ready the first in the
 // source goes first. There are no loops (power-loop is an error). A rung with an error in its wires has bad == true and
 // was reported. It keeps the elements that could be read, in the order of the source, and an Error where one could not;
@@ -50,7 +50,7 @@ struct Pin {
 struct Element {
   ElementKind kind = ElementKind::Contact;
   bool negated = false;            ///< contact: [/x]
-  char edge = 0;                   ///< '@' or '%' in front of the operand of a contact or coil, 0 for none
+  char edge = 0;                   ///< '@' or '%' before the operand of a contact or coil, 0 for none
   CoilKind coil = CoilKind::Plain; ///< coils only
   std::string_view mnemonic;       ///< boxes only
   SourceRange mnemonicRange;       ///< boxes only
@@ -96,7 +96,7 @@ struct Rung {
   NetId inputOf(const Element& e) const { return pinPool[e.pins.first].input; }
   /// The elements whose output is this net, in order of evaluation. The rail has none and always carries power.
   std::span<const ElementId> driversOf(NetId net) const { return links(nets[net.index].drivers); }
-  /// The elements with an input on this net, in order of evaluation; an element with two such pins stands twice.
+  /// The elements with an input on this net, in order of evaluation; an element with two such pins appears twice.
   std::span<const ElementId> consumersOf(NetId net) const { return links(nets[net.index].consumers); }
 
 private:

@@ -23,9 +23,10 @@ struct NamedPlace {
 struct Definition {
   std::string_view name;
   std::string_view comment;
-  SourceRange range;      // of the name in its declaration; invalid: the control's own
-  NamedPlace place;       // not of a constant
-  std::string_view value; // of a constant, as declared; empty: it is a place
+  SourceRange range;          // of the name in its declaration; invalid: the control's own
+  NamedPlace place;           // not of a constant
+  std::string_view value;     // of a constant, as declared; empty: it is a place
+  bool usedByControl = false; // by its name, whatever the program does
   bool isConstant() const { return !value.empty(); }
 };
 
@@ -74,7 +75,7 @@ public:
   // The operand that is written there, exactly; null when that names no place, of memory or of the program.
   const OperandUse* operandAt(SourceRange range) const;
   const TargetUse* targetAt(SourceRange range) const;
-  // What the name that is written there, exactly, means; null when that is no name.
+  // What the name that is written there, exactly, means; null when that is not a name.
   const Definition* nameAt(SourceRange range) const;
 
 private:

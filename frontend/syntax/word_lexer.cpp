@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "ir/support/ascii.h"
 #include "ir/support/utf8.h"
+#include "rtlib/text/blanks.h"
 
 namespace rung {
 namespace {
@@ -59,7 +59,7 @@ void splitWords(const SourceLine& line, const WordRules& rules, LineWords& out) 
       ++at;
     } else if (c == rules.comment) {
       out.hasComment = true;
-      out.comment = trimmed(text.substr(at + 1));
+      out.comment = text::trimmed(text.substr(at + 1));
       out.commentRange = line.range(at, text.size());
       return;
     } else if (contains(rules.quotes, c)) {

@@ -54,7 +54,7 @@ struct WordRules {
 struct LineWords {
   std::vector<Word> words;
   bool hasComment = false;
-  std::string_view comment; ///< behind the comment character, blanks at both ends removed
+  std::string_view comment; ///< after the comment character, blanks at both ends removed
   SourceRange commentRange; ///< with the comment character
   /// Set when a text is not closed on the line; it is then the last word and reaches to the end of the line.
   bool unterminatedQuote = false;
@@ -63,7 +63,7 @@ struct LineWords {
 /// Splits a line. The result is reused: pass the same LineWords for every line.
 void splitWords(const SourceLine& line, const WordRules& rules, LineWords& out);
 
-/// Reports bad-encoding at the first byte that is no UTF-8 (or is NUL: not a text at all) and returns false then.
+/// Reports bad-encoding at the first byte that is not UTF-8 (or is NUL: not a text at all) and returns false then.
 bool checkEncoding(const SourceManager& sources, FileId file, Diagnostics& diagnostics);
 
 } // namespace rung

@@ -73,8 +73,8 @@ enum class Output : uint8_t {
 };
 
 enum class Placement : uint8_t {
-  BehindContact, // needs a condition in front
-  AtRail,        // touches the left rail only
+  AfterContact, // needs a condition before it
+  AtRail,       // touches the left rail only
   Anywhere,
 };
 
@@ -87,10 +87,10 @@ struct InstructionInfo {
   FixedList<PinInfo, 6> pins{};             // none: it has no place in a ladder
   FixedList<OperandInfo, 8> operands{};
   Output output = Output::None;
-  Placement placement = Placement::BehindContact;
+  Placement placement = Placement::AfterContact;
   bool terminating = false;   // TECHNOL: closes the logic equation
   bool stateful = false;      // keeps something between its runs
-  std::string_view tasks{};   // where it may stand, empty: everywhere
+  std::string_view tasks{};   // where it is allowed, empty: everywhere
   std::string_view ref;       // manual: section and line, e.g. "5.7, l.1271"
   std::string_view doc;       // what it does, in full
   std::string_view example{}; // source text

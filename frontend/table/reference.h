@@ -23,7 +23,7 @@ public:
     std::string title;
   };
   // Its text and the head of a table, whose rows follow: columns are "code | meaning", or "|" for two without names.
-  // Without a title it goes on with the section before. Level 1 is the page itself, 3 a part of a section.
+  // Without a title it continues the section before. Level 1 is the page itself, 3 a part of a section.
   void section(std::string_view title, std::string_view text, std::string_view columns = {}, int level = 2) {
     if (!text_.empty() && !text_.ends_with("\n\n")) text_ += '\n';
     if (!title.empty()) {

@@ -7,7 +7,7 @@
 namespace rung::ir {
 namespace {
 
-// Calls f with a zero of the unsigned integer type that stands for `type`.
+// Calls f with a zero of the unsigned integer type that holds a `type`.
 template <class F>
 uint64_t asInt(Type type, F f) {
   switch (type) {

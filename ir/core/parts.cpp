@@ -49,7 +49,7 @@ private:
   std::vector<uint64_t> weights_;
 };
 
-// Sums of the first pieces: [i] is the weight in front of piece i.
+// Sums of the first pieces: [i] is the weight before piece i.
 std::vector<uint64_t> sumsOf(const std::vector<PartPiece>& pieces) {
   std::vector<uint64_t> sums{0};
   for (const PartPiece& piece : pieces) sums.push_back(sums.back() + piece.weight);
@@ -83,14 +83,14 @@ uint64_t leastHeaviest(const std::vector<PartPiece>& pieces, const std::vector<u
   return low;
 }
 
-// For every border the first place from which the parts behind it can hold the rest.
+// For every border the first place from which the parts after it can hold the rest.
 std::vector<uint32_t> earliestBorders(const std::vector<uint64_t>& sums, uint32_t parts, uint64_t most) {
   std::vector<uint32_t> earliest(parts - 1);
   auto end = static_cast<uint32_t>(sums.size()) - 1;
   for (uint32_t k = parts - 1; k-- > 0;) {
     const uint64_t from = sums[end] > most ? sums[end] - most : 0;
     const auto first = static_cast<uint32_t>(std::lower_bound(sums.begin(), sums.end(), from) - sums.begin());
-    end = earliest[k] = std::max(first, k + 1); // a piece for every part in front
+    end = earliest[k] = std::max(first, k + 1); // a piece for every part before
   }
   return earliest;
 }
@@ -109,7 +109,7 @@ std::vector<uint32_t> cutParts(const std::vector<PartPiece>& pieces, uint32_t pa
   const std::vector<uint32_t> earliest = earliestBorders(sums, parts, most);
   uint32_t begin = 0;
   for (uint32_t k = 1; k < parts; ++k) {
-    const uint32_t last = std::min(reach(sums, begin, most), count - (parts - k)); // a piece for every part behind
+    const uint32_t last = std::min(reach(sums, begin, most), count - (parts - k)); // a piece for every part after
     uint32_t border = std::max(earliest[k - 1], begin + 1);
     const auto distance = [&](uint32_t b) { // to the share, times `parts`
       const uint64_t here = sums[b] * parts;

@@ -1,4 +1,4 @@
-// Chunks and exits of the reference interpreter (see interp.h); operations stand in rung_run.cpp.
+// Chunks and exits of the reference interpreter (see interp.h); operations are in rung_run.cpp.
 #include "ir/interp/interp.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ Destination leave(const Exit& exit, std::span<const uint64_t> values, rung_ctx& 
   case TransferKind::Next: return reach(exit.otherwise, ctx);
   case TransferKind::Goto: return exit.taken;
   case TransferKind::Call:
-    // Behind a call at the end of a routine there is nothing to come back to: the callee returns to our caller.
+    // After a call at the end of a routine there is nothing to come back to: the callee returns to our caller.
     if (exit.otherwise.chunk != RUNG_NONE) ctx.stack[ctx.sp++] = exit.otherwise.chunk;
     return exit.taken;
   case TransferKind::Ret: return reach({}, ctx);

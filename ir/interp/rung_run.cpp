@@ -117,7 +117,7 @@ void RungRun::storeBitAt(const Op& op) {
 
 // ---- regions -------------------------------------------------------------------------------------------------------
 
-// The operands of `from` become the results of `to`, behind the first `skip`. Results may be operands too, when carried
+// The operands of `from` become the results of `to`, after the first `skip`. Results may be operands too, when carried
 // values change places, so all are read first.
 void RungRun::giveArgs(const Op& from, const Op& to, uint32_t skip) {
   for (int i = 0; i < from.argCount; ++i) carried_[static_cast<size_t>(i)] = in(from, i);

@@ -19,7 +19,7 @@ public:
       : layout_(layout), rung_(rung), number_(number), partners_(partners), mem_(mem), ctx_(ctx), values_(values),
         carried_(carried), counting_(counting), observer_(observer) {}
 
-  // False: a fault, which stands in the context.
+  // False: a fault, which is in the context.
   bool run();
 
 private:

@@ -1,5 +1,5 @@
 // What every engine obeys: where a program's memory lies, and how its rungs are cut into chunks. The two know nothing
-// of each other; who needs one of them takes that one.
+// of each other; whoever needs one of them takes that one.
 #pragma once
 #include <utility>
 

@@ -79,7 +79,7 @@ private:
     }
   }
 
-  // Whether operation i stays; those behind it are decided.
+  // Whether operation i stays; those after it are decided.
   bool decide(uint32_t i) {
     const Op& o = op(i);
     if (o.code == OpCode::Else) {

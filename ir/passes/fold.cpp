@@ -30,7 +30,7 @@ private:
   };
 
   const Op& op(uint32_t i) const { return rung_->ops[i]; }
-  // What stands for the results of operation i, from the result `skip` on: the operands of `from`.
+  // What replaces the results of operation i, from the result `skip` on: the operands of `from`.
   void resultsAre(uint32_t i, const Op& from, uint32_t skip = 0) {
     for (uint32_t k = 0; k < from.argCount; ++k)
       writer_.replace({op(i).result.index + skip + k}, writer_.nowArg(from, k));

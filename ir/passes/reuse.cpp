@@ -1,6 +1,6 @@
 // Reuse: an operation without effects that was done before with the same operands is not done again. A load takes the
 // value that an earlier load of the same place and type gave, or an earlier store put there, unless something between
-// may have written over it. Values of a region are known within it only; writes count from where they stand, whether
+// may have written over it. Values of a region are known within it only; writes count from where they are, whether
 // their region runs or not; and a loop that writes at all makes everything unknown that was read before it.
 #include <algorithm>
 #include <utility>

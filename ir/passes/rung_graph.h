@@ -1,5 +1,5 @@
-// Where control can go: one node a rung, and one behind them for the way out of each routine. A call goes to the first
-// rung of the callee, and from its way out to the rung below each call of it; which call it was is not followed.
+// Where control can go: one node a rung, and one after them for the exit of each routine. A call goes to the first
+// rung of the callee, and from its exit to the rung below each call of it; which call it was is not followed.
 #pragma once
 #include <span>
 #include <vector>

@@ -12,7 +12,7 @@ inline bool isConstant(const RungRewriter& writer, ValueId value, uint64_t& bits
   return op.code == OpCode::Const;
 }
 
-// Writes what stands for `op`, or nothing where it does nothing. False when there is nothing better than `op` itself.
+// Writes what replaces `op`, or nothing where it does nothing. False when there is nothing better than `op` itself.
 // `op` opens, divides and closes no region; its operands are written already.
 bool simplify(const Module& module, RungRewriter& writer, const Op& op);
 

@@ -22,7 +22,7 @@ struct Access {
   bool stores = false;
   bool kills = false; // is certainly stored
   bool loadsInLoop = false;
-  bool neededBehind = true;
+  bool neededAfter = true;
   bool leftAlone = false;
 };
 
@@ -94,7 +94,7 @@ class SlotFlow {
 public:
   SlotFlow(const Module& module, std::vector<Access>& accesses) : module_(module), graph_(module), accesses_(accesses) {
     needed_.assign(graph_.nodeCount(), 0);
-    neededBehind_.assign(graph_.nodeCount(), 0);
+    neededAfter_.assign(graph_.nodeCount(), 0);
     killed_.assign(graph_.nodeCount(), 0);
     begins_.assign(graph_.nodeCount(), false);
     pauses_.assign(graph_.nodeCount(), false);
@@ -135,12 +135,12 @@ private:
           leaveAlone_ = true;
         else
           --work_;
-        neededBehind_[before] = mark;
+        neededAfter_[before] = mark;
         if (killed_[before] != mark && !leaveAlone_) need(before, slot);
       }
     }
     for (uint32_t i : accesses) {
-      accesses_[i].neededBehind = neededBehind_[accesses_[i].node] == mark;
+      accesses_[i].neededAfter = neededAfter_[accesses_[i].node] == mark;
       accesses_[i].leftAlone = leaveAlone_;
     }
   }
@@ -191,12 +191,12 @@ private:
   const Module& module_;
   RungGraph graph_;
   std::vector<Access>& accesses_;
-  std::vector<uint32_t> needed_;       // by node: mark of the slot that is needed at its beginning
-  std::vector<uint32_t> neededBehind_; // by node: at its end
-  std::vector<uint32_t> killed_;       // by node: certainly stored there
-  std::vector<bool> begins_;           // by node: a task begins with this rung
-  std::vector<bool> pauses_;           // by node: a part of a task may end before this rung
-  std::vector<bool> shared_;           // by slot
+  std::vector<uint32_t> needed_;      // by node: mark of the slot that is needed at its beginning
+  std::vector<uint32_t> neededAfter_; // by node: at its end
+  std::vector<uint32_t> killed_;      // by node: certainly stored there
+  std::vector<bool> begins_;          // by node: a task begins with this rung
+  std::vector<bool> pauses_;          // by node: a part of a task may end before this rung
+  std::vector<bool> shared_;          // by slot
   std::vector<uint32_t> open_;
   uint64_t work_ = 0;
   bool leaveAlone_ = false;
@@ -210,7 +210,7 @@ public:
   void run(Rung& rung, std::span<const Access> accesses) {
     bool stores = false;
     for (const Access& access : accesses) {
-      state_[access.slot] = {.needed = access.neededBehind || access.leftAlone,
+      state_[access.slot] = {.needed = access.neededAfter || access.leftAlone,
                              .leftAlone = access.leftAlone,
                              .loadsInLoop = access.loadsInLoop};
       stores = stores || (access.stores && !access.leftAlone);

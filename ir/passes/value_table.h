@@ -1,4 +1,4 @@
-// The values that a rung has at hand, by what they are: an operation on operands, or what a place of memory held at
+// The values that a rung has so far, by what they are: an operation on operands, or what a place of memory held at
 // some time. Scoped: what was entered in a region is forgotten at its end, and an older entry shows again.
 #pragma once
 #include <bit>

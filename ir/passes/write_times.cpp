@@ -10,7 +10,7 @@ namespace rung::ir {
 namespace {
 
 constexpr uint64_t kFree = ~0ull;
-constexpr uint64_t kSlots = RUNG_NONE - 1; // stands for a space
+constexpr uint64_t kSlots = RUNG_NONE - 1; // in place of a space
 
 bool isFixed(const Op& op) {
   return op.code == OpCode::Load || op.code == OpCode::Store || op.code == OpCode::SlotLoad ||

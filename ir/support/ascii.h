@@ -1,6 +1,5 @@
-// Kinds of characters of ASCII, whatever the locale, and blanks around a text. Capitals: rtlib/text/letters.h.
+// Kinds of characters of ASCII, whatever the locale. Capitals: rtlib/text/letters.h.
 #pragma once
-#include <string_view>
 
 namespace rung {
 
@@ -12,14 +11,6 @@ constexpr int hexDigit(char c) {
   if (isDigit(c)) return c - '0';
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
   return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-}
-
-/// A line without blanks and tabs at its ends, and without the CR of a line end of DOS.
-constexpr std::string_view trimmed(std::string_view line) {
-  constexpr std::string_view kSpace = " \t\r";
-  const size_t first = line.find_first_not_of(kSpace);
-  return first == std::string_view::npos ? std::string_view()
-                                         : line.substr(first, line.find_last_not_of(kSpace) + 1 - first);
 }
 
 } // namespace rung

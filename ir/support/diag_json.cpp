@@ -56,7 +56,7 @@ std::string renderJson(const Diagnostics& diagnostics, const SourceManager& sour
     entry["fixes"] = fixesOf(d->fixes, sources);
     list.push_back(std::move(entry));
   }
-  // Messages may quote bytes of a file that is no UTF-8.
+  // Messages may quote bytes of a file that is not UTF-8.
   return list.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// Diagnostics: what the compiler tells the user about his program.
+// Diagnostics: what the compiler says about a program.
 // Every code is one entry of ir/support/diag/*.def with its severity, its message and its explanation; reports name the
 // code, a place and the arguments of the message:
 //   diags.report(Diag::DuplicateSymbol, range) << name;
@@ -34,7 +34,7 @@ struct DiagInfo {
   std::string_view code;
   Severity severity;
   std::string_view message;     ///< fmt pattern with positional placeholders {0}, {1}, …
-  std::string_view explanation; ///< what it means and how to mend it
+  std::string_view explanation; ///< what it means and how to fix it
 };
 
 const DiagInfo& diagInfo(Diag id);
@@ -45,14 +45,14 @@ std::span<const DiagInfo> allDiags();
 
 using DiagArg = std::variant<int64_t, std::string>;
 
-/// A further place that explains the error. A note stands behind the message; a label marks a part of the source with a
+/// A further place that explains the error. A note is after the message; a label marks a part of the source with a
 /// few words. The range of a note may be invalid: a remark without a place.
 struct DiagNote {
   SourceRange range;
   std::string text;
 };
 
-/// A change that mends the error: the characters of range become replacement.
+/// A change that fixes the error: the characters of range become replacement.
 struct DiagFix {
   SourceRange range;
   std::string replacement;

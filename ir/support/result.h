@@ -1,5 +1,5 @@
 // Result<T>: a value, or what went wrong in the environment (files, libraries, limits) as a text.
-// Mistakes in a user's program are no Result; they go to Diagnostics.
+// Mistakes in a user's program are not a Result; they go to Diagnostics.
 #pragma once
 
 #include <string>

@@ -40,9 +40,13 @@ void Similar::offer(std::string_view candidate) {
   const size_t shorter = std::min(word_.size(), candidate.size());
   if (std::max(word_.size(), candidate.size()) - shorter >= bound_) return;
   const size_t d = distance(candidate);
-  if (d >= bound_ || d >= shorter) return; // nothing in common is no likeness
+  if (d >= bound_ || d >= shorter) return; // nothing in common is not alike
   bound_ = d;
   best_ = candidate;
+}
+
+std::string didYouMean(std::string_view word) {
+  return word.empty() ? "" : "; did you mean " + std::string(word) + "?";
 }
 
 } // namespace rung

@@ -33,4 +33,7 @@ std::string_view mostSimilar(std::string_view word, Candidates&& candidates, Nam
   return similar.best();
 }
 
+/// "; did you mean WORD?" for the end of a message; nothing for an empty word.
+std::string didYouMean(std::string_view word);
+
 } // namespace rung

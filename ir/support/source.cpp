@@ -156,9 +156,9 @@ SourceRange SourceManager::range(FileId id, size_t begin, size_t end) const {
 
 FileId SourceManager::fileOf(SourcePos pos) const {
   RUNG_CHECK(pos.valid() && pos.value < nextBase_, "position outside all sources");
-  const auto behind = std::upper_bound(files_.begin(), files_.end(), pos.value,
-                                       [](uint32_t value, const auto& f) { return value < f->base; });
-  return FileId{static_cast<uint32_t>(behind - files_.begin() - 1)};
+  const auto after = std::upper_bound(files_.begin(), files_.end(), pos.value,
+                                      [](uint32_t value, const auto& f) { return value < f->base; });
+  return FileId{static_cast<uint32_t>(after - files_.begin() - 1)};
 }
 
 size_t SourceManager::offsetOf(SourcePos pos) const { return pos.value - file(fileOf(pos)).base; }
@@ -166,8 +166,8 @@ size_t SourceManager::offsetOf(SourcePos pos) const { return pos.value - file(fi
 SourceManager::LineStart SourceManager::lineStart(SourcePos pos) const {
   const FileId id = fileOf(pos);
   const File& f = file(id);
-  const auto behind = std::upper_bound(f.lineStarts.begin(), f.lineStarts.end(), pos.value - f.base);
-  const auto line = static_cast<uint32_t>(behind - f.lineStarts.begin());
+  const auto after = std::upper_bound(f.lineStarts.begin(), f.lineStarts.end(), pos.value - f.base);
+  const auto line = static_cast<uint32_t>(after - f.lineStarts.begin());
   return {id, line, f.lineStarts[line - 1]};
 }
 

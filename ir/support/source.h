@@ -27,7 +27,7 @@ struct SourcePos {
   constexpr auto operator<=>(const SourcePos&) const = default;
 };
 
-/// Half-open: end is the first position behind it. begin == end marks a place between two characters.
+/// Half-open: end is the first position after it. begin == end marks a place between two characters.
 struct SourceRange {
   SourcePos begin;
   SourcePos end;

@@ -20,7 +20,7 @@ struct CodePoint {
 /// The character at offset, which must be inside the text.
 CodePoint decodeUtf8(std::string_view text, size_t offset);
 
-/// Offset of the first byte that is no UTF-8, npos when all is well.
+/// Offset of the first byte that is not UTF-8, npos when all is well.
 size_t findInvalidUtf8(std::string_view text);
 
 /// How many cells a terminal uses for a character: 2 for East Asian wide ones and emoji, 0 for combining marks and for

@@ -1,4 +1,4 @@
-// Words of the text form that stand for bits and enumerators; printer and parser read the same lists.
+// Words of the text form that mean bits and enumerators; printer and parser read the same lists.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -51,7 +51,7 @@ constexpr const Keyword* findKeyword(std::span<const Keyword> list, uint32_t val
   return nullptr;
 }
 
-// What may stand in a name without quotes; the first character is no digit.
+// What a name without quotes may have; the first character is not a digit.
 constexpr bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '@' || c == '.'; }
 
 } // namespace rung::ir

@@ -1,4 +1,4 @@
-// Parses what stands between the braces of a rung, and its transfer. Part of parser.cpp's work, in a file of its own.
+// Parses what is between the braces of a rung, and its transfer. Part of parser.cpp's work, in a file of its own.
 #pragma once
 #include <map>
 #include <string>
@@ -11,7 +11,7 @@ namespace rung::ir {
 
 using NameIndex = std::map<std::string, uint32_t, std::less<>>;
 
-// Index behind a reference: `-`, `#N` or a known name.
+// Index after a reference: `-`, `#N` or a known name.
 uint32_t parseReference(Scanner& scanner, const NameIndex& names, std::string_view kind);
 // SPACE[unit] or SPACE[unit+rest], in bytes; a bit place as SPACE[unit.bit].
 struct ParsedPlace {
@@ -44,7 +44,7 @@ private:
   void parseOp();
   void parseResults(Op& op);
   void parseName(Op& op);
-  // Whether there is an attribute, so that a comma stands before the operands.
+  // Whether there is an attribute, so that a comma is before the operands.
   bool parseAttribute(Op& op);
   void parseOperands(Op& op, bool comma);
   ValueId parseValue();

@@ -1,4 +1,4 @@
-// Reads words, numbers and texts of the text form, character by character. After the first error it stands at the end
+// Reads words, numbers and texts of the text form, character by character. After the first error it is at the end
 // of the text and gives empty answers, so that callers need not check every step.
 #pragma once
 #include <cstdint>
@@ -38,7 +38,7 @@ public:
   double real();
   std::string_view hexDigits();
 
-  // The end of a line, and all empty lines behind it.
+  // The end of a line, and all empty lines after it.
   void endLine();
   bool atEnd();
 

@@ -14,7 +14,7 @@ namespace rung::ir {
 
 std::string print(const Module& module);
 
-// One rung as `print` shows it. `remark(i)` is a text to stand under operation i (or under the transfer, for
+// One rung as `print` shows it. `remark(i)` is a text to put under operation i (or under the transfer, for
 // i == ops.size()); empty: none. The remark goes into comments, so the result still parses as part of a module.
 using Remark = std::function<std::string(size_t index)>;
 std::string printRung(const Module& module, RoutineId routine, uint32_t rung, const Remark& remark = {});

@@ -1,4 +1,4 @@
-// The verifier's parts: errors are collected here, rules stand in module_rules.cpp and rung_rules.cpp.
+// The verifier's parts: errors are collected here, rules are in module_rules.cpp and rung_rules.cpp.
 #pragma once
 #include <string>
 #include <utility>

@@ -49,7 +49,7 @@ std::string render(const Module& module, const std::vector<VerifyError>& errors)
       out += printRung(module, error.routine, error.rung);
       continue;
     }
-    // All errors at operations of this rung, which stand one behind the other.
+    // All errors at operations of this rung, which are one after the other.
     size_t end = i;
     while (end < errors.size() && errors[end].routine == error.routine && errors[end].rung == error.rung &&
            errors[end].op != RUNG_NONE)

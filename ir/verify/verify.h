@@ -87,7 +87,7 @@ struct VerifyError {
 // Empty when the module keeps all rules.
 std::vector<VerifyError> verify(const Module& module, Mode mode);
 
-// The errors as text, the first ones where there are many; those of a rung stand under the operation in the rung's
+// The errors as text, the first ones where there are many; those of a rung are under the operation in the rung's
 // text form.
 std::string render(const Module& module, const std::vector<VerifyError>& errors);
 

@@ -37,7 +37,7 @@ const rung_host_api& hostApi() noexcept { return kHostApi; }
 // The next number whose record is not of a pending request. At most kMaxPending of kRecords records are, so it exists.
 uint32_t ServiceQueue::freeTicket() noexcept {
   for (uint32_t tries = 0; tries <= kMaxPending + 1; ++tries) {
-    if (++lastTicket_ == 0) continue; // 0 is no ticket
+    if (++lastTicket_ == 0) continue; // 0 is not a ticket
     if (recordOf(lastTicket_).state != RUNG_SERVICE_PENDING) return lastTicket_;
   }
   return 0;
@@ -97,7 +97,7 @@ void ServiceQueue::deliver() noexcept {
   }
 }
 
-// Tickets go on: a reply that comes late, to a request from before, finds no record of its number.
+// Tickets continue: a reply that comes late, to a request from before, finds no record of its number.
 void ServiceQueue::restart() noexcept {
   for (ServiceRecord& record : records_) record = {};
   pending_ = 0;

@@ -336,7 +336,7 @@ bool Runner::runNextPart(uint32_t task) noexcept {
     state.pc = t.entry;
     state.budget = t.budget;
   }
-  // A jump may have left parts behind: the run continues at once, up to the first border that is still ahead.
+  // A jump may have passed over parts: the run continues at once, up to the first border that is still ahead.
   uint32_t limit = RUNG_PC_DONE;
   for (uint32_t k = state.part; k < t.part_count; ++k) {
     if (program_->part_ends[t.part_first + k] <= state.pc) continue;

@@ -287,7 +287,7 @@ private:
     }
   }
 
-  // Kept by the addresses of the dialect: whole logical bytes of spaces. It may go on from range to range.
+  // Kept by the addresses of the dialect: whole logical bytes of spaces. It may continue from range to range.
   void checkRetained(uint32_t number, const rung_span& span) {
     for (uint32_t done = 0; done < span.size && error_.empty();) {
       const Stretch* stretch = stretchOf(span.offset + done, 1);
@@ -313,7 +313,7 @@ private:
         failAt("copy", i, "overlaps itself");
     }
   }
-  // Its representation. It may go on from range to range.
+  // Its representation. It may continue from range to range.
   uint32_t checkEnd(uint32_t number, const char* end, uint32_t offset, uint32_t size) {
     const Stretch* first = stretchOf(offset, 1);
     for (const Stretch* at = first; at != nullptr && at->repr == first->repr; at = stretchOf(at->end, 1))

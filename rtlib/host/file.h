@@ -53,8 +53,8 @@ std::string finishReplacing(int folder, File file, const std::string& unfinished
                             std::string_view bytes, const Writing& writing);
 
 // The name, seen from an open folder or from AT_FDCWD, leads to the whole old file or to the whole new one at any time,
-// also where several processes write to one name; who has the old file open or loaded keeps it as it was. Empty, or why
-// not.
+// also where several processes write to one name; whoever has the old file open or loaded keeps it as it was. Empty, or
+// why not.
 std::string replaceFileIn(int folder, const std::string& name, std::string_view bytes, const Writing& writing = {});
 // The same for a path that a user has named: a link is followed, a device or a pipe is just written to. Empty, or
 // "cannot write 'PATH': why".

@@ -16,7 +16,7 @@ public:
     const uint32_t version = version_.load(std::memory_order_relaxed);
     version_.store(version + 1, std::memory_order_relaxed);
     const size_t size = std::min(text.size(), text_.size());
-    // Released one by one: who reads a new one sees the odd version too.
+    // Released one by one: whoever reads a new one sees the odd version too.
     for (size_t i = 0; i < size; ++i) text_[i].store(text[i], std::memory_order_release);
     size_.store(size, std::memory_order_release);
     version_.store(version + 2, std::memory_order_release);

@@ -1,6 +1,6 @@
-// What of a program's memory is kept, by the addresses of the dialect: K0 to K31 and so on, whatever representation the
-// layout gave them. So the image of one program fits every other program of the dialect that keeps the same cells at
-// the same addresses.
+// Which parts of a program's memory are kept, by the addresses of the dialect: K0 to K31 and so on, whatever
+// representation the layout gave them. So the image of one program fits every other program of the dialect that keeps
+// the same cells at the same addresses.
 #pragma once
 #include <cstdint>
 #include <span>

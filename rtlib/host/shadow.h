@@ -56,7 +56,7 @@ public:
 
   // Why the two cannot run side by side; "" when they can.
   const std::string& problem() const { return problem_; }
-  // What of the state the new program begins with.
+  // Which state the new program begins with.
   const StateTransfer& transfer() const { return transfer_; }
 
   // ---- the thread that scans; nothing here allocates or waits ----

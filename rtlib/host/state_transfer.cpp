@@ -9,8 +9,8 @@
 
 namespace rung::host {
 
-// A mechanism that does not wait is at its beginning, which every program has; one that is gone and does not wait is no
-// loss either.
+// A mechanism that does not wait is at its beginning, which every program has; one that is gone and does not wait is
+// not a loss either.
 const char* StateTransfer::waiting(const uint8_t* from) const noexcept {
   for (const Points& points : points_) {
     uint32_t number;

@@ -342,7 +342,7 @@ private:
 
   void addCopy(uint32_t from, uint32_t to, uint32_t bytes) { add({.from = from, .to = to, .count = bytes}); }
 
-  // Joins it with the last one where it continues that.
+  // Adds it to the last one where it continues that.
   void add(const StateTransfer::Move& move) {
     if (!plan_.moves_.empty() && move.kind != MoveKind::Bit) {
       StateTransfer::Move& last = plan_.moves_.back();

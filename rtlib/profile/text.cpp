@@ -32,7 +32,7 @@ std::string rungLine(const Row& row) {
          row.file + ":" + std::to_string(row.line) + (row.title.empty() ? "" : "  " + row.title) + "\n";
 }
 
-// One line for all rungs of the compiler: their times are no time of one rung.
+// One line for all rungs of the compiler: their times are not those of one rung.
 std::string addedLine(const std::vector<Row>& added) {
   Row sum;
   for (const Row& row : added) {

@@ -18,7 +18,7 @@ struct HostBlock {
   bool input = false;
 };
 
-// What of a program is wrong for a block.
+// What is wrong with a program for a block.
 enum class BlockState : uint8_t {
   Good,
   Gone,        // the program does not have the name

@@ -72,7 +72,7 @@ private:
 // lock.
 class CellNames {
 public:
-  // The cell of this name; it is located in every table. `state` says what of it is wrong in the program, where it is
+  // The cell of this name; it is located in every table. `state` says what is wrong with it in the program, where it is
   // not entered then. False: there are too many cells.
   bool find(const Surroundings& around, const rung_program& program, const CellName& name, CellState& state,
             rung_cell& cell);

@@ -18,7 +18,7 @@
 namespace rung::runtime {
 namespace {
 
-constexpr int kTries = 4; // a slice; who writes all the time would hold up the scan
+constexpr int kTries = 4; // a slice; one that writes all the time would hold up the scan
 
 uint64_t counterAt(const uint8_t* at, uint32_t bytes) noexcept {
   switch (bytes) {

@@ -37,7 +37,7 @@ private:
   uint32_t torn_ = 0;
 };
 
-// What of a layout is wrong; nullptr: nothing. Rows are not looked up in a program.
+// What is wrong with a layout; nullptr: nothing. Rows are not looked up in a program.
 const char* problemOf(const rung_layout& layout, const void* address) noexcept;
 
 // RUNG_REFUSED where the program was compiled for another layout of the struct.

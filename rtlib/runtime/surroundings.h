@@ -30,7 +30,7 @@ public:
   // Another program has taken over from `former`, which still exists; the control has its places in it already.
   virtual void programChanged(host::Instance& instance, const rung_program& former) { (void)instance, (void)former; }
 
-  // The place that a name is for who reads it, and the one that the NC or the machine writes.
+  // The place that a name is for whoever reads it, and the one that the NC or the machine writes.
   virtual std::optional<host::Ref> readPlace(const rung_program& program, std::string_view name) const {
     return control().readPlace(program, name);
   }

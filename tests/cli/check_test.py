@@ -53,6 +53,34 @@ OUT Y0.1
 FUNC END1
 FUNC END2
 """
+TECHNOL = """DATA
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_BLOCK_INIT
+MODULE_BLOCK_INIT_END
+MODULE_BLOCK_DONE
+MODULE_BLOCK_DONE_END
+MODULE_MAIN
+      JUM  THERE
+LOST: PROC_CALL CALLED
+ALSO: LOD  CNST.1    ; of a listing, allow(unused-name)
+THERE: DFTM10 TIMED
+TIMED: PROC_BEGIN CALLED
+      PROC_END CALLED
+      PROC_BEGIN _ON_CMD
+      PROC_END _ON_CMD
+      PROC_BEGIN SPARE
+      PROC_END SPARE
+MODULE_MAIN_END
+MODULE_INIT
+MODULE_INIT_END
+MODULE_CLEAR
+MODULE_CLEAR_END
+MODULE_HALT
+MODULE_HALT_END
+STOP
+"""
 
 
 class CheckNames(unittest.TestCase):
@@ -65,7 +93,8 @@ class CheckNames(unittest.TestCase):
         path.write_text(text)
         done = subprocess.run([RUNGC, "check", "--json", *args, path], capture_output=True, text=True, timeout=120, check=False)
         self.assertEqual(done.returncode, status, done.stderr)
-        return [(one["code"], text.splitlines()[one["line"] - 1].split()[1]) for one in json.loads(done.stdout)]
+        lines = text.splitlines()
+        return [(one["code"], lines[one["line"] - 1][one["column"] - 1:one["endColumn"] - 1]) for one in json.loads(done.stdout)]
 
     def test_nct(self):
         text = NCT.format(start="", spare="")
@@ -89,6 +118,10 @@ class CheckNames(unittest.TestCase):
     def test_gsk(self):
         self.assertEqual(self.warnings("p.pmc", GSK), [("never-read", "LOST")],
                          "inputs, outputs, requests of messages and what is kept have their other side in the control")
+
+    def test_technol(self):
+        self.assertEqual(self.warnings("p.plc", TECHNOL), [("unused-name", "LOST"), ("unused-name", "SPARE")],
+                         "control goes to the others, at the end of a timed block by itself, and for a command of the control")
 
     def test_a_program_with_errors_gets_them_alone(self):
         codes = self.warnings("p.lad", NCT.format(start="", spare="").replace("MOV KEPT", "MOW KEPT"), status=1)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Keeps the words of words.txt out of what users read: the docs and the reference, diagnostics, the headers that a program
-or a host includes, and every text in the code. words_test.py"""
+or a host includes, and every text and comment in the code. words_test.py"""
 import bisect
+import functools
 import re
 import unittest
 from pathlib import Path
@@ -12,9 +13,10 @@ ROOT = HERE.parents[1]
 PLACES = ("README.md", "CONTRIBUTING.md", "docs/*.md", "docs/dialects/*.md", "docs/reference/*.md", "examples/**/*.md",
           "ir/support/diag/*.def", "tools/project/templates/**/*",
           "rtlib/abi/rung/*", "rtlib/host/*.h", "rtlib/nc/**/*.h", "tools/*/*.h", "ir/core/*.h")
-# Code whose string literals are read: messages and tables of the reference are made of them. Comments are not looked at.
+# Code whose string literals are read, as messages and tables of the reference are made of them, and its comments.
 CODE = tuple(f"{folder}/**/*.{kind}" for folder in ("codegen", "frontend", "ir", "rtlib", "tools") for kind in ("cpp", "h"))
-TOKEN = re.compile(r"""(?P<skip>//[^\n]*|/\*.*?\*/|^[ ]*\#[ ]*include[^\n]*|\b[0-9](?:[\w.]|'(?=\w))*|'(?:[^'\\\n]|\\.)+')
+TOKEN = re.compile(r"""(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<include>^[ ]*\#[ ]*include[^\n]*)
+                     |(?P<number>\b[0-9](?:[\w.]|'(?=\w))*|'(?:[^'\\\n]|\\.)+')
                      |R"(?P<mark>[^(\s]*)\((?P<raw>.*?)\)(?P=mark)"|"(?P<text>(?:[^"\\\n]|\\.)*)"|(?P<code>\S)""",
                    re.DOTALL | re.MULTILINE | re.VERBOSE)
 
@@ -26,10 +28,10 @@ def rows(name):
             yield [column.strip() for column in re.split(r" +\| +", line)]
 
 
+@functools.cache
 def words():
     """(expression, what to write, example)"""
-    for pattern, instead, example in rows("words.txt"):
-        yield re.compile(pattern, re.IGNORECASE), instead, example
+    return [(re.compile(pattern), instead, example) for pattern, instead, example in rows("words.txt")]
 
 
 def without_allowed(path, text):
@@ -52,6 +54,7 @@ def flat(text):
 def findings(path, text):
     """`file:line: found word; write ...` for each listed word of a text."""
     whole, begins = flat(without_allowed(path, text))
+    whole = whole.lower()
     found = []
     for expression, instead, _ in words():
         for match in expression.finditer(whole):
@@ -59,17 +62,27 @@ def findings(path, text):
     return [f"{path}:{line}: {report}" for line, report in sorted(found)]
 
 
+def line_ends(text):
+    return "\n" * text.count("\n")
+
+
 def literals(code):
     """The code with its string literals only, in their lines; neighbours that the compiler joins stay neighbours, between
     others there is a bar."""
     def kept(match):
-        if match["code"]:
+        if match["code"] or match["number"]:
             return "|"
-        if match["skip"]:
-            return "|" if match["skip"][0] not in "/#" else re.sub(r"[^\n]", " ", match[0])
+        if match["comment"] or match["include"]:
+            return line_ends(match[0])
         text = match["raw"] if match["raw"] is not None else re.sub(r"\\.", " ", match["text"])
         return f" {text} "
-    return TOKEN.sub(kept, code)
+    return re.sub(r"\|+", "|", TOKEN.sub(kept, code))
+
+
+def comments(code):
+    """The code with its comments only, in their lines; between those with code between them there is a bar."""
+    bars = TOKEN.sub(lambda match: match[0] if match["comment"] else "|" + line_ends(match[0]), code)
+    return re.sub(r"\|+", "|", bars)
 
 
 def files(places):
@@ -77,11 +90,13 @@ def files(places):
 
 
 def texts():
-    """(path, text) of all that is read. A file may be read twice, as it is and for its literals."""
+    """(path, text) of all that is read. A file may be read as it is, for its literals and for its comments."""
     for path in files(PLACES):
         yield path.relative_to(ROOT).as_posix(), path.read_text()
     for path in files(CODE):
-        yield path.relative_to(ROOT).as_posix(), literals(path.read_text())
+        code = path.read_text()
+        yield path.relative_to(ROOT).as_posix(), literals(code)
+        yield path.relative_to(ROOT).as_posix(), comments(code)
 
 
 class Words(unittest.TestCase):
@@ -111,6 +126,11 @@ class Words(unittest.TestCase):
                          ["a.cpp:1: found 'behind'; write: after, in time or order; beyond, past an end"])
         self.assertEqual(findings("a.cpp", literals('f(R"x(\n"behind")x", 2);')),
                          ["a.cpp:2: found 'behind'; write: after, in time or order; beyond, past an end"])
+
+    def test_a_word_in_a_comment_is_found(self):
+        self.assertEqual(findings("a.cpp", comments('int behind; // what\n// stands\nf("behind"); // there\n')),
+                         ["a.cpp:2: found 'stands'; write: is, appears, lies, is written; is stopped, of a program"])
+        self.assertEqual(findings("a.cpp", comments("// it is\nint no;\n// no end\n")), [])
 
     def test_code_around_string_literals_is_not_looked_at(self):
         for code in ('// behind "it"\n', '/* "behind" */ f("after");', 'int behind = 1;', '#include "behind/a.h"\n',

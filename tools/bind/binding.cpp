@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <span>
 
 #include "ir/support/similar.h"
@@ -151,12 +152,13 @@ private:
 
   Mistake unknownName() const {
     const std::string_view head = std::string_view(entry_->name).substr(0, entry_->name.find_first_of(".,[:+"));
-    Similar similar(head);
-    for (const rung_symbol& symbol : std::span(program_.symbols, program_.symbol_count))
-      if ((symbol.flags & (RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST)) == 0) similar.offer(symbol.name);
+    const auto isShown = [](const rung_symbol& symbol) {
+      return (symbol.flags & (RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST)) == 0;
+    };
+    const std::span symbols(program_.symbols, program_.symbol_count);
+    const std::string_view meant = mostSimilar(head, symbols | std::views::filter(isShown), &rung_symbol::name);
     return {"an unknown name " + entry_->name, "a symbol or an address of the program, or a signal of the NC interface",
-            similar.best().empty() ? "write the name as the program has it"
-                                   : fmt::format("did you mean {}?", similar.best())};
+            meant.empty() ? "write the name as the program has it" : fmt::format("did you mean {}?", meant)};
   }
 
   bool isOutputOnly(const Place& place) const {

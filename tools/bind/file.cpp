@@ -60,11 +60,8 @@ private:
          fmt::format("{}: found {}, expected {}; write for example {}", where, shown(node), expected, example));
   }
   void unknown(const toml::key& key, std::string_view where, std::initializer_list<std::string_view> known) {
-    Similar similar(key.str());
-    for (const std::string_view name : known) similar.offer(name);
-    fail(positionOf(key.source()),
-         fmt::format("{}: found an unknown key {}, expected {}{}", where, key.str(), fmt::join(known, ", "),
-                     similar.best().empty() ? "" : fmt::format("; did you mean {}?", similar.best())));
+    fail(positionOf(key.source()), fmt::format("{}: found an unknown key {}, expected {}{}", where, key.str(),
+                                               fmt::join(known, ", "), didYouMean(mostSimilar(key.str(), known))));
   }
 
   // axis.position = … is a key of a table `axis`; { … } says more of one member.

@@ -66,8 +66,7 @@ private:
     Similar similar(name);
     offerNames(layout_, in, similar);
     problem_ = fmt::format("found an unknown member {}, expected one of {}{}", name, where,
-                           similar.best().empty() ? "; --template lists them"
-                                                  : fmt::format("; did you mean {}?", similar.best()));
+                           similar.best().empty() ? "; --template lists them" : didYouMean(similar.best()));
     return false;
   }
 

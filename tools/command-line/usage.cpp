@@ -25,16 +25,10 @@ std::string shortHelp(const CommandLine& app) {
                             app.text().guide);
 }
 
-// " (did you mean check?)"
-std::string didYouMean(const Similar& similar, std::string_view dashes = "") {
-  return similar.best().empty() ? "" : fmt::format("; did you mean {}{}?", dashes, similar.best());
-}
-
 std::string unknownCommand(const CommandLine& app, const std::string& word) {
-  Similar similar(word);
-  for (const Command& command : app.commands()) similar.offer(command.name());
-  return fmt::format("there is no command '{}'{} `{} help` lists them", word,
-                     similar.best().empty() ? ";" : didYouMean(similar), app.text().name);
+  const std::string_view meant = mostSimilar(word, app.commands(), &Command::name);
+  return fmt::format("there is no command '{}'{} `{} help` lists them", word, meant.empty() ? ";" : didYouMean(meant),
+                     app.text().name);
 }
 
 std::string unknownOption(const std::string& program, Command command, const std::string& word) {
@@ -45,7 +39,8 @@ std::string unknownOption(const std::string& program, Command command, const std
   for (const OptionText& option : options)
     for (const std::string_view known : option.names)
       if (known.starts_with("--")) similar.offer(known.substr(2));
-  return fmt::format("{} {} has no option '{}'{}", program, command.name(), word, didYouMean(similar, "--"));
+  const std::string meant = similar.best().empty() ? "" : fmt::format("--{}", similar.best());
+  return fmt::format("{} {} has no option '{}'{}", program, command.name(), word, didYouMean(meant));
 }
 
 std::string wrongWord(const std::string& program, Command command, const std::string& word) {

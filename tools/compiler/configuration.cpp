@@ -1,6 +1,9 @@
 // The checks (see configuration.h).
 #include "tools/compiler/configuration.h"
 
+#include <functional>
+#include <ranges>
+
 #include <fmt/format.h>
 
 #include "ir/support/similar.h"
@@ -14,19 +17,19 @@ std::string_view firstPart(std::string_view key) { return key.substr(0, key.find
 
 // Of families the first part has to be like: `timr.1` is meant as tmr.N.
 std::string suggestion(const frontend::Dialect& dialect, std::string_view key) {
-  Similar similar(key);
-  Similar family(firstPart(key));
+  const auto isFamily = [](const nc::ConfigKey& row) { return row.key.find('<') != std::string_view::npos; };
+  auto single = dialect.configKeys | std::views::filter(std::not_fn(isFamily));
+  const std::string_view similar = mostSimilar(key, single, &nc::ConfigKey::key);
+  if (!similar.empty() || key.find('.') == std::string_view::npos) return std::string(similar);
+  const auto firstOf = [](const nc::ConfigKey& row) { return firstPart(row.key); };
+  const std::string_view family =
+      mostSimilar(firstPart(key), dialect.configKeys | std::views::filter(isFamily), firstOf);
   for (const nc::ConfigKey& row : dialect.configKeys)
-    (row.key.find('<') == std::string_view::npos ? similar : family)
-        .offer(row.key.find('<') == std::string_view::npos ? row.key : firstPart(row.key));
-  if (!similar.best().empty()) return std::string(similar.best());
-  if (family.best().empty() || key.find('.') == std::string_view::npos) return {};
-  for (const nc::ConfigKey& row : dialect.configKeys)
-    if (row.key.starts_with(family.best())) return nc::shownKey(row);
+    if (!family.empty() && row.key.starts_with(family)) return nc::shownKey(row);
   return {};
 }
 
-bool stands(const SourceManager& sources, const std::string& text) {
+bool contains(const SourceManager& sources, const std::string& text) {
   for (uint32_t file = 0; file < sources.fileCount(); ++file)
     if (!sources.name(FileId{file}).ends_with(".toml") &&
         text::upper(sources.text(FileId{file})).find(text) != std::string::npos)
@@ -37,12 +40,12 @@ bool stands(const SourceManager& sources, const std::string& text) {
 // By an identifier, or by that before an attribute: `Feed` of `PLC.Input.Feed[2].Default`.
 bool isNamed(const SourceManager& sources, std::string_view key) {
   const std::string name = text::upper(key);
-  if (stands(sources, name)) return true;
+  if (contains(sources, name)) return true;
   const size_t point = name.rfind('.');
   if (point == std::string::npos) return false;
   const std::string owner = name.substr(0, point);
   const std::string identifier = owner.substr(owner.rfind('.') + 1); // npos + 1 is 0
-  return stands(sources, identifier.substr(0, identifier.find('[')));
+  return contains(sources, identifier.substr(0, identifier.find('[')));
 }
 
 } // namespace
@@ -50,7 +53,7 @@ bool isNamed(const SourceManager& sources, std::string_view key) {
 std::string unknownKeyText(const frontend::Dialect& dialect, std::string_view key) {
   const std::string meant = suggestion(dialect, key);
   return fmt::format("'{}' is not a configuration key of {} programs{}; `rungc explain config` lists them", key,
-                     dialect.name, meant.empty() ? "" : fmt::format("; did you mean {}?", meant));
+                     dialect.name, didYouMean(meant));
 }
 
 std::vector<ConfigProblem> checkConfiguration(const frontend::Dialect& dialect, ConfigPairs config,
@@ -80,8 +83,7 @@ void report(const ConfigProblem& problem, const frontend::Dialect& dialect, Sour
   }
   DiagBuilder report = diagnostics.report(Diag::UnknownConfigKey, range);
   report << problem.key << fmt::format("{} programs", dialect.name);
-  if (const std::string meant = suggestion(dialect, problem.key); !meant.empty())
-    report.note(fmt::format("did you mean {}?", meant));
+  report.meant({}, suggestion(dialect, problem.key));
   report.note("`rungc explain config` lists the keys");
 }
 

@@ -37,7 +37,7 @@ std::string_view outputText(Output output) {
 
 std::string_view placementText(Placement placement) {
   switch (placement) {
-  case Placement::BehindContact: return "after a condition";
+  case Placement::AfterContact: return "after a condition";
   case Placement::AtRail: return "at the left rail";
   case Placement::Anywhere: return "anywhere";
   }

@@ -67,7 +67,8 @@ void sendAtOnce(int socket) {
   setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
 }
 
-// A whole answer: the kernel says so while a third of the buffer is free. Who does not take his answers has less.
+// A whole answer: the kernel says so while a third of the buffer is free. A client that does not take its answers has
+// less.
 bool hasRoom(int socket) {
   pollfd asked{socket, POLLOUT, 0};
   return poll(&asked, 1, 0) == 1 && asked.revents == POLLOUT;
@@ -92,7 +93,7 @@ void ModbusServer::run(const std::atomic<bool>& ending) noexcept {
 
 void ModbusServer::turn() {
   std::vector<pollfd> waiting = {{listening_.number(), POLLIN, 0}};
-  for (const Client& client : clients_) // who has used up his requests is not listened to
+  for (const Client& client : clients_) // one that has used up its requests is not listened to
     waiting.push_back({client.socket.number(), static_cast<short>(client.allowance >= 1 ? POLLIN : 0), 0});
   poll(waiting.data(), waiting.size(), waitFor());
   const int64_t now = host::monotonicNs();
@@ -102,7 +103,7 @@ void ModbusServer::turn() {
   if (waiting.front().revents != 0) accept(now);
 }
 
-// Milliseconds: not long where somebody waits for his next request.
+// Milliseconds: not long where a client waits for its next request.
 int ModbusServer::waitFor() const {
   const auto waits = [this](const Client& client) { return client.allowance < 1 || hasMessage(client); };
   return std::ranges::any_of(clients_, waits) ? 1 : kTurnMs;
@@ -187,7 +188,7 @@ bool ModbusServer::reply(const Client& client, int length, int64_t now) {
   return taken;
 }
 
-// Where there are inputs, only who writes them counts: another client may go on reading.
+// Where there are inputs, only a client that writes them counts: another client may continue to read.
 void ModbusServer::published(bool wrote, int64_t now) {
   if (!wrote && !exchange_.inputs().empty()) return;
   writtenNs_ = now;

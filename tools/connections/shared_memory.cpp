@@ -67,7 +67,7 @@ void SharedMemory::checkOwner() {
     refuse("/dev/shm" + name_ + " may be used by others than its user; remove it");
 }
 
-// Whoever has mapped it already stays connected: his sequence continues.
+// Whoever has mapped it already stays connected: its sequence continues.
 void SharedMemory::layOut() {
   header_.outputsSize = static_cast<uint32_t>(outputs_.size());
   header_.inputsAt = header_.outputsAt + header_.outputsSize;

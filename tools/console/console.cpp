@@ -149,11 +149,9 @@ Outcome Console::unreadable(const std::string& word, bool alone, const std::stri
   }
   if (!problem.starts_with("unknown statement") || problem.find("did you mean") != std::string::npos)
     return fail(problem);
-  Similar similar(word);
   const std::vector<std::string> known = words();
-  for (const std::string& candidate : known) similar.offer(candidate);
-  return fail(similar.best().empty() ? problem + "; help lists them"
-                                     : fmt::format("{}; did you mean {}?", problem, similar.best()));
+  const std::string_view meant = mostSimilar(word, known);
+  return fail(problem + (meant.empty() ? "; help lists them" : didYouMean(meant)));
 }
 
 Outcome Console::execute(const Statement& statement) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "rtlib/nc/control/technol/values.h"
+#include "rtlib/text/blanks.h"
 #include "tools/control-files/xml_reader.h"
 
 namespace rung::control_files {
@@ -233,7 +234,7 @@ void Reader::beginParameter(const char** list) {
 
 void Reader::endParameter() {
   ParameterDefinition& parameter = found_.parameters.back();
-  parameter.value = nc::technol::trimmed(text_);
+  parameter.value = text::trimmed(text_);
   const auto wrong = [&](std::string_view expected) {
     complainAt(parameter.place, "parameter " + parameter.id + " is " + inQuotes(parameter.value) + ", expected " +
                                     std::string(expected));

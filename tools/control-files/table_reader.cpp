@@ -1,11 +1,12 @@
 // Elements of PLC tables' files (see table_reader.h).
 #include "tools/control-files/table_reader.h"
 
+#include "rtlib/text/blanks.h"
 #include "rtlib/nc/control/technol/values.h"
 
 namespace rung::control_files {
 
-using nc::technol::trimmed;
+using text::trimmed;
 
 namespace {
 

@@ -10,13 +10,14 @@
 #include <system_error>
 #include <utility>
 
+#include "rtlib/text/blanks.h"
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::control_files {
 
-using nc::technol::trimmed;
+using text::trimmed;
 
 namespace {
 
@@ -61,7 +62,7 @@ std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "
 
 // Line breaks with the blanks around them become one blank.
 std::string inOneLine(std::string_view text) {
-  text = nc::technol::trimmed(text);
+  text = text::trimmed(text);
   std::string line;
   for (size_t i = 0; i < text.size();) {
     const size_t end = std::min(text.find_first_not_of(" \t\r\n", i), text.size());

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "rtlib/text/blanks.h"
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/number.h"
@@ -67,7 +68,7 @@ std::string readText(std::string_view written, uint8_t* element) {
 // Pairs of hexadecimal digits; nothing where they are not.
 std::optional<std::vector<uint8_t>> pairsIn(std::string_view written) {
   std::vector<uint8_t> bytes;
-  for (std::string_view rest = nc::technol::trimmed(written); !rest.empty(); rest = nc::technol::trimmed(rest)) {
+  for (std::string_view rest = text::trimmed(written); !rest.empty(); rest = text::trimmed(rest)) {
     const auto byte = text::numberIn<uint8_t>(rest.substr(0, 2), 16);
     if (!byte || rest.size() < 2) return std::nullopt;
     bytes.push_back(*byte);

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <ranges>
 #include <span>
 
 #include "ir/support/similar.h"
@@ -330,15 +331,15 @@ private:
     if (suggestions_++ >= kMostSuggestions) return {};
     const std::string_view head = headOf(entry.name);
     const bool isWhole = head.size() == entry.name.size();
-    Similar similar(head);
-    for (const rung_symbol& symbol : std::span(program_.symbols, program_.symbol_count)) {
-      if ((symbol.flags & (RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST)) != 0) continue;
-      if (!isWhole || misfitOf({symbol.type, symbol.space, symbol.value}, entry) == Misfit::None)
-        similar.offer(symbol.name);
-    }
-    if (similar.best().empty()) return {};
+    const auto fits = [&](const rung_symbol& symbol) {
+      return (symbol.flags & (RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST)) == 0 &&
+             (!isWhole || misfitOf({symbol.type, symbol.space, symbol.value}, entry) == Misfit::None);
+    };
+    const std::span symbols(program_.symbols, program_.symbol_count);
+    const std::string_view symbol = mostSimilar(head, symbols | std::views::filter(fits), &rung_symbol::name);
+    if (symbol.empty()) return {};
     std::string meant = entry.name;
-    meant.replace(static_cast<size_t>(head.data() - entry.name.data()), head.size(), similar.best());
+    meant.replace(static_cast<size_t>(head.data() - entry.name.data()), head.size(), symbol);
     // A bit, an index or a length may take the place out of the cell.
     int32_t status = RUNG_OK;
     const std::optional<Place> place = placeOf(meant, entry.use, status);

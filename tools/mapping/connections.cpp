@@ -330,11 +330,9 @@ std::optional<uint32_t> ConnectionReader::find(const Place& name, const std::str
   const std::vector<Pin>& pins = reading_.map().pins;
   const auto found = std::ranges::find(pins, name.text, &Pin::name);
   if (found != pins.end()) return static_cast<uint32_t>(found - pins.begin());
-  Similar similar(name.text);
-  for (const Pin& pin : pins) similar.offer(pin.name);
-  reading_.fail(name.at, where + ": found no pin " + name.text + ", expected a pin of this map; " +
-                             (similar.best().empty() ? "write one into [in] or [out]"
-                                                     : "did you mean " + std::string(similar.best()) + "?"));
+  const std::string_view meant = mostSimilar(name.text, pins, &Pin::name);
+  reading_.fail(name.at, where + ": found no pin " + name.text + ", expected a pin of this map" +
+                             (meant.empty() ? "; write one into [in] or [out]" : didYouMean(meant)));
   return std::nullopt;
 }
 

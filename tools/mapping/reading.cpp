@@ -64,16 +64,11 @@ void Reading::wrong(Position at, const std::string& where, const std::string& fo
 }
 
 void Reading::unknownKey(const toml::key& key, std::string_view where, const std::vector<std::string_view>& known) {
-  Similar similar(key.str());
   std::string all;
-  for (const std::string_view name : known) {
-    similar.offer(name);
-    all += (all.empty() ? "" : ", ") + std::string(name);
-  }
-  std::string text = (where.empty() ? "the file" : std::string(where)) + ": found an unknown key " +
-                     std::string(key.str()) + ", expected " + all;
-  if (!similar.best().empty()) text += "; did you mean " + std::string(similar.best()) + "?";
-  fail(positionOf(key.source()), std::move(text));
+  for (const std::string_view name : known) all += (all.empty() ? "" : ", ") + std::string(name);
+  fail(positionOf(key.source()), (where.empty() ? "the file" : std::string(where)) + ": found an unknown key " +
+                                     std::string(key.str()) + ", expected " + all +
+                                     didYouMean(mostSimilar(key.str(), known)));
 }
 
 std::vector<std::string> Reading::errors() {

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What of `part` and the parts after it matches in this folder.
+// What matches `part` and the parts after it in this folder.
 void match(const fs::path& folder, fs::path::const_iterator part, fs::path::const_iterator end,
            std::vector<std::string>& found) {
   std::error_code error;

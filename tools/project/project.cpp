@@ -70,13 +70,12 @@ private:
   }
 
   void reportUnknown(const toml::key& key) {
-    DiagBuilder report = diagnostics_.report(Diag::UnknownProjectKey, rangeOf(key.source()));
+    const SourceRange range = rangeOf(key.source());
+    DiagBuilder report = diagnostics_.report(Diag::UnknownProjectKey, range);
     report << key.str();
-    Similar similar(key.str());
-    for (const std::string_view known : kKeys) similar.offer(known);
-    if (!similar.best().empty())
-      report.note(fmt::format("did you mean {}?", similar.best()));
-    else
+    const std::string_view meant = mostSimilar(key.str(), kKeys);
+    report.meant(range, meant);
+    if (meant.empty())
       report.note(
           "the keys of a project file are name, dialect, files, include, nc, scenarios, bindings, activity; those "
           "of the dialect's configuration belong in the table [config]");

@@ -32,7 +32,7 @@ void Connection::end(std::string problem) {
   problem_ = std::move(problem);
 }
 
-// At most one line more than is taken at a time: who floods us waits in his own buffers.
+// At most one line more than is taken at a time: whoever floods us waits in their own buffers.
 void Connection::receive() {
   char bytes[16384];
   while (!ended_ && in_.size() <= longest_) {

@@ -47,8 +47,8 @@ public:
   using Print = std::function<void(const std::string&)>;
   bool serveBox(Server* server, const Print& print);
   void passMessages(Server* server, const Print& print);
-  // Sends what has changed to those who watch, what the program asks to who serves it, and the answer to who waits for
-  // his force.
+  // Sends what has changed to those who watch, what the program asks to whoever serves it, and the answer to whoever
+  // waits for their force.
   void sendEvents(Server& server);
   // Compares what a shadow has recorded, for a part of a turn.
   void work();

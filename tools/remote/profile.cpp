@@ -37,7 +37,7 @@ Wanted wantedOf(const json& request) {
   return wanted;
 }
 
-// All rungs of the program's tables. Their counters are not those of one pass: the program goes on meanwhile.
+// All rungs of the program's tables. Their counters are not those of one pass: the program continues meanwhile.
 std::vector<rung_profile> countersOf(plc::Box& box) {
   std::vector<rung_profile> all;
   int32_t status = RUNG_OK;

@@ -61,7 +61,7 @@ Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(us
   unlink(path_.c_str()); // of a host that was killed
   socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (socket_ < 0) refuse(path_);
-  // Who may use the folder may connect; who has connected is asked for his user.
+  // Whoever may use the folder may connect; then the user is asked for.
   if (bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       chmod(path_.c_str(), 0600) != 0 || listen(socket_, static_cast<int>(kMostPeers)) != 0) {
     close(socket_);

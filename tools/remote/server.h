@@ -13,12 +13,12 @@
 
 namespace rung::remote {
 
-// Who asks, as the system knows him.
+// Who asks, as the system knows them.
 struct Peer {
   uint32_t number = 0; // of the connection, from 1, never used again
   uid_t user = 0;
   pid_t process = 0;
-  std::string name; // of the user; his number where he has none
+  std::string name; // of the user; the number where there is none
 };
 
 class Handler {
@@ -44,9 +44,9 @@ public:
 
   // Answers what has come; waits for it no longer than that.
   void serve(std::chrono::milliseconds wait);
-  // To one of those who have asked; to nobody where he has gone.
+  // To one of those who have asked; to nobody where that one has gone.
   void send(uint32_t peer, const nlohmann::json& event);
-  // The answer that the handler has not given before. Until then nothing else that he sends is looked at.
+  // The answer that the handler has not given before. Until then nothing else that the client sends is looked at.
   void answer(uint32_t peer, const nlohmann::json& answer);
   const std::string& path() const { return path_; }
 

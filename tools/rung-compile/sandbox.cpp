@@ -22,7 +22,7 @@
 namespace rung::rung_compile {
 namespace {
 
-constexpr uid_t kNobody = 65534; // and his group
+constexpr uid_t kNobody = 65534; // and the group of that user
 
 std::string because(const char* what) { return std::string(what) + ": " + std::strerror(errno); }
 

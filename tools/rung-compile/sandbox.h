@@ -22,8 +22,8 @@ std::string giveUpRights(int lastFile, const Limits& limits);
 // the open file N. "" or why not.
 std::string enterSandbox();
 
-// For a process that reads files as their user: root's rights are given up for his; the limits hold, too. "" or why
-// not.
+// For a process that reads files as their user: root's rights are given up for the user's; the limits hold, too. "" or
+// why not.
 std::string becomeUser(uid_t user, const Limits& limits);
 
 } // namespace rung::rung_compile

@@ -17,7 +17,7 @@ public:
   ~UserRights() {
     if (changed_) setfsuid(former_);
   }
-  // Who has started the process, which may have moved his number from the real to the saved one.
+  // Who has started the process, which may have moved the user's number from the real to the saved one.
   static uid_t user() noexcept {
     uid_t real = 0;
     uid_t effective = 0;

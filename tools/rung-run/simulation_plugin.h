@@ -23,7 +23,7 @@ public:
 
   // ---- after its power-on
 
-  // What of the control's own files does not fit the program, and is not served.
+  // What in the control's own files does not fit the program, and is not served.
   virtual std::vector<std::string> problems() const = 0;
 
   // ---- the thread that scans, between two slices

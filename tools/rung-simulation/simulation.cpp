@@ -30,7 +30,7 @@ sim::NcArgument argumentOf(const std::string& key, const nlohmann::json& value) 
 
 using Arguments = std::vector<sim::NcArgument>;
 
-// Statements of scenarios that are no events there.
+// Statements of scenarios that are not events there.
 struct Statement {
   std::string_view name;
   std::string (*carryOut)(sim::SimulatedNc& nc, host::Instance& inside, const Arguments& keys);

@@ -44,9 +44,7 @@ std::string listed(const std::vector<compiler::ReferenceEntry>& found) {
 }
 
 int reportUnknown(const std::vector<compiler::ReferenceEntry>& entries, const std::string& word) {
-  Similar similar(word);
-  for (const compiler::ReferenceEntry& entry : entries) similar.offer(entry.name);
-  const std::string meant = similar.best().empty() ? "" : fmt::format("; did you mean {}?", similar.best());
+  const std::string meant = didYouMean(mostSimilar(word, entries, &compiler::ReferenceEntry::name));
   fmt::print(stderr, "rungc: nothing is called '{}', and no name or title contains it{}{}\n", word, meant,
              meant.empty() ? "; `rungc explain` lists the topics" : "");
   return kWrong;

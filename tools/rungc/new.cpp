@@ -10,12 +10,9 @@ namespace rung::rungc {
 namespace {
 
 int makeNew(const std::string& dialect, const std::string& folder) {
-  if (frontend::findDialect(dialect) == nullptr) {
-    Similar similar(dialect);
-    for (const frontend::Dialect* known : frontend::allDialects()) similar.offer(known->name);
+  if (frontend::findDialect(dialect) == nullptr)
     return usageError(fmt::format("there is no dialect '{}'{}; there are gsk, nct and technol", dialect,
-                                  similar.best().empty() ? "" : fmt::format("; did you mean {}?", similar.best())));
-  }
+                                  didYouMean(mostSimilar(dialect, frontend::allDialects(), &frontend::Dialect::name))));
   const Result<std::vector<std::string>> written = project::makeProject(dialect, folder);
   if (!written.ok()) return environmentError(written.error());
   for (const std::string& file : written.value()) fmt::print("{}\n", file);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "ir/support/ascii.h"
 #include "ir/support/utf8.h"
+#include "rtlib/text/blanks.h"
 
 namespace rung::rungc {
 namespace {
@@ -35,7 +35,7 @@ Row cellsOf(std::string_view line) {
     else if (line[i] != '|')
       cell += line[i];
     else {
-      cells.emplace_back(trimmed(cell));
+      cells.emplace_back(text::trimmed(cell));
       cell.clear();
     }
   }

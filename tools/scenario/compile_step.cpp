@@ -33,11 +33,7 @@ std::string listOf(const std::vector<Reported>& reported, Severity severity) {
   return text.empty() ? "none" : text;
 }
 
-std::string similarCode(std::string_view code) {
-  Similar similar(code);
-  for (const DiagInfo& info : allDiags()) similar.offer(info.code);
-  return similar.best().empty() ? std::string() : fmt::format("; did you mean {}?", similar.best());
-}
+std::string similarCode(std::string_view code) { return didYouMean(mostSimilar(code, allDiags(), &DiagInfo::code)); }
 
 const Statement* firstOf(const Scenario& scenario, Kind kind) {
   const auto found = std::ranges::find(scenario.statements, kind, &Statement::kind);

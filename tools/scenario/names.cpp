@@ -65,11 +65,8 @@ std::vector<std::string> namesOf(const rung_program& program, const sim::Simulat
 }
 
 std::string unknownName(const rung_program& program, const sim::SimulatedNc& nc, std::string_view name) {
-  Similar similar(nc::headOf(name));
   const std::vector<std::string> names = namesOf(program, nc);
-  for (const std::string& known : names) similar.offer(known);
-  return fmt::format("'{}' is not a name of this program{}", name,
-                     similar.best().empty() ? std::string() : fmt::format("; did you mean {}?", similar.best()));
+  return fmt::format("'{}' is not a name of this program{}", name, didYouMean(mostSimilar(nc::headOf(name), names)));
 }
 
 std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& program,

@@ -124,7 +124,7 @@ std::string Session::runFor(int64_t us) {
     const int64_t before = nowUs();
     if (std::string problem = advanceOnce(&sim::Machine::scan); !problem.empty()) return problem;
     if (interrupted()) return {};
-    // A stopped or faulted program may leave the clock alone; its time goes on all the same.
+    // A stopped or faulted program may leave the clock alone; its time continues all the same.
     if (nowUs() != before) continue;
     for (const std::unique_ptr<Lane>& lane : lanes_) lane->instance().advanceClock(end - before);
   }

@@ -6,6 +6,7 @@
 
 #include "ir/support/ascii.h"
 #include "ir/support/similar.h"
+#include "rtlib/text/blanks.h"
 #include "tools/scenario/replace_report.h"
 #include "tools/scenario/words.h"
 
@@ -319,11 +320,7 @@ std::string LineParser::unknown() {
   std::string_view meant;
   for (const Synonym& synonym : kSynonyms)
     if (synonym.word == word) meant = synonym.statement;
-  if (meant.empty()) {
-    Similar similar(word);
-    for (const Row& row : kRows) similar.offer(row.form.word);
-    meant = similar.best();
-  }
+  if (meant.empty()) meant = mostSimilar(word, kRows, [](const Row& row) { return row.form.word; });
   if (meant.empty()) return fmt::format("unknown statement '{}'", word);
   const Row& row = *find(meant);
   mayShapeStart_ = shapesStart(row.kind);
@@ -360,7 +357,7 @@ ParsedLine parseLine(std::string_view line) {
   if (!problem.empty()) return {{}, std::move(problem), true};
   if (words.empty()) return {};
   ParsedLine parsed = LineParser(std::move(words)).run();
-  if (parsed.statement) parsed.statement->text = trimmed(line);
+  if (parsed.statement) parsed.statement->text = text::trimmed(line);
   return parsed;
 }
 

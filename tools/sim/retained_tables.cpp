@@ -6,7 +6,7 @@
 namespace rung::sim {
 namespace {
 
-// Changes with the order or the meaning of what a model keeps; its size tells the rest.
+// Changes with the order or the meaning of what a model keeps; its size shows the rest.
 constexpr uint64_t kFormat = 0x52554E474E430001;
 
 } // namespace

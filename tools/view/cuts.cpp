@@ -10,7 +10,7 @@ namespace {
 
 bool isSolid(const Cell& cell) { return cell.kind != Cell::Kind::Rail && cell.kind != Cell::Kind::Joint; }
 
-// In front of cells that nothing on their left reaches over.
+// Before cells that nothing on their left reaches over.
 std::vector<int> places(const Sheet& sheet, const std::vector<int>& left, const std::vector<int>& width) {
   std::vector<uint32_t> order;
   for (uint32_t i = 0; i < sheet.cells.size(); ++i)

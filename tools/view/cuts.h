@@ -13,7 +13,7 @@ inline constexpr int kBandEnd = 40;   // from the ends of the wires to the right
 // Places, from left to right, that no cell but a joint lies across: a band is what begins between two of them.
 using Cuts = std::vector<int>;
 
-// `left`, `width`: of the cells. `needed`: where the right rail of the whole would be, `rail`: where it shall be.
+// `left`, `width`: of the cells. `needed`: where the right rail of the whole would be, `rail`: where it is to be.
 // A band may be wider where there is no place for a cut.
 Cuts chooseCuts(const Sheet& sheet, const std::vector<int>& left, const std::vector<int>& width, int needed, int rail);
 

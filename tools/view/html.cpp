@@ -45,7 +45,7 @@ private:
   const PageOptions& options_;
   int rail_;
   double hottest_ = 0;
-  int height_ = 0;   // of the group at hand
+  int height_ = 0;   // of the current group
   std::string file_; // rule of style that names the pages of its file
   std::string out_;
 };
@@ -170,7 +170,7 @@ void Page::row(const NameRow& row, bool withWrites) {
   out_ += "</tr>\n";
 }
 
-// Several tables of the same columns, so that a browser lays out those in sight only.
+// Several tables of the same columns, so that a browser lays out the visible ones only.
 void Page::table(const NameTable& table, size_t index) {
   put(out_, "<h2 id=\"t{}\">{}</h2>\n", index, escaped(table.title));
   if (!table.texts)
@@ -189,7 +189,7 @@ void Page::table(const NameTable& table, size_t index) {
   }
 }
 
-// Blocks that a browser lays out when they come in sight; their height must be known before. A file begins a group of
+// Blocks that a browser lays out when they become visible; their height must be known before. A file begins a group of
 // its own: on paper it begins a page. Gives the end of the group.
 size_t Page::group(size_t first) {
   std::string before = std::exchange(out_, {});

@@ -13,7 +13,7 @@ namespace {
 using Kind = Cell::Kind;
 
 constexpr int kCellWidth = 96;  // of a contact, at least
-constexpr int kCoilWidth = 128; // so that coils stand below each other
+constexpr int kCoilWidth = 128; // so that coils are below each other
 constexpr int kGrid = 16;
 constexpr int kNoteWidth = 112;  // of the comment at a contact
 constexpr size_t kManyLines = 3; // of a comment, then it becomes wider
@@ -157,7 +157,7 @@ private:
   uint32_t bandCount_ = 1;
   std::vector<std::vector<BandRow>> rows_; // by row, its bands from left to right
   int rail_ = 0;
-  std::vector<bool> inBox_; // by row: a box goes on from the row above
+  std::vector<bool> inBox_; // by row: a box continues from the row above
   int y_ = kTop;
   int jumps_ = 0;
   Picture picture_;
@@ -229,7 +229,7 @@ int Layout::gap(const Cell& left, const Cell& right) const {
   return narrow(left) || narrow(right) ? 4 : 0;
 }
 
-// Boxes at the right rail are as wide as the widest of them, so that their left sides stand below each other.
+// Boxes at the right rail are as wide as the widest of them, so that their left sides are below each other.
 void Layout::alignBoxes() {
   int widest = 0;
   for (size_t i = 0; i < measures_.size(); ++i)
@@ -238,7 +238,7 @@ void Layout::alignBoxes() {
     if (isClosingBox(i)) measures_[i].width = std::max(measures_[i].width, widest);
 }
 
-// Every cell as far left as the cells in front of it in its rows allow.
+// Every cell as far left as the cells before it in its rows allow.
 void Layout::placeColumns() {
   std::vector<uint32_t> order(sheet_.cells.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -11,8 +11,8 @@
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/ladder/text/drawing.h"
-#include "ir/support/ascii.h"
 #include "ir/support/check.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "tools/view/names.h"
 #include "tools/view/sheet_builder.h"
@@ -39,7 +39,7 @@ std::string_view plain(std::string_view text) {
   const size_t last = text.find_last_not_of(kRuling);
   const size_t end = last == std::string_view::npos ? 0 : last + 1;
   if (isRuling(text.substr(end))) text = text.substr(0, end);
-  return trimmed(text);
+  return text::trimmed(text);
 }
 
 // A number as messages are counted by, without leading zeros.
@@ -164,7 +164,7 @@ private:
   std::vector<NameRow> declared_;
   std::map<size_t, std::optional<ir::BitRange>> places_; // of those with a name
 
-  // In the file at hand.
+  // In the current file.
   LineWords words_;
   std::string comments_; // that nothing has taken yet
   size_t nextStatement_ = 0;
@@ -239,7 +239,7 @@ Place Reader::placeOfElement(SourcePos drawn) const {
   return at == elements.end() || at->drawn != drawn ? Place{} : placeOf(at->written);
 }
 
-// A conversion's hint at what only a command list can say is no comment of the author.
+// A conversion's hint at what only a command list can say is not a comment of the author.
 void Reader::comment(std::string_view text) {
   if (converted() && gsk::parseBlocksHint(text)) return;
   text = plain(text);
@@ -321,7 +321,7 @@ std::string_view withoutName(std::string_view title, std::string_view name) {
   };
   const std::string said = letters(title.substr(0, colon));
   const std::string whole = letters(name);
-  return !said.empty() && whole.ends_with(said) ? trimmed(title.substr(colon + 1)) : title;
+  return !said.empty() && whole.ends_with(said) ? text::trimmed(title.substr(colon + 1)) : title;
 }
 
 // The section just before a module, or the last line of comment before a subprogram of GSK, says what it is. The
@@ -375,11 +375,11 @@ void Reader::readStatement(const LadderFile& file, const SourceLine& line) {
 }
 
 void Reader::readLine(const LadderFile& file, const SourceLine& line) {
-  const std::string_view text = trimmed(line.text);
+  const std::string_view text = text::trimmed(line.text);
   if (text.empty()) {
     if (!comments_.empty() && !comments_.ends_with("\n\n")) comments_.push_back('\n');
   } else if (text[0] == ';') {
-    std::string_view words = trimmed(text.substr(1));
+    std::string_view words = text::trimmed(text.substr(1));
     const bool inside = nextRung_ > 0 && line.number < file.rungs[nextRung_ - 1].lastLine;
     if (!inside) return comment(words);
     if (!converted() || !gsk::parseBlocksHint(words)) program_.figures.back().comments.emplace_back(words);

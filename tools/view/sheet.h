@@ -1,5 +1,5 @@
 // A rung as a sheet of cells, ready to be laid out: its rows are the lines of the drawing in the source, what is in
-// them is in the order of the source, and all texts are what the reader shall see.
+// them is in the order of the source, and all texts are what the reader is to see.
 #pragma once
 #include <cstdint>
 #include <string>

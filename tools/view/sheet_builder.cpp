@@ -18,7 +18,7 @@ using ladder::TokenKind;
 
 namespace {
 
-// GSK's word in front of the values of a table, in any case.
+// GSK's word before the values of a table, in any case.
 bool isTableWord(std::string_view text) { return text::equalsIgnoringCase(text, "TABLE"); }
 
 // The letters in a contact or coil.
@@ -99,7 +99,7 @@ void SheetDrawing::addMark(uint32_t line, uint32_t column, const std::vector<Mar
   joints_.push_back({line, line, kNone});
 }
 
-// Marks in one column of neighbouring lines are one joint; what stands in column 0 is the rail.
+// Marks in one column of neighbouring lines are one joint; what is in column 0 is the rail.
 void SheetDrawing::joinMarks() {
   static const std::vector<Mark> kNothing;
   for (uint32_t line = 0; line < drawing_.lines.size(); ++line) {
@@ -154,7 +154,7 @@ void SheetDrawing::addRow(uint32_t line) {
   sheet_.rows.push_back(std::move(row));
 }
 
-// The comment behind the line.
+// The comment after the line.
 std::string SheetDrawing::remarkOf(uint32_t line) const {
   const std::string_view text = drawing_.lines[line].source.text;
   const auto tokens = drawing_.tokensOf(drawing_.lines[line]);

@@ -85,7 +85,7 @@ void appendLinked(std::string& out, const Text& text, bool onPage) {
   appendEscaped(out, std::string_view(text.text).substr(at));
 }
 
-// Texts of one style and anchor stand in one group.
+// Texts of one style and anchor are in one group.
 void appendTexts(std::string& out, const Picture& picture, bool onPage) {
   std::array<std::array<std::string, kStyles>, 3> groups;
   for (const Text& text : picture.texts) {

@@ -142,7 +142,8 @@ void Checker::report(Diag code, const Definition& definition, SourceRange operan
 void Checker::check(const Definition& definition, bool used) {
   const std::optional<ir::BitRange> place = rangeOf(reference_.program(), definition.place);
   if (!place) {
-    if (!used && definition.isConstant()) reportUnused(definition);
+    const bool isTarget = analysis_.targetAt(definition.range) != nullptr; // a label, a procedure
+    if (!used && !definition.usedByControl && (definition.isConstant() || isTarget)) reportUnused(definition);
     return;
   }
   Sides sides = operandsAt(*place);

@@ -17,7 +17,7 @@ constexpr uint64_t kNumbers = 100;   // of timers and counters
 constexpr uint64_t kMaxWord = 65535;
 constexpr const char* kSlotSteps = "slot_steps";
 
-// The number behind `prefix`, 1-100; nullopt when the key is another one.
+// The number after `prefix`, 1-100; nullopt when the key is another one.
 std::optional<uint64_t> numberOf(std::string_view key, std::string_view prefix) {
   if (!key.starts_with(prefix)) return std::nullopt;
   return parseDigits(key.substr(prefix.size())).value_or(0);

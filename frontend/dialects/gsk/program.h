@@ -16,7 +16,7 @@ namespace rung::gsk {
 
 inline constexpr uint32_t kNone = UINT32_MAX;
 
-// The statements of a list (P12). `const` stands in lists as in ladder text, for conversions.
+// The statements of a list (P12). `const` is allowed in lists as in ladder text, for conversions.
 // clang-format off
 enum class Command : uint8_t {
   Ld, Ldi, And, Ani, Or, Ori, Orb, Anb, Out, Outi, Set, Rst, Func, Prm, Table, Dialect, Symbol, Const
@@ -29,7 +29,7 @@ constexpr bool isBlock(Command command) { return command == Command::Orb || comm
 constexpr bool isLogic(Command command) { return command <= Command::Anb; }
 constexpr std::string_view nameOf(Command command) { return kCommandNames[static_cast<size_t>(command)]; }
 
-// A command with its operand as written, for conversions. In ladder form it is what a part of the drawing stands for.
+// A command with its operand as written, for conversions. In ladder form it is what a part of the drawing means.
 struct Written {
   Command command = Command::Ld;
   std::string_view operand; // FUNC: the mnemonic

@@ -26,12 +26,14 @@ public:
   NctProgram(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
              Diagnostics& diagnostics)
       : sources_(sources), ids_(files.begin(), files.end()), marks_(options.marks), diagnostics_(diagnostics),
-        config_(readConfig(options, diagnostics)), symbols_(config_, analysis_, diagnostics), claims_(diagnostics) {}
+        config_(readConfig(options, diagnostics)), symbols_(config_, analysis_, diagnostics),
+        reservations_(diagnostics) {}
 
   void check() {
     read();
     declare();
     checkRungs();
+    symbols_.reportUndeclared();
     checkModules();
     symbols_.defineAll();
     analysis_.settle();
@@ -107,7 +109,7 @@ private:
     return std::nullopt;
   }
 
-  // The module that a statement opens; the same name in another file continues it. What stands in an unknown module, or
+  // The module that a statement opens; the same name in another file continues it. What is in an unknown module, or
   // in the second of a name in one file, is looked at rung by rung, but for nothing else.
   TypedModule& open(const ladder::LadderFile& file, const ladder::Module& statement) {
     const std::string_view name = statement.name[0].text;
@@ -139,7 +141,7 @@ private:
       switch (statement.kind) {
       case ladder::StatementKind::Module:
         module = &open(file, file.modules[statement.index]);
-        checker.emplace(symbols_, claims_, analysis_, diagnostics_, file.modules[statement.index].name[0].text);
+        checker.emplace(symbols_, reservations_, analysis_, diagnostics_, file.modules[statement.index].name[0].text);
         break;
       case ladder::StatementKind::Rung:
         if (file.rungs[statement.index].module == UINT32_MAX) nameless_ = true;
@@ -161,7 +163,7 @@ private:
   const Config config_;
   frontend::Analysis analysis_;
   SymbolTable symbols_;
-  OutputClaims claims_;
+  OutputReservations reservations_;
   std::vector<ladder::LadderFile> files_;
   Program program_;
   TypedModule reported_; // rungs of modules that are none
@@ -169,7 +171,7 @@ private:
   TextKinds textKinds_;
   std::unordered_set<uint32_t> numbers_; // of the texts
   uint32_t drawn_ = 0;                   // rungs so far, over all files
-  bool nameless_ = false;                // rungs stand in no known module, or were not read: MAIN may be among them
+  bool nameless_ = false;                // rungs are in no known module, or were not read: MAIN may be among them
 };
 
 std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,

@@ -44,7 +44,7 @@ inline constexpr uint32_t kLabels = 100; // numbers 0 to 99, l.2942
 struct TypedModule {
   std::string_view name;
   SourceRange range;                            // of its last `module` statement
-  const ladder::LadderFile* lastFile = nullptr; // where that stands
+  const ladder::LadderFile* lastFile = nullptr; // where that is
   bool exists = false;
   bool partial = false; // a second one of its name was reported
   std::vector<TypedRung> rungs;

@@ -35,8 +35,9 @@ struct Exchanged {
   uint32_t count = 1; // elements; bytes of a text
 };
 
-// A procedure that the control has called when a message comes up (man. l.1609).
+// Procedures that the control calls: when a message comes up (man. l.1609), at its commands and events (l.1614-1644).
 inline constexpr std::string_view kOnMessage = "_ON_ESET";
+inline constexpr std::string_view kOnEvents[] = {"_ON_CMD", "_ON_EVENT"};
 
 struct Program {
   Program(SourceManager& sourceManager, Diagnostics& sink) : sources(sourceManager), diagnostics(sink), symbols(sink) {}
@@ -84,7 +85,7 @@ struct Program {
   uint32_t procedureNamed(std::string_view name) const;
 };
 
-// Splits at the commas that stand outside brackets, those of structures too; an operand may be empty. No tokens: no
+// Splits at the commas outside brackets, those of structures too; an operand may be empty. No tokens: no
 // operands.
 std::vector<std::span<const Token>> splitOperands(std::span<const Token> tokens);
 
@@ -93,7 +94,7 @@ SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens,
 
 // Tokens as written, one blank where there are some.
 std::string spelled(std::span<const Token> tokens);
-// Tokens that are one word, 1A or A-B, where a name should stand: that is a bad name, all else no name at all.
+// Tokens that are one word, 1A or A-B, where a name should be: that is a bad name, all else no name at all.
 bool isOneWord(std::span<const Token> tokens);
 
 } // namespace rung::frontend::technol

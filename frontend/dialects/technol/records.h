@@ -47,7 +47,7 @@ struct Label {
   std::string_view name;
   uint32_t unit = kNone;
   uint32_t statement = 0;
-  uint32_t passed = 0; // EX-kind statements and jumps in front of it
+  uint32_t passed = 0; // EX-kind statements and jumps before it
 };
 
 struct Mechanism {

@@ -19,7 +19,7 @@ constexpr uint32_t kStart = 3;    // the first column after "|--"
 constexpr uint32_t kGap = 2;      // between atoms: a wire `--`, or blanks
 constexpr uint32_t kApart = 3;    // from mark to mark that must not meet
 constexpr uint32_t kMaxPad = 100; // longer boxes do not pull their pin lines along
-constexpr int kMaxRounds = 200;   // what needs more is no drawing of a person
+constexpr int kMaxRounds = 200;   // what needs more was not drawn by a person
 
 enum class Shape : uint8_t { Mark, Box, OneWordBox, Other };
 

@@ -54,10 +54,10 @@ struct LadderFile {
 };
 
 /// The row of a box's mnemonic in the dialect's table; null for one that the dialect does not have. The drawing alone
-/// cannot tell `{R }` below `{CNT …}`, a pin, from `{RET}` below `{MOV …}`, another box.
+/// cannot distinguish `{R }` below `{CNT …}`, a pin, from `{RET}` below `{MOV …}`, another box.
 using FindBox = const frontend::InstructionInfo* (*)(std::string_view mnemonic);
 
-/// Parses a file. Mistakes are reported, and parsing goes on with the next statement. Without findBox (or for a
+/// Parses a file. Mistakes are reported, and parsing continues with the next statement. Without findBox (or for a
 /// mnemonic that it does not know) every box of one word that is exactly below a box is a pin of that box.
 LadderFile parseLadder(const SourceManager& sources, FileId file, Diagnostics& diagnostics, FindBox findBox = nullptr);
 

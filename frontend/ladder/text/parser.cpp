@@ -19,7 +19,7 @@ constexpr std::string_view kKeywords[] = {"dialect", "module", "symbol",  "const
 enum class Place : uint8_t {
   Outside, ///< to nothing: an error
   Rung,    ///< to the open rung
-  Skipped, ///< to something that was reported already
+  Skipped, ///< to something that has been reported
 };
 
 class Parser {
@@ -82,7 +82,7 @@ void Parser::line(const SourceLine& source) {
     return;
   }
   const char c = source.text[first];
-  if (c == ';') return; // between drawing lines, too: a comment is no blank line
+  if (c == ';') return; // between drawing lines, too: a comment is not a blank line
   if (!beginsDrawing(c)) {
     closeRung();
     statement(source);

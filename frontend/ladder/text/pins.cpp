@@ -17,7 +17,7 @@ struct Group {
   bool lacksPins() const { return pins && pinLines < pins->size(); }
 };
 
-/// A line of a group: where its braces stand.
+/// A line of a group: where its braces are.
 struct Row {
   uint32_t column = 0;
   uint32_t endColumn = 0;
@@ -86,7 +86,7 @@ uint32_t PinGrouper::open(uint32_t element) {
 }
 
 /// The row above, left or right of this column, that the box was probably meant for: the word names a pin that is still
-/// missing there or, where the names are not known, it is padded like a pin line and stands over the other box.
+/// missing there or, where the names are not known, it is padded like a pin line and is over the other box.
 const Row* PinGrouper::misalignedTo(const DrawnLine& line, const Token& token,
                                     std::vector<Row>::const_iterator near) const {
   const std::string_view word = drawing_.elements[token.element].mnemonic;
@@ -117,7 +117,7 @@ void PinGrouper::box(const DrawnLine& line, const Token& token) {
       const SourceRange box = drawing_.elements[groups_[meant->group].head].range;
       diagnostics_.report(Diag::MisalignedBox, element.range).label(box, "the box") << meant->column + 1;
       drawing_.bad = true;
-      // Go on as if it stood where it should, so that the lines below are judged by the box.
+      // Continue as if it were where it should be, so that the lines below are judged by the box.
       addPin(meant->group, token.element);
       row = *meant;
     }

@@ -384,9 +384,9 @@ typedef struct rung_block {
 
 /* Binds blocks, in addition to those that are bound. Of a block to the program, a run of a task takes the bytes that
  * the task may read, once, where it begins, before its input copies; a task that begins within another one may take the
- * same byte again. What no task of the schedule reads is taken before every slice, for the control and for who looks at
- * it. Where a variable is bound to the same cell, the block counts. All or none; errors as of rung_instance_find,
- * RUNG_OVERWRITTEN for any of its bytes, RUNG_WRONG_TYPE for a constant. */
+ * same byte again. What no task of the schedule reads is taken before every slice, for the control and for whoever
+ * looks at it. Where a variable is bound to the same cell, the block counts. All or none; errors as of
+ * rung_instance_find, RUNG_OVERWRITTEN for any of its bytes, RUNG_WRONG_TYPE for a constant. */
 RUNG_API int32_t rung_instance_bind_blocks(rung_instance* instance, const rung_block* blocks, uint32_t count);
 
 /* A member of a struct of the host that is bound to a cell; rungc bind makes these tables (docs/bind.md). */

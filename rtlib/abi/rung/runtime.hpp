@@ -282,8 +282,8 @@ private:
   std::unique_ptr<rung_shadow, Ends<rung_shadow, rung_shadow_free>> shadow_;
 };
 
-// The passes of a watch as a file for wave viewers (rung_trace_new); it ends before the watch does. Who wants to know
-// whether the file is whole ends it by rung_trace_free(release()).
+// The passes of a watch as a file for wave viewers (rung_trace_new); it ends before the watch does. Whoever wants to
+// know whether the file is whole ends it by rung_trace_free(release()).
 class Trace {
 public:
   Trace(rung_watch* watch, const std::string& path) {

@@ -7,7 +7,7 @@
 namespace rung::nc {
 
 rt::ServiceReply refuse(const rung_program& program, const rt::ServiceRequest& request) noexcept {
-  // "windr function length … -> end data": the name stands before its arguments.
+  // "windr function length … -> end data": the name is before its arguments.
   std::string_view service = host::serviceName(program, request.service);
   service = service.substr(0, service.find(' '));
   if (service != "windr" && service != "windw") return {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};

@@ -25,7 +25,7 @@ std::string areaOf(const Row& row) {
   if (row.group.starts_with("RTM.")) return withoutIndex(row.group);
   if (row.group.starts_with("8.3 BLK[n]")) return "BLK";
   if (row.group.ends_with(kElement)) return "SHARE." + row.group.substr(6, row.group.size() - 6 - kElement.size());
-  if (row.group.ends_with("(RtmVar)")) return "RtmVar"; // some of its names stand under SHARE too
+  if (row.group.ends_with("(RtmVar)")) return "RtmVar"; // some of its names are under SHARE too
   if (row.group.starts_with("SHARE")) return member && owner.starts_with("Ecat") ? "SHARE." + owner : "SHARE";
   if (isWeight(row.address)) return "W";
   return member ? owner : "I";

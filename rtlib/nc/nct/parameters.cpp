@@ -126,11 +126,11 @@ static_assert(sorted(), "parameters are in the order of their numbers and do not
 std::span<const ParameterRow> parameterRows() { return kRows; }
 
 const ParameterRow* findParameter(int64_t number) {
-  const auto* behind =
+  const auto* after =
       std::upper_bound(std::begin(kRows), std::end(kRows), number,
                        [](int64_t wanted, const ParameterRow& row) { return wanted < int64_t{row.number}; });
-  if (behind == std::begin(kRows)) return nullptr;
-  const ParameterRow* row = std::prev(behind);
+  if (after == std::begin(kRows)) return nullptr;
+  const ParameterRow* row = std::prev(after);
   return number < row->number + row->numbers ? row : nullptr;
 }
 

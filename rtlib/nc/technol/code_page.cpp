@@ -83,7 +83,7 @@ void append(std::string& out, uint32_t c) {
   }
 }
 
-// The character at `at`, which is moved behind it. A byte that begins none stands for itself.
+// The character at `at`, which is moved after it. A byte that begins none is itself.
 uint32_t nextCharacter(std::string_view from, size_t& at) {
   const auto first = static_cast<unsigned char>(from[at++]);
   const size_t more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : first >= 0xC0 ? 1 : 0;

@@ -66,7 +66,7 @@ TEST(NctTable, HoldsTheWholeInventory) {
     EXPECT_TRUE(info.ref.starts_with(csv[1] + ", l.")) << info.mnemonic << ' ' << info.ref;
     const Output output = csv[5] == "configurable" ? Output::Optional : csv[5] == "no" ? Output::Always : Output::None;
     EXPECT_EQ(info.output, output) << info.mnemonic;
-    EXPECT_EQ(info.placement != Placement::BehindContact, csv[6] == "yes") << info.mnemonic;
+    EXPECT_EQ(info.placement != Placement::AfterContact, csv[6] == "yes") << info.mnemonic;
     const auto pins = std::count(csv[3].begin(), csv[3].end(), ',') + 1;
     EXPECT_EQ(info.pins.size(), static_cast<size_t>(pins)) << info.mnemonic;
     EXPECT_EQ(info.operands.size(), operandsIn(csv[4])) << info.mnemonic;
@@ -230,8 +230,7 @@ TEST(NctTable, FirstColumnAndClosingElement) {
   for (const NctInstruction& row : allInstructions()) {
     if (row.flow == Flow::Section) continue;
     const bool always = row.info.output == Output::Always, none = row.info.output == Output::None;
-    const bool atRail = row.info.placement == Placement::AtRail,
-               behind = row.info.placement == Placement::BehindContact;
+    const bool atRail = row.info.placement == Placement::AtRail, behind = row.info.placement == Placement::AfterContact;
     EXPECT_EQ(has(drawn(row, {.atRail = true, .output = always}), "first-column-not-allowed"), behind)
         << row.info.mnemonic;
     EXPECT_EQ(has(drawn(row, {.atRail = false, .output = always}), "first-column-required"), atRail)

@@ -1,4 +1,4 @@
-// Letters and numbers of texts.
+// Letters, numbers and blanks of texts.
 #include <clocale>
 #include <cstdint>
 #include <limits>
@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
@@ -21,6 +22,13 @@ TEST(Letters, OnlyThoseOfAsciiChange) {
     EXPECT_EQ(text::upper(c), small ? static_cast<char>(byte - 32) : c) << byte;
     EXPECT_EQ(text::lower(c), capital ? static_cast<char>(byte + 32) : c) << byte;
   }
+}
+
+TEST(Blanks, AroundAText) {
+  EXPECT_EQ(text::trimmed(" \ta b\t \r\n"), "a b");
+  EXPECT_EQ(text::trimmed("a"), "a");
+  EXPECT_EQ(text::trimmed(" \t\r\n"), "");
+  EXPECT_EQ(text::trimmed(""), "");
 }
 
 TEST(Letters, OfTexts) {

@@ -1,4 +1,4 @@
-// Characters of ASCII, and blanks around a text.
+// Characters of ASCII.
 #include "ir/support/ascii.h"
 
 #include <gtest/gtest.h>
@@ -19,13 +19,6 @@ TEST(Ascii, HexadecimalDigits) {
   EXPECT_EQ(hexDigit('A'), 10);
   EXPECT_EQ(hexDigit('f'), 15);
   for (const char c : {'G', 'g', '@', '`', ' '}) EXPECT_EQ(hexDigit(c), -1) << c;
-}
-
-TEST(Ascii, ALineWithoutWhatIsAroundIt) {
-  EXPECT_EQ(trimmed(" \ta b\t \r"), "a b");
-  EXPECT_EQ(trimmed("a"), "a");
-  EXPECT_EQ(trimmed(" \t\r"), "");
-  EXPECT_EQ(trimmed(""), "");
 }
 
 } // namespace

@@ -24,7 +24,7 @@ struct Program {
 // One instruction, for a table of what each costs: rungs that are all the same.
 struct Instruction {
   const char* title;
-  const char* text; // of one rung; form.cpp says what {…} stands for
+  const char* text; // of one rung; form.cpp says what {…} means
 };
 
 class Form {

@@ -1,4 +1,4 @@
-// What a generated program does, told without a dialect: a list of elements over numbered bits, words and reals. Each
+// What a generated program does, without a dialect: a list of elements over numbered bits, words and reals. Each
 // dialect writes it in its own language (form.h), and straight.h as the C++ that somebody would write by hand.
 #pragma once
 #include <cstdint>

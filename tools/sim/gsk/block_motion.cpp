@@ -127,7 +127,7 @@ void Operation::prepareMotion(Run& run, const std::array<std::optional<double>, 
   }
   if (!any) return;
   if (!move.rapid && modal_.path.feed <= 0) m.alarms.raise(kAlarmNoFeed);
-  externalOwed_ = modal_.external;
+  externalPending_ = modal_.external;
   moves_[moveCount_++] = move;
   if (special != kToReference && special != kToOtherReference) return;
   const uint32_t point = special == kToReference ? 1 : std::clamp<uint32_t>(p == 0 ? 2 : p, 2, 4);

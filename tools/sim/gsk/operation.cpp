@@ -140,8 +140,8 @@ bool Operation::beginBlock(Run& run) {
 
 bool Operation::blockDone(Run& run) {
   if (moving() || dwellMs_ > 0 || functions_.busy()) return false;
-  if (!externalOwed_) return true;
-  externalOwed_ = false;
+  if (!externalPending_) return true;
+  externalPending_ = false;
   AuxiliaryCodes external;
   external.external = true;
   external.start(functions_, run.io, false);
@@ -177,7 +177,7 @@ void Operation::reset(const nc::gsk::SignalsIo& io, Machine& machine) {
   modal_ = {.path = {.inch = modal_.path.inch, .feed = modal_.path.feed}};
   moveCount_ = move_ = 0;
   dwellMs_ = 0;
-  inBlock_ = externalOwed_ = stopAfterBlock_ = false;
+  inBlock_ = externalPending_ = stopAfterBlock_ = false;
   state_ = RunState::Reset;
   next_ = 0;
 }

@@ -97,7 +97,7 @@ private:
   size_t moveCount_ = 0;
   size_t move_ = 0; // under way
   double dwellMs_ = 0;
-  bool externalOwed_ = false;
+  bool externalPending_ = false;
   nc::GskFunctions functions_{nc::GskFunctions::Answer::ByLevel};
   double speed_ = 0;
 };

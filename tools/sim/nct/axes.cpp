@@ -8,7 +8,7 @@
 namespace rung::sim::nct {
 
 Axes::Axes(Links& links) : Topic(links) {
-  name("XYZABCUV"); // Parameters stands before it in the Simulator
+  name("XYZABCUV"); // Parameters is before it in the Simulator
   for (uint32_t i = 0; i < 32; ++i) {
     switchAxis_.emplace_back(1101 + i);
     switchLow_.emplace_back(1133 + i);
@@ -89,7 +89,7 @@ void Axes::cancel(uint32_t axis) { axes_[axis].program = {}; }
 
 bool Axes::serves(bool write, uint32_t function) const { return write && function == 90; }
 
-// l.4252-4293. Code 90 has no condition in the manual: here a position that is no number.
+// l.4252-4293. Code 90 has no condition in the manual: here a position that is not a number.
 std::optional<int32_t> Axes::service(uint32_t, Block& block) {
   if (block.amount() != 3) return 2;
   const int32_t index = block.word(2);

@@ -40,7 +40,7 @@ void Axes::acknowledge(uint32_t axis) {
   set(signals_.parked, axis, coupled && signals_.parkRequest.in(asked));
 }
 
-// The slave asks; the parameter names the number of its master, 0: it is no slave (l.8625-8627).
+// The slave asks; the parameter names the number of its master, 0: it is not a slave (l.8625-8627).
 void Axes::acknowledge(uint32_t axis, uint32_t asked, uint32_t answers, const Coupling& coupling) {
   const bool asks = coupling.request.in(asked);
   const bool slave = coupling.slave.in(answers);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kEnd = 1e12; // a target that is never reached
 
-// Feed by CP_JOGFD with N0316 = 1, mm/min (l.10779-10796); above 15 the row goes on, tenfold in five steps.
+// Feed by CP_JOGFD with N0316 = 1, mm/min (l.10779-10796); above 15 the row continues, tenfold in five steps.
 constexpr double kJogFeeds[] = {0, 2, 3.2, 5, 7.9, 12.6, 20, 32, 50, 79, 126, 200, 320, 500, 790, 1260};
 
 double jogFeed(int32_t selection) {

@@ -60,7 +60,7 @@ void ChannelFunctions::selectRange(const BlockFunctions& functions) {
   signals.set(range_, channel_, nc::NctFunctions::kFirstRange + range);
 }
 
-// Where the tool stands, if tool management works (l.9515-9522, 10732-10772).
+// Where the tool is, if tool management works (l.9515-9522, 10732-10772).
 void ChannelFunctions::showPlace(int32_t type) {
   const SignalMemory& signals = links_.signals;
   const bool managed = links_.tools->managed();

@@ -50,7 +50,7 @@ uint32_t ChannelMotion::spindle() const {
   return number >= 1 && number <= static_cast<int32_t>(nc::nct::kSpindles) ? static_cast<uint32_t>(number) - 1 : 0;
 }
 
-// The address of an auxiliary function is no axis'.
+// The address of an auxiliary function is not an axis'.
 int32_t ChannelMotion::axisOf(char letter) const {
   for (const ParameterPlace& place : parameters_.auxiliary)
     if (links_.parameters->dword(place, channel_) == letter) return -1;
@@ -281,7 +281,7 @@ void ChannelMotion::cycle(bool running, int64_t us) {
       command(way_[next_]); // spindle speed, override and rapid key have their say
     }
     if (arrived(way_[next_])) {
-      checking_ = (under() & kExact) != 0; // stands within N0516 at once: for one cycle
+      checking_ = (under() & kExact) != 0; // stops within N0516 at once: for one cycle
       ++next_;
       started_ = false;
     }

@@ -97,7 +97,7 @@ uint32_t Channel::spindleOf(const ProgramBlock& block, const ProgramWord& word) 
   return number >= 1 && number <= nc::nct::kSpindles ? static_cast<uint32_t>(number) : 1;
 }
 
-// Codes of synchronisation stay in the NC (l.9570); S is no function with G92 and in G96.
+// Codes of synchronisation stay in the NC (l.9570); S is not a function with G92 and in G96.
 BlockFunctions Channel::collect(const ProgramBlock& block) const {
   const ChannelMotion& motion = run().motion;
   BlockFunctions functions;

@@ -116,16 +116,16 @@ std::string Channels::checkGroups(const ChannelProgram& program, uint32_t channe
 // ---- quantities --------------------------------------------------------------------------------------------------
 
 std::optional<double> Channels::quantity(std::string_view name) const {
-  const auto channelBehind = [&](std::string_view prefix) -> std::optional<uint32_t> {
+  const auto channelAfter = [&](std::string_view prefix) -> std::optional<uint32_t> {
     const auto channel = numbersAfter(name, prefix);
     if (!channel || channel->size() != 1 || channel->front() < 1 || channel->front() > nc::nct::kChannels)
       return std::nullopt;
     return channel->front() - 1;
   };
-  if (const auto channel = channelBehind("PROGRAM.")) return selected_[*channel];
-  if (const auto channel = channelBehind("SEQUENCE.")) return channels_[*channel]->sequence();
-  if (const auto channel = channelBehind("PARTS.")) return channels_[*channel]->parts;
-  if (const auto channel = channelBehind("PARTSWANTED.")) return channels_[*channel]->partsWanted;
+  if (const auto channel = channelAfter("PROGRAM.")) return selected_[*channel];
+  if (const auto channel = channelAfter("SEQUENCE.")) return channels_[*channel]->sequence();
+  if (const auto channel = channelAfter("PARTS.")) return channels_[*channel]->parts;
+  if (const auto channel = channelAfter("PARTSWANTED.")) return channels_[*channel]->partsWanted;
   return std::nullopt;
 }
 
@@ -165,7 +165,7 @@ void Channels::keep(Kept& kept) {
   }
 }
 
-// All channels that execute and take part wait at the same code: they go on together.
+// All channels that execute and take part wait at the same code: they continue together.
 void Channels::releaseWaiting() {
   for (uint32_t i = 0; i < nc::nct::kChannels; ++i) {
     const int32_t code = channels_[i]->waiting();

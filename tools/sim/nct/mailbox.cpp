@@ -106,7 +106,7 @@ uint32_t Mailbox::exchange(bool write, Block& block, Device& device, Protocol pr
   case Protocol::Soe: return exchangeSoe(write, block, device);
   case Protocol::Voe: break;
   }
-  // Vendor's data: the device gives back what it was told last.
+  // Vendor's data: the device gives back what it was given last.
   if (write) {
     device.vendor.resize(size_); // has room for all that a mailbox holds
     std::memcpy(device.vendor.data(), buffer_.data(), size_);
@@ -139,7 +139,7 @@ uint32_t Mailbox::exchangeCoe(bool write, Block& block, Device& device) {
   return 0;
 }
 
-// CompleteAccess: the subindices from 0 or 1 on, one behind the other; subindex 0 takes two bytes.
+// CompleteAccess: the subindices from 0 or 1 on, one after the other; subindex 0 takes two bytes.
 uint32_t Mailbox::exchangeWhole(bool write, Device& device, uint32_t index, uint32_t sub) {
   if (sub > 1) return kCoeWrongAccess;
   size_t at = 0;

@@ -33,7 +33,7 @@ uint32_t bitOf(double value, uint32_t bit) { return (static_cast<uint32_t>(value
 
 ParameterPlace::ParameterPlace(uint32_t number) {
   const nc::nct::ParameterRow* row = nc::nct::findParameter(number);
-  if (row == nullptr) std::abort(); // the numbers stand in this code alone
+  if (row == nullptr) std::abort(); // the numbers are in this code alone
   first_ = firstOf(*row, number);
   count_ = valuesOf(row->index);
 }

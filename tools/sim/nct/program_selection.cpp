@@ -8,7 +8,7 @@ namespace rung::sim::nct {
 bool ProgramSelection::serves(bool write, uint32_t function) const { return write && function == 40; }
 
 // Code 2 is printed as "not 1", the amount as "always 2" (l.3905-3925). A request waits while a program runs, CN_START
-// or CN_STOP (l.5890): its output is not TRUE until then (l.3899). Word 3 is printed as 0 behind the execution
+// or CN_STOP (l.5890): its output is not TRUE until then (l.3899). Word 3 is printed as 0 after the execution
 // (l.3919). The codes of other functions (6.29) are taken for what this one's table leaves out: 41 for the channel.
 std::optional<int32_t> ProgramSelection::service(uint32_t, Block& block) {
   if (block.amount() != 2) return 2;

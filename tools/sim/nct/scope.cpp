@@ -19,7 +19,7 @@ double slice(const Links& c) { return static_cast<double>(c.sliceUs) * 1e-6; }
 
 constexpr Read kZero = [](const Links&, uint32_t, uint32_t) -> double { return 0; };
 
-// The axes: positions of the command and of the encoder, which is behind by the lag.
+// The axes: positions of the command and of the encoder, which follows by the lag.
 double axisCommand(const Links& c, uint32_t axis, uint32_t) { return c.axes->machinePosition(axis - 1); }
 double axisVelocity(const Links& c, uint32_t axis, uint32_t) { return c.axes->velocity(axis - 1); }
 double axisLag(const Links& c, uint32_t axis, uint32_t) { return c.axes->lag(axis - 1); }

@@ -102,7 +102,7 @@ void Simulator::timeSlice(host::Instance& instance, bool cycle) {
 
 // ---- services ----------------------------------------------------------------------------------------------------
 
-// "MR function address block -> code": the name stands before its arguments.
+// "MR function address block -> code": the name is before its arguments.
 void Simulator::findServices(const rung_program& program) {
   constexpr std::pair<std::string_view, Service> kNames[] = {{"MR", Service::Mr},     {"MW", Service::Mw},
                                                              {"MACR", Service::Macr}, {"MACW", Service::Macw},

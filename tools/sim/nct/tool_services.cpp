@@ -143,7 +143,7 @@ int32_t ToolManagement::registerTool(Block& block) {
     return kWrongColumn + static_cast<int32_t>(kToolInfo);
   const uint32_t row = tables_.tools.firstFree();
   if (row == 0) return kTableFull;
-  tables_.remove(row); // an invalid row may still stand in a pot
+  tables_.remove(row); // an invalid row may still be in a pot
   tables_.tools.row(row).setWord(kToolInfo, kInfoValid | kInfoSearchable);
   tables_.cartridges.put(place, row);
   writeRecord(block, *columns, row);

@@ -10,6 +10,7 @@
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/licences.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::sim::technol {
@@ -19,8 +20,8 @@ namespace {
 // blanks between them.
 class Bytes {
 public:
-  Bytes(std::string_view text, bool binary) : text_(text), hex_(binary && isHex(nc::technol::trimmed(text))) {
-    if (hex_) text_ = nc::technol::trimmed(text);
+  Bytes(std::string_view text, bool binary) : text_(text), hex_(binary && isHex(text::trimmed(text))) {
+    if (hex_) text_ = text::trimmed(text);
   }
   bool next(uint8_t& byte) {
     while (hex_ && at_ < text_.size() && text_[at_] == ' ') ++at_;

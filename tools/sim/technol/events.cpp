@@ -22,7 +22,7 @@ constexpr NamedEvent kEvents[] = {
     {"PLCEVENT_START_REQ", PlcEvent::StartRequest},
 };
 
-// A program that stands takes no part.
+// A program that is stopped takes no part.
 void call(host::Instance& instance, std::string_view procedure, uint64_t dr, bool rlo) {
   if (!instance.stopped()) nc::technol::runWith(instance, procedure, dr, rlo);
 }

@@ -33,7 +33,7 @@ nc::ExchangeType typeOf(const nc::Signal& signal) {
 }
 
 struct RtmModule {
-  std::string_view name; // canonical, behind "RTM."
+  std::string_view name; // canonical, after "RTM."
   const char* area;
   uint32_t members; // 1: without an index
 };
@@ -127,7 +127,7 @@ std::optional<NcCell> ModuleCells::read(std::string_view name) const {
   const auto element = moduleElement(reference.base, problem);
   if (!element) return std::nullopt;
   const auto found = byKey_.find(element->key);
-  // What an EtherCAT element is, its connection tells.
+  // What an EtherCAT element is, its connection says.
   if (found == byKey_.end() && element->typeIsOpen) return std::nullopt;
   const ModuleCell cell = found == byKey_.end() ? ModuleCell{.type = element->type} : cells_[found->second];
   NcCell value{.isReal = cell.type == nc::ExchangeType::Real, .width = widthOf(cell.type), .bits = cell.bits};

@@ -101,7 +101,7 @@ bool Ports::anySwitch(const host::Instance& instance) const {
     const uint8_t* at = block + span.offset;
     uint64_t any = 0;
     uint32_t left = span.size;
-    for (; left >= 8; left -= 8, at += 8) { // without a way out, so that the compiler takes several at once
+    for (; left >= 8; left -= 8, at += 8) { // without an exit, so that the compiler takes several at once
       uint64_t word = 0;
       std::memcpy(&word, at, 8);
       any |= word;

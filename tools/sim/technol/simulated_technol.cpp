@@ -173,7 +173,7 @@ private:
     return {};
   }
 
-  // MODULE_INIT tells its variables again.
+  // MODULE_INIT defines its variables again.
   void start(host::Instance& instance) {
     exchange_.beforeInit(instance, false);
     devices_.startProgram();

@@ -35,20 +35,20 @@ struct Label {
 // JMP…JMPE and COM…COME of one unit.
 class Regions {
 public:
-  Regions(Diagnostics& diagnostics, Unit& unit, bool garbled)
-      : diagnostics_(diagnostics), unit_(unit), garbled_(garbled) {}
+  Regions(Diagnostics& diagnostics, Unit& unit, bool incomplete)
+      : diagnostics_(diagnostics), unit_(unit), incomplete_(incomplete) {}
 
   void check() {
     for (const Network& network : unit_.networks) count(controlOf(network));
     for (uint32_t i = 0; i < unit_.networks.size(); ++i) visit(i);
-    if (garbled_) return;
+    if (incomplete_) return;
     if (jmp_.open != kNone) diagnostics_.report(Diag::MissingJmpe, at(jmp_.open));
     if (com_.open != kNone) diagnostics_.report(Diag::MissingCome, at(com_.open));
   }
 
 private:
   // Regions of one kind. A second begin inside a region is an error by itself; whether an end was forgotten or the two
-  // are meant one in the other is told by the number of ends.
+  // are meant one in the other is known by the number of ends.
   struct Kind {
     uint32_t open = kNone;  // where the region under way begins
     int32_t unended = 0;    // begins without an end, in the whole unit
@@ -94,7 +94,7 @@ private:
       return true;
     else if (kind.forgotten > 0)
       --kind.forgotten;
-    else if (!garbled_)
+    else if (!incomplete_)
       diagnostics_.report(stray, at(i));
     return false;
   }
@@ -117,7 +117,7 @@ private:
 
   Diagnostics& diagnostics_;
   Unit& unit_;
-  bool garbled_;
+  bool incomplete_;
   Kind jmp_;
   Kind com_;
   bool overlap_ = false; // of the open JMP region with a common line; reported
@@ -125,11 +125,11 @@ private:
 
 class Analysis {
 public:
-  Analysis(Context& context, Program& program, bool garbled)
-      : diagnostics_(context.diagnostics), program_(program), garbled_(garbled), calls_(program.units.size()) {}
+  Analysis(Context& context, Program& program, bool incomplete)
+      : diagnostics_(context.diagnostics), program_(program), incomplete_(incomplete), calls_(program.units.size()) {}
 
   void run() {
-    for (Unit& unit : program_.units) Regions(diagnostics_, unit, garbled_).check();
+    for (Unit& unit : program_.units) Regions(diagnostics_, unit, incomplete_).check();
     collect();
     resolveCalls();
     if (findCircles()) checkDepth();
@@ -162,7 +162,7 @@ private:
 
   Diagnostics& diagnostics_;
   Program& program_;
-  bool garbled_;
+  bool incomplete_;
   std::map<uint32_t, Label> labels_;
   std::map<uint32_t, uint32_t> subprograms_;
   frontend::CallGraph calls_;   // of units
@@ -207,7 +207,7 @@ void Analysis::resolveCalls() {
     }
     const auto at = subprograms_.find(*number);
     if (at == subprograms_.end()) {
-      if (!garbled_)
+      if (!incomplete_)
         diagnostics_.report(Diag::UndefinedSubprogram, network.function.params[0].range) << fmt::format("P{}", *number);
       return;
     }
@@ -281,7 +281,7 @@ void Analysis::resolveJump(uint32_t u, Network& network) {
   const std::string name = fmt::format("L{}", *number);
   const auto at = labels_.find(*number);
   if (at == labels_.end()) {
-    if (!garbled_ && !labelLost_) diagnostics_.report(Diag::UndefinedLabel, range) << name << "in this program";
+    if (!incomplete_ && !labelLost_) diagnostics_.report(Diag::UndefinedLabel, range) << name << "in this program";
     return;
   }
   at->second.used = true;
@@ -309,7 +309,7 @@ void Analysis::resolveLeave(Network& network, const Label& label) {
 }
 
 void Analysis::reportUnused() {
-  if (garbled_) return;
+  if (incomplete_) return;
   if (!jumpLost_)
     for (const auto& [number, label] : labels_)
       if (!label.used) diagnostics_.report(Diag::LabelUnused, label.range) << fmt::format("L{}", number);
@@ -319,7 +319,7 @@ void Analysis::reportUnused() {
       diagnostics_.report(Diag::SubprogramUnused, program_.units[unit].nameRange) << fmt::format("P{}", number);
 }
 
-// Numbers that stand twice (P24, P29, P39). TMR and TMRB have numbers of their own, DIFU and DIFD share theirs.
+// Numbers that appear twice (P24, P29, P39). TMR and TMRB have numbers of their own, DIFU and DIFD share theirs.
 void Analysis::checkNumbers() {
   std::map<std::pair<int, int64_t>, SourceRange> seen;
   eachNetwork([&](uint32_t, uint32_t, Network& network) {
@@ -339,6 +339,6 @@ void Analysis::checkNumbers() {
 
 } // namespace
 
-void analyse(Context& context, Program& program, bool garbled) { Analysis(context, program, garbled).run(); }
+void analyse(Context& context, Program& program, bool incomplete) { Analysis(context, program, incomplete).run(); }
 
 } // namespace rung::gsk

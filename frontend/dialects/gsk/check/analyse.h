@@ -5,8 +5,8 @@
 
 namespace rung::gsk {
 
-// Resolves labels, regions and calls, and reports what is wrong with them. `garbled`: see UnitAssembler.
-void analyse(Context& context, Program& program, bool garbled);
+// Resolves labels, regions and calls, and reports what is wrong with them. `incomplete`: see UnitAssembler.
+void analyse(Context& context, Program& program, bool incomplete);
 
 // Part of analyse(): bits that several coils write. For programs without errors; `calleesFirst` has all units.
 void checkCoils(Diagnostics& diagnostics, const Program& program, const std::vector<uint32_t>& calleesFirst);

@@ -1,5 +1,5 @@
 // Ladder text to the source model. The ladder parser has no use for comments, so the lines are walked beside what it
-// found; comments of a drawing go to the commands that its elements stand for.
+// found; comments of a drawing go to the commands that its elements mean.
 #include <map>
 #include <optional>
 
@@ -8,8 +8,8 @@
 #include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/dialects/gsk/read/condition.h"
 #include "frontend/ladder/text/drawing.h"
-#include "ir/support/ascii.h"
 #include "ir/support/check.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::gsk::convert {
@@ -24,10 +24,10 @@ struct LineComment {
 struct RungText {
   uint32_t firstDrawn = 0;          // line
   std::vector<LineComment> lines;   // lines of their own
-  std::vector<LineComment> remarks; // behind a line of the drawing
+  std::vector<LineComment> remarks; // after a line of the drawing
 };
 
-// A rung and the network that it stands for, to commands with their comments.
+// A rung and the network that it draws, to commands with their comments.
 class RungCollector {
 public:
   RungCollector(const Network& network, Gap& gap) : network_(network), gap_(gap) {}
@@ -146,12 +146,12 @@ private:
 };
 
 void LadderCollector::read(const SourceLine& line) {
-  const std::string_view text = trimmed(line.text);
+  const std::string_view text = text::trimmed(line.text);
   const bool isComment = !text.empty() && text[0] == ';';
   if (text.empty())
     out_.blank();
   else if (isComment)
-    comment(line, trimmed(text.substr(1)));
+    comment(line, text::trimmed(text.substr(1)));
   else if (ladder::beginsDrawing(text[0]))
     drawn(line);
   else
@@ -192,7 +192,7 @@ void LadderCollector::statement(const SourceLine& line) {
   if (keyword == "const") return out_.statement(Item::Kind::Const, words_.words, words_.comment);
   RUNG_CHECK(keyword == "section", "no other statement is without errors");
   out_.gap.push_back({Item::Kind::Section, clean(words_.words[1].text)});
-  if (!trimmed(words_.comment).empty()) out_.comment(words_.comment);
+  if (!text::trimmed(words_.comment).empty()) out_.comment(words_.comment);
 }
 
 // In a list the title is the first line of the last block of comment lines.
@@ -207,7 +207,7 @@ void LadderCollector::openRung() {
   text_ = {};
   std::string title = clean(rung_->comment);
   if (!title.empty()) insertTitle(std::move(title));
-  if (!trimmed(words_.comment).empty()) out_.comment(words_.comment);
+  if (!text::trimmed(words_.comment).empty()) out_.comment(words_.comment);
 }
 
 void LadderCollector::module(uint32_t line) {

@@ -30,7 +30,7 @@ private:
   void finish(const Network& network);
   void finishSubprogram();
   // Comments of commands that have no place of their own.
-  void spill(const SourceCommand& command, bool behind);
+  void spill(const SourceCommand& command, bool after);
   SourceUnit& unit() { return out_.program.units.back(); }
 
   Collector& out_;
@@ -50,7 +50,7 @@ void ListCollector::comment() {
   }
 }
 
-// Statements inside a network go in front of everything that stands there: behind a title they would take it away.
+// Statements inside a network go before everything that is there: after a title they would take it away.
 void ListCollector::read(std::span<const Word> words) {
   const std::optional<Command> command = findCommand(words[0].text);
   const bool inside = !commands_.empty();
@@ -67,9 +67,9 @@ void ListCollector::command() {
   if (commands_.size() == out_.networks.front().written.size()) finish(out_.takeNetwork());
 }
 
-void ListCollector::spill(const SourceCommand& command, bool behind) {
+void ListCollector::spill(const SourceCommand& command, bool after) {
   for (const std::string& text : command.before) out_.comment(text);
-  if (behind && !command.comment.empty()) out_.comment(command.comment);
+  if (after && !command.comment.empty()) out_.comment(command.comment);
 }
 
 void ListCollector::finish(const Network& network) {

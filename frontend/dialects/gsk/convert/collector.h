@@ -28,13 +28,13 @@ struct Collector {
     gap.push_back({section ? Item::Kind::Section : Item::Kind::Comment, clean(section.value_or(text))});
   }
   void blank() { gap.push_back({Item::Kind::Blank}); }
-  // `symbol`, `const` or `dialect`: the words of the statement and the comment behind it.
-  void statement(Item::Kind kind, std::span<const Word> words, std::string_view comment, bool inFront = false) {
+  // `symbol`, `const` or `dialect`: the words of the statement and the comment after it.
+  void statement(Item::Kind kind, std::span<const Word> words, std::string_view comment, bool first = false) {
     Item item{kind};
     if (words.size() > 1) item.text = words[1].text;
     if (words.size() > 2) item.value = words[2].text;
     item.comment = clean(comment);
-    gap.insert(inFront ? gap.begin() : gap.end(), std::move(item));
+    gap.insert(first ? gap.begin() : gap.end(), std::move(item));
   }
   Gap takeGap() { return std::exchange(gap, {}); }
 };

@@ -88,7 +88,7 @@ std::optional<std::string> convertProgram(SourceManager& sources, std::span<cons
                                           const frontend::CompileOptions& options, convert::Form to,
                                           Diagnostics& diagnostics) {
   if (kGsk.compile(sources, files, options, diagnostics) == nullptr) return std::nullopt;
-  Diagnostics heard; // reported already
+  Diagnostics heard; // all of it is reported
   const Machine machine = configuredMachine(options, heard);
   const auto model = readModel(sources, files, machine, heard);
   RUNG_CHECK(model.has_value(), "the program has no errors");
@@ -104,7 +104,7 @@ std::optional<LadderForm> ladderForm(SourceManager& sources, std::span<const Fil
                                      const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   if (std::all_of(files.begin(), files.end(), [&](FileId file) { return isLadder(sources, file); }))
     return LadderForm{{files.begin(), files.end()}, {}, {}};
-  Diagnostics heard; // reported already
+  Diagnostics heard; // all of it is reported
   const Machine machine = configuredMachine(options, heard);
   const auto model = readModel(sources, files, machine, heard);
   RUNG_CHECK(model.has_value(), "the program has no errors");

@@ -1,4 +1,4 @@
-// Command lists and ladder text of this dialect, each to the other, nothing lost (docs/dialects/gsk.md tells where a
+// Command lists and ladder text of this dialect, each to the other, nothing lost (docs/dialects/gsk.md says where a
 // comment goes that has no place of its own).
 #pragma once
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace rung::gsk {
 
-// The files of one program in the form `to`. Nothing where the program has errors; they stand in `diagnostics`.
+// The files of one program in the form `to`. Nothing where the program has errors; they are in `diagnostics`.
 std::optional<std::string> convertProgram(SourceManager& sources, std::span<const FileId> files,
                                           const frontend::CompileOptions& options, convert::Form to,
                                           Diagnostics& diagnostics);
@@ -31,7 +31,7 @@ struct LadderForm {
 };
 
 // Of a program that was compiled without errors: its own files, or what they are converted to when there is a list
-// among them. Nothing when a network is too large to be drawn; that stands in `diagnostics`.
+// among them. Nothing when a network is too large to be drawn; that is in `diagnostics`.
 std::optional<LadderForm> ladderForm(SourceManager& sources, std::span<const FileId> files,
                                      const frontend::CompileOptions& options, Diagnostics& diagnostics);
 

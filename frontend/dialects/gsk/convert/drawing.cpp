@@ -1,7 +1,7 @@
 // Layout and painting. Everything is measured first, groups from the inside out, then painted from the outside in.
 //
 // The tree of each pin begins at the left rail and has lines of its own, below those of the pin above it. The lines of
-// a box stand together at the top, so the wire of a pin whose tree stands lower goes up in a column of its own:
+// a box are together at the top, so the wire of a pin whose tree is lower goes up in a column of its own:
 //
 //   |--[A]--+--------{ADDB 1 D0 1 D1}--+--(Y)
 //   |--[B]--+  +-----{ACT           }  +--(S Z)
@@ -24,7 +24,7 @@ namespace {
 
 using Group = SpTree::Kind;
 
-constexpr uint32_t kStart = 3;    // the first column behind "|--"
+constexpr uint32_t kStart = 3;    // the first column after "|--"
 constexpr uint32_t kMaxPad = 100; // longer boxes do not pull their pins along
 
 struct Extent {
@@ -52,7 +52,7 @@ public:
 private:
   struct Tree {
     SpTree sp;
-    std::vector<uint32_t> order; // nodes, groups in front of their members
+    std::vector<uint32_t> order; // nodes, groups before their members
     std::vector<Extent> extents;
     uint32_t line = 0;
   };

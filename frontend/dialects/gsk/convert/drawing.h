@@ -10,7 +10,7 @@ namespace rung::gsk::convert {
 
 struct Drawing {
   std::vector<std::string> lines;
-  // By command: the line that its element stands on; kNone for blocks, parameters and table rows.
+  // By command: the line that its element is on; kNone for blocks, parameters and table rows.
   std::vector<uint32_t> lineOf;
   std::vector<LineEnds> ends; // by line; a box counts on its first one only
 };

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "ir/support/ascii.h"
+#include "rtlib/text/blanks.h"
 
 namespace rung::gsk::convert {
 namespace {
@@ -68,7 +68,7 @@ std::optional<Tagged> parseTag(std::string_view comment) {
   std::string_view rest = comment;
   if (rest.starts_with(kBefore)) {
     result.before = true;
-    rest = trimmed(rest.substr(kBefore.size()));
+    rest = text::trimmed(rest.substr(kBefore.size()));
   }
   constexpr std::string_view kOpen = "[({";
   const size_t kind = rest.empty() ? std::string_view::npos : kOpen.find(rest[0]);
@@ -79,7 +79,7 @@ std::optional<Tagged> parseTag(std::string_view comment) {
   if (end < rest.size() && rest[end] == '#') end = std::min(rest.find_first_not_of("0123456789", end + 1), rest.size());
   if (end < rest.size() && rest[end] != ' ') return std::nullopt;
   result.tag = rest.substr(0, end);
-  result.text = trimmed(rest.substr(end));
+  result.text = text::trimmed(rest.substr(end));
   return result;
 }
 

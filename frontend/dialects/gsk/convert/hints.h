@@ -1,6 +1,6 @@
 // Comments of a drawing that say where in a command list something belongs (docs/dialects/gsk.md):
-//   ; [A] text               behind the command of contact [A]; its second one is [A]#2
-//   ; -> {TMRB preset} text  a comment line in front of the parameter `preset`
+//   ; [A] text               after the command of contact [A]; its second one is [A]#2
+//   ; -> {TMRB preset} text  a comment line before the parameter `preset`
 // Beside these, canonical.h has the hint of other blocks, and condition.h the condition of a subprogram. A comment that
 // only looks like one, naming nothing that is there, is a comment like any other.
 #pragma once

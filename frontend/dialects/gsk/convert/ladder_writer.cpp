@@ -44,7 +44,7 @@ void LadderWriter::begin(const SourceUnit& unit) {
                               command.operand.empty() ? "" : " ", command.operand));
 }
 
-// The title stands behind the word `rung` where it begins the last block of comments: so it is found again there.
+// The title is after the word `rung` where it begins the last block of comments: so it is found again there.
 void LadderWriter::rung(Gap gap, std::string_view title) {
   const auto at = titleIn(gap);
   const auto isComment = [](const Item& item) { return item.kind == Kind::Comment; };

@@ -22,7 +22,7 @@ private:
     pending_.insert(pending_.end(), gap.begin(), gap.end());
     return std::exchange(pending_, {});
   }
-  // Something with comments in front stands apart.
+  // Something with comments before it is set apart.
   void lead(const Gap& gap) {
     if (!gap.empty()) page_.blank();
     page_.gap(gap);

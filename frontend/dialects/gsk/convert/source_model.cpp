@@ -1,7 +1,7 @@
 // Small functions of the model.
 #include "frontend/dialects/gsk/convert/source_model.h"
 
-#include "ir/support/ascii.h"
+#include "rtlib/text/blanks.h"
 
 namespace rung::gsk::convert {
 
@@ -16,7 +16,7 @@ std::string clean(std::string_view text) {
   std::string result(text);
   for (char& c : result)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-  return std::string(trimmed(result));
+  return std::string(text::trimmed(result));
 }
 
 } // namespace rung::gsk::convert

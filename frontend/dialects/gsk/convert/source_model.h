@@ -1,8 +1,9 @@
 // A program as its author wrote it: the commands with their operands as spelled, in their order, and everything that is
-// no command (comments, declarations, sections) where it stood. Both source forms are read to it and written from it.
+// not a command (comments, declarations, sections) where it was. Both source forms are read to it and written from it.
 //
-// Gaps. What stands in front of a network is its gap. The title of a network is one of the comments of its gap, where
-// the rule of titles (title.h) finds it. Comments have no ';' in front, no blanks at their ends, no control characters.
+// Gaps. What is before a network is its gap. The title of a network is one of the comments of its gap, where
+// the rule of titles (title.h) finds it. Comments have no ';' before them, no blanks at their ends, no control
+// characters.
 #pragma once
 #include <string>
 #include <string_view>
@@ -17,7 +18,7 @@ struct Item {
   Kind kind = Kind::Comment;
   std::string text = {};    // of a comment, a section; the name of a symbol or constant
   std::string value = {};   // of a symbol or constant
-  std::string comment = {}; // behind a statement
+  std::string comment = {}; // after a statement
 };
 using Gap = std::vector<Item>;
 
@@ -56,14 +57,14 @@ struct SourceNetwork {
 struct SourceUnit {
   UnitKind kind = UnitKind::Level1;
   std::string_view number;              // "P5", as spelled
-  Gap lead;                             // in front of `module`; in a list of END1 or SP
+  Gap lead;                             // before `module`; in a list of END1 or SP
   std::string comment;                  // after it, on its line
   std::vector<SourceCommand> condition; // of SP, without effect (P13)
   std::vector<SourceNetwork> networks;
 };
 
 struct SourceProgram {
-  Gap preamble;                  // up to the last declaration in front of all networks; with the one Dialect
+  Gap preamble;                  // up to the last declaration before all networks; with the one Dialect
   std::vector<SourceUnit> units; // Level 1, Level 2, subprograms
   Gap tail;
 };

@@ -43,7 +43,7 @@ ValueId AxisLowering::isKnown(ValueId command) {
   return isIn(b_, b_.and_(command, b_.constant(Type::I8, axis::kAxisCommandBits)), set);
 }
 
-// Seven bytes, EMSBK and EC first (P51), then the CNC is told by EBUF (man. l.7672).
+// Seven bytes, EMSBK and EC first (P51), then EBUF reports them to the CNC (man. l.7672).
 void AxisLowering::send() {
   const auto signal = [](uint32_t byte) { return Address{Area::G, byte}; };
   const ValueId command = f_.load(Type::I8, data(axis::kAxisCommandAt));

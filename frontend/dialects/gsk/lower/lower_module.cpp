@@ -87,7 +87,7 @@ void ModuleLowering::addSpaces() {
 }
 
 void ModuleLowering::addSymbols() {
-  for (const UserName& symbol : context_.names.symbols())
+  for (const UserName& symbol : context_.names.ofKind(UserName::Kind::Symbol))
     module_->symbols.push_back(
         {.name = std::string(symbol.name),
          .comment = std::string(symbol.comment),
@@ -107,7 +107,7 @@ void ModuleLowering::addPresets() {
   }
 }
 
-// Keys are made of the text alone; equal networks of one unit are told apart by their order. The state of a function
+// Keys are made of the text alone; equal networks of one unit are distinguished by their order. The state of a function
 // belongs to the function, whatever its conditions are.
 void ModuleLowering::makeKeys() {
   for (const Unit& unit : program_.units) {
@@ -158,7 +158,7 @@ void ModuleLowering::planClock(LevelState& level) {
   if (level.countsRuns) level.runs = slot("@runs/" + name, ir::Type::I32, 0, false);
 }
 
-bool ModuleLowering::leavesBehind(const RoutineContext& routine, const Network& network) const {
+bool ModuleLowering::mayLeaveAfter(const RoutineContext& routine, const Network& network) const {
   return routine.level->isLevel2 && network.callee != kNone && program_.units[network.callee].leaves;
 }
 
@@ -169,14 +169,14 @@ void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
   uint32_t count = clock ? 1 : 0;
   for (const Network& network : unit.networks) {
     context.rungOf.push_back(count);
-    count += leavesBehind(context, network) ? 2 : 1;
+    count += mayLeaveAfter(context, network) ? 2 : 1;
   }
   ir::Routine& routine = module_->routines[level.routines[unitIndex].index];
   routine.rungs.resize(count);
   if (clock) addClock(routine, level, unit);
   for (uint32_t n = 0; n < unit.networks.size(); ++n) {
     lowerNetwork(context, routine.rungs[context.rungOf[n]], n);
-    if (leavesBehind(context, unit.networks[n]))
+    if (mayLeaveAfter(context, unit.networks[n]))
       addLeave(context, routine.rungs[context.rungOf[n] + 1], context.rungOf[n] + 2);
   }
 }

@@ -91,7 +91,7 @@ private:
   void lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value,
                   const RungMarks& marks);
   void addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next);
-  bool leavesBehind(const RoutineContext& routine, const Network& network) const;
+  bool mayLeaveAfter(const RoutineContext& routine, const Network& network) const;
   void planParts();
   void reportLongRungs(const std::vector<ir::PartPiece>& pieces, uint64_t room);
   void addTasks();

@@ -132,7 +132,7 @@ void ModuleLowering::lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint3
   if (!network.coils.empty()) lowerCoils(routine, b, network, value, marks);
 }
 
-// Behind a call that a JMPC may have left (P43): a subprogram returns at once, Level 2 goes on at the label.
+// After a call that a JMPC may have left (P43): a subprogram returns at once, Level 2 continues at the label.
 void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next) {
   const ir::Rung& call = *(&rung - 1);
   rung.number = call.number;
@@ -199,14 +199,14 @@ ir::ValueId FunctionLowering::sinceLastRun() {
 
 ir::SlotId FunctionLowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
 
-// A unit that both levels run shares its state, but each level has a count of its own. What Level 2 does behind Level 1
+// A unit that both levels run shares its state, but each level has a count of its own. What Level 2 does after Level 1
 // in one slot belongs to the same scan.
 void FunctionLowering::markRun() {
   for (const LevelState& level : module_.levels()) {
     if (!level.routines[routine_.unit].valid()) continue;
-    const bool behind = level.isLevel2 && !routine_.level->isLevel2;
+    const bool after = level.isLevel2 && !routine_.level->isLevel2;
     const ir::ValueId runs = b.slotLoad(level.runs);
-    b.slotStore(slot(level.isLevel2 ? "mark2" : "mark1", ir::Type::I32), behind ? b.add(runs, b.i32(1)) : runs);
+    b.slotStore(slot(level.isLevel2 ? "mark2" : "mark1", ir::Type::I32), after ? b.add(runs, b.i32(1)) : runs);
   }
 }
 

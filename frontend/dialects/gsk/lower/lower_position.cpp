@@ -1,4 +1,4 @@
-// Signals that tell where a machine axis is (§10; man. l.3397-3555).
+// Signals that say where a machine axis is (§10; man. l.3397-3555).
 #include <vector>
 
 #include "frontend/dialects/gsk/lower/lower.h"

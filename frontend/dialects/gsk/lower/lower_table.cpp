@@ -17,7 +17,7 @@ uint32_t entriesFrom(const Address& table, uint32_t length) {
   return (areaInfo(table.area).bytes - table.byte) / length;
 }
 
-// Entries of `length` bytes one behind the other; the index counts bytes.
+// Entries of `length` bytes one after the other; the index counts bytes.
 ir::Window tableWindow(FunctionLowering& f, const Address& table) {
   const uint32_t entries = entriesFrom(table, f.function.length);
   return f.window(table, entries * f.function.length, (entries - 1) * f.function.length + 1);

@@ -13,7 +13,7 @@ using ir::Type;
 using ir::ValueId;
 namespace window = nc::gsk;
 
-using enum frontend::RequestState; // of a low-speed function (P48); who has asked has the lock
+using enum frontend::RequestState; // of a low-speed function (P48); the one that has asked has the lock
 // The answer is not used before the second scan after the request (P48).
 constexpr uint32_t kAnswerAfterRuns = 2;
 
@@ -33,8 +33,8 @@ private:
   ValueId word(uint32_t offset) { return f_.load(Type::I16, at(offset)); }
   ir::SlotId ticket() { return f_.slot("ticket", Type::I32); }
   ir::SlotId length() { return f_.slot("length", Type::I16); }
-  // One for all low-speed functions of the program. Who has taken it has a state that is not idle: whoever replaces the
-  // program knows from its key what an instruction that is gone has held (rtlib/host/state_transfer.h).
+  // One for all low-speed functions of the program. The one that has taken it has a state that is not idle: whoever
+  // replaces the program knows from its key what an instruction that is gone has held (rtlib/host/state_transfer.h).
   static constexpr const char* kLock = "@window/lock";
   ir::SlotId lock() { return f_.shared(kLock, Type::Bit); }
   ir::SlotId state() { return f_.slot(std::string("state") + kLock, Type::I8); }
@@ -226,7 +226,7 @@ void WindowLowering::ask() {
   setState(kPending);
 }
 
-// P47: bit 0 of the result tells an error. Data are valid with end code 0 only (man. l.8665).
+// P47: bit 0 of the result reports an error. Data are valid with end code 0 only (man. l.8665).
 void WindowLowering::finish(const Step& step) {
   f_.setOutput(step.out);
   b_.when(step.finished, [&] {

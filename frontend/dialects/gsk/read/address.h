@@ -59,7 +59,7 @@ struct AddressText {
   Area area;
   uint64_t byte; // saturated
   bool hasPoint;
-  std::string_view bit; // behind the point
+  std::string_view bit; // after the point
 };
 std::optional<AddressText> splitAddress(std::string_view text);
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "frontend/dialects/gsk/read/network_builder.h"
-#include "ir/support/ascii.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::gsk {
@@ -129,7 +129,7 @@ std::vector<CanonicalStep> canonicalSteps(const SpTree& tree) {
 
 std::vector<std::string_view> wordsIn(std::string_view comment) {
   std::vector<std::string_view> words;
-  for (std::string_view text = trimmed(comment); !text.empty(); text = trimmed(text)) {
+  for (std::string_view text = text::trimmed(comment); !text.empty(); text = text::trimmed(text)) {
     const size_t end = std::min(text.find_first_of(" \t"), text.size());
     words.push_back(text.substr(0, end));
     text.remove_prefix(end);

@@ -18,10 +18,10 @@ struct CanonicalStep {
 };
 
 // The first branch of a parallel group begins with LD, a further branch of one contact is OR, any other one a block of
-// its own and ORB; a parallel group in series behind something is a block of its own and ANB.
+// its own and ORB; a parallel group in series after something is a block of its own and ANB.
 std::vector<CanonicalStep> canonicalSteps(const SpTree& tree);
 
-// The values on the stack behind the commands, the one of the first LD in front. Contacts are numbered in the order of
+// The values on the stack after the commands, that of the first LD first. Contacts are numbered in the order of
 // the commands. Nullopt where a command lacks a value.
 std::optional<std::vector<SpTree>> treesOf(std::span<const Logic> commands);
 

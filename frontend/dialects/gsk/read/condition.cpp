@@ -6,16 +6,16 @@
 #include "frontend/dialects/gsk/read/canonical.h"
 #include "frontend/dialects/gsk/read/list_reader.h"
 #include "frontend/dialects/gsk/read/network_builder.h"
-#include "ir/support/ascii.h"
+#include "rtlib/text/blanks.h"
 
 namespace rung::gsk {
 namespace {
 
 // The command of a comment line; nullopt for any other line.
 std::optional<Written> commandOf(const SourceManager& sources, FileId file, uint32_t line) {
-  const std::string_view text = trimmed(sources.lineText(file, line));
+  const std::string_view text = text::trimmed(sources.lineText(file, line));
   if (!text.starts_with(';')) return std::nullopt;
-  const std::string_view comment = trimmed(text.substr(1));
+  const std::string_view comment = text::trimmed(text.substr(1));
   if (!comment.starts_with(kConditionComment)) return std::nullopt;
   const auto words = wordsIn(comment.substr(kConditionComment.size()));
   const auto command = words.empty() ? std::nullopt : findCommand(words[0]);

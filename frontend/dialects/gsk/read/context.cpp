@@ -2,6 +2,7 @@
 #include "frontend/dialects/gsk/read/context.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -68,12 +69,12 @@ Found findAddress(Context& context, const Word& word) {
   return {};
 }
 
-void suggestName(const Context& context, const Word& word, DiagBuilder& report) {
+void suggestName(const Context& context, const UndeclaredName& use, DiagBuilder& report) {
   if (!context.diagnostics.suggests()) return;
-  const std::string_view similar = mostSimilar(word.text, context.names.symbols(), &UserName::name);
-  report.meant(word.range, similar);
-  if (!similar.empty()) return;
-  if (const nc::Signal* signal = similarSignal(word.text))
+  const std::string_view similar = mostSimilar(use.name, context.names.ofKind(use.kind), &UserName::name);
+  report.meant(use.range, similar);
+  if (!similar.empty() || use.kind != UserName::Kind::Symbol) return;
+  if (const nc::Signal* signal = similarSignal(use.name))
     report.note(
         fmt::format("did you mean {} ({}, {})?", signal->symbol, textOf(signalAddress(*signal)), signal->meaning));
 }
@@ -84,16 +85,14 @@ void suggest(SourceRange range, std::string_view similar, DiagBuilder& report) {
   if (similar.empty()) report.note("`rungc explain gsk` lists the instructions by what they do");
 }
 
-void reportUnknown(Context& context, const Word& word, std::string_view what) {
-  DiagBuilder report = context.diagnostics.report(Diag::BadOperand, word.range);
-  report << word.text << fmt::format("{} address, signal or declared name", what);
-  std::string pointed(word.text);
+void explain(const Context& context, const UndeclaredName& use, DiagBuilder& report) {
+  report << use.expected;
+  std::string pointed(use.name);
   std::ranges::replace(pointed, ',', '.');
-  if (pointed != word.text && splitAddress(pointed)) {
-    report.note(fmt::format("write {}", pointed)).fix(word.range, pointed);
-    return;
-  }
-  suggestName(context, word, report);
+  if (pointed != use.name && splitAddress(pointed))
+    report.note(fmt::format("write {}", pointed)).fix(use.range, pointed);
+  else
+    suggestName(context, use, report);
 }
 
 // T00 to T31 are addresses although the table has signals of these names.
@@ -194,10 +193,22 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
   DiagBuilder report = context.diagnostics.report(Diag::UnknownFunction, range);
   report << name;
   if (!context.diagnostics.suggests()) return;
-  Similar similar(name);
-  for (const Row& row : allRows())
-    if (row.info.number >= 0) similar.offer(row.info.mnemonic);
-  suggest(range, similar.best(), report);
+  const auto isFunction = [](const Row& row) { return row.info.number >= 0; };
+  const auto mnemonicOf = [](const Row& row) { return row.info.mnemonic; };
+  suggest(range, mostSimilar(name, allRows() | std::views::filter(isFunction), mnemonicOf), report);
+}
+
+void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std::string_view expected) {
+  const UndeclaredName use{{word.text, word.range}, kind, expected};
+  if (isFreeName(word.text) && !context.names.has(word.text)) return context.undeclared.add(use);
+  DiagBuilder report = context.diagnostics.report(Diag::BadOperand, word.range);
+  report << word.text;
+  explain(context, use, report);
+}
+
+void reportUndeclared(Context& context) {
+  context.undeclared.report(context.diagnostics, Diag::BadOperand,
+                            [&](DiagBuilder& report, const UndeclaredName& use) { explain(context, use, report); });
 }
 
 void countStep(Context& context, SourceRange range) {
@@ -206,7 +217,7 @@ void countStep(Context& context, SourceRange range) {
 
 std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint32_t length) {
   const Found found = findAddress(context, word);
-  if (!found.known) reportUnknown(context, word, "byte");
+  if (!found.known) unknownOperand(context, word, UserName::Kind::Symbol, "byte address, signal or declared name");
   if (!found.address) return std::nullopt;
   if (found.address->isBit) {
     context.diagnostics.report(Diag::ByteAddressExpected, word.range) << word.text;
@@ -234,7 +245,7 @@ bool checkWritable(Context& context, const Address& address, uint32_t length, So
 std::optional<NamedAddress> bitOperand(Context& context, const Word& word) {
   if (!word.range.valid()) return std::nullopt;
   const Found found = findAddress(context, word);
-  if (!found.known) reportUnknown(context, word, "bit");
+  if (!found.known) unknownOperand(context, word, UserName::Kind::Symbol, "bit address, signal or declared name");
   if (!found.address) return std::nullopt;
   if (!found.address->isBit) {
     reportNoBit(context, word, *found.address);

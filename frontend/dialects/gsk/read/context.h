@@ -12,6 +12,7 @@
 #include "frontend/dialects/gsk/read/signals.h"
 #include "frontend/sema/analysis.h"
 #include "frontend/sema/names.h"
+#include "frontend/sema/undeclared.h"
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
@@ -37,6 +38,12 @@ struct NamedAddress : Address {
   uint32_t name = frontend::kNoDefinition; // that it is written as
 };
 
+// A use of a name that is not declared, where one of this kind is expected.
+struct UndeclaredName : frontend::UndeclaredUse {
+  UserName::Kind kind = UserName::Kind::Symbol;
+  std::string_view expected;
+};
+
 struct Context;
 
 class Names {
@@ -44,13 +51,14 @@ public:
   void addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment);
   void addConstant(Context& context, const Word& name, const Word& value);
 
+  bool has(std::string_view name) const { return table_.find(name) != frontend::kNoName; }
   // What a word means, which the analysis has as a use of it then; null for no name of the program of this kind.
   const UserName* use(frontend::Analysis& analysis, const Word& word, UserName::Kind kind) const;
   // The same of a signal's name.
   std::optional<NamedAddress> useSignal(frontend::Analysis& analysis, const Word& word);
   // In the order of their declarations.
-  auto symbols() const {
-    return table_.all() | std::views::filter([](const UserName& name) { return name.kind == UserName::Kind::Symbol; });
+  auto ofKind(UserName::Kind kind) const {
+    return table_.all() | std::views::filter([kind](const UserName& name) { return name.kind == kind; });
   }
 
 private:
@@ -75,7 +83,15 @@ struct Context {
   // May be empty. Takes every complete network with what was written.
   std::function<void(const Network&)> onNetwork = {};
   frontend::Analysis analysis = {};
+  frontend::UndeclaredNames<UndeclaredName> undeclared = {};
 };
+
+// A word that is not what the operand expects, a constant or an address, nor a name of this kind. A name that is not
+// declared waits for reportUndeclared, others are reported at once.
+void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std::string_view expected);
+// Reports the names that are not declared, once each, at their first use. To be called when all operands have been
+// read.
+void reportUndeclared(Context& context);
 
 // Reports a word in place of a command, and a function that FUNC or a box names wrongly; with what was meant, perhaps.
 void reportUnknownCommand(Context& context, const Word& word, std::span<const std::string_view> commands);
@@ -87,8 +103,8 @@ void countStep(Context& context, SourceRange range);
 // `bytes` from the address on, or its bit, as the analysis has it.
 frontend::NamedPlace placeOf(const Address& address, uint32_t bytes);
 
-// Operands. Each reports what is wrong and gives nullopt then; a name whose declaration is wrong, or an operand without
-// a place, gives nullopt silently: it was reported.
+// Operands. Each reports what is wrong, or notes a name that is not declared, and gives nullopt then; a name whose
+// declaration is wrong, or an operand without a place, gives nullopt silently: it was reported.
 std::optional<NamedAddress> bitOperand(Context& context, const Word& word);
 std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint32_t length);
 // False, with a report, when the program may not write `length` bytes (a bit: 1) there; warns of the system area.

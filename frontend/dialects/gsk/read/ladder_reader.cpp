@@ -10,7 +10,7 @@
 #include "frontend/dialects/gsk/read/condition.h"
 #include "frontend/dialects/gsk/read/network_builder.h"
 #include "frontend/dialects/gsk/read/title.h"
-#include "ir/support/ascii.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::gsk {
@@ -87,7 +87,7 @@ bool RungReader::checkKind(const Element& element) {
   return true;
 }
 
-// What stands on the left of an element. Contacts may follow contacts only; coils may follow a box (l.3562).
+// What is on the left of an element. Contacts may follow contacts only; coils may follow a box (l.3562).
 bool RungReader::checkLeft(const Element& element) {
   for (const ladder::Pin& pin : rung_.pinsOf(element)) {
     for (ElementId id : rung_.driversOf(pin.input)) {
@@ -261,12 +261,13 @@ void RungReader::emitInputs() {
   }
 }
 
-// Behind the line with the word `rung`.
+// After the line with the word `rung`.
 std::optional<std::vector<Logic>> RungReader::hint() const {
   const SourceManager& sources = context_.sources;
-  const std::string_view line = trimmed(sources.lineText(sources.fileOf(rung_.statement.begin), rung_.firstLine + 1));
+  const std::string_view line =
+      text::trimmed(sources.lineText(sources.fileOf(rung_.statement.begin), rung_.firstLine + 1));
   if (!line.starts_with(';')) return std::nullopt;
-  return parseBlocksHint(trimmed(line.substr(1)));
+  return parseBlocksHint(text::trimmed(line.substr(1)));
 }
 
 bool isTableWord(const Word& word) { return text::equalsIgnoringCase(word.text, "TABLE"); }
@@ -376,9 +377,9 @@ void LadderReader::condition(const ladder::Module& module) {
   for (const Written& written : condition.commands) countStep(context_, written.range);
 }
 
-// The text behind the word `rung`; where there is none that can be a title, the rule of command lists.
+// The text after the word `rung`; where there is none that can be a title, the rule of command lists.
 std::string_view titleOf(const SourceManager& sources, FileId file, uint32_t from, const ladder::Rung& rung) {
-  const std::string_view own = trimmed(rung.comment);
+  const std::string_view own = text::trimmed(rung.comment);
   return isTitle(own) ? own : titleAbove(sources, file, from, rung.firstLine);
 }
 

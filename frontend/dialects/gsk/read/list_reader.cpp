@@ -128,7 +128,7 @@ void readListSymbols(Context& context, FileId file) {
     const auto statement = statementOf(words);
     const auto command = statement.empty() ? std::nullopt : findCommand(statement[0].text);
     if (!command || !isDeclaration(*command)) continue;
-    if (!isReadable(statement)) continue; // the reader of the list tells
+    if (!isReadable(statement)) continue; // the reader of the list reports it
     if (!checkOperands(context.diagnostics, *command, statement)) continue;
     if (*command == Command::Symbol)
       context.names.addSymbol(context, statement[1], statement[2], words.comment);

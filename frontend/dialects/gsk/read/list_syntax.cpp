@@ -39,7 +39,7 @@ size_t operandCount(Command command) {
   return command == Command::Orb || command == Command::Anb ? 0 : isDeclaration(command) ? 2 : 1;
 }
 
-// Only these may stand outside comments.
+// Only these may appear outside comments.
 bool isPlain(char c) { return c >= 0x21 && c <= 0x7E; }
 
 } // namespace
@@ -63,7 +63,7 @@ bool isReadable(std::span<const Word> words) {
                      [](const Word& word) { return std::all_of(word.text.begin(), word.text.end(), isPlain); });
 }
 
-// Outside comments only printable ASCII may stand: the manual's scan has look-alikes of other alphabets.
+// Outside comments only printable ASCII may appear: the manual's scan has look-alikes of other alphabets.
 bool checkCharacters(Diagnostics& diagnostics, std::span<const Word> words) {
   for (const Word& word : words) {
     const auto bad = std::find_if_not(word.text.begin(), word.text.end(), isPlain);

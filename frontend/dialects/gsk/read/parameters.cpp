@@ -13,18 +13,12 @@ using frontend::Access;
 using frontend::OperandInfo;
 
 // The value of a plain constant or of a `const` name.
-struct ConstantWord {
-  std::optional<int64_t> value;
-  bool reported = false;
-};
-ConstantWord constantWord(Context& context, const Word& word, std::string_view what) {
-  if (const UserName* constant = context.names.use(context.analysis, word, UserName::Kind::Constant)) {
-    if (constant->bad) return {std::nullopt, true};
-    return {constant->value};
-  }
-  if (const auto value = parseConstant(word.text)) return {value};
-  context.diagnostics.report(Diag::BadOperand, word.range) << word.text << what;
-  return {std::nullopt, true};
+std::optional<int64_t> constantWord(Context& context, const Word& word, std::string_view expected) {
+  if (const UserName* constant = context.names.use(context.analysis, word, UserName::Kind::Constant))
+    return constant->bad ? std::nullopt : std::optional(constant->value);
+  const auto value = parseConstant(word.text);
+  if (!value) unknownOperand(context, word, UserName::Kind::Constant, expected);
+  return value;
 }
 
 // A constant may be written signed or unsigned (§6.4).
@@ -90,9 +84,9 @@ bool ParameterCheck::checkFormat(const Word& word, Param& param) {
 }
 
 bool ParameterCheck::checkNumber(const OperandInfo& info, const Word& word, Param& param) {
-  const ConstantWord number = constantWord(context_, word, "number");
-  if (!number.value) return false;
-  param.value = *number.value;
+  const auto number = constantWord(context_, word, "number");
+  if (!number) return false;
+  param.value = *number;
   if (param.value < info.min || param.value > info.max) {
     const std::string range =
         info.min == info.max ? fmt::format("{}", info.min) : fmt::format("{} to {}", info.min, info.max);
@@ -105,9 +99,9 @@ bool ParameterCheck::checkNumber(const OperandInfo& info, const Word& word, Para
 }
 
 bool ParameterCheck::checkConstant(const Word& word, Param& param) {
-  const ConstantWord constant = constantWord(context_, word, "constant");
-  if (!constant.value) return false;
-  param.value = *constant.value;
+  const auto constant = constantWord(context_, word, "constant");
+  if (!constant) return false;
+  param.value = *constant;
   if (!lengthKnown_ || fits(param.value, function_.length)) return true;
   const uint32_t bits = function_.length * 8;
   context_.diagnostics.report(Diag::ConstantOutOfRange, word.range)
@@ -125,7 +119,7 @@ bool ParameterCheck::checkMask(const Word& word, Param& param) {
   return true;
 }
 
-// Labels and subprograms. Number 0 stands in two places of the manual and is accepted (P2).
+// Labels and subprograms. Number 0 appears in two places of the manual and is accepted (P2).
 bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param& param) {
   const std::string_view letter = param.kind->written.substr(0, 1);
   const bool named = !word.text.empty() && text::upper(word.text[0]) == letter[0];

@@ -6,7 +6,7 @@
 
 namespace rung::gsk {
 
-// By the name; where it does not tell, ladder text is what has modules or rungs.
+// By the name; where it does not say, ladder text is what has modules or rungs.
 bool isLadder(const SourceManager& sources, FileId file) {
   const std::string_view name = sources.name(file);
   if (name.ends_with(".lad")) return true;
@@ -36,6 +36,7 @@ bool Reading::read() {
   for (FileId file : lists_) readList(context_, file, units_);
   if (!lists_.empty()) units_.endOfList(lastLineOf(context_.sources, lists_.back()));
   for (const auto& file : ladders_) readLadder(context_, file, units_);
+  reportUndeclared(context_);
   units_.finish(lastLineOf(context_.sources, last_));
   return !units_.garbled();
 }

@@ -1,4 +1,4 @@
-// Series-parallel reduction: a net with one way in and one way out joins its two edges in series; two edges between the
+// Series-parallel reduction: a net with one entry and one exit joins its two edges in series; two edges between the
 // same nets join in parallel. What is left is one edge exactly when the network is series-parallel.
 #include "frontend/dialects/gsk/read/series_parallel.h"
 
@@ -13,7 +13,7 @@ using ladder::ElementId;
 using ladder::NetId;
 using Kind = SpTree::Kind;
 
-// Where a branch stands in the drawing: its topmost, then leftmost element.
+// Where a branch is in the drawing: its topmost, then leftmost element.
 struct Spot {
   uint32_t line = 0;
   uint32_t column = 0;
@@ -69,7 +69,7 @@ private:
   }
   uint32_t onlyAlive(std::vector<uint32_t>& edges) {
     while (!edges_[edges.back()].alive) edges.pop_back();
-    // Dead edges may lie in front of the one that lives as well.
+    // Dead edges may lie before the one that lives as well.
     return edges.back();
   }
   SpTree flatten(uint32_t pair) const;

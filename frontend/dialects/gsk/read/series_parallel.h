@@ -21,7 +21,7 @@ struct SpTree {
   uint32_t root = 0;
 };
 
-// The network in front of `target`; nullopt when it is no series-parallel one. `target` must not be the rail, and
+// The network before `target`; nullopt when it is not series-parallel. `target` must not be the rail, and
 // everything that drives it must be contacts. Time is linear in the contacts but for the sorting of branches.
 std::optional<SpTree> decompose(const ladder::Rung& rung, ladder::NetId target);
 

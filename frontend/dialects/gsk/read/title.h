@@ -1,6 +1,6 @@
-// Which comment is the title of a network. Both source forms: the first line of the last block of comment lines in
-// front of it. Lines without letters or digits are decoration; a comment that begins with a further ';' and a section
-// are no titles; any statement in between begins anew.
+// Which comment is the title of a network. Both source forms: the first line of the last block of comment lines
+// before it. Lines without letters or digits are decoration; a comment that begins with a further ';' and a section
+// are not titles; any statement in between begins anew.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace rung::gsk {
 
-// `section "text"` in a comment of a command list stands for ladder text's statement: its text.
+// `section "text"` in a comment of a command list is ladder text's statement: its text.
 std::optional<std::string_view> sectionIn(std::string_view comment);
 // Whether a comment can be a title.
 bool isTitle(std::string_view comment);

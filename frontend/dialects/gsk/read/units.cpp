@@ -54,7 +54,7 @@ void UnitAssembler::end1(Network&& network) {
     return;
   }
   sawEnd1_ = true;
-  if (sawEnd2_) { // what stands between them is misplaced for that reason alone
+  if (sawEnd2_) { // what is between them is misplaced for that reason alone
     stray_.clear();
     strayReported_ = false;
     return static_cast<void>(context_.diagnostics.report(Diag::EndOrder, range));
@@ -92,7 +92,7 @@ uint32_t UnitAssembler::subprogram(uint32_t number, SourceRange range, SourceRan
 // only shows when the second one is closed.
 void UnitAssembler::nest(SourceRange inner) {
   if (open_.back().closedInner) {
-    open_.back().closedInner = false; // forgotten: this one stands beside the second
+    open_.back().closedInner = false; // forgotten: this one is beside the second
   } else {
     context_.diagnostics.report(Diag::NestedSubprogram, inner)
         .note(program_.units[open_.back().unit].range, "the outer one begins here");

@@ -21,7 +21,7 @@ public:
   uint32_t openModule(UnitKind kind, uint32_t number, SourceRange module, SourceRange name);
   void addTo(uint32_t unit, Network&& network) { program_.units[unit].networks.push_back(std::move(network)); }
 
-  // Behind all files: every unit gets its end. `anywhere` serves where a unit has no place of its own.
+  // After all files: every unit gets its end. `anywhere` serves where a unit has no place of its own.
   void finish(SourceRange anywhere);
   // A function command may have been lost in an error; then nothing is said about what is missing.
   bool garbled() const { return garbled_; }
@@ -40,7 +40,7 @@ private:
   Context& context_;
   Program& program_;
   std::map<uint32_t, uint32_t> subprograms_; // number -> unit
-  uint32_t current_ = kLevel1;               // kNone: behind END2, in no subprogram
+  uint32_t current_ = kLevel1;               // kNone: after END2, in no subprogram
   struct Open {
     uint32_t unit = kNone;
     uint32_t outside = kNone; // the unit around a misplaced or nested subprogram
@@ -52,7 +52,7 @@ private:
   bool sawEnd2_ = false;
   bool sawList_ = false;
   SourceRange end2Range_;
-  bool strayReported_ = false;         // in this run of commands behind END2
+  bool strayReported_ = false;         // in this run of commands after END2
   std::vector<SourceRange> stray_;     // such runs
   std::vector<SourceRange> misplaced_; // subprograms that began before END2
   bool garbled_ = false;

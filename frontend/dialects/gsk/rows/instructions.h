@@ -1,5 +1,5 @@
 // The instruction table of the dialect: one row an instruction, with its lowering. Everything that is data about an
-// instruction stands here only; README.md tells how to add one.
+// instruction is here only; README.md says how to add one.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -21,7 +21,7 @@ constexpr bool isEnd(Control control) {
 struct Row {
   frontend::InstructionInfo info;
   Control control = Control::Plain;
-  // Numbers of this class that stand twice in a program give a warning.
+  // Numbers of this class that appear twice in a program give a warning.
   enum class Numbers : uint8_t { Free, Timer, Counter, Edge } numbers = Numbers::Free;
   bool hasTable = false;
   uint32_t recordBytes = 0;                     // of an operand of kind Record

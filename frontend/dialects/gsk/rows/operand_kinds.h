@@ -22,7 +22,7 @@ struct OperandTraits {
   std::optional<Area> area = {};     // of an address: the only one that is allowed
   Diag elsewhere = Diag::BadOperand; // it is in another area
   bool rest = false;                 // of an address: all that follows in its area may be meant
-  bool selects = false;              // Format: tells a constant from an address
+  bool selects = false;              // Format: says whether it is a constant or an address
   std::string_view written = "{}";   // how a value is written; Named begins with its letter
 };
 

@@ -4,7 +4,7 @@
 
 namespace rung::gsk {
 
-inline constexpr std::string_view kBehindEnd2 = "the part after END2";
+inline constexpr std::string_view kAfterEnd2 = "the part after END2";
 
 // What begins or ends a part of the program is alone at the left rail.
 constexpr Row markShape(std::string_view group, Control control, OperandList operands = {}, std::string_view tasks = {},
@@ -77,9 +77,9 @@ inline constexpr Row kControlRows[] = {
               .example = "FUNC 41\nPRM L1"},
      .control = Control::Lbl,
      .lower = &lowerMark},
-    rowOf(markShape("subprograms", Control::Sp, {kSubprogram}, kBehindEnd2), 42, "SP", "begin of a subprogram",
+    rowOf(markShape("subprograms", Control::Sp, {kSubprogram}, kAfterEnd2), 42, "SP", "begin of a subprogram",
           "5.43, l.3040", "Begins a subprogram. A condition before it has no effect (P13).", "FUNC 42\nPRM P1"),
-    rowOf(markShape("subprograms", Control::Spe, {}, kBehindEnd2, &lowerEnd), 43, "SPE", "end of a subprogram",
+    rowOf(markShape("subprograms", Control::Spe, {}, kAfterEnd2, &lowerEnd), 43, "SPE", "end of a subprogram",
           "5.44, l.3069", "Returns to the caller.", "FUNC 43"),
 };
 

@@ -1,6 +1,8 @@
 // Checking rungs (see checker.h). Of an operand only the first mistake is reported, in the order of the inventory.
 #include "frontend/dialects/nct/check/checker.h"
 
+#include <ranges>
+
 #include <fmt/format.h>
 
 #include "frontend/dialects/nct/read/operand_parser.h"
@@ -41,7 +43,7 @@ std::string nameOf(const ladder::Element& element, const NctInstruction& row) {
   switch (element.kind) {
   case ElementKind::Contact: return "a contact";
   case ElementKind::Coil:
-    return row.claim == Claim::SetReset ? fmt::format("({} )", row.variant == 2 ? 'S' : 'R') : "a coil";
+    return row.reservation == Reservation::SetReset ? fmt::format("({} )", row.variant == 2 ? 'S' : 'R') : "a coil";
   case ElementKind::Box:
   case ElementKind::Error: return std::string(row.info.mnemonic);
   }
@@ -52,30 +54,30 @@ std::string nameOf(const ladder::Element& element, const NctInstruction& row) {
 
 // --- each output once
 // ---------------------------------------------------------------------------------------------------
-void OutputClaims::add(Claim claim, const Operand& operand) {
+void OutputReservations::add(Reservation reservation, const Operand& operand) {
   const Address& address = operand.address;
-  if (claim == Claim::None || !address.isFixed()) return;
+  if (reservation == Reservation::None || !address.isFixed()) return;
   const uint64_t key = address.isBit ? address.word * 32 + address.bit : (1ull << 32) + address.word;
   Owner& owner = owners_[key];
   const SourceRange here = operand.source->range;
-  if (claim == Claim::Once && owner.once.valid()) {
+  if (reservation == Reservation::Once && owner.once.valid()) {
     diagnostics_.report(Diag::DuplicateOutput, here).note(owner.once, "here") << operand.source->text;
     return;
   }
   const bool wasMixed = owner.once.valid() && owner.setReset.valid();
-  if (claim == Claim::Once) owner.once = here;
-  if (claim == Claim::SetReset && !owner.setReset.valid()) owner.setReset = here;
+  if (reservation == Reservation::Once) owner.once = here;
+  if (reservation == Reservation::SetReset && !owner.setReset.valid()) owner.setReset = here;
   if (!wasMixed && owner.once.valid() && owner.setReset.valid())
     diagnostics_.report(Diag::MixedOutput, here)
-            .note(claim == Claim::Once ? owner.setReset : owner.once, "the other one")
+            .note(reservation == Reservation::Once ? owner.setReset : owner.once, "the other one")
         << operand.source->text;
 }
 
 // --- rungs
 // --------------------------------------------------------------------------------------------------------------
-RungChecker::RungChecker(SymbolTable& symbols, OutputClaims& claims, frontend::Analysis& analysis,
+RungChecker::RungChecker(SymbolTable& symbols, OutputReservations& reservations, frontend::Analysis& analysis,
                          Diagnostics& diagnostics, std::string_view module)
-    : symbols_(symbols), claims_(claims), analysis_(analysis), diagnostics_(diagnostics), module_(module),
+    : symbols_(symbols), reservations_(reservations), analysis_(analysis), diagnostics_(diagnostics), module_(module),
       inInt0_(module != "MAIN"), handwheel_(nc::findSignal(nc::nctSignals(), "HWMOVE")),
       fastClock_(nc::findSignal(nc::nctSignals(), "N_P2MS")) {}
 
@@ -113,10 +115,10 @@ void RungChecker::reportUnknown(const ladder::Element& element) {
   DiagBuilder report = diagnostics_.report(Diag::UnknownInstruction, element.mnemonicRange);
   report << element.mnemonic;
   if (!diagnostics_.suggests()) return;
-  Similar similar(element.mnemonic);
-  for (const NctInstruction& row : allInstructions())
-    if (row.shape == Shape::Box) similar.offer(row.info.mnemonic);
-  report.meant(element.mnemonicRange, similar.best());
+  const auto isBox = [](const NctInstruction& row) { return row.shape == Shape::Box; };
+  const auto mnemonicOf = [](const NctInstruction& row) { return row.info.mnemonic; };
+  report.meant(element.mnemonicRange,
+               mostSimilar(element.mnemonic, allInstructions() | std::views::filter(isBox), mnemonicOf));
 }
 
 void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element) {
@@ -166,7 +168,7 @@ bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element
     ok = false;
   };
   for (const ladder::Pin& pin : rung.pinsOf(element)) {
-    if (row.info.placement == Placement::BehindContact && pin.input == ladder::kRail)
+    if (row.info.placement == Placement::AfterContact && pin.input == ladder::kRail)
       complain(Diag::FirstColumnNotAllowed, pin.range);
     if (row.info.placement == Placement::AtRail && pin.input != ladder::kRail)
       complain(Diag::FirstColumnRequired, pin.range);
@@ -240,7 +242,7 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
     if (diagnostics_.errorCount() != before) return false;
   }
   for (const Operand& operand : operands) warnInt0Only(operand);
-  if (!operands.empty()) claims_.add(row.claim, operands[0]);
+  if (!operands.empty()) reservations_.add(row.reservation, operands[0]);
   return true;
 }
 

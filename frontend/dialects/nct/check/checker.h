@@ -7,10 +7,10 @@
 namespace rung::nct {
 
 // "Each output once" (l.233), over all modules.
-class OutputClaims {
+class OutputReservations {
 public:
-  explicit OutputClaims(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
-  void add(Claim claim, const Operand& operand);
+  explicit OutputReservations(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  void add(Reservation reservation, const Operand& operand);
 
 private:
   struct Owner {
@@ -23,8 +23,8 @@ private:
 
 class RungChecker {
 public:
-  RungChecker(SymbolTable& symbols, OutputClaims& claims, frontend::Analysis& analysis, Diagnostics& diagnostics,
-              std::string_view module);
+  RungChecker(SymbolTable& symbols, OutputReservations& reservations, frontend::Analysis& analysis,
+              Diagnostics& diagnostics, std::string_view module);
   TypedRung check(const ladder::LadderFile& file, const ladder::Rung& rung);
 
 private:
@@ -45,7 +45,7 @@ private:
   void note(const frontend::OperandInfo& info, const Operand& operand);
 
   SymbolTable& symbols_;
-  OutputClaims& claims_;
+  OutputReservations& reservations_;
   frontend::Analysis& analysis_;
   Diagnostics& diagnostics_;
   std::string_view module_; // its name, as written

@@ -90,20 +90,20 @@ private:
       return;
     case Flow::Jump:
       if (element.label) jumps_.push_back({*element.label, rung, range});
-      if (element.label) claim(*element.label, false, range);
+      if (element.label) reserve(*element.label, false, range);
       return;
     case Flow::Subroutine:
       if (element.label) subroutine(*element.label, rung, range);
       return;
     case Flow::Call:
       if (element.label) calls_.push_back({*element.label, rung, range});
-      if (element.label) claim(*element.label, true, range);
+      if (element.label) reserve(*element.label, true, range);
       return;
     }
   }
 
   // Jumps and subroutines share one set of numbers (l.2942, l.2996).
-  void claim(uint32_t number, bool forSubroutine, SourceRange range) {
+  void reserve(uint32_t number, bool forSubroutine, SourceRange range) {
     Use& use = uses_[number];
     SourceRange& mine = forSubroutine ? use.subroutine : use.jump;
     const SourceRange other = forSubroutine ? use.jump : use.subroutine;
@@ -113,7 +113,7 @@ private:
     diagnostics_.report(Diag::LabelConflict, range).note(other, "the other use") << number;
   }
 
-  // An END that must not stand where it does ends nothing for sure: what follows it is not looked at.
+  // What an END in the wrong place ends is not certain: what follows it is not looked at.
   void end(SourceRange range, bool bad) {
     if (ended_) {
       diagnostics_.report(Diag::DuplicateEnd, range).note(endRange_, "the first one");
@@ -132,7 +132,7 @@ private:
   }
 
   void label(uint32_t number, uint32_t rung, SourceRange range) {
-    claim(number, false, range);
+    reserve(number, false, range);
     std::optional<uint32_t>& place = module_.labels[number];
     if (place)
       diagnostics_.report(Diag::DuplicateLabel, range).note(labelRange_[number], "here") << number;
@@ -142,7 +142,7 @@ private:
   }
 
   void subroutine(uint32_t number, uint32_t rung, SourceRange range) {
-    claim(number, true, range);
+    reserve(number, true, range);
     if (!ended_ && !incomplete_) {
       misplaced_ = true;
       diagnostics_.report(Diag::SubroutineBeforeEnd, range) << number;
@@ -169,9 +169,9 @@ private:
   }
 
   uint32_t bodyOf(uint32_t rung) const {
-    const auto behind = std::ranges::upper_bound(module_.bodies, rung, {}, [](const Body& b) { return b.first; });
+    const auto after = std::ranges::upper_bound(module_.bodies, rung, {}, [](const Body& b) { return b.first; });
     // The main part begins with rung 0 also where a subroutine does.
-    return behind == module_.bodies.begin() ? 0 : static_cast<uint32_t>(behind - module_.bodies.begin() - 1);
+    return after == module_.bodies.begin() ? 0 : static_cast<uint32_t>(after - module_.bodies.begin() - 1);
   }
 
   void checkJump(const Reference& jump) {
@@ -270,8 +270,8 @@ private:
   std::array<Use, kLabels> uses_{};
   std::array<SourceRange, kLabels> labelRange_{};
   std::array<SourceRange, kLabels> subroutineRange_{};
-  bool incomplete_ = false; // what is missing may stand in a rung that could not be read
-  bool misplaced_ = false;  // a subroutine stands before END
+  bool incomplete_ = false; // what is missing may be in a rung that could not be read
+  bool misplaced_ = false;  // a subroutine begins before END
   bool ended_ = false;
   bool reportedAfterEnd_ = false;
   bool hasRet_ = false;
@@ -289,15 +289,15 @@ void arrangeParts(TypedModule& module) {
   std::vector<TypedRung>& rungs = module.rungs;
   const auto end = std::ranges::find_if(rungs, [](const TypedRung& rung) { return begins(rung, Flow::End); });
   const auto endAt = static_cast<uint32_t>(end - rungs.begin());
-  std::vector<TypedRung> first, behind;
+  std::vector<TypedRung> first, last;
   for (size_t part = 0; part < module.parts.size(); ++part) {
     const uint32_t from = module.parts[part];
     const auto to = part + 1 < module.parts.size() ? module.parts[part + 1] : static_cast<uint32_t>(rungs.size());
     const bool moves = from < to && to <= endAt && end != rungs.end() && begins(rungs[from], Flow::Subroutine);
-    std::vector<TypedRung>& target = moves ? behind : first;
+    std::vector<TypedRung>& target = moves ? last : first;
     std::move(rungs.begin() + from, rungs.begin() + to, std::back_inserter(target));
   }
-  std::ranges::move(behind, std::back_inserter(first));
+  std::ranges::move(last, std::back_inserter(first));
   rungs = std::move(first);
 }
 

@@ -5,7 +5,7 @@
 
 namespace rung::nct {
 
-// A file's part of a module that begins with a subroutine and stands in front of the part with END goes behind all
+// A file's part of a module that begins with a subroutine and is before the part with END goes after all
 // others: such a file holds subroutines, and files may be named in any order.
 void arrangeParts(TypedModule& module);
 

@@ -135,7 +135,7 @@ private:
 
   // After the last byte of the NC area that is in two memories: the words of signals, which the NC reads and writes,
   // what a rung names beyond them, and what it may reach by `!`. A word that is only reached by an index in the
-  // synchronised memory, and that the NC does not know, is in one memory: nobody can tell.
+  // synchronised memory, and that the NC does not know, is in one memory: nobody sees a difference.
   uint32_t synchronisedEnd() const {
     const uint32_t nvram = config_.plcNvram * 4;
     uint32_t end = nc::areaBytes(nc::nctSignals(), "M");

@@ -125,7 +125,7 @@ uint32_t ArrayServiceLowering::blockWords() const {
   return function == nullptr ? kLeast : std::max<uint32_t>(kLeast, function->words.back().last + 1u);
 }
 
-// The block in memory; words behind the end of memory read 0 and take nothing.
+// The block in memory; words beyond the end of memory read 0 and take nothing.
 WordRange ArrayServiceLowering::block(const Place& place) const {
   WordRange range;
   range.mostWords = blockWords();
@@ -146,15 +146,15 @@ ValueId ArrayServiceLowering::isKnown(ValueId function) {
   return known;
 }
 
-// The last word is amount + 1 words behind the first (l.3457, l.3532).
+// The last word comes (amount + 1) words after the first (l.3457, l.3532).
 ValueId ArrayServiceLowering::fits(const WordRange& range, const Place& place) {
   const ValueId amount = box_.memory.loadIn(range, b_.i32(nc::nct::kAmountWord));
-  const ValueId behind = place.fixed ? b_.i32(kWords - 1 - place.word) : b_.sub(b_.i32(kWords - 1), place.wordNo);
-  return b_.ltU(amount, behind);
+  const ValueId after = place.fixed ? b_.i32(kWords - 1 - place.word) : b_.sub(b_.i32(kWords - 1), place.wordNo);
+  return b_.ltU(amount, after);
 }
 
 Step ArrayServiceLowering::begin() {
-  const Place place = box_.memory.word(box_.operands[0].address, Reach::Write);
+  const Place place = box_.memory.word(box_.operands[0].address, AccessBound::Write);
   ValueId valid = place.valid;
   const ValueId function = box_.memory.integer(function_, valid);
   if (!valid.valid()) return start(place, function);
@@ -205,7 +205,7 @@ Step ArrayServiceLowering::await() {
   return b_.choose(
       answered(),
       [&] {
-        Place place = box_.memory.word(box_.operands[0].address, Reach::Write);
+        Place place = box_.memory.word(box_.operands[0].address, AccessBound::Write);
         if (first_.valid()) place.wordNo = b_.slotLoad(first_);
         takeAnswer(block(place));
         return rest(kDone, true);

@@ -18,7 +18,7 @@ ValueId axisSignal(Lowering& box, std::string_view symbol, ValueId axis) {
   const nc::Signal* signal = nc::findSignal(nc::nctSignals(), symbol);
   RUNG_CHECK(signal != nullptr && signal->count == nc::nct::kAxes, "a signal of the axes");
   const ir::Window axes{
-      .space = box.memory.word({}, Reach::Read).space, .byte = signal->byteOffset, .count = signal->count};
+      .space = box.memory.word({}, AccessBound::Read).space, .byte = signal->byteOffset, .count = signal->count};
   return box.b.loadBitAt(axes, axis, box.b.i32(signal->bit));
 }
 
@@ -28,11 +28,11 @@ ValueId isProper(Lowering& box, ValueId axis, ValueId code, ValueId speed) {
   ValueId needsSpeed = b.bit(false);
   for (const nc::nct::AxisCode& known : nc::nct::axisCodes())
     if (known.needsSpeed()) needsSpeed = b.or_(needsSpeed, b.eq(code, b.i32(known.code)));
-  const ValueId stands = b.op(OpCode::FEq, Type::F64, {speed, b.real(0)});
+  const ValueId stopped = b.op(OpCode::FEq, Type::F64, {speed, b.real(0)});
   const ValueId requested = b.and_(axisSignal(box, "AP_PLCR", axis), axisSignal(box, "AN_PLCA", axis));
   const auto codes = static_cast<int64_t>(nc::nct::axisCodes().size());
   const ValueId inRange = b.and_(b.ltU(axis, b.i32(nc::nct::kAxes)), b.ltU(code, b.i32(codes)));
-  return b.and_(b.and_(inRange, requested), b.not_(b.and_(needsSpeed, stands)));
+  return b.and_(b.and_(inRange, requested), b.not_(b.and_(needsSpeed, stopped)));
 }
 
 } // namespace

@@ -64,7 +64,7 @@ ValueId lowerContact(Lowering& box) {
   Memory& memory = box.memory;
   const bool onWord = (box.variant & kOnWord) != 0;
   const Address& address = box.operands[0].address;
-  const Place place = onWord ? memory.word(address, Reach::Read) : memory.bit(address, Reach::Read);
+  const Place place = onWord ? memory.word(address, AccessBound::Read) : memory.bit(address, AccessBound::Read);
   ValueId value = onWord ? b.ne(memory.loadWord(place), b.i32(0)) : memory.loadBit(place);
   if (box.edge != 0 && place.fixed)
     value = frontend::pulse(b, box.slots.make("edge", Type::Bit), value, box.edge == '@');
@@ -78,7 +78,7 @@ ValueId lowerContact(Lowering& box) {
 ValueId lowerCoil(Lowering& box) {
   RungBuilder& b = box.b;
   const ValueId power = box.power();
-  const Place place = box.memory.bit(box.operands[0].address, Reach::Write);
+  const Place place = box.memory.bit(box.operands[0].address, AccessBound::Write);
   const bool force = box.variant == kSet || box.variant == kReset;
   if (force)
     box.memory.forceBit(place, power, box.variant == kSet);
@@ -93,7 +93,7 @@ ValueId lowerCoil(Lowering& box) {
 
 ValueId lowerPulse(Lowering& box) {
   const ValueId edge = frontend::pulse(box.b, box.slots.make("edge", Type::Bit), box.power(), box.variant == kRising);
-  const Place place = box.memory.bit(box.operands[0].address, Reach::Write);
+  const Place place = box.memory.bit(box.operands[0].address, AccessBound::Write);
   box.memory.storeBit(place, edge);
   if (place.valid.valid()) box.memory.raiseErrorFlag(box.b.not_(place.valid));
   return {};

@@ -39,7 +39,7 @@ ValueId counted(Lowering& box, ValueId value, ValueId start, ValueId end) {
 ValueId lowerCounter(Lowering& box) {
   RungBuilder& b = box.b;
   const ValueId edge = risingEdge(box, "clock", kClock);
-  const Place counter = box.memory.word(box.operands[0].address, Reach::User);
+  const Place counter = box.memory.word(box.operands[0].address, AccessBound::User);
   ValueId valid = counter.valid;
   const ValueId start = count(box, 1, valid);
   const ValueId end = count(box, 2, valid);

@@ -45,7 +45,7 @@ ValueId lowerFloatArithmetic(Lowering& box) {
   constexpr OpCode kCodes[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
   RungBuilder& b = box.b;
   return execute(box, [&] {
-    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.twoWords(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId x = box.memory.real(box.operands[1], valid);
     const ValueId y = box.memory.real(box.operands[2], valid);
@@ -66,8 +66,8 @@ ValueId lowerFloatArithmetic(Lowering& box) {
   });
 }
 
-// The operations give NaN where there is no value; what the manual forbids besides that is no logarithm of 0 and no
-// power of a negative base or of 0 to a negative exponent (§6.10.5-§6.10.14). Only powers and exponentials can leave
+// The operations give NaN where there is no value; besides that the manual forbids the logarithm of 0, and powers of
+// a negative base or of 0 to a negative exponent (§6.10.5-§6.10.14). Only powers and exponentials can leave
 // the range of doubles.
 ValueId lowerFloatFunction(Lowering& box) {
   constexpr OpCode kCodes[] = {OpCode::FPow,  OpCode::FSqrt, OpCode::FSin,  OpCode::FCos, OpCode::FTan,
@@ -75,7 +75,7 @@ ValueId lowerFloatFunction(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
     const auto variant = static_cast<FunctionVariant>(box.variant);
-    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.twoWords(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId x = box.memory.real(box.operands[1], valid);
     const ValueId y = variant == kPower ? box.memory.real(box.operands[2], valid) : ValueId{};
@@ -113,7 +113,7 @@ namespace {
 template <class Convert>
 ValueId convertWord(Lowering& box, Convert convert) {
   return execute(box, [&] {
-    const Place target = box.memory.word(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.word(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId source = box.memory.integer(box.operands[1], valid);
     return guarded(box, valid, [&] {
@@ -152,7 +152,7 @@ ValueId lowerBcd(Lowering& box) {
 ValueId lowerFlt(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
-    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.twoWords(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId source = box.memory.integer(box.operands[1], valid);
     return guarded(box, valid, [&] {
@@ -167,7 +167,7 @@ ValueId lowerFlt(Lowering& box) {
 ValueId lowerFix(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
-    const Place target = box.memory.word(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.word(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId source = box.memory.real(box.operands[1], valid);
     return guarded(box, valid, [&] {
@@ -184,7 +184,7 @@ ValueId lowerFix(Lowering& box) {
 ValueId lowerAngle(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
-    const Place target = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    const Place target = box.memory.twoWords(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId source = box.memory.real(box.operands[1], valid);
     const double factor = box.variant == kToDegrees ? 180 / std::numbers::pi : std::numbers::pi / 180;

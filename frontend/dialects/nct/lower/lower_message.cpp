@@ -1,7 +1,7 @@
 // MSG MSGF ALR ALRF REM REMF (man. §6.13, l.2775-2852).
 //
 // The rising edge of the input sends the message, the falling edge deletes what was sent then, whatever the operands
-// say by now. What of it is on the screen (or in the log) the NC tells in a word of the box, see
+// say by now. Which part of it is on the screen (or in the log) the NC says in a word of the box, see
 // rtlib/nc/nct/messages.h.
 #include "frontend/dialects/nct/lower/lowering.h"
 #include "frontend/lower/edge.h"

@@ -114,7 +114,7 @@ ValueId macrosLocked(Lowering& box) {
   const nc::Signal* signal = nc::findSignal(nc::nctSignals(), "P_MAC");
   RUNG_CHECK(signal != nullptr, "a signal of the NC");
   const Address address{.word = signal->byteOffset / 4, .bit = signal->bit, .isBit = true};
-  return box.memory.loadBit(box.memory.bit(address, Reach::Read));
+  return box.memory.loadBit(box.memory.bit(address, AccessBound::Read));
 }
 
 } // namespace
@@ -128,7 +128,7 @@ ValueId lowerMacro(Lowering& box) {
   Place place;
   ValueId variable, channel;
   const auto valid = [&] {
-    place = memory.twoWords(box.operands[writes ? 1 : 0].address, Reach::User);
+    place = memory.twoWords(box.operands[writes ? 1 : 0].address, AccessBound::User);
     ValueId good = place.valid;
     variable = memory.integer(box.operands[writes ? 0 : 1], good);
     channel = memory.integer(box.operands[2], good);
@@ -174,9 +174,9 @@ ValueId loadOwn(Lowering& box, ScopeSource source, ValueId word, ValueId bit) {
   if (wordOperand.form == Form::Constant && bitOperand.form == Form::Constant) {
     address.word = static_cast<uint32_t>(wordOperand.constant.integer);
     address.bit = static_cast<uint32_t>(bitOperand.constant.integer);
-    place = box.memory.word(address, Reach::Read);
+    place = box.memory.word(address, AccessBound::Read);
   } else {
-    place = box.memory.word(address, Reach::Read);
+    place = box.memory.word(address, AccessBound::Read);
     place.fixed = false;
     place.window = {.space = place.space, .byte = 0, .count = direct ? box.memory.config().plcNvram : kWords};
     place.index = place.wordNo = word;
@@ -193,8 +193,8 @@ ValueId loadOwn(Lowering& box, ScopeSource source, ValueId word, ValueId bit) {
 
 } // namespace
 
-// SCP result symbol parameter1 parameter2. The PLC's own memory is at hand; all else the NC knows. A query touches
-// FL_ER only when it cannot be made.
+// SCP result symbol parameter1 parameter2. The PLC's own memory is read directly; all else the NC knows. A query
+// touches FL_ER only when it cannot be made.
 ValueId lowerScope(Lowering& box) {
   RungBuilder& b = box.b;
   Memory& memory = box.memory;
@@ -202,7 +202,7 @@ ValueId lowerScope(Lowering& box) {
   Place place;
   ValueId param1, param2;
   const auto valid = [&] {
-    place = memory.twoWords(box.operands[0].address, Reach::User);
+    place = memory.twoWords(box.operands[0].address, AccessBound::User);
     ValueId good = place.valid;
     param1 = memory.integer(box.operands[2], good);
     param2 = memory.integer(box.operands[3], good);

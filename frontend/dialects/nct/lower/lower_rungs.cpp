@@ -37,14 +37,14 @@ uint32_t existing(const std::optional<uint32_t>& target) {
 }
 
 // An element's name within its rung, the same in the next version of the program: instruction and operands. Where the
-// first operand tells it from all others (one instance of each), that one alone.
+// first operand distinguishes it from all others (one instance of each), that one alone.
 std::string identityOf(const NctInstruction& row, std::span<const Operand> operands) {
   std::string text(row.info.mnemonic);
   for (const Operand& operand : operands) {
     text += ' ';
     if (operand.edge != 0) text += operand.edge;
     text += operand.source->text;
-    if (row.claim == Claim::Once) break;
+    if (row.reservation == Reservation::Once) break;
   }
   return text;
 }
@@ -91,7 +91,7 @@ private:
   Shared shared_;
   std::vector<uint32_t> place_; // IR rung of each rung of the body
   std::vector<OpenJump> jumps_;
-  // Of the rung at hand.
+  // Of the current rung.
   RunTime time_;
   std::vector<ValueId> power_; // by net; invalid where nothing has driven it yet, and for the rail
   std::vector<ValueId> pins_;

@@ -51,7 +51,7 @@ ValueId lowerRotation(Lowering& box) {
   Memory& memory = box.memory;
   const ValueId edge = risingEdge(box, "edge", 0);
   const SlotId output = box.slots.make("direction", Type::Bit);
-  const Place target = memory.word(box.operands[0].address, Reach::Write);
+  const Place target = memory.word(box.operands[0].address, AccessBound::Write);
   ValueId valid = target.valid;
   Ring ring;
   ring.current = memory.integer(box.operands[1], valid);
@@ -78,7 +78,7 @@ ValueId lowerShiftRegister(Lowering& box) {
   RungBuilder& b = box.b;
   const ValueId edge = risingEdge(box, "edge", 0);
   const SlotId output = box.slots.make("out", Type::Bit);
-  const Place place = box.memory.word(box.operands[0].address, Reach::Write);
+  const Place place = box.memory.word(box.operands[0].address, AccessBound::Write);
   b.when(edge, [&] {
     guarded(box, place.valid, [&] {
       const ValueId word = box.memory.loadWord(place);
@@ -131,8 +131,8 @@ ValueId lowerArray(Lowering& box) {
   RungBuilder& b = box.b;
   Memory& memory = box.memory;
   return execute(box, [&] {
-    const Place from = memory.word(box.operands[0].address, Reach::Write);
-    const Place to = memory.word(box.operands[1].address, Reach::Write);
+    const Place from = memory.word(box.operands[0].address, AccessBound::Write);
+    const Place to = memory.word(box.operands[1].address, AccessBound::Write);
     ValueId valid = memory.both(from.valid, to.valid);
     const ValueId count = memory.integer(box.operands[2], valid);
     if (box.operands[2].form != Form::Constant) valid = memory.both(valid, b.not_(b.ltS(count, b.i32(0))));

@@ -142,7 +142,7 @@ RunTime lowerRunTime(RungBuilder& b, SlotMaker& slots) {
 
 // An evaluation with invalid operands leaves the timer alone, so with operands that may be invalid its time is its own.
 ValueId lowerTimer(Lowering& box) {
-  const Place timer = box.memory.word(box.operands[0].address, Reach::User);
+  const Place timer = box.memory.word(box.operands[0].address, AccessBound::User);
   ValueId valid = timer.valid;
   const ValueId presetMs = preset(box, valid);
   TimerState state{.active = box.slots.make("active", Type::Bit), .evaluated = {}, .since = {}};

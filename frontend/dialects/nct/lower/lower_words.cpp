@@ -15,7 +15,7 @@ template <class Compute>
 ValueId binary(Lowering& box, Compute compute) {
   return execute(box, [&] {
     ValueId valid;
-    const Place result = box.memory.word(box.operands[0].address, Reach::Write);
+    const Place result = box.memory.word(box.operands[0].address, AccessBound::Write);
     valid = result.valid;
     const ValueId a = box.memory.integer(box.operands[1], valid);
     const ValueId b = box.memory.integer(box.operands[2], valid);
@@ -46,7 +46,7 @@ void setFlags(Memory& memory, const ArithmeticFlags& flags) {
 ValueId lowerMove(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
-    const Place result = box.memory.word(box.operands[0].address, Reach::Write);
+    const Place result = box.memory.word(box.operands[0].address, AccessBound::Write);
     ValueId valid = result.valid;
     const ValueId source = box.memory.integer(box.operands[1], valid);
     return guarded(box, valid, [&] {
@@ -61,13 +61,13 @@ ValueId lowerMove(Lowering& box) {
 ValueId lowerMoveDouble(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
-    const Place result = box.memory.twoWords(box.operands[0].address, Reach::Write);
+    const Place result = box.memory.twoWords(box.operands[0].address, AccessBound::Write);
     ValueId valid = result.valid;
     ValueId source;
     if (box.operands[1].form == Form::Constant) {
       source = b.op(OpCode::FToBits, Type::I64, {b.real(box.operands[1].constant.real)});
     } else {
-      const Place from = box.memory.twoWords(box.operands[1].address, Reach::Read);
+      const Place from = box.memory.twoWords(box.operands[1].address, AccessBound::Read);
       valid = box.memory.both(valid, from.valid);
       source = box.memory.loadDouble(from, Type::I64);
     }
@@ -120,7 +120,7 @@ ValueId lowerMul(Lowering& box) {
 ValueId lowerDiv(Lowering& box) {
   RungBuilder& b = box.b;
   return execute(box, [&] {
-    const Place result = box.memory.word(box.operands[0].address, Reach::Write);
+    const Place result = box.memory.word(box.operands[0].address, AccessBound::Write);
     ValueId valid = result.valid;
     const ValueId x = box.memory.integer(box.operands[1], valid);
     const ValueId y = box.memory.integer(box.operands[2], valid);

@@ -18,7 +18,7 @@ class SlotMaker {
 public:
   SlotMaker(ir::Module& module, std::string_view routine) : module_(module), routine_(routine) {}
   void setElement(std::string text);
-  // `role` tells the slots of one element apart. Elements without a slot have no number.
+  // `role` distinguishes the slots of one element. Elements without a slot have no number.
   std::string key(std::string_view role);
   ir::SlotId make(std::string_view role, ir::Type type, int64_t init = 0, bool transient = false);
 
@@ -41,7 +41,7 @@ struct RunTime {
 struct SharedWords {
   ir::SpaceId space;
   uint32_t first = 0;
-  // `count` words behind the first `skip`, for a computed index.
+  // `count` words after the first `skip`, for a computed index.
   ir::Window window(uint32_t skip, uint32_t count) const {
     return {.space = space, .byte = (first + skip) * 4, .count = count};
   }

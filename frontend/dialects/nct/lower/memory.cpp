@@ -11,9 +11,9 @@ using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
-void WrittenRange::add(uint32_t begin, uint32_t behind) {
+void WrittenRange::add(uint32_t begin, uint32_t beyond) {
   first = std::min(first, begin);
-  end = std::max(end, behind);
+  end = std::max(end, beyond);
 }
 
 ValueId Memory::both(ValueId a, ValueId b) {
@@ -27,7 +27,7 @@ ValueId Memory::loadRegister(uint32_t word) {
 
 // An unsigned comparison of the distance from the first word covers both ends: the sum wraps, and no sum that wraps
 // falls into 0000 to 9999 by accident. The window of a write leaves the reserved word out, though it is within reach.
-void Memory::compute(Place& place, const Address& address, Reach reach, uint32_t words) {
+void Memory::compute(Place& place, const Address& address, AccessBound bound, uint32_t words) {
   place.fixed = false;
   if (address.indexRegister == kNoRegister) { // only the bit's number is computed
     place.window = {.space = place.space, .byte = address.word * 4, .count = 1};
@@ -37,10 +37,10 @@ void Memory::compute(Place& place, const Address& address, Reach reach, uint32_t
   }
   uint32_t first = 0;
   uint32_t end = kWords;
-  switch (reach) {
-  case Reach::Read: break;
-  case Reach::Write: first = kFlagsWord + 1; break;
-  case Reach::User: first = config_.plcNvram; break;
+  switch (bound) {
+  case AccessBound::Read: break;
+  case AccessBound::Write: first = kFlagsWord + 1; break;
+  case AccessBound::User: first = config_.plcNvram; break;
   }
   if (address.immediate) { // only the NC area has a time-slice copy (l.544)
     first = kFirstNcWord;
@@ -57,20 +57,20 @@ void Memory::compute(Place& place, const Address& address, Reach reach, uint32_t
       start == first ? b_.ltU(place.index, b_.i32(count)) : b_.ltU(from(first), b_.i32(count + start - first));
 }
 
-Place Memory::place(const Address& address, Reach reach, uint32_t words) {
+Place Memory::place(const Address& address, AccessBound bound, uint32_t words) {
   Place place;
   place.space = address.immediate ? spaces_.ts : spaces_.m;
   place.word = address.word;
   place.bit = address.bit;
   if (address.isFixed()) return place;
-  compute(place, address, reach, words);
+  compute(place, address, bound, words);
   return place;
 }
 
-Place Memory::word(const Address& address, Reach reach) { return place(address, reach, 1); }
+Place Memory::word(const Address& address, AccessBound bound) { return place(address, bound, 1); }
 
-Place Memory::bit(const Address& address, Reach reach) {
-  Place p = place(address, reach, 1);
+Place Memory::bit(const Address& address, AccessBound bound) {
+  Place p = place(address, bound, 1);
   if (p.fixed) return p;
   if (address.bitRegister == kNoRegister) {
     p.bitNo = b_.i32(address.bit);
@@ -81,8 +81,8 @@ Place Memory::bit(const Address& address, Reach reach) {
   return p;
 }
 
-Place Memory::twoWords(const Address& address, Reach reach) {
-  Place p = place(address, reach, 2);
+Place Memory::twoWords(const Address& address, AccessBound bound) {
+  Place p = place(address, bound, 2);
   if (p.fixed) return p;
   const ValueId odd = b_.zextOrTrunc(Type::Bit, loadRegister(address.indexRegister));
   p.valid = both(p.valid, b_.not_(odd));
@@ -206,14 +206,14 @@ void Memory::storeDouble(const Place& place, ValueId value) {
 
 ValueId Memory::integer(const Operand& operand, ValueId& valid) {
   if (operand.form == Form::Constant) return b_.i32(operand.constant.integer);
-  const Place p = word(operand.address, Reach::Read);
+  const Place p = word(operand.address, AccessBound::Read);
   valid = both(valid, p.valid);
   return loadWord(p);
 }
 
 ValueId Memory::real(const Operand& operand, ValueId& valid) {
   if (operand.form == Form::Constant) return b_.real(operand.constant.real);
-  const Place p = twoWords(operand.address, Reach::Read);
+  const Place p = twoWords(operand.address, AccessBound::Read);
   valid = both(valid, p.valid);
   return loadDouble(p, Type::F64);
 }

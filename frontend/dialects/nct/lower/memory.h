@@ -24,11 +24,11 @@ struct MemorySpaces {
 struct WrittenRange {
   uint32_t first = UINT32_MAX;
   uint32_t end = 0;
-  void add(uint32_t begin, uint32_t behind);
+  void add(uint32_t begin, uint32_t beyond);
 };
 
 // Where an operand may lead at run time.
-enum class Reach : uint8_t {
+enum class AccessBound : uint8_t {
   Read,  // 0000 to 9999
   Write, // 0001 to 9999: FLAGS is the instructions' own (l.723); what goes to the reserved word 0001 is lost
   User,  // PLCNVRAM to 9999: timers and counters (l.1335, l.1463)
@@ -60,10 +60,10 @@ public:
   Memory(ir::RungBuilder& builder, const Config& config, const MemorySpaces& spaces, WrittenRange& written)
       : b_(builder), config_(config), spaces_(spaces), written_(written) {}
 
-  Place word(const Address& address, Reach reach);
-  Place bit(const Address& address, Reach reach);
+  Place word(const Address& address, AccessBound bound);
+  Place bit(const Address& address, AccessBound bound);
   // Two words; a computed index must be even (l.509).
-  Place twoWords(const Address& address, Reach reach);
+  Place twoWords(const Address& address, AccessBound bound);
 
   ir::ValueId loadWord(const Place& place); // i32
   void storeWord(const Place& place, ir::ValueId value);
@@ -94,13 +94,13 @@ public:
 
   // a AND b, where an invalid id means 1.
   ir::ValueId both(ir::ValueId a, ir::ValueId b);
-  // (word number, bit number) of the place as one i32: tells whether an index moved (1.5).
+  // (word number, bit number) of the place as one i32: shows whether an index moved (1.5).
   ir::ValueId bitAddress(const Place& place);
   const Config& config() const { return config_; }
 
 private:
-  Place place(const Address& address, Reach reach, uint32_t words);
-  void compute(Place& place, const Address& address, Reach reach, uint32_t words);
+  Place place(const Address& address, AccessBound bound, uint32_t words);
+  void compute(Place& place, const Address& address, AccessBound bound, uint32_t words);
   ir::ValueId loadRegister(uint32_t word);
   ir::ValueId upperWord(ir::ValueId value); // of a double
   bool dropped(const Place& place) const;

@@ -36,9 +36,9 @@ struct Address {
 enum class Form : uint8_t { Bad, Constant, Word, Bit, Text };
 
 struct Operand {
-  Form form = Form::Bad;   // Bad: reported already
+  Form form = Form::Bad;   // Bad: has been reported
   bool fromSymbol = false; // written as a name
-  char edge = 0;           // '@' or '%' in front
+  char edge = 0;           // '@' or '%' before it
   Constant constant;
   Address address;              // Word and Bit
   const Symbol* base = nullptr; // Word and Bit: the name that it is counted from; null: it is an address

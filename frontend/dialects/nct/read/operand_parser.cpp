@@ -130,21 +130,9 @@ private:
       return nullptr;
     }
     const Symbol* found = symbols_.use(name, rangeOf(word_, name));
-    if (found == nullptr) reportUndeclared(name);
+    if (found == nullptr)
+      symbols_.noteUndeclared(name, rangeOf(word_, name), name.data() == word_.text.data() ? word_.text : "");
     return found == nullptr || found->kind == SymbolKind::Bad ? nullptr : found;
-  }
-
-  void reportUndeclared(std::string_view name) {
-    DiagBuilder report = diagnostics_.report(Diag::UndeclaredSymbol, rangeOf(word_, name));
-    report << name;
-    if (!diagnostics_.suggests()) return;
-    report.meant(rangeOf(word_, name), symbols_.similarTo(name));
-    // (S7001.00) is a coil of the name S7001.
-    const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && &name[0] == &word_.text[0] &&
-                       (isDigit(name[1]) || symbols_.find(name.substr(1)) != nullptr);
-    if (glued)
-      report.note("set and reset have a blank: (" + std::string(1, name[0]) + " " + std::string(word_.text.substr(1)) +
-                  ")");
   }
 
   bool mismatch(std::string_view name, SymbolKind is, std::string_view needed) {

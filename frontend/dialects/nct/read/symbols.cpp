@@ -8,7 +8,7 @@
 namespace rung::nct {
 namespace {
 
-// Declarations that refer to each other, one behind the other; bounds the recursion.
+// Declarations that refer to each other, one after the other; bounds the recursion.
 constexpr int kMaxDepth = 200;
 
 struct Alias {
@@ -102,12 +102,33 @@ void SymbolTable::defineAll() {
   }
 }
 
+void SymbolTable::noteUndeclared(std::string_view name, SourceRange range, std::string_view whole) {
+  undeclared_.add({{name, range}, whole});
+}
+
+void SymbolTable::reportUndeclared() {
+  undeclared_.report(diagnostics_, Diag::UndeclaredSymbol,
+                     [&](DiagBuilder& report, const Undeclared& use) { explain(report, use); });
+}
+
+void SymbolTable::explain(DiagBuilder& report, const Undeclared& use) {
+  if (!diagnostics_.suggests()) return;
+  const std::string_view name = use.name;
+  report.meant(use.range, similarTo(name));
+  // (S7001.00) is a coil of the name S7001.
+  const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && !use.whole.empty() &&
+                     (isDigit(name[1]) || find(name.substr(1)) != nullptr);
+  if (glued)
+    report.note("set and reset have a blank: (" + std::string(1, name[0]) + " " + std::string(use.whole.substr(1)) +
+                ")");
+}
+
+// Names of the program come first.
 std::string_view SymbolTable::similarTo(std::string_view name) const {
+  const std::string_view own = mostSimilar(name, table_.all(), &Symbol::name);
+  if (!own.empty()) return own;
   Similar similar(name);
-  for (const Symbol& symbol : table_.all()) similar.offer(symbol.name);
-  // Names of the program come first.
-  if (similar.best().empty())
-    for (const nc::Signal& signal : nc::nctSignals()) similar.offer(signal.symbol);
+  for (const nc::Signal& signal : nc::nctSignals()) similar.offer(signal.symbol);
   similar.offer(kFlagsName);
   return similar.best();
 }
@@ -118,7 +139,7 @@ void SymbolTable::declare(const ladder::Declaration& declaration) {
     diagnostics_.report(Diag::BadOperand, declaration.name.range) << name << "name of a symbol";
     return;
   }
-  indexOf(name); // one of the NC is declared already
+  indexOf(name); // one of the NC is declared by it
   Symbol symbol = word(name, 0);
   symbol.declared = declaration.name.range;
   symbol.kind = SymbolKind::Bad;

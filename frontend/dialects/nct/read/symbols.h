@@ -10,6 +10,7 @@
 #include "frontend/ladder/text/ladder_file.h"
 #include "frontend/sema/analysis.h"
 #include "frontend/sema/names.h"
+#include "frontend/sema/undeclared.h"
 #include "rtlib/nc/nct/signals.h"
 
 namespace rung::nct {
@@ -55,8 +56,10 @@ public:
   const Symbol* use(std::string_view name, SourceRange range);
   // The same for a text that may be something else: no use.
   const Symbol* find(std::string_view name);
-  // The known name that is most like a misspelt one; empty when none is close.
-  std::string_view similarTo(std::string_view name) const;
+  // A name that is not declared; `whole` is the operand's text when the name is its beginning.
+  void noteUndeclared(std::string_view name, SourceRange range, std::string_view whole);
+  // Reports undeclared-symbol, once for each name, at its first use.
+  void reportUndeclared();
   // Says in the analysis what all names are. To be called last.
   void defineAll();
   // All names but those of the NC that nothing mentions, in the order of entering.
@@ -74,14 +77,21 @@ private:
   void resolve(Symbol& symbol);
   void resolveConstant(Symbol& symbol);
   void resolveAddress(Symbol& symbol);
+  struct Undeclared : frontend::UndeclaredUse {
+    std::string_view whole;
+  };
+  void explain(DiagBuilder& report, const Undeclared& use);
+  // The known name that is most like a misspelt one; empty when none is close.
+  std::string_view similarTo(std::string_view name) const;
 
   static constexpr uint8_t kInput = 1;
   const Config& config_;
   frontend::Analysis& analysis_;
   Diagnostics& diagnostics_;
   frontend::NameTable<Symbol> table_; // in the order of Analysis::definitions
-  std::vector<uint8_t> direction_;    // by word of the NC area
-  int depth_ = 0;                     // of declarations that refer to each other
+  frontend::UndeclaredNames<Undeclared> undeclared_;
+  std::vector<uint8_t> direction_; // by word of the NC area
+  int depth_ = 0;                  // of declarations that refer to each other
 };
 
 } // namespace rung::nct

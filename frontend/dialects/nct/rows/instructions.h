@@ -20,7 +20,7 @@ using Lower = ir::ValueId (*)(Lowering& box);
 using Check = void (*)(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
 
 // What "each output once" (l.233) means for the row's first operand.
-enum class Claim : uint8_t { None, Once, SetReset };
+enum class Reservation : uint8_t { None, Once, SetReset };
 
 enum class Flow : uint8_t { None, End, Jump, Label, Call, Subroutine, Return, Section };
 
@@ -32,7 +32,7 @@ struct NctInstruction {
   Lower lower = nullptr; // null: not built yet, unless `flow` says that there is nothing to do
   int variant = 0;       // meaning is the lowering function's
   Check check = nullptr;
-  Claim claim = Claim::None;
+  Reservation reservation = Reservation::None;
   Flow flow = Flow::None;
   Shape shape = Shape::Box;
   bool usesScratch = false; // works on the space @S

@@ -4,44 +4,32 @@
 
 namespace rung::nct {
 
-constexpr NctInstruction controlRow(RowText text, std::string_view operand, Placement placement, Flow flow) {
-  NctInstruction row{.info = {.mnemonic = text.mnemonic,
-                              .title = text.title,
-                              .group = "program-control",
+constexpr NctInstruction controlShape(std::string_view operand, Placement placement, Flow flow) {
+  NctInstruction row{.info = {.group = "program-control",
                               .pins = {P{"EN", "condition"}},
                               .output = Output::None,
-                              .placement = placement,
-                              .ref = text.ref,
-                              .doc = text.doc,
-                              .example = text.example},
+                              .placement = placement},
                      .flow = flow};
   if (!operand.empty()) row.info.operands = {O{operand, &kinds::kLabel, Access::None, "#0 to #99"}};
   return row;
 }
 
 inline constexpr NctInstruction kControlRows[] = {
-    controlRow({"END", "end of the cyclic part of a module", "6.14.1, l.2918",
-                "The cycle of the module ends here. The subroutines follow it; without any it may be left out.",
-                "|--{END}"},
-               "", Placement::AtRail, Flow::End),
-    controlRow({"JMP", "conditional jump", "6.14.2, l.2936",
-                "With power the program continues at the JME of this number. What is jumped over keeps its outputs and "
-                "its memory of edges.",
-                "|--[SKIP]--{JMP #5}"},
-               "Jump Number", Placement::BehindContact, Flow::Jump),
-    controlRow({"JME", "target of a jump", "6.14.2, l.2966", "Marks the place at which a JMP of this number continues.",
-                "|--{JME #5}"},
-               "Jump Number", Placement::AtRail, Flow::Label),
-    controlRow({"SBS", "subroutine call", "6.14.3, l.2984",
-                "With power the subroutine is executed; then the program continues after this rung.",
-                "|--[N_ON]--{SBS #10}"},
-               "Subroutine Number", Placement::BehindContact, Flow::Call),
-    controlRow({"SBN", "start of a subroutine", "6.14.3, l.3020",
-                "A subroutine reaches to the next SBN or to the end of the module.", "|--{SBN #10}"},
-               "Subroutine Number", Placement::AtRail, Flow::Subroutine),
-    controlRow(
-        {"RET", "return from a subroutine", "6.14.3, l.3036", "With power the subroutine ends.", "|--[N_ON]--{RET}"},
-        "", Placement::BehindContact, Flow::Return),
+    rowOf(controlShape("", Placement::AtRail, Flow::End), "END", "end of the cyclic part of a module", "6.14.1, l.2918",
+          "The cycle of the module ends here. The subroutines follow it; without any it may be left out.", "|--{END}"),
+    rowOf(controlShape("Jump Number", Placement::AfterContact, Flow::Jump), "JMP", "conditional jump", "6.14.2, l.2936",
+          "With power the program continues at the JME of this number. What is jumped over keeps its outputs and "
+          "its memory of edges.",
+          "|--[SKIP]--{JMP #5}"),
+    rowOf(controlShape("Jump Number", Placement::AtRail, Flow::Label), "JME", "target of a jump", "6.14.2, l.2966",
+          "Marks the place at which a JMP of this number continues.", "|--{JME #5}"),
+    rowOf(controlShape("Subroutine Number", Placement::AfterContact, Flow::Call), "SBS", "subroutine call",
+          "6.14.3, l.2984", "With power the subroutine is executed; then the program continues after this rung.",
+          "|--[N_ON]--{SBS #10}"),
+    rowOf(controlShape("Subroutine Number", Placement::AtRail, Flow::Subroutine), "SBN", "start of a subroutine",
+          "6.14.3, l.3020", "A subroutine reaches to the next SBN or to the end of the module.", "|--{SBN #10}"),
+    rowOf(controlShape("", Placement::AfterContact, Flow::Return), "RET", "return from a subroutine", "6.14.3, l.3036",
+          "With power the subroutine ends.", "|--[N_ON]--{RET}"),
 };
 
 } // namespace rung::nct

@@ -5,36 +5,24 @@
 
 namespace rung::nct {
 
-constexpr NctInstruction macroRow(RowText text, frontend::FixedList<O, 8> operands, int variant) {
-  return {.info = {.mnemonic = text.mnemonic,
-                   .title = text.title,
-                   .group = "nc-service",
+constexpr NctInstruction macroShape(frontend::FixedList<O, 8> operands) {
+  return {.info = {.group = "nc-service",
                    .pins = {kEnable},
                    .operands = operands,
                    .output = Output::Optional,
-                   .stateful = true,
-                   .ref = text.ref,
-                   .doc = text.doc,
-                   .example = text.example},
+                   .stateful = true},
           .lower = lowerMacro,
-          .variant = variant,
           .check = checkMacro};
 }
 
-constexpr NctInstruction arrayServiceRow(RowText text, int variant, Check check) {
-  return {.info = {.mnemonic = text.mnemonic,
-                   .title = text.title,
-                   .group = "nc-service",
+constexpr NctInstruction arrayServiceShape(Check check) {
+  return {.info = {.group = "nc-service",
                    .pins = {P{"EN", "stays TRUE until the output is"}},
                    .operands = {O{"Data", &kinds::kWord, Access::ReadWrite, "first word of the operand block"},
                                 O{"Function", &kinds::kDecimal, Access::Read, "see Functions of MR and MW"}},
                    .output = Output::Optional,
-                   .stateful = true,
-                   .ref = text.ref,
-                   .doc = text.doc,
-                   .example = text.example},
+                   .stateful = true},
           .lower = lowerArrayService,
-          .variant = variant,
           .check = check};
 }
 
@@ -57,22 +45,20 @@ inline constexpr NctInstruction kNcRows[] = {
                      "output FALSE: the axis is not the PLC's, the code is wrong, or codes 2 to 5 have speed 0.",
               .example = "|--[@GO]--{MOVCMND #0 #1 *100.0 *5.0}"},
      .lower = lowerAxisCommand},
-    macroRow({"MACR", "read a macro variable", "6.16.1, l.3165",
-              "Result := macro variable #100 to #999 of a channel (index 0 to 7). FL_ER=1 and output FALSE: there is "
-              "no such variable or channel.",
-              "|--[@GO]--{MACR 7000 #500 #0}"},
-             {O{"Result", &kinds::kUserDouble, Access::Write, ""},
-              O{"Variable", &kinds::kDecimal, Access::Read, "100 to 999", 100, 999},
-              O{"Channel", &kinds::kDecimal, Access::Read, "index, 0 to 7"}},
-             kReadMacro),
-    macroRow({"MACW", "write a macro variable", "6.16.2, l.3217",
-              "Macro variable of a channel := Operand. FL_ER=1 and output FALSE: there is no such variable or channel, "
-              "or P_MAC forbids it.",
-              "|--[@GO]--{MACW #500 7000 #0}"},
-             {O{"Variable", &kinds::kDecimal, Access::Read, "100 to 999", 100, 999},
-              O{"Operand", &kinds::kUserDouble, Access::Read, ""},
-              O{"Channel", &kinds::kDecimal, Access::Read, "index, 0 to 7"}},
-             kWriteMacro),
+    rowOf(macroShape({O{"Result", &kinds::kUserDouble, Access::Write, ""},
+                      O{"Variable", &kinds::kDecimal, Access::Read, "100 to 999", 100, 999},
+                      O{"Channel", &kinds::kDecimal, Access::Read, "index, 0 to 7"}}),
+          "MACR", "read a macro variable", "6.16.1, l.3165",
+          "Result := macro variable #100 to #999 of a channel (index 0 to 7). FL_ER=1 and output FALSE: there is "
+          "no such variable or channel.",
+          "|--[@GO]--{MACR 7000 #500 #0}", kReadMacro),
+    rowOf(macroShape({O{"Variable", &kinds::kDecimal, Access::Read, "100 to 999", 100, 999},
+                      O{"Operand", &kinds::kUserDouble, Access::Read, ""},
+                      O{"Channel", &kinds::kDecimal, Access::Read, "index, 0 to 7"}}),
+          "MACW", "write a macro variable", "6.16.2, l.3217",
+          "Macro variable of a channel := Operand. FL_ER=1 and output FALSE: there is no such variable or channel, "
+          "or P_MAC forbids it.",
+          "|--[@GO]--{MACW #500 7000 #0}", kWriteMacro),
     {.info = {.mnemonic = "SCP",
               .title = "read a quantity of the NC",
               .group = "nc-service",
@@ -89,17 +75,15 @@ inline constexpr NctInstruction kNcRows[] = {
               .example = "|--[N_ON]--{SCP 7000 ActPosAx #1 #0}"},
      .lower = lowerScope,
      .check = checkScope},
-    arrayServiceRow({"MR", "read data of the NC", "6.18.1, l.3394",
-                     "Requests data from the NC. Word 0 of the block is the execution code, word 1 the amount of data "
-                     "(the number of words after it); the rest depends on the function. The request takes several "
-                     "cycles: the output is TRUE when the answer is in the block, whatever its code, and stays so "
-                     "until EN is FALSE. When EN is FALSE too early the answer is dropped. A block that does not fit "
-                     "into memory gets code 2, an unknown function code 1, at once.",
-                     "|--[GO]--{MR 7000 #10}--(R GO)"},
-                    kReadArray, checkReadFunction),
-    arrayServiceRow({"MW", "write data of the NC", "6.18.2, l.3468", "As MR, handing data to the NC.",
-                     "|--[GO]--{MW 7000 #11}--(R GO)"},
-                    kWriteArray, checkWriteFunction),
+    rowOf(arrayServiceShape(checkReadFunction), "MR", "read data of the NC", "6.18.1, l.3394",
+          "Requests data from the NC. Word 0 of the block is the execution code, word 1 the amount of data "
+          "(the number of words after it); the rest depends on the function. The request takes several "
+          "cycles: the output is TRUE when the answer is in the block, whatever its code, and stays so "
+          "until EN is FALSE. When EN is FALSE too early the answer is dropped. A block that does not fit "
+          "into memory gets code 2, an unknown function code 1, at once.",
+          "|--[GO]--{MR 7000 #10}--(R GO)", kReadArray),
+    rowOf(arrayServiceShape(checkWriteFunction), "MW", "write data of the NC", "6.18.2, l.3468",
+          "As MR, handing data to the NC.", "|--[GO]--{MW 7000 #11}--(R GO)", kWriteArray),
 };
 
 } // namespace rung::nct

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ir/support/ascii.h"
+#include "rtlib/text/blanks.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -22,7 +22,7 @@ Declared declaredAt(const SourceManager& sources, SourceRange name) {
   const size_t end = sources.offsetOf(name.end) - sources.lineStart(name.begin).offset;
   const std::string_view rest = line.substr(std::min(end, mark), mark - std::min(end, mark));
   const size_t value = std::min(rest.find_first_not_of(", \t"), rest.size());
-  return {trimmed(rest.substr(value)), trimmed(line.substr(std::min(mark + 1, line.size())))};
+  return {text::trimmed(rest.substr(value)), text::trimmed(line.substr(std::min(mark + 1, line.size())))};
 }
 
 // Constants, labels and the like have none.
@@ -45,6 +45,12 @@ Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
   definition.comment = declared.comment;
   if (symbol.kind == SymbolKind::Constant) definition.value = declared.rest;
   return definition;
+}
+
+bool isCalledByControl(const Symbol& symbol) {
+  if (symbol.kind != SymbolKind::Procedure) return false;
+  const std::string name = symbolKey(symbol.name);
+  return name == kOnMessage || std::ranges::find(kOnEvents, name) != std::end(kOnEvents);
 }
 
 // A label or procedure is a place in the program too; it is numbered as symbols are.
@@ -94,6 +100,7 @@ Analysis analysisOf(const Program& program, const TypedProgram& typed) {
   Analysis analysis;
   for (const Symbol& symbol : program.symbols.all()) {
     const uint32_t index = analysis.define(definitionOf(program.sources, symbol)); // that of the symbol too
+    analysis.definition(index).usedByControl = isCalledByControl(symbol);
     addTarget(symbol, index, analysis.definition(index).range, true, analysis);
   }
   for (const std::vector<NameUse>* names : {&program.symbols.uses(), &typed.names})

@@ -74,9 +74,9 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
     if (!address(tokens.subspan(1, i - 2), out)) return false;
   } else if (head.kind == TokenKind::Number) {
     const std::optional<Number> number = parseNumber(head.text);
-    const bool pointBehind = tokens.size() > 1 && tokens[1].is('.'); // 1. and 5.A
-    if (!number || pointBehind) {
-      program_.diagnostics.report(Diag::BadNumber, head.range()) << std::string(head.text) + (pointBehind ? "." : "");
+    const bool pointAfter = tokens.size() > 1 && tokens[1].is('.'); // 1. and 5.A
+    if (!number || pointAfter) {
+      program_.diagnostics.report(Diag::BadNumber, head.range()) << std::string(head.text) + (pointAfter ? "." : "");
       return false;
     }
     out.isReal = out.isReal || number->isReal;

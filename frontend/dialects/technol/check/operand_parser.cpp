@@ -7,6 +7,7 @@
 #include "rtlib/text/letters.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace rung::frontend::technol {
 namespace {
@@ -26,6 +27,12 @@ const PrefixName* prefixNamed(std::string_view name) {
   for (const PrefixName& p : kPrefixes)
     if (text::equalsIgnoringCase(name, p.name)) return &p;
   return nullptr;
+}
+
+// Of those that begin with the same letter, or of the others.
+std::string_view similarPrefix(std::string_view name, bool sameLetter) {
+  const auto fits = [&](const PrefixName& p) { return (p.name[0] == text::upper(name[0])) == sameLetter; };
+  return mostSimilar(name, kPrefixes | std::views::filter(fits), &PrefixName::name);
 }
 
 const PrefixName& prefixOf(uint8_t prefix) {
@@ -174,16 +181,10 @@ uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
 bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
   if (tokens.size() < 3 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return false;
   if (program_.symbols.find(tokens[0].text, file_) != kNone) return false;
-  Similar meant(tokens[0].text);
-  const auto offer = [&](bool sameLetter) {
-    for (const PrefixName& p : kPrefixes)
-      if ((p.name[0] == text::upper(tokens[0].text[0])) == sameLetter) meant.offer(p.name);
-  };
-  offer(true);
-  if (meant.best().empty()) offer(false);
-  if (meant.best().empty()) return false;
-  program_.symbols.noteUndefined(tokens[0], file_, {.meant = std::string(meant.best())});
-  return true;
+  std::string_view meant = similarPrefix(tokens[0].text, true);
+  if (meant.empty()) meant = similarPrefix(tokens[0].text, false);
+  if (!meant.empty()) program_.symbols.noteUndefined(tokens[0], file_, {.meant = meant});
+  return !meant.empty();
 }
 
 bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
@@ -229,7 +230,7 @@ bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, c
   out.form = Operand::Form::Integer;
   out.prefixed = prefix != 0 && prefix != kCnst;
   out.type = prefix == 0 ? ir::Type::I32 : prefixOf(prefix).type;
-  // A sign in front of digits is theirs; in front of a type or a name the loaded value is negated (man. l.703).
+  // A sign before digits is theirs; before a type or a name the loaded value is negated (man. l.703).
   const bool digits = out.negated && out.tokens[1].kind == TokenKind::Number;
   out.value = digits ? -address.byte : address.byte;
   out.negated = out.negated && !digits;
@@ -250,7 +251,7 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
   out.form = Operand::Form::Cell;
   out.prefixed = prefix != 0;
   out.type = prefix != 0 ? prefixOf(prefix).type : address.type;
-  // Where only a real may stand, 8 bytes are one.
+  // Where only a real is possible, 8 bytes are one.
   const bool real = (kind.prefixes & ~kCnst) == kReal && address.end - address.byte >= 8;
   if (out.type == ir::Type::None && real && !address.isText) out.type = ir::Type::F64;
   if (out.type == ir::Type::None) {
@@ -325,7 +326,7 @@ bool OperandParser::wrongPrefix(uint8_t prefix, const Operand& operand) {
   return false;
 }
 
-// A word of the kind that is no number's name in the program.
+// A word of the kind that is not a number's name in the program.
 bool OperandParser::ownWord(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
   if (kind.keywords.empty() || tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
   const uint32_t found = program_.symbols.find(tokens[0].text, file_);
@@ -349,7 +350,7 @@ bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> token
   if (!unknown) return wrongKind(out, "no " + wanted, "a " + wanted);
   Similar meant(tokens[0].text);
   forEachWord(kind.keywords, [&](std::string_view word, int64_t) { meant.offer(word); });
-  program_.symbols.noteUndefined(tokens[0], file_, {.meant = std::string(meant.best())});
+  program_.symbols.noteUndefined(tokens[0], file_, {.meant = meant.best()});
   return false;
 }
 

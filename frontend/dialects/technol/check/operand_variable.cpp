@@ -45,7 +45,7 @@ bool OperandParser::exchanged(const OperandKind& kind, const Symbol& symbol, Ope
       return false;
     }
   } else if (found == nullptr || &program_.statements[found->statement] != statement_) {
-    return false; // the name is another symbol's, which is reported already
+    return false; // the name is another symbol's, which has been reported
   }
   out.form = symbol.kind == SymbolKind::Bit ? Operand::Form::Bit : Operand::Form::Cell;
   out.type = symbol.type;

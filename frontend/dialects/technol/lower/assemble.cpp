@@ -184,7 +184,7 @@ void TaskMaker::run(std::vector<ir::Step>& steps, ModuleKind kind, uint32_t time
   if (of(kind).valid()) steps.push_back({.op = RUNG_STEP_RUN, .task = of(kind), .arg = times});
 }
 
-// Fast connections run in front of MODULE_CYCLICOPERATION and MODULE_FAST, the fastest around MODULE_FASTEST (man.
+// Fast connections run before MODULE_CYCLICOPERATION and MODULE_FAST, the fastest around MODULE_FASTEST (man.
 // l.13455-13482).
 void TaskMaker::fastSteps(std::vector<ir::Step>& steps, uint32_t times) const {
   const bool others = of(ModuleKind::Cyclic).valid() || of(ModuleKind::Fastest).valid();

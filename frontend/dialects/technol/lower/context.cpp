@@ -1,4 +1,4 @@
-// The statement at hand (see context.h).
+// The current statement (see context.h).
 #include "frontend/dialects/technol/lower/context.h"
 
 #include "frontend/dialects/technol/lower/lower.h"

@@ -1,4 +1,4 @@
-// What the lowering function of a row sees: the emitter with the program's memory, the statement at hand, and the parts
+// What the lowering function of a row sees: the emitter with the program's memory, the current statement, and the parts
 // that statements share.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The lowering functions of the rows, by family. `variant` tells the members of a family apart.
+// The lowering functions of the rows, by family. `variant` distinguishes the members of a family.
 #pragma once
 
 #include <span>

@@ -11,7 +11,7 @@ using ir::ValueId;
 
 namespace {
 
-// What an address needs is computed in front of a condition's region.
+// What an address needs is computed before a condition's region.
 std::vector<MemoryAccess> reachAll(StatementContext& l, std::span<const Operand> bits, ValueId guard) {
   std::vector<MemoryAccess> places;
   for (const Operand& bit : bits) places.push_back(l.reach(bit, guard));

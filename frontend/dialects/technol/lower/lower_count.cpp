@@ -9,7 +9,7 @@ using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
-// RLO = 0 clears the count; else it counts up to the preset in DR, and RLO tells that it is there (man. l.884-916).
+// RLO = 0 clears the count; else it counts up to the preset in DR, and RLO says that it is there (man. l.884-916).
 void lowerTimer(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const CountCell cell = l.countCell(o[0]);
@@ -21,7 +21,7 @@ void lowerTimer(StatementContext& l, std::span<const Operand> o, int) {
   l.r().setRlo(b.and_(rlo, reached));
 }
 
-// Counts on 0 -> 1 of RLO; then RLO tells whether the count is the preset in DR, and DR is the count (man. l.955-977).
+// Counts on 0 -> 1 of RLO; then RLO says whether the count is the preset in DR, and DR is the count (man. l.955-977).
 void lowerCounter(StatementContext& l, std::span<const Operand> o, int kind) {
   ir::RungBuilder& b = l.b();
   const CountCell cell = l.countCell(o[0]);

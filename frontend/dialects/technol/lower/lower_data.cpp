@@ -13,7 +13,7 @@ namespace {
 
 Type widthOf(const Operand& operand) { return operand.given() ? operand.type : Type::I16; }
 
-// A result that is no number, or a division by zero, is the coprocessor's error.
+// A result that is not a number, or a division by zero, is the coprocessor's error.
 ValueId checkedReal(StatementContext& l, ValueId result, ValueId divisor = {}) {
   ir::RungBuilder& b = l.b();
   ValueId bad = b.not_(b.op(OpCode::FEq, Type::F64, {result, result}));
@@ -126,7 +126,7 @@ void lowerUnary(StatementContext& l, std::span<const Operand> o, int operation) 
   }
 }
 
-// 0..9999 in 16 bits; behind 9999 comes 0 (man. l.1225).
+// 0..9999 in 16 bits; after 9999 comes 0 (man. l.1225).
 void lowerIncrementBcd(StatementContext& l, std::span<const Operand>, int) {
   ir::RungBuilder& b = l.b();
   const ValueId next = b.add(b.op(OpCode::BcdDecode, Type::I16, {l.r().dr(Type::I16)}), b.constant(Type::I16, 1));

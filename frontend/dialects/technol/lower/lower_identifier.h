@@ -1,4 +1,4 @@
-// What a program tells and asks its control by identifiers: these as words of eight characters, requests that the
+// What a program says to its control and asks it by identifiers: these as words of eight characters, requests that the
 // control answers at once.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace rung::frontend::technol {
 // The characters of an operand of kind "text or literal", filled up with zeros. Of a text in memory, bytes up to its
 // end; the control ends it at its terminator.
 std::vector<ir::ValueId> identifierWords(StatementContext& l, const Operand& id, uint32_t words);
-// Tells the control of a variable; `head` are the arguments in front of the identifier. A ticket.
+// Makes a variable known to the control; `head` are the arguments before the identifier. A ticket.
 ir::ValueId defineRequest(StatementContext& l, std::span<const ir::ValueId> head, const Operand& id);
 // Whether a result is not 0; 0 where nobody answers.
 ir::ValueId answersYes(ir::RungBuilder& b, ir::ValueId ticket, uint32_t result);

@@ -11,7 +11,7 @@ using ir::ValueId;
 
 namespace {
 
-// One side of a comparison; behind `room` its bytes count as 0.
+// One side of a comparison; beyond `room` its bytes count as 0.
 struct Side {
   Area area;
   ValueId room;
@@ -73,7 +73,7 @@ void lowerClear(StatementContext& l, std::span<const Operand> o, int) {
   l.out().cut();
 }
 
-// Ends with the terminator, which is copied too, where the target is full, or behind `num` characters (man.
+// Ends with the terminator, which is copied too, where the target is full, or after `num` characters (man.
 // l.1720-1744). A source without a terminator has as many characters as it holds.
 void lowerCopyText(StatementContext& l, std::span<const Operand> o, int) {
   inOwnRung(l, anyIsLong(o), [&] {

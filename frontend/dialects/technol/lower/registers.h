@@ -12,7 +12,7 @@
 
 namespace rung::frontend::technol {
 
-// The slots behind the registers, one set a module.
+// The slots that hold the registers, one set a module.
 struct RegisterSlots {
   ir::SlotId rlo, dr, real, bx;
   std::array<ir::SlotId, kStackDepth> stack;

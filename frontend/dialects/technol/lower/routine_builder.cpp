@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "frontend/dialects/technol/read/lexer.h"
-#include "ir/support/ascii.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
+#include "rtlib/text/blanks.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -73,9 +73,9 @@ void RoutineBuilder::describe() {
     const std::string_view text = first_.sources->lineText(first_.file, line);
     if (line == first_.line)
       if (const size_t comment = commentOf(text); comment != std::string_view::npos)
-        rung_.title = trimmed(text.substr(comment + 1));
+        rung_.title = text::trimmed(text.substr(comment + 1));
     if (!rung_.sourceText.empty()) rung_.sourceText += '\n';
-    rung_.sourceText += trimmed(text);
+    rung_.sourceText += text::trimmed(text);
   }
   rung_.key = hashBytes(rung_.sourceText);
 }

@@ -12,7 +12,7 @@
 
 namespace rung::frontend::technol {
 
-// Where the statements of a rung stand in the sources.
+// Where the statements of a rung are in the sources.
 struct RungSource {
   const SourceManager* sources = nullptr;
   FileId file;
@@ -46,7 +46,7 @@ public:
   uint32_t newLabel();
   // The next rung is the label's.
   void bind(uint32_t label);
-  // Ends the open rung, if there is one; control goes on below.
+  // Ends the open rung, if there is one; control continues below.
   void cut();
   // Ends of the rung with a transfer; with a condition the rung below follows when it is 0.
   void jump(uint32_t label, ir::ValueId cond = {});

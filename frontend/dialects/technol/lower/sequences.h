@@ -17,7 +17,7 @@ struct Sequence {
   uint32_t dispatch = kNone;                       // handle of the switch at its beginning
   std::vector<uint32_t> states;                    // labels by number; 0 is the beginning
   ir::Continuation continuation;                   // has a point for each of them
-  std::string instruction;                         // key of the one at hand
+  std::string instruction;                         // key of the current one
   uint64_t section = 0;                            // hash of the instructions from the last point to this one
   bool sectionEnds = false;                        // this one has a point
   std::unordered_map<std::string, uint32_t> alike; // points so far, by their keys
@@ -39,7 +39,7 @@ public:
 
   // The unit that waits where a statement waits.
   Sequence& current() { return open_.back(); }
-  // A state of the instruction at hand; `role` tells several apart.
+  // A state of the current instruction; `role` distinguishes several.
   uint32_t newState(Sequence& sequence, std::string_view role = {});
   // The state in which the unit continues at a label.
   uint32_t stateOf(Sequence& sequence, uint32_t label);

@@ -75,8 +75,8 @@ void Clears::make() {
 void makeStart(Memory& memory, ir::RoutineId routine, const State& state, const Clocks& clocks, BitMessages& messages) {
   memory.open(routine);
   ir::RungBuilder& b = memory.b();
-  b.store(place(HostCell::InitOwed), b.constant(Type::I64, memory.program().filesWith(&SourceFile::finishesInit)));
-  b.store(place(HostCell::DoneOwed), b.constant(Type::I64, 0));
+  b.store(place(HostCell::InitPending), b.constant(Type::I64, memory.program().filesWith(&SourceFile::finishesInit)));
+  b.store(place(HostCell::DonePending), b.constant(Type::I64, 0));
   storeStartPresets(b);
   memory.clearSlots(state.forgotten());
   memory.clearSlots(clocks.phases());
@@ -98,7 +98,7 @@ static Event makeEvent(Memory& memory, std::string name, ir::RoutineId procedure
 
 std::vector<Event> makeEvents(Memory& memory, const Procedures& procedures, Clocks& clocks) {
   std::vector<Event> events;
-  for (const std::string_view name : {"_ON_CMD", "_ON_EVENT"})
+  for (const std::string_view name : kOnEvents)
     if (const uint32_t procedure = memory.program().procedureNamed(name); procedure != kNone)
       events.push_back(makeEvent(memory, std::string(name), procedures.routine(procedure), clocks));
   for (uint32_t number = 0; number < procedures.events().size(); ++number)

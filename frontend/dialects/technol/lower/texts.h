@@ -18,7 +18,7 @@ struct Text {
 inline Length roomOf(const Text& text) { return {.fixed = text.area.fixed, .most = text.most, .value = text.room}; }
 // An index that leads outside the text stops the program.
 Text textOf(Memory& m, const Operand& operand);
-// Characters in front of the terminator; a text without one has as many as it holds.
+// Characters before the terminator; a text without one has as many as it holds.
 Length lengthOf(Memory& m, const Text& text);
 void storeTerminator(Memory& m, const Area& area, ir::ValueId at, ir::ValueId cond);
 // Whether one of the operands is a long text: what works on it has a rung of its own.
@@ -31,8 +31,8 @@ void inOwnRung(Memory& m, bool isLong, Body body) {
   if (isLong) m.out().cut();
 }
 
-// Passes over the numbers below `most`: `pass` gets a number, the value and whether it goes on, and gives the next two.
-// Blocks after the end are passed over. Gives the last value.
+// Passes over the numbers below `most`: `pass` gets a number, the value and whether it continues, and gives the next
+// two. Blocks after the end are passed over. Gives the last value.
 template <class Pass>
 ir::ValueId passWhile(Memory& m, uint32_t most, ir::ValueId first, Pass pass) {
   using State = std::array<ir::ValueId, 2>;

@@ -55,7 +55,8 @@ void Walk::module(ModuleKind kind) {
 void Walk::prologue(ModuleKind kind) {
   if (kind == ModuleKind::Init) l_.out().call(start_);
   if (kind == ModuleKind::Done) {
-    l_.b().store(place(HostCell::DoneOwed), l_.b().constant(Type::I64, program_.filesWith(&SourceFile::finishesDone)));
+    l_.b().store(place(HostCell::DonePending),
+                 l_.b().constant(Type::I64, program_.filesWith(&SourceFile::finishesDone)));
     l_.out().cut();
   }
   clocks_.enter(kind);

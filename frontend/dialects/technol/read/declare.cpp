@@ -98,7 +98,7 @@ std::string_view onlyName(std::span<const Token> operand) {
 
 } // namespace
 
-// What is wrong with the operands is told when the statement is lowered; the name is known all the same.
+// What is wrong with the operands is reported when the statement is lowered; the name is known all the same.
 void Declarations::exchanged(const Statement& statement, uint32_t index) {
   using nc::ExchangeKind;
   using nc::ExchangeType;
@@ -219,7 +219,7 @@ void Placer::placeArray(DataItem& item, const Statement& statement) {
   cell.type = bytes == 8 ? ir::Type::None : ir::intOfBytes(cell.size);
 }
 
-// STR n, var+xy: the text lies on that memory and reserves nothing. A variable of the program stands in the same file
+// STR n, var+xy: the text lies on that memory and reserves nothing. A variable of the program is in the same file
 // (man. l.1695). Done when everything else has its place.
 bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statement& statement) {
   const uint32_t index = program_.symbols.require(tokens[0], statement.file);

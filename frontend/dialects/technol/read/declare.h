@@ -11,9 +11,9 @@ public:
       : program_(program), structure_(structure), structures_(structures), file_(file) {}
 
   // A declaration that takes memory; `name` is null when it has none. `index` is the statement's number.
-  // `badName`: it has one that is no name, which is told already.
+  // `badName`: it has one that is not a name, which has been reported.
   void data(const Statement& statement, const Token* name, uint32_t index, bool badName);
-  // Another name in front of the declaration that was the last one.
+  // Another name before the declaration that was the last one.
   void alsoNamed(const Token& name);
   void constant(const Statement& statement);
   // Data in the form of a structure; the operands are the value.

@@ -22,7 +22,7 @@ std::optional<FileId> readable(SourceManager& sources, FileId file, Encoding enc
 // Without the mark that DOS editors close a text with, and line ends after it.
 std::string_view withoutEndMark(std::string_view text);
 
-// The byte of a text of one character; nothing when it is no single character of Windows-1250.
+// The byte of a text of one character; nothing when it is not a single character of Windows-1250.
 std::optional<uint8_t> characterByte(std::string_view text);
 
 } // namespace rung::frontend::technol

@@ -64,9 +64,9 @@ private:
   std::vector<std::string> including_; // paths
   uint32_t includeDepth_ = 0;
   bool includeReported_ = false;
-  std::vector<uint32_t> codeLabels_;    // tokens; in front of a DATA_LOCAL between instructions: they wait for its end
+  std::vector<uint32_t> codeLabels_;    // tokens; before a DATA_LOCAL between instructions: they wait for its end
   std::vector<uint32_t> pendingLabels_; // tokens; they belong to the next statement
-  bool badLabel_ = false;               // the statement has a label that is no name
+  bool badLabel_ = false;               // the statement has a label that is not a name
   uint32_t passed_ = 0;                 // EX-kind statements and jumps so far
   bool textAfterStop_ = false;
 };

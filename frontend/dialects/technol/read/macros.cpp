@@ -50,7 +50,7 @@ bool MacroSet::flags(std::span<const Token> tokens, MacroStack& stack) {
 }
 
 void MacroSet::declare(const Token& name, uint32_t macro) {
-  // A macro may bear the name of an instruction: at its uses CONTROL_T_MACRO tells which of them is meant (man.
+  // A macro may have the name of an instruction: at its uses CONTROL_T_MACRO says which of them is meant (man.
   // l.20572).
   if (findRow(name.text) == nullptr) program_.symbols.declare(namedSymbol(name, SymbolKind::Macro, file_, true));
   names_.emplace(symbolKey(name.text), macro);
@@ -150,7 +150,7 @@ void MacroSet::localName(const Macro& macro, Token token, Macro::Line& out) {
   out.tokens.push_back(token);
 }
 
-// Operands that begin with TMAC. have their formals replaced, all others are names as they stand (man. l.20410-20431).
+// Operands that begin with TMAC. have their formals replaced, all others are names as they are (man. l.20410-20431).
 void MacroSet::substitute(const Macro& macro, const Macro::Line& line,
                           const std::vector<std::span<const Token>>& actuals, Macro::Line& out) {
   bool inTmac = false;

@@ -1,5 +1,5 @@
 // User instructions: DEF_T_MACRO … END_T_MACRO (man. ch. 22). A macro's lines are kept as tokens; a use gives new
-// tokens in which formal parameters behind TMAC. are replaced by the actual operands and T_LOCAL names by names of
+// tokens in which formal parameters after TMAC. are replaced by the actual operands and T_LOCAL names by names of
 // their own.
 #pragma once
 

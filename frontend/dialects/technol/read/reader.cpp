@@ -101,8 +101,7 @@ const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
   DiagBuilder report = program_.diagnostics.report(Diag::UnknownInstruction, token.range());
   report << token.text;
   if (similar.best().empty()) return nullptr;
-  report.note("did you mean " + std::string(similar.best()) + "?")
-      .fix(rangeOf(program_.sources, tokens.first(parted ? 2 : 1), token.range()), similar.best());
+  report.meant(rangeOf(program_.sources, tokens.first(parted ? 2 : 1), token.range()), similar.best());
   const Row* row = findRow(similar.best());
   if (row == nullptr || !structure_.fits(*row)) return nullptr;
   if (parted) ++first, --count;

@@ -5,7 +5,7 @@
 #include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/file_reader.h"
 #include "frontend/sema/operand_count.h"
-#include "ir/support/ascii.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
@@ -147,8 +147,8 @@ bool FileReader::isInclude(std::string_view text) {
 // T_INCLUDE path | 'name'. A path is not a sequence of tokens, so that the line is looked at as a text (man. l.20313).
 bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   if (!isInclude(line.text)) return false;
-  std::string_view name = trimmed(line.text.substr(line.text.find_first_not_of(" \t") + kInclude.size()));
-  name = trimmed(name.substr(0, commentOf(name)));
+  std::string_view name = text::trimmed(line.text.substr(line.text.find_first_not_of(" \t") + kInclude.size()));
+  name = text::trimmed(name.substr(0, commentOf(name)));
   const auto column = static_cast<size_t>(name.data() - line.text.data());
   const SourceRange at = name.empty() ? line.range() : line.range(column, column + name.size());
   if (depth >= kMaxIncludes) {

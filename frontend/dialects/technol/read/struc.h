@@ -1,5 +1,5 @@
 // Structures of a program: `NAME struc`, members, `NAME ends`, and data that have the form of one: `V NAME <1,2>` (man.
-// l.4074, l.7423, l.13525). Members lie one behind the other without padding; a member's name is the constant of its
+// l.4074, l.7423, l.13525). Members lie one after the other without padding; a member's name is the constant of its
 // offset in bytes.
 #pragma once
 

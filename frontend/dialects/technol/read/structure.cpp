@@ -196,7 +196,7 @@ void Structure::passLabel(std::string_view name) {
     if (symbolKey(program_.tokens[program_.units[at].endLabel].text) == key) found = at;
   if (found == kNone) return;
   while (unit_ != found) closeUnit({});
-  // Blocks inside a block are told when it is certain that it has an end; else its missing end is the mistake.
+  // Blocks inside a block are reported when it is certain that it has an end; else its missing end is the mistake.
   std::erase_if(innerBlocks_, [&](const InnerBlock& inner) {
     if (inner.outer != found) return false;
     program_.diagnostics.report(Diag::SyntaxError, inner.at).note(program_.units[found].begin, "it begins here")
@@ -267,7 +267,7 @@ void Structure::finish(uint32_t statementCount) {
   }
   closeLocal(last);
   checkMissing();
-  // A block whose label stands elsewhere leads out of its unit; one without label or with an earlier one has no end.
+  // A block whose label is elsewhere leads out of its unit; one without label or with an earlier one has no end.
   for (const OpenBlock& block : lostBlocks_) {
     const uint32_t symbol = program_.symbols.find(block.label.text, file_);
     const bool later = symbol != kNone && program_.symbols[symbol].kind == SymbolKind::Label &&

@@ -1,5 +1,5 @@
 // The structure of a file while it is read: which module, mechanism, procedure and timed block is open (man. ch. 5). It
-// reports what does not fit and goes on with the most likely meaning, so that one mistake gives one report.
+// reports what does not fit and continues with the most likely meaning, so that one mistake gives one report.
 #pragma once
 
 #include <array>
@@ -37,9 +37,9 @@ public:
 
   // Whether a statement that opens, closes or declares something is right here, as far as that shows.
   bool fits(const Row& row) const;
-  // Whether an executable statement may stand here; reports where not.
+  // Whether an executable statement is allowed here; reports where not.
   bool allowsCode(const Statement& statement);
-  // Whether a declaration may stand here; reports where not.
+  // Whether a declaration is allowed here; reports where not.
   bool allowsData(const Statement& statement);
 
   uint32_t unit() const { return unit_; }
@@ -70,7 +70,7 @@ private:
   bool localOpen_ = false;
   bool stopped_ = false;
   bool outsideReported_ = false;
-  bool nested_ = false; // the module stands inside another one, outer_
+  bool nested_ = false; // the module is inside another one, outer_
   ModuleKind outer_ = ModuleKind::Data;
   bool dataReported_ = false;
   std::array<bool, kModuleKinds> seen_{};

@@ -2,6 +2,7 @@
 #include "frontend/dialects/technol/read/symbols.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "ir/support/similar.h"
 #include "rtlib/nc/technol/signals.h"
@@ -75,7 +76,7 @@ ir::Type cellType(nc::SignalType type) {
 }
 
 // Cells of chapter 8 that the PLC may only read are protected (man. l.6238, l.6493, l.6517); an example writes one of
-// another chapter (l.5921), so that those only warn. Names of weights are no cells.
+// another chapter (l.5921), so that those only warn. Names of weights are not cells.
 Protection protectionOf(const nc::Signal& signal) {
   if (signal.direction != nc::Direction::In) return Protection::None;
   return std::string_view(signal.group).starts_with("8.") ? Protection::Error : Protection::Warn;
@@ -127,7 +128,7 @@ uint32_t SymbolTable::inOwnFile(const Symbol& symbol) const {
   return global == kNone || !symbol.local || table_[global].file == symbol.file ? global : kNone;
 }
 
-// Whether both declarations may stand: the same constant twice, or a mechanism and a cell of one name (man. l.12304).
+// Whether both declarations are allowed: the same constant twice, or a mechanism and a cell of one name (man. l.12304).
 bool SymbolTable::merge(uint32_t earlier, Symbol& symbol) {
   Symbol& first = table_[earlier];
   if (first.kind == SymbolKind::Constant && symbol.kind == SymbolKind::Constant && first.value == symbol.value)
@@ -232,57 +233,46 @@ std::string_view describe(const Symbol& symbol) {
   return describe(symbol.type);
 }
 
+static std::string_view similarMember(std::string_view name, const char* structure) {
+  if (structure == nullptr || *structure == 0) return {};
+  const std::string_view type(structure);
+  const size_t prefix = (type == "BLK" ? "BLK[]." : std::string(type) + ".").size();
+  const auto isMember = [&](const nc::Signal& signal) { return type == signal.area; };
+  return mostSimilar(name, nc::technolSignals() | std::views::filter(isMember),
+                     [&](const nc::Signal& signal) { return std::string_view(signal.symbol).substr(prefix); });
+}
+
+static std::string_view similarOfControl(std::string_view name) {
+  Similar similar(name);
+  for (const nc::Signal& signal : nc::technolSignals())
+    if (std::string_view(signal.area) == "I" || std::string_view(signal.area) == "W") similar.offer(signal.symbol);
+  for (const Predefined& constant : kPredefined) similar.offer(constant.name);
+  return similar.best();
+}
+
 void SymbolTable::noteUndefined(const Token& name, uint32_t file, Hint hint) {
-  undefined_[symbolKey(name.text)].push_back({name, file, std::move(hint)});
+  undefined_.add({{name.text, name.range()}, file, hint});
 }
 
 void SymbolTable::reportUndefined() {
-  for (auto& [key, uses] : undefined_) reportUndefined(uses);
-  undefined_.clear();
+  undefined_.report(diagnostics_, Diag::UndefinedSymbol, [&](DiagBuilder& report, const Undefined& first) {
+    const std::string_view meant = similar(first);
+    report.meant(first.range, meant);
+    if (meant.empty() && looksLikeNumber(first.name)) report.note("as a number: 0" + std::string(first.name));
+  });
 }
 
-void SymbolTable::reportUndefined(std::vector<Use>& uses) {
-  const auto place = [](const Use& use) { return use.name.pos; };
-  std::ranges::stable_sort(uses, {}, place);
-  const auto same = std::ranges::unique(uses, {}, place); // the body of a macro, or asked for again
-  uses.erase(same.begin(), same.end());
-  const Use& first = uses.front();
-  std::string meant = first.hint.meant;
-  if (meant.empty() && suggestions_++ < kMostSuggestions) meant = similar(first);
-  DiagBuilder report = diagnostics_.report(Diag::UndefinedSymbol, first.name.range());
-  report << first.name.text;
-  if (!meant.empty())
-    report.note("did you mean " + meant + "?");
-  else if (looksLikeNumber(first.name.text))
-    report.note("as a number: 0" + std::string(first.name.text));
-  const size_t further = uses.size() - 1;
-  if (further == 1)
-    report.note(uses[1].name.range(), "it is used once more, here");
-  else if (further > 1)
-    report.note(uses[1].name.range(), "and " + std::to_string(further) + " further uses; the next is here");
-}
-
-// The name in sight that is most like a misspelt one; "" when none is close. Members of the structure come first, then
+// The visible name that is most like a misspelt one; "" when none is close. Members of the structure come first, then
 // the program's own names, then those of the control, bits of bytes among them.
-std::string SymbolTable::similar(const Use& use) const {
-  const std::string_view name = use.name.text;
-  const char* structure = use.hint.structure;
-  if (structure != nullptr && *structure != 0) {
-    const std::string_view type(structure), prefix = type == "BLK" ? "BLK[]" : type;
-    Similar member(name);
-    for (const nc::Signal& signal : nc::technolSignals())
-      if (type == signal.area) member.offer(std::string_view(signal.symbol).substr(prefix.size() + 1));
-    if (!member.best().empty()) return std::string(member.best());
-  }
-  Similar own(name);
-  for (const Symbol& symbol : table_.all())
-    if (!symbol.predeclared && (!symbol.local || symbol.file == use.file)) own.offer(symbol.name);
-  if (!own.best().empty()) return std::string(own.best());
-  Similar interface(name);
-  for (const nc::Signal& signal : nc::technolSignals())
-    if (std::string_view(signal.area) == "I" || std::string_view(signal.area) == "W") interface.offer(signal.symbol);
-  for (const Predefined& constant : kPredefined) interface.offer(constant.name);
-  return std::string(interface.best());
+std::string_view SymbolTable::similar(const Undefined& use) const {
+  if (!use.hint.meant.empty()) return use.hint.meant;
+  if (!diagnostics_.suggests()) return {};
+  if (const std::string_view member = similarMember(use.name, use.hint.structure); !member.empty()) return member;
+  const auto isVisible = [&](const Symbol& symbol) {
+    return !symbol.predeclared && (!symbol.local || symbol.file == use.file);
+  };
+  const std::string_view own = mostSimilar(use.name, table_.all() | std::views::filter(isVisible), &Symbol::name);
+  return !own.empty() ? own : similarOfControl(use.name);
 }
 
 uint32_t SymbolTable::findWeight(std::string_view name, uint32_t file) {

@@ -3,7 +3,6 @@
 // interface and the predefined constants, which are entered at their first use.
 #pragma once
 
-#include <map>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -12,6 +11,7 @@
 #include "frontend/dialects/technol/records.h"
 #include "frontend/sema/analysis.h"
 #include "frontend/sema/names.h"
+#include "frontend/sema/undeclared.h"
 #include "ir/support/diagnostics.h"
 #include "rtlib/nc/signal.h"
 
@@ -29,7 +29,7 @@ inline constexpr uint32_t kMechanismBytes = 3;
 inline constexpr uint32_t kRegisterBytes = 192;
 inline constexpr size_t kSignificant = 31;
 
-// Behind a name that is local to one use of a macro; no program can write it.
+// After a name that is local to one use of a macro; no program can write it.
 inline constexpr char kUseMark = '#';
 
 // Upper case, cut to what counts.
@@ -57,12 +57,12 @@ public:
   // What is known of a name that is not declared.
   struct Hint {
     const char* structure = nullptr; // of the control, where it is looked for as a member
-    std::string meant;               // what it may have been; empty: to be looked for
+    std::string_view meant;          // what it may have been; empty: to be looked for
   };
   void noteUndefined(const Token& name, uint32_t file, Hint hint);
   // Reports undefined-symbol, once for each name, at its first use.
   void reportUndefined();
-  // A bit name that may stand behind an address only.
+  // A bit name that may only follow an address.
   uint32_t findWeight(std::string_view name, uint32_t file);
   // A member of an interface structure; kNone when it has none of this name.
   uint32_t findMember(const char* structure, std::string_view member);
@@ -83,21 +83,17 @@ private:
   void checkName(const Symbol& symbol);
   void checkPredeclared(const Symbol& symbol);
   uint32_t enterPredeclared(std::string_view name);
-  struct Use {
-    Token name;
+  struct Undefined : UndeclaredUse {
     uint32_t file = 0;
     Hint hint;
   };
-  void reportUndefined(std::vector<Use>& uses);
-  std::string similar(const Use& use) const;
+  std::string_view similar(const Undefined& use) const;
 
   Diagnostics& diagnostics_;
   NameTable<Symbol, symbolKey> table_;
   std::vector<NameUse> uses_;
   std::unordered_map<const nc::Signal*, uint32_t> members_; // of structures of the control, those that are in use
-  std::map<std::string, std::vector<Use>> undefined_;       // by key
-  static constexpr uint32_t kMostSuggestions = 100;         // each looks at all names
-  uint32_t suggestions_ = 0;
+  UndeclaredNames<Undefined, symbolKey> undefined_;
 };
 
 } // namespace rung::frontend::technol

@@ -1,7 +1,7 @@
 // The table of TECHNOL: a row is the reference's InstructionInfo, what the statement is to the structure of a program
 // (Role), what it does to the registers as far as it shows without its operands (Effect), what is checked beyond the
 // kinds of its operands, and its lowering function. A new instruction is one row, one lowering function (often shared,
-// told apart by `variant`), one scenario.
+// distinguished by `variant`), one scenario.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct CheckContext;
 struct Operand;
 
 enum class Role : uint8_t {
-  Code,     // lowered where it stands
+  Code,     // lowered where it is
   NoCode,   // accepted, does nothing
   Module,    // variant: ModuleKind
   ModuleEnd, // variant: ModuleKind

@@ -21,7 +21,7 @@ enum class OperandClass : uint8_t { Bit, Value, Name, Keyword, Text, Variable };
 struct OperandTraits {
   OperandClass parse = OperandClass::Value;
   uint8_t prefixes = 0;
-  bool sign = false;                     // `-` in front
+  bool sign = false;                     // `-` before it
   bool cell = true;                      // a cell may be written
   bool constant = false;                 // a constant may
   bool notGiven = false;                 // `-` or NIL may

@@ -37,7 +37,7 @@ constexpr OperandInfo repeated(OperandInfo operand) {
 constexpr OperandInfo lengthOf(std::string_view name, std::string_view doc, bool optional) {
   return {.name = name, .kind = &kinds::kLength, .doc = doc, .min = 0, .max = kMostBytes, .optional = optional};
 }
-// Where instructions of EX kind stand (man. l.2166-2171).
+// Where instructions of EX kind are allowed (man. l.2166-2171).
 inline constexpr std::string_view kSequentialUnits = "mechanisms, MODULE_BLOCK_INIT, MODULE_BLOCK_DONE";
 // Which part of DR the instruction works on.
 constexpr OperandInfo widthOf(const OperandKind& kind) {

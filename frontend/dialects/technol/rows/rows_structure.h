@@ -130,10 +130,10 @@ inline constexpr Row kStructureRows[] = {
      .lower = lowerCall},
     rowOf(finishedShape(kEndsInit), "MODULE_INIT_FINISHED", "start is complete", "5.1, l.2572",
           "The start is complete when each file that has this instruction has carried one out.", "MODULE_INIT_FINISHED",
-          static_cast<int>(HostCell::InitOwed)),
+          static_cast<int>(HostCell::InitPending)),
     rowOf(finishedShape(kEndsDone), "MODULE_DONE_FINISHED", "shutdown is complete", "5.1, l.2618",
           "The shutdown is complete when each file that has this instruction has carried one out.",
-          "MODULE_DONE_FINISHED", static_cast<int>(HostCell::DoneOwed)),
+          "MODULE_DONE_FINISHED", static_cast<int>(HostCell::DonePending)),
     // ---- declarations (man. ch. 3.4, 3.18) ------------------------------------------------------------------------
     rowOf(declarationShape(Role::Dfm, {optional(repeated(in("bit", kinds::kDeclaration, "name of a bit, from bit 0")))},
                            "DATA, DATA_LOCAL"),

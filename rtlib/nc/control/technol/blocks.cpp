@@ -47,7 +47,7 @@ Blocks::Places::Places(const rung_program& program) {
   const auto task = [&](std::string_view name) { return host::findTask(program, name); };
   init = {task("BLOCK_INIT"), hostCell(program, "@BLOCK_INIT.CONT"), hostCell(program, "@BLOCK_INIT.DONE")};
   done = {task("BLOCK_DONE"), hostCell(program, "@BLOCK_DONE.CONT"), hostCell(program, "@BLOCK_DONE.DONE")};
-  initOwed = hostCell(program, "@INIT.PENDING");
+  initPending = hostCell(program, "@INIT.PENDING");
   startDisable = interfaceCell(program, "START_DISABLE");
   startSuspend = interfaceCell(program, "START_SUSPEND");
   statusRestart = interfaceCell(program, "STATUS_RESTART");
@@ -100,7 +100,7 @@ void Blocks::annul(host::Instance& instance) {
 // Not before all initialisation is done (man. l.2571-2576), nor while the program forbids or delays it (man.
 // l.6456-6467).
 bool Blocks::mayStart(const host::Instance& instance) const {
-  return get(instance, places_->initOwed) == 0 && get(instance, places_->startDisable) == 0 &&
+  return get(instance, places_->initPending) == 0 && get(instance, places_->startDisable) == 0 &&
          get(instance, places_->startSuspend) == 0;
 }
 

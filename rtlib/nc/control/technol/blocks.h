@@ -39,7 +39,7 @@ public:
   private:
     friend class Blocks;
     Module init, done;
-    rt::Place initOwed, startDisable, startSuspend, statusRestart, blockInProgress, positionReached, stopDone,
+    rt::Place initPending, startDisable, startSuspend, statusRestart, blockInProgress, positionReached, stopDone,
         annulment;
     std::vector<rt::Place> lastOneBlock; // zero again at the end of the block
     std::vector<rt::Place> motionBits;   // PO_OS...

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rtlib/nc/control/technol/values.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-// Behind a '[': the digits of an index without leading zeros; nothing where there is no index. "" is zero.
+// After a '[': the digits of an index without leading zeros; nothing where there is no index. "" is zero.
 std::optional<std::string_view> digitsOfIndex(std::string_view rest) {
   size_t end = 0;
   while (end < rest.size() && isDigit(rest[end])) ++end;
@@ -24,7 +25,7 @@ std::optional<std::string_view> digitsOfIndex(std::string_view rest) {
 } // namespace
 
 std::string canonical(std::string_view identifier) {
-  identifier = trimmed(identifier);
+  identifier = text::trimmed(identifier);
   std::string made;
   made.reserve(identifier.size());
   for (size_t i = 0; i < identifier.size(); ++i) {

@@ -26,7 +26,7 @@ public:
   void put(std::string_view text) {
     for (const char c : text) put(c);
   }
-  // %d, %x and %X stand for the values in their order (man. l.5290-5297).
+  // %d, %x and %X are the values in their order (man. l.5290-5297).
   void putFilled(std::string_view text, const MessageValues& values) {
     size_t next = 0;
     for (size_t i = 0; i < text.size(); ++i) {

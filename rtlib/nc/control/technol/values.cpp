@@ -1,6 +1,7 @@
 // Numbers of the configuration (see values.h).
 #include "rtlib/nc/control/technol/values.h"
 
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nc::technol {
@@ -13,15 +14,8 @@ std::string_view withoutPlus(std::string_view text) {
 
 } // namespace
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 std::optional<int64_t> integerOf(std::string_view text) {
-  text = trimmed(text);
+  text = text::trimmed(text);
   if (text.starts_with("0x") || text.starts_with("0X")) {
     const auto bits = text::numberIn<uint64_t>(text.substr(2), 16);
     return bits ? std::optional(static_cast<int64_t>(*bits)) : std::nullopt;
@@ -29,6 +23,6 @@ std::optional<int64_t> integerOf(std::string_view text) {
   return text::numberIn<int64_t>(withoutPlus(text), 10);
 }
 
-std::optional<double> realOf(std::string_view text) { return text::realIn(withoutPlus(trimmed(text))); }
+std::optional<double> realOf(std::string_view text) { return text::realIn(withoutPlus(text::trimmed(text))); }
 
 } // namespace rung::nc::technol

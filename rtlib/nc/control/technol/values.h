@@ -6,8 +6,6 @@
 
 namespace rung::nc::technol {
 
-// Without blanks and line ends at both ends.
-std::string_view trimmed(std::string_view text);
 // 12, -12, 0x0C; nothing where it is none.
 std::optional<int64_t> integerOf(std::string_view text);
 // 12, -0.5, 1e3; finite.

@@ -2,6 +2,7 @@
 // (man. l.3242-3285, l.9210-9240).
 #include <algorithm>
 
+#include "rtlib/text/blanks.h"
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/text/letters.h"
@@ -154,10 +155,10 @@ std::optional<std::string> CanDevices::configureObject(std::string_view key, std
   const auto index = numberIn(text::lower(takeUntil(rest, '.')), 0, 0xFFFF);
   const auto subindex = numberIn(text::lower(rest), 0, 0xFF);
   if (!index || !subindex) return inQuotes(key) + " does not name an object; expected sdo.0x2003.1";
-  std::string_view left = nc::technol::trimmed(value);
+  std::string_view left = text::trimmed(value);
   const std::string_view number = takeUntil(left, '/');
   const auto bytes = numberIn(takeUntil(left, ' '), 1, 4);
-  const std::string_view access = nc::technol::trimmed(left);
+  const std::string_view access = text::trimmed(left);
   const bool isAccess = access.empty() || access == "ro" || access == "wo";
   const int64_t end = bytes ? int64_t{1} << 8 * *bytes : 0;
   const auto content = bytes && *bytes != 3 && isAccess ? nc::technol::integerOf(number) : std::nullopt;

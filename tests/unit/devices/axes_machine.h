@@ -1,6 +1,8 @@
 // Axes with the cells of a program beside them, as tests drive them.
 #pragma once
+#include <initializer_list>
 #include <string>
+#include <utility>
 
 #include "tools/sim/technol/devices/axes.h"
 
@@ -12,7 +14,9 @@ struct AxesMachine {
   sim::technol::AxisRequests requests;
   sim::technol::AxisOutputs out;
 
-  explicit AxesMachine(std::initializer_list<std::pair<const char*, const char*>> configuration = {}) {
+  using Configuration = std::initializer_list<std::pair<const char*, const char*>>;
+
+  AxesMachine(Configuration configuration = {}) { // NOLINT(google-explicit-constructor)
     for (const auto& [key, value] : configuration) problems += axes.configure(key, value);
     requests.knobStep = 100;
     axes.powerUp();

@@ -36,11 +36,13 @@ void Axes::analogPort(int64_t port) {
 }
 
 AnalogOutput Axes::analogOnSpindle(int64_t value, int64_t axis, int64_t spi) {
-  if (!usable("ANALOG", axis)) return {};
-  if (spi >= 0 && spi <= 2)
-    return spindles_.putOnSpindle(value, static_cast<uint32_t>(axis), static_cast<uint32_t>(spi));
-  complaints_.add({"ANALOG", "spi", spi, {}});
-  return {};
+  if (spi < 0 || spi > 2) {
+    complaints_.add({"ANALOG", "spi", spi, {}});
+    return {};
+  }
+  // A role says which axis, whatever the operand says (l.8130).
+  if (!(spi == 0 ? usable("ANALOG", axis) : inRange("ANALOG", axis))) return {};
+  return spindles_.putOnSpindle(value, static_cast<uint32_t>(axis), static_cast<uint32_t>(spi));
 }
 
 AnalogOutput Axes::analogSpi(int64_t value, int64_t axis) {

@@ -45,7 +45,7 @@ double Axis::nextPulse(double from, bool downwards) const {
 void Axis::seekPulse(double perMinute, double acceleration) {
   const double speed = perMinute / 60;
   if (speed == 0) return motion.stop(acceleration);
-  if (!seeks_ || seeksDownwards_ != speed < 0) {
+  if (!seeks_ || seeksDownwards_ != (speed < 0)) {
     seeks_ = true;
     seeksDownwards_ = speed < 0;
     pulse_ = nextPulse(motion.inRange(speed, acceleration), seeksDownwards_);

@@ -113,7 +113,8 @@ void KeyboardReader::add(const KeyDefinition& key) {
   for (const KeyDefinition& old : found_)
     if (old.scan == key.scan && (old.function == key.function || old.function == KeyDefinition::kAnyFunction ||
                                  key.function == KeyDefinition::kAnyFunction))
-      return complain("this function of the key is defined again; the first definition is at " + old.place);
+      return complainAt(key.place,
+                        "this function of the key is defined again; the first definition is at " + old.place);
   found_.push_back(key);
 }
 

@@ -175,6 +175,8 @@ std::string Attributes::required(std::string_view name) {
   return std::string(trimmed(*value));
 }
 
+std::string Attributes::optional(std::string_view name) { return std::string(trimmed(find(name).value_or(""))); }
+
 void Attributes::flag(std::string_view name, bool& value) {
   uint32_t bit = value ? 1 : 0;
   number(name, 1, bit);

@@ -79,6 +79,8 @@ public:
   Attributes(XmlReader& reader, const char** list);
 
   std::string required(std::string_view name);
+  // Without blanks at its ends; "" where it is not given.
+  std::string optional(std::string_view name);
   void flag(std::string_view name, bool& value);
   void number(std::string_view name, uint32_t most, uint32_t& value);
   void real(std::string_view name, double& value);

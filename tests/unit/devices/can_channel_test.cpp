@@ -1,10 +1,8 @@
 // A logical channel: CAN_SEND, CAN_RECV, CAN_RECV_REQ, CAN_RECV_DEL (man. l.3680-3860).
-#include "tools/devices/can/channel.h"
+#include "tools/devices/can/controller.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "tools/devices/can/port.h"
 
 namespace {
 
@@ -110,17 +108,26 @@ TEST_F(Channel, OffTheBusOrdersAreTakenAndPacketsComeNoMoreThanTheBusGives) {
   EXPECT_EQ(channel.receive(packet), CanError::NothingReceived);
 }
 
-TEST_F(Channel, ExchangeStopsWhereThePortIsFull) {
+TEST(CanController, PacketsWaitWhereThePortIsFull) {
   struct Narrow final : CanPort {
     BusState state() const override { return BusState::Active; }
     bool transmit(const CanPacket&) override { return room > 0 && room-- > 0; }
     bool receive(CanPacket&) override { return false; }
     int room = 2;
   } port;
-  for (uint32_t i = 0; i < 5; ++i) channel.send(packetOf(i, {}));
-  exchange(channel, port);
-  ASSERT_TRUE(channel.peekToSend(packet));
+  CanController control;
+  control.connect(2, port);
+  control.power();
+  UnitStates units;
+  DriveStates drives;
+  for (uint32_t i = 0; i < 5; ++i) control.channel(2).send(packetOf(i, {}));
+  control.transmit({}, units, {}, drives);
+  CanPacket packet;
+  ASSERT_TRUE(control.channel(2).peekToSend(packet));
   EXPECT_EQ(packet.id, 2) << "the refused one is the next one";
+  ASSERT_TRUE(control.takeSent(2, packet));
+  EXPECT_EQ(packet.id, 0);
+  EXPECT_EQ(control.channel(1).send(packet), CanError::SendQueueFull) << "no port";
 }
 
 } // namespace

@@ -21,14 +21,14 @@ struct Drives : testing::Test, CanRig {
   uint16_t status(uint32_t drive) const { return out.drives.status[drive - 1]; }
   CanPacket ask(uint32_t axis, std::initializer_list<uint8_t> data) {
     CanPacket packet = packetOf(0xFFFF, data);
-    devices.sendToDrive(axis, packet);
-    EXPECT_EQ(devices.driveBusy(), 0xFF);
+    devices.control().sendToDrive(axis, packet);
+    EXPECT_EQ(devices.control().driveBusy(), 0xFF);
     EXPECT_EQ(packet.id, 0x600 + axis); // filled in, l.9488
     EXPECT_EQ(packet.remote, 0);
     EXPECT_EQ(packet.length, 8);
     run();
-    EXPECT_EQ(devices.driveBusy(), 0);
-    return devices.driveAnswer();
+    EXPECT_EQ(devices.control().driveBusy(), 0);
+    return devices.control().driveAnswer();
   }
 };
 
@@ -66,12 +66,12 @@ TEST_F(Drives, FaultStaysUntilItIsReset) {
   run();
   EXPECT_EQ(status(2), 0x08);
   DriveMessage message;
-  ASSERT_TRUE(devices.takeMessage(message));
+  ASSERT_TRUE(devices.control().takeMessage(message));
   EXPECT_EQ(message.number, 4217); // l.9649
   EXPECT_EQ(message.drive, 2);
   EXPECT_EQ(message.fault, 39); // lag error, l.9732
   EXPECT_EQ(message.emergency, 0x8611);
-  EXPECT_FALSE(devices.takeMessage(message));
+  EXPECT_FALSE(devices.control().takeMessage(message));
   EXPECT_EQ(devices.driveObject(2, 0x603F, 0), 0x8611u);
   EXPECT_EQ(devices.driveObject(2, 0x1001, 0), 1u);
 
@@ -108,7 +108,7 @@ TEST_F(Drives, UnknownEmergencyHasNoNumber) {
   EXPECT_EQ(devices.driveEvent(1, {.fault = 0x1234}), "");
   run();
   DriveMessage message;
-  ASSERT_TRUE(devices.takeMessage(message));
+  ASSERT_TRUE(devices.control().takeMessage(message));
   EXPECT_EQ(message.fault, 0);
 }
 
@@ -138,40 +138,40 @@ TEST_F(Drives, ObjectsBySdo) { // l.9480-9602
 TEST_F(Drives, SilentDrive) {
   CanPacket packet = packetOf(0, {0x40, 0, 0x10, 0});
   EXPECT_EQ(devices.driveEvent(1, {.silent = true}), "");
-  devices.sendToDrive(1, packet);
+  devices.control().sendToDrive(1, packet);
   run(99);
-  EXPECT_EQ(devices.driveBusy(), 0xFF);
+  EXPECT_EQ(devices.control().driveBusy(), 0xFF);
   EXPECT_EQ(status(1), 0x33);
   run(1);
   EXPECT_EQ(status(1), 0);
   DriveMessage message;
-  ASSERT_TRUE(devices.takeMessage(message));
+  ASSERT_TRUE(devices.control().takeMessage(message));
   EXPECT_EQ(message.number, 4219);
   EXPECT_EQ(message.drive, 1);
   run(500);
-  EXPECT_FALSE(devices.takeMessage(message)) << "once";
+  EXPECT_FALSE(devices.control().takeMessage(message)) << "once";
   EXPECT_EQ(devices.driveEvent(1, {.silent = false}), "");
   run();
   EXPECT_EQ(status(1), 0x33);
-  EXPECT_EQ(devices.driveBusy(), 0xFF);
-  devices.sendToDrive(1, packet); // the program repeats it, l.9541
+  EXPECT_EQ(devices.control().driveBusy(), 0xFF);
+  devices.control().sendToDrive(1, packet); // the program repeats it, l.9541
   run();
-  EXPECT_EQ(devices.driveBusy(), 0);
+  EXPECT_EQ(devices.control().driveBusy(), 0);
 }
 
 TEST_F(Drives, TheSecondQuestionTakesThePlaceOfTheFirst) {
   CanPacket packet = packetOf(0, {0x40, 0, 0x10, 0});
-  devices.sendToDrive(7, packet); // no such drive
+  devices.control().sendToDrive(7, packet); // no such drive
   run();
-  EXPECT_EQ(devices.driveBusy(), 0xFF);
-  devices.sendToDrive(2, packet);
+  EXPECT_EQ(devices.control().driveBusy(), 0xFF);
+  devices.control().sendToDrive(2, packet);
   run();
-  EXPECT_EQ(devices.driveBusy(), 0);
-  EXPECT_EQ(devices.driveAnswer().id, 0x582);
+  EXPECT_EQ(devices.control().driveBusy(), 0);
+  EXPECT_EQ(devices.control().driveAnswer().id, 0x582);
 }
 
 TEST_F(Drives, TheProgramsOwnSdoIsAnsweredToo) {
-  EXPECT_EQ(devices.channel(1).send(packetOf(0x602, {0x40, 0x03, 0x20, 1, 0, 0, 0, 0})), CanError::Ok);
+  EXPECT_EQ(devices.control().channel(1).send(packetOf(0x602, {0x40, 0x03, 0x20, 1, 0, 0, 0, 0})), CanError::Ok);
   run();
   EXPECT_EQ(received(1), packetOf(0x582, {0x4B, 0x03, 0x20, 1, 0xA8, 0x02, 0, 0}));
 }
@@ -198,9 +198,9 @@ TEST_F(Drives, UnidriveTrip) {
   run();
   EXPECT_EQ(status(3), 0x04);
   DriveMessage message;
-  ASSERT_TRUE(devices.takeMessage(message));
+  ASSERT_TRUE(devices.control().takeMessage(message));
   EXPECT_EQ(message.emergency, 52);
-  EXPECT_FALSE(devices.takeMessage(message)) << "once for the edge";
+  EXPECT_FALSE(devices.control().takeMessage(message)) << "once for the edge";
   command(3) = 0;
   ask(3, {0x2B, 0x40, 0x60, 0, 0x80, 0, 0, 0});
   EXPECT_EQ(status(3), 0x05);
@@ -212,7 +212,7 @@ TEST_F(Drives, BusOff) {
   EXPECT_EQ(devices.busEvent(1, true), "");
   run(100);
   EXPECT_EQ(status(1), 0);
-  EXPECT_EQ(devices.channel(1).send(packetOf(1, {})), CanError::SendQueueFull);
+  EXPECT_EQ(devices.control().channel(1).send(packetOf(1, {})), CanError::SendQueueFull);
   EXPECT_EQ(devices.busEvent(1, false), "");
   run();
   EXPECT_EQ(status(1), 0x33) << "enabled again by a new command";
@@ -227,7 +227,7 @@ TEST_F(Drives, PowerOff) {
   out = {};
   run();
   EXPECT_EQ(status(1), 0x33);
-  EXPECT_EQ(devices.driveBusy(), 0);
+  EXPECT_EQ(devices.control().driveBusy(), 0);
 }
 
 TEST(DriveConfiguration, Mistakes) {

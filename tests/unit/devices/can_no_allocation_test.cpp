@@ -25,10 +25,10 @@ TEST(CanNoAllocation, TenThousandTicks) {
                 rig.devices.wires(1, 2)->silent = ms / 300 % 2 != 0;
                 rig.run(1);
                 CanPacket packet = sdo::read(1, {0x1000, 0});
-                if (ms % 20 == 0) rig.devices.sendToDrive(1, packet);
-                rig.devices.channel(2).send(packetOf(ms & 0x7FF, {1}));
-                while (rig.devices.takeReceived(2, packet)) rig.devices.channel(2).deliver(packet);
-                rig.devices.channel(2).receive(packet);
+                if (ms % 20 == 0) rig.devices.control().sendToDrive(1, packet);
+                rig.devices.control().channel(2).send(packetOf(ms & 0x7FF, {1}));
+                while (rig.devices.control().takeReceived(2, packet)) rig.devices.control().channel(2).deliver(packet);
+                rig.devices.control().channel(2).receive(packet);
               }
             }),
             0);

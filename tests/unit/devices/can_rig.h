@@ -13,13 +13,13 @@ struct CanRig {
   void run(uint32_t ms = 20) {
     while (ms-- > 0) devices.tick(in, out);
   }
-  uint32_t item(uint32_t group, uint32_t board, devices::InoutsItem item) const {
+  uint32_t item(uint32_t group, uint32_t board, devices::InoutsItem item) {
     uint32_t value = 0xDEAD;
-    EXPECT_TRUE(devices.readItem(2, group, board, item, value));
+    EXPECT_TRUE(devices.control().readItem(2, group, board, item, value));
     return value;
   }
   void setItem(uint32_t group, uint32_t board, devices::InoutsItem item, uint32_t value) {
-    EXPECT_TRUE(devices.writeItem(2, group, board, item, value));
+    EXPECT_TRUE(devices.control().writeItem(2, group, board, item, value));
   }
   void unitEvent(uint32_t group, uint32_t board, const sim::technol::CanUnitEvent& event) {
     EXPECT_EQ(devices.unitEvent(group, board, event), "");
@@ -27,7 +27,7 @@ struct CanRig {
   // The next packet for the program; an empty one with the identifier FFFFh where none has come.
   devices::CanPacket received(uint32_t channel) {
     devices::CanPacket packet{.id = 0xFFFF};
-    devices.takeReceived(channel, packet);
+    devices.control().takeReceived(channel, packet);
     return packet;
   }
 

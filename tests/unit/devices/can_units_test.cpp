@@ -112,15 +112,15 @@ TEST_F(Units, WhatTheStructureSays) {
 
 TEST_F(Units, ItemsOfUnitsThatAreNotThere) { // l.4296, l.4330
   uint32_t value = 0;
-  EXPECT_FALSE(devices.readItem(2, 1, 3, kMode, value));
-  EXPECT_FALSE(devices.readItem(2, 4, 1, kMode, value));
-  EXPECT_FALSE(devices.readItem(2, 0, 1, kMode, value));
-  EXPECT_FALSE(devices.readItem(2, 1, 0, kMode, value));
-  EXPECT_FALSE(devices.readItem(1, 1, 1, kMode, value)) << "channel 1 is not active";
-  EXPECT_FALSE(devices.readItem(2, 1, 1, {kBytes, 1}, value));
-  EXPECT_FALSE(devices.readItem(2, 1, 1, {kBytes - 1, 2}, value));
-  EXPECT_FALSE(devices.readItem(2, 1, 1, {UINT32_MAX, 4}, value));
-  EXPECT_FALSE(devices.writeItem(2, 1, 3, kMode, 1));
+  EXPECT_FALSE(devices.control().readItem(2, 1, 3, kMode, value));
+  EXPECT_FALSE(devices.control().readItem(2, 4, 1, kMode, value));
+  EXPECT_FALSE(devices.control().readItem(2, 0, 1, kMode, value));
+  EXPECT_FALSE(devices.control().readItem(2, 1, 0, kMode, value));
+  EXPECT_FALSE(devices.control().readItem(1, 1, 1, kMode, value)) << "channel 1 is not active";
+  EXPECT_FALSE(devices.control().readItem(2, 1, 1, {kBytes, 1}, value));
+  EXPECT_FALSE(devices.control().readItem(2, 1, 1, {kBytes - 1, 2}, value));
+  EXPECT_FALSE(devices.control().readItem(2, 1, 1, {UINT32_MAX, 4}, value));
+  EXPECT_FALSE(devices.control().writeItem(2, 1, 3, kMode, 1));
   EXPECT_EQ(value, 0u);
 }
 
@@ -163,10 +163,11 @@ TEST_F(Units, HandwheelDisplayWaitsForTheProgram) { // l.7507-7531
   in.units.displayBusy[0] = true;
   in.units.display[0] = {0, 16, 'A', 'b', 'c', 0xFF, 0, 0};
   run();
-  EXPECT_EQ(devices.unit(3, 1)->display().text(0, 16), "");
+  EXPECT_EQ(devices.unit(3, 1)->display()->text(0, 16), "");
   in.units.displayBusy[0] = false;
   run();
-  EXPECT_EQ(devices.unit(3, 1)->display().text(0, 16), "Abc");
+  EXPECT_EQ(devices.unit(3, 1)->display()->text(0, 16), "Abc");
+  EXPECT_EQ(devices.unit(1, 1)->display(), nullptr);
 }
 
 TEST_F(Units, SeriousErrorZeroesAllOutputs) { // l.3541, l.3655-3674, l.4252-4263
@@ -317,12 +318,12 @@ TEST_F(Units, AnErrorThatCameWhileTheUnitWasSilentIsSeenAfterwards) {
 
 TEST_F(Units, BusOff) {
   EXPECT_EQ(devices.busEvent(2, true), "");
-  EXPECT_EQ(devices.channel(2).send(packetOf(0x10, {})), CanError::SendQueueFull);
+  EXPECT_EQ(devices.control().channel(2).send(packetOf(0x10, {})), CanError::SendQueueFull);
   run(100);
   EXPECT_EQ(codes(1), (GroupCodes{0x11, 1, 1, 1}));
   EXPECT_EQ(codes(3), (GroupCodes{0x11, 1, 1, 1}));
   EXPECT_EQ(devices.busEvent(2, false), "");
-  EXPECT_EQ(devices.channel(2).send(packetOf(0x10, {})), CanError::Ok);
+  EXPECT_EQ(devices.control().channel(2).send(packetOf(0x10, {})), CanError::Ok);
   run();
   EXPECT_EQ(codes(1), GroupCodes{});
 }
@@ -350,7 +351,7 @@ TEST_F(Units, ThePdosOfUnitsAreTheControls) {
 
 TEST_F(Units, SdoByTheProgram) { // l.4358-4463
   const auto ask = [&](const CanPacket& packet) {
-    EXPECT_EQ(devices.channel(2).send(packet), CanError::Ok);
+    EXPECT_EQ(devices.control().channel(2).send(packet), CanError::Ok);
     run();
     return received(2);
   };
@@ -384,27 +385,28 @@ TEST_F(Units, RequestsByTheStructure) { // SEND_REQ, l.4105
 
 TEST_F(Units, PacketsFromOutsideAndFromTheProgram) {
   EXPECT_EQ(devices.packetEvent(2, packetOf(0x11, {1, 0xAA})), "");
-  EXPECT_EQ(devices.channel(2).send(packetOf(0x10, {2, 0x55})), CanError::Ok);
+  EXPECT_EQ(devices.control().channel(2).send(packetOf(0x10, {2, 0x55})), CanError::Ok);
   CanPacket packet;
-  EXPECT_FALSE(devices.takeSent(2, packet)) << "the bus takes it in the next tick";
+  EXPECT_FALSE(devices.control().takeSent(2, packet)) << "the bus takes it in the next tick";
   run(1);
   EXPECT_EQ(received(2), packetOf(0x11, {1, 0xAA}));
-  ASSERT_TRUE(devices.takeSent(2, packet));
+  ASSERT_TRUE(devices.control().takeSent(2, packet));
   EXPECT_EQ(packet, packetOf(0x10, {2, 0x55}));
-  EXPECT_FALSE(devices.takeSent(2, packet));
+  EXPECT_FALSE(devices.control().takeSent(2, packet));
   EXPECT_NE(devices.packetEvent(1, packet), "") << "not active";
   EXPECT_NE(devices.packetEvent(3, packet), "");
   EXPECT_NE(devices.packetEvent(2, {.id = 0x800}), "");
 }
 
 TEST_F(Units, OrdersEndWithThePlcProgram) {
-  ASSERT_EQ(devices.channel(2).order({.objectLow = 0, .objectHigh = 0, .nodeLow = 0x11, .nodeHigh = 0x11}), 1u);
+  ASSERT_EQ(devices.control().channel(2).order({.objectLow = 0, .objectHigh = 0, .nodeLow = 0x11, .nodeHigh = 0x11}),
+            1u);
   EXPECT_EQ(devices.packetEvent(2, packetOf(0x11, {1})), "");
   run(1);
-  EXPECT_EQ(devices.channel(2).deliver(received(2)).count, 1u);
-  devices.startProgram();
-  EXPECT_EQ(devices.channel(2).deliver(packetOf(0x11, {1})).count, 0u);
-  EXPECT_FALSE(devices.orders().remove(1));
+  EXPECT_EQ(devices.control().channel(2).deliver(received(2)).count, 1u);
+  devices.control().startProgram();
+  EXPECT_EQ(devices.control().channel(2).deliver(packetOf(0x11, {1})).count, 0u);
+  EXPECT_FALSE(devices.control().orders().remove(1));
 }
 
 TEST_F(Units, EmergenciesAreTheProgramsToo) {
@@ -423,11 +425,11 @@ TEST_F(Units, SyncPeriod) {
 TEST(UnitsAlone, ABusWithoutUnits) {
   CanRig rig;
   rig.devices.power();
-  EXPECT_EQ(rig.devices.channel(2).send(packetOf(1, {})), CanError::SendQueueFull) << "not active";
+  EXPECT_EQ(rig.devices.control().channel(2).send(packetOf(1, {})), CanError::SendQueueFull) << "not active";
   rig.configure("CAN[1].Active", "1");
   rig.devices.power();
-  EXPECT_EQ(rig.devices.channel(2).send(packetOf(1, {})), CanError::Ok);
-  EXPECT_EQ(rig.devices.channel(1).send(packetOf(1, {})), CanError::SendQueueFull);
+  EXPECT_EQ(rig.devices.control().channel(2).send(packetOf(1, {})), CanError::Ok);
+  EXPECT_EQ(rig.devices.control().channel(1).send(packetOf(1, {})), CanError::SendQueueFull);
 }
 
 TEST(UnitsAlone, AllOfThem) {

@@ -10,6 +10,8 @@
 #include <chrono>
 #include <optional>
 
+#include "tools/devices/can/controller.h"
+
 namespace {
 
 using namespace rung::devices;
@@ -111,25 +113,27 @@ TEST_F(SocketCanTest, FullQueueIsTheErrorOfTheInstruction) {
   const int small = 1;
   setsockopt(ends_[0], SOL_SOCKET, SO_SNDBUF, &small, sizeof small);
   adopt();
-  CanOrders orders;
-  CanChannel channel(1, orders);
+  CanController control;
+  control.connect(1, can_);
+  control.power();
+  UnitStates units;
+  DriveStates drives;
   uint32_t taken = 0;
   const auto sendsAll = [&] {
-    exchange(channel, can_);
-    while (channel.send(packetOf(taken & 0x7FF, {})) == CanError::Ok) ++taken;
+    control.transmit({}, units, {}, drives);
+    while (control.channel(1).send(packetOf(taken & 0x7FF, {})) == CanError::Ok) ++taken;
     return can_.counts().full > 5;
   };
   ASSERT_TRUE(soon(sendsAll));
-  EXPECT_EQ(channel.send(packetOf(1, {})), CanError::SendQueueFull);
+  EXPECT_EQ(control.channel(1).send(packetOf(1, {})), CanError::SendQueueFull);
   for (uint32_t i = 0; i < taken; ++i) {
-    const auto frame = get();
-    ASSERT_TRUE(frame);
+    std::optional<can_frame> frame;
+    const auto comes = [&] {
+      control.transmit({}, units, {}, drives);
+      return (frame = get(MSG_DONTWAIT)).has_value();
+    };
+    ASSERT_TRUE(soon(comes));
     ASSERT_EQ(frame->can_id, i & 0x7FF);
-    exchange(channel, can_);
-    soon([&] {
-      exchange(channel, can_);
-      return can_.counts().sent > i + 1 || i + 1 == taken;
-    });
   }
 }
 

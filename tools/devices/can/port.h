@@ -15,13 +15,4 @@ public:
   virtual bool receive(CanPacket& packet) = 0;
 };
 
-// Before each scan: the channel learns how the bus is, and its packets go out. Then whoever calls procedures takes
-// packets from the port one by one and delivers them.
-inline void exchange(CanChannel& channel, CanPort& port) {
-  channel.setState(port.state());
-  CanPacket packet;
-  while (port.state() == BusState::Active && channel.peekToSend(packet) && port.transmit(packet))
-    channel.takeToSend(packet);
-}
-
 } // namespace rung::devices

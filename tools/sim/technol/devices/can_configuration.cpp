@@ -67,7 +67,7 @@ std::optional<std::string> CanDevices::configureChannel(std::string_view key, st
   if (rest == ".SYNCPERIOD") {
     const auto period = numberIn(value, 1, kMostSyncPeriod);
     if (!period) return takes(key, "1 to 15 ms");
-    channel == 1 ? driveSide_.setSyncPeriod(*period) : unitSide_.setSyncPeriod(*period);
+    channel == 1 ? control_.drives().setSyncPeriod(*period) : control_.units().setSyncPeriod(*period);
     return "";
   }
   if (rest == ".CANSPEED")
@@ -106,7 +106,7 @@ std::optional<std::string> CanDevices::configureUnit(std::string_view key, std::
     const auto control = numberIn(value, 0, 255);
     if (!control) return takes(key, "0 to 255");
     controls_[group - 1][number] = static_cast<uint8_t>(*control);
-    unitSide_.setControl(group, number + 1, static_cast<uint8_t>(*control));
+    control_.units().setControl(group, number + 1, static_cast<uint8_t>(*control));
     return "";
   }
   return inQuotes(key) + " is not a unit's control byte: CAN[1].INOUT08[0].CONTROL to [31], KLA50[0] to [3], Knob[0] "
@@ -117,8 +117,8 @@ void CanDevices::setUnits(uint32_t group, uint32_t count) {
   std::vector<SimulatedUnit>& units = buses_[1].units();
   std::erase_if(units, [&](const SimulatedUnit& unit) { return unit.group() == group; });
   for (uint32_t board = 1; board <= count; ++board) units.emplace_back(group, board);
-  unitSide_.configure(group, count);
-  for (uint32_t i = 0; i < count; ++i) unitSide_.setControl(group, i + 1, controls_[group - 1][i]);
+  control_.units().configure(group, count);
+  for (uint32_t i = 0; i < count; ++i) control_.units().setControl(group, i + 1, controls_[group - 1][i]);
   if (count > 0) buses_[1].setActive(true);
 }
 
@@ -128,7 +128,7 @@ void CanDevices::setDrives(uint32_t count) {
   std::vector<SimulatedDrive>& drives = buses_[0].drives();
   while (drives.size() > count) drives.pop_back();
   while (drives.size() < count) drives.emplace_back(static_cast<uint32_t>(drives.size() + 1));
-  driveSide_.configure(count);
+  control_.drives().configure(count);
   if (count > 0) buses_[0].setActive(true);
 }
 
@@ -145,7 +145,7 @@ std::optional<std::string> CanDevices::configureDrive(std::string_view key, std:
   if (!unidrive && !text::equalsIgnoringCase(value, "kollmorgen")) return takes(key, "kollmorgen or unidrive");
   const DriveType type = unidrive ? DriveType::Unidrive : DriveType::Kollmorgen;
   drive->setType(type);
-  driveSide_.setType(*number, type);
+  control_.drives().setType(*number, type);
   return "";
 }
 

@@ -7,65 +7,34 @@ using namespace devices;
 
 namespace {
 
-constexpr uint32_t kDriveChannel = 1, kUnitChannel = 2;
+constexpr uint32_t kDriveChannel = CanController::kDriveChannel, kUnitChannel = CanController::kUnitChannel;
 
 std::string noChannel(uint32_t channel) { return "CAN channel " + std::to_string(channel) + " is not active"; }
 
 } // namespace
 
-CanDevices::CanDevices()
-    : channels_{CanChannel(1, orders_), CanChannel(2, orders_)}, buses_{SimulatedCanBus(1), SimulatedCanBus(2)} {}
+CanDevices::CanDevices() {
+  for (SimulatedCanBus& bus : buses_) control_.connect(bus.number(), bus);
+}
 
 void CanDevices::power() {
-  orders_.clear();
-  for (uint32_t i = 0; i < channels_.size(); ++i) {
-    channels_[i].reset();
-    buses_[i].power();
-    channels_[i].setState(buses_[i].state());
-    received_[i].clear();
-    sent_[i].clear();
-  }
-  unitSide_.reset();
-  driveSide_.reset();
+  for (SimulatedCanBus& bus : buses_) bus.power();
+  control_.power();
 }
 
 void CanDevices::tick(const CanInputs& in, CanOutputs& out) {
   for (SimulatedUnit& unit : buses_[kUnitChannel - 1].units())
     if (unit.group() == kInOut08)
       std::copy_n(&in.terminals[kUnitInputs * (unit.board() - 1)], kUnitInputs, unit.wires().in.begin());
-  driveSide_.tick(in.drives, out.drives, buses_[kDriveChannel - 1]);
-  unitSide_.tick(in.units, out.units, buses_[kUnitChannel - 1]);
-  for (uint32_t channel = 1; channel <= channels_.size(); ++channel) exchange(channel);
-}
-
-void CanDevices::exchange(uint32_t number) {
-  CanChannel& own = channels_[number - 1];
-  SimulatedCanBus& bus = buses_[number - 1];
-  own.setState(bus.state());
-  CanPacket packet;
-  while (bus.state() == BusState::Active && own.peekToSend(packet) && bus.transmit(packet)) {
-    own.takeToSend(packet);
-    sent_[number - 1].pushAnyway(packet);
-  }
-  bus.tick();
-  while (bus.receive(packet)) {
-    const bool isTaken = number == kDriveChannel ? driveSide_.take(packet) : unitSide_.take(packet);
-    if (!isTaken) received_[number - 1].pushAnyway(packet);
-  }
-}
-
-bool CanDevices::readItem(uint32_t channel, uint32_t group, uint32_t board, InoutsItem item, uint32_t& value) const {
-  return channel == kUnitChannel && channels_[channel - 1].isActive() && unitSide_.read(group, board, item, value);
-}
-
-bool CanDevices::writeItem(uint32_t channel, uint32_t group, uint32_t board, InoutsItem item, uint32_t value) {
-  return channel == kUnitChannel && channels_[channel - 1].isActive() && unitSide_.write(group, board, item, value);
+  control_.transmit(in.units, out.units, in.drives, out.drives);
+  for (SimulatedCanBus& bus : buses_) bus.tick();
+  control_.receive();
 }
 
 // ---- scenarios ------------------------------------------------------------------------------------------------------
 
 std::string CanDevices::packetEvent(uint32_t channel, const CanPacket& packet) {
-  if (channel < 1 || channel > channels_.size()) return "CAN channels are 1 and 2";
+  if (channel < 1 || channel > buses_.size()) return "CAN channels are 1 and 2";
   SimulatedCanBus& bus = buses_[channel - 1];
   if (!bus.isActive()) return noChannel(channel);
   if (packet.id >= kCanIds) return "identifiers are 0 to 0x7FF";
@@ -93,10 +62,10 @@ std::string CanDevices::driveEvent(uint32_t number, const CanDriveEvent& event) 
 }
 
 std::string CanDevices::busEvent(uint32_t channel, bool off) {
-  if (channel < 1 || channel > channels_.size()) return "CAN channels are 1 and 2";
+  if (channel < 1 || channel > buses_.size()) return "CAN channels are 1 and 2";
   if (!buses_[channel - 1].isActive()) return noChannel(channel);
   buses_[channel - 1].setOff(off);
-  channels_[channel - 1].setState(buses_[channel - 1].state());
+  control_.updateState(channel);
   return {};
 }
 

@@ -1,17 +1,14 @@
-// The CAN devices of the simulated control, and the control's side of them: two channels, of which the first one has
-// drives and the second one I/O units, panels and handwheels (man. ch. 9, 13.14). What comes and goes is plain data:
-// it knows no program and no scenario.
+// The CAN devices of the simulated control: two buses, of which the first one has drives and the second one I/O units,
+// panels and handwheels (man. ch. 9, 13.14), and the control's side of them, which a real bus would have, too
+// (devices::CanController). What comes and goes is plain data: it knows no program and no scenario.
 //
-// Order of things: configure; power; then a tick a millisecond. After the ticks of a scan whoever runs the program
-// takes the packets that have come, one by one (takeReceived), and gives them to channel(n).deliver, which says whose
-// procedures are due.
+// Order of things: configure; power; then a tick a millisecond.
 #pragma once
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "tools/devices/can/drives.h"
-#include "tools/devices/can/units.h"
+#include "tools/devices/can/controller.h"
 #include "tools/sim/technol/devices/can_bus.h"
 
 namespace rung::sim::technol {
@@ -56,31 +53,8 @@ public:
   // Power off and on: everything starts anew, what is wired to the units stays.
   void power();
   void tick(const CanInputs& in, CanOutputs& out);
-  // START PLC: orders are deleted, all else stays.
-  void startProgram() { orders_.clear(); }
-
-  // ---- instructions
-
-  // CAN_SEND, CAN_RECV, CAN_RECV_REQ; `channel` is 1 or 2.
-  devices::CanChannel& channel(uint32_t channel) { return channels_[channel - 1]; }
-  // CAN_RECV_DEL, CAN_RECV_END.
-  devices::CanOrders& orders() { return orders_; }
-  // CAN_SYSIO_READ, CAN_SYSIO_WRITE: false where the channel is not active, or has no such unit.
-  bool readItem(uint32_t channel, uint32_t group, uint32_t board, devices::InoutsItem item, uint32_t& value) const;
-  bool writeItem(uint32_t channel, uint32_t group, uint32_t board, devices::InoutsItem item, uint32_t value);
-  // CAN_AX_SEND, and the cells CAN_AX_BUSY and CAN_AX_RECV_PACKET.
-  void sendToDrive(uint32_t axis, devices::CanPacket& packet) { driveSide_.send(axis, packet); }
-  uint8_t driveBusy() const { return driveSide_.busy(); }
-  const devices::CanPacket& driveAnswer() const { return driveSide_.answer(); }
-
-  // ---- packets
-
-  // The oldest packet that has come for the program.
-  bool takeReceived(uint32_t channel, devices::CanPacket& packet) { return received_[channel - 1].pop(packet); }
-  // The oldest packet of the program's CAN_SEND that was on the bus; of more than 1024 the oldest is lost.
-  bool takeSent(uint32_t channel, devices::CanPacket& packet) { return sent_[channel - 1].pop(packet); }
-  // Messages 4217 and 4219 of the control.
-  bool takeMessage(devices::DriveMessage& message) { return driveSide_.takeMessage(message); }
+  // Instructions, packets, messages.
+  devices::CanController& control() { return control_; }
 
   // ---- what a scenario does and sees; "" or what is wrong
 
@@ -91,11 +65,11 @@ public:
 
   // Null: there is no such unit. Boards from 1.
   UnitWires* wires(uint32_t group, uint32_t board);
-  const devices::Inouts* inouts(uint32_t group, uint32_t board) const { return unitSide_.find(group, board); }
+  const devices::Inouts* inouts(uint32_t group, uint32_t board) const { return control_.units().find(group, board); }
   const SimulatedUnit* unit(uint32_t group, uint32_t board) const;
   // An object of a drive; nothing: it has none of these numbers.
   std::optional<uint32_t> driveObject(uint32_t drive, uint32_t index, uint32_t subindex) const;
-  uint32_t drives() const { return driveSide_.count(); }
+  uint32_t drives() const { return control_.drives().count(); }
 
 private:
   using Problem = std::optional<std::string>;
@@ -108,16 +82,10 @@ private:
   void setDrives(uint32_t count);
   SimulatedUnit* findUnit(uint32_t group, uint32_t board);
   SimulatedDrive* findDrive(uint32_t drive);
-  void exchange(uint32_t channel);
 
-  devices::CanOrders orders_;
-  std::array<devices::CanChannel, 2> channels_;
-  std::array<SimulatedCanBus, 2> buses_;
-  devices::CanUnits unitSide_;                                           // on channel 2
-  devices::CanDrives driveSide_;                                         // on channel 1
+  std::array<SimulatedCanBus, devices::CanController::kChannels> buses_{SimulatedCanBus(1), SimulatedCanBus(2)};
+  devices::CanController control_;
   std::array<std::array<uint8_t, 32>, devices::kUnitGroups> controls_{}; // of the configuration
-  std::array<devices::PacketQueue<256>, 2> received_;
-  std::array<devices::PacketQueue<1024>, 2> sent_;
 };
 
 } // namespace rung::sim::technol

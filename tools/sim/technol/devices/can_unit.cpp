@@ -21,6 +21,7 @@ constexpr uint16_t kNoError = 0, kGenericError = 0x1000, kShortedOutputs = 0x230
 
 SimulatedUnit::SimulatedUnit(uint32_t group, uint32_t board)
     : group_(group), board_(board), node_(static_cast<uint8_t>(kFirstNode[group - 1] + board - 1)) {
+  if (group == kHandwheel) display_.resize(1);
   objects_.add({{0x1000, 0}, 4, kDeviceType});
   objects_.add({{kErrorRegister, 0}, 1});
   objects_.add({{0x1018, 1}, 4, kMaker});
@@ -40,7 +41,7 @@ void SimulatedUnit::power() {
   outputs_ = {};
   reported_ = 0;
   reportedShorts_ = {};
-  display_.clear();
+  for (HandwheelDisplay& display : display_) display.clear();
   objects_.set(kTpdo2Type, 0);
   objects_.set({kMatrixOutputs, 0}, 0);
 }
@@ -74,7 +75,7 @@ void SimulatedUnit::receive(const CanPacket& packet, NodePackets& answers) {
   } else if (packet.id == kSync) {
     if (!operational_) return;
     std::copy_n(received_.begin(), kUnitOutputs, outputs_.begin());
-    if (group_ == kHandwheel) display_.show(received_);
+    for (HandwheelDisplay& display : display_) display.show(received_);
     sendInputs(answers);
   } else if (packet.id == kRpdo1 + node_) {
     std::copy_n(packet.data, received_.size(), received_.begin());

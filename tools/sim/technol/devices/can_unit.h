@@ -32,7 +32,8 @@ public:
   const UnitWires& wires() const { return wires_; }
   // What is at the terminals OP0 to OP2.
   uint8_t output(uint32_t port) const;
-  const HandwheelDisplay& display() const { return display_; }
+  // Null: it is not a handwheel.
+  const HandwheelDisplay* display() const { return display_.empty() ? nullptr : display_.data(); }
 
   // At a power-on.
   void power();
@@ -50,7 +51,7 @@ private:
   uint8_t node_;
   UnitWires wires_;
   CanObjects objects_;
-  HandwheelDisplay display_;
+  std::vector<HandwheelDisplay> display_; // one, of a handwheel
   bool operational_ = false;
   std::array<uint8_t, 8> received_{}; // RPDO1, taken over with SYNC
   std::array<uint8_t, devices::kUnitOutputs> outputs_{};

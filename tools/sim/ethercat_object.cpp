@@ -62,7 +62,7 @@ std::string parseObjectValue(std::string_view text, EthercatObject& object) {
   if (!size || !bytes || *bytes < 1 || *bytes > 8) return "expected VALUE or VALUE/BYTES, 1 to 8 bytes";
   const auto width = static_cast<uint32_t>(*bytes);
   const uint64_t most = negative ? onesOf(width) / 2 + 1 : onesOf(width);
-  if (*size > most) return "'" + std::string(number) + "' needs more than " + std::to_string(width) + " bytes";
+  if (*size > most) return "'" + std::string(number) + "' needs more than " + std::to_string(8 * width) + " bits";
   object.bytes = width;
   object.initial = object.value = (negative ? uint64_t{0} - *size : *size) & onesOf(width);
   return {};

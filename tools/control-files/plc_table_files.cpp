@@ -87,12 +87,13 @@ private:
                  "the column ID " + inQuotes(column_.id) + " is used again; the first use is at " + named->second);
   }
   void checkCount() {
+    const std::string count = "<ColsCount> is " + std::to_string(count_);
     if (count_ != columns_.size())
-      complainAt(countPlace_, "<ColsCount> is " + std::to_string(count_) + ", but columns of " +
-                                  std::to_string(columns_.size()) + " numbers are defined");
+      complainAt(countPlace_, count + ", expected " + std::to_string(columns_.size()) +
+                                  ", as many columns have a number of their own");
     else if (!columns_.empty() && columns_.rbegin()->first != count_ - 1)
-      complainAt(countPlace_, "<ColsCount> is " + std::to_string(count_) + ", but there is a column " +
-                                  std::to_string(columns_.rbegin()->first) + "; columns are numbered from 0");
+      complainAt(countPlace_, count + ", but there is a column " + std::to_string(columns_.rbegin()->first) +
+                                  "; columns are numbered from 0");
   }
 
   TableDefinition found_;

@@ -24,7 +24,7 @@ enum class AreaResult : uint8_t {
   // Errors, the values of DR after SA_*.
   NoArea = 1,
   Outside = 2, // offset + size > 32000 (l.15561)
-  Broken = 3,  // another program has spoiled the file: never of memory of the process
+  Broken = 3,  // another program has written over the file's head or mutex, or shortened it
   // No error: RLO and DR are 0, and the instruction is to be repeated (l.15557).
   Locked,
 };

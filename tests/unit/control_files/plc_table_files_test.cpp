@@ -87,7 +87,7 @@ TEST(PlcTableFiles, WrongColumns) {
   const auto mistakes = [](std::string_view columns) { return definitionMistakes(definition(columns)); };
   EXPECT_EQ(mistakes("<ColsCount>1</ColsCount><Col><ColID>A</ColID><ColType>INT</ColType></Col>"),
             "f:2:25: <Col> lacks the attribute No\n"
-            "f:2:1: <ColsCount> is 1, but columns of 0 numbers are defined");
+            "f:2:1: <ColsCount> is 1, expected 0, as many columns have a number of their own");
   EXPECT_THAT(mistakes("<ColsCount>1</ColsCount><Col No='-1'><ColID>A</ColID><ColType>INT</ColType></Col>"),
               HasSubstr("f:2:25: attribute No is '-1', expected 0 to 65534"));
   EXPECT_EQ(mistakes("<ColsCount>1</ColsCount><Col No='0'><ColType>INT</ColType></Col>"),
@@ -107,7 +107,7 @@ TEST(PlcTableFiles, TheCountOfColumns) {
                                          std::string(number) + "'><ColID>A</ColID><ColType>INT</ColType></Col>"));
   };
   EXPECT_EQ(counted("0x1"), "");
-  EXPECT_EQ(counted("2"), "f:2:1: <ColsCount> is 2, but columns of 1 numbers are defined");
+  EXPECT_EQ(counted("2"), "f:2:1: <ColsCount> is 2, expected 1, as many columns have a number of their own");
   EXPECT_EQ(counted("1", "1"), "f:2:1: <ColsCount> is 1, but there is a column 1; columns are numbered from 0");
   EXPECT_THAT(counted("many"), HasSubstr("<ColsCount> is 'many', expected 0 to 65535"));
   EXPECT_THAT(counted("65536"), HasSubstr("<ColsCount> is '65536', expected 0 to 65535"));

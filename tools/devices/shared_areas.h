@@ -75,7 +75,7 @@ public:
   // A power-up of a simulated control: the areas are 0, and nobody holds them.
   void clear() noexcept;
 
-  // For who sets and looks beside the program, whoever holds the mutex: without it. Empty: there is no such area.
+  // For whoever sets and looks beside the program, whoever holds the mutex: without it. Empty: there is no such area.
   std::span<uint8_t> bytes(uint32_t area) noexcept;
 
 private:

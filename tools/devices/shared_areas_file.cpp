@@ -30,7 +30,7 @@ constexpr Head kHead{kMagic,
                      sizeof(pthread_mutex_t),
                      offsetof(Layout, areas)};
 constexpr mode_t kMode = 0600, kOthers = 0077;
-constexpr int kTries = 100; // of a lock that somebody has while he makes the file
+constexpr int kTries = 100; // of a lock that somebody has while the file is made
 constexpr auto kBetweenTries = std::chrono::milliseconds(10);
 
 static_assert(sizeof(Head) == 32 && alignof(pthread_mutex_t) <= sizeof(Head));

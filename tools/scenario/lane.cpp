@@ -27,7 +27,7 @@ Lane::Lane(host::Engine& engine, std::string folder, sim::Clock clock)
       machine_(engine.program(), engine.context(), sim::makeSimulatedNc(engine.program().dialect), clock) {
   nc().setFolder(std::move(folder));
   nc().setAnswers(&requests_);
-  requests_.tell(nc());
+  requests_.report(nc());
 }
 
 void Lane::serve(const compiler::GetCompiled& compiled) { serveWith(machine_.image(), *engine_, compiled); }

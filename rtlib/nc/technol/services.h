@@ -21,7 +21,7 @@ struct DeviceService {
   std::string_view name;    // the mnemonic
   std::string_view results; // parted by blanks; "": none
   bool waits = false;
-  // Answered later, though the program goes on at once: by cells of the interface (man. l.7964, l.9491).
+  // Answered later, though the program continues at once: by cells of the interface (man. l.7964, l.9491).
   bool lasts = false;
   // The first results of one that nobody answers: while a scenario writes down what is asked, and where there is no
   // such device.

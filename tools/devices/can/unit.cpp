@@ -38,7 +38,7 @@ void CanUnit::tick(CanPort& port) {
   sendRequested(port);
 }
 
-// A unit that has no power is started again when it is back: it is told so as long as it is silent.
+// A unit that has no power is started again when it is back: the order is repeated as long as it is silent.
 void CanUnit::watch(CanPort& port) {
   ++silentMs_;
   data_.set(kCount, std::min(silentMs_, 0xFFFFu));

@@ -32,7 +32,7 @@ public:
   TtyLine(const TtyLine&) = delete;
   TtyLine& operator=(const TtyLine&) = delete;
 
-  // Moves what can be moved, and does not wait. `nowMs` of any clock that goes on steadily.
+  // Moves what can be moved, and does not wait. `nowMs` of any steady clock.
   void step(int64_t nowMs) noexcept;
 
   // For poll: -1 where it is closed.

@@ -17,7 +17,7 @@ enum class DataForm : uint8_t { None, Integer, Real, Text, Binary, Bytes };
 
 class DeviceRequest {
 public:
-  // Of the statement at hand.
+  // Of the current statement.
   explicit DeviceRequest(StatementContext& context);
 
   // Each gives the argument, i64.

@@ -1,4 +1,4 @@
-// Instructions that ask a device of the control (man. ch. 9, 11-13, 17-19, 23, 26): those that go on at once, and those
+// Instructions that ask a device of the control (man. ch. 9, 11-13, 17-19, 23, 26): those that continue at once, and those
 // of EX kind, which are executed in every run of their mechanism until they are answered (inventory 11.3).
 #include <vector>
 

@@ -69,12 +69,12 @@ public:
     requested = true;
     negative = inNegative;
   }
-  // Its mover leaves it: it brakes to a stand, until which its motion is reported.
+  // Its mover leaves it: it brakes, and its motion is reported until it has stopped.
   void letGo(double acceleration);
   void tick();
 
   // Runs in the direction of the signed speed (per minute) past the next zero pulse and brakes from there. A pulse
-  // counts from where the speed is no higher than that and has the right direction.
+  // counts from where the speed is at most that and has the right direction.
   void seekPulse(double perMinute, double acceleration);
   // It has passed the pulse, which thereby has the measure `value`.
   bool passedPulse(double value);

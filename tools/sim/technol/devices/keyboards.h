@@ -41,7 +41,7 @@ public:
   void power();
 
   // A key is pressed or released; one that is so already does nothing. A release belongs to what the press did,
-  // whatever function is valid by then. Functions are switched here, and are no actions.
+  // whatever function is valid by then. Functions are switched here, and are not actions.
   KeyActions key(uint32_t keyboard, uint32_t scan, bool pressed);
   const KeyboardState& state(uint32_t keyboard) const { return boards_[keyboard].state; }
 

@@ -115,7 +115,7 @@ void ManualMotion::drive(std::span<Axis> axes, const AxisInputs& in, AxisRequest
     if (mayTake(axes[i])) driveAxis(axes[i], i, in, speed(axes[i], in, revolutions));
 }
 
-// INPOS_STOP (l.10871): whether all axes are where they stood before manual motion inside a block.
+// INPOS_STOP (l.10871): whether all axes are where they were before manual motion inside a block.
 void ManualMotion::watchStop(std::span<const Axis> axes, const AxisInputs& in) {
   const bool moves = ordered_.plus != 0 || ordered_.minus != 0 || wheels_ != 0;
   const auto back = [&](uint32_t i) {

@@ -18,7 +18,7 @@ public:
   // Seconds from where the motion was planned to its end; infinite for a run.
   double duration() const { return duration_; }
 
-  // Stands there.
+  // Rests there.
   void place(double position);
 
   // Orders. One that is given again while it is carried out changes nothing; another one begins from the position and
@@ -29,7 +29,7 @@ public:
   // To a target, by at most `speed`; a target that it cannot brake for is passed and come back to.
   void moveTo(double target, double speed, double acceleration);
   // Runs past a position, which lies in the direction of the signed speed and not within `inRange`, and brakes from
-  // there: stands v * v / 2a after it.
+  // there: stops v * v / 2a after it.
   void runPast(double position, double speed, double acceleration);
   // Where it would begin to move in the direction of the signed speed, and no faster.
   double inRange(double speed, double acceleration) const;

@@ -50,7 +50,7 @@ uint32_t Spindles::role(const Axis& axis, uint32_t number) const {
 void Spindles::drive(Axis& axis, uint32_t number) const {
   if (!axis.spindle) return;
   axis.motion.run(output(number) * axis.attributes.speedAt10V / 60, axis.attributes.acceleration);
-  // One that was switched off and stands is an axis of the position loop again.
+  // One that was switched off and does not turn is an axis of the position loop again.
   if (isOff(number) && axis.motion.standing()) axis.spindle = false;
 }
 

@@ -40,7 +40,7 @@ public:
   AnalogOutput switchTo(Axis& axis, uint32_t number, SpindleRole role);
   // SPI_MAIN axis, which is a spindle already.
   void makeMain(uint32_t axis);
-  // SPI_AX: the axis is no spindle any more.
+  // SPI_AX: the axis is not a spindle any more.
   void leave(uint32_t axis);
   // REGUL_X to REGUL_6.
   void setRegulator(uint32_t axis, uint32_t set) { regulators_[axis - 1] = static_cast<uint8_t>(set); }

@@ -1,8 +1,8 @@
 // Elements of PLC tables' files (see table_reader.h).
 #include "tools/control-files/table_reader.h"
 
-#include "rtlib/text/blanks.h"
 #include "rtlib/nc/control/technol/values.h"
+#include "rtlib/text/blanks.h"
 
 namespace rung::control_files {
 

@@ -10,9 +10,9 @@
 #include <system_error>
 #include <utility>
 
-#include "rtlib/text/blanks.h"
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::control_files {

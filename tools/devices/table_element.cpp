@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "rtlib/text/blanks.h"
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/number.h"
 
 namespace rung::devices {

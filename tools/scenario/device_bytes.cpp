@@ -31,7 +31,8 @@ std::string hexOf(std::string_view bytes) {
 
 std::optional<std::string> bytesOf(const Value& value, bool isHex) {
   if (value.kind == ValueKind::Text) return isHex ? bytesOfHex(value.text) : nc::memoryText(value.text);
-  const auto bits = value.kind == ValueKind::Real ? std::bit_cast<uint64_t>(value.real) : static_cast<uint64_t>(value.integer);
+  const auto bits =
+      value.kind == ValueKind::Real ? std::bit_cast<uint64_t>(value.real) : static_cast<uint64_t>(value.integer);
   std::string bytes;
   for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(bits >> shift & 0xFF);
   return bytes;

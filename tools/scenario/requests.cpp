@@ -54,7 +54,8 @@ void Requests::answer(Instance& instance, const ServiceSignature& signature, con
 
 bool Requests::respond(Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
   if (!bytes_.empty() && host::serviceName(instance.program(), request.service) == nc::technol::kDataService) {
-    const auto found = std::ranges::find(bytes_, static_cast<uint32_t>(request.args[0]), &decltype(bytes_)::value_type::first);
+    const auto found =
+        std::ranges::find(bytes_, static_cast<uint32_t>(request.args[0]), &decltype(bytes_)::value_type::first);
     if (found != bytes_.end()) return putPart(found->second, request, reply), true;
   }
   if (prepared_.empty()) return false;
@@ -91,7 +92,8 @@ bool Requests::takeUnanswered(Instance& instance, const rt::ServiceRequest& requ
 
 // With the bytes that it had when it was made.
 Asked Requests::asAsked(const rt::ServiceRequest& request) {
-  const auto found = std::ranges::find_if(queued_, [&](const Asked& asked) { return asked.request.ticket == request.ticket; });
+  const auto found =
+      std::ranges::find_if(queued_, [&](const Asked& asked) { return asked.request.ticket == request.ticket; });
   if (found == queued_.end()) return {.request = request, .bytes = {}};
   Asked asked = std::move(*found);
   queued_.erase(found);

@@ -19,7 +19,8 @@ public:
   // While a task runs: answers a request with what is prepared for it. A request with an operand block is kept back and
   // answered by `take`. False: nothing is prepared.
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
-  // A device of TECHNOL that nobody has answered for: what continues at once gets the answer of its table, all else waits.
+  // A device of TECHNOL that nobody has answered for: what continues at once gets the answer of its table, all else
+  // waits.
   bool takeUnanswered(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
   // Who learns what was answered between two scans. It outlives this.
   void report(sim::SimulatedNc& nc) { nc_ = &nc; }

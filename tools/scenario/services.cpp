@@ -127,14 +127,16 @@ std::string argumentDifference(const ServiceSignature& signature, const Asked& a
   if (isScopeName(signature, key)) return scopeDifference(signature, found, key);
   const Form form = signature.formOfArgument(index);
   if (form == Form::Text || form == Form::Bytes)
-    return bytesDifference(signature, static_cast<size_t>(index) < asked.bytes.size() ? asked.bytes[static_cast<size_t>(index)] : "", key);
+    return bytesDifference(
+        signature, static_cast<size_t>(index) < asked.bytes.size() ? asked.bytes[static_cast<size_t>(index)] : "", key);
   if (form == Form::Real) {
     const double real = std::bit_cast<double>(found);
     return real == key.value.real && key.value.kind != ValueKind::Text
                ? std::string()
                : fmt::format("{}: {} is {}, expected {}", signature.name(), key.key, real, key.value.text);
   }
-  if (found == nc::technol::kNotGiven) return fmt::format("{}: {} is not given, expected {}", signature.name(), key.key, key.value.text);
+  if (found == nc::technol::kNotGiven)
+    return fmt::format("{}: {} is not given, expected {}", signature.name(), key.key, key.value.text);
   const uint64_t difference = static_cast<uint64_t>(found) ^ static_cast<uint64_t>(wantedOf(key.value));
   return (difference & maskOf(signature, request, key.key)) == 0
              ? std::string()
@@ -177,8 +179,8 @@ int ServiceSignature::indexOf(const std::vector<Name>& names, std::string_view k
 }
 
 int ServiceSignature::dataOf(const std::vector<Name>& names) {
-  const auto found = std::ranges::find_if(
-      names, [](const Name& name) { return name.form == Form::Text || name.form == Form::Bytes; });
+  const auto found =
+      std::ranges::find_if(names, [](const Name& name) { return name.form == Form::Text || name.form == Form::Bytes; });
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
@@ -271,7 +273,8 @@ int64_t argumentOr(const ServiceSignature& signature, const rt::ServiceRequest& 
 }
 
 // Bytes are at most as many as were asked for.
-void setBytes(const ServiceSignature& signature, const rt::ServiceRequest& request, const KeyValue& key, Answer& answer) {
+void setBytes(const ServiceSignature& signature, const rt::ServiceRequest& request, const KeyValue& key,
+              Answer& answer) {
   answer.bytes = bytesOf(key.value, text::equalsIgnoringCase(key.key, "data")).value_or("");
   const auto most = static_cast<uint64_t>(argumentOr(signature, request, "Len", INT64_MAX));
   if (answer.bytes.size() > most) answer.bytes.resize(most);
@@ -302,7 +305,8 @@ Answer answerOf(const ServiceSignature& signature, const rt::ServiceRequest& req
       answer.reply.state = key.value.integer != 0 ? RUNG_SERVICE_ERROR : answer.reply.state;
     else if (index >= 0 && index != signature.dataResult())
       setResult(answer.reply, index,
-                signature.formOfResult(index) == Form::Real ? std::bit_cast<int64_t>(key.value.real) : rawOf(key.value));
+                signature.formOfResult(index) == Form::Real ? std::bit_cast<int64_t>(key.value.real)
+                                                            : rawOf(key.value));
   }
   return answer;
 }

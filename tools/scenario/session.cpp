@@ -243,8 +243,7 @@ std::string Session::run(const Statement& s) {
   case Kind::ExpectCall: return forLanes([&](Lane& lane) { return lane.requests().expectCall(lane.instance(), s); });
   case Kind::ExpectNoCall:
     return forLanes([&](Lane& lane) { return lane.requests().expectNoCall(lane.instance(), s); });
-  case Kind::ExpectSent:
-    return operate([&](auto& nc, auto&) { return nc.expectSent(s.name, arguments(s.keys)); });
+  case Kind::ExpectSent: return operate([&](auto& nc, auto&) { return nc.expectSent(s.name, arguments(s.keys)); });
   case Kind::Reply: return forLanes([&](Lane& lane) { return lane.requests().reply(lane.instance(), s); });
   case Kind::Prepare: return forLanes([&](Lane& lane) { return lane.requests().prepare(lane.instance(), s); });
   case Kind::BlockStart:

@@ -19,11 +19,11 @@ namespace rung::sim {
 
 // The value of a cell that lies in the NC itself and not in the program's memory.
 struct NcCell {
-  bool isReal = false;   // `bits` are those of a double
-  uint32_t width = 64;   // bits of an integer
+  bool isReal = false; // `bits` are those of a double
+  uint32_t width = 64; // bits of an integer
   uint64_t bits = 0;
-  bool untyped = false;  // eight bytes are an integer or a double, as they are wanted
-  bool isText = false;   // `text`, in UTF-8
+  bool untyped = false; // eight bytes are an integer or a double, as they are wanted
+  bool isText = false;  // `text`, in UTF-8
   std::string text = {};
 };
 

@@ -43,7 +43,10 @@ constexpr DeviceService kServices[] = {
     // Bits of the control record; not given: it stays (man. l.12101-12133).
     {.name = "POS_MODE", .results = "control", .unanswered = {4}, .refused = {kNotGiven}},
     // The two bytes of the record as a word; refused, bit ERR (man. l.12093).
-    {.name = "POS_CONTROL", .results = "status control", .unanswered = {kNotGiven, kNotGiven}, .refused = {0x0400, kNotGiven}},
+    {.name = "POS_CONTROL",
+     .results = "status control",
+     .unanswered = {kNotGiven, kNotGiven},
+     .refused = {0x0400, kNotGiven}},
     {.name = "SA_READ", .results = "RLO DR Val:b", .waits = kWaits, .refused = {0, kNone}},
     {.name = "SA_WRITE", .results = "RLO DR", .waits = kWaits, .refused = {0, kNone}},
     polled("PLCT_GET_INT", "DR Val"),

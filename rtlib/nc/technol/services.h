@@ -2,9 +2,9 @@
 // arguments are the operands that the instruction reads. The compiler writes the request, the control and whoever
 // answers for a device read it, scenarios name it.
 //
-// A service that waits is polled in every run of the instruction until it is answered; all others are answered when they
-// are asked. Bytes that a program gives lie in its memory and are read when it asks; bytes that it gets are fetched by
-// kDataService once the answer is there, in the same run.
+// A service that waits is polled in every run of the instruction until it is answered; all others are answered when
+// they are asked. Bytes that a program gives lie in its memory and are read when it asks; bytes that it gets are
+// fetched by kDataService once the answer is there, in the same run.
 #pragma once
 #include <cstdint>
 #include <optional>

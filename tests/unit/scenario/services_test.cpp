@@ -20,14 +20,15 @@ TEST(ScenarioServices, ArgumentsGoByName) {
   EXPECT_EQ(requestDifference(windr, {.request = request}, "windr", statement("expect_call windr length=4").keys), "");
   EXPECT_NE(requestDifference(windr, {.request = request}, "windr", statement("expect_call windr length=2").keys), "");
   EXPECT_NE(requestDifference(windr, {.request = request}, "windw", {}), "");
-  EXPECT_NE(
-      requestDifference(windr, {.request = request}, "windr", statement("expect_call windr colour=2").keys).find("no argument"),
-      std::string::npos);
+  EXPECT_NE(requestDifference(windr, {.request = request}, "windr", statement("expect_call windr colour=2").keys)
+                .find("no argument"),
+            std::string::npos);
   const rt::ServiceReply reply = answerOf(windr, {.ticket = 9}, statement("reply data=77").results).reply;
   EXPECT_EQ(reply.ticket, 9u);
   EXPECT_EQ(reply.resultCount, 2u);
   EXPECT_EQ(reply.results[1], 77);
-  EXPECT_EQ(answerOf(windr, {.ticket = 9}, statement("reply error=1").results).reply.state, uint32_t{RUNG_SERVICE_ERROR});
+  EXPECT_EQ(answerOf(windr, {.ticket = 9}, statement("reply error=1").results).reply.state,
+            uint32_t{RUNG_SERVICE_ERROR});
 }
 
 TEST(ScenarioServices, DataCompareModuloTheLength) {
@@ -38,7 +39,8 @@ TEST(ScenarioServices, DataCompareModuloTheLength) {
   request.args[1] = 2;
   request.args[2] = -2;
   const auto difference = [&](const char* keys) {
-    return requestDifference(windw, {.request = request}, "windw", statement(std::string("expect_call windw ") + keys).keys);
+    return requestDifference(windw, {.request = request}, "windw",
+                             statement(std::string("expect_call windw ") + keys).keys);
   };
   EXPECT_EQ(difference("data=-2"), "");
   EXPECT_EQ(difference("data=0xFFFE"), "");
@@ -71,15 +73,18 @@ TEST(ScenarioServices, RealsTravelAsTheirBits) {
   request.args[0] = 500;
   request.args[2] = std::bit_cast<int64_t>(3.0);
   const auto difference = [&](const char* keys) {
-    return requestDifference(macw, {.request = request}, "MACW", statement(std::string("expect_call MACW ") + keys).keys);
+    return requestDifference(macw, {.request = request}, "MACW",
+                             statement(std::string("expect_call MACW ") + keys).keys);
   };
   EXPECT_EQ(difference("variable=500 value=3"), "");
   EXPECT_EQ(difference("value=3.0"), "");
   EXPECT_EQ(difference("value=3.5"), "MACW: value is 3, expected 3.5");
   EXPECT_FALSE(macw.takesNoAnswer());
   const ServiceSignature macr("MACR variable channel -> value:f");
-  EXPECT_EQ(answerOf(macr, {.ticket = 1}, statement("reply value=3").results).reply.results[0], std::bit_cast<int64_t>(3.0));
-  EXPECT_EQ(answerOf(macr, {.ticket = 1}, statement("reply value=-0.5").results).reply.results[0], std::bit_cast<int64_t>(-0.5));
+  EXPECT_EQ(answerOf(macr, {.ticket = 1}, statement("reply value=3").results).reply.results[0],
+            std::bit_cast<int64_t>(3.0));
+  EXPECT_EQ(answerOf(macr, {.ticket = 1}, statement("reply value=-0.5").results).reply.results[0],
+            std::bit_cast<int64_t>(-0.5));
 }
 
 TEST(ScenarioServices, WithoutAnArrowNoAnswerIsTaken) {

@@ -64,8 +64,10 @@ public:
     constexpr std::string_view kKeys[] = {"PlcErrors", "PlcConstants", "PlcConfig"}; // of files, by ControlFileKind
     for (size_t i = 0; i < std::size(kKeys); ++i)
       if (key == kKeys[i]) return readFile(static_cast<control_files::ControlFileKind>(i), value);
-    if (const auto wrong = devices_.configure(key, value, inFolder(value)); wrong && !wrong->empty()) return *wrong;
-    else if (wrong && key.find("INOUT08[") == std::string_view::npos) return {};
+    if (const auto wrong = devices_.configure(key, value, inFolder(value)); wrong && !wrong->empty())
+      return *wrong;
+    else if (wrong && key.find("INOUT08[") == std::string_view::npos)
+      return {};
     std::string problem = exchange_.configure(key, value);
     return problem.empty() ? configuration_.set(key, value) : problem;
   }
@@ -75,7 +77,8 @@ public:
   }
   std::vector<NcProblem> connectionProblems() const override {
     std::vector<NcProblem> problems = exchange_.problems();
-    if (!devices_.tableProblem().empty()) problems.push_back({.connection = RUNG_NONE, .text = devices_.tableProblem()});
+    if (!devices_.tableProblem().empty())
+      problems.push_back({.connection = RUNG_NONE, .text = devices_.tableProblem()});
     return problems;
   }
   uint32_t keptSize() override { return devices_.keptSize(); }

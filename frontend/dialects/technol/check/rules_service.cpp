@@ -13,9 +13,7 @@ namespace {
 constexpr uint32_t kIntegerBytes = 4, kRealBytes = 8, kPacketBytes = 12, kRecordBytes = 2;
 
 // Bytes that an operand has: its type's, or those up to the end of its variable.
-uint32_t bytesOf(const Operand& operand) {
-  return operand.prefixed ? ir::byteWidth(operand.type) : operand.size;
-}
+uint32_t bytesOf(const Operand& operand) { return operand.prefixed ? ir::byteWidth(operand.type) : operand.size; }
 
 // An index shows when the program runs.
 void holds(const CheckContext& c, const Operand& operand, int64_t bytes) {
@@ -81,9 +79,11 @@ void checkRecord(const CheckContext& c, std::span<const Operand> o, int) {
 // ECATCMD_GET_STATE and ECATCMD_GET_SLAVE_STATE give a state (man. l.18231).
 void checkEtherCatCommand(const CheckContext& c, std::span<const Operand> o, int form) {
   constexpr int64_t kStateOfMaster = 20, kStateOfSlave = 21;
-  const bool asks = o[2].form == Operand::Form::Integer && (o[2].value == kStateOfMaster || o[2].value == kStateOfSlave);
+  const bool asks =
+      o[2].form == Operand::Form::Integer && (o[2].value == kStateOfMaster || o[2].value == kStateOfSlave);
   if (asks && !(o[3].given() && o[4].given()))
-    c.report(Diag::OperandCount, c.statement.range()) << "ECAT_COMMAND with this command" << "5 operands"
+    c.report(Diag::OperandCount, c.statement.range())
+        << "ECAT_COMMAND with this command" << "5 operands"
         << static_cast<int64_t>(std::ranges::count_if(o, &Operand::given));
   checkService(c, o, form);
 }

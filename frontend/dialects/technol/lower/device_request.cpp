@@ -80,9 +80,7 @@ ValueId DeviceRequest::result(std::string_view name) {
   return b.select(executed_, b.serviceResult(ticket_, number), b.constant(Type::I64, refused));
 }
 
-ValueId DeviceRequest::flag(std::string_view name) {
-  return l_.b().ne(result(name), l_.b().constant(Type::I64, 0));
-}
+ValueId DeviceRequest::flag(std::string_view name) { return l_.b().ne(result(name), l_.b().constant(Type::I64, 0)); }
 
 ValueId DeviceRequest::real(std::string_view name) { return l_.b().op(OpCode::BitsToF, Type::F64, {result(name)}); }
 

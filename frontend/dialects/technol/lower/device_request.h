@@ -11,8 +11,8 @@
 
 namespace rung::frontend::technol {
 
-// What the data operand of a service holds. Binary: as many bytes as there is room for; Bytes: as many as another operand
-// says.
+// What the data operand of a service holds. Binary: as many bytes as there is room for; Bytes: as many as another
+// operand says.
 enum class DataForm : uint8_t { None, Integer, Real, Text, Binary, Bytes };
 
 class DeviceRequest {

@@ -63,7 +63,8 @@ void lowerCanReceive(StatementContext& l, std::span<const Operand> o, int) {
   l.r().setDr(code);
 }
 
-// CAN_RECV_REQ can, objl, [objh], idl, [idh], proc, pmsg: without an upper bound it is the lower one (man. l.3814-3831).
+// CAN_RECV_REQ can, objl, [objh], idl, [idh], proc, pmsg: without an upper bound it is the lower one (man.
+// l.3814-3831).
 void lowerCanOrder(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   DeviceRequest request(l);
@@ -100,8 +101,7 @@ void lowerUnitWrite(StatementContext& l, std::span<const Operand> o, int) {
 // The packet's head is filled in; CAN_AX_BUSY is 0FFh until the drive has answered (man. l.9474-9493).
 void lowerDriveSend(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
-  const Area packet =
-      fixedArea(l, kInterfaceSpace, l.bytesOf(kInterfaceSpace), placeOf("CAN_AX_SEND_PACKET").byte);
+  const Area packet = fixedArea(l, kInterfaceSpace, l.bytesOf(kInterfaceSpace), placeOf("CAN_AX_SEND_PACKET").byte);
   DeviceRequest request(l);
   const ValueId axis = request.addOperand(0, o[0]);
   b.when(isAxis(b, axis), [&] {

@@ -40,10 +40,10 @@ void writeKept(StatementContext& l, ValueId axis, ValueId mask, ValueId bits) {
     const Area area{.space = space, .bytes = l.bytesOf(space), .fixed = false, .first = 0, .at = at};
     if (area.bytes < kRecordBytes) continue;
     const int64_t head = nc::technol::bytesArgument(space.index, kRecordBytes, 0);
-    const ValueId isThere = b.eq(b.and_(record, b.constant(Type::I64, ~int64_t{0xFFFF'FFFF})), b.constant(Type::I64, head));
-    b.when(isThere, [&] {
-      storeByte(l, area, b.i32(kBits), withBits(b, loadByte(l, area, b.i32(kBits)), mask, bits));
-    });
+    const ValueId isThere =
+        b.eq(b.and_(record, b.constant(Type::I64, ~int64_t{0xFFFF'FFFF})), b.constant(Type::I64, head));
+    b.when(isThere,
+           [&] { storeByte(l, area, b.i32(kBits), withBits(b, loadByte(l, area, b.i32(kBits)), mask, bits)); });
   }
 }
 
@@ -64,7 +64,8 @@ void lowerPositionMode(StatementContext& l, std::span<const Operand> o, int) {
   const KeptRecord kept = keptOf(b, axis);
   b.when(b.and_(taken, isAxis(b, axis)), [&] {
     const ValueId mask = b.constant(Type::I8, kControlBits);
-    storeByte(l, record, b.i32(kBits), withBits(b, loadByte(l, record, b.i32(kBits)), mask, b.zextOrTrunc(Type::I8, bits)));
+    storeByte(l, record, b.i32(kBits),
+              withBits(b, loadByte(l, record, b.i32(kBits)), mask, b.zextOrTrunc(Type::I8, bits)));
     b.storeAt(kept.window, kept.index, bytesArgument(b, record, b.i32(kRecordBytes)));
   });
 }

@@ -1,5 +1,5 @@
-// Instructions that ask a device of the control (man. ch. 9, 11-13, 17-19, 23, 26): those that continue at once, and those
-// of EX kind, which are executed in every run of their mechanism until they are answered (inventory 11.3).
+// Instructions that ask a device of the control (man. ch. 9, 11-13, 17-19, 23, 26): those that continue at once, and
+// those of EX kind, which are executed in every run of their mechanism until they are answered (inventory 11.3).
 #include <vector>
 
 #include "frontend/dialects/technol/lower/device_target.h"

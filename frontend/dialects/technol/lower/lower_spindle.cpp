@@ -20,9 +20,8 @@ void storeOutput(StatementContext& l, DeviceRequest& request) {
   const ValueId number = b.sub(request.result("port"), b.constant(Type::I64, 1));
   const ValueId value = request.real("out");
   const ValueId at = b.mul(b.zextOrTrunc(Type::I32, number), b.i32(outputs.strideBytes));
-  const ir::Window window{.space = kInterfaceSpace,
-                          .byte = outputs.byteOffset,
-                          .count = (outputs.count - 1) * outputs.strideBytes + 1};
+  const ir::Window window{
+      .space = kInterfaceSpace, .byte = outputs.byteOffset, .count = (outputs.count - 1) * outputs.strideBytes + 1};
   b.when(b.ltU(number, b.constant(Type::I64, kPorts)), [&] { b.storeAt(window, at, value); });
 }
 
@@ -95,16 +94,15 @@ void lowerToAxis(StatementContext& l, std::span<const Operand> o, int) {
   request.send();
 }
 
-// One step of val towards DR in val's width; DR becomes val (man. l.8274-8299). The difference of two numbers of a width
-// fits the width without a sign.
+// One step of val towards DR in val's width; DR becomes val (man. l.8274-8299). The difference of two numbers of a
+// width fits the width without a sign.
 void lowerRamp(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Type type = o[0].type;
   const MemoryAccess access = l.reach(o[0]);
   const ValueId value = l.load(access, type), wanted = l.r().dr(type);
   const ValueId rises = b.ltS(value, wanted);
-  const ValueId distance =
-      b.zextOrTrunc(Type::I64, b.select(rises, b.sub(wanted, value), b.sub(value, wanted)));
+  const ValueId distance = b.zextOrTrunc(Type::I64, b.select(rises, b.sub(wanted, value), b.sub(value, wanted)));
   const ValueId most = b.zextOrTrunc(Type::I64, l.value(o[1]));
   const ValueId step = b.zextOrTrunc(type, b.select(b.ltU(distance, most), distance, most));
   const ValueId next = b.select(rises, b.add(value, step), b.sub(value, step));

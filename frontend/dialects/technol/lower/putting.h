@@ -12,8 +12,8 @@ struct PartSize {
 };
 
 // Puts the words of one request, which begin at the byte `first` of the area.
-inline void putWords(Memory& m, const Area& to, ir::ValueId count, ir::ValueId ticket, ir::ValueId first, uint32_t words,
-                     uint32_t firstWord) {
+inline void putWords(Memory& m, const Area& to, ir::ValueId count, ir::ValueId ticket, ir::ValueId first,
+                     uint32_t words, uint32_t firstWord) {
   ir::RungBuilder& b = m.b();
   for (uint32_t w = 0; w < words; ++w) {
     const ir::ValueId word = b.serviceResult(ticket, firstWord + w);

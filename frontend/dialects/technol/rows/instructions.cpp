@@ -63,9 +63,8 @@ constexpr bool rowsAreComplete() {
   }
   return true;
 }
-static_assert(
-    rowsAreComplete(),
-    "every row has a title, a reference, a doc and an example, code its lowering; mnemonics are unique");
+static_assert(rowsAreComplete(),
+              "every row has a title, a reference, a doc and an example, code its lowering; mnemonics are unique");
 
 constexpr std::string_view kRegisters[] = {"BX", "CX",  "AX",  "AH",  "DX", "SI",
                                            "DI", "ECX", "EDX", "RLO", "DR", "DR_REAL"};

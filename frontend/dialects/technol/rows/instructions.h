@@ -17,8 +17,8 @@ struct CheckContext;
 struct Operand;
 
 enum class Role : uint8_t {
-  Code,     // lowered where it is
-  NoCode,   // accepted, does nothing
+  Code,      // lowered where it is
+  NoCode,    // accepted, does nothing
   Module,    // variant: ModuleKind
   ModuleEnd, // variant: ModuleKind
   Local,     // DATA_LOCAL

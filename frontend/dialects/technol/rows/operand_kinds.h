@@ -194,9 +194,8 @@ inline constexpr OperandKind kNumberOrDash{
      kWrongKind},
     {.prefixes = kNumberPrefixes, .constant = true, .notGiven = true, .types = kIntegers}};
 inline constexpr OperandKind kSignedOrDash{
-    {"signed number or -",
-     "A constant or a cell of at most 32 bits in two's complement, or `-` where it is not given.", "CELL2", "BIT0",
-     kWrongKind},
+    {"signed number or -", "A constant or a cell of at most 32 bits in two's complement, or `-` where it is not given.",
+     "CELL2", "BIT0", kWrongKind},
     {.prefixes = kNumberPrefixes, .constant = true, .notGiven = true, .types = kIntegers, .twosComplement = true}};
 inline constexpr OperandKind kSignedOrNothing{
     {"signed number or nothing",
@@ -215,14 +214,21 @@ inline constexpr OperandKind kNumberOrNothing{
     {"number or nothing", "A constant, a cell of at most 32 bits, or `-` or nothing where it is not given.", "CELL2",
      "BIT0", kWrongKind},
     {.prefixes = kNumberPrefixes, .constant = true, .notGiven = true, .empty = true, .types = kIntegers}};
-inline constexpr OperandKind kAxis{
-    {"axis",
-     "A constant, a cell of at most 32 bits, or the name of an axis, one of X Y Z C A B U V W, which are 1 to 9 (man. l.8018, l.8052, l.8302).",
-     "4", "17", kRange},
-    {.prefixes = kNumberPrefixes, .constant = true, .types = kIntegers, .keywords = "X Y Z C A B U V W", .firstWord = 1}};
+inline constexpr OperandKind kAxis{{"axis",
+                                    "A constant, a cell of at most 32 bits, or the name of an axis, one of X Y Z C A B "
+                                    "U V W, which are 1 to 9 (man. l.8018, l.8052, l.8302).",
+                                    "4", "17", kRange},
+                                   {.prefixes = kNumberPrefixes,
+                                    .constant = true,
+                                    .types = kIntegers,
+                                    .keywords = "X Y Z C A B U V W",
+                                    .firstWord = 1}};
 inline constexpr OperandKind kSpindle{
     {"spindle", "0 none, 1 main, 2 assistant, or S: as SPI_MAIN has set it (man. l.7984).", "S", "3", kRange},
-    {.prefixes = kNumberPrefixes, .constant = true, .types = kIntegers, .keywords = nc::technol::kSpindleWords,
+    {.prefixes = kNumberPrefixes,
+     .constant = true,
+     .types = kIntegers,
+     .keywords = nc::technol::kSpindleWords,
      .firstWord = nc::technol::kFirstSpindleWord}};
 inline constexpr OperandKind kByteCell{
     {"byte cell", "A cell of 8 bits, also with the prefix BYTE.", "CELL1", "CELL4", kWrongKind},
@@ -236,9 +242,10 @@ inline constexpr OperandKind kDwordCell{
 inline constexpr OperandKind kCellOrText{
     {"cell or text", "A variable or a text, also with an offset or a prefix.", "CELL4", "5", kWrongKind},
     {.parse = C::Text, .prefixes = kCells}};
-inline constexpr OperandKind kRealOrText{
-    {"real or text", "A variable of 8 bytes or a text, also with an offset or the prefix REAL.", "RATIO", "5", kWrongKind},
-    {.parse = C::Text, .prefixes = kReal}};
+inline constexpr OperandKind kRealOrText{{"real or text",
+                                          "A variable of 8 bytes or a text, also with an offset or the prefix REAL.",
+                                          "RATIO", "5", kWrongKind},
+                                         {.parse = C::Text, .prefixes = kReal}};
 inline constexpr OperandKind kBitOrNothing{{"bit or nothing",
                                             "A bit without a sign, or `-`, NIL or nothing where it is not given.",
                                             "BIT0", "CELL1", kWrongKind},
@@ -246,10 +253,9 @@ inline constexpr OperandKind kBitOrNothing{{"bit or nothing",
 inline constexpr OperandKind kItemOfAUnit{
     {"item of a unit", "A member of the structure INOUTS.", "ANL0", "4", kWrongKind},
     {.parse = C::Keyword, .structure = "INOUTS"}};
-inline constexpr OperandKind kLineCommand{{"line command", "CLEAR, RECEIVED or STATE.", "STATE", "4", kWrongKind},
-                                          {.parse = C::Keyword,
-                                           .keywords = nc::technol::kLineCommandWords,
-                                           .firstWord = nc::technol::kFirstLineCommand}};
+inline constexpr OperandKind kLineCommand{
+    {"line command", "CLEAR, RECEIVED or STATE.", "STATE", "4", kWrongKind},
+    {.parse = C::Keyword, .keywords = nc::technol::kLineCommandWords, .firstWord = nc::technol::kFirstLineCommand}};
 inline constexpr OperandKind kNewBit{{"new bit", "The name of the bit that is declared.", "NEW1", "5", kWrongKind},
                                      {.parse = C::Variable}};
 inline constexpr OperandKind kNewReal{

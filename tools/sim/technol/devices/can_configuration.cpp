@@ -2,9 +2,9 @@
 // (man. l.3242-3285, l.9210-9240).
 #include <algorithm>
 
-#include "rtlib/text/blanks.h"
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/control/technol/values.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "tools/sim/technol/devices/can_devices.h"
 

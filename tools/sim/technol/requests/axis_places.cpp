@@ -16,9 +16,9 @@ struct Cell {
 
 // Bits of each axis.
 constexpr Cell<AxisInputs, AxisMask> kInputMasks[] = {
-    {"MP#PI", &AxisInputs::enabled},        {"MP#MAN", &AxisInputs::manualEnabled}, {"KH#0", &AxisInputs::limitPlus},
-    {"KH#1", &AxisInputs::limitMinus},      {"KR#", &AxisInputs::refSwitch},        {"KRR#", &AxisInputs::reverseSwitch},
-    {"ZPR#", &AxisInputs::slowSwitch},      {"EXM_#0", &AxisInputs::externalPlus},  {"EXM_#1", &AxisInputs::externalMinus}};
+    {"MP#PI", &AxisInputs::enabled},   {"MP#MAN", &AxisInputs::manualEnabled}, {"KH#0", &AxisInputs::limitPlus},
+    {"KH#1", &AxisInputs::limitMinus}, {"KR#", &AxisInputs::refSwitch},        {"KRR#", &AxisInputs::reverseSwitch},
+    {"ZPR#", &AxisInputs::slowSwitch}, {"EXM_#0", &AxisInputs::externalPlus},  {"EXM_#1", &AxisInputs::externalMinus}};
 constexpr Cell<AxisOutputs, AxisMask> kOutputMasks[] = {{"MM_#0", &AxisOutputs::manualPlus},
                                                         {"MM_#1", &AxisOutputs::manualMinus}};
 constexpr Cell<AxisInputs, bool> kInputFlags[] = {{"PO_F", &AxisInputs::block},
@@ -44,10 +44,12 @@ constexpr Cell<AxisRequests, bool> kRequestFlags[] = {{"HOMING_SINGLE", &AxisReq
                                                       {"REQ_ESHIFT", &AxisRequests::shiftSelected},
                                                       {"ACT_ESHIFT", &AxisRequests::shiftActive}};
 // Words with a bit of each axis.
-constexpr Cell<AxisRequests, AxisMask> kRequestMasks[] = {
-    {"HOMING", &AxisRequests::homing},         {"HOMING_REQ", &AxisRequests::homingReq},
-    {"HOMING_START_REQ", &AxisRequests::homingStartReq}, {"PB_HOMING_AXIS", &AxisRequests::homingAxes},
-    {"NlcAxisEnable", &AxisRequests::nonlinearEnable},   {"SLS_REFER", &AxisRequests::softLimits}};
+constexpr Cell<AxisRequests, AxisMask> kRequestMasks[] = {{"HOMING", &AxisRequests::homing},
+                                                          {"HOMING_REQ", &AxisRequests::homingReq},
+                                                          {"HOMING_START_REQ", &AxisRequests::homingStartReq},
+                                                          {"PB_HOMING_AXIS", &AxisRequests::homingAxes},
+                                                          {"NlcAxisEnable", &AxisRequests::nonlinearEnable},
+                                                          {"SLS_REFER", &AxisRequests::softLimits}};
 constexpr Cell<AxisOutputs, bool> kOutputFlags[] = {{"INPOS", &AxisOutputs::inPosition},
                                                     {"REFPI", &AxisOutputs::reference},
                                                     {"ACK_AUTMAN", &AxisOutputs::manual},
@@ -156,14 +158,12 @@ void AxisPlaces::read(const rt::Memory& memory, AxisMask motion, AxisInputs& in,
 
 void AxisPlaces::write(const rt::Memory& memory, uint32_t count, AxisMask blockMotion, const AxisRequests& requests,
                        const AxisOutputs& out) const {
-  for (size_t i = 0; i < outputMasks_.size(); ++i)
-    putMask(memory, outputMasks_[i], count, out.*kOutputMasks[i].member);
+  for (size_t i = 0; i < outputMasks_.size(); ++i) putMask(memory, outputMasks_[i], count, out.*kOutputMasks[i].member);
   for (size_t i = 0; i < outputFlags_.size(); ++i) memory.write(outputFlags_[i], out.*kOutputFlags[i].member ? 1 : 0);
   putMask(memory, motion_, count, static_cast<AxisMask>(out.motion | blockMotion));
   putMask(memory, direction_, count, out.negative);
   putMask(memory, positioning_, kMaxAxes, requests.positioning);
-  for (size_t i = 0; i < requestMasks_.size(); ++i)
-    memory.write(requestMasks_[i], requests.*kRequestMasks[i].member);
+  for (size_t i = 0; i < requestMasks_.size(); ++i) memory.write(requestMasks_[i], requests.*kRequestMasks[i].member);
   for (size_t i = 0; i < requestFlags_.size(); ++i)
     memory.write(requestFlags_[i], requests.*kRequestFlags[i].member ? 1 : 0);
   memory.write(shiftControl_, out.shiftControl);

@@ -6,9 +6,9 @@
 namespace rung::sim::technol {
 namespace {
 
-constexpr std::string_view kOrders[] = {"",        "ANALOG_PORT", "ANALOG",   "ANALOG_SPI", "AX_SPI",    "SPI_MAIN",
-                                        "SPI_AX",  "REGUL_X",     "REGUL_Y",  "REGUL_Z",    "REGUL_4",   "REGUL_5",
-                                        "REGUL_6", "POS_INIT",    "POS_RESET", "POS_MODE",  "POS_CONTROL"};
+constexpr std::string_view kOrders[] = {"",        "ANALOG_PORT", "ANALOG",    "ANALOG_SPI", "AX_SPI",     "SPI_MAIN",
+                                        "SPI_AX",  "REGUL_X",     "REGUL_Y",   "REGUL_Z",    "REGUL_4",    "REGUL_5",
+                                        "REGUL_6", "POS_INIT",    "POS_RESET", "POS_MODE",   "POS_CONTROL"};
 
 void setOutput(DeviceCall& call, const AnalogOutput& output) {
   call.set(0, output.port);

@@ -93,8 +93,8 @@ void CanCalls::endOrder(DeviceCall& call) {
 // can group board item -> RLO DR
 void CanCalls::readItem(DeviceCall& call) {
   uint32_t value = 0;
-  const bool known = isChannel(call) &&
-                     can_.readItem(channelOf(call), call.number(1), call.number(2), itemAt(call.arg(3)), value);
+  const bool known =
+      isChannel(call) && can_.readItem(channelOf(call), call.number(1), call.number(2), itemAt(call.arg(3)), value);
   call.set(0, known ? 0 : 1);
   call.set(1, value);
 }
@@ -144,8 +144,7 @@ void CanCalls::run(host::Instance& instance, const CanPlaces& places, uint32_t c
     memory.write(at.space, at.first, 2, packet.id);
     memory.writeByte(at.space, at.first + 2, packet.remote);
     memory.writeByte(at.space, at.first + 3, packet.length);
-    for (uint32_t i = 0; i < devices::kCanDataBytes; ++i)
-      memory.writeByte(at.space, at.first + 4 + i, packet.data[i]);
+    for (uint32_t i = 0; i < devices::kCanDataBytes; ++i) memory.writeByte(at.space, at.first + 4 + i, packet.data[i]);
     if (const auto* procedure = places.procedure(order->procedure)) procedure->run(instance, channel, false);
   }
 }
@@ -219,8 +218,7 @@ void CanPlaces::read(const rt::Memory& memory, CanInputs& in, CanOutputs& out) c
       in.units.display[wheel][i] = static_cast<uint8_t>(memory.read(display_[wheel][i]));
     in.units.displayBusy[wheel] = memory.read(displayBusy_[wheel]) != 0;
   }
-  for (uint32_t i = 0; i < command_.size(); ++i)
-    in.drives.command[i] = static_cast<uint16_t>(memory.read(command_[i]));
+  for (uint32_t i = 0; i < command_.size(); ++i) in.drives.command[i] = static_cast<uint16_t>(memory.read(command_[i]));
 }
 
 void CanPlaces::write(const rt::Memory& memory, const CanInputs&, const CanOutputs& out, const CanDevices& can) const {

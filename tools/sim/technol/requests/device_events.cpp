@@ -1,4 +1,5 @@
-// What a scenario does to the devices, and what it sees of them (see simulated_devices.h; inventory of the services, 15).
+// What a scenario does to the devices, and what it sees of them (see simulated_devices.h; inventory of the services,
+// 15).
 #include <bit>
 #include <cmath>
 
@@ -123,7 +124,8 @@ AxisMask axesOf(Keys keys) {
 uint32_t takeNumber(std::string_view& rest) {
   const size_t end = std::min(rest.find('.'), rest.size());
   const bool hex = rest.substr(0, end).starts_with("0x");
-  const auto number = hex ? text::numberIn<uint32_t>(rest.substr(2, end - 2), 16) : text::numberIn<uint32_t>(rest.substr(0, end));
+  const auto number =
+      hex ? text::numberIn<uint32_t>(rest.substr(2, end - 2), 16) : text::numberIn<uint32_t>(rest.substr(0, end));
   rest.remove_prefix(std::min(end + 1, rest.size()));
   return number.value_or(UINT32_MAX);
 }
@@ -154,8 +156,10 @@ std::optional<std::string> SimulatedDevices::event(std::string_view name, Keys k
       return removed ? tables_.removeLine(table, *removed) : tables_.addLine(table);
     });
   if (!simulated_) return std::nullopt;
-  if (is("STOP")) return checked("emergency", [&] { return axes_.stop(number(keys, "emergency", 0) != 0), std::string(); });
-  if (is("REFERENCE")) return checked("axis axes type", [&] { return axes_.reference(textOf(keys, "type"), axesOf(keys)); });
+  if (is("STOP"))
+    return checked("emergency", [&] { return axes_.stop(number(keys, "emergency", 0) != 0), std::string(); });
+  if (is("REFERENCE"))
+    return checked("axis axes type", [&] { return axes_.reference(textOf(keys, "type"), axesOf(keys)); });
   if (is("AUTMAN")) return checked("on", [&] { return axes_.autman(number(keys, "on", 1) != 0), std::string(); });
   if (is("RTM"))
     return checked("command state", [&] { return axes_.rtm(textOf(keys, "command"), number(keys, "state", 1) != 0); });
@@ -169,7 +173,8 @@ std::optional<std::string> SimulatedDevices::event(std::string_view name, Keys k
   if (is("CAN_UNIT"))
     return checked("group board error short0 short1 short2 silent", [&] {
       CanUnitEvent event{.error = given<uint8_t>(keys, "error"), .shorts = {}, .silent = given<bool>(keys, "silent")};
-      for (size_t i = 0; i < event.shorts.size(); ++i) event.shorts[i] = given<uint8_t>(keys, "short" + std::to_string(i));
+      for (size_t i = 0; i < event.shorts.size(); ++i)
+        event.shorts[i] = given<uint8_t>(keys, "short" + std::to_string(i));
       return can_.unitEvent(unsignedNumber(keys, "group"), unsignedNumber(keys, "board"), event);
     });
   if (is("CAN_DRIVE"))
@@ -222,8 +227,10 @@ std::optional<double> SimulatedDevices::quantity(std::string_view name) const {
     const uint32_t a = takeNumber(rest), b = takeNumber(rest), c = takeNumber(rest);
     return act(a, b, c);
   };
-  if (takePrefix(rest, "DRIVE.")) return asReal(three([&](auto a, auto b, auto c) { return can_.driveObject(a, b, c); }));
-  if (takePrefix(rest, "ETHERCAT.")) return asReal(three([&](auto a, auto b, auto c) { return ethercat_.object(a, b, c); }));
+  if (takePrefix(rest, "DRIVE."))
+    return asReal(three([&](auto a, auto b, auto c) { return can_.driveObject(a, b, c); }));
+  if (takePrefix(rest, "ETHERCAT."))
+    return asReal(three([&](auto a, auto b, auto c) { return ethercat_.object(a, b, c); }));
   if (takePrefix(rest, "IDN.")) return asReal(three([&](auto a, auto b, auto c) { return ethercat_.idn(a, b, c); }));
   return std::nullopt;
 }
@@ -258,7 +265,8 @@ std::optional<AreaCell> areaCell(std::string_view name) {
   if (!takePrefix(name, "SA") || name.size() < 2 || name[1] != '+') return std::nullopt;
   const size_t colon = name.find(':');
   if (colon == std::string_view::npos) return std::nullopt;
-  const auto area = text::numberIn<uint32_t>(name.substr(0, 1)), offset = text::numberIn<uint32_t>(name.substr(2, colon - 2)),
+  const auto area = text::numberIn<uint32_t>(name.substr(0, 1)),
+             offset = text::numberIn<uint32_t>(name.substr(2, colon - 2)),
              width = text::numberIn<uint32_t>(name.substr(colon + 1));
   const bool fits = area && offset && width && (*width == 1 || *width == 2 || *width == 4 || *width == 8) &&
                     *offset + *width <= devices::SharedAreas::kAreaBytes && *area < devices::SharedAreas::kAreas;
@@ -307,7 +315,8 @@ std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
     lines ? tables_.lineCount(at->table, number) : tables_.selectedLine(at->table, number);
     return NcCell{.width = 32, .bits = number};
   }
-  if (tables_.columnIndex(at->table, nc::memoryText(at->column), number) != devices::TableError::None) return std::nullopt;
+  if (tables_.columnIndex(at->table, nc::memoryText(at->column), number) != devices::TableError::None)
+    return std::nullopt;
   int32_t integer = 0;
   if (tables_.getInt(at->table, *at->line, number, integer) == devices::TableError::None)
     return NcCell{.width = 32, .bits = static_cast<uint32_t>(integer)};
@@ -332,7 +341,8 @@ bool SimulatedDevices::writeCell(std::string_view name, const NcCell& value) {
   const auto at = tableCell(name);
   if (!at || !tables_.exists(at->table)) return false;
   if (value.isText) return at->line && tables_.edit(at->table, *at->line, at->column, value.text).empty();
-  const double number = value.isReal ? std::bit_cast<double>(value.bits) : static_cast<double>(static_cast<int64_t>(value.bits));
+  const double number =
+      value.isReal ? std::bit_cast<double>(value.bits) : static_cast<double>(static_cast<int64_t>(value.bits));
   if (at->line) return tables_.edit(at->table, *at->line, at->column, number).empty();
   return text::equalsIgnoringCase(at->column, "SelLine") &&
          tables_.selectByOperator(at->table, static_cast<uint32_t>(number)).empty();

@@ -36,7 +36,9 @@ Master::Ticket writeIdn(Master& master, Station at, const DeviceCall& call) {
   Room room;
   return master.writeIdn(at, byteOf(call, 2), byteOf(call, 3), wordOf(call, 4), call.bytes(5, room));
 }
-Master::Ticket command(Master& master, Station at, const DeviceCall& call) { return master.command(at, call.number(2)); }
+Master::Ticket command(Master& master, Station at, const DeviceCall& call) {
+  return master.command(at, call.number(2));
+}
 
 struct Order {
   std::string_view name;
@@ -144,8 +146,7 @@ EthercatPlaces::EthercatPlaces(const rung_program& program) {
 void EthercatPlaces::read(const rt::Memory& memory, StateBits& bits, EthercatServos::Cells& servos) const {
   for (uint32_t i = 0; i < kBits; ++i) bits.*kStateBits[i].member = memory.read(bits_[i]) != 0;
   for (uint32_t servo = 0; servo < servos.size(); ++servo) {
-    for (uint32_t i = 0; i < kServoFlags; ++i)
-      servos[servo].*kServoBits[i].member = memory.read(flags_[servo][i]) != 0;
+    for (uint32_t i = 0; i < kServoFlags; ++i) servos[servo].*kServoBits[i].member = memory.read(flags_[servo][i]) != 0;
     servos[servo].status = static_cast<uint16_t>(memory.read(words_[servo][0]));
     servos[servo].error = static_cast<uint16_t>(memory.read(words_[servo][1]));
   }

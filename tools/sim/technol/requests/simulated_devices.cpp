@@ -12,7 +12,8 @@ constexpr uint32_t kUsPerTick = 1000;
 
 // The number after a prefix of the key: PlcTableDef3.
 std::optional<uint32_t> numberAfter(std::string_view key, std::string_view prefix) {
-  if (key.size() <= prefix.size() || !text::equalsIgnoringCase(key.substr(0, prefix.size()), prefix)) return std::nullopt;
+  if (key.size() <= prefix.size() || !text::equalsIgnoringCase(key.substr(0, prefix.size()), prefix))
+    return std::nullopt;
   return text::numberIn<uint32_t>(key.substr(prefix.size()));
 }
 
@@ -23,7 +24,8 @@ SimulatedDevices::SimulatedDevices() = default;
 std::optional<std::string> SimulatedDevices::configure(std::string_view key, std::string_view value,
                                                        const std::string& path) {
   if (text::equalsIgnoringCase(key, "nc")) {
-    if (value != "simulated" && value != "scripted") return "nc is simulated or scripted, not '" + std::string(value) + "'";
+    if (value != "simulated" && value != "scripted")
+      return "nc is simulated or scripted, not '" + std::string(value) + "'";
     simulated_ = value == "simulated";
     return std::string();
   }

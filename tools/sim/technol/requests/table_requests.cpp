@@ -99,9 +99,7 @@ TableError lines(PlcTables& tables, TableOrder order, DeviceCall& call) {
   case TableOrder::SelectedLine: error = tables.selectedLine(table, number); break;
   case TableOrder::Select: return tables.select(table, call.number(1));
   case TableOrder::LineCount: error = tables.lineCount(table, number); break;
-  default:
-    error = tables.takeChange(table, change);
-    number = static_cast<uint32_t>(change);
+  default: error = tables.takeChange(table, change); number = static_cast<uint32_t>(change);
   }
   call.set(kValueOut, number);
   return error;

@@ -38,7 +38,7 @@ public:
   std::string_view letters() const { return letters_; }
   bool exists(uint32_t axis) const { return axis >= 1 && axis <= count(); }
 
-  // Power-up, cold and warm start. STOP PLC changes nothing: motions go on with the last orders.
+  // Power-up, cold and warm start. STOP PLC changes nothing: motions continue with the last orders.
   void powerUp();
   void startPlc() { manual_.lock(false); }
   // Fault, HALT, after MODULE_HALT: units brake, manual motion ends; the caller puts 0 into SU_OUT_PLC.

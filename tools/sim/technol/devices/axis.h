@@ -69,7 +69,7 @@ public:
     requested = true;
     negative = inNegative;
   }
-  // Its mover leaves it: it brakes to a stand, until which its motion is reported.
+  // Its mover leaves it: it brakes to a standstill, until which its motion is reported.
   void letGo(double acceleration);
   void tick();
 

@@ -67,7 +67,7 @@ TEST(ManualMotion, ProgramMovesSeveralAxes) {
   EXPECT_NEAR(machine.axes.measured(2), -(v - v * v / 1000), 1e-9);
   machine.in.externalPlus = machine.in.externalMinus = 0;
   machine.scan();
-  EXPECT_EQ(machine.out.motion, 3); // until the stand
+  EXPECT_EQ(machine.out.motion, 3); // until the standstill
   machine.ticks(200);
   EXPECT_EQ(machine.out.motion, 0);
   EXPECT_NEAR(machine.axes.measured(1), v, 1e-9);

@@ -36,7 +36,7 @@ private:
 
 class CanCalls {
 public:
-  explicit CanCalls(CanDevices& can) : can_(can) {}
+  explicit CanCalls(devices::CanController& can) : can_(can) {}
 
   // At a power-on and START PLC: no order is left.
   void clear() { orders_ = {}; }
@@ -65,7 +65,7 @@ private:
   void sendToDrive(DeviceCall& call);
   void run(host::Instance& instance, const CanPlaces& places, uint32_t channel, const devices::CanPacket& packet);
 
-  CanDevices& can_;
+  devices::CanController& can_;
   std::array<Order, devices::kMostCanOrders> orders_ = {};
   bool asksDrive_ = false;
 };

@@ -368,7 +368,7 @@ std::string SimulatedDevices::expectSent(std::string_view port, Keys keys) {
     return "sent is " + (found.empty() ? std::string("nothing") : hexOf(found));
   }
   devices::CanPacket packet;
-  const bool any = can_.takeSent(*number + 1, packet);
+  const bool any = can_.control().takeSent(*number + 1, packet);
   if (none) return any ? "a packet has been sent" : std::string();
   if (!any) return "no packet has been sent";
   const auto wanted = packetOf(keys);

@@ -122,7 +122,7 @@ bool SimulatedDevices::respond(host::Instance& instance, const rt::ServiceReques
 }
 
 void SimulatedDevices::startProgram() {
-  can_.startProgram();
+  can_.control().startProgram();
   canCalls_.clear();
   axes_.startPlc();
 }

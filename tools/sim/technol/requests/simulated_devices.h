@@ -81,7 +81,7 @@ private:
   Axes axes_;
   ComPorts com_;
   CanDevices can_;
-  CanCalls canCalls_{can_};
+  CanCalls canCalls_{can_.control()};
   EtherCat ethercat_;
   EthercatCalls ethercatCalls_{ethercat_};
   EthercatServos servos_;

@@ -69,11 +69,7 @@ public:
     requested = true;
     negative = inNegative;
   }
-<<<<<<< HEAD
-  // Its mover leaves it: it brakes, and its motion is reported until it has stopped.
-=======
   // Its mover leaves it: it brakes to a standstill, until which its motion is reported.
->>>>>>> axes
   void letGo(double acceleration);
   void tick();
 

@@ -13,11 +13,7 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 constexpr double kEqual = 1e-9;
 
 double sign(double value) { return value < 0 ? -1 : 1; }
-<<<<<<< HEAD
-// Where a motion of that speed ends, from here.
-=======
 // Where a motion of that speed comes to a standstill, from here.
->>>>>>> axes
 double brakingDistance(double speed, double acceleration) { return speed * std::fabs(speed) / (2 * acceleration); }
 
 } // namespace
@@ -77,11 +73,7 @@ void Motion::moveTo(double target, double speed, double acceleration) {
   if (!(speed > 0)) return stop(acceleration);
   if (!isNew({Kind::To, target, speed, acceleration})) return;
   const double v = last_.speed;
-<<<<<<< HEAD
-  const double beyond = target - last_.position - brakingDistance(v, acceleration); // from its end to the target
-=======
   const double beyond = target - last_.position - brakingDistance(v, acceleration); // from the standstill to the target
->>>>>>> axes
   if (std::fabs(beyond) < kEqual || beyond * v < 0 || (target - last_.position) * v < 0) rampTo(0, acceleration);
   if (std::fabs(target - last_.position) >= kEqual) approach(target, speed, acceleration);
   end(target, 0);

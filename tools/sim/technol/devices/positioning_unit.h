@@ -55,11 +55,7 @@ private:
     bool programmed = false; // PROG
     bool arrived = false;    // POL
     bool braking = false;    // a motion that POS_INIT has ended
-<<<<<<< HEAD
-    bool placed = false;     // `target` is known: it has stopped
-=======
     bool placed = false;     // `target` is known: it has come to a standstill
->>>>>>> axes
     bool started = false;    // has moved since POS_MODE
     bool initiated = false;  // a tick since POS_MODE: INIC has become CONT
     bool mp = false;

@@ -53,11 +53,7 @@ void ReferenceTravel::observeZeroPulse(const AxisAttributes& own, uint32_t index
   low_ = low_ || armed_;
 }
 
-<<<<<<< HEAD
-// 10, 12, 15: the switch reverses the travel, and is the zero point where it opens on the way back.
-=======
 // 10, 12, 15: the switch reverses the travel, and the zero point is where it turns off again.
->>>>>>> axes
 void ReferenceTravel::observeSwitch(Axis& axis, bool on) {
   if (phase_ == Phase::Seek && on) {
     phase_ = Phase::Leave;

@@ -53,7 +53,7 @@ protected:
 
 private:
   struct OpenElement {
-    Element element;
+    Element element = Element::None;
     uint32_t seen = 0; // a bit for each element that it held
   };
 

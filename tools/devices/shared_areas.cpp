@@ -1,6 +1,7 @@
 // Reading and writing shared areas (see shared_areas.h).
 #include "tools/devices/shared_areas.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <sys/mman.h>
@@ -22,7 +23,7 @@ bool isAsLocked(const pthread_mutex_t& mutex, const pthread_mutex_t& asLocked) {
   pthread_mutex_t now;
   std::memcpy(&now, &mutex, sizeof now);
   now.__data.__lock = asLocked.__data.__lock;
-  return std::memcmp(&now, &asLocked, sizeof now) == 0;
+  return std::ranges::equal(std::as_bytes(std::span(&now, 1)), std::as_bytes(std::span(&asLocked, 1)));
 }
 
 // A mutex that was written over would make the C library follow whatever it holds as pointers.

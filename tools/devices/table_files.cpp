@@ -2,6 +2,7 @@
 #include "tools/devices/table_files.h"
 
 #include <algorithm>
+#include <optional>
 #include <sys/stat.h>
 #include <utility>
 
@@ -92,8 +93,9 @@ std::string TableFiles::save(PlcTables& tables, int64_t nowNs) {
 std::string TableFiles::saveNow(PlcTables& tables) const {
   std::string wrong;
   for (const auto& [number, file] : files_) {
-    if (!tables.isDirty(number)) continue;
-    const std::string text = control_files::tableDataText(*tables.contents(number));
+    const std::optional<TableData> data = tables.isDirty(number) ? tables.contents(number) : std::nullopt;
+    if (!data) continue;
+    const std::string text = control_files::tableDataText(*data);
     const std::string failed = host::replaceFile(file.path, text, {.mode = modeOf(file.path), .lasts = true});
     addLine(wrong, failed);
     if (failed.empty()) tables.stored(number);

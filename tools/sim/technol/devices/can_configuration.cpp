@@ -148,7 +148,7 @@ std::optional<std::string> CanDevices::configureDrive(std::string_view key, std:
   return "";
 }
 
-// The value is VALUE/BYTES, and `ro` or `wo` behind it.
+// The value is VALUE/BYTES, and `ro` or `wo` after it.
 std::optional<std::string> CanDevices::configureObject(std::string_view key, std::string_view rest, uint32_t drive,
                                                        std::string_view value) {
   const auto index = numberIn(text::lower(takeUntil(rest, '.')), 0, 0xFFFF);

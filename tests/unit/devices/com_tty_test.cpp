@@ -121,6 +121,7 @@ TEST(TtySettings, AreThoseOfTermios) {
   }
   EXPECT_TRUE(isStandardSpeed(19200));
   EXPECT_FALSE(isStandardSpeed(19201));
+  EXPECT_EQ(devicePath(2), "/dev/ttyS1");
 }
 
 TEST_F(Tty, BytesGoBothWays) {

@@ -43,6 +43,8 @@ bool isForLater(int error) { return error == EAGAIN || error == EWOULDBLOCK || e
 
 } // namespace
 
+std::string devicePath(uint32_t physical) { return "/dev/ttyS" + std::to_string(physical - 1); }
+
 bool isStandardSpeed(uint32_t speed) { return findSpeed(speed) != nullptr; }
 
 // A byte whose parity or frame is wrong is dropped.
@@ -112,7 +114,7 @@ void TtyLine::step(int64_t nowMs) noexcept {
 
 // At most a queue at a time, so that a device that never ends does not keep the others waiting.
 void TtyLine::read() noexcept {
-  std::array<uint8_t, kBlock> bytes;
+  std::array<uint8_t, kBlock> bytes{};
   for (size_t all = 0; all < Port::kQueueBytes;) {
     const ssize_t count = ::read(descriptor_, bytes.data(), bytes.size());
     if (count < 0 && isForLater(errno)) return;
@@ -131,7 +133,7 @@ bool TtyLine::fillUnsent() noexcept {
 }
 
 void TtyLine::write() noexcept {
-  for (size_t all = 0; all < 2 * Port::kQueueBytes && fillUnsent();) {
+  for (size_t all = 0; all < size_t{2} * Port::kQueueBytes && fillUnsent();) {
     const ssize_t count = ::write(descriptor_, &unsent_[unsentAt_], unsentEnd_ - unsentAt_);
     if (count < 0 && isForLater(errno)) return;
     if (count < 0) return fail("has gone", errno);

@@ -17,6 +17,8 @@ namespace rung::devices::com {
 
 // `found`, raw and set so. Speeds are those that termios knows: 50 to 4,000,000.
 termios termiosOf(const Settings& settings, termios found);
+// The device of PhysicalComNo, which counts as Windows does: 1 is /dev/ttyS0 (l.21024).
+std::string devicePath(uint32_t physical);
 // Whether termios has a number for it.
 bool isStandardSpeed(uint32_t speed);
 

@@ -86,7 +86,7 @@ void EtherCat::powerOn() {
 }
 
 void EtherCat::tick(StateBits& bits) {
-  if (startInMs_ != 0 && --startInMs_ == 0 && states_.hasLink()) states_.start(State::Operational);
+  startLater();
   serveChange();
   serveAnswers();
   requests_.dropForgotten();
@@ -94,6 +94,12 @@ void EtherCat::tick(StateBits& bits) {
   slaves_.tick();
   image_.takeInputs();
   stateRequests_.tick(bits);
+}
+
+void EtherCat::startLater() {
+  if (startInMs_ == 0) return;
+  --startInMs_;
+  if (startInMs_ == 0 && states_.hasLink()) states_.start(State::Operational);
 }
 
 // Changes of state come one after the other, in the order in which they were asked for.

@@ -77,6 +77,7 @@ private:
 
   Ticket begin(const Station& station, EthercatRequest::Kind kind, uint32_t index, uint32_t sub, uint32_t elements,
                uint32_t most, std::span<const uint8_t> data) noexcept;
+  void startLater();
   void serveAnswers();
   void serveChange();
   EthercatRequest* changeUnderWay();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "frontend/dialects/technol/rows/operand_kinds.h"
+#include "rtlib/nc/technol/services.h"
 #include "tests/unit/technol/program.h"
 
 namespace rung::technol_test {
@@ -97,6 +98,19 @@ TEST(TechnolTable, NamesAreFoundInAnyCase) {
   EXPECT_EQ(findRow("ldr"), findRow("LDR"));
   EXPECT_EQ(findRow("Jlo"), findRow("JL0"));
   for (const char* none : {"LDRX", "LD", ""}) EXPECT_EQ(findRow(none), nullptr) << none;
+}
+
+// What the control knows of the services of devices is what the rows say of them.
+TEST(TechnolTable, DeviceServicesAgreeWithTheirRows) {
+  for (const nc::technol::DeviceService& service : nc::technol::deviceServices()) {
+    const Row* row = findRow(service.name);
+    ASSERT_NE(row, nullptr) << service.name;
+    EXPECT_EQ(service.waits, (row->effects & kWaits) != 0) << service.name;
+    const std::string results = " " + std::string(service.results) + " ";
+    const bool rlo = results.find(" RLO ") != std::string::npos, dr = results.find(" DR ") != std::string::npos;
+    if (!service.waits) EXPECT_EQ(rlo, (row->effects & kSetsRlo) != 0) << service.name;
+    EXPECT_EQ(dr, (row->effects & kSetsDr) != 0) << service.name;
+  }
 }
 
 // ---- examples -------------------------------------------------------------------------------------------------------

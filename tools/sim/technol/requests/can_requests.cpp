@@ -15,35 +15,50 @@ namespace {
 bool isChannel(const DeviceCall& call) { return call.arg(0) == 1 || call.arg(0) == 2; }
 uint32_t channelOf(const DeviceCall& call) { return static_cast<uint32_t>(call.arg(0)); }
 
-// An item by its place in INOUTS, which programs name by the member.
-devices::InoutsItem itemAt(int64_t offset) {
-  devices::InoutsItem item{.offset = static_cast<uint32_t>(offset)};
+// Bytes of the items of INOUTS, by their places.
+std::array<uint8_t, devices::inouts::kBytes> itemWidths() {
+  std::array<uint8_t, devices::inouts::kBytes> widths;
+  widths.fill(1);
   for (const nc::Signal& signal : nc::technolSignals())
-    if (std::string_view(signal.area) == "INOUTS" && signal.byteOffset == item.offset) {
-      item.bytes = std::max(1u, nc::elementBytes(signal.type));
-      break;
-    }
-  return item;
+    if (std::string_view(signal.area) == "INOUTS" && signal.byteOffset < widths.size())
+      widths[signal.byteOffset] = static_cast<uint8_t>(std::max(1u, nc::elementBytes(signal.type)));
+  return widths;
+}
+
+// Programs name an item by the member.
+devices::InoutsItem itemAt(int64_t offset) {
+  static const std::array<uint8_t, devices::inouts::kBytes> kWidths = itemWidths();
+  const auto at = static_cast<uint32_t>(offset);
+  return {.offset = at, .bytes = at < kWidths.size() ? kWidths[at] : 1u};
 }
 
 } // namespace
 
-bool CanCalls::answer(std::string_view service, DeviceCall& call) {
-  struct Entry {
-    std::string_view name;
-    void (CanCalls::*answer)(DeviceCall&);
-  };
-  static constexpr Entry kOrders[] = {{"CAN_SEND", &CanCalls::send},
-                                      {"CAN_RECV", &CanCalls::receive},
-                                      {"CAN_RECV_REQ", &CanCalls::order},
-                                      {"CAN_RECV_DEL", &CanCalls::endOrder},
-                                      {"CAN_RECV_END", &CanCalls::endOrder},
-                                      {"CAN_SYSIO_READ", &CanCalls::readItem},
-                                      {"CAN_SYSIO_WRITE", &CanCalls::writeItem},
-                                      {"CAN_AX_SEND", &CanCalls::sendToDrive}};
-  for (const Entry& entry : kOrders)
-    if (entry.name == service) return (this->*entry.answer)(call), true;
-  return false;
+CanOrder canOrder(std::string_view service) {
+  constexpr std::pair<std::string_view, CanOrder> kOrders[] = {{"CAN_SEND", CanOrder::Send},
+                                                               {"CAN_RECV", CanOrder::Receive},
+                                                               {"CAN_RECV_REQ", CanOrder::Order},
+                                                               {"CAN_RECV_DEL", CanOrder::EndOrder},
+                                                               {"CAN_RECV_END", CanOrder::EndOrder},
+                                                               {"CAN_SYSIO_READ", CanOrder::ReadItem},
+                                                               {"CAN_SYSIO_WRITE", CanOrder::WriteItem},
+                                                               {"CAN_AX_SEND", CanOrder::Drive}};
+  for (const auto& [name, order] : kOrders)
+    if (name == service) return order;
+  return CanOrder::None;
+}
+
+void CanCalls::answer(CanOrder order, DeviceCall& call) {
+  switch (order) {
+  case CanOrder::None: return;
+  case CanOrder::Send: return send(call);
+  case CanOrder::Receive: return receive(call);
+  case CanOrder::Order: return this->order(call);
+  case CanOrder::EndOrder: return endOrder(call);
+  case CanOrder::ReadItem: return readItem(call);
+  case CanOrder::WriteItem: return writeItem(call);
+  case CanOrder::Drive: return sendToDrive(call);
+  }
 }
 
 // can id rtr len data -> DR
@@ -115,21 +130,10 @@ void CanCalls::sendToDrive(DeviceCall& call) {
   asksDrive_ = true;
 }
 
-void CanCalls::showDrive(host::Instance& instance) {
+void CanCalls::showDrive(const rt::Memory& memory, const CanPlaces& places) {
   if (!asksDrive_ || can_.driveBusy() != 0) return;
   asksDrive_ = false;
-  const rung_program& program = instance.program();
-  const rt::Memory memory = instance.memory();
-  const auto packet = nc::technol::signalPlace(program, "CAN_AX_RECV_PACKET.CAN_ID");
-  const auto busy = nc::technol::signalPlace(program, "CAN_AX_BUSY");
-  if (!packet || !busy) return;
-  const CanPacket& answer = can_.driveAnswer();
-  memory.write(packet->space, packet->byte, 2, answer.id);
-  memory.writeByte(packet->space, packet->byte + 2, answer.remote);
-  memory.writeByte(packet->space, packet->byte + 3, answer.length);
-  for (uint32_t i = 0; i < devices::kCanDataBytes; ++i)
-    memory.writeByte(packet->space, packet->byte + 4 + i, answer.data[i]);
-  host::writeRaw(memory, *busy, 0);
+  places.writeDriveAnswer(memory, can_.driveAnswer());
 }
 
 // All twelve bytes of the buffer (inventory of the services, 9), then the procedure with the channel in DR (man.
@@ -196,11 +200,26 @@ CanPlaces::CanPlaces(const rung_program& program) {
       for (uint32_t i = 0; i < display_[wheel].size(); ++i)
         display_[wheel][i] = host::locate({program, nullptr}, host::intRef(display->space, display->byte + i, 8));
   }
+  const std::string packet = "CAN_AX_RECV_PACKET.";
+  answerId_ = placeIn(program, packet + "CAN_ID");
+  answerRemote_ = placeIn(program, packet + "CAN_RTR");
+  answerLength_ = placeIn(program, packet + "CAN_LEN");
+  for (uint32_t i = 0; i < answerData_.size(); ++i)
+    answerData_[i] = placeIn(program, packet + (i == 0 ? "CAN_DATA" : "CAN_DATA_" + std::to_string(i)));
+  driveBusy_ = placeIn(program, "CAN_AX_BUSY");
   for (uint32_t number = 0;; ++number) {
     const std::string task = std::string(nc::technol::kPacketTask) + std::to_string(number);
     if (host::findTask(program, task) == RUNG_NONE) break;
     procedures_.emplace_back(program, task);
   }
+}
+
+void CanPlaces::writeDriveAnswer(const rt::Memory& memory, const CanPacket& answer) const {
+  memory.write(answerId_, answer.id);
+  memory.write(answerRemote_, answer.remote);
+  memory.write(answerLength_, answer.length);
+  for (uint32_t i = 0; i < answerData_.size(); ++i) memory.write(answerData_[i], answer.data[i]);
+  memory.write(driveBusy_, 0);
 }
 
 void CanPlaces::read(const rt::Memory& memory, CanInputs& in, CanOutputs& out) const {

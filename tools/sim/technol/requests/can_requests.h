@@ -10,6 +10,10 @@
 
 namespace rung::sim::technol {
 
+// What a request asks for; None: no such service.
+enum class CanOrder : uint8_t { None, Send, Receive, Order, EndOrder, ReadItem, WriteItem, Drive };
+CanOrder canOrder(std::string_view service);
+
 // Where the cells lie in a program; the tasks of its event procedures.
 class CanPlaces {
 public:
@@ -19,6 +23,8 @@ public:
   void read(const rt::Memory& memory, CanInputs& in, CanOutputs& out) const;
   // Ports of units that exist, and drives 1 to `drives`.
   void write(const rt::Memory& memory, const CanInputs& in, const CanOutputs& out, const CanDevices& can) const;
+  // CAN_AX_RECV_PACKET, and CAN_AX_BUSY becomes 0.
+  void writeDriveAnswer(const rt::Memory& memory, const devices::CanPacket& answer) const;
   const nc::technol::Procedure* procedure(uint64_t number) const {
     return number < procedures_.size() ? &procedures_[number] : nullptr;
   }
@@ -31,6 +37,8 @@ private:
   std::array<std::array<rt::Place, 2>, devices::kHandwheels> keys_;
   std::array<std::array<rt::Place, 8>, devices::kHandwheels> display_;
   std::array<rt::Place, devices::kHandwheels> displayBusy_;
+  std::array<rt::Place, devices::kCanDataBytes> answerData_;
+  rt::Place answerId_, answerRemote_, answerLength_, driveBusy_;
   std::vector<nc::technol::Procedure> procedures_;
 };
 
@@ -40,15 +48,12 @@ public:
 
   // At a power-on and START PLC: no order is left.
   void clear() { orders_ = {}; }
-  // False: another service.
-  bool answer(std::string_view service, DeviceCall& call);
+  void answer(CanOrder order, DeviceCall& call);
   // After the ticks of a scan: what has come goes into the buffers of orders, and their procedures run; else it waits
   // for CAN_RECV. A program that is stopped has no orders, and its packets are dropped.
   void deliver(host::Instance& instance, const CanPlaces& places);
   // The answer of a drive, and whether one is waited for.
-  void showDrive(host::Instance& instance);
-  // CAN_AX_SEND was carried out since the last `showDrive` that found its answer.
-  bool asksDrive() const { return asksDrive_; }
+  void showDrive(const rt::Memory& memory, const CanPlaces& places);
 
 private:
   struct Order {

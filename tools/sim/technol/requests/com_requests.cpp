@@ -42,20 +42,22 @@ devices::com::Port& portOf(ComPorts& ports, const DeviceCall& call, devices::com
 
 } // namespace
 
-bool answerCom(ComPorts& ports, std::string_view service, DeviceCall& call) {
-  struct Order {
-    std::string_view name;
-    void (*answer)(devices::com::Port&, DeviceCall&);
-  };
-  constexpr Order kOrders[] = {
-      {"COM_SEND", send}, {"COM_SEND_STR", sendText}, {"COM_RECV", receive}, {"COM_CONTROL", control}};
-  for (const Order& order : kOrders) {
-    if (order.name != service) continue;
-    devices::com::Port none;
-    order.answer(portOf(ports, call, none), call);
-    return true;
+ComOrder comOrder(std::string_view service) {
+  constexpr std::string_view kOrders[] = {"", "COM_SEND", "COM_SEND_STR", "COM_RECV", "COM_CONTROL"};
+  const auto* found = std::ranges::find(kOrders, service);
+  return found == std::end(kOrders) ? ComOrder::None : static_cast<ComOrder>(found - kOrders);
+}
+
+void answerCom(ComPorts& ports, ComOrder order, DeviceCall& call) {
+  devices::com::Port none;
+  devices::com::Port& port = portOf(ports, call, none);
+  switch (order) {
+  case ComOrder::None: return;
+  case ComOrder::Send: return send(port, call);
+  case ComOrder::SendText: return sendText(port, call);
+  case ComOrder::Receive: return receive(port, call);
+  case ComOrder::Control: return control(port, call);
   }
-  return false;
 }
 
 } // namespace rung::sim::technol

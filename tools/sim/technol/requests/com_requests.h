@@ -7,7 +7,9 @@
 
 namespace rung::sim::technol {
 
-// False: another service.
-bool answerCom(ComPorts& ports, std::string_view service, DeviceCall& call);
+// What a request asks for; None: no such service.
+enum class ComOrder : uint8_t { None, Send, SendText, Receive, Control };
+ComOrder comOrder(std::string_view service);
+void answerCom(ComPorts& ports, ComOrder order, DeviceCall& call);
 
 } // namespace rung::sim::technol

@@ -63,21 +63,18 @@ void EthercatCalls::clear() {
   }
 }
 
-bool EthercatCalls::begin(std::string_view service, DeviceCall& call) {
-  for (const Order& order : kOrders) {
-    if (order.name != service) continue;
-    Pending* free = std::ranges::find(pending_, 0u, &Pending::ticket);
-    const Master::Ticket asked =
-        free == std::end(pending_) ? 0 : order.begin(master_, {call.number(0), call.number(1)}, call);
-    if (asked == 0) {
-      call.set(kCode, devices::ethercat::kTimedOut);
-    } else {
-      *free = {.ticket = call.request().ticket, .asked = asked, .writes = order.writes};
-      call.wait();
-    }
-    return true;
-  }
-  return false;
+std::optional<uint32_t> EthercatCalls::orderOf(std::string_view service) {
+  const auto* found = std::ranges::find(kOrders, service, &Order::name);
+  return found == std::end(kOrders) ? std::nullopt : std::optional(static_cast<uint32_t>(found - kOrders));
+}
+
+void EthercatCalls::begin(uint32_t order, DeviceCall& call) {
+  Pending* free = std::ranges::find(pending_, 0u, &Pending::ticket);
+  const bool room = free != std::end(pending_);
+  const Master::Ticket asked = room ? kOrders[order].begin(master_, {call.number(0), call.number(1)}, call) : 0;
+  if (asked == 0) return call.set(kCode, devices::ethercat::kTimedOut);
+  *free = {.ticket = call.request().ticket, .asked = asked, .writes = kOrders[order].writes};
+  call.wait();
 }
 
 bool EthercatCalls::finish(host::Instance& instance, AnswerBytes& bytes) {

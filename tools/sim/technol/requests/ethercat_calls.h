@@ -2,6 +2,7 @@
 // 13.18).
 #pragma once
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "tools/sim/technol/devices/ethercat.h"
@@ -16,8 +17,10 @@ public:
   explicit EthercatCalls(devices::ethercat::Master& master) : master_(master) {}
 
   void clear();
-  // False: another service.
-  bool begin(std::string_view service, DeviceCall& call);
+  // `order` is a number that `orderOf` has given.
+  void begin(uint32_t order, DeviceCall& call);
+  // Nothing: no such service.
+  static std::optional<uint32_t> orderOf(std::string_view service);
   // After a tick: answers what is done. True: something was.
   bool finish(host::Instance& instance, AnswerBytes& bytes);
 

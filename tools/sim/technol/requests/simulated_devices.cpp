@@ -96,9 +96,12 @@ SimulatedDevices::Service SimulatedDevices::serviceOf(std::string_view signature
   if (!simulated_) return {};
   if (const AxisOrder order = axisOrder(name); order != AxisOrder::None)
     return {.who = Answerer::Axes, .order = static_cast<uint8_t>(order)};
-  if (name.starts_with("COM_")) return {.who = Answerer::Com, .mnemonic = name};
-  if (name.starts_with("CAN_")) return {.who = Answerer::Can, .mnemonic = name};
-  if (name.starts_with("ECAT_")) return {.who = Answerer::Ethercat, .mnemonic = name};
+  if (const ComOrder order = comOrder(name); order != ComOrder::None)
+    return {.who = Answerer::Com, .order = static_cast<uint8_t>(order)};
+  if (const CanOrder order = canOrder(name); order != CanOrder::None)
+    return {.who = Answerer::Can, .order = static_cast<uint8_t>(order)};
+  if (const auto order = EthercatCalls::orderOf(name))
+    return {.who = Answerer::Ethercat, .order = static_cast<uint8_t>(*order)};
   return {};
 }
 
@@ -109,16 +112,16 @@ bool SimulatedDevices::respond(host::Instance& instance, const rt::ServiceReques
   DeviceCall call(instance, request, reply, bytes_);
   switch (service.who) {
   case Answerer::None: return false;
-  case Answerer::Data: bytes_.fetch(request, reply); return true;
-  case Answerer::Tables: answerTable(tables_, static_cast<TableOrder>(service.order), call); return true;
-  case Answerer::ReadArea: readShared(areas_, call); return true;
-  case Answerer::WriteArea: writeShared(areas_, call); return true;
-  case Answerer::Axes: answerAxis(axes_, axisPlaces_, static_cast<AxisOrder>(service.order), call); return true;
-  case Answerer::Com: return answerCom(com_, service.mnemonic, call);
-  case Answerer::Can: return canCalls_.answer(service.mnemonic, call);
-  case Answerer::Ethercat: return ethercatCalls_.begin(service.mnemonic, call);
+  case Answerer::Data: bytes_.fetch(request, reply); break;
+  case Answerer::Tables: answerTable(tables_, static_cast<TableOrder>(service.order), call); break;
+  case Answerer::ReadArea: readShared(areas_, call); break;
+  case Answerer::WriteArea: writeShared(areas_, call); break;
+  case Answerer::Axes: answerAxis(axes_, axisPlaces_, static_cast<AxisOrder>(service.order), call); break;
+  case Answerer::Com: answerCom(com_, static_cast<ComOrder>(service.order), call); break;
+  case Answerer::Can: canCalls_.answer(static_cast<CanOrder>(service.order), call); break;
+  case Answerer::Ethercat: ethercatCalls_.begin(service.order, call); break;
   }
-  return false;
+  return true;
 }
 
 void SimulatedDevices::startProgram() {
@@ -163,7 +166,7 @@ void SimulatedDevices::tickOthers(host::Instance& instance, uint32_t ticks) {
   }
   canPlaces_.write(memory, canInputs_, canOutputs_, can_);
   ethercatPlaces_.write(memory, stateBits_, servoCells_);
-  canCalls_.showDrive(instance);
+  canCalls_.showDrive(memory, canPlaces_);
   canCalls_.deliver(instance, canPlaces_);
   if (ethercatCalls_.finish(instance, bytes_)) instance.services().deliver();
 }

@@ -64,8 +64,7 @@ private:
   enum class Answerer : uint8_t { None, Data, Tables, ReadArea, WriteArea, Axes, Com, Can, Ethercat };
   struct Service {
     Answerer who = Answerer::None;
-    uint8_t order = 0;         // TableOrder or AxisOrder
-    std::string_view mnemonic; // of the program's tables
+    uint8_t order = 0; // as its answerer counts them
   };
   Service serviceOf(std::string_view signature) const;
   void locate(host::Instance& instance);

@@ -31,7 +31,7 @@ public:
                          "POS_MODE len accel axis -> control",
                          "POS_CONTROL feed mp axis -> status control",
                          "SA_READ SAIdx Offset Size -> RLO DR Val:b",
-                         std::string(nc::technol::kDataService)};
+                         nc::technol::kDataService.data()};
     program_.addPacked("NCI", 1, nc::areaBytes(nc::technolSignals(), "I"), 0);
     program_.addTask("MAIN", program_.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return test::popChunk(ctx); }));
     program_.scan = {{RUNG_STEP_ADVANCE, 0, 20'000}, {RUNG_STEP_HOOK, 0, nc::kHookBeforeInput}, {RUNG_STEP_RUN, 0, 1}};

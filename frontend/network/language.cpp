@@ -32,7 +32,7 @@ const Row* Language::findFunction(uint64_t number) const {
 
 const Row& Language::rowOf(Control control) const {
   const Row* row = findRow(rows, [&](const Row& one) { return one.control == control; });
-  RUNG_CHECK(row != nullptr, "a language has every instruction that shapes a program");
+  RUNG_CHECK(row != nullptr, "a language is asked for what it has");
   return *row;
 }
 

@@ -24,6 +24,9 @@ inline constexpr size_t kCommandCount = 18;
 constexpr bool isBlock(Command command) { return command == Command::OrBlock || command == Command::AndBlock; }
 constexpr bool isLogic(Command command) { return command <= Command::AndBlock; }
 constexpr bool isContact(Command command) { return isLogic(command) && !isBlock(command); }
+constexpr bool isClosed(Command contact) {
+  return contact == Command::LoadNot || contact == Command::AndNot || contact == Command::OrNot;
+}
 constexpr bool isCoil(Command command) { return command >= Command::Out && command <= Command::Reset; }
 constexpr bool isDeclaration(Command command) { return command == Command::Symbol || command == Command::Const; }
 

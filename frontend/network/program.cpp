@@ -14,30 +14,15 @@ std::string textOf(const Language& language, const Param& param) {
 } // namespace
 
 Command commandOf(Logic kind, bool negated) {
-  switch (kind) {
-  case Logic::Load: return negated ? Command::LoadNot : Command::Load;
-  case Logic::And: return negated ? Command::AndNot : Command::And;
-  case Logic::Or: return negated ? Command::OrNot : Command::Or;
-  case Logic::OrBlock: return Command::OrBlock;
-  case Logic::AndBlock: return Command::AndBlock;
-  }
-  return Command::Load;
+  constexpr Command kOpen[] = {Command::Load, Command::And, Command::Or, Command::OrBlock, Command::AndBlock};
+  constexpr Command kClosed[] = {Command::LoadNot, Command::AndNot, Command::OrNot};
+  return negated ? kClosed[static_cast<size_t>(kind)] : kOpen[static_cast<size_t>(kind)];
 }
 
 Logic logicOf(Command command) {
   constexpr Logic kLogic[] = {Logic::Load, Logic::Load, Logic::And,     Logic::And,
                               Logic::Or,   Logic::Or,   Logic::OrBlock, Logic::AndBlock};
   return kLogic[static_cast<size_t>(command)];
-}
-
-Command commandOf(Coil kind) {
-  switch (kind) {
-  case Coil::Out: return Command::Out;
-  case Coil::OutInverted: return Command::OutNot;
-  case Coil::Set: return Command::Set;
-  case Coil::Reset: return Command::Reset;
-  }
-  return Command::Out;
 }
 
 std::string commandText(const Language& language, const Network& network) {

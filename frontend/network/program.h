@@ -33,12 +33,17 @@ struct LogicStep {
   SourceRange range; // of the statement or the element
 };
 
-enum class Coil : uint8_t { Out, OutInverted, Set, Reset };
+enum class Coil : uint8_t { Out, OutInverted, Set, Reset }; // in the order of their commands
 
 Command commandOf(Logic kind, bool negated);
 // A logic command as the stack register sees it.
 Logic logicOf(Command command);
-Command commandOf(Coil kind);
+constexpr Command commandOf(Coil kind) {
+  return static_cast<Command>(static_cast<uint8_t>(Command::Out) + static_cast<uint8_t>(kind));
+}
+constexpr Coil coilOf(Command command) {
+  return static_cast<Coil>(static_cast<uint8_t>(command) - static_cast<uint8_t>(Command::Out));
+}
 
 struct CoilStep {
   Coil kind = Coil::Out;

@@ -332,7 +332,8 @@ void Analysis::reportUnused() {
           << language_.numbered(Control::Sp, number);
 }
 
-// Numbers that stand twice (P24, P29, P39). TMR and TMRB have numbers of their own, DIFU and DIFD share theirs.
+// Numbers that appear twice (P24, P29, P39). Timers and counters share theirs with those of the same instruction, edges
+// with all.
 void Analysis::checkNumbers() {
   std::map<std::pair<int, int64_t>, SourceRange> seen;
   eachNetwork([&](uint32_t, uint32_t, Network& network) {

@@ -168,7 +168,7 @@ void LadderCollector::comment(const SourceLine& line, std::string_view text) {
     out_.comment(text);
 }
 
-// No operand of this dialect has a ';' in it.
+// No operand has a ';' in it.
 void LadderCollector::drawn(const SourceLine& line) {
   RUNG_CHECK(rung_ != nullptr, "a drawing belongs to a rung");
   if (text_.firstDrawn == 0) text_.firstDrawn = line.number;

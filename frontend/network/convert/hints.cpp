@@ -23,26 +23,9 @@ std::string parameterText(const Language& language, const SourceNetwork& network
 } // namespace
 
 std::string elementText(Command command, std::string_view operand) {
-  switch (command) {
-  case Command::Load:
-  case Command::And:
-  case Command::Or: return fmt::format("[{}]", operand);
-  case Command::LoadNot:
-  case Command::AndNot:
-  case Command::OrNot: return fmt::format("[/{}]", operand);
-  case Command::Out: return fmt::format("({})", operand);
-  case Command::OutNot: return fmt::format("(/{})", operand);
-  case Command::Set: return fmt::format("(S {})", operand);
-  case Command::Reset: return fmt::format("(R {})", operand);
-  case Command::OrBlock:
-  case Command::AndBlock:
-  case Command::Function:
-  case Command::Parameter:
-  case Command::Table:
-  case Command::Dialect:
-  case Command::Symbol:
-  case Command::Const: break;
-  }
+  constexpr std::string_view kCoils[] = {"", "/", "S ", "R "};
+  if (isContact(command)) return fmt::format("[{}{}]", isClosed(command) ? "/" : "", operand);
+  if (isCoil(command)) return fmt::format("({}{})", kCoils[static_cast<size_t>(coilOf(command))], operand);
   return fmt::format("{{{}}}", operand);
 }
 

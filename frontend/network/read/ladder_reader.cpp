@@ -89,7 +89,7 @@ bool RungReader::checkKind(const Element& element) {
   return true;
 }
 
-// What stands on the left of an element. Contacts may follow contacts only; coils may follow a box (l.3562).
+// What stands on the left of an element. Contacts may follow contacts only; coils may follow a box (GSK: l.3562).
 bool RungReader::checkLeft(const Element& element) {
   for (const ladder::Pin& pin : rung_.pinsOf(element)) {
     for (ElementId id : rung_.driversOf(pin.input)) {

@@ -96,26 +96,12 @@ void ListReader::function(const Word& name, Place at) {
 }
 
 void ListReader::dispatch(Command command, std::span<const Word> words, Place at) {
-  switch (command) {
-  case Command::Load: return builder_.contact(Logic::Load, false, words[1], at);
-  case Command::LoadNot: return builder_.contact(Logic::Load, true, words[1], at);
-  case Command::And: return builder_.contact(Logic::And, false, words[1], at);
-  case Command::AndNot: return builder_.contact(Logic::And, true, words[1], at);
-  case Command::Or: return builder_.contact(Logic::Or, false, words[1], at);
-  case Command::OrNot: return builder_.contact(Logic::Or, true, words[1], at);
-  case Command::OrBlock: return builder_.block(Logic::OrBlock, at);
-  case Command::AndBlock: return builder_.block(Logic::AndBlock, at);
-  case Command::Out: return builder_.coil(Coil::Out, words[1], at);
-  case Command::OutNot: return builder_.coil(Coil::OutInverted, words[1], at);
-  case Command::Set: return builder_.coil(Coil::Set, words[1], at);
-  case Command::Reset: return builder_.coil(Coil::Reset, words[1], at);
-  case Command::Function: return function(words[1], at);
-  case Command::Parameter: return builder_.parameter(words[1], at);
-  case Command::Table: return builder_.tableRow(words[1], at);
-  case Command::Dialect:
-  case Command::Symbol:
-  case Command::Const: return;
-  }
+  if (isContact(command)) return builder_.contact(logicOf(command), isClosed(command), words[1], at);
+  if (isBlock(command)) return builder_.block(logicOf(command), at);
+  if (isCoil(command)) return builder_.coil(coilOf(command), words[1], at);
+  if (command == Command::Function) return function(words[1], at);
+  if (command == Command::Parameter) return builder_.parameter(words[1], at);
+  if (command == Command::Table) builder_.tableRow(words[1], at);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// All files of one program, read in the order that the dialect wants: command lists in front of ladder text.
+// All files of one program, read in one order: command lists before ladder text.
 #pragma once
 #include <span>
 #include <vector>

@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "frontend/dialects/gsk/convert/convert.h"
 #include "frontend/dialects/gsk/gsk.h"
+#include "frontend/dialects/gsk/language.h"
+#include "frontend/network/convert/convert.h"
 #include "ir/support/check.h"
 #include "ir/support/diag_render.h"
 #include "ir/verify/verify.h"
@@ -13,7 +14,7 @@
 namespace {
 
 using namespace rung;
-using gsk::convert::Form;
+using network::convert::Form;
 
 constexpr size_t kMaxDrawn = 20'000; // of a list: branches are as wide as what they span
 
@@ -23,7 +24,9 @@ std::string convert(const std::string& text, Form from, Form to) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FileId file = sources.addBuffer(nameOf(from), text);
-  const auto result = gsk::convertProgram(sources, std::span(&file, 1), {}, to, diagnostics);
+  const bool compiles = gsk::kGsk.compile(sources, std::span(&file, 1), {}, diagnostics) != nullptr;
+  RUNG_CHECK(compiles, "what was converted compiles");
+  const auto result = network::convertProgram(gsk::kLanguage, sources, std::span(&file, 1), to, diagnostics);
   RUNG_CHECK(result.has_value(), "what compiles converts");
   return *result;
 }

@@ -11,7 +11,7 @@ FRONTEND = {"ir/support", "ir/core", "rtlib/abi", "rtlib/nc"}
 IR = {"ir/support", "ir/core", "rtlib/abi"}
 ALL_IR = IR | {"ir/text", "ir/verify", "ir/passes", "ir/chunks", "ir/layout", "ir/interp"}
 DIALECT = FRONTEND | {"frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
-                      "frontend/ladder/text", "frontend/dialects"}
+                      "frontend/ladder/text", "frontend/network", "frontend/dialects"}
 DIALECTS = {f"frontend/dialects/{name}" for name in ("gsk", "nct", "technol")}
 EVERYBODYS = "rtlib/text"  # header files that include nothing of ours
 MODULES = {
@@ -39,6 +39,8 @@ MODULES = {
     "frontend/ladder/text": FRONTEND | {"frontend/syntax", "frontend/table", "frontend/ladder"},
     "frontend/sema": FRONTEND | {"frontend/syntax", "frontend/table"},
     "frontend/lower": IR,
+    "frontend/network": {"ir/support", "rtlib/nc", "frontend/syntax", "frontend/table", "frontend/sema", "frontend/ladder",
+                         "frontend/ladder/text"},
     "frontend/dialects": DIALECT | DIALECTS,  # its own files list the dialects
     **{dialect: DIALECT for dialect in DIALECTS},  # a dialect never sees another
     "codegen/process": {"ir/support"},
@@ -55,7 +57,7 @@ IN_A_HOST_TOO = ("tools/rung-hal/", "tools/rung-run/", "tools/connections/", "to
                  "rtlib/text/", "ir/support/similar.h")  # the last: spelling suggestions
 # Devices know neither a program's memory nor a machine: numbers and structs go in and out.
 DEVICES = ("tools/devices/", "tools/control-files/", "rtlib/text/", "rtlib/nc/", "rtlib/core/ring.h", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/disk_file.h")
-TABLES = ("rtlib/nc/gsk/", "rtlib/nc/nct/", "rtlib/nc/technol/")  # of the dialects, for tools/services
+TABLES = ("rtlib/nc/gsk/", "rtlib/nc/nct/", "rtlib/nc/technol/")  # of the dialects: for them, and for tools/services
 FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them
 
 # Foreign headers that only some folders may include; others (std, fmt, ...) are free outside rtlib.
@@ -115,6 +117,8 @@ def offence(root, path, target):
         return f"may not include {target}"
     if source is None:
         return "is in no known module"
+    if source == "frontend/network" and target.startswith(TABLES):
+        return f"({source}) may not include {target}"
     return None if used in (source, EVERYBODYS) or used in MODULES[source] else f"({source}) may not include {target}"
 
 

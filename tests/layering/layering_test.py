@@ -11,6 +11,7 @@ import layering
 
 GOOD = {
     "rtlib/nc/signal.h": "",
+    "rtlib/nc/gsk/signals.h": "",
     "rtlib/abi/rung/program.h": "",
     "rtlib/host/loader.h": '#include "rung/program.h"\nint function, FUNCTION, fNction; // distinct\n',
     "rtlib/nc/names/gsk.cpp": 'const char* kGskName = "gsk"; // GSK\n',
@@ -18,7 +19,8 @@ GOOD = {
     "ir/core/module.h": '#include "ir/support/source.h"\n#include "rung/program.h"\n',
     "frontend/table/instruction.h": '#include "ir/core/module.h"\n',
     "frontend/dialects/dialect.h": '#include "frontend/table/instruction.h"\n',
-    "frontend/dialects/gsk/rows.h": '#include "frontend/dialects/dialect.h"\n',
+    "frontend/network/language.h": '#include "frontend/table/instruction.h"\n#include "rtlib/nc/signal.h"\n',
+    "frontend/dialects/gsk/rows.h": '#include "frontend/dialects/dialect.h"\n#include "frontend/network/language.h"\n',
     "frontend/dialects/all.cpp": '#include "frontend/dialects/gsk/rows.h"\n',
     "codegen/cpp/emit.h": '#include "ir/core/module.h"\n',
     "codegen/llvm/emit.cpp": "#include <llvm/IR/Module.h>\n",
@@ -35,6 +37,8 @@ BAD = {
     "rtlib includes ir": ("rtlib/host/x.cpp", '#include "ir/support/source.h"'),
     "the ABI includes the host": ("rtlib/abi/rung/x.h", '#include "rtlib/host/loader.h"'),
     "a dialect includes another": ("frontend/dialects/nct/x.cpp", '#include "frontend/dialects/gsk/rows.h"'),
+    "the networks include a dialect": ("frontend/network/x.cpp", '#include "frontend/dialects/gsk/rows.h"'),
+    "the networks include a table of a dialect": ("frontend/network/x.cpp", '#include "rtlib/nc/gsk/signals.h"'),
     "the table includes a dialect": ("frontend/table/x.cpp", '#include "frontend/dialects/gsk/rows.h"'),
     "codegen includes frontend": ("codegen/cpp/x.cpp", '#include "frontend/table/instruction.h"'),
     "LLVM outside its wall": ("codegen/cpp/x.cpp", "#include <llvm/IR/Module.h>"),

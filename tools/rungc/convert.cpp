@@ -4,8 +4,9 @@
 #include <span>
 #include <string_view>
 
-#include "frontend/dialects/gsk/convert/convert.h"
 #include "frontend/dialects/gsk/gsk.h"
+#include "frontend/dialects/gsk/language.h"
+#include "frontend/network/convert/convert.h"
 #include "tools/console/working.h"
 #include "tools/rungc/commands.h"
 
@@ -26,8 +27,9 @@ std::optional<std::string> convert(SourceManager& sources, std::span<const FileI
     diagnostics.report(Diag::NoConversion, sources.range(files[0], 0, 0)) << dialect->title;
     return std::nullopt;
   }
-  const auto form = options.to == "list" ? gsk::convert::Form::List : gsk::convert::Form::Ladder;
-  return gsk::convertProgram(sources, files, compile, form, diagnostics);
+  if (dialect->compile(sources, files, compile, diagnostics) == nullptr) return std::nullopt;
+  const auto form = options.to == "list" ? network::convert::Form::List : network::convert::Form::Ladder;
+  return network::convertProgram(gsk::kLanguage, sources, files, form, diagnostics);
 }
 
 // The compiler distinguishes the two forms by their extensions: a list in a .lad file could not be read again.

@@ -4,16 +4,16 @@
 #include <algorithm>
 
 #include "frontend/dialects/gsk/gsk.h"
+#include "frontend/dialects/gsk/language.h"
 #include "tools/xref/module_reference.h"
 
 namespace rung::view {
 namespace {
 
-std::optional<gsk::LadderForm> laddersOf(const frontend::Dialect& dialect, SourceManager& sources,
-                                         std::span<const FileId> files, const frontend::CompileOptions& options,
-                                         Diagnostics& diagnostics) {
-  if (&dialect == &gsk::kGsk) return gsk::ladderForm(sources, files, options, diagnostics);
-  return gsk::LadderForm{{files.begin(), files.end()}, {}, {}};
+std::optional<network::LadderForm> laddersOf(const frontend::Dialect& dialect, SourceManager& sources,
+                                             std::span<const FileId> files, Diagnostics& diagnostics) {
+  if (&dialect == &gsk::kGsk) return network::ladderForm(gsk::kLanguage, sources, files, diagnostics);
+  return network::LadderForm{{files.begin(), files.end()}, {}, {}};
 }
 
 } // namespace
@@ -27,7 +27,7 @@ std::optional<Program> drawnProgram(SourceManager& sources, std::span<const File
   auto program = dialect.check(sources, files, options, diagnostics);
   const auto module = diagnostics.errorCount() == before ? program->build() : nullptr;
   if (module == nullptr) return std::nullopt;
-  const auto ladders = laddersOf(dialect, sources, files, options, diagnostics);
+  const auto ladders = laddersOf(dialect, sources, files, diagnostics);
   if (!ladders) return std::nullopt;
   Diagnostics unheard; // the same program: all of it has been reported
   if (!std::ranges::equal(ladders->files, files)) program = dialect.check(sources, ladders->files, options, unheard);

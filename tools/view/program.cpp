@@ -9,8 +9,9 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/gsk.h"
-#include "frontend/dialects/gsk/read/canonical.h"
+#include "frontend/dialects/gsk/language.h"
 #include "frontend/ladder/text/drawing.h"
+#include "frontend/network/read/canonical.h"
 #include "ir/support/check.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
@@ -235,13 +236,13 @@ Place Reader::placeOfElement(SourcePos drawn) const {
   if (!converted()) return placeOf(drawn);
   const auto elements = input_.origins.elements;
   const auto at = std::lower_bound(elements.begin(), elements.end(), drawn,
-                                   [](const gsk::Origin& one, SourcePos pos) { return one.drawn < pos; });
+                                   [](const network::Origin& one, SourcePos pos) { return one.drawn < pos; });
   return at == elements.end() || at->drawn != drawn ? Place{} : placeOf(at->written);
 }
 
 // A conversion's hint at what only a command list can say is not a comment of the author.
 void Reader::comment(std::string_view text) {
-  if (converted() && gsk::parseBlocksHint(text)) return;
+  if (converted() && network::parseBlocksHint(gsk::kLanguage, text)) return;
   text = plain(text);
   if (!text.empty()) comments_.append(text).push_back('\n');
 }
@@ -382,7 +383,8 @@ void Reader::readLine(const LadderFile& file, const SourceLine& line) {
     std::string_view words = text::trimmed(text.substr(1));
     const bool inside = nextRung_ > 0 && line.number < file.rungs[nextRung_ - 1].lastLine;
     if (!inside) return comment(words);
-    if (!converted() || !gsk::parseBlocksHint(words)) program_.figures.back().comments.emplace_back(words);
+    if (!converted() || !network::parseBlocksHint(gsk::kLanguage, words))
+      program_.figures.back().comments.emplace_back(words);
   } else if (!ladder::beginsDrawing(text[0])) {
     const size_t rungs = program_.figures.size();
     readStatement(file, line);

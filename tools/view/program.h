@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "frontend/dialects/dialect.h"
-#include "frontend/dialects/gsk/convert/convert.h"
 #include "frontend/ladder/text/ladder_file.h"
+#include "frontend/network/convert/convert.h"
 #include "tools/view/sheet.h"
 #include "tools/xref/cross_reference.h"
 
@@ -94,7 +94,7 @@ struct Program {
 // Where the author wrote what a converted file has: its rungs in their order, its elements by where they are drawn.
 struct Origins {
   std::span<const SourceRange> rungs;
-  std::span<const gsk::Origin> elements;
+  std::span<const network::Origin> elements;
 };
 
 struct Input {

@@ -11,7 +11,6 @@
 namespace rung::gsk {
 namespace {
 
-constexpr uint64_t kSlotUs = 8000;
 constexpr uint64_t kMaxParts = 1000; // 8 s
 constexpr uint64_t kNumbers = 100;   // of timers and counters
 constexpr uint64_t kMaxWord = 65535;
@@ -20,7 +19,7 @@ constexpr const char* kSlotSteps = "slot_steps";
 // The number after `prefix`, 1-100; nullopt when the key is another one.
 std::optional<uint64_t> numberOf(std::string_view key, std::string_view prefix) {
   if (!key.starts_with(prefix)) return std::nullopt;
-  return parseDigits(key.substr(prefix.size())).value_or(0);
+  return network::parseDigits(key.substr(prefix.size())).value_or(0);
 }
 
 struct Entry {
@@ -31,7 +30,8 @@ struct Entry {
 };
 
 std::optional<Entry> entryOf(std::string_view key, const std::string& text) {
-  const auto value = static_cast<uint64_t>(parseConstant(text).value_or(-1)); // a negative one is far above every limit
+  const auto value =
+      static_cast<uint64_t>(network::parseConstant(text).value_or(-1)); // a negative one is far above every limit
   if (const auto timer = numberOf(key, "tmr."))
     return Entry{"tmr", *timer, value, timerUnitMs(static_cast<int64_t>(*timer)) * kMaxWord};
   if (const auto counter = numberOf(key, "ctr.")) return Entry{"ctr", *counter, value, kMaxWord};
@@ -43,7 +43,7 @@ bool isSound(const Entry& entry) { return entry.number >= 1 && entry.number <= k
 std::optional<uint64_t> periodOf(const frontend::CompileOptions& options) {
   const auto at = options.config.find("period_us");
   if (at == options.config.end()) return std::nullopt;
-  return parseDigits(at->second).value_or(0);
+  return network::parseDigits(at->second).value_or(0);
 }
 
 } // namespace
@@ -78,7 +78,7 @@ std::optional<uint32_t> partsOf(const frontend::CompileOptions& options) {
 std::optional<uint32_t> slotStepsOf(const frontend::CompileOptions& options) {
   const auto at = options.config.find(kSlotSteps);
   if (at == options.config.end()) return std::nullopt;
-  return static_cast<uint32_t>(parseDigits(at->second).value_or(1));
+  return static_cast<uint32_t>(network::parseDigits(at->second).value_or(1));
 }
 
 Machine configuredMachine(const frontend::CompileOptions& options, Diagnostics& diagnostics) {

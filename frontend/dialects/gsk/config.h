@@ -6,14 +6,17 @@
 #include <vector>
 
 #include "frontend/dialects/dialect.h"
-#include "frontend/dialects/gsk/read/address.h"
+#include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/read/signals.h"
 
 namespace rung::gsk {
 
+// In every slot Level 1 runs, and then one part of Level 2 (P3).
+inline constexpr uint32_t kSlotUs = 8000;
+
 // What the operator typed, as the control stores it.
 struct Preset {
-  Address address;
+  network::Address address;
   uint32_t value = 0; // 16 bits
 };
 
@@ -30,8 +33,12 @@ std::vector<Preset> presetsOf(const frontend::CompileOptions& options);
 // Timers 1-20 count in 48 ms, the others in 8 ms (man. l.1114).
 constexpr uint32_t timerUnitMs(int64_t number) { return number <= 20 ? 48 : 8; }
 // Where a timer's preset and a counter's preset and value lie (P8, P9).
-constexpr Address timerPreset(int64_t number) { return {Area::T, static_cast<uint32_t>(2 * (number - 1))}; }
-constexpr Address counterPreset(int64_t number) { return {Area::C, static_cast<uint32_t>(4 * (number - 1))}; }
-constexpr Address counterValue(int64_t number) { return {Area::C, static_cast<uint32_t>(4 * (number - 1) + 2)}; }
+constexpr network::Address timerPreset(int64_t number) { return {areas::kT, static_cast<uint32_t>(2 * (number - 1))}; }
+constexpr network::Address counterPreset(int64_t number) {
+  return {areas::kC, static_cast<uint32_t>(4 * (number - 1))};
+}
+constexpr network::Address counterValue(int64_t number) {
+  return {areas::kC, static_cast<uint32_t>(4 * (number - 1) + 2)};
+}
 
 } // namespace rung::gsk

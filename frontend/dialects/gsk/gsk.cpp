@@ -1,13 +1,14 @@
 // The dialect's entry: reads all files, checks the program, lowers it.
 #include "frontend/dialects/gsk/gsk.h"
 
-#include "frontend/dialects/gsk/check/analyse.h"
 #include "frontend/dialects/gsk/config.h"
-#include "frontend/dialects/gsk/format.h"
+#include "frontend/dialects/gsk/language.h"
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "frontend/dialects/gsk/read/messages.h"
-#include "frontend/dialects/gsk/read/reading.h"
 #include "frontend/dialects/gsk/reference.h"
+#include "frontend/network/check/analyse.h"
+#include "frontend/network/format.h"
+#include "frontend/network/read/reading.h"
 #include "rtlib/nc/gsk/signals.h"
 
 namespace rung::gsk {
@@ -25,16 +26,16 @@ public:
   GskProgram(SourceManager& sources, std::span<const FileId> files, const frontend::CompileOptions& options,
              Diagnostics& diagnostics)
       : files_(files.begin(), files.end()), options_(options),
-        context_{.sources = sources, .diagnostics = diagnostics} {}
+        context_{.language = kLanguage, .sources = sources, .diagnostics = diagnostics} {}
 
   void check() {
     if (files_.empty()) return;
     checkConfig(options_, context_.diagnostics);
-    context_.machine = configuredMachine(options_, context_.diagnostics);
-    Reading reading(context_, program_);
+    watchSignals(context_, configuredMachine(options_, context_.diagnostics));
+    network::Reading reading(context_, program_);
     for (FileId file : files_) reading.add(file);
     const bool understood = reading.read();
-    analyse(context_, program_, !understood);
+    network::analyse(context_, program_, !understood);
     texts_ = configuredMessages(context_.sources, files_[0], options_, context_.diagnostics);
     context_.analysis.settle();
   }
@@ -52,8 +53,8 @@ public:
 private:
   const std::vector<FileId> files_;
   const frontend::CompileOptions options_;
-  Context context_;
-  Program program_;
+  network::Context context_;
+  network::Program program_;
   std::vector<ir::MessageText> texts_;
 };
 
@@ -65,21 +66,24 @@ std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::spa
   return program;
 }
 
-constexpr std::string_view kExtensions[] = {".pmc"};
+std::optional<std::string> format(SourceManager& sources, FileId file, Diagnostics& diagnostics) {
+  return network::format(kLanguage, sources, file, diagnostics);
+}
+
+// Basic commands have no lowering function of their own: the network is theirs.
+bool isBuilt(const frontend::InstructionInfo& info) {
+  const network::Row* row = info.number < 0 ? nullptr : kLanguage.findFunction(static_cast<uint64_t>(info.number));
+  return row == nullptr || row->built;
+}
+
 constexpr std::string_view kShownSpaces[] = {"A"}; // requests of messages
 
 } // namespace
 
-// Basic commands have no lowering function of their own: the network is theirs.
-static bool isBuilt(const frontend::InstructionInfo& info) {
-  const Row* row = info.number < 0 ? nullptr : findFunction(static_cast<uint64_t>(info.number));
-  return row == nullptr || row->lower != nullptr || row->control == Control::End1 || row->control == Control::End2;
-}
-
 const frontend::Dialect kGsk = {
     .name = "gsk",
     .title = "GSK25iMc / GSK25iTc PLC",
-    .extensions = kExtensions,
+    .extensions = {&kLanguage.listExtension, 1},
     .configKeys = nc::gskConfigKeys(),
     .instructions = instructionInfos(),
     .signals = nc::gskSignals,

@@ -9,9 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/read/address.h"
-#include "frontend/dialects/gsk/read/context.h"
-#include "frontend/dialects/gsk/read/signals.h"
+#include "frontend/dialects/gsk/areas.h"
+#include "frontend/dialects/gsk/language.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
 #include "rtlib/nc/gsk/axis_commands.h"
 #include "rtlib/nc/gsk/signals.h"
@@ -22,38 +21,38 @@ namespace {
 
 using frontend::ReferencePage;
 
-std::string_view accessOf(Area area) {
-  if (area == Area::T) return "read; presets";
-  if (area == Area::C) return "read; values written";
-  return areaInfo(area).use == AreaUse::Input ? "read" : "read, written";
+std::string_view accessOf(network::Area area) {
+  if (area == areas::kT) return "read; presets";
+  if (area == areas::kC) return "read; values written";
+  return kLanguage.at(area).use == network::AreaUse::Input ? "read" : "read, written";
 }
 
-void areas(ReferencePage& page) {
+void addressAreas(ReferencePage& page) {
   page.section(
       "Address areas",
       fmt::format("An address is a byte, `R10`, or a bit of one, `R10.3`; leading zeros are ignored. Data of 2 or 4 "
                   "bytes begin at their low byte. R{} to R{} belong to the control: R{} has the flags of the "
                   "arithmetic (bit 0 zero, 1 negative, 5 overflow), R{} to R{} DIVB's remainder; each level has its "
                   "own. Manual: l.564-805.",
-                  kSystemRelays, areaInfo(Area::R).bytes - 1, kResultFlags, kRemainder,
+                  kSystemRelays, kLanguage.at(areas::kR).bytes - 1, kResultFlags, kRemainder,
                   kResultFlags + kResultBytes - 1),
       "area | what | addresses | access | through power-off");
-  for (size_t i = 0; i < kAreaCount; ++i) {
-    const AreaInfo& a = kAreas[i];
-    const std::string_view kept = a.use == AreaUse::Input ? "input" : a.retained ? "kept" : "cleared";
-    page.row(a.letter, a.doc, fmt::format("{0}0 to {0}{1}", a.letter, a.bytes - 1), accessOf(static_cast<Area>(i)),
-             kept);
+  for (size_t i = 0; i < kAreas.size(); ++i) {
+    const network::AreaInfo& a = kAreas[i];
+    const std::string_view kept = a.use == network::AreaUse::Input ? "input" : a.retained ? "kept" : "cleared";
+    page.row(a.letter, a.doc, fmt::format("{0}0 to {0}{1}", a.letter, a.bytes - 1),
+             accessOf(static_cast<network::Area>(i)), kept);
   }
 }
 
 void limits(ReferencePage& page) {
   page.section("Limits", "", "what | limit | manual");
-  page.row("steps: commands, PRM and TABLE rows", kMaxSteps, "l.354");
+  page.row("steps: commands, PRM and TABLE rows", kLanguage.maxSteps, "l.354");
   page.row("Level 1 cycle", "8 ms", "l.352");
   page.row("labels", "L1 to L9999, each once in the program", "l.363, 3022");
   page.row("subprograms", "P1 to P512", "l.364");
-  page.row("calls inside calls", "8", "-");
-  page.row("values in the stack register", "9", "-");
+  page.row("calls inside calls", kLanguage.maxCallDepth, "-");
+  page.row("values in the stack register", kLanguage.stackDepth, "-");
   page.row("TMR / TMRB / CTR numbers", "1 to 100 / 1 to 200 / 1 to 100", "l.359-360, 1148");
   page.row("messages", "1 to 256", "l.361");
 }
@@ -154,7 +153,7 @@ std::vector<const nc::Signal*> signalsByAddress() {
   std::vector<const nc::Signal*> signals;
   for (const nc::Signal& signal : nc::gskSignals()) signals.push_back(&signal);
   std::ranges::stable_sort(signals, {}, [](const nc::Signal* signal) {
-    const Address a = signalAddress(*signal);
+    const network::Address a = addressOf(kLanguage, *signal);
     return std::tuple(a.area, a.byte, a.isBit, a.bit);
   });
   return signals;
@@ -172,17 +171,17 @@ void signals(ReferencePage& page) {
                   "declared name goes before a signal. `rungc explain NAME` and `rungc explain F7.0` show one "
                   "entry.",
                   nc::gskSignals().size()));
-  std::optional<Area> area;
+  std::optional<network::Area> area;
   uint32_t block = 0;
   for (const nc::Signal* signal : signalsByAddress()) {
-    const Address address = signalAddress(*signal);
+    const network::Address address = addressOf(kLanguage, *signal);
     const bool newArea = std::exchange(area, address.area) != address.area;
-    if (newArea) page.part(fmt::format("Area {}: {}", signal->area, areaInfo(address.area).doc), "");
+    if (newArea) page.part(fmt::format("Area {}: {}", signal->area, kLanguage.at(address.area).doc), "");
     const uint32_t first = address.byte - address.byte % kBytesOfBlock;
     if (std::exchange(block, first) != first || newArea)
       page.section(fmt::format("{0}{1} to {0}{2}", signal->area, first, first + kBytesOfBlock - 1), "",
                    "address | signal | meaning | manual", 4);
-    page.row(textOf(address) + widthText(*signal), fmt::format("`{}`", signal->symbol),
+    page.row(textOf(kLanguage, address) + widthText(*signal), fmt::format("`{}`", signal->symbol),
              signal->meaning + machineText(signal->group), fmt::format("l.{}", signal->manualLine));
   }
 }
@@ -190,7 +189,7 @@ void signals(ReferencePage& page) {
 } // namespace
 
 void addReference(ReferencePage& page) {
-  areas(page);
+  addressAreas(page);
   limits(page);
   pins(page);
   frontend::addWarnings(page, {Diag::ConditionIgnored, Diag::DuplicateTimer, Diag::DuplicateCounter,

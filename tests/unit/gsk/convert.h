@@ -2,12 +2,13 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "frontend/dialects/gsk/convert/convert.h"
+#include "frontend/dialects/gsk/language.h"
+#include "frontend/network/convert/convert.h"
 #include "tests/unit/gsk/compile.h"
 
 namespace rung::gsk::test {
 
-using convert::Form;
+using network::convert::Form;
 
 struct Converted {
   std::optional<std::string> text;
@@ -19,7 +20,8 @@ inline Converted convertFiles(const std::vector<File>& texts, Form to) {
   std::vector<FileId> files;
   for (const File& file : texts) files.push_back(state.sources.addBuffer(file.name, file.text));
   Converted result;
-  result.text = convertProgram(state.sources, files, {}, to, state.diagnostics);
+  if (kGsk.compile(state.sources, files, {}, state.diagnostics) != nullptr)
+    result.text = network::convertProgram(kLanguage, state.sources, files, to, state.diagnostics);
   result.codes = state.codes();
   return result;
 }

@@ -3,13 +3,15 @@
 #include <set>
 #include <sstream>
 
-#include "frontend/dialects/gsk/read/list_reader.h"
+#include "frontend/network/read/list_syntax.h"
 #include "ir/text/text.h"
 #include "tests/unit/gsk/convert.h"
 #include "tests/unit/gsk/program_generator.h"
 
 namespace rung::gsk::test {
 namespace {
+
+using network::Command;
 
 constexpr uint64_t kPrograms = 2000;
 
@@ -21,15 +23,16 @@ std::string commandsOf(const std::string& list) {
   LineWords words;
   std::string result;
   for (SourceLine line; lines.next(line);) {
-    splitWords(line, kListRules, words);
-    const auto statement = statementOf(words);
-    if (statement.empty() || *findCommand(statement[0].text) >= Command::Dialect) continue;
-    const Command command = *findCommand(statement[0].text);
-    result += nameOf(command);
+    splitWords(line, network::kListRules, words);
+    const auto statement = network::statementOf(words);
+    if (statement.empty()) continue;
+    const Command command = *network::findCommand(kLanguage, statement[0].text);
+    if (command >= Command::Dialect) continue;
+    result += kLanguage.nameOf(command);
     for (const Word& word : statement.subspan(1)) {
-      const auto number = command == Command::Func ? parseDigits(word.text) : std::nullopt;
+      const auto number = command == Command::Function ? network::parseDigits(word.text) : std::nullopt;
       result += ' ';
-      result += number ? findFunction(*number)->info.mnemonic : word.text;
+      result += number ? kLanguage.findFunction(*number)->info.mnemonic : word.text;
     }
     result += '\n';
   }

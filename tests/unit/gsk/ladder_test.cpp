@@ -1,7 +1,8 @@
 // Ladder text: what list a drawing becomes, that both forms give one program, and the errors of drawings.
 #include <gtest/gtest.h>
 
-#include "frontend/dialects/gsk/read/ladder_reader.h"
+#include "frontend/dialects/gsk/language.h"
+#include "frontend/network/read/ladder_reader.h"
 #include "tests/unit/gsk/compile.h"
 
 namespace rung::gsk::test {
@@ -12,14 +13,15 @@ std::string listOf(const std::string& drawing) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FileId file = sources.addBuffer("test.lad", "dialect gsk\nmodule LEVEL2\nrung\n" + drawing);
-  Context context{.sources = sources, .diagnostics = diagnostics};
-  Program program;
-  UnitAssembler units(context, program);
-  const ladder::LadderFile parsed = parseLadderFile(context, file);
-  readLadder(context, parsed, units);
+  network::Context context{.language = kLanguage, .sources = sources, .diagnostics = diagnostics};
+  network::Program program;
+  network::UnitAssembler units(context, program);
+  const ladder::LadderFile parsed = network::parseLadderFile(context, file);
+  network::readLadder(context, parsed, units);
   if (diagnostics.hasErrors()) return renderText(diagnostics, sources);
   std::string text;
-  for (const Network& network : program.units[kLevel2].networks) text += commandText(network);
+  for (const network::Network& network : program.units[network::kLevel2].networks)
+    text += commandText(kLanguage, network);
   for (char& c : text)
     if (c == '\n') c = ';';
   return text;

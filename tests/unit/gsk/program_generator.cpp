@@ -177,7 +177,7 @@ void ProgramGenerator::network() {
   }
   for (;;) {
     const Row& row = allRows()[below(static_cast<uint32_t>(allRows().size()))];
-    if (row.info.number >= 0 && row.control == Control::Plain) return function(row);
+    if (row.info.number >= 0 && row.control == network::Control::Plain) return function(row);
   }
 }
 

@@ -21,7 +21,7 @@ TEST(GskRun, ManualExampleOfOrder) { // l.419-422
 TEST(GskRun, EveryFunctionRuns) {
   std::string text = "FUNC 0\n";
   for (const Row& row : allRows()) {
-    if (row.info.number < 0 || row.lower == nullptr || row.control != Control::Plain) continue;
+    if (row.info.number < 0 || row.lower == nullptr || row.control != network::Control::Plain) continue;
     // By itself first, so that a bad example is told by its name and keeps none of the others from running.
     const std::string example = std::string(row.info.example) + "\n";
     const auto alone = compileList("FUNC 0\n" + example + "FUNC 1\n");

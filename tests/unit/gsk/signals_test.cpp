@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frontend/dialects/gsk/language.h"
 #include "frontend/dialects/gsk/read/signals.h"
 #include "tests/unit/gsk/compile.h"
 
@@ -42,7 +43,7 @@ std::vector<CsvRow> csvRows() {
 }
 
 // T00 to T31 are addresses of area T.
-bool isAddress(const CsvRow& row) { return splitAddress(row.symbol).has_value(); }
+bool isAddress(const CsvRow& row) { return network::splitAddress(kLanguage, row.symbol).has_value(); }
 
 // Reads `operand`, and writes it where the row may be written.
 void appendUses(const CsvRow& row, const std::string& operand, std::string& text) {

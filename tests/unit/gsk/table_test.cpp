@@ -111,7 +111,7 @@ struct Call {
 std::vector<const Row*> plainRows() {
   std::vector<const Row*> rows;
   for (const Row& row : allRows())
-    if (row.info.number >= 0 && row.lower != nullptr && row.control == Control::Plain) rows.push_back(&row);
+    if (row.info.number >= 0 && row.lower != nullptr && row.control == network::Control::Plain) rows.push_back(&row);
   return rows;
 }
 

@@ -1,7 +1,6 @@
 // Window functions and PLC axis control: the tables, and what scenarios cannot reach.
 #include <gtest/gtest.h>
 
-#include "frontend/dialects/gsk/read/address.h"
 #include "rtlib/nc/gsk/axis_commands.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/nc/gsk/window_functions.h"

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "frontend/dialects/gsk/convert/convert.h"
 #include "frontend/dialects/gsk/gsk.h"
+#include "frontend/dialects/gsk/language.h"
 #include "ir/support/diag_render.h"
 #include "tools/view/drawn_program.h"
 
@@ -151,7 +151,8 @@ std::unique_ptr<Drawn> drawProgram(std::unique_ptr<Drawn> drawn, const std::vect
   drawn->program = std::move(*program);
   drawn->module = dialect.compile(drawn->sources, files, {}, drawn->diagnostics);
   FileId first = files[0];
-  if (&dialect == &gsk::kGsk) first = gsk::ladderForm(drawn->sources, files, {}, drawn->diagnostics)->files[0];
+  if (&dialect == &gsk::kGsk)
+    first = network::ladderForm(gsk::kLanguage, drawn->sources, files, drawn->diagnostics)->files[0];
   drawn->ladders.push_back(ladder::parseLadder(drawn->sources, first, drawn->diagnostics, dialect.findBox));
   return drawn;
 }

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "frontend/dialects/dialect.h"
-#include "frontend/dialects/gsk/program.h"
-#include "frontend/dialects/gsk/read/context.h"
+#include "frontend/dialects/gsk/areas.h"
+#include "frontend/dialects/gsk/language.h"
+#include "frontend/dialects/gsk/rows/instructions.h"
+#include "frontend/network/program.h"
+#include "frontend/network/read/context.h"
 #include "ir/core/builder.h"
 
 namespace rung::gsk {
@@ -21,7 +24,7 @@ inline constexpr uint32_t kMachineAxes = 8;
 class ModuleLowering;
 struct RoutineContext;
 
-inline Address plus(Address address, uint32_t bytes) {
+inline network::Address plus(network::Address address, uint32_t bytes) {
   address.byte += bytes;
   return address;
 }
@@ -30,24 +33,25 @@ ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set);
 
 class FunctionLowering {
 public:
-  FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const Network& network,
-                   std::span<const ir::ValueId> conditions, std::string_view slotPrefix);
+  FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
+                   const network::Network& network, std::span<const ir::ValueId> conditions,
+                   std::string_view slotPrefix);
 
   ir::RungBuilder& b;
-  const Network& network;
-  const Function& function;
+  const network::Network& network;
+  const network::Function& function;
 
-  int variant() const { return function.row->variant; }
-  const Param& param(size_t i) const { return function.params[i]; }
+  int variant() const { return rowOf(*function.row).variant; }
+  const network::Param& param(size_t i) const { return function.params[i]; }
   ir::ValueId condition(size_t i) const { return conditions_[i]; }
   ir::ValueId act() const { return conditions_.back(); }
   // The type of as many bytes as the format says.
   ir::Type dataType() const { return ir::intOfBytes(function.length); }
 
-  ir::ValueId load(ir::Type type, const Address& address);
-  void store(const Address& address, ir::ValueId value);
+  ir::ValueId load(ir::Type type, const network::Address& address);
+  void store(const network::Address& address, ir::ValueId value);
   // `legal` bytes of the `bytes` from `address` may be the first of an element.
-  ir::Window window(const Address& address, uint32_t bytes, uint32_t legal) const;
+  ir::Window window(const network::Address& address, uint32_t bytes, uint32_t legal) const;
   // A parameter that is an address or a constant.
   ir::ValueId operand(size_t i, ir::Type type);
 
@@ -141,7 +145,7 @@ void lowerLeave(FunctionLowering& f);
 void lowerCommonLine(FunctionLowering& f);
 
 // The module of a program without errors.
-std::unique_ptr<ir::Module> lowerProgram(const Program& program, Context& context, std::span<const FileId> files,
-                                         const frontend::CompileOptions& options);
+std::unique_ptr<ir::Module> lowerProgram(const network::Program& program, network::Context& context,
+                                         std::span<const FileId> files, const frontend::CompileOptions& options);
 
 } // namespace rung::gsk

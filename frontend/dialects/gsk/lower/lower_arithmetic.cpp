@@ -22,11 +22,11 @@ void storeFlags(FunctionLowering& f, ValueId zero, ValueId negative, ValueId ove
   add(zero, 0);
   add(negative, 1);
   add(overflow, 5);
-  f.store({Area::R, kResultFlags}, byte);
+  f.store({areas::kR, kResultFlags}, byte);
 }
 
 // Stores the low bytes of a result and the flags; gives W, the overflow (P38).
-ValueId storeResult(FunctionLowering& f, const Address& address, ValueId wide) {
+ValueId storeResult(FunctionLowering& f, const network::Address& address, ValueId wide) {
   ir::RungBuilder& b = f.b;
   const ValueId low = b.op(OpCode::Trunc, f.dataType(), {wide});
   const ValueId overflow = b.ne(b.sextOrTrunc(doubled(f), low), wide);
@@ -57,7 +57,7 @@ void lowerDivision(FunctionLowering& f) {
     const auto divide = [&] {
       const ValueId remainder = b.op(OpCode::Trunc, f.dataType(), {b.op(OpCode::RemS, doubled(f), {a, divisor})});
       const ValueId overflow = storeResult(f, f.param(3).address, b.op(OpCode::DivS, doubled(f), {a, divisor}));
-      f.store({Area::R, kRemainder}, remainder);
+      f.store({areas::kR, kRemainder}, remainder);
       return overflow;
     };
     return b.choose(b.ne(divisor, b.constant(doubled(f), 0)), divide, [&] { return b.bit(true); });

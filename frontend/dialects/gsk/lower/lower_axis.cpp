@@ -23,9 +23,9 @@ public:
   void run();
 
 private:
-  Address bit(Area area, uint32_t byte, uint8_t number) const { return {area, byte, number, true}; }
-  Address buffer() const { return bit(Area::G, group_.control, axis::kEbufBit); }
-  Address data(uint32_t offset) const { return plus(f_.param(1).address, offset); }
+  network::Address bit(network::Area area, uint32_t byte, uint8_t number) const { return {area, byte, number, true}; }
+  network::Address buffer() const { return bit(areas::kG, group_.control, axis::kEbufBit); }
+  network::Address data(uint32_t offset) const { return plus(f_.param(1).address, offset); }
   ValueId state(uint8_t value) { return b_.constant(Type::I8, value); }
   ValueId isKnown(ValueId command);
   Step call(ValueId ready);
@@ -45,7 +45,7 @@ ValueId AxisLowering::isKnown(ValueId command) {
 
 // Seven bytes, EMSBK and EC first (P51), then EBUF reports them to the CNC (man. l.7672).
 void AxisLowering::send() {
-  const auto signal = [](uint32_t byte) { return Address{Area::G, byte}; };
+  const auto signal = [](uint32_t byte) { return network::Address{areas::kG, byte}; };
   const ValueId command = f_.load(Type::I8, data(axis::kAxisCommandAt));
   const ValueId data1 = f_.load(Type::I16, data(axis::kAxisData1At));
   const ValueId data2 = f_.load(Type::I32, data(axis::kAxisData2At));
@@ -86,12 +86,12 @@ Step AxisLowering::call(ValueId ready) {
 
 void AxisLowering::run() {
   const ValueId reset = f_.condition(0);
-  f_.store(bit(Area::G, group_.control, axis::kEclrBit), reset);
+  f_.store(bit(areas::kG, group_.control, axis::kEclrBit), reset);
   const Step step = b_.choose(
       reset, [&] { return Step{state(kIdle), b_.bit(false)}; },
       [&] {
         return call(
-            b_.eq(f_.load(Type::Bit, buffer()), f_.load(Type::Bit, bit(Area::F, group_.status, axis::kEbsyBit))));
+            b_.eq(f_.load(Type::Bit, buffer()), f_.load(Type::Bit, bit(areas::kF, group_.status, axis::kEbsyBit))));
       });
   b_.slotStore(f_.slot("state", Type::I8), step.state);
   f_.setOutput(step.out);

@@ -14,7 +14,7 @@ void lowerJump(FunctionLowering& f) { f.b.gotoRung(f.targetRung(), f.act()); }
 
 // CALL has a condition, CALLU none.
 void lowerCall(FunctionLowering& f) {
-  f.b.call(f.callee(), f.function.row->control == Control::Call ? f.act() : ir::ValueId{});
+  f.b.call(f.callee(), f.function.row->control == network::Control::Call ? f.act() : ir::ValueId{});
 }
 
 // JMPC: every caller on the way looks at the slot (P43).

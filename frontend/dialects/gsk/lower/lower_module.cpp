@@ -12,32 +12,32 @@
 namespace rung::gsk {
 namespace {
 
-constexpr uint32_t kSlotUs = 8000;
+using network::Control;
+
 constexpr uint32_t kBudget = 1'000'000; // steps of one run (P6)
 // Runs of bytes that are copied together although some between them are not needed.
 constexpr uint32_t kCopyGap = 8;
 
-uint32_t spaceFlags(AreaUse use) {
+uint32_t spaceFlags(network::AreaUse use) {
   switch (use) {
-  case AreaUse::Input: return RUNG_SPACE_INPUT;
-  case AreaUse::Output: return RUNG_SPACE_OUTPUT;
-  case AreaUse::Memory: return 0;
+  case network::AreaUse::Input: return RUNG_SPACE_INPUT;
+  case network::AreaUse::Output: return RUNG_SPACE_OUTPUT;
+  case network::AreaUse::Memory: return 0;
   }
   return 0;
 }
 
-size_t indexOf(Area area) { return static_cast<size_t>(area); }
+size_t indexOf(network::Area area) { return static_cast<size_t>(area); }
 
-bool isLoweredBy(const Network& network, void (*lower)(FunctionLowering&)) {
-  return network.function.row != nullptr && network.function.row->lower == lower;
+bool isLoweredBy(const network::Network& network, void (*lower)(FunctionLowering&)) {
+  return network.function.row != nullptr && rowOf(*network.function.row).lower == lower;
 }
-bool isTimer(const Network& network) { return isLoweredBy(network, &lowerTimer); }
-bool jumps(const Network& network) {
-  const Row* row = network.function.row;
-  return row != nullptr &&
-         (row->control == Control::Jmp || row->control == Control::Jmpb || row->control == Control::Jmpc);
+bool isTimer(const network::Network& network) { return isLoweredBy(network, &lowerTimer); }
+bool jumps(const network::Network& network) {
+  const Control control = controlOf(network);
+  return control == Control::Jmp || control == Control::Jmpb || control == Control::Jmpc;
 }
-bool isWindow(const Network& network) { return isLoweredBy(network, &lowerWindow); }
+bool isWindow(const network::Network& network) { return isLoweredBy(network, &lowerWindow); }
 
 std::string stemOf(std::string_view path) {
   const size_t slash = path.find_last_of('/');
@@ -47,8 +47,8 @@ std::string stemOf(std::string_view path) {
 
 } // namespace
 
-ModuleLowering::ModuleLowering(const Program& program, Context& context, std::span<const FileId> files,
-                               const frontend::CompileOptions& options)
+ModuleLowering::ModuleLowering(const network::Program& program, network::Context& context,
+                               std::span<const FileId> files, const frontend::CompileOptions& options)
     : program_(program), context_(context), files_(files), options_(options), module_(std::make_unique<ir::Module>()) {}
 
 std::unique_ptr<ir::Module> ModuleLowering::run() {
@@ -72,8 +72,8 @@ std::unique_ptr<ir::Module> ModuleLowering::run() {
 }
 
 void ModuleLowering::addSpaces() {
-  for (size_t i = 0; i < kAreaCount; ++i) {
-    const AreaInfo& info = kAreas[i];
+  for (size_t i = 0; i < kAreas.size(); ++i) {
+    const network::AreaInfo& info = kAreas[i];
     const ir::SpaceId space = frontend::addSpace(
         *module_, {.name = std::string(1, info.letter), .units = info.bytes, .flags = spaceFlags(info.use)});
     for (LevelState& level : levels_) {
@@ -82,20 +82,22 @@ void ModuleLowering::addSpaces() {
     }
     if (info.retained) module_->retains.push_back({space, 0, info.bytes});
   }
-  for (Area area : {Area::X, Area::F})
-    levels_[1].spaces[indexOf(area)] = addHidden(fmt::format("@{}2", areaInfo(area).letter), areaInfo(area).bytes);
+  for (network::Area area : {areas::kX, areas::kF})
+    levels_[1].spaces[indexOf(area)] =
+        addHidden(fmt::format("@{}2", kLanguage.at(area).letter), kLanguage.at(area).bytes);
 }
 
 void ModuleLowering::addSymbols() {
-  for (const UserName& symbol : context_.names.ofKind(UserName::Kind::Symbol))
-    module_->symbols.push_back(
-        {.name = std::string(symbol.name),
-         .comment = std::string(symbol.comment),
-         .space = levels_[0].spaces[indexOf(symbol.address.area)],
-         .byte = symbol.address.byte,
-         .bit = symbol.address.bit,
-         .type = symbol.address.isBit ? RUNG_TYPE_BIT : RUNG_TYPE_I8,
-         .flags = areaInfo(symbol.address.area).use == AreaUse::Input ? uint32_t{RUNG_SYMBOL_READONLY} : 0u});
+  for (const network::UserName& symbol : context_.names.ofKind(network::UserName::Kind::Symbol))
+    module_->symbols.push_back({.name = std::string(symbol.name),
+                                .comment = std::string(symbol.comment),
+                                .space = levels_[0].spaces[indexOf(symbol.address.area)],
+                                .byte = symbol.address.byte,
+                                .bit = symbol.address.bit,
+                                .type = symbol.address.isBit ? RUNG_TYPE_BIT : RUNG_TYPE_I8,
+                                .flags = kLanguage.at(symbol.address.area).use == network::AreaUse::Input
+                                             ? uint32_t{RUNG_SYMBOL_READONLY}
+                                             : 0u});
   frontend::sortSymbols(*module_);
 }
 
@@ -110,47 +112,49 @@ void ModuleLowering::addPresets() {
 // Keys are made of the text alone; equal networks of one unit are distinguished by their order. The state of a function
 // belongs to the function, whatever its conditions are.
 void ModuleLowering::makeKeys() {
-  for (const Unit& unit : program_.units) {
+  for (const network::Unit& unit : program_.units) {
     std::unordered_map<uint64_t, uint32_t> seen;
     frontend::Numbering alike;
     std::vector<uint64_t>& keys = keys_.emplace_back();
     std::vector<std::string>& prefixes = slotPrefixes_.emplace_back();
-    for (const Network& network : unit.networks) {
-      const uint64_t text = hashBytes(commandText(network), hashBytes(nameOf(unit)));
+    for (const network::Network& network : unit.networks) {
+      const uint64_t text = hashBytes(commandText(kLanguage, network), hashBytes(nameOf(kLanguage, unit)));
       keys.push_back(hashBytes(fmt::format("#{}", seen[text]++), text));
       std::string& prefix = prefixes.emplace_back();
       if (network.function.row == nullptr) continue;
-      prefix = fmt::format("{}/{}/", nameOf(unit), alike.numbered(identityOf(network.function)));
+      prefix = fmt::format("{}/{}/", nameOf(kLanguage, unit), alike.numbered(identityOf(kLanguage, network.function)));
     }
   }
 }
 
 // Every network but the end of a unit is drawn, in the order of the sources, whatever unit it belongs to.
 void ModuleLowering::makeNumbers() {
-  std::vector<const Network*> drawn;
-  for (const Unit& unit : program_.units)
+  std::vector<const network::Network*> drawn;
+  for (const network::Unit& unit : program_.units)
     for (size_t i = 0; i + 1 < unit.networks.size(); ++i) drawn.push_back(&unit.networks[i]);
-  std::ranges::sort(drawn, {}, [](const Network* network) { return network->range.begin; });
-  for (const Network* network : drawn) numbers_.emplace(network, static_cast<uint32_t>(numbers_.size()) + 1);
+  std::ranges::sort(drawn, {}, [](const network::Network* network) { return network->range.begin; });
+  for (const network::Network* network : drawn) numbers_.emplace(network, static_cast<uint32_t>(numbers_.size()) + 1);
 }
 
 void ModuleLowering::planRoutines(LevelState& level) {
   level.routines.resize(program_.units.size());
   for (uint32_t u = 0; u < program_.units.size(); ++u) {
-    const Unit& unit = program_.units[u];
+    const network::Unit& unit = program_.units[u];
     if (!(level.isLevel2 ? unit.fromLevel2 : unit.fromLevel1)) continue;
     const bool twice = unit.fromLevel1 && unit.fromLevel2;
-    level.routines[u] = frontend::addRoutine(*module_, nameOf(unit) + (twice ? (level.isLevel2 ? "@2" : "@1") : ""));
+    level.routines[u] =
+        frontend::addRoutine(*module_, nameOf(kLanguage, unit) + (twice ? (level.isLevel2 ? "@2" : "@1") : ""));
     level.hasClock = level.hasClock || std::any_of(unit.networks.begin(), unit.networks.end(), isTimer);
     level.countsRuns = level.countsRuns || std::any_of(unit.networks.begin(), unit.networks.end(), isWindow);
   }
-  const std::vector<Network>& own = program_.units[level.isLevel2 ? kLevel2 : kLevel1].networks;
+  const std::vector<network::Network>& own =
+      program_.units[level.isLevel2 ? network::kLevel2 : network::kLevel1].networks;
   level.straight = std::none_of(own.begin(), own.end(), jumps) && (!level.isLevel2 || program_.jumpTargets.empty());
   planClock(level);
 }
 
 void ModuleLowering::planClock(LevelState& level) {
-  const std::string name = level.isLevel2 ? "LEVEL2" : "LEVEL1";
+  const std::string name(kLanguage.levels[level.isLevel2 ? network::kLevel2 : network::kLevel1]);
   if (level.hasClock) {
     level.clock = slot("@clock/" + name, ir::Type::I64, 0, false);
     level.scanTime = slot("@scan/" + name, ir::Type::I64, 0, false);
@@ -158,16 +162,16 @@ void ModuleLowering::planClock(LevelState& level) {
   if (level.countsRuns) level.runs = slot("@runs/" + name, ir::Type::I32, 0, false);
 }
 
-bool ModuleLowering::mayLeaveAfter(const RoutineContext& routine, const Network& network) const {
-  return routine.level->isLevel2 && network.callee != kNone && program_.units[network.callee].leaves;
+bool ModuleLowering::mayLeaveAfter(const RoutineContext& routine, const network::Network& network) const {
+  return routine.level->isLevel2 && network.callee != network::kNone && program_.units[network.callee].leaves;
 }
 
 void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
-  const Unit& unit = program_.units[unitIndex];
+  const network::Unit& unit = program_.units[unitIndex];
   RoutineContext context{&level, unitIndex, {}};
-  const bool clock = (level.hasClock || level.countsRuns) && unit.kind != UnitKind::Subprogram;
+  const bool clock = (level.hasClock || level.countsRuns) && unit.kind != network::UnitKind::Subprogram;
   uint32_t count = clock ? 1 : 0;
-  for (const Network& network : unit.networks) {
+  for (const network::Network& network : unit.networks) {
     context.rungOf.push_back(count);
     count += mayLeaveAfter(context, network) ? 2 : 1;
   }
@@ -182,10 +186,10 @@ void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
 }
 
 // Timers grow by the time between two scans, however long that was (P23); window requests count scans (P48).
-void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const Unit& unit) {
+void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const network::Unit& unit) {
   ir::Rung& rung = routine.rungs[0];
-  const Network& first = unit.networks.front();
-  describe(rung, first, hashBytes("@clock", hashBytes(nameOf(unit))));
+  const network::Network& first = unit.networks.front();
+  describe(rung, first, hashBytes("@clock", hashBytes(nameOf(kLanguage, unit))));
   rung.number = 0;
   rung.title = level.hasClock ? "scan time" : "number of the scan";
   rung.sourceText.clear();
@@ -206,13 +210,14 @@ void ModuleLowering::planParts() {
   const auto slotSteps = slotStepsOf(options_);
   if (!slotSteps) return;
   uint64_t level1 = 0;
-  for (const ir::PartPiece& piece : ir::partPieces(*module_, levels_[0].routines[kLevel1])) level1 += piece.weight;
+  for (const ir::PartPiece& piece : ir::partPieces(*module_, levels_[0].routines[network::kLevel1]))
+    level1 += piece.weight;
   if (level1 >= *slotSteps) {
     context_.diagnostics.report(Diag::Level1TooLong) << level1 << *slotSteps;
     return;
   }
   const uint64_t room = *slotSteps - level1;
-  const ir::RoutineId level2 = levels_[1].routines[kLevel2];
+  const ir::RoutineId level2 = levels_[1].routines[network::kLevel2];
   const std::vector<ir::PartPiece> pieces = ir::partPieces(*module_, level2);
   const uint32_t needed = ir::partsNeeded(pieces, room);
   if (needed == 0) return reportLongRungs(pieces, room);
@@ -225,11 +230,11 @@ void ModuleLowering::planParts() {
 }
 
 void ModuleLowering::reportLongRungs(const std::vector<ir::PartPiece>& pieces, uint64_t room) {
-  const std::vector<ir::Rung>& rungs = module_->at(levels_[1].routines[kLevel2]).rungs;
-  const std::vector<Network>& networks = program_.units[kLevel2].networks;
+  const std::vector<ir::Rung>& rungs = module_->at(levels_[1].routines[network::kLevel2]).rungs;
+  const std::vector<network::Network>& networks = program_.units[network::kLevel2].networks;
   for (const ir::PartPiece& piece : pieces) {
     if (piece.weight <= room) continue;
-    const auto network = std::find_if(networks.begin(), networks.end(), [&](const Network& n) {
+    const auto network = std::find_if(networks.begin(), networks.end(), [&](const network::Network& n) {
       return n.firstLine == rungs[piece.firstRung].begin.line &&
              fileIndex_.at(n.file.index) == rungs[piece.firstRung].begin.file;
     });
@@ -239,13 +244,13 @@ void ModuleLowering::reportLongRungs(const std::vector<ir::PartPiece>& pieces, u
 }
 
 void ModuleLowering::addTasks() {
-  module_->tasks.push_back({.name = "LEVEL1",
-                            .entry = levels_[0].routines[kLevel1],
+  module_->tasks.push_back({.name = std::string(kLanguage.levels[network::kLevel1]),
+                            .entry = levels_[0].routines[network::kLevel1],
                             .periodUs = kSlotUs,
                             .budget = kBudget,
                             .budgetFault = ir::FaultId{0}});
-  module_->tasks.push_back({.name = "LEVEL2",
-                            .entry = levels_[1].routines[kLevel2],
+  module_->tasks.push_back({.name = std::string(kLanguage.levels[network::kLevel2]),
+                            .entry = levels_[1].routines[network::kLevel2],
                             .periodUs = kSlotUs * parts_,
                             .budget = kBudget,
                             .budgetFault = ir::FaultId{0}});
@@ -253,8 +258,8 @@ void ModuleLowering::addTasks() {
   module_->fastTask = ir::TaskId{0};
   module_->mainTask = ir::TaskId{1};
   addResultRegisters(module_->tasks[0]);
-  addLatch(module_->tasks[1], Area::X);
-  addLatch(module_->tasks[1], Area::F);
+  addLatch(module_->tasks[1], areas::kX);
+  addLatch(module_->tasks[1], areas::kF);
   const ir::Step advance{.op = RUNG_STEP_ADVANCE, .arg = kSlotUs};
   const ir::Step level1{.op = RUNG_STEP_RUN, .task = module_->fastTask, .arg = 1};
   const ir::Step level2{.op = RUNG_STEP_PART, .task = module_->mainTask, .arg = 1};
@@ -265,7 +270,7 @@ void ModuleLowering::addTasks() {
 }
 
 // What Level 2 reads of an input area is copied when it begins.
-void ModuleLowering::addLatch(ir::Task& task, Area area) {
+void ModuleLowering::addLatch(ir::Task& task, network::Area area) {
   const std::vector<bool>& used = levels_[1].used[indexOf(area)];
   const ir::SpaceId from = levels_[0].spaces[indexOf(area)];
   const ir::SpaceId to = levels_[1].spaces[indexOf(area)];
@@ -282,11 +287,11 @@ void ModuleLowering::addLatch(ir::Task& task, Area area) {
 
 // P4: Level 1 works on a set of result registers of its own; between its runs R holds that of Level 2.
 void ModuleLowering::addResultRegisters(ir::Task& task) {
-  const std::vector<bool>& used = levels_[0].used[indexOf(Area::R)];
+  const std::vector<bool>& used = levels_[0].used[indexOf(areas::kR)];
   if (std::find(used.begin() + kResultFlags, used.begin() + kResultFlags + kResultBytes, true) ==
       used.begin() + kResultFlags + kResultBytes)
     return;
-  const ir::SpaceId relays = levels_[0].spaces[indexOf(Area::R)];
+  const ir::SpaceId relays = levels_[0].spaces[indexOf(areas::kR)];
   const ir::SpaceId level1 = addHidden("@R1", kResultBytes);
   const ir::SpaceId level2 = addHidden("@R2", kResultBytes);
   task.begin.push_back({.from = {relays, kResultFlags, kResultBytes}, .to = level2});
@@ -311,13 +316,13 @@ ir::SpaceId ModuleLowering::machinePositions() {
   return positions_;
 }
 
-void ModuleLowering::use(LevelState& level, const Address& address, uint32_t bytes) {
+void ModuleLowering::use(LevelState& level, const network::Address& address, uint32_t bytes) {
   std::vector<bool>& used = level.used[indexOf(address.area)];
   for (uint32_t i = 0; i < bytes; ++i) used[address.byte + i] = true;
 }
 
-std::unique_ptr<ir::Module> lowerProgram(const Program& program, Context& context, std::span<const FileId> files,
-                                         const frontend::CompileOptions& options) {
+std::unique_ptr<ir::Module> lowerProgram(const network::Program& program, network::Context& context,
+                                         std::span<const FileId> files, const frontend::CompileOptions& options) {
   return ModuleLowering(program, context, files, options).run();
 }
 

@@ -16,9 +16,9 @@ namespace rung::gsk {
 // share their slots.
 struct LevelState {
   bool isLevel2 = false;
-  std::array<ir::SpaceId, kAreaCount> spaces;
-  std::array<std::vector<bool>, kAreaCount> used; // bytes that are read or written, X F R only
-  std::vector<ir::RoutineId> routines;            // by unit; invalid where the level does not run it
+  std::array<ir::SpaceId, kAreas.size()> spaces;
+  std::array<std::vector<bool>, kAreas.size()> used; // bytes that are read or written, X F R only
+  std::vector<ir::RoutineId> routines;               // by unit; invalid where the level does not run it
   bool hasClock = false;
   ir::SlotId clock;      // `now` at the beginning of the last run
   ir::SlotId scanTime;   // from that to the beginning of this run
@@ -42,7 +42,8 @@ public:
   // A contact or coil: its text is what its range holds.
   void element(ir::MarkKind kind, ir::ValueId value, SourceRange range) const;
   // A function; `more` is part of its text.
-  void function(ir::MarkKind kind, ir::ValueId value, const Function& function, std::string_view more = {}) const;
+  void function(ir::MarkKind kind, ir::ValueId value, const network::Function& function,
+                std::string_view more = {}) const;
 
 private:
   void add(ir::MarkKind kind, ir::ValueId value, SourceRange range, std::string text) const;
@@ -55,7 +56,7 @@ private:
 
 class ModuleLowering {
 public:
-  ModuleLowering(const Program& program, Context& context, std::span<const FileId> files,
+  ModuleLowering(const network::Program& program, network::Context& context, std::span<const FileId> files,
                  const frontend::CompileOptions& options);
   std::unique_ptr<ir::Module> run();
 
@@ -66,8 +67,8 @@ public:
   ir::SpaceId machinePositions();
   std::span<const LevelState, 2> levels() const { return levels_; }
   ir::SlotId leaveTarget() { return slot("@leave", ir::Type::I32, 0, false); }
-  const Program& program() const { return program_; }
-  void use(LevelState& level, const Address& address, uint32_t bytes);
+  const network::Program& program() const { return program_; }
+  void use(LevelState& level, const network::Address& address, uint32_t bytes);
 
 private:
   void addSpaces();
@@ -81,34 +82,34 @@ private:
   void makeNumbers();
   void lowerRoutine(LevelState& level, uint32_t unit);
   void planClock(LevelState& level);
-  void addClock(ir::Routine& routine, LevelState& level, const Unit& unit);
+  void addClock(ir::Routine& routine, LevelState& level, const network::Unit& unit);
   void lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t network);
-  void describe(ir::Rung& rung, const Network& network, uint64_t key) const;
-  std::vector<ir::ValueId> lowerLogic(LevelState& level, ir::RungBuilder& b, const Network& network,
+  void describe(ir::Rung& rung, const network::Network& network, uint64_t key) const;
+  std::vector<ir::ValueId> lowerLogic(LevelState& level, ir::RungBuilder& b, const network::Network& network,
                                       const RungMarks& marks);
   ir::ValueId lowerFunction(RoutineContext& routine, ir::RungBuilder& b, uint32_t network,
                             std::span<const ir::ValueId> conditions, const RungMarks& marks);
-  void lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value,
+  void lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const network::Network& network, ir::ValueId value,
                   const RungMarks& marks);
   void addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next);
-  bool mayLeaveAfter(const RoutineContext& routine, const Network& network) const;
+  bool mayLeaveAfter(const RoutineContext& routine, const network::Network& network) const;
   void planParts();
   void reportLongRungs(const std::vector<ir::PartPiece>& pieces, uint64_t room);
   void addTasks();
-  void addLatch(ir::Task& task, Area area);
+  void addLatch(ir::Task& task, network::Area area);
   void addResultRegisters(ir::Task& task);
 
-  const Program& program_;
-  Context& context_;
+  const network::Program& program_;
+  network::Context& context_;
   std::span<const FileId> files_;
   const frontend::CompileOptions& options_;
   std::unique_ptr<ir::Module> module_;
   std::unordered_map<uint32_t, ir::FileIndex> fileIndex_;
   std::unordered_map<std::string, ir::SlotId> slots_;
   ir::SpaceId positions_;
-  std::vector<std::vector<uint64_t>> keys_;              // by unit and network
-  std::vector<std::vector<std::string>> slotPrefixes_;   // by unit and network; of networks with a function
-  std::unordered_map<const Network*, uint32_t> numbers_; // as drawn; of the ends of units there is none
+  std::vector<std::vector<uint64_t>> keys_;                       // by unit and network
+  std::vector<std::vector<std::string>> slotPrefixes_;            // by unit and network; of networks with a function
+  std::unordered_map<const network::Network*, uint32_t> numbers_; // as drawn; of the ends of units there is none
   LevelState levels_[2];
   uint32_t parts_ = 1;
 };

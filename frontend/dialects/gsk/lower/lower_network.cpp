@@ -9,16 +9,16 @@
 namespace rung::gsk {
 namespace {
 
-ir::SpaceId spaceOf(const LevelState& level, const Address& address) {
+ir::SpaceId spaceOf(const LevelState& level, const network::Address& address) {
   return level.spaces[static_cast<size_t>(address.area)];
 }
 
-ir::Place placeOf(const LevelState& level, const Address& address) {
+ir::Place placeOf(const LevelState& level, const network::Address& address) {
   return {spaceOf(level, address), address.byte, address.isBit ? address.bit : 0u};
 }
 
 // The lines of a network as written.
-std::string linesOf(const SourceManager& sources, const Network& network) {
+std::string linesOf(const SourceManager& sources, const network::Network& network) {
   std::string text;
   for (uint32_t line = network.firstLine; line <= network.lastLine; ++line) {
     if (line != network.firstLine) text += '\n';
@@ -29,7 +29,7 @@ std::string linesOf(const SourceManager& sources, const Network& network) {
 
 } // namespace
 
-void ModuleLowering::describe(ir::Rung& rung, const Network& network, uint64_t key) const {
+void ModuleLowering::describe(ir::Rung& rung, const network::Network& network, uint64_t key) const {
   const auto number = numbers_.find(&network);
   rung.number = number == numbers_.end() ? 0 : number->second;
   rung.title = network.title;
@@ -50,54 +50,55 @@ void RungMarks::element(ir::MarkKind kind, ir::ValueId value, SourceRange range)
   if (marks_ != nullptr) add(kind, value, range, std::string(sources_.text(range)));
 }
 
-void RungMarks::function(ir::MarkKind kind, ir::ValueId value, const Function& function, std::string_view more) const {
+void RungMarks::function(ir::MarkKind kind, ir::ValueId value, const network::Function& function,
+                         std::string_view more) const {
   if (marks_ == nullptr) return;
   std::string text(function.row->info.mnemonic);
-  for (const Param& param : function.params) text.append(" ").append(sources_.text(param.range));
+  for (const network::Param& param : function.params) text.append(" ").append(sources_.text(param.range));
   add(kind, value, function.range, text.append(more));
 }
 
-std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungBuilder& b, const Network& network,
-                                                    const RungMarks& marks) {
+std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungBuilder& b,
+                                                    const network::Network& network, const RungMarks& marks) {
   std::vector<ir::ValueId> stack;
-  for (const LogicStep& step : network.logic) {
+  for (const network::LogicStep& step : network.logic) {
     b.setLine(step.line);
-    if (step.kind == Logic::OrBlock || step.kind == Logic::AndBlock) {
+    if (step.kind == network::Logic::OrBlock || step.kind == network::Logic::AndBlock) {
       const ir::ValueId top = stack.back();
       stack.pop_back();
-      stack.back() = step.kind == Logic::OrBlock ? b.or_(stack.back(), top) : b.and_(stack.back(), top);
+      stack.back() = step.kind == network::Logic::OrBlock ? b.or_(stack.back(), top) : b.and_(stack.back(), top);
       continue;
     }
     use(level, step.bit, 1);
     ir::ValueId value = b.load(ir::Type::Bit, placeOf(level, step.bit));
     if (step.negated) value = b.not_(value);
     marks.element(ir::MarkKind::Contact, value, step.range);
-    if (step.kind == Logic::Load)
+    if (step.kind == network::Logic::Load)
       stack.push_back(value);
     else
-      stack.back() = step.kind == Logic::And ? b.and_(stack.back(), value) : b.or_(stack.back(), value);
+      stack.back() = step.kind == network::Logic::And ? b.and_(stack.back(), value) : b.or_(stack.back(), value);
   }
   return stack;
 }
 
 // Inside a common line that is off, OUT writes 0, OUTI 1, and SET and RST do nothing (P41): all that is ST0 = 0.
-void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value,
-                                const RungMarks& marks) {
-  if (network.com != kNone) {
+void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const network::Network& network,
+                                ir::ValueId value, const RungMarks& marks) {
+  if (network.com != network::kNone) {
     const ir::ValueId line = b.slotLoad(slot(slotPrefixes_[routine.unit][network.com] + "com", ir::Type::Bit, 0, true));
     marks.function(ir::MarkKind::Result, line, program_.units[routine.unit].networks[network.com].function);
     value = b.and_(value, line);
   }
-  for (const CoilStep& coil : network.coils) {
+  for (const network::CoilStep& coil : network.coils) {
     b.setLine(coil.line);
     marks.element(ir::MarkKind::Coil, value, coil.range);
     use(*routine.level, coil.bit, 1);
     const ir::Place place = placeOf(*routine.level, coil.bit);
     switch (coil.kind) {
-    case Coil::Out: b.store(place, value); break;
-    case Coil::OutInverted: b.store(place, b.not_(value)); break;
-    case Coil::Set: b.store(place, b.or_(b.load(ir::Type::Bit, place), value)); break;
-    case Coil::Reset: b.store(place, b.and_(b.load(ir::Type::Bit, place), b.not_(value))); break;
+    case network::Coil::Out: b.store(place, value); break;
+    case network::Coil::OutInverted: b.store(place, b.not_(value)); break;
+    case network::Coil::Set: b.store(place, b.or_(b.load(ir::Type::Bit, place), value)); break;
+    case network::Coil::Reset: b.store(place, b.and_(b.load(ir::Type::Bit, place), b.not_(value))); break;
     }
   }
 }
@@ -105,8 +106,8 @@ void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, con
 // Gives the output. One that passes on a condition asks nothing of its own.
 ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuilder& b, uint32_t index,
                                           std::span<const ir::ValueId> conditions, const RungMarks& marks) {
-  const Network& network = program_.units[routine.unit].networks[index];
-  const Row& row = *network.function.row;
+  const network::Network& network = program_.units[routine.unit].networks[index];
+  const Row& row = rowOf(*network.function.row);
   for (size_t i = 0; i < conditions.size(); ++i) {
     const bool one = conditions.size() == 1;
     marks.function(ir::MarkKind::Input, conditions[i], network.function,
@@ -114,7 +115,7 @@ ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuild
   }
   FunctionLowering f(*this, routine, b, network, conditions, slotPrefixes_[routine.unit][index]);
   b.setLine(network.function.line);
-  if (row.control == Control::Plain) b.note(row.info.mnemonic);
+  if (row.control == network::Control::Plain) b.note(row.info.mnemonic);
   row.lower(f);
   const bool passes = std::find(conditions.begin(), conditions.end(), f.output()) != conditions.end();
   if (f.output().valid() && !passes) marks.function(ir::MarkKind::Result, f.output(), network.function);
@@ -122,7 +123,7 @@ ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuild
 }
 
 void ModuleLowering::lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t index) {
-  const Network& network = program_.units[routine.unit].networks[index];
+  const network::Network& network = program_.units[routine.unit].networks[index];
   describe(rung, network, keys_[routine.unit][index]);
   ir::RungBuilder b(*module_, rung);
   const RungMarks marks(options_.marks, context_.sources, routine.level->routines[routine.unit], routine.rungOf[index]);
@@ -143,7 +144,7 @@ void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t 
   ir::RungBuilder b(*module_, rung);
   b.note("return of the call");
   const ir::ValueId target = b.slotLoad(leaveTarget());
-  if (routine.unit != kLevel2) return b.ret(b.ne(target, b.i32(0)));
+  if (routine.unit != network::kLevel2) return b.ret(b.ne(target, b.i32(0)));
   b.slotStore(leaveTarget(), b.i32(0));
   std::vector<uint32_t> targets{next};
   for (uint32_t network : program_.jumpTargets) targets.push_back(routine.rungOf[network]);
@@ -159,22 +160,22 @@ ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set) {
 // ---- FunctionLowering ----------------------------------------------------------------------------------------------
 
 FunctionLowering::FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
-                                   const Network& net, std::span<const ir::ValueId> conditions,
+                                   const network::Network& net, std::span<const ir::ValueId> conditions,
                                    std::string_view slotPrefix)
     : b(builder), network(net), function(net.function), module_(module), routine_(routine), conditions_(conditions),
       slotPrefix_(slotPrefix) {}
 
-ir::ValueId FunctionLowering::load(ir::Type type, const Address& address) {
+ir::ValueId FunctionLowering::load(ir::Type type, const network::Address& address) {
   module_.use(*routine_.level, address, std::max(ir::byteWidth(type), 1u));
   return b.load(type, placeOf(*routine_.level, address));
 }
 
-void FunctionLowering::store(const Address& address, ir::ValueId value) {
+void FunctionLowering::store(const network::Address& address, ir::ValueId value) {
   module_.use(*routine_.level, address, std::max(ir::byteWidth(b.typeOf(value)), 1u));
   b.store(placeOf(*routine_.level, address), value);
 }
 
-ir::Window FunctionLowering::window(const Address& address, uint32_t bytes, uint32_t legal) const {
+ir::Window FunctionLowering::window(const network::Address& address, uint32_t bytes, uint32_t legal) const {
   module_.use(*routine_.level, address, bytes);
   return {spaceOf(*routine_.level, address), address.byte, legal};
 }
@@ -190,7 +191,7 @@ ir::SlotId FunctionLowering::slot(std::string_view role, ir::Type type, int64_t 
 ir::ValueId FunctionLowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
 
 bool FunctionLowering::onceEachRun() const {
-  return routine_.level->straight && (routine_.unit == kLevel1 || routine_.unit == kLevel2);
+  return routine_.level->straight && (routine_.unit == network::kLevel1 || routine_.unit == network::kLevel2);
 }
 
 ir::ValueId FunctionLowering::sinceLastRun() {

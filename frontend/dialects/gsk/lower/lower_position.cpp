@@ -22,7 +22,7 @@ struct Limits {
 
 Limits limitsOf(FunctionLowering& f, uint32_t count) {
   ir::RungBuilder& b = f.b;
-  Address address = f.param(0).address;
+  network::Address address = f.param(0).address;
   const ValueId axis = b.sub(b.zextOrTrunc(Type::I32, f.load(Type::I8, address)), b.i32(1));
   Limits limits;
   limits.position = b.loadAt(Type::I32, f.machinePositions(), b.mul(axis, b.i32(4)));

@@ -13,12 +13,12 @@ using ir::Type;
 using ir::ValueId;
 
 // Entries of a table in D that exist (P35).
-uint32_t entriesFrom(const Address& table, uint32_t length) {
-  return (areaInfo(table.area).bytes - table.byte) / length;
+uint32_t entriesFrom(const network::Address& table, uint32_t length) {
+  return (kLanguage.at(table.area).bytes - table.byte) / length;
 }
 
 // Entries of `length` bytes one after the other; the index counts bytes.
-ir::Window tableWindow(FunctionLowering& f, const Address& table) {
+ir::Window tableWindow(FunctionLowering& f, const network::Address& table) {
   const uint32_t entries = entriesFrom(table, f.function.length);
   return f.window(table, entries * f.function.length, (entries - 1) * f.function.length + 1);
 }
@@ -96,7 +96,7 @@ constexpr uint32_t kBlock = 32;
 // Whether an entry of the block from `start` matches, of those below `limit`, and the lowest.
 std::array<ValueId, 2> searchBlock(FunctionLowering& f, ValueId start, ValueId limit, ValueId searched) {
   ir::RungBuilder& b = f.b;
-  const Address& table = f.param(2).address;
+  const network::Address& table = f.param(2).address;
   const ValueId none[] = {b.bit(false), b.i32(0)};
   const auto inside = b.loop(kBlock, none);
   const ValueId entry = b.add(start, inside[0]);
@@ -134,8 +134,8 @@ void lowerSearch(FunctionLowering& f) {
 void lowerIndexedMove(FunctionLowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
-    const Address& table = f.param(2).address;
-    const Address& data = f.param(3).address;
+    const network::Address& table = f.param(2).address;
+    const network::Address& data = f.param(3).address;
     const ValueId index = unsignedWord(f, 4, Type::I32);
     const ValueId exists = b.ltU(index, b.i32(entriesFrom(table, f.function.length)));
     const ValueId legal = b.and_(b.ltU(index, unsignedWord(f, 1, Type::I32)), exists);

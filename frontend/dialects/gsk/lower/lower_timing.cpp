@@ -15,7 +15,7 @@ constexpr int64_t kNotRunning = -1; // as the elapsed time
 ValueId presetOf(FunctionLowering& f) {
   constexpr int64_t kUsPerMs = 1000;
   constexpr int64_t kAccuracyMs[] = {8, 48, 1000}; // man. l.1199-1202
-  const auto word = [&](const Address& address, int64_t unitMs) {
+  const auto word = [&](const network::Address& address, int64_t unitMs) {
     return f.b.mul(f.b.zextOrTrunc(Type::I64, f.load(Type::I16, address)), f.b.constant(Type::I64, unitMs * kUsPerMs));
   };
   const int64_t first = f.param(0).value;
@@ -61,14 +61,14 @@ void lowerTimer(FunctionLowering& f) {
 void lowerCounter(FunctionLowering& f) {
   ir::RungBuilder& b = f.b;
   const bool inMemory = f.variant() == kCounterMemory;
-  const Address preset = inMemory ? f.param(0).address : counterPreset(f.param(0).value);
-  Address value = inMemory ? f.param(1).address : counterValue(f.param(0).value);
+  const network::Address preset = inMemory ? f.param(0).address : counterPreset(f.param(0).value);
+  network::Address value = inMemory ? f.param(1).address : counterValue(f.param(0).value);
   const ValueId cn0 = f.condition(0), down = f.condition(1), reset = f.condition(2);
 
   // P28: the edge is followed in every scan; CTRC keeps it in bit 0 of register +2.
   ValueId before;
   if (inMemory) {
-    const Address edge{value.area, value.byte + 2, 0, true};
+    const network::Address edge{value.area, value.byte + 2, 0, true};
     before = f.load(Type::Bit, edge);
     f.store(edge, f.act());
   } else {

@@ -29,7 +29,7 @@ public:
 
 private:
   bool writes() const { return f_.variant() == kWindowWrite; }
-  Address at(uint32_t offset) const { return plus(f_.param(0).address, offset); }
+  network::Address at(uint32_t offset) const { return plus(f_.param(0).address, offset); }
   ValueId word(uint32_t offset) { return f_.load(Type::I16, at(offset)); }
   ir::SlotId ticket() { return f_.slot("ticket", Type::I32); }
   ir::SlotId length() { return f_.slot("length", Type::I16); }
@@ -79,8 +79,8 @@ uint64_t setOf(Belongs belongs) {
 
 // Bytes from the data to the end of the area, at most as many as the longest data; parameters.cpp has seen to one.
 uint32_t WindowLowering::room() const {
-  const Address data = at(window::kWindowDataAt);
-  return std::min(areaInfo(data.area).bytes - data.byte, window::kWindowMaxLength);
+  const network::Address data = at(window::kWindowDataAt);
+  return std::min(kLanguage.at(data.area).bytes - data.byte, window::kWindowMaxLength);
 }
 
 // P49: what is refused without asking the CNC, as an end code. Data that would run over the end of the area have no

@@ -7,7 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/read/address.h"
+#include "frontend/dialects/gsk/areas.h"
+#include "frontend/dialects/gsk/language.h"
 #include "frontend/syntax/word_lexer.h"
 
 namespace rung::gsk {
@@ -17,9 +18,9 @@ constexpr uint64_t kMessages = 256;
 
 // 8 x byte + bit + 1 of a bit in A (P57), or the number itself; nullopt for anything else.
 std::optional<uint64_t> numberOf(std::string_view text) {
-  if (const auto number = parseDigits(text)) return number;
-  const auto split = splitAddress(text);
-  if (!split || split->area != Area::A || split->bit.size() != 1) return std::nullopt;
+  if (const auto number = network::parseDigits(text)) return number;
+  const auto split = network::splitAddress(kLanguage, text);
+  if (!split || split->area != areas::kA || split->bit.size() != 1) return std::nullopt;
   if (split->bit[0] < '0' || split->bit[0] > '7') return std::nullopt;
   return 8 * split->byte + static_cast<uint64_t>(split->bit[0] - '0') + 1;
 }

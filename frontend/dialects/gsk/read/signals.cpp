@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "ir/support/similar.h"
+#include "frontend/dialects/gsk/language.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/text/letters.h"
 
@@ -15,8 +15,8 @@ namespace {
 
 uint32_t bytesOf(const nc::Signal& signal) { return std::max(1u, nc::elementBytes(signal.type)); }
 
-bool covers(const nc::Signal& signal, const Address& address) {
-  const Address own = signalAddress(signal);
+bool covers(const nc::Signal& signal, const network::Address& address) {
+  const network::Address own = addressOf(kLanguage, signal);
   if (own.area != address.area || address.byte < own.byte || address.byte >= own.byte + bytesOf(signal)) return false;
   return !own.isBit || !address.isBit || own.bit == address.bit;
 }
@@ -30,25 +30,17 @@ std::string_view machineNote(std::string_view group) {
 }
 
 std::string textOf(const nc::Signal& signal) {
-  const Address address = signalAddress(signal);
+  const network::Address address = addressOf(kLanguage, signal);
   const uint32_t bytes = bytesOf(signal);
   const std::string width = address.isBit ? "" : bytes == 1 ? " (1 byte)" : fmt::format(" ({} bytes)", bytes);
-  return fmt::format("[gsk] {}: {}{}, {}\n  {}\n  Manual: l.{}.{}\n", signal.symbol, textOf(address), width,
-                     areaInfo(address.area).doc, signal.meaning, signal.manualLine, machineNote(signal.group));
+  return fmt::format("[gsk] {}: {}{}, {}\n  {}\n  Manual: l.{}.{}\n", signal.symbol, textOf(kLanguage, address), width,
+                     kLanguage.at(address.area).doc, signal.meaning, signal.manualLine, machineNote(signal.group));
 }
 
-} // namespace
-
-const nc::Signal* findSignalByName(std::string_view name) { return nc::findSignal(nc::gskSignals(), name); }
-
-Address signalAddress(const nc::Signal& signal) {
-  const auto area = splitAddress(std::string(signal.area) + "0");
-  const bool isBit = signal.type == nc::SignalType::Bit;
-  return {area ? area->area : Area::R, signal.byteOffset, isBit ? signal.bit : uint8_t{0}, isBit};
-}
-
-const nc::Signal* foreignSignal(Machine machine, const Address& address, uint32_t length) {
-  if (machine == Machine::Any || areaInfo(address.area).use == AreaUse::Memory) return nullptr;
+// A signal that the given machine does not have, where an operand of `length` bytes is that signal or a bit of it; null
+// when there is none.
+const nc::Signal* foreignSignal(Machine machine, const network::Address& address, uint32_t length) {
+  if (kLanguage.at(address.area).use == network::AreaUse::Memory) return nullptr;
   static const std::vector<const nc::Signal*> kOfOneMachine = [] {
     std::vector<const nc::Signal*> found;
     for (const nc::Signal& signal : nc::gskSignals())
@@ -60,7 +52,7 @@ const nc::Signal* foreignSignal(Machine machine, const Address& address, uint32_
     // Bytes that hold a single bit of the other machine among signals of both are none of its business.
     if (signal->type == nc::SignalType::Bit && !address.isBit) continue;
     for (uint32_t i = 0; i < length; ++i) {
-      Address byte = address;
+      network::Address byte = address;
       byte.byte += i;
       if (covers(*signal, byte)) return signal;
     }
@@ -68,18 +60,28 @@ const nc::Signal* foreignSignal(Machine machine, const Address& address, uint32_
   return nullptr;
 }
 
-const nc::Signal* similarSignal(std::string_view name) {
-  const std::string_view similar = mostSimilar(name, nc::gskSignals(), &nc::Signal::symbol);
-  return similar.empty() ? nullptr : findSignalByName(similar);
+} // namespace
+
+void watchSignals(network::Context& context, Machine machine) {
+  if (machine == Machine::Any) return;
+  context.onPlace = [&diagnostics = context.diagnostics, machine](const Word& word, const network::Address& address,
+                                                                  uint32_t length) {
+    const nc::Signal* signal = foreignSignal(machine, address, length);
+    if (signal == nullptr) return;
+    const bool onMill = machine == Machine::Mill;
+    diagnostics.report(Diag::SignalOfOtherMachine, word.range)
+            .note(fmt::format("man. l.{}: {}", signal->manualLine, signal->meaning))
+        << signal->symbol << (onMill ? "turning" : "milling") << (onMill ? "mill" : "turn");
+  };
 }
 
 std::string explainSignal(std::string_view word) {
   std::string text;
   for (const nc::Signal& signal : nc::gskSignals())
     if (text::equalsIgnoringCase(signal.symbol, word)) text += textOf(signal);
-  const auto split = splitAddress(word);
-  if (!split || split->byte >= areaInfo(split->area).bytes) return text;
-  Address address{split->area, static_cast<uint32_t>(split->byte), 0, split->hasPoint};
+  const auto split = network::splitAddress(kLanguage, word);
+  if (!split || split->byte >= kLanguage.at(split->area).bytes) return text;
+  network::Address address{split->area, static_cast<uint32_t>(split->byte), 0, split->hasPoint};
   if (split->hasPoint) {
     if (split->bit.size() != 1 || split->bit[0] < '0' || split->bit[0] > '7') return text;
     address.bit = static_cast<uint8_t>(split->bit[0] - '0');
@@ -88,8 +90,8 @@ std::string explainSignal(std::string_view word) {
   for (const nc::Signal& signal : nc::gskSignals())
     if (covers(signal, address)) text += textOf(signal);
   if (text.size() == before)
-    text += fmt::format("[gsk] {}: area {} ({}), not a signal of the manual\n", textOf(address),
-                        areaInfo(address.area).letter, areaInfo(address.area).doc);
+    text += fmt::format("[gsk] {}: area {} ({}), not a signal of the manual\n", textOf(kLanguage, address),
+                        kLanguage.at(address.area).letter, kLanguage.at(address.area).doc);
   return text;
 }
 

@@ -3,14 +3,13 @@
 
 #include <array>
 
-#include "frontend/dialects/gsk/read/address.h"
+#include "frontend/dialects/gsk/language.h"
 #include "frontend/dialects/gsk/rows/rows_arithmetic.h"
 #include "frontend/dialects/gsk/rows/rows_basic.h"
 #include "frontend/dialects/gsk/rows/rows_control.h"
 #include "frontend/dialects/gsk/rows/rows_data.h"
 #include "frontend/dialects/gsk/rows/rows_nc.h"
 #include "frontend/dialects/gsk/rows/rows_timing.h"
-#include "rtlib/text/letters.h"
 
 namespace rung::gsk {
 namespace {
@@ -24,12 +23,13 @@ constexpr size_t kRowCount = std::size(kBasicRows) + std::size(kTimingRows) + st
 constexpr std::array<Row, kRowCount> joinRows() {
   std::array<Row, kRowCount> rows{};
   size_t n = 0;
-  for (const Row& row : kBasicRows) rows[n++] = row;
-  for (const Row& row : kTimingRows) rows[n++] = row;
-  for (const Row& row : kDataRows) rows[n++] = row;
-  for (const Row& row : kArithmeticRows) rows[n++] = row;
-  for (const Row& row : kControlRows) rows[n++] = row;
-  for (const Row& row : kNcRows) rows[n++] = row;
+  for (const std::span<const Row> chapter :
+       {std::span<const Row>(kBasicRows), std::span<const Row>(kTimingRows), std::span<const Row>(kDataRows),
+        std::span<const Row>(kArithmeticRows), std::span<const Row>(kControlRows), std::span<const Row>(kNcRows)})
+    for (const Row& row : chapter) {
+      rows[n] = row;
+      rows[n++].built = row.lower != nullptr;
+    }
   return rows;
 }
 constexpr std::array<Row, kRowCount> kRows = joinRows();
@@ -47,39 +47,26 @@ constexpr bool rowsAreSound() {
 }
 static_assert(rowsAreSound(), "a row lacks a text or is out of order");
 
-constexpr std::array<const InstructionInfo*, kRowCount> infoPointers() {
-  std::array<const InstructionInfo*, kRowCount> result{};
-  for (size_t i = 0; i < kRowCount; ++i) result[i] = &kRows[i].info;
+// Of each row what `pointTo` gives.
+template <class T, class PointTo>
+constexpr std::array<const T*, kRowCount> pointers(PointTo pointTo) {
+  std::array<const T*, kRowCount> result{};
+  for (size_t i = 0; i < kRowCount; ++i) result[i] = pointTo(kRows[i]);
   return result;
 }
-constexpr std::array<const InstructionInfo*, kRowCount> kInfos = infoPointers();
-
-constexpr size_t kFunctionNumbers = static_cast<size_t>(std::end(kNcRows)[-1].info.number) + 1; // the highest is last
-constexpr std::array<const Row*, kFunctionNumbers> rowsByNumber() {
-  std::array<const Row*, kFunctionNumbers> result{};
-  for (const Row& row : kRows)
-    if (row.info.number >= 0) result[static_cast<size_t>(row.info.number)] = &row;
-  return result;
-}
-constexpr std::array<const Row*, kFunctionNumbers> kByNumber = rowsByNumber();
+constexpr auto kNetworkRows = pointers<network::Row>([](const Row& row) { return &row; });
+constexpr auto kInfos = pointers<InstructionInfo>([](const Row& row) { return &row.info; });
 
 } // namespace
 
 std::span<const Row> allRows() { return kRows; }
 
-const Row* findFunction(uint64_t number) { return number < kFunctionNumbers ? kByNumber[number] : nullptr; }
-
-const Row* findFunction(std::string_view mnemonic) {
-  for (const Row& row : kRows)
-    if (row.info.number >= 0 && text::equalsIgnoringCase(row.info.mnemonic, mnemonic)) return &row;
-  return nullptr;
-}
-
 const InstructionInfo* findBox(std::string_view mnemonic) {
-  const Row* row = findFunction(mnemonic);
+  const network::Row* row = kLanguage.findFunction(mnemonic);
   return row == nullptr ? nullptr : &row->info;
 }
 
+std::span<const network::Row* const> networkRows() { return kNetworkRows; }
 std::span<const InstructionInfo* const> instructionInfos() { return kInfos; }
 
 } // namespace rung::gsk

@@ -1,36 +1,13 @@
 // Kinds of operands: what a row may ask for. A new kind is one descriptor here, and the rows that name it.
 #pragma once
-#include <optional>
-
-#include "frontend/dialects/gsk/read/address.h"
-#include "frontend/table/instruction.h"
-#include "ir/support/diagnostics.h"
+#include "frontend/dialects/gsk/areas.h"
+#include "frontend/network/operand_kind.h"
 
 namespace rung::gsk {
 
-// How the word of an operand is read.
-enum class OperandClass : uint8_t { Value, Number, Mask, Named, Format };
-// What says how many bytes there are at an address.
-enum class Length : uint8_t { OfKind, OfFormat, OfNumber, OfRow };
-
-struct OperandTraits {
-  OperandClass parse = OperandClass::Value;
-  bool address = true;               // Value: an address may be written
-  bool constant = false;             // Value: a constant may; where both may the format says which
-  Length length = Length::OfKind;    // of an address
-  uint32_t bytes = 1;                // of an address, with OfKind
-  std::optional<Area> area = {};     // of an address: the only one that is allowed
-  Diag elsewhere = Diag::BadOperand; // it is in another area
-  bool rest = false;                 // of an address: all that follows in its area may be meant
-  bool selects = false;              // Format: says whether it is a constant or an address
-  std::string_view written = "{}";   // how a value is written; Named begins with its letter
-};
-
-struct OperandKind : frontend::OperandKindInfo, OperandTraits {};
-
-inline const OperandKind& kindOf(const frontend::OperandInfo& operand) {
-  return static_cast<const OperandKind&>(*operand.kind);
-}
+using network::Length;
+using network::OperandClass;
+using network::OperandKind;
 
 namespace kinds {
 
@@ -74,10 +51,10 @@ inline constexpr OperandKind kSubprogram{{"subprogram", "P1 to P512", "P1", "P51
                                          {.parse = OperandClass::Named, .written = "P{}"}};
 inline constexpr OperandKind kDataTable{
     {"data-table", "address in D", "D10", "R10", "not-a-data-table"},
-    {.length = Length::OfFormat, .area = Area::D, .elsewhere = Diag::NotADataTable, .rest = true}};
+    {.length = Length::OfFormat, .area = areas::kD, .elsewhere = Diag::NotADataTable, .rest = true}};
 inline constexpr OperandKind kWorkArea{
     {"work-area", "address of the first of 4 bytes in R", "R10", "D10", "work-area-not-in-r"},
-    {.bytes = 4, .area = Area::R, .elsewhere = Diag::WorkAreaNotInR}};
+    {.bytes = 4, .area = areas::kR, .elsewhere = Diag::WorkAreaNotInR}};
 inline constexpr OperandKind kRecord{{"record", "address of the first of as many bytes as the instruction's block has",
                                       "R10", "R1098", "address-out-of-range"},
                                      {.length = Length::OfRow}};

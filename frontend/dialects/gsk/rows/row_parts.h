@@ -14,6 +14,7 @@ using frontend::OperandInfo;
 using frontend::Output;
 using frontend::PinInfo;
 using frontend::Placement;
+using network::Control;
 using OperandList = decltype(frontend::InstructionInfo::operands);
 
 constexpr OperandInfo in(std::string_view name, const OperandKind& kind, std::string_view doc = {}) {

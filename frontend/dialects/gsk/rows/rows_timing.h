@@ -6,18 +6,19 @@
 namespace rung::gsk {
 
 constexpr Row timerShape(OperandList operands, Row::Numbers numbers = Row::Numbers::Free) {
-  return {.info = {.group = "timers", .pins = {kAct}, .operands = operands, .output = Output::Always, .stateful = true},
-          .numbers = numbers,
-          .lower = &lowerTimer};
+  return {
+      {.info = {.group = "timers", .pins = {kAct}, .operands = operands, .output = Output::Always, .stateful = true},
+       .numbers = numbers},
+      &lowerTimer};
 }
 constexpr Row counterShape(OperandList operands, Row::Numbers numbers = Row::Numbers::Free) {
-  return {.info = {.group = "counters",
-                   .pins = {kCn0, kUpDown, kRst, kCount},
-                   .operands = operands,
-                   .output = Output::Always,
-                   .stateful = true},
-          .numbers = numbers,
-          .lower = &lowerCounter};
+  return {{.info = {.group = "counters",
+                    .pins = {kCn0, kUpDown, kRst, kCount},
+                    .operands = operands,
+                    .output = Output::Always,
+                    .stateful = true},
+           .numbers = numbers},
+          &lowerCounter};
 }
 
 inline constexpr Row kTimingRows[] = {
@@ -41,18 +42,18 @@ inline constexpr Row kTimingRows[] = {
           "not defined.",
           "LD X9.0\nFUNC 4\nPRM 0\nPRM D10\nPRM R100\nOUT Y9.0", kTimerMemory),
 
-    {.info = {.mnemonic = "DECB",
-              .title = "binary decoding",
-              .group = "decoding",
-              .number = 5,
-              .pins = {kAct},
-              .operands = {kFormat, in("code", kinds::kData), in("first code", kinds::kConstant),
-                           out("result", kinds::kByte)},
-              .ref = "5.6, l.1217",
-              .doc = "Bit i of the result becomes 1 when the code equals first code + i, for i = 0-7; the others "
-                     "become 0. Codes are compared as bit patterns (P25). ACT=0: all eight bits become 0.",
-              .example = "LD F7.0\nFUNC 5\nPRM 2\nPRM F10\nPRM 3\nPRM R200"},
-     .lower = &lowerDecode},
+    {{.info = {.mnemonic = "DECB",
+               .title = "binary decoding",
+               .group = "decoding",
+               .number = 5,
+               .pins = {kAct},
+               .operands = {kFormat, in("code", kinds::kData), in("first code", kinds::kConstant),
+                            out("result", kinds::kByte)},
+               .ref = "5.6, l.1217",
+               .doc = "Bit i of the result becomes 1 when the code equals first code + i, for i = 0-7; the others "
+                      "become 0. Codes are compared as bit patterns (P25). ACT=0: all eight bits become 0.",
+               .example = "LD F7.0\nFUNC 5\nPRM 2\nPRM F10\nPRM 3\nPRM R200"}},
+     &lowerDecode},
 
     rowOf(
         counterShape({number("number", 1, 100)}, Row::Numbers::Counter), 6, "CTR", "ring counter", "5.7, l.1271",
@@ -66,39 +67,39 @@ inline constexpr Row kTimingRows[] = {
           "As CTR, with preset and current value in memory. With its register in R it begins at 0 after power-on.",
           "LD R0.0\nLD R0.1\nLD R0.2\nLD X9.0\nFUNC 7\nPRM D10\nPRM D12\nOUT Y9.0", kCounterMemory),
 
-    {.info = {.mnemonic = "ROTB",
-              .title = "rotation control",
-              .group = "rotation",
-              .number = 8,
-              .pins = {kCn0, PinInfo{.name = "DIR", .doc = "0 always forward, 1 the shorter way"},
-                       PinInfo{.name = "POS", .doc = "0 the target, 1 the position before it"},
-                       PinInfo{.name = "INC", .doc = "0 the result is a position, 1 a number of steps"}, kAct},
-              .operands = {kFormat, in("positions", kinds::kData), in("current", kinds::kData),
-                           in("target", kinds::kData), out("result", kinds::kData)},
-              .output = Output::Always,
-              .stateful = true,
-              .ref = "5.9, l.1425",
-              .doc = "Way of a turret or magazine from the current to the target position. OUT: 0 forward (numbers "
-                     "increase), 1 reverse; equal ways go forward (P30). ACT=0, or a position outside the table: "
-                     "result and OUT stay (P31).",
-              .example = "LD R0.0\nLD R0.1\nLD R0.2\nLD R0.3\nLD X9.0\nFUNC 8\nPRM 1\nPRM D10\nPRM D11\nPRM D12\nPRM "
-                         "D13\nOUT Y9.0"},
-     .lower = &lowerRotation},
-    {.info = {.mnemonic = "CODB",
-              .title = "code conversion by a table",
-              .group = "conversion",
-              .number = 9,
-              .pins = {kRst, kAct},
-              .operands = {kFormat, number("capacity", 1, 256, "rows of the table"), in("index", kinds::kByte),
-                           out("result", kinds::kData)},
-              .output = Output::Always,
-              .stateful = true,
-              .ref = "5.10, l.1509",
-              .doc = "result := row `index` of the table that follows as TABLE rows, the first being number 0. OUT=1 "
-                     "when there is no such row (P32).",
-              .example = "LD R0.0\nLD X9.0\nFUNC 9\nPRM 1\nPRM 2\nPRM D10\nPRM D11\nTABLE 10\nTABLE 20\nOUT Y9.0"},
-     .hasTable = true,
-     .lower = &lowerCodeTable},
+    {{.info = {.mnemonic = "ROTB",
+               .title = "rotation control",
+               .group = "rotation",
+               .number = 8,
+               .pins = {kCn0, PinInfo{.name = "DIR", .doc = "0 always forward, 1 the shorter way"},
+                        PinInfo{.name = "POS", .doc = "0 the target, 1 the position before it"},
+                        PinInfo{.name = "INC", .doc = "0 the result is a position, 1 a number of steps"}, kAct},
+               .operands = {kFormat, in("positions", kinds::kData), in("current", kinds::kData),
+                            in("target", kinds::kData), out("result", kinds::kData)},
+               .output = Output::Always,
+               .stateful = true,
+               .ref = "5.9, l.1425",
+               .doc = "Way of a turret or magazine from the current to the target position. OUT: 0 forward (numbers "
+                      "increase), 1 reverse; equal ways go forward (P30). ACT=0, or a position outside the table: "
+                      "result and OUT stay (P31).",
+               .example = "LD R0.0\nLD R0.1\nLD R0.2\nLD R0.3\nLD X9.0\nFUNC 8\nPRM 1\nPRM D10\nPRM D11\nPRM D12\nPRM "
+                          "D13\nOUT Y9.0"}},
+     &lowerRotation},
+    {{.info = {.mnemonic = "CODB",
+               .title = "code conversion by a table",
+               .group = "conversion",
+               .number = 9,
+               .pins = {kRst, kAct},
+               .operands = {kFormat, number("capacity", 1, 256, "rows of the table"), in("index", kinds::kByte),
+                            out("result", kinds::kData)},
+               .output = Output::Always,
+               .stateful = true,
+               .ref = "5.10, l.1509",
+               .doc = "result := row `index` of the table that follows as TABLE rows, the first being number 0. OUT=1 "
+                      "when there is no such row (P32).",
+               .example = "LD R0.0\nLD X9.0\nFUNC 9\nPRM 1\nPRM 2\nPRM D10\nPRM D11\nTABLE 10\nTABLE 20\nOUT Y9.0"},
+      .hasTable = true},
+     &lowerCodeTable},
 };
 
 } // namespace rung::gsk

@@ -1,0 +1,28 @@
+// What the manual says of the language as a whole.
+#include "frontend/dialects/gsk/language.h"
+
+#include "frontend/dialects/gsk/areas.h"
+#include "frontend/dialects/gsk/rows/instructions.h"
+#include "rtlib/nc/gsk/signals.h"
+
+namespace rung::gsk {
+
+const network::Language kLanguage = {
+    .name = "gsk",
+    .listExtension = ".pmc",
+    // man. Part I §4; the last three are of Rung (P12)
+    .commands = {"LD", "LDI", "AND", "ANI", "OR", "ORI", "ORB", "ANB", "OUT", "OUTI", "SET", "RST", "FUNC", "PRM",
+                 "TABLE", "DIALECT", "SYMBOL", "CONST"},
+    .rows = networkRows(),
+    .areas = kAreas,
+    .signals = nc::gskSignals,
+    .levels = {"LEVEL1", "LEVEL2"},
+    .subprogram = "SUB",
+    .messageTexts = "give the texts of area A in a file: `config messages FILE`",
+    .maxSteps = 12000, // man. l.354
+    .stackDepth = 9,   // ST0-ST8 (P11)
+    .maxCallDepth = 8, // P46
+    .findBox = findBox,
+};
+
+} // namespace rung::gsk

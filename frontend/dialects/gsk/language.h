@@ -1,0 +1,9 @@
+// The language of the GSK25i PLC, as frontend/network reads, checks and converts it.
+#pragma once
+#include "frontend/network/language.h"
+
+namespace rung::gsk {
+
+extern const network::Language kLanguage;
+
+} // namespace rung::gsk

@@ -1,0 +1,78 @@
+// Addresses and numbers as text.
+#include "frontend/network/address.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ir/support/ascii.h"
+#include "rtlib/text/letters.h"
+
+namespace rung::network {
+namespace {
+
+constexpr uint64_t kSaturated = 1ull << 62;
+
+std::optional<int64_t> parseHex(std::string_view text) {
+  if (text.empty()) return std::nullopt;
+  uint64_t value = 0;
+  for (char c : text) {
+    const int digit = hexDigit(c);
+    if (digit < 0) return std::nullopt;
+    value = std::min(value * 16 + static_cast<uint32_t>(digit), kSaturated);
+  }
+  return static_cast<int64_t>(value);
+}
+
+std::optional<Area> findArea(const Language& language, char letter) {
+  const auto at = std::ranges::find(language.areas, letter, &AreaInfo::letter);
+  if (at == language.areas.end()) return std::nullopt;
+  return static_cast<Area>(at - language.areas.begin());
+}
+
+} // namespace
+
+std::string textOf(const Language& language, const Address& address) {
+  const char letter = language.at(address.area).letter;
+  return address.isBit ? fmt::format("{}{}.{}", letter, address.byte, address.bit)
+                       : fmt::format("{}{}", letter, address.byte);
+}
+
+std::optional<uint64_t> parseDigits(std::string_view text) {
+  if (text.empty()) return std::nullopt;
+  uint64_t value = 0;
+  for (char c : text) {
+    if (!isDigit(c)) return std::nullopt;
+    value = std::min(value * 10 + static_cast<uint64_t>(c - '0'), kSaturated);
+  }
+  return value;
+}
+
+std::optional<int64_t> parseConstant(std::string_view text) {
+  if (text.size() > 2 && text[0] == '0' && text::upper(text[1]) == 'X') return parseHex(text.substr(2));
+  const bool negative = text.starts_with('-');
+  const auto digits = parseDigits(text.substr(negative ? 1 : 0));
+  if (!digits) return std::nullopt;
+  const auto value = static_cast<int64_t>(*digits);
+  return negative ? -value : value;
+}
+
+std::optional<AddressText> splitAddress(const Language& language, std::string_view text) {
+  if (text.size() < 2) return std::nullopt;
+  const auto area = findArea(language, text::upper(text[0]));
+  if (!area) return std::nullopt;
+  const size_t point = text.find('.');
+  const auto number = parseDigits(text.substr(1, point == std::string_view::npos ? point : point - 1));
+  if (!number) return std::nullopt;
+  AddressText result{*area, *number, point != std::string_view::npos, {}};
+  if (result.hasPoint) result.bit = text.substr(point + 1);
+  return result;
+}
+
+Address addressOf(const Language& language, const nc::Signal& signal) {
+  const bool isBit = signal.type == nc::SignalType::Bit;
+  return {findArea(language, signal.area[0]).value_or(Area{}), signal.byteOffset, isBit ? signal.bit : uint8_t{0},
+          isBit};
+}
+
+} // namespace rung::network

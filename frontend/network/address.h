@@ -1,0 +1,42 @@
+// Addresses of a language and numbers as text. An address is a byte, or a bit of one; data of several bytes begin at
+// their low byte.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "frontend/network/language.h"
+#include "rtlib/nc/signal.h"
+
+namespace rung::network {
+
+struct Address {
+  Area area{};
+  uint32_t byte = 0;
+  uint8_t bit = 0;
+  bool isBit = false;
+  bool operator==(const Address&) const = default;
+};
+
+// "X2.1", "D10": without leading zeros.
+std::string textOf(const Language& language, const Address& address);
+
+// The shape of a word that begins like an address: an area letter and digits, then perhaps a point.
+struct AddressText {
+  Area area;
+  uint64_t byte; // saturated
+  bool hasPoint;
+  std::string_view bit; // after the point
+};
+std::optional<AddressText> splitAddress(const Language& language, std::string_view text);
+
+// Where a signal of the language is.
+Address addressOf(const Language& language, const nc::Signal& signal);
+
+// Digits only, saturating; nullopt for anything else.
+std::optional<uint64_t> parseDigits(std::string_view text);
+// `[-] number` or `0x` hexadecimal digits.
+std::optional<int64_t> parseConstant(std::string_view text);
+
+} // namespace rung::network

@@ -1,0 +1,27 @@
+// A network as a drawing of ladder text: one line a branch, upper branch first, boxes and coils on the right.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frontend/network/convert/source_model.h"
+
+namespace rung::network::convert {
+
+struct Drawing {
+  std::vector<std::string> lines;
+  // By command: the line that its element is on; kNone for blocks, parameters and table rows.
+  std::vector<uint32_t> lineOf;
+  std::vector<LineEnds> ends; // by line; a box counts on its first one only
+};
+
+struct DrawingSize {
+  uint64_t lines = 0;
+  uint64_t columns = 0;
+};
+// A branch that spans many elements is as long as they are: lines times columns of one drawing have a limit.
+inline constexpr uint64_t kMaxDrawing = 200'000'000;
+DrawingSize sizeOf(const Language& language, const SourceNetwork& network);
+Drawing draw(const Language& language, const SourceNetwork& network);
+
+} // namespace rung::network::convert

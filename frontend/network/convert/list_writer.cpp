@@ -1,0 +1,90 @@
+// The source model as a command list.
+#include <fmt/format.h>
+
+#include "frontend/network/convert/gap_writer.h"
+#include "frontend/network/convert/writers.h"
+
+namespace rung::network::convert {
+namespace {
+
+class ListWriter {
+public:
+  explicit ListWriter(const Language& language) : language_(language) {}
+  std::string run(const SourceProgram& program);
+
+private:
+  void command(const SourceCommand& command);
+  void function(Control control, std::string_view comment = {}) {
+    page_.line(commandText(language_, Command::Function, language_.mnemonicOf(control)), comment);
+  }
+  void begin(const SourceUnit& unit);
+  void network(const SourceNetwork& network);
+  Gap afterPending(const Gap& gap) {
+    pending_.insert(pending_.end(), gap.begin(), gap.end());
+    return std::exchange(pending_, {});
+  }
+  // Something with comments before it is set apart.
+  void lead(const Gap& gap) {
+    if (!gap.empty()) page_.blank();
+    page_.gap(gap);
+  }
+
+  const Language& language_;
+  Page page_{language_, Form::List};
+  Gap pending_; // what Level 1 begins with: it has no command of its own
+};
+
+void ListWriter::command(const SourceCommand& command) {
+  for (const std::string& text : command.before) page_.comment(text);
+  page_.line(commandText(language_, command.command, command.operand), command.comment);
+}
+
+void ListWriter::network(const SourceNetwork& network) {
+  lead(tidy(protect(afterPending(network.gap), network.title)));
+  for (const SourceCommand& command : network.commands) this->command(command);
+}
+
+void ListWriter::begin(const SourceUnit& unit) {
+  Gap gap = afterPending(unit.lead);
+  switch (unit.kind) {
+  case UnitKind::Level1:
+    pending_ = std::move(gap);
+    if (!unit.comment.empty()) pending_.push_back({Item::Kind::Comment, unit.comment});
+    return;
+  case UnitKind::Level2:
+    page_.blank();
+    page_.gap(tidy(gap));
+    function(Control::End1, unit.comment);
+    break;
+  case UnitKind::Subprogram:
+    page_.blank();
+    page_.gap(tidy(gap));
+    for (const SourceCommand& command : unit.condition) this->command(command);
+    function(Control::Sp, unit.comment);
+    page_.line(commandText(language_, Command::Parameter, unit.number));
+    break;
+  }
+  page_.blank();
+}
+
+std::string ListWriter::run(const SourceProgram& program) {
+  page_.gap(tidy(program.preamble));
+  page_.blank();
+  for (const SourceUnit& unit : program.units) {
+    begin(unit);
+    for (const SourceNetwork& network : unit.networks) this->network(network);
+    if (unit.kind == UnitKind::Level1) continue;
+    page_.blank();
+    function(unit.kind == UnitKind::Level2 ? Control::End2 : Control::Spe);
+  }
+  lead(tidy(program.tail));
+  return page_.take();
+}
+
+} // namespace
+
+std::string writeList(const Language& language, const SourceProgram& program) {
+  return ListWriter(language).run(program);
+}
+
+} // namespace rung::network::convert

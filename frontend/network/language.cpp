@@ -1,0 +1,57 @@
+// Ways to find a row, and names as messages have them.
+#include "frontend/network/language.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "frontend/network/operand_kind.h"
+#include "ir/support/check.h"
+#include "rtlib/text/letters.h"
+
+namespace rung::network {
+namespace {
+
+bool isFunction(const Row& row) { return row.info.number >= 0; }
+
+template <class IsIt>
+const Row* findRow(std::span<const Row* const> rows, IsIt isIt) {
+  const auto at = std::ranges::find_if(rows, [&](const Row* row) { return isFunction(*row) && isIt(*row); });
+  return at == rows.end() ? nullptr : *at;
+}
+
+} // namespace
+
+const Row* Language::findFunction(std::string_view mnemonic) const {
+  return findRow(rows, [&](const Row& row) { return text::equalsIgnoringCase(row.info.mnemonic, mnemonic); });
+}
+
+const Row* Language::findFunction(uint64_t number) const {
+  return findRow(rows, [&](const Row& row) { return static_cast<uint64_t>(row.info.number) == number; });
+}
+
+const Row& Language::rowOf(Control control) const {
+  const Row* row = findRow(rows, [&](const Row& one) { return one.control == control; });
+  RUNG_CHECK(row != nullptr, "a language is asked for what it has");
+  return *row;
+}
+
+std::string Language::fullNameOf(Control control) const {
+  const frontend::InstructionInfo& info = rowOf(control).info;
+  return fmt::format("{} ({} {})", info.mnemonic, nameOf(Command::Function), info.number);
+}
+
+std::string Language::numbered(Control control, int64_t number) const {
+  return fmt::format(fmt::runtime(kindOf(rowOf(control).info.operands[0]).written), number);
+}
+
+char Language::letterOf(Control control) const { return kindOf(rowOf(control).info.operands[0]).written[0]; }
+
+std::string Language::mnemonicsOf(bool (*isSo)(const Row& row)) const {
+  std::string text;
+  for (const Row* row : rows)
+    if (isSo(*row)) text += fmt::format("{}{}", text.empty() ? "" : " or ", row->info.mnemonic);
+  return text;
+}
+
+} // namespace rung::network

@@ -1,0 +1,91 @@
+// What a language of this family has of its own, as plain data: a dialect fills it in one place, and everything that
+// reads, checks and converts its programs asks here.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "frontend/ladder/text/ladder_file.h"
+#include "frontend/network/row.h"
+#include "rtlib/nc/signal.h"
+
+namespace rung::network {
+
+// The statements of a list (P12). Declarations are allowed in lists as in ladder text, for conversions.
+// clang-format off
+enum class Command : uint8_t {
+  Load, LoadNot, And, AndNot, Or, OrNot, OrBlock, AndBlock, Out, OutNot, Set, Reset, Function, Parameter, Table,
+  Dialect, Symbol, Const
+};
+// clang-format on
+inline constexpr size_t kCommandCount = 18;
+constexpr bool isBlock(Command command) { return command == Command::OrBlock || command == Command::AndBlock; }
+constexpr bool isLogic(Command command) { return command <= Command::AndBlock; }
+constexpr bool isContact(Command command) { return isLogic(command) && !isBlock(command); }
+constexpr bool isClosed(Command contact) {
+  return contact == Command::LoadNot || contact == Command::AndNot || contact == Command::OrNot;
+}
+constexpr bool isCoil(Command command) { return command >= Command::Out && command <= Command::Reset; }
+constexpr bool isDeclaration(Command command) { return command == Command::Symbol || command == Command::Const; }
+
+// A place in Language::areas.
+enum class Area : uint8_t {};
+
+enum class AreaUse : uint8_t { Input, Output, Memory };
+
+// The first `bytes` of `every` are set on the control's screen, and not by the program.
+struct Presets {
+  uint32_t bytes = 0;
+  uint32_t every = 1;
+};
+
+struct AreaInfo {
+  char letter;
+  uint32_t bytes;
+  AreaUse use = AreaUse::Memory;
+  bool retained = false; // through power-off
+  std::string_view doc;
+  bool shown = false; // memory whose bits the control shows, or passes on
+  Presets presets{};
+  uint32_t system = UINT32_MAX; // from this byte on it belongs to the control
+
+  // Whether what a coil writes is seen by others than contacts and functions.
+  constexpr bool seenOutside() const { return use == AreaUse::Output || shown; }
+};
+
+struct Language {
+  std::string_view name;                                // of the dialect
+  std::string_view listExtension;                       // of a file with a command list
+  std::array<std::string_view, kCommandCount> commands; // their names, by Command
+  std::span<const Row* const> rows;
+  std::span<const AreaInfo> areas;
+  const nc::SignalTable& (*signals)();    // names that need no declaration
+  std::array<std::string_view, 2> levels; // their names, also of the modules of a ladder
+  std::string_view subprogram;            // before the number in a `module` statement
+  std::string_view messageTexts;          // where they are given, instead of by statements of a ladder
+  uint32_t maxSteps = 0;                  // commands, parameters and table rows of a program
+  uint32_t stackDepth = 0;                // values in the stack register
+  uint32_t maxCallDepth = 0;
+  ladder::FindBox findBox = nullptr;
+
+  constexpr std::string_view nameOf(Command command) const { return commands[static_cast<size_t>(command)]; }
+  constexpr const AreaInfo& at(Area area) const { return areas[static_cast<size_t>(area)]; }
+  // In any case; null when there is none, or it is not a function.
+  const Row* findFunction(std::string_view mnemonic) const;
+  const Row* findFunction(uint64_t number) const;
+  // The one that shapes the program so.
+  const Row& rowOf(Control control) const;
+  std::string_view mnemonicOf(Control control) const { return rowOf(control).info.mnemonic; }
+  // With its number, as a list names it: "END1 (FUNC 0)".
+  std::string fullNameOf(Control control) const;
+  // A label or a subprogram as the operand of its instruction is written.
+  std::string numbered(Control control, int64_t number) const;
+  // The letter that it begins with.
+  char letterOf(Control control) const;
+  // Of the functions that are so, with "or" between them.
+  std::string mnemonicsOf(bool (*isSo)(const Row& row)) const;
+};
+
+} // namespace rung::network

@@ -1,0 +1,57 @@
+// A network as text.
+#include "frontend/network/program.h"
+
+#include <fmt/format.h>
+
+namespace rung::network {
+namespace {
+
+std::string textOf(const Language& language, const Param& param) {
+  return param.isAddress ? textOf(language, param.address)
+                         : fmt::format(fmt::runtime(param.kind->written), param.value);
+}
+
+} // namespace
+
+Command commandOf(Logic kind, bool negated) {
+  constexpr Command kOpen[] = {Command::Load, Command::And, Command::Or, Command::OrBlock, Command::AndBlock};
+  constexpr Command kClosed[] = {Command::LoadNot, Command::AndNot, Command::OrNot};
+  return negated ? kClosed[static_cast<size_t>(kind)] : kOpen[static_cast<size_t>(kind)];
+}
+
+Logic logicOf(Command command) {
+  constexpr Logic kLogic[] = {Logic::Load, Logic::Load, Logic::And,     Logic::And,
+                              Logic::Or,   Logic::Or,   Logic::OrBlock, Logic::AndBlock};
+  return kLogic[static_cast<size_t>(command)];
+}
+
+std::string commandText(const Language& language, const Network& network) {
+  std::string text;
+  const auto line = [&](Command command, std::string_view operand) {
+    text += language.nameOf(command);
+    if (!operand.empty()) (text += ' ') += operand;
+    text += '\n';
+  };
+  for (const LogicStep& step : network.logic) {
+    const bool isBlock = step.kind == Logic::OrBlock || step.kind == Logic::AndBlock;
+    line(commandOf(step.kind, step.negated), isBlock ? std::string() : textOf(language, step.bit));
+  }
+  if (network.function.row != nullptr) {
+    line(Command::Function, fmt::format("{}", network.function.row->info.number));
+    for (const Param& param : network.function.params) line(Command::Parameter, textOf(language, param));
+    for (int64_t row : network.function.table) line(Command::Table, fmt::format("{}", row));
+  }
+  for (const CoilStep& coil : network.coils) line(commandOf(coil.kind), textOf(language, coil.bit));
+  return text;
+}
+
+std::string identityOf(const Language& language, const Function& function) {
+  std::string text(function.row->info.mnemonic);
+  for (const Param& param : function.params) {
+    (text += ' ') += textOf(language, param);
+    if (function.row->numbers != Row::Numbers::Free) break;
+  }
+  return text;
+}
+
+} // namespace rung::network

@@ -1,0 +1,130 @@
+// The program between reading and lowering: units of networks. Both source forms end here; a network is what a command
+// list can say (P11): contacts in postfix order, then a function or nothing, then coils.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/network/address.h"
+#include "frontend/network/language.h"
+#include "frontend/network/operand_kind.h"
+#include "ir/support/source.h"
+
+namespace rung::network {
+
+inline constexpr uint32_t kNone = UINT32_MAX;
+
+// A command with its operand as written, for conversions. In ladder form it is what a part of the drawing means.
+struct Written {
+  Command command = Command::Load;
+  std::string_view operand; // FUNC: the mnemonic
+  SourceRange range;        // of the statement or the element; PRM and TABLE of a box: of the operand
+  uint32_t line = 0;
+};
+
+enum class Logic : uint8_t { Load, And, Or, OrBlock, AndBlock };
+
+struct LogicStep {
+  Logic kind = Logic::Load;
+  bool negated = false;
+  Address bit;
+  uint32_t line = 0;
+  SourceRange range; // of the statement or the element
+};
+
+enum class Coil : uint8_t { Out, OutInverted, Set, Reset }; // in the order of their commands
+
+Command commandOf(Logic kind, bool negated);
+// A logic command as the stack register sees it.
+Logic logicOf(Command command);
+constexpr Command commandOf(Coil kind) {
+  return static_cast<Command>(static_cast<uint8_t>(Command::Out) + static_cast<uint8_t>(kind));
+}
+constexpr Coil coilOf(Command command) {
+  return static_cast<Coil>(static_cast<uint8_t>(command) - static_cast<uint8_t>(Command::Out));
+}
+
+struct CoilStep {
+  Coil kind = Coil::Out;
+  Address bit;
+  uint32_t line = 0;
+  SourceRange range; // of the statement or the element
+};
+
+struct Param {
+  const OperandKind* kind = nullptr;
+  bool isAddress = false;
+  bool bad = false; // reported
+  Address address;
+  uint32_t bytes = 1; // from the address on; of a data table all that could belong to it
+  int64_t value = 0;  // constant, number, mask, label, subprogram, format as a00n
+  SourceRange range;
+};
+
+// A function command with checked parameters.
+struct Function {
+  const Row* row = nullptr; // null: the network has none
+  std::vector<Param> params;
+  std::vector<int64_t> table;
+  uint32_t length = 1; // bytes, from the format
+  SourceRange range;
+  uint32_t line = 0;
+};
+
+struct Network {
+  FileId file;
+  uint32_t firstLine = 0;
+  uint32_t lastLine = 0;
+  SourceRange range; // its first command or its drawing
+  std::string_view title;
+  std::vector<LogicStep> logic;
+  Function function;
+  std::vector<CoilStep> coils;
+  std::vector<Written> written; // only where somebody asked for it (Context::onNetwork)
+  uint32_t steps = 0;
+  bool bad = false;        // reported; never lowered
+  bool incomplete = false; // bad in a way that may hide a function command
+
+  // Filled in by analyse(): indices of networks in the unit, of a unit in the program.
+  uint32_t target = kNone;
+  uint32_t callee = kNone;
+  uint32_t com = kNone; // the COM network whose region this one is in
+};
+
+// What its function is to the program.
+inline Control controlOf(const Network& network) {
+  return network.function.row == nullptr ? Control::Plain : network.function.row->control;
+}
+
+enum class UnitKind : uint8_t { Level1, Level2, Subprogram };
+
+struct Unit {
+  UnitKind kind = UnitKind::Level1;
+  uint32_t number = 0;           // subprograms
+  SourceRange range;             // what opens the unit
+  SourceRange nameRange;         // subprograms: the operand of SP
+  std::vector<Network> networks; // the last one is the unit's end: END1, END2 or SPE
+  // Filled in by analyse().
+  bool fromLevel1 = false;
+  bool fromLevel2 = false;
+  bool leaves = false; // a JMPC can leave it for Level 2
+};
+// "LEVEL1", "LEVEL2", "P5".
+std::string nameOf(const Language& language, const Unit& unit);
+
+inline constexpr uint32_t kLevel1 = 0;
+inline constexpr uint32_t kLevel2 = 1;
+
+struct Program {
+  std::vector<Unit> units{Unit{.kind = UnitKind::Level1}, Unit{.kind = UnitKind::Level2}};
+  std::vector<uint32_t> jumpTargets; // networks of Level 2 that a JMPC leads to; Network::target of a JMPC counts here
+};
+
+// The network as a command list, one command a line, operands without leading zeros: the text that keys are made of.
+std::string commandText(const Language& language, const Network& network);
+// What an instruction is known by while its network changes around it: mnemonic and parameters; of a timer, a counter
+// or an edge its number alone.
+std::string identityOf(const Language& language, const Function& function);
+
+} // namespace rung::network

@@ -1,0 +1,278 @@
+// Names and operands that are addresses.
+#include "frontend/network/read/context.h"
+
+#include <algorithm>
+#include <ranges>
+
+#include <fmt/format.h>
+
+#include "ir/support/ascii.h"
+#include "ir/support/similar.h"
+#include "rtlib/text/letters.h"
+
+namespace rung::network {
+namespace {
+
+bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_'; }
+
+bool isCommand(const Language& language, std::string_view text) {
+  const auto isIt = [&](std::string_view name) { return text::equalsIgnoringCase(name, text); };
+  return std::ranges::any_of(language.commands, isIt) ||
+         std::ranges::any_of(language.rows, [&](const Row* row) { return isIt(row->info.mnemonic); });
+}
+
+// A label or a subprogram.
+bool isNumbered(const Language& language, std::string_view text) {
+  return parseDigits(text.substr(1)) && std::ranges::any_of(language.rows, [&](const Row* row) {
+           return (row->control == Control::Lbl || row->control == Control::Sp) &&
+                  language.letterOf(row->control) == text::upper(text[0]);
+         });
+}
+
+// A name that cannot be taken for something else (P12).
+bool isFreeName(const Language& language, std::string_view text) {
+  if (text.empty() || !isLetter(text[0]) || !std::all_of(text.begin(), text.end(), isNameChar)) return false;
+  return !isNumbered(language, text) && !splitAddress(language, text) && !isCommand(language, text);
+}
+
+bool checkArea(Context& context, const Word& word, Area area, uint64_t byte, uint32_t length) {
+  const AreaInfo& info = context.language.at(area);
+  if (byte + length <= info.bytes) return true;
+  const std::string shown = length > 1 ? fmt::format("{} with {} bytes", word.text, length) : std::string(word.text);
+  context.diagnostics.report(Diag::AddressOutOfRange, word.range)
+      << shown << fmt::format("{0}0 to {0}{1}", info.letter, info.bytes - 1);
+  return false;
+}
+
+bool touchesPreset(const AreaInfo& area, uint32_t byte, uint32_t length) {
+  for (uint32_t i = 0; i < std::min(length, area.presets.every); ++i)
+    if ((byte + i) % area.presets.every < area.presets.bytes) return true;
+  return false;
+}
+
+// The range is checked by the caller, who knows the length.
+std::optional<NamedAddress> readAddress(Diagnostics& diagnostics, const AddressText& text, const Word& word) {
+  NamedAddress address{{text.area, static_cast<uint32_t>(std::min<uint64_t>(text.byte, UINT32_MAX)), 0, text.hasPoint}};
+  if (!text.hasPoint) return address;
+  if (text.bit.size() != 1 || text.bit[0] < '0' || text.bit[0] > '7') {
+    DiagBuilder report = diagnostics.report(Diag::BadBitNumber, word.range);
+    report << text.bit;
+    if (text.bit.find_first_of("oO") != std::string_view::npos) report.note("a zero is a digit, not the letter O");
+    return std::nullopt;
+  }
+  address.bit = static_cast<uint8_t>(text.bit[0] - '0');
+  return address;
+}
+
+struct Found {
+  std::optional<NamedAddress> address;
+  bool known = false; // as a name or by its shape; then nothing more is to be said about it
+};
+
+Found findAddress(Context& context, const Word& word) {
+  if (const UserName* symbol = context.names.use(context.analysis, word, UserName::Kind::Symbol))
+    return {symbol->bad ? std::nullopt : std::optional(NamedAddress{symbol->address, symbol->definition}), true};
+  if (const auto text = splitAddress(context.language, word.text))
+    return {readAddress(context.diagnostics, *text, word), true};
+  if (const auto signal = context.names.useSignal(context, word)) return {signal, true};
+  return {};
+}
+
+void suggestName(const Context& context, const UndeclaredName& use, DiagBuilder& report) {
+  if (!context.diagnostics.suggests()) return;
+  const std::string_view similar = mostSimilar(use.name, context.names.ofKind(use.kind), &UserName::name);
+  report.meant(use.range, similar);
+  if (!similar.empty() || use.kind != UserName::Kind::Symbol) return;
+  const nc::SignalTable& signals = context.language.signals();
+  if (const nc::Signal* signal = nc::findSignal(signals, mostSimilar(use.name, signals, &nc::Signal::symbol)))
+    report.note(fmt::format("did you mean {} ({}, {})?", signal->symbol,
+                            textOf(context.language, addressOf(context.language, *signal)), signal->meaning));
+}
+
+// Of an instruction: names of other controls (TON, CTU) are like none of these.
+void suggest(const Language& language, SourceRange range, std::string_view similar, DiagBuilder& report) {
+  report.meant(range, similar);
+  if (similar.empty())
+    report.note(fmt::format("`rungc explain {}` lists the instructions by what they do", language.name));
+}
+
+void explain(const Context& context, const UndeclaredName& use, DiagBuilder& report) {
+  report << use.expected;
+  std::string pointed(use.name);
+  std::ranges::replace(pointed, ',', '.');
+  if (pointed != use.name && splitAddress(context.language, pointed))
+    report.note(fmt::format("write {}", pointed)).fix(use.range, pointed);
+  else
+    suggestName(context, use, report);
+}
+
+// A word that is an address is one also where the table has a signal of that name: T00 to T31.
+void reportNoBit(Context& context, const Word& word, const Address& address) {
+  DiagBuilder report = context.diagnostics.report(Diag::BitAddressExpected, word.range);
+  report << word.text;
+  const nc::Signal* signal = nc::findSignal(context.language.signals(), word.text);
+  if (signal != nullptr && addressOf(context.language, *signal) != address)
+    report.note(fmt::format("the signal {} of the {} code is written by its address, {}", signal->symbol,
+                            context.language.at(address.area).letter,
+                            textOf(context.language, addressOf(context.language, *signal))));
+}
+
+} // namespace
+
+frontend::NamedPlace placeOf(const Language& language, const Address& address, uint32_t bytes) {
+  return {{&language.at(address.area).letter, 1}, address.byte * 8 + address.bit, address.isBit ? 1 : bytes * 8};
+}
+
+UserName* Names::declare(Context& context, const Word& name, UserName::Kind kind) {
+  if (name.quoted || !isFreeName(context.language, name.text)) {
+    context.diagnostics.report(Diag::BadOperand, name.range)
+        << name.text << "free name: a letter, then letters, digits and _, and no command, address, label or subprogram";
+    return nullptr;
+  }
+  const uint32_t index =
+      table_.declare({.name = name.text, .declared = name.range, .kind = kind, .bad = true}, context.diagnostics);
+  return index == frontend::kNoName ? nullptr : &table_[index];
+}
+
+void Names::addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment) {
+  UserName* symbol = declare(context, name, UserName::Kind::Symbol);
+  if (symbol == nullptr) return;
+  symbol->comment = comment;
+  if (const auto text = splitAddress(context.language, value.text)) {
+    if (const auto address = readAddress(context.diagnostics, *text, value)) {
+      symbol->address = *address;
+      symbol->bad = !checkArea(context, value, text->area, text->byte, 1);
+    }
+  } else if (const auto signal = useSignal(context, value)) {
+    symbol->address = *signal;
+    symbol->bad = false;
+  } else {
+    context.diagnostics.report(Diag::BadOperand, value.range) << value.text << "bit or byte address or signal";
+  }
+  symbol->definition = context.analysis.define({.name = name.text, .comment = comment, .range = name.range});
+  if (!symbol->bad)
+    context.analysis.definition(symbol->definition).place = placeOf(context.language, symbol->address, 1);
+}
+
+void Names::addConstant(Context& context, const Word& name, const Word& value) {
+  UserName* constant = declare(context, name, UserName::Kind::Constant);
+  if (constant == nullptr) return;
+  const auto number = parseConstant(value.text);
+  if (!number) context.diagnostics.report(Diag::BadOperand, value.range) << value.text << "constant";
+  constant->value = number.value_or(0);
+  constant->bad = !number;
+  constant->definition = context.analysis.define({.name = name.text, .range = name.range, .value = value.text});
+}
+
+const UserName* Names::use(frontend::Analysis& analysis, const Word& word, UserName::Kind kind) const {
+  const uint32_t index = table_.find(word.text);
+  if (index == frontend::kNoName || table_[index].kind != kind) return nullptr;
+  analysis.use(word.range, table_[index].definition);
+  return &table_[index];
+}
+
+std::optional<NamedAddress> Names::useSignal(Context& context, const Word& word) {
+  const nc::Signal* signal = nc::findSignal(context.language.signals(), word.text);
+  if (signal == nullptr) return std::nullopt;
+  const Address address = addressOf(context.language, *signal);
+  const auto [at, isNew] = signals_.emplace(signal, 0);
+  if (isNew)
+    at->second = context.analysis.define(
+        {.name = signal->symbol, .comment = signal->meaning, .place = placeOf(context.language, address, 1)});
+  context.analysis.use(word.range, at->second);
+  return NamedAddress{address, at->second};
+}
+
+void reportUnknownCommand(Context& context, const Word& word) {
+  const Language& language = context.language;
+  DiagBuilder report = context.diagnostics.report(Diag::UnknownCommand, word.range);
+  report << word.text;
+  if (const Row* row = language.findFunction(word.text)) {
+    report.note(
+        fmt::format("{0} is a function: write `{1} {0}`", row->info.mnemonic, language.nameOf(Command::Function)));
+    return;
+  }
+  if (context.diagnostics.suggests()) suggest(language, word.range, mostSimilar(word.text, language.commands), report);
+}
+
+void reportUnknownFunction(Context& context, std::string_view name, SourceRange range) {
+  DiagBuilder report = context.diagnostics.report(Diag::UnknownFunction, range);
+  report << name;
+  if (!context.diagnostics.suggests()) return;
+  const auto isFunction = [](const Row* row) { return row->info.number >= 0; };
+  const auto mnemonicOf = [](const Row* row) { return row->info.mnemonic; };
+  suggest(context.language, range,
+          mostSimilar(name, context.language.rows | std::views::filter(isFunction), mnemonicOf), report);
+}
+
+void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std::string_view expected) {
+  const UndeclaredName use{{word.text, word.range}, kind, expected};
+  if (isFreeName(context.language, word.text) && !context.names.has(word.text)) return context.undeclared.add(use);
+  DiagBuilder report = context.diagnostics.report(Diag::BadOperand, word.range);
+  report << word.text;
+  explain(context, use, report);
+}
+
+void reportUndeclared(Context& context) {
+  context.undeclared.report(context.diagnostics, Diag::BadOperand,
+                            [&](DiagBuilder& report, const UndeclaredName& use) { explain(context, use, report); });
+}
+
+void countStep(Context& context, SourceRange range) {
+  const uint32_t most = context.language.maxSteps;
+  if (++context.steps == most + 1) context.diagnostics.report(Diag::ProgramTooLarge, range) << most;
+}
+
+std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint32_t length) {
+  const Found found = findAddress(context, word);
+  if (!found.known) unknownOperand(context, word, UserName::Kind::Symbol, "byte address, signal or declared name");
+  if (!found.address) return std::nullopt;
+  if (found.address->isBit) {
+    context.diagnostics.report(Diag::ByteAddressExpected, word.range) << word.text;
+    return std::nullopt;
+  }
+  if (!checkArea(context, word, found.address->area, found.address->byte, length)) return std::nullopt;
+  if (context.onPlace) context.onPlace(word, *found.address, length);
+  return found.address;
+}
+
+bool checkWritable(Context& context, const Address& address, uint32_t length, SourceRange range) {
+  const AreaInfo& area = context.language.at(address.area);
+  const std::string text = textOf(context.language, address);
+  if (area.use == AreaUse::Input) {
+    context.diagnostics.report(Diag::WriteToInput, range) << text << "an input and cannot be written";
+    return false;
+  }
+  if (touchesPreset(area, address.byte, length)) {
+    context.diagnostics.report(Diag::WriteToPreset, range) << text;
+    return false;
+  }
+  if (address.byte + length > area.system)
+    context.diagnostics.report(Diag::SystemAreaWrite, range) << text << area.letter;
+  return true;
+}
+
+std::optional<NamedAddress> bitOperand(Context& context, const Word& word) {
+  if (!word.range.valid()) return std::nullopt;
+  const Found found = findAddress(context, word);
+  if (!found.known) unknownOperand(context, word, UserName::Kind::Symbol, "bit address, signal or declared name");
+  if (!found.address) return std::nullopt;
+  if (!found.address->isBit) {
+    reportNoBit(context, word, *found.address);
+    return std::nullopt;
+  }
+  if (!checkArea(context, word, found.address->area, found.address->byte, 1)) return std::nullopt;
+  if (context.onPlace) context.onPlace(word, *found.address, 1);
+  return found.address;
+}
+
+std::optional<Address> readBit(Context& context, const Word& word, frontend::Access access) {
+  const std::optional<NamedAddress> bit = bitOperand(context, word);
+  if (!bit) return std::nullopt;
+  context.analysis.use(
+      {.range = word.range, .base = bit->name, .place = placeOf(context.language, *bit, 1), .access = access});
+  if (access == frontend::Access::Write && !checkWritable(context, *bit, 1, word.range)) return std::nullopt;
+  return bit;
+}
+
+} // namespace rung::network

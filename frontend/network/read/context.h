@@ -1,0 +1,113 @@
+// What all readers of one compilation share: sources, diagnostics, names, and the count of steps.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <ranges>
+#include <string_view>
+
+#include "frontend/network/address.h"
+#include "frontend/sema/analysis.h"
+#include "frontend/sema/names.h"
+#include "frontend/sema/undeclared.h"
+#include "frontend/syntax/word_lexer.h"
+#include "ir/support/diagnostics.h"
+#include "ir/support/source.h"
+
+namespace rung::network {
+
+// A name that the program declares.
+struct UserName {
+  enum class Kind : uint8_t { Symbol, Constant };
+
+  std::string_view name;
+  SourceRange declared;
+  Kind kind = Kind::Symbol;
+  uint32_t definition = 0; // in the analysis
+  bool bad = false;        // its declaration was reported: uses stay silent
+  std::string_view comment;
+  Address address;   // of a symbol
+  int64_t value = 0; // of a constant
+};
+
+// An address as an operand has it.
+struct NamedAddress : Address {
+  uint32_t name = frontend::kNoDefinition; // that it is written as
+};
+
+// A use of a name that is not declared, where one of this kind is expected.
+struct UndeclaredName : frontend::UndeclaredUse {
+  UserName::Kind kind = UserName::Kind::Symbol;
+  std::string_view expected;
+};
+
+struct Context;
+
+class Names {
+public:
+  void addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment);
+  void addConstant(Context& context, const Word& name, const Word& value);
+
+  bool has(std::string_view name) const { return table_.find(name) != frontend::kNoName; }
+  // What a word means, which the analysis has as a use of it then; null for no name of the program of this kind.
+  const UserName* use(frontend::Analysis& analysis, const Word& word, UserName::Kind kind) const;
+  // The same of a signal's name.
+  std::optional<NamedAddress> useSignal(Context& context, const Word& word);
+  // In the order of their declarations.
+  auto ofKind(UserName::Kind kind) const {
+    return table_.all() | std::views::filter([kind](const UserName& name) { return name.kind == kind; });
+  }
+
+private:
+  // Enters a name, bad until its value is read; null when it was reported.
+  UserName* declare(Context& context, const Word& name, UserName::Kind kind);
+
+  frontend::NameTable<UserName> table_;
+  std::map<const nc::Signal*, uint32_t> signals_; // those that are used: their definitions
+};
+
+struct Network;
+
+struct Context {
+  const Language& language;
+  SourceManager& sources;
+  Diagnostics& diagnostics;
+  Names names = {};
+  uint32_t steps = 0;
+  // May be empty. Sees what operands name: a bit, or `length` bytes from an address on.
+  std::function<void(const Word& word, const Address& address, uint32_t length)> onPlace = {};
+  // May be empty. Takes every complete network with what was written.
+  std::function<void(const Network&)> onNetwork = {};
+  frontend::Analysis analysis = {};
+  frontend::UndeclaredNames<UndeclaredName> undeclared = {};
+};
+
+// A word that is not what the operand expects, a constant or an address, nor a name of this kind. A name that is not
+// declared waits for reportUndeclared, others are reported at once.
+void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std::string_view expected);
+// Reports the names that are not declared, once each, at their first use. To be called when all operands have been
+// read.
+void reportUndeclared(Context& context);
+
+// Reports a word in place of a command, and a function that FUNC or a box names wrongly; with what was meant, perhaps.
+void reportUnknownCommand(Context& context, const Word& word);
+void reportUnknownFunction(Context& context, std::string_view name, SourceRange range);
+
+// One step of the program memory more (P1); the one that is too much is reported.
+void countStep(Context& context, SourceRange range);
+
+// `bytes` from the address on, or its bit, as the analysis has it.
+frontend::NamedPlace placeOf(const Language& language, const Address& address, uint32_t bytes);
+
+// Operands. Each reports what is wrong, or notes a name that is not declared, and gives nullopt then; a name whose
+// declaration is wrong, or an operand without a place, gives nullopt silently: it was reported.
+std::optional<NamedAddress> bitOperand(Context& context, const Word& word);
+std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint32_t length);
+// False, with a report, when the program may not write `length` bytes (a bit: 1) there; warns of the system area.
+bool checkWritable(Context& context, const Address& address, uint32_t length, SourceRange range);
+// The operand of a contact, which reads, or of a coil, which writes; the analysis has it then. Nullopt as above, and
+// for a bit that the program may not write.
+std::optional<Address> readBit(Context& context, const Word& word, frontend::Access access);
+
+} // namespace rung::network

@@ -1,0 +1,443 @@
+// Drawings to calls of the network builder.
+#include "frontend/network/read/ladder_reader.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frontend/network/read/canonical.h"
+#include "frontend/network/read/condition.h"
+#include "frontend/network/read/network_builder.h"
+#include "frontend/network/read/title.h"
+#include "rtlib/text/blanks.h"
+#include "rtlib/text/letters.h"
+
+namespace rung::network {
+namespace {
+
+using frontend::Access;
+using ladder::Element;
+using ladder::ElementId;
+using ladder::ElementKind;
+using ladder::NetId;
+
+Coil coilOf(ladder::CoilKind kind) {
+  switch (kind) {
+  case ladder::CoilKind::Plain: return Coil::Out;
+  case ladder::CoilKind::Negated: return Coil::OutInverted;
+  case ladder::CoilKind::Set: return Coil::Set;
+  case ladder::CoilKind::Reset: return Coil::Reset;
+  }
+  return Coil::Out;
+}
+
+Place placeOf(const Element& element) { return {element.range, element.line}; }
+
+// The shape of one rung: which box, which coils, and whether a command list can say it.
+class RungReader {
+public:
+  RungReader(Context& context, NetworkBuilder& builder, const ladder::Rung& rung, std::string_view title)
+      : context_(context), diagnostics_(context.diagnostics), builder_(builder), rung_(rung), title_(title) {}
+
+  // False when the drawing was rejected; it was reported, and nothing has reached the builder.
+  bool read();
+
+private:
+  void reportSecondBox(const Element& element);
+  bool sort();
+  bool checkKind(const Element& element);
+  bool checkLeft(const Element& element);
+  bool checkBox();
+  bool checkPins();
+  bool checkCoils();
+  bool decomposeInputs();
+  std::string nameOf(const Element& element) const;
+  void emitInputs();
+  std::optional<std::vector<Logic>> hint() const;
+  void emitBox();
+
+  Context& context_;
+  Diagnostics& diagnostics_;
+  NetworkBuilder& builder_;
+  const ladder::Rung& rung_;
+  std::string_view title_;
+  const Element* box_ = nullptr;
+  const Row* row_ = nullptr;
+  std::vector<const Element*> coils_; // from top to bottom
+  std::vector<SpTree> inputs_;
+};
+
+std::string RungReader::nameOf(const Element& element) const {
+  return element.kind == ElementKind::Box    ? std::string(element.mnemonic)
+         : element.kind == ElementKind::Coil ? "the coil"
+                                             : "the contact";
+}
+
+bool RungReader::checkKind(const Element& element) {
+  if (element.edge != 0) {
+    diagnostics_.report(Diag::UnsupportedElement, element.range)
+        << (element.kind == ElementKind::Coil ? "a coil for an edge" : "an edge contact")
+        << fmt::format("use {}",
+                       context_.language.mnemonicsOf([](const Row& row) { return row.numbers == Row::Numbers::Edge; }));
+    return false;
+  }
+  if (element.kind == ElementKind::Contact && !element.output.valid()) {
+    diagnostics_.report(Diag::MissingClosingElement, element.range) << "a contact";
+    return false;
+  }
+  return true;
+}
+
+// What is on the left of an element. Contacts may follow contacts only; coils may follow a box (GSK: l.3562).
+bool RungReader::checkLeft(const Element& element) {
+  for (const ladder::Pin& pin : rung_.pinsOf(element)) {
+    for (ElementId id : rung_.driversOf(pin.input)) {
+      const ElementKind left = rung_.element(id).kind;
+      if (left == ElementKind::Contact || (left == ElementKind::Box && element.kind == ElementKind::Coil)) continue;
+      const Row* row = left == ElementKind::Box ? context_.language.findFunction(rung_.element(id).mnemonic) : nullptr;
+      if (row != nullptr && row->info.output == frontend::Output::None)
+        diagnostics_.report(Diag::ElementAfterClosing, element.range) << row->info.mnemonic;
+      else
+        diagnostics_.report(Diag::MultiLevelOutput, element.range);
+      return false;
+    }
+  }
+  return true;
+}
+
+// One below the other may be meant as one box with more pins than there are.
+void RungReader::reportSecondBox(const Element& element) {
+  const Row* row = context_.language.findFunction(box_->mnemonic);
+  if (context_.language.findFunction(element.mnemonic) == nullptr && element.column == box_->column)
+    diagnostics_.report(Diag::UnknownPin, element.range)
+        << box_->mnemonic << element.mnemonic
+        << (row == nullptr || furtherPinsOf(row->info).empty() ? "no further pins"
+                                                               : "its pins on the lines directly below");
+  else
+    diagnostics_.report(Diag::MultiLevelOutput, element.range);
+}
+
+// Finds the box and the coils; a network has one function at most.
+bool RungReader::sort() {
+  bool good = true;
+  for (const Element& element : rung_.elements) {
+    if (!checkKind(element) || !checkLeft(element)) {
+      good = false;
+    } else if (element.kind == ElementKind::Coil) {
+      coils_.push_back(&element);
+    } else if (element.kind == ElementKind::Box) {
+      if (box_ != nullptr) reportSecondBox(element);
+      good = good && box_ == nullptr;
+      if (box_ == nullptr) box_ = &element;
+    }
+  }
+  std::sort(coils_.begin(), coils_.end(), [](const Element* a, const Element* b) {
+    return std::pair(a->line, a->column) < std::pair(b->line, b->column);
+  });
+  return good;
+}
+
+bool RungReader::checkBox() {
+  if (box_ == nullptr) return true;
+  row_ = context_.language.findFunction(box_->mnemonic);
+  if (row_ == nullptr) {
+    reportUnknownFunction(context_, box_->mnemonic, box_->mnemonicRange);
+    return false;
+  }
+  if (isEnd(row_->control) || row_->control == Control::Sp) {
+    diagnostics_.report(Diag::UnsupportedElement, box_->range)
+        << fmt::format("a box {}", row_->info.mnemonic) << "a `module` statement begins and ends what it would";
+    return false;
+  }
+  if (row_->info.output == frontend::Output::None && box_->output.valid()) {
+    const auto after = rung_.consumersOf(box_->output);
+    diagnostics_.report(Diag::ElementAfterClosing, after.empty() ? box_->range : rung_.element(after[0]).range)
+        << row_->info.mnemonic;
+    return false;
+  }
+  return checkPins();
+}
+
+bool RungReader::checkPins() {
+  const auto pins = rung_.pinsOf(*box_);
+  const auto wanted = row_->info.pins.all();
+  for (size_t i = 1; i < std::max(pins.size(), wanted.size()); ++i) {
+    if (i >= pins.size()) {
+      diagnostics_.report(Diag::MissingPin, box_->range) << row_->info.mnemonic << wanted[i].name;
+      return false;
+    }
+    if (i >= wanted.size() || !text::equalsIgnoringCase(pins[i].name, wanted[i].name)) {
+      const std::string_view expected = i >= wanted.size() ? "none" : wanted[i].name;
+      diagnostics_.report(Diag::UnknownPin, pins[i].range) << row_->info.mnemonic << pins[i].name << expected;
+      return false;
+    }
+  }
+  if (wanted.empty() && pins[0].input != ladder::kRail && row_->control != Control::Lbl) {
+    diagnostics_.report(Diag::FirstColumnRequired, box_->range) << row_->info.mnemonic;
+    return false;
+  }
+  for (size_t i = 0; i < wanted.size(); ++i) {
+    if (pins[i].input != ladder::kRail) continue;
+    diagnostics_.report(Diag::MissingCondition, pins[i].range)
+        << row_->info.mnemonic << fmt::format("pin {}", wanted[i].name);
+    return false;
+  }
+  return true;
+}
+
+// All coils on one net: that of the contacts, or the box's output and nothing else.
+bool RungReader::checkCoils() {
+  if (coils_.empty()) {
+    if (row_ != nullptr && row_->info.output == frontend::Output::Always)
+      diagnostics_.report(Diag::MissingOutput, box_->range) << row_->info.mnemonic;
+    return row_ != nullptr && row_->info.output != frontend::Output::Always;
+  }
+  const NetId net = box_ != nullptr ? box_->output : rung_.inputOf(*coils_[0]);
+  for (const Element* coil : coils_) {
+    if (net.valid() && rung_.inputOf(*coil) == net) continue;
+    diagnostics_.report(Diag::MultiLevelOutput, coil->range);
+    return false;
+  }
+  if (net == ladder::kRail) {
+    diagnostics_.report(Diag::MissingCondition, coils_[0]->range) << "the coil" << "its left";
+    return false;
+  }
+  if (box_ != nullptr && rung_.driversOf(net).size() > 1) {
+    diagnostics_.report(Diag::NotSeriesParallel, box_->range) << "the coils";
+    return false;
+  }
+  return true;
+}
+
+bool RungReader::decomposeInputs() {
+  std::vector<NetId> nets;
+  if (box_ == nullptr)
+    nets.push_back(rung_.inputOf(*coils_[0]));
+  else
+    for (const ladder::Pin& pin : rung_.pinsOf(*box_))
+      if (pin.input != ladder::kRail) nets.push_back(pin.input);
+  for (NetId net : nets) {
+    auto tree = decompose(rung_, net);
+    if (!tree) {
+      const Element& target = box_ != nullptr ? *box_ : *coils_[0];
+      diagnostics_.report(Diag::NotSeriesParallel, target.range) << nameOf(target);
+      return false;
+    }
+    inputs_.push_back(std::move(*tree));
+  }
+  return true;
+}
+
+void RungReader::emitInputs() {
+  std::vector<CanonicalStep> steps;
+  for (const SpTree& input : inputs_) {
+    const std::vector<CanonicalStep> own = canonicalSteps(input);
+    steps.insert(steps.end(), own.begin(), own.end());
+  }
+  if (const auto blocks = hint())
+    if (auto other = withBlocks(steps, *blocks, context_.language.stackDepth)) steps = std::move(*other);
+  Place last;
+  for (const CanonicalStep& step : steps) {
+    if (!step.contact.valid()) {
+      builder_.block(step.kind, last);
+      continue;
+    }
+    const Element& contact = rung_.element(step.contact);
+    last = placeOf(contact);
+    builder_.contact(step.kind, contact.negated, rung_.operandOf(contact), last);
+  }
+}
+
+// After the line with the word `rung`.
+std::optional<std::vector<Logic>> RungReader::hint() const {
+  const SourceManager& sources = context_.sources;
+  const std::string_view line =
+      text::trimmed(sources.lineText(sources.fileOf(rung_.statement.begin), rung_.firstLine + 1));
+  if (!line.starts_with(';')) return std::nullopt;
+  return parseBlocksHint(context_.language, text::trimmed(line.substr(1)));
+}
+
+bool isTableWord(const Language& language, const Word& word) {
+  return text::equalsIgnoringCase(word.text, language.nameOf(Command::Table));
+}
+
+void RungReader::emitBox() {
+  builder_.function(row_, placeOf(*box_));
+  bool table = false;
+  for (const Word& operand : rung_.operandsOf(*box_)) {
+    const Place at{operand.range, box_->line};
+    if (row_->hasTable && !table && isTableWord(context_.language, operand))
+      table = true;
+    else if (table)
+      builder_.tableRow(operand, at);
+    else
+      builder_.parameter(operand, at);
+  }
+}
+
+bool RungReader::read() {
+  if (!sort() || !checkBox() || !checkCoils() || !decomposeInputs()) return false;
+  builder_.title(title_);
+  emitInputs();
+  if (box_ != nullptr) emitBox();
+  for (const Element* coil : coils_) builder_.coil(coilOf(coil->coil), rung_.operandOf(*coil), placeOf(*coil));
+  builder_.finish();
+  return true;
+}
+
+// The function of a box may begin or end a region, be a label or a call.
+bool mayShapeProgram(const Language& language, std::string_view mnemonic) {
+  const Row* row = language.findFunction(mnemonic);
+  return row == nullptr || row->control != Control::Plain;
+}
+
+// Whether a region, label or call may be lost with a rung that is rejected.
+bool mayShapeProgram(const Context& context, const ladder::Rung& rung) {
+  return std::ranges::any_of(rung.elements, [&](const Element& element) {
+    if (element.kind == ElementKind::Error)
+      return std::ranges::any_of(ladder::boxWords(context.sources.text(element.range)),
+                                 [&](std::string_view word) { return mayShapeProgram(context.language, word); });
+    return element.kind == ElementKind::Box && mayShapeProgram(context.language, element.mnemonic);
+  });
+}
+
+class LadderReader {
+public:
+  LadderReader(Context& context, const ladder::LadderFile& file, UnitAssembler& units)
+      : context_(context), file_(file), units_(units),
+        builder_(context, file.file, [this](Network&& n) { take(std::move(n)); }) {}
+
+  void read() {
+    for (const ladder::Statement& statement : file_.statements) {
+      if (statement.kind == ladder::StatementKind::Module) module(file_.modules[statement.index]);
+      if (statement.kind == ladder::StatementKind::Rung) readRung(file_.rungs[statement.index]);
+    }
+  }
+
+private:
+  void module(const ladder::Module& module);
+  void condition(const ladder::Module& module);
+  void readRung(const ladder::Rung& rung);
+  void readRejected(const ladder::Rung& rung);
+  void readOperands(const ladder::Rung& rung, const Element& element);
+  void take(Network&& network) {
+    network.firstLine = rung_->firstLine;
+    network.lastLine = rung_->lastLine;
+    network.range = rung_->range;
+    units_.addTo(unit_, std::move(network));
+  }
+
+  Context& context_;
+  const ladder::LadderFile& file_;
+  UnitAssembler& units_;
+  NetworkBuilder builder_;
+  const ladder::Rung* rung_ = nullptr;
+  uint32_t unit_ = kNone;
+  uint32_t conditionEnd_ = 0; // the last line of the condition of a subprogram; it is not a title
+};
+
+void LadderReader::module(const ladder::Module& module) {
+  unit_ = kNone;
+  const Language& language = context_.language;
+  const auto is = [&](std::string_view name, size_t words) {
+    return module.name.size() == words && text::equalsIgnoringCase(module.name[0].text, name);
+  };
+  if (is(language.levels[kLevel1], 1)) {
+    unit_ = units_.openModule(UnitKind::Level1, 0, module.range, module.range);
+  } else if (is(language.levels[kLevel2], 1)) {
+    unit_ = units_.openModule(UnitKind::Level2, 0, module.range, module.range);
+  } else if (is(language.subprogram, 2)) {
+    // The operand of SP, checked like one.
+    Function sp{.row = &language.rowOf(Control::Sp), .range = module.range};
+    if (checkFunction(context_, {module.name[1]}, {}, sp))
+      unit_ = units_.openModule(UnitKind::Subprogram, static_cast<uint32_t>(sp.params[0].value), module.range,
+                                module.name[1].range);
+    condition(module);
+  } else {
+    context_.diagnostics.report(Diag::MalformedStatement, module.range)
+        << "module"
+        << fmt::format("module {}, module {} or module {} {}n", language.levels[kLevel1], language.levels[kLevel2],
+                       language.subprogram, language.letterOf(Control::Sp));
+  }
+  if (unit_ == kNone) units_.setIncomplete();
+}
+
+// Warned of and counted as in a command list (P1, P13).
+void LadderReader::condition(const ladder::Module& module) {
+  const Condition condition = conditionAfter(context_, file_.file, context_.sources.lineCol(module.range.begin).line);
+  conditionEnd_ = condition.lastLine;
+  if (condition.commands.empty()) return;
+  context_.diagnostics.report(Diag::ConditionIgnored, condition.commands.front().range)
+      << context_.language.mnemonicOf(Control::Sp);
+  for (const Written& written : condition.commands) countStep(context_, written.range);
+}
+
+// The text after the word `rung`; where there is none that can be a title, the rule of command lists.
+std::string_view titleOf(const SourceManager& sources, FileId file, uint32_t from, const ladder::Rung& rung) {
+  const std::string_view own = text::trimmed(rung.comment);
+  return isTitle(own) ? own : titleAbove(sources, file, from, rung.firstLine);
+}
+
+void LadderReader::readRung(const ladder::Rung& rung) {
+  rung_ = &rung;
+  if (unit_ == kNone) return; // reported with the module
+  RungReader reader(context_, builder_, rung, titleOf(context_.sources, file_.file, conditionEnd_, rung));
+  if (rung.bad || !reader.read()) readRejected(rung);
+}
+
+// The drawing of a rung was reported; its operands are looked at all the same.
+void LadderReader::readRejected(const ladder::Rung& rung) {
+  if (mayShapeProgram(context_, rung)) units_.setIncomplete();
+  for (const Element& element : rung.elements) readOperands(rung, element);
+}
+
+void LadderReader::readOperands(const ladder::Rung& rung, const Element& element) {
+  const std::span<const Word> words = rung.operandsOf(element);
+  switch (element.kind) {
+  case ElementKind::Contact: readBit(context_, words[0], Access::Read); return;
+  case ElementKind::Coil: readBit(context_, words[0], Access::Write); return;
+  case ElementKind::Error: return;
+  case ElementKind::Box: break;
+  }
+  Function function{.row = context_.language.findFunction(element.mnemonic), .range = element.range};
+  const bool mayBePin = words.empty();
+  if (function.row == nullptr && !mayBePin) reportUnknownFunction(context_, element.mnemonic, element.mnemonicRange);
+  if (function.row == nullptr) return;
+  const auto table = std::ranges::find_if(
+      words, [&](const Word& word) { return function.row->hasTable && isTableWord(context_.language, word); });
+  const auto rows = table == words.end() ? words.end() : table + 1;
+  checkFunction(context_, {words.begin(), table}, {rows, words.end()}, function);
+}
+
+} // namespace
+
+ladder::LadderFile parseLadderFile(Context& context, FileId file) {
+  return ladder::parseLadder(context.sources, file, context.diagnostics, context.language.findBox);
+}
+
+void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {
+  Diagnostics& diagnostics = context.diagnostics;
+  const std::string_view own = context.language.name;
+  if (!file.dialect.empty() && !text::equalsIgnoringCase(file.dialect, own))
+    diagnostics.report(Diag::DialectConflict, file.dialectRange) << file.dialect << own;
+  for (const ladder::Declaration& declaration : file.declarations) {
+    switch (declaration.kind) {
+    case ladder::DeclarationKind::Symbol:
+      context.names.addSymbol(context, declaration.name, declaration.value, declaration.comment);
+      break;
+    case ladder::DeclarationKind::Const: context.names.addConstant(context, declaration.name, declaration.value); break;
+    case ladder::DeclarationKind::Message:
+    case ladder::DeclarationKind::Button:
+      diagnostics.report(Diag::UnsupportedElement, declaration.range)
+          << "a statement for texts" << context.language.messageTexts;
+      break;
+    }
+  }
+}
+
+void readLadder(Context& context, const ladder::LadderFile& file, UnitAssembler& units) {
+  LadderReader(context, file, units).read();
+}
+
+} // namespace rung::network

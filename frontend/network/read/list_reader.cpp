@@ -1,0 +1,137 @@
+// Lines of a command list to calls of the network builder.
+#include "frontend/network/read/list_reader.h"
+
+#include "frontend/network/read/network_builder.h"
+#include "frontend/network/read/title.h"
+#include "rtlib/text/letters.h"
+
+namespace rung::network {
+namespace {
+
+class ListReader {
+public:
+  ListReader(Context& context, FileId file, UnitAssembler& units)
+      : context_(context), file_(file),
+        builder_(context, file, [&units](Network&& network) { units.add(std::move(network)); }) {}
+
+  void read() {
+    LineReader lines(context_.sources, file_);
+    while (lines.next(line_)) {
+      splitWords(line_, kListRules, words_);
+      const auto statement = statementOf(words_);
+      if (statement.empty())
+        comment();
+      else
+        readStatement(statement);
+    }
+    builder_.finish();
+  }
+
+private:
+  void comment();
+  void readStatement(std::span<const Word> words);
+  void lostOperand(Command command, const Word& name, Place at);
+  void dispatch(Command command, std::span<const Word> words, Place at);
+  const Row* functionOf(const Word& word);
+  void function(const Word& name, Place at);
+  void checkDialect(const Word& word);
+
+  Context& context_;
+  FileId file_;
+  NetworkBuilder builder_;
+  SourceLine line_;
+  LineWords words_;
+  TitleRule title_;
+};
+
+void ListReader::comment() {
+  if (words_.hasComment)
+    title_.comment(words_.comment);
+  else
+    title_.blank();
+  builder_.title(title_.title());
+}
+
+void ListReader::readStatement(std::span<const Word> words) {
+  title_.statement();
+  const Place at{join(words.front().range, words.back().range), line_.number};
+  const bool readable = checkCharacters(context_.diagnostics, words);
+  const auto command = findCommand(context_.language, words[0].text);
+  if (!command) {
+    if (readable) reportUnknownCommand(context_, words[0]);
+    return builder_.garbage(at);
+  }
+  if (*command >= Command::Dialect) builder_.title({});
+  if (isDeclaration(*command)) return; // readListSymbols
+  if (!readable || !checkOperands(context_.diagnostics, *command, words)) return lostOperand(*command, words[0], at);
+  if (*command == Command::Dialect) return checkDialect(words[1]);
+  dispatch(*command, words, at);
+}
+
+// The command counts with an operand that nothing is said about any more; of FUNC nothing is left.
+void ListReader::lostOperand(Command command, const Word& name, Place at) {
+  if (command == Command::Function) return builder_.garbage(at);
+  const Word words[] = {name, Word{}};
+  dispatch(command, words, at);
+}
+
+void ListReader::checkDialect(const Word& word) {
+  const std::string_view own = context_.language.name;
+  if (!text::equalsIgnoringCase(word.text, own))
+    context_.diagnostics.report(Diag::DialectConflict, word.range) << word.text << own;
+}
+
+const Row* ListReader::functionOf(const Word& word) {
+  const auto number = parseDigits(word.text);
+  const Row* row = number ? context_.language.findFunction(*number) : context_.language.findFunction(word.text);
+  if (row == nullptr) reportUnknownFunction(context_, word.text, word.range);
+  return row;
+}
+
+// The ends of units are not drawn in ladder form: they have no title.
+void ListReader::function(const Word& name, Place at) {
+  const Row* row = functionOf(name);
+  if (row != nullptr && isEnd(row->control)) builder_.title({});
+  builder_.function(row, at);
+}
+
+void ListReader::dispatch(Command command, std::span<const Word> words, Place at) {
+  if (isContact(command)) return builder_.contact(logicOf(command), isClosed(command), words[1], at);
+  if (isBlock(command)) return builder_.block(logicOf(command), at);
+  if (isCoil(command)) return builder_.coil(coilOf(command), words[1], at);
+  if (command == Command::Function) return function(words[1], at);
+  if (command == Command::Parameter) return builder_.parameter(words[1], at);
+  if (command == Command::Table) builder_.tableRow(words[1], at);
+}
+
+} // namespace
+
+void readListSymbols(Context& context, FileId file) {
+  LineReader lines(context.sources, file);
+  SourceLine line;
+  LineWords words;
+  while (lines.next(line)) {
+    splitWords(line, kListRules, words);
+    const auto statement = statementOf(words);
+    const auto command = statement.empty() ? std::nullopt : findCommand(context.language, statement[0].text);
+    if (!command || !isDeclaration(*command)) continue;
+    if (!isReadable(statement)) continue; // the reader of the list reports it
+    if (!checkOperands(context.diagnostics, *command, statement)) continue;
+    if (*command == Command::Symbol)
+      context.names.addSymbol(context, statement[1], statement[2], words.comment);
+    else
+      context.names.addConstant(context, statement[1], statement[2]);
+  }
+}
+
+void readList(Context& context, FileId file, UnitAssembler& units) { ListReader(context, file, units).read(); }
+
+SourceRange lastLineOf(const SourceManager& sources, FileId file) {
+  const std::string_view text = sources.text(file);
+  const size_t last = text.find_last_not_of(" \t\r\n");
+  if (last == std::string_view::npos) return sources.range(file, 0, 0);
+  const size_t begin = text.rfind('\n', last);
+  return sources.range(file, begin == std::string_view::npos ? 0 : begin + 1, last + 1);
+}
+
+} // namespace rung::network

@@ -1,0 +1,213 @@
+// The stack register at compile time (P11) and the borders of networks.
+#include "frontend/network/read/network_builder.h"
+
+#include <fmt/format.h>
+
+namespace rung::network {
+namespace {
+
+std::string values(uint32_t count) { return count == 1 ? "1 value" : fmt::format("{} values", count); }
+
+} // namespace
+
+void NetworkBuilder::step(Place at) {
+  countStep(context_, at.range);
+  ++network_.steps;
+}
+
+void NetworkBuilder::write(Command command, std::string_view operand, Place at) {
+  if (context_.onNetwork) network_.written.push_back({command, operand, at.range, at.line});
+}
+
+void NetworkBuilder::begin(Place at) {
+  finish();
+  network_ = Network{};
+  network_.file = file_;
+  network_.firstLine = at.line;
+  network_.range = at.range;
+  network_.title = pendingTitle_;
+  pendingTitle_ = {};
+  state_ = State::Logic;
+  depth_ = 0;
+  silent_ = false;
+  unknown_ = false;
+  parameters_.clear();
+  table_.clear();
+}
+
+void NetworkBuilder::extend(Place at) {
+  if (network_.firstLine != at.line) pendingTitle_ = {};
+  network_.lastLine = at.line;
+  step(at);
+}
+
+void NetworkBuilder::stackError(Place at, std::string_view what) {
+  network_.bad = true;
+  if (!silent_) context_.diagnostics.report(Diag::UnbalancedStack, at.range) << what;
+  silent_ = true;
+}
+
+std::string NetworkBuilder::beginsWith() const {
+  return fmt::format("a network begins with {} or {}", context_.language.nameOf(Command::Load),
+                     context_.language.nameOf(Command::LoadNot));
+}
+
+bool NetworkBuilder::mayHaveCoils() const {
+  return network_.function.row == nullptr || network_.function.row->info.output != frontend::Output::None;
+}
+
+// A contact or block command where no logic is under way.
+void NetworkBuilder::contactOutOfPlace(Place at) {
+  if (state_ == State::Outputs || (state_ == State::Function && mayHaveCoils())) {
+    network_.bad = true;
+    if (!silent_) context_.diagnostics.report(Diag::MultiLevelOutput, at.range);
+    silent_ = true;
+    state_ = State::Outputs; // an output that is missing is part of this error
+  } else {
+    begin(at);
+    stackError(at, fmt::format("{}; there is no value to combine with", beginsWith()));
+  }
+}
+
+void NetworkBuilder::contact(Logic kind, bool negated, const Word& operand, Place at) {
+  if (kind == Logic::Load) {
+    if (state_ != State::Logic) begin(at);
+    if (++depth_ > context_.language.stackDepth) {
+      network_.bad = true;
+      if (!silent_) context_.diagnostics.report(Diag::StackOverflow, at.range) << context_.language.stackDepth;
+      silent_ = true;
+    }
+  } else if (state_ != State::Logic) {
+    contactOutOfPlace(at);
+  }
+  extend(at);
+  write(commandOf(kind, negated), operand.text, at);
+  const auto bit = readBit(context_, operand, frontend::Access::Read);
+  if (bit)
+    network_.logic.push_back({kind, negated, *bit, at.line, at.range});
+  else
+    network_.bad = true;
+}
+
+void NetworkBuilder::block(Logic kind, Place at) {
+  if (state_ != State::Logic)
+    contactOutOfPlace(at);
+  else if (depth_ < 2)
+    stackError(at, fmt::format("{} joins two blocks, but the network has {} here",
+                               context_.language.nameOf(commandOf(kind, false)), values(depth_)));
+  else
+    --depth_;
+  extend(at);
+  write(commandOf(kind, false), {}, at);
+  network_.logic.push_back({.kind = kind, .line = at.line});
+}
+
+void NetworkBuilder::coil(Coil kind, const Word& operand, Place at) {
+  if (state_ == State::Idle) {
+    begin(at);
+    stackError(at, fmt::format("there is no value for this output; {}", beginsWith()));
+  } else if (state_ == State::Logic && depth_ != 1) {
+    stackError(at, fmt::format("an output needs exactly one value, but the network has {} here", depth_));
+  } else if (state_ == State::Function && !mayHaveCoils()) {
+    stackError(at, fmt::format("{} has no output for this coil", network_.function.row->info.mnemonic));
+  }
+  extend(at);
+  write(commandOf(kind), operand.text, at);
+  if (state_ != State::Function || mayHaveCoils()) state_ = State::Outputs;
+  const auto bit = readBit(context_, operand, frontend::Access::Write);
+  if (bit)
+    network_.coils.push_back({kind, *bit, at.line, at.range});
+  else
+    network_.bad = true;
+}
+
+// As many values as the function has conditions; some may have one that is ignored (P13).
+void NetworkBuilder::checkConditions(const Row& row, Place at) {
+  if (silent_) return;
+  const auto wanted = static_cast<uint32_t>(row.info.pins.size());
+  if (depth_ == wanted) return;
+  if (row.ignoresCondition && depth_ == 1) {
+    context_.diagnostics.report(Diag::ConditionIgnored, network_.range) << row.info.mnemonic;
+    network_.logic.clear();
+    return;
+  }
+  std::string names;
+  for (const frontend::PinInfo& pin : row.info.pins.all()) names += fmt::format(" {}", pin.name);
+  DiagBuilder report = context_.diagnostics.report(Diag::WrongConditionCount, at.range);
+  report << row.info.mnemonic << wanted << depth_;
+  if (!names.empty()) report.note(fmt::format("its conditions in order:{}", names));
+  network_.bad = true;
+}
+
+void NetworkBuilder::function(const Row* row, Place at) {
+  if (state_ != State::Logic) begin(at);
+  extend(at);
+  state_ = State::Function;
+  network_.function.row = row;
+  network_.function.range = at.range;
+  network_.function.line = at.line;
+  if (row == nullptr) {
+    unknown_ = network_.bad = network_.incomplete = true;
+    return;
+  }
+  write(Command::Function, row->info.mnemonic, at);
+  checkConditions(*row, at);
+  if (!row->built) {
+    context_.diagnostics.report(Diag::NotBuiltYet, at.range) << row->info.mnemonic;
+    network_.bad = true;
+  }
+}
+
+void NetworkBuilder::parameter(const Word& operand, Place at) {
+  if (state_ == State::Function && table_.empty()) {
+    extend(at);
+    write(Command::Parameter, operand.text, at);
+    parameters_.push_back(operand);
+  } else {
+    step(at);
+    if (!network_.incomplete)
+      context_.diagnostics.report(Diag::StrayParameter, at.range) << context_.language.nameOf(Command::Parameter);
+  }
+}
+
+void NetworkBuilder::tableRow(const Word& operand, Place at) {
+  if (state_ == State::Function && (unknown_ || network_.function.row->hasTable)) {
+    extend(at);
+    write(Command::Table, operand.text, at);
+    table_.push_back(operand);
+  } else {
+    step(at);
+    if (!network_.incomplete)
+      context_.diagnostics.report(Diag::StrayTable, at.range)
+          << context_.language.nameOf(Command::Table)
+          << context_.language.mnemonicsOf([](const Row& row) { return row.hasTable; });
+  }
+}
+
+void NetworkBuilder::garbage(Place at) {
+  if (state_ != State::Logic) begin(at);
+  extend(at);
+  network_.bad = network_.incomplete = silent_ = true;
+}
+
+void NetworkBuilder::completeFunction() {
+  const Row* row = network_.function.row;
+  if (row == nullptr) return;
+  if (row->info.output == frontend::Output::Always && state_ == State::Function && !network_.incomplete) {
+    context_.diagnostics.report(Diag::MissingOutput, network_.function.range) << row->info.mnemonic;
+    network_.bad = true;
+  }
+  if (!checkFunction(context_, parameters_, table_, network_.function)) network_.bad = true;
+}
+
+void NetworkBuilder::finish() {
+  if (state_ == State::Idle) return;
+  if (state_ == State::Logic) stackError({network_.range, network_.firstLine}, "the network has no output");
+  completeFunction();
+  state_ = State::Idle;
+  if (context_.onNetwork) context_.onNetwork(network_);
+  sink_(std::move(network_));
+  network_ = Network{};
+}
+
+} // namespace rung::network

@@ -1,0 +1,71 @@
+// Commands to networks (P11). Both source forms feed it: the command list line by line, the ladder form rung by rung.
+// It follows the stack register, checks operands and parameters, and hands over each network when it is complete. After
+// an error in a network the rest of it is read without further complaints about the stack.
+#pragma once
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "frontend/network/program.h"
+#include "frontend/network/read/context.h"
+
+namespace rung::network {
+
+struct Place {
+  SourceRange range;
+  uint32_t line = 0;
+};
+
+class NetworkBuilder {
+public:
+  using Sink = std::function<void(Network&&)>;
+  NetworkBuilder(Context& context, FileId file, Sink sink) : context_(context), file_(file), sink_(std::move(sink)) {}
+
+  // An operand without a place was reported; the command counts all the same. kind: Load, And or Or.
+  void contact(Logic kind, bool negated, const Word& operand, Place at);
+  // kind: OrBlock or AndBlock.
+  void block(Logic kind, Place at);
+  void coil(Coil kind, const Word& operand, Place at);
+  // Null: unknown, and reported.
+  void function(const Row* row, Place at);
+  void parameter(const Word& operand, Place at);
+  void tableRow(const Word& operand, Place at);
+  // A command that could not be read, and was reported.
+  void garbage(Place at);
+  // The title of the network that begins next.
+  void title(std::string_view text) { pendingTitle_ = text; }
+  // Completes the network under way.
+  void finish();
+
+private:
+  enum class State : uint8_t { Idle, Logic, Function, Outputs };
+
+  void begin(Place at);
+  void extend(Place at);
+  void step(Place at);
+  void write(Command command, std::string_view operand, Place at);
+  void stackError(Place at, std::string_view what);
+  void contactOutOfPlace(Place at);
+  void checkConditions(const Row& row, Place at);
+  void completeFunction();
+  bool mayHaveCoils() const;
+  std::string beginsWith() const;
+
+  Context& context_;
+  FileId file_;
+  Sink sink_;
+  Network network_;
+  State state_ = State::Idle;
+  uint32_t depth_ = 0;
+  bool silent_ = false;  // the stack of this network is lost; reported
+  bool unknown_ = false; // FUNC of an unknown function
+  std::vector<Word> parameters_;
+  std::vector<Word> table_;
+  std::string_view pendingTitle_;
+};
+
+// Fills in parameters, table and length by the row. False when something was wrong; everything wrong was reported.
+bool checkFunction(Context& context, const std::vector<Word>& parameters, const std::vector<Word>& table,
+                   Function& function);
+
+} // namespace rung::network

@@ -1,0 +1,241 @@
+// Parameters of function commands, checked by the rows of the table.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "frontend/network/read/network_builder.h"
+#include "rtlib/text/letters.h"
+
+namespace rung::network {
+namespace {
+
+using frontend::Access;
+using frontend::OperandInfo;
+
+// The value of a plain constant or of a `const` name.
+std::optional<int64_t> constantWord(Context& context, const Word& word, std::string_view expected) {
+  if (const UserName* constant = context.names.use(context.analysis, word, UserName::Kind::Constant))
+    return constant->bad ? std::nullopt : std::optional(constant->value);
+  const auto value = parseConstant(word.text);
+  if (!value) unknownOperand(context, word, UserName::Kind::Constant, expected);
+  return value;
+}
+
+// A constant may be written signed or unsigned (§6.4).
+bool fits(int64_t value, uint32_t length) {
+  const uint32_t bits = length * 8;
+  return value >= -(int64_t{1} << (bits - 1)) && value < (int64_t{1} << bits);
+}
+
+class ParameterCheck {
+public:
+  ParameterCheck(Context& context, Function& function) : context_(context), function_(function) {}
+
+  bool check(const std::vector<Word>& words);
+  bool checkTable(const std::vector<Word>& rows, bool capacityKnown);
+
+private:
+  bool lost(const Word& word, const Param& param);
+  bool checkOne(const OperandInfo& info, const Word& word, Param& param);
+  bool checkFormat(const Word& word, Param& param);
+  bool checkNumber(const OperandInfo& info, const Word& word, Param& param);
+  bool checkConstant(const Word& word, Param& param);
+  bool checkMask(const Word& word, Param& param);
+  bool checkNamed(const OperandInfo& info, const Word& word, Param& param);
+  bool checkValue(const OperandInfo& info, const Word& word, Param& param);
+  bool checkPlace(const Word& word, const OperandKind& kind);
+  bool checkAddress(const OperandInfo& info, const Word& word, Param& param);
+  uint32_t lengthOf(const OperandKind& kind) const;
+
+  Context& context_;
+  Function& function_;
+  bool lengthKnown_ = true;
+  bool constantOperand_ = false;
+  uint32_t blockLength_ = 1;
+};
+
+uint32_t ParameterCheck::lengthOf(const OperandKind& kind) const {
+  switch (kind.length) {
+  case Length::OfKind: return kind.bytes;
+  case Length::OfFormat: return lengthKnown_ ? function_.length : 1;
+  case Length::OfNumber: return blockLength_;
+  case Length::OfRow: return function_.row->recordBytes;
+  }
+  return 1;
+}
+
+// `1`, `2`, `4` with any leading zeros; a00n: up to four digits (P20).
+bool ParameterCheck::checkFormat(const Word& word, Param& param) {
+  const bool selects = param.kind->selects;
+  const auto digits = parseDigits(word.text);
+  const uint64_t value = digits.value_or(0);
+  const bool constant = value == 1 || value == 2 || value == 4;
+  const bool address = selects && word.text.size() == 4 && (value == 1001 || value == 1002 || value == 1004);
+  const bool tooLong = selects && word.text.size() > 4;
+  if ((!constant && !address) || tooLong) {
+    context_.diagnostics.report(Diag::BadFormat, word.range) << word.text << function_.row->info.mnemonic;
+    lengthKnown_ = false;
+    return false;
+  }
+  param.value = static_cast<int64_t>(value);
+  function_.length = static_cast<uint32_t>(value % 1000);
+  constantOperand_ = constant;
+  return true;
+}
+
+bool ParameterCheck::checkNumber(const OperandInfo& info, const Word& word, Param& param) {
+  const auto number = constantWord(context_, word, "number");
+  if (!number) return false;
+  param.value = *number;
+  if (param.value < info.min || param.value > info.max) {
+    const std::string range =
+        info.min == info.max ? fmt::format("{}", info.min) : fmt::format("{} to {}", info.min, info.max);
+    context_.diagnostics.report(Diag::ParameterOutOfRange, word.range)
+        << word.text << range << function_.row->info.mnemonic;
+    return false;
+  }
+  blockLength_ = static_cast<uint32_t>(param.value);
+  return true;
+}
+
+bool ParameterCheck::checkConstant(const Word& word, Param& param) {
+  const auto constant = constantWord(context_, word, "constant");
+  if (!constant) return false;
+  param.value = *constant;
+  if (!lengthKnown_ || fits(param.value, function_.length)) return true;
+  const uint32_t bits = function_.length * 8;
+  context_.diagnostics.report(Diag::ConstantOutOfRange, word.range)
+      << word.text << fmt::format("{} to {}", -(int64_t{1} << (bits - 1)), (int64_t{1} << bits) - 1);
+  return false;
+}
+
+bool ParameterCheck::checkMask(const Word& word, Param& param) {
+  const auto isBinary = [](char c) { return c == '0' || c == '1'; };
+  if (word.text.size() != 4 || !std::all_of(word.text.begin(), word.text.end(), isBinary)) {
+    context_.diagnostics.report(Diag::BadMask, word.range) << word.text;
+    return false;
+  }
+  for (char c : word.text) param.value = param.value * 2 + (c - '0');
+  return true;
+}
+
+// Labels and subprograms. Number 0 appears in two places of the manual and is accepted (P2).
+bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param& param) {
+  const std::string_view letter = param.kind->written.substr(0, 1);
+  const bool named = !word.text.empty() && text::upper(word.text[0]) == letter[0];
+  const auto number = named ? parseDigits(word.text.substr(1)) : std::nullopt;
+  if (!number) {
+    context_.diagnostics.report(Diag::BadOperand, word.range)
+        << word.text << fmt::format("{} such as {}1", param.kind->name, letter);
+    return false;
+  }
+  param.value = static_cast<int64_t>(*number);
+  if (param.value > info.max) {
+    context_.diagnostics.report(Diag::ParameterOutOfRange, word.range)
+        << word.text << info.doc << function_.row->info.mnemonic;
+    return false;
+  }
+  if (param.value == 0) context_.diagnostics.report(Diag::LabelZero, word.range) << info.doc;
+  const Control control = function_.row->control;
+  context_.analysis.use({.range = word.range,
+                         .scope = letter,
+                         .number = static_cast<uint32_t>(param.value),
+                         .defines = control == Control::Lbl || control == Control::Sp});
+  return true;
+}
+
+// Some kinds have an area of their own, whatever their length.
+bool ParameterCheck::checkPlace(const Word& word, const OperandKind& kind) {
+  if (!kind.area) return true;
+  const auto first = byteOperand(context_, word, 1);
+  if (!first) return false;
+  if (first->area == *kind.area) return true;
+  context_.diagnostics.report(kind.elsewhere, word.range) << word.text;
+  return false;
+}
+
+bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Param& param) {
+  if (!checkPlace(word, *param.kind)) return false;
+  const uint32_t length = lengthOf(*param.kind);
+  const auto address = byteOperand(context_, word, length);
+  if (!address) return false;
+  param.isAddress = true;
+  param.address = *address;
+  context_.analysis.use({.range = word.range,
+                         .base = address->name,
+                         .place = placeOf(context_.language, *address, length),
+                         .access = info.access});
+  param.bytes = param.kind->rest ? context_.language.at(address->area).bytes - address->byte : length;
+  return info.access == Access::Read || checkWritable(context_, *address, length, word.range);
+}
+
+// An operand without a place was reported where it was read.
+bool ParameterCheck::lost(const Word& word, const Param& param) {
+  if (word.range.valid()) return false;
+  if (param.kind->parse == OperandClass::Format) lengthKnown_ = false;
+  return true;
+}
+
+bool ParameterCheck::checkValue(const OperandInfo& info, const Word& word, Param& param) {
+  const OperandKind& kind = *param.kind;
+  if (kind.constant && kind.address && !lengthKnown_) return false; // whether it is a constant is not known either
+  const bool isConstant = kind.constant && (!kind.address || constantOperand_);
+  return isConstant ? checkConstant(word, param) : checkAddress(info, word, param);
+}
+
+bool ParameterCheck::checkOne(const OperandInfo& info, const Word& word, Param& param) {
+  switch (param.kind->parse) {
+  case OperandClass::Value: return checkValue(info, word, param);
+  case OperandClass::Number: return checkNumber(info, word, param);
+  case OperandClass::Mask: return checkMask(word, param);
+  case OperandClass::Named: return checkNamed(info, word, param);
+  case OperandClass::Format: return checkFormat(word, param);
+  }
+  return false;
+}
+
+bool ParameterCheck::check(const std::vector<Word>& words) {
+  const auto operands = function_.row->info.operands.all();
+  if (words.size() != operands.size()) { // nobody knows which one is missing
+    DiagBuilder report = context_.diagnostics.report(Diag::WrongParameterCount, function_.range);
+    report << function_.row->info.mnemonic << operands.size() << words.size();
+    std::string names;
+    for (const OperandInfo& operand : operands) names += fmt::format("{}{}", names.empty() ? " " : ", ", operand.name);
+    if (!names.empty()) report.note(fmt::format("its parameters in order:{}", names));
+    return false;
+  }
+  bool good = true;
+  for (size_t i = 0; i < words.size(); ++i) {
+    Param param{.kind = &kindOf(operands[i]), .range = words[i].range};
+    param.bad = lost(words[i], param) || !checkOne(operands[i], words[i], param);
+    good = good && !param.bad;
+    function_.params.push_back(param);
+  }
+  return good;
+}
+
+bool ParameterCheck::checkTable(const std::vector<Word>& rows, bool capacityKnown) {
+  bool good = true;
+  for (const Word& row : rows) {
+    Param param;
+    good = row.range.valid() && checkConstant(row, param) && good;
+    function_.table.push_back(param.value);
+  }
+  if (!capacityKnown) return false;
+  const int64_t capacity = function_.params[1].value;
+  if (static_cast<int64_t>(rows.size()) == capacity) return good;
+  context_.diagnostics.report(Diag::TableSizeMismatch, function_.range)
+      << (rows.size() == 1 ? "1 row" : fmt::format("{} rows", rows.size())) << capacity;
+  return false;
+}
+
+} // namespace
+
+bool checkFunction(Context& context, const std::vector<Word>& parameters, const std::vector<Word>& table,
+                   Function& function) {
+  ParameterCheck check(context, function);
+  const bool good = check.check(parameters);
+  return function.row->hasTable ? check.checkTable(table, good) : good;
+}
+
+} // namespace rung::network

@@ -1,0 +1,44 @@
+// Files to the networks of a program.
+#include "frontend/network/read/reading.h"
+
+#include "frontend/network/read/ladder_reader.h"
+#include "frontend/network/read/list_reader.h"
+
+namespace rung::network {
+
+// By the name; where it does not say, ladder text is what has modules or rungs.
+bool isLadder(const Language& language, const SourceManager& sources, FileId file) {
+  const std::string_view name = sources.name(file);
+  if (name.ends_with(".lad")) return true;
+  if (name.ends_with(language.listExtension)) return false;
+  LineReader lines(sources, file);
+  LineWords words;
+  for (SourceLine line; lines.next(line);) {
+    splitWords(line, {}, words);
+    if (!words.words.empty() && (words.words[0].text == "module" || words.words[0].text == "rung")) return true;
+  }
+  return false;
+}
+
+void Reading::add(FileId file) {
+  if (isLadder(context_.language, context_.sources, file))
+    ladders_.push_back(parseLadderFile(context_, file)); // checks the encoding itself
+  else if (checkEncoding(context_.sources, file, context_.diagnostics))
+    lists_.push_back(file);
+  else
+    units_.setIncomplete();
+  last_ = file;
+}
+
+bool Reading::read() {
+  for (FileId file : lists_) readListSymbols(context_, file);
+  for (const auto& file : ladders_) readLadderDeclarations(context_, file);
+  for (FileId file : lists_) readList(context_, file, units_);
+  if (!lists_.empty()) units_.endOfList(lastLineOf(context_.sources, lists_.back()));
+  for (const auto& file : ladders_) readLadder(context_, file, units_);
+  reportUndeclared(context_);
+  units_.finish(lastLineOf(context_.sources, last_));
+  return !units_.incomplete();
+}
+
+} // namespace rung::network

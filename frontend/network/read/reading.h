@@ -1,0 +1,34 @@
+// All files of one program, read in one order: command lists before ladder text.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "frontend/ladder/text/ladder_file.h"
+#include "frontend/network/read/context.h"
+#include "frontend/network/read/units.h"
+
+namespace rung::network {
+
+// Ladder text; the others are command lists.
+bool isLadder(const Language& language, const SourceManager& sources, FileId file);
+
+class Reading {
+public:
+  Reading(Context& context, Program& program) : context_(context), units_(context, program) {}
+
+  void add(FileId file);
+  // True when all function commands were understood as such.
+  bool read();
+
+  const std::vector<FileId>& lists() const { return lists_; }
+  const std::vector<ladder::LadderFile>& ladders() const { return ladders_; }
+
+private:
+  Context& context_;
+  UnitAssembler units_;
+  std::vector<FileId> lists_;
+  std::vector<ladder::LadderFile> ladders_;
+  FileId last_;
+};
+
+} // namespace rung::network

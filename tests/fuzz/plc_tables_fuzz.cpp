@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "ir/support/check.h"
-#include "tools/devices/plc_tables.h"
+#include "tools/devices/tables/plc_tables.h"
 
 using namespace rung::devices;
 using namespace rung::control_files;

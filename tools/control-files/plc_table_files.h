@@ -1,6 +1,6 @@
 // Reads and writes the XML files of PLC tables: their definitions (*.PlcTDef, man. l.18275-18330) and their data
 // (*.PlcT, man. l.18352-18413). What an element's text means is up to the type of its column, which is in another file
-// (tools/devices/plc_tables.h). Texts are UTF-8.
+// (tools/devices/tables/plc_tables.h). Texts are UTF-8.
 #pragma once
 #include <cstdint>
 #include <string>

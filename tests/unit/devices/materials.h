@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/devices/plc_tables.h"
+#include "tools/devices/tables/plc_tables.h"
 
 namespace rung::test {
 

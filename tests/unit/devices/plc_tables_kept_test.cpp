@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tests/unit/devices/materials.h"
-#include "tools/devices/plc_tables.h"
+#include "tools/devices/tables/plc_tables.h"
 
 namespace rung::devices {
 namespace {

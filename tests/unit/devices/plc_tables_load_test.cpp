@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/devices/materials.h"
-#include "tools/devices/plc_tables.h"
+#include "tools/devices/tables/plc_tables.h"
 
 namespace rung::devices {
 namespace {

@@ -1,5 +1,5 @@
 // What a program asks of PLC tables (man. ch. 17.4).
-#include "tools/devices/plc_tables.h"
+#include "tools/devices/tables/plc_tables.h"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "ir/support/temporary_folder.h"
-#include "tools/devices/shared_areas_layout.h"
+#include "tools/devices/shared/shared_areas_layout.h"
 
 namespace rung::devices {
 namespace {

@@ -1,5 +1,5 @@
 // Shared areas in memory of the process (man. l.15489-15631).
-#include "tools/devices/shared_areas.h"
+#include "tools/devices/shared/shared_areas.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "tools/devices/shared_areas_layout.h"
+#include "tools/devices/shared/shared_areas_layout.h"
 
 namespace rung::devices {
 namespace {

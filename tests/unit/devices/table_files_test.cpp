@@ -1,5 +1,5 @@
 // The files of PLC tables: which tables there are, and what is on disk whatever happens.
-#include "tools/devices/table_files.h"
+#include "tools/devices/tables/table_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

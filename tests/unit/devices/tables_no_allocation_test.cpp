@@ -7,7 +7,7 @@
 #include "ir/support/temporary_folder.h"
 #include "tests/support/count_allocations.h"
 #include "tests/unit/devices/materials.h"
-#include "tools/devices/shared_areas.h"
+#include "tools/devices/shared/shared_areas.h"
 
 namespace {
 

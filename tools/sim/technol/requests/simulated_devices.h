@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/devices/table_files.h"
+#include "tools/devices/tables/table_files.h"
 #include "tools/sim/simulated_nc.h"
 #include "tools/sim/technol/requests/axis_requests.h"
 #include "tools/sim/technol/requests/can_requests.h"

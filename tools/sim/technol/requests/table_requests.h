@@ -2,8 +2,8 @@
 #pragma once
 #include <string_view>
 
-#include "tools/devices/plc_tables.h"
-#include "tools/devices/shared_areas.h"
+#include "tools/devices/shared/shared_areas.h"
+#include "tools/devices/tables/plc_tables.h"
 #include "tools/sim/technol/requests/device_call.h"
 
 namespace rung::sim::technol {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "tools/control-files/plc_table_files.h"
-#include "tools/devices/plc_table.h"
+#include "tools/devices/tables/plc_table.h"
 
 namespace rung::devices {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "tools/devices/plc_tables.h"
+#include "tools/devices/tables/plc_tables.h"
 
 namespace rung::devices {
 

@@ -1,5 +1,5 @@
 // What a program asks of PLC tables (see plc_tables.h).
-#include "tools/devices/plc_tables.h"
+#include "tools/devices/tables/plc_tables.h"
 
 #include <cmath>
 #include <cstring>

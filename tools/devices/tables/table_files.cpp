@@ -1,5 +1,5 @@
 // Files of PLC tables (see table_files.h).
-#include "tools/devices/table_files.h"
+#include "tools/devices/tables/table_files.h"
 
 #include <algorithm>
 #include <optional>

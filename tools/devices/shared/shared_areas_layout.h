@@ -1,6 +1,6 @@
 // What lies in the memory of shared areas, as they are made.
 #pragma once
-#include "tools/devices/shared_areas.h"
+#include "tools/devices/shared/shared_areas.h"
 
 namespace rung::devices {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "rtlib/nc/technol/code_page.h"
-#include "tools/devices/plc_tables.h"
+#include "tools/devices/tables/plc_tables.h"
 
 namespace rung::devices {
 namespace {

@@ -1,5 +1,5 @@
 // Reading and writing shared areas (see shared_areas.h).
-#include "tools/devices/shared_areas.h"
+#include "tools/devices/shared/shared_areas.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -7,7 +7,7 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 
-#include "tools/devices/shared_areas_layout.h"
+#include "tools/devices/shared/shared_areas_layout.h"
 
 namespace rung::devices {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/devices/table_element.h"
+#include "tools/devices/tables/table_element.h"
 
 namespace rung::devices {
 

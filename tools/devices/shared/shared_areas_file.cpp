@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "rtlib/host/disk_file.h"
-#include "tools/devices/shared_areas_layout.h"
+#include "tools/devices/shared/shared_areas_layout.h"
 
 namespace rung::devices {
 namespace {

@@ -1,5 +1,5 @@
 // Elements of PLC tables (see table_element.h).
-#include "tools/devices/table_element.h"
+#include "tools/devices/tables/table_element.h"
 
 #include <algorithm>
 #include <array>

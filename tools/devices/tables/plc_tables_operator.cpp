@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "tools/devices/plc_tables.h"
+#include "tools/devices/tables/plc_tables.h"
 
 namespace rung::devices {
 namespace {

@@ -22,11 +22,12 @@ using testing::HasSubstr;
 struct Checked {
   SourceManager sources;
   Diagnostics diagnostics;
-  Context context{.language = kLittle, .sources = sources, .diagnostics = diagnostics};
+  Context context;
   Program program;
   std::vector<FileId> files;
 
-  Checked(const std::string& name, const std::string& text) {
+  Checked(const std::string& name, const std::string& text, const Language& language = kLittle)
+      : context{.language = language, .sources = sources, .diagnostics = diagnostics} {
     files.push_back(sources.addBuffer(name, text));
     Reading reading(context, program);
     reading.add(files[0]);
@@ -193,6 +194,15 @@ TEST(Network, LimitsAreTheLanguages) {
     calls += "DO PARTEND\n";
   }
   EXPECT_THAT(list("DO FASTEND\n" + calls).reports(), ElementsAre(HasSubstr("nested more than 2 deep")));
+}
+
+TEST(Network, NoMoreIsNeededThanTheEndsOfTheLevels) {
+  Language ends = kLittle;
+  ends.rows = std::span(kRowPointers).first(2);
+  ends.subprogram = {};
+  const Checked program("test.lst", "symbol K4 M0.0\nGET I0.0\nPUT K4\nDO 10\nGET K4\nDO COPY\nDO 11\n", ends);
+  EXPECT_THAT(program.reports(), ElementsAre("6 unknown-function: unknown function command 'COPY'"));
+  EXPECT_EQ(program.program.units[kLevel1].networks.size(), 2u) << "K4 is a name here: there are no labels";
 }
 
 std::string converted(const std::string& name, const std::string& text, Form to) {

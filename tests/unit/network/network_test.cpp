@@ -179,6 +179,12 @@ TEST(Network, AreasSayWhatMayBeWritten) {
   EXPECT_THAT(reportsOf("GET I0.0\nPUT M0.0\nGET I0.1\nPUT M0.0\n"), ElementsAre()) << "nobody sees it";
 }
 
+TEST(Network, AnUndeclaredNameIsOneReport) {
+  EXPECT_THAT(reportsOf("GET LAMB\nGET LAMB\nMEET\nPUT LAMB\n"),
+              ElementsAre("2 bad-operand: 'LAMB' is not a bit address, signal or declared name"));
+  EXPECT_THAT(ladder("module SLOW\nrung\n|--[LAMB]--(LAMB)\n").reports(), ElementsAre(HasSubstr("4 bad-operand")));
+}
+
 TEST(Network, LimitsAreTheLanguages) {
   std::string deep;
   for (int i = 0; i < 4; ++i) deep += "GET I0.0\n";

@@ -35,6 +35,7 @@ std::optional<std::string> SimulatedDevices::configure(std::string_view key, std
     return files_.setTable(*table, path);
   }
   if (text::equalsIgnoringCase(key, "axes") || key.starts_with("axis.")) return axes_.configure(key, value);
+  if (const auto wired = inputs_.configure(key, value, axes_)) return *wired;
   if (ComPorts::owns(key)) return com_.configure(key, value);
   if (EtherCat::owns(key)) return ethercat_.configure(key, value);
   return can_.configure(key, value);
@@ -74,6 +75,7 @@ void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind) {
   canInputs_ = {};
   canOutputs_ = {};
   motion_ = 0;
+  inputs_.powerOn(instance.memory());
 }
 
 void SimulatedDevices::locate(host::Instance& instance) {
@@ -82,6 +84,7 @@ void SimulatedDevices::locate(host::Instance& instance) {
   for (uint32_t i = 0; i < program.service_count; ++i) services_.push_back(serviceOf(host::serviceName(program, i)));
   if (!simulated_) return;
   axisPlaces_ = AxisPlaces(program);
+  inputs_.locate(program);
   canPlaces_ = CanPlaces(program);
   ethercatPlaces_ = EthercatPlaces(program);
 }
@@ -143,6 +146,7 @@ void SimulatedDevices::beforeInput(host::Instance& instance) {
   const auto ticks = static_cast<uint32_t>(host::scanPeriodUs(instance.program()) / kUsPerTick);
   tickAxes(instance, ticks);
   tickOthers(instance, ticks);
+  inputs_.pass(instance.memory(), axes_, int64_t{ticks} * kUsPerTick);
 }
 
 void SimulatedDevices::tickAxes(host::Instance& instance, uint32_t ticks) {

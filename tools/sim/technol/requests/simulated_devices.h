@@ -15,6 +15,7 @@
 #include "tools/sim/technol/requests/can_requests.h"
 #include "tools/sim/technol/requests/com_requests.h"
 #include "tools/sim/technol/requests/ethercat_calls.h"
+#include "tools/sim/technol/requests/input_wiring.h"
 #include "tools/sim/technol/requests/table_requests.h"
 
 namespace rung::sim::technol {
@@ -94,6 +95,7 @@ private:
   AxisRequests axisRequests_;
   AxisOutputs axisOutputs_;
   AxisMask motion_ = 0; // that the axes have shown
+  InputWiring inputs_;
   CanInputs canInputs_;
   CanOutputs canOutputs_;
   devices::ethercat::StateBits stateBits_;

@@ -82,16 +82,17 @@ void lowerToSpindle(StatementContext& l, std::span<const Operand> o, int) {
   storeOutput(l, request);
 }
 
-// POLOHV_x is 1 until the axis has been positioned; 0 written there ends it (man. l.7964-7973).
+// POLOHV_x is 1 until the axis has been positioned; 0 written there ends it (man. l.7964-7973). Where nobody positions
+// axes it stays 0, so that no program waits for ever.
 void lowerToAxis(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   DeviceRequest request(l);
   ValueId axis;
   for (uint32_t i = 0; i < o.size(); ++i) axis = request.addOperand(i, o[i]);
-  const ValueId exists = isAxis(b, axis);
-  setBitOfAxis(b, "POLOHV", "POLOHVPI2", axis, exists);
-  setBitOfAxis(b, "PB20PI", "PB20PI2", axis, exists);
-  request.send();
+  const ValueId refused = b.eq(b.servicePoll(request.send()), b.i32(RUNG_SERVICE_ERROR));
+  const ValueId begins = b.and_(isAxis(b, axis), b.not_(refused));
+  setBitOfAxis(b, "POLOHV", "POLOHVPI2", axis, begins);
+  setBitOfAxis(b, "PB20PI", "PB20PI2", axis, begins);
 }
 
 // One step of val towards DR in val's width; DR becomes val (man. l.8274-8299). The difference of two numbers of a

@@ -256,7 +256,7 @@ TEST(TechnolTable, BadOperandsGiveTheCodeOfTheirKind) {
       const OperandKindInfo& kind = *row->info.operands[i].kind;
       operands[i] = kind.bad;
       const Compilation c = with(*row, operands);
-      EXPECT_EQ(codesOf(c), {std::string(kind.badCode)})
+      EXPECT_EQ(codesOf(c), Codes{std::string(kind.badCode)})
           << row->info.mnemonic << ' ' << row->info.operands[i].name << '\n'
           << c.text();
     }
@@ -268,12 +268,11 @@ TEST(TechnolTable, CountsAreChecked) {
     std::vector<std::string> fewer = goodOperands(*row, false), more = goodOperands(*row);
     if (!fewer.empty()) {
       fewer.pop_back();
-      EXPECT_EQ(codesOf(with(*row, fewer)), {"operand-count"}) << row->info.mnemonic;
+      EXPECT_EQ(codesOf(with(*row, fewer)), Codes{"operand-count"}) << row->info.mnemonic;
     }
     const bool repeated = !more.empty() && row->info.operands[more.size() - 1].repeated;
     more.push_back(repeated ? more.back() : "BIT0");
-    EXPECT_EQ(codesOf(with(*row, more)), expected(*row, repeated ? Codes{} : Codes{"operand-count"}))
-        << row->info.mnemonic;
+    EXPECT_EQ(codesOf(with(*row, more)), repeated ? Codes{} : Codes{"operand-count"}) << row->info.mnemonic;
   }
 }
 

@@ -2,6 +2,7 @@
 // service data of drives, serial ports, mailboxes, tables and shared areas.
 #include <gtest/gtest.h>
 
+#include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/technol/exchange.h"
 #include "rtlib/nc/technol/services.h"
 #include "rtlib/nc/technol/signals.h"
@@ -61,6 +62,7 @@ TEST(TechnolNoAllocation, DevicesAtWork) {
                           {"ethercat.0", "coe"},
                           {"ethercat.0.coe.0x6041.0", "0x237/2 ro"}});
   constexpr int64_t kFeed = int64_t{6000} << 16; // 6000 mm/min
+  for (const char* cell : {"VAZBA_4", "MP4PI"}) nc::technol::writeCell(machine.inside(), cell, 1);
   machine.ask(kInit, {4, 0});
   machine.ask(kMode, {1'000'000, 500, 4});
   machine.scan(); // what is written to a message or a text for the first time

@@ -66,10 +66,21 @@ bool PartChecker::parse(const Statement& statement, Typed& typed) {
   return parsed;
 }
 
+// Some take a value from DR where their operand is left out.
+bool readsDr(const Row& row, std::span<const Operand> operands) {
+  if ((row.effects & kReadsDr) == 0) return false;
+  if ((row.effects & kDrIfNotGiven) == 0) return true;
+  for (size_t i = 0; i < operands.size(); ++i) {
+    const OperandInfo& info = row.info.operands[i];
+    if (info.optional || kindOf(info).notGiven) return !operands[i].given();
+  }
+  return true;
+}
+
 void PartChecker::code(const Statement& statement, Typed& typed) {
   const Row& row = *statement.row;
   const bool parsed = parse(statement, typed);
-  lost_.begin(statement);
+  lost_.begin(statement, readsDr(row, typed_.operandsOf(typed)));
   typed.stack = equation_.begin(statement);
   if (parsed && row.check != nullptr)
     row.check({program_, statement, equation_, mixing_, calls_}, typed_.operandsOf(typed), row.variant);

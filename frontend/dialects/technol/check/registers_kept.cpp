@@ -9,9 +9,9 @@ void LostRegisters::reportIf(bool& lost, bool reads, const Statement& statement,
   lost = false;
 }
 
-void LostRegisters::begin(const Statement& statement) {
+void LostRegisters::begin(const Statement& statement, bool readsDr) {
   reportIf(rlo_, (statement.row->effects & kReadsRlo) != 0, statement, "RLO");
-  reportIf(dr_, (statement.row->effects & kReadsDr) != 0, statement, "DR");
+  reportIf(dr_, readsDr, statement, "DR");
 }
 
 void LostRegisters::finish(const Row& row, bool waits) {

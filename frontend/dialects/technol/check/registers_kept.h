@@ -13,7 +13,7 @@ public:
 
   void forget() { rlo_ = dr_ = false; }
   // Before and after the work of a statement; `waits`: control may leave the unit in it.
-  void begin(const Statement& statement);
+  void begin(const Statement& statement, bool readsDr);
   void finish(const Row& row, bool waits);
 
 private:

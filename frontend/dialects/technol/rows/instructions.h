@@ -48,11 +48,12 @@ enum Effect : uint16_t {
   kJoins = 32,  // without operand: joins with the stored value
   kWaits = 64,  // of EX kind
   kJumps = 128,
-  kKeepsDr = 256, // EX kind: DR is still there when it passes
+  kKeepsDr = 256, // EX kind: DR is still there when it passes; else: it stays where there is nothing to put there
   kInitOnly = 512,
   kEndsInit = 1024,
   kEndsDone = 2048,
-  kDeclares = 4096, // its first operand names a variable that it declares; variant: nc::ExchangeKind
+  kDeclares = 4096,     // its first operand names a variable that it declares; variant: nc::ExchangeKind
+  kDrIfNotGiven = 8192, // kReadsDr holds only without the first operand that may be left out
 };
 
 using CheckFn = void (*)(const CheckContext& context, std::span<const Operand> operands, int variant);

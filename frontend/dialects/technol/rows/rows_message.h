@@ -23,9 +23,9 @@ constexpr Row messageShape(uint16_t effects) {
 
 inline constexpr Row kMessageRows[] = {
     // ---- messages (man. ch. 14) and the ends of start and shutdown (man. ch. 5) -----------------------------------
-    rowOf(messageShape(kReadsDr), "ESET", "message", "14.3.1, l.5090", "Generates a message each time it is executed.",
-          "ESET 12,-,-,BYTE.SPEED", kAlways),
-    rowOf(messageShape(kReadsDr | kReadsRlo), "ESET1", "message if 1", "14.3.1, l.5091",
+    rowOf(messageShape(kReadsDr | kDrIfNotGiven), "ESET", "message", "14.3.1, l.5090",
+          "Generates a message each time it is executed.", "ESET 12,-,-,BYTE.SPEED", kAlways),
+    rowOf(messageShape(kReadsDr | kDrIfNotGiven | kReadsRlo), "ESET1", "message if 1", "14.3.1, l.5091",
           "As ESET, but only while RLO is 1.", "LDR  DOOR\nESET1 12", kIfRlo),
     {.info = {.mnemonic = "EDEF",
               .title = "ties a bit to a message",

@@ -156,7 +156,7 @@ inline constexpr Row kServiceRows[] = {
         "CAN_RECV_REQ 2,180h,-,21h,-,TOGGLE,TABLE"),
     endOfOrderRow("CAN_RECV_DEL", "9.4, l.3848", "CAN_RECV_DEL POS"),
     endOfOrderRow("CAN_RECV_END", "9.4, l.3850", "CAN_RECV_END POS"),
-    serviceRow("CAN_SYSIO_READ", ofCan(kSystemUnit, {checkUnitItem, lowerUnitRead}, kSetsRlo | kSetsDr),
+    serviceRow("CAN_SYSIO_READ", ofCan(kSystemUnit, {checkUnitItem, lowerUnitRead}, kSetsRlo | kSetsDr | kKeepsDr),
                "reads an item of a unit", "9.5, l.4276",
                "DR becomes the item. RLO becomes 1 where there is no such unit; DR then stays.",
                "CAN_SYSIO_READ 2,1,1,ERROR"),
@@ -174,7 +174,7 @@ inline constexpr Row kServiceRows[] = {
     serviceRow("ANALOG_PORT", ofSpindle({ranged(in("port", kinds::kNumber, "port"), 1, 16)}, lowerAnalogPort),
                "port of ANALOG", "12.2, l.7722", "ANALOG without an axis goes to this port until the next ANALOG_PORT.",
                "ANALOG_PORT 6"),
-    serviceRow("ANALOG", ofSpindle(kAnalog, lowerAnalog), "analogue output", "12.2, l.7770",
+    serviceRow("ANALOG", ofSpindle(kAnalog, lowerAnalog, kReadsDr | kDrIfNotGiven), "analogue output", "12.2, l.7770",
                "Sets the output of the port, or with an axis that of a spindle: with `spi` the one that is main or "
                "assistant now, "
                "else the one that AX_SPI has switched last. 7FFFh is 10 V. Without a value it is in DR, of 16 bits.",
@@ -193,7 +193,8 @@ inline constexpr Row kServiceRows[] = {
     serviceRow("SPI_MAIN", {.group = "spindle", .operands = {kAxis}, .code = kPlain}, "makes a spindle the main one",
                "12.3, l.7999", "The main spindle leads G95, G33 and G96.", "SPI_MAIN 4"),
     serviceRow("ANALOG_SPI",
-               ofSpindle({in("val", kinds::kSignedOrDash, "value; without it DR"), kAxis}, lowerAnalogSpindle),
+               ofSpindle({in("val", kinds::kSignedOrDash, "value; without it DR"), kAxis}, lowerAnalogSpindle,
+                         kReadsDr | kDrIfNotGiven),
                "analogue output of an axis", "12.3, l.8028",
                "As ANALOG, whether the spindle is main, assistant or neither.", "ANALOG_SPI SPEED,4"),
     serviceRow("RAMP",
@@ -222,7 +223,7 @@ inline constexpr Row kServiceRows[] = {
                        in("accel", kinds::kWordCell, "acceleration, mm/s2"), kAxis},
                       {checkRecord, lowerPositionMode}),
                "prepares a motion", "19.3, l.12205", "The motion begins when POS_CONTROL gives a speed and allows it.",
-               "POS_MODE A1,POS,SPEED,4"),
+               "POS_MODE TABLE,POS,SPEED,4"),
     serviceRow(
         "POS_CONTROL",
         ofUnit({out("status", kinds::kAddress, "status record of two bytes"),
@@ -231,7 +232,7 @@ inline constexpr Row kServiceRows[] = {
                {checkRecord, lowerPositionControl}),
         "controls a motion", "19.3, l.12240",
         "Gives speed and allowance, and reports the unit's state; to be called in every scan while the axis moves.",
-        "POS_CONTROL A1,POS,GO,4"),
+        "POS_CONTROL TABLE,POS,GO,4"),
     // ---- shared area, tables (man. ch. 17, 18) ----
     pollingRow("SA_READ",
                {.group = "shared area", .operands = kShared, .code = {checkService, lowerShared, DataForm::Bytes}},
@@ -295,9 +296,9 @@ inline constexpr Row kServiceRows[] = {
                "`Len` says how many bytes are written.", "ECAT_COE_WRITE 0,0,6040h,0,COUNT,POS\nEX0"),
     pollingRow("ECAT_SOE_READ", ofEtherCat(kIdentNumber), "reads an IDN of a slave", "26.4.2, l.18083",
                "`ElemFl` says which elements: 40h the value. `Len` becomes how many bytes have been read.",
-               "ECAT_SOE_READ 0,0,0,A1,36,POS,POS\nEX0"),
+               "ECAT_SOE_READ 0,0,0,CELL1,36,POS,POS\nEX0"),
     pollingRow("ECAT_SOE_WRITE", ofEtherCat(kIdentNumberFrom), "writes an IDN of a slave", "26.4.2, l.18084",
-               "`ElemFl` says which element: 40h the value.", "ECAT_SOE_WRITE 0,0,0,A1,36,POS,POS\nEX0"),
+               "`ElemFl` says which element: 40h the value.", "ECAT_SOE_WRITE 0,0,0,CELL1,36,POS,POS\nEX0"),
     pollingRow(
         "ECAT_COMMAND",
         ofEtherCat({kMaster, kSlave, wordNumber("Cmd", "command, ECATCMD_..."), optional(stored("Val", "answer")),
@@ -307,11 +308,11 @@ inline constexpr Row kServiceRows[] = {
         "Brings the master or a slave into a state, or reads its state: 1 INIT, 2 PRE-OPERATIONAL, 3 BOOTSTRAP, 4 "
         "SAFE-OPERATIONAL, 8 OPERATIONAL.",
         "ECAT_COMMAND 0,0,8\nEX0"),
-    serviceRow(
-        "COM_SEND",
-        ofCom({kCom, optional(byteNumber("val", "character; without it DR"))}, {nullptr, lowerComSend}, kSetsRlo),
-        "sends a character", "23.3.2, l.21063", "RLO becomes 1 where the queue is full or there is no such channel.",
-        "COM_SEND 1,COUNT"),
+    serviceRow("COM_SEND",
+               ofCom({kCom, optional(byteNumber("val", "character; without it DR"))}, {nullptr, lowerComSend},
+                     kReadsDr | kDrIfNotGiven | kSetsRlo),
+               "sends a character", "23.3.2, l.21063",
+               "RLO becomes 1 where the queue is full or there is no such channel.", "COM_SEND 1,COUNT"),
     serviceRow("COM_SEND_STR",
                ofCom({kCom, in("poin", kinds::kAddress, "the characters"), wordNumber("len", "how many")},
                      {checkService, lowerService, DataForm::Bytes}, kSetsRlo),
@@ -321,7 +322,7 @@ inline constexpr Row kServiceRows[] = {
                "COM_SEND_STR 1,TEXT1,4"),
     serviceRow("COM_RECV",
                ofCom({kCom, optional(out("val", kinds::kIntegerCell, "becomes the character; else DR"))},
-                     {nullptr, lowerComReceive}, kSetsRlo | kSetsDr),
+                     {nullptr, lowerComReceive}, kSetsRlo | kSetsDr | kKeepsDr),
                "takes a character that was received", "23.3.2, l.21138",
                "RLO becomes 0, or 1 where there is none; val and DR then stay.", "COM_RECV 1,COUNT"),
     serviceRow(

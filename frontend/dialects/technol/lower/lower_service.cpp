@@ -117,7 +117,7 @@ void lowerPolled(StatementContext& l, std::span<const Operand> o, int form) {
   continueHere(l);
   ir::RungBuilder& b = l.b();
   const ir::SlotId slot = l.ownSlot(Type::I32);
-  l.sequences.current().cells.push_back({.automatic = true, .slot = slot, .access = {}, .type = Type::I32});
+  l.sequences.current().tickets.push_back(slot);
   const ValueId pending = b.slotLoad(slot);
   const ValueId isNew = b.eq(pending, b.i32(0));
   const auto data = static_cast<DataForm>(form);

@@ -24,7 +24,8 @@ Sequences::Sequences(Memory& memory, State& state) : m_(memory), state_(state) {
   for (const Mechanism& mechanism : memory.program().mechanisms) {
     const auto number = static_cast<uint32_t>(mechanisms_.size());
     const std::string name = symbolKey(mechanism.name);
-    mechanisms_.push_back({.state = memory.newSlot(Type::I32, "MECH." + name + ".CONT"), .reset = {}, .cells = {}});
+    mechanisms_.push_back(
+        {.state = memory.newSlot(Type::I32, "MECH." + name + ".CONT"), .reset = {}, .cells = {}, .tickets = {}});
     state.nameCells("@MECH." + name, bitOf(number), Type::Bit);
     state.nameCells("@MECH." + name + ".LINE", lineOf(number), Type::I16);
   }
@@ -72,27 +73,33 @@ void Sequences::end() {
     m_.b().store(bitOf(sequence.mechanism), m_.b().bit(false));
   storeState(sequence, m_.b().i32(0));
   storeLine(sequence, 0);
-  clear(sequence.cells);
-  if (sequence.mechanism == kNone && !sequence.cells.empty()) clearAtBeginning(sequence);
+  clear(sequence.cells, sequence.tickets);
+  if (sequence.mechanism == kNone && !sequence.tickets.empty()) clearAtBeginning(sequence);
   m_.out().cut();
   m_.out().setLabels(sequence.dispatch, sequence.states);
   m_.out().bind(sequence.leave);
-  if (sequence.mechanism != kNone) mechanisms_[sequence.mechanism].cells = std::move(sequence.cells);
+  if (sequence.mechanism != kNone) {
+    Kept& kept = mechanisms_[sequence.mechanism];
+    kept.cells = std::move(sequence.cells);
+    kept.tickets = std::move(sequence.tickets);
+  }
   m_.module().continuations.push_back(std::move(sequence.continuation));
   open_.pop_back();
 }
 
-void Sequences::clear(std::span<const CountCell> cells) {
+void Sequences::clear(std::span<const CountCell> cells, std::span<const ir::SlotId> tickets) {
   for (const CountCell& cell : cells) state_.store(cell, m_.b().constant(cell.type, 0));
+  for (const ir::SlotId ticket : tickets) m_.b().slotStore(ticket, m_.b().i32(0));
 }
 
-// The control may give up a block and begin the next one: what a module counted or asked for is of the former block.
+// The control may give up a block and begin the next one: what a module asked for is of the former block. A module that
+// waits at its beginning has asked for nothing yet, but may have counted.
 void Sequences::clearAtBeginning(Sequence& sequence) {
   RoutineBuilder& out = m_.out();
   const uint32_t code = std::exchange(sequence.states[0], out.newLabel());
   out.jump(sequence.leave);
   out.bind(sequence.states[0]);
-  clear(sequence.cells);
+  clear({}, sequence.tickets);
   out.jump(code);
 }
 
@@ -164,7 +171,7 @@ void Sequences::makeResets() {
   for (const Kept& kept : mechanisms_) {
     if (!kept.reset.valid()) continue;
     m_.open(kept.reset);
-    clear(kept.cells);
+    clear(kept.cells, kept.tickets);
     m_.close();
   }
 }

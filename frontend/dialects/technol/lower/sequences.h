@@ -22,7 +22,8 @@ struct Sequence {
   bool sectionEnds = false;                        // this one has a point
   std::unordered_map<std::string, uint32_t> alike; // points so far, by their keys
   std::unordered_map<uint32_t, uint32_t> stateOfLabel;
-  std::vector<CountCell> cells; // cleared when the unit ends or is initialised
+  std::vector<CountCell> cells;    // cleared when the unit ends or is initialised
+  std::vector<ir::SlotId> tickets; // of its requests: forgotten then
 };
 
 class Sequences {
@@ -54,7 +55,7 @@ public:
 
 private:
   void begin(Sequence sequence);
-  void clear(std::span<const CountCell> cells);
+  void clear(std::span<const CountCell> cells, std::span<const ir::SlotId> tickets);
   void clearAtBeginning(Sequence& sequence);
   void addPoint(Sequence& sequence, std::string_view role);
 
@@ -65,6 +66,7 @@ private:
     ir::SlotId state;
     ir::RoutineId reset; // invalid where not called
     std::vector<CountCell> cells;
+    std::vector<ir::SlotId> tickets;
   };
   std::vector<Kept> mechanisms_;
 };

@@ -50,7 +50,7 @@ private:
     uint32_t first = 0;
     uint32_t count = 0;
   };
-  std::array<Entry, rt::ServiceQueue::kMaxPending> entries_ = {};
+  std::array<Entry, rt::ServiceQueue::kRecords> entries_ = {}; // as long as a ticket is known
   size_t next_ = 0;
   uint32_t end_ = 0;
   std::unique_ptr<std::array<uint8_t, kRoom>> bytes_;

@@ -235,11 +235,12 @@ def single():
     pins(lamp_single=True)
     command.program_open(os.path.abspath("single.ngc"))
     command.wait_complete(PATIENCE)
-    seen = [round(position(0), 3)]
+    seen = [round(position(0))]
     while seen[-1] != 3 and len(seen) < 12:
         start()
-        wait("the end of the block", lambda: polled().inpos)
-        seen.append(round(position(0), 3))
+        # "In position" was seen while the joint was still short of it.
+        wait("the end of the block", lambda: polled().inpos and abs(position(0) - round(position(0))) < 0.0005)
+        seen.append(round(position(0)))
     check(seen == sorted(seen) and set(seen) == {0, 1, 2, 3}, f"single blocks: {seen}")
     press("single")
     pins(lamp_single=False)

@@ -29,7 +29,7 @@ Counted by callgrind, exactly, as above: a scan in the host's runner, without a 
 and written in each dialect, and as straight-line C++ in two forms, a byte a bit and 64 bits a word, compiled by g++ and clang++ at -O3. All have the same inputs,
 some of which change before each scan, and the same outputs: bits, words, tables and floating-point numbers are compared after every one of 400 scans. The
 reference is the straight-line form with the fewest instructions. "Full" is bit logic with, for each ten rungs of it, a timer, a counter and two of integer
-arithmetic. Where there is no count, the control has no room for so many rungs, or no such thing. In brackets: of these the compiled rungs, without the runner.
+arithmetic. A missing count: the control cannot hold so many rungs, or has no such instruction. In brackets: of these the compiled rungs, without the runner.
 """
 RESTING_HEAD = """### Programs that leave out what rests
 

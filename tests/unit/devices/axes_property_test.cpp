@@ -13,7 +13,7 @@ using rung::test::AxesMachine;
 
 class Orders {
 public:
-  // Since AX_SPI, and until they stand without a role.
+  // Since AX_SPI, and until they stop without a role.
   AxisMask spindles = 0;
 
   explicit Orders(uint32_t seed) : random_(seed) {}

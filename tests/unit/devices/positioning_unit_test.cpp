@@ -226,7 +226,7 @@ TEST(PositioningUnit, ResetBrakes) {
   machine.ticks(300);
   machine.axes.posReset(1);
   machine.scan();
-  EXPECT_EQ(machine.out.motion, 1); // until it stands
+  EXPECT_EQ(machine.out.motion, 1); // until it stops
   machine.ticks(1000);
   EXPECT_NEAR(machine.axes.measured(1), 30, 1e-9);
   EXPECT_EQ(machine.out.motion, 0);

@@ -103,7 +103,7 @@ TEST(Reference, WithoutSwitchItIsSlowFromTheStart) {
 
 TEST(Reference, LevelAndEdgeOfTheSwitch) {
   ReferenceMachine edge, level{{"axis.1.RefSwitch", "2"}};
-  edge.reference = level.reference = {-5, 1000}; // it stands on the switch
+  edge.reference = level.reference = {-5, 1000}; // it is on the switch
   EXPECT_EQ(edge.run(), -1);
   EXPECT_GT(level.run(), 0);
   EXPECT_NEAR(level.axes.physical(1), 10.1, 1e-9);

@@ -57,11 +57,8 @@ void checkData(const CheckContext& c, const Operand& operand, DataForm form, int
 // The bytes that a constant asks for; of a cell it shows when the program runs.
 void checkService(const CheckContext& c, std::span<const Operand> o, int form) {
   const std::span<const OperandInfo> infos = c.statement.row->info.operands.all();
-  int64_t count = 0;
-  for (size_t i = 0; i < o.size(); ++i)
-    if (o[i].form == Operand::Form::Integer &&
-        (text::equalsIgnoringCase(infos[i].name, "Size") || text::equalsIgnoringCase(infos[i].name, "len")))
-      count = o[i].value;
+  const Operand* length = lengthIn(infos, o);
+  const int64_t count = length != nullptr && length->form == Operand::Form::Integer ? length->value : 0;
   for (size_t i = 0; i < o.size(); ++i)
     if (o[i].given() && kindOf(infos[i]).parse == OperandClass::Text)
       checkData(c, o[i], static_cast<DataForm>(form), count);

@@ -84,6 +84,13 @@ ValueId DeviceRequest::flag(std::string_view name) { return l_.b().ne(result(nam
 
 ValueId DeviceRequest::real(std::string_view name) { return l_.b().op(OpCode::BitsToF, Type::F64, {result(name)}); }
 
+const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Operand> operands) {
+  for (size_t i = 0; i < operands.size(); ++i)
+    if (text::equalsIgnoringCase(infos[i].name, "Size") || text::equalsIgnoringCase(infos[i].name, "Len"))
+      return &operands[i];
+  return nullptr;
+}
+
 ValueId bytesArgument(ir::RungBuilder& b, const Area& area, ValueId count) {
   const ValueId fixed = b.constant(Type::I64, nc::technol::bytesArgument(area.space.index, 0, 0));
   const ValueId size = b.op(OpCode::Shl, Type::I64, {b.zextOrTrunc(Type::I64, count), b.i32(32)});

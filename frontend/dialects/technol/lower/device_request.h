@@ -42,6 +42,8 @@ private:
   ir::ValueId executed_;
 };
 
+// The operand that says how many bytes of the data are meant; null where the row has none.
+const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Operand> operands);
 // The argument for `count` bytes of an area, i32.
 ir::ValueId bytesArgument(ir::RungBuilder& b, const Area& area, ir::ValueId count);
 // Puts the first `count` bytes of an answer, at most `most`, there.

@@ -14,8 +14,6 @@ using ir::ValueId;
 
 namespace {
 
-bool isNamed(const OperandInfo& info, std::string_view name) { return text::equalsIgnoringCase(info.name, name); }
-
 bool isData(const OperandInfo& info) { return kindOf(info).parse == OperandClass::Text; }
 bool isRead(const OperandInfo& info) { return info.access != Access::Write; }
 bool isWritten(const OperandInfo& info) { return info.access != Access::Read; }
@@ -27,16 +25,9 @@ struct Given {
   std::vector<DeviceTarget> targets; // of those that are written
 };
 
-// The operand that says how many bytes of the other one are meant; null where the row has none.
-const Operand* lengthIn(const Given& given) {
-  for (size_t i = 0; i < given.operands.size(); ++i)
-    if (isNamed(given.infos[i], "Size") || isNamed(given.infos[i], "Len")) return &given.operands[i];
-  return nullptr;
-}
-
 // Where `guard` is 1, more bytes than the data have from there on stop the program.
 ValueId lengthOf(StatementContext& l, const Given& given, const DeviceTarget& data, ValueId guard) {
-  const Operand* length = lengthIn(given);
+  const Operand* length = lengthIn(given.infos, given.operands);
   if (length == nullptr) return data.room();
   const ValueId count = l.b().zextOrTrunc(Type::I32, l.value(*length, guard));
   if (!length->isConstant()) {

@@ -134,7 +134,7 @@ constexpr Row regulatorRow(std::string_view mnemonic, std::string_view example) 
 }
 constexpr Row endOfOrderRow(std::string_view mnemonic, std::string_view ref, std::string_view example) {
   return serviceRow(mnemonic, ofCan({in("handle", kinds::kDwordCell, "handle of the order")}, kPlain, kSetsRlo),
-                    "ends an order of packets", ref, "RLO becomes 1, or 0 where there is no such order.", example);
+                    "ends an order of packets", ref, "RLO becomes 1, or 0 if the order is unknown.", example);
 }
 
 inline constexpr Row kServiceRows[] = {
@@ -158,11 +158,11 @@ inline constexpr Row kServiceRows[] = {
     endOfOrderRow("CAN_RECV_END", "9.4, l.3850", "CAN_RECV_END POS"),
     serviceRow("CAN_SYSIO_READ", ofCan(kSystemUnit, {checkUnitItem, lowerUnitRead}, kSetsRlo | kSetsDr | kKeepsDr),
                "reads an item of a unit", "9.5, l.4276",
-               "DR becomes the item. RLO becomes 1 where there is no such unit; DR then stays.",
+               "DR becomes the item. If the unit does not exist, RLO becomes 1 and DR keeps its value.",
                "CAN_SYSIO_READ 2,1,1,ERROR"),
     serviceRow("CAN_SYSIO_WRITE", ofCan(kSystemUnit, {checkUnitItem, lowerUnitWrite}, kReadsDr | kSetsRlo),
                "writes an item of a unit", "9.5, l.4317",
-               "The item becomes DR, as wide as it is. RLO becomes 1 where there is no such unit.",
+               "The item takes as many bytes of DR as it has. If the unit does not exist, RLO becomes 1.",
                "LOD  1\nCAN_SYSIO_WRITE 2,1,1,MODE"),
     serviceRow("CAN_AX_SEND", ofCan({kAxis}, {nullptr, lowerDriveSend}), "sends service data to a drive",
                "13.14.4, l.9474",
@@ -250,9 +250,9 @@ inline constexpr Row kServiceRows[] = {
                "17.4.1, l.18676", "A text becomes the eight bytes of the number.",
                "PLCT_GET_REAL 1,LIMIT,2,RATIO\nEX0"),
     pollingRow("PLCT_GET_STR", ofTable(elementIn(kinds::kText), DataForm::Text), "reads a text of a table",
-               "17.4.1, l.18677", "What there is no room for is cut off.", "PLCT_GET_STR 1,LIMIT,2,TEXT1\nEX0"),
+               "17.4.1, l.18677", "A text that does not fit is cut off.", "PLCT_GET_STR 1,LIMIT,2,TEXT1\nEX0"),
     pollingRow("PLCT_GET_BIN", ofTable(elementIn(kinds::kCellOrText), DataForm::Binary), "reads bytes of a table",
-               "17.4.1, l.18678", "What there is no room for is cut off; the rest of the variable stays.",
+               "17.4.1, l.18678", "Bytes that do not fit are cut off; the rest of the variable keeps its value.",
                "PLCT_GET_BIN 1,LIMIT,2,TEXT1\nEX0"),
     pollingRow("PLCT_SET_INT", ofTable(elementFrom(kinds::kCellOrText), DataForm::Integer),
                "writes an integer of a table", "17.4.1, l.18679", "Of a text its first four bytes.",
@@ -312,13 +312,13 @@ inline constexpr Row kServiceRows[] = {
                ofCom({kCom, optional(byteNumber("val", "character; without it DR"))}, {nullptr, lowerComSend},
                      kReadsDr | kDrIfNotGiven | kSetsRlo),
                "sends a character", "23.3.2, l.21063",
-               "RLO becomes 1 where the queue is full or there is no such channel.", "COM_SEND 1,COUNT"),
+               "RLO becomes 1 if the queue is full or the channel does not exist.", "COM_SEND 1,COUNT"),
     serviceRow("COM_SEND_STR",
                ofCom({kCom, in("poin", kinds::kAddress, "the characters"), wordNumber("len", "how many")},
                      {checkService, lowerService, DataForm::Bytes}, kSetsRlo),
                "sends characters", "23.3.2, l.21088",
-               "All are sent without a gap, or none: RLO becomes 1 where the queue has no room for them or there is no "
-               "such channel.",
+               "All are sent without a gap, or none: RLO becomes 1 if they do not fit in the queue or the channel does "
+               "not exist.",
                "COM_SEND_STR 1,TEXT1,4"),
     serviceRow("COM_RECV",
                ofCom({kCom, optional(out("val", kinds::kIntegerCell, "becomes the character; else DR"))},

@@ -5,9 +5,7 @@
 
 namespace rung::nc::technol {
 
-rt::Place Backup::locate(const rung_program& program) {
-  return host::locate({program, nullptr}, signalPlace(program, "REQ_BACKUP_MEM").value_or(host::Ref{}));
-}
+rt::Place Backup::locate(const rung_program& program) { return locateSignal(program, "REQ_BACKUP_MEM"); }
 
 void Backup::afterMain(host::Instance& instance) {
   if (!stored_) saved(instance);

@@ -17,13 +17,6 @@ bool lastsOneBlock(std::string_view name) { return name.starts_with("ZM") || nam
 // The mode and G00, G33 of a block stay until the next start (man. l.6752-6780).
 constexpr std::string_view kUntilNextStart[] = {"AUTPI", "REFPI", "CAPI", "G00PI", "G33PI"};
 
-// Every program has these cells. A program's own cell of the same name is not the interface's.
-rt::Place hostCell(const rung_program& program, std::string_view name) {
-  return host::locate({program, nullptr}, cellPlace(program, name).value_or(host::Ref{}));
-}
-rt::Place interfaceCell(const rung_program& program, std::string_view name) {
-  return host::locate({program, nullptr}, signalPlace(program, name).value_or(host::Ref{}));
-}
 uint64_t get(const host::Instance& instance, const rt::Place& place) { return instance.memory().read(place); }
 void put(host::Instance& instance, const rt::Place& place, uint64_t value) { instance.memory().write(place, value); }
 
@@ -42,19 +35,19 @@ void Blocks::reset() {
 const Blocks::Places Blocks::kNothing{};
 
 Blocks::Places::Places(const rung_program& program) {
-  for (const std::string_view name : kUntilNextStart) untilNextStart.push_back(interfaceCell(program, name));
+  for (const std::string_view name : kUntilNextStart) untilNextStart.push_back(locateSignal(program, name));
   queue = host::findSpace(program, "BLK");
   const auto task = [&](std::string_view name) { return host::findTask(program, name); };
-  init = {task("BLOCK_INIT"), hostCell(program, "@BLOCK_INIT.CONT"), hostCell(program, "@BLOCK_INIT.DONE")};
-  done = {task("BLOCK_DONE"), hostCell(program, "@BLOCK_DONE.CONT"), hostCell(program, "@BLOCK_DONE.DONE")};
-  initPending = hostCell(program, "@INIT.PENDING");
-  startDisable = interfaceCell(program, "START_DISABLE");
-  startSuspend = interfaceCell(program, "START_SUSPEND");
-  statusRestart = interfaceCell(program, "STATUS_RESTART");
-  blockInProgress = interfaceCell(program, "PO_F");
-  positionReached = interfaceCell(program, "PO_POL");
-  stopDone = interfaceCell(program, "PO_STOP");
-  annulment = interfaceCell(program, "CAPI");
+  init = {task("BLOCK_INIT"), locateCell(program, "@BLOCK_INIT.CONT"), locateCell(program, "@BLOCK_INIT.DONE")};
+  done = {task("BLOCK_DONE"), locateCell(program, "@BLOCK_DONE.CONT"), locateCell(program, "@BLOCK_DONE.DONE")};
+  initPending = locateCell(program, "@INIT.PENDING");
+  startDisable = locateSignal(program, "START_DISABLE");
+  startSuspend = locateSignal(program, "START_SUSPEND");
+  statusRestart = locateSignal(program, "STATUS_RESTART");
+  blockInProgress = locateSignal(program, "PO_F");
+  positionReached = locateSignal(program, "PO_POL");
+  stopDone = locateSignal(program, "PO_STOP");
+  annulment = locateSignal(program, "CAPI");
   const rt::Memory memory(program, nullptr); // for its places only
   for (const Signal& signal : technolSignals()) {
     const std::string_view name = signal.symbol;

@@ -87,6 +87,20 @@ std::optional<host::Ref> cellPlace(const rung_program& program, std::string_view
   return resolve(program, name, [&](std::string_view unknown) { return signalPlace(program, unknown); });
 }
 
+rt::Place locateSignal(const rung_program& program, std::string_view name) {
+  return host::locate({program, nullptr}, signalPlace(program, name).value_or(host::Ref{}));
+}
+
+rt::Place locateCell(const rung_program& program, std::string_view name) {
+  return host::locate({program, nullptr}, cellPlace(program, name).value_or(host::Ref{}));
+}
+
+void locateElements(const rung_program& program, std::string_view array, std::span<rt::Place> elements) {
+  const std::optional<host::Ref> whole = signalPlace(program, array);
+  for (uint32_t i = 0; whole && i < elements.size(); ++i)
+    if (const auto one = host::element(*whole, i)) elements[i] = host::locate({program, nullptr}, *one);
+}
+
 uint64_t readCell(const host::Instance& instance, std::string_view name) {
   const auto place = cellPlace(instance.program(), name);
   return place ? instance.read(*place) : 0;
@@ -100,13 +114,8 @@ bool runWith(host::Instance& instance, std::string_view task, uint64_t dr, bool 
   return Procedure(instance.program(), task).run(instance, dr, rlo);
 }
 
-Procedure::Procedure(const rung_program& program, std::string_view task) : task_(host::findTask(program, task)) {
-  const auto cell = [&](std::string_view name) {
-    return host::locate({program, nullptr}, cellPlace(program, name).value_or(host::Ref{}));
-  };
-  dr_ = cell("@DR");
-  rlo_ = cell("@RLO");
-}
+Procedure::Procedure(const rung_program& program, std::string_view task)
+    : task_(host::findTask(program, task)), dr_(locateCell(program, "@DR")), rlo_(locateCell(program, "@RLO")) {}
 
 bool Procedure::run(host::Instance& instance, uint64_t dr, bool rlo) const {
   if (task_ == RUNG_NONE) return false;

@@ -3,6 +3,7 @@
 // out.
 #pragma once
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "rtlib/host/instance.h"
@@ -15,6 +16,12 @@ namespace rung::nc::technol {
 std::optional<host::Ref> signalPlace(const rung_program& program, std::string_view name);
 std::optional<host::Ref> cellPlace(const rung_program& program, std::string_view name);
 std::optional<host::Ref> placeOf(const rung_program& program, const Signal& signal);
+
+// The same, looked up once for the scans: what the program lacks reads 0 and takes nothing.
+rt::Place locateSignal(const rung_program& program, std::string_view name);
+rt::Place locateCell(const rung_program& program, std::string_view name);
+// The first elements of an array of the interface.
+void locateElements(const rung_program& program, std::string_view array, std::span<rt::Place> elements);
 
 // 0 where there is no such cell.
 uint64_t readCell(const host::Instance& instance, std::string_view name);

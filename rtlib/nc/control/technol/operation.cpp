@@ -3,21 +3,19 @@
 
 #include <string>
 
+#include "rtlib/nc/control/technol/cells.h"
+
 namespace rung::nc::technol {
 namespace {
 
 constexpr const char* kAxisNames[] = {"X", "Y", "Z", "4", "5", "6"};
-
-rt::Place cell(const rung_program& program, const std::string& name) {
-  return host::locate({program, nullptr}, signalPlace(program, name).value_or(host::Ref{}));
-}
 
 } // namespace
 
 const Operation::Places Operation::kNothing{};
 
 Operation::Places::Places(const rung_program& program) {
-  const auto at = [&](const std::string& name) { return cell(program, name); };
+  const auto at = [&](const std::string& name) { return locateSignal(program, name); };
   runs = at("SF_RUN"), stopped = at("SF_STOP"), moves = at("SF_NOTINPOS"), byHand = at("SF_MANUALMODE");
   rapid = at("G00PI"), thread = at("G33PI");
   stop = at("STOPPI"), stopRequest = at("STOP_REQ"), emergencyRequest = at("STOP_EMERGENCY_REQ");

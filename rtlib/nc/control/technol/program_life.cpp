@@ -11,8 +11,7 @@ enum : uint64_t { kPower = 0, kCommand = 1 }; // in DR (man. l.2583, l.2627)
 const ProgramLife::Places ProgramLife::kNothing{};
 
 ProgramLife::Places::Places(const rung_program& program)
-    : done(program, "DONE"),
-      donePending(host::locate({program, nullptr}, cellPlace(program, "@DONE.PENDING").value_or(host::Ref{}))) {}
+    : done(program, "DONE"), donePending(locateCell(program, "@DONE.PENDING")) {}
 
 void ProgramLife::powerOn(host::Instance& instance) {
   stopping_ = false;

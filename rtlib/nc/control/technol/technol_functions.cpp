@@ -8,6 +8,9 @@
 #include "rtlib/nc/control/technol/cells.h"
 
 namespace rung::nc {
+
+using technol::locateSignal;
+
 namespace {
 
 constexpr uint32_t kMostTool = 99'999'999;
@@ -53,10 +56,6 @@ int64_t bcd(uint32_t number) {
   return digits;
 }
 
-rt::Place cell(const rung_program& program, std::string_view name) {
-  return host::locate({program, nullptr}, technol::signalPlace(program, name).value_or(host::Ref{}));
-}
-
 } // namespace
 
 TechnolFunctions::TechnolFunctions(technol::Blocks& blocks) : blocks_(blocks) {
@@ -75,27 +74,27 @@ const TechnolFunctions::Places TechnolFunctions::kNothing{};
 
 TechnolFunctions::Places::Places(const rung_program& program) {
   static_assert(std::size(kDecodedBits) == kDecoded);
-  automatic = cell(program, "AUTPI");
+  automatic = locateSignal(program, "AUTPI");
   for (uint32_t i = 1; i <= kGroups; ++i) {
     const std::string number = std::to_string(i);
-    groups[i] = {.changed = cell(program, "ZMM" + number + "PI"),
+    groups[i] = {.changed = locateSignal(program, "ZMM" + number + "PI"),
                  .code = {},
-                 .blockChanged = cell(program, "BLK[0].M" + number),
-                 .blockCode = cell(program, "BLK[0].M[" + number + "]")};
+                 .blockChanged = locateSignal(program, "BLK[0].M" + number),
+                 .blockCode = locateSignal(program, "BLK[0].M[" + number + "]")};
   }
-  for (const CodeCell& each : kCodeCells) groups[each.group].code = cell(program, each.cell);
-  for (uint32_t i = 0; i < kDecoded; ++i) decoded[i] = cell(program, kDecodedBits[i].cell);
-  speedChanged = cell(program, "ZMSSPI");
-  speed = cell(program, "BLK[0].SpindleSpeed");
-  toolChanged = cell(program, "ZMSTPI");
-  blockToolChanged = cell(program, "BLK[0].TProg");
-  blockTool = cell(program, "BLK[0].T");
-  for (uint32_t i = 0; i < toolDigits.size(); ++i) toolDigits[i] = cell(program, kToolCells[i]);
+  for (const CodeCell& each : kCodeCells) groups[each.group].code = locateSignal(program, each.cell);
+  for (uint32_t i = 0; i < kDecoded; ++i) decoded[i] = locateSignal(program, kDecodedBits[i].cell);
+  speedChanged = locateSignal(program, "ZMSSPI");
+  speed = locateSignal(program, "BLK[0].SpindleSpeed");
+  toolChanged = locateSignal(program, "ZMSTPI");
+  blockToolChanged = locateSignal(program, "BLK[0].TProg");
+  blockTool = locateSignal(program, "BLK[0].T");
+  for (uint32_t i = 0; i < toolDigits.size(); ++i) toolDigits[i] = locateSignal(program, kToolCells[i]);
   onCommand = technol::Procedure(program, "_ON_CMD");
-  hChanged = cell(program, "ZMSHPI");
-  hCode = cell(program, "PB05");
-  blockHChanged = cell(program, "BLK[0].HProg");
-  blockH = cell(program, "BLK[0].H");
+  hChanged = locateSignal(program, "ZMSHPI");
+  hCode = locateSignal(program, "PB05");
+  blockHChanged = locateSignal(program, "BLK[0].HProg");
+  blockH = locateSignal(program, "BLK[0].H");
 }
 
 bool TechnolFunctions::carries(FunctionKind kind, uint32_t code) const {

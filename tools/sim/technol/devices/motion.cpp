@@ -106,9 +106,9 @@ void Motion::runPast(double position, double speed, double acceleration) {
   const double reached = std::sqrt(last_.speed * last_.speed + 2 * acceleration * distance);
   rampTo(direction * std::min(std::fabs(speed), reached), acceleration);
   cruise(position - last_.position);
-  const double stand = position + brakingDistance(last_.speed, acceleration);
+  const double standstill = position + brakingDistance(last_.speed, acceleration);
   rampTo(0, acceleration);
-  end(stand, 0);
+  end(standstill, 0);
 }
 
 void Motion::tick() {

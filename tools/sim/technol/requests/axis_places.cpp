@@ -59,25 +59,12 @@ constexpr Cell<AxisOutputs, bool> kOutputFlags[] = {{"INPOS", &AxisOutputs::inPo
                                                     {"AUTMAN_CONT_SELECT", &AxisOutputs::selecting},
                                                     {"AUTMAN_CONT_G00", &AxisOutputs::rapid}};
 
-std::optional<host::Ref> refOf(const rung_program& program, std::string_view name) {
-  return nc::technol::signalPlace(program, name);
-}
-rt::Place placeIn(const rung_program& program, std::string_view name) {
-  return host::locate({program, nullptr}, refOf(program, name).value_or(host::Ref{}));
-}
-
-template <size_t Count>
-std::array<rt::Place, Count> elements(const rung_program& program, std::string_view name) {
-  std::array<rt::Place, Count> places;
-  const auto array = refOf(program, name);
-  for (uint32_t i = 0; array && i < Count; ++i)
-    if (const auto one = host::element(*array, i)) places[i] = host::locate({program, nullptr}, *one);
-  return places;
-}
+using nc::technol::locateElements;
+using nc::technol::locateSignal;
 
 std::array<rt::Place, kMaxAxes> bitsOf(const rung_program& program, std::string_view pattern) {
   std::array<rt::Place, kMaxAxes> places;
-  for (uint32_t axis = 1; axis <= kMaxAxes; ++axis) places[axis - 1] = placeIn(program, nameOfAxis(pattern, axis));
+  for (uint32_t axis = 1; axis <= kMaxAxes; ++axis) places[axis - 1] = locateSignal(program, nameOfAxis(pattern, axis));
   return places;
 }
 
@@ -92,7 +79,7 @@ std::string nameOfAxis(std::string_view pattern, uint32_t axis) {
 
 AxisPlaces::AxisPlaces(const rung_program& program) {
   const auto names = [&](auto& places, const auto& cells) {
-    for (const auto& cell : cells) places.push_back(placeIn(program, cell.name));
+    for (const auto& cell : cells) places.push_back(locateSignal(program, cell.name));
   };
   for (const auto& cell : kInputMasks) inputMasks_.push_back(bitsOf(program, cell.name));
   for (const auto& cell : kOutputMasks) outputMasks_.push_back(bitsOf(program, cell.name));
@@ -105,23 +92,23 @@ AxisPlaces::AxisPlaces(const rung_program& program) {
   motion_ = bitsOf(program, "PO_OS#PI");
   direction_ = bitsOf(program, "SM_PO#PI");
   // BZH09 and BZH10 are one word (man. l.6530).
-  if (const auto word = refOf(program, "BZH09"))
+  if (const auto word = nc::technol::signalPlace(program, "BZH09"))
     feedOverride_ = host::locate({program, nullptr}, host::intRef(word->space, word->byte, 16));
-  feedMultiplier_ = placeIn(program, "FEED_OVR_MULTIPLIER");
-  feed_ = placeIn(program, "EXT_FEED_AUTMAN");
-  rapidFeed_ = placeIn(program, "EXT_FEED_G00_AUTMAN");
-  shiftEnable_ = placeIn(program, "SHIFT_ENABLE");
-  shiftControl_ = placeIn(program, "SHIFT_CONTROL");
-  knobStep_ = placeIn(program, "KNOB_STEP");
-  refpointDist_ = elements<kMaxAxes>(program, "REFPOINT_DIST");
-  servoPosition_ = elements<kMaxAxes>(program, "SERVO_POSITION");
-  positionEx_ = elements<kMaxAxes>(program, "B_POL_EX");
-  positionShort_ = elements<6>(program, "B_POL");
-  shift_ = elements<6>(program, "SHIFT_x");
-  output_ = elements<kMaxAxes>(program, "SU_OUT_PLC");
-  for (uint32_t i = 0; i < kMaxAxes; ++i) knobSelected_[i] = placeIn(program, "KnobSelAx" + std::to_string(i));
+  feedMultiplier_ = locateSignal(program, "FEED_OVR_MULTIPLIER");
+  feed_ = locateSignal(program, "EXT_FEED_AUTMAN");
+  rapidFeed_ = locateSignal(program, "EXT_FEED_G00_AUTMAN");
+  shiftEnable_ = locateSignal(program, "SHIFT_ENABLE");
+  shiftControl_ = locateSignal(program, "SHIFT_CONTROL");
+  knobStep_ = locateSignal(program, "KNOB_STEP");
+  locateElements(program, "REFPOINT_DIST", refpointDist_);
+  locateElements(program, "SERVO_POSITION", servoPosition_);
+  locateElements(program, "B_POL_EX", positionEx_);
+  locateElements(program, "B_POL", positionShort_);
+  locateElements(program, "SHIFT_x", shift_);
+  locateElements(program, "SU_OUT_PLC", output_);
+  for (uint32_t i = 0; i < kMaxAxes; ++i) knobSelected_[i] = locateSignal(program, "KnobSelAx" + std::to_string(i));
   for (uint32_t space = 1; space <= positionOfSpaces_.size(); ++space)
-    positionOfSpaces_[space - 1] = elements<kMaxAxes>(program, "POSITION_POS" + std::to_string(space) + "_EX");
+    locateElements(program, "POSITION_POS" + std::to_string(space) + "_EX", positionOfSpaces_[space - 1]);
 }
 
 AxisMask AxisPlaces::maskOf(const rt::Memory& memory, const Bits& bits) {

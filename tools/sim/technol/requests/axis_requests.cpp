@@ -63,10 +63,7 @@ void position(Axes& axes, const AxisPlaces& places, AxisOrder order, DeviceCall&
 
 } // namespace
 
-AxisOrder axisOrder(std::string_view service) {
-  const auto* found = std::ranges::find(kOrders, service);
-  return found == std::end(kOrders) ? AxisOrder::None : static_cast<AxisOrder>(found - kOrders);
-}
+AxisOrder axisOrder(std::string_view service) { return orderOf<AxisOrder>(kOrders, service); }
 
 void answerAxis(Axes& axes, const AxisPlaces& places, AxisOrder order, DeviceCall& call) {
   switch (order) {

@@ -35,17 +35,16 @@ devices::InoutsItem itemAt(int64_t offset) {
 } // namespace
 
 CanOrder canOrder(std::string_view service) {
-  constexpr std::pair<std::string_view, CanOrder> kOrders[] = {{"CAN_SEND", CanOrder::Send},
-                                                               {"CAN_RECV", CanOrder::Receive},
-                                                               {"CAN_RECV_REQ", CanOrder::Order},
-                                                               {"CAN_RECV_DEL", CanOrder::EndOrder},
-                                                               {"CAN_RECV_END", CanOrder::EndOrder},
-                                                               {"CAN_SYSIO_READ", CanOrder::ReadItem},
-                                                               {"CAN_SYSIO_WRITE", CanOrder::WriteItem},
-                                                               {"CAN_AX_SEND", CanOrder::Drive}};
-  for (const auto& [name, order] : kOrders)
-    if (name == service) return order;
-  return CanOrder::None;
+  constexpr std::string_view kOrders[] = {"",
+                                          "CAN_SEND",
+                                          "CAN_RECV",
+                                          "CAN_RECV_REQ",
+                                          "CAN_RECV_DEL",
+                                          "CAN_RECV_END",
+                                          "CAN_SYSIO_READ",
+                                          "CAN_SYSIO_WRITE",
+                                          "CAN_AX_SEND"};
+  return orderOf<CanOrder>(kOrders, service);
 }
 
 void CanCalls::answer(CanOrder order, DeviceCall& call) {
@@ -54,6 +53,7 @@ void CanCalls::answer(CanOrder order, DeviceCall& call) {
   case CanOrder::Send: return send(call);
   case CanOrder::Receive: return receive(call);
   case CanOrder::Order: return this->order(call);
+  case CanOrder::DeleteOrder:
   case CanOrder::EndOrder: return endOrder(call);
   case CanOrder::ReadItem: return readItem(call);
   case CanOrder::WriteItem: return writeItem(call);
@@ -161,52 +161,38 @@ void CanCalls::deliver(host::Instance& instance, const CanPlaces& places) {
 
 // ---- cells ---------------------------------------------------------------------------------------------------------
 
-namespace {
-
-rt::Place placeIn(const rung_program& program, const std::string& name) {
-  return host::locate({program, nullptr}, nc::technol::signalPlace(program, name).value_or(host::Ref{}));
-}
-
-template <size_t Count>
-std::array<rt::Place, Count> elements(const rung_program& program, std::string_view name) {
-  std::array<rt::Place, Count> places;
-  const auto array = nc::technol::signalPlace(program, name);
-  for (uint32_t i = 0; array && i < Count; ++i)
-    if (const auto one = host::element(*array, i)) places[i] = host::locate({program, nullptr}, *one);
-  return places;
-}
-
-} // namespace
+using nc::technol::locateElements;
+using nc::technol::locateSignal;
 
 CanPlaces::CanPlaces(const rung_program& program) {
-  for (uint32_t i = 0; i < in_.size(); ++i) in_[i] = placeIn(program, "P" + std::to_string(i + 1) + "IN");
+  for (uint32_t i = 0; i < in_.size(); ++i) in_[i] = locateSignal(program, "P" + std::to_string(i + 1) + "IN");
   for (uint32_t i = 0; i < out_.size(); ++i) {
-    out_[i] = placeIn(program, "P" + std::to_string(i) + "OUT");
-    errors_[i] = placeIn(program, "ERRLI_P" + std::to_string(i) + "OUT");
+    out_[i] = locateSignal(program, "P" + std::to_string(i) + "OUT");
+    errors_[i] = locateSignal(program, "ERRLI_P" + std::to_string(i) + "OUT");
   }
-  command_ = elements<devices::kMostDrives>(program, "CAN_DRIVE_CMD");
-  status_ = elements<devices::kMostDrives>(program, "CAN_DRIVE_STAT");
-  manufacturer_ = elements<devices::kMostDrives>(program, "CAN_DRIVE_MSTAT");
+  locateElements(program, "CAN_DRIVE_CMD", command_);
+  locateElements(program, "CAN_DRIVE_STAT", status_);
+  locateElements(program, "CAN_DRIVE_MSTAT", manufacturer_);
   constexpr const char* kGroups[] = {"CAN_IO_", "CAN_MAT_", "CAN_TOC_"};
   constexpr const char* kCodes[] = {"ERROR_CODE", "ERROR_NUM", "TIMEOUT_CODE", "TIMEOUT_NUM"};
   for (uint32_t group = 0; group < std::size(kGroups) && group < codes_.size(); ++group)
     for (uint32_t i = 0; i < std::size(kCodes); ++i)
-      codes_[group][i] = placeIn(program, std::string(kGroups[group]) + kCodes[i]);
+      codes_[group][i] = locateSignal(program, std::string(kGroups[group]) + kCodes[i]);
   for (uint32_t wheel = 0; wheel < devices::kHandwheels; ++wheel) {
     const std::string number = std::to_string(wheel + 1);
-    keys_[wheel] = {placeIn(program, "PTLTOC_P" + number), placeIn(program, "PTLTOC_P" + number + "_2")};
-    displayBusy_[wheel] = placeIn(program, "BUSY_DISPTOC" + number);
+    keys_[wheel] = {locateSignal(program, "PTLTOC_P" + number), locateSignal(program, "PTLTOC_P" + number + "_2")};
+    displayBusy_[wheel] = locateSignal(program, "BUSY_DISPTOC" + number);
     if (const auto display = nc::technol::signalPlace(program, "DISPTOC" + number + ".TOC_ROW"))
       for (uint32_t i = 0; i < display_[wheel].size(); ++i)
         display_[wheel][i] = host::locate({program, nullptr}, host::intRef(display->space, display->byte + i, 8));
   }
   const std::string packet = "CAN_AX_RECV_PACKET.";
-  answerId_ = placeIn(program, packet + "CAN_ID");
-  answerRemote_ = placeIn(program, packet + "CAN_RTR");
-  answerLength_ = placeIn(program, packet + "CAN_LEN");
+  answerId_ = locateSignal(program, packet + "CAN_ID");
+  answerRemote_ = locateSignal(program, packet + "CAN_RTR");
+  answerLength_ = locateSignal(program, packet + "CAN_LEN");
   for (uint32_t i = 0; i < answerData_.size(); ++i)
-    answerData_[i] = placeIn(program, packet + (i == 0 ? "CAN_DATA" : "CAN_DATA_" + std::to_string(i)));
-  driveBusy_ = placeIn(program, "CAN_AX_BUSY");
+    answerData_[i] = locateSignal(program, packet + (i == 0 ? "CAN_DATA" : "CAN_DATA_" + std::to_string(i)));
+  driveBusy_ = locateSignal(program, "CAN_AX_BUSY");
   for (uint32_t number = 0;; ++number) {
     const std::string task = std::string(nc::technol::kPacketTask) + std::to_string(number);
     if (host::findTask(program, task) == RUNG_NONE) break;
@@ -240,7 +226,7 @@ void CanPlaces::read(const rt::Memory& memory, CanInputs& in, CanOutputs& out) c
   for (uint32_t i = 0; i < command_.size(); ++i) in.drives.command[i] = static_cast<uint16_t>(memory.read(command_[i]));
 }
 
-void CanPlaces::write(const rt::Memory& memory, const CanInputs&, const CanOutputs& out, const CanDevices& can) const {
+void CanPlaces::write(const rt::Memory& memory, const CanOutputs& out, const CanDevices& can) const {
   constexpr uint32_t kIoGroup = 1, kInsOfBoard = 4, kOutsOfBoard = 3;
   for (uint32_t board = 1; can.unit(kIoGroup, board) != nullptr; ++board) {
     for (uint32_t i = (board - 1) * kInsOfBoard; i < board * kInsOfBoard && i < in_.size(); ++i)

@@ -11,7 +11,7 @@
 namespace rung::sim::technol {
 
 // What a request asks for; None: no such service.
-enum class CanOrder : uint8_t { None, Send, Receive, Order, EndOrder, ReadItem, WriteItem, Drive };
+enum class CanOrder : uint8_t { None, Send, Receive, Order, DeleteOrder, EndOrder, ReadItem, WriteItem, Drive };
 CanOrder canOrder(std::string_view service);
 
 // Where the cells lie in a program; the tasks of its event procedures.
@@ -22,7 +22,7 @@ public:
 
   void read(const rt::Memory& memory, CanInputs& in, CanOutputs& out) const;
   // Ports of units that exist, and drives 1 to `drives`.
-  void write(const rt::Memory& memory, const CanInputs& in, const CanOutputs& out, const CanDevices& can) const;
+  void write(const rt::Memory& memory, const CanOutputs& out, const CanDevices& can) const;
   // CAN_AX_RECV_PACKET, and CAN_AX_BUSY becomes 0.
   void writeDriveAnswer(const rt::Memory& memory, const devices::CanPacket& answer) const;
   const nc::technol::Procedure* procedure(uint64_t number) const {

@@ -44,8 +44,7 @@ devices::com::Port& portOf(ComPorts& ports, const DeviceCall& call, devices::com
 
 ComOrder comOrder(std::string_view service) {
   constexpr std::string_view kOrders[] = {"", "COM_SEND", "COM_SEND_STR", "COM_RECV", "COM_CONTROL"};
-  const auto* found = std::ranges::find(kOrders, service);
-  return found == std::end(kOrders) ? ComOrder::None : static_cast<ComOrder>(found - kOrders);
+  return orderOf<ComOrder>(kOrders, service);
 }
 
 void answerCom(ComPorts& ports, ComOrder order, DeviceCall& call) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -55,6 +56,13 @@ private:
   uint32_t end_ = 0;
   std::unique_ptr<std::array<uint8_t, kRoom>> bytes_;
 };
+
+// What a service asks for: an enumeration's value by the names in its order, the first of which is that of None.
+template <class Order, size_t Count>
+Order orderOf(const std::string_view (&names)[Count], std::string_view service) {
+  const auto* found = std::ranges::find(names, service);
+  return static_cast<Order>(found == std::end(names) ? 0 : found - names);
+}
 
 class DeviceCall {
 public:

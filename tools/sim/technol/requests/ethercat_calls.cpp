@@ -123,20 +123,18 @@ constexpr Flag<ServoCells> kServoBits[] = {{"flEdrvInit", &ServoCells::init},
                                            {"flEdrvMoveDisReq", &ServoCells::blocksMotion}};
 constexpr const char* kServoNumbers[] = {"wEdrvDriveStatus", "wEdrvDriveErrReg", "wEdrvDriveControl", "bEdrvState"};
 
-rt::Place placeIn(const rung_program& program, const std::string& name) {
-  return host::locate({program, nullptr}, nc::technol::signalPlace(program, name).value_or(host::Ref{}));
-}
-
 } // namespace
 
 EthercatPlaces::EthercatPlaces(const rung_program& program) {
   static_assert(std::size(kStateBits) == kBits && std::size(kServoBits) == kServoFlags &&
                 std::size(kServoNumbers) == kServoWords);
-  for (uint32_t i = 0; i < kBits; ++i) bits_[i] = placeIn(program, kStateBits[i].name);
+  for (uint32_t i = 0; i < kBits; ++i) bits_[i] = nc::technol::locateSignal(program, kStateBits[i].name);
   for (uint32_t servo = 0; servo < EthercatServos::kCount; ++servo) {
     const std::string number = std::to_string(servo);
-    for (uint32_t i = 0; i < kServoFlags; ++i) flags_[servo][i] = placeIn(program, kServoBits[i].name + number);
-    for (uint32_t i = 0; i < kServoWords; ++i) words_[servo][i] = placeIn(program, kServoNumbers[i] + number);
+    for (uint32_t i = 0; i < kServoFlags; ++i)
+      flags_[servo][i] = nc::technol::locateSignal(program, kServoBits[i].name + number);
+    for (uint32_t i = 0; i < kServoWords; ++i)
+      words_[servo][i] = nc::technol::locateSignal(program, kServoNumbers[i] + number);
   }
 }
 

@@ -168,7 +168,7 @@ void SimulatedDevices::tickOthers(host::Instance& instance, uint32_t ticks) {
     ethercat_.tick(stateBits_);
     servos_.tick(servoCells_);
   }
-  canPlaces_.write(memory, canInputs_, canOutputs_, can_);
+  canPlaces_.write(memory, canOutputs_, can_);
   ethercatPlaces_.write(memory, stateBits_, servoCells_);
   canCalls_.showDrive(memory, canPlaces_);
   canCalls_.deliver(instance, canPlaces_);

@@ -114,10 +114,7 @@ TableError carryOut(PlcTables& tables, TableOrder order, DeviceCall& call) {
 
 } // namespace
 
-TableOrder tableOrder(std::string_view service) {
-  const auto* found = std::ranges::find(kOrders, service);
-  return found == std::end(kOrders) ? TableOrder::None : static_cast<TableOrder>(found - kOrders);
-}
+TableOrder tableOrder(std::string_view service) { return orderOf<TableOrder>(kOrders, service); }
 
 void answerTable(PlcTables& tables, TableOrder order, DeviceCall& call) {
   call.set(0, static_cast<int64_t>(carryOut(tables, order, call)));

@@ -55,8 +55,13 @@ HOSTS = ("tools/rung-hal", "tools/rung-run", "tools/connections", "tools/remote"
 IN_A_HOST_TOO = ("tools/rung-hal/", "tools/rung-run/", "tools/connections/", "tools/command-line/", "tools/remote/",
                  "tools/sources/", "tools/plc/", "tools/mapping/", "tools/control-files/", "tools/devices/", "tools/services/", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
                  "rtlib/text/", "ir/support/similar.h")  # the last: spelling suggestions
-# Devices know neither a program's memory nor a machine: numbers and structs go in and out.
+# Devices know neither a program's memory nor a machine: numbers and structs go in and out. Who connects them to a program
+# knows no simulation.
 DEVICES = ("tools/devices/", "tools/control-files/", "rtlib/text/", "rtlib/nc/", "rtlib/core/ring.h", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/disk_file.h")
+DEVICE_FOLDERS = {
+    "tools/devices": DEVICES,
+    "tools/device-requests": ("tools/device-requests/", *DEVICES, "rtlib/host/", "rtlib/core/"),
+}
 TABLES = ("rtlib/nc/gsk/", "rtlib/nc/nct/", "rtlib/nc/technol/")  # of the dialects: for them, and for tools/services
 FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them
 
@@ -137,10 +142,10 @@ def check_hosts(root):
 
 def check_devices(root):
     found = []
-    for file in sorted((root / "tools/devices").rglob("*")):
-        if file.suffix in SUFFIXES:
+    for folder, allowed in DEVICE_FOLDERS.items():
+        for file in sorted(file for file in (root / folder).rglob("*") if file.suffix in SUFFIXES):
             for match in INCLUDE.finditer(file.read_text(encoding="utf-8")):
-                if match.group(1).startswith(OURS) and not match.group(1).startswith(DEVICES):
+                if match.group(1).startswith(OURS) and not match.group(1).startswith(allowed):
                     found.append(f"{file.relative_to(root).as_posix()}: may not include {match.group(1)}")
     return found
 

@@ -4,6 +4,9 @@
 #include <iterator>
 
 namespace rung::sim::technol {
+
+using device_requests::DeviceCall;
+
 namespace {
 
 constexpr std::string_view kOrders[] = {"",        "ANALOG_PORT", "ANALOG",    "ANALOG_SPI", "AX_SPI",     "SPI_MAIN",
@@ -63,7 +66,7 @@ void position(Axes& axes, const AxisPlaces& places, AxisOrder order, DeviceCall&
 
 } // namespace
 
-AxisOrder axisOrder(std::string_view service) { return orderOf<AxisOrder>(kOrders, service); }
+AxisOrder axisOrder(std::string_view service) { return device_requests::orderOf<AxisOrder>(kOrders, service); }
 
 void answerAxis(Axes& axes, const AxisPlaces& places, AxisOrder order, DeviceCall& call) {
   switch (order) {

@@ -3,9 +3,9 @@
 #pragma once
 #include <string_view>
 
+#include "tools/device-requests/device_call.h"
 #include "tools/sim/technol/devices/axes.h"
 #include "tools/sim/technol/requests/axis_places.h"
-#include "tools/sim/technol/requests/device_call.h"
 
 namespace rung::sim::technol {
 
@@ -30,6 +30,6 @@ enum class AxisOrder : uint8_t {
   PositionControl,
 };
 AxisOrder axisOrder(std::string_view service);
-void answerAxis(Axes& axes, const AxisPlaces& places, AxisOrder order, DeviceCall& call);
+void answerAxis(Axes& axes, const AxisPlaces& places, AxisOrder order, device_requests::DeviceCall& call);
 
 } // namespace rung::sim::technol

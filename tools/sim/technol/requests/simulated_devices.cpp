@@ -6,6 +6,9 @@
 #include "rtlib/text/number.h"
 
 namespace rung::sim::technol {
+
+using namespace device_requests;
+
 namespace {
 
 constexpr uint32_t kUsPerTick = 1000;
@@ -86,7 +89,8 @@ void SimulatedDevices::locate(host::Instance& instance) {
   axisPlaces_ = AxisPlaces(program);
   inputs_.locate(program);
   canPlaces_ = CanPlaces(program);
-  ethercatPlaces_ = EthercatPlaces(program);
+  statePlaces_ = StatePlaces(program);
+  servoPlaces_ = ServoPlaces(program);
 }
 
 SimulatedDevices::Service SimulatedDevices::serviceOf(std::string_view signature) const {
@@ -120,7 +124,7 @@ bool SimulatedDevices::respond(host::Instance& instance, const rt::ServiceReques
   case Answerer::ReadArea: readShared(areas_, call); break;
   case Answerer::WriteArea: writeShared(areas_, call); break;
   case Answerer::Axes: answerAxis(axes_, axisPlaces_, static_cast<AxisOrder>(service.order), call); break;
-  case Answerer::Com: answerCom(com_, static_cast<ComOrder>(service.order), call); break;
+  case Answerer::Com: answerCom(com_.find(comOf(call)), static_cast<ComOrder>(service.order), call); break;
   case Answerer::Can: canCalls_.answer(static_cast<CanOrder>(service.order), call); break;
   case Answerer::Ethercat: ethercatCalls_.begin(service.order, call); break;
   }
@@ -160,16 +164,19 @@ void SimulatedDevices::tickAxes(host::Instance& instance, uint32_t ticks) {
 
 void SimulatedDevices::tickOthers(host::Instance& instance, uint32_t ticks) {
   const rt::Memory memory = instance.memory();
-  canPlaces_.read(memory, canInputs_, canOutputs_);
-  ethercatPlaces_.read(memory, stateBits_, servoCells_);
+  canPlaces_.readTerminals(memory, canOutputs_.units, canInputs_.terminals);
+  canPlaces_.read(memory, canInputs_.units, canInputs_.drives, canOutputs_.units);
+  statePlaces_.read(memory, stateBits_);
+  servoPlaces_.read(memory, servoCells_);
   for (uint32_t i = 0; i < ticks; ++i) {
     com_.tick();
     can_.tick(canInputs_, canOutputs_);
     ethercat_.tick(stateBits_);
     servos_.tick(servoCells_);
   }
-  canPlaces_.write(memory, canOutputs_, can_);
-  ethercatPlaces_.write(memory, stateBits_, servoCells_);
+  canPlaces_.write(memory, canOutputs_.units, canOutputs_.drives, can_.control());
+  statePlaces_.write(memory, stateBits_);
+  servoPlaces_.write(memory, servoCells_);
   canCalls_.showDrive(memory, canPlaces_);
   canCalls_.deliver(instance, canPlaces_);
   if (ethercatCalls_.finish(instance, bytes_)) instance.services().deliver();

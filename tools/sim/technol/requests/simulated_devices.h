@@ -9,14 +9,18 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/device-requests/can_requests.h"
+#include "tools/device-requests/com_requests.h"
+#include "tools/device-requests/ethercat_requests.h"
+#include "tools/device-requests/table_requests.h"
 #include "tools/devices/tables/table_files.h"
 #include "tools/sim/simulated_nc.h"
+#include "tools/sim/technol/devices/can_devices.h"
+#include "tools/sim/technol/devices/com.h"
+#include "tools/sim/technol/devices/ethercat.h"
 #include "tools/sim/technol/requests/axis_requests.h"
-#include "tools/sim/technol/requests/can_requests.h"
-#include "tools/sim/technol/requests/com_requests.h"
-#include "tools/sim/technol/requests/ethercat_calls.h"
 #include "tools/sim/technol/requests/input_wiring.h"
-#include "tools/sim/technol/requests/table_requests.h"
+#include "tools/sim/technol/requests/servo_places.h"
 
 namespace rung::sim::technol {
 
@@ -81,16 +85,17 @@ private:
   Axes axes_;
   ComPorts com_;
   CanDevices can_;
-  CanCalls canCalls_{can_.control()};
+  device_requests::CanCalls canCalls_{can_.control()};
   EtherCat ethercat_;
-  EthercatCalls ethercatCalls_{ethercat_};
+  device_requests::EthercatCalls ethercatCalls_{ethercat_};
   EthercatServos servos_;
 
-  AnswerBytes bytes_;
+  device_requests::AnswerBytes bytes_;
   std::vector<Service> services_; // by the program's numbers
   AxisPlaces axisPlaces_;
-  CanPlaces canPlaces_;
-  EthercatPlaces ethercatPlaces_;
+  device_requests::CanPlaces canPlaces_;
+  device_requests::StatePlaces statePlaces_;
+  ServoPlaces servoPlaces_;
   AxisInputs axisInputs_;
   AxisRequests axisRequests_;
   AxisOutputs axisOutputs_;

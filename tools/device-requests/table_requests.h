@@ -1,12 +1,12 @@
-// PLCT_* and SA_*: PLC tables and shared areas of the simulated control (man. ch. 17, 18.3).
+// PLCT_* and SA_*: PLC tables and shared areas (man. ch. 17, 18.3).
 #pragma once
 #include <string_view>
 
+#include "tools/device-requests/device_call.h"
 #include "tools/devices/shared/shared_areas.h"
 #include "tools/devices/tables/plc_tables.h"
-#include "tools/sim/technol/requests/device_call.h"
 
-namespace rung::sim::technol {
+namespace rung::device_requests {
 
 // What a request asks for; None: no such service.
 enum class TableOrder : uint8_t {
@@ -33,4 +33,4 @@ void answerTable(devices::PlcTables& tables, TableOrder order, DeviceCall& call)
 void readShared(devices::SharedAreas& areas, DeviceCall& call);
 void writeShared(devices::SharedAreas& areas, DeviceCall& call);
 
-} // namespace rung::sim::technol
+} // namespace rung::device_requests

@@ -1,14 +1,14 @@
-// CAN_*: packets, orders, units and drives of the simulated control, and their cells (man. ch. 9, 13.14).
+// CAN_*: packets, orders, units and drives, and their cells (man. ch. 9, 13.14).
 #pragma once
 #include <array>
 #include <string_view>
 #include <vector>
 
 #include "rtlib/nc/control/technol/cells.h"
-#include "tools/sim/technol/devices/can_devices.h"
-#include "tools/sim/technol/requests/device_call.h"
+#include "tools/device-requests/device_call.h"
+#include "tools/devices/can/controller.h"
 
-namespace rung::sim::technol {
+namespace rung::device_requests {
 
 // What a request asks for; None: no such service.
 enum class CanOrder : uint8_t { None, Send, Receive, Order, DeleteOrder, EndOrder, ReadItem, WriteItem, Drive };
@@ -20,9 +20,15 @@ public:
   CanPlaces() = default; // a program that has nothing
   explicit CanPlaces(const rung_program& program);
 
-  void read(const rt::Memory& memory, CanInputs& in, CanOutputs& out) const;
-  // Ports of units that exist, and drives 1 to `drives`.
-  void write(const rt::Memory& memory, const CanOutputs& out, const CanDevices& can) const;
+  // The program resets bits of `units.errors`.
+  void read(const rt::Memory& memory, devices::UnitOrders& unitOrders, devices::DriveOrders& driveOrders,
+            devices::UnitStates& units) const;
+  // Of the units and drives that there are.
+  void write(const rt::Memory& memory, const devices::UnitStates& units, const devices::DriveStates& drives,
+             const devices::CanController& can) const;
+  // What somebody else than the units has put into the input ports since they were written.
+  void readTerminals(const rt::Memory& memory, const devices::UnitStates& written,
+                     std::array<uint8_t, devices::kInputPorts>& terminals) const;
   // CAN_AX_RECV_PACKET, and CAN_AX_BUSY becomes 0.
   void writeDriveAnswer(const rt::Memory& memory, const devices::CanPacket& answer) const;
   const nc::technol::Procedure* procedure(uint64_t number) const {
@@ -75,4 +81,4 @@ private:
   bool asksDrive_ = false;
 };
 
-} // namespace rung::sim::technol
+} // namespace rung::device_requests

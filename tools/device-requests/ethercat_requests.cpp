@@ -1,11 +1,11 @@
-// Requests to EtherCAT (see ethercat_calls.h).
-#include "tools/sim/technol/requests/ethercat_calls.h"
+// Requests to EtherCAT (see ethercat_requests.h).
+#include "tools/device-requests/ethercat_requests.h"
 
-#include <string>
+#include <iterator>
 
 #include "rtlib/nc/control/technol/cells.h"
 
-namespace rung::sim::technol {
+namespace rung::device_requests {
 
 using devices::ethercat::Master;
 using devices::ethercat::StateBits;
@@ -99,63 +99,31 @@ bool EthercatCalls::finish(host::Instance& instance, AnswerBytes& bytes) {
 
 namespace {
 
-template <class Struct>
-struct Flag {
+struct Bit {
   const char* name;
-  bool Struct::* member;
+  bool StateBits::* member;
 };
-constexpr Flag<StateBits> kStateBits[] = {{"flEcatBootStrapReq", &StateBits::bootstrapRequest},
-                                          {"flEcatInitReq", &StateBits::initRequest},
-                                          {"flEcatPreOperationalReq", &StateBits::preOperationalRequest},
-                                          {"flEcatSafeOperationalReq", &StateBits::safeOperationalRequest},
-                                          {"flEcatOperationalReq", &StateBits::operationalRequest},
-                                          {"flEcatStartCyclicOperation", &StateBits::startCyclicOperation},
-                                          {"flEcatOperational", &StateBits::isOperational}};
-// The servo's number follows.
-constexpr Flag<ServoCells> kServoBits[] = {{"flEdrvInit", &ServoCells::init},
-                                           {"flEdrvOn", &ServoCells::on},
-                                           {"flEdrvEnable", &ServoCells::enable},
-                                           {"flEdrvDisable", &ServoCells::disable},
-                                           {"flEdrvDone", &ServoCells::done},
-                                           {"flEdrvErase", &ServoCells::erase},
-                                           {"flEdrvSimul", &ServoCells::isSimulated},
-                                           {"flEdrvError", &ServoCells::isFaulty},
-                                           {"flEdrvMoveDisReq", &ServoCells::blocksMotion}};
-constexpr const char* kServoNumbers[] = {"wEdrvDriveStatus", "wEdrvDriveErrReg", "wEdrvDriveControl", "bEdrvState"};
+constexpr Bit kStateBits[] = {{"flEcatBootStrapReq", &StateBits::bootstrapRequest},
+                              {"flEcatInitReq", &StateBits::initRequest},
+                              {"flEcatPreOperationalReq", &StateBits::preOperationalRequest},
+                              {"flEcatSafeOperationalReq", &StateBits::safeOperationalRequest},
+                              {"flEcatOperationalReq", &StateBits::operationalRequest},
+                              {"flEcatStartCyclicOperation", &StateBits::startCyclicOperation},
+                              {"flEcatOperational", &StateBits::isOperational}};
 
 } // namespace
 
-EthercatPlaces::EthercatPlaces(const rung_program& program) {
-  static_assert(std::size(kStateBits) == kBits && std::size(kServoBits) == kServoFlags &&
-                std::size(kServoNumbers) == kServoWords);
-  for (uint32_t i = 0; i < kBits; ++i) bits_[i] = nc::technol::locateSignal(program, kStateBits[i].name);
-  for (uint32_t servo = 0; servo < EthercatServos::kCount; ++servo) {
-    const std::string number = std::to_string(servo);
-    for (uint32_t i = 0; i < kServoFlags; ++i)
-      flags_[servo][i] = nc::technol::locateSignal(program, kServoBits[i].name + number);
-    for (uint32_t i = 0; i < kServoWords; ++i)
-      words_[servo][i] = nc::technol::locateSignal(program, kServoNumbers[i] + number);
-  }
+StatePlaces::StatePlaces(const rung_program& program) {
+  static_assert(std::size(kStateBits) == std::tuple_size_v<decltype(bits_)>);
+  for (uint32_t i = 0; i < bits_.size(); ++i) bits_[i] = nc::technol::locateSignal(program, kStateBits[i].name);
 }
 
-void EthercatPlaces::read(const rt::Memory& memory, StateBits& bits, EthercatServos::Cells& servos) const {
-  for (uint32_t i = 0; i < kBits; ++i) bits.*kStateBits[i].member = memory.read(bits_[i]) != 0;
-  for (uint32_t servo = 0; servo < servos.size(); ++servo) {
-    for (uint32_t i = 0; i < kServoFlags; ++i) servos[servo].*kServoBits[i].member = memory.read(flags_[servo][i]) != 0;
-    servos[servo].status = static_cast<uint16_t>(memory.read(words_[servo][0]));
-    servos[servo].error = static_cast<uint16_t>(memory.read(words_[servo][1]));
-  }
+void StatePlaces::read(const rt::Memory& memory, StateBits& bits) const {
+  for (uint32_t i = 0; i < bits_.size(); ++i) bits.*kStateBits[i].member = memory.read(bits_[i]) != 0;
 }
 
-void EthercatPlaces::write(const rt::Memory& memory, const StateBits& bits, const EthercatServos::Cells& servos) const {
-  for (uint32_t i = 0; i < kBits; ++i) memory.write(bits_[i], bits.*kStateBits[i].member ? 1 : 0);
-  for (uint32_t servo = 0; servo < servos.size(); ++servo) {
-    const ServoCells& cells = servos[servo];
-    if (!cells.isSimulated && !cells.isConnected) continue;
-    for (uint32_t i = 0; i < kServoFlags; ++i) memory.write(flags_[servo][i], cells.*kServoBits[i].member ? 1 : 0);
-    const uint64_t numbers[] = {cells.status, cells.error, cells.control, static_cast<uint64_t>(cells.state)};
-    for (uint32_t i = 0; i < kServoWords; ++i) memory.write(words_[servo][i], numbers[i]);
-  }
+void StatePlaces::write(const rt::Memory& memory, const StateBits& bits) const {
+  for (uint32_t i = 0; i < bits_.size(); ++i) memory.write(bits_[i], bits.*kStateBits[i].member ? 1 : 0);
 }
 
-} // namespace rung::sim::technol
+} // namespace rung::device_requests

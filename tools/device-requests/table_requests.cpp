@@ -1,9 +1,9 @@
 // Requests to tables and areas (see table_requests.h).
-#include "tools/sim/technol/requests/table_requests.h"
+#include "tools/device-requests/table_requests.h"
 
 #include <iterator>
 
-namespace rung::sim::technol {
+namespace rung::device_requests {
 
 using devices::PlcTables;
 using devices::TableError;
@@ -140,4 +140,4 @@ void writeShared(devices::SharedAreas& areas, DeviceCall& call) {
   setArea(call, areas.write(call.number(0), call.number(1), call.bytes(3, room)));
 }
 
-} // namespace rung::sim::technol
+} // namespace rung::device_requests

@@ -1,12 +1,12 @@
 // Requests to the CAN bus (see can_requests.h).
-#include "tools/sim/technol/requests/can_requests.h"
+#include "tools/device-requests/can_requests.h"
 
 #include <string>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/technol/signals.h"
 
-namespace rung::sim::technol {
+namespace rung::device_requests {
 
 using devices::CanPacket;
 
@@ -208,46 +208,52 @@ void CanPlaces::writeDriveAnswer(const rt::Memory& memory, const CanPacket& answ
   memory.write(driveBusy_, 0);
 }
 
-void CanPlaces::read(const rt::Memory& memory, CanInputs& in, CanOutputs& out) const {
-  // What somebody has put there is at the terminals; what the units have shown is not.
+void CanPlaces::readTerminals(const rt::Memory& memory, const devices::UnitStates& written,
+                              std::array<uint8_t, devices::kInputPorts>& terminals) const {
   for (uint32_t i = 0; i < in_.size(); ++i) {
     const auto now = static_cast<uint8_t>(memory.read(in_[i]));
-    if (now != out.units.in[i]) in.terminals[i] = now;
+    if (now != written.in[i]) terminals[i] = now;
   }
+}
+
+void CanPlaces::read(const rt::Memory& memory, devices::UnitOrders& unitOrders, devices::DriveOrders& driveOrders,
+                     devices::UnitStates& units) const {
   for (uint32_t i = 0; i < out_.size(); ++i) {
-    in.units.out[i] = static_cast<uint8_t>(memory.read(out_[i]));
-    out.units.errors[i] = static_cast<uint8_t>(memory.read(errors_[i]));
+    unitOrders.out[i] = static_cast<uint8_t>(memory.read(out_[i]));
+    units.errors[i] = static_cast<uint8_t>(memory.read(errors_[i]));
   }
   for (uint32_t wheel = 0; wheel < devices::kHandwheels; ++wheel) {
     for (uint32_t i = 0; i < display_[wheel].size(); ++i)
-      in.units.display[wheel][i] = static_cast<uint8_t>(memory.read(display_[wheel][i]));
-    in.units.displayBusy[wheel] = memory.read(displayBusy_[wheel]) != 0;
+      unitOrders.display[wheel][i] = static_cast<uint8_t>(memory.read(display_[wheel][i]));
+    unitOrders.displayBusy[wheel] = memory.read(displayBusy_[wheel]) != 0;
   }
-  for (uint32_t i = 0; i < command_.size(); ++i) in.drives.command[i] = static_cast<uint16_t>(memory.read(command_[i]));
+  for (uint32_t i = 0; i < command_.size(); ++i)
+    driveOrders.command[i] = static_cast<uint16_t>(memory.read(command_[i]));
 }
 
-void CanPlaces::write(const rt::Memory& memory, const CanOutputs& out, const CanDevices& can) const {
-  constexpr uint32_t kIoGroup = 1, kInsOfBoard = 4, kOutsOfBoard = 3;
-  for (uint32_t board = 1; can.unit(kIoGroup, board) != nullptr; ++board) {
-    for (uint32_t i = (board - 1) * kInsOfBoard; i < board * kInsOfBoard && i < in_.size(); ++i)
-      memory.write(in_[i], out.units.in[i]);
-    for (uint32_t i = (board - 1) * kOutsOfBoard; i < board * kOutsOfBoard && i < errors_.size(); ++i)
-      memory.write(errors_[i], out.units.errors[i]);
+void CanPlaces::write(const rt::Memory& memory, const devices::UnitStates& units, const devices::DriveStates& drives,
+                      const devices::CanController& can) const {
+  using devices::kHandwheel, devices::kInOut08, devices::kUnitInputs, devices::kUnitOutputs;
+  const auto isThere = [&](uint32_t group, uint32_t board) { return can.units().find(group, board) != nullptr; };
+  for (uint32_t board = 1; isThere(kInOut08, board); ++board) {
+    for (uint32_t i = (board - 1) * kUnitInputs; i < board * kUnitInputs && i < in_.size(); ++i)
+      memory.write(in_[i], units.in[i]);
+    for (uint32_t i = (board - 1) * kUnitOutputs; i < board * kUnitOutputs && i < errors_.size(); ++i)
+      memory.write(errors_[i], units.errors[i]);
   }
   for (uint32_t group = 1; group <= codes_.size(); ++group) {
-    if (can.unit(group, 1) == nullptr) continue;
-    const devices::GroupCodes& codes = out.units.groups[group - 1];
+    if (!isThere(group, 1)) continue;
+    const devices::GroupCodes& codes = units.groups[group - 1];
     const uint8_t values[] = {codes.errorCode, codes.errorNumber, codes.timeoutCode, codes.timeoutNumber};
     for (uint32_t i = 0; i < std::size(values); ++i) memory.write(codes_[group - 1][i], values[i]);
   }
-  constexpr uint32_t kWheelGroup = 3;
   for (uint32_t wheel = 0; wheel < devices::kHandwheels; ++wheel)
-    if (can.unit(kWheelGroup, wheel + 1) != nullptr)
-      for (uint32_t i = 0; i < 2; ++i) memory.write(keys_[wheel][i], out.units.keys[wheel][i]);
-  for (uint32_t i = 0; i < can.drives() && i < status_.size(); ++i) {
-    memory.write(status_[i], out.drives.status[i]);
-    memory.write(manufacturer_[i], out.drives.manufacturer[i]);
+    if (isThere(kHandwheel, wheel + 1))
+      for (uint32_t i = 0; i < 2; ++i) memory.write(keys_[wheel][i], units.keys[wheel][i]);
+  for (uint32_t i = 0; i < can.drives().count() && i < status_.size(); ++i) {
+    memory.write(status_[i], drives.status[i]);
+    memory.write(manufacturer_[i], drives.manufacturer[i]);
   }
 }
 
-} // namespace rung::sim::technol
+} // namespace rung::device_requests

@@ -1,5 +1,5 @@
-// A request to a device of the simulated control, while it is answered, and the bytes of answers that programs fetch
-// afterwards (rtlib/nc/technol/services.h). Nothing here allocates.
+// A request of a TECHNOL program to a device, while it is answered, and the bytes of answers that programs fetch
+// afterwards (rtlib/nc/technol/services.h). The device may be simulated or real. Nothing here allocates.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/technol/services.h"
 
-namespace rung::sim::technol {
+namespace rung::device_requests {
 
 // Bytes of the latest answers, by their tickets.
 class AnswerBytes {
@@ -122,4 +122,4 @@ private:
   AnswerBytes& bytes_;
 };
 
-} // namespace rung::sim::technol
+} // namespace rung::device_requests

@@ -1,7 +1,7 @@
 // Requests to serial ports (see com_requests.h). RLO, the first result, is 1 for an error.
-#include "tools/sim/technol/requests/com_requests.h"
+#include "tools/device-requests/com_requests.h"
 
-namespace rung::sim::technol {
+namespace rung::device_requests {
 namespace {
 
 enum Command : int64_t { kClear = nc::technol::kFirstLineCommand, kReceived, kState }; // of COM_CONTROL
@@ -35,11 +35,6 @@ void control(devices::com::Port& port, DeviceCall& call) {
   call.set(1, count.value_or(0));
 }
 
-// A number beyond the last has a port that nobody has configured.
-devices::com::Port& portOf(ComPorts& ports, const DeviceCall& call, devices::com::Port& none) {
-  return call.number(0) < ComPorts::kMost ? ports.port(call.number(0)) : none;
-}
-
 } // namespace
 
 ComOrder comOrder(std::string_view service) {
@@ -47,9 +42,10 @@ ComOrder comOrder(std::string_view service) {
   return orderOf<ComOrder>(kOrders, service);
 }
 
-void answerCom(ComPorts& ports, ComOrder order, DeviceCall& call) {
+// No port is one that nobody has configured.
+void answerCom(devices::com::Port* given, ComOrder order, DeviceCall& call) {
   devices::com::Port none;
-  devices::com::Port& port = portOf(ports, call, none);
+  devices::com::Port& port = given == nullptr ? none : *given;
   switch (order) {
   case ComOrder::None: return;
   case ComOrder::Send: return send(port, call);
@@ -59,4 +55,4 @@ void answerCom(ComPorts& ports, ComOrder order, DeviceCall& call) {
   }
 }
 
-} // namespace rung::sim::technol
+} // namespace rung::device_requests

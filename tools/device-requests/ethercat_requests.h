@@ -1,0 +1,49 @@
+// ECAT_*: requests of a program to an EtherCAT master, and the cells that order its states (man. ch. 26).
+#pragma once
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "tools/device-requests/device_call.h"
+#include "tools/devices/ethercat/master.h"
+#include "tools/devices/ethercat/state_requests.h"
+
+namespace rung::device_requests {
+
+// Requests that the master has not answered yet.
+class EthercatCalls {
+public:
+  explicit EthercatCalls(devices::ethercat::Master& master) : master_(master) {}
+
+  void clear();
+  // `order` is a number that `orderOf` has given.
+  void begin(uint32_t order, DeviceCall& call);
+  // Nothing: no such service.
+  static std::optional<uint32_t> orderOf(std::string_view service);
+  // After a tick: answers what is done. True: something was.
+  bool finish(host::Instance& instance, AnswerBytes& bytes);
+
+private:
+  struct Pending {
+    uint32_t ticket = 0; // the program's; 0: none
+    devices::ethercat::Master::Ticket asked = 0;
+    bool writes = false; // its answer has no data
+  };
+  Pending pending_[rt::ServiceQueue::kMaxPending];
+  devices::ethercat::Master& master_;
+};
+
+// Cells of the master.
+class StatePlaces {
+public:
+  StatePlaces() = default; // a program that has nothing
+  explicit StatePlaces(const rung_program& program);
+
+  void read(const rt::Memory& memory, devices::ethercat::StateBits& bits) const;
+  void write(const rt::Memory& memory, const devices::ethercat::StateBits& bits) const;
+
+private:
+  std::array<rt::Place, 7> bits_;
+};
+
+} // namespace rung::device_requests

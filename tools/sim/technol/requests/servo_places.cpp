@@ -1,0 +1,58 @@
+// Cells of EtherCAT drives (see servo_places.h).
+#include "tools/sim/technol/requests/servo_places.h"
+
+#include <iterator>
+#include <string>
+
+#include "rtlib/nc/control/technol/cells.h"
+
+namespace rung::sim::technol {
+namespace {
+
+// The servo's number follows.
+struct Flag {
+  const char* name;
+  bool ServoCells::* member;
+};
+constexpr Flag kFlagNames[] = {{"flEdrvInit", &ServoCells::init},
+                               {"flEdrvOn", &ServoCells::on},
+                               {"flEdrvEnable", &ServoCells::enable},
+                               {"flEdrvDisable", &ServoCells::disable},
+                               {"flEdrvDone", &ServoCells::done},
+                               {"flEdrvErase", &ServoCells::erase},
+                               {"flEdrvSimul", &ServoCells::isSimulated},
+                               {"flEdrvError", &ServoCells::isFaulty},
+                               {"flEdrvMoveDisReq", &ServoCells::blocksMotion}};
+constexpr const char* kWordNames[] = {"wEdrvDriveStatus", "wEdrvDriveErrReg", "wEdrvDriveControl", "bEdrvState"};
+
+} // namespace
+
+ServoPlaces::ServoPlaces(const rung_program& program) {
+  static_assert(std::size(kFlagNames) == kFlags && std::size(kWordNames) == kWords);
+  for (uint32_t servo = 0; servo < EthercatServos::kCount; ++servo) {
+    const std::string number = std::to_string(servo);
+    for (uint32_t i = 0; i < kFlags; ++i)
+      flags_[servo][i] = nc::technol::locateSignal(program, kFlagNames[i].name + number);
+    for (uint32_t i = 0; i < kWords; ++i) words_[servo][i] = nc::technol::locateSignal(program, kWordNames[i] + number);
+  }
+}
+
+void ServoPlaces::read(const rt::Memory& memory, EthercatServos::Cells& servos) const {
+  for (uint32_t servo = 0; servo < servos.size(); ++servo) {
+    for (uint32_t i = 0; i < kFlags; ++i) servos[servo].*kFlagNames[i].member = memory.read(flags_[servo][i]) != 0;
+    servos[servo].status = static_cast<uint16_t>(memory.read(words_[servo][0]));
+    servos[servo].error = static_cast<uint16_t>(memory.read(words_[servo][1]));
+  }
+}
+
+void ServoPlaces::write(const rt::Memory& memory, const EthercatServos::Cells& servos) const {
+  for (uint32_t servo = 0; servo < servos.size(); ++servo) {
+    const ServoCells& cells = servos[servo];
+    if (!cells.isSimulated && !cells.isConnected) continue;
+    for (uint32_t i = 0; i < kFlags; ++i) memory.write(flags_[servo][i], cells.*kFlagNames[i].member ? 1 : 0);
+    const uint64_t numbers[] = {cells.status, cells.error, cells.control, static_cast<uint64_t>(cells.state)};
+    for (uint32_t i = 0; i < kWords; ++i) memory.write(words_[servo][i], numbers[i]);
+  }
+}
+
+} // namespace rung::sim::technol

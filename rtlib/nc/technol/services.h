@@ -39,6 +39,10 @@ inline constexpr std::string_view kSpindleWords = "S"; // of AX_SPI
 inline constexpr int64_t kFirstSpindleWord = 3;
 std::optional<int64_t> deviceWord(std::string_view word);
 
+// Commands of ECAT_COMMAND that ask for a state (man. l.18231), and the code of DR where the answer has no place.
+inline constexpr int32_t kMasterStateCommand = 20, kSlaveStateCommand = 21;
+inline constexpr int64_t kNoPlaceCode = 4;
+
 // An operand that is not given.
 inline constexpr int64_t kNotGiven = INT64_MIN;
 
@@ -55,7 +59,8 @@ constexpr ArgumentBytes bytesOfArgument(int64_t argument) {
   return {static_cast<uint32_t>(bits >> 48), static_cast<uint32_t>(bits >> 32 & 0xFFFF), static_cast<uint32_t>(bits)};
 }
 
-// The task that runs the procedure of an order of packets: this and the order's argument `proc`.
+// The task that runs the procedure of an order of packets: this, the order's argument `proc`, a point and the name of
+// the procedure, by which another program's is found.
 inline constexpr std::string_view kPacketTask = "CAN_RECV_REQ.";
 
 // The bytes that the answer to a ticket has brought, 128 of them a part, the first lowest in each word.

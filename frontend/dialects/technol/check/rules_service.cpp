@@ -1,5 +1,6 @@
 // Checks of instructions that give data to devices or get them (inventory of the services, 1.4, 3).
 #include <algorithm>
+#include <iterator>
 
 #include "frontend/dialects/technol/check/check_context.h"
 #include "frontend/dialects/technol/check/rules.h"
@@ -73,11 +74,14 @@ void checkRecord(const CheckContext& c, std::span<const Operand> o, int) {
   c.report(Diag::AddressOutOfRange, o[0].range) << spell(o[0]) + "+1" << "the memory";
 }
 
-// ECATCMD_GET_STATE and ECATCMD_GET_SLAVE_STATE give a state (man. l.18231).
+// ECATCMD_MASTER_STATE and ECATCMD_SLAVE_STATE give a state (man. l.18231).
 void checkEtherCatCommand(const CheckContext& c, std::span<const Operand> o, int form) {
-  constexpr int64_t kStateOfMaster = 20, kStateOfSlave = 21;
+  constexpr int64_t kCommands[] = {1, 2, 3, 4, 8, 11, 12, 13, 14, 18, 20, 21}; // man. l.18210-18246
+  const bool isNumber = o[2].form == Operand::Form::Integer;
+  if (isNumber && std::ranges::find(kCommands, o[2].value) == std::end(kCommands))
+    c.report(Diag::OperandRange, o[2].range) << o[2].value << "the commands 1 to 4, 8, 11 to 14, 18, 20 and 21";
   const bool asks =
-      o[2].form == Operand::Form::Integer && (o[2].value == kStateOfMaster || o[2].value == kStateOfSlave);
+      isNumber && (o[2].value == nc::technol::kMasterStateCommand || o[2].value == nc::technol::kSlaveStateCommand);
   if (asks && !(o[3].given() && o[4].given()))
     c.report(Diag::OperandCount, c.statement.range())
         << "ECAT_COMMAND with this command" << "5 operands"

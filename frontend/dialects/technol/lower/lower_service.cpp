@@ -81,6 +81,25 @@ Given givenTo(StatementContext& l, std::span<const Operand> operands, DataForm f
   return given;
 }
 
+// ECAT_COMMAND without Val and Len whose command lies in a cell: the code where it asks for a state, which has no place
+// to go to (man. l.18231); else 0. The command is the one of the run in which it was asked.
+ValueId codeWithoutPlace(StatementContext& l, const Given& given, ValueId isNew) {
+  ir::RungBuilder& b = l.b();
+  const Operand* command = nullptr;
+  for (size_t i = 0; i < given.operands.size(); ++i) {
+    if (text::equalsIgnoringCase(given.infos[i].name, "Cmd")) command = &given.operands[i];
+    if (isWritten(given.infos[i]) && given.operands[i].given()) return {};
+  }
+  if (command == nullptr || command->isConstant()) return {};
+  const ir::SlotId slot = l.ownSlot(Type::Bit);
+  b.when(isNew, [&] {
+    const ValueId asked = b.zextOrTrunc(Type::I32, l.value(*command, isNew));
+    b.slotStore(slot, b.or_(b.eq(asked, b.i32(nc::technol::kMasterStateCommand)),
+                            b.eq(asked, b.i32(nc::technol::kSlaveStateCommand))));
+  });
+  return b.select(b.slotLoad(slot), b.constant(Type::I64, nc::technol::kNoPlaceCode), b.constant(Type::I64, 0));
+}
+
 // Where the unit continues until the instruction is answered: at itself.
 void continueHere(StatementContext& l) {
   Sequence& s = l.sequences.current();
@@ -116,10 +135,12 @@ void lowerPolled(StatementContext& l, std::span<const Operand> o, int form) {
   DeviceRequest request(l);
   addArguments(l, request, given, data, isNew);
   const ValueId ticket = b.choose(isNew, [&] { return request.send(); }, [&] { return pending; });
+  const ValueId withoutPlace = codeWithoutPlace(l, given, isNew);
   request.use(ticket);
   const ValueId answered = b.and_(b.not_(isNew), isAnswered(b, ticket));
-  const ValueId code = request.result("DR");
   const ValueId none = b.constant(Type::I64, 0);
+  ValueId code = request.result("DR");
+  if (withoutPlace.valid()) code = b.select(b.eq(code, none), withoutPlace, code);
   b.when(b.and_(answered, b.eq(code, none)), [&] { store(request, ticket, given, data); });
   b.slotStore(slot, b.select(answered, b.i32(0), ticket));
   l.r().setRlo(answered);

@@ -101,9 +101,13 @@ std::vector<Event> makeEvents(Memory& memory, const Procedures& procedures, Cloc
   for (const std::string_view name : kOnEvents)
     if (const uint32_t procedure = memory.program().procedureNamed(name); procedure != kNone)
       events.push_back(makeEvent(memory, std::string(name), procedures.routine(procedure), clocks));
-  for (uint32_t number = 0; number < procedures.events().size(); ++number)
-    events.push_back(makeEvent(memory, std::string(nc::technol::kPacketTask) + std::to_string(number),
-                               procedures.routine(procedures.events()[number]), clocks));
+  for (uint32_t number = 0; number < procedures.events().size(); ++number) {
+    const uint32_t procedure = procedures.events()[number];
+    events.push_back(makeEvent(memory,
+                               std::string(nc::technol::kPacketTask) + std::to_string(number) + "." +
+                                   symbolKey(memory.program().procedures[procedure].name),
+                               procedures.routine(procedure), clocks));
+  }
   return events;
 }
 

@@ -47,6 +47,10 @@ constexpr Predefined kPredefined[] = {
     {"ECATCMD_SLAVE_OPERATIONAL", 18},
     {"ECATCMD_MASTER_STATE", 20},
     {"ECATCMD_SLAVE_STATE", 21},
+    {"EDRV_DONE", 0},
+    {"EDRV_INIT", 1},
+    {"EDRV_ON", 2},
+    {"EDRV_ENABLE", 3}, // l.10352
     {"PLCTABTYPE_INT", 1},
     {"PLCTABTYPE_REAL", 2},
     {"PLCTABTYPE_STR", 3},

@@ -1,10 +1,12 @@
 // Requests to the CAN bus (see can_requests.h).
 #include "tools/device-requests/can_requests.h"
 
-#include <string>
+#include <algorithm>
+#include <span>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/technol/signals.h"
+#include "rtlib/text/number.h"
 
 namespace rung::device_requests {
 
@@ -105,6 +107,21 @@ void CanCalls::endOrder(DeviceCall& call) {
   call.set(0, known ? 1 : 0);
 }
 
+void CanCalls::relocate(const CanPlaces& former, const CanPlaces& now, const Move& move) {
+  for (Order& order : orders_) {
+    if (order.handle == 0) continue;
+    const auto buffer = move(nc::technol::bytesOfArgument(order.buffer));
+    const auto procedure = now.numberOf(former, order.procedure);
+    if (buffer && procedure) {
+      order.buffer = nc::technol::bytesArgument(buffer->space, buffer->count, buffer->first);
+      order.procedure = *procedure;
+    } else {
+      can_.orders().remove(order.handle);
+      order = {};
+    }
+  }
+}
+
 // can group board item -> RLO DR
 void CanCalls::readItem(DeviceCall& call) {
   uint32_t value = 0;
@@ -193,11 +210,28 @@ CanPlaces::CanPlaces(const rung_program& program) {
   for (uint32_t i = 0; i < answerData_.size(); ++i)
     answerData_[i] = locateSignal(program, packet + (i == 0 ? "CAN_DATA" : "CAN_DATA_" + std::to_string(i)));
   driveBusy_ = locateSignal(program, "CAN_AX_BUSY");
-  for (uint32_t number = 0;; ++number) {
-    const std::string task = std::string(nc::technol::kPacketTask) + std::to_string(number);
-    if (host::findTask(program, task) == RUNG_NONE) break;
-    procedures_.emplace_back(program, task);
+  locateProcedures(program);
+}
+
+// CAN_RECV_REQ.2.NAME
+void CanPlaces::locateProcedures(const rung_program& program) {
+  for (const rung_task& task : std::span(program.tasks, program.task_count)) {
+    std::string_view name = task.name;
+    if (!name.starts_with(nc::technol::kPacketTask)) continue;
+    name.remove_prefix(nc::technol::kPacketTask.size());
+    const size_t point = std::min(name.find('.'), name.size());
+    const auto number = text::numberIn<uint32_t>(name.substr(0, point));
+    if (!number) continue;
+    if (*number >= procedures_.size()) procedures_.resize(*number + 1);
+    procedures_[*number] = {std::string(name.substr(point)), nc::technol::Procedure(program, task.name)};
   }
+}
+
+std::optional<uint64_t> CanPlaces::numberOf(const CanPlaces& other, uint64_t number) const {
+  if (number >= other.procedures_.size()) return std::nullopt;
+  const auto found = std::ranges::find(procedures_, other.procedures_[number].name, &NamedProcedure::name);
+  if (found == procedures_.end()) return std::nullopt;
+  return static_cast<uint64_t>(found - procedures_.begin());
 }
 
 void CanPlaces::writeDriveAnswer(const rt::Memory& memory, const CanPacket& answer) const {

@@ -1,6 +1,9 @@
 // CAN_*: packets, orders, units and drives, and their cells (man. ch. 9, 13.14).
 #pragma once
 #include <array>
+#include <functional>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,8 +35,10 @@ public:
   // CAN_AX_RECV_PACKET, and CAN_AX_BUSY becomes 0.
   void writeDriveAnswer(const rt::Memory& memory, const devices::CanPacket& answer) const;
   const nc::technol::Procedure* procedure(uint64_t number) const {
-    return number < procedures_.size() ? &procedures_[number] : nullptr;
+    return number < procedures_.size() ? &procedures_[number].procedure : nullptr;
   }
+  // The number of the procedure that another program has as `number`; nothing: there is none of its name.
+  std::optional<uint64_t> numberOf(const CanPlaces& other, uint64_t number) const;
 
 private:
   std::array<rt::Place, devices::kInputPorts> in_;
@@ -45,7 +50,13 @@ private:
   std::array<rt::Place, devices::kHandwheels> displayBusy_;
   std::array<rt::Place, devices::kCanDataBytes> answerData_;
   rt::Place answerId_, answerRemote_, answerLength_, driveBusy_;
-  std::vector<nc::technol::Procedure> procedures_;
+  struct NamedProcedure {
+    std::string name;
+    nc::technol::Procedure procedure;
+  };
+  void locateProcedures(const rung_program& program);
+
+  std::vector<NamedProcedure> procedures_;
 };
 
 class CanCalls {
@@ -54,6 +65,10 @@ public:
 
   // At a power-on and START PLC: no order is left.
   void clear() { orders_ = {}; }
+  // Another program has taken over: orders continue with its procedures and its buffers, which `move` finds. Those that
+  // it has not are deleted.
+  using Move = std::function<std::optional<nc::technol::ArgumentBytes>(const nc::technol::ArgumentBytes&)>;
+  void relocate(const CanPlaces& former, const CanPlaces& now, const Move& move);
   void answer(CanOrder order, DeviceCall& call);
   // After the ticks of a scan: what has come goes into the buffers of orders, and their procedures run; else it waits
   // for CAN_RECV. A program that is stopped has no orders, and its packets are dropped.

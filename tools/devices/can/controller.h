@@ -53,6 +53,8 @@ public:
 
   // The oldest packet that has come for the program.
   bool takeReceived(uint32_t channel, CanPacket& packet) { return received_[channel - 1].pop(packet); }
+  // One that has come by no port.
+  void putReceived(uint32_t channel, const CanPacket& packet) { received_[channel - 1].pushAnyway(packet); }
   // The oldest packet of the program's CAN_SEND that went to the port; of more than 1024 the oldest is lost.
   bool takeSent(uint32_t channel, CanPacket& packet) { return sent_[channel - 1].pop(packet); }
   // Messages 4217 and 4219 of the control.

@@ -53,9 +53,9 @@ public:
     devices_.fault(instance);
   }
 
-  void programChanged(host::Instance& instance, const rung_program&) override {
+  void programChanged(host::Instance& instance, const rung_program& former) override {
     exchange_.programChanged(instance);
-    devices_.programChanged(instance);
+    devices_.programChanged(instance, former);
   }
 
   std::string config(std::string_view key, std::string_view value) override {

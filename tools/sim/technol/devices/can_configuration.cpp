@@ -48,7 +48,9 @@ std::optional<std::string> CanDevices::configure(std::string_view key, std::stri
   std::string_view rest = name;
   if (nc::technol::takePrefix(rest, "DRIVE.")) return configureDrive(key, rest, value);
   if (!nc::technol::takePrefix(rest, "CAN[1]")) {
-    if (!nc::technol::takePrefix(rest, "CAN") || !rest.starts_with('.')) return std::nullopt;
+    if (!nc::technol::takePrefix(rest, "CAN")) return std::nullopt;
+    if (rest.starts_with('[')) return "channels are CAN[0] and CAN[1], not in " + inQuotes(key);
+    if (!rest.starts_with('.')) return std::nullopt;
     return configureChannel(key, rest, 1, value);
   }
   if (rest.ends_with(".CONTROL")) return configureUnit(key, rest, value);

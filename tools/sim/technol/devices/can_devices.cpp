@@ -22,6 +22,10 @@ void CanDevices::power() {
   control_.power();
 }
 
+void CanDevices::openForScenario() {
+  for (uint32_t channel = 1; channel <= buses_.size(); ++channel) control_.channel(channel).setState(BusState::Active);
+}
+
 void CanDevices::tick(const CanInputs& in, CanOutputs& out) {
   for (SimulatedUnit& unit : buses_[kUnitChannel - 1].units())
     if (unit.group() == kInOut08)

@@ -50,8 +50,10 @@ public:
   // wrong; nothing: a key of something else. Names in any case.
   std::optional<std::string> configure(std::string_view key, std::string_view value);
 
-  // Power off and on: everything starts anew, what is wired to the units stays.
+  // Power off and on: everything starts anew and whole, what is wired to the units stays.
   void power();
+  // After that, where a scenario answers for the devices: no bus, but orders of packets on both channels.
+  void openForScenario();
   void tick(const CanInputs& in, CanOutputs& out);
   // Instructions, packets, messages.
   devices::CanController& control() { return control_; }
@@ -59,6 +61,8 @@ public:
   // ---- what a scenario does and sees; "" or what is wrong
 
   std::string packetEvent(uint32_t channel, const devices::CanPacket& packet);
+  // The same where there is no bus.
+  void scriptedPacket(uint32_t channel, const devices::CanPacket& packet) { control_.putReceived(channel, packet); }
   std::string unitEvent(uint32_t group, uint32_t board, const CanUnitEvent& event);
   std::string driveEvent(uint32_t drive, const CanDriveEvent& event);
   std::string busEvent(uint32_t channel, bool off);

@@ -39,7 +39,7 @@ private:
 
   uint8_t node_;
   devices::DriveType type_ = devices::DriveType::Kollmorgen;
-  CanObjects objects_;
+  CanObjects objects_{devices::sdo::kNoSuchSubindex};
   std::vector<CanObject> configured_;
   bool operational_ = false, silent_ = false;
   State state_ = State::SwitchOnDisabled;

@@ -35,13 +35,19 @@ void CanObjects::set(sdo::Object place, uint32_t value) {
   if (CanObject* const object = find(place)) object->value = value;
 }
 
+uint32_t CanObjects::missing(uint16_t index) const {
+  const bool known = std::any_of(objects_.begin(), objects_.end(),
+                                 [&](const CanObject& object) { return object.place.index == index; });
+  return known ? noSubindex_ : sdo::kNoSuchObject;
+}
+
 devices::CanPacket CanObjects::answer(uint32_t node, const devices::CanPacket& request, const CanObject*& written) {
   written = nullptr;
   const sdo::Object place = sdo::object(request);
   CanObject* const object = find(place);
   const bool reads = sdo::command(request) == sdo::kRead;
   if (!reads && !sdo::isWrite(request)) return sdo::abort(node, place, sdo::kUnknownCommand);
-  if (object == nullptr) return sdo::abort(node, place, sdo::kNoSuchObject);
+  if (object == nullptr) return sdo::abort(node, place, missing(place.index));
   if (reads && object->access == ObjectAccess::WriteOnly) return sdo::abort(node, place, sdo::kWriteOnly);
   if (reads) return sdo::answer(node, place, object->bytes, object->value);
   if (object->access == ObjectAccess::ReadOnly) return sdo::abort(node, place, sdo::kReadOnly);

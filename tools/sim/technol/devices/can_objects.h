@@ -19,6 +19,8 @@ struct CanObject {
 
 class CanObjects {
 public:
+  // `noSubindex`: the code of an abort where the index has other subindices.
+  explicit CanObjects(uint32_t noSubindex) : noSubindex_(noSubindex) {}
   // In place of one that is there.
   void add(const CanObject& object);
   const CanObject* find(devices::sdo::Object place) const;
@@ -31,7 +33,9 @@ public:
 
 private:
   CanObject* find(devices::sdo::Object place);
+  uint32_t missing(uint16_t index) const;
 
+  uint32_t noSubindex_;
   std::vector<CanObject> objects_;
 };
 

@@ -36,6 +36,9 @@ SimulatedUnit::SimulatedUnit(uint32_t group, uint32_t board)
 }
 
 void SimulatedUnit::power() {
+  wires_.error = 0;
+  wires_.shorts = {};
+  wires_.silent = false;
   operational_ = false;
   received_ = {};
   outputs_ = {};

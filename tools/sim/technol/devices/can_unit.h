@@ -35,7 +35,7 @@ public:
   // Null: it is not a handwheel.
   const HandwheelDisplay* display() const { return display_.empty() ? nullptr : display_.data(); }
 
-  // At a power-on.
+  // At a power-on. What is wired stays, what was wrong is gone.
   void power();
   void receive(const devices::CanPacket& packet, NodePackets& answers);
   // A millisecond.
@@ -50,7 +50,7 @@ private:
   uint32_t group_, board_;
   uint8_t node_;
   UnitWires wires_;
-  CanObjects objects_;
+  CanObjects objects_{devices::sdo::kNoSuchObject};
   std::vector<HandwheelDisplay> display_; // one, of a handwheel
   bool operational_ = false;
   std::array<uint8_t, 8> received_{}; // RPDO1, taken over with SYNC

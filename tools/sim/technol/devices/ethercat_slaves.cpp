@@ -33,8 +33,7 @@ uint32_t wrongValue(const EthercatObject& idn, uint64_t value) {
 
 std::string EthercatSlaves::add(uint32_t number, std::string_view protocols) {
   EthercatProtocols parsed;
-  if (std::string wrong = parseProtocols(protocols, parsed); !wrong.empty()) return wrong;
-  if (parsed.voe) return "protocols are coe, soe, joined by +";
+  if (!parseProtocols(protocols, parsed).empty() || parsed.voe) return "protocols are coe, soe, joined by +";
   if (number >= kMost) return "there are at most " + std::to_string(kMost) + " slaves";
   if (number > count()) return "slaves are numbered without gaps: the next one is " + std::to_string(count());
   if (number == count()) slaves_.emplace_back();
@@ -44,6 +43,8 @@ std::string EthercatSlaves::add(uint32_t number, std::string_view protocols) {
 
 std::string EthercatSlaves::addObject(const EthercatObject& object) {
   if (object.slave >= count()) return "there is no such device yet";
+  if (object.isIdn && isBelow(object, object.most & onesOf(object.bytes), object.least)) return "min is above max";
+  if (object.isIdn && wrongValue(object, object.initial) != kDone) return "the value is not within its limits";
   const uint32_t known = find(object.slave, object.isIdn, object.index, object.sub);
   if (known == RUNG_NONE)
     objects_.push_back(object);

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 
-#include "ir/support/ascii.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
@@ -51,59 +50,6 @@ std::string unknownKey(Keys keys, std::string_view event, std::string_view known
   return {};
 }
 
-// Pairs of hexadecimal digits with blanks between them.
-std::optional<std::vector<uint8_t>> bytesOfHex(std::string_view text) {
-  std::vector<uint8_t> bytes;
-  for (size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == ' ') continue;
-    const int high = hexDigit(text[i]), low = i + 1 < text.size() ? hexDigit(text[i + 1]) : -1;
-    if (high < 0 || low < 0) return std::nullopt;
-    bytes.push_back(static_cast<uint8_t>(high * 16 + low));
-    ++i;
-  }
-  return bytes;
-}
-
-// \r, \n, \t, \\ and \xNN.
-std::optional<std::vector<uint8_t>> bytesOfText(std::string_view utf8) {
-  const std::string text = nc::memoryText(utf8);
-  std::vector<uint8_t> bytes;
-  for (size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '\\') {
-      bytes.push_back(static_cast<uint8_t>(text[i]));
-      continue;
-    }
-    if (++i >= text.size()) return std::nullopt;
-    constexpr std::string_view kLetters = "rnt\\", kMeant = "\r\n\t\\";
-    if (const size_t at = kLetters.find(text[i]); at != std::string_view::npos) {
-      bytes.push_back(static_cast<uint8_t>(kMeant[at]));
-      continue;
-    }
-    const int high = i + 2 < text.size() && text[i] == 'x' ? hexDigit(text[i + 1]) : -1;
-    const int low = high >= 0 ? hexDigit(text[i + 2]) : -1;
-    if (low < 0) return std::nullopt;
-    bytes.push_back(static_cast<uint8_t>(high * 16 + low));
-    i += 2;
-  }
-  return bytes;
-}
-
-// What `data` or `text` says; nothing where it cannot be read.
-std::optional<std::vector<uint8_t>> bytesOf(Keys keys) {
-  if (find(keys, "text") != nullptr) return bytesOfText(textOf(keys, "text"));
-  return bytesOfHex(textOf(keys, "data"));
-}
-
-std::optional<devices::CanPacket> packetOf(Keys keys) {
-  const auto bytes = bytesOfHex(textOf(keys, "data"));
-  if (!bytes || bytes->size() > devices::kCanDataBytes) return std::nullopt;
-  devices::CanPacket packet{.id = static_cast<uint16_t>(number(keys, "id", 0)),
-                            .remote = static_cast<uint8_t>(number(keys, "rtr", 0)),
-                            .length = static_cast<uint8_t>(bytes->size())};
-  std::ranges::copy(*bytes, packet.data);
-  return packet;
-}
-
 // As a scenario writes them: "0102FF".
 std::string hexOf(std::span<const uint8_t> bytes) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
@@ -111,8 +57,6 @@ std::string hexOf(std::span<const uint8_t> bytes) {
   for (const uint8_t byte : bytes) text += {kDigits[byte >> 4], kDigits[byte & 15]};
   return text;
 }
-
-constexpr const char* kBadBytes = "data is pairs of hexadecimal digits, as \"02 55\"";
 
 AxisMask axesOf(Keys keys) {
   const int64_t axis = number(keys, "axis", 0);
@@ -155,6 +99,7 @@ std::optional<std::string> SimulatedDevices::event(std::string_view name, Keys k
       const auto removed = given<uint32_t>(keys, "remove");
       return removed ? tables_.removeLine(table, *removed) : tables_.addLine(table);
     });
+  if (const auto done = portEvent(name, keys)) return done;
   if (!simulated_) return std::nullopt;
   if (is("STOP"))
     return checked("emergency", [&] { return axes_.stop(number(keys, "emergency", 0) != 0), std::string(); });
@@ -165,41 +110,6 @@ std::optional<std::string> SimulatedDevices::event(std::string_view name, Keys k
     return checked("command state", [&] { return axes_.rtm(textOf(keys, "command"), number(keys, "state", 1) != 0); });
   if (is("handwheel"))
     return checked("pulses wheel", [&] { return axes_.handwheel(number(keys, "pulses", 0)), std::string(); });
-  if (is("CAN"))
-    return checked("can id rtr data len", [&] {
-      const auto packet = packetOf(keys);
-      return packet ? can_.packetEvent(unsignedNumber(keys, "can"), *packet) : std::string(kBadBytes);
-    });
-  if (is("CAN_UNIT"))
-    return checked("group board error short0 short1 short2 silent", [&] {
-      CanUnitEvent event{.error = given<uint8_t>(keys, "error"), .shorts = {}, .silent = given<bool>(keys, "silent")};
-      for (size_t i = 0; i < event.shorts.size(); ++i)
-        event.shorts[i] = given<uint8_t>(keys, "short" + std::to_string(i));
-      return can_.unitEvent(unsignedNumber(keys, "group"), unsignedNumber(keys, "board"), event);
-    });
-  if (is("CAN_DRIVE"))
-    return checked("drive fault hold mstat silent", [&] {
-      return can_.driveEvent(unsignedNumber(keys, "drive"), {.fault = given<uint16_t>(keys, "fault"),
-                                                             .hold = number(keys, "hold", 0) != 0,
-                                                             .mstat = given<uint16_t>(keys, "mstat"),
-                                                             .silent = given<bool>(keys, "silent")});
-    });
-  if (is("CAN_BUS"))
-    return checked("can off", [&] { return can_.busEvent(unsignedNumber(keys, "can"), number(keys, "off", 1) != 0); });
-  if (is("COM"))
-    return checked("com text data error", [&] {
-      if (const auto wrong = given<bool>(keys, "error")) return com_.setError(unsignedNumber(keys, "com"), *wrong);
-      const auto bytes = bytesOf(keys);
-      return bytes ? com_.receive(unsignedNumber(keys, "com"), *bytes) : std::string(kBadBytes);
-    });
-  if (is("ethercat"))
-    return checked("device error silent fault link", [&] {
-      const uint32_t device = unsignedNumber(keys, "device");
-      if (const auto link = given<bool>(keys, "link")) return ethercat_.setLink(*link), std::string();
-      if (const auto silent = given<bool>(keys, "silent")) return ethercat_.setSilent(device, *silent);
-      if (const auto fault = given<uint32_t>(keys, "fault")) return ethercat_.fault(device, *fault);
-      return ethercat_.setError(device, unsignedNumber(keys, "error"));
-    });
   return std::nullopt;
 }
 
@@ -246,7 +156,10 @@ std::optional<std::string> SimulatedDevices::setQuantity(std::string_view name, 
     return std::string();
   }
   const bool object = takePrefix(rest, "ETHERCAT.");
-  if (!object && !takePrefix(rest, "IDN.")) return std::nullopt;
+  if (!object && !takePrefix(rest, "IDN.")) {
+    if (!quantity(name)) return std::nullopt;
+    return "it is what a device does; set are NC.MPOS, NC.TRUE, NC.ETHERCAT and NC.IDN";
+  }
   const uint32_t a = takeNumber(rest), b = takeNumber(rest), c = takeNumber(rest);
   const auto bits = static_cast<uint64_t>(static_cast<int64_t>(std::llround(value)));
   const bool done = object ? ethercat_.setObject(a, b, c, bits) : ethercat_.setIdn(a, b, c, bits);
@@ -346,37 +259,6 @@ bool SimulatedDevices::writeCell(std::string_view name, const NcCell& value) {
   if (at->line) return tables_.edit(at->table, *at->line, at->column, number).empty();
   return text::equalsIgnoringCase(at->column, "SelLine") &&
          tables_.selectByOperator(at->table, static_cast<uint32_t>(number)).empty();
-}
-
-// ---- what has been sent --------------------------------------------------------------------------------------------
-
-std::string SimulatedDevices::expectSent(std::string_view port, Keys keys) {
-  std::string_view rest = port;
-  const bool com = takePrefix(rest, "COM[");
-  if (!com && !takePrefix(rest, "CAN[")) return "ports are COM[n] and CAN[n], not '" + std::string(port) + "'";
-  const auto number = text::numberIn<uint32_t>(rest.substr(0, rest.find(']')));
-  if (!number || *number >= (com ? ComPorts::kMost : 2u)) return "there is no port '" + std::string(port) + "'";
-  const bool none = keys.size() == 1 && text::equalsIgnoringCase(keys[0].key, "none");
-  if (com) {
-    ComLine& line = com_.line(*number);
-    if (none) return line.sent() == 0 ? std::string() : std::to_string(line.sent()) + " bytes have been sent";
-    const auto bytes = bytesOf(keys);
-    if (!bytes) return kBadBytes;
-    if (line.takeSent(*bytes)) return {};
-    std::vector<uint8_t> found;
-    for (uint32_t i = 0; i < line.sent() && i < bytes->size() + 8; ++i) found.push_back(line.sentByte(i));
-    return "sent is " + (found.empty() ? std::string("nothing") : hexOf(found));
-  }
-  devices::CanPacket packet;
-  const bool any = can_.control().takeSent(*number + 1, packet);
-  if (none) return any ? "a packet has been sent" : std::string();
-  if (!any) return "no packet has been sent";
-  const auto wanted = packetOf(keys);
-  if (!wanted) return kBadBytes;
-  const bool same = packet.id == wanted->id && packet.remote == wanted->remote &&
-                    (packet.remote != 0 || std::ranges::equal(std::span(packet.data).first(packet.length),
-                                                              std::span(wanted->data).first(wanted->length)));
-  return same ? std::string() : "the packet that was sent has another identifier, RTR or data";
 }
 
 } // namespace rung::sim::technol

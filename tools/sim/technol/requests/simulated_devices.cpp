@@ -4,6 +4,7 @@
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "tools/sim/relocation.h"
 
 namespace rung::sim::technol {
 
@@ -12,6 +13,11 @@ using namespace device_requests;
 namespace {
 
 constexpr uint32_t kUsPerTick = 1000;
+
+// Orders of packets are the control's own also where a scenario answers for all else (inventory of the services, 1.1).
+bool isPacketOrder(CanOrder order) {
+  return order == CanOrder::Order || order == CanOrder::DeleteOrder || order == CanOrder::EndOrder;
+}
 
 // The number after a prefix of the key: PlcTableDef3.
 std::optional<uint32_t> numberAfter(std::string_view key, std::string_view prefix) {
@@ -70,6 +76,7 @@ void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind) {
   axes_.powerUp();
   com_.powerOn();
   can_.power();
+  if (!simulated_) can_.openForScenario();
   canCalls_.clear();
   ethercatCalls_.clear();
   ethercat_.powerOn();
@@ -81,14 +88,28 @@ void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind) {
   inputs_.powerOn(instance.memory());
 }
 
+void SimulatedDevices::programChanged(host::Instance& instance, const rung_program& former) {
+  const CanPlaces before = std::move(canPlaces_);
+  locate(instance);
+  const Relocation relocation(former, instance.program());
+  canCalls_.relocate(before, canPlaces_,
+                     [&](const nc::technol::ArgumentBytes& at) -> std::optional<nc::technol::ArgumentBytes> {
+                       host::Ref bytes = host::intRef(at.space, at.first, 8);
+                       bytes.count = at.count;
+                       const auto moved = relocation.place(bytes);
+                       if (!moved) return std::nullopt;
+                       return nc::technol::ArgumentBytes{moved->space, at.count, moved->byte};
+                     });
+}
+
 void SimulatedDevices::locate(host::Instance& instance) {
   const rung_program& program = instance.program();
   services_.clear();
   for (uint32_t i = 0; i < program.service_count; ++i) services_.push_back(serviceOf(host::serviceName(program, i)));
+  canPlaces_ = CanPlaces(program);
   if (!simulated_) return;
   axisPlaces_ = AxisPlaces(program);
   inputs_.locate(program);
-  canPlaces_ = CanPlaces(program);
   statePlaces_ = StatePlaces(program);
   servoPlaces_ = ServoPlaces(program);
 }
@@ -100,13 +121,13 @@ SimulatedDevices::Service SimulatedDevices::serviceOf(std::string_view signature
   if (name == "SA_WRITE") return {.who = Answerer::WriteArea};
   if (const TableOrder order = tableOrder(name); order != TableOrder::None)
     return {.who = hasTables_ ? Answerer::Tables : Answerer::None, .order = static_cast<uint8_t>(order)};
+  if (const CanOrder order = canOrder(name); simulated_ ? order != CanOrder::None : isPacketOrder(order))
+    return {.who = Answerer::Can, .order = static_cast<uint8_t>(order)};
   if (!simulated_) return {};
   if (const AxisOrder order = axisOrder(name); order != AxisOrder::None)
     return {.who = Answerer::Axes, .order = static_cast<uint8_t>(order)};
   if (const ComOrder order = comOrder(name); order != ComOrder::None)
     return {.who = Answerer::Com, .order = static_cast<uint8_t>(order)};
-  if (const CanOrder order = canOrder(name); order != CanOrder::None)
-    return {.who = Answerer::Can, .order = static_cast<uint8_t>(order)};
   if (const auto order = EthercatCalls::orderOf(name))
     return {.who = Answerer::Ethercat, .order = static_cast<uint8_t>(*order)};
   return {};
@@ -125,10 +146,19 @@ bool SimulatedDevices::respond(host::Instance& instance, const rt::ServiceReques
   case Answerer::WriteArea: writeShared(areas_, call); break;
   case Answerer::Axes: answerAxis(axes_, axisPlaces_, static_cast<AxisOrder>(service.order), call); break;
   case Answerer::Com: answerCom(com_.find(comOf(call)), static_cast<ComOrder>(service.order), call); break;
-  case Answerer::Can: canCalls_.answer(static_cast<CanOrder>(service.order), call); break;
+  case Answerer::Can:
+    canCalls_.answer(static_cast<CanOrder>(service.order), call);
+    complainOfDrive(static_cast<CanOrder>(service.order), call);
+    break;
   case Answerer::Ethercat: ethercatCalls_.begin(service.order, call); break;
   }
   return true;
+}
+
+// The instruction has no result that would say so.
+void SimulatedDevices::complainOfDrive(CanOrder order, const DeviceCall& call) {
+  const bool exists = call.arg(0) >= 1 && call.arg(0) <= devices::kMostDrives;
+  if (order == CanOrder::Drive && !exists) complaints_.add({"CAN_AX_SEND", "axis", call.arg(0), ""});
 }
 
 void SimulatedDevices::startProgram() {
@@ -146,7 +176,7 @@ void SimulatedDevices::fault(host::Instance& instance) {
 // ---- time ----------------------------------------------------------------------------------------------------------
 
 void SimulatedDevices::beforeInput(host::Instance& instance) {
-  if (!simulated_) return;
+  if (!simulated_) return canCalls_.deliver(instance, canPlaces_);
   const auto ticks = static_cast<uint32_t>(host::scanPeriodUs(instance.program()) / kUsPerTick);
   tickAxes(instance, ticks);
   tickOthers(instance, ticks);
@@ -184,7 +214,7 @@ void SimulatedDevices::tickOthers(host::Instance& instance, uint32_t ticks) {
 
 void SimulatedDevices::takeLog(std::vector<std::string>& log) {
   Complaint complaint;
-  while (axes_.takeComplaint(complaint)) log.push_back(complaint.text());
+  while (axes_.takeComplaint(complaint) || complaints_.take(complaint)) log.push_back(complaint.text());
 }
 
 } // namespace rung::sim::technol

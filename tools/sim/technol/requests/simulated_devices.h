@@ -19,6 +19,7 @@
 #include "tools/sim/technol/devices/com.h"
 #include "tools/sim/technol/devices/ethercat.h"
 #include "tools/sim/technol/requests/axis_requests.h"
+#include "tools/sim/technol/requests/event_keys.h"
 #include "tools/sim/technol/requests/input_wiring.h"
 #include "tools/sim/technol/requests/servo_places.h"
 
@@ -36,7 +37,8 @@ public:
   void powerOn(host::Instance& instance, nc::PowerOn kind);
   // What is wrong with the tables that were read last, a line each; "": nothing.
   const std::string& tableProblem() const { return tableProblem_; }
-  void programChanged(host::Instance& instance) { locate(instance); }
+  // Another program has taken over from `former`, which still exists.
+  void programChanged(host::Instance& instance, const rung_program& former);
   // START PLC, before MODULE_INIT.
   void startProgram();
   // A fault or HALT, after MODULE_HALT.
@@ -66,6 +68,17 @@ public:
   void restoreKept(std::span<const uint8_t> image);
 
 private:
+  // Events of bus_events.cpp; nothing: another one. Keys have been checked when one of the others is called.
+  std::optional<std::string> portEvent(std::string_view name, std::span<const NcArgument> given);
+  std::string canEvent(const EventKeys& keys);
+  std::string unitEvent(const EventKeys& keys);
+  std::string driveEvent(const EventKeys& keys);
+  std::string busEvent(const EventKeys& keys);
+  std::string lineEvent(const EventKeys& keys);
+  std::string netEvent(const EventKeys& keys);
+  std::string bytesSent(uint32_t number, const EventKeys& keys, bool none);
+  std::string packetSent(uint32_t channel, const EventKeys& keys, bool none);
+
   enum class Answerer : uint8_t { None, Data, Tables, ReadArea, WriteArea, Axes, Com, Can, Ethercat };
   struct Service {
     Answerer who = Answerer::None;
@@ -76,6 +89,7 @@ private:
   void loadTables();
   void tickAxes(host::Instance& instance, uint32_t ticks);
   void tickOthers(host::Instance& instance, uint32_t ticks);
+  void complainOfDrive(device_requests::CanOrder order, const device_requests::DeviceCall& call);
 
   bool simulated_ = false;
   bool hasTables_ = false;
@@ -103,6 +117,7 @@ private:
   InputWiring inputs_;
   CanInputs canInputs_;
   CanOutputs canOutputs_;
+  Complaints complaints_;
   devices::ethercat::StateBits stateBits_;
   EthercatServos::Cells servoCells_;
   std::string tableProblem_;

@@ -41,9 +41,9 @@ TEST(PlcTablesLoad, WrongElements) {
   EXPECT_EQ(mistakes(column("Key", "012")), "t:3:14: column 'Key' is '012', expected pairs of hexadecimal digits");
   EXPECT_EQ(mistakes(column("Key", "zz")), "t:3:14: column 'Key' is 'zz', expected pairs of hexadecimal digits");
   EXPECT_EQ(mistakes(column("Název", "Ω")), "t:3:14: column 'Název' is 'Ω', expected characters of Windows-1250");
-  EXPECT_EQ(mistakes(column("Název", std::string(255, 'a'))), "");
-  EXPECT_EQ(mistakes(column("Název", std::string(256, 'a'))),
-            "t:3:14: column 'Název' has 256 characters, expected at most 255");
+  EXPECT_EQ(mistakes(column("Název", std::string(65535, 'a'))), "");
+  EXPECT_EQ(mistakes(column("Název", std::string(65536, 'a'))),
+            "t:3:14: column 'Název' has 65536 characters, expected at most 65535");
   EXPECT_EQ(mistakes(column("Feed", "x") + "\n" + column("Count", "y")),
             "t:3:14: column 'Feed' is 'x', expected a number\n"
             "t:4:1: column 'Count' is 'y', expected an integer of -2147483648 to 4294967295");
@@ -67,20 +67,29 @@ TEST(PlcTablesLoad, WrongColumns) {
 
 TEST(PlcTablesLoad, TheMemoryOfAllTables) {
   PlcTables tables;
-  const TableDefinition definition = definitionOf(test::kMaterials); // 524 bytes a line
-  EXPECT_EQ(
-      tables.load(0, definition, dataOf(lines("65535", ""))),
-      "t:2:13: the table needs 34340340 bytes, for 65535 lines and 0 more; 16777216 of the 16777216 of all tables "
-      "are left");
-  EXPECT_EQ(tables.load(0, definition, dataOf(lines("30000", ""))), "");
+  const TableDefinition definition = definitionOf(test::kMaterials); // 28 bytes a line, and 65536 for texts
+  for (uint32_t i = 2; i < 19; ++i) EXPECT_EQ(tables.load(i, definition, dataOf(lines("65535", ""))), "");
+  EXPECT_EQ(tables.load(0, definition, dataOf(lines("38000", ""))), "");
   EXPECT_EQ(tables.load(1, definition, dataOf(lines("2000", ""))),
-            "t:2:13: the table needs 1182144 bytes, for 2000 lines and 256 more; 923072 of the 16777216 of all tables "
+            "t:2:13: the table needs 128704 bytes, for 2000 lines and 256 more; 108956 of the 33554432 of all tables "
             "are left");
   EXPECT_EQ(tables.load(0, definition, dataOf(lines("2000", ""))), ""); // in the place of the former one
   EXPECT_EQ(tables.load(1, definition, dataOf(lines("2000", ""))), "");
   tables.remove(1);
   EXPECT_FALSE(tables.exists(1));
   tables.remove(300);
+}
+
+TEST(PlcTablesLoad, TheMostLines) {
+  PlcTables tables;
+  EXPECT_EQ(tables.load(0, definitionOf(test::kMaterials),
+                        dataOf(lines("65535", "<Line No='65534'>" + column("Název", "x") + "</Line>"))),
+            "");
+  std::string_view text;
+  EXPECT_EQ(tables.getText(0, 65534, 2, text), TableError::None);
+  EXPECT_EQ(text, "x");
+  EXPECT_EQ(tables.getText(0, 65533, 2, text), TableError::None);
+  EXPECT_EQ(text, "");
 }
 
 TEST(PlcTablesLoad, Boundaries) {

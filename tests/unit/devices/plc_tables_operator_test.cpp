@@ -86,11 +86,12 @@ TEST_F(PlcTablesOperator, WrongEdits) {
   EXPECT_THAT(tables_.edit(0, 0, "Count", "4294967296"), HasSubstr("expected an integer"));
   EXPECT_EQ(tables_.edit(0, 0, "Název", "Ω"), "column 'Název' is 'Ω', expected characters of Windows-1250");
   EXPECT_THAT(tables_.edit(0, 0, "Název", "a\x02"), HasSubstr("expected no control characters but tab and line ends"));
-  EXPECT_EQ(tables_.edit(0, 0, "Název", std::string(256, 'a')),
-            "column 'Název' has 256 characters, expected at most 255");
+  EXPECT_EQ(tables_.edit(0, 0, "Název", std::string(65536, 'a')),
+            "column 'Název' has 65536 characters, expected at most 65535");
   for (const char* wrong : {"1", "010", "0g", "01 2", "-1", "0x01"})
     EXPECT_THAT(tables_.edit(0, 0, "Key", wrong), HasSubstr("expected pairs of hexadecimal digits")) << wrong;
-  EXPECT_EQ(tables_.edit(0, 0, "Key", std::string(512, 'a')), "column 'Key' has 256 bytes, expected at most 255");
+  EXPECT_EQ(tables_.edit(0, 0, "Key", std::string(131072, 'a')),
+            "column 'Key' has 65536 bytes, expected at most 65535");
   EXPECT_EQ(written(0, 3), "0102FF");
   EXPECT_EQ(change(), None);
   EXPECT_FALSE(tables_.isDirty(0));

@@ -109,11 +109,11 @@ TEST_F(PlcTablesTest, EveryTypeIsOnlyItsOwn) {
 }
 
 TEST_F(PlcTablesTest, WhatCannotBeStored) {
-  const std::vector<uint8_t> most(PlcTables::kTables - 1, 7), more(PlcTables::kTables, 7);
-  ASSERT_EQ(most.size(), kElementBytes);
+  const std::vector<uint8_t> most(kElementBytes, 7), more(kElementBytes + 1, 7);
   EXPECT_EQ(tables_.setBinary(0, 0, kKey, most), None);
   EXPECT_EQ(tables_.setBinary(0, 0, kKey, more), CannotBeStored);
   EXPECT_EQ(bytesAt(0), most);
+  EXPECT_EQ(tables_.setBinary(0, 0, kKey, {}), None);
   EXPECT_EQ(tables_.setText(0, 0, kName, std::string(kElementBytes, 'x')), None);
   EXPECT_EQ(tables_.setText(0, 0, kName, std::string(kElementBytes + 1, 'y')), CannotBeStored);
   EXPECT_EQ(tables_.setText(0, 0, kName, "a\x01"), CannotBeStored);
@@ -123,6 +123,35 @@ TEST_F(PlcTablesTest, WhatCannotBeStored) {
   for (const double value : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     EXPECT_EQ(tables_.setReal(0, 0, kFeed, value), CannotBeStored);
   EXPECT_EQ(realAt(0), 2000.0);
+}
+
+TEST_F(PlcTablesTest, TheRoomForTexts) {
+  const std::string half(PlcTables::kMoreTextBytes / 2, 'x');
+  EXPECT_EQ(tables_.setText(0, 0, kName, half), None);
+  EXPECT_EQ(tables_.setText(0, 1, kName, half), None);
+  EXPECT_EQ(tables_.setText(0, 2, kName, half), CannotBeStored);
+  EXPECT_EQ(textAt(2), "");
+  EXPECT_EQ(bytesAt(0), (std::vector<uint8_t>{1, 2, 255}));
+  EXPECT_EQ(tables_.removeLine(0, 1), ""); // gives its texts back
+  EXPECT_EQ(tables_.setText(0, 1, kName, half), None);
+  EXPECT_EQ(tables_.setText(0, 1, kName, "short"), None);
+  EXPECT_EQ(tables_.setText(0, 0, kName, std::string_view(half).substr(1)), None);
+  EXPECT_EQ(textAt(0), std::string_view(half).substr(1));
+  EXPECT_EQ(textAt(1), "short");
+  EXPECT_EQ(intAt(1), 16);
+  EXPECT_EQ(bytesAt(0), (std::vector<uint8_t>{1, 2, 255}));
+}
+
+// Longer and shorter texts in turn, which fill the room many times over.
+TEST_F(PlcTablesTest, TextsThatChangeOften) {
+  std::string expected[3];
+  for (uint32_t i = 0; i < 5000; ++i) {
+    const uint32_t line = i % 3;
+    expected[line] = std::string(i * 37 % 2000, static_cast<char>('a' + i % 26));
+    ASSERT_EQ(tables_.setText(0, line, kName, expected[line]), None);
+    for (uint32_t other = 0; other < 3; ++other)
+      if (i > 2) ASSERT_EQ(textAt(other), expected[other]) << i;
+  }
 }
 
 // l.18785-18860

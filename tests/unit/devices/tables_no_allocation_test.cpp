@@ -23,7 +23,7 @@ TEST(TablesNoAllocation, CounterCounts) {
 TEST(TablesNoAllocation, PlcTables) {
   PlcTables tables;
   test::loadMaterials(tables);
-  const std::string text(kElementBytes, 'x');
+  const std::string text(2000, 'x');
   const std::array<uint8_t, 300> bytes{};
   std::vector<uint8_t> image(tables.keptSize());
   int errors = 0;

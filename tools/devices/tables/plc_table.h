@@ -1,6 +1,7 @@
 // One PLC table in memory: plain data, all of a fixed size from its loading on.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,25 @@ struct PlcTable {
   bool dirty = false;         // its file has other contents
   uint64_t origin = 0;        // digest of its definition and of what its file said
   std::vector<uint8_t> bytes; // of the lines; zeros after the last one
+  // The bytes of STRING and BINARY elements up to `textsEnd`, some of them of elements that have others now.
+  std::vector<uint8_t> texts, otherTexts; // of one size; they change places when the first is full
+  uint32_t textsEnd = 0;
+  uint32_t textsInUse = 0; // bytes
 
   uint8_t* line(uint32_t number) { return bytes.data() + size_t{number} * lineBytes; }
   const uint8_t* line(uint32_t number) const { return bytes.data() + size_t{number} * lineBytes; }
+
+  // Of a STRING or BINARY element.
+  std::span<const uint8_t> textOf(const uint8_t* element) const noexcept;
+  // False: there is no room, and the element is as before. The bytes may be those of an element.
+  bool setText(uint8_t* element, std::span<const uint8_t> text) noexcept;
+  // A line goes, with its texts. Its bytes stay.
+  void dropTexts(uint32_t number) noexcept;
+  // Whether these lines have all their texts in `texts` up to `end`, and they are `inUse` bytes.
+  bool textsFit(const uint8_t* lines, uint32_t lineCount, uint32_t end, uint32_t inUse) const noexcept;
+
+private:
+  void compactTexts() noexcept;
 };
 
 } // namespace rung::devices

@@ -43,7 +43,7 @@ TableError PlcTables::getText(uint32_t table, uint32_t line, uint32_t column, st
   const uint8_t* element = nullptr;
   const TableError error = find(table, line, column, ColumnType::Text, element);
   if (error != TableError::None) return error;
-  const std::span<const uint8_t> bytes = bytesOf(element);
+  const std::span<const uint8_t> bytes = tables_[table]->textOf(element);
   text = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   return error;
 }
@@ -52,7 +52,7 @@ TableError PlcTables::getBinary(uint32_t table, uint32_t line, uint32_t column,
                                 std::span<const uint8_t>& bytes) const noexcept {
   const uint8_t* element = nullptr;
   const TableError error = find(table, line, column, ColumnType::Binary, element);
-  if (error == TableError::None) bytes = bytesOf(element);
+  if (error == TableError::None) bytes = tables_[table]->textOf(element);
   return error;
 }
 
@@ -79,21 +79,22 @@ TableError PlcTables::setText(uint32_t table, uint32_t line, uint32_t column, st
   uint8_t* element = nullptr;
   const TableError error = findToSet(table, line, column, ColumnType::Text, element);
   if (error != TableError::None) return error;
-  if (text.size() > kElementBytes || !isWritable(text)) return TableError::CannotBeStored;
-  putBytes(element, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
-  tables_[table]->dirty = true;
-  return error;
+  return isWritable(text) ? store(table, {reinterpret_cast<const uint8_t*>(text.data()), text.size()}, element)
+                          : TableError::CannotBeStored;
+}
+
+TableError PlcTables::store(uint32_t table, std::span<const uint8_t> text, uint8_t* element) noexcept {
+  PlcTable& t = *tables_[table];
+  if (text.size() > kElementBytes || !t.setText(element, text)) return TableError::CannotBeStored;
+  t.dirty = true;
+  return TableError::None;
 }
 
 TableError PlcTables::setBinary(uint32_t table, uint32_t line, uint32_t column,
                                 std::span<const uint8_t> bytes) noexcept {
   uint8_t* element = nullptr;
   const TableError error = findToSet(table, line, column, ColumnType::Binary, element);
-  if (error != TableError::None) return error;
-  if (bytes.size() > kElementBytes) return TableError::CannotBeStored;
-  putBytes(element, bytes);
-  tables_[table]->dirty = true;
-  return error;
+  return error == TableError::None ? store(table, bytes, element) : error;
 }
 
 TableError PlcTables::columnIndex(uint32_t table, std::string_view id, uint32_t& column) const noexcept {

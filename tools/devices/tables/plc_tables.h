@@ -31,7 +31,7 @@ enum class TableError : uint8_t {
   NoLine = 2,
   NoColumn = 3,
   OtherType = 4,      // the column's
-  CannotBeStored = 5, // a text or bytes that are too long, and what no file could hold (see setReal, setText)
+  CannotBeStored = 5, // texts for which there is no room, and what no file could hold (see setReal, setText)
 };
 
 // What PLCT_CHANGED gives (l.19007-19012).
@@ -43,8 +43,10 @@ public:
   // An operator may add that many lines to those that the file had.
   static constexpr uint32_t kMoreLines = 256;
   static constexpr uint32_t kMostLines = control_files::kMostLines;
-  // Of all tables together: 65535 lines of 31 REALs.
-  static constexpr uint64_t kMostBytes = uint64_t{1} << 24;
+  // The texts and binary elements of a table may have that many bytes more than in the file.
+  static constexpr uint32_t kMoreTextBytes = 1u << 16;
+  // Of all tables together: 65535 lines of 63 REALs.
+  static constexpr uint64_t kMostBytes = uint64_t{1} << 25;
 
   // ---- configuration; allocates ----
   // "" or what is wrong with the data, a line "FILE:LINE:COLUMN: ..." each; the table is then as before.
@@ -86,6 +88,7 @@ public:
   std::string edit(uint32_t table, uint32_t line, std::string_view column, double number);
   // Counts as a change where it is another line.
   std::string selectByOperator(uint32_t table, uint32_t line);
+  std::string lineProblem(uint32_t table, uint32_t line) const; // "": the line is there
   std::string addLine(uint32_t table); // at the end; its elements are 0, 0.0, no text, no bytes
   // The lines after it move up, and the selected line with them; where it was the selected one, the next is.
   std::string removeLine(uint32_t table, uint32_t line);
@@ -111,9 +114,9 @@ private:
   TableError find(uint32_t table, uint32_t line, uint32_t column, ColumnType type,
                   const uint8_t*& element) const noexcept;
   TableError findToSet(uint32_t table, uint32_t line, uint32_t column, ColumnType type, uint8_t*& element) noexcept;
+  TableError store(uint32_t table, std::span<const uint8_t> text, uint8_t* element) noexcept;
   template <class Value>
   std::string editAny(uint32_t table, uint32_t line, std::string_view column, Value value);
-  std::string lineProblem(uint32_t table, uint32_t line) const;
   uint64_t memoryWithout(uint32_t table) const;
 
   std::array<std::unique_ptr<PlcTable>, kTables> tables_;

@@ -7,19 +7,23 @@
 namespace rung::devices {
 namespace {
 
-constexpr uint64_t kMagic = 0x31304C4254434C50; // "PLCTBL01": changes with the form of the image
+constexpr uint64_t kMagic = 0x32304C4254434C50; // "PLCTBL02": changes with the form of the image
 
 struct TableHead {
   uint64_t origin;
   uint32_t table;
   uint32_t count;
   uint32_t selected;
-  uint32_t bytes;
+  uint32_t bytes; // of lines and texts
+  uint32_t textsEnd;
+  uint32_t textsInUse;
 };
 
-uint32_t keptBytes(const PlcTable& table) {
-  return static_cast<uint32_t>(sizeof(TableHead) + table.bytes.size()); // all tables have less than 2^24
+uint32_t contentBytes(const PlcTable& table) {
+  return static_cast<uint32_t>(table.bytes.size() + table.texts.size()); // all tables have at most 2^25
 }
+
+uint32_t keptBytes(const PlcTable& table) { return static_cast<uint32_t>(sizeof(TableHead)) + contentBytes(table); }
 
 void append(std::span<uint8_t>& to, const void* from, size_t size) {
   if (size > 0) std::memcpy(to.data(), from, size);
@@ -34,15 +38,19 @@ bool takeHead(std::span<const uint8_t>& from, TableHead& head) {
   return head.bytes <= from.size();
 }
 
-bool fits(const TableHead& head, const PlcTable& table) {
-  return head.origin == table.origin && head.bytes == table.bytes.size() && head.count <= table.capacity &&
-         (head.selected == 0 || head.selected < head.count);
+bool fits(const TableHead& head, const PlcTable& table, const uint8_t* bytes) {
+  return head.origin == table.origin && head.bytes == contentBytes(table) && head.count <= table.capacity &&
+         (head.selected == 0 || head.selected < head.count) &&
+         table.textsFit(bytes, head.count, head.textsEnd, head.textsInUse);
 }
 
 void restore(PlcTable& table, const TableHead& head, const uint8_t* bytes) {
   table.count = head.count;
   table.selected = head.selected;
-  std::copy_n(bytes, head.bytes, table.bytes.begin());
+  table.textsEnd = head.textsEnd;
+  table.textsInUse = head.textsInUse;
+  std::copy_n(bytes, table.bytes.size(), table.bytes.begin());
+  std::copy_n(bytes + table.bytes.size(), table.texts.size(), table.texts.begin());
   std::fill(table.line(head.count), table.line(table.capacity), uint8_t{0});
   table.dirty = true;
 }
@@ -62,9 +70,10 @@ void PlcTables::copyKept(std::span<uint8_t> image) const noexcept {
   for (uint32_t i = 0; i < kTables; ++i) {
     if (!exists(i)) continue;
     const PlcTable& t = *tables_[i];
-    const TableHead head{t.origin, i, t.count, t.selected, static_cast<uint32_t>(t.bytes.size())};
+    const TableHead head{t.origin, i, t.count, t.selected, contentBytes(t), t.textsEnd, t.textsInUse};
     append(image, &head, sizeof head);
     append(image, t.bytes.data(), t.bytes.size());
+    append(image, t.texts.data(), t.texts.size());
   }
 }
 
@@ -76,7 +85,7 @@ bool PlcTables::restoreKept(std::span<const uint8_t> image) noexcept {
   bool all = true;
   for (TableHead head{}; !image.empty(); image = image.subspan(head.bytes)) {
     if (!takeHead(image, head)) return false;
-    if (exists(head.table) && fits(head, *tables_[head.table]))
+    if (exists(head.table) && fits(head, *tables_[head.table], image.data()))
       restore(*tables_[head.table], head, image.data());
     else
       all = false;

@@ -10,6 +10,7 @@ namespace rung::devices {
 namespace {
 
 constexpr size_t kMostComplaints = 100;
+constexpr size_t kColumnIdBytes = 255;
 
 // A table that is being made, with what is wrong with it.
 class Loading {
@@ -28,6 +29,7 @@ public:
 
   void columns(const TableDefinition& definition);
   void memory(const TableData& data, uint64_t left);
+  uint64_t textBytes(const TableData& data) const;
   void elements(const TableData& data);
   void origin();
 
@@ -44,27 +46,39 @@ void Loading::columns(const TableDefinition& definition) {
     if (!toMemory(column.id, id))
       complain(column.place, "the column ID " + control_files::inQuotes(column.id) +
                                  " has characters that Windows-1250 does not have");
-    if (id.size() > kElementBytes)
+    if (id.size() > kColumnIdBytes)
       complain(column.place, "the column ID has " + std::to_string(id.size()) + " characters, expected at most " +
-                                 std::to_string(kElementBytes));
+                                 std::to_string(kColumnIdBytes));
     byId_.emplace(column.id, static_cast<uint32_t>(table->columns.size()));
     table->columns.push_back({std::move(id), column.type, table->lineBytes});
     table->lineBytes += elementSize(column.type);
   }
 }
 
+// Room for texts: none is longer in memory than it is written.
+uint64_t Loading::textBytes(const TableData& data) const {
+  if (std::ranges::none_of(table->columns, [](const auto& column) { return isText(column.type); })) return 0;
+  uint64_t bytes = PlcTables::kMoreTextBytes;
+  for (const control_files::TableLine& line : data.lines)
+    for (const control_files::TableElement& element : line.elements) {
+      const auto found = byId_.find(element.column);
+      if (found != byId_.end() && isText(table->columns[found->second].type)) bytes += element.value.size();
+    }
+  return bytes;
+}
+
 void Loading::memory(const TableData& data, uint64_t left) {
   table->count = data.lineCount;
   table->selected = data.selected;
   table->capacity = std::min(data.lineCount + PlcTables::kMoreLines, PlcTables::kMostLines);
-  const uint64_t bytes = uint64_t{table->capacity} * table->lineBytes;
-  if (bytes > left)
-    complain(data.place, "the table needs " + std::to_string(bytes) + " bytes, for " + std::to_string(data.lineCount) +
-                             " lines and " + std::to_string(table->capacity - data.lineCount) + " more; " +
-                             std::to_string(left) + " of the " + std::to_string(PlcTables::kMostBytes) +
-                             " of all tables are left");
+  const uint64_t bytes = uint64_t{table->capacity} * table->lineBytes, texts = textBytes(data);
+  if (bytes + texts > left)
+    complain(data.place, "the table needs " + std::to_string(bytes + texts) + " bytes, for " +
+                             std::to_string(data.lineCount) + " lines and " +
+                             std::to_string(table->capacity - data.lineCount) + " more; " + std::to_string(left) +
+                             " of the " + std::to_string(PlcTables::kMostBytes) + " of all tables are left");
   else
-    table->bytes.resize(bytes);
+    table->bytes.resize(bytes), table->texts.resize(texts), table->otherTexts.resize(texts);
 }
 
 void Loading::elements(const TableData& data) {
@@ -77,7 +91,7 @@ void Loading::elements(const TableData& data) {
         continue;
       }
       const PlcTable::Column& column = table->columns[found->second];
-      const std::string wrong = readElement(column.type, element.value, table->line(line.number) + column.at);
+      const std::string wrong = readElement(*table, column.type, element.value, table->line(line.number) + column.at);
       if (!wrong.empty()) complain(element.place, "column " + control_files::inQuotes(element.column) + " " + wrong);
     }
 }
@@ -104,6 +118,7 @@ void Loading::origin() {
   digest.add(&table->count, sizeof table->count);
   digest.add(&table->selected, sizeof table->selected);
   digest.add(table->bytes.data(), table->bytes.size());
+  digest.add(table->texts.data(), table->texts.size());
   table->origin = digest.value();
 }
 
@@ -112,7 +127,7 @@ void Loading::origin() {
 uint64_t PlcTables::memoryWithout(uint32_t table) const {
   uint64_t bytes = 0;
   for (uint32_t i = 0; i < kTables; ++i)
-    if (i != table && exists(i)) bytes += tables_[i]->bytes.size();
+    if (i != table && exists(i)) bytes += tables_[i]->bytes.size() + tables_[i]->texts.size();
   return bytes;
 }
 
@@ -146,7 +161,7 @@ std::optional<TableData> PlcTables::contents(uint32_t table) const {
     control_files::TableLine& line = data.lines.emplace_back();
     line.number = i;
     for (const PlcTable::Column& column : t.columns)
-      line.elements.push_back({nc::shownText(column.id), writtenElement(column.type, t.line(i) + column.at), {}});
+      line.elements.push_back({nc::shownText(column.id), writtenElement(t, column.type, t.line(i) + column.at), {}});
   }
   return data;
 }

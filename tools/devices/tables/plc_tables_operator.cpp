@@ -11,7 +11,6 @@ std::string called(uint32_t table) { return "PLC table " + std::to_string(table)
 
 } // namespace
 
-// "" where the line is there.
 std::string PlcTables::lineProblem(uint32_t table, uint32_t line) const {
   if (!exists(table)) return "there is no " + called(table);
   const uint32_t count = tables_[table]->count;
@@ -28,7 +27,7 @@ std::string PlcTables::editAny(uint32_t table, uint32_t line, std::string_view c
   const auto found = std::find_if(t.columns.begin(), t.columns.end(),
                                   [&, known = toMemory(column, id)](const auto& c) { return known && c.id == id; });
   if (found == t.columns.end()) return called(table) + " has no column " + control_files::inQuotes(column);
-  std::string wrong = readElement(found->type, value, t.line(line) + found->at);
+  std::string wrong = readElement(t, found->type, value, t.line(line) + found->at);
   if (!wrong.empty()) return "column " + control_files::inQuotes(column) + " " + wrong;
   t.elementChanged = t.dirty = true;
   return {};
@@ -65,6 +64,7 @@ std::string PlcTables::addLine(uint32_t table) {
 std::string PlcTables::removeLine(uint32_t table, uint32_t line) {
   if (std::string wrong = lineProblem(table, line); !wrong.empty()) return wrong;
   PlcTable& t = *tables_[table];
+  t.dropTexts(line);
   std::copy(t.line(line + 1), t.line(t.count), t.line(line));
   --t.count;
   std::fill_n(t.line(t.count), t.lineBytes, uint8_t{0});

@@ -13,6 +13,7 @@
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/number.h"
+#include "tools/devices/tables/plc_table.h"
 
 namespace rung::devices {
 namespace {
@@ -55,14 +56,17 @@ std::string readReal(std::string_view written, uint8_t* element) {
   return {};
 }
 
-std::string readText(std::string_view written, uint8_t* element) {
+std::string putText(PlcTable& table, std::span<const uint8_t> bytes, std::string_view unit, uint8_t* element) {
+  const std::string has = "has " + std::to_string(bytes.size()) + " " + std::string(unit);
+  if (bytes.size() > kElementBytes) return has + ", expected at most " + std::to_string(kElementBytes);
+  return table.setText(element, bytes) ? std::string() : has + ", for which the table has no room";
+}
+
+std::string readText(PlcTable& table, std::string_view written, uint8_t* element) {
   std::string bytes;
   if (!toMemory(written, bytes)) return wrong(written, "characters of Windows-1250");
   if (!isWritable(bytes)) return wrong(written, "no control characters but tab and line ends");
-  if (bytes.size() > kElementBytes)
-    return "has " + std::to_string(bytes.size()) + " characters, expected at most " + std::to_string(kElementBytes);
-  putBytes(element, asBytes(bytes));
-  return {};
+  return putText(table, asBytes(bytes), "characters", element);
 }
 
 // Pairs of hexadecimal digits; nothing where they are not.
@@ -77,13 +81,10 @@ std::optional<std::vector<uint8_t>> pairsIn(std::string_view written) {
   return bytes;
 }
 
-std::string readBinary(std::string_view written, uint8_t* element) {
+std::string readBinary(PlcTable& table, std::string_view written, uint8_t* element) {
   const auto bytes = pairsIn(written);
   if (!bytes) return wrong(written, "pairs of hexadecimal digits");
-  if (bytes->size() > kElementBytes)
-    return "has " + std::to_string(bytes->size()) + " bytes, expected at most " + std::to_string(kElementBytes);
-  putBytes(element, *bytes);
-  return {};
+  return putText(table, *bytes, "bytes", element);
 }
 
 std::string written(double value) {
@@ -110,30 +111,22 @@ bool isWritable(std::string_view text) noexcept {
   });
 }
 
-std::span<const uint8_t> bytesOf(const uint8_t* element) noexcept { return {element + 1, *element}; }
-
-void putBytes(uint8_t* element, std::span<const uint8_t> bytes) noexcept {
-  element[0] = static_cast<uint8_t>(bytes.size());
-  if (!bytes.empty()) std::memmove(element + 1, bytes.data(), bytes.size());
-  std::memset(element + 1 + bytes.size(), 0, kElementBytes - bytes.size());
-}
-
 bool toMemory(std::string_view utf8, std::string& bytes) {
   bytes = nc::memoryText(utf8);
   return nc::shownText(bytes) == utf8;
 }
 
-std::string readElement(ColumnType type, std::string_view written, uint8_t* element) {
+std::string readElement(PlcTable& table, ColumnType type, std::string_view written, uint8_t* element) {
   switch (type) {
   case ColumnType::Int: return readInt(written, element);
   case ColumnType::Real: return readReal(written, element);
-  case ColumnType::Text: return readText(written, element);
-  case ColumnType::Binary: return readBinary(written, element);
+  case ColumnType::Text: return readText(table, written, element);
+  case ColumnType::Binary: return readBinary(table, written, element);
   }
   return {};
 }
 
-std::string readElement(ColumnType type, double number, uint8_t* element) {
+std::string readElement(PlcTable& table, ColumnType type, double number, uint8_t* element) {
   if (type == ColumnType::Int && number == std::trunc(number) && number >= double{kLeastInt} &&
       number <= double{kMostInt}) {
     put(element, static_cast<uint32_t>(static_cast<int64_t>(number)));
@@ -143,13 +136,12 @@ std::string readElement(ColumnType type, double number, uint8_t* element) {
     put(element, number);
     return {};
   }
-  if (type == ColumnType::Int || type == ColumnType::Real) return readElement(type, written(number), element);
+  if (type == ColumnType::Int || type == ColumnType::Real) return readElement(table, type, written(number), element);
   return wrong(written(number), type == ColumnType::Text ? "a text" : "a text of pairs of hexadecimal digits");
 }
 
-std::string writtenElement(ColumnType type, const uint8_t* element) {
-  const std::span<const uint8_t> bytes =
-      type == ColumnType::Text || type == ColumnType::Binary ? bytesOf(element) : std::span<const uint8_t>();
+std::string writtenElement(const PlcTable& table, ColumnType type, const uint8_t* element) {
+  const std::span<const uint8_t> bytes = isText(type) ? table.textOf(element) : std::span<const uint8_t>();
   switch (type) {
   case ColumnType::Int: return std::to_string(get<int32_t>(element));
   case ColumnType::Real: return written(get<double>(element));

@@ -11,21 +11,17 @@ namespace rung::devices {
 
 using control_files::ColumnType;
 
-// Of a text or binary element, in bytes. The manual has no limit of its own; the texts that go in and out are STR
-// cells, of which its longest has 50 characters (l.1674).
-inline constexpr uint32_t kElementBytes = 255;
+struct PlcTable;
 
-// INT: 4 bytes, REAL: 8, STRING and BINARY: a byte for the length, and the capacity.
-constexpr uint32_t elementSize(ColumnType type) {
-  return type == ColumnType::Int ? 4 : type == ColumnType::Real ? 8 : 1 + kElementBytes;
-}
+// Of a text or binary element, in bytes. The manual has no limit; what a program hands over at once has no more.
+inline constexpr uint32_t kElementBytes = 0xFFFF;
+
+constexpr bool isText(ColumnType type) { return type == ColumnType::Text || type == ColumnType::Binary; }
+// INT: 4 bytes, REAL: 8, STRING and BINARY: where its bytes lie and how many they are (PlcTable::textOf).
+constexpr uint32_t elementSize(ColumnType type) { return type == ColumnType::Int ? 4 : 8; }
 
 // Whether XML can hold the bytes of a text: no control characters but tab, LF and CR.
 bool isWritable(std::string_view text) noexcept;
-
-// Of STRING and BINARY; `bytes` fit.
-std::span<const uint8_t> bytesOf(const uint8_t* element) noexcept;
-void putBytes(uint8_t* element, std::span<const uint8_t> bytes) noexcept;
 
 // A text in UTF-8 as the memory has it (Windows-1250); false where a character has no byte there.
 bool toMemory(std::string_view utf8, std::string& bytes);
@@ -33,9 +29,9 @@ bool toMemory(std::string_view utf8, std::string& bytes);
 // The text that a file or an operator writes: INT -2147483648 to 4294967295, also 0x0C (a DWORD: from 2147483648 on
 // they are the negative numbers), REAL 1.5, STRING as it is, in UTF-8, BINARY pairs of hexadecimal digits, with blanks
 // between them or without. "" or what is wrong: "is 'x', expected ..."; the element is then as before.
-std::string readElement(ColumnType type, std::string_view written, uint8_t* element);
-std::string readElement(ColumnType type, double number, uint8_t* element);
+std::string readElement(PlcTable& table, ColumnType type, std::string_view written, uint8_t* element);
+std::string readElement(PlcTable& table, ColumnType type, double number, uint8_t* element);
 // The text that reads as the same element.
-std::string writtenElement(ColumnType type, const uint8_t* element);
+std::string writtenElement(const PlcTable& table, ColumnType type, const uint8_t* element);
 
 } // namespace rung::devices

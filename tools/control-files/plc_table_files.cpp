@@ -87,11 +87,12 @@ private:
                  "the column ID " + inQuotes(column_.id) + " is used again; the first use is at " + named->second);
   }
   void checkCount() {
-    const std::string count = "<ColsCount> is " + std::to_string(count_);
-    if (count_ != columns_.size())
+    if (!count_) return;
+    const std::string count = "<ColsCount> is " + std::to_string(*count_);
+    if (*count_ != columns_.size())
       complainAt(countPlace_, count + ", expected " + std::to_string(columns_.size()) +
                                   ", as many columns have a number of their own");
-    else if (!columns_.empty() && columns_.rbegin()->first != count_ - 1)
+    else if (!columns_.empty() && columns_.rbegin()->first != *count_ - 1)
       complainAt(countPlace_, count + ", but there is a column " + std::to_string(columns_.rbegin()->first) +
                                   "; columns are numbered from 0");
   }
@@ -101,7 +102,7 @@ private:
   std::optional<uint32_t> number_;
   std::map<uint32_t, TableColumn> columns_;
   std::map<std::string, FilePlace, std::less<>> ids_;
-  uint32_t count_ = 0;
+  std::optional<uint32_t> count_;
   FilePlace countPlace_;
 };
 
@@ -124,8 +125,8 @@ private:
   void ends(Element element) override {
     switch (element) {
     case Element::DefinitionId: found_.definition = word(); break;
-    case Element::Count: found_.lineCount = number(kMostLines); break;
-    case Element::Selected: found_.selected = number(kMostLines); break;
+    case Element::Count: count_ = number(kMostLines); break;
+    case Element::Selected: found_.selected = number(kMostLines).value_or(0); break;
     case Element::Cell: found_.lines.back().elements.back().value = text_; break;
     case Element::Line: checkColumns(); break;
     case Element::Document: checkLines(); break;
@@ -152,6 +153,8 @@ private:
     }
   }
   void checkLines() {
+    if (!count_) return;
+    found_.lineCount = *count_;
     const std::string count = "<LinesCount> is " + std::to_string(found_.lineCount);
     for (const auto& [number, where] : numbers_)
       if (number >= found_.lineCount) complainAt(where, "there is no line " + std::to_string(number) + ": " + count);
@@ -160,6 +163,7 @@ private:
   }
 
   TableData found_;
+  std::optional<uint32_t> count_; // <LinesCount>
   FilePlace selectedPlace_;
   std::map<uint32_t, FilePlace> numbers_; // of the lines
 };

@@ -32,12 +32,12 @@ std::string TableReader::word() {
   return std::string(text);
 }
 
-uint32_t TableReader::number(uint32_t most) {
+std::optional<uint32_t> TableReader::number(uint32_t most) {
   const auto value = nc::technol::integerOf(text_);
   if (value && *value >= 0 && *value <= most) return static_cast<uint32_t>(*value);
   complain("<" + open_.back().name + "> is " + inQuotes(inOneLine(text_.substr(0, kShown))) + ", expected 0 to " +
            std::to_string(most));
-  return 0;
+  return std::nullopt;
 }
 
 std::optional<uint32_t> TableReader::ordinal(Attributes& attributes, uint32_t most) {

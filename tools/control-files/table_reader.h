@@ -46,8 +46,8 @@ protected:
 
   // The text of an element that is not empty, without blanks at its ends.
   std::string word();
-  // The text as a number from 0.
-  uint32_t number(uint32_t most);
+  // The text as a number from 0; nothing after a complaint.
+  std::optional<uint32_t> number(uint32_t most);
   // An element's attribute No; nothing after a complaint.
   std::optional<uint32_t> ordinal(Attributes& attributes, uint32_t most);
 

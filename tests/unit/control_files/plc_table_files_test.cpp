@@ -109,7 +109,9 @@ TEST(PlcTableFiles, TheCountOfColumns) {
   EXPECT_EQ(counted("0x1"), "");
   EXPECT_EQ(counted("2"), "f:2:1: <ColsCount> is 2, expected 1, as many columns have a number of their own");
   EXPECT_EQ(counted("1", "1"), "f:2:1: <ColsCount> is 1, but there is a column 1; columns are numbered from 0");
-  EXPECT_THAT(counted("many"), HasSubstr("<ColsCount> is 'many', expected 0 to 65535"));
+  EXPECT_EQ(counted("many"), "f:2:16: <ColsCount> is 'many', expected 0 to 65535");
+  EXPECT_EQ(definitionMistakes(definition("<Col No='0'><ColID>A</ColID><ColType>INT</ColType></Col>")),
+            "f:2:57: <Definition> lacks its <ColsCount>");
   EXPECT_THAT(counted("65536"), HasSubstr("<ColsCount> is '65536', expected 0 to 65535"));
   EXPECT_THAT(counted("99999999999999999999"), HasSubstr("expected 0 to 65535"));
   EXPECT_THAT(counted("-1"), HasSubstr("<ColsCount> is '-1', expected 0 to 65535"));

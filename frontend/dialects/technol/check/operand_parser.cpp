@@ -394,7 +394,7 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
   if (!address.hasBase) return wrongKind(out, "a constant", "a variable");
   const bool wantsText = kind.onlyTexts;
   if (address.isBit || (wantsText && !address.isText))
-    return wrongKind(out, "no text", wantsText ? "a text" : "a variable");
+    return wrongKind(out, address.isBit ? "a bit" : "not a text", wantsText ? "a text" : "a variable");
   address.indexed = address.indexed || indexed;
   out.form = Operand::Form::Cell;
   out.isText = address.isText;

@@ -39,7 +39,8 @@ bool identifierFits(const CheckContext& c, const Operand& id, bool defined) {
 // Whether the default is a constant of the variable's type. The default of a mapped real has its decimal point (man.
 // l.5880).
 bool defaultFits(const CheckContext& c, const Exchanged& variable, const Operand& given) {
-  if (variable.type == ExchangeType::Text) return given.form == Form::Text || c.wrongKind(given, "no text", "a text");
+  if (variable.type == ExchangeType::Text)
+    return given.form == Form::Text || c.wrongKind(given, "not a text", "a text");
   if (variable.type == ExchangeType::Binary) return c.wrongKind(given, "a default", "none with TYPE_BIN");
   if (given.form == Form::Text) return c.wrongKind(given, "a text", "a number");
   if (variable.type == ExchangeType::Real)

@@ -35,7 +35,7 @@ void checkReal(const CheckContext& c, const Operand& operand) {
 void checkText(const CheckContext& c, const Operand& operand) {
   if (operand.form == Operand::Form::Text) return;
   if (!operand.isText)
-    c.wrongKind(operand, "no text", "a text");
+    c.wrongKind(operand, "not a text", "a text");
   else
     textFits(c, operand);
 }

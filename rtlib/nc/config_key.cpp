@@ -10,8 +10,11 @@ bool matches(std::string_view pattern, std::string_view key) {
   const size_t open = pattern.find('<');
   if (open == std::string_view::npos) return pattern == key;
   const std::string_view before = pattern.substr(0, open);
-  const std::string_view after = pattern.substr(pattern.rfind('>') + 1);
-  return key.size() > before.size() + after.size() && key.starts_with(before) && key.ends_with(after);
+  const size_t close = pattern.rfind('>');
+  const std::string_view after = pattern.substr(close + 1);
+  if (key.size() <= before.size() + after.size() || !key.starts_with(before) || !key.ends_with(after)) return false;
+  const std::string_view part = key.substr(before.size(), key.size() - before.size() - after.size());
+  return pattern.substr(open + 1, close - open - 1) != "n" || wholeNumber(part) >= 0;
 }
 
 bool isOneOf(std::string_view words, std::string_view value) {

@@ -20,7 +20,7 @@ enum class ConfigForm : uint8_t {
 };
 
 struct ConfigKey {
-  std::string_view key; // a part in <> matches any text: "tmr.<N>"
+  std::string_view key; // a part in <> matches any text: "tmr.<N>"; <n> digits alone
   ConfigReader reader = ConfigReader::Control;
   ConfigForm form = ConfigForm::Text;
   std::string_view takes = "";

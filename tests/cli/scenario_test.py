@@ -142,6 +142,63 @@ class Failure(Folder):
         self.assertIn("CLOSED (5100.00) = 1, changed in scan 1, 0.010 s", done.stdout)
 
 
+DEFINITION = """<PLCTableDef><Definition><DefinitionID>T</DefinitionID><ColsCount>1</ColsCount></Definition>
+<Col No="0"><ColID>A</ColID><ColType>INT</ColType></Col></PLCTableDef>"""
+TABLE = """<PLCTable><Definition><DefinitionID>T</DefinitionID><LinesCount>2</LinesCount></Definition></PLCTable>"""
+
+TABLES = "config PlcTableDef0 t.PlcTDef\nconfig PlcTable0 t.PlcT\n"
+
+
+class WrongDevices(Folder):
+    """Devices of TECHNOL's control that do not exist or are configured wrongly."""
+
+    def setUp(self):
+        super().setUp()
+        self.file("cells.plc", CELLS)
+        self.file("t.PlcTDef", DEFINITION)
+        self.file("t.PlcT", TABLE)
+
+    def complaint(self, statements):
+        self.file("w.scn", "program cells.plc\n" + statements + "\n")
+        done = self.run_tests("w.scn")
+        self.assertEqual(done.returncode, WRONG, done.stdout + done.stderr)
+        return done.stdout
+
+    def test_axes(self):
+        for line, message in (
+                ("config axis.9.Feed 5\nscan", "'axis.9.Feed' is for axis 9; the axes are XYZC, 1 to 4 (config axes)"),
+                ("config switch.P1IN.2 9 1 2\nscan", "'switch 9 1 2' is for axis 9"),
+                ("config axis.1.Position 1e300", "w.scn:3: 'Position' needs a number of -1e9 to 1e9; found '1e300'"),
+                ("set NC.MPOS.1 1e300", "w.scn:3: a place is a number of -1e9 to 1e9"),
+                ("event handwheel", "w.scn:3: pulses are a whole number, as in pulses=5"),
+                ("event handwheel pulses=1 wheel=3", "w.scn:3: the handwheels are 1 and 2")):
+            self.assertIn(message, self.complaint("config nc simulated\n" + line), line)
+
+    def test_tables(self):
+        for line, message in (
+                ("set PlcTable0[2].A 1", "w.scn:4: PLC table 0 has no line 2; its lines are 0 to 1"),
+                ("set PlcTable0[0].B 1", "w.scn:4: PLC table 0 has no column 'B'"),
+                ("set PlcTable0[0].A 1.5", "w.scn:4: column 'A' is '1.5', expected an integer"),
+                ("expect PlcTable7[0].A 1", "w.scn:4: there is no PLC table 7"),
+                ("set PlcTable0.SelLine 2", "w.scn:4: PLC table 0 has no line 2; its lines are 0 to 1"),
+                ("set PlcTable0.SelLine -1", "w.scn:4: a line is a number from 0"),
+                ("expect PlcTable0.Lines 2", "w.scn:4: PLC table 0 has LinesCount and SelLine"),
+                ("event PLCT table=0", "w.scn:4: PLCT needs a table, and add=1 or the number of a line to remove"),
+                ("config PlcTable-1 t.PlcT", "w.scn:4: 'PlcTable-1' is not a configuration key")):
+            self.assertIn(message, self.complaint(TABLES + line), line)
+
+    def test_a_table_file(self):
+        self.file("t.PlcT", TABLE.replace("LinesCount>2", "LinesCount>many"))
+        found = self.complaint(TABLES + "scan")
+        self.assertRegex(found, r"w\.scn:3: .*t\.PlcT:1:\d+: <LinesCount> is 'many', expected 0 to 65535\n")
+
+    def test_shared_areas(self):
+        for name in ("SA0+31999:2", "SA2+0:1", "SA0+0:3", "SA1+0"):
+            self.assertIn("w.scn:2: a cell of a shared area is SA0+OFFSET:WIDTH or SA1+OFFSET:WIDTH",
+                          self.complaint(f"set {name} 1"), name)
+        self.assertIn("w.scn:2: there is no such shared area", self.complaint("event SA_LOCK"))
+
+
 class Trace(Folder):
     def test_vcd(self):
         done = self.run_tests("passes.scn", "--trace", "t.vcd")

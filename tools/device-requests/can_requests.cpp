@@ -159,7 +159,7 @@ void CanCalls::run(host::Instance& instance, const CanPlaces& places, uint32_t c
   const devices::CanMatches matches = can_.channel(channel).deliver(packet);
   for (const uint32_t handle : matches.all()) {
     const Order* order = std::ranges::find(orders_, handle, &Order::handle);
-    if (order == orders_.end() || instance.stopped()) continue;
+    if (order == orders_.end() || instance.stopped() || instance.faulted()) continue;
     const nc::technol::ArgumentBytes at = nc::technol::bytesOfArgument(order->buffer);
     const rt::Memory memory = instance.memory();
     memory.write(at.space, at.first, 2, packet.id);
@@ -232,6 +232,10 @@ std::optional<uint64_t> CanPlaces::numberOf(const CanPlaces& other, uint64_t num
   const auto found = std::ranges::find(procedures_, other.procedures_[number].name, &NamedProcedure::name);
   if (found == procedures_.end()) return std::nullopt;
   return static_cast<uint64_t>(found - procedures_.begin());
+}
+
+void CanPlaces::disableDrives(const rt::Memory& memory) const {
+  for (const rt::Place& place : command_) memory.write(place, 0);
 }
 
 void CanPlaces::writeDriveAnswer(const rt::Memory& memory, const CanPacket& answer) const {

@@ -32,6 +32,8 @@ public:
   // What somebody else than the units has put into the input ports since they were written.
   void readTerminals(const rt::Memory& memory, const devices::UnitStates& written,
                      std::array<uint8_t, devices::kInputPorts>& terminals) const;
+  // CAN_DRIVE_CMD of all becomes 0.
+  void disableDrives(const rt::Memory& memory) const;
   // CAN_AX_RECV_PACKET, and CAN_AX_BUSY becomes 0.
   void writeDriveAnswer(const rt::Memory& memory, const devices::CanPacket& answer) const;
   const nc::technol::Procedure* procedure(uint64_t number) const {

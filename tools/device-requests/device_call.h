@@ -112,6 +112,8 @@ public:
     std::ranges::copy(bytes.first(std::min<size_t>(bytes.size(), AnswerBytes::kMost)),
                       makeBytes(result, static_cast<uint32_t>(bytes.size())).begin());
   }
+  // Nobody carries it out.
+  void refuse() { reply_.state = RUNG_SERVICE_ERROR; }
   // The answer comes later, by the instance's queue.
   void wait() { reply_.state = RUNG_SERVICE_PENDING; }
 

@@ -16,8 +16,10 @@ std::string setValue(Lane& lane, const Statement& s) {
   if (quantity && s.value.kind == ValueKind::Text) return "a quantity of the NC holds a number, not a text";
   if (quantity) return lane.nc().setQuantity(std::string_view(s.name).substr(3), s.value.real);
   const std::optional<Ref> place = lane.nc().writePlace(lane.instance().program(), s.name);
-  if (!place && lane.nc().writeCell(s.name, cellOf(s.value))) return {};
-  if (!place) return unknownName(lane.instance().program(), lane.nc(), s.name);
+  if (!place) {
+    const auto problem = lane.nc().writeCell(s.name, cellOf(s.value));
+    return problem ? *problem : unknownName(lane.instance().program(), lane.nc(), s.name);
+  }
   lane.nc().beforeWrite(lane.instance(), *place);
   return writeValue(lane.instance(), lane.nc().control(), *place, s.value);
 }

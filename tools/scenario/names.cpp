@@ -65,6 +65,7 @@ std::vector<std::string> namesOf(const rung_program& program, const sim::Simulat
 }
 
 std::string unknownName(const rung_program& program, const sim::SimulatedNc& nc, std::string_view name) {
+  if (std::string problem = nc.cellProblem(name); !problem.empty()) return problem;
   const std::vector<std::string> names = namesOf(program, nc);
   return fmt::format("'{}' is not a name of this program{}", name, didYouMean(mostSimilar(nc::headOf(name), names)));
 }
@@ -75,7 +76,7 @@ std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& 
   const rung_program* running = &program;
   const auto check = [&](const Statement& s, const std::string& name) {
     if (name.starts_with(kQuantity)) return; // some exist only once they have been set
-    if (!nc.readPlace(*running, name) && !nc.readCell(name))
+    if (!nc.readPlace(*running, name) && !nc.readCell(name) && !nc.cellMayCome(name))
       problems.push_back(problemAt(s, unknownName(*running, nc, name)));
   };
   for (const Statement& s : scenario.statements) {

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "rtlib/host/program_info.h"
+
 namespace rung::sim {
 
 rung::Image imageOf(const rung_program& program, void* engine) {
@@ -32,8 +34,14 @@ void Machine::powerOn(nc::PowerOn kind) {
   instance_.powerOn(kind == nc::PowerOn::Warm ? rung::Power::Warm : rung::Power::Cold);
 }
 
+void Machine::idle() {
+  inside_.advanceClock(static_cast<int64_t>(host::scanPeriodUs(inside_.program())));
+  nc_->idle(inside_);
+}
+
 // Of a dialect that runs in slots, the machine works in each.
 void Machine::scan() {
+  if (inside_.faulted()) return idle();
   if (!nc_->control().runsInSlots()) return (void)instance_.scan();
   do slot();
   while (!inside_.atListStart() && !inside_.faulted());

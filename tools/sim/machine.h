@@ -37,7 +37,8 @@ public:
   // Throws rung::Error where retained memory cannot be taken or saved.
   void powerOn(nc::PowerOn kind);
   void powerOff() { instance_.powerOff(); }
-  // A whole pass of the schedule, or its rest; a slot; one run of the fast task by itself; a slice.
+  // A whole pass of the schedule, or its rest, after a fault its time alone; a slot; one run of the fast task by
+  // itself; a slice.
   void scan();
   void slot() { (void)rung_instance_slot(instance_.handle()); }
   void fast() { (void)rung_instance_fast(instance_.handle()); }
@@ -53,6 +54,7 @@ public:
   void setImage(rung::Image image) { image_ = std::move(image); }
 
 private:
+  void idle();
   static rung::Instance instanceOf(const rung::Image& image, std::unique_ptr<SimulatedNc> nc, Clock clock,
                                    Machine& self);
 

@@ -47,7 +47,9 @@ void SimulatedNc::accept(const host::Instance& instance, const rung_message& mes
 }
 
 std::optional<NcCell> SimulatedNc::readCell(std::string_view) const { return std::nullopt; }
-bool SimulatedNc::writeCell(std::string_view, const NcCell&) { return false; }
+std::optional<std::string> SimulatedNc::writeCell(std::string_view, const NcCell&) { return std::nullopt; }
+std::string SimulatedNc::cellProblem(std::string_view) const { return {}; }
+bool SimulatedNc::cellMayCome(std::string_view) const { return false; }
 
 std::string SimulatedNc::setQuantity(std::string_view name, double value) {
   quantities_.insert_or_assign(std::string(name), value);

@@ -83,15 +83,22 @@ public:
   virtual uint32_t keptSize() { return 0; }
   virtual void copyKept(std::span<uint8_t> image) noexcept { (void)image; }
   virtual void restoreKept(std::span<const uint8_t> image) { (void)image; }
+  // Time has passed in which a fault kept the program from running.
+  virtual void idle(host::Instance& instance) { (void)instance; }
   // From now on the program runs on the machine's clock.
   virtual void setRealTime() {}
 
   // The machine or a user is going to write there: what the control has put over the real value gives way to it.
   virtual void beforeWrite(host::Instance& instance, const host::Ref& place) { (void)instance, (void)place; }
 
-  // Cells of the NC itself by the dialect's identifiers; false and nothing where there is no such cell.
+  // Cells of the NC itself by the dialect's identifiers; nothing where there is no such cell. Writing: "" or what is
+  // wrong with the value.
   virtual std::optional<NcCell> readCell(std::string_view name) const;
-  virtual bool writeCell(std::string_view name, const NcCell& value);
+  virtual std::optional<std::string> writeCell(std::string_view name, const NcCell& value);
+  // Why there is no such cell; "": the name is not one of the NC's.
+  virtual std::string cellProblem(std::string_view name) const;
+  // It may be there later.
+  virtual bool cellMayCome(std::string_view name) const;
 
   // Quantities of the NC itself, "NC.MPOS.1".
   virtual std::string setQuantity(std::string_view name, double value);

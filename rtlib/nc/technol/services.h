@@ -36,7 +36,7 @@ const DeviceService* findDeviceService(std::string_view signature);
 inline constexpr std::string_view kLineCommandWords = "CLEAR RECEIVED STATE"; // of COM_CONTROL
 inline constexpr int64_t kFirstLineCommand = 0;
 inline constexpr std::string_view kSpindleWords = "S"; // of AX_SPI
-inline constexpr int64_t kFirstSpindleWord = 3;
+inline constexpr int64_t kFirstSpindleWord = -1;       // no cell has it
 std::optional<int64_t> deviceWord(std::string_view word);
 
 // Commands of ECAT_COMMAND that ask for a state (man. l.18231), and the code of DR where the answer has no place.

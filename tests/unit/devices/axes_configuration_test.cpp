@@ -30,6 +30,35 @@ TEST(AxesConfiguration, SaysWhatIsWrong) {
   EXPECT_NE(axes.addSwitch(5, "1 5 -5"), "");
   EXPECT_NE(axes.addSwitch(5, "1 5"), "");
   EXPECT_NE(axes.addSwitch(5, "1 5 6 7"), "");
+  EXPECT_EQ(axes.configure("axis.2.Position", "2e9"), "'Position' needs a number of -1e9 to 1e9; found '2e9'");
+}
+
+TEST(AxesConfiguration, AxesThatDoNotExist) {
+  Axes axes;
+  EXPECT_EQ(axes.configurationProblem(), "");
+  EXPECT_EQ(axes.configure("axis.5.Feed", "5"), "");
+  EXPECT_EQ(axes.configurationProblem(), "'axis.5.Feed' is for axis 5; the axes are XYZC, 1 to 4 (config axes)");
+  EXPECT_EQ(axes.configure("axes", "XYZCA"), "");
+  EXPECT_EQ(axes.configurationProblem(), "");
+  EXPECT_EQ(axes.addSwitch(0, "6 1 2"), "");
+  EXPECT_EQ(axes.configurationProblem(), "'switch 6 1 2' is for axis 6; the axes are XYZCA, 1 to 5 (config axes)");
+}
+
+TEST(AxesConfiguration, AFaultEndsReferencesAndPositionings) {
+  AxesMachine machine({{"axis.1.RefSwitch", "0"}, {"axis.4.RefSwitch", "0"}});
+  machine.requests.homingStartReq = 1;
+  machine.requests.positioning = 8;
+  EXPECT_TRUE(machine.axes.spiAx(4, {}));
+  machine.scan(5);
+  EXPECT_NE(machine.axes.speedPerMinute(1), 0);
+  EXPECT_NE(machine.axes.speedPerMinute(4), 0);
+  machine.axes.fault();
+  machine.scan(5);
+  EXPECT_EQ(machine.axes.speedPerMinute(1), 0);
+  EXPECT_EQ(machine.axes.speedPerMinute(4), 0);
+  EXPECT_EQ(machine.requests.homingStartReq, 0);
+  EXPECT_EQ(machine.requests.positioning, 0);
+  EXPECT_EQ(machine.requests.homing, 0);
 }
 
 TEST(AxesConfiguration, SwitchIsClosedByThePhysicalPlace) {

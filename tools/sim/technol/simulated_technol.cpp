@@ -48,6 +48,15 @@ public:
     control_.onHook(instance, work);
   }
 
+  void afterPart(host::Instance& instance) override {
+    SimulatedNc::afterPart(instance);
+    if (instance.stopped()) idle(instance);
+  }
+  void idle(host::Instance& instance) override {
+    devices_.idle(instance);
+    devices_.takeLog(log_);
+  }
+
   void onFault(host::Instance& instance) override {
     control_.onFault(instance);
     devices_.fault(instance);
@@ -77,8 +86,8 @@ public:
   }
   std::vector<NcProblem> connectionProblems() const override {
     std::vector<NcProblem> problems = exchange_.problems();
-    if (!devices_.tableProblem().empty())
-      problems.push_back({.connection = RUNG_NONE, .text = devices_.tableProblem()});
+    if (std::string problem = devices_.problem(); !problem.empty())
+      problems.push_back({.connection = RUNG_NONE, .text = std::move(problem)});
     return problems;
   }
   uint32_t keptSize() override { return devices_.keptSize(); }
@@ -101,9 +110,13 @@ public:
     const auto cell = devices_.readCell(name);
     return cell ? cell : exchange_.cells().read(name);
   }
-  bool writeCell(std::string_view name, const NcCell& value) override {
-    return devices_.writeCell(name, value) || exchange_.cells().write(name, value);
+  std::optional<std::string> writeCell(std::string_view name, const NcCell& value) override {
+    const auto problem = devices_.writeCell(name, value);
+    if (problem || !exchange_.cells().write(name, value)) return problem;
+    return std::string();
   }
+  std::string cellProblem(std::string_view name) const override { return devices_.cellProblem(name); }
+  bool cellMayCome(std::string_view name) const override { return devices_.cellMayCome(name); }
   std::optional<double> quantity(std::string_view name) const override {
     const auto value = devices_.quantity(name);
     return value ? value : SimulatedNc::quantity(name);
@@ -154,7 +167,11 @@ public:
 
 protected:
   bool serve(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
-    if (devices_.respond(instance, request, reply) || exchange_.respond(instance, request, reply)) return true;
+    if (devices_.respond(instance, request, reply)) {
+      devices_.takeLog(log_);
+      return true;
+    }
+    if (exchange_.respond(instance, request, reply)) return true;
     if (host::serviceName(instance.program(), request.service) != nc::kConfigurationService) return false;
     configuration_.respond(request, reply);
     return true;
@@ -205,6 +222,7 @@ std::string SimulatedTechnol::blockStart(host::Instance& instance, const std::ve
     values.push_back({host::locate(instance.memory(), *place), isReal, cell.integer, cell.real});
   }
   control_.blocks().start(instance, values);
+  devices_.blockStarted(instance);
   return {};
 }
 

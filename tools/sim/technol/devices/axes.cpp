@@ -21,6 +21,7 @@ void Axes::powerUp() {
 }
 
 void Axes::fault() {
+  operatorStop_ = Stop::Emergency; // of references and SPI_AX: their drives are disabled
   spindles_.zeroOutputs();
   units_.brakeAll();
   manual_.lock(true);

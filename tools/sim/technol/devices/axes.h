@@ -5,6 +5,8 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,6 +35,8 @@ public:
   std::string addSwitch(uint64_t bit, std::string_view value);
   std::span<const Switch> switches() const { return switches_; }
   bool isClosed(const Switch& contact) const;
+  // What is configured for axes that do not exist; "": nothing.
+  std::string configurationProblem() const;
 
   uint32_t count() const { return static_cast<uint32_t>(letters_.size()); }
   std::string_view letters() const { return letters_; }
@@ -54,6 +58,7 @@ public:
   AnalogOutput analog(int64_t value) { return spindles_.put(value); }
   AnalogOutput analogOnSpindle(int64_t value, int64_t axis, int64_t spi); // ANALOG val,axis[,spi]; not given: 0
   AnalogOutput analogSpi(int64_t value, int64_t axis);
+  std::optional<SpindleRole> roleOf(int64_t operand); // of AX_SPI: 0, 1, 2, or kFirstSpindleWord for S
   AnalogOutput axSpi(int64_t axis, SpindleRole role);
   void spiMain(int64_t axis);
   // True: POLOHV_x is to be 1 at once.
@@ -70,7 +75,7 @@ public:
   std::string reference(std::string_view type, AxisMask axes);
   void autman(bool on) { manual_.panel.switchManual(on); }
   std::string rtm(std::string_view command, bool pressed);
-  void handwheel(int64_t pulses) { manual_.panel.turn(pulses); }
+  void handwheel(int64_t pulses, uint32_t wheel = 1) { manual_.panel.turn(pulses, wheel); } // of 1 or 2
 
   // For the log, the oldest first; false: there is none.
   bool takeComplaint(Complaint& complaint) { return complaints_.take(complaint); }
@@ -98,6 +103,7 @@ private:
 
   std::string letters_ = "XYZC";
   std::vector<Switch> switches_;
+  std::map<uint32_t, std::string> configured_; // axes that a key names, with the first one
   std::array<Axis, kMaxAxes> axes_ = {};
   std::array<SpindlePositioning, kMaxAxes> positioning_ = {};
   Spindles spindles_;

@@ -42,7 +42,16 @@ std::string Axes::configure(std::string_view key, std::string_view value) {
   const auto number = text::takeNumber<uint32_t>(rest);
   if (!number || *number < 1 || *number > kMaxAxes || !rest.starts_with('.'))
     return "'" + std::string(key) + "' needs an axis from 1 to 16: axis.1.Feed";
+  configured_.emplace(*number, key);
   return axes_[*number - 1].attributes.set(rest.substr(1), value);
+}
+
+std::string Axes::configurationProblem() const {
+  for (const auto& [axis, key] : configured_)
+    if (!exists(axis))
+      return "'" + key + "' is for axis " + std::to_string(axis) + "; the axes are " + letters_ + ", 1 to " +
+             std::to_string(count()) + " (config axes)";
+  return {};
 }
 
 std::string Axes::addSwitch(uint64_t bit, std::string_view value) {
@@ -52,6 +61,7 @@ std::string Axes::addSwitch(uint64_t bit, std::string_view value) {
   const auto high = text::realIn(takeWord(rest));
   if (!axis || *axis < 1 || *axis > kMaxAxes || !low || !high || *low > *high || !takeWord(rest).empty())
     return "a switch needs an axis and two places, the lower first: '1 -1000 -5'; found '" + std::string(value) + "'";
+  configured_.emplace(*axis, "switch " + std::string(value));
   switches_.push_back({.bit = bit, .axis = *axis, .low = *low, .high = *high});
   return {};
 }

@@ -2,13 +2,12 @@
 #include <algorithm>
 #include <iterator>
 
+#include "rtlib/nc/technol/services.h"
 #include "tools/sim/technol/devices/axes.h"
 
 namespace rung::sim::technol {
 namespace {
 
-constexpr int64_t kSpaces = 6;        // transformations, 0 to 6 (l.12166)
-constexpr int64_t kRegulatorSets = 4; // l.8443
 constexpr std::string_view kRegul[] = {"REGUL_X", "REGUL_Y", "REGUL_Z", "REGUL_4", "REGUL_5", "REGUL_6"};
 
 constexpr std::string_view kReferences[] = {"single", "plc", "group", "pseudo", "simul", "clear"}; // as ReferenceKind
@@ -55,6 +54,13 @@ void Axes::dropPositioning(uint32_t index) {
   setBit(aborted_, index);
 }
 
+std::optional<SpindleRole> Axes::roleOf(int64_t operand) {
+  if (operand == nc::technol::kFirstSpindleWord) return SpindleRole::Keep;
+  if (operand >= 0 && operand < static_cast<int64_t>(SpindleRole::Keep)) return static_cast<SpindleRole>(operand);
+  complaints_.add({"AX_SPI", "spi", operand, {}});
+  return std::nullopt;
+}
+
 AnalogOutput Axes::axSpi(int64_t axis, SpindleRole role) {
   if (!usable("AX_SPI", axis)) return {};
   const auto number = static_cast<uint32_t>(axis);
@@ -98,7 +104,7 @@ void Axes::regul(int64_t axis, int64_t set) {
 
 void Axes::posInit(int64_t axis, int64_t space, bool loopClosed) {
   if (!inRange("POS_INIT", axis)) return;
-  if (space < 0 || space > kSpaces) return complaints_.add({"POS_INIT", "space", space, {}});
+  if (space < 0 || space > kLastSpace) return complaints_.add({"POS_INIT", "space", space, {}});
   const auto number = static_cast<uint32_t>(axis);
   Axis& taken = axes_[number - 1];
   const bool idle = taken.mover == Mover::None || taken.mover == Mover::PositioningUnit;

@@ -10,6 +10,8 @@
 namespace rung::sim::technol {
 
 inline constexpr uint32_t kMaxAxes = 16;
+// Of places and other numbers of a configuration, in their unit: their cells hold much less.
+inline constexpr double kFarthest = 1e9;
 
 // Attributes of the element NCAxis (man. l.11475-11610), and those of the simulated machine.
 struct AxisAttributes {

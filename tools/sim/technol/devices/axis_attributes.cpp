@@ -77,8 +77,10 @@ std::string AxisAttributes::set(std::string_view name, std::string_view value) {
   const auto* const found = std::ranges::find(kAttributes, name, &Attribute::name);
   if (found == std::end(kAttributes)) return "an axis has no attribute '" + std::string(name) + "'";
   const auto number = text::realIn(value);
-  if (!number || !fits(*found, *number))
-    return "'" + std::string(name) + "' needs " + expectation(*found) + "; found '" + std::string(value) + "'";
+  const bool far = number && std::fabs(*number) > kFarthest;
+  if (!number || far || !fits(*found, *number))
+    return "'" + std::string(name) + "' needs " + (far ? "a number of -1e9 to 1e9" : expectation(*found)) +
+           "; found '" + std::string(value) + "'";
   this->*found->member = *number;
   return {};
 }

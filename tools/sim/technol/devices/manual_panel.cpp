@@ -54,6 +54,14 @@ void ManualPanel::press(const RtmCommand& command) {
   case RtmKind::KnobStep: stepTo_ = command.value; return;
   case RtmKind::KnobStepBy: stepBy_ += command.value; return;
   case RtmKind::KnobTurn: return turn(command.value);
+  case RtmKind::KnobEnable:
+  case RtmKind::KnobDisable:
+    wheelsOff_[static_cast<size_t>(command.value) - 1] = command.kind == RtmKind::KnobDisable;
+    return;
+  case RtmKind::MoveOrStep:
+    moveOrStep_ = command.value;
+    moveOrStepHeld_ = true;
+    return;
   case RtmKind::ShiftToggle: toggleShift_ = !toggleShift_; return;
   case RtmKind::ShiftSelect: shiftSelect_ = command.value != 0; return;
   case RtmKind::ActivateToggle: toggleActive_ = !toggleActive_; return;
@@ -63,9 +71,9 @@ void ManualPanel::press(const RtmCommand& command) {
 
 void ManualPanel::release(const RtmCommand& command) {
   if (command.kind == RtmKind::Rapid) rapidKey_ = false;
-  if (command.kind == RtmKind::MoveSelected) {
+  if (command.kind == RtmKind::MoveSelected || command.kind == RtmKind::MoveOrStep) {
     moveSelected_ = 0;
-    selectedRapid_ = false;
+    selectedRapid_ = moveOrStepHeld_ = false;
   }
   if (command.kind != RtmKind::Move) return;
   remove(plus_, command.plus);
@@ -75,8 +83,8 @@ void ManualPanel::release(const RtmCommand& command) {
 
 void ManualPanel::releaseKeys() {
   plus_ = minus_ = rapidAxes_ = 0;
-  moveSelected_ = 0;
-  selectedRapid_ = rapidKey_ = hold_ = false;
+  moveSelected_ = moveOrStep_ = 0;
+  selectedRapid_ = rapidKey_ = hold_ = moveOrStepHeld_ = false;
 }
 
 void ManualPanel::select(uint32_t axis, bool byKey) {
@@ -96,6 +104,11 @@ void ManualPanel::settle(const AxisInputs& in, AxisRequests& requests) {
     select(again ? 0 : first(choose_), true);
   }
   moved_ = choose_ = 0;
+  if (requests.shiftSelected)
+    stepBy_ += moveOrStep_;
+  else if (moveOrStep_ != 0 && moveOrStepHeld_)
+    moveSelected_ = moveOrStep_;
+  moveOrStep_ = 0;
   if (stepTo_ != 0) requests.knobStep = static_cast<uint16_t>(stepTo_);
   for (; stepBy_ != 0; stepBy_ += stepBy_ < 0 ? 1 : -1) requests.knobStep = neighbour(requests.knobStep, stepBy_ > 0);
   stepTo_ = 0;

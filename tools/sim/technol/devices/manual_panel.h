@@ -1,6 +1,7 @@
 // What the operator does on panels during manual motion: keys, the preselected axis, the handwheel (man.
 // l.17360-17630). Orders come between ticks and are settled in the next one, when the cells of the program are known.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -13,7 +14,10 @@ class ManualPanel {
 public:
   void reset() { *this = ManualPanel(); }
   void key(const RtmCommand& command, bool pressed);
-  void turn(int64_t pulses) { pulses_ += pulses; }
+  // Handwheel 1 or 2.
+  void turn(int64_t pulses, uint32_t wheel = 1) {
+    if (!wheelsOff_[wheel - 1]) pulses_ += pulses;
+  }
   // The operator's switch of manual motion: what it was put to since the last tick.
   void switchManual(bool on) { manual_ = on; }
   std::optional<bool> takeManual() { return std::exchange(manual_, std::nullopt); }
@@ -48,6 +52,9 @@ private:
   std::optional<bool> manual_;
   AxisMask choose_ = 0, moved_ = 0; // since the last tick: keys of selection, keys of motion
   int32_t stepTo_ = 0, stepBy_ = 0;
+  int32_t moveOrStep_ = 0; // +1, -1 since the last tick
+  bool moveOrStepHeld_ = false;
+  std::array<bool, 2> wheelsOff_ = {}; // by KNOB_DISABLE1, KNOB_DISABLE2
   std::optional<bool> shiftSelect_, shiftActivate_;
   bool toggleShift_ = false, toggleActive_ = false;
 };

@@ -9,6 +9,8 @@
 
 namespace rung::sim::technol {
 
+inline constexpr int64_t kLastSpace = 6; // of the transformations, from 0 (l.12166)
+
 // Status record of POS_CONTROL as a word, the first byte low (l.12065-12093).
 inline constexpr uint16_t kUnitMoves = 0x0001, kUnitNegative = 0x0002, kUnitArrived = 0x0008;     // JEDE, SMER, POL
 inline constexpr uint16_t kUnitAvailable = 0x0100, kUnitProgrammed = 0x0200, kUnitError = 0x0400; // DISP, PROG, ERR

@@ -18,12 +18,24 @@ struct Fixed {
   int32_t value;
 };
 constexpr Fixed kFixed[] = {
-    {"RAPIDTRAVERSE", RtmKind::Rapid, 0},      {"HOLD", RtmKind::Hold, 0},
-    {"KNOB_STEP_UP", RtmKind::KnobStepBy, 1},  {"KNOB_STEP_DOWN", RtmKind::KnobStepBy, -1},
-    {"KNOB_INC", RtmKind::KnobTurn, 1},        {"KNOB_DEC", RtmKind::KnobTurn, -1},
-    {"SHIFT_REQ", RtmKind::ShiftToggle, 0},    {"SHIFT_ACT", RtmKind::ActivateToggle, 0},
-    {"SHIFT_ENABLE", RtmKind::ShiftSelect, 1}, {"SHIFT_DISABLE", RtmKind::ShiftSelect, 0},
-    {"SHIFT_ACTIVATE", RtmKind::Activate, 1},  {"SHIFT_DEACTIVATE", RtmKind::Activate, 0},
+    {"RAPIDTRAVERSE", RtmKind::Rapid, 0},
+    {"HOLD", RtmKind::Hold, 0},
+    {"KNOB_STEP_UP", RtmKind::KnobStepBy, 1},
+    {"KNOB_STEP_DOWN", RtmKind::KnobStepBy, -1},
+    {"KNOB_INC", RtmKind::KnobTurn, 1},
+    {"KNOB_DEC", RtmKind::KnobTurn, -1},
+    {"SHIFT_REQ", RtmKind::ShiftToggle, 0},
+    {"SHIFT_ACT", RtmKind::ActivateToggle, 0},
+    {"SHIFT_ENABLE", RtmKind::ShiftSelect, 1},
+    {"SHIFT_DISABLE", RtmKind::ShiftSelect, 0},
+    {"SHIFT_ACTIVATE", RtmKind::Activate, 1},
+    {"SHIFT_DEACTIVATE", RtmKind::Activate, 0},
+    {"KNOB_ENABLE1", RtmKind::KnobEnable, 1},
+    {"KNOB_ENABLE2", RtmKind::KnobEnable, 2},
+    {"KNOB_DISABLE1", RtmKind::KnobDisable, 1},
+    {"KNOB_DISABLE2", RtmKind::KnobDisable, 2},
+    {"MOVE_KNOB_STEP_UP", RtmKind::MoveOrStep, 1},
+    {"MOVENEG_KNOB_STEP_DOWN", RtmKind::MoveOrStep, -1},
 };
 
 // 00 to 15.

@@ -12,12 +12,15 @@ namespace rung::sim::technol {
 enum class RtmKind : uint8_t {
   Move,         // keys of axes
   MoveSelected, // keys for the axis that is preselected
+  MoveOrStep,   // MOVE_KNOB_STEP_UP, MOVENEG_KNOB_STEP_DOWN: those, or in SHIFT steps of the handwheel
   Select,
   Rapid,       // RAPIDTRAVERSE
   Hold,        // HOLD: keys stay pressed, on and off
   KnobStep,    // KNOB_STEP1 to KNOB_STEP1000
   KnobStepBy,  // KNOB_STEP_UP, KNOB_STEP_DOWN
   KnobTurn,    // KNOB_INC, KNOB_DEC
+  KnobEnable,  // KNOB_ENABLE1, KNOB_ENABLE2
+  KnobDisable, // KNOB_DISABLE1, KNOB_DISABLE2
   ShiftToggle, // SHIFT_REQ
   ShiftSelect, // SHIFT_ENABLE, SHIFT_DISABLE
   ActivateToggle,
@@ -29,7 +32,7 @@ struct RtmCommand {
   bool manual = false;          // IMMM: manual motion is switched on as well
   AxisMask plus = 0, minus = 0; // of Move, Select (plus)
   bool rapid = false;           // ...RT
-  int32_t value = 0;            // step in µm; +1 or -1 for up, inc, plus and down, dec, minus; 1 on, 0 off
+  int32_t value = 0;            // step in µm; +1 or -1 for up, inc, plus and down, dec, minus; 1 on, 0 off; a wheel
 };
 
 // Axes by their number from 0 (MOVE03), or by letter X, Y, Z among `letters`; a letter that is not there moves nothing.

@@ -10,6 +10,7 @@
 namespace rung::sim::technol {
 
 inline constexpr uint32_t kPorts = 16;         // l.7730
+inline constexpr int64_t kRegulatorSets = 4;   // l.8443
 inline constexpr int32_t kFullOutput = 0x7FFF; // 10 V (l.8226)
 
 // The cell of a port that an order changes: SU_OUT_PLC[port - 1], in units of 10 V (l.14639).

@@ -16,9 +16,11 @@ struct Cell {
 
 // Bits of each axis.
 constexpr Cell<AxisInputs, AxisMask> kInputMasks[] = {
-    {"MP#PI", &AxisInputs::enabled},   {"MP#MAN", &AxisInputs::manualEnabled}, {"KH#0", &AxisInputs::limitPlus},
-    {"KH#1", &AxisInputs::limitMinus}, {"KR#", &AxisInputs::refSwitch},        {"KRR#", &AxisInputs::reverseSwitch},
-    {"ZPR#", &AxisInputs::slowSwitch}, {"EXM_#0", &AxisInputs::externalPlus},  {"EXM_#1", &AxisInputs::externalMinus}};
+    {"MP#PI", &AxisInputs::enabled},       {"MP#MAN", &AxisInputs::manualEnabled},
+    {"KH#0", &AxisInputs::limitPlus},      {"KH#1", &AxisInputs::limitMinus},
+    {"KR#", &AxisInputs::refSwitch},       {"KRR#", &AxisInputs::reverseSwitch},
+    {"ZPR#", &AxisInputs::slowSwitch},     {"REF_SERV_%", &AxisInputs::servoSwitch},
+    {"EXM_#0", &AxisInputs::externalPlus}, {"EXM_#1", &AxisInputs::externalMinus}};
 constexpr Cell<AxisOutputs, AxisMask> kOutputMasks[] = {{"MM_#0", &AxisOutputs::manualPlus},
                                                         {"MM_#1", &AxisOutputs::manualMinus}};
 constexpr Cell<AxisInputs, bool> kInputFlags[] = {{"PO_F", &AxisInputs::block},
@@ -72,8 +74,9 @@ std::array<rt::Place, kMaxAxes> bitsOf(const rung_program& program, std::string_
 
 std::string nameOfAxis(std::string_view pattern, uint32_t axis) {
   constexpr const char* kLetters[] = {"X", "Y", "Z"};
-  const size_t at = pattern.find('#');
-  return std::string(pattern.substr(0, at)) + (axis <= 3 ? kLetters[axis - 1] : std::to_string(axis)) +
+  const size_t at = pattern.find_first_of("#%");
+  const bool letter = pattern[at] == '#' && axis <= 3;
+  return std::string(pattern.substr(0, at)) + (letter ? kLetters[axis - 1] : std::to_string(axis)) +
          std::string(pattern.substr(at + 1));
 }
 
@@ -122,10 +125,10 @@ void AxisPlaces::putMask(const rt::Memory& memory, const Bits& bits, uint32_t co
   for (uint32_t i = 0; i < count; ++i) memory.write(bits[i], has(mask, i) ? 1 : 0);
 }
 
-void AxisPlaces::read(const rt::Memory& memory, AxisMask motion, AxisInputs& in, AxisRequests& requests) const {
+void AxisPlaces::read(const rt::Memory& memory, AxisInputs& in, AxisRequests& requests) const {
   for (size_t i = 0; i < inputMasks_.size(); ++i) in.*kInputMasks[i].member = maskOf(memory, inputMasks_[i]);
   for (size_t i = 0; i < inputFlags_.size(); ++i) in.*kInputFlags[i].member = memory.read(inputFlags_[i]) != 0;
-  in.blockMotion = static_cast<AxisMask>(maskOf(memory, motion_) & ~motion);
+  in.blockMotion = static_cast<AxisMask>(in.blockMotion & motion(memory));
   in.feedOverride = static_cast<uint16_t>(memory.read(feedOverride_));
   in.feedMultiplier = static_cast<uint16_t>(memory.read(feedMultiplier_));
   in.feed = static_cast<uint16_t>(memory.read(feed_));
@@ -153,6 +156,7 @@ void AxisPlaces::write(const rt::Memory& memory, uint32_t count, AxisMask blockM
   for (size_t i = 0; i < requestMasks_.size(); ++i) memory.write(requestMasks_[i], requests.*kRequestMasks[i].member);
   for (size_t i = 0; i < requestFlags_.size(); ++i)
     memory.write(requestFlags_[i], requests.*kRequestFlags[i].member ? 1 : 0);
+  memory.write(knobStep_, requests.knobStep);
   memory.write(shiftControl_, out.shiftControl);
   for (uint32_t i = 0; i < shift_.size(); ++i) memory.write(shift_[i], static_cast<uint64_t>(out.shift[i]));
   for (uint32_t i = 0; i < positionShort_.size() && i < count; ++i)
@@ -162,10 +166,6 @@ void AxisPlaces::write(const rt::Memory& memory, uint32_t count, AxisMask blockM
     memory.write(knobSelected_[i], out.knobSelected[i]);
     for (const auto& places : positionOfSpaces_) memory.write(places[i], static_cast<uint64_t>(out.positionEx[i]));
   }
-}
-
-void AxisPlaces::writeMotion(const rt::Memory& memory, uint32_t axis, bool moves) const {
-  memory.write(motion_[axis - 1], moves ? 1 : 0);
 }
 
 void AxisPlaces::zeroOutputs(const rt::Memory& memory) const {

@@ -9,7 +9,7 @@
 
 namespace rung::sim::technol {
 
-// The names that a bit of each axis has: `#` in the pattern is X, Y, Z and the numbers from 4 on.
+// The names that a bit of each axis has: `#` in the pattern is X, Y, Z and the numbers from 4 on, `%` the number.
 std::string nameOfAxis(std::string_view pattern, uint32_t axis);
 
 class AxisPlaces {
@@ -17,12 +17,12 @@ public:
   AxisPlaces() = default; // a program that has nothing
   explicit AxisPlaces(const rung_program& program);
 
-  // Before the ticks of a scan. `motion`: the axes that the control itself moves.
-  void read(const rt::Memory& memory, AxisMask motion, AxisInputs& in, AxisRequests& requests) const;
+  // Before the ticks of a scan. Of `in.blockMotion` stays what PO_OSxPI still says.
+  void read(const rt::Memory& memory, AxisInputs& in, AxisRequests& requests) const;
+  AxisMask motion(const rt::Memory& memory) const { return maskOf(memory, motion_); }
   // After them, for axes 1 to `count`.
   void write(const rt::Memory& memory, uint32_t count, AxisMask blockMotion, const AxisRequests& requests,
              const AxisOutputs& out) const;
-  void writeMotion(const rt::Memory& memory, uint32_t axis, bool moves) const;
   bool isLoopClosed(const rt::Memory& memory, uint32_t axis) const { return memory.read(loop_[axis - 1]) != 0; }
   void zeroOutputs(const rt::Memory& memory) const;
 

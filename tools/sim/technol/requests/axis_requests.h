@@ -1,6 +1,7 @@
 // Instructions of spindles, servos and positioning units, answered by the axes of the simulated control (man. ch. 12,
 // 13.1, 19).
 #pragma once
+#include <optional>
 #include <string_view>
 
 #include "tools/device-requests/device_call.h"
@@ -30,6 +31,10 @@ enum class AxisOrder : uint8_t {
   PositionControl,
 };
 AxisOrder axisOrder(std::string_view service);
+// The first operand that is outside what the instruction takes: it then does nothing, in a scripted control, too.
+std::optional<Complaint> outOfRange(AxisOrder order, const rt::ServiceRequest& request);
+// Answers one that does nothing: records stay as they are.
+void answerNothing(AxisOrder order, device_requests::DeviceCall& call);
 void answerAxis(Axes& axes, const AxisPlaces& places, AxisOrder order, device_requests::DeviceCall& call);
 
 } // namespace rung::sim::technol

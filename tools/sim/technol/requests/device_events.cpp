@@ -64,6 +64,25 @@ AxisMask axesOf(Keys keys) {
   return static_cast<AxisMask>(number(keys, "axes", 0));
 }
 
+// "" or what is wrong.
+std::string editLines(devices::PlcTables& tables, Keys keys) {
+  const auto table = given<uint32_t>(keys, "table"), removed = given<uint32_t>(keys, "remove");
+  const bool adds = number(keys, "add", 0) == 1;
+  if (!table || adds == removed.has_value() || keys.size() != 2)
+    return "PLCT needs a table, and add=1 or the number of a line to remove, as in table=0 remove=2";
+  return adds ? tables.addLine(*table) : tables.removeLine(*table, *removed);
+}
+
+// "" or what is wrong. Both wheels move the axis that is selected, unless they are disabled.
+std::string turnHandwheel(Axes& axes, Keys keys) {
+  const int64_t pulses = number(keys, "pulses", 0), wheel = number(keys, "wheel", 1);
+  if (find(keys, "pulses") == nullptr || pulses != static_cast<int32_t>(pulses))
+    return "pulses are a whole number, as in pulses=5";
+  if (wheel != 1 && wheel != 2) return "the handwheels are 1 and 2";
+  axes.handwheel(pulses, static_cast<uint32_t>(wheel));
+  return {};
+}
+
 // "4.RefSpeed": the axis and the rest; 0 where there is none.
 uint32_t takeNumber(std::string_view& rest) {
   const size_t end = std::min(rest.find('.'), rest.size());
@@ -90,15 +109,11 @@ std::optional<std::string> SimulatedDevices::event(std::string_view name, Keys k
   };
   if (is("SA_LOCK"))
     return checked("area on", [&] {
-      const bool held = areas_.hold(unsignedNumber(keys, "area"), number(keys, "on", 1) != 0);
+      const bool held =
+          find(keys, "area") != nullptr && areas_.hold(unsignedNumber(keys, "area"), number(keys, "on", 1) != 0);
       return std::string(held ? "" : "there is no such shared area");
     });
-  if (is("PLCT"))
-    return checked("table add remove", [&] {
-      const uint32_t table = unsignedNumber(keys, "table");
-      const auto removed = given<uint32_t>(keys, "remove");
-      return removed ? tables_.removeLine(table, *removed) : tables_.addLine(table);
-    });
+  if (is("PLCT")) return checked("table add remove", [&] { return editLines(tables_, keys); });
   if (const auto done = portEvent(name, keys)) return done;
   if (!simulated_) return std::nullopt;
   if (is("STOP"))
@@ -108,8 +123,7 @@ std::optional<std::string> SimulatedDevices::event(std::string_view name, Keys k
   if (is("AUTMAN")) return checked("on", [&] { return axes_.autman(number(keys, "on", 1) != 0), std::string(); });
   if (is("RTM"))
     return checked("command state", [&] { return axes_.rtm(textOf(keys, "command"), number(keys, "state", 1) != 0); });
-  if (is("handwheel"))
-    return checked("pulses wheel", [&] { return axes_.handwheel(number(keys, "pulses", 0)), std::string(); });
+  if (is("handwheel")) return checked("pulses wheel", [&] { return turnHandwheel(axes_, keys); });
   return std::nullopt;
 }
 
@@ -152,6 +166,7 @@ std::optional<std::string> SimulatedDevices::setQuantity(std::string_view name, 
   if (measured || takePrefix(rest, "TRUE.")) {
     const uint32_t axis = takeNumber(rest);
     if (!axes_.exists(axis)) return "there is no axis of this number";
+    if (!(std::fabs(value) <= kFarthest)) return "a place is a number of -1e9 to 1e9";
     measured ? axes_.setMeasured(axis, value) : axes_.setPhysical(axis, value);
     return std::string();
   }
@@ -170,12 +185,18 @@ std::optional<std::string> SimulatedDevices::setQuantity(std::string_view name, 
 
 namespace {
 
+constexpr std::string_view kLineCount = "LinesCount", kSelectedLine = "SelLine"; // of a table
+
 // SA0+n:w, w 1, 2, 4 or 8.
 struct AreaCell {
   uint32_t area = 0, offset = 0, width = 0;
 };
+bool isAreaName(std::string_view name) {
+  return takePrefix(name, "SA") && name.size() > 1 && name[0] >= '0' && name[0] <= '9' && name[1] == '+';
+}
 std::optional<AreaCell> areaCell(std::string_view name) {
-  if (!takePrefix(name, "SA") || name.size() < 2 || name[1] != '+') return std::nullopt;
+  if (!isAreaName(name)) return std::nullopt;
+  name.remove_prefix(2);
   const size_t colon = name.find(':');
   if (colon == std::string_view::npos) return std::nullopt;
   const auto area = text::numberIn<uint32_t>(name.substr(0, 1)),
@@ -210,6 +231,16 @@ std::optional<TableCell> tableCell(std::string_view name) {
   return cell;
 }
 
+// KnobSelAx0, Pos6ShiftAx0 …: what panels show of the axes (l.10926-10937).
+std::optional<NcCell> panelCell(const AxisOutputs& out, std::string_view name) {
+  const bool shift = takePrefix(name, "Pos6ShiftAx");
+  if (!shift && !takePrefix(name, "KnobSelAx")) return std::nullopt;
+  const auto axis = text::numberIn<uint32_t>(name);
+  if (!axis || *axis >= kMaxAxes) return std::nullopt;
+  if (shift) return NcCell{.isReal = true, .bits = std::bit_cast<uint64_t>(out.shiftMm[*axis])};
+  return NcCell{.width = 8, .bits = out.knobSelected[*axis]};
+}
+
 } // namespace
 
 std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
@@ -219,12 +250,13 @@ std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
     for (uint32_t i = 0; i < at->width; ++i) cell.bits |= uint64_t{bytes[i]} << 8 * i;
     return cell;
   }
+  if (const auto cell = simulated_ ? panelCell(axisOutputs_, name) : std::nullopt) return cell;
   const auto at = tableCell(name);
   if (!at || !tables_.exists(at->table)) return std::nullopt;
   uint32_t number = 0;
   if (!at->line) {
-    const bool lines = text::equalsIgnoringCase(at->column, "LinesCount");
-    if (!lines && !text::equalsIgnoringCase(at->column, "SelLine")) return std::nullopt;
+    const bool lines = text::equalsIgnoringCase(at->column, kLineCount);
+    if (!lines && !text::equalsIgnoringCase(at->column, kSelectedLine)) return std::nullopt;
     lines ? tables_.lineCount(at->table, number) : tables_.selectedLine(at->table, number);
     return NcCell{.width = 32, .bits = number};
   }
@@ -245,20 +277,44 @@ std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
   return std::nullopt;
 }
 
-bool SimulatedDevices::writeCell(std::string_view name, const NcCell& value) {
-  if (const auto at = areaCell(name); at && !value.isText) {
+std::optional<std::string> SimulatedDevices::writeCell(std::string_view name, const NcCell& value) {
+  if (const auto at = areaCell(name)) {
+    if (value.isText) return "a shared area holds numbers, not a text";
     const auto bytes = areas_.bytes(at->area).subspan(at->offset, at->width);
     for (uint32_t i = 0; i < at->width; ++i) bytes[i] = static_cast<uint8_t>(value.bits >> 8 * i);
-    return true;
+    return std::string();
   }
   const auto at = tableCell(name);
-  if (!at || !tables_.exists(at->table)) return false;
-  if (value.isText) return at->line && tables_.edit(at->table, *at->line, at->column, value.text).empty();
+  if (!at || !tables_.exists(at->table)) return std::nullopt;
+  if (at->line && value.isText) return tables_.edit(at->table, *at->line, at->column, value.text);
   const double number =
       value.isReal ? std::bit_cast<double>(value.bits) : static_cast<double>(static_cast<int64_t>(value.bits));
-  if (at->line) return tables_.edit(at->table, *at->line, at->column, number).empty();
-  return text::equalsIgnoringCase(at->column, "SelLine") &&
-         tables_.selectByOperator(at->table, static_cast<uint32_t>(number)).empty();
+  if (at->line) return tables_.edit(at->table, *at->line, at->column, number);
+  if (!text::equalsIgnoringCase(at->column, kSelectedLine)) return std::nullopt;
+  const bool isLine = !value.isText && number >= 0 && number < devices::PlcTables::kMostLines;
+  return isLine ? tables_.selectByOperator(at->table, static_cast<uint32_t>(number)) : "a line is a number from 0";
+}
+
+std::string SimulatedDevices::cellProblem(std::string_view name) const {
+  if (isAreaName(name) && !areaCell(name))
+    return "a cell of a shared area is SA0+OFFSET:WIDTH or SA1+OFFSET:WIDTH, of 1, 2, 4 or 8 bytes within " +
+           std::to_string(devices::SharedAreas::kAreaBytes);
+  const auto at = tableCell(name);
+  if (!at) return {};
+  const std::string table = "PLC table " + std::to_string(at->table);
+  if (!tables_.exists(at->table)) return "there is no " + table;
+  uint32_t number = 0;
+  if (!at->line) return table + " has " + std::string(kLineCount) + " and " + std::string(kSelectedLine);
+  if (tables_.columnIndex(at->table, nc::memoryText(at->column), number) != devices::TableError::None)
+    return table + " has no column '" + std::string(at->column) + "'";
+  return tables_.lineProblem(at->table, *at->line);
+}
+
+bool SimulatedDevices::cellMayCome(std::string_view name) const {
+  const auto at = tableCell(name);
+  uint32_t number = 0;
+  return at && at->line && *at->line < devices::PlcTables::kMostLines &&
+         tables_.columnIndex(at->table, nc::memoryText(at->column), number) == devices::TableError::None;
 }
 
 } // namespace rung::sim::technol

@@ -1,6 +1,8 @@
 // Devices around a program (see simulated_devices.h).
 #include "tools/sim/technol/requests/simulated_devices.h"
 
+#include <algorithm>
+
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
@@ -12,7 +14,7 @@ using namespace device_requests;
 
 namespace {
 
-constexpr uint32_t kUsPerTick = 1000;
+constexpr int64_t kUsPerTick = 1000;
 
 // Orders of packets are the control's own also where a scenario answers for all else (inventory of the services, 1.1).
 bool isPacketOrder(CanOrder order) {
@@ -55,6 +57,11 @@ void SimulatedDevices::loadTables() {
   if (hasTables_) tableProblem_ = files_.load(tables_);
 }
 
+std::string SimulatedDevices::problem() const {
+  std::string axes = simulated_ ? axes_.configurationProblem() : std::string();
+  return axes.empty() ? tableProblem_ : axes;
+}
+
 uint32_t SimulatedDevices::keptSize() {
   if (!tablesLoaded_) loadTables();
   return tables_.keptSize();
@@ -81,10 +88,11 @@ void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind) {
   ethercatCalls_.clear();
   ethercat_.powerOn();
   servos_.powerOn();
+  axisInputs_ = {};
   axisOutputs_ = {};
   canInputs_ = {};
   canOutputs_ = {};
-  motion_ = 0;
+  devicesUs_ = instance.nowUs();
   inputs_.powerOn(instance.memory());
 }
 
@@ -123,9 +131,9 @@ SimulatedDevices::Service SimulatedDevices::serviceOf(std::string_view signature
     return {.who = hasTables_ ? Answerer::Tables : Answerer::None, .order = static_cast<uint8_t>(order)};
   if (const CanOrder order = canOrder(name); simulated_ ? order != CanOrder::None : isPacketOrder(order))
     return {.who = Answerer::Can, .order = static_cast<uint8_t>(order)};
-  if (!simulated_) return {};
   if (const AxisOrder order = axisOrder(name); order != AxisOrder::None)
-    return {.who = Answerer::Axes, .order = static_cast<uint8_t>(order)};
+    return {.who = simulated_ ? Answerer::Axes : Answerer::None, .order = static_cast<uint8_t>(order), .axes = order};
+  if (!simulated_) return {};
   if (const ComOrder order = comOrder(name); order != ComOrder::None)
     return {.who = Answerer::Com, .order = static_cast<uint8_t>(order)};
   if (const auto order = EthercatCalls::orderOf(name))
@@ -136,8 +144,14 @@ SimulatedDevices::Service SimulatedDevices::serviceOf(std::string_view signature
 bool SimulatedDevices::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
   if (request.service >= services_.size()) return false;
   const Service& service = services_[request.service];
-  if (service.who == Answerer::None) return false;
+  const auto complaint = outOfRange(service.axes, request);
+  if (service.who == Answerer::None && !complaint) return false;
   DeviceCall call(instance, request, reply, bytes_);
+  if (complaint) {
+    complaints_.add(*complaint);
+    answerNothing(service.axes, call);
+    return true;
+  }
   switch (service.who) {
   case Answerer::None: return false;
   case Answerer::Data: bytes_.fetch(request, reply); break;
@@ -171,24 +185,41 @@ void SimulatedDevices::fault(host::Instance& instance) {
   if (!simulated_) return;
   axes_.fault();
   axisPlaces_.zeroOutputs(instance.memory());
+  canPlaces_.disableDrives(instance.memory());
+}
+
+void SimulatedDevices::blockStarted(host::Instance& instance) {
+  if (!simulated_) return;
+  const int own = axisOutputs_.motion & ~axisInputs_.blockMotion;
+  axisInputs_.blockMotion = static_cast<AxisMask>(axisPlaces_.motion(instance.memory()) & ~own);
 }
 
 // ---- time ----------------------------------------------------------------------------------------------------------
 
 void SimulatedDevices::beforeInput(host::Instance& instance) {
   if (!simulated_) return canCalls_.deliver(instance, canPlaces_);
-  const auto ticks = static_cast<uint32_t>(host::scanPeriodUs(instance.program()) / kUsPerTick);
+  pass(instance, static_cast<int64_t>(host::scanPeriodUs(instance.program())));
+  devicesUs_ = std::max(devicesUs_, instance.nowUs()); // passes may be left out on a real clock
+}
+
+void SimulatedDevices::idle(host::Instance& instance) {
+  if (!simulated_) return canCalls_.deliver(instance, canPlaces_);
+  if (const int64_t us = instance.nowUs() - devicesUs_; us >= kUsPerTick) pass(instance, us);
+}
+
+void SimulatedDevices::pass(host::Instance& instance, int64_t us) {
+  const auto ticks = static_cast<uint32_t>(us / kUsPerTick);
+  devicesUs_ += us;
   tickAxes(instance, ticks);
   tickOthers(instance, ticks);
-  inputs_.pass(instance.memory(), axes_, int64_t{ticks} * kUsPerTick);
+  inputs_.pass(instance.memory(), axes_, us);
 }
 
 void SimulatedDevices::tickAxes(host::Instance& instance, uint32_t ticks) {
   const rt::Memory memory = instance.memory();
-  axisPlaces_.read(memory, motion_, axisInputs_, axisRequests_);
+  axisPlaces_.read(memory, axisInputs_, axisRequests_);
   for (uint32_t i = 0; i < ticks; ++i) axes_.tick(axisInputs_, axisRequests_);
   axes_.show(axisOutputs_);
-  motion_ = axisOutputs_.motion;
   axisPlaces_.write(memory, axes_.count(), axisInputs_.blockMotion, axisRequests_, axisOutputs_);
 }
 

@@ -35,16 +35,20 @@ public:
 
   // Memory has been started; MODULE_INIT follows. A cold start reads the tables' files anew.
   void powerOn(host::Instance& instance, nc::PowerOn kind);
-  // What is wrong with the tables that were read last, a line each; "": nothing.
-  const std::string& tableProblem() const { return tableProblem_; }
+  // What is wrong with the configuration and the tables that were read last, a line each; "": nothing.
+  std::string problem() const;
   // Another program has taken over from `former`, which still exists.
   void programChanged(host::Instance& instance, const rung_program& former);
   // START PLC, before MODULE_INIT.
   void startProgram();
   // A fault or HALT, after MODULE_HALT.
   void fault(host::Instance& instance);
+  // A block of the part program has begun, whose motion PO_OSxPI says.
+  void blockStarted(host::Instance& instance);
   // The hook before MODULE_INPUT: the devices do what they do in one pass.
   void beforeInput(host::Instance& instance);
+  // The program does not run; the devices do, up to the time of now.
+  void idle(host::Instance& instance);
   // False: nobody here answers.
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
   // Lines for the log since the last call.
@@ -57,7 +61,9 @@ public:
   std::optional<std::string> setQuantity(std::string_view name, double value);
   // SA0+n:w and PlcTableN.…
   std::optional<NcCell> readCell(std::string_view name) const;
-  bool writeCell(std::string_view name, const NcCell& value);
+  std::optional<std::string> writeCell(std::string_view name, const NcCell& value);
+  std::string cellProblem(std::string_view name) const;
+  bool cellMayCome(std::string_view name) const;
   // What has left a port, COM[n] or CAN[n], and nobody has seen: it is taken where it is as the keys say. "" or what is
   // wrong.
   std::string expectSent(std::string_view port, std::span<const NcArgument> keys);
@@ -82,11 +88,13 @@ private:
   enum class Answerer : uint8_t { None, Data, Tables, ReadArea, WriteArea, Axes, Com, Can, Ethercat };
   struct Service {
     Answerer who = Answerer::None;
-    uint8_t order = 0; // as its answerer counts them
+    uint8_t order = 0;                // as its answerer counts them
+    AxisOrder axes = AxisOrder::None; // whoever answers
   };
   Service serviceOf(std::string_view signature) const;
   void locate(host::Instance& instance);
   void loadTables();
+  void pass(host::Instance& instance, int64_t us);
   void tickAxes(host::Instance& instance, uint32_t ticks);
   void tickOthers(host::Instance& instance, uint32_t ticks);
   void complainOfDrive(device_requests::CanOrder order, const device_requests::DeviceCall& call);
@@ -113,13 +121,13 @@ private:
   AxisInputs axisInputs_;
   AxisRequests axisRequests_;
   AxisOutputs axisOutputs_;
-  AxisMask motion_ = 0; // that the axes have shown
   InputWiring inputs_;
   CanInputs canInputs_;
   CanOutputs canOutputs_;
   Complaints complaints_;
   devices::ethercat::StateBits stateBits_;
   EthercatServos::Cells servoCells_;
+  int64_t devicesUs_ = 0; // the time up to which the devices have come
   std::string tableProblem_;
   bool tablesLoaded_ = false;
   bool tablesRestored_ = false; // for the next power-on

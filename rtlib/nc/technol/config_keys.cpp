@@ -46,7 +46,8 @@ constexpr ConfigKey kKeys[] = {
      .doc = "attribute of an axis: RefMethod, RefSpeed, Acceleration, Feed, Rotary, Position, ... (l.11475-11610)"},
     {.key = "switch.<BIT>",
      .takes = "AXIS LOW HIGH",
-     .doc = "an input that is 1 while the axis is physically within LOW to HIGH mm: `switch.P1IN.2 1 -1000 -5`"},
+     .doc = "an input that is 1 while the axis is physically within LOW to HIGH mm, a rotary one in each revolution: "
+            "`switch.P1IN.2 1 -1000 -5`"},
     {.key = "follow.<BIT>",
      .takes = "[/]BIT[@TIME]",
      .doc = "an input that repeats a bit, `/` its opposite, after this time: `follow.P1IN.0 P0OUT.3@100ms`"},

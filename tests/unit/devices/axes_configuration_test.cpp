@@ -73,6 +73,21 @@ TEST(AxesConfiguration, SwitchIsClosedByThePhysicalPlace) {
   EXPECT_TRUE(machine.axes.isClosed(contact));
 }
 
+TEST(AxesConfiguration, SwitchOfARotaryAxisIsClosedInEachRevolution) {
+  AxesMachine machine;
+  ASSERT_EQ(machine.axes.configure("axis.1.Rotary", "1"), "");
+  ASSERT_EQ(machine.axes.addSwitch(77, "1 -10 5"), "");
+  const Axes::Switch& contact = machine.axes.switches()[0];
+  for (const double closed : {-730., -370., -355., -10., 0., 5., 350., 365., 710.}) {
+    machine.axes.setPhysical(1, closed);
+    EXPECT_TRUE(machine.axes.isClosed(contact)) << closed;
+  }
+  for (const double open : {-371., -354., -11., 6., 180., 349., 366.}) {
+    machine.axes.setPhysical(1, open);
+    EXPECT_FALSE(machine.axes.isClosed(contact)) << open;
+  }
+}
+
 TEST(AxesConfiguration, ShowsPositionsInTheUnitsOfTheCells) {
   AxesMachine machine;
   machine.axes.setMeasured(2, -1.5);

@@ -41,7 +41,7 @@ Stop Axes::takeStop(const AxisInputs& in, AxisRequests& requests) {
 // 1/min
 double Axes::mainRevolutions() const {
   const uint32_t main = spindles_.main();
-  return main == 0 ? 0 : std::fabs(speedPerMinute(main)) / 360;
+  return main == 0 ? 0 : std::fabs(speedPerMinute(main)) / kDegreesPerTurn;
 }
 
 void Axes::tick(const AxisInputs& in, AxisRequests& requests) {

@@ -1,6 +1,7 @@
 // Configuration of the axes (see axes.h).
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "rtlib/text/number.h"
 #include "tools/sim/technol/devices/axes.h"
@@ -66,9 +67,12 @@ std::string Axes::addSwitch(uint64_t bit, std::string_view value) {
   return {};
 }
 
+// A rotary axis passes its switch in each revolution: of its equal places it is the first one from `low` on.
 bool Axes::isClosed(const Switch& contact) const {
-  const double place = axes_[contact.axis - 1].physical();
-  return place >= contact.low && place <= contact.high;
+  const Axis& axis = axes_[contact.axis - 1];
+  const double place = axis.physical();
+  if (axis.attributes.rotary == 0) return place >= contact.low && place <= contact.high;
+  return place + kDegreesPerTurn * std::ceil((contact.low - place) / kDegreesPerTurn) <= contact.high;
 }
 
 } // namespace rung::sim::technol

@@ -12,6 +12,7 @@ namespace rung::sim::technol {
 inline constexpr uint32_t kMaxAxes = 16;
 // Of places and other numbers of a configuration, in their unit: their cells hold much less.
 inline constexpr double kFarthest = 1e9;
+inline constexpr double kDegreesPerTurn = 360;
 
 // Attributes of the element NCAxis (man. l.11475-11610), and those of the simulated machine.
 struct AxisAttributes {
@@ -36,7 +37,7 @@ struct AxisAttributes {
   double speedAt10V = 0;     // of the spindle, per minute; 0: it does not turn
   double manEnable = 1;      // 1 MPxPI, 2 MPxMAN allows manual motion (l.10861-10869)
 
-  double pitch() const { return zeroPulsePitch > 0 ? zeroPulsePitch : rotary != 0 ? 360 : 10; }
+  double pitch() const { return zeroPulsePitch > 0 ? zeroPulsePitch : rotary != 0 ? kDegreesPerTurn : 10; }
   uint32_t method() const { return static_cast<uint32_t>(refMethod); }
   // By its name in the control's configuration. "" or what is wrong.
   std::string set(std::string_view name, std::string_view value);

@@ -71,7 +71,8 @@ TEST_P(ProgramFile, DamageIsRefusedWithAReason) {
 INSTANTIATE_TEST_SUITE_P(Examples, ProgramFile,
                          testing::Values("examples/first-cnc", "examples/gsk-mill", "examples/gsk-panel",
                                          "examples/nct-lathe", "examples/nct-turning-centre",
-                                         "examples/technol-machining-centre", "examples/technol-mill"),
+                                         "examples/technol-machining-centre", "examples/technol-magazine",
+                                         "examples/technol-mill"),
                          [](const auto& tested) {
                            std::string name = fs::path(tested.param).filename();
                            std::erase(name, '-');
@@ -83,7 +84,7 @@ TEST(ProgramFiles, AreThoseOfAllExamples) {
   int folders = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator("examples"))
     folders += entry.is_directory() && fs::exists(entry.path() / "rung.toml") ? 1 : 0;
-  EXPECT_EQ(folders, 7);
+  EXPECT_EQ(folders, 8);
 }
 
 } // namespace

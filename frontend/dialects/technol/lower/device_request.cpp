@@ -72,6 +72,13 @@ void DeviceRequest::use(ValueId ticket) {
   executed_ = {};
 }
 
+ValueId DeviceRequest::answered() {
+  ir::RungBuilder& b = l_.b();
+  const ValueId state = b.servicePoll(ticket_);
+  executed_ = b.eq(state, b.i32(RUNG_SERVICE_DONE));
+  return b.ne(state, b.i32(RUNG_SERVICE_PENDING));
+}
+
 ValueId DeviceRequest::result(std::string_view name) {
   ir::RungBuilder& b = l_.b();
   if (!executed_.valid()) executed_ = isExecuted(b, ticket_);

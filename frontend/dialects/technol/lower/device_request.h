@@ -32,6 +32,8 @@ public:
   ir::ValueId real(std::string_view name);
   // The request that was sent before.
   void use(ir::ValueId ticket);
+  // Asks the control how far it is: one call for this and for all results that follow.
+  ir::ValueId answered();
 
 private:
   StatementContext& l_;

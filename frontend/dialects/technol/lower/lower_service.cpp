@@ -5,7 +5,6 @@
 #include "frontend/dialects/technol/lower/device_target.h"
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
-#include "frontend/lower/request.h"
 
 namespace rung::frontend::technol {
 
@@ -137,14 +136,17 @@ void lowerPolled(StatementContext& l, std::span<const Operand> o, int form) {
   const ValueId ticket = b.choose(isNew, [&] { return request.send(); }, [&] { return pending; });
   const ValueId withoutPlace = codeWithoutPlace(l, given, isNew);
   request.use(ticket);
-  const ValueId answered = b.and_(b.not_(isNew), isAnswered(b, ticket));
+  const ValueId answered = b.and_(b.not_(isNew), request.answered());
   const ValueId none = b.constant(Type::I64, 0);
-  ValueId code = request.result("DR");
-  if (withoutPlace.valid()) code = b.select(b.eq(code, none), withoutPlace, code);
+  const auto answer = [&] {
+    const ValueId code = request.result("DR");
+    return withoutPlace.valid() ? b.select(b.eq(code, none), withoutPlace, code) : code;
+  };
+  const ValueId code = b.choose(answered, answer, [&] { return none; });
   b.when(b.and_(answered, b.eq(code, none)), [&] { store(request, ticket, given, data); });
   b.slotStore(slot, b.select(answered, b.i32(0), ticket));
   l.r().setRlo(answered);
-  l.r().setDr(b.select(answered, code, none));
+  l.r().setDr(code);
 }
 
 // SA_READ, SA_WRITE: done in the same run unless the area is locked; then asked anew (man. l.15547-15561).

@@ -16,40 +16,61 @@ using Uses = std::vector<std::vector<uint8_t>>;
 // Gaps up to this many bytes between expanded bytes are expanded too: fewer ranges, so fewer pieces to copy.
 constexpr size_t kGap = 16;
 
-void mark(std::vector<uint8_t>& uses, uint64_t first, uint64_t size, Use use) {
-  const uint64_t end = std::min<uint64_t>(first + size, uses.size());
-  for (uint64_t i = first; i < end; ++i) uses[i] = std::max<uint8_t>(uses[i], use);
-}
+// What touches the bytes of one space. Windows are long and many are the same ones, so they are put in once, at the
+// end: time grows with their number and with the space, not with the product.
+class SpaceUses {
+public:
+  explicit SpaceUses(const Space& space)
+      : bytes_(static_cast<size_t>(space.units) * space.unitBytes, space.packedOnly ? kWhole : kUntouched) {}
 
-void markOp(const Module& module, const Op& op, Uses& uses) {
+  void markBits(uint64_t byte) {
+    if (byte < bytes_.size()) bytes_[byte] = std::max<uint8_t>(bytes_[byte], kBits);
+  }
+  void markWhole(uint64_t first, uint64_t size) { whole_.push_back({first, first + size}); }
+
+  std::vector<uint8_t> take() {
+    std::ranges::sort(whole_);
+    uint64_t filled = 0;
+    for (const auto& [first, end] : whole_) {
+      const uint64_t from = std::max(first, filled);
+      filled = std::max(filled, std::min<uint64_t>(end, bytes_.size()));
+      for (uint64_t i = from; i < filled; ++i) bytes_[i] = kWhole;
+    }
+    return std::move(bytes_);
+  }
+
+private:
+  std::vector<uint8_t> bytes_;
+  std::vector<std::pair<uint64_t, uint64_t>> whole_; // begin and end of what is touched as bytes
+};
+
+void markOp(const Module& module, const Op& op, std::vector<SpaceUses>& uses) {
   const Attr attr = opInfo(op.code).attr;
   if (attr != Attr::Place && attr != Attr::Window) return;
   const uint64_t first = static_cast<uint64_t>(op.imm) / 8;
-  std::vector<uint8_t>& space = uses[op.ref];
-  if (attr == Attr::Place) {
-    mark(space, first, std::max(1u, byteWidth(op.type)), op.type == Type::Bit ? kBits : kWhole);
-    return;
-  }
+  SpaceUses& space = uses[op.ref];
+  if (attr == Attr::Place)
+    return op.type == Type::Bit ? space.markBits(first) : space.markWhole(first, byteWidth(op.type));
   if (op.count == 0) return;
   const uint64_t unit = module.spaces[op.ref].unitBytes;
   const uint64_t last = op.type == Type::Bit ? unit : byteWidth(op.type);
-  mark(space, first, (op.count - 1) * unit + last, kWhole);
+  space.markWhole(first, (op.count - 1) * unit + last);
 }
 
 Uses collectUses(const Module& module) {
-  Uses uses;
-  for (const Space& space : module.spaces)
-    uses.emplace_back(static_cast<size_t>(space.units) * space.unitBytes, space.packedOnly ? kWhole : kUntouched);
+  std::vector<SpaceUses> uses(module.spaces.begin(), module.spaces.end());
   for (const Routine& routine : module.routines)
     for (const Rung& rung : routine.rungs)
       for (const Op& op : rung.ops) markOp(module, op, uses);
   for (const Symbol& symbol : module.symbols)
     if (symbol.space.valid())
-      mark(uses[symbol.space.index], symbol.byte, uint64_t{elementBits(symbol.type)} / 8 * symbol.count, kWhole);
+      uses[symbol.space.index].markWhole(symbol.byte, uint64_t{elementBits(symbol.type)} / 8 * symbol.count);
   for (const Continuation& c : module.continuations)
-    if (c.space.valid()) mark(uses[c.space.index], c.byte, 4, kWhole);
-  for (const Init& init : module.inits) mark(uses[init.space.index], init.byte, init.data.size(), kWhole);
-  return uses;
+    if (c.space.valid()) uses[c.space.index].markWhole(c.byte, 4);
+  for (const Init& init : module.inits) uses[init.space.index].markWhole(init.byte, init.data.size());
+  Uses bytes;
+  for (SpaceUses& space : uses) bytes.push_back(space.take());
+  return bytes;
 }
 
 // Calls visit(a, b) for every pair of bytes that a copy connects and that differ. Most copies are long, and agree.

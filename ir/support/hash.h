@@ -12,4 +12,10 @@ constexpr uint64_t hashBytes(std::string_view bytes, uint64_t seed = kHashSeed) 
   return seed;
 }
 
+// Of whole numbers: each bit of each one changes all of the hash.
+constexpr uint64_t hashNumber(uint64_t number, uint64_t seed) {
+  seed = (seed ^ number) * 0x9E3779B97F4A7C15ull;
+  return seed ^ (seed >> 32);
+}
+
 } // namespace rung

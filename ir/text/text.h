@@ -14,6 +14,10 @@ namespace rung::ir {
 
 std::string print(const Module& module);
 
+// Of a module that passes the verifier: equal for modules with the same text, and else most likely not; on every
+// machine the same. Much faster than printing.
+uint64_t hashOf(const Module& module);
+
 // One rung as `print` shows it. `remark(i)` is a text to put under operation i (or under the transfer, for
 // i == ops.size()); empty: none. The remark goes into comments, so the result still parses as part of a module.
 using Remark = std::function<std::string(size_t index)>;

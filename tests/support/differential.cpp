@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "ir/support/hash.h"
 #include "ir/text/text.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/nc/names/names.h"
@@ -53,7 +52,7 @@ compiler::Compiled compiledFrom(ir::Module module, const ir::LayoutOptions& opti
   compiler::Compiled out;
   out.module = std::make_unique<ir::Module>(std::move(module));
   out.layout = std::make_unique<ir::Layout>(*out.module, options);
-  out.codeHash = hashBytes(ir::print(*out.module));
+  out.codeHash = ir::hashOf(*out.module);
   return out;
 }
 

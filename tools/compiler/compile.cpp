@@ -9,7 +9,6 @@
 #include "frontend/ladder/text/ladder_file.h"
 #include "ir/passes/passes.h"
 #include "ir/support/check.h"
-#include "ir/support/hash.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
 
@@ -88,7 +87,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   ir::runPasses(*out.module, out.passes);
   checkModule(*out.module, ir::Mode::Final);
   out.layout = std::make_unique<ir::Layout>(*out.module, request.layout);
-  out.codeHash = hashBytes(ir::print(*out.module));
+  out.codeHash = ir::hashOf(*out.module);
   out.warnings = diagnostics.warningCount();
   return out;
 }

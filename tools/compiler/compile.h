@@ -47,7 +47,7 @@ struct Compiled {
   std::unique_ptr<ir::Uses> uses;   // of the module as the dialect made it
   // Where it was asked for: for its analysis alone, as it has been built.
   std::unique_ptr<const frontend::CheckedProgram> source;
-  uint64_t codeHash = 0; // of the IR's text
+  uint64_t codeHash = 0; // ir::hashOf the module
   size_t warnings = 0;   // that were reported on the way
 };
 

@@ -9,7 +9,6 @@
 #include <zlib.h>
 
 #include "codegen/llvm/sections.h"
-#include "ir/support/hash.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
 
@@ -83,7 +82,7 @@ Result<Compiled> irOf(std::string_view object, const Hashes& program) {
   out.module = std::make_unique<ir::Module>(*out.built);
   ir::runPasses(*out.module, out.passes);
   out.layout = std::make_unique<ir::Layout>(*out.module, ir::LayoutOptions{});
-  out.codeHash = hashBytes(ir::print(*out.module));
+  out.codeHash = ir::hashOf(*out.module);
   if (Hashes{out.codeHash, out.layout->memory().hash()} != program)
     return failure("this compiler makes another program of its IR; compile it again");
   return out;

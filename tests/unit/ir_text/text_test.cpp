@@ -17,6 +17,7 @@ void expectRoundTrip(const Module& module) {
                              << text;
   EXPECT_TRUE(equal(*parsed.module, module)) << text;
   EXPECT_EQ(print(*parsed.module), text);
+  EXPECT_EQ(hashOf(*parsed.module), hashOf(module)) << text;
 }
 
 TEST(TextRoundTrip, RandomModules) {
@@ -31,6 +32,39 @@ TEST(TextRoundTrip, EveryOperation) {
     SCOPED_TRACE(info.name);
     expectRoundTrip(moduleForOp(info.code));
   }
+}
+
+// Each field that the text shows of an operation.
+TEST(Hash, ChangesWithEveryField) {
+  Module module = moduleForOp(OpCode::StoreAt);
+  Rung& rung = module.routines.at(0).rungs.at(0);
+  ASSERT_FALSE(rung.ops.empty());
+  ASSERT_FALSE(rung.args.empty());
+  const std::string text = print(module);
+  const uint64_t hash = hashOf(module);
+  const auto expectOther = [&](auto& field, auto change) {
+    const auto before = field;
+    change(field);
+    EXPECT_NE(hashOf(module), hash) << print(module);
+    field = before;
+  };
+  const auto grow = [](auto& field) { ++field; };
+  for (Op& op : rung.ops) {
+    expectOther(op.code, [](OpCode& code) { code = code == OpCode::Note ? OpCode::Const : OpCode::Note; });
+    expectOther(op.type, [](Type& type) { type = type == Type::I8 ? Type::I16 : Type::I8; });
+    expectOther(op.line, grow);
+    expectOther(op.ref, grow);
+    expectOther(op.count, grow);
+    expectOther(op.imm, grow);
+    expectOther(op.imm, [](int64_t& imm) { imm = -imm - 1; });
+  }
+  for (ValueId& arg : rung.args) expectOther(arg.index, grow);
+  for (Type& type : rung.values) expectOther(type, [](Type& t) { t = t == Type::I8 ? Type::I16 : Type::I8; });
+  expectOther(rung.title, [](std::string& title) { title += "x"; });
+  expectOther(rung.transferLine, grow);
+  expectOther(module.name, [](std::string& name) { name += "x"; });
+  EXPECT_EQ(hashOf(module), hash);
+  EXPECT_EQ(print(module), text);
 }
 
 TEST(TextRoundTrip, EmptyModule) { expectRoundTrip(Module{}); }

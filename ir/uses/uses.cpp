@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <unordered_set>
+
+#include "ir/support/hash.h"
 
 namespace rung::ir {
 namespace {
@@ -50,15 +53,39 @@ BitRange elementOf(const Module& module, const Rung& rung, std::span<const Op* c
   return element;
 }
 
+struct UseHash {
+  size_t operator()(const RungUse& use) const {
+    const uint64_t place = hashNumber(uint64_t{use.place.space.index} << 32 | use.place.first, kHashSeed);
+    return hashNumber(uint64_t{use.element.first} << 1 | (use.writes ? 1 : 0), place);
+  }
+};
+
+// Adds each use once. Among few a look at all is fastest; a long rung has thousands.
+class OnceEach {
+public:
+  explicit OnceEach(std::vector<RungUse>& list) : list_(list) {}
+
+  void add(const RungUse& use) {
+    if (list_.size() == kFew && known_.empty()) known_.insert(list_.begin(), list_.end());
+    if (list_.size() < kFew ? !contains(list_, use) : known_.insert(use).second) list_.push_back(use);
+  }
+
+private:
+  static constexpr size_t kFew = 64;
+  std::vector<RungUse>& list_;
+  std::unordered_set<RungUse, UseHash> known_;
+};
+
 } // namespace
 
 Uses::RungFacts Uses::factsOf(const Module& module, const Rung& rung) {
   RungFacts facts;
+  OnceEach uses(facts.uses);
   std::vector<const Op*> definitions(rung.values.size(), nullptr);
   for (const Op& op : rung.ops) {
     if (op.resultCount == 1) definitions[op.result.index] = &op;
     if (const auto use = useOf(module, op))
-      addOnce(facts.uses, {*use, use->computed ? elementOf(module, rung, definitions, op, *use) : use->place});
+      uses.add({*use, use->computed ? elementOf(module, rung, definitions, op, *use) : use->place});
     if (opInfo(op.code).attr != Attr::Slot) continue;
     const SlotId slot{op.ref};
     if (op.code == OpCode::SlotStore)

@@ -153,6 +153,12 @@ void nctRungs(uint32_t n) {
   compileProgram("a.lad", std::move(text));
 }
 
+void nctContacts(uint32_t n) {
+  std::string text = "dialect nct\nmodule MAIN\n\nrung\n|--";
+  for (uint32_t i = 0; i < n; ++i) text += fmt::format("[{}]--", nctBit(i));
+  compileProgram("a.lad", text + "(7900.00)\n");
+}
+
 void gskRungs(uint32_t n) {
   n /= kRungsTakeLong;
   std::string text = "dialect gsk\nFUNC END1\n";
@@ -217,6 +223,7 @@ int main(int argc, char** argv) {
       {"optimise-registers", optimiseRegisters},
       {"print-and-parse", printAndParse},
       {"nct-rungs", nctRungs},
+      {"nct-contacts", nctContacts},
       {"gsk-rungs", gskRungs},
       {"gsk-contacts", gskContacts},
       {"technol-rungs", technolRungs},

@@ -8,12 +8,15 @@
 namespace rung::frontend::technol {
 
 uint32_t Program::bytesOf(ir::SpaceId space) const {
+  // Looked for in all signals once: it is asked for with each operand.
+  static const uint32_t interfaceBytes = nc::areaBytes(nc::technolSignals(), "I");
+  static const uint32_t blockBytes = nc::areaBytes(nc::technolSignals(), "BLK");
   uint32_t bytes = 0;
-  if (space == kInterfaceSpace) bytes = nc::areaBytes(nc::technolSignals(), "I");
+  if (space == kInterfaceSpace) bytes = interfaceBytes;
   if (space == kDataSpace) bytes = dataBytes;
   if (space == kMechanismSpace) bytes = static_cast<uint32_t>(mechanisms.size()) * kMechanismBytes;
   if (space == kRegisterSpace) bytes = kRegisterBytes;
-  if (space == kBlockSpace) bytes = nc::areaBytes(nc::technolSignals(), "BLK") * kQueuedBlocks;
+  if (space == kBlockSpace) bytes = blockBytes * kQueuedBlocks;
   if (space == kExchangeSpace) bytes = exchangedBytes;
   return std::max(1u, bytes);
 }

@@ -125,8 +125,8 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
     return std::unique_ptr<host::Engine>(std::move(engine).value());
   }
   case EngineKind::Tiered: {
-    Result<std::unique_ptr<TieredEngine>> engine =
-        TieredEngine::make(compiled, jitOptionsOf(options), countingOf(options));
+    Result<std::unique_ptr<TieredEngine>> engine = TieredEngine::make(
+        compiled, jitOptionsOf(options), countingOf(options), options.virtualClock ? Pace::Any : Pace::Period);
     if (!engine.ok()) return engine.failure();
     return std::unique_ptr<host::Engine>(std::move(engine).value());
   }

@@ -34,6 +34,7 @@ struct EngineOptions {
   bool debugger = false;        // with debug information, and the code of the JIT is reported to gdb
   std::string cacheFolder;      // JIT: see JitOptions; empty: no cache
   std::string cppCompiler;      // empty: the first of clang++-19, g++, c++ that is installed
+  bool virtualClock = false;    // tiered: no code has to keep up with a clock
   bool countOperations = false; // interp: profile counters count operations executed, not time
   // Interpreter: makes what observes the program's rungs. May be empty.
   std::function<std::unique_ptr<ir::RungObserver>(const Compiled&)> observer;

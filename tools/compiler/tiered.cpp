@@ -62,15 +62,20 @@ uint32_t TieredEngine::interpret(uint8_t* mem, rung_ctx* ctx, uint32_t chunk) {
 }
 
 Result<std::unique_ptr<TieredEngine>> TieredEngine::make(const Compiled& compiled, const codegen::JitOptions& options,
-                                                         ir::Counting counting) {
+                                                         ir::Counting counting, Pace pace) {
   std::unique_ptr<TieredEngine> engine(new TieredEngine(compiled, options, counting));
-  if (const Result<void> begun = engine->begin(); !begun.ok()) return begun.failure();
+  if (const Result<void> begun = engine->begin(pace); !begun.ok()) return begun.failure();
   return engine;
 }
 
-Result<void> TieredEngine::begin() {
+// Whether the interpreter does.
+bool TieredEngine::keepsPeriod() {
   bound_ = host::measureBound({.program = program_, .engine = this});
-  if (interpreter_.allocates() || bound_.circles || !bound_.fits()) {
+  return !interpreter_.allocates() && !bound_.circles && bound_.fits();
+}
+
+Result<void> TieredEngine::begin(Pace pace) {
+  if (pace == Pace::Period && !keepsPeriod()) {
     Result<std::unique_ptr<codegen::JitCode>> fast = codeOf(codegen::LlvmLevel::Fast);
     if (!fast.ok()) return fast.failure();
     fast_ = std::move(fast).value();

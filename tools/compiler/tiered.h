@@ -4,7 +4,7 @@
 //
 // Where the interpreter may need more than the period of the schedule, because the program is long or may go in
 // circles, or memory from the heap, the program begins with machine code that is compiled fast, and whoever makes the
-// engine waits for that.
+// engine waits for that. On a virtual clock, where no time passes meanwhile, it begins in the interpreter in any case.
 #pragma once
 #include <atomic>
 #include <memory>
@@ -45,6 +45,12 @@ private:
   std::vector<Follower> followers_;
 };
 
+// What the first code of a program has to keep up with.
+enum class Pace : uint8_t {
+  Period, // of the schedule
+  Any,    // nothing: the clock is virtual
+};
+
 // A sentence on JitReport::cacheTrouble; "" when there is none.
 std::string cacheTroubleText(const std::string& trouble);
 
@@ -53,7 +59,7 @@ public:
   // The layout of `compiled` outlives the engine. Of the options the level is that of the code in the end; it is
   // compiled on all cores.
   static Result<std::unique_ptr<TieredEngine>> make(const Compiled& compiled, const codegen::JitOptions& options,
-                                                    ir::Counting counting);
+                                                    ir::Counting counting, Pace pace = Pace::Period);
   // Compilation ends early, but for code that a cache keeps.
   ~TieredEngine() override;
 
@@ -64,7 +70,7 @@ public:
   static uint32_t interpret(uint8_t* mem, rung_ctx* ctx, uint32_t chunk);
 
   const std::shared_ptr<TierTables>& tables() const { return tables_; }
-  // What the interpreter may need, as it was measured.
+  // What the interpreter may need, as it was measured; nothing where the pace is any.
   const host::ScanBound& bound() const { return bound_; }
   bool beganInterpreted() const { return fast_ == nullptr; }
   // Chunks that have the code they are to have in the end. Any thread.
@@ -76,7 +82,8 @@ public:
 
 private:
   TieredEngine(const Compiled& compiled, const codegen::JitOptions& options, ir::Counting counting);
-  Result<void> begin();
+  Result<void> begin(Pace pace);
+  bool keepsPeriod();
   Result<std::unique_ptr<codegen::JitCode>> codeOf(codegen::LlvmLevel level);
   Result<void> compile(codegen::JitCode& code, std::atomic<uint32_t>& done);
   void work();

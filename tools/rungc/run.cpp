@@ -389,6 +389,7 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   engineOptions.debugger = options.debugger;
   engineOptions.optimise = options.level != "0";
   engineOptions.cacheFolder = options.cache;
+  engineOptions.virtualClock = !options.realtime;
   Result<std::unique_ptr<host::Engine>> engine = [&] {
     const console::Working working("making machine code");
     return compiler::makeEngine(*kind, *program.compiled, engineOptions);

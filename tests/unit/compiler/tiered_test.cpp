@@ -24,9 +24,9 @@ using Random = std::mt19937_64;
 
 // The program as the interpreter runs it, and the same in tiers.
 struct Both {
-  explicit Both(const ir::Module& module, codegen::JitOptions options = {})
+  explicit Both(const ir::Module& module, codegen::JitOptions options = {}, Pace pace = Pace::Period)
       : compiled(testing::compiledFromBuilt(module, {.cut = {.maxChunkRungs = 4}})), reference(*compiled.layout, 0),
-        expected(reference), engine(TieredEngine::make(compiled, options, ir::Counting::Ticks).value()),
+        expected(reference), engine(TieredEngine::make(compiled, options, ir::Counting::Ticks, pace).value()),
         tested(*engine) {}
 
   void scan(uint64_t seed, uint64_t scan) {
@@ -183,6 +183,19 @@ TEST(Tiered, WaitsForMachineCodeWhereTheInterpreterMayBeLate) {
     EXPECT_EQ(both.engine->finish(), "");
     EXPECT_EQ(both.engine->finishedChunks(), both.tested.program().chunk_count);
     for (uint64_t scan = 4; scan < 8; ++scan) both.scan(7, scan);
+  }
+}
+
+TEST(Tiered, InterpretsAtAnyPaceOnAVirtualClock) {
+  for (uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    Both both(ir::randomModule(seed, {.rungs = 6}), {}, Pace::Any);
+    EXPECT_TRUE(both.engine->beganInterpreted());
+    for (uint64_t scan = 0; scan < 4; ++scan) both.scan(seed, scan);
+    EXPECT_EQ(both.engine->finish(), "");
+    EXPECT_EQ(both.engine->finishedChunks(), both.tested.program().chunk_count);
+    for (uint64_t scan = 4; scan < 8; ++scan) both.scan(seed, scan);
+    if (HasFatalFailure()) return;
   }
 }
 

@@ -4,6 +4,7 @@
 report.py BIN FOLDER    measures, prints the text, and writes the plots into the folder
 """
 import datetime
+import os
 import platform
 import re
 import sys
@@ -12,6 +13,7 @@ from pathlib import Path
 
 import machines
 import plot
+import start
 from callgrind import Failure, run
 from generated import DIALECTS, LARGE_KINDS, LARGE_RESTING, RESTING, Instructions, Programs, percentile, works
 
@@ -151,6 +153,7 @@ def cost_text(programs):
 
 def main(tools, folder):
     machine = machine_text()
+    starts = start.measure(tools)
     of_machines = machines.measure(tools)
     with tempfile.TemporaryDirectory() as built:
         programs = Programs(tools, built)
@@ -165,6 +168,7 @@ def main(tools, folder):
              "performance-cold.svg": plot.bars("Cold scans, as ratio to straight-line C++: median, 10 to 90 %", machine, groups, series, 1)}
     for name, drawing in plots.items():
         (folder / name).write_text(drawing, encoding="utf-8")
+    print(start.text_of(starts, os.cpu_count()))
     print(machines.text_of(of_machines))
     print(f"{counts_text(rows)}\n![Ratios of instructions, a bar for each dialect and program](performance-counts.svg)\n")
     print(resting_text(resting, rows))

@@ -71,7 +71,11 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   out.options = request.options;
   frontend::CompileOptions options = request.options;
   if (request.marks) options.marks = &out.marks;
+  const auto ended = [&](std::string_view stage) {
+    if (request.ended) request.ended(stage);
+  };
   auto program = out.dialect->check(sources, files, options, diagnostics);
+  ended("check");
   if (!diagnostics.hasErrors()) out.module = program->build();
   if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;
   if (request.keepSource) out.source = std::move(program);
@@ -79,15 +83,22 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   ir::orderOperations(*out.module, options.marks);
   out.module->name = std::filesystem::path(sources.name(files[0])).stem().string();
   out.module->activity = request.activity;
+  ended("lowering");
   checkModule(*out.module, ir::Mode::Built);
+  ended("verifier");
   out.uses = std::make_unique<ir::Uses>(*out.module);
   if (request.keepBuilt) out.built = std::make_unique<ir::Module>(*out.module);
   out.passes.optimise = request.optimise && !request.marks;
   out.passes.instrument = request.instrument;
+  ended("uses");
   ir::runPasses(*out.module, out.passes);
+  ended("passes");
   checkModule(*out.module, ir::Mode::Final);
+  ended("verifier");
   out.layout = std::make_unique<ir::Layout>(*out.module, request.layout);
+  ended("layout");
   out.codeHash = ir::hashOf(*out.module);
+  ended("hash");
   out.warnings = diagnostics.warningCount();
   return out;
 }

@@ -1,9 +1,11 @@
 // From files to a laid-out program: read, choose the dialect, compile to the IR, verify, optimise, lay out.
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "frontend/dialects/dialect.h"
@@ -33,6 +35,7 @@ struct CompileRequest {
   bool keepSource = false; // keep what the front end knows of the text
   ir::LayoutOptions layout;
   std::vector<LayoutClaim> layouts;
+  std::function<void(std::string_view stage)> ended; // for who measures: called at the end of each stage; may be empty
 };
 
 struct Compiled {

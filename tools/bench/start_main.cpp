@@ -1,0 +1,117 @@
+// rung-bench-start FILE: starts a program, or the project of a rung.toml, as `rungc run` does, and prints as JSON what
+// that took: milliseconds of CPU time in each stage, and of CPU and of real time from there until all code is
+// optimised; the most memory that the process had, in MB. CPU time is that of all threads. The first stage is the start
+// of the process itself.
+#include <chrono>
+#include <ctime>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "ir/support/diag_render.h"
+#include "rtlib/host/instance.h"
+#include "tools/compiler/engines.h"
+#include "tools/compiler/tiered.h"
+#include "tools/project/project.h"
+
+namespace {
+
+using namespace rung;
+
+template <class T>
+T good(Result<T> result) {
+  if (!result.ok()) throw std::runtime_error(result.error());
+  return std::move(result).value();
+}
+
+double cpuMs() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) / 1e6;
+}
+
+double residentMb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// CPU time by stage; a stage that comes again adds up.
+class Stages {
+public:
+  void ended(std::string_view stage) {
+    const double now = cpuMs();
+    ms_[std::string(stage)] += now - last_;
+    last_ = now;
+  }
+  const std::map<std::string, double>& ms() const { return ms_; }
+
+private:
+  double last_ = 0;
+  std::map<std::string, double> ms_;
+};
+
+// A project's files with its configuration, or one file.
+compiler::CompileRequest request(SourceManager& sources, const std::string& path, std::vector<FileId>& files) {
+  compiler::CompileRequest request;
+  if (!path.ends_with(project::kFileName)) {
+    files = good(compiler::addFiles(sources, {path}));
+    return request;
+  }
+  Diagnostics diagnostics;
+  const std::optional<project::Project> project = project::load(sources, path, diagnostics);
+  if (!project) throw std::runtime_error(renderText(diagnostics, sources));
+  request.dialect = project->dialect;
+  request.activity = project->activity;
+  request.options.includePaths = project->includePaths;
+  for (const project::Setting& setting : project->config) request.options.config[setting.key] = setting.value;
+  files = good(compiler::addFiles(sources, project->files));
+  return request;
+}
+
+nlohmann::json start(const std::string& path) {
+  const auto begun = std::chrono::steady_clock::now();
+  Stages stages;
+  stages.ended("process");
+  SourceManager sources;
+  std::vector<FileId> files;
+  compiler::CompileRequest asked = request(sources, path, files);
+  asked.ended = [&](std::string_view stage) { stages.ended(stage); };
+  Diagnostics diagnostics;
+  const auto compiled = compiler::compile(sources, files, asked, diagnostics);
+  if (!compiled) throw std::runtime_error(renderText(diagnostics, sources));
+  const auto engine = good(
+      compiler::TieredEngine::make(*compiled, compiler::jitOptionsOf({}), ir::Counting::Ticks, compiler::Pace::Any));
+  host::Instance instance(*engine);
+  instance.scan();
+  stages.ended("engine and scan");
+  const double first = cpuMs();
+  if (const std::string wrong = engine->finish(); !wrong.empty()) throw std::runtime_error(wrong);
+  const std::chrono::duration<double, std::milli> all = std::chrono::steady_clock::now() - begun;
+  return {{"stages", stages.ms()},
+          {"first", first},
+          {"optimised", cpuMs()},
+          {"real", all.count()},
+          {"resident", residentMb()}};
+}
+
+} // namespace
+
+int main(int argc, char** argv) try {
+  if (argc != 2) {
+    std::cerr << "usage: rung-bench-start FILE|rung.toml\n";
+    return 2;
+  }
+  std::cout << start(argv[1]) << '\n';
+  return 0;
+} catch (const std::exception& problem) {
+  std::cerr << "rung-bench-start: " << problem.what() << '\n';
+  return 1;
+}

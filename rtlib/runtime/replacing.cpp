@@ -18,8 +18,8 @@ struct rung_replacement {
   rung_replacement(rung_instance& of, std::shared_ptr<const Image> next, uint8_t* memory)
       : instance(of), image(std::move(next)),
         replacement(*of.program.load(std::memory_order_acquire), {image->program, image->engine, memory}),
-        places(of.control->locate(image->program)), cells(std::make_unique<CellTable>(image->program)),
-        blockPlan(std::make_unique<BlockPlan>(image->program)),
+        places(of.control->locate(image->program)), placesAround(of.around->locate(image->program)),
+        cells(std::make_unique<CellTable>(image->program)), blockPlan(std::make_unique<BlockPlan>(image->program)),
         lane(std::make_unique<host::RetainLane>(host::RetainMap(image->program))) {
     if (image->program.instrumented != 0) clock = profile::calibratedClock();
     bound = host::measureBound({image->program, image->engine});
@@ -52,7 +52,8 @@ struct rung_replacement {
   rung_instance& instance;
   std::shared_ptr<const Image> image;
   host::Replacement replacement;
-  std::unique_ptr<nc::Places> places; // of the control
+  std::unique_ptr<nc::Places> places;       // of the control
+  std::unique_ptr<nc::Places> placesAround; // of the surroundings
   std::unique_ptr<CellTable> cells;
   std::unique_ptr<BlockPlan> blockPlan;
   std::unique_ptr<host::RetainLane> lane; // what is kept of the program
@@ -72,6 +73,7 @@ host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacem
   const host::ReplaceResult result = instance.running.replace(replacement.replacement);
   if (result != host::ReplaceResult::Replaced) return result;
   instance.control->exchangePlaces(instance.running, replacement.places);
+  instance.around->exchangePlaces(replacement.placesAround);
   instance.around->programChanged(instance.running, instance.image->program);
   std::swap(instance.image, replacement.image);
   std::swap(instance.cells, replacement.cells);

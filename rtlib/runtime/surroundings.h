@@ -27,7 +27,12 @@ public:
     (void)instance;
     control().accept(message);
   }
-  // Another program has taken over from `former`, which still exists; the control has its places in it already.
+  // Where the surroundings themselves read and write in a program, as nc::Control has it for the control; null: they
+  // look that up in programChanged, which is not real time then.
+  virtual std::unique_ptr<nc::Places> locate(const rung_program& program) const { return (void)program, nullptr; }
+  // Another program has taken over, whose places these are; they get those of the former one. Allocates nothing.
+  virtual void exchangePlaces(std::unique_ptr<nc::Places>& places) noexcept { (void)places; }
+  // Another program has taken over from `former`, which still exists; its places are in use already.
   virtual void programChanged(host::Instance& instance, const rung_program& former) { (void)instance, (void)former; }
 
   // The place that a name is for whoever reads it, and the one that the NC or the machine writes.

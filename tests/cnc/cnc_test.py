@@ -6,6 +6,7 @@ Exit status 77: cannot be tried here, and why.
 """
 import argparse
 import os
+import pty
 import shutil
 import subprocess
 import sys
@@ -222,6 +223,52 @@ def fault(bench, _options):
     expect("box: the program has been restarted" in done.stdout, "no message of the restart")
 
 
+# TECHNOL: while GO is on, a byte to the serial port and half of the full voltage at the analogue output 6.
+DEVICES = """DATA
+        DFM GO
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_BLOCK_INIT
+MODULE_BLOCK_INIT_END
+MODULE_BLOCK_DONE
+MODULE_BLOCK_DONE_END
+MODULE_INIT
+MODULE_INIT_END
+MODULE_CLEAR
+MODULE_CLEAR_END
+MODULE_HALT
+MODULE_HALT_END
+MODULE_MAIN
+        LDR  GO
+        JL0  REST
+        COM_SEND 1,41h
+        ANALOG_PORT 6
+        ANALOG 4000h
+        SPI_AX ,,,,4
+REST:
+MODULE_MAIN_END
+STOP
+"""
+
+
+def devices(bench, _options):
+    """A TECHNOL program with a serial port of this machine, and its analogue outputs as pins."""
+    master, slave = pty.openpty()
+    os.chmod(os.ttyname(slave), 0o666)
+    os.set_blocking(master, False)
+    bench.program(bench.file("devices.plc", DEVICES))
+    bench.file("program.map", 'in.go = { type = "bit", name = "GO" }\n'
+                              f'[devices]\ncom = {{ 1 = "{os.ttyname(slave)}", 2 = "/dev/no-such-port" }}\n')
+    done = bench.halrun(LOAD.format(options="", prefix="rung") + "setp rung.go 1\nloadusr -w sleep 0.3\n"
+                        "show pin rung.analog-out-6\nshow pin rung.analog-out-7\n")
+    values = [float(shown(done.stdout, f"rung.analog-out-{port}")[0]) for port in (6, 7)]
+    expect(abs(values[0] - 0x4000 / 0x7FFF) < 1e-4 and values[1] == 0, values)
+    expect(os.read(master, 1024).startswith(b"AAA"), "nothing has left the port")
+    expect("/dev/no-such-port cannot be opened: No such file or directory" in done.stdout, "a missing device")
+    expect("SPI_AX: this host moves no axes for the program" in done.stdout, "a refused instruction")
+
+
 def instances(bench, _options):
     """Two programs with a map each, in two threads."""
     bench.program(HERE / "stuck.pmc")
@@ -362,7 +409,7 @@ def sources(bench, options):
 
 
 def main():
-    cases = {case.__name__: case for case in (session, services, fault, sources, instances, unload, retained, mistakes)}
+    cases = {case.__name__: case for case in (session, services, fault, devices, sources, instances, unload, retained, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")

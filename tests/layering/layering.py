@@ -53,7 +53,8 @@ MODULES = {
 OURS = ("tools/", "frontend/", "codegen/", "ir/", "rtlib/")
 HOSTS = ("tools/rung-hal", "tools/rung-run", "tools/connections", "tools/remote", "tools/sources", "tools/plc", "tools/mapping", "tools/services")
 IN_A_HOST_TOO = ("tools/rung-hal/", "tools/rung-run/", "tools/connections/", "tools/command-line/", "tools/remote/",
-                 "tools/sources/", "tools/plc/", "tools/mapping/", "tools/control-files/", "tools/devices/", "tools/services/", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
+                 "tools/sources/", "tools/plc/", "tools/mapping/", "tools/control-files/", "tools/devices/", "tools/services/", "tools/host-devices/host_devices.h",
+                 "tools/host-devices/analog_pins.h", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
                  "rtlib/text/", "ir/support/similar.h")  # the last: spelling suggestions
 # Devices know neither a program's memory nor a machine: numbers and structs go in and out. Who connects them to a program
 # knows no simulation.
@@ -61,6 +62,8 @@ DEVICES = ("tools/devices/", "tools/control-files/", "rtlib/text/", "rtlib/nc/",
 DEVICE_FOLDERS = {
     "tools/devices": DEVICES,
     "tools/device-requests": ("tools/device-requests/", *DEVICES, "rtlib/host/", "rtlib/core/"),
+    "tools/host-devices": ("tools/host-devices/", "tools/device-requests/", *DEVICES, "tools/mapping/file.h", "rtlib/host/",
+                           "rtlib/core/", "rtlib/runtime/surroundings.h"),
 }
 TABLES = ("rtlib/nc/gsk/", "rtlib/nc/nct/", "rtlib/nc/technol/")  # of the dialects: for them, and for tools/services
 FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them

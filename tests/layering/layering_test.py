@@ -28,6 +28,9 @@ GOOD = {
     "tools/mapping/file.cpp": '#include "ir/support/similar.h"\n',
     "tools/devices/tables.h": '#include "rtlib/nc/signal.h"\n',
     "tools/device-requests/table_requests.cpp": '#include "tools/devices/tables.h"\n#include "rtlib/host/loader.h"\n',
+    "tools/host-devices/host_devices.h": "",
+    "tools/host-devices/around.cpp": '#include "rtlib/host/loader.h"\n#include "tools/host-devices/host_devices.h"\n',
+    "tools/rung-run/main.cpp": '#include "tools/host-devices/host_devices.h"\n',
     "tools/rung-run/devices.cpp": '#include "tools/devices/tables.h"\n',
     "tools/rungc/main.cpp": '#include "codegen/cpp/emit.h"\n#include <CLI/CLI.hpp>\n',
 }
@@ -56,6 +59,8 @@ BAD = {
     "a device includes the simulation": ("tools/devices/x.cpp", '#include "tools/sim/simulated_nc.h"'),
     "a device includes the program's memory": ("tools/devices/x.cpp", '#include "rtlib/host/instance.h"'),
     "a device's connection includes the simulation": ("tools/device-requests/x.cpp", '#include "tools/sim/simulated_nc.h"'),
+    "real devices include the simulation": ("tools/host-devices/x.cpp", '#include "tools/sim/simulated_nc.h"'),
+    "a host includes the inside of its devices": ("tools/rung-run/x.cpp", '#include "tools/host-devices/around.h"'),
     "a dialect as a text": ("rtlib/host/x.cpp", 'bool is = dialect == "gsk";'),
     "a dialect in an identifier": ("rtlib/core/x.h", "constexpr int kNctSlices = 5;"),
     "a dialect at the head of an identifier": ("rtlib/core/x.h", "void technolHalt();"),

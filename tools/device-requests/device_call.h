@@ -15,15 +15,25 @@
 
 namespace rung::device_requests {
 
-// Bytes of the latest answers, by their tickets.
-class AnswerBytes {
+// Where the bytes of answers go.
+class AnswerRoom {
 public:
   static constexpr uint32_t kMost = nc::technol::kMostArgumentBytes; // of one answer
 
+  // For the bytes of an answer, at most so many.
+  virtual std::span<uint8_t> make(uint32_t ticket, uint32_t count) = 0;
+
+protected:
+  ~AnswerRoom() = default;
+};
+
+// Bytes of the latest answers, by their tickets.
+class AnswerBytes final : public AnswerRoom {
+public:
   AnswerBytes() : bytes_(std::make_unique<std::array<uint8_t, kRoom>>()) {}
 
-  // Room for the bytes of an answer; the oldest answers lose theirs.
-  std::span<uint8_t> make(uint32_t ticket, uint32_t count) {
+  // The oldest answers lose theirs.
+  std::span<uint8_t> make(uint32_t ticket, uint32_t count) override {
     count = std::min(count, kMost);
     if (kRoom - end_ < count) end_ = 0;
     Entry& entry = entries_[next_++ % entries_.size()] = {.ticket = ticket, .first = end_, .count = count};
@@ -66,14 +76,21 @@ Order orderOf(const std::string_view (&names)[Count], std::string_view service) 
 
 class DeviceCall {
 public:
-  DeviceCall(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply, AnswerBytes& bytes)
-      : instance_(instance), request_(request), reply_(reply), bytes_(bytes) {
-    reply.ticket = request.ticket;
-    reply.state = RUNG_SERVICE_DONE;
-    reply.resultCount = RUNG_MAX_SERVICE_ARGS;
+  // Within the program's instruction.
+  DeviceCall(const host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply,
+             AnswerRoom& room)
+      : instance_(&instance), request_(request), reply_(reply), room_(room) {
+    begin();
+  }
+  // Later, and not in the scan: `given` are the program's bytes, of the one argument that means some.
+  DeviceCall(std::span<const uint8_t> given, const rt::ServiceRequest& request, rt::ServiceReply& reply,
+             AnswerRoom& room)
+      : given_(given), request_(request), reply_(reply), room_(room) {
+    begin();
   }
 
-  host::Instance& instance() const { return instance_; }
+  // Within the instruction.
+  rt::Memory memory() const { return instance_->memory(); }
   const rt::ServiceRequest& request() const { return request_; }
   uint32_t argCount() const { return request_.argCount; }
   int64_t arg(uint32_t number) const { return request_.args[number]; }
@@ -88,8 +105,9 @@ public:
   // The program's bytes, in `room`, as many as fit.
   std::span<const uint8_t> bytes(uint32_t at, std::span<uint8_t> room) const {
     const nc::technol::ArgumentBytes from = nc::technol::bytesOfArgument(arg(at));
+    if (instance_ == nullptr) return given_.first(std::min(given_.size(), room.size()));
     const auto count = std::min<uint32_t>(from.count, static_cast<uint32_t>(room.size()));
-    const rt::Memory memory = instance_.memory();
+    const rt::Memory memory = instance_->memory();
     for (uint32_t i = 0; i < count; ++i) room[i] = memory.readByte(from.space, from.first + i);
     return room.first(count);
   }
@@ -101,16 +119,17 @@ public:
   }
 
   void set(uint32_t result, int64_t value) { reply_.results[result] = value; }
+  int64_t result(uint32_t number) const { return reply_.results[number]; }
   void setReal(uint32_t result, double value) { set(result, std::bit_cast<int64_t>(value)); }
   // Room for bytes of the answer, whose number becomes the result.
   std::span<uint8_t> makeBytes(uint32_t result, uint32_t count) {
-    const std::span<uint8_t> made = bytes_.make(request_.ticket, count);
+    const std::span<uint8_t> made = room_.make(request_.ticket, count);
     set(result, static_cast<int64_t>(made.size()));
     return made;
   }
   void setBytes(uint32_t result, std::span<const uint8_t> bytes) {
-    std::ranges::copy(bytes.first(std::min<size_t>(bytes.size(), AnswerBytes::kMost)),
-                      makeBytes(result, static_cast<uint32_t>(bytes.size())).begin());
+    const std::span<uint8_t> made = makeBytes(result, static_cast<uint32_t>(bytes.size()));
+    std::ranges::copy(bytes.first(made.size()), made.begin());
   }
   // Nobody carries it out.
   void refuse() { reply_.state = RUNG_SERVICE_ERROR; }
@@ -118,10 +137,17 @@ public:
   void wait() { reply_.state = RUNG_SERVICE_PENDING; }
 
 private:
-  host::Instance& instance_;
+  void begin() {
+    reply_.ticket = request_.ticket;
+    reply_.state = RUNG_SERVICE_DONE;
+    reply_.resultCount = RUNG_MAX_SERVICE_ARGS;
+  }
+
+  const host::Instance* instance_ = nullptr; // null: later
+  std::span<const uint8_t> given_;
   const rt::ServiceRequest& request_;
   rt::ServiceReply& reply_;
-  AnswerBytes& bytes_;
+  AnswerRoom& room_;
 };
 
 } // namespace rung::device_requests

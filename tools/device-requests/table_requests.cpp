@@ -28,7 +28,7 @@ constexpr std::string_view kOrders[] = {"",
                                         "PLCT_GET_LINESCOUNT"};
 
 // Arguments 0 to 2 are table, line, column, the fourth is the value; results are DR and the value.
-constexpr uint32_t kValueIn = 3, kValueOut = 1;
+constexpr uint32_t kTextOfColumn = 1, kValueIn = 3, kValueOut = 1;
 using Room = std::array<uint8_t, nc::technol::kMostArgumentBytes>;
 
 std::span<const uint8_t> asBytes(std::string_view text) {
@@ -74,7 +74,7 @@ TableError column(PlcTables& tables, TableOrder order, DeviceCall& call) {
   if (order == TableOrder::ColumnIndex) {
     Room room;
     uint32_t number = 0;
-    const TableError error = tables.columnIndex(table, call.text(1, room), number);
+    const TableError error = tables.columnIndex(table, call.text(kTextOfColumn, room), number);
     call.set(kValueOut, number);
     return error;
   }
@@ -115,6 +115,11 @@ TableError carryOut(PlcTables& tables, TableOrder order, DeviceCall& call) {
 } // namespace
 
 TableOrder tableOrder(std::string_view service) { return orderOf<TableOrder>(kOrders, service); }
+
+std::optional<uint32_t> bytesArgumentOf(TableOrder order) {
+  if (order == TableOrder::SetText || order == TableOrder::SetBinary) return kValueIn;
+  return order == TableOrder::ColumnIndex ? std::optional(kTextOfColumn) : std::nullopt;
+}
 
 void answerTable(PlcTables& tables, TableOrder order, DeviceCall& call) {
   call.set(0, static_cast<int64_t>(carryOut(tables, order, call)));

@@ -1,5 +1,6 @@
 // PLCT_* and SA_*: PLC tables and shared areas (man. ch. 17, 18.3).
 #pragma once
+#include <optional>
 #include <string_view>
 
 #include "tools/device-requests/device_call.h"
@@ -28,6 +29,8 @@ enum class TableOrder : uint8_t {
   LineCount,
 };
 TableOrder tableOrder(std::string_view service);
+// The argument that means bytes of the program; nothing: none does.
+std::optional<uint32_t> bytesArgumentOf(TableOrder order);
 void answerTable(devices::PlcTables& tables, TableOrder order, DeviceCall& call);
 
 void readShared(devices::SharedAreas& areas, DeviceCall& call);

@@ -362,6 +362,11 @@ private:
 
 Binding bindMap(const File& map, rung_instance* instance, const rung_program& program,
                 std::vector<std::string>& errors) {
+  if (!map.devices.empty() && std::string_view(program.dialect) != "technol")
+    errors.push_back(
+        map.message(map.devices.front().at, "devices: found a device of this machine, expected none for a program of " +
+                                                std::string(program.dialect) +
+                                                ", which has no services of devices; remove the table [devices]"));
   return Binder(map, instance, program, errors).run();
 }
 

@@ -16,6 +16,7 @@
 
 #include "rtlib/text/number.h"
 #include "tools/mapping/connections.h"
+#include "tools/mapping/devices.h"
 #include "tools/mapping/reading.h"
 
 namespace rung::mapping {
@@ -64,12 +65,6 @@ std::string bitName(const std::string& name, int64_t bit, int64_t bits) {
   return name + (bits > 10 && bit < 10 ? "-0" : "-") + std::to_string(bit);
 }
 
-// A path in a file, from the folder of that file.
-std::string beside(const std::string& path, const std::string& included) {
-  const size_t slash = path.rfind('/');
-  return included.starts_with('/') || slash == std::string::npos ? included : path.substr(0, slash + 1) + included;
-}
-
 struct EdgeRow {
   std::string pin;
   Position pinAt;
@@ -99,7 +94,7 @@ private:
   template <class Row>
   using Key = mapping::Key<Reader, Row>;
 
-  static const Key<File> kFileKeys[17];
+  static const Key<File> kFileKeys[18];
   static const Key<File> kRemoteKeys[2];
   static const Key<PinRow> kType, kName, kScale, kBits, kValue, kSafe;
   static const Key<PinRow> kInputKeys[4], kOutputKeys[5], kParameterKeys[4];
@@ -160,6 +155,7 @@ private:
   bool takeClients(const toml::node& node, File&) { return connections_.read(node, Connection::Kind::ModbusClient); }
   bool takeServers(const toml::node& node, File&) { return connections_.read(node, Connection::Kind::ModbusServer); }
   bool takeMemories(const toml::node& node, File&) { return connections_.read(node, Connection::Kind::SharedMemory); }
+  bool takeDevices(const toml::node& node, File& map) { return readDevices(*this, node, map); }
   bool takeRemote(const toml::node& node, File& map) {
     const toml::table* table = node.as_table();
     if (table != nullptr) readKeys(*table, "rungctl", kRemoteKeys, map);
@@ -299,6 +295,8 @@ const Reader::Key<File> Reader::kFileKeys[] = {
     {"rungctl", false, "a table", "[rungctl] and allow = [ … ] in the lines after it", &Reader::takeRemote},
     {"modbus-client", false, "a list of tables", "[[modbus-client]] and its keys in the lines after it",
      &Reader::takeClients},
+    {"devices", false, "a table", "[devices] and com = { 1 = \"/dev/ttyUSB0\" } in the lines after it",
+     &Reader::takeDevices},
     {"modbus-server", false, "a table", "[modbus-server] and its keys in the lines after it", &Reader::takeServers},
     {"shared-memory", false, "a table", "[shared-memory] and its keys in the lines after it", &Reader::takeMemories},
 };

@@ -160,6 +160,21 @@ struct Connection {
 };
 std::string_view kindName(Connection::Kind kind); // the table
 
+// devices: what a TECHNOL program's services are on this machine (tools/host-devices). What keys and values may be, its
+// host knows; paths are from the folder of the file.
+struct DeviceSetting {
+  enum class Kind : uint8_t {
+    Can, // a channel and its interface
+    Com, // a port and its device
+    SharedFile,
+    Config, // a key of the control's configuration and its value
+  };
+  Kind kind = Kind::Config;
+  std::string key;
+  std::string value;
+  Position at; // of the value
+};
+
 // Everything in the order of the files, where one is included.
 struct File {
   std::vector<std::string> paths; // the file, and those that it includes
@@ -173,6 +188,7 @@ struct File {
   bool allowed[std::size(kRemoteNames)] = {}; // by Remote
   std::vector<Protected> never;
   std::vector<Connection> connections;
+  std::vector<DeviceSetting> devices;
   std::vector<Edge> aborts;          // reset, emergency stop: every function ends
   int64_t timeoutNs = 0;             // of a function; 0: none
   std::optional<Position> highSpeed; // where the high-speed handshake is asked for

@@ -38,6 +38,11 @@ std::optional<double> numberOf(const toml::node& node) {
   return std::nullopt;
 }
 
+std::string beside(const std::string& path, const std::string& included) {
+  const size_t slash = path.rfind('/');
+  return included.starts_with('/') || slash == std::string::npos ? included : path.substr(0, slash + 1) + included;
+}
+
 bool isPinName(std::string_view word) {
   constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
   return !word.empty() && word.find_first_not_of(kAllowed) == std::string_view::npos;

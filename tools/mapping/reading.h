@@ -21,6 +21,8 @@ std::string textOf(const toml::node& node);
 // Integers, too; nothing where the value is not a finite number.
 std::optional<double> numberOf(const toml::node& node);
 bool isPinName(std::string_view word);
+// A path in a file, from the folder of that file.
+std::string beside(const std::string& path, const std::string& included);
 
 // toml++ keeps the keys of a table sorted by name.
 using Entry = std::pair<const toml::key*, const toml::node*>;

@@ -79,6 +79,8 @@ public:
   // True: there was something of that, and `reports` says what the operator should know of it.
   bool serve(std::vector<std::string>& reports);
   bool running() const noexcept { return state_.load(std::memory_order_acquire) == State::Running; }
+  // `serve` has the program: nothing else may touch what belongs to it.
+  bool restarting() const noexcept { return state_.load(std::memory_order_acquire) == State::Restarting; }
 
   // While it does not run, for the thread that serves it.
   std::optional<rung_fault_info> fault() const noexcept;

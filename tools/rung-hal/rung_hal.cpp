@@ -11,12 +11,16 @@
 #include <cerrno>
 #include <chrono>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
+#include "tools/host-devices/analog_pins.h"
+#include "tools/host-devices/host_devices.h"
 #include "tools/plc/box.h"
 #include "tools/remote/controller.h"
 #include "tools/remote/server.h"
@@ -74,6 +78,7 @@ enum Function : size_t { kScan, kFast };
 struct PlcInstance {
   std::string prefix;
   std::optional<Image> image;
+  std::unique_ptr<host_devices::HostDevices> devices; // of a TECHNOL program; it outlives the box
   std::unique_ptr<plc::Box> box;
   StatusPins* status = nullptr;    // in HAL's memory
   plc::PinCell* cells = nullptr;   // in HAL's memory
@@ -173,6 +178,15 @@ Image imageOf(const Request& request) {
   return image;
 }
 
+// A TECHNOL program has the devices of its map around it, and a pin for each analogue output; none: the control alone.
+plc::Box::NewInstance withDevices(PlcInstance& c, mapping::File& map, std::vector<std::string>& errors) {
+  if (std::string_view(c.image->program().dialect) != "technol") return {};
+  c.devices = std::make_unique<host_devices::HostDevices>();
+  c.devices->set(map, errors);
+  host_devices::addAnalogPins(map, c.image->program());
+  return [&c](const Image& of, const rung_instance_options& with) { return c.devices->instance(of, with); };
+}
+
 // False: what is wrong has been reported.
 bool loadProgram(PlcInstance& c, const Request& request) {
   try {
@@ -185,10 +199,12 @@ bool loadProgram(PlcInstance& c, const Request& request) {
   std::vector<std::string> warnings;
   mapping::File mapping = mapping::loadMap(request.map, errors);
   mapping::refuseConnections(mapping, "LinuxCNC, where HAL connects the pins", errors);
+  const plc::Box::NewInstance newInstance = withDevices(c, mapping, errors);
   // Mistakes of the text and of names at once; a box is only made for a faultless map.
   if (!mapping.paths.empty())
-    c.box =
-        plc::Box::make(*c.image, std::move(mapping), errors, request.retain != nullptr ? request.retain : "", warnings);
+    c.box = plc::Box::make(*c.image, std::move(mapping), errors, request.retain != nullptr ? request.retain : "",
+                           warnings, newInstance);
+  if (c.devices != nullptr) std::ranges::move(c.devices->warnings(), std::back_inserter(warnings));
   for (const std::string& warning : warnings) complain("%s: %s\n", kModule, warning.c_str());
   for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
   if (c.box == nullptr) return false;
@@ -271,6 +287,7 @@ plc::StepResult runFunction(PlcInstance& c, Function function, long periodNs) {
 void runStep(PlcInstance& c, Function function, long periodNs) {
   constexpr int64_t kNsInUs = 1000;
   // While it does not run, the box may belong to the thread that restarts it.
+  if (c.devices != nullptr && function == kScan && !c.box->restarting()) c.devices->step(periodNs);
   if (c.box->running()) c.box->setTimeLimit(int64_t{hal::u32(c.status->maxTime)} * kNsInUs);
   const plc::StepResult result = runFunction(c, function, periodNs);
   const bool runs = c.box->running();
@@ -337,11 +354,17 @@ void reportApart(PlcInstance& c) {
            kModule, c.prefix.c_str(), c.prefix.c_str());
 }
 
+void reportDevices(PlcInstance& c) {
+  if (c.devices == nullptr) return;
+  for (const std::string& line : c.devices->report()) complain("%s: %s\n", c.prefix.c_str(), line.c_str());
+}
+
 void serveOnce(PlcInstance& c) {
   reportApart(c);
   const auto print = [&c](const std::string& text) { complain("%s: %s\n", c.prefix.c_str(), text.c_str()); };
   if (c.controller->serveBox(c.server.get(), print)) hal::setU32(c.status->faultLine, c.box->faultLine());
   passMessages(c);
+  reportDevices(c);
 }
 
 // Answers rungctl, or waits as long.
@@ -402,6 +425,7 @@ int start() {
   if (!loadPrograms(c)) return -EINVAL;
   for (const auto& instance : c.instances) {
     if (!makePins(*instance)) return -EINVAL;
+    if (instance->devices != nullptr) instance->devices->start();
     listen(*instance);
   }
   c.service = std::thread([&c] { serve(c); });
@@ -428,6 +452,8 @@ void closeProgram(PlcInstance& c) {
   if (!c.controller) return;                // it was not loaded
   guarded([&] { return serveOnce(c), 0; }); // a fault of the last moment
   const std::string error = c.box->close();
+  if (c.devices != nullptr) c.devices->end();
+  reportDevices(c);
   passMessages(c);
   if (!error.empty()) complain("%s: %s\n", kModule, error.c_str());
 }

@@ -16,6 +16,7 @@
 
 #include "tools/command-line/usage.h"
 #include "tools/connections/connections.h"
+#include "tools/host-devices/host_devices.h"
 #include "tools/plc/box.h"
 #include "tools/remote/controller.h"
 #include "tools/rung-run/pins.h"
@@ -41,6 +42,9 @@ struct Options {
   bool unsealed = false;
   bool simulate = false;
   std::vector<std::string> config; // KEY=VALUE
+  std::vector<std::string> can;    // CHANNEL=INTERFACE
+  std::vector<std::string> com;    // PORT=DEVICE
+  std::string sharedFile;
 };
 
 void print(const std::string& line) { std::cerr << "rung-run: " << line << '\n'; }
@@ -55,10 +59,11 @@ void catchSignals() {
 // One program with its pins, which rungctl can see: what is between its start and its end.
 class Run {
 public:
-  Run(const Options& options, const Image& image, std::unique_ptr<plc::Box> box, rung_run::Simulation* simulation)
-      : box_(std::move(box)), pins_(*box_), connections_(box_->map()), controller_(options.name, *box_, image, print),
-        server_(options.name, getuid(), controller_),
-        scans_(*box_, pins_, connections_,
+  Run(const Options& options, const Image& image, std::unique_ptr<plc::Box> box, rung_run::Simulation* simulation,
+      host_devices::HostDevices& devices)
+      : devices_(devices), box_(std::move(box)), pins_(*box_), connections_(box_->map()),
+        controller_(options.name, *box_, image, print), server_(options.name, getuid(), controller_),
+        scans_(*box_, pins_, connections_, &devices,
                {.periodNs = int64_t{options.periodUs} * 1000,
                 .thread = {.priority = options.priority, .lockMemory = options.lockMemory}}) {
     controller_.addToStatus([this](nlohmann::json& status) {
@@ -74,6 +79,7 @@ public:
     for (const std::string& line : connections_.warnings()) print(line);
     connections_.writeOutputs(pins_.cells()); // their safe values
     connections_.start();
+    devices_.start();
     if (const std::string wrong = scans_.start(); !wrong.empty()) return print(wrong), int{cli::kEnvironment};
     print("listening at " + server_.path());
     while (gEnd == 0) {
@@ -81,6 +87,7 @@ public:
       controller_.serveBox(&server_, print);
       controller_.passMessages(&server_, print);
       connections_.report(print);
+      for (const std::string& line : devices_.report()) print(line);
       controller_.sendEvents(server_);
       controller_.work();
     }
@@ -92,6 +99,8 @@ private:
     scans_.end();
     controller_.serveBox(&server_, print); // a fault of the last moment
     const std::string error = box_->close();
+    devices_.end();
+    for (const std::string& line : devices_.report()) print(line);
     controller_.passMessages(&server_, print);
     connections_.writeOutputs(pins_.cells()); // their safe values
     connections_.end();
@@ -100,6 +109,7 @@ private:
     return error.empty() ? cli::kOk : cli::kEnvironment;
   }
 
+  host_devices::HostDevices& devices_;
   std::unique_ptr<plc::Box> box_;
   rung_run::Pins pins_;
   connections::Connections connections_;
@@ -118,26 +128,63 @@ Image imageOf(const Options& options) {
   return image;
 }
 
+// Throws std::runtime_error: an option is wrong.
+void setDevices(host_devices::HostDevices& devices, const Options& options) {
+  const auto check = [](const char* option, const std::string& wrong) {
+    if (!wrong.empty()) throw std::runtime_error(std::string(option) + ": " + wrong);
+  };
+  for (const std::string& pair : options.config) {
+    const size_t equals = pair.find('=');
+    check("--config", equals == std::string::npos ? "found " + pair + ", expected KEY=VALUE"
+                                                  : devices.configure(pair.substr(0, equals), pair.substr(equals + 1)));
+  }
+  for (const std::string& setting : options.can) check("--can", devices.setCan(setting));
+  for (const std::string& setting : options.com) check("--com", devices.setCom(setting));
+  if (!options.sharedFile.empty()) check("--sa-file", devices.setSharedFile(options.sharedFile));
+}
+
+bool namesDevices(const Options& options) {
+  return !options.can.empty() || !options.com.empty() || !options.sharedFile.empty() || !options.config.empty();
+}
+
+bool isOfTechnol(const Image& image) { return std::string_view(image.program().dialect) == "technol"; }
+
+// What the program has around it besides its pins; none: the control alone.
+plc::Box::NewInstance surroundingsOf(const Options& options, const Image& image, const mapping::File& map,
+                                     std::vector<std::string>& errors,
+                                     std::unique_ptr<rung_run::Simulation>& simulation,
+                                     host_devices::HostDevices& devices) {
+  if (options.simulate) {
+    simulation = rung_run::loadSimulation(image.program().dialect, options.config);
+    return [&simulation](const Image& of, const rung_instance_options& with) { return simulation->instance(of, with); };
+  }
+  if (!isOfTechnol(image)) return {};
+  devices.set(map, errors);
+  setDevices(devices, options); // they go before the map
+  return [&devices](const Image& of, const rung_instance_options& with) { return devices.instance(of, with); };
+}
+
 int run(const Options& options) try {
   const Image image = imageOf(options);
+  if (!options.simulate && namesDevices(options) && !isOfTechnol(image)) {
+    print("--can, --com, --sa-file, and --config without --simulate are for programs of TECHNOL; this one is of " +
+          std::string(image.program().dialect));
+    return cli::kUsage;
+  }
   std::vector<std::string> errors, warnings;
   mapping::File map = mapping::loadMap(options.map, errors);
   std::unique_ptr<rung_run::Simulation> simulation;
-  plc::Box::NewInstance newInstance;
-  if (options.simulate) {
-    simulation = rung_run::loadSimulation(image.program().dialect, options.config);
-    newInstance = [&simulation](const Image& of, const rung_instance_options& with) {
-      return simulation->instance(of, with);
-    };
-  }
+  host_devices::HostDevices devices;
+  const plc::Box::NewInstance newInstance = surroundingsOf(options, image, map, errors, simulation, devices);
   std::unique_ptr<plc::Box> box;
   if (!map.paths.empty()) box = plc::Box::make(image, std::move(map), errors, options.retain, warnings, newInstance);
   if (box != nullptr && simulation != nullptr) std::ranges::move(simulation->problems(), std::back_inserter(warnings));
+  std::ranges::move(devices.warnings(), std::back_inserter(warnings));
   for (const std::string& text : warnings) print(text);
   for (const std::string& text : errors) print(text);
   if (box == nullptr) return cli::kWrong;
   catchSignals();
-  return Run(options, image, std::move(box), simulation.get()).run();
+  return Run(options, image, std::move(box), simulation.get(), devices).run();
 } catch (const std::exception& error) { // the program, the socket
   print(error.what());
   return cli::kEnvironment;
@@ -167,7 +214,14 @@ int main(int argc, char** argv) {
   command.flag("--lock-memory", options.lockMemory, "Keep all memory in RAM");
   const cli::Option simulate =
       command.flag("--simulate", options.simulate, "Simulate the control of the program's dialect");
-  command.option("--config", options.config, "KEY=VALUE of the simulated control; may be repeated").needs(simulate);
+  command.option("--can", options.can, "CHANNEL=INTERFACE: CAN channel 1 or 2 of TECHNOL, 2=can0; may be repeated")
+      .excludes(simulate);
+  command.option("--com", options.com, "PORT=DEVICE: serial port 0 to 15 of TECHNOL, 1=/dev/ttyUSB0; may be repeated")
+      .excludes(simulate);
+  command.option("--sa-file", options.sharedFile, "File of TECHNOL's shared areas, which other programs map")
+      .excludes(simulate);
+  command.option("--config", options.config,
+                 "KEY=VALUE of the devices of TECHNOL, or of the simulated control; may be repeated");
   command.flag("--unsealed", options.unsealed, "Load a program that has no seal");
   int status = cli::kOk;
   cli::addUsage(app, status);

@@ -9,6 +9,7 @@
 
 #include "rtlib/host/realtime.h"
 #include "tools/connections/connections.h"
+#include "tools/host-devices/host_devices.h"
 #include "tools/plc/box.h"
 #include "tools/rung-run/pins.h"
 #include "tools/rung-run/step_times.h"
@@ -22,8 +23,10 @@ struct ScanOptions {
 
 class ScanThread {
 public:
-  ScanThread(plc::Box& box, const Pins& pins, connections::Connections& connections, const ScanOptions& options)
-      : box_(box), pins_(pins), connections_(connections), options_(options) {}
+  // `devices` may be null.
+  ScanThread(plc::Box& box, const Pins& pins, connections::Connections& connections, host_devices::HostDevices* devices,
+             const ScanOptions& options)
+      : box_(box), pins_(pins), connections_(connections), devices_(devices), options_(options) {}
   ~ScanThread() { end(); }
   ScanThread(const ScanThread&) = delete;
   ScanThread& operator=(const ScanThread&) = delete;
@@ -43,6 +46,7 @@ private:
   plc::Box& box_;
   const Pins& pins_;
   connections::Connections& connections_;
+  host_devices::HostDevices* devices_;
   ScanOptions options_;
   std::thread thread_;
   std::atomic<bool> ending_{false};

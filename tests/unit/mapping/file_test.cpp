@@ -177,7 +177,7 @@ c = 5
 )"),
       ElementsAre("m.map:1:1: the file: found an unknown key timout, expected include, timeout, high-speed, in, "
                   "out, io, param, const, send, m-groups, PlcErrors, axis-groups, abort, rungctl, modbus-client, "
-                  "modbus-server, shared-memory; did you mean timeout?",
+                  "devices, modbus-server, shared-memory; did you mean timeout?",
                   "m.map:3:14: out.a.type: found \"word\", expected \"bit\", \"s32\", \"u32\" or \"float\"; "
                   "write for example type = \"bit\"",
                   "m.map:5:5: in.b: found no key type, expected \"bit\", \"s32\", \"u32\" or \"float\"; write "
@@ -363,6 +363,35 @@ TEST(MapFile, AxisGroups) {
                           "\"A\"",
                           "m.map:7:1: axis-groups: found axis 4, which is in line 6 already, expected one group for "
                           "each axis; remove one of the lines"));
+}
+
+TEST(MapFile, Devices) {
+  using Kind = DeviceSetting::Kind;
+  const File map = faultlessMap("[devices]\ncan = { 2 = \"can0\" }\ncom = { 1 = \"/dev/ttyS0\" }\nsa-file = \"areas\"\n"
+                                "[devices.config]\n\"COM[1].ComSpeed\" = 19200\nPlcTable3 = \"t.PlcT\"\n"
+                                "\"CAN[1].Active\" = true\n");
+  const std::vector<std::tuple<Kind, std::string, std::string>> expected = {{Kind::Can, "2", "can0"},
+                                                                            {Kind::Com, "1", "/dev/ttyS0"},
+                                                                            {Kind::SharedFile, "", "areas"},
+                                                                            {Kind::Config, "COM[1].ComSpeed", "19200"},
+                                                                            {Kind::Config, "PlcTable3", "t.PlcT"},
+                                                                            {Kind::Config, "CAN[1].Active", "1"}};
+  ASSERT_EQ(map.devices.size(), expected.size());
+  for (size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(std::tie(map.devices[i].kind, map.devices[i].key, map.devices[i].value),
+              std::tie(std::get<0>(expected[i]), std::get<1>(expected[i]), std::get<2>(expected[i])));
+  EXPECT_EQ(map.devices[3].at.line, 6u);
+  EXPECT_THAT(
+      errorsOf("[devices]\ncan = \"can0\"\ncom = { 1 = 2 }\nsa-file = \"\"\nports = 1\nconfig = { A = [1] }\n"),
+      ElementsAre("m.map:2:7: devices.can: found \"can0\", expected a table of channels and interfaces; write for "
+                  "example can = { 2 = \"can0\" }",
+                  "m.map:3:13: devices.com.1: found 2, expected the name of a device; write for example 1 = "
+                  "\"/dev/ttyUSB0\"",
+                  "m.map:4:11: devices.sa-file: found \"\", expected the path of a file; write for example "
+                  "sa-file = \"/dev/shm/areas\"",
+                  "m.map:5:1: devices: found an unknown key ports, expected can, com, sa-file, config",
+                  "m.map:6:16: devices.config.A: found a list, expected a text or a number; write for example "
+                  "\"COM[1].ComSpeed\" = 19200"));
 }
 
 TEST(MapFile, PinsOfFunctionsThatHaveAnotherUse) {

@@ -50,6 +50,8 @@ public:
   // A byte has come; it is lost where there is no room.
   void deliver(uint8_t byte) noexcept { fromLine_.push(byte & settings_.mask()); }
   void setError(bool isWrong) noexcept { error_.store(isWrong, std::memory_order_relaxed); }
+  // Bytes that were lost, as there was no room for them. Any thread.
+  uint32_t lostBytes() const noexcept { return fromLine_.lost(); }
   bool hasError() const noexcept { return error_.load(std::memory_order_relaxed); }
 
 private:

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
@@ -60,6 +61,23 @@ std::string Settings::set(std::string_view attribute, std::string_view value) {
            std::string(attribute) + "'";
   if (value != "0" && value != "1") return expected("Active", "0 or 1", value);
   isActive = value == "1";
+  return {};
+}
+
+bool isPortKey(std::string_view key) {
+  const std::string name = nc::technol::canonical(key);
+  return name.starts_with("COM[") || name.starts_with("COM.");
+}
+
+// An index of 0 is the same as none: COM.Active (identifier.h).
+std::string readPortKey(std::string_view key, PortKey& port) {
+  const std::string name = nc::technol::canonical(key);
+  std::string_view rest = name;
+  nc::technol::takePrefix(rest, "COM");
+  port.number = nc::technol::takeIndex(rest).value_or(0);
+  if (!nc::technol::takePrefix(rest, ".") || port.number >= kMostPorts)
+    return "'" + std::string(key) + "' is not a serial port's attribute: COM[0].Active to COM[15].Active";
+  port.attribute = rest;
   return {};
 }
 

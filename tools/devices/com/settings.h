@@ -6,6 +6,8 @@
 
 namespace rung::devices::com {
 
+inline constexpr uint32_t kMostPorts = 16; // numbers 0 to 15
+
 enum class Parity : uint8_t { None, Odd, Even, Mark, Space };
 
 struct Settings {
@@ -22,5 +24,15 @@ struct Settings {
   uint32_t bitsOfByte() const { return 1 + dataBits + (parity == Parity::None ? 0 : 1) + stopBits; }
   uint8_t mask() const { return dataBits == 7 ? 0x7F : 0xFF; }
 };
+
+// "COM[1].ComSpeed": the number of the port, and its attribute in capitals.
+struct PortKey {
+  uint32_t number = 0;
+  std::string attribute;
+};
+// Whether the key is one of a serial port, right or wrong.
+bool isPortKey(std::string_view key);
+// "" or what is wrong with it.
+std::string readPortKey(std::string_view key, PortKey& port);
 
 } // namespace rung::devices::com

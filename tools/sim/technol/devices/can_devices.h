@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "tools/devices/can/controller.h"
+#include "tools/devices/can/settings.h"
 #include "tools/sim/technol/devices/can_bus.h"
 
 namespace rung::sim::technol {
@@ -78,10 +78,8 @@ public:
 private:
   using Problem = std::optional<std::string>;
 
-  Problem configureChannel(std::string_view key, std::string_view rest, uint32_t channel, std::string_view value);
-  Problem configureUnit(std::string_view key, std::string_view rest, std::string_view value);
-  Problem configureDrive(std::string_view key, std::string_view rest, std::string_view value);
-  Problem configureObject(std::string_view key, std::string_view rest, uint32_t drive, std::string_view value);
+  Problem configureObject(std::string_view key, std::string_view value);
+  void follow(const devices::CanSettings& settings);
   void setUnits(uint32_t group, uint32_t count);
   void setDrives(uint32_t count);
   SimulatedUnit* findUnit(uint32_t group, uint32_t board);
@@ -89,7 +87,7 @@ private:
 
   std::array<SimulatedCanBus, devices::CanController::kChannels> buses_{SimulatedCanBus(1), SimulatedCanBus(2)};
   devices::CanController control_;
-  std::array<std::array<uint8_t, 32>, devices::kUnitGroups> controls_{}; // of the configuration
+  devices::CanSettings settings_;
 };
 
 } // namespace rung::sim::technol

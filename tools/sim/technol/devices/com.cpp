@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "rtlib/nc/control/technol/identifier.h"
-
 namespace rung::sim::technol {
 
 // ---- line --------------------------------------------------------------------------------------------------------
@@ -55,22 +53,13 @@ bool ComLine::takeSent(std::span<const uint8_t> expected) {
 
 // ---- ports -------------------------------------------------------------------------------------------------------
 
-bool ComPorts::owns(std::string_view key) {
-  const std::string name = nc::technol::canonical(key);
-  return name.starts_with("COM[") || name.starts_with("COM.");
-}
-
-// An index of 0 is the same as none: COM.Active (identifier.h).
 std::string ComPorts::configure(std::string_view key, std::string_view value) {
-  const std::string name = nc::technol::canonical(key);
-  std::string_view rest = name;
-  nc::technol::takePrefix(rest, "COM");
-  const uint32_t number = nc::technol::takeIndex(rest).value_or(0);
-  if (!nc::technol::takePrefix(rest, ".") || number >= kMost)
-    return "'" + std::string(key) + "' is not a serial port's attribute: COM[0].Active to COM[15].Active";
-  Unit& unit = units_[number];
+  devices::com::PortKey port;
+  if (std::string wrong = readPortKey(key, port); !wrong.empty()) return wrong;
+  Unit& unit = units_[port.number];
   devices::com::Settings settings = unit.port.settings();
-  if (const std::string wrong = settings.set(rest, value); !wrong.empty()) return std::string(key) + ": " + wrong;
+  if (const std::string wrong = settings.set(port.attribute, value); !wrong.empty())
+    return std::string(key) + ": " + wrong;
   unit.port.configure(settings);
   if (settings.isActive) unit.line.makeRoom();
   return {};

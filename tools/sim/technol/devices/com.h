@@ -43,10 +43,10 @@ private:
 
 class ComPorts {
 public:
-  static constexpr uint32_t kMost = 16; // numbers 0 to 15
+  static constexpr uint32_t kMost = devices::com::kMostPorts;
 
   // Keys COM[1].Active, COM[1].ComSpeed … "" or what is wrong.
-  static bool owns(std::string_view key);
+  static bool owns(std::string_view key) { return devices::com::isPortKey(key); }
   std::string configure(std::string_view key, std::string_view value);
 
   void powerOn();

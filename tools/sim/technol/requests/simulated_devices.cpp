@@ -112,8 +112,7 @@ void SimulatedDevices::programChanged(host::Instance& instance, const rung_progr
 
 void SimulatedDevices::locate(host::Instance& instance) {
   const rung_program& program = instance.program();
-  services_.clear();
-  for (uint32_t i = 0; i < program.service_count; ++i) services_.push_back(serviceOf(host::serviceName(program, i)));
+  services_ = deviceOrders(program);
   canPlaces_ = CanPlaces(program);
   if (!simulated_) return;
   axisPlaces_ = AxisPlaces(program);
@@ -122,49 +121,42 @@ void SimulatedDevices::locate(host::Instance& instance) {
   servoPlaces_ = ServoPlaces(program);
 }
 
-SimulatedDevices::Service SimulatedDevices::serviceOf(std::string_view signature) const {
-  const std::string_view name = signature.substr(0, signature.find(' '));
-  if (signature == nc::technol::kDataService) return {.who = Answerer::Data};
-  if (name == "SA_READ") return {.who = Answerer::ReadArea};
-  if (name == "SA_WRITE") return {.who = Answerer::WriteArea};
-  if (const TableOrder order = tableOrder(name); order != TableOrder::None)
-    return {.who = hasTables_ ? Answerer::Tables : Answerer::None, .order = static_cast<uint8_t>(order)};
-  if (const CanOrder order = canOrder(name); simulated_ ? order != CanOrder::None : isPacketOrder(order))
-    return {.who = Answerer::Can, .order = static_cast<uint8_t>(order)};
-  if (const AxisOrder order = axisOrder(name); order != AxisOrder::None)
-    return {.who = simulated_ ? Answerer::Axes : Answerer::None, .order = static_cast<uint8_t>(order), .axes = order};
-  if (!simulated_) return {};
-  if (const ComOrder order = comOrder(name); order != ComOrder::None)
-    return {.who = Answerer::Com, .order = static_cast<uint8_t>(order)};
-  if (const auto order = EthercatCalls::orderOf(name))
-    return {.who = Answerer::Ethercat, .order = static_cast<uint8_t>(*order)};
-  return {};
+bool SimulatedDevices::answers(DeviceOrder order) const {
+  switch (order.device) {
+  case DeviceKind::None: return false;
+  case DeviceKind::Data:
+  case DeviceKind::ReadArea:
+  case DeviceKind::WriteArea: return true;
+  case DeviceKind::Tables: return hasTables_;
+  case DeviceKind::Can: return simulated_ || isPacketOrder(static_cast<CanOrder>(order.order));
+  default: return simulated_;
+  }
 }
 
 bool SimulatedDevices::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
   if (request.service >= services_.size()) return false;
-  const Service& service = services_[request.service];
-  const auto complaint = outOfRange(service.axes, request);
-  if (service.who == Answerer::None && !complaint) return false;
+  const DeviceOrder& service = services_[request.service];
+  const auto wrong = outOfRange(service, request);
+  if (!answers(service) && !wrong) return false;
   DeviceCall call(instance, request, reply, bytes_);
-  if (complaint) {
-    complaints_.add(*complaint);
-    answerNothing(service.axes, call);
+  if (wrong) {
+    complaints_.add({nameOf(static_cast<AxisOrder>(service.order)), wrong->operand, wrong->value, {}});
+    answerNothing(static_cast<AxisOrder>(service.order), call);
     return true;
   }
-  switch (service.who) {
-  case Answerer::None: return false;
-  case Answerer::Data: bytes_.fetch(request, reply); break;
-  case Answerer::Tables: answerTable(tables_, static_cast<TableOrder>(service.order), call); break;
-  case Answerer::ReadArea: readShared(areas_, call); break;
-  case Answerer::WriteArea: writeShared(areas_, call); break;
-  case Answerer::Axes: answerAxis(axes_, axisPlaces_, static_cast<AxisOrder>(service.order), call); break;
-  case Answerer::Com: answerCom(com_.find(comOf(call)), static_cast<ComOrder>(service.order), call); break;
-  case Answerer::Can:
+  switch (service.device) {
+  case DeviceKind::None: return false;
+  case DeviceKind::Data: bytes_.fetch(request, reply); break;
+  case DeviceKind::Tables: answerTable(tables_, static_cast<TableOrder>(service.order), call); break;
+  case DeviceKind::ReadArea: readShared(areas_, call); break;
+  case DeviceKind::WriteArea: writeShared(areas_, call); break;
+  case DeviceKind::Axes: answerAxis(axes_, axisPlaces_, static_cast<AxisOrder>(service.order), call); break;
+  case DeviceKind::Com: answerCom(com_.find(comOf(call)), static_cast<ComOrder>(service.order), call); break;
+  case DeviceKind::Can:
     canCalls_.answer(static_cast<CanOrder>(service.order), call);
     complainOfDrive(static_cast<CanOrder>(service.order), call);
     break;
-  case Answerer::Ethercat: ethercatCalls_.begin(service.order, call); break;
+  case DeviceKind::Ethercat: ethercatCalls_.begin(service.order, call); break;
   }
   return true;
 }

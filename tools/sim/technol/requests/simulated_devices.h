@@ -11,6 +11,7 @@
 
 #include "tools/device-requests/can_requests.h"
 #include "tools/device-requests/com_requests.h"
+#include "tools/device-requests/device_order.h"
 #include "tools/device-requests/ethercat_requests.h"
 #include "tools/device-requests/table_requests.h"
 #include "tools/devices/tables/table_files.h"
@@ -85,13 +86,7 @@ private:
   std::string bytesSent(uint32_t number, const EventKeys& keys, bool none);
   std::string packetSent(uint32_t channel, const EventKeys& keys, bool none);
 
-  enum class Answerer : uint8_t { None, Data, Tables, ReadArea, WriteArea, Axes, Com, Can, Ethercat };
-  struct Service {
-    Answerer who = Answerer::None;
-    uint8_t order = 0;                // as its answerer counts them
-    AxisOrder axes = AxisOrder::None; // whoever answers
-  };
-  Service serviceOf(std::string_view signature) const;
+  bool answers(device_requests::DeviceOrder order) const;
   void locate(host::Instance& instance);
   void loadTables();
   void pass(host::Instance& instance, int64_t us);
@@ -113,7 +108,7 @@ private:
   EthercatServos servos_;
 
   device_requests::AnswerBytes bytes_;
-  std::vector<Service> services_; // by the program's numbers
+  std::vector<device_requests::DeviceOrder> services_; // by the program's numbers
   AxisPlaces axisPlaces_;
   device_requests::CanPlaces canPlaces_;
   device_requests::StatePlaces statePlaces_;

@@ -1,0 +1,90 @@
+// What a host does with real devices of a TECHNOL program in a step, while all of them are at work: a CAN bus that is a
+// socket pair, a serial port that is a pseudo terminal, tables in files, shared areas in memory.
+#include <gtest/gtest.h>
+
+#include <pty.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "rung/runtime.hpp"
+#include "tests/realtime/guard.h"
+#include "tools/host-devices/host_devices.h"
+
+namespace rung::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class DevicesInAStep : public testing::Test {
+protected:
+  DevicesInAStep() { fs::create_directories(folder_); }
+  ~DevicesInAStep() override { fs::remove_all(folder_); }
+
+  std::string inFolder(const std::string& name) const { return folder_ / name; }
+  // A program of the scenarios, stepped for half a second with bits that it resets set again and again.
+  void run(const std::string& program, std::initializer_list<const char*> bits) {
+    const std::string object = inFolder(program + ".so");
+    ASSERT_EQ(std::system((RUNG_TEST_RUNGC " build -q tests/scenarios/technol/" + program + " -o " + object).c_str()),
+              0);
+    const Image image(object);
+    Instance plc = devices_.instance(image, sized<rung_instance_options>());
+    plc.powerOn(Power::Cold);
+    devices_.start();
+    std::vector<rung_cell> cells;
+    for (const char* bit : bits) cells.push_back(plc.find(bit, Access::Write));
+    Guard guard;
+    for (int i = 0; i < 500; ++i) {
+      for (const rung_cell cell : cells) plc.write(cell, 1);
+      {
+        const Guarded guarded(guard);
+        devices_.step(1'000'000);
+        plc.runDue(1'000'000);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(guard.offences(), "");
+    plc.powerOff();
+    devices_.end();
+  }
+
+  host_devices::HostDevices devices_;
+
+private:
+  fs::path folder_ = fs::temp_directory_path() / ("rung-devices-" + std::to_string(getpid()));
+};
+
+TEST_F(DevicesInAStep, Can) {
+  int ends[2];
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends), 0);
+  ASSERT_EQ(devices_.configure("CAN[1].InOut08Cnt", "8"), "");
+  devices_.adoptCan(2, ends[0]);
+  run("can.plc", {"DO1", "DO2", "DO3", "DO4", "DO5"});
+  close(ends[1]);
+}
+
+TEST_F(DevicesInAStep, Com) {
+  int master = -1, slave = -1;
+  std::array<char, 64> name{};
+  ASSERT_EQ(openpty(&master, &slave, name.data(), nullptr, nullptr), 0);
+  ASSERT_EQ(devices_.setCom(std::string("1=") + name.data()), "");
+  run("com.plc", {"DO1", "DO2", "DO3"});
+  close(slave);
+  close(master);
+}
+
+TEST_F(DevicesInAStep, Tables) {
+  fs::copy_file("tests/scenarios/technol/tools.PlcT", inFolder("tools.PlcT"));
+  ASSERT_EQ(devices_.configure("PlcTableDef3", "tests/scenarios/technol/tools.PlcTDef"), "");
+  ASSERT_EQ(devices_.configure("PlcTable3", inFolder("tools.PlcT")), "");
+  run("tables.plc", {"GO_REAL", "GO_STR", "GO_BIN", "GO_SET", "GO_COL"});
+}
+
+TEST_F(DevicesInAStep, Areas) { run("shared-area.plc", {"GO1", "GO2"}); }
+
+} // namespace
+} // namespace rung::test

@@ -1,0 +1,40 @@
+// Requests to analogue outputs (see analog_requests.h). Results are the port that has changed and its value.
+#include "tools/device-requests/analog_requests.h"
+
+namespace rung::device_requests {
+
+using devices::AnalogOutput;
+
+namespace {
+
+void setOutput(DeviceCall& call, const AnalogOutput& output) {
+  call.set(0, output.port);
+  call.setReal(1, output.value);
+}
+
+// ANALOG val port, or ANALOG val axis spi.
+AnalogOutput analog(AnalogTarget& target, const DeviceCall& call) {
+  if (call.argCount() == 3) return target.analogOnSpindle(call.arg(0), call.arg(1), call.argOr(2, 0));
+  target.analogPort(call.arg(1));
+  return target.analog(call.arg(0));
+}
+
+// Without a role it is the main spindle (inventory of the services, 4).
+AnalogOutput toSpindle(AnalogTarget& target, const DeviceCall& call) {
+  return target.axSpi(call.arg(0), call.argOr(1, static_cast<int64_t>(devices::SpindleRole::Main)));
+}
+
+} // namespace
+
+bool answerAnalog(AnalogTarget& target, AxisOrder order, DeviceCall& call) {
+  switch (order) {
+  case AxisOrder::AnalogPort: target.analogPort(call.arg(0)); return true;
+  case AxisOrder::Analog: setOutput(call, analog(target, call)); return true;
+  case AxisOrder::AnalogSpindle: setOutput(call, target.analogSpi(call.arg(0), call.arg(1))); return true;
+  case AxisOrder::ToSpindle: setOutput(call, toSpindle(target, call)); return true;
+  case AxisOrder::MainSpindle: target.spiMain(call.arg(0)); return true;
+  default: return false;
+  }
+}
+
+} // namespace rung::device_requests

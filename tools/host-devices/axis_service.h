@@ -1,0 +1,51 @@
+// Analogue outputs and spindles of a program, and its orders to axes, which this host does not move for it: SPI_AX,
+// POS_* and REGUL_* are refused (inventory of the services, 17).
+#pragma once
+#include <array>
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "rtlib/host/instance.h"
+#include "tools/device-requests/analog_requests.h"
+
+namespace rung::host_devices {
+
+// SU_OUT_PLC.
+class OutputPlaces {
+public:
+  OutputPlaces() = default; // a program that has nothing
+  explicit OutputPlaces(const rung_program& program);
+  void zero(const rt::Memory& memory) const;
+
+private:
+  std::array<rt::Place, devices::kAnalogPorts> outputs_;
+};
+
+class AxisService final : public device_requests::AnalogTarget {
+public:
+  // ---- the scan; nothing waits, allocates or locks
+  void powerOn() noexcept;
+  // False: it is refused.
+  bool answer(device_requests::DeviceOrder order, device_requests::DeviceCall& call);
+  // After a fault.
+  void zeroOutputs(const rt::Memory& memory, const OutputPlaces& places) noexcept;
+
+  // ---- any one thread but the scan's: a sentence for what went wrong for the first time
+  void report(std::vector<std::string>& lines);
+
+private:
+  void analogPort(int64_t port) override;
+  devices::AnalogOutput analog(int64_t value) override { return outputs_.put(value); }
+  devices::AnalogOutput analogOnSpindle(int64_t value, int64_t axis, int64_t spi) override;
+  devices::AnalogOutput analogSpi(int64_t value, int64_t axis) override;
+  devices::AnalogOutput axSpi(int64_t axis, int64_t role) override;
+  void spiMain(int64_t axis) override;
+
+  devices::AnalogOutputs outputs_;
+  uint32_t spindles_ = 0;                            // by AX_SPI, a bit each
+  std::atomic<uint32_t> refused_{0}, outOfRange_{0}; // a bit for each order
+  uint32_t refusedReported_ = 0, outOfRangeReported_ = 0;
+};
+
+} // namespace rung::host_devices

@@ -1,0 +1,65 @@
+// The CAN channels of this machine beside a program: interfaces by SocketCAN, the control's units and drives, orders of
+// packets, and the cells of all that (man. ch. 9, 13.14). All of it but `open`, `close` and `port` is the scan's:
+// nothing waits, allocates or locks.
+#pragma once
+#include <array>
+#include <string>
+
+#include "tools/device-requests/can_requests.h"
+#include "tools/devices/can/settings.h"
+#include "tools/devices/can/socket_can.h"
+
+namespace rung::host_devices {
+
+class CanService {
+public:
+  // ---- before start
+  devices::CanSettings& settings() { return settings_; }
+  const devices::CanSettings& settings() const { return settings_; }
+  // The channel, 1 or 2, is this interface; a descriptor is one that takes and gives a `can_frame` at a time, and
+  // becomes the service's. "" or why this machine has no CAN.
+  std::string open(uint32_t channel, const std::string& interface);
+  void adopt(uint32_t channel, int descriptor);
+  void configure() { settings_.configure(control_); }
+  // The program is over: units get outputs that are 0, drives are disabled, and the interfaces are left.
+  void close();
+  // Null: the channel does not exist. Counts and state: any thread.
+  const devices::SocketCan* port(uint32_t channel) const {
+    return isOpen_[channel - 1] ? &ports_[channel - 1] : nullptr;
+  }
+
+  // ---- the scan
+  // The clock has moved on: what is due of each millisecond.
+  void step(int64_t ns) noexcept;
+  // At a power-on, before MODULE_INIT.
+  void powerOn() noexcept;
+  void answer(device_requests::CanOrder order, device_requests::DeviceCall& call) { calls_.answer(order, call); }
+  // Before MODULE_INPUT: what has come is in the cells, and procedures of orders have run.
+  void show(host::Instance& instance, const device_requests::CanPlaces& places) noexcept;
+  // At the end of a pass: what the program wants until the next.
+  void take(const rt::Memory& memory, const device_requests::CanPlaces& places) noexcept;
+  // A program that is stopped has no orders, and its packets are dropped.
+  void dropPackets(host::Instance& instance, const device_requests::CanPlaces& places) noexcept;
+  // After a fault: drives are disabled.
+  void disableDrives() noexcept { driveOrders_ = {}; }
+  // Another program: orders of the former one are over, as their buffers and procedures were its.
+  void forgetOrders() noexcept;
+
+private:
+  void tick() noexcept;
+  bool exists() const { return isOpen_[0] || isOpen_[1]; }
+
+  devices::CanSettings settings_;
+  std::array<devices::SocketCan, devices::CanController::kChannels> ports_;
+  std::array<bool, devices::CanController::kChannels> isOpen_{};
+  devices::CanController control_;
+  device_requests::CanCalls calls_{control_};
+  devices::UnitOrders unitOrders_;
+  devices::DriveOrders driveOrders_;
+  devices::UnitStates units_;
+  devices::UnitStates shown_; // in the cells
+  devices::DriveStates drives_;
+  int64_t restNs_ = 0; // of the millisecond that has begun
+};
+
+} // namespace rung::host_devices

@@ -1,0 +1,87 @@
+// What an operator should know of the devices (see device_report.h).
+#include "tools/host-devices/device_report.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "rtlib/host/realtime.h"
+
+namespace rung::host_devices {
+namespace {
+
+constexpr int64_t kBetweenLossesNs = 1'000'000'000;
+
+std::string channelName(uint32_t channel) { return "CAN channel " + std::to_string(channel); }
+
+std::string sentenceOf(devices::BusState state) {
+  switch (state) {
+  case devices::BusState::Inactive: return " is not there";
+  case devices::BusState::Active: return " works again";
+  case devices::BusState::BusOff: return " is off the bus after too many errors; restart the interface (ip link)";
+  case devices::BusState::Down: return ": its interface is not there, or switched off; it is opened when it comes";
+  }
+  return {};
+}
+
+} // namespace
+
+std::vector<std::string> DeviceReport::next() {
+  std::vector<std::string> lines;
+  states(lines);
+  ports(lines);
+  if (const int64_t now = host::monotonicNs(); now >= nextLossesNs_) {
+    nextLossesNs_ = now + kBetweenLossesNs;
+    losses(lines);
+  }
+  if (std::string problem = devices_.tables.takeProblem(); !problem.empty())
+    lines.push_back("a PLC table is not stored: " + problem);
+  if (devices_.areasBroken && !std::exchange(areasReported_, true))
+    lines.emplace_back("the file of the shared areas was written over or shortened; SA_READ and SA_WRITE give error 3");
+  devices_.axes.report(lines);
+  return lines;
+}
+
+void DeviceReport::states(std::vector<std::string>& lines) {
+  for (uint32_t channel = 1; channel <= channels_.size(); ++channel) {
+    const devices::SocketCan* port = devices_.can.port(channel);
+    if (port == nullptr) continue;
+    const devices::BusState now = port->state();
+    if (now != std::exchange(channels_[channel - 1].state, now))
+      lines.push_back(channelName(channel) + sentenceOf(now));
+  }
+}
+
+void DeviceReport::losses(std::vector<std::string>& lines) {
+  for (uint32_t channel = 1; channel <= channels_.size(); ++channel) {
+    const devices::SocketCan* port = devices_.can.port(channel);
+    if (port == nullptr) continue;
+    const devices::SocketCan::Counts counts = port->counts();
+    const uint64_t lost = counts.lost - std::exchange(channels_[channel - 1].lost, counts.lost);
+    const bool isFull = counts.full != std::exchange(channels_[channel - 1].full, counts.full);
+    const bool wasFull = std::exchange(channels_[channel - 1].isFull, isFull);
+    if (lost > 0)
+      lines.push_back(channelName(channel) + ": " + std::to_string(lost) + " packets were lost, as they came too fast");
+    if (isFull && !wasFull)
+      lines.push_back(channelName(channel) + ": the queue of the interface is full, packets wait");
+  }
+  for (uint32_t port = 0; port < portLosses_.size(); ++port) {
+    const uint32_t now = devices_.ports[port].lostBytes();
+    const uint32_t lost = now - std::exchange(portLosses_[port], now);
+    if (lost > 0)
+      lines.push_back("the serial port " + std::to_string(port) + ": " + std::to_string(lost) +
+                      " bytes were lost, as the program does not take them");
+  }
+}
+
+// The problems of lines, each when it begins.
+void DeviceReport::ports(std::vector<std::string>& lines) {
+  std::vector<std::string> now = tty_.problems();
+  for (const std::string& problem : now)
+    if (std::ranges::find(portProblems_, problem) == portProblems_.end()) lines.push_back(problem);
+  for (const std::string& former : portProblems_)
+    if (std::ranges::find(now, former) == now.end())
+      lines.push_back(former.substr(0, former.find(' ')) + " works again");
+  portProblems_ = std::move(now);
+}
+
+} // namespace rung::host_devices

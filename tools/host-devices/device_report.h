@@ -1,0 +1,40 @@
+// What an operator should know of the devices, when it changes: a sentence each. Not for the scan, which never waits
+// for whoever asks.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/devices/com/tty_thread.h"
+#include "tools/host-devices/devices_around.h"
+
+namespace rung::host_devices {
+
+class DeviceReport {
+public:
+  DeviceReport(Devices& devices, const devices::com::TtyThread& tty) : devices_(devices), tty_(tty) {}
+
+  // Since the last call. What is lost is said once a second at most.
+  std::vector<std::string> next();
+
+private:
+  struct Channel {
+    devices::BusState state = devices::BusState::Active;
+    uint64_t lost = 0, full = 0;
+    bool isFull = false;
+  };
+  void states(std::vector<std::string>& lines);
+  void losses(std::vector<std::string>& lines);
+  void ports(std::vector<std::string>& lines);
+
+  Devices& devices_;
+  const devices::com::TtyThread& tty_;
+  std::array<Channel, devices::CanController::kChannels> channels_;
+  std::vector<std::string> portProblems_;
+  std::array<uint32_t, devices::com::kMostPorts> portLosses_{};
+  int64_t nextLossesNs_ = 0;
+  bool areasReported_ = false;
+};
+
+} // namespace rung::host_devices

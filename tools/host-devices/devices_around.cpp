@@ -1,0 +1,130 @@
+// Real devices around a program (see devices_around.h).
+#include "tools/host-devices/devices_around.h"
+
+#include "rtlib/nc/technol/exchange.h"
+
+namespace rung::host_devices {
+
+using namespace device_requests;
+
+struct DevicesAround::Places final : nc::Places {
+  explicit Places(const rung_program& program)
+      : services(deviceOrders(program)), can(program), states(program), outputs(program) {}
+
+  std::vector<DeviceOrder> services; // by the program's numbers
+  CanPlaces can;
+  StatePlaces states;
+  OutputPlaces outputs;
+};
+
+DevicesAround::DevicesAround(Devices& devices, const rung_program& program)
+    : devices_(devices), control_(nc::makeControl(program.dialect)), places_(locate(program)),
+      ethercat_(*devices.master), states_(*devices.master) {}
+
+std::unique_ptr<nc::Places> DevicesAround::locate(const rung_program& program) const {
+  return std::make_unique<Places>(program);
+}
+
+const DevicesAround::Places& DevicesAround::places() const { return static_cast<const Places&>(*places_); }
+
+// The bytes that orders of packets fill may lie elsewhere in the new program.
+void DevicesAround::exchangePlaces(std::unique_ptr<nc::Places>& places) noexcept {
+  places_.swap(places);
+  devices_.can.forgetOrders();
+}
+
+uint32_t DevicesAround::works() const { return control_->works() | 1u << nc::kHookBeforeInput; }
+
+// MODULE_INIT may give orders to devices already.
+void DevicesAround::powerOn(host::Instance& instance, nc::PowerOn kind) {
+  control_->prepare(instance, kind);
+  for (devices::com::Port& port : devices_.ports) port.powerOn();
+  devices_.can.powerOn();
+  devices_.tables.powerOn();
+  devices_.axes.powerOn();
+  bytes_.clear();
+  ethercat_.clear();
+  states_.reset(devices_.programStartsMaster);
+  control_->start(instance);
+}
+
+void DevicesAround::beforePart(host::Instance& instance) {
+  control_->beforeSlice(instance);
+  if (instance.stopped()) devices_.can.dropPackets(instance, places().can);
+}
+
+void DevicesAround::afterPart(host::Instance& instance) {
+  control_->afterSlice(instance);
+  if (instance.atListStart() && !instance.faulted()) devices_.can.take(instance.memory(), places().can);
+}
+
+void DevicesAround::onHook(host::Instance& instance, uint32_t work) {
+  if (work == nc::kHookBeforeInput) beforeInput(instance);
+  control_->onHook(instance, work);
+}
+
+void DevicesAround::beforeInput(host::Instance& instance) {
+  tickMaster(instance.memory());
+  bool answered = devices_.tables.takeAnswers(instance.services(), bytes_);
+  answered = ethercat_.finish(instance, bytes_) || answered;
+  if (answered) instance.services().deliver();
+  devices_.can.show(instance, places().can);
+}
+
+void DevicesAround::tickMaster(const rt::Memory& memory) {
+  if (devices_.master == &devices::ethercat::noMaster()) return;
+  places().states.read(memory, stateBits_);
+  states_.tick(stateBits_);
+  places().states.write(memory, stateBits_);
+}
+
+// What MODULE_HALT still orders counts, but no drive stays enabled (inventory of the services, 1.5).
+void DevicesAround::onFault(host::Instance& instance) {
+  control_->onFault(instance);
+  devices_.can.take(instance.memory(), places().can);
+  devices_.can.disableDrives();
+  devices_.axes.zeroOutputs(instance.memory(), places().outputs);
+}
+
+// ---- requests ------------------------------------------------------------------------------------------------------
+
+// Where there is no such device, the control refuses.
+bool DevicesAround::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+  return answer(instance, request, reply) || control_->respond(instance, request, reply);
+}
+
+bool DevicesAround::answer(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+  if (request.service >= places().services.size()) return false;
+  const DeviceOrder order = places().services[request.service];
+  DeviceCall call(instance, request, reply, bytes_);
+  switch (order.device) {
+  case DeviceKind::None: return false;
+  case DeviceKind::Data: bytes_.fetch(request, reply); return true;
+  case DeviceKind::Axes: return devices_.axes.answer(order, call);
+  case DeviceKind::Com: {
+    const uint32_t number = comOf(call);
+    answerCom(number < devices_.ports.size() ? &devices_.ports[number] : nullptr, static_cast<ComOrder>(order.order),
+              call);
+    return true;
+  }
+  case DeviceKind::Can: devices_.can.answer(static_cast<CanOrder>(order.order), call); return true;
+  default: return answerPolled(order, request, call);
+  }
+}
+
+bool DevicesAround::answerPolled(DeviceOrder order, const rt::ServiceRequest& request, DeviceCall& call) {
+  switch (order.device) {
+  case DeviceKind::ReadArea: readShared(devices_.areas, call); break;
+  case DeviceKind::WriteArea: writeShared(devices_.areas, call); break;
+  case DeviceKind::Ethercat: ethercat_.begin(order.order, call); return true;
+  default:
+    if (devices_.tables.isEmpty() || !devices_.tables.ask(static_cast<TableOrder>(order.order), request, call))
+      return false;
+    call.wait();
+    return true;
+  }
+  if (call.result(1) == static_cast<int64_t>(devices::AreaResult::Broken)) devices_.areasBroken = true;
+  return true;
+}
+
+} // namespace rung::host_devices

@@ -1,0 +1,230 @@
+// Devices of this machine (see host_devices.h).
+#include "tools/host-devices/host_devices.h"
+
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
+#include "tools/host-devices/device_report.h"
+#include "tools/host-devices/devices_around.h"
+
+namespace rung::host_devices {
+namespace {
+
+constexpr uint32_t kChannels = devices::CanController::kChannels;
+
+// "2=can0"
+struct Assignment {
+  uint32_t number = 0;
+  std::string device;
+};
+std::optional<Assignment> assignmentOf(std::string_view setting) {
+  const size_t equals = setting.find('=');
+  if (equals == std::string_view::npos || equals + 1 == setting.size()) return std::nullopt;
+  const auto number = text::numberIn<uint32_t>(setting.substr(0, equals));
+  return number ? std::optional(Assignment{*number, std::string(setting.substr(equals + 1))}) : std::nullopt;
+}
+
+// The number after a prefix of the key: PlcTableDef3.
+std::optional<uint32_t> numberAfter(std::string_view key, std::string_view prefix) {
+  if (key.size() <= prefix.size() || !text::equalsIgnoringCase(key.substr(0, prefix.size()), prefix))
+    return std::nullopt;
+  return text::numberIn<uint32_t>(key.substr(prefix.size()));
+}
+
+std::string found(std::string_view setting) { return ", not '" + std::string(setting) + "'"; }
+
+} // namespace
+
+struct HostDevices::Machine {
+  Devices devices;
+  std::array<std::string, kChannels> interfaces;                    // that were named
+  std::array<std::string, devices::com::kMostPorts> devicesOfPorts; // that were named
+  std::array<bool, kChannels> adopted{};
+  devices::com::TtyThread tty;
+  DeviceReport report{devices, tty};
+  std::vector<std::string> warnings;
+  bool any = false;
+  bool started = false;
+
+  std::string setPort(std::string_view key, std::string_view value);
+  std::string ofTable(uint32_t table, std::string wrong);
+  std::string interfaceOf(uint32_t channel) const;
+  std::string deviceOf(uint32_t port) const;
+  void openChannels();
+  void openPorts();
+};
+
+HostDevices::HostDevices() : machine_(std::make_unique<Machine>()) {}
+HostDevices::~HostDevices() { end(); }
+
+// ---- settings ------------------------------------------------------------------------------------------------------
+
+std::string HostDevices::setCan(std::string_view setting) {
+  const auto given = assignmentOf(setting);
+  if (!given || given->number < 1 || given->number > kChannels)
+    return "a CAN channel is 1=INTERFACE or 2=INTERFACE" + found(setting);
+  machine_->interfaces[given->number - 1] = given->device;
+  machine_->devices.can.settings().channels[given->number - 1].active = true;
+  machine_->any = true;
+  return {};
+}
+
+std::string HostDevices::setCom(std::string_view setting) {
+  const auto given = assignmentOf(setting);
+  if (!given || given->number >= devices::com::kMostPorts)
+    return "a serial port is NUMBER=DEVICE with a number of 0 to 15" + found(setting);
+  machine_->devicesOfPorts[given->number] = given->device;
+  machine_->any = true;
+  return machine_->setPort("COM[" + std::to_string(given->number) + "].Active", "1");
+}
+
+std::string HostDevices::setSharedFile(const std::string& path) {
+  machine_->any = true;
+  return machine_->devices.areas.mapFile(path);
+}
+
+std::string HostDevices::Machine::setPort(std::string_view key, std::string_view value) {
+  devices::com::PortKey port;
+  if (std::string wrong = readPortKey(key, port); !wrong.empty()) return wrong;
+  devices::com::Settings settings = devices.ports[port.number].settings();
+  if (const std::string wrong = settings.set(port.attribute, value); !wrong.empty())
+    return std::string(key) + ": " + wrong;
+  devices.ports[port.number].configure(settings);
+  return {};
+}
+
+// A file that cannot be read is left alone, and its table does not exist; the program runs.
+std::string HostDevices::Machine::ofTable(uint32_t table, std::string wrong) {
+  if (table >= devices::PlcTables::kTables || wrong.empty()) return wrong;
+  warnings.push_back(std::move(wrong));
+  return {};
+}
+
+std::string HostDevices::configure(std::string_view key, std::string_view value) {
+  machine_->any = true;
+  Devices& devices = machine_->devices;
+  const std::string path(value);
+  if (const auto table = numberAfter(key, "PlcTableDef"))
+    return machine_->ofTable(*table, devices.tables.setDefinition(*table, path));
+  if (const auto table = numberAfter(key, "PlcTable"))
+    return machine_->ofTable(*table, devices.tables.setTable(*table, path));
+  if (devices::com::isPortKey(key)) return machine_->setPort(key, value);
+  if (text::equalsIgnoringCase(key, "EtherCATOPViaPLC")) {
+    devices.programStartsMaster = value == "1";
+    return value == "0" || value == "1" ? "" : "EtherCATOPViaPLC takes 0 or 1" + found(value);
+  }
+  if (const auto wrong = devices.can.settings().set(key, value)) return *wrong;
+  return "'" + std::string(key) +
+         "' is not a key of a device; there are COM[n], CAN[n], drive.n.type, PlcTableDefN, PlcTableN and "
+         "EtherCATOPViaPLC";
+}
+
+void HostDevices::set(const mapping::File& map, std::vector<std::string>& errors) {
+  using Kind = mapping::DeviceSetting::Kind;
+  const auto apply = [this](const mapping::DeviceSetting& setting) {
+    switch (setting.kind) {
+    case Kind::Can: return setCan(setting.key + "=" + setting.value);
+    case Kind::Com: return setCom(setting.key + "=" + setting.value);
+    case Kind::SharedFile: return setSharedFile(setting.value);
+    case Kind::Config: return configure(setting.key, setting.value);
+    }
+    return std::string();
+  };
+  for (const mapping::DeviceSetting& setting : map.devices)
+    if (const std::string wrong = apply(setting); !wrong.empty())
+      errors.push_back(map.message(setting.at, "devices: " + wrong));
+}
+
+void HostDevices::useMaster(devices::ethercat::Master& master) {
+  machine_->devices.master = &master;
+  machine_->any = true;
+}
+
+void HostDevices::adoptCan(uint32_t channel, int descriptor) {
+  machine_->devices.can.settings().channels[channel - 1].active = true;
+  machine_->devices.can.adopt(channel, descriptor);
+  machine_->adopted[channel - 1] = machine_->any = true;
+}
+
+bool HostDevices::any() const { return machine_->any; }
+
+// ---- devices -------------------------------------------------------------------------------------------------------
+
+// "" where none is named.
+std::string HostDevices::Machine::interfaceOf(uint32_t channel) const {
+  if (!interfaces[channel - 1].empty()) return interfaces[channel - 1];
+  const auto& physical = devices.can.settings().channels[channel - 1].physical;
+  return physical ? "can" + std::to_string(*physical) : "";
+}
+
+std::string HostDevices::Machine::deviceOf(uint32_t port) const {
+  if (!devicesOfPorts[port].empty()) return devicesOfPorts[port];
+  const uint32_t physical = devices.ports[port].settings().physical;
+  return physical == 0 ? "" : devices::com::devicePath(physical);
+}
+
+void HostDevices::Machine::openChannels() {
+  devices.can.configure();
+  for (uint32_t channel = 1; channel <= kChannels; ++channel) {
+    if (adopted[channel - 1] || !devices.can.settings().isActive(channel)) continue;
+    const std::string interface = interfaceOf(channel);
+    const std::string wrong = interface.empty() ? "" : devices.can.open(channel, interface);
+    if (!wrong.empty()) throw std::runtime_error("CAN channel " + std::to_string(channel) + ": " + wrong);
+    if (interface.empty())
+      warnings.push_back("CAN channel " + std::to_string(channel) +
+                         " is configured, but has no interface (--can, PhysicalCanChannel): it does not exist");
+  }
+}
+
+void HostDevices::Machine::openPorts() {
+  for (uint32_t port = 0; port < devices.ports.size(); ++port) {
+    devices::com::Settings settings = devices.ports[port].settings();
+    if (!settings.isActive) continue;
+    const std::string device = deviceOf(port);
+    const std::string wrong = device.empty() ? "" : tty.add(devices.ports[port], device);
+    if (!wrong.empty()) throw std::runtime_error("COM " + std::to_string(port) + ": " + wrong);
+    if (!device.empty()) continue;
+    warnings.push_back("the serial port " + std::to_string(port) +
+                       " is configured, but has no device (--com, PhysicalComNo): it does not exist");
+    settings.isActive = false;
+    devices.ports[port].configure(settings);
+  }
+}
+
+Instance HostDevices::instance(const Image& image, const rung_instance_options& options) {
+  const rung_program& program = image.program();
+  if (std::string_view(program.dialect) != "technol")
+    throw std::runtime_error("devices are for programs of TECHNOL; this one is of " + std::string(program.dialect));
+  if (std::string wrong = machine_->devices.tables.load(); !wrong.empty())
+    machine_->warnings.push_back(std::move(wrong));
+  machine_->openChannels();
+  machine_->openPorts();
+  rung_instance* instance = nullptr;
+  check(runtime::newInstance(image.handle(), &options, std::make_unique<DevicesAround>(machine_->devices, program),
+                             &instance));
+  return Instance(instance);
+}
+
+std::vector<std::string> HostDevices::warnings() const { return machine_->warnings; }
+
+void HostDevices::start() {
+  machine_->started = true;
+  machine_->tty.start();
+  machine_->devices.tables.start();
+}
+
+void HostDevices::end() {
+  if (!std::exchange(machine_->started, false)) return;
+  machine_->devices.can.close();
+  machine_->tty.end();
+  machine_->devices.tables.end();
+}
+
+void HostDevices::step(int64_t ns) noexcept { machine_->devices.can.step(ns); }
+
+std::vector<std::string> HostDevices::report() { return machine_->report.next(); }
+
+} // namespace rung::host_devices

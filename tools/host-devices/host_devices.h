@@ -1,0 +1,73 @@
+// The devices of this machine for a TECHNOL program of a host: serial ports, CAN interfaces, PLC tables in their files,
+// shared areas; an EtherCAT master where the host gives one (inventory of the services, 17). What nobody has named does
+// not exist: its instructions give the error of their section, its cells stay what they are.
+//
+// Order of things: settings; `instance`, once; `start`; the program runs, with `step` in its thread; the program ends;
+// `end`. In the scan nothing waits, allocates or locks; with a file of shared areas, SA_READ and SA_WRITE each ask the
+// system once how long that is.
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rung/runtime.hpp"
+#include "tools/devices/ethercat/master.h"
+#include "tools/mapping/file.h"
+
+namespace rung::host_devices {
+
+class HostDevices {
+public:
+  HostDevices();
+  ~HostDevices(); // after the program
+  HostDevices(const HostDevices&) = delete;
+  HostDevices& operator=(const HostDevices&) = delete;
+
+  // ---- before `instance`; "" or what is wrong
+
+  // "2=can0": the CAN channel 1 or 2 is this interface. It is active then.
+  std::string setCan(std::string_view setting);
+  // "1=/dev/ttyUSB0": the serial port 0 to 15 is this device. It is active then.
+  std::string setCom(std::string_view setting);
+  // The shared areas lie in this file, which other programs map (tools/devices/shared).
+  std::string setSharedFile(const std::string& path);
+  // All that the table [devices] of a mapping file says; mistakes are further errors, with their places.
+  void set(const mapping::File& map, std::vector<std::string>& errors);
+  // A key of the configuration that belongs to a device: COM[n], CAN[n], drive.n.type, PlcTableDefN, PlcTableN,
+  // EtherCATOPViaPLC. Files are named from the working folder.
+  std::string configure(std::string_view key, std::string_view value);
+  // A master of the host, which outlives this.
+  void useMaster(devices::ethercat::Master& master);
+  // A descriptor in the place of an interface, which becomes this object's: it takes and gives a `can_frame` at a time.
+  void adoptCan(uint32_t channel, int descriptor);
+
+  // Whether something was named: a host needs none of this otherwise.
+  bool any() const;
+
+  // ---- the program
+
+  // With its devices around it. Throws std::runtime_error: it is of another dialect, or a device cannot be had at all;
+  // rung::Error.
+  Instance instance(const Image& image, const rung_instance_options& options);
+  // What is configured and has no device here, a sentence each; after `instance`.
+  std::vector<std::string> warnings() const;
+  // The threads that serve the devices.
+  void start();
+  // Outputs of CAN units are 0, tables are on disk. After the program's power-off.
+  void end();
+
+  // The thread of the program, before each of its steps, also where nothing of it is due: the clock has moved on. Not
+  // while another thread switches the program on.
+  void step(int64_t ns) noexcept;
+
+  // What an operator should know of devices since the last call: gone, back, what was lost, what is refused. Any one
+  // thread but the program's.
+  std::vector<std::string> report();
+
+private:
+  struct Machine;
+  std::unique_ptr<Machine> machine_;
+};
+
+} // namespace rung::host_devices

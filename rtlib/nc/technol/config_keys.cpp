@@ -40,6 +40,10 @@ constexpr ConfigKey kKeys[] = {
      .doc = "who answers for devices: the scenario, or simulated ones as the keys below say"},
     {.key = "PlcTableDef<n>", .form = File, .doc = "definition of PLC tables, n 0 to 255 (l.18275-18333)"},
     {.key = "PlcTable<n>", .form = File, .doc = "contents of PLC table n, 0 to 255 (l.18362-18418)"},
+    {.key = "KbdConfig<k>",
+     .form = File,
+     .doc = "what the keys of keyboard k do, 0 to 7: panels 0 to 3, handwheels 4 and 5, the virtual one 6 "
+            "(l.16723-16905)"},
     {.key = "axes", .takes = "letters", .otherwise = "XYZC", .doc = "axes 1 and on that exist"},
     {.key = "axis.<n>.<ATTRIBUTE>",
      .takes = "a number",

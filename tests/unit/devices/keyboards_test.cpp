@@ -64,6 +64,11 @@ TEST(KeyboardFile, Mistakes) {
   EXPECT_THAT(mistakeIn("<KeyboardConfig>"), HasSubstr("well-formed"));
 }
 
+// The PLC constants are those that begin with CMD_, numbered by their last letter.
+std::optional<int64_t> codeOf(std::string_view constant) {
+  return constant.starts_with("CMD_") ? std::optional(int64_t{constant.back()}) : std::nullopt;
+}
+
 struct KeysTest : testing::Test {
   KeysTest() {
     keyboards.define(0, keysOf(R"(<KeyboardConfig>
@@ -78,6 +83,7 @@ struct KeysTest : testing::Test {
       <KeyConfig ScanCode="31" RtmCommand="RTMID_KEYB0_FUNCTION1"/>
       <KeyConfig ScanCode="32" RtmCommand="RTMID_KEYB4_FUNCTION3_SWITCH"/>
       </KeyboardConfig>)"));
+    EXPECT_EQ(keyboards.resolveCommands(codeOf), "");
     keyboards.power();
   }
   void tap(uint32_t scan) {
@@ -91,20 +97,18 @@ struct KeysTest : testing::Test {
 
 TEST_F(KeysTest, PressAndRelease) {
   const KeyActions press = keyboards.key(0, 1, true);
-  EXPECT_EQ(press.plcCommand, "CMD_A");
+  EXPECT_EQ(press.plcCommand, codeOf("CMD_A"));
   EXPECT_EQ(press.rtmCommand, "RTMID_MMM_MOVEX");
-  EXPECT_TRUE(press.pressed);
-  EXPECT_EQ(keyboards.key(0, 1, true).plcCommand, "") << "it is pressed already";
+  EXPECT_EQ(keyboards.key(0, 1, true).plcCommand, std::nullopt) << "it is pressed already";
   const KeyActions release = keyboards.key(0, 1, false);
-  EXPECT_EQ(release.plcCommand, "CMD_A");
-  EXPECT_FALSE(release.pressed);
-  EXPECT_EQ(keyboards.key(0, 1, false).plcCommand, "");
+  EXPECT_EQ(release.plcCommand, codeOf("CMD_A"));
+  EXPECT_EQ(keyboards.key(0, 1, false).plcCommand, std::nullopt);
 }
 
 TEST_F(KeysTest, KeysWithoutADefinition) {
   for (const auto& [keyboard, scan] : {std::pair{0u, 99u}, {1u, 1u}, {8u, 1u}, {0u, 256u}}) {
-    EXPECT_EQ(keyboards.key(keyboard, scan, true).plcCommand, "");
-    EXPECT_EQ(keyboards.key(keyboard, scan, false).plcCommand, "");
+    EXPECT_EQ(keyboards.key(keyboard, scan, true).plcCommand, std::nullopt);
+    EXPECT_EQ(keyboards.key(keyboard, scan, false).plcCommand, std::nullopt);
   }
 }
 
@@ -128,7 +132,7 @@ TEST_F(KeysTest, TheHighestToggledFunctionCounts) { // l.16920-16935
 TEST_F(KeysTest, Switched) { // l.16893-16900
   tap(11);
   const KeyActions actions = keyboards.key(0, 22, true);
-  EXPECT_EQ(actions.plcCommand, "CMD_S");
+  EXPECT_EQ(actions.plcCommand, codeOf("CMD_S"));
   EXPECT_EQ(actions.rtmCommand, "") << "functions are switched by the keyboard";
   EXPECT_EQ(function(), 2);
   EXPECT_THAT(keyboards.state(0).states, ElementsAre(0, 0xFF, 0));
@@ -147,14 +151,14 @@ TEST_F(KeysTest, WhileAKeyIsHeld) { // l.16901-16908
 }
 
 TEST_F(KeysTest, KeysByFunction) {
-  EXPECT_EQ(keyboards.key(0, 2, true).plcCommand, "CMD_0");
+  EXPECT_EQ(keyboards.key(0, 2, true).plcCommand, codeOf("CMD_0"));
   tap(11);
-  EXPECT_EQ(keyboards.key(0, 2, false).plcCommand, "CMD_0") << "what was pressed is released";
-  EXPECT_EQ(keyboards.key(0, 2, true).plcCommand, "CMD_1");
+  EXPECT_EQ(keyboards.key(0, 2, false).plcCommand, codeOf("CMD_0")) << "what was pressed is released";
+  EXPECT_EQ(keyboards.key(0, 2, true).plcCommand, codeOf("CMD_1"));
   keyboards.key(0, 2, false);
   tap(13);
-  EXPECT_EQ(keyboards.key(0, 2, true).plcCommand, "") << "it has no function 3";
-  EXPECT_EQ(keyboards.key(0, 1, true).plcCommand, "CMD_A") << "a key with one function has it always";
+  EXPECT_EQ(keyboards.key(0, 2, true).plcCommand, std::nullopt) << "it has no function 3";
+  EXPECT_EQ(keyboards.key(0, 1, true).plcCommand, codeOf("CMD_A")) << "a key with one function has it always";
 }
 
 TEST_F(KeysTest, OneKeyboardSwitchesAnother) {
@@ -166,15 +170,24 @@ TEST_F(KeysTest, OneKeyboardSwitchesAnother) {
 }
 
 TEST_F(KeysTest, Configuration) {
-  EXPECT_EQ(keyboards.configure("PlcConfig", "x", ""), std::nullopt);
-  EXPECT_THAT(keyboards.configure("KbdConfig8", "x", "").value_or(""), HasSubstr("KbdConfig7"));
-  EXPECT_THAT(keyboards.configure("KbdConfig0", "no-such-file", ".").value_or(""), HasSubstr("no-such-file"));
+  EXPECT_EQ(keyboards.configure("PlcConfig", "x"), std::nullopt);
+  EXPECT_THAT(keyboards.configure("KbdConfig8", "x").value_or(""), HasSubstr("KbdConfig7"));
+  EXPECT_THAT(keyboards.configure("KbdConfig0", "no-such-file").value_or(""), HasSubstr("no-such-file"));
   const std::string folder = testing::TempDir();
   std::ofstream(folder + "/rung_keys.KbdConfig")
       << R"(<KeyboardConfig><KeyConfig ScanCode="0x16" PlcCommand="CMD_V"/></KeyboardConfig>)";
-  EXPECT_EQ(keyboards.configure("KbdConfig6", "rung_keys.KbdConfig", folder), "");
-  EXPECT_EQ(keyboards.key(Keyboards::kVirtual, 22, true).plcCommand, "CMD_V"); // l.12493
+  EXPECT_EQ(keyboards.configure("KbdConfig6", folder + "/rung_keys.KbdConfig"), "");
+  EXPECT_TRUE(keyboards.exists(Keyboards::kVirtual));
+  EXPECT_FALSE(keyboards.exists(7));
+  EXPECT_EQ(keyboards.resolveCommands(codeOf), "");
+  EXPECT_EQ(keyboards.key(Keyboards::kVirtual, 22, true).plcCommand, codeOf("CMD_V")); // l.12493
   std::remove((folder + "/rung_keys.KbdConfig").c_str());
+}
+
+TEST_F(KeysTest, CommandsThatAreNotConstants) {
+  keyboards.define(1, keysOf("<KeyboardConfig>\n<KeyConfig ScanCode='1' PlcCommand='OTHER'/></KeyboardConfig>"));
+  EXPECT_THAT(keyboards.resolveCommands(codeOf), HasSubstr("K:2:1: PlcCommand 'OTHER' is not a PLC constant"));
+  EXPECT_EQ(keyboards.key(1, 1, true).plcCommand, std::nullopt);
 }
 
 } // namespace

@@ -1,66 +1,44 @@
 // Scans beside the simulated TECHNOL control allocate nothing, whatever its devices do: axes that move, packets,
-// service data of drives, serial ports, mailboxes, tables and shared areas.
+// service data of drives, serial ports, mailboxes, process data, keys, displays, tables and shared areas.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "rtlib/nc/control/technol/cells.h"
-#include "rtlib/nc/technol/exchange.h"
 #include "rtlib/nc/technol/services.h"
-#include "rtlib/nc/technol/signals.h"
 #include "tests/support/count_allocations.h"
-#include "tests/unit/rtlib/test_program.h"
-#include "tools/sim/machine.h"
+#include "tests/unit/sim/technol_machine.h"
 
 namespace {
 
 using namespace rung;
 using namespace rung::sim;
 
-enum Service : uint32_t { kSend, kDrive, kCom, kUpload, kAnalog, kInit, kMode, kControl, kRead, kData };
-
-// A program of nothing but the interface and the requests of instructions; the test plays the program.
-class TechnolMachine {
-public:
-  explicit TechnolMachine(const std::vector<std::pair<std::string, std::string>>& config) {
-    program_.dialect = "technol";
-    program_.memorySize = 1u << 20;
-    program_.services = {"CAN_SEND can id rtr len data:b -> DR",
-                         "CAN_AX_SEND axis data:b -> data:b",
-                         "COM_SEND com val -> RLO",
-                         "ECAT_COE_READ Master Slave Index Subindex Len -> DR Len Val:b",
-                         "ANALOG_SPI val axis -> port out:f",
-                         "POS_INIT axis space",
-                         "POS_MODE len accel axis -> control",
-                         "POS_CONTROL feed mp axis -> status control",
-                         "SA_READ SAIdx Offset Size -> RLO DR Val:b",
-                         nc::technol::kDataService.data()};
-    program_.addPacked("NCI", 1, nc::areaBytes(nc::technolSignals(), "I"), 0);
-    program_.addTask("MAIN", program_.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return test::popChunk(ctx); }));
-    program_.scan = {{RUNG_STEP_ADVANCE, 0, 20'000}, {RUNG_STEP_HOOK, 0, nc::kHookBeforeInput}, {RUNG_STEP_RUN, 0, 1}};
-    program_.fast = program_.scan;
-    machine_ = std::make_unique<Machine>(program_.link(), nullptr, makeSimulatedTechnol());
-    for (const auto& [key, value] : config) EXPECT_EQ(machine_->nc().config(key, value), "");
-    machine_->powerOn(nc::PowerOn::Cold);
-  }
-
-  uint32_t ask(Service service, std::initializer_list<int64_t> args) {
-    return inside().services().request(service, args.begin(), static_cast<uint32_t>(args.size()));
-  }
-  host::Instance& inside() { return machine_->inside(); }
-  SimulatedNc& nc() { return machine_->nc(); }
-  void scan() { machine_->scan(); }
-
-private:
-  test::TestProgram program_;
-  std::unique_ptr<Machine> machine_;
-};
-
 TEST(TechnolNoAllocation, DevicesAtWork) {
+  const std::string keys = testing::TempDir() + "rung_no_allocation.KbdConfig";
+  std::ofstream(keys) << R"(<KeyboardConfig><KeyConfig ScanCode="22" PlcCommand="TAP" RtmCommand="RTMID_MMM_MOVE01"/>
+    <KeyConfig ScanCode="23" RtmCommand="RTMID_KEYB6_FUNCTION1_TOGGLE"/></KeyboardConfig>)";
   TechnolMachine machine({{"nc", "simulated"},
+                          {"const.TAP", "7"},
+                          {"KbdConfig6", keys},
                           {"CAN[1].InOut08Cnt", "32"},
+                          {"CAN[1].Kla50Cnt", "4"},
+                          {"CAN[1].KnobCnt", "2"},
                           {"CAN[0].Drives", "3"},
                           {"COM[1].Active", "1"},
                           {"ethercat.0", "coe"},
-                          {"ethercat.0.coe.0x6041.0", "0x237/2 ro"}});
+                          {"ethercat.0.name", "DRIVE"},
+                          {"ethercat.0.ds402", "1"},
+                          {"ethercat.0.pdo.Inputs.Status", "0x6041.0"},
+                          {"ethercat.0.pdo.Outputs.Control", "0x6040.0"}},
+                         {{"P1IN.0", "VKeyboard.VKey[22]"},
+                          {"P1IN.1", "VKeyboard.VKey[23]"},
+                          {"ECAT.DRIVE.Inputs.Status", "RTM.Servo[0].Edrv.DriveStatus"},
+                          {"RTM.Servo[0].Edrv.DriveControl", "ECAT.DRIVE.Outputs.Control"},
+                          {"RTM.Axis[3].Pos6_Ax", "ECAT.FREE.Outputs.Place"}});
+  EXPECT_TRUE(machine.nc().connectionProblems().empty());
+  const auto place = [&](const char* cell) { return nc::technol::locateSignal(machine.inside().program(), cell); };
+  const rt::Place port = place("P1IN"), character = place("DISPTOC1.TOC_CHAR1"), init = place("flEdrvInit0");
   constexpr int64_t kFeed = int64_t{6000} << 16; // 6000 mm/min
   for (const char* cell : {"VAZBA_4", "MP4PI"}) nc::technol::writeCell(machine.inside(), cell, 1);
   machine.ask(kInit, {4, 0});
@@ -76,11 +54,16 @@ TEST(TechnolNoAllocation, DevicesAtWork) {
                 const uint32_t read = machine.ask(kRead, {0, 100, 1000});
                 machine.ask(kData, {read, 3});
                 machine.ask(kUpload, {0, 0, 0x6041, 0, 2});
+                machine.inside().memory().write(port, static_cast<uint64_t>(i / 3 & 3));
+                machine.inside().memory().write(character, static_cast<uint64_t>('A' + i % 26));
+                machine.inside().memory().write(init, 1);
                 machine.scan();
               }
             }),
             0);
   EXPECT_NEAR(machine.nc().quantity("MPOS.4").value_or(0), 1000, 0.001);
+  EXPECT_EQ(machine.inside().memory().read(init), 0u) << "the servo is connected";
+  EXPECT_FALSE(machine.nc().readCell("DISPTOC1.Shown[0][0]")->text.empty());
 }
 
 } // namespace

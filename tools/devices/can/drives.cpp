@@ -22,7 +22,17 @@ uint16_t faultOf(uint16_t emergency) {
   return found == std::end(kEmergencies) ? 0 : static_cast<uint16_t>(found - kEmergencies + 1);
 }
 
+constexpr std::string_view kHexDigits = "0123456789ABCDEF";
+
 } // namespace
+
+std::string textOf(const DriveMessage& message) {
+  const std::string number = std::to_string(message.number), drive = std::to_string(message.drive);
+  if (message.number == DriveMessage::kTimeout) return number + ": time-out of drive " + drive;
+  std::string code;
+  for (int shift = 12; shift >= 0; shift -= 4) code += kHexDigits[message.emergency >> shift & 15];
+  return number + ": emergency of drive " + drive + ", fault " + std::to_string(message.fault) + ", emergency " + code;
+}
 
 void CanDrives::reset() {
   for (Drive& drive : drives_) drive = {.type = drive.type};

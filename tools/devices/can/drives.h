@@ -4,6 +4,7 @@
 // RPDO1 is the control word of CiA 402, of a Unidrive CAN_DRIVE_CMD; TPDO1 is the status word and CAN_DRIVE_MSTAT.
 #pragma once
 #include <array>
+#include <string>
 
 #include "tools/devices/can/port.h"
 #include "tools/devices/can/sdo.h"
@@ -38,6 +39,9 @@ struct DriveMessage {
   uint16_t fault = 0;     // row of the list of emergencies (man. l.9656 ...), 0: not in it
   uint16_t emergency = 0; // error code of CiA 301
 };
+
+// As the log has it.
+std::string textOf(const DriveMessage& message);
 
 class CanDrives {
 public:

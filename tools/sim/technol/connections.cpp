@@ -198,7 +198,7 @@ private:
   std::optional<End> module(const std::string& name, std::string& problem) {
     const nc::technol::Reference reference = nc::technol::withoutBit(name);
     std::string reason;
-    const auto element = moduleElement(reference.base, reason);
+    const auto element = cells_.element(reference.base, reason);
     if (!element) return no(problem, reason.empty() ? "this module has no such element" : reason);
     End made;
     made.period = element->period;
@@ -208,6 +208,7 @@ private:
     made.pin.type = cells_.at(made.pin.cell).type;
     made.pin.kind = reference.bit ? Pin::Kind::CellBit : Pin::Kind::Cell;
     made.isOpen = element->typeIsOpen && !reference.bit;
+    made.signIsOpen = element->signIsOpen && !reference.bit;
     if (!reference.bit) return made;
     const uint32_t width = element->typeIsOpen ? 64 : widthOf(made.pin.type);
     if (made.pin.type == nc::ExchangeType::Real || *reference.bit >= width)
@@ -259,6 +260,18 @@ private:
 // ---- the table ------------------------------------------------------------------------------------------------------
 
 namespace {
+
+// An integer of process data is signed where the other end is, or a real.
+nc::ExchangeType withSignOf(nc::ExchangeType integer, nc::ExchangeType other) {
+  using enum nc::ExchangeType;
+  if (other != Int8 && other != Int16 && other != Int32 && other != Int64 && other != Real) return integer;
+  switch (integer) {
+  case Uns8: return Int8;
+  case Uns16: return Int16;
+  case Uns32: return Int32;
+  default: return Int64;
+  }
+}
 
 bool addStage(Wire& wire, const Stage& stage) {
   if (stage == Stage{} || wire.stageCount == Wire::kStages) return false;
@@ -326,6 +339,8 @@ void Connections::addWire(const Connection& connection, const End& from, const E
   Wire wire;
   wire.from = from.pin;
   wire.to = to.pin;
+  if (from.signIsOpen) wire.from.type = withSignOf(wire.from.type, wire.to.type);
+  if (to.signIsOpen) wire.to.type = withSignOf(wire.to.type, wire.from.type);
   wire.period = std::max(from.period, to.period);
   wire.target = to.target;
   wire.whole = to.whole;

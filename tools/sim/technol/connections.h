@@ -63,7 +63,8 @@ private:
     nc::ExchangePeriod period = nc::ExchangePeriod::Fast;
     bool isSource = false, isDestination = false;
     const SharedVariable* variable = nullptr;
-    bool isOpen = false; // a module's cell whose type the other end gives
+    bool isOpen = false;     // a module's cell whose type the other end gives
+    bool signIsOpen = false; // or whose sign
     uint64_t target = Wire::kNoTarget;
     bool whole = true;
   };

@@ -40,7 +40,7 @@ std::string command(host::Instance& instance, std::span<const NcArgument> keys, 
   }
   if (!code) return "PLCCOMMAND needs CODE=n";
   if (!state || (*state != 0 && *state != 1)) return "PLCCOMMAND needs STATE=1 (pressed) or 0 (released)";
-  call(instance, "_ON_CMD", static_cast<uint64_t>(static_cast<int64_t>(static_cast<int32_t>(*code))), *state == 1);
+  call(instance, "_ON_CMD", commandRegister(*code), *state == 1);
   return {};
 }
 

@@ -13,6 +13,11 @@ namespace rung::sim::technol {
 // The number of a PLC constant by its identifier.
 using ConstantOf = std::function<std::optional<int64_t>(std::string_view)>;
 
+// What _ON_CMD has in DR for the code of a command, which has 32 bits.
+constexpr uint64_t commandRegister(int64_t code) {
+  return static_cast<uint64_t>(static_cast<int64_t>(static_cast<int32_t>(code)));
+}
+
 // PLCEVENT_... calls _ON_EVENT, PLCCOMMAND calls _ON_CMD. "" or why not; nothing where the name is not such an event.
 std::optional<std::string> callEvent(host::Instance& instance, std::string_view name, std::span<const NcArgument> keys,
                                      const ConstantOf& constantOf);

@@ -1,8 +1,10 @@
-// Cells of modules that are not simulated (see module_cells.h).
+// Cells of modules (see module_cells.h).
 #include "tools/sim/technol/module_cells.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/technol/code_page.h"
@@ -43,6 +45,21 @@ constexpr RtmModule kModules[] = {{"AXIS", "RTM.Axis", 16},
                                   {"MAN", "RTM.Man", 1},
                                   {"CONTROL", "RTM.Control", 1}};
 
+// Pos0_Ax to Pos6_Ax, Pos6Shift_Ax, and the words of an EtherCAT drive (man. l.12778-12830, l.12908-12918).
+ModulePoint pointOf(std::string_view area, std::string_view symbol, uint32_t number) {
+  if (area == "RTM.Servo.Edrv") {
+    constexpr std::string_view kParts[] = {"DriveStatus", "DriveErrReg", "DriveControl"};
+    const auto* const part = std::ranges::find(kParts, symbol);
+    if (part == std::end(kParts)) return {};
+    return {ModulePoint::Kind::Servo, number, static_cast<uint32_t>(part - std::begin(kParts))};
+  }
+  if (area != "RTM.Axis") return {};
+  if (symbol == "Pos6Shift_Ax") return {ModulePoint::Kind::Shift, number};
+  const bool isPosition = symbol.size() == 7 && symbol.starts_with("Pos") && symbol.ends_with("_Ax");
+  if (!isPosition) return {};
+  return {ModulePoint::Kind::Position, number, static_cast<uint32_t>(symbol[3] - '0')};
+}
+
 // MODULE[x].NAME or MODULE.NAME[x]: x is the axis or servo in both (man. l.12753 reads RTM.Axis[2].Pos0_AX).
 std::optional<ModuleElement> rtmElement(std::string_view rest, std::string& problem) {
   for (const RtmModule& module : kModules) {
@@ -64,8 +81,10 @@ std::optional<ModuleElement> rtmElement(std::string_view rest, std::string& prob
       return std::nullopt;
     }
     const bool ofMember = signal->count == 1 && module.members > 1;
-    ModuleElement made{.key = area + "." + signal->symbol + "/" + std::to_string(ofMember ? member : element),
-                       .type = typeOf(*signal)};
+    const uint32_t number = ofMember ? member : element;
+    ModuleElement made{.key = area + "." + signal->symbol + "/" + std::to_string(number),
+                       .type = typeOf(*signal),
+                       .point = pointOf(area, signal->symbol, number)};
     made.isSource = signal->direction != nc::Direction::Out;
     made.isDestination = signal->direction != nc::Direction::In;
     return made;
@@ -87,8 +106,29 @@ std::optional<ModuleElement> moduleElement(std::string_view identifier, std::str
     problem = "the virtual keyboard has the keys VKey[0] to VKey[255]";
     return std::nullopt;
   }
-  return ModuleElement{
-      .key = "VKEYBOARD." + std::to_string(key), .period = nc::ExchangePeriod::Slow, .isSource = false};
+  return ModuleElement{.key = "VKEYBOARD." + std::to_string(key),
+                       .period = nc::ExchangePeriod::Slow,
+                       .isSource = false,
+                       .point = {ModulePoint::Kind::Key, key}};
+}
+
+std::optional<ModuleElement> ModuleCells::element(std::string_view identifier, std::string& problem) const {
+  if (image_ == nullptr || !image_->isOfSlave(identifier)) return moduleElement(identifier, problem);
+  const uint32_t entry = image_->find(identifier);
+  if (entry == RUNG_NONE) {
+    problem = "the device has no such process data: `config ethercat.D.pdo.Inputs.NAME INDEX.SUB`, or pdo.Outputs";
+    return std::nullopt;
+  }
+  constexpr nc::ExchangeType kTypes[] = {nc::ExchangeType::Uns8, nc::ExchangeType::Uns16, nc::ExchangeType::Uns32,
+                                         nc::ExchangeType::Uns64};
+  const bool isInput = (*image_)[entry].isInput;
+  return ModuleElement{.key = "ECAT/" + std::to_string(entry),
+                       .type = kTypes[std::bit_width(image_->bytesOf(entry) - 1)],
+                       .signIsOpen = true,
+                       .period = nc::ExchangePeriod::Fastest,
+                       .isSource = isInput,
+                       .isDestination = !isInput,
+                       .point = {ModulePoint::Kind::ProcessData, entry}};
 }
 
 void ModuleCells::reset() {
@@ -97,9 +137,10 @@ void ModuleCells::reset() {
 
 uint32_t ModuleCells::cellOf(const ModuleElement& element) {
   const auto [entry, isNew] = byKey_.emplace(element.key, static_cast<uint32_t>(cells_.size()));
-  if (isNew)
-    cells_.push_back(
-        {.type = element.typeIsOpen ? nc::ExchangeType::Uns64 : element.type, .typeIsOpen = element.typeIsOpen});
+  if (!isNew) return entry->second;
+  cells_.push_back(
+      {.type = element.typeIsOpen ? nc::ExchangeType::Uns64 : element.type, .typeIsOpen = element.typeIsOpen});
+  if (element.point.kind != ModulePoint::Kind::None) points_.push_back({element.point, entry->second});
   return entry->second;
 }
 
@@ -124,7 +165,7 @@ std::optional<NcCell> ModuleCells::read(std::string_view name) const {
   const std::string inMemory = nc::technol::canonical(nc::memoryText(name));
   const nc::technol::Reference reference = nc::technol::withoutBit(inMemory);
   std::string problem;
-  const auto element = moduleElement(reference.base, problem);
+  const auto element = this->element(reference.base, problem);
   if (!element) return std::nullopt;
   const auto found = byKey_.find(element->key);
   // What an EtherCAT element is, its connection says.
@@ -141,7 +182,7 @@ bool ModuleCells::write(std::string_view name, const NcCell& value) {
   const std::string inMemory = nc::technol::canonical(nc::memoryText(name));
   const nc::technol::Reference reference = nc::technol::withoutBit(inMemory);
   std::string problem;
-  const auto element = moduleElement(reference.base, problem);
+  const auto element = this->element(reference.base, problem);
   if (!element || (element->typeIsOpen && !byKey_.contains(element->key))) return false;
   ModuleCell& cell = cells_[cellOf(*element)];
   if (!reference.bit) {

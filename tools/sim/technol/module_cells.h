@@ -1,8 +1,9 @@
-// Logical inputs and outputs of the modules that the control does not simulate (man. ch. 27.2-27.4): real-time manager
-// (RTM), EtherCAT (ECAT), virtual keyboard (VKeyboard). Each is a cell that keeps what is put into it; a scenario plays
-// the module by these names.
+// Logical inputs and outputs of modules (man. ch. 27.2-27.4): real-time manager (RTM), EtherCAT (ECAT), virtual
+// keyboard (VKeyboard). Each is a cell that keeps what is put into it; where no simulated device works at it, a
+// scenario plays the module by these names.
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -10,19 +11,38 @@
 
 #include "rtlib/nc/technol/exchange.h"
 #include "tools/sim/simulated_nc.h"
+#include "tools/sim/technol/devices/ethercat_image.h"
 
 namespace rung::sim::technol {
+
+// What a simulated device has at an element.
+struct ModulePoint {
+  enum class Kind : uint8_t {
+    None,
+    Key,         // `number` is the scan code on the virtual keyboard
+    ProcessData, // the entry of the process image
+    Position,    // the axis, from 0, in the space `part`, 0 to 6
+    Shift,       // the axis, from 0: what SHIFT adds in POS6
+    Servo,       // the servo; its ServoPart
+  } kind = Kind::None;
+  uint32_t number = 0;
+  uint32_t part = 0;
+};
+// RTM.Servo[x].Edrv: DriveStatus, DriveErrReg and DriveControl.
+enum ServoPart : uint32_t { kServoStatus, kServoError, kServoControl };
 
 struct ModuleElement {
   std::string key; // one an element, whichever way it is written
   nc::ExchangeType type = nc::ExchangeType::Bit;
   bool typeIsOpen = false; // EtherCAT: the type is that of the other end
+  bool signIsOpen = false; // of process data, whether the integer is signed
   nc::ExchangePeriod period = nc::ExchangePeriod::Fast;
   bool isSource = true, isDestination = true;
+  ModulePoint point = {};
 };
 
-// By a canonical identifier, without `.Bit[k]`. Nothing: there is no such element; `problem` says why where the module
-// is known.
+// By a canonical identifier, without `.Bit[k]`, without simulated devices. Nothing: there is no such element; `problem`
+// says why where the module is known.
 std::optional<ModuleElement> moduleElement(std::string_view identifier, std::string& problem);
 
 struct ModuleCell {
@@ -33,18 +53,32 @@ struct ModuleCell {
 
 class ModuleCells {
 public:
+  // A simulated EtherCAT net, whose slaves' elements are those of its image. It outlives the cells.
+  void simulate(const EthercatImage& image) { image_ = &image; }
+  // As moduleElement, and of the simulated net.
+  std::optional<ModuleElement> element(std::string_view identifier, std::string& problem) const;
+
   void reset(); // all cells 0
   // Cells stay where they are while a table of connections holds their numbers.
   uint32_t cellOf(const ModuleElement& element);
   ModuleCell& at(uint32_t cell) { return cells_[cell]; }
   const ModuleCell& at(uint32_t cell) const { return cells_[cell]; }
 
+  // Those at which a simulated device may work.
+  struct PointCell {
+    ModulePoint point;
+    uint32_t cell;
+  };
+  std::span<const PointCell> points() const { return points_; }
+
   // By any identifier. Nothing: no such element.
   std::optional<NcCell> read(std::string_view name) const;
   bool write(std::string_view name, const NcCell& value);
 
 private:
+  const EthercatImage* image_ = nullptr;
   std::vector<ModuleCell> cells_;
+  std::vector<PointCell> points_;
   std::unordered_map<std::string, uint32_t> byKey_;
 };
 

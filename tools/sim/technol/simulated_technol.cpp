@@ -30,7 +30,8 @@ public:
   void powerOn(host::Instance& instance, nc::PowerOn kind) override {
     log_.clear();
     control_.prepare(instance, kind);
-    devices_.powerOn(instance, kind);
+    devices_.powerOn(instance, kind, [this](std::string_view id) { return configuration_.constant(id); });
+    if (devices_.simulated()) exchange_.cells().simulate(devices_.image());
     nc::technol::writeCell(instance, nc::kLicenceCell, configuration_.licences());
     exchange_.beforeInit(instance, true);
     control_.start(instance);
@@ -41,7 +42,7 @@ public:
   uint32_t works() const override { return control_.works() | exchange_.works(); }
   void onHook(host::Instance& instance, uint32_t work) override {
     if (work == nc::kHookBeforeInput) {
-      devices_.beforeInput(instance);
+      devices_.beforeInput(instance, exchange_.cells());
       devices_.takeLog(log_);
     }
     if (work != nc::kHookAfterInput) exchange_.onHook(instance, work);
@@ -53,7 +54,7 @@ public:
     if (instance.stopped()) idle(instance);
   }
   void idle(host::Instance& instance) override {
-    devices_.idle(instance);
+    devices_.idle(instance, exchange_.cells());
     devices_.takeLog(log_);
   }
 
@@ -86,8 +87,7 @@ public:
   }
   std::vector<NcProblem> connectionProblems() const override {
     std::vector<NcProblem> problems = exchange_.problems();
-    if (std::string problem = devices_.problem(); !problem.empty())
-      problems.push_back({.connection = RUNG_NONE, .text = std::move(problem)});
+    for (const std::string& text : devices_.problems()) problems.push_back({.connection = RUNG_NONE, .text = text});
     return problems;
   }
   uint32_t keptSize() override { return devices_.keptSize(); }
@@ -144,7 +144,7 @@ public:
       return {};
     }
     const auto constant = [this](std::string_view id) { return configuration_.constant(id); };
-    if (const auto done = devices_.event(name, keys)) return *done;
+    if (const auto done = devices_.event(instance, name, keys)) return *done;
     const std::optional<std::string> answer = technol::callEvent(instance, name, keys, constant);
     return answer ? *answer : SimulatedNc::event(instance, name, keys);
   }

@@ -75,6 +75,8 @@ public:
   std::string reference(std::string_view type, AxisMask axes);
   void autman(bool on) { manual_.panel.switchManual(on); }
   std::string rtm(std::string_view command, bool pressed);
+  // The same; of another part of the control: nothing happens, without a message.
+  void key(std::string_view command, bool pressed);
   void handwheel(int64_t pulses, uint32_t wheel = 1) { manual_.panel.turn(pulses, wheel); } // of 1 or 2
 
   // For the log, the oldest first; false: there is none.

@@ -148,4 +148,8 @@ std::string Axes::rtm(std::string_view command, bool pressed) {
   return {};
 }
 
+void Axes::key(std::string_view command, bool pressed) {
+  if (const auto known = rtmCommand(command, letters_)) manual_.panel.key(*known, pressed);
+}
+
 } // namespace rung::sim::technol

@@ -40,6 +40,16 @@ uint32_t EthercatImage::find(std::string_view identifier) const {
   return RUNG_NONE;
 }
 
+bool EthercatImage::isOfSlave(std::string_view identifier) const {
+  const std::string wanted = nameOf(identifier);
+  for (uint32_t i = 0; i < slaves_.count(); ++i) {
+    const std::string slave = "ECAT." + nameOf(slaves_[i].name) + ".";
+    if (!slaves_[i].name.empty() && (wanted.starts_with(slave + "INPUTS.") || wanted.starts_with(slave + "OUTPUTS.")))
+      return true;
+  }
+  return false;
+}
+
 void EthercatImage::write(uint32_t entry, uint64_t value) {
   if (entries_[entry].isInput) return;
   entries_[entry].value = value & onesOf(bytesOf(entry));

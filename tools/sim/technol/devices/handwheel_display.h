@@ -18,6 +18,7 @@ public:
   // fit the display is left out.
   void show(std::span<const uint8_t, 8> order);
 
+  static bool isPixel(uint32_t row, uint32_t column) { return row < kRows && column < kColumns; }
   // The characters that follow each other from this place on; "": none begins there.
   std::string text(uint32_t row, uint32_t column) const;
   bool isInverted(uint32_t row, uint32_t column) const { return cells_[row][column].inverted; }

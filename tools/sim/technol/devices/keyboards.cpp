@@ -2,7 +2,6 @@
 #include "tools/sim/technol/devices/keyboards.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "rtlib/nc/control/technol/identifier.h"
 
@@ -21,18 +20,33 @@ std::optional<uint32_t> takeDigit(std::string_view& text, uint32_t end) {
 
 } // namespace
 
-std::optional<std::string> Keyboards::configure(std::string_view key, std::string_view file,
-                                                const std::string& folder) {
+std::optional<std::string> Keyboards::configure(std::string_view key, const std::string& path) {
   const std::string name = nc::technol::canonical(key);
   std::string_view rest = name;
   if (!nc::technol::takePrefix(rest, "KBDCONFIG")) return std::nullopt;
   const auto number = takeDigit(rest, kKeyboards);
   if (!number || !rest.empty()) return "'" + std::string(key) + "' is not KbdConfig0 to KbdConfig7";
-  return control_files::readKeyboardFile((std::filesystem::path(folder) / file).string(), boards_[*number].keys);
+  return control_files::readKeyboardFile(path, boards_[*number].keys);
 }
 
 void Keyboards::define(uint32_t keyboard, std::vector<control_files::KeyDefinition> keys) {
   boards_[keyboard].keys = std::move(keys);
+}
+
+std::string Keyboards::resolveCommands(const std::function<std::optional<int64_t>(std::string_view)>& constantOf) {
+  std::string wrong;
+  for (Board& board : boards_) {
+    board.codes.assign(board.keys.size(), std::nullopt);
+    for (size_t i = 0; i < board.keys.size(); ++i) {
+      const control_files::KeyDefinition& key = board.keys[i];
+      if (key.plcCommand.empty()) continue;
+      board.codes[i] = constantOf(key.plcCommand);
+      if (!board.codes[i])
+        wrong += (wrong.empty() ? "" : "\n") + key.place + ": PlcCommand '" + key.plcCommand +
+                 "' is not a PLC constant; constants are those of PlcConstants and const.ID";
+    }
+  }
+  return wrong;
 }
 
 void Keyboards::power() {
@@ -64,7 +78,8 @@ KeyActions Keyboards::key(uint32_t keyboard, uint32_t scan, bool pressed) {
   if (number == kNothing) return {};
   const control_files::KeyDefinition& definition = board.keys[number - 1];
   const bool isFunction = switchFunction(definition.rtmCommand, pressed);
-  return {definition.plcCommand, isFunction ? std::string_view() : definition.rtmCommand, pressed};
+  return {number <= board.codes.size() ? board.codes[number - 1] : std::nullopt,
+          isFunction ? std::string_view() : definition.rtmCommand};
 }
 
 // RTMID_KEYBx_FUNCTIONy: while the key is held; _TOGGLE: its state changes, the highest one that is on counts; _SWITCH:

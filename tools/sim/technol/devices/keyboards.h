@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,11 +21,10 @@ struct KeyboardState {
   std::array<uint8_t, 3> states{}; // TL_Fun1State to TL_Fun3State: 0, 0FFh
 };
 
-// What the press or the release of a key makes the control do. The texts stay as long as the configuration.
+// What the press or the release of a key makes the control do. The text stays as long as the configuration.
 struct KeyActions {
-  std::string_view plcCommand; // _ON_CMD with the code of this constant in DR, RLO := pressed (man. l.1614-1626)
-  std::string_view rtmCommand; // an order to the real-time part: manual motion, handwheel, ...
-  bool pressed = false;
+  std::optional<int64_t> plcCommand; // _ON_CMD with this code in DR, RLO := pressed (man. l.1614-1626)
+  std::string_view rtmCommand;       // an order to the real-time part: manual motion, handwheel, ...
 };
 
 class Keyboards {
@@ -32,10 +32,12 @@ public:
   static constexpr uint32_t kKeyboards = 8, kKeys = 256, kFunctions = 4;
   static constexpr uint32_t kVirtual = 6;
 
-  // "KbdConfig0": a file of keyboard 0, beside others; relative to `folder`. "" done, a text: what is wrong; nothing:
-  // another key.
-  std::optional<std::string> configure(std::string_view key, std::string_view file, const std::string& folder);
+  // "KbdConfig0": a file of keyboard 0, beside others. "" done, a text: what is wrong; nothing: another key.
+  std::optional<std::string> configure(std::string_view key, const std::string& path);
   void define(uint32_t keyboard, std::vector<control_files::KeyDefinition> keys);
+  // Before keys are pressed: the codes of PlcCommand by the identifiers of PLC constants. "" or what is wrong, a line
+  // "FILE:LINE:COLUMN: ..." each.
+  std::string resolveCommands(const std::function<std::optional<int64_t>(std::string_view)>& constantOf);
 
   // At a power-on: no key is pressed, every function is 0.
   void power();
@@ -43,11 +45,15 @@ public:
   // A key is pressed or released; one that is so already does nothing. A release belongs to what the press did,
   // whatever function is valid by then. Functions are switched here, and are not actions.
   KeyActions key(uint32_t keyboard, uint32_t scan, bool pressed);
+  bool isPressed(uint32_t keyboard, uint32_t scan) const { return boards_[keyboard].pressed[scan] != 0; }
   const KeyboardState& state(uint32_t keyboard) const { return boards_[keyboard].state; }
+  // It has keys.
+  bool exists(uint32_t keyboard) const { return keyboard < kKeyboards && !boards_[keyboard].keys.empty(); }
 
 private:
   struct Board {
     std::vector<control_files::KeyDefinition> keys;
+    std::vector<std::optional<int64_t>> codes; // of their PlcCommand
     KeyboardState state;
     std::array<uint16_t, kKeys> pressed{};  // 0: not pressed, else number of the definition + 1, or kNothing
     std::array<uint8_t, kFunctions> held{}; // keys that keep a function while they are pressed

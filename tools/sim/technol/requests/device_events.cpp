@@ -1,11 +1,11 @@
 // What a scenario does to the devices, and what it sees of them (see simulated_devices.h; inventory of the services,
 // 15).
-#include <bit>
 #include <cmath>
 
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "tools/sim/technol/requests/scenario_texts.h"
 #include "tools/sim/technol/requests/simulated_devices.h"
 
 namespace rung::sim::technol {
@@ -50,14 +50,6 @@ std::string unknownKey(Keys keys, std::string_view event, std::string_view known
   return {};
 }
 
-// As a scenario writes them: "0102FF".
-std::string hexOf(std::span<const uint8_t> bytes) {
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
-  std::string text;
-  for (const uint8_t byte : bytes) text += {kDigits[byte >> 4], kDigits[byte & 15]};
-  return text;
-}
-
 AxisMask axesOf(Keys keys) {
   const int64_t axis = number(keys, "axis", 0);
   if (axis >= 1 && axis <= kMaxAxes) return bitOf(static_cast<uint32_t>(axis - 1));
@@ -93,15 +85,9 @@ uint32_t takeNumber(std::string_view& rest) {
   return number.value_or(UINT32_MAX);
 }
 
-bool takePrefix(std::string_view& name, std::string_view prefix) {
-  if (!text::equalsIgnoringCase(name.substr(0, prefix.size()), prefix)) return false;
-  name.remove_prefix(prefix.size());
-  return true;
-}
-
 } // namespace
 
-std::optional<std::string> SimulatedDevices::event(std::string_view name, Keys keys) {
+std::optional<std::string> SimulatedDevices::event(host::Instance& instance, std::string_view name, Keys keys) {
   const auto is = [&](std::string_view event) { return text::equalsIgnoringCase(name, event); };
   const auto checked = [&](std::string_view known, auto act) -> std::optional<std::string> {
     if (std::string wrong = unknownKey(keys, name, known); !wrong.empty()) return wrong;
@@ -123,6 +109,7 @@ std::optional<std::string> SimulatedDevices::event(std::string_view name, Keys k
   if (is("AUTMAN")) return checked("on", [&] { return axes_.autman(number(keys, "on", 1) != 0), std::string(); });
   if (is("RTM"))
     return checked("command state", [&] { return axes_.rtm(textOf(keys, "command"), number(keys, "state", 1) != 0); });
+  if (is("KEY")) return keyEvent(instance, keys);
   if (is("handwheel")) return checked("pulses wheel", [&] { return turnHandwheel(axes_, keys); });
   return std::nullopt;
 }
@@ -179,142 +166,6 @@ std::optional<std::string> SimulatedDevices::setQuantity(std::string_view name, 
   const auto bits = static_cast<uint64_t>(static_cast<int64_t>(std::llround(value)));
   const bool done = object ? ethercat_.setObject(a, b, c, bits) : ethercat_.setIdn(a, b, c, bits);
   return std::string(done ? "" : "there is no such object");
-}
-
-// ---- cells ---------------------------------------------------------------------------------------------------------
-
-namespace {
-
-constexpr std::string_view kLineCount = "LinesCount", kSelectedLine = "SelLine"; // of a table
-
-// SA0+n:w, w 1, 2, 4 or 8.
-struct AreaCell {
-  uint32_t area = 0, offset = 0, width = 0;
-};
-bool isAreaName(std::string_view name) {
-  return takePrefix(name, "SA") && name.size() > 1 && name[0] >= '0' && name[0] <= '9' && name[1] == '+';
-}
-std::optional<AreaCell> areaCell(std::string_view name) {
-  if (!isAreaName(name)) return std::nullopt;
-  name.remove_prefix(2);
-  const size_t colon = name.find(':');
-  if (colon == std::string_view::npos) return std::nullopt;
-  const auto area = text::numberIn<uint32_t>(name.substr(0, 1)),
-             offset = text::numberIn<uint32_t>(name.substr(2, colon - 2)),
-             width = text::numberIn<uint32_t>(name.substr(colon + 1));
-  const bool fits = area && offset && width && (*width == 1 || *width == 2 || *width == 4 || *width == 8) &&
-                    *offset + *width <= devices::SharedAreas::kAreaBytes && *area < devices::SharedAreas::kAreas;
-  return fits ? std::optional(AreaCell{*area, *offset, *width}) : std::nullopt;
-}
-
-// PlcTable0[2].Feed, PlcTable0.LinesCount, PlcTable0.SelLine.
-struct TableCell {
-  uint32_t table = 0;
-  std::optional<uint32_t> line;
-  std::string_view column;
-};
-std::optional<TableCell> tableCell(std::string_view name) {
-  if (!takePrefix(name, "PlcTable")) return std::nullopt;
-  const size_t end = name.find_first_of("[.");
-  const auto table = text::numberIn<uint32_t>(name.substr(0, end));
-  if (!table || end == std::string_view::npos) return std::nullopt;
-  TableCell cell{.table = *table, .line = {}, .column = {}};
-  name.remove_prefix(end);
-  if (name.front() == '[') {
-    const size_t close = name.find(']');
-    cell.line = close == std::string_view::npos ? std::nullopt : text::numberIn<uint32_t>(name.substr(1, close - 1));
-    if (!cell.line) return std::nullopt;
-    name.remove_prefix(close + 1);
-  }
-  if (name.empty() || name.front() != '.') return std::nullopt;
-  cell.column = name.substr(1);
-  return cell;
-}
-
-// KnobSelAx0, Pos6ShiftAx0 …: what panels show of the axes (l.10926-10937).
-std::optional<NcCell> panelCell(const AxisOutputs& out, std::string_view name) {
-  const bool shift = takePrefix(name, "Pos6ShiftAx");
-  if (!shift && !takePrefix(name, "KnobSelAx")) return std::nullopt;
-  const auto axis = text::numberIn<uint32_t>(name);
-  if (!axis || *axis >= kMaxAxes) return std::nullopt;
-  if (shift) return NcCell{.isReal = true, .bits = std::bit_cast<uint64_t>(out.shiftMm[*axis])};
-  return NcCell{.width = 8, .bits = out.knobSelected[*axis]};
-}
-
-} // namespace
-
-std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
-  if (const auto at = areaCell(name)) {
-    const auto bytes = const_cast<devices::SharedAreas&>(areas_).bytes(at->area).subspan(at->offset, at->width);
-    NcCell cell{.width = at->width * 8, .untyped = true};
-    for (uint32_t i = 0; i < at->width; ++i) cell.bits |= uint64_t{bytes[i]} << 8 * i;
-    return cell;
-  }
-  if (const auto cell = simulated_ ? panelCell(axisOutputs_, name) : std::nullopt) return cell;
-  const auto at = tableCell(name);
-  if (!at || !tables_.exists(at->table)) return std::nullopt;
-  uint32_t number = 0;
-  if (!at->line) {
-    const bool lines = text::equalsIgnoringCase(at->column, kLineCount);
-    if (!lines && !text::equalsIgnoringCase(at->column, kSelectedLine)) return std::nullopt;
-    lines ? tables_.lineCount(at->table, number) : tables_.selectedLine(at->table, number);
-    return NcCell{.width = 32, .bits = number};
-  }
-  if (tables_.columnIndex(at->table, nc::memoryText(at->column), number) != devices::TableError::None)
-    return std::nullopt;
-  int32_t integer = 0;
-  if (tables_.getInt(at->table, *at->line, number, integer) == devices::TableError::None)
-    return NcCell{.width = 32, .bits = static_cast<uint32_t>(integer)};
-  double real = 0;
-  if (tables_.getReal(at->table, *at->line, number, real) == devices::TableError::None)
-    return NcCell{.isReal = true, .bits = std::bit_cast<uint64_t>(real)};
-  std::string_view text;
-  if (tables_.getText(at->table, *at->line, number, text) == devices::TableError::None)
-    return NcCell{.isText = true, .text = nc::shownText(text)};
-  std::span<const uint8_t> bytes;
-  if (tables_.getBinary(at->table, *at->line, number, bytes) == devices::TableError::None)
-    return NcCell{.isText = true, .text = hexOf(bytes)};
-  return std::nullopt;
-}
-
-std::optional<std::string> SimulatedDevices::writeCell(std::string_view name, const NcCell& value) {
-  if (const auto at = areaCell(name)) {
-    if (value.isText) return "a shared area holds numbers, not a text";
-    const auto bytes = areas_.bytes(at->area).subspan(at->offset, at->width);
-    for (uint32_t i = 0; i < at->width; ++i) bytes[i] = static_cast<uint8_t>(value.bits >> 8 * i);
-    return std::string();
-  }
-  const auto at = tableCell(name);
-  if (!at || !tables_.exists(at->table)) return std::nullopt;
-  if (at->line && value.isText) return tables_.edit(at->table, *at->line, at->column, value.text);
-  const double number =
-      value.isReal ? std::bit_cast<double>(value.bits) : static_cast<double>(static_cast<int64_t>(value.bits));
-  if (at->line) return tables_.edit(at->table, *at->line, at->column, number);
-  if (!text::equalsIgnoringCase(at->column, kSelectedLine)) return std::nullopt;
-  const bool isLine = !value.isText && number >= 0 && number < devices::PlcTables::kMostLines;
-  return isLine ? tables_.selectByOperator(at->table, static_cast<uint32_t>(number)) : "a line is a number from 0";
-}
-
-std::string SimulatedDevices::cellProblem(std::string_view name) const {
-  if (isAreaName(name) && !areaCell(name))
-    return "a cell of a shared area is SA0+OFFSET:WIDTH or SA1+OFFSET:WIDTH, of 1, 2, 4 or 8 bytes within " +
-           std::to_string(devices::SharedAreas::kAreaBytes);
-  const auto at = tableCell(name);
-  if (!at) return {};
-  const std::string table = "PLC table " + std::to_string(at->table);
-  if (!tables_.exists(at->table)) return "there is no " + table;
-  uint32_t number = 0;
-  if (!at->line) return table + " has " + std::string(kLineCount) + " and " + std::string(kSelectedLine);
-  if (tables_.columnIndex(at->table, nc::memoryText(at->column), number) != devices::TableError::None)
-    return table + " has no column '" + std::string(at->column) + "'";
-  return tables_.lineProblem(at->table, *at->line);
-}
-
-bool SimulatedDevices::cellMayCome(std::string_view name) const {
-  const auto at = tableCell(name);
-  uint32_t number = 0;
-  return at && at->line && *at->line < devices::PlcTables::kMostLines &&
-         tables_.columnIndex(at->table, nc::memoryText(at->column), number) == devices::TableError::None;
 }
 
 } // namespace rung::sim::technol

@@ -49,17 +49,13 @@ std::optional<std::string> SimulatedDevices::configure(std::string_view key, std
   if (const auto wired = inputs_.configure(key, value, axes_)) return *wired;
   if (ComPorts::owns(key)) return com_.configure(key, value);
   if (EtherCat::owns(key)) return ethercat_.configure(key, value);
+  if (const auto keyboard = keyboards_.configure(key, path)) return *keyboard;
   return can_.configure(key, value);
 }
 
 void SimulatedDevices::loadTables() {
   tablesLoaded_ = true;
   if (hasTables_) tableProblem_ = files_.load(tables_);
-}
-
-std::string SimulatedDevices::problem() const {
-  std::string axes = simulated_ ? axes_.configurationProblem() : std::string();
-  return axes.empty() ? tableProblem_ : axes;
 }
 
 uint32_t SimulatedDevices::keptSize() {
@@ -73,7 +69,7 @@ void SimulatedDevices::restoreKept(std::span<const uint8_t> image) {
 }
 
 // Tables are stored with each change, so that a warm start finds them as they were (inventory of the services, 15.5).
-void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind) {
+void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind, const ConstantOf& constantOf) {
   locate(instance);
   if (!tablesLoaded_ || (kind == nc::PowerOn::Cold && !tablesRestored_)) loadTables();
   tablesRestored_ = false;
@@ -89,6 +85,8 @@ void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind) {
   ethercat_.powerOn();
   servos_.powerOn();
   axisInputs_ = {};
+  keyboards_.power();
+  keyProblem_ = keyboards_.resolveCommands(constantOf);
   axisOutputs_ = {};
   canInputs_ = {};
   canOutputs_ = {};
@@ -119,6 +117,7 @@ void SimulatedDevices::locate(host::Instance& instance) {
   inputs_.locate(program);
   statePlaces_ = StatePlaces(program);
   servoPlaces_ = ServoPlaces(program);
+  keyboardPlaces_ = KeyboardPlaces(program);
 }
 
 bool SimulatedDevices::answers(DeviceOrder order) const {
@@ -167,6 +166,14 @@ void SimulatedDevices::complainOfDrive(CanOrder order, const DeviceCall& call) {
   if (order == CanOrder::Drive && !exists) complaints_.add({"CAN_AX_SEND", "axis", call.arg(0), ""});
 }
 
+std::vector<std::string> SimulatedDevices::problems() const {
+  std::vector<std::string> found;
+  const std::string axes = simulated_ ? axes_.configurationProblem() : std::string();
+  for (const std::string* problem : {&axes, &tableProblem_, &keyProblem_})
+    if (!problem->empty()) found.push_back(*problem);
+  return found;
+}
+
 void SimulatedDevices::startProgram() {
   can_.control().startProgram();
   canCalls_.clear();
@@ -188,22 +195,23 @@ void SimulatedDevices::blockStarted(host::Instance& instance) {
 
 // ---- time ----------------------------------------------------------------------------------------------------------
 
-void SimulatedDevices::beforeInput(host::Instance& instance) {
+void SimulatedDevices::beforeInput(host::Instance& instance, ModuleCells& cells) {
   if (!simulated_) return canCalls_.deliver(instance, canPlaces_);
-  pass(instance, static_cast<int64_t>(host::scanPeriodUs(instance.program())));
+  pass(instance, cells, static_cast<int64_t>(host::scanPeriodUs(instance.program())));
   devicesUs_ = std::max(devicesUs_, instance.nowUs()); // passes may be left out on a real clock
 }
 
-void SimulatedDevices::idle(host::Instance& instance) {
+void SimulatedDevices::idle(host::Instance& instance, ModuleCells& cells) {
   if (!simulated_) return canCalls_.deliver(instance, canPlaces_);
-  if (const int64_t us = instance.nowUs() - devicesUs_; us >= kUsPerTick) pass(instance, us);
+  if (const int64_t us = instance.nowUs() - devicesUs_; us >= kUsPerTick) pass(instance, cells, us);
 }
 
-void SimulatedDevices::pass(host::Instance& instance, int64_t us) {
+void SimulatedDevices::pass(host::Instance& instance, ModuleCells& cells, int64_t us) {
+  takeVirtualKeys(instance, cells);
   const auto ticks = static_cast<uint32_t>(us / kUsPerTick);
   devicesUs_ += us;
   tickAxes(instance, ticks);
-  tickOthers(instance, ticks);
+  tickOthers(instance, cells, ticks);
   inputs_.pass(instance.memory(), axes_, us);
 }
 
@@ -215,12 +223,13 @@ void SimulatedDevices::tickAxes(host::Instance& instance, uint32_t ticks) {
   axisPlaces_.write(memory, axes_.count(), axisInputs_.blockMotion, axisRequests_, axisOutputs_);
 }
 
-void SimulatedDevices::tickOthers(host::Instance& instance, uint32_t ticks) {
+void SimulatedDevices::tickOthers(host::Instance& instance, ModuleCells& cells, uint32_t ticks) {
   const rt::Memory memory = instance.memory();
   canPlaces_.readTerminals(memory, canOutputs_.units, canInputs_.terminals);
   canPlaces_.read(memory, canInputs_.units, canInputs_.drives, canOutputs_.units);
   statePlaces_.read(memory, stateBits_);
   servoPlaces_.read(memory, servoCells_);
+  takeOutputs(cells, ethercat_.image(), servoCells_);
   for (uint32_t i = 0; i < ticks; ++i) {
     com_.tick();
     can_.tick(canInputs_, canOutputs_);
@@ -230,6 +239,7 @@ void SimulatedDevices::tickOthers(host::Instance& instance, uint32_t ticks) {
   canPlaces_.write(memory, canOutputs_.units, canOutputs_.drives, can_.control());
   statePlaces_.write(memory, stateBits_);
   servoPlaces_.write(memory, servoCells_);
+  giveInputs(cells, ethercat_.image(), servoCells_, axisOutputs_, axes_.count());
   canCalls_.showDrive(memory, canPlaces_);
   canCalls_.deliver(instance, canPlaces_);
   if (ethercatCalls_.finish(instance, bytes_)) instance.services().deliver();
@@ -238,6 +248,8 @@ void SimulatedDevices::tickOthers(host::Instance& instance, uint32_t ticks) {
 void SimulatedDevices::takeLog(std::vector<std::string>& log) {
   Complaint complaint;
   while (axes_.takeComplaint(complaint) || complaints_.take(complaint)) log.push_back(complaint.text());
+  devices::DriveMessage message;
+  while (can_.control().takeMessage(message)) log.push_back(devices::textOf(message));
 }
 
 } // namespace rung::sim::technol

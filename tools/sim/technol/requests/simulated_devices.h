@@ -19,9 +19,13 @@
 #include "tools/sim/technol/devices/can_devices.h"
 #include "tools/sim/technol/devices/com.h"
 #include "tools/sim/technol/devices/ethercat.h"
+#include "tools/sim/technol/events.h"
+#include "tools/sim/technol/module_cells.h"
 #include "tools/sim/technol/requests/axis_requests.h"
 #include "tools/sim/technol/requests/event_keys.h"
 #include "tools/sim/technol/requests/input_wiring.h"
+#include "tools/sim/technol/requests/keyboard_places.h"
+#include "tools/sim/technol/requests/module_points.h"
 #include "tools/sim/technol/requests/servo_places.h"
 
 namespace rung::sim::technol {
@@ -30,14 +34,17 @@ class SimulatedDevices {
 public:
   SimulatedDevices();
 
+  // Before the first power-on: process data of the simulated net are found there.
+  const EthercatImage& image() const { return ethercat_.image(); }
   // Before the first power-on. "" or what is wrong; nothing: a key of something else. `path` is that of a file.
   std::optional<std::string> configure(std::string_view key, std::string_view value, const std::string& path);
   bool simulated() const { return simulated_; }
 
   // Memory has been started; MODULE_INIT follows. A cold start reads the tables' files anew.
-  void powerOn(host::Instance& instance, nc::PowerOn kind);
-  // What is wrong with the configuration and the tables that were read last, a line each; "": nothing.
-  std::string problem() const;
+  void powerOn(host::Instance& instance, nc::PowerOn kind, const ConstantOf& constantOf);
+  // What is wrong with the configuration, and the files of tables and keyboards as they were read last; each may have
+  // several lines.
+  std::vector<std::string> problems() const;
   // Another program has taken over from `former`, which still exists.
   void programChanged(host::Instance& instance, const rung_program& former);
   // START PLC, before MODULE_INIT.
@@ -47,20 +54,20 @@ public:
   // A block of the part program has begun, whose motion PO_OSxPI says.
   void blockStarted(host::Instance& instance);
   // The hook before MODULE_INPUT: the devices do what they do in one pass.
-  void beforeInput(host::Instance& instance);
+  void beforeInput(host::Instance& instance, ModuleCells& cells);
   // The program does not run; the devices do, up to the time of now.
-  void idle(host::Instance& instance);
+  void idle(host::Instance& instance, ModuleCells& cells);
   // False: nobody here answers.
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
   // Lines for the log since the last call.
   void takeLog(std::vector<std::string>& log);
 
   // "" or what is wrong; nothing: another event.
-  std::optional<std::string> event(std::string_view name, std::span<const NcArgument> keys);
+  std::optional<std::string> event(host::Instance& instance, std::string_view name, std::span<const NcArgument> keys);
   // Quantities without "NC.".
   std::optional<double> quantity(std::string_view name) const;
   std::optional<std::string> setQuantity(std::string_view name, double value);
-  // SA0+n:w and PlcTableN.…
+  // SA0+n:w, PlcTableN.…, DISPTOCn.Shown[row][column]
   std::optional<NcCell> readCell(std::string_view name) const;
   std::optional<std::string> writeCell(std::string_view name, const NcCell& value);
   std::string cellProblem(std::string_view name) const;
@@ -89,9 +96,20 @@ private:
   bool answers(device_requests::DeviceOrder order) const;
   void locate(host::Instance& instance);
   void loadTables();
-  void pass(host::Instance& instance, int64_t us);
+  void pass(host::Instance& instance, ModuleCells& cells, int64_t us);
+  std::optional<NcCell> readTable(std::string_view name) const;
+  std::optional<NcCell> readModule(std::string_view name) const;
+  std::optional<ModulePoint> givenPoint(std::string_view identifier) const;
+  std::optional<std::string> writeTable(std::string_view name, const NcCell& value);
+  // Of a display or a unit.
+  std::string deviceProblem(std::string_view name) const;
+  // Null: there is no such handwheel.
+  const HandwheelDisplay* displayOf(uint32_t wheel) const;
+  std::string keyEvent(host::Instance& instance, std::span<const NcArgument> given);
+  void pressKey(host::Instance& instance, uint32_t keyboard, uint32_t scan, bool pressed);
+  void takeVirtualKeys(host::Instance& instance, const ModuleCells& cells);
   void tickAxes(host::Instance& instance, uint32_t ticks);
-  void tickOthers(host::Instance& instance, uint32_t ticks);
+  void tickOthers(host::Instance& instance, ModuleCells& cells, uint32_t ticks);
   void complainOfDrive(device_requests::CanOrder order, const device_requests::DeviceCall& call);
 
   bool simulated_ = false;
@@ -106,6 +124,7 @@ private:
   EtherCat ethercat_;
   device_requests::EthercatCalls ethercatCalls_{ethercat_};
   EthercatServos servos_;
+  Keyboards keyboards_;
 
   device_requests::AnswerBytes bytes_;
   std::vector<device_requests::DeviceOrder> services_; // by the program's numbers
@@ -113,6 +132,7 @@ private:
   device_requests::CanPlaces canPlaces_;
   device_requests::StatePlaces statePlaces_;
   ServoPlaces servoPlaces_;
+  KeyboardPlaces keyboardPlaces_;
   AxisInputs axisInputs_;
   AxisRequests axisRequests_;
   AxisOutputs axisOutputs_;
@@ -123,7 +143,7 @@ private:
   devices::ethercat::StateBits stateBits_;
   EthercatServos::Cells servoCells_;
   int64_t devicesUs_ = 0; // the time up to which the devices have come
-  std::string tableProblem_;
+  std::string tableProblem_, keyProblem_;
   bool tablesLoaded_ = false;
   bool tablesRestored_ = false; // for the next power-on
 };

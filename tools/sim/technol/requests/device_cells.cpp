@@ -1,0 +1,235 @@
+// Names of what lies in the devices and not in the program's memory (see simulated_devices.h; inventory of the
+// services, 15.5, 15.6).
+#include <bit>
+
+#include "rtlib/nc/control/technol/identifier.h"
+#include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/number.h"
+#include "tools/sim/technol/requests/scenario_texts.h"
+#include "tools/sim/technol/requests/simulated_devices.h"
+#include "tools/sim/technol/requests/unit_cells.h"
+
+namespace rung::sim::technol {
+namespace {
+
+constexpr std::string_view kLineCount = "LinesCount", kSelectedLine = "SelLine"; // of a table
+
+// SA0+n:w, w 1, 2, 4 or 8.
+struct AreaCell {
+  uint32_t area = 0, offset = 0, width = 0;
+};
+bool isAreaName(std::string_view name) {
+  return takePrefix(name, "SA") && name.size() > 1 && name[0] >= '0' && name[0] <= '9' && name[1] == '+';
+}
+std::optional<AreaCell> areaCell(std::string_view name) {
+  if (!isAreaName(name)) return std::nullopt;
+  name.remove_prefix(2);
+  const size_t colon = name.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  const auto area = text::numberIn<uint32_t>(name.substr(0, 1)),
+             offset = text::numberIn<uint32_t>(name.substr(2, colon - 2)),
+             width = text::numberIn<uint32_t>(name.substr(colon + 1));
+  const bool fits = area && offset && width && (*width == 1 || *width == 2 || *width == 4 || *width == 8) &&
+                    *offset + *width <= devices::SharedAreas::kAreaBytes && *area < devices::SharedAreas::kAreas;
+  return fits ? std::optional(AreaCell{*area, *offset, *width}) : std::nullopt;
+}
+
+// PlcTable0[2].Feed, PlcTable0.LinesCount, PlcTable0.SelLine.
+struct TableCell {
+  uint32_t table = 0;
+  std::optional<uint32_t> line;
+  std::string_view column;
+};
+std::optional<TableCell> tableCell(std::string_view name) {
+  if (!takePrefix(name, "PlcTable")) return std::nullopt;
+  const size_t end = name.find_first_of("[.");
+  const auto table = text::numberIn<uint32_t>(name.substr(0, end));
+  if (!table || end == std::string_view::npos) return std::nullopt;
+  TableCell cell{.table = *table, .line = {}, .column = {}};
+  name.remove_prefix(end);
+  if (name.front() == '[') {
+    const size_t close = name.find(']');
+    cell.line = close == std::string_view::npos ? std::nullopt : text::numberIn<uint32_t>(name.substr(1, close - 1));
+    if (!cell.line) return std::nullopt;
+    name.remove_prefix(close + 1);
+  }
+  if (name.empty() || name.front() != '.') return std::nullopt;
+  cell.column = name.substr(1);
+  return cell;
+}
+
+// KnobSelAx0, Pos6ShiftAx0 …: what panels show of the axes (l.10926-10937).
+std::optional<NcCell> panelCell(const AxisOutputs& out, std::string_view name) {
+  const bool shift = takePrefix(name, "Pos6ShiftAx");
+  if (!shift && !takePrefix(name, "KnobSelAx")) return std::nullopt;
+  const auto axis = text::numberIn<uint32_t>(name);
+  if (!axis || *axis >= kMaxAxes) return std::nullopt;
+  if (shift) return NcCell{.isReal = true, .bits = std::bit_cast<uint64_t>(out.shiftMm[*axis])};
+  return NcCell{.width = 8, .bits = out.knobSelected[*axis]};
+}
+
+// DISPTOC1.Shown[0][16]: row and column in pixels.
+struct ShownAt {
+  uint32_t wheel = 0; // from 1
+  uint32_t row = 0, column = 0;
+};
+std::optional<ShownAt> shownAt(std::string_view name) {
+  if (!takePrefix(name, "DISPTOC") || name.empty()) return std::nullopt;
+  const auto wheel = text::numberIn<uint32_t>(name.substr(0, 1));
+  name.remove_prefix(1);
+  if (!wheel || *wheel < 1 || *wheel > devices::kHandwheels || !takePrefix(name, ".Shown")) return std::nullopt;
+  const auto row = nc::technol::takeIndex(name), column = nc::technol::takeIndex(name);
+  if (!row || !column || !name.empty()) return std::nullopt;
+  return ShownAt{*wheel, *row, *column};
+}
+
+} // namespace
+
+std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
+  if (const auto at = areaCell(name)) {
+    const auto bytes = const_cast<devices::SharedAreas&>(areas_).bytes(at->area).subspan(at->offset, at->width);
+    NcCell cell{.width = at->width * 8, .untyped = true};
+    for (uint32_t i = 0; i < at->width; ++i) cell.bits |= uint64_t{bytes[i]} << 8 * i;
+    return cell;
+  }
+  if (const auto cell = simulated_ ? panelCell(axisOutputs_, name) : std::nullopt) return cell;
+  if (const auto at = shownAt(name)) {
+    const HandwheelDisplay* display = displayOf(at->wheel);
+    if (display == nullptr || !HandwheelDisplay::isPixel(at->row, at->column)) return std::nullopt;
+    return NcCell{.isText = true, .text = nc::shownText(display->text(at->row, at->column))};
+  }
+  if (const auto unit = UnitCell::named(name))
+    return simulated_ && unit->problem(can_).empty() ? std::optional(unit->read(can_)) : std::nullopt;
+  if (const auto value = readModule(name)) return value;
+  return readTable(name);
+}
+
+// Of modules: what devices give. Cells have the rest, and this where it is connected (module_cells.h).
+std::optional<NcCell> SimulatedDevices::readModule(std::string_view name) const {
+  const std::string identifier = nc::technol::canonical(nc::memoryText(name));
+  const nc::technol::Reference reference = nc::technol::withoutBit(identifier);
+  const auto point = givenPoint(reference.base);
+  if (!point) return std::nullopt;
+  if (point->kind != ModulePoint::Kind::ProcessData)
+    return reference.bit ? std::nullopt
+                         : std::optional(NcCell{.isReal = true,
+                                                .bits = std::bit_cast<uint64_t>(positionAt(*point, axisOutputs_))});
+  const EthercatImage& image = ethercat_.image();
+  const uint64_t bits = image.read(point->number);
+  const uint32_t width = 8 * image.bytesOf(point->number);
+  if (!reference.bit) return NcCell{.width = width, .bits = bits};
+  return *reference.bit < width ? std::optional(NcCell{.width = 1, .bits = bits >> *reference.bit & 1}) : std::nullopt;
+}
+
+// An input of the simulated net, or the position of an axis that exists.
+std::optional<ModulePoint> SimulatedDevices::givenPoint(std::string_view identifier) const {
+  if (!simulated_) return std::nullopt;
+  const EthercatImage& image = ethercat_.image();
+  if (const uint32_t entry = image.find(identifier); entry != RUNG_NONE && image[entry].isInput)
+    return ModulePoint{ModulePoint::Kind::ProcessData, entry};
+  std::string problem;
+  const auto element = moduleElement(identifier, problem);
+  if (!element) return std::nullopt;
+  const ModulePoint& point = element->point;
+  const bool isPosition = point.kind == ModulePoint::Kind::Position || point.kind == ModulePoint::Kind::Shift;
+  return isPosition && axes_.exists(point.number + 1) ? std::optional(point) : std::nullopt;
+}
+
+const HandwheelDisplay* SimulatedDevices::displayOf(uint32_t wheel) const {
+  const SimulatedUnit* unit = simulated_ ? can_.unit(devices::kHandwheel, wheel) : nullptr;
+  return unit == nullptr ? nullptr : unit->display();
+}
+
+std::optional<NcCell> SimulatedDevices::readTable(std::string_view name) const {
+  const auto at = tableCell(name);
+  if (!at || !tables_.exists(at->table)) return std::nullopt;
+  uint32_t number = 0;
+  if (!at->line) {
+    const bool lines = text::equalsIgnoringCase(at->column, kLineCount);
+    if (!lines && !text::equalsIgnoringCase(at->column, kSelectedLine)) return std::nullopt;
+    lines ? tables_.lineCount(at->table, number) : tables_.selectedLine(at->table, number);
+    return NcCell{.width = 32, .bits = number};
+  }
+  if (tables_.columnIndex(at->table, nc::memoryText(at->column), number) != devices::TableError::None)
+    return std::nullopt;
+  int32_t integer = 0;
+  if (tables_.getInt(at->table, *at->line, number, integer) == devices::TableError::None)
+    return NcCell{.width = 32, .bits = static_cast<uint32_t>(integer)};
+  double real = 0;
+  if (tables_.getReal(at->table, *at->line, number, real) == devices::TableError::None)
+    return NcCell{.isReal = true, .bits = std::bit_cast<uint64_t>(real)};
+  std::string_view text;
+  if (tables_.getText(at->table, *at->line, number, text) == devices::TableError::None)
+    return NcCell{.isText = true, .text = nc::shownText(text)};
+  std::span<const uint8_t> bytes;
+  if (tables_.getBinary(at->table, *at->line, number, bytes) == devices::TableError::None)
+    return NcCell{.isText = true, .text = hexOf(bytes)};
+  return std::nullopt;
+}
+
+std::optional<std::string> SimulatedDevices::writeCell(std::string_view name, const NcCell& value) {
+  if (const auto at = areaCell(name)) {
+    if (value.isText) return "a shared area holds numbers, not a text";
+    const auto bytes = areas_.bytes(at->area).subspan(at->offset, at->width);
+    for (uint32_t i = 0; i < at->width; ++i) bytes[i] = static_cast<uint8_t>(value.bits >> 8 * i);
+    return std::string();
+  }
+  const std::string identifier = nc::technol::canonical(nc::memoryText(name));
+  if (const auto point = givenPoint(nc::technol::withoutBit(identifier).base))
+    return point->kind == ModulePoint::Kind::ProcessData
+               ? "it is what the device gives: `set NC.ETHERCAT.DEVICE.INDEX.SUB` sets the object"
+               : "it is where the axis is: `set NC.TRUE." + std::to_string(point->number + 1) + "` moves it";
+  if (shownAt(name)) return "what the display shows is written by the program, to DISPTOC1 and DISPTOC2";
+  if (const auto unit = UnitCell::named(name)) {
+    if (!simulated_ || !unit->problem(can_).empty()) return std::nullopt;
+    return unit->write(can_, canInputs_, value);
+  }
+  return writeTable(name, value);
+}
+
+std::optional<std::string> SimulatedDevices::writeTable(std::string_view name, const NcCell& value) {
+  const auto at = tableCell(name);
+  if (!at || !tables_.exists(at->table)) return std::nullopt;
+  if (at->line && value.isText) return tables_.edit(at->table, *at->line, at->column, value.text);
+  const double number =
+      value.isReal ? std::bit_cast<double>(value.bits) : static_cast<double>(static_cast<int64_t>(value.bits));
+  if (at->line) return tables_.edit(at->table, *at->line, at->column, number);
+  if (!text::equalsIgnoringCase(at->column, kSelectedLine)) return std::nullopt;
+  const bool isLine = !value.isText && number >= 0 && number < devices::PlcTables::kMostLines;
+  return isLine ? tables_.selectByOperator(at->table, static_cast<uint32_t>(number)) : "a line is a number from 0";
+}
+
+std::string SimulatedDevices::deviceProblem(std::string_view name) const {
+  if (!simulated_) return "it is there with `config nc simulated`";
+  if (const auto unit = UnitCell::named(name)) return unit->problem(can_);
+  const std::string wheel = std::to_string(shownAt(name)->wheel);
+  if (displayOf(shownAt(name)->wheel) == nullptr)
+    return "there is no such handwheel; `config CAN[1].KnobCnt " + wheel + "` adds it";
+  return "a display has the rows 0 to " + std::to_string(HandwheelDisplay::kRows - 1) + " and the columns 0 to " +
+         std::to_string(HandwheelDisplay::kColumns - 1);
+}
+
+std::string SimulatedDevices::cellProblem(std::string_view name) const {
+  if (isAreaName(name) && !areaCell(name))
+    return "a cell of a shared area is SA0+OFFSET:WIDTH or SA1+OFFSET:WIDTH, of 1, 2, 4 or 8 bytes within " +
+           std::to_string(devices::SharedAreas::kAreaBytes);
+  if (shownAt(name) || UnitCell::named(name)) return deviceProblem(name);
+  const auto at = tableCell(name);
+  if (!at) return {};
+  const std::string table = "PLC table " + std::to_string(at->table);
+  if (!tables_.exists(at->table)) return "there is no " + table;
+  uint32_t number = 0;
+  if (!at->line) return table + " has " + std::string(kLineCount) + " and " + std::string(kSelectedLine);
+  if (tables_.columnIndex(at->table, nc::memoryText(at->column), number) != devices::TableError::None)
+    return table + " has no column '" + std::string(at->column) + "'";
+  return tables_.lineProblem(at->table, *at->line);
+}
+
+bool SimulatedDevices::cellMayCome(std::string_view name) const {
+  const auto at = tableCell(name);
+  uint32_t number = 0;
+  return at && at->line && *at->line < devices::PlcTables::kMostLines &&
+         tables_.columnIndex(at->table, nc::memoryText(at->column), number) == devices::TableError::None;
+}
+
+} // namespace rung::sim::technol

@@ -7,6 +7,7 @@
 
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/text/blanks.h"
+#include "rtlib/text/letters.h"
 #include "tools/control-files/xml_reader.h"
 
 namespace rung::control_files {
@@ -27,12 +28,18 @@ enum class Element : uint8_t {
   Terminal,
   Connections,
   Connection,
+  Device,
 };
 
 constexpr std::string_view kKindNames[] = {"ErrCritical", "Err", "Wrn1", "Wrn2", "Wrn3", "Info", "Event"};
 constexpr std::string_view kValidityNames[] = {"Transient", "Persistent"};
 constexpr std::string_view kTypeNames[] = {"Int", "Real", "String", "Binary"};
 constexpr std::string_view kTerminalNames[] = {"Input", "Output", "AnalogInput", "AnalogOutput"};
+constexpr std::string_view kDeviceNames[] = {"NCAxis", "CANChannel", "ComChannel", "Servo"};
+
+std::string deviceName(const DeviceDefinition& device) {
+  return std::string(kDeviceNames[static_cast<size_t>(device.kind)]);
+}
 
 int valuesIn(std::string_view text) {
   int count = 0;
@@ -62,6 +69,7 @@ private:
   void beginParameter(const char** attributes);
   void beginTerminal(std::string_view name, const char** attributes);
   void beginConnection(const char** attributes);
+  void beginDevice(std::string_view name, const char** attributes);
   void endMessage();
   void endParameter();
 
@@ -82,6 +90,8 @@ Reader::Reader(ControlFileKind kind, std::string_view name, const ControlFiles& 
     known_.emplace("parameter " + parameter.id, parameter.place);
   for (const TerminalDefinition& terminal : earlier.terminals)
     known_.emplace("input or output " + terminal.id, terminal.place);
+  for (const DeviceDefinition& device : earlier.devices)
+    known_.emplace(deviceName(device) + " " + std::to_string(device.number), device.place);
 }
 
 std::string Reader::read(std::string_view text, ControlFiles& out) {
@@ -94,6 +104,7 @@ std::string Reader::read(std::string_view text, ControlFiles& out) {
   append(out.constants, found_.constants);
   append(out.connections, found_.connections);
   append(out.terminals, found_.terminals);
+  append(out.devices, found_.devices);
   return {};
 }
 
@@ -110,6 +121,7 @@ Element Reader::inChannel(Element parent, std::string_view name) const {
   if (parent == Element::Plc &&
       std::find(std::begin(kTerminalNames), std::end(kTerminalNames), name) != std::end(kTerminalNames))
     return Element::Terminal;
+  if (std::ranges::find(kDeviceNames, name) != std::end(kDeviceNames)) return Element::Device;
   if (name == "Plc") return Element::Plc;
   return name == "Connections" ? Element::Connections : Element::Foreign;
 }
@@ -137,6 +149,7 @@ Element Reader::elementOf(std::string_view name) {
   case Element::Terminal:
   case Element::Connection: return childOf(name, {}, Element::Foreign);
   case Element::Plc: return inChannel(parent, name);
+  case Element::Device: // what is in it belongs to another part of the control
   case Element::Foreign: break;
   }
   return kind_ == ControlFileKind::Channel ? inChannel(parent, name) : Element::Foreign;
@@ -144,7 +157,8 @@ Element Reader::elementOf(std::string_view name) {
 
 // What is around an element is not a text of the ones read here.
 void Reader::checkText() {
-  const bool foreign = elements_.empty() || elements_.back() == Element::Foreign || elements_.back() == Element::Plc;
+  constexpr Element kWithTexts[] = {Element::Foreign, Element::Plc, Element::Device};
+  const bool foreign = elements_.empty() || std::ranges::find(kWithTexts, elements_.back()) != std::end(kWithTexts);
   if (!foreign) complainAboutText();
 }
 
@@ -161,6 +175,7 @@ void Reader::begin(std::string_view name, const char** attributes) {
   case Element::Parameter: return beginParameter(attributes);
   case Element::Terminal: return beginTerminal(name, attributes);
   case Element::Connection: return beginConnection(attributes);
+  case Element::Device: return beginDevice(name, attributes);
   case Element::Foreign:
   case Element::Messages:
   case Element::MessageText:
@@ -284,6 +299,24 @@ void Reader::beginConnection(const char** list) {
   attributes.flag("Connected", connection.connected);
   attributes.finish();
   found_.connections.push_back(std::move(connection));
+}
+
+void Reader::beginDevice(std::string_view name, const char** list) {
+  constexpr uint32_t kLast = 15;
+  Attributes attributes(*this, list);
+  DeviceDefinition device;
+  device.place = place();
+  device.kind = static_cast<DeviceKind>(std::ranges::find(kDeviceNames, name) - std::begin(kDeviceNames));
+  const std::string number = attributes.required("No");
+  const auto value = nc::technol::integerOf(number);
+  const bool isNumber = value && *value >= 0 && *value <= int64_t{kLast};
+  if (!isNumber && !number.empty()) attributes.wrong("No", number, "0 to " + std::to_string(kLast));
+  if (!isNumber) return;
+  device.number = static_cast<uint32_t>(*value);
+  for (; *list != nullptr; list += 2)
+    if (!text::equalsIgnoringCase(list[0], "No"))
+      device.attributes.push_back({list[0], std::string(text::trimmed(list[1]))});
+  if (isNew(name, std::to_string(device.number), device.place)) found_.devices.push_back(std::move(device));
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // Reads the XML files that configure the control and its PLC: the messages (Plc0.PlcErrors, man. l.5241-5330), the
 // constants (*.PlcConstants, man. l.16267-16305) and the channel's configuration with its elements Plc and Connections
-// (ChannelConfig, man. l.5575-5757, l.13255-13291, l.16073-16108).
+// (ChannelConfig, man. l.5575-5757, l.13255-13291, l.16073-16108) and those of its devices.
 //
 // Elements and attributes that the manual does not name are mistakes inside the elements read here; around these, in
 // the channel's configuration, everything else belongs to other parts of the control and is passed over. Texts are
@@ -66,12 +66,26 @@ struct TerminalDefinition {
   FilePlace place;
 };
 
+// <NCAxis No="0" RefMethod="9">, <CANChannel No="1" Active="1">, <ComChannel No="0">, <Servo No="0">: what the machine
+// has; axes, servos and CAN channels are numbered from 0, too (l.3242-3285, l.9211-9271, l.11475-11610, l.21003-21039).
+enum class DeviceKind : uint8_t { Axis, CanChannel, ComChannel, Servo };
+struct DeviceDefinition {
+  struct Attribute {
+    std::string name, value; // of any name: who has the device knows its attributes
+  };
+  DeviceKind kind = DeviceKind::Axis;
+  uint32_t number = 0;               // 0 to 15
+  std::vector<Attribute> attributes; // but No
+  FilePlace place;
+};
+
 struct ControlFiles {
   std::vector<PlacedMessage> messages;
   std::vector<ParameterDefinition> parameters;
   std::vector<ConstantDefinition> constants;
   std::vector<ConnectionDefinition> connections;
   std::vector<TerminalDefinition> terminals;
+  std::vector<DeviceDefinition> devices;
 };
 
 enum class ControlFileKind : uint8_t { Messages, Constants, Channel };

@@ -32,7 +32,10 @@ constexpr ConfigKey kKeys[] = {
      .doc = "the control's own file of messages: kind, validity, texts. UTF-8 or Windows-1250, relative to the "
             "scenario or the project"},
     {.key = "PlcConstants", .form = File, .doc = "the control's own file of constants"},
-    {.key = "PlcConfig", .form = File, .doc = "the control's own file of the channel: parameters and connections"},
+    {.key = "PlcConfig",
+     .form = File,
+     .doc = "the control's own file of the channel: parameters, connections, and with `nc simulated` its devices, by "
+            "the elements NCAxis, CANChannel, ComChannel, Servo; later keys override it"},
     {.key = "nc",
      .form = Choice,
      .takes = "scripted simulated",

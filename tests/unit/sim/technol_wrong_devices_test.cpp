@@ -66,6 +66,26 @@ TEST(WrongDevices, CommandsOfKeys) {
   EXPECT_THAT(problems[0].text, HasSubstr(".KbdConfig:2:2: PlcCommand 'CMD_X' is not a PLC constant"));
 }
 
+TEST(WrongDevices, ChannelConfig) {
+  const auto wrong = [](std::string_view element) {
+    const File file("rung_wrong.ChannelConfig", "<ChannelConfig>\n" + std::string(element) + "</ChannelConfig>");
+    const std::string text = configured("PlcConfig", file.path());
+    return text.substr(std::min(text.size(), file.path().size()));
+  };
+  EXPECT_EQ(wrong("<NCAxis No='0' Name='X' Feed='600' />"), "");
+  EXPECT_EQ(wrong("<NCAxis No='0' Feed='fast'/>"), ":2:1: 'Feed' needs a number above 0; found 'fast'");
+  EXPECT_EQ(wrong("<NCAxis/>"), ":2:1: <NCAxis> lacks the attribute No");
+  EXPECT_EQ(wrong("<NCAxis No='16'/>"), ":2:1: attribute No is '16', expected 0 to 15");
+  EXPECT_THAT(wrong("<NCAxis No='1'/>\n<NCAxis No='1'/>"), HasSubstr(":3:1: NCAxis 1 is defined again"));
+  EXPECT_THAT(wrong("<CANChannel No='1' Active='1' InOut08Cnt='33'/>"), HasSubstr("takes 0 to 32"));
+  EXPECT_EQ(wrong("<CANChannel No='1' Active='0' InOut08Cnt='33'/>"), "") << "it is not active";
+  EXPECT_EQ(wrong("<CANChannel No='5' Active='1' InOut08Cnt='33'/>"), "") << "a channel of something else";
+  EXPECT_THAT(wrong("<ComChannel No='0' ComSpeed='0'/>"), StartsWith(":2:1: COM[0].ComSpeed: "));
+  EXPECT_THAT(wrong("<ComChannel No='0' Speed='0'/>"), HasSubstr("not 'SPEED'"));
+  EXPECT_EQ(wrong("<Servo No='0' ServoType='Kollmorgen'/>"),
+            ":2:1: ServoType: expected the number of a type, found 'Kollmorgen'");
+}
+
 TEST(WrongDevices, Displays) {
   TechnolMachine machine({{"nc", "simulated"}, {"CAN[1].KnobCnt", "1"}});
   EXPECT_TRUE(machine.nc().readCell("DISPTOC1.Shown[63][127]"));

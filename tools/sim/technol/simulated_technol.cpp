@@ -186,6 +186,7 @@ private:
     if (wrong.empty())
       wrong =
           configuration_.define(added(files.parameters, files_.parameters), added(files.constants, files_.constants));
+    if (wrong.empty()) wrong = devices_.define(added(files.devices, files_.devices));
     if (!wrong.empty()) return wrong;
     exchange_.take(added(files.connections, files_.connections), added(files.terminals, files_.terminals));
     files_ = std::move(files);

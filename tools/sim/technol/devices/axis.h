@@ -39,8 +39,9 @@ struct AxisAttributes {
 
   double pitch() const { return zeroPulsePitch > 0 ? zeroPulsePitch : rotary != 0 ? kDegreesPerTurn : 10; }
   uint32_t method() const { return static_cast<uint32_t>(refMethod); }
-  // By its name in the control's configuration. "" or what is wrong.
+  // By its name in the control's configuration, in any case. "" or what is wrong.
   std::string set(std::string_view name, std::string_view value);
+  static bool has(std::string_view name);
 };
 
 enum class Mover : uint8_t { None, SpindlePositioning, PositioningUnit, Reference, Manual };

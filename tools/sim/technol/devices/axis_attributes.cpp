@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 
+#include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "tools/sim/technol/devices/axis.h"
 
@@ -46,6 +47,13 @@ constexpr Attribute kAttributes[] = {
     {"ManEnable", &AxisAttributes::manEnable, Takes::Whole, 1, 2},
 };
 
+// In any case, as in the other elements of the control's files.
+const Attribute* find(std::string_view name) {
+  const auto* const found =
+      std::ranges::find_if(kAttributes, [&](const Attribute& row) { return text::equalsIgnoringCase(row.name, name); });
+  return found == std::end(kAttributes) ? nullptr : found;
+}
+
 bool isMethod(double value) { return value == 1 || value == 5 || value >= 9; } // l.11475
 
 bool fits(const Attribute& attribute, double value) {
@@ -73,9 +81,11 @@ std::string expectation(const Attribute& attribute) {
 
 } // namespace
 
+bool AxisAttributes::has(std::string_view name) { return find(name) != nullptr; }
+
 std::string AxisAttributes::set(std::string_view name, std::string_view value) {
-  const auto* const found = std::ranges::find(kAttributes, name, &Attribute::name);
-  if (found == std::end(kAttributes)) return "an axis has no attribute '" + std::string(name) + "'";
+  const Attribute* const found = find(name);
+  if (found == nullptr) return "an axis has no attribute '" + std::string(name) + "'";
   const auto number = text::realIn(value);
   const bool far = number && std::fabs(*number) > kFarthest;
   if (!number || far || !fits(*found, *number))

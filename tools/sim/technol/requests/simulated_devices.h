@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/control-files/control_files.h"
 #include "tools/device-requests/can_requests.h"
 #include "tools/device-requests/com_requests.h"
 #include "tools/device-requests/device_order.h"
@@ -38,6 +39,8 @@ public:
   const EthercatImage& image() const { return ethercat_.image(); }
   // Before the first power-on. "" or what is wrong; nothing: a key of something else. `path` is that of a file.
   std::optional<std::string> configure(std::string_view key, std::string_view value, const std::string& path);
+  // What the control's own file of the channel says of devices. "" or what is wrong, with its place.
+  std::string define(std::span<const control_files::DeviceDefinition> devices);
   bool simulated() const { return simulated_; }
 
   // Memory has been started; MODULE_INIT follows. A cold start reads the tables' files anew.
@@ -95,6 +98,8 @@ private:
 
   bool answers(device_requests::DeviceOrder order) const;
   void locate(host::Instance& instance);
+  std::string define(const control_files::DeviceDefinition& device);
+  std::string defineServo(const control_files::DeviceDefinition& servo);
   void loadTables();
   void pass(host::Instance& instance, ModuleCells& cells, int64_t us);
   std::optional<NcCell> readTable(std::string_view name) const;

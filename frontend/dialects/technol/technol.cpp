@@ -40,6 +40,15 @@ technol::Encoding encodingOf(const CompileOptions& options, Diagnostics& diagnos
   return encoding;
 }
 
+// "X Y Z A" of "XYZA".
+std::string axisNamesOf(const CompileOptions& options) {
+  std::string names;
+  const auto letters = options.config.find("axes");
+  if (letters == options.config.end()) return names;
+  for (const char letter : letters->second) names.append(names.empty() ? "" : " ").append(1, letter);
+  return names;
+}
+
 class TechnolProgram : public CheckedProgram {
 public:
   TechnolProgram(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
@@ -49,6 +58,7 @@ public:
   void check() {
     if (const auto folder = options_.config.find("system_folder"); folder != options_.config.end())
       program_.systemFolder = folder->second;
+    program_.axisNames = axisNamesOf(options_);
     program_.includePaths = options_.includePaths;
     program_.encoding = encodingOf(options_, program_.diagnostics);
     technol::readProgram(program_, files_);

@@ -47,7 +47,11 @@ constexpr ConfigKey kKeys[] = {
      .form = File,
      .doc = "what the keys of keyboard k do, 0 to 7: panels 0 to 3, handwheels 4 and 5, the virtual one 6 "
             "(l.16723-16905)"},
-    {.key = "axes", .takes = "letters", .otherwise = "XYZC", .doc = "axes 1 and on that exist"},
+    {.key = "axes",
+     .takes = "letters",
+     .otherwise = "XYZC",
+     .doc = "axes 1 and on that exist, and their names in axis operands of a program, which without the key are "
+            "XYZCABUVW"},
     {.key = "axis.<n>.<ATTRIBUTE>",
      .takes = "a number",
      .doc = "attribute of an axis: RefMethod, RefSpeed, Acceleration, Feed, Rotary, Position, ... (l.11475-11610)"},

@@ -332,7 +332,8 @@ bool OperandParser::ownWord(const OperandKind& kind, std::span<const Token> toke
   const uint32_t found = program_.symbols.find(tokens[0].text, file_);
   const bool fits = found != kNone && (program_.symbols[found].kind == SymbolKind::Cell ||
                                        program_.symbols[found].kind == SymbolKind::Constant);
-  return !fits && takeKeyword(kind.keywords, tokens, out);
+  const bool renamed = kind.axis && !program_.axisNames.empty();
+  return !fits && takeKeyword(renamed ? std::string_view(program_.axisNames) : kind.keywords, tokens, out);
 }
 
 // One of a kind's own words; other names are known and of another kind, or unknown.

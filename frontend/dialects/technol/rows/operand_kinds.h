@@ -32,6 +32,7 @@ struct OperandTraits {
   SymbolKind symbol = SymbolKind::Label; // class Name
   std::string_view keywords = {};        // parted by blanks; beside what else may be written
   int64_t firstWord = 0;                 // the number that the first of them has for a device
+  bool axis = false;                     // they are names of axes, which the configuration may replace
   const char* structure = nullptr;       // of the control: class Keyword, one of its members
   bool ownName = false;                  // class Keyword: written as the row calls the operand
   bool onlyTexts = false;                // class Text: no other variables
@@ -216,13 +217,15 @@ inline constexpr OperandKind kNumberOrNothing{
     {.prefixes = kNumberPrefixes, .constant = true, .notGiven = true, .empty = true, .types = kIntegers}};
 inline constexpr OperandKind kAxis{{"axis",
                                     "A constant, a cell of at most 32 bits, or the name of an axis, one of X Y Z C A B "
-                                    "U V W, which are 1 to 9 (man. l.8018, l.8052, l.8302).",
+                                    "U V W, which are 1 to 9, or of the letters of `config axes`, which are 1 and on "
+                                    "(man. l.8018, l.8052, l.8302).",
                                     "4", "17", kRange},
                                    {.prefixes = kNumberPrefixes,
                                     .constant = true,
                                     .types = kIntegers,
                                     .keywords = "X Y Z C A B U V W",
-                                    .firstWord = 1}};
+                                    .firstWord = 1,
+                                    .axis = true}};
 inline constexpr OperandKind kSpindle{
     {"spindle", "0 none, 1 main, 2 assistant, or S: as SPI_MAIN has set it (man. l.7984).", "S", "3", kRange},
     {.prefixes = kNumberPrefixes,

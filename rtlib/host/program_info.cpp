@@ -76,8 +76,8 @@ std::string rungText(const rung_program& program, uint32_t rung, uint32_t line) 
   const char* routine = info.routine < program.routine_count ? program.routines[info.routine] : "?";
   std::string text = info.number != 0 ? "rung " + std::to_string(info.number) : routine; // what is not drawn
   if (info.title != nullptr && *info.title != '\0') text += " \"" + std::string(info.title) + "\"";
-  const char* file = info.file < program.file_count ? program.files[info.file] : "?";
-  return text + ", " + file + ":" + std::to_string(line != 0 ? line : info.first_line);
+  if (info.file >= program.file_count) return text; // the compiler's own
+  return text + ", " + program.files[info.file] + ":" + std::to_string(line != 0 ? line : info.first_line);
 }
 
 std::string faultText(const rung_program& program, const rung_fault& fault) {

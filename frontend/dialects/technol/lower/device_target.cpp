@@ -33,8 +33,9 @@ void DeviceTarget::keep(ValueId when) {
   if (!access_.indexed) return;
   ir::RungBuilder& b = l_->b();
   const ir::SlotId slot = l_->ownSlot(Type::I32);
-  b.when(when, [&] { b.slotStore(slot, access_.index); });
-  access_.index = area_.at = b.slotLoad(slot);
+  const ValueId first = b.i32(operand_->begin);
+  b.when(when, [&] { b.slotStore(slot, b.sub(access_.index, first)); });
+  access_.index = area_.at = b.add(b.slotLoad(slot), first);
 }
 
 uint32_t DeviceTarget::most() const {

@@ -13,7 +13,8 @@ public:
   DeviceTarget(StatementContext& context, const Operand& operand, ir::ValueId guard);
   bool given() const { return l_ != nullptr; }
 
-  // The place by the index of the run in which `when` is 1, in later runs too.
+  // The place by the index of the run in which `when` is 1, in later runs too, also of another program that has the
+  // variable elsewhere.
   void keep(ir::ValueId when);
   // Bytes from there on, i32: of a text without its terminator, and with it.
   ir::ValueId room() const;

@@ -76,7 +76,8 @@ ValueId DeviceRequest::answered() {
   ir::RungBuilder& b = l_.b();
   const ValueId state = b.servicePoll(ticket_);
   executed_ = b.eq(state, b.i32(RUNG_SERVICE_DONE));
-  return b.ne(state, b.i32(RUNG_SERVICE_PENDING));
+  forgotten_ = b.eq(state, b.i32(RUNG_SERVICE_NONE));
+  return b.not_(b.or_(b.eq(state, b.i32(RUNG_SERVICE_PENDING)), forgotten_));
 }
 
 ValueId DeviceRequest::result(std::string_view name) {

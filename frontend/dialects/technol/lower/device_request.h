@@ -34,6 +34,8 @@ public:
   void use(ir::ValueId ticket);
   // Asks the control how far it is: one call for this and for all results that follow.
   ir::ValueId answered();
+  // After `answered`: the control knows nothing of it any more, as the program has not asked for so long.
+  ir::ValueId forgotten() const { return forgotten_; }
 
 private:
   StatementContext& l_;
@@ -42,6 +44,7 @@ private:
   std::vector<ir::ValueId> args_;
   ir::ValueId ticket_;
   ir::ValueId executed_;
+  ir::ValueId forgotten_;
 };
 
 // The operand that says how many bytes of the data are meant; null where the row has none.

@@ -144,7 +144,7 @@ void lowerPolled(StatementContext& l, std::span<const Operand> o, int form) {
   };
   const ValueId code = b.choose(answered, answer, [&] { return none; });
   b.when(b.and_(answered, b.eq(code, none)), [&] { store(request, ticket, given, data); });
-  b.slotStore(slot, b.select(answered, b.i32(0), ticket));
+  b.slotStore(slot, b.select(b.or_(answered, request.forgotten()), b.i32(0), ticket));
   l.r().setRlo(answered);
   l.r().setDr(code);
 }

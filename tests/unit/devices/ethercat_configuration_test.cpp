@@ -97,7 +97,8 @@ TEST(EthercatConfiguration, MistakesAreExplained) {
   wrong("ethercat.1.ds402", "1", "needs the protocol coe");
   wrong("ethercat.0.ds402", "yes", "0 or 1");
   for (const char* state : {"1", "5", "16", "OP"}) wrong("ethercat.0.refuse", state, "2, 3, 4 or 8");
-  wrong("ethercat.0.pdo.Inputs.A", "0x6041.0", "no object 0x6041.0 yet");
+  wrong("ethercat.0.pdo.Inputs.A", "0x2041.0", "no object 0x2041.0 yet");
+  wrong("ethercat.0.pdo.Inputs.A", "0x6041.1", "no object 0x6041.1 yet");
   wrong("ethercat.0.pdo.Inputs.A", "0x6041", "INDEX.SUBINDEX");
   wrong("ethercat.0.pdo.Inputs", "0x6041.0", "pdo.Inputs.ENTRY");
   wrong("ethercat.0.pdo.In.A", "0x6041.0", "pdo.Inputs.ENTRY");

@@ -138,7 +138,7 @@ std::string EtherCat::configureEntry(uint32_t slave, std::string_view place, std
   EthercatObject object;
   const std::string wanted = std::to_string(slave) + ".coe." + std::string(value);
   if (!parseObjectPlace(wanted, object).empty()) return "expected INDEX.SUBINDEX of an object";
-  const uint32_t found = slaves_.find(slave, false, object.index, object.sub);
+  const uint32_t found = slaves_.objectOfEntry(slave, object.index, object.sub);
   if (found == RUNG_NONE) return "there is no object " + std::string(value) + " yet";
   image_.add(slave, group == "Inputs", place, found);
   return {};

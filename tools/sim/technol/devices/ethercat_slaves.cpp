@@ -62,6 +62,11 @@ void EthercatSlaves::makeDrive(uint32_t number, bool isDrive) {
   slave.errorCode = wordOfDrive(number, kErrorCode, false);
 }
 
+uint32_t EthercatSlaves::objectOfEntry(uint32_t slave, uint32_t index, uint32_t sub) {
+  const bool isDriveWord = sub == 0 && (index == kControlWord || index == kStatusWord || index == kErrorCode);
+  return isDriveWord ? wordOfDrive(slave, index, index == kControlWord) : find(slave, false, index, sub);
+}
+
 uint32_t EthercatSlaves::wordOfDrive(uint32_t slave, uint32_t index, bool mayWrite) {
   const uint32_t known = find(slave, false, index, 0);
   if (known != RUNG_NONE) return known;

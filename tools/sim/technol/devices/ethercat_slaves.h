@@ -37,6 +37,8 @@ public:
   std::string add(uint32_t number, std::string_view protocols);
   std::string addObject(const EthercatObject& object); // or another value of one that is there
   void makeDrive(uint32_t number, bool isDrive);       // adds the objects that are not there
+  // Of process data: an object that is there, or a word of a drive, which need not be one yet. RUNG_NONE: none.
+  uint32_t objectOfEntry(uint32_t slave, uint32_t index, uint32_t sub);
 
   uint32_t count() const { return static_cast<uint32_t>(slaves_.size()); }
   EthercatSlave& operator[](uint32_t number) { return slaves_[number]; }

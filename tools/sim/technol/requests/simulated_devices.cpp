@@ -91,6 +91,7 @@ void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind, const
   canInputs_ = {};
   canOutputs_ = {};
   devicesUs_ = instance.nowUs();
+  restUs_ = 0;
   inputs_.powerOn(instance.memory());
 }
 
@@ -208,10 +209,14 @@ void SimulatedDevices::idle(host::Instance& instance, ModuleCells& cells) {
 
 void SimulatedDevices::pass(host::Instance& instance, ModuleCells& cells, int64_t us) {
   takeVirtualKeys(instance, cells);
-  const auto ticks = static_cast<uint32_t>(us / kUsPerTick);
   devicesUs_ += us;
-  tickAxes(instance, ticks);
-  tickOthers(instance, cells, ticks);
+  restUs_ += us;
+  const auto ticks = static_cast<uint32_t>(restUs_ / kUsPerTick);
+  restUs_ %= kUsPerTick;
+  if (ticks != 0) {
+    tickAxes(instance, ticks);
+    tickOthers(instance, cells, ticks);
+  }
   inputs_.pass(instance.memory(), axes_, us);
 }
 

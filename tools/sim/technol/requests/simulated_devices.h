@@ -148,6 +148,7 @@ private:
   devices::ethercat::StateBits stateBits_;
   EthercatServos::Cells servoCells_;
   int64_t devicesUs_ = 0; // the time up to which the devices have come
+  int64_t restUs_ = 0;    // of it, in which no tick has been made yet
   std::string tableProblem_, keyProblem_;
   bool tablesLoaded_ = false;
   bool tablesRestored_ = false; // for the next power-on

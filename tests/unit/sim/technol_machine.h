@@ -11,7 +11,21 @@
 
 namespace rung::sim {
 
-enum Service : uint32_t { kSend, kDrive, kCom, kUpload, kAnalog, kInit, kMode, kControl, kRead, kData };
+enum Service : uint32_t {
+  kSend,
+  kReceive,
+  kItem,
+  kDrive,
+  kCom,
+  kComReceive,
+  kUpload,
+  kAnalog,
+  kInit,
+  kMode,
+  kControl,
+  kRead,
+  kData
+};
 
 class TechnolMachine {
 public:
@@ -21,8 +35,11 @@ public:
     program_.dialect = "technol";
     program_.memorySize = 1u << 20;
     program_.services = {"CAN_SEND can id rtr len data:b -> DR",
+                         "CAN_RECV can -> DR id rtr data:b",
+                         "CAN_SYSIO_READ can group board item -> RLO DR",
                          "CAN_AX_SEND axis data:b -> data:b",
                          "COM_SEND com val -> RLO",
+                         "COM_RECV com -> RLO DR",
                          "ECAT_COE_READ Master Slave Index Subindex Len -> DR Len Val:b",
                          "ANALOG_SPI val axis -> port out:f",
                          "POS_INIT axis space",

@@ -66,4 +66,60 @@ TEST(TechnolNoAllocation, DevicesAtWork) {
   EXPECT_FALSE(machine.nc().readCell("DISPTOC1.Shown[0][0]")->text.empty());
 }
 
+constexpr int64_t kUnits = 32, kPositioningUnits = 6, kPorts = 4, kSlaves = 8;
+
+TechnolMachine::Pairs configurationOfAll() {
+  TechnolMachine::Pairs config = {{"nc", "simulated"},
+                                  {"axes", "XYZABCS"},
+                                  {"CAN[1].InOut08Cnt", std::to_string(kUnits)},
+                                  {"CAN[0].Drives", std::to_string(kPositioningUnits)}};
+  for (int port = 0; port < kPorts; ++port) config.emplace_back("COM[" + std::to_string(port) + "].Active", "1");
+  for (int slave = 0; slave < kSlaves; ++slave) {
+    const std::string key = "ethercat." + std::to_string(slave);
+    config.emplace_back(key, "coe");
+    config.emplace_back(key + ".coe.0x6041.0", "0x237/2 ro");
+  }
+  return config;
+}
+
+// What a program asks for in one scan, of as many devices as a control has at most.
+void askForAll(TechnolMachine& machine, int64_t number) {
+  constexpr int64_t kFeed = int64_t{6000} << 16; // 6000 mm/min
+  machine.ask(kSend, {2, 0x10, 0, 2, nc::technol::bytesArgument(0, 2, 0)});
+  machine.ask(kReceive, {2});
+  for (int64_t board = 1; board <= kUnits; ++board) machine.ask(kItem, {2, 1, board, 0});
+  machine.ask(kDrive, {1 + number % kPositioningUnits, nc::technol::bytesArgument(0, 8, 0)});
+  for (int64_t axis = 1; axis <= kPositioningUnits; ++axis) machine.ask(kControl, {kFeed, 1, axis});
+  machine.ask(kAnalog, {number, kPositioningUnits + 1});
+  for (int64_t port = 0; port < kPorts; ++port) {
+    machine.ask(kCom, {port, 'A'});
+    machine.ask(kComReceive, {port});
+  }
+  const uint32_t read = machine.ask(kRead, {0, 100, 1000});
+  machine.ask(kData, {read, 3});
+  for (int64_t slave = 0; slave < kSlaves; ++slave) machine.ask(kUpload, {0, slave, 0x6041, 0, 2});
+}
+
+TEST(TechnolNoAllocation, AsManyDevicesAsAControlHas) {
+  TechnolMachine machine(configurationOfAll());
+  for (int64_t axis = 1; axis <= kPositioningUnits; ++axis) {
+    const std::string name = axis <= 3 ? std::string(1, "XYZ"[axis - 1]) : std::to_string(axis);
+    nc::technol::writeCell(machine.inside(), "VAZBA_" + name, 1);
+    nc::technol::writeCell(machine.inside(), "MP" + name + "PI", 1);
+    machine.ask(kInit, {axis, 0});
+    machine.ask(kMode, {1'000'000, 500, axis});
+  }
+  machine.scan(); // what is written to a message or a text for the first time
+  EXPECT_EQ(allocationsOf([&] {
+              for (int i = 0; i < 10'000; ++i) {
+                askForAll(machine, i);
+                machine.scan();
+              }
+            }),
+            0);
+  for (int axis = 1; axis <= kPositioningUnits; ++axis)
+    EXPECT_NEAR(machine.nc().quantity("MPOS." + std::to_string(axis)).value_or(0), 1000, 0.001);
+  EXPECT_EQ(machine.inside().services().refused(), 0u);
+}
+
 } // namespace

@@ -25,9 +25,9 @@ def callgrind(options, *words):
     return run("valgrind", "--tool=callgrind", *options, *words, env={**os.environ, "GLIBC_TUNABLES": PLAIN_COPIES})
 
 
-def counted(profile, *words):
+def counted(profile, *words, options=()):
     """Runs it; what it collects, and dumps where it says so, is in `profile` and `profile.N`. Gives what it prints."""
-    return callgrind(["--collect-atstart=no", f"--callgrind-out-file={profile}"], *words)
+    return callgrind(["--collect-atstart=no", f"--callgrind-out-file={profile}", *options], *words)
 
 
 def touched(line, folder, *words):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Instructions by callgrind: of the example machines a part, of generated programs a scan.
+"""Instructions by callgrind: of the example machines a part, of programs with device services and generated ones a scan.
 
 count.py BIN            prints the tables
 count.py BIN --check    fails where a count has grown by more than 1 % against counts.json. The counts are pinned to
@@ -19,6 +19,7 @@ from pathlib import Path
 
 import machines
 import report
+import services
 from callgrind import TARGET, Failure, run
 from generated import KINDS, RESTING, Programs, works
 
@@ -76,15 +77,18 @@ def main():
     if options.record:
         machines.record(options.tools)
     of_machines = machines.measure(options.tools)
+    of_services = services.measure(options.tools)
     with tempfile.TemporaryDirectory() as folder:
         programs = Programs(options.tools, folder, not options.check)
         # A check needs no straight-line form, which compilers take minutes for.
         rows = programs.counts(works(KINDS if options.all else ()), not options.check)
         resting = programs.resting(RESTING)
     print(machines.text_of(of_machines))
+    print(services.text_of(of_services))
     print(report.counts_text(rows))
     print(report.resting_text(resting, rows))
-    counts = {name: total for name, (_, total) in of_machines.items()} | names_of(rows) | names_of_resting(resting)
+    counts = {name: total for name, (_, total) in of_machines.items()}
+    counts |= services.names_of(of_services) | names_of(rows) | names_of_resting(resting)
     if options.update:
         kept = json.loads(TABLE.read_text(encoding="utf-8"))
         here = environment(options.tools)
@@ -95,6 +99,8 @@ def main():
     if options.check:
         lines, failed = verdict(counts, json.loads(TABLE.read_text(encoding="utf-8")), environment(options.tools),
                                 bool(os.environ.get("CI")))
+        if excess := services.excess(of_services):
+            raise Failure(excess)
         if failed:
             raise Failure("other instructions than before; if that is meant: ./dev bench --count --update\n" + "\n".join(lines))
         print("\n".join(lines))

@@ -3,6 +3,7 @@
 import unittest
 
 import count
+import services
 
 HERE = {"compiler": "1"}
 TABLE = {"environment": HERE, "instructions": {"a": 1000, "b": 2000}}
@@ -32,6 +33,15 @@ class Verdict(unittest.TestCase):
     def test_where_it_must_be_pinned_another_environment_fails(self):
         self.assertTrue(fails({"a": 1000}, {"compiler": "2"}, pinned_only=True))
         self.assertFalse(fails({"a": 1000}, pinned_only=True))
+
+
+class Services(unittest.TestCase):
+    def rows(self, more):
+        return {services.WITHOUT: (10, 1000, 0), f"{services.ALL}; at rest": (20, 1000 + more, 0)}
+
+    def test_at_rest_they_add_two_hundred_instructions_at_most(self):
+        self.assertEqual(services.excess(self.rows(200)), "")
+        self.assertIn("add 201 instructions", services.excess(self.rows(201)))
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import machines
 import plot
+import services
 import start
 from callgrind import Failure, run
 from generated import DIALECTS, LARGE_KINDS, LARGE_RESTING, RESTING, Instructions, Programs, percentile, works
@@ -155,6 +156,7 @@ def main(tools, folder):
     machine = machine_text()
     starts = start.measure(tools)
     of_machines = machines.measure(tools)
+    of_services = services.measure(tools)
     with tempfile.TemporaryDirectory() as built:
         programs = Programs(tools, built)
         rows = programs.counts(works(LARGE_KINDS), True)
@@ -170,6 +172,7 @@ def main(tools, folder):
         (folder / name).write_text(drawing, encoding="utf-8")
     print(start.text_of(starts, os.cpu_count()))
     print(machines.text_of(of_machines))
+    print(services.text_of(of_services))
     print(f"{counts_text(rows)}\n![Ratios of instructions, a bar for each dialect and program](performance-counts.svg)\n")
     print(resting_text(resting, rows))
     print(f"{cold}\n![Ratios of cold scans, with their spread](performance-cold.svg)\n")

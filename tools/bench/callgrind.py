@@ -25,9 +25,9 @@ def callgrind(options, *words):
     return run("valgrind", "--tool=callgrind", *options, *words, env={**os.environ, "GLIBC_TUNABLES": PLAIN_COPIES})
 
 
-def counted(profile, *words, options=()):
+def counted(profile, *words):
     """Runs it; what it collects, and dumps where it says so, is in `profile` and `profile.N`. Gives what it prints."""
-    return callgrind(["--collect-atstart=no", f"--callgrind-out-file={profile}", *options], *words)
+    return callgrind(["--collect-atstart=no", f"--callgrind-out-file={profile}"], *words)
 
 
 def touched(line, folder, *words):
@@ -55,3 +55,21 @@ def self_costs(path):
                 costs[within] = costs.get(within, 0) + int(found[1])
             skip = False
     return costs
+
+
+def inclusive_cost(path, names):
+    """Instructions of calls to functions whose names begin with one of these, with all that they call; and which of the
+    names were seen. Calls among these functions would count twice."""
+    known, seen, cost, callee, is_cost = {}, set(), 0, None, False
+    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
+        if found := re.match(r"(c?)fn=\((\d+)\)(?: (.*))?", line):
+            name = known.setdefault(found[2], found[3])
+            callee = next((each for each in names if name.startswith(each)), None) if found[1] else None
+        elif line.startswith("calls="):
+            is_cost = True
+        elif is_cost:
+            is_cost = False
+            if callee is not None:
+                seen.add(callee)
+                cost += int(line.split()[1])
+    return cost, seen

@@ -3,7 +3,7 @@ control answers; what it does itself, devices and answers, is counted apart."""
 import tempfile
 from pathlib import Path
 
-from callgrind import TARGET, Failure, counted, run, self_costs
+from callgrind import TARGET, Failure, counted, inclusive_cost, run, self_costs
 
 HERE = Path(__file__).resolve().parent / "services"
 SCANS = 100
@@ -14,8 +14,9 @@ SERVICES = {"can": "32 CAN units: an item of each read, a packet to each sent",
             "serial": "4 serial ports: 8 characters of each read, one sent, the state",
             "ethercat": "8 EtherCAT slaves: an object of each read"}
 WITHOUT, ALL = "without services", "all of them"
-# Where the runtime enters the simulation; none calls another one, as each switches the counter over.
-SIMULATION = ("rung::sim::SimulatedNc::respond", "rung::sim::technol::SimulatedDevices::beforeInput", "rung::sim::technol::Exchange::onHook")
+# Where the runtime enters the simulation; none calls another one.
+SIMULATION = ("rung::sim::SimulatedNc::respond(", "rung::sim::technol::SimulatedDevices::beforeInput(",
+              "rung::sim::technol::Exchange::onHook(")
 HEAD = f"""## Instructions of TECHNOL's device services
 
 Counted by callgrind, exactly, as above: programs of tools/bench/services, whose devices are simulated; a scan is the average of {SCANS}. "At rest": the mechanisms that use a service are in the
@@ -30,21 +31,15 @@ def build(tools, folder, services):
     return program
 
 
-def profile_of(tools, program, scenario, *options):
-    profile = program.with_suffix(".profile")
-    counted(profile, tools / "rung-bench-services", program, HERE / scenario, SCANS, options=options)
-    return profile
-
-
 def count(tools, program, scenario, seen):
     """Instructions a scan: of the program's code, of that and the runtime, of the simulation. `seen`: its functions."""
-    outside = [f"--toggle-collect={name}*" for name in SIMULATION]
-    costs = self_costs(profile_of(tools, program, scenario, *outside))
-    everything = profile_of(tools, program, scenario)
-    seen.update(name for name in SIMULATION if f"{name}(" in everything.read_text(encoding="utf-8", errors="replace"))
+    profile = program.with_suffix(".profile")
+    counted(profile, tools / "rung-bench-services", program, HERE / scenario, SCANS)
+    costs = self_costs(profile)
+    simulation, found = inclusive_cost(profile, SIMULATION)
+    seen.update(found)
     rungs = sum(cost for name, cost in costs.items() if name and name.endswith(program.name))
-    total, simulation = sum(costs.values()), sum(self_costs(everything).values()) - sum(costs.values())
-    return tuple(round(each / SCANS) for each in (rungs, total, simulation))
+    return tuple(round(each / SCANS) for each in (rungs, sum(costs.values()) - simulation, simulation))
 
 
 def measure(tools):

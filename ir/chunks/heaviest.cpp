@@ -127,4 +127,20 @@ HeaviestRun heaviestRun(const Cut& cut, TaskId id) {
           .circles = circles || whole.circles()};
 }
 
+Straight straightEnd(const Cut& cut, TaskId id) {
+  const Task& task = cut.module().tasks[id.index];
+  Straight out;
+  if (task.parts > 1) return out;
+  Ways ways(cut, nullptr, RUNG_NONE);
+  uint64_t most = 0;
+  for (auto c = static_cast<uint32_t>(cut.chunks().size()); c-- > 0;) {
+    const Chunk& chunk = cut.chunks()[c];
+    if (chunk.routine != task.entry) continue;
+    most = std::max(most, ways.from({.routine = chunk.routine, .rung = chunk.firstRung}));
+    if (ways.circles()) break;
+    out = {.chunk = c, .weight = static_cast<uint32_t>(most)};
+  }
+  return out;
+}
+
 } // namespace rung::ir

@@ -15,4 +15,13 @@ struct HeaviestRun {
 // Of a task, or of the heaviest of its parts where it is cut.
 HeaviestRun heaviestRun(const Cut& cut, TaskId task);
 
+// The end of a run's circles.
+struct Straight {
+  uint32_t chunk = RUNG_PC_DONE; // from it on, outside of calls, control goes in no circles; RUNG_PC_DONE: never
+  uint32_t weight = 0;           // of the heaviest way from there or from a later chunk, at most UINT32_MAX
+};
+
+// Of a task that is not cut: a cut one has none.
+Straight straightEnd(const Cut& cut, TaskId task);
+
 } // namespace rung::ir

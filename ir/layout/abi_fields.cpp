@@ -72,14 +72,17 @@ constexpr FieldInfo kRungFields[] = {
     RUNG_FIELD(rung_rung_info, number, U32),     RUNG_FIELD(rung_rung_info, reserved, U32)};
 constexpr StructInfo kRung{"rung_rung_info", sizeof(rung_rung_info), kRungFields};
 
-constexpr FieldInfo kTaskFields[] = {RUNG_FIELD(rung_task, name, Text),        RUNG_FIELD(rung_task, entry, U32),
-                                     RUNG_FIELD(rung_task, period_us, U32),    RUNG_FIELD(rung_task, budget, U32),
-                                     RUNG_FIELD(rung_task, budget_fault, U32), RUNG_FIELD(rung_task, begin_first, U32),
-                                     RUNG_FIELD(rung_task, begin_count, U32),  RUNG_FIELD(rung_task, end_first, U32),
-                                     RUNG_FIELD(rung_task, end_count, U32),    RUNG_FIELD(rung_task, part_first, U32),
-                                     RUNG_FIELD(rung_task, part_count, U32),   RUNG_FIELD(rung_task, heaviest, U32),
-                                     RUNG_FIELD(rung_task, circles, U32),      RUNG_FIELD(rung_task, read_first, U32),
-                                     RUNG_FIELD(rung_task, read_count, U32)};
+constexpr FieldInfo kTaskFields[] = {
+    RUNG_FIELD(rung_task, name, Text),          RUNG_FIELD(rung_task, entry, U32),
+    RUNG_FIELD(rung_task, period_us, U32),      RUNG_FIELD(rung_task, budget, U32),
+    RUNG_FIELD(rung_task, budget_fault, U32),   RUNG_FIELD(rung_task, begin_first, U32),
+    RUNG_FIELD(rung_task, begin_count, U32),    RUNG_FIELD(rung_task, end_first, U32),
+    RUNG_FIELD(rung_task, end_count, U32),      RUNG_FIELD(rung_task, part_first, U32),
+    RUNG_FIELD(rung_task, part_count, U32),     RUNG_FIELD(rung_task, heaviest, U32),
+    RUNG_FIELD(rung_task, circles, U32),        RUNG_FIELD(rung_task, read_first, U32),
+    RUNG_FIELD(rung_task, read_count, U32),     RUNG_FIELD(rung_task, change_first, U32),
+    RUNG_FIELD(rung_task, change_count, U32),   RUNG_FIELD(rung_task, straight_chunk, U32),
+    RUNG_FIELD(rung_task, straight_weight, U32)};
 constexpr StructInfo kTask{"rung_task", sizeof(rung_task), kTaskFields};
 
 constexpr FieldInfo kStepFields[] = {RUNG_FIELD(rung_step, op, U32), RUNG_FIELD(rung_step, task, U32),
@@ -122,6 +125,7 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_FIELD(rung_program, read_count, U32),
                                         RUNG_FIELD(rung_program, activity_count, U32),
                                         RUNG_FIELD(rung_program, activity_span_count, U32),
+                                        RUNG_FIELD(rung_program, change_count, U32),
                                         RUNG_STRUCTS(rung_program, spaces, space_count, kSpace),
                                         RUNG_STRUCTS(rung_program, symbols, symbol_count, kSymbol),
                                         RUNG_STRUCTS(rung_program, slots, slot_count, kSlot),
@@ -146,7 +150,8 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_STRUCTS(rung_program, writes, write_count, kWritten),
                                         RUNG_STRUCTS(rung_program, reads, read_count, kSpan),
                                         RUNG_STRUCTS(rung_program, activity, activity_count, kActivity),
-                                        RUNG_STRUCTS(rung_program, activity_spans, activity_span_count, kSpan)};
+                                        RUNG_STRUCTS(rung_program, activity_spans, activity_span_count, kSpan),
+                                        RUNG_ARRAY(rung_program, changes, change_count, U32s)};
 constexpr StructInfo kProgram{"rung_program", sizeof(rung_program), kProgramFields};
 
 #undef RUNG_FIELD

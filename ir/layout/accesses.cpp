@@ -101,6 +101,19 @@ std::vector<rung_span> joined(std::vector<rung_span> spans) {
   return out;
 }
 
+// What an operation reads or writes of the memory block.
+std::vector<rung_span> touchedBytes(const MemoryLayout& layout, const Op& op) {
+  if (opInfo(op.code).attr == Attr::Slot) return {{layout.slot(SlotId{op.ref}), std::max(1u, byteWidth(op.type))}};
+  const std::optional<Use> use = useOf(layout.module(), op);
+  return use ? bytesOf(layout, *use) : std::vector<rung_span>{};
+}
+
+uint64_t sizeOf(const std::vector<rung_span>& spans) {
+  uint64_t sum = 0;
+  for (const rung_span& span : spans) sum += span.size;
+  return sum;
+}
+
 } // namespace
 
 std::vector<rung_written> writtenBits(const MemoryLayout& layout) {
@@ -139,13 +152,54 @@ std::vector<rung_span> readBytes(const MemoryLayout& layout, TaskId id) {
   return joined(std::move(spans));
 }
 
+// ---- changes -----------------------------------------------------------------------------------------------------
+
+namespace {
+
+bool does(const Op& op, uint8_t effects) { return (opInfo(op.code).effects & effects) != 0; }
+
+// Of which the spans are covered.
+std::vector<uint32_t> wordsOver(const std::vector<rung_span>& spans, uint32_t memorySize) {
+  constexpr uint32_t kWord = 8;
+  const uint32_t last = memorySize > kWord ? memorySize - kWord : 0; // a block has at least one word
+  std::vector<uint32_t> words;
+  uint32_t covered = 0;
+  for (const rung_span& span : spans)
+    for (uint32_t at = std::max(covered, span.offset); at < span.offset + span.size; at = covered) {
+      words.push_back(std::min(at, last));
+      covered = words.back() + kWord;
+    }
+  return words;
+}
+
+} // namespace
+
+std::vector<uint32_t> changedWords(const MemoryLayout& layout, TaskId id) {
+  const Module& module = layout.module();
+  if (module.instrumented) return {};
+  std::vector<rung_span> spans;
+  const std::vector<bool> routines = routinesOf(module, module.tasks[id.index].entry);
+  for (uint32_t r = 0; r < routines.size(); ++r) {
+    if (!routines[r]) continue;
+    for (const Rung& rung : module.routines[r].rungs)
+      for (const Op& op : rung.ops) {
+        if (does(op, kHost)) return {};
+        if (!does(op, kWrites)) continue;
+        const std::vector<rung_span> bytes = touchedBytes(layout, op);
+        spans.insert(spans.end(), bytes.begin(), bytes.end());
+      }
+  }
+  std::vector<uint32_t> words = wordsOver(joined(std::move(spans)), layout.size());
+  return words.size() <= RUNG_MOST_CHANGES ? words : std::vector<uint32_t>{};
+}
+
 // ---- activity ----------------------------------------------------------------------------------------------------
 
 namespace {
 
 constexpr uint64_t kMostTouched = 4096; // bytes: comparing more for one chunk does not pay
 
-bool asksOthers(const Op& op) { return (opInfo(op.code).effects & (kHost | kClock)) != 0; }
+bool asksOthers(const Op& op) { return does(op, kHost | kClock); }
 
 // Calls and returns change the stack, and a routine returns after its last rung.
 bool staysInRoutine(const Routine& routine, const Chunk& chunk) {
@@ -166,20 +220,14 @@ Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk) {
   for (const Rung& rung : std::span(routine.rungs).subspan(chunk.firstRung, chunk.rungCount)) {
     for (const Op& op : rung.ops) {
       mayRest = mayRest && !asksOthers(op);
-      std::vector<rung_span> bytes;
-      if (opInfo(op.code).attr == Attr::Slot)
-        bytes = {{layout.slot(SlotId{op.ref}), std::max(1u, byteWidth(op.type))}};
-      else if (const std::optional<Use> use = useOf(module, op); use)
-        bytes = bytesOf(layout, *use);
+      const std::vector<rung_span> bytes = touchedBytes(layout, op);
       out.all.insert(out.all.end(), bytes.begin(), bytes.end());
-      if ((opInfo(op.code).effects & kWrites) != 0) out.written.insert(out.written.end(), bytes.begin(), bytes.end());
+      if (does(op, kWrites)) out.written.insert(out.written.end(), bytes.begin(), bytes.end());
     }
   }
   out.all = joined(std::move(out.all));
   out.written = joined(std::move(out.written));
-  uint64_t sum = 0;
-  for (const rung_span& span : out.all) sum += span.size;
-  if (!mayRest || sum > kMostTouched) out.all.clear();
+  if (!mayRest || sizeOf(out.all) > kMostTouched) out.all.clear();
   return out;
 }
 

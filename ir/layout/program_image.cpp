@@ -214,12 +214,20 @@ private:
       const HeaviestRun heaviest = heaviestRun(layout_.cut(), TaskId{i});
       out.heaviest = heaviest.weight;
       out.circles = heaviest.circles ? 1 : 0;
-      const std::vector<rung_span> reads = readBytes(layout_.memory(), TaskId{i});
-      out.read_first = static_cast<uint32_t>(image_.reads_.size());
-      out.read_count = static_cast<uint32_t>(reads.size());
-      image_.reads_.insert(image_.reads_.end(), reads.begin(), reads.end());
+      const Straight straight = straightEnd(layout_.cut(), TaskId{i});
+      out.straight_chunk = straight.chunk;
+      out.straight_weight = straight.weight;
+      append(readBytes(layout_.memory(), TaskId{i}), image_.reads_, out.read_first, out.read_count);
+      append(changedWords(layout_.memory(), TaskId{i}), image_.changes_, out.change_first, out.change_count);
       image_.tasks_.push_back(out);
     }
+  }
+
+  template <class T>
+  static void append(const std::vector<T>& these, std::vector<T>& all, uint32_t& first, uint32_t& count) {
+    first = static_cast<uint32_t>(all.size());
+    count = static_cast<uint32_t>(these.size());
+    all.insert(all.end(), these.begin(), these.end());
   }
 
   void addChunks() {
@@ -234,12 +242,8 @@ private:
     for (const Chunk& chunk : layout_.cut().chunks()) {
       const Touched touched = touchedBytes(layout_.memory(), chunk);
       rung_activity out{};
-      out.written_first = static_cast<uint32_t>(image_.activitySpans_.size());
-      out.written_count = static_cast<uint32_t>(touched.written.size());
-      image_.activitySpans_.insert(image_.activitySpans_.end(), touched.written.begin(), touched.written.end());
-      out.touched_first = static_cast<uint32_t>(image_.activitySpans_.size());
-      out.touched_count = static_cast<uint32_t>(touched.all.size());
-      image_.activitySpans_.insert(image_.activitySpans_.end(), touched.all.begin(), touched.all.end());
+      append(touched.written, image_.activitySpans_, out.written_first, out.written_count);
+      append(touched.all, image_.activitySpans_, out.touched_first, out.touched_count);
       image_.activity_.push_back(out);
     }
   }
@@ -321,6 +325,7 @@ private:
     point(image_.reads_, p.reads, p.read_count);
     point(image_.activity_, p.activity, p.activity_count);
     point(image_.activitySpans_, p.activity_spans, p.activity_span_count);
+    point(image_.changes_, p.changes, p.change_count);
   }
 
   static void pointTexts(const std::vector<const char*>& from, const char* const*& to, uint32_t& count) {

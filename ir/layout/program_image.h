@@ -50,6 +50,7 @@ private:
   std::vector<const char*> texts_;
   std::vector<rung_written> writes_;
   std::vector<rung_span> reads_;
+  std::vector<uint32_t> changes_;
   std::vector<rung_activity> activity_;
   std::vector<rung_span> activitySpans_;
 };

@@ -269,16 +269,23 @@ bool Runner::looksAt(uint32_t task) noexcept { return hasActivity(task) && activ
 inline uint32_t Runner::runFrom(uint32_t pc, uint32_t limit, uint32_t task, uint32_t& budget) noexcept {
   const rung_task& t = program_->tasks[task];
   const bool looks = looksAt(task);
-  if (!looks && limit_.ns == 0 && isBounded(t)) return runBounded(pc, limit);
-  return runCounted(pc, limit, t, budget, looks);
+  if (looks || limit_.ns != 0) return runWatched(pc, limit, t, budget, looks);
+  return isBounded(t) ? runBounded(pc, limit) : runCounted(pc, limit, t, budget);
 }
 
-uint32_t Runner::runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget, bool looks) noexcept {
-  if (looks)
-    return limit_.ns != 0 ? runChunks<true, true>(pc, limit, task, budget)
-                          : runChunks<false, true>(pc, limit, task, budget);
-  return limit_.ns != 0 ? runChunks<true, false>(pc, limit, task, budget)
-                        : runChunks<false, false>(pc, limit, task, budget);
+// As long as control may go in circles; what comes after them is mostly far lighter than what is left of the budget.
+uint32_t Runner::runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
+  if (task.straight_chunk < limit) {
+    pc = runChunks<false, false>(pc, task.straight_chunk, task, budget);
+    if (pc >= program_->chunk_count) return pc;
+    if (task.straight_weight <= budget) return runBounded(pc, limit);
+  }
+  return runChunks<false, false>(pc, limit, task, budget);
+}
+
+uint32_t Runner::runWatched(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget, bool looks) noexcept {
+  if (limit_.ns == 0) return runChunks<false, true>(pc, limit, task, budget);
+  return looks ? runChunks<true, true>(pc, limit, task, budget) : runChunks<true, false>(pc, limit, task, budget);
 }
 
 inline uint32_t Runner::runToEnd(uint32_t task) noexcept {
@@ -295,39 +302,84 @@ inline bool Runner::isPlain(uint32_t task) const noexcept {
          !hasActivity(task) && isBounded(t);
 }
 
-bool Runner::runPlain(uint32_t task, uint32_t times) noexcept {
-  const uint32_t entry = program_->tasks[task].entry;
-  inTask_ = true;
-  uint32_t pc = RUNG_PC_DONE;
-  while (times != 0 && pc == RUNG_PC_DONE) {
-    beginStack();
-    pc = runBounded(entry, RUNG_PC_DONE);
-    --times;
-    if (stopped_) break;
+namespace {
+
+// Contents of the memory block that are compared later.
+class Contents {
+public:
+  // At most RUNG_MOST_CHANGES.
+  Contents(const uint8_t* memory, std::span<const uint32_t> words) noexcept : memory_(memory), words_(words) {
+    for (size_t i = 0; i < words_.size(); ++i) before_[i] = wordAt(words_[i]);
   }
+  bool still() const noexcept {
+    uint64_t different = 0;
+    for (size_t i = 0; i < words_.size(); ++i) different |= before_[i] ^ wordAt(words_[i]);
+    return different == 0;
+  }
+
+private:
+  uint64_t wordAt(uint32_t offset) const noexcept {
+    uint64_t word = 0;
+    std::memcpy(&word, memory_ + offset, sizeof word);
+    return word;
+  }
+  const uint8_t* memory_;
+  std::span<const uint32_t> words_;
+  std::array<uint64_t, RUNG_MOST_CHANGES> before_;
+};
+
+} // namespace
+
+// At least once, until it is stopped. Mostly a run is a single chunk.
+inline uint32_t Runner::runRow(uint32_t entry, uint32_t times) noexcept {
+  uint8_t* const memory = memory_;
+  rung_ctx* const ctx = ctx_;
+  const uint32_t count = program_->chunk_count;
+  for (;;) {
+    beginStack();
+    uint32_t pc = functionOf(code_.functions, entry)(memory, ctx, entry);
+    if (pc < count) pc = runBounded(pc, RUNG_PC_DONE);
+    if (pc != RUNG_PC_DONE || --times == 0 || stopped_) return pc;
+  }
+}
+
+// Runs right after another one, which may have found new inputs: once one of these has changed nothing, those that are
+// left would change nothing either.
+uint32_t Runner::runAgain(const rung_task& task, uint32_t times) noexcept {
+  if (times == 1 || task.change_count == 0) return runRow(task.entry, times);
+  const Contents before(memory_, {program_->changes + task.change_first, task.change_count});
+  const uint32_t pc = runRow(task.entry, 1);
+  return pc != RUNG_PC_DONE || stopped_ || before.still() ? pc : runRow(task.entry, times - 1);
+}
+
+// With nothing in between, at one time.
+inline bool Runner::runPlain(uint32_t task, uint32_t times) noexcept {
+  const rung_task& t = program_->tasks[task];
+  inTask_ = true;
+  uint32_t pc = runRow(t.entry, 1);
+  if (times > 1 && pc == RUNG_PC_DONE && !stopped_) pc = runAgain(t, times - 1);
   inTask_ = false;
   if (pc != RUNG_PC_DONE) stopOnFault(task);
   return pc == RUNG_PC_DONE;
 }
 
 bool Runner::runWhole(uint32_t task, uint32_t times) noexcept {
-  if (!mayRun() || task >= program_->task_count) return false;
+  if (!mayRun() || task >= program_->task_count || times == 0) return false;
   const rung_task& t = program_->tasks[task];
   if (isPlain(task)) return runPlain(task, times);
-  bool good = times != 0;
-  while (good) {
+  for (;;) {
     latch(task);
     begin(task);
     copy(t.begin_first, t.begin_count);
-    good = finish(task, runToEnd(task));
-    if (--times == 0 || stopped_) return good;
+    if (!finish(task, runToEnd(task))) return false;
+    if (--times == 0 || stopped_) return true;
   }
-  return false;
 }
 
 bool Runner::runNextPart(uint32_t task) noexcept {
   if (!mayRun() || task >= program_->task_count) return false;
   const rung_task& t = program_->tasks[task];
+  if (t.part_count == 1) return runWhole(task, 1);
   PartState& state = parts_[task];
   if (state.part == 0) latch(task);
   begin(task);
@@ -415,13 +467,6 @@ void Runner::findRow() noexcept {
   }
 }
 
-// As step by step.
-void Runner::doRow() noexcept {
-  const uint32_t task = list_[row_.first].task;
-  position_ = row_.last;
-  if (!stopped_) runWhole(task, row_.times);
-}
-
 // The list of the pass under way, else that of the one that begins.
 std::span<const rung_step> Runner::pass(bool realClock) const noexcept {
   if (position_ != 0) return list_;
@@ -429,50 +474,40 @@ std::span<const rung_step> Runner::pass(bool realClock) const noexcept {
   return {program_->scan, program_->scan_count};
 }
 
-// False: the step was the last of the list, which then is at its beginning again.
-inline bool Runner::next() noexcept {
-  if (position_ + 1 < list_.size()) {
-    ++position_;
-    return true;
+// The steps of the pass under way, up to its end, a fault, or a step after which `ends` says so; it is asked where
+// another one follows.
+template <class Ends>
+inline void Runner::walk(bool realClock, const Ends& ends) noexcept {
+  const FloatEnvironment environment(defaultFloats_);
+  startTime();
+  hold();
+  const std::span<const rung_step> list = pass(realClock);
+  list_ = list;
+  if (faulted_) return;
+  const Row row = realClock || list.data() != program_->scan ? Row{} : row_;
+  uint32_t at = position_;
+  if (at == 0) advance(untimedPeriodUs_);
+  while (at < list.size()) {
+    const rung_step& step = list[at];
+    const bool isRow = at == row.first;
+    if (isRow) at = row.last;
+    position_ = at;
+    if (!isRow)
+      doStep(step);
+    else if (!stopped_)
+      runWhole(step.task, row.times);
+    ++at;
+    if (faulted_ || (at < list.size() && ends(step, list[at]))) break;
   }
-  position_ = 0;
-  return false;
-}
-
-// Does the step that comes next; false when it was the last of the list, which then is at its beginning again.
-inline bool Runner::stepOnce() noexcept {
-  if (position_ == 0) advance(untimedPeriodUs_);
-  if (position_ < list_.size()) doStep(list_[position_]);
-  return next();
+  position_ = at < list.size() ? at : 0;
 }
 
 void Runner::scan() noexcept {
-  const FloatEnvironment environment(defaultFloats_);
-  startTime();
-  hold();
-  list_ = pass(false);
-  const bool isScan = list_.data() == program_->scan;
-  bool more = true;
-  while (more && !faulted_) {
-    if (isScan && position_ == row_.first) {
-      doRow();
-      more = next();
-    } else {
-      more = stepOnce();
-    }
-  }
+  walk(false, [](const rung_step&, const rung_step&) { return false; });
 }
 
 void Runner::slot() noexcept {
-  const FloatEnvironment environment(defaultFloats_);
-  startTime();
-  hold();
-  list_ = pass(false);
-  bool more = true;
-  while (more && !faulted_) {
-    const bool slotEnds = position_ < list_.size() && list_[position_].op == RUNG_STEP_SLOT;
-    more = stepOnce() && !slotEnds;
-  }
+  walk(false, [](const rung_step& step, const rung_step&) { return step.op == RUNG_STEP_SLOT; });
 }
 
 void Runner::fast() noexcept {
@@ -490,33 +525,25 @@ uint32_t Runner::sliceDelayUs() const noexcept {
 }
 
 void Runner::slice() noexcept {
-  const FloatEnvironment environment(defaultFloats_);
-  startTime();
-  hold();
-  list_ = pass(true);
-  bool more = true;
-  while (more && !faulted_) more = stepOnce() && list_[position_].op != RUNG_STEP_ADVANCE;
+  walk(true, [](const rung_step&, const rung_step& next) { return next.op == RUNG_STEP_ADVANCE; });
 }
 
-// The steps of the slice that begins here up to its first run of the fast task; 0: there is none, or the slice has
-// begun.
-uint32_t Runner::stepsToFast() const noexcept {
-  if (withinSlice()) return 0;
+bool Runner::runsFast(const rung_step& step) const noexcept {
+  return step.op == RUNG_STEP_RUN && step.task == program_->fast_task;
+}
+
+bool Runner::fastAhead() const noexcept {
+  if (withinSlice()) return false;
   const std::span<const rung_step> list = pass(true);
   for (uint32_t i = position_; i < list.size(); ++i) {
-    if (i > position_ && list[i].op == RUNG_STEP_ADVANCE) return 0;
-    if (list[i].op == RUNG_STEP_RUN && list[i].task == program_->fast_task) return i + 1 - position_;
+    if (i > position_ && list[i].op == RUNG_STEP_ADVANCE) return false;
+    if (runsFast(list[i])) return true;
   }
-  return 0;
+  return false;
 }
 
 void Runner::sliceToFast() noexcept {
-  const FloatEnvironment environment(defaultFloats_);
-  startTime();
-  hold();
-  const uint32_t steps = stepsToFast();
-  list_ = pass(true);
-  for (uint32_t i = 0; i < steps && !faulted_; ++i) stepOnce();
+  if (fastAhead()) walk(true, [this](const rung_step& step, const rung_step&) { return runsFast(step); });
 }
 
 } // namespace rung::rt

@@ -110,7 +110,7 @@ public:
   uint32_t sliceDelayUs() const noexcept;
   void slice() noexcept;
   // A slice comes next in which the fast task runs.
-  bool fastAhead() const noexcept { return stepsToFast() != 0; }
+  bool fastAhead() const noexcept;
   // That slice, up to the first such run in it; `slice` then runs its rest.
   void sliceToFast() noexcept;
 
@@ -135,10 +135,13 @@ public:
 private:
   bool isPlain(uint32_t task) const noexcept;
   bool runPlain(uint32_t task, uint32_t times) noexcept;
+  uint32_t runRow(uint32_t entry, uint32_t times) noexcept;
+  uint32_t runAgain(const rung_task& task, uint32_t times) noexcept;
   uint32_t runToEnd(uint32_t task) noexcept;
   uint32_t runBounded(uint32_t pc, uint32_t limit) noexcept;
   uint32_t runFrom(uint32_t pc, uint32_t limit, uint32_t task, uint32_t& budget) noexcept;
-  uint32_t runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget, bool looks) noexcept;
+  uint32_t runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
+  uint32_t runWatched(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget, bool looks) noexcept;
   bool hasActivity(uint32_t task) const noexcept;
   bool looksAt(uint32_t task) noexcept;
   void useCode(const Code& code) noexcept;
@@ -167,14 +170,13 @@ private:
     return step.op == RUNG_STEP_HOOK && step.arg < 32 && (hooks_.works >> step.arg & 1) == 0;
   }
   void findRow() noexcept;
-  void doRow() noexcept;
   void stopOnFault(uint32_t task) noexcept;
   void clearSafes() noexcept;
   bool mayRun() const noexcept { return !faulted_ && !inTask_; }
   std::span<const rung_step> pass(bool realClock) const noexcept;
-  bool next() noexcept;
-  bool stepOnce() noexcept;
-  uint32_t stepsToFast() const noexcept;
+  template <class Ends>
+  void walk(bool realClock, const Ends& ends) noexcept;
+  bool runsFast(const rung_step& step) const noexcept;
 
   void beginProgram() noexcept;
 

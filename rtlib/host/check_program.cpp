@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rtlib/core/activity.h"
+#include "rtlib/core/memory.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/number.h"
 #include "rung/types.hpp"
@@ -128,6 +129,7 @@ private:
     present("activity", p_.activity_count, p_.activity);
     present("activity spans", p_.activity_span_count, p_.activity_spans);
     present("read spans", p_.read_count, p_.reads);
+    present("changes", p_.change_count, p_.changes);
   }
 
   // ---- memory ------------------------------------------------------------------------------------------------------
@@ -260,6 +262,9 @@ private:
     for (uint32_t i = 0; i < p_.safe_count; ++i)
       inBlock("safe span", i, p_.safe_spans[i].offset, p_.safe_spans[i].size);
     for (uint32_t i = 0; i < p_.read_count; ++i) inBlock("read span", i, p_.reads[i].offset, p_.reads[i].size);
+    const uint32_t block = std::max(p_.memory_size, rt::Memory::kLeastBlock);
+    for (uint32_t i = 0; i < p_.change_count; ++i)
+      if (p_.changes[i] > block - rt::Memory::kLeastBlock) failAt("change", i, "lies outside the memory block");
     for (uint32_t i = 0; i < p_.write_count; ++i) {
       inBlock("written span", i, p_.writes[i].offset, p_.writes[i].size);
       if (i > 0 && p_.writes[i].offset < uint64_t{p_.writes[i - 1].offset} + p_.writes[i - 1].size)
@@ -387,6 +392,9 @@ private:
       piece("task", i, "parts", t.part_first, t.part_count, p_.part_end_count);
       piece("task", i, "read spans", t.read_first, t.read_count, p_.read_count);
       checkReads(i);
+      piece("task", i, "changes", t.change_first, t.change_count, p_.change_count);
+      if (t.change_count > RUNG_MOST_CHANGES) failAt("task", i, "has too many changes");
+      if (t.straight_chunk != RUNG_PC_DONE) index("task", i, "straight chunk", t.straight_chunk, p_.chunk_count);
       if (t.part_count == 0) failAt("task", i, "has no parts, expected at least 1");
       if (error_.empty()) checkParts(i, t);
     }

@@ -209,7 +209,13 @@ typedef struct rung_task {
   uint32_t circles;    /* 1: control may go in circles; `heaviest` counts none of them twice, and `budget` ends them */
   uint32_t read_first; /* in `reads`: what a run may read of spaces, its `begin` copies included */
   uint32_t read_count;
+  uint32_t change_first; /* in `changes`: all that a run may change lies there. When one changes nothing, the next right */
+  uint32_t change_count; /* after it does not either. 0: nobody promises that, or it is too much to compare */
+  uint32_t straight_chunk; /* from it on, outside of calls, control goes in no circles; RUNG_PC_DONE: nowhere */
+  uint32_t straight_weight; /* of the heaviest way from there, or from a later chunk */
 } rung_task;
+
+#define RUNG_MOST_CHANGES 16u /* `changes` of a task */
 
 enum rung_step_op {
   RUNG_STEP_ADVANCE = 0, /* the clock moves on by `arg` microseconds */
@@ -331,6 +337,7 @@ typedef struct rung_program {
   uint32_t read_count;
   uint32_t activity_count; /* chunk_count, or 0: every chunk is to run */
   uint32_t activity_span_count;
+  uint32_t change_count;
 
   const rung_space* spaces;
   const rung_symbol* symbols;
@@ -358,6 +365,7 @@ typedef struct rung_program {
   const rung_span* reads;         /* of each task, ascending; none touches the next */
   const rung_activity* activity;  /* by chunk */
   const rung_span* activity_spans;
+  const uint32_t* changes; /* of each task: offsets of eight bytes of the memory block, ascending */
 } rung_program;
 
 #ifdef __cplusplus

@@ -92,6 +92,35 @@ TEST(HeaviestRun, IsThatOfTheHeaviestPart) {
   }
 }
 
+// Of all ways from each chunk of the task's routine on.
+TEST(StraightEnd, IsWhereTheLastCircleEnds) {
+  uint32_t between = 0;
+  for (uint64_t seed = 0; seed < 400; ++seed) {
+    SCOPED_TRACE(seed);
+    const Module module = randomModule(seed, {.rungs = 8, .ops = 4});
+    const Cut cut(module, {.maxChunkRungs = 2});
+    for (uint32_t t = 0; t < module.tasks.size(); ++t) {
+      const Task& task = module.tasks[t];
+      if (task.parts != 1) continue;
+      Straight expected;
+      uint64_t most = 0;
+      for (auto c = static_cast<uint32_t>(cut.chunks().size()); c-- > 0;) {
+        if (cut.chunks()[c].routine != task.entry) continue;
+        Open open;
+        const std::optional<uint64_t> way = heaviestWay(module, task.entry, cut.chunks()[c].firstRung, open);
+        if (!way) break;
+        most = std::max(most, *way);
+        expected = {.chunk = c, .weight = static_cast<uint32_t>(most)};
+      }
+      const Straight found = straightEnd(cut, TaskId{t});
+      EXPECT_EQ(found.chunk, expected.chunk);
+      EXPECT_EQ(found.weight, expected.weight);
+      between += found.chunk != RUNG_PC_DONE && found.chunk != cut.entry(task.entry) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(between, 30u);
+}
+
 // The length of a routine is not limited by the stack.
 TEST(HeaviestRun, OfManyRungs) {
   Module module = randomModule(1, {.rungs = 4, .jumps = false});

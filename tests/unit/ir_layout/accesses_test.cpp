@@ -96,5 +96,40 @@ TEST(Accesses, SpansAreAscendingAndApart) {
   EXPECT_GT(most, 3u);
 }
 
+// With it each run of a row is done by itself.
+class Watch : public host::TaskWatch {
+public:
+  void begins(const host::Instance&, uint32_t) override {}
+  void ended(const host::Instance&, uint32_t) override {}
+};
+
+// Each in the state after the others, at one time: the runner leaves out the rest of a row whose task changes nothing
+// any more.
+TEST(Accesses, ARowOfRunsIsWhatTheRunsAreOneByOne) {
+  constexpr uint32_t kTimes = 6;
+  Watch watch;
+  uint32_t promised = 0;
+  for (uint64_t seed = 0; seed < 2000; ++seed) {
+    SCOPED_TRACE(seed);
+    Module module = randomModule(seed, {.routines = 2, .rungs = 2, .ops = 5, .host = seed % 4 == 0});
+    module.scan = {{.op = RUNG_STEP_ADVANCE, .task = {}, .arg = 1000},
+                   {.op = RUNG_STEP_RUN, .task = module.mainTask, .arg = kTimes}};
+    const Layout layout(module, {});
+    InterpEngine engine(layout, 1);
+    host::Instance row(engine);
+    host::Instance single(engine);
+    promised += row.program().tasks[module.mainTask.index].change_count != 0 ? 1 : 0;
+    single.setTaskWatch(&watch);
+    for (int scan = 0; scan < 3; ++scan) {
+      row.scan();
+      single.scan();
+      for (uint32_t i = 0; i < row.program().memory_size; ++i)
+        ASSERT_EQ(row.block()[i], single.block()[i]) << "scan " << scan << ", byte " << i;
+      ASSERT_EQ(row.faulted(), single.faulted());
+    }
+  }
+  EXPECT_GT(promised, 200u);
+}
+
 } // namespace
 } // namespace rung::ir

@@ -214,6 +214,10 @@ const Case kCases[] = {
        t.link();
      },
      "activity span 0 lies outside the memory block"},
+    {"ChangesMany", [](TestProgram& t) { t.addChanges(0, std::vector<uint32_t>(RUNG_MOST_CHANGES + 1, 0)), t.link(); },
+     "task 0 has too many changes"},
+    {"ChangesPlace", [](TestProgram& t) { t.addChanges(0, {t.memorySize - 7}), t.link(); },
+     "change 0 lies outside the memory block"},
     {"RungTitle", [](TestProgram& t) { t.rungs[1].title = nullptr; }, "rung 1 has no title"},
     {"RungFile", [](TestProgram& t) { t.rungs[0].file = 1; }, "rung 0 has file 1, there are 1"},
     {"RungLines", [](TestProgram& t) { t.rungs[1].last_line = 19; }, "rung 1 ends before it begins, in line 19"},
@@ -221,6 +225,7 @@ const Case kCases[] = {
 
     {"TaskName", [](TestProgram& t) { t.tasks[0].name = nullptr; }, "task 0 has no name"},
     {"TaskEntry", [](TestProgram& t) { t.tasks[0].entry = 2; }, "task 0 has entry 2, there are 2"},
+    {"TaskStraight", [](TestProgram& t) { t.tasks[0].straight_chunk = 2; }, "task 0 has straight chunk 2, there are 2"},
     {"TaskFault", [](TestProgram& t) { t.tasks[0].budget_fault = RUNG_NONE; }, "task 0 has budget fault"},
     {"TaskBegin", [](TestProgram& t) { t.tasks[0].begin_count = 3; }, "task 0 has begin copies 0 + 3, there are 2"},
     {"TaskEnd", [](TestProgram& t) { t.tasks[0].end_first = 3; }, "task 0 has end copies 3 + 0, there are 2"},

@@ -109,7 +109,11 @@ AT(rung_task, heaviest, 48);
 AT(rung_task, circles, 52);
 AT(rung_task, read_first, 56);
 AT(rung_task, read_count, 60);
-SIZE(rung_task, 64);
+AT(rung_task, change_first, 64);
+AT(rung_task, change_count, 68);
+AT(rung_task, straight_chunk, 72);
+AT(rung_task, straight_weight, 76);
+SIZE(rung_task, 80);
 
 AT(rung_step, op, 0);
 AT(rung_step, task, 4);
@@ -192,6 +196,7 @@ AT(rung_program, write_count, 148);
 AT(rung_program, read_count, 152);
 AT(rung_program, activity_count, 156);
 AT(rung_program, activity_span_count, 160);
+AT(rung_program, change_count, 164);
 AT(rung_program, spaces, 168);
 AT(rung_program, symbols, 176);
 AT(rung_program, slots, 184);
@@ -217,7 +222,8 @@ AT(rung_program, writes, 336);
 AT(rung_program, reads, 344);
 AT(rung_program, activity, 352);
 AT(rung_program, activity_spans, 360);
-SIZE(rung_program, 368);
+AT(rung_program, changes, 368);
+SIZE(rung_program, 376);
 
 #endif
 

@@ -217,6 +217,58 @@ TEST_F(RunnerTest, WhatCannotUseUpItsBudgetIsNotCounted) {
   EXPECT_EQ(takeTrace(), Trace{});
 }
 
+// What it may change is mem[1], which counts up to mem[9].
+uint32_t countUp(uint8_t* mem, rung_ctx*, uint32_t) {
+  trace(mem, 0);
+  if (mem[1] < mem[9]) ++mem[1];
+  return RUNG_PC_DONE;
+}
+
+TEST_F(RunnerTest, ARowEndsOnceARunHasChangedNothing) {
+  test.addChunk(countUp);
+  const uint32_t task = test.addTask("FAST", 0);
+  test.tasks[task].heaviest = 1;
+  test.addChanges(task, {1});
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 10}, {RUNG_STEP_RUN, task, 20}};
+  start();
+  runner->scan();
+  EXPECT_EQ(takeTrace().size(), 2u);
+  memory[9] = 1; // the first run finds something new
+  runner->scan();
+  EXPECT_EQ(takeTrace().size(), 2u);
+  EXPECT_EQ(memory[1], 1);
+  memory[9] = 18; // the second run changes something, too
+  runner->scan();
+  EXPECT_EQ(takeTrace().size(), 20u);
+  EXPECT_EQ(memory[1], 18);
+  test.tasks[task].change_count = 0; // no promise
+  start();
+  runner->scan();
+  EXPECT_EQ(takeTrace().size(), 20u);
+}
+
+// mem[1] rounds of chunk 0, then 1 and 2; each weighs 3. The tables call 1 and 2 lighter, so that it shows.
+TEST_F(RunnerTest, WhatComesAfterTheLastCircleIsNotCounted) {
+  test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) { return trace(mem, 0), mem[1]-- == 0 ? 1u : 0u; }, 3);
+  test.addChunk(step<1, 2>, 3);
+  test.addChunk(step<2, RUNG_PC_DONE>, 3);
+  const uint32_t task = test.addTask("MAIN", 0, 10);
+  test.tasks[task].circles = 1;
+  test.tasks[task].straight_chunk = 1;
+  test.tasks[task].straight_weight = 4;
+  start();
+  memory[1] = 1;
+  EXPECT_TRUE(runner->runTask(task)) << "4 are left";
+  EXPECT_EQ(takeTrace(), (Trace{0, 0, 1, 2}));
+  memory[1] = 2;
+  EXPECT_FALSE(runner->runTask(task)) << "1 is left";
+  EXPECT_EQ(takeTrace(), (Trace{0, 0, 0}));
+  runner->reset();
+  memory[1] = 9;
+  EXPECT_FALSE(runner->runTask(task)) << "it circles too long";
+  EXPECT_EQ(takeTrace(), (Trace{0, 0, 0}));
+}
+
 TEST_F(RunnerTest, AFaultEndsWhatIsNotCounted) {
   test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) { return trace(mem, 0), uint32_t{RUNG_PC_FAULT}; });
   const uint32_t task = test.addTask("A", 0);

@@ -34,6 +34,7 @@ struct TestProgram {
   std::vector<rung_activity> activity;
   std::vector<rung_span> activitySpans;
   std::vector<rung_span> reads;
+  std::vector<uint32_t> changes;
   std::vector<rung_copy> copies;
   std::vector<rung_chunk_fn> functions;
   std::vector<uint32_t> weights; // of chunks; 1 where it is shorter
@@ -86,6 +87,7 @@ struct TestProgram {
     task.period_us = 8000;
     task.budget = budget;
     task.heaviest = budget; // so that it is counted
+    task.straight_chunk = RUNG_PC_DONE;
     task.part_first = static_cast<uint32_t>(partEnds.size());
     task.part_count = static_cast<uint32_t>(ends.size());
     partEnds.insert(partEnds.end(), ends.begin(), ends.end());
@@ -105,6 +107,12 @@ struct TestProgram {
     tasks[task].read_first = static_cast<uint32_t>(reads.size());
     tasks[task].read_count = static_cast<uint32_t>(spans.size());
     reads.insert(reads.end(), spans.begin(), spans.end());
+  }
+  // Where lies all that the task may change; all of one task after the other.
+  void addChanges(uint32_t task, std::vector<uint32_t> words) {
+    tasks[task].change_first = static_cast<uint32_t>(changes.size());
+    tasks[task].change_count = static_cast<uint32_t>(words.size());
+    changes.insert(changes.end(), words.begin(), words.end());
   }
   void addBeginCopy(uint32_t task, rung_copy copy) { addCopy(copy, tasks[task].begin_first, tasks[task].begin_count); }
   void addEndCopy(uint32_t task, rung_copy copy) { addCopy(copy, tasks[task].end_first, tasks[task].end_count); }
@@ -153,6 +161,7 @@ struct TestProgram {
     point(texts, program.texts, program.text_count);
     point(writes, program.writes, program.write_count);
     point(reads, program.reads, program.read_count);
+    point(changes, program.changes, program.change_count);
     point(files, program.files, program.file_count);
     point(routines, program.routines, program.routine_count);
     program.chunk_fns = functions.data();

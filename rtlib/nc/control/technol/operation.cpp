@@ -61,8 +61,8 @@ void Operation::takeRequests(host::Instance& instance) {
   const bool key = get(instance, places_->stop);
   const bool request = get(instance, places_->stopRequest);
   const bool emergency = get(instance, places_->emergencyRequest);
-  memory.write(places_->stopRequest, 0);
-  memory.write(places_->emergencyRequest, 0);
+  if (request) memory.write(places_->stopRequest, 0);
+  if (emergency) memory.write(places_->emergencyRequest, 0);
   memory.write(places_->handSelect, 0);
   memory.write(places_->handCancel, 0);
   const bool pressed = key && !stopKey_;
@@ -115,6 +115,7 @@ void Operation::follow(host::Instance& instance, bool moves) {
 void Operation::endHoming(host::Instance& instance) {
   const rt::Memory memory = instance.memory();
   const uint64_t homed = memory.read(places_->homed);
+  if (homed == homed_) return;
   const uint64_t others = ~(homed & ~homed_);
   for (const rt::Place& request : {places_->homingRequest, places_->zeroRequest})
     memory.write(request, memory.read(request) & others);

@@ -170,8 +170,9 @@ class WrongDevices(Folder):
                 ("config switch.P1IN.2 9 1 2\nscan", "'switch 9 1 2' is for axis 9"),
                 ("config axis.1.Position 1e300", "w.scn:3: 'Position' needs a number of -1e9 to 1e9; found '1e300'"),
                 ("set NC.MPOS.1 1e300", "w.scn:3: a place is a number of -1e9 to 1e9"),
-                ("event handwheel", "w.scn:3: pulses are a whole number, as in pulses=5"),
-                ("event handwheel pulses=1 wheel=3", "w.scn:3: the handwheels are 1 and 2")):
+                ("event handwheel", "w.scn:3: handwheel: 'pulses' is missing"),
+                ("event handwheel pulses=0.5", "w.scn:3: handwheel: 'pulses' takes "),
+                ("event handwheel pulses=1 wheel=3", "w.scn:3: handwheel: 'wheel' takes 1 to 2")):
             self.assertIn(message, self.complaint("config nc simulated\n" + line), line)
 
     def test_tables(self):
@@ -183,7 +184,7 @@ class WrongDevices(Folder):
                 ("set PlcTable0.SelLine 2", "w.scn:4: PLC table 0 has no line 2; its lines are 0 to 1"),
                 ("set PlcTable0.SelLine -1", "w.scn:4: a line is a number from 0"),
                 ("expect PlcTable0.Lines 2", "w.scn:4: PLC table 0 has LinesCount and SelLine"),
-                ("event PLCT table=0", "w.scn:4: PLCT needs a table, and add=1 or the number of a line to remove"),
+                ("event PLCT table=0", "w.scn:4: PLCT: either add=1, or remove with the number of a line"),
                 ("config PlcTable-1 t.PlcT", "w.scn:4: 'PlcTable-1' is not a configuration key")):
             self.assertIn(message, self.complaint(TABLES + line), line)
 
@@ -196,7 +197,7 @@ class WrongDevices(Folder):
         for name in ("SA0+31999:2", "SA2+0:1", "SA0+0:3", "SA1+0"):
             self.assertIn("w.scn:2: a cell of a shared area is SA0+OFFSET:WIDTH or SA1+OFFSET:WIDTH",
                           self.complaint(f"set {name} 1"), name)
-        self.assertIn("w.scn:2: there is no such shared area", self.complaint("event SA_LOCK"))
+        self.assertIn("w.scn:2: SA_LOCK: 'area' is missing", self.complaint("event SA_LOCK"))
 
 
 class Trace(Folder):

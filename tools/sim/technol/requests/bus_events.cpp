@@ -7,6 +7,7 @@
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "tools/sim/technol/requests/event_keys.h"
+#include "tools/sim/technol/requests/scenario_texts.h"
 #include "tools/sim/technol/requests/simulated_devices.h"
 
 namespace rung::sim::technol {
@@ -85,14 +86,6 @@ std::optional<std::vector<uint8_t>> bytesOfText(std::string_view utf8) {
   return bytes;
 }
 
-// "0102FF"
-std::string inHex(std::span<const uint8_t> bytes) {
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
-  std::string text;
-  for (const uint8_t byte : bytes) text += {kDigits[byte >> 4], kDigits[byte & 15]};
-  return text;
-}
-
 // What `data` or `text` says; "" or what is wrong.
 std::string readBytes(const EventKeys& keys, std::vector<uint8_t>& bytes) {
   const bool isText = keys.has("text");
@@ -118,8 +111,8 @@ std::string readPacket(const EventKeys& keys, devices::CanPacket& packet) {
 
 std::string textOf(const devices::CanPacket& packet) {
   const uint8_t id[] = {static_cast<uint8_t>(packet.id >> 8), static_cast<uint8_t>(packet.id)};
-  return "id=0x" + inHex(id) + " rtr=" + std::to_string(packet.remote) + " len=" + std::to_string(packet.length) +
-         " data=\"" + inHex(std::span(packet.data).first(packet.length)) + "\"";
+  return "id=0x" + hexOf(id) + " rtr=" + std::to_string(packet.remote) + " len=" + std::to_string(packet.length) +
+         " data=\"" + hexOf(std::span(packet.data).first(packet.length)) + "\"";
 }
 
 // Keys that are not given do not count, nor does the data of a request for data.
@@ -193,24 +186,11 @@ std::string SimulatedDevices::netEvent(const EventKeys& keys) {
 }
 
 std::optional<std::string> SimulatedDevices::portEvent(std::string_view name, std::span<const NcArgument> given) {
-  struct Event {
-    std::string_view name;
-    std::span<const EventKey> keys;
-    std::string (SimulatedDevices::*act)(const EventKeys&);
-    bool isScripted = false; // also with `nc scripted`
-  };
   static constexpr Event kEvents[] = {
       {"CAN", kPacketKeys, &SimulatedDevices::canEvent, true},  {"CAN_UNIT", kUnitKeys, &SimulatedDevices::unitEvent},
       {"CAN_DRIVE", kDriveKeys, &SimulatedDevices::driveEvent}, {"CAN_BUS", kBusKeys, &SimulatedDevices::busEvent},
       {"COM", kLineKeys, &SimulatedDevices::lineEvent},         {"ethercat", kNetKeys, &SimulatedDevices::netEvent}};
-  const auto* const event =
-      std::ranges::find_if(kEvents, [&](const Event& known) { return text::equalsIgnoringCase(known.name, name); });
-  if (event == std::end(kEvents)) return std::nullopt;
-  if (!simulated_ && !event->isScripted)
-    return std::string(event->name) + " is of simulated devices: `config nc simulated` is missing";
-  if (std::string wrong = wrongKeys(event->name, given, event->keys); !wrong.empty()) return wrong;
-  const std::string wrong = (this->*event->act)(EventKeys(given));
-  return wrong.empty() ? wrong : std::string(event->name) + ": " + wrong;
+  return oneOf(kEvents, name, given);
 }
 
 // ---- what has been sent --------------------------------------------------------------------------------------------
@@ -244,7 +224,7 @@ std::string SimulatedDevices::bytesSent(uint32_t number, const EventKeys& keys, 
   constexpr size_t kMore = 8; // bytes that are shown beyond those that are wanted
   std::vector<uint8_t> found;
   for (uint32_t i = 0; i < line.sent() && i < wanted.size() + kMore; ++i) found.push_back(line.sentByte(i));
-  return "sent is " + (found.empty() ? std::string("nothing") : inHex(found));
+  return "sent is " + (found.empty() ? std::string("nothing") : hexOf(found));
 }
 
 std::string SimulatedDevices::packetSent(uint32_t channel, const EventKeys& keys, bool none) {

@@ -1,6 +1,8 @@
 // What a scenario does to the devices, and what it sees of them (see simulated_devices.h; inventory of the services,
 // 15).
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
@@ -11,69 +13,15 @@
 namespace rung::sim::technol {
 namespace {
 
-using Keys = std::span<const NcArgument>;
-
-const NcArgument* find(Keys keys, std::string_view name) {
-  for (const NcArgument& key : keys)
-    if (text::equalsIgnoringCase(key.key, name)) return &key;
-  return nullptr;
-}
-
-int64_t number(Keys keys, std::string_view name, int64_t otherwise) {
-  const NcArgument* key = find(keys, name);
-  return key != nullptr && !key->isText ? key->integer : otherwise;
-}
-uint32_t unsignedNumber(Keys keys, std::string_view name, uint32_t otherwise = 0) {
-  return static_cast<uint32_t>(number(keys, name, otherwise));
-}
-std::string textOf(Keys keys, std::string_view name) {
-  const NcArgument* key = find(keys, name);
-  return key != nullptr && key->isText ? key->text : std::string();
-}
-template <class Value>
-std::optional<Value> given(Keys keys, std::string_view name) {
-  const NcArgument* key = find(keys, name);
-  return key == nullptr ? std::nullopt : std::optional(static_cast<Value>(key->integer));
-}
-
-// "" or the first key that the event has not.
-std::string unknownKey(Keys keys, std::string_view event, std::string_view known) {
-  for (const NcArgument& key : keys) {
-    bool found = false;
-    for (std::string_view rest = known; !rest.empty();) {
-      const size_t end = std::min(rest.find(' '), rest.size());
-      found = found || text::equalsIgnoringCase(key.key, rest.substr(0, end));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    if (!found) return std::string(event) + " has no '" + key.key + "': it has " + std::string(known);
-  }
-  return {};
-}
-
-AxisMask axesOf(Keys keys) {
-  const int64_t axis = number(keys, "axis", 0);
-  if (axis >= 1 && axis <= kMaxAxes) return bitOf(static_cast<uint32_t>(axis - 1));
-  return static_cast<AxisMask>(number(keys, "axes", 0));
-}
-
-// "" or what is wrong.
-std::string editLines(devices::PlcTables& tables, Keys keys) {
-  const auto table = given<uint32_t>(keys, "table"), removed = given<uint32_t>(keys, "remove");
-  const bool adds = number(keys, "add", 0) == 1;
-  if (!table || adds == removed.has_value() || keys.size() != 2)
-    return "PLCT needs a table, and add=1 or the number of a line to remove, as in table=0 remove=2";
-  return adds ? tables.addLine(*table) : tables.removeLine(*table, *removed);
-}
-
-// "" or what is wrong. Both wheels move the axis that is selected, unless they are disabled.
-std::string turnHandwheel(Axes& axes, Keys keys) {
-  const int64_t pulses = number(keys, "pulses", 0), wheel = number(keys, "wheel", 1);
-  if (find(keys, "pulses") == nullptr || pulses != static_cast<int32_t>(pulses))
-    return "pulses are a whole number, as in pulses=5";
-  if (wheel != 1 && wheel != 2) return "the handwheels are 1 and 2";
-  axes.handwheel(pulses, static_cast<uint32_t>(wheel));
-  return {};
-}
+constexpr EventKey kAreaKeys[] = {required({"area", 0, devices::SharedAreas::kAreas - 1}), {"on"}};
+constexpr EventKey kTableKeys[] = {required({"table", 0, devices::PlcTables::kTables - 1}),
+                                   {"add"},
+                                   {"remove", 0, devices::PlcTables::kMostLines - 1}};
+constexpr EventKey kStopKeys[] = {{"emergency"}};
+constexpr EventKey kReferenceKeys[] = {{"axis", 1, kMaxAxes}, {"axes", 0, (1u << kMaxAxes) - 1}, textKey("type")};
+constexpr EventKey kManualKeys[] = {{"on"}};
+constexpr EventKey kCommandKeys[] = {required(textKey("command")), {"state"}};
+constexpr EventKey kHandwheelKeys[] = {required({"pulses", INT32_MIN, INT32_MAX}), {"wheel", 1, 2}};
 
 // "4.RefSpeed": the axis and the rest; 0 where there is none.
 uint32_t takeNumber(std::string_view& rest) {
@@ -87,31 +35,71 @@ uint32_t takeNumber(std::string_view& rest) {
 
 } // namespace
 
-std::optional<std::string> SimulatedDevices::event(host::Instance& instance, std::string_view name, Keys keys) {
-  const auto is = [&](std::string_view event) { return text::equalsIgnoringCase(name, event); };
-  const auto checked = [&](std::string_view known, auto act) -> std::optional<std::string> {
-    if (std::string wrong = unknownKey(keys, name, known); !wrong.empty()) return wrong;
-    return std::string(act());
-  };
-  if (is("SA_LOCK"))
-    return checked("area on", [&] {
-      const bool held =
-          find(keys, "area") != nullptr && areas_.hold(unsignedNumber(keys, "area"), number(keys, "on", 1) != 0);
-      return std::string(held ? "" : "there is no such shared area");
-    });
-  if (is("PLCT")) return checked("table add remove", [&] { return editLines(tables_, keys); });
-  if (const auto done = portEvent(name, keys)) return done;
-  if (!simulated_) return std::nullopt;
-  if (is("STOP"))
-    return checked("emergency", [&] { return axes_.stop(number(keys, "emergency", 0) != 0), std::string(); });
-  if (is("REFERENCE"))
-    return checked("axis axes type", [&] { return axes_.reference(textOf(keys, "type"), axesOf(keys)); });
-  if (is("AUTMAN")) return checked("on", [&] { return axes_.autman(number(keys, "on", 1) != 0), std::string(); });
-  if (is("RTM"))
-    return checked("command state", [&] { return axes_.rtm(textOf(keys, "command"), number(keys, "state", 1) != 0); });
-  if (is("KEY")) return keyEvent(instance, keys);
-  if (is("handwheel")) return checked("pulses wheel", [&] { return turnHandwheel(axes_, keys); });
-  return std::nullopt;
+// ---- events --------------------------------------------------------------------------------------------------------
+
+std::string SimulatedDevices::areaEvent(const EventKeys& keys) {
+  const bool held = areas_.hold(*keys.number<uint32_t>("area"), keys.number<bool>("on").value_or(true));
+  return held ? "" : "there is no such shared area";
+}
+
+std::string SimulatedDevices::tableEvent(const EventKeys& keys) {
+  const auto table = *keys.number<uint32_t>("table");
+  const auto removed = keys.number<uint32_t>("remove");
+  const bool adds = keys.number<bool>("add").value_or(false);
+  if (adds == removed.has_value()) return "either add=1, or remove with the number of a line, as in table=0 remove=2";
+  return adds ? tables_.addLine(table) : tables_.removeLine(table, *removed);
+}
+
+std::string SimulatedDevices::stopEvent(const EventKeys& keys) {
+  axes_.stop(keys.number<bool>("emergency").value_or(false));
+  return {};
+}
+
+std::string SimulatedDevices::referenceEvent(const EventKeys& keys) {
+  const auto axis = keys.number<uint32_t>("axis");
+  const AxisMask axes = axis ? bitOf(*axis - 1) : keys.number<AxisMask>("axes").value_or(0);
+  return axes_.reference(keys.text("type"), axes);
+}
+
+std::string SimulatedDevices::manualEvent(const EventKeys& keys) {
+  axes_.autman(keys.number<bool>("on").value_or(true));
+  return {};
+}
+
+std::string SimulatedDevices::commandEvent(const EventKeys& keys) {
+  return axes_.rtm(keys.text("command"), keys.number<bool>("state").value_or(true));
+}
+
+// Both wheels move the axis that is selected, unless they are disabled.
+std::string SimulatedDevices::handwheelEvent(const EventKeys& keys) {
+  axes_.handwheel(*keys.number<int64_t>("pulses"), keys.number<uint32_t>("wheel").value_or(1));
+  return {};
+}
+
+std::optional<std::string> SimulatedDevices::event(host::Instance& instance, std::string_view name,
+                                                   std::span<const NcArgument> given) {
+  static constexpr Event kEvents[] = {{"SA_LOCK", kAreaKeys, &SimulatedDevices::areaEvent, true},
+                                      {"PLCT", kTableKeys, &SimulatedDevices::tableEvent, true},
+                                      {"STOP", kStopKeys, &SimulatedDevices::stopEvent},
+                                      {"REFERENCE", kReferenceKeys, &SimulatedDevices::referenceEvent},
+                                      {"AUTMAN", kManualKeys, &SimulatedDevices::manualEvent},
+                                      {"RTM", kCommandKeys, &SimulatedDevices::commandEvent},
+                                      {"handwheel", kHandwheelKeys, &SimulatedDevices::handwheelEvent}};
+  if (simulated_ && text::equalsIgnoringCase(name, "KEY")) return keyEvent(instance, given);
+  if (const auto done = oneOf(kEvents, name, given)) return done;
+  return portEvent(name, given);
+}
+
+std::optional<std::string> SimulatedDevices::oneOf(std::span<const Event> events, std::string_view name,
+                                                   std::span<const NcArgument> given) {
+  const auto event =
+      std::ranges::find_if(events, [&](const Event& known) { return text::equalsIgnoringCase(known.name, name); });
+  if (event == events.end()) return std::nullopt;
+  if (!simulated_ && !event->isScripted)
+    return std::string(event->name) + " is of simulated devices: `config nc simulated` is missing";
+  if (std::string wrong = wrongKeys(event->name, given, event->keys); !wrong.empty()) return wrong;
+  const std::string wrong = (this->*event->act)(EventKeys(given));
+  return wrong.empty() ? wrong : std::string(event->name) + ": " + wrong;
 }
 
 // ---- quantities ----------------------------------------------------------------------------------------------------

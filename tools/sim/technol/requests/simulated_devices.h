@@ -85,7 +85,24 @@ public:
   void restoreKept(std::span<const uint8_t> image);
 
 private:
-  // Events of bus_events.cpp; nothing: another one. Keys have been checked when one of the others is called.
+  // What an event does, and what it takes; its keys have been checked when it acts. "" or what is wrong.
+  struct Event {
+    std::string_view name;
+    std::span<const EventKey> keys;
+    std::string (SimulatedDevices::*act)(const EventKeys&);
+    bool isScripted = false; // also with `nc scripted`
+  };
+  // Nothing: another event.
+  std::optional<std::string> oneOf(std::span<const Event> events, std::string_view name,
+                                   std::span<const NcArgument> given);
+  std::string areaEvent(const EventKeys& keys);
+  std::string tableEvent(const EventKeys& keys);
+  std::string stopEvent(const EventKeys& keys);
+  std::string referenceEvent(const EventKeys& keys);
+  std::string manualEvent(const EventKeys& keys);
+  std::string commandEvent(const EventKeys& keys);
+  std::string handwheelEvent(const EventKeys& keys);
+  // Those of bus_events.cpp.
   std::optional<std::string> portEvent(std::string_view name, std::span<const NcArgument> given);
   std::string canEvent(const EventKeys& keys);
   std::string unitEvent(const EventKeys& keys);

@@ -11,8 +11,8 @@ MOST_AT_REST = 200  # instructions that all services together may add to a scan 
 
 SERVICES = {"can": "32 CAN units: an item of each read, a packet to each sent",
             "positions": "6 positioning units: POS_CONTROL of each",
-            "serial": "4 serial ports: 8 characters of each read, one sent, the state",
-            "ethercat": "8 EtherCAT slaves: an object of each read"}
+            "serial": "4 serial ports: 4 characters of each read, one sent, the state",
+            "ethercat": "8 EtherCAT slaves: an object of each read in every other scan"}
 WITHOUT, ALL = "without services", "all of them"
 # Where the runtime enters the simulation; none calls another one.
 SIMULATION = ("rung::sim::SimulatedNc::respond(", "rung::sim::technol::SimulatedDevices::beforeInput(",
@@ -20,7 +20,7 @@ SIMULATION = ("rung::sim::SimulatedNc::respond(", "rung::sim::technol::Simulated
 HEAD = f"""## Instructions of TECHNOL's device services
 
 Counted by callgrind, exactly, as above: programs of tools/bench/services, whose devices are simulated; a scan is the average of {SCANS}. "At rest": the mechanisms that use a service are in the
-program and not started. "At work": what the line says is done in every scan. What simulated devices do and how they answer is not the program's, it is in the last column.
+program and not started. "At work": what the line says is done in every scan, where it does not name another number. What simulated devices do and how they answer is not the program's, it is in the last column.
 """
 
 

@@ -35,7 +35,7 @@ struct CompileRequest {
   bool keepSource = false; // keep what the front end knows of the text
   ir::LayoutOptions layout;
   std::vector<LayoutClaim> layouts;
-  std::function<void(std::string_view stage)> ended; // for who measures: called at the end of each stage; may be empty
+  std::function<void(std::string_view stage)> ended; // called at the end of each stage, to measure it; may be empty
 };
 
 struct Compiled {

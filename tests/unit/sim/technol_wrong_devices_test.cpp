@@ -90,7 +90,8 @@ TEST(WrongDevices, Displays) {
   TechnolMachine machine({{"nc", "simulated"}, {"CAN[1].KnobCnt", "1"}});
   EXPECT_TRUE(machine.nc().readCell("DISPTOC1.Shown[63][127]"));
   EXPECT_FALSE(machine.nc().readCell("DISPTOC1.Shown[64][0]"));
-  EXPECT_EQ(machine.nc().cellProblem("DISPTOC1.Shown[64][0]"), "a display has the rows 0 to 63 and the columns 0 to 127");
+  EXPECT_EQ(machine.nc().cellProblem("DISPTOC1.Shown[64][0]"),
+            "a display has the rows 0 to 63 and the columns 0 to 127");
   EXPECT_EQ(machine.nc().cellProblem("DISPTOC2.Shown[0][0]"),
             "there is no such handwheel; `config CAN[1].KnobCnt 2` adds it");
   EXPECT_EQ(machine.nc().writeCell("DISPTOC1.Shown[0][0]", value(1)),

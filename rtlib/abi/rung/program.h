@@ -209,9 +209,8 @@ typedef struct rung_task {
   uint32_t circles;    /* 1: control may go in circles; `heaviest` counts none of them twice, and `budget` ends them */
   uint32_t read_first; /* in `reads`: what a run may read of spaces, its `begin` copies included */
   uint32_t read_count;
-  uint32_t
-      change_first; /* in `changes`: all that a run may change lies there. When one changes nothing, the next right */
-  uint32_t change_count;    /* after it does not either. 0: nobody promises that, or it is too much to compare */
+  uint32_t change_first;    /* in `changes`: where all lies that a run may change. When one changes nothing, the next */
+  uint32_t change_count;    /* right after it does not either. 0: nobody promises that, or there is too much of it */
   uint32_t straight_chunk;  /* from it on, outside of calls, control goes in no circles; RUNG_PC_DONE: nowhere */
   uint32_t straight_weight; /* of the heaviest way from there, or from a later chunk */
 } rung_task;

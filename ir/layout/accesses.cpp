@@ -158,7 +158,15 @@ namespace {
 
 bool does(const Op& op, uint8_t effects) { return (opInfo(op.code).effects & effects) != 0; }
 
-// Of which the spans are covered.
+// Within a scan.
+bool runsAgain(const Module& module, TaskId task) {
+  uint32_t runs = 0;
+  for (const Step& step : module.scan)
+    if (step.op == RUNG_STEP_RUN && step.task.index == task.index) runs += step.arg;
+  return runs > 1;
+}
+
+// Words that cover the spans.
 std::vector<uint32_t> wordsOver(const std::vector<rung_span>& spans, uint32_t memorySize) {
   constexpr uint32_t kWord = 8;
   const uint32_t last = memorySize > kWord ? memorySize - kWord : 0; // a block has at least one word
@@ -176,7 +184,7 @@ std::vector<uint32_t> wordsOver(const std::vector<rung_span>& spans, uint32_t me
 
 std::vector<uint32_t> changedWords(const MemoryLayout& layout, TaskId id) {
   const Module& module = layout.module();
-  if (module.instrumented) return {};
+  if (module.instrumented || !runsAgain(module, id)) return {};
   std::vector<rung_span> spans;
   const std::vector<bool> routines = routinesOf(module, module.tasks[id.index].entry);
   for (uint32_t r = 0; r < routines.size(); ++r) {

@@ -31,7 +31,7 @@ public:
 
   void powerOn(host::Instance& instance, nc::PowerOn kind) override {
     SimulatedNc::powerOn(instance, kind);
-    locate(instance);
+    findPlaces(instance);
     if (simulated_) clearArea(instance, "F"); // the CNC is switched on as well
     simulator_.powerOn(kind == nc::PowerOn::Warm);
     waiting_.clear();
@@ -40,7 +40,7 @@ public:
   void programChanged(host::Instance& instance, const rung_program& former) override {
     const Relocation relocation(former, instance.program());
     for (Waiting& waiting : waiting_) relocation.renumber(waiting.request);
-    locate(instance);
+    findPlaces(instance);
   }
 
   // A slice is a slot.
@@ -91,7 +91,7 @@ private:
     uint32_t slots = 0;
   };
 
-  void locate(host::Instance& instance) {
+  void findPlaces(host::Instance& instance) {
     const uint32_t space = host::findSpace(instance.program(), "@MPOS");
     for (uint32_t axis = 0; axis < gsk::kAxes; ++axis)
       positionPlaces_[axis] = space == RUNG_NONE ? rt::Place() : instance.memory().locate(space, 4 * axis, 4);

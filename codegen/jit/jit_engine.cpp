@@ -38,7 +38,7 @@ struct JitCode::Linker {
 namespace {
 
 // Small enough that threads have the same amount of work, also of a program of some hundred rungs, that memory stays
-// flat and that the first piece is soon there; large enough that a piece's own cost, 2 ms beside 150, vanishes.
+// flat and that the first piece is soon there; large enough that a piece's own cost is small beside it.
 constexpr uint32_t kOpsPerPiece = 2048;
 
 std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <ctime>
 #include <utility>
@@ -55,6 +56,12 @@ int64_t monotonicNs() {
 void runOrdinary() noexcept {
   const sched_param none{};
   pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);
+}
+
+void blockSignals() noexcept {
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
 }
 
 RealTimeStats runRealTime(Instance& instance, const std::function<void()>& slice,

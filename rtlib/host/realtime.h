@@ -42,6 +42,8 @@ private:
 
 // The calling thread has no real-time priority from now on: a helper inherits that of the thread that starts it.
 void runOrdinary() noexcept;
+// The calling thread gets no signals: they are for the thread that waits for them.
+void blockSignals() noexcept;
 
 struct RealTimeStats {
   uint64_t slices = 0;

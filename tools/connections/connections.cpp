@@ -1,8 +1,7 @@
 // See connections.h.
 #include "tools/connections/connections.h"
 
-#include <csignal>
-
+#include "rtlib/host/realtime.h"
 #include "tools/connections/modbus_client.h"
 #include "tools/connections/modbus_server.h"
 #include "tools/connections/shared_memory.h"
@@ -17,13 +16,6 @@ std::unique_ptr<Service> serviceOf(const mapping::Connection& connection, Exchan
   case mapping::Connection::Kind::SharedMemory: return std::make_unique<SharedMemory>(connection, exchange);
   }
   return nullptr;
-}
-
-// They are for the thread that waits for them.
-void blockSignals() {
-  sigset_t all;
-  sigfillset(&all);
-  pthread_sigmask(SIG_BLOCK, &all, nullptr);
 }
 
 } // namespace
@@ -44,7 +36,7 @@ Connections::Connections(const mapping::File& map) {
 void Connections::start() {
   for (Served& served : served_)
     served.thread = std::thread([this, &served] {
-      blockSignals();
+      host::blockSignals();
       served.service->run(ending_);
     });
 }

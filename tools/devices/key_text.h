@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "rtlib/nc/control/technol/values.h"
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
 
 namespace rung::devices {
 
@@ -13,6 +15,12 @@ namespace rung::devices {
 inline std::optional<uint32_t> numberBetween(std::string_view text, int64_t least, int64_t most) {
   const auto number = nc::technol::integerOf(text);
   return number && *number >= least && *number <= most ? std::optional(static_cast<uint32_t>(*number)) : std::nullopt;
+}
+
+// The number after a prefix, in any case, of the key: PlcTableDef3.
+inline std::optional<uint32_t> numberAfter(std::string_view key, std::string_view prefix) {
+  if (!text::equalsIgnoringCase(key.substr(0, prefix.size()), prefix)) return std::nullopt;
+  return text::numberIn<uint32_t>(key.substr(prefix.size()));
 }
 
 // The text up to the character, which both go away from `text`; all of it where the character is not there.

@@ -7,6 +7,7 @@
 
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "tools/devices/key_text.h"
 #include "tools/host-devices/device_report.h"
 #include "tools/host-devices/devices_around.h"
 
@@ -25,13 +26,6 @@ std::optional<Assignment> assignmentOf(std::string_view setting) {
   if (equals == std::string_view::npos || equals + 1 == setting.size()) return std::nullopt;
   const auto number = text::numberIn<uint32_t>(setting.substr(0, equals));
   return number ? std::optional(Assignment{*number, std::string(setting.substr(equals + 1))}) : std::nullopt;
-}
-
-// The number after a prefix of the key: PlcTableDef3.
-std::optional<uint32_t> numberAfter(std::string_view key, std::string_view prefix) {
-  if (key.size() <= prefix.size() || !text::equalsIgnoringCase(key.substr(0, prefix.size()), prefix))
-    return std::nullopt;
-  return text::numberIn<uint32_t>(key.substr(prefix.size()));
 }
 
 std::string found(std::string_view setting) { return ", not '" + std::string(setting) + "'"; }
@@ -107,9 +101,9 @@ std::string HostDevices::configure(std::string_view key, std::string_view value)
   machine_->any = true;
   Devices& devices = machine_->devices;
   const std::string path(value);
-  if (const auto table = numberAfter(key, "PlcTableDef"))
+  if (const auto table = devices::numberAfter(key, "PlcTableDef"))
     return machine_->ofTable(*table, devices.tables.setDefinition(*table, path));
-  if (const auto table = numberAfter(key, "PlcTable"))
+  if (const auto table = devices::numberAfter(key, "PlcTable"))
     return machine_->ofTable(*table, devices.tables.setTable(*table, path));
   if (devices::com::isPortKey(key)) return machine_->setPort(key, value);
   if (text::equalsIgnoringCase(key, "EtherCATOPViaPLC")) {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "rtlib/host/realtime.h"
-#include "tools/host-devices/helper_thread.h"
 
 namespace rung::host_devices {
 
@@ -76,7 +75,8 @@ void TableService::end() {
 }
 
 void TableService::run() noexcept {
-  becomeHelper();
+  host::blockSignals();
+  host::runOrdinary();
   while (!ending_) {
     serve();
     if (std::string wrong = files_.save(tables_, host::monotonicNs()); !wrong.empty()) note(std::move(wrong));

@@ -1,6 +1,8 @@
 // The drives as the control sees them (see drives.h).
 #include "tools/devices/can/drives.h"
 
+#include "rtlib/text/hex.h"
+
 namespace rung::devices {
 namespace {
 
@@ -22,16 +24,14 @@ uint16_t faultOf(uint16_t emergency) {
   return found == std::end(kEmergencies) ? 0 : static_cast<uint16_t>(found - kEmergencies + 1);
 }
 
-constexpr std::string_view kHexDigits = "0123456789ABCDEF";
-
 } // namespace
 
 std::string textOf(const DriveMessage& message) {
   const std::string number = std::to_string(message.number), drive = std::to_string(message.drive);
   if (message.number == DriveMessage::kTimeout) return number + ": time-out of drive " + drive;
-  std::string code;
-  for (int shift = 12; shift >= 0; shift -= 4) code += kHexDigits[message.emergency >> shift & 15];
-  return number + ": emergency of drive " + drive + ", fault " + std::to_string(message.fault) + ", emergency " + code;
+  const uint8_t code[] = {static_cast<uint8_t>(message.emergency >> 8), static_cast<uint8_t>(message.emergency)};
+  return number + ": emergency of drive " + drive + ", fault " + std::to_string(message.fault) + ", emergency " +
+         text::hexOf(code);
 }
 
 void CanDrives::reset() {

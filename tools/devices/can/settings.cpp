@@ -7,10 +7,13 @@
 
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/text/letters.h"
+#include "tools/control-files/xml_reader.h"
 #include "tools/devices/key_text.h"
 
 namespace rung::devices {
 namespace {
+
+using control_files::inQuotes;
 
 constexpr std::string_view kGroupNames[kUnitGroups] = {"INOUT08", "KLA50", "KNOB"}; // of keys, in capitals
 constexpr std::string_view kCountNames[kUnitGroups] = {".INOUT08CNT", ".KLA50CNT", ".KNOBCNT"};
@@ -18,7 +21,6 @@ constexpr int64_t kSpeeds[] = {100'000, 125'000, 250'000, 500'000, 1'000'000}; /
 constexpr int64_t kServicePeriods[] = {250, 500, 1000};                        // us
 constexpr int64_t kMostPhysicalChannel = 15, kMostSyncPeriod = 15;
 
-std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 std::string takes(std::string_view key, const std::string& what) { return inQuotes(key) + " takes " + what; }
 std::string upTo(int64_t most) { return "0 to " + std::to_string(most); }
 

@@ -3,8 +3,6 @@
 
 #include <poll.h>
 
-#include <csignal>
-
 #include "rtlib/host/realtime.h"
 
 namespace rung::devices::com {
@@ -32,11 +30,8 @@ std::vector<std::string> TtyThread::problems() const {
   return found;
 }
 
-// Signals are for the thread that waits for them.
 void TtyThread::run() noexcept {
-  sigset_t all;
-  sigfillset(&all);
-  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  host::blockSignals();
   host::runOrdinary();
   std::vector<pollfd> waited(lines_.size());
   for (bool last = false; !last;) {

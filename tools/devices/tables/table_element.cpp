@@ -12,6 +12,7 @@
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/blanks.h"
+#include "rtlib/text/hex.h"
 #include "rtlib/text/number.h"
 #include "tools/devices/tables/plc_table.h"
 
@@ -93,16 +94,6 @@ std::string written(double value) {
   return {text.data(), end};
 }
 
-std::string hexOf(std::span<const uint8_t> bytes) {
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
-  std::string text;
-  for (const uint8_t byte : bytes) {
-    text += kDigits[byte / 16];
-    text += kDigits[byte % 16];
-  }
-  return text;
-}
-
 } // namespace
 
 bool isWritable(std::string_view text) noexcept {
@@ -146,7 +137,7 @@ std::string writtenElement(const PlcTable& table, ColumnType type, const uint8_t
   case ColumnType::Int: return std::to_string(get<int32_t>(element));
   case ColumnType::Real: return written(get<double>(element));
   case ColumnType::Text: return nc::shownText({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  case ColumnType::Binary: return hexOf(bytes);
+  case ColumnType::Binary: return text::hexOf(bytes);
   }
   return {};
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "rtlib/nc/technol/services.h"
 #include "tools/control-files/plc_table_files.h"
 
 namespace rung::devices {
@@ -14,7 +15,7 @@ using control_files::ColumnType;
 struct PlcTable;
 
 // Of a text or binary element, in bytes. The manual has no limit; what a program hands over at once has no more.
-inline constexpr uint32_t kElementBytes = 0xFFFF;
+inline constexpr uint32_t kElementBytes = nc::technol::kMostArgumentBytes;
 
 constexpr bool isText(ColumnType type) { return type == ColumnType::Text || type == ColumnType::Binary; }
 // INT: 4 bytes, REAL: 8, STRING and BINARY: where its bytes lie and how many they are (PlcTable::textOf).

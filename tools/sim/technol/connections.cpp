@@ -16,11 +16,11 @@
 namespace rung::sim::technol {
 namespace {
 
+using control_files::inQuotes;
+
 constexpr std::string_view kAnalogueIn = "ANALOG_INPUT_PHYSICAL", kAnalogueOut = "ANALOG_OUTPUT_PHYSICAL";
 
 std::string canonicalOf(std::string_view written) { return nc::technol::canonical(nc::memoryText(written)); }
-
-std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 bool isFlag(const std::optional<double>& attribute) { return attribute.value_or(0) != 0; }
 

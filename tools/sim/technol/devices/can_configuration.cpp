@@ -4,6 +4,7 @@
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
+#include "tools/control-files/xml_reader.h"
 #include "tools/devices/key_text.h"
 #include "tools/sim/technol/devices/can_devices.h"
 
@@ -13,7 +14,7 @@ using namespace devices;
 
 namespace {
 
-std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "'"; }
+using control_files::inQuotes;
 
 // "DRIVE.2.SDO.0X2003.1": the drive's number, and what follows SDO is left of the name.
 std::optional<uint32_t> takeDriveOfObject(std::string_view& name) {

@@ -4,6 +4,7 @@
 
 #include "ir/support/ascii.h"
 #include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/hex.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "tools/sim/technol/requests/event_keys.h"
@@ -111,8 +112,8 @@ std::string readPacket(const EventKeys& keys, devices::CanPacket& packet) {
 
 std::string textOf(const devices::CanPacket& packet) {
   const uint8_t id[] = {static_cast<uint8_t>(packet.id >> 8), static_cast<uint8_t>(packet.id)};
-  return "id=0x" + hexOf(id) + " rtr=" + std::to_string(packet.remote) + " len=" + std::to_string(packet.length) +
-         " data=\"" + hexOf(std::span(packet.data).first(packet.length)) + "\"";
+  return "id=0x" + text::hexOf(id) + " rtr=" + std::to_string(packet.remote) + " len=" + std::to_string(packet.length) +
+         " data=\"" + text::hexOf(std::span(packet.data).first(packet.length)) + "\"";
 }
 
 // Keys that are not given do not count, nor does the data of a request for data.
@@ -197,13 +198,8 @@ std::optional<std::string> SimulatedDevices::portEvent(std::string_view name, st
 
 std::string SimulatedDevices::expectSent(std::string_view port, std::span<const NcArgument> keys) {
   std::string_view rest = port;
-  const auto takes = [&](std::string_view prefix) {
-    if (!text::equalsIgnoringCase(rest.substr(0, prefix.size()), prefix)) return false;
-    rest.remove_prefix(prefix.size());
-    return true;
-  };
-  const bool com = takes("COM[");
-  if (!com && !takes("CAN[")) return "ports are COM[n] and CAN[n], not '" + std::string(port) + "'";
+  const bool com = takeAnyCase(rest, "COM[");
+  if (!com && !takeAnyCase(rest, "CAN[")) return "ports are COM[n] and CAN[n], not '" + std::string(port) + "'";
   const bool isClosed = rest.ends_with(']');
   const auto number = text::numberIn<uint32_t>(rest.substr(0, rest.size() - (isClosed ? 1 : 0)));
   const uint32_t count = com ? ComPorts::kMost : devices::CanController::kChannels;
@@ -224,7 +220,7 @@ std::string SimulatedDevices::bytesSent(uint32_t number, const EventKeys& keys, 
   constexpr size_t kMore = 8; // bytes that are shown beyond those that are wanted
   std::vector<uint8_t> found;
   for (uint32_t i = 0; i < line.sent() && i < wanted.size() + kMore; ++i) found.push_back(line.sentByte(i));
-  return "sent is " + (found.empty() ? std::string("nothing") : hexOf(found));
+  return "sent is " + (found.empty() ? std::string("nothing") : text::hexOf(found));
 }
 
 std::string SimulatedDevices::packetSent(uint32_t channel, const EventKeys& keys, bool none) {

@@ -4,6 +4,7 @@
 
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/hex.h"
 #include "rtlib/text/number.h"
 #include "tools/sim/technol/requests/scenario_texts.h"
 #include "tools/sim/technol/requests/simulated_devices.h"
@@ -19,7 +20,7 @@ struct AreaCell {
   uint32_t area = 0, offset = 0, width = 0;
 };
 bool isAreaName(std::string_view name) {
-  return takePrefix(name, "SA") && name.size() > 1 && name[0] >= '0' && name[0] <= '9' && name[1] == '+';
+  return takeAnyCase(name, "SA") && name.size() > 1 && name[0] >= '0' && name[0] <= '9' && name[1] == '+';
 }
 std::optional<AreaCell> areaCell(std::string_view name) {
   if (!isAreaName(name)) return std::nullopt;
@@ -41,7 +42,7 @@ struct TableCell {
   std::string_view column;
 };
 std::optional<TableCell> tableCell(std::string_view name) {
-  if (!takePrefix(name, "PlcTable")) return std::nullopt;
+  if (!takeAnyCase(name, "PlcTable")) return std::nullopt;
   const size_t end = name.find_first_of("[.");
   const auto table = text::numberIn<uint32_t>(name.substr(0, end));
   if (!table || end == std::string_view::npos) return std::nullopt;
@@ -60,8 +61,8 @@ std::optional<TableCell> tableCell(std::string_view name) {
 
 // KnobSelAx0, Pos6ShiftAx0 …: what panels show of the axes (l.10926-10937).
 std::optional<NcCell> panelCell(const AxisOutputs& out, std::string_view name) {
-  const bool shift = takePrefix(name, "Pos6ShiftAx");
-  if (!shift && !takePrefix(name, "KnobSelAx")) return std::nullopt;
+  const bool shift = takeAnyCase(name, "Pos6ShiftAx");
+  if (!shift && !takeAnyCase(name, "KnobSelAx")) return std::nullopt;
   const auto axis = text::numberIn<uint32_t>(name);
   if (!axis || *axis >= kMaxAxes) return std::nullopt;
   if (shift) return NcCell{.isReal = true, .bits = std::bit_cast<uint64_t>(out.shiftMm[*axis])};
@@ -74,10 +75,10 @@ struct ShownAt {
   uint32_t row = 0, column = 0;
 };
 std::optional<ShownAt> shownAt(std::string_view name) {
-  if (!takePrefix(name, "DISPTOC") || name.empty()) return std::nullopt;
+  if (!takeAnyCase(name, "DISPTOC") || name.empty()) return std::nullopt;
   const auto wheel = text::numberIn<uint32_t>(name.substr(0, 1));
   name.remove_prefix(1);
-  if (!wheel || *wheel < 1 || *wheel > devices::kHandwheels || !takePrefix(name, ".Shown")) return std::nullopt;
+  if (!wheel || *wheel < 1 || *wheel > devices::kHandwheels || !takeAnyCase(name, ".Shown")) return std::nullopt;
   const auto row = nc::technol::takeIndex(name), column = nc::technol::takeIndex(name);
   if (!row || !column || !name.empty()) return std::nullopt;
   return ShownAt{*wheel, *row, *column};
@@ -163,7 +164,7 @@ std::optional<NcCell> SimulatedDevices::readTable(std::string_view name) const {
     return NcCell{.isText = true, .text = nc::shownText(text)};
   std::span<const uint8_t> bytes;
   if (tables_.getBinary(at->table, *at->line, number, bytes) == devices::TableError::None)
-    return NcCell{.isText = true, .text = hexOf(bytes)};
+    return NcCell{.isText = true, .text = text::hexOf(bytes)};
   return std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "tools/devices/key_text.h"
 #include "tools/sim/relocation.h"
 
 namespace rung::sim::technol {
@@ -21,13 +22,6 @@ bool isPacketOrder(CanOrder order) {
   return order == CanOrder::Order || order == CanOrder::DeleteOrder || order == CanOrder::EndOrder;
 }
 
-// The number after a prefix of the key: PlcTableDef3.
-std::optional<uint32_t> numberAfter(std::string_view key, std::string_view prefix) {
-  if (key.size() <= prefix.size() || !text::equalsIgnoringCase(key.substr(0, prefix.size()), prefix))
-    return std::nullopt;
-  return text::numberIn<uint32_t>(key.substr(prefix.size()));
-}
-
 } // namespace
 
 SimulatedDevices::SimulatedDevices() = default;
@@ -40,8 +34,8 @@ std::optional<std::string> SimulatedDevices::configure(std::string_view key, std
     simulated_ = value == "simulated";
     return std::string();
   }
-  if (const auto table = numberAfter(key, "PlcTableDef")) return files_.setDefinition(*table, path);
-  if (const auto table = numberAfter(key, "PlcTable")) {
+  if (const auto table = devices::numberAfter(key, "PlcTableDef")) return files_.setDefinition(*table, path);
+  if (const auto table = devices::numberAfter(key, "PlcTable")) {
     hasTables_ = true;
     return files_.setTable(*table, path);
   }

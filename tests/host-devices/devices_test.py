@@ -93,7 +93,7 @@ class Com(WithHost):
         self.master = self.slave = None
         self.says("has gone: Input/output error")
         self.set("DO3", 1)
-        self.sees(9, "CODE")  # it runs on
+        self.sees(9, "CODE")  # it continues
 
 
 class Tables(WithHost):

@@ -56,8 +56,8 @@ IN_A_HOST_TOO = ("tools/rung-hal/", "tools/rung-run/", "tools/connections/", "to
                  "tools/sources/", "tools/plc/", "tools/mapping/", "tools/control-files/", "tools/devices/", "tools/services/", "tools/host-devices/host_devices.h",
                  "tools/host-devices/analog_pins.h", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
                  "rtlib/text/", "ir/support/similar.h")  # the last: spelling suggestions
-# Devices know neither a program's memory nor a machine: numbers and structs go in and out. Who connects them to a program
-# knows no simulation.
+# Devices know neither a program's memory nor a machine: numbers and structs go in and out. What connects them to a
+# program knows no simulation.
 DEVICES = ("tools/devices/", "tools/control-files/", "rtlib/text/", "rtlib/nc/", "rtlib/core/ring.h", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/disk_file.h")
 DEVICE_FOLDERS = {
     "tools/devices": DEVICES,

@@ -71,7 +71,7 @@ struct TerminalDefinition {
 enum class DeviceKind : uint8_t { Axis, CanChannel, ComChannel, Servo };
 struct DeviceDefinition {
   struct Attribute {
-    std::string name, value; // of any name: who has the device knows its attributes
+    std::string name, value; // of any name: the owner of the device knows its attributes
   };
   DeviceKind kind = DeviceKind::Axis;
   uint32_t number = 0;               // 0 to 15

@@ -6,7 +6,7 @@
 
 namespace rung::device_requests {
 
-// Who has the outputs. Numbers are those of the program, which may be out of range: then nothing is changed.
+// The owner of the outputs. Numbers are those of the program, which may be out of range: then nothing is changed.
 class AnalogTarget {
 public:
   virtual void analogPort(int64_t port) = 0;

@@ -26,10 +26,10 @@ public:
   // The program resets bits of `units.errors`.
   void read(const rt::Memory& memory, devices::UnitOrders& unitOrders, devices::DriveOrders& driveOrders,
             devices::UnitStates& units) const;
-  // Of the units and drives that there are.
+  // Of the units and drives that exist.
   void write(const rt::Memory& memory, const devices::UnitStates& units, const devices::DriveStates& drives,
              const devices::CanController& can) const;
-  // What somebody else than the units has put into the input ports since they were written.
+  // What others than the units have put into the input ports since they were written.
   void readTerminals(const rt::Memory& memory, const devices::UnitStates& written,
                      std::array<uint8_t, devices::kInputPorts>& terminals) const;
   // CAN_DRIVE_CMD of all becomes 0.
@@ -39,7 +39,7 @@ public:
   const nc::technol::Procedure* procedure(uint64_t number) const {
     return number < procedures_.size() ? &procedures_[number].procedure : nullptr;
   }
-  // The number of the procedure that another program has as `number`; nothing: there is none of its name.
+  // The number of the procedure that another program has as `number`; nothing: none of its name.
   std::optional<uint64_t> numberOf(const CanPlaces& other, uint64_t number) const;
 
 private:
@@ -68,7 +68,7 @@ public:
   // At a power-on and START PLC: no order is left.
   void clear() { orders_ = {}; }
   // Another program has taken over: orders continue with its procedures and its buffers, which `move` finds. Those that
-  // it has not are deleted.
+  // it lacks are deleted.
   using Move = std::function<std::optional<nc::technol::ArgumentBytes>(const nc::technol::ArgumentBytes&)>;
   void relocate(const CanPlaces& former, const CanPlaces& now, const Move& move);
   void answer(CanOrder order, DeviceCall& call);

@@ -42,7 +42,7 @@ ComOrder comOrder(std::string_view service) {
   return orderOf<ComOrder>(kOrders, service);
 }
 
-// No port is one that nobody has configured.
+// A null port is answered as one that is not configured.
 void answerCom(devices::com::Port* given, ComOrder order, DeviceCall& call) {
   devices::com::Port none;
   devices::com::Port& port = given == nullptr ? none : *given;

@@ -11,7 +11,7 @@ namespace rung::device_requests {
 enum class ComOrder : uint8_t { None, Send, SendText, Receive, Control };
 ComOrder comOrder(std::string_view service);
 inline uint32_t comOf(const DeviceCall& call) { return call.number(0); }
-// Of the port that the request is for; null: there is none of this number.
+// Of the port that the request is for; null: no port of this number.
 void answerCom(devices::com::Port* port, ComOrder order, DeviceCall& call);
 
 } // namespace rung::device_requests

@@ -131,7 +131,7 @@ public:
     const std::span<uint8_t> made = makeBytes(result, static_cast<uint32_t>(bytes.size()));
     std::ranges::copy(bytes.first(made.size()), made.begin());
   }
-  // Nobody carries it out.
+  // It is not carried out.
   void refuse() { reply_.state = RUNG_SERVICE_ERROR; }
   // The answer comes later, by the instance's queue.
   void wait() { reply_.state = RUNG_SERVICE_PENDING; }

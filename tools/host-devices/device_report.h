@@ -1,5 +1,5 @@
 // What an operator should know of the devices, when it changes: a sentence each. Not for the scan, which never waits
-// for whoever asks.
+// for the caller.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -88,7 +88,7 @@ void DevicesAround::onFault(host::Instance& instance) {
 
 // ---- requests ------------------------------------------------------------------------------------------------------
 
-// Where there is no such device, the control refuses.
+// Without such a device the control refuses.
 bool DevicesAround::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
   return answer(instance, request, reply) || control_->respond(instance, request, reply);
 }

@@ -1,5 +1,5 @@
 // The devices of this machine for a TECHNOL program of a host: serial ports, CAN interfaces, PLC tables in their files,
-// shared areas; an EtherCAT master where the host gives one (inventory of the services, 17). What nobody has named does
+// shared areas; an EtherCAT master where the host gives one (inventory of the services, 17). What is not named does
 // not exist: its instructions give the error of their section, its cells stay what they are.
 //
 // Order of things: settings; `instance`, once; `start`; the program runs, with `step` in its thread; the program ends;

@@ -31,7 +31,7 @@ public:
   std::string load() { return files_.load(tables_); }
   bool isEmpty() const { return !any_; } // no table is configured
 
-  // ---- whoever starts and ends the host
+  // ---- the thread that starts and ends the host
   void start();
   // What was asked is done, and what has changed is on disk; the latter, or why not, is the next takeProblem.
   void end();
@@ -39,9 +39,9 @@ public:
   std::string takeProblem();
 
   // ---- the scan; nothing waits, allocates or locks
-  // At a power-on: nobody waits for answers of the time before.
+  // At a power-on: answers to earlier requests are dropped.
   void powerOn() noexcept { ++generation_; }
-  // Within the instruction. False: there is no room for the request.
+  // Within the instruction. False: no room for the request.
   bool ask(device_requests::TableOrder order, const rt::ServiceRequest& request,
            const device_requests::DeviceCall& call) noexcept;
   // Between two scans. True: there were answers, which are to be delivered.

@@ -160,8 +160,8 @@ struct Connection {
 };
 std::string_view kindName(Connection::Kind kind); // the table
 
-// devices: what a TECHNOL program's services are on this machine (tools/host-devices). What keys and values may be, its
-// host knows; paths are from the folder of the file.
+// devices: what a TECHNOL program's services are on this machine (tools/host-devices). The host knows which keys and
+// values it takes; paths are from the folder of the file.
 struct DeviceSetting {
   enum class Kind : uint8_t {
     Can, // a channel and its interface

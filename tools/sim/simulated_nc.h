@@ -91,11 +91,11 @@ public:
   // The machine or a user is going to write there: what the control has put over the real value gives way to it.
   virtual void beforeWrite(host::Instance& instance, const host::Ref& place) { (void)instance, (void)place; }
 
-  // Cells of the NC itself by the dialect's identifiers; nothing where there is no such cell. Writing: "" or what is
+  // Cells of the NC itself by the dialect's identifiers; nothing: no such cell. Writing: "" or what is
   // wrong with the value.
   virtual std::optional<NcCell> readCell(std::string_view name) const;
   virtual std::optional<std::string> writeCell(std::string_view name, const NcCell& value);
-  // Why there is no such cell; "": the name is not one of the NC's.
+  // Why the cell does not exist; "": the name is not one of the NC's.
   virtual std::string cellProblem(std::string_view name) const;
   // It may be there later.
   virtual bool cellMayCome(std::string_view name) const;

@@ -64,7 +64,7 @@ struct Program {
   bool exchangesFast = false; // FAST or FASTEST is asked for
   std::vector<ir::Init> inits;
   Encoding encoding = Encoding::Detect;
-  std::string axisNames;                 // of axis 1 and on, parted by blanks; empty: those of the rows
+  std::string axisNames;                 // of axes 1 and up, separated by blanks; empty: those of the rows
   std::string systemFolder;              // of included files named without a path; may be empty
   std::vector<std::string> includePaths; // looked through after the folders of the program and of the including file
 

@@ -29,7 +29,7 @@ TEST(DeviceSettings, Mistakes) {
   EXPECT_THAT(devices.setSharedFile("/no/such/folder/file"), HasSubstr("cannot use /no/such/folder/file"));
 }
 
-// Without a device the instructions have the error of their section, and the program runs on.
+// Without a device the instructions give the error of their section, and the program continues.
 TEST(DeviceSettings, NothingIsNamed) {
   DeviceBench com("com.plc");
   com.begin();

@@ -108,7 +108,7 @@ struct TestProgram {
     tasks[task].read_count = static_cast<uint32_t>(spans.size());
     reads.insert(reads.end(), spans.begin(), spans.end());
   }
-  // Where lies all that the task may change; all of one task after the other.
+  // What holds all that the task may change; all of one task after the other.
   void addChanges(uint32_t task, std::vector<uint32_t> words) {
     tasks[task].change_first = static_cast<uint32_t>(changes.size());
     tasks[task].change_count = static_cast<uint32_t>(words.size());

@@ -1,4 +1,4 @@
-// What a scenario says wrongly about the devices of the simulated TECHNOL control, and what it hears.
+// What a scenario says wrongly about the devices of the simulated TECHNOL control, and the messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -37,7 +37,7 @@ struct PlcTable {
 
   // Of a STRING or BINARY element.
   std::span<const uint8_t> textOf(const uint8_t* element) const noexcept;
-  // False: there is no room, and the element is as before. The bytes may be those of an element.
+  // False: no room, and the element is as before. The bytes may be those of an element.
   bool setText(uint8_t* element, std::span<const uint8_t> text) noexcept;
   // A line goes, with its texts. Its bytes stay.
   void dropTexts(uint32_t number) noexcept;

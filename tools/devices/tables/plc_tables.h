@@ -31,7 +31,7 @@ enum class TableError : uint8_t {
   NoLine = 2,
   NoColumn = 3,
   OtherType = 4,      // the column's
-  CannotBeStored = 5, // texts for which there is no room, and what no file could hold (see setReal, setText)
+  CannotBeStored = 5, // texts that do not fit, and what no file could hold (see setReal, setText)
 };
 
 // What PLCT_CHANGED gives (l.19007-19012).

@@ -41,7 +41,7 @@ struct ModuleElement {
   ModulePoint point = {};
 };
 
-// By a canonical identifier, without `.Bit[k]`, without simulated devices. Nothing: there is no such element; `problem`
+// By a canonical identifier, without `.Bit[k]`, without simulated devices. Nothing: no such element; `problem`
 // says why where the module is known.
 std::optional<ModuleElement> moduleElement(std::string_view identifier, std::string& problem);
 

@@ -61,7 +61,7 @@ public:
   // ---- what a scenario does and sees; "" or what is wrong
 
   std::string packetEvent(uint32_t channel, const devices::CanPacket& packet);
-  // The same where there is no bus.
+  // The same without a bus.
   void scriptedPacket(uint32_t channel, const devices::CanPacket& packet) { control_.putReceived(channel, packet); }
   std::string unitEvent(uint32_t group, uint32_t board, const CanUnitEvent& event);
   std::string driveEvent(uint32_t drive, const CanDriveEvent& event);

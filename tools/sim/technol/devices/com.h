@@ -53,7 +53,7 @@ public:
   void tick();
 
   devices::com::Port& port(uint32_t number) { return units_[number].port; }
-  // Null: there is none of this number.
+  // Null: no port of this number.
   devices::com::Port* find(uint32_t number) { return number < kMost ? &units_[number].port : nullptr; }
   ComLine& line(uint32_t number) { return units_[number].line; }
   // Events: "" or what is wrong.

@@ -26,7 +26,7 @@ public:
   void add(uint32_t slave, bool isInput, std::string_view name, uint32_t object);
   // By the identifier of a connection, in any case, with `_` or a blank. RUNG_NONE: there is none.
   uint32_t find(std::string_view identifier) const;
-  // The identifier names process data of a slave that has a name, whether there is such an entry or not.
+  // The identifier names process data of a slave that has a name, whether or not that entry exists.
   bool isOfSlave(std::string_view identifier) const;
   uint32_t count() const { return static_cast<uint32_t>(entries_.size()); }
   const Entry& operator[](uint32_t entry) const { return entries_[entry]; }

@@ -125,7 +125,7 @@ private:
   std::optional<std::string> writeTable(std::string_view name, const NcCell& value);
   // Of a display or a unit.
   std::string deviceProblem(std::string_view name) const;
-  // Null: there is no such handwheel.
+  // Null: no such handwheel.
   const HandwheelDisplay* displayOf(uint32_t wheel) const;
   std::string keyEvent(host::Instance& instance, std::span<const NcArgument> given);
   void pressKey(host::Instance& instance, uint32_t keyboard, uint32_t scan, bool pressed);

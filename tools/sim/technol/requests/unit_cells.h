@@ -18,7 +18,7 @@ public:
   // Nothing: a name of something else.
   static std::optional<UnitCell> named(std::string_view name);
 
-  // "" or why the units that there are have no such cell.
+  // "" or why the units that exist have no such cell.
   std::string problem(const CanDevices& can) const;
   // Of a cell without a problem.
   NcCell read(const CanDevices& can) const;

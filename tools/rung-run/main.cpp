@@ -19,6 +19,7 @@
 #include "tools/host-devices/host_devices.h"
 #include "tools/plc/box.h"
 #include "tools/remote/controller.h"
+#include "tools/rung-run/config_pairs.h"
 #include "tools/rung-run/pins.h"
 #include "tools/rung-run/scan_thread.h"
 #include "tools/rung-run/simulation.h"
@@ -133,11 +134,8 @@ void setDevices(host_devices::HostDevices& devices, const Options& options) {
   const auto check = [](const char* option, const std::string& wrong) {
     if (!wrong.empty()) throw std::runtime_error(std::string(option) + ": " + wrong);
   };
-  for (const std::string& pair : options.config) {
-    const size_t equals = pair.find('=');
-    check("--config", equals == std::string::npos ? "found " + pair + ", expected KEY=VALUE"
-                                                  : devices.configure(pair.substr(0, equals), pair.substr(equals + 1)));
-  }
+  rung_run::forPairs(options.config,
+                     [&](const std::string& key, const std::string& value) { return devices.configure(key, value); });
   for (const std::string& setting : options.can) check("--can", devices.setCan(setting));
   for (const std::string& setting : options.com) check("--com", devices.setCom(setting));
   if (!options.sharedFile.empty()) check("--sa-file", devices.setSharedFile(options.sharedFile));

@@ -7,6 +7,8 @@
 #include <climits>
 #include <stdexcept>
 
+#include "tools/rung-run/config_pairs.h"
+
 namespace rung::rung_run {
 namespace {
 
@@ -38,12 +40,7 @@ MakeSimulation load(const std::string& path) {
 
 std::unique_ptr<Simulation> loadSimulation(const char* dialect, const std::vector<std::string>& config) {
   std::unique_ptr<Simulation> simulation(load(pluginPath())(dialect));
-  for (const std::string& pair : config) {
-    const size_t equals = pair.find('=');
-    if (equals == std::string::npos) throw std::runtime_error("--config: found " + pair + ", expected KEY=VALUE");
-    const std::string wrong = simulation->config(pair.substr(0, equals), pair.substr(equals + 1));
-    if (!wrong.empty()) throw std::runtime_error("--config: " + wrong);
-  }
+  forPairs(config, [&](const std::string& key, const std::string& value) { return simulation->config(key, value); });
   return simulation;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <span>
 
-#include "rtlib/host/program_info.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/number.h"
 
@@ -27,13 +26,6 @@ std::array<uint8_t, devices::inouts::kBytes> itemWidths() {
   return widths;
 }
 
-// Programs name an item by the member.
-devices::InoutsItem itemAt(int64_t offset) {
-  static const std::array<uint8_t, devices::inouts::kBytes> kWidths = itemWidths();
-  const auto at = static_cast<uint32_t>(offset);
-  return {.offset = at, .bytes = at < kWidths.size() ? kWidths[at] : 1u};
-}
-
 } // namespace
 
 CanOrder canOrder(std::string_view service) {
@@ -48,6 +40,8 @@ CanOrder canOrder(std::string_view service) {
                                           "CAN_AX_SEND"};
   return orderOf<CanOrder>(kOrders, service);
 }
+
+CanCalls::CanCalls(devices::CanController& can) : can_(can), itemWidths_(itemWidths()) {}
 
 void CanCalls::answer(CanOrder order, DeviceCall& call) {
   switch (order) {
@@ -120,6 +114,12 @@ void CanCalls::relocate(const CanPlaces& former, const CanPlaces& now, const Mov
       order = {};
     }
   }
+}
+
+// Programs name an item by the member.
+devices::InoutsItem CanCalls::itemAt(int64_t offset) const {
+  const auto at = static_cast<uint32_t>(offset);
+  return {.offset = at, .bytes = at < itemWidths_.size() ? itemWidths_[at] : 1u};
 }
 
 // can group board item -> RLO DR
@@ -255,10 +255,10 @@ void CanPlaces::readTerminals(const rt::Memory& memory, const devices::UnitState
 }
 
 void CanPlaces::read(const rt::Memory& memory, devices::UnitOrders& unitOrders, devices::DriveOrders& driveOrders,
-                     devices::UnitStates& units) const {
+                     std::array<uint8_t, devices::kOutputPorts>& errors) const {
   for (uint32_t i = 0; i < out_.size(); ++i) {
     unitOrders.out[i] = static_cast<uint8_t>(memory.read(out_[i]));
-    units.errors[i] = static_cast<uint8_t>(memory.read(errors_[i]));
+    errors[i] = static_cast<uint8_t>(memory.read(errors_[i]));
   }
   for (uint32_t wheel = 0; wheel < devices::kHandwheels; ++wheel) {
     for (uint32_t i = 0; i < display_[wheel].size(); ++i)
@@ -272,22 +272,22 @@ void CanPlaces::read(const rt::Memory& memory, devices::UnitOrders& unitOrders, 
 void CanPlaces::write(const rt::Memory& memory, const devices::UnitStates& units, const devices::DriveStates& drives,
                       const devices::CanController& can) const {
   using devices::kHandwheel, devices::kInOut08, devices::kUnitInputs, devices::kUnitOutputs;
-  const auto isThere = [&](uint32_t group, uint32_t board) { return can.units().find(group, board) != nullptr; };
-  for (uint32_t board = 1; isThere(kInOut08, board); ++board) {
+  const uint32_t boards = can.units().count(kInOut08);
+  for (uint32_t board = 1; board <= boards; ++board) {
     for (uint32_t i = (board - 1) * kUnitInputs; i < board * kUnitInputs && i < in_.size(); ++i)
       memory.write(in_[i], units.in[i]);
     for (uint32_t i = (board - 1) * kUnitOutputs; i < board * kUnitOutputs && i < errors_.size(); ++i)
       memory.write(errors_[i], units.errors[i]);
   }
   for (uint32_t group = 1; group <= codes_.size(); ++group) {
-    if (!isThere(group, 1)) continue;
+    if (can.units().count(group) == 0) continue;
     const devices::GroupCodes& codes = units.groups[group - 1];
     const uint8_t values[] = {codes.errorCode, codes.errorNumber, codes.timeoutCode, codes.timeoutNumber};
     for (uint32_t i = 0; i < std::size(values); ++i) memory.write(codes_[group - 1][i], values[i]);
   }
-  for (uint32_t wheel = 0; wheel < devices::kHandwheels; ++wheel)
-    if (isThere(kHandwheel, wheel + 1))
-      for (uint32_t i = 0; i < 2; ++i) memory.write(keys_[wheel][i], units.keys[wheel][i]);
+  const uint32_t wheels = can.units().count(kHandwheel);
+  for (uint32_t wheel = 0; wheel < wheels && wheel < keys_.size(); ++wheel)
+    for (uint32_t i = 0; i < 2; ++i) memory.write(keys_[wheel][i], units.keys[wheel][i]);
   for (uint32_t i = 0; i < can.drives().count() && i < status_.size(); ++i) {
     memory.write(status_[i], drives.status[i]);
     memory.write(manufacturer_[i], drives.manufacturer[i]);

@@ -23,9 +23,9 @@ public:
   CanPlaces() = default; // a program that has nothing
   explicit CanPlaces(const rung_program& program);
 
-  // The program resets bits of `units.errors`.
+  // The program resets bits of `errors`, ERRLI_PxOUT.
   void read(const rt::Memory& memory, devices::UnitOrders& unitOrders, devices::DriveOrders& driveOrders,
-            devices::UnitStates& units) const;
+            std::array<uint8_t, devices::kOutputPorts>& errors) const;
   // Of the units and drives that exist.
   void write(const rt::Memory& memory, const devices::UnitStates& units, const devices::DriveStates& drives,
              const devices::CanController& can) const;
@@ -63,7 +63,7 @@ private:
 
 class CanCalls {
 public:
-  explicit CanCalls(devices::CanController& can) : can_(can) {}
+  explicit CanCalls(devices::CanController& can);
 
   // At a power-on and START PLC: no order is left.
   void clear() { orders_ = {}; }
@@ -91,9 +91,11 @@ private:
   void readItem(DeviceCall& call);
   void writeItem(DeviceCall& call);
   void sendToDrive(DeviceCall& call);
+  devices::InoutsItem itemAt(int64_t offset) const;
   void run(host::Instance& instance, const CanPlaces& places, uint32_t channel, const devices::CanPacket& packet);
 
   devices::CanController& can_;
+  const std::array<uint8_t, devices::inouts::kBytes> itemWidths_; // of INOUTS, by place
   std::array<Order, devices::kMostCanOrders> orders_ = {};
   bool asksDrive_ = false;
 };

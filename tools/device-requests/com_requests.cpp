@@ -35,6 +35,16 @@ void control(devices::com::Port& port, DeviceCall& call) {
   call.set(1, count.value_or(0));
 }
 
+void answerOf(devices::com::Port& port, ComOrder order, DeviceCall& call) {
+  switch (order) {
+  case ComOrder::None: return;
+  case ComOrder::Send: return send(port, call);
+  case ComOrder::SendText: return sendText(port, call);
+  case ComOrder::Receive: return receive(port, call);
+  case ComOrder::Control: return control(port, call);
+  }
+}
+
 } // namespace
 
 ComOrder comOrder(std::string_view service) {
@@ -43,16 +53,10 @@ ComOrder comOrder(std::string_view service) {
 }
 
 // A null port is answered as one that is not configured.
-void answerCom(devices::com::Port* given, ComOrder order, DeviceCall& call) {
+void answerCom(devices::com::Port* port, ComOrder order, DeviceCall& call) {
+  if (port != nullptr) return answerOf(*port, order, call);
   devices::com::Port none;
-  devices::com::Port& port = given == nullptr ? none : *given;
-  switch (order) {
-  case ComOrder::None: return;
-  case ComOrder::Send: return send(port, call);
-  case ComOrder::SendText: return sendText(port, call);
-  case ComOrder::Receive: return receive(port, call);
-  case ComOrder::Control: return control(port, call);
-  }
+  answerOf(none, order, call);
 }
 
 } // namespace rung::device_requests

@@ -57,7 +57,8 @@ void CanService::powerOn() noexcept {
   calls_.clear();
   unitOrders_ = {};
   driveOrders_ = {};
-  units_ = shown_ = {};
+  units_ = {};
+  shownErrors_ = {};
   drives_ = {};
 }
 
@@ -69,19 +70,17 @@ void CanService::forgetOrders() noexcept {
 // Of ERRLI_PnOUT the program resets bits, and the units set them meanwhile (man. l.3526-3531).
 void CanService::take(const rt::Memory& memory, const CanPlaces& places) noexcept {
   if (!exists()) return;
-  devices::UnitStates seen;
+  std::array<uint8_t, devices::kOutputPorts> seen;
   places.read(memory, unitOrders_, driveOrders_, seen);
-  for (uint32_t i = 0; i < seen.errors.size(); ++i) {
-    units_.errors[i] &= static_cast<uint8_t>(~(shown_.errors[i] & ~seen.errors[i]));
-    shown_.errors[i] = seen.errors[i];
-  }
+  for (uint32_t i = 0; i < seen.size(); ++i) units_.errors[i] &= static_cast<uint8_t>(~(shownErrors_[i] & ~seen[i]));
+  shownErrors_ = seen;
 }
 
 void CanService::show(host::Instance& instance, const CanPlaces& places) noexcept {
   if (!exists()) return;
   const rt::Memory memory = instance.memory();
   places.write(memory, units_, drives_, control_);
-  shown_ = units_;
+  shownErrors_ = units_.errors;
   calls_.showDrive(memory, places);
   calls_.deliver(instance, places);
 }

@@ -1,6 +1,5 @@
 // The CAN channels of this machine beside a program: interfaces by SocketCAN, the control's units and drives, orders of
-// packets, and the cells of all that (man. ch. 9, 13.14). All of it but `open`, `close` and `port` is the scan's:
-// nothing waits, allocates or locks.
+// packets, and the cells of all that (man. ch. 9, 13.14).
 #pragma once
 #include <array>
 #include <string>
@@ -16,11 +15,14 @@ public:
   // ---- before start
   devices::CanSettings& settings() { return settings_; }
   const devices::CanSettings& settings() const { return settings_; }
-  // The channel, 1 or 2, is this interface; a descriptor is one that takes and gives a `can_frame` at a time, and
-  // becomes the service's. "" or why this machine has no CAN.
+  // The channel, 1 or 2, is this interface, which may be switched off, and come and go. "" or why this machine cannot
+  // serve it at all.
   std::string open(uint32_t channel, const std::string& interface);
+  // The channel is a descriptor that takes and gives a `can_frame` at a time, and becomes the service's.
   void adopt(uint32_t channel, int descriptor);
   void configure() { settings_.configure(control_); }
+
+  // ---- whoever ends the host, and reports
   // The program is over: units get outputs that are 0, drives are disabled, and the interfaces are left.
   void close();
   // Null: the channel does not exist. Counts and state: any thread.
@@ -28,7 +30,7 @@ public:
     return isOpen_[channel - 1] ? &ports_[channel - 1] : nullptr;
   }
 
-  // ---- the scan
+  // ---- the scan; nothing waits, allocates or locks
   // The clock has moved on: what is due of each millisecond.
   void step(int64_t ns) noexcept;
   // At a power-on, before MODULE_INIT.
@@ -57,7 +59,7 @@ private:
   devices::UnitOrders unitOrders_;
   devices::DriveOrders driveOrders_;
   devices::UnitStates units_;
-  devices::UnitStates shown_; // in the cells
+  std::array<uint8_t, devices::kOutputPorts> shownErrors_{}; // in the cells
   devices::DriveStates drives_;
   int64_t restNs_ = 0; // of the millisecond that has begun
 };

@@ -225,7 +225,7 @@ void SimulatedDevices::tickAxes(host::Instance& instance, uint32_t ticks) {
 void SimulatedDevices::tickOthers(host::Instance& instance, ModuleCells& cells, uint32_t ticks) {
   const rt::Memory memory = instance.memory();
   canPlaces_.readTerminals(memory, canOutputs_.units, canInputs_.terminals);
-  canPlaces_.read(memory, canInputs_.units, canInputs_.drives, canOutputs_.units);
+  canPlaces_.read(memory, canInputs_.units, canInputs_.drives, canOutputs_.units.errors);
   statePlaces_.read(memory, stateBits_);
   servoPlaces_.read(memory, servoCells_);
   takeOutputs(cells, ethercat_.image(), servoCells_);

@@ -4,6 +4,7 @@
 namespace rung::device_requests {
 
 using devices::AnalogOutput;
+using devices::SpindleRole;
 
 namespace {
 
@@ -19,9 +20,10 @@ AnalogOutput analog(AnalogTarget& target, const DeviceCall& call) {
   return target.analog(call.arg(0));
 }
 
-// Without a role it is the main spindle (inventory of the services, 4).
-AnalogOutput toSpindle(AnalogTarget& target, const DeviceCall& call) {
-  return target.axSpi(call.arg(0), call.argOr(1, static_cast<int64_t>(devices::SpindleRole::Main)));
+// Of AX_SPI: 0, 1, 2, or kFirstSpindleWord for S; not given, it is the main spindle (inventory of the services, 4).
+SpindleRole roleOf(int64_t operand) {
+  if (operand == nc::technol::kNotGiven) return SpindleRole::Main;
+  return operand == nc::technol::kFirstSpindleWord ? SpindleRole::Keep : static_cast<SpindleRole>(operand);
 }
 
 } // namespace
@@ -31,7 +33,7 @@ bool answerAnalog(AnalogTarget& target, AxisOrder order, DeviceCall& call) {
   case AxisOrder::AnalogPort: target.analogPort(call.arg(0)); return true;
   case AxisOrder::Analog: setOutput(call, analog(target, call)); return true;
   case AxisOrder::AnalogSpindle: setOutput(call, target.analogSpi(call.arg(0), call.arg(1))); return true;
-  case AxisOrder::ToSpindle: setOutput(call, toSpindle(target, call)); return true;
+  case AxisOrder::ToSpindle: setOutput(call, target.axSpi(call.arg(0), roleOf(call.arg(1)))); return true;
   case AxisOrder::MainSpindle: target.spiMain(call.arg(0)); return true;
   default: return false;
   }

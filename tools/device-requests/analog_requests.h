@@ -6,15 +6,14 @@
 
 namespace rung::device_requests {
 
-// The owner of the outputs. Numbers are those of the program, which may be out of range: then nothing is changed.
+// The owner of the outputs. Operands that outOfRange has let through; an axis may still not exist.
 class AnalogTarget {
 public:
   virtual void analogPort(int64_t port) = 0;
   virtual devices::AnalogOutput analog(int64_t value) = 0; // on the active port
   virtual devices::AnalogOutput analogOnSpindle(int64_t value, int64_t axis, int64_t spi) = 0;
   virtual devices::AnalogOutput analogSpi(int64_t value, int64_t axis) = 0;
-  // `role` is 0, 1, 2, or kFirstSpindleWord for S.
-  virtual devices::AnalogOutput axSpi(int64_t axis, int64_t role) = 0;
+  virtual devices::AnalogOutput axSpi(int64_t axis, devices::SpindleRole role) = 0;
   virtual void spiMain(int64_t axis) = 0;
 
 protected:

@@ -17,11 +17,6 @@ DeviceOrder orderFor(DeviceKind device, Order order) {
   return order == Order::None ? DeviceOrder() : DeviceOrder{device, static_cast<uint8_t>(order)};
 }
 
-DeviceOrder ethercatOrder(std::string_view name) {
-  const auto order = EthercatCalls::orderOf(name);
-  return order ? DeviceOrder{DeviceKind::Ethercat, static_cast<uint8_t>(*order)} : DeviceOrder();
-}
-
 } // namespace
 
 DeviceOrder deviceOrder(std::string_view signature) {
@@ -31,7 +26,8 @@ DeviceOrder deviceOrder(std::string_view signature) {
   if (name == "SA_WRITE") return {DeviceKind::WriteArea};
   const DeviceOrder orders[] = {orderFor(DeviceKind::Tables, tableOrder(name)),
                                 orderFor(DeviceKind::Axes, axisOrder(name)), orderFor(DeviceKind::Com, comOrder(name)),
-                                orderFor(DeviceKind::Can, canOrder(name)), ethercatOrder(name)};
+                                orderFor(DeviceKind::Can, canOrder(name)),
+                                orderFor(DeviceKind::Ethercat, ethercatOrder(name))};
   for (const DeviceOrder& order : orders)
     if (order.device != DeviceKind::None) return order;
   return {};

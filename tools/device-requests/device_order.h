@@ -12,7 +12,7 @@ enum class DeviceKind : uint8_t { None, Data, Tables, ReadArea, WriteArea, Axes,
 
 struct DeviceOrder {
   DeviceKind device = DeviceKind::None;
-  uint8_t order = 0; // TableOrder, AxisOrder, ComOrder, CanOrder, or what EthercatCalls::begin takes
+  uint8_t order = 0; // TableOrder, AxisOrder, ComOrder, CanOrder or EthercatOrder
 };
 
 // By the signature of a service, as rung_program::services has it.

@@ -40,21 +40,32 @@ Master::Ticket command(Master& master, Station at, const DeviceCall& call) {
   return master.command(at, call.number(2));
 }
 
-struct Order {
-  std::string_view name;
-  Master::Ticket (*begin)(Master&, Station, const DeviceCall&);
-  bool writes = false;
-};
-constexpr Order kOrders[] = {{"ECAT_COE_READ", upload},
-                             {"ECAT_COE_WRITE", download, true},
-                             {"ECAT_SOE_READ", readIdn},
-                             {"ECAT_SOE_WRITE", writeIdn, true},
-                             {"ECAT_COMMAND", command}};
+// 0: the master does not take it.
+Master::Ticket ask(Master& master, EthercatOrder order, const DeviceCall& call) {
+  const Station at = {call.number(0), call.number(1)};
+  switch (order) {
+  case EthercatOrder::None: break;
+  case EthercatOrder::ReadObject: return upload(master, at, call);
+  case EthercatOrder::WriteObject: return download(master, at, call);
+  case EthercatOrder::ReadIdn: return readIdn(master, at, call);
+  case EthercatOrder::WriteIdn: return writeIdn(master, at, call);
+  case EthercatOrder::Command: return command(master, at, call);
+  }
+  return 0;
+}
+
+bool writes(EthercatOrder order) { return order == EthercatOrder::WriteObject || order == EthercatOrder::WriteIdn; }
 
 // Results: DR, Len, of what reads the number of its data, of an IDN its elements.
 enum Result : uint32_t { kCode, kLength, kRest, kMostResults = 4 };
 
 } // namespace
+
+EthercatOrder ethercatOrder(std::string_view service) {
+  constexpr std::string_view kOrders[] = {
+      "", "ECAT_COE_READ", "ECAT_COE_WRITE", "ECAT_SOE_READ", "ECAT_SOE_WRITE", "ECAT_COMMAND"};
+  return orderOf<EthercatOrder>(kOrders, service);
+}
 
 void EthercatCalls::clear() {
   for (Pending& pending : pending_) {
@@ -63,17 +74,12 @@ void EthercatCalls::clear() {
   }
 }
 
-std::optional<uint32_t> EthercatCalls::orderOf(std::string_view service) {
-  const auto* found = std::ranges::find(kOrders, service, &Order::name);
-  return found == std::end(kOrders) ? std::nullopt : std::optional(static_cast<uint32_t>(found - kOrders));
-}
-
-void EthercatCalls::begin(uint32_t order, DeviceCall& call) {
+void EthercatCalls::begin(EthercatOrder order, DeviceCall& call) {
   Pending* free = std::ranges::find(pending_, 0u, &Pending::ticket);
   const bool room = free != std::end(pending_);
-  const Master::Ticket asked = room ? kOrders[order].begin(master_, {call.number(0), call.number(1)}, call) : 0;
+  const Master::Ticket asked = room ? ask(master_, order, call) : 0;
   if (asked == 0) return call.set(kCode, devices::ethercat::kTimedOut);
-  *free = {.ticket = call.request().ticket, .asked = asked, .writes = kOrders[order].writes};
+  *free = {.ticket = call.request().ticket, .asked = asked, .writes = writes(order)};
   call.wait();
 }
 

@@ -1,7 +1,6 @@
 // ECAT_*: requests of a program to an EtherCAT master, and the cells that order its states (man. ch. 26).
 #pragma once
 #include <array>
-#include <optional>
 #include <string_view>
 
 #include "tools/device-requests/device_call.h"
@@ -10,16 +9,17 @@
 
 namespace rung::device_requests {
 
+// What a request asks for; None: no such service.
+enum class EthercatOrder : uint8_t { None, ReadObject, WriteObject, ReadIdn, WriteIdn, Command };
+EthercatOrder ethercatOrder(std::string_view service);
+
 // Requests that the master has not answered yet.
 class EthercatCalls {
 public:
   explicit EthercatCalls(devices::ethercat::Master& master) : master_(master) {}
 
   void clear();
-  // `order` is a number that `orderOf` has given.
-  void begin(uint32_t order, DeviceCall& call);
-  // Nothing: no such service.
-  static std::optional<uint32_t> orderOf(std::string_view service);
+  void begin(EthercatOrder order, DeviceCall& call);
   // After a tick: answers what is done. True: something was.
   bool finish(host::Instance& instance, AnswerBytes& bytes);
 

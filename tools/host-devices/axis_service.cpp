@@ -54,15 +54,14 @@ AnalogOutput AxisService::analogSpi(int64_t value, int64_t axis) {
   return outputs_.putOn(static_cast<uint32_t>(axis), value);
 }
 
-AnalogOutput AxisService::axSpi(int64_t axis, int64_t role) {
+AnalogOutput AxisService::axSpi(int64_t axis, SpindleRole role) {
   spindles_ |= 1u << (axis - 1);
-  return outputs_.switchTo(static_cast<uint32_t>(axis),
-                           role == nc::technol::kFirstSpindleWord ? SpindleRole::Keep : static_cast<SpindleRole>(role));
+  return outputs_.switchTo(static_cast<uint32_t>(axis), role);
 }
 
 // What is not a spindle yet becomes one (inventory of the services, 4).
 void AxisService::spiMain(int64_t axis) {
-  if ((spindles_ >> (axis - 1) & 1) == 0) axSpi(axis, nc::technol::kFirstSpindleWord);
+  if ((spindles_ >> (axis - 1) & 1) == 0) axSpi(axis, SpindleRole::Keep);
   outputs_.makeMain(static_cast<uint32_t>(axis));
 }
 

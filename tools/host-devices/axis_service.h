@@ -39,7 +39,7 @@ private:
   devices::AnalogOutput analog(int64_t value) override { return outputs_.put(value); }
   devices::AnalogOutput analogOnSpindle(int64_t value, int64_t axis, int64_t spi) override;
   devices::AnalogOutput analogSpi(int64_t value, int64_t axis) override;
-  devices::AnalogOutput axSpi(int64_t axis, int64_t role) override;
+  devices::AnalogOutput axSpi(int64_t axis, devices::SpindleRole role) override;
   void spiMain(int64_t axis) override;
 
   devices::AnalogOutputs outputs_;

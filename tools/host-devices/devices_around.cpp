@@ -98,31 +98,31 @@ bool DevicesAround::answer(host::Instance& instance, const rt::ServiceRequest& r
   const DeviceOrder order = places().services[request.service];
   DeviceCall call(instance, request, reply, bytes_);
   switch (order.device) {
-  case DeviceKind::None: return false;
+  case DeviceKind::None: break;
   case DeviceKind::Data: bytes_.fetch(request, reply); return true;
+  case DeviceKind::Tables: return askTable(static_cast<TableOrder>(order.order), call);
+  case DeviceKind::ReadArea: readShared(devices_.areas, call); return noteArea(call);
+  case DeviceKind::WriteArea: writeShared(devices_.areas, call); return noteArea(call);
   case DeviceKind::Axes: return devices_.axes.answer(order, call);
-  case DeviceKind::Com: {
-    const uint32_t number = comOf(call);
-    answerCom(number < devices_.ports.size() ? &devices_.ports[number] : nullptr, static_cast<ComOrder>(order.order),
-              call);
-    return true;
-  }
+  case DeviceKind::Com: answerCom(portOf(call), static_cast<ComOrder>(order.order), call); return true;
   case DeviceKind::Can: devices_.can.answer(static_cast<CanOrder>(order.order), call); return true;
-  default: return answerPolled(order, request, call);
+  case DeviceKind::Ethercat: ethercat_.begin(static_cast<EthercatOrder>(order.order), call); return true;
   }
+  return false;
 }
 
-bool DevicesAround::answerPolled(DeviceOrder order, const rt::ServiceRequest& request, DeviceCall& call) {
-  switch (order.device) {
-  case DeviceKind::ReadArea: readShared(devices_.areas, call); break;
-  case DeviceKind::WriteArea: writeShared(devices_.areas, call); break;
-  case DeviceKind::Ethercat: ethercat_.begin(order.order, call); return true;
-  default:
-    if (devices_.tables.isEmpty() || !devices_.tables.ask(static_cast<TableOrder>(order.order), request, call))
-      return false;
-    call.wait();
-    return true;
-  }
+devices::com::Port* DevicesAround::portOf(const DeviceCall& call) {
+  const uint32_t number = comOf(call);
+  return number < devices_.ports.size() ? &devices_.ports[number] : nullptr;
+}
+
+bool DevicesAround::askTable(TableOrder order, DeviceCall& call) {
+  if (devices_.tables.isEmpty() || !devices_.tables.ask(order, call)) return false;
+  call.wait();
+  return true;
+}
+
+bool DevicesAround::noteArea(const DeviceCall& call) {
   if (call.result(1) == static_cast<int64_t>(devices::AreaResult::Broken)) devices_.areasBroken = true;
   return true;
 }

@@ -9,7 +9,7 @@
 #include "tools/device-requests/com_requests.h"
 #include "tools/device-requests/device_order.h"
 #include "tools/device-requests/ethercat_requests.h"
-#include "tools/devices/com/tty_thread.h"
+#include "tools/devices/com/port.h"
 #include "tools/devices/ethercat/state_requests.h"
 #include "tools/devices/shared/shared_areas.h"
 #include "tools/host-devices/axis_service.h"
@@ -50,8 +50,9 @@ public:
 private:
   struct Places;
   bool answer(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);
-  bool answerPolled(device_requests::DeviceOrder order, const rt::ServiceRequest& request,
-                    device_requests::DeviceCall& call);
+  devices::com::Port* portOf(const device_requests::DeviceCall& call); // null: there is none of this number
+  bool askTable(device_requests::TableOrder order, device_requests::DeviceCall& call);
+  bool noteArea(const device_requests::DeviceCall& call); // that has been answered
   void beforeInput(host::Instance& instance);
   void tickMaster(const rt::Memory& memory);
   const Places& places() const;

@@ -32,13 +32,13 @@ std::string TableService::setTable(uint32_t table, const std::string& path) {
 
 // ---- the scan ------------------------------------------------------------------------------------------------------
 
-bool TableService::ask(TableOrder order, const rt::ServiceRequest& request, const DeviceCall& call) noexcept {
+bool TableService::ask(TableOrder order, const DeviceCall& call) noexcept {
   if (freeCount_ == 0) return false;
   const uint8_t number = free_[--freeCount_];
   Slot& slot = slots_[number];
   slot.generation = generation_;
   slot.order = order;
-  slot.given = request;
+  slot.given = call.request();
   const auto argument = device_requests::bytesArgumentOf(order);
   slot.count = argument ? static_cast<uint32_t>(call.bytes(*argument, slot.bytes).size()) : 0;
   return asked_.push(number);

@@ -33,7 +33,8 @@ public:
 
   // ---- the thread that starts and ends the host
   void start();
-  // What was asked is done, and what has changed is on disk; the latter, or why not, is the next takeProblem.
+  // What was asked is done, and what has changed is on disk; why not, unless it was said before, is the next
+  // takeProblem.
   void end();
   // What went wrong with the files since the last call; "": nothing new. Any thread but the scan's.
   std::string takeProblem();
@@ -42,8 +43,7 @@ public:
   // At a power-on: answers to earlier requests are dropped.
   void powerOn() noexcept { ++generation_; }
   // Within the instruction. False: no room for the request.
-  bool ask(device_requests::TableOrder order, const rt::ServiceRequest& request,
-           const device_requests::DeviceCall& call) noexcept;
+  bool ask(device_requests::TableOrder order, const device_requests::DeviceCall& call) noexcept;
   // Between two scans. True: there were answers, which are to be delivered.
   bool takeAnswers(rt::ServiceQueue& services, device_requests::AnswerBytes& bytes) noexcept;
 

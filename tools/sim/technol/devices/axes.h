@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -58,7 +57,6 @@ public:
   AnalogOutput analog(int64_t value) { return spindles_.put(value); }
   AnalogOutput analogOnSpindle(int64_t value, int64_t axis, int64_t spi); // ANALOG val,axis[,spi]; not given: 0
   AnalogOutput analogSpi(int64_t value, int64_t axis);
-  std::optional<SpindleRole> roleOf(int64_t operand); // of AX_SPI: 0, 1, 2, or kFirstSpindleWord for S
   AnalogOutput axSpi(int64_t axis, SpindleRole role);
   void spiMain(int64_t axis);
   // True: POLOHV_x is to be 1 at once.

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "rtlib/nc/technol/services.h"
 #include "tools/sim/technol/devices/axes.h"
 
 namespace rung::sim::technol {
@@ -52,13 +51,6 @@ void Axes::dropPositioning(uint32_t index) {
   if (!positioning_[index].active()) return;
   positioning_[index].drop(axes_[index]);
   setBit(aborted_, index);
-}
-
-std::optional<SpindleRole> Axes::roleOf(int64_t operand) {
-  if (operand == nc::technol::kFirstSpindleWord) return SpindleRole::Keep;
-  if (operand >= 0 && operand < static_cast<int64_t>(SpindleRole::Keep)) return static_cast<SpindleRole>(operand);
-  complaints_.add({"AX_SPI", "spi", operand, {}});
-  return std::nullopt;
 }
 
 AnalogOutput Axes::axSpi(int64_t axis, SpindleRole role) {

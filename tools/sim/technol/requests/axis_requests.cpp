@@ -1,6 +1,8 @@
 // Requests to the axes (see axis_requests.h).
 #include "tools/sim/technol/requests/axis_requests.h"
 
+#include <optional>
+
 #include "tools/device-requests/analog_requests.h"
 
 namespace rung::sim::technol {
@@ -19,10 +21,7 @@ public:
     return axes_.analogOnSpindle(value, axis, spi);
   }
   AnalogOutput analogSpi(int64_t value, int64_t axis) override { return axes_.analogSpi(value, axis); }
-  AnalogOutput axSpi(int64_t axis, int64_t operand) override {
-    const auto role = axes_.roleOf(operand);
-    return role ? axes_.axSpi(axis, *role) : AnalogOutput{};
-  }
+  AnalogOutput axSpi(int64_t axis, SpindleRole role) override { return axes_.axSpi(axis, role); }
   void spiMain(int64_t axis) override { axes_.spiMain(axis); }
 
 private:

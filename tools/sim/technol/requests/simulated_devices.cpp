@@ -150,7 +150,7 @@ bool SimulatedDevices::respond(host::Instance& instance, const rt::ServiceReques
     canCalls_.answer(static_cast<CanOrder>(service.order), call);
     complainOfDrive(static_cast<CanOrder>(service.order), call);
     break;
-  case DeviceKind::Ethercat: ethercatCalls_.begin(service.order, call); break;
+  case DeviceKind::Ethercat: ethercatCalls_.begin(static_cast<EthercatOrder>(service.order), call); break;
   }
   return true;
 }

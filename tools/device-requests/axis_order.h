@@ -9,6 +9,8 @@
 
 namespace rung::device_requests {
 
+class DeviceCall;
+
 // What a request asks for; None: no such service.
 enum class AxisOrder : uint8_t {
   None,
@@ -39,7 +41,6 @@ struct WrongOperand {
 // nothing. Nothing: none is, or it is an order to another device.
 std::optional<WrongOperand> outOfRange(DeviceOrder order, const rt::ServiceRequest& request);
 // Answers one that does nothing: records stay as they are.
-class DeviceCall;
 void answerNothing(AxisOrder order, DeviceCall& call);
 
 // The mnemonic; "" of None.

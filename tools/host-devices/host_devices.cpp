@@ -7,6 +7,7 @@
 
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "tools/devices/com/tty_thread.h"
 #include "tools/devices/key_text.h"
 #include "tools/host-devices/device_report.h"
 #include "tools/host-devices/devices_around.h"
@@ -40,10 +41,10 @@ struct HostDevices::Machine {
   devices::com::TtyThread tty;
   DeviceReport report{devices, tty};
   std::vector<std::string> warnings;
-  bool any = false;
   bool started = false;
 
   std::string setPort(std::string_view key, std::string_view value);
+  void setActive(uint32_t port, bool isActive);
   std::string ofTable(uint32_t table, std::string wrong);
   std::string interfaceOf(uint32_t channel) const;
   std::string deviceOf(uint32_t port) const;
@@ -62,7 +63,6 @@ std::string HostDevices::setCan(std::string_view setting) {
     return "a CAN channel is 1=INTERFACE or 2=INTERFACE" + found(setting);
   machine_->interfaces[given->number - 1] = given->device;
   machine_->devices.can.settings().channels[given->number - 1].active = true;
-  machine_->any = true;
   return {};
 }
 
@@ -71,14 +71,11 @@ std::string HostDevices::setCom(std::string_view setting) {
   if (!given || given->number >= devices::com::kMostPorts)
     return "a serial port is NUMBER=DEVICE with a number of 0 to 15" + found(setting);
   machine_->devicesOfPorts[given->number] = given->device;
-  machine_->any = true;
-  return machine_->setPort("COM[" + std::to_string(given->number) + "].Active", "1");
+  machine_->setActive(given->number, true);
+  return {};
 }
 
-std::string HostDevices::setSharedFile(const std::string& path) {
-  machine_->any = true;
-  return machine_->devices.areas.mapFile(path);
-}
+std::string HostDevices::setSharedFile(const std::string& path) { return machine_->devices.areas.mapFile(path); }
 
 std::string HostDevices::Machine::setPort(std::string_view key, std::string_view value) {
   devices::com::PortKey port;
@@ -90,6 +87,12 @@ std::string HostDevices::Machine::setPort(std::string_view key, std::string_view
   return {};
 }
 
+void HostDevices::Machine::setActive(uint32_t port, bool isActive) {
+  devices::com::Settings settings = devices.ports[port].settings();
+  settings.isActive = isActive;
+  devices.ports[port].configure(settings);
+}
+
 // A file that cannot be read is left alone, and its table does not exist; the program runs.
 std::string HostDevices::Machine::ofTable(uint32_t table, std::string wrong) {
   if (table >= devices::PlcTables::kTables || wrong.empty()) return wrong;
@@ -98,7 +101,6 @@ std::string HostDevices::Machine::ofTable(uint32_t table, std::string wrong) {
 }
 
 std::string HostDevices::configure(std::string_view key, std::string_view value) {
-  machine_->any = true;
   Devices& devices = machine_->devices;
   const std::string path(value);
   if (const auto table = devices::numberAfter(key, "PlcTableDef"))
@@ -132,18 +134,13 @@ void HostDevices::set(const mapping::File& map, std::vector<std::string>& errors
       errors.push_back(map.message(setting.at, "devices: " + wrong));
 }
 
-void HostDevices::useMaster(devices::ethercat::Master& master) {
-  machine_->devices.master = &master;
-  machine_->any = true;
-}
+void HostDevices::useMaster(devices::ethercat::Master& master) { machine_->devices.master = &master; }
 
 void HostDevices::adoptCan(uint32_t channel, int descriptor) {
   machine_->devices.can.settings().channels[channel - 1].active = true;
   machine_->devices.can.adopt(channel, descriptor);
-  machine_->adopted[channel - 1] = machine_->any = true;
+  machine_->adopted[channel - 1] = true;
 }
-
-bool HostDevices::any() const { return machine_->any; }
 
 // ---- devices -------------------------------------------------------------------------------------------------------
 
@@ -175,16 +172,14 @@ void HostDevices::Machine::openChannels() {
 
 void HostDevices::Machine::openPorts() {
   for (uint32_t port = 0; port < devices.ports.size(); ++port) {
-    devices::com::Settings settings = devices.ports[port].settings();
-    if (!settings.isActive) continue;
+    if (!devices.ports[port].settings().isActive) continue;
     const std::string device = deviceOf(port);
     const std::string wrong = device.empty() ? "" : tty.add(devices.ports[port], device);
     if (!wrong.empty()) throw std::runtime_error("COM " + std::to_string(port) + ": " + wrong);
     if (!device.empty()) continue;
     warnings.push_back("the serial port " + std::to_string(port) +
                        " is configured, but has no device (--com, PhysicalComNo): it does not exist");
-    settings.isActive = false;
-    devices.ports[port].configure(settings);
+    setActive(port, false);
   }
 }
 

@@ -42,9 +42,6 @@ public:
   // A descriptor in the place of an interface, which becomes this object's: it takes and gives a `can_frame` at a time.
   void adoptCan(uint32_t channel, int descriptor);
 
-  // Whether something was named: a host needs none of this otherwise.
-  bool any() const;
-
   // ---- the program
 
   // With its devices around it. Throws std::runtime_error: it is of another dialect, or a device cannot be had at all;

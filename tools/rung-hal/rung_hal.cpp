@@ -286,8 +286,8 @@ plc::StepResult runFunction(PlcInstance& c, Function function, long periodNs) {
 
 void runStep(PlcInstance& c, Function function, long periodNs) {
   constexpr int64_t kNsInUs = 1000;
-  // While it does not run, the box may belong to the thread that restarts it.
   if (c.devices != nullptr && function == kScan && !c.box->restarting()) c.devices->step(periodNs);
+  // While it does not run, the box may belong to the thread that restarts it.
   if (c.box->running()) c.box->setTimeLimit(int64_t{hal::u32(c.status->maxTime)} * kNsInUs);
   const plc::StepResult result = runFunction(c, function, periodNs);
   const bool runs = c.box->running();

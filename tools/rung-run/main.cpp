@@ -64,7 +64,7 @@ public:
       host_devices::HostDevices& devices)
       : devices_(devices), box_(std::move(box)), pins_(*box_), connections_(box_->map()),
         controller_(options.name, *box_, image, print), server_(options.name, getuid(), controller_),
-        scans_(*box_, pins_, connections_, &devices,
+        scans_(*box_, pins_, connections_, devices,
                {.periodNs = int64_t{options.periodUs} * 1000,
                 .thread = {.priority = options.priority, .lockMemory = options.lockMemory}}) {
     controller_.addToStatus([this](nlohmann::json& status) {

@@ -35,7 +35,7 @@ void ScanThread::step(int64_t due, int64_t& last) noexcept {
   const int64_t begin = host::monotonicNs();
   const int64_t period = begin - std::exchange(last, begin);
   connections_.readInputs(pins_.cells(), begin);
-  if (devices_ != nullptr && !box_.restarting()) devices_->step(period);
+  if (!box_.restarting()) devices_.step(period);
   box_.step(period);
   connections_.writeOutputs(pins_.cells());
   const int64_t late = begin - due;

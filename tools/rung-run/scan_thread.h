@@ -23,8 +23,7 @@ struct ScanOptions {
 
 class ScanThread {
 public:
-  // `devices` may be null.
-  ScanThread(plc::Box& box, const Pins& pins, connections::Connections& connections, host_devices::HostDevices* devices,
+  ScanThread(plc::Box& box, const Pins& pins, connections::Connections& connections, host_devices::HostDevices& devices,
              const ScanOptions& options)
       : box_(box), pins_(pins), connections_(connections), devices_(devices), options_(options) {}
   ~ScanThread() { end(); }
@@ -46,7 +45,7 @@ private:
   plc::Box& box_;
   const Pins& pins_;
   connections::Connections& connections_;
-  host_devices::HostDevices* devices_;
+  host_devices::HostDevices& devices_;
   ScanOptions options_;
   std::thread thread_;
   std::atomic<bool> ending_{false};

@@ -19,11 +19,12 @@ void CanUnits::configure(uint32_t group, uint32_t units) {
       std::find_if(units_.begin(), units_.end(), [&](const CanUnit& unit) { return unit.group() > group; });
   const auto place = units_.insert(after, units, CanUnit(group, 1));
   for (uint32_t i = 0; i < units; ++i) place[i] = CanUnit(group, i + 1);
+  numbers_ = {};
+  for (size_t i = 0; i < units_.size(); ++i) numbers_[units_[i].node()] = static_cast<uint8_t>(i + 1);
 }
 
 void CanUnits::setControl(uint32_t group, uint32_t board, uint8_t control) {
-  for (CanUnit& unit : units_)
-    if (unit.group() == group && unit.board() == board) unit.setControl(control);
+  if (const uint32_t number = numberOf(group, board)) units_[number - 1].setControl(control);
 }
 
 uint32_t CanUnits::count(uint32_t group) const {
@@ -80,15 +81,18 @@ void CanUnits::show(const CanUnit& unit, UnitStates& states) {
 }
 
 bool CanUnits::take(const CanPacket& packet) {
-  for (CanUnit& unit : units_)
-    if (unit.node() == packet.node()) return unit.take(packet);
-  return false;
+  const uint32_t number = numbers_[packet.node()];
+  return number != 0 && units_[number - 1].take(packet);
+}
+
+uint32_t CanUnits::numberOf(uint32_t group, uint32_t board) const {
+  if (group < 1 || group > kUnitGroups || board < 1 || board > kMostUnits[group - 1]) return 0;
+  return numbers_[kFirstNode[group - 1] + board - 1];
 }
 
 const Inouts* CanUnits::find(uint32_t group, uint32_t board) const {
-  for (const CanUnit& unit : units_)
-    if (unit.group() == group && unit.board() == board) return &unit.data();
-  return nullptr;
+  const uint32_t number = numberOf(group, board);
+  return number == 0 ? nullptr : &units_[number - 1].data();
 }
 
 bool CanUnits::read(uint32_t group, uint32_t board, InoutsItem item, uint32_t& value) const {
@@ -99,12 +103,10 @@ bool CanUnits::read(uint32_t group, uint32_t board, InoutsItem item, uint32_t& v
 }
 
 bool CanUnits::write(uint32_t group, uint32_t board, InoutsItem item, uint32_t value) {
-  for (CanUnit& unit : units_) {
-    if (unit.group() != group || unit.board() != board || !isItem(item)) continue;
-    unit.write(item, value);
-    return true;
-  }
-  return false;
+  const uint32_t number = numberOf(group, board);
+  if (number == 0 || !isItem(item)) return false;
+  units_[number - 1].write(item, value);
+  return true;
 }
 
 } // namespace rung::devices

@@ -65,8 +65,11 @@ private:
   void synchronize(const UnitOrders& orders, CanPort& port);
   void output(const UnitOrders& orders, UnitStates& states);
   static void show(const CanUnit& unit, UnitStates& states);
+  // In `units_`, from 1; 0: there is no such unit.
+  uint32_t numberOf(uint32_t group, uint32_t board) const;
 
   std::vector<CanUnit> units_;                                // by group and board
+  std::array<uint8_t, kCanNode + 1> numbers_{};               // of units in `units_` by node, from 1; 0: no unit
   std::array<std::array<uint8_t, 8>, kHandwheels> display_{}; // as they were when the program was not filling them
   uint32_t syncPeriod_ = 1, sinceSync_ = 0;
   bool started_ = false;

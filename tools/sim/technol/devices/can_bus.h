@@ -1,6 +1,7 @@
 // One simulated CAN bus: what the control transmits reaches the nodes in the next tick, and their answers come back in
 // the same one.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "tools/sim/technol/devices/can_drive.h"
@@ -17,8 +18,10 @@ public:
   // Of the configuration.
   void setActive(bool active) { active_ = active; }
   bool isActive() const { return active_; }
-  std::vector<SimulatedUnit>& units() { return units_; }
-  const std::vector<SimulatedUnit>& units() const { return units_; }
+  // So many of the group; they are new ones if there were more or fewer.
+  void setUnits(uint32_t group, uint32_t count);
+  std::span<SimulatedUnit> units() { return units_; }
+  std::span<const SimulatedUnit> units() const { return units_; }
   std::vector<SimulatedDrive>& drives() { return drives_; }
   const std::vector<SimulatedDrive>& drives() const { return drives_; }
 
@@ -40,6 +43,7 @@ private:
   uint32_t number_;
   bool active_ = false, off_ = false;
   std::vector<SimulatedUnit> units_;
+  std::array<uint8_t, devices::kCanNode + 1> numbers_{}; // of units in `units_` by node, from 1; 0: no unit
   std::vector<SimulatedDrive> drives_;
   NodePackets wire_;    // from the control, and from outside
   NodePackets answers_; // to the control

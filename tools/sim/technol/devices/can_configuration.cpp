@@ -1,6 +1,4 @@
 // Keys of the CAN devices (see can_devices.h): those of the control's channels, and objects of the simulated drives.
-#include <algorithm>
-
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
@@ -34,18 +32,11 @@ std::optional<std::string> CanDevices::configure(std::string_view key, std::stri
 
 void CanDevices::follow(const CanSettings& settings) {
   settings.configure(control_);
-  for (uint32_t group = 1; group <= kUnitGroups; ++group) setUnits(group, settings.units[group - 1]);
+  SimulatedCanBus& ofUnits = buses_[CanController::kUnitChannel - 1];
+  for (uint32_t group = 1; group <= kUnitGroups; ++group) ofUnits.setUnits(group, settings.units[group - 1]);
   setDrives(settings.drives);
   for (uint32_t i = 0; i < settings.drives; ++i) findDrive(i + 1)->setType(settings.driveTypes[i]);
   for (SimulatedCanBus& bus : buses_) bus.setActive(settings.isActive(bus.number()));
-}
-
-void CanDevices::setUnits(uint32_t group, uint32_t count) {
-  std::vector<SimulatedUnit>& units = buses_[CanController::kUnitChannel - 1].units();
-  const auto isOfGroup = [&](const SimulatedUnit& unit) { return unit.group() == group; };
-  if (static_cast<uint32_t>(std::ranges::count_if(units, isOfGroup)) == count) return;
-  std::erase_if(units, isOfGroup);
-  for (uint32_t board = 1; board <= count; ++board) units.emplace_back(group, board);
 }
 
 void CanDevices::setDrives(uint32_t count) {

@@ -80,7 +80,6 @@ private:
 
   Problem configureObject(std::string_view key, std::string_view value);
   void follow(const devices::CanSettings& settings);
-  void setUnits(uint32_t group, uint32_t count);
   void setDrives(uint32_t count);
   SimulatedUnit* findUnit(uint32_t group, uint32_t board);
   SimulatedDrive* findDrive(uint32_t drive);

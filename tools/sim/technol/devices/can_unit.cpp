@@ -40,6 +40,7 @@ void SimulatedUnit::power() {
   wires_.shorts = {};
   wires_.silent = false;
   operational_ = false;
+  sendsAnalogue_ = false;
   received_ = {};
   outputs_ = {};
   reported_ = 0;
@@ -97,7 +98,7 @@ void SimulatedUnit::sendInputs(NodePackets& answers) const {
     std::copy(wires_.keys.begin(), wires_.keys.end(), inputs.data + wires_.in.size());
   }
   answers.push(inputs);
-  if (objects_.value(kTpdo2Type) == 0) return;
+  if (!sendsAnalogue_) return;
   CanPacket analogue{.id = static_cast<uint16_t>(kTpdo2 + node_), .length = kCanDataBytes};
   std::copy(wires_.analogue.begin(), wires_.analogue.end(), analogue.data);
   answers.push(analogue);
@@ -132,6 +133,7 @@ void SimulatedUnit::answer(const CanPacket& request, NodePackets& answers) {
   refresh();
   const CanObject* written = nullptr;
   answers.push(objects_.answer(node_, request, written));
+  if (written != nullptr && written->place == kTpdo2Type) sendsAnalogue_ = written->value != 0;
 }
 
 } // namespace rung::sim::technol

@@ -53,6 +53,7 @@ private:
   CanObjects objects_{devices::sdo::kNoSuchObject};
   std::vector<HandwheelDisplay> display_; // one, of a handwheel
   bool operational_ = false;
+  bool sendsAnalogue_ = false;        // object 1801h-2, asked at each SYNC
   std::array<uint8_t, 8> received_{}; // RPDO1, taken over with SYNC
   std::array<uint8_t, devices::kUnitOutputs> outputs_{};
   uint8_t reported_ = 0; // error register and shorts of the last emergency

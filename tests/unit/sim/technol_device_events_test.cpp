@@ -3,10 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "rtlib/nc/technol/exchange.h"
-#include "rtlib/nc/technol/signals.h"
-#include "tests/unit/rtlib/test_program.h"
-#include "tools/sim/machine.h"
+#include "tests/unit/sim/technol_machine.h"
 
 namespace {
 
@@ -20,36 +17,27 @@ NcArgument quoted(std::string name, const char* value) {
 }
 NcArgument real(std::string name, double value) { return {.key = std::move(name), .isReal = true, .real = value}; }
 
-// A program that does nothing, beside one of each device.
+// One of each device.
 class DeviceEvents : public testing::Test {
 protected:
-  explicit DeviceEvents(const char* nc = "simulated") {
-    program_.dialect = "technol";
-    program_.memorySize = 1u << 20;
-    program_.addPacked("NCI", 1, nc::areaBytes(nc::technolSignals(), "I"), 0);
-    program_.addTask("MAIN", program_.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return test::popChunk(ctx); }));
-    program_.scan = {{RUNG_STEP_ADVANCE, 0, 20'000}, {RUNG_STEP_HOOK, 0, nc::kHookBeforeInput}, {RUNG_STEP_RUN, 0, 1}};
-    program_.fast = program_.scan;
-    machine_ = std::make_unique<Machine>(program_.link(), nullptr, makeSimulatedTechnol());
-    for (const auto& [name, value] :
-         {std::pair("nc", nc), std::pair("CAN[1].InOut08Cnt", "1"), std::pair("CAN[0].Drives", "1"),
-          std::pair("COM[1].Active", "1"), std::pair("ethercat.0", "coe"), std::pair("ethercat.0.ds402", "1")})
-      EXPECT_EQ(machine_->nc().config(name, value), "");
-    machine_->powerOn(nc::PowerOn::Cold);
-    machine_->scan();
+  explicit DeviceEvents(const char* nc = "simulated")
+      : machine_({{"nc", nc},
+                  {"CAN[1].InOut08Cnt", "1"},
+                  {"CAN[0].Drives", "1"},
+                  {"COM[1].Active", "1"},
+                  {"ethercat.0", "coe"},
+                  {"ethercat.0.ds402", "1"}}) {
+    machine_.scan();
   }
 
-  std::string event(const char* name, const std::vector<NcArgument>& keys) {
-    return machine_->operate([&](SimulatedNc& nc, host::Instance& inside) { return nc.event(inside, name, keys); });
-  }
+  std::string event(const char* name, const std::vector<NcArgument>& keys) { return machine_.event(name, keys); }
   std::string sent(const char* port, const std::vector<NcArgument>& keys) {
-    return machine_->nc().expectSent(port, keys);
+    return machine_.nc().expectSent(port, keys);
   }
-  std::string set(const char* quantity, double value) { return machine_->nc().setQuantity(quantity, value); }
+  std::string set(const char* quantity, double value) { return machine_.nc().setQuantity(quantity, value); }
 
 private:
-  test::TestProgram program_;
-  std::unique_ptr<Machine> machine_;
+  TechnolMachine machine_;
 };
 
 struct ScriptedEvents : DeviceEvents {

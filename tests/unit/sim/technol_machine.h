@@ -63,6 +63,9 @@ public:
   host::Instance& inside() { return machine_->inside(); }
   SimulatedNc& nc() { return machine_->nc(); }
   void scan() { machine_->scan(); }
+  std::string event(const char* name, const std::vector<NcArgument>& keys) {
+    return machine_->operate([&](SimulatedNc& nc, host::Instance& inside) { return nc.event(inside, name, keys); });
+  }
 
 private:
   test::TestProgram program_;

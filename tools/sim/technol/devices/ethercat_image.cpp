@@ -70,13 +70,13 @@ void EthercatImage::powerOn() {
 
 // An output that nobody has written leaves its object as the mailbox or the configuration has set it.
 void EthercatImage::putOutputs() {
-  for (const Entry& entry : entries_)
-    if (entry.isWritten && states_.takesOutputs(entry.slave)) slaves_.objectAt(entry.object).value = entry.value;
+  for (uint32_t i = 0; i < count(); ++i)
+    if (entries_[i].isWritten && isExchanged(i)) slaves_.objectAt(entries_[i].object).value = entries_[i].value;
 }
 
 void EthercatImage::takeInputs() {
-  for (Entry& entry : entries_)
-    if (entry.isInput && states_.givesInputs(entry.slave)) entry.value = slaves_.objectAt(entry.object).value;
+  for (uint32_t i = 0; i < count(); ++i)
+    if (entries_[i].isInput && isExchanged(i)) entries_[i].value = slaves_.objectAt(entries_[i].object).value;
 }
 
 } // namespace rung::sim::technol

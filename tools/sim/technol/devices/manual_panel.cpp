@@ -8,19 +8,17 @@
 namespace rung::sim::technol {
 namespace {
 
-constexpr uint16_t kSteps[] = {1, 2, 5, 10, 20, 50, 100, 200, 500, 1000}; // µm, l.17576
-
 void add(AxisMask& mask, AxisMask bits) { mask = static_cast<AxisMask>(mask | bits); }
 void remove(AxisMask& mask, AxisMask bits) { mask = static_cast<AxisMask>(mask & ~bits); }
 
 // The next larger or smaller step of the series.
 uint16_t neighbour(uint16_t step, bool larger) {
   if (larger) {
-    const auto* const next = std::ranges::upper_bound(kSteps, step);
-    return next == std::end(kSteps) ? step : *next;
+    const auto* const next = std::ranges::upper_bound(kKnobSteps, step);
+    return next == std::end(kKnobSteps) ? step : *next;
   }
-  const auto* const own = std::ranges::lower_bound(kSteps, step);
-  return own == std::begin(kSteps) ? step : *(own - 1);
+  const auto* const own = std::ranges::lower_bound(kKnobSteps, step);
+  return own == std::begin(kKnobSteps) ? step : *(own - 1);
 }
 
 } // namespace

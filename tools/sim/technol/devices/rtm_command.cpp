@@ -1,16 +1,16 @@
 // Commands of keys (see rtm_command.h).
 #include "tools/sim/technol/devices/rtm_command.h"
 
+#include <algorithm>
+#include <iterator>
+
+#include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/text/number.h"
 
 namespace rung::sim::technol {
 namespace {
 
-bool take(std::string_view& text, std::string_view word) {
-  if (!text.starts_with(word)) return false;
-  text.remove_prefix(word.size());
-  return true;
-}
+using nc::technol::takePrefix;
 
 struct Fixed {
   std::string_view name;
@@ -55,7 +55,7 @@ std::optional<AxisMask> takeLetter(std::string_view& text, std::string_view lett
 }
 
 void addDirection(std::string_view& text, AxisMask axes, RtmCommand& command) {
-  AxisMask& mask = take(text, "NEG") ? command.minus : command.plus;
+  AxisMask& mask = takePrefix(text, "NEG") ? command.minus : command.plus;
   mask = static_cast<AxisMask>(mask | axes);
 }
 
@@ -70,9 +70,9 @@ std::optional<RtmCommand> move(std::string_view text, std::string_view letters, 
       addDirection(text, *letter, command);
     }
     if (!any) command.kind = RtmKind::MoveSelected;
-    if (!any) command.value = take(text, "NEG") ? -1 : 1;
+    if (!any) command.value = takePrefix(text, "NEG") ? -1 : 1;
   }
-  command.rapid = take(text, "RT");
+  command.rapid = takePrefix(text, "RT");
   if (!text.empty()) return std::nullopt;
   return command;
 }
@@ -88,32 +88,28 @@ std::optional<RtmCommand> select(std::string_view text, std::string_view letters
 
 std::optional<RtmCommand> knobStep(std::string_view text, RtmCommand command) {
   const auto step = text::numberIn<int32_t>(text);
-  if (!step) return std::nullopt;
-  for (const int32_t known : {1, 2, 5, 10, 20, 50, 100, 200, 500, 1000})
-    if (*step == known) {
-      command.kind = RtmKind::KnobStep;
-      command.value = known;
-      return command;
-    }
-  return std::nullopt;
+  if (!step || std::ranges::find(kKnobSteps, *step) == std::end(kKnobSteps)) return std::nullopt;
+  command.kind = RtmKind::KnobStep;
+  command.value = *step;
+  return command;
 }
 
 } // namespace
 
 std::optional<RtmCommand> rtmCommand(std::string_view name, std::string_view letters) {
   RtmCommand command;
-  if (!take(name, "RTMID_")) return std::nullopt;
-  command.manual = take(name, "I");
-  if (!take(name, "MMM_")) return std::nullopt;
+  if (!takePrefix(name, "RTMID_")) return std::nullopt;
+  command.manual = takePrefix(name, "I");
+  if (!takePrefix(name, "MMM_")) return std::nullopt;
   for (const Fixed& fixed : kFixed)
     if (name == fixed.name) {
       command.kind = fixed.kind;
       command.value = fixed.value;
       return command;
     }
-  if (take(name, "MOVE")) return move(name, letters, command);
-  if (take(name, "SEL")) return select(name, letters, command);
-  if (take(name, "KNOB_STEP")) return knobStep(name, command);
+  if (takePrefix(name, "MOVE")) return move(name, letters, command);
+  if (takePrefix(name, "SEL")) return select(name, letters, command);
+  if (takePrefix(name, "KNOB_STEP")) return knobStep(name, command);
   return std::nullopt;
 }
 

@@ -27,6 +27,9 @@ enum class RtmKind : uint8_t {
   Activate, // SHIFT_ACTIVATE, SHIFT_DEACTIVATE
 };
 
+// The steps of the handwheel in µm (l.17576).
+inline constexpr uint16_t kKnobSteps[] = {1, 2, 5, 10, 20, 50, 100, 200, 500, 1000};
+
 struct RtmCommand {
   RtmKind kind = RtmKind::Move;
   bool manual = false;          // IMMM: manual motion is switched on as well

@@ -200,12 +200,9 @@ std::optional<std::string> SimulatedDevices::writeTable(std::string_view name, c
   return isLine ? tables_.selectByOperator(at->table, static_cast<uint32_t>(number)) : "a line is a number from 0";
 }
 
-std::string SimulatedDevices::deviceProblem(std::string_view name) const {
-  if (!simulated_) return "it is there with `config nc simulated`";
-  if (const auto unit = UnitCell::named(name)) return unit->problem(can_);
-  const std::string wheel = std::to_string(shownAt(name)->wheel);
-  if (displayOf(shownAt(name)->wheel) == nullptr)
-    return "there is no such handwheel; `config CAN[1].KnobCnt " + wheel + "` adds it";
+std::string SimulatedDevices::displayProblem(uint32_t wheel) const {
+  if (displayOf(wheel) == nullptr)
+    return "there is no such handwheel; `config CAN[1].KnobCnt " + std::to_string(wheel) + "` adds it";
   return "a display has the rows 0 to " + std::to_string(HandwheelDisplay::kRows - 1) + " and the columns 0 to " +
          std::to_string(HandwheelDisplay::kColumns - 1);
 }
@@ -214,7 +211,11 @@ std::string SimulatedDevices::cellProblem(std::string_view name) const {
   if (isAreaName(name) && !areaCell(name))
     return "a cell of a shared area is SA0+OFFSET:WIDTH or SA1+OFFSET:WIDTH, of 1, 2, 4 or 8 bytes within " +
            std::to_string(devices::SharedAreas::kAreaBytes);
-  if (shownAt(name) || UnitCell::named(name)) return deviceProblem(name);
+  const auto unit = UnitCell::named(name);
+  const auto shown = shownAt(name);
+  if ((unit || shown) && !simulated_) return "it is there with `config nc simulated`";
+  if (unit) return unit->problem(can_);
+  if (shown) return displayProblem(shown->wheel);
   const auto at = tableCell(name);
   if (!at) return {};
   const std::string table = "PLC table " + std::to_string(at->table);

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "rtlib/nc/technol/code_page.h"
+#include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "tools/devices/key_text.h"
 #include "tools/sim/technol/requests/scenario_texts.h"
 #include "tools/sim/technol/requests/simulated_devices.h"
 
@@ -23,14 +24,11 @@ constexpr EventKey kManualKeys[] = {{"on"}};
 constexpr EventKey kCommandKeys[] = {required(textKey("command")), {"state"}};
 constexpr EventKey kHandwheelKeys[] = {required({"pulses", INT32_MIN, INT32_MAX}), {"wheel", 1, 2}};
 
-// "4.RefSpeed": the axis and the rest; 0 where there is none.
-uint32_t takeNumber(std::string_view& rest) {
-  const size_t end = std::min(rest.find('.'), rest.size());
-  const bool hex = rest.substr(0, end).starts_with("0x");
-  const auto number =
-      hex ? text::numberIn<uint32_t>(rest.substr(2, end - 2), 16) : text::numberIn<uint32_t>(rest.substr(0, end));
-  rest.remove_prefix(std::min(end + 1, rest.size()));
-  return number.value_or(UINT32_MAX);
+// "2.0x6041.0": the number before the point, which both go away; UINT32_MAX where it is no number.
+uint32_t takePart(std::string_view& rest) {
+  std::string_view part = devices::takeUntil(rest, '.');
+  const int base = nc::technol::takePrefix(part, "0x") ? 16 : 10;
+  return text::numberIn<uint32_t>(part, base).value_or(UINT32_MAX);
 }
 
 } // namespace
@@ -111,7 +109,7 @@ std::optional<double> SimulatedDevices::quantity(std::string_view name) const {
   const auto ofAxis = [&](std::string_view prefix, auto value) -> std::optional<double> {
     std::string_view rest = name;
     if (!takeAnyCase(rest, prefix)) return std::nullopt;
-    const uint32_t axis = takeNumber(rest);
+    const uint32_t axis = takePart(rest);
     return axes_.exists(axis) && rest.empty() ? std::optional<double>(value(axis)) : std::nullopt;
   };
   if (auto v = ofAxis("MPOS.", [&](uint32_t axis) { return axes_.measured(axis); })) return v;
@@ -121,9 +119,9 @@ std::optional<double> SimulatedDevices::quantity(std::string_view name) const {
   if (auto v = ofAxis("REGUL.", [&](uint32_t axis) { return axes_.regulator(axis); })) return v;
   std::string_view rest = name;
   const auto asReal = [](auto value) { return value ? std::optional(static_cast<double>(*value)) : std::nullopt; };
-  if (takeAnyCase(rest, "ECSTATE.")) return asReal(ethercat_.slaveState(takeNumber(rest)));
+  if (takeAnyCase(rest, "ECSTATE.")) return asReal(ethercat_.slaveState(takePart(rest)));
   const auto three = [&](auto act) {
-    const uint32_t a = takeNumber(rest), b = takeNumber(rest), c = takeNumber(rest);
+    const uint32_t a = takePart(rest), b = takePart(rest), c = takePart(rest);
     return act(a, b, c);
   };
   if (takeAnyCase(rest, "DRIVE."))
@@ -139,7 +137,7 @@ std::optional<std::string> SimulatedDevices::setQuantity(std::string_view name, 
   std::string_view rest = name;
   const bool measured = takeAnyCase(rest, "MPOS.");
   if (measured || takeAnyCase(rest, "TRUE.")) {
-    const uint32_t axis = takeNumber(rest);
+    const uint32_t axis = takePart(rest);
     if (!axes_.exists(axis)) return "there is no axis of this number";
     if (!(std::fabs(value) <= kFarthest)) return "a place is a number of -1e9 to 1e9";
     measured ? axes_.setMeasured(axis, value) : axes_.setPhysical(axis, value);
@@ -150,7 +148,7 @@ std::optional<std::string> SimulatedDevices::setQuantity(std::string_view name, 
     if (!quantity(name)) return std::nullopt;
     return "it is what a device does; set are NC.MPOS, NC.TRUE, NC.ETHERCAT and NC.IDN";
   }
-  const uint32_t a = takeNumber(rest), b = takeNumber(rest), c = takeNumber(rest);
+  const uint32_t a = takePart(rest), b = takePart(rest), c = takePart(rest);
   const auto bits = static_cast<uint64_t>(static_cast<int64_t>(std::llround(value)));
   const bool done = object ? ethercat_.setObject(a, b, c, bits) : ethercat_.setIdn(a, b, c, bits);
   return std::string(done ? "" : "there is no such object");

@@ -24,8 +24,6 @@ bool isPacketOrder(CanOrder order) {
 
 } // namespace
 
-SimulatedDevices::SimulatedDevices() = default;
-
 std::optional<std::string> SimulatedDevices::configure(std::string_view key, std::string_view value,
                                                        const std::string& path) {
   if (text::equalsIgnoringCase(key, "nc")) {

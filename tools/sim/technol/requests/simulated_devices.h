@@ -1,8 +1,8 @@
 // The devices of the simulated TECHNOL control, connected to a program: who answers its requests, and which cells they
-// read and write (inventory of the services, 1). Shared areas are always there, tables where the configuration names
-// them, all else with `nc simulated`.
+// read and write (inventory of the services, 1). Shared areas, orders of packets and the event CAN are always there,
+// tables where the configuration names them, all else with `nc simulated`; requests to axes that are out of range are
+// always answered.
 #pragma once
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,9 +33,7 @@ namespace rung::sim::technol {
 
 class SimulatedDevices {
 public:
-  SimulatedDevices();
-
-  // Before the first power-on: process data of the simulated net are found there.
+  // Process data of the simulated net are found there; handed over at a power-on.
   const EthercatImage& image() const { return ethercat_.image(); }
   // Before the first power-on. "" or what is wrong; nothing: a key of something else. `path` is that of a file.
   std::optional<std::string> configure(std::string_view key, std::string_view value, const std::string& path);
@@ -70,7 +68,8 @@ public:
   // Quantities without "NC.".
   std::optional<double> quantity(std::string_view name) const;
   std::optional<std::string> setQuantity(std::string_view name, double value);
-  // SA0+n:w, PlcTableN.…, DISPTOCn.Shown[row][column]
+  // SA0+n:w, PlcTableN.…, KnobSelAxN, Pos6ShiftAxN, DISPTOCn.Shown[row][column], structures of the units on CAN
+  // (unit_cells.h), process data of the simulated net and positions of modules (module_points.h).
   std::optional<NcCell> readCell(std::string_view name) const;
   std::optional<std::string> writeCell(std::string_view name, const NcCell& value);
   std::string cellProblem(std::string_view name) const;
@@ -123,8 +122,8 @@ private:
   std::optional<NcCell> readModule(std::string_view name) const;
   std::optional<ModulePoint> givenPoint(std::string_view identifier) const;
   std::optional<std::string> writeTable(std::string_view name, const NcCell& value);
-  // Of a display or a unit.
-  std::string deviceProblem(std::string_view name) const;
+  // Of a place that is not on the display, or of a handwheel that is not there.
+  std::string displayProblem(uint32_t wheel) const;
   // Null: no such handwheel.
   const HandwheelDisplay* displayOf(uint32_t wheel) const;
   std::string keyEvent(host::Instance& instance, std::span<const NcArgument> given);

@@ -24,7 +24,7 @@ constexpr EventKey kManualKeys[] = {{"on"}};
 constexpr EventKey kCommandKeys[] = {required(textKey("command")), {"state"}};
 constexpr EventKey kHandwheelKeys[] = {required({"pulses", INT32_MIN, INT32_MAX}), {"wheel", 1, 2}};
 
-// "2.0x6041.0": the number before the point, which both go away; UINT32_MAX where it is no number.
+// "2.0x6041.0": the number before the point, which both go away; UINT32_MAX where there is none.
 uint32_t takePart(std::string_view& rest) {
   std::string_view part = devices::takeUntil(rest, '.');
   const int base = nc::technol::takePrefix(part, "0x") ? 16 : 10;

@@ -5,23 +5,11 @@
 #include <bit>
 #include <fmt/format.h>
 
-#include "ir/support/ascii.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/services.h"
+#include "tools/sim/hex_bytes.h"
 
 namespace rung::scenario {
-
-std::optional<std::string> bytesOfHex(std::string_view text) {
-  std::string bytes;
-  for (size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == ' ') continue;
-    const int high = hexDigit(text[i]), low = i + 1 < text.size() ? hexDigit(text[i + 1]) : -1;
-    if (high < 0 || low < 0) return std::nullopt;
-    bytes += static_cast<char>(high * 16 + low);
-    ++i;
-  }
-  return bytes;
-}
 
 std::string hexOf(std::string_view bytes) {
   std::string text;
@@ -30,7 +18,8 @@ std::string hexOf(std::string_view bytes) {
 }
 
 std::optional<std::string> bytesOf(const Value& value, bool isHex) {
-  if (value.kind == ValueKind::Text) return isHex ? bytesOfHex(value.text) : nc::memoryText(value.text);
+  if (value.kind == ValueKind::Text)
+    return isHex ? sim::bytesOfHex<std::string>(value.text) : nc::memoryText(value.text);
   const auto bits =
       value.kind == ValueKind::Real ? std::bit_cast<uint64_t>(value.real) : static_cast<uint64_t>(value.integer);
   std::string bytes;

@@ -11,8 +11,6 @@
 
 namespace rung::scenario {
 
-// Pairs of hexadecimal digits with blanks between them; nothing where it is something else.
-std::optional<std::string> bytesOfHex(std::string_view text);
 std::string hexOf(std::string_view bytes);
 // What a value means as bytes: `isHex` of a text in pairs of digits, else of its characters; of a number its eight
 // bytes, the lowest first.

@@ -78,6 +78,8 @@ TEST_F(DeviceEvents, UnitsDrivesAndTheBus) {
   EXPECT_THAT(event("CAN_DRIVE", {key("drive", 2), key("fault", 1)}), HasSubstr("there is no drive 2"));
   EXPECT_EQ(event("CAN_DRIVE", {key("drive", 1), key("mstat", 0x10000)}), "CAN_DRIVE: 'mstat' takes 0 to 0xFFFF");
   EXPECT_THAT(event("CAN_DRIVE", {key("drive", 1)}), HasSubstr("it changes nothing"));
+  EXPECT_THAT(event("CAN_DRIVE", {key("drive", 1), key("hold", 1)}), HasSubstr("'fault' is missing"));
+  EXPECT_EQ(event("CAN_DRIVE", {key("drive", 1), key("fault", 0), key("hold", 0)}), "");
   EXPECT_EQ(event("CAN_BUS", {key("can", 2)}), "") << "off";
   EXPECT_EQ(event("CAN_BUS", {key("off", 1)}), "CAN_BUS: 'can' is missing");
 }

@@ -76,7 +76,7 @@ public:
       if (key == kKeys[i]) return readFile(static_cast<control_files::ControlFileKind>(i), value);
     if (const auto wrong = devices_.configure(key, value, inFolder(value)); wrong && !wrong->empty())
       return *wrong;
-    else if (wrong && key.find("INOUT08[") == std::string_view::npos)
+    else if (wrong && text::upper(key).find("INOUT08[") == std::string_view::npos)
       return {};
     std::string problem = exchange_.configure(key, value);
     return problem.empty() ? configuration_.set(key, value) : problem;

@@ -7,6 +7,7 @@
 #include "rtlib/text/hex.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "tools/sim/hex_bytes.h"
 #include "tools/sim/technol/requests/event_keys.h"
 #include "tools/sim/technol/requests/scenario_texts.h"
 #include "tools/sim/technol/requests/simulated_devices.h"
@@ -50,19 +51,6 @@ constexpr EventKey kSentBytesKeys[] = {textKey("text"), textKey("data")};
 constexpr const char* kBadHex = "data is pairs of hexadecimal digits, as \"02 55\"";
 constexpr const char* kBadText = "a text has \\r, \\n, \\t, \\\\ and \\x with two hexadecimal digits";
 
-// Pairs of hexadecimal digits with blanks between them.
-std::optional<std::vector<uint8_t>> bytesOfHex(std::string_view text) {
-  std::vector<uint8_t> bytes;
-  for (size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == ' ') continue;
-    const int high = hexDigit(text[i]), low = i + 1 < text.size() ? hexDigit(text[i + 1]) : -1;
-    if (high < 0 || low < 0) return std::nullopt;
-    bytes.push_back(static_cast<uint8_t>(high * 16 + low));
-    ++i;
-  }
-  return bytes;
-}
-
 // \r, \n, \t, \\ and \xNN.
 std::optional<std::vector<uint8_t>> bytesOfText(std::string_view utf8) {
   const std::string text = nc::memoryText(utf8);
@@ -91,7 +79,7 @@ std::optional<std::vector<uint8_t>> bytesOfText(std::string_view utf8) {
 std::string readBytes(const EventKeys& keys, std::vector<uint8_t>& bytes) {
   const bool isText = keys.has("text");
   if (isText == keys.has("data")) return isText ? "either text or data" : "text or data is missing";
-  auto read = isText ? bytesOfText(keys.text("text")) : bytesOfHex(keys.text("data"));
+  auto read = isText ? bytesOfText(keys.text("text")) : bytesOfHex<std::vector<uint8_t>>(keys.text("data"));
   if (!read) return isText ? kBadText : kBadHex;
   bytes = std::move(*read);
   return {};
@@ -99,7 +87,7 @@ std::string readBytes(const EventKeys& keys, std::vector<uint8_t>& bytes) {
 
 // `len` counts where there is less data, and without it: of a request for data (RTR).
 std::string readPacket(const EventKeys& keys, devices::CanPacket& packet) {
-  const auto bytes = bytesOfHex(keys.text("data"));
+  const auto bytes = bytesOfHex<std::vector<uint8_t>>(keys.text("data"));
   if (!bytes) return kBadHex;
   if (bytes->size() > devices::kCanDataBytes) return "a packet has at most 8 bytes of data";
   packet.id = keys.number<uint16_t>("id").value_or(0);
@@ -151,6 +139,7 @@ std::string SimulatedDevices::unitEvent(const EventKeys& keys) {
 
 std::string SimulatedDevices::driveEvent(const EventKeys& keys) {
   if (!hasAny(keys, kDriveKeys)) return "it changes nothing: fault, mstat or silent is missing";
+  if (keys.has("hold") && !keys.has("fault")) return "'hold' says how long a fault lasts: 'fault' is missing";
   return can_.driveEvent(*keys.number<uint32_t>("drive"), {.fault = keys.number<uint16_t>("fault"),
                                                            .hold = keys.number<bool>("hold").value_or(false),
                                                            .mstat = keys.number<uint16_t>("mstat"),

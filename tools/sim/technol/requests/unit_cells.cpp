@@ -158,6 +158,9 @@ std::string UnitCell::write(CanDevices& can, CanInputs& inputs, const NcCell& va
   const uint64_t most = bit_ ? 1 : element_->wire == Wire::Encoder ? 0xFFFF : 0xFF;
   const bool isWired = element_->wire != Wire::None && element_->wire != Wire::Output;
   if (!isWired) return "it is what the unit does or says; set are INOUT_IN, INOUT_TL, INOUT_ANL and INOUT_IRC";
+  if (element_->wire == Wire::Key && group_ == kHandwheel)
+    return "a handwheel has its keys in INOUT_IN[0] and INOUT_IN[1], from which PTLTOC_P1 comes";
+  if (element_->wire == Wire::Encoder && group_ != kHandwheel) return "only handwheels have encoders";
   if (value.isText || value.isReal || value.bits > most) return "expected 0 to " + std::to_string(most);
   if (element_->wire == Wire::Encoder) {
     can.wires(group_, board_)->encoders[index_] = static_cast<uint16_t>(value.bits);

@@ -408,6 +408,7 @@ void Connections::order() {
     if (!isJoined(wire)) continue;
     const auto [entry, isFirst] = setters.emplace(key(wire), std::pair(i, wire.period));
     wire.joins = !isFirst;
+    if (wire.joins) wire.isShared = wires_[entry->second.first].isShared = true;
     entry->second.second = std::min(entry->second.second, wire.period);
   }
   for (Wire& wire : wires_)
@@ -485,6 +486,12 @@ void Connections::copy(host::Instance& instance, ModuleCells& cells, nc::Exchang
   const WireMemory memory(instance, cells);
   const size_t end = ends_[static_cast<size_t>(slowest)];
   for (size_t i = 0; i < end; ++i) memory.copy(wires_[i]);
+}
+
+void Connections::copyBetweenModules(host::Instance& instance, ModuleCells& cells) const {
+  const WireMemory memory(instance, cells);
+  for (const Wire& wire : wires_)
+    if (isOfModule(wire.from) && isOfModule(wire.to) && !wire.isShared) memory.copy(wire);
 }
 
 void Connections::update(host::Instance& instance, ModuleCells& cells, const rt::ServiceRequest& request,

@@ -41,6 +41,8 @@ public:
   // ---- while it runs; nothing allocates
   // All that are not slower than `slowest`.
   void copy(host::Instance& instance, ModuleCells& cells, nc::ExchangePeriod slowest) const;
+  // While the program is stopped: what passes from module to module, without ends that several connections set.
+  void copyBetweenModules(host::Instance& instance, ModuleCells& cells) const;
   // What kUpdateService answers.
   void update(host::Instance& instance, ModuleCells& cells, const rt::ServiceRequest& request,
               rt::ServiceReply& reply) const;

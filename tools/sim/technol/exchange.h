@@ -33,6 +33,8 @@ public:
   // Hooks of the schedule, and those that have something to do, a bit each; configuring may change them.
   uint32_t works() const;
   void onHook(host::Instance& instance, uint32_t hook);
+  // While the program is stopped: modules exchange with each other.
+  void idle(host::Instance& instance) { connections_.copyBetweenModules(instance, cells_); }
   void beforeWrite(host::Instance& instance, const host::Ref& place) { ports_.beforeWrite(instance, place); }
   // The services kDefineService and kUpdateService; false: another one.
   bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply);

@@ -55,6 +55,7 @@ public:
   }
   void idle(host::Instance& instance) override {
     devices_.idle(instance, exchange_.cells());
+    exchange_.idle(instance);
     devices_.takeLog(log_);
   }
 

@@ -24,6 +24,7 @@ struct Pin {
   rt::Place located;
   host::Ref place;
 };
+inline bool isOfModule(const Pin& pin) { return pin.kind == Pin::Kind::Cell || pin.kind == Pin::Kind::CellBit; }
 inline bool isMemoryBit(const Pin& pin) { return pin.kind == Pin::Kind::Memory && pin.type == nc::ExchangeType::Bit; }
 Pin pinAt(const rung_program& program, const host::Ref& place, nc::ExchangeType type);
 
@@ -40,8 +41,9 @@ struct Wire {
   static constexpr size_t kStages = 3;
   Pin from, to;
   bool invert = false;
-  bool joins = false; // ORed to what another wire has put there
-  bool isBit = false; // from a bit of the memory to another: most are
+  bool joins = false;    // ORed to what another wire has put there
+  bool isShared = false; // its end is one that others join or have set
+  bool isBit = false;    // from a bit of the memory to another: most are
   uint8_t stageCount = 0;
   Stage stages[kStages];
   nc::ExchangePeriod period = nc::ExchangePeriod::Slow;

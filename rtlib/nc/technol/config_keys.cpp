@@ -77,7 +77,7 @@ constexpr ConfigKey kKeys[] = {
     {.key = "ethercat.<d>", .takes = "coe, soe or coe+soe", .doc = "slave d exists, with these protocols"},
     {.key = "ethercat.<d>.<ATTRIBUTE>",
      .takes = "a text",
-     .doc = "name, coe.INDEX.SUB, soe.IDN.DRIVE, pdo.Inputs.ENTRY, pdo.Outputs.ENTRY, refuse, ds402 of a slave"},
+     .doc = "name, coe.INDEX.SUB, soe.IDN.DRIVE, pdo.Inputs.ENTRY, pdo.Outputs.ENTRY, refuse, ds402, motor of a slave"},
     {.key = "EtherCATOPViaPLC",
      .form = Choice,
      .takes = "0 1",

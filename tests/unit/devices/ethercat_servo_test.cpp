@@ -1,6 +1,8 @@
 // Drives by CiA 402 and the servos that order them by the bits flEdrv…N (TECHNOL manual 13.18, l.10216-10479).
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/unit/devices/ethercat_net.h"
 #include "tools/sim/technol/devices/ethercat_servo.h"
 
@@ -63,6 +65,42 @@ TEST(Ds402, AsASlave) {
   EXPECT_EQ(net.net.object(0, 0x6041, 0), 0x08u);
   EXPECT_EQ(net.net.object(0, 0x603F, 0), 0x7310u);
   EXPECT_EQ(net.download(0, 0x6041, 0, {0, 0}), 0x06010002u);
+}
+
+void enable(EthercatNet& net) {
+  for (const uint8_t control : {0x06, 0x07, 0x0F}) ASSERT_EQ(net.download(0, 0x6040, 0, {control, 0}), 0u);
+}
+
+TEST(Ds402, AMotorGoesToItsTarget) {
+  EthercatNet net{{"ethercat.0", "coe"}, {"ethercat.0.ds402", "1"}, {"ethercat.0.motor", "position"}};
+  ASSERT_EQ(net.problems, "");
+  net.net.setObject(0, 0x607A, 0, 0xFFFFFFFB);
+  net.ticks(1);
+  EXPECT_EQ(net.net.object(0, 0x6064, 0), 0u); // not enabled
+  enable(net);
+  EXPECT_EQ(net.net.object(0, 0x6064, 0), 0xFFFFFFFBu);
+  EXPECT_EQ(net.download(0, 0x6064, 0, {1, 0, 0, 0}), 0x06010002u);
+}
+
+TEST(Ds402, AMotorKeepsAVelocity) {
+  EthercatNet net{{"ethercat.0", "coe"}, {"ethercat.0.ds402", "1"}, {"ethercat.0.motor", "velocity"}};
+  ASSERT_EQ(net.problems, "");
+  enable(net);
+  net.net.setObject(0, 0x60FF, 0, static_cast<uint32_t>(-1500));
+  net.ticks(1);
+  EXPECT_EQ(net.net.object(0, 0x6064, 0), 0xFFFFFFFFu);
+  net.ticks(1); // what is less than an increment counts
+  EXPECT_EQ(net.net.object(0, 0x6064, 0), 0xFFFFFFFDu);
+  ASSERT_EQ(net.net.fault(0, 0x7310), "");
+  net.ticks(5);
+  EXPECT_EQ(net.net.object(0, 0x6064, 0), 0xFFFFFFFDu);
+}
+
+TEST(Ds402, AMotorNeedsADrive) {
+  EthercatNet net{{"ethercat.0", "coe"}, {"ethercat.0.motor", "velocity"}};
+  EXPECT_NE(net.problems.find("a motor needs a drive"), std::string::npos) << net.problems;
+  EthercatNet other{{"ethercat.0", "coe"}, {"ethercat.0.ds402", "1"}, {"ethercat.0.motor", "1"}};
+  EXPECT_NE(other.problems.find("position or velocity"), std::string::npos) << other.problems;
 }
 
 // ---- the servo ---------------------------------------------------------------------------------------------------
@@ -204,6 +242,77 @@ TEST_F(Servo, ThePulseIsRepeatedWhileTheFaultLasts) {
   servo.status = 0x40;
   scans(1);
   EXPECT_FALSE(servo.erase);
+}
+
+// ---- positions and velocities --------------------------------------------------------------------------------------
+
+TEST_F(Servo, ADriveThatIsNotEnabledIsAskedToStay) { // l.10346
+  servo.isConnected = true;
+  servo.status = 0x23;
+  servo.position = -700;
+  servo.place = 5;
+  scans(1);
+  EXPECT_EQ(servo.requestedPosition, -700);
+  servo.place = 6;
+  servo.position = -650;
+  scans(1);
+  EXPECT_EQ(servo.requestedPosition, -650);
+  EXPECT_EQ(servo.requestedVelocity, 0);
+  EXPECT_EQ(servo.followingError(), 0);
+}
+
+TEST_F(Servo, AnEnabledDriveIsAskedToGoWithItsAxis) { // l.10337-10349
+  servo.isConnected = true;
+  servo.status = 0x27;
+  servo.position = 100;
+  servo.place = 5;
+  scans(1); // enabled from the beginning: it need not jump
+  EXPECT_EQ(servo.requestedPosition, 100);
+  servo.place = 5.25;
+  scans(1);
+  EXPECT_EQ(servo.requestedPosition, 350);
+  EXPECT_EQ(servo.requestedVelocity, 250 * 50);
+  EXPECT_EQ(servo.followingError(), 250);
+  servo.velocityScale = -0.5;
+  servo.place = 5;
+  scans(1);
+  EXPECT_EQ(servo.requestedPosition, 100);
+  EXPECT_EQ(servo.requestedVelocity, 125 * 50);
+  scans(1);
+  EXPECT_EQ(servo.requestedVelocity, 0);
+}
+
+TEST_F(Servo, PositionsWrapAsTheirCellsDo) {
+  servo.isConnected = true;
+  servo.status = 0x27;
+  servo.position = 0x7FFF'FFFF;
+  scans(1);
+  servo.place = 0.001;
+  scans(1);
+  EXPECT_EQ(servo.requestedPosition, std::numeric_limits<int32_t>::min());
+  EXPECT_EQ(servo.requestedVelocity, 50);
+  EXPECT_EQ(servo.followingError(), 1);
+  servo.velocityScale = 1e12;
+  servo.place = 0.002;
+  scans(1);
+  EXPECT_EQ(servo.requestedVelocity, std::numeric_limits<int32_t>::max());
+}
+
+TEST_F(Servo, ASimulatedDriveGoesAScanLater) {
+  servo.isSimulated = true;
+  servo.place = 3;
+  until(&ServoCells::on);
+  EXPECT_EQ(servo.position, 3000);
+  servo.place = 4; // not enabled
+  scans(1);
+  EXPECT_EQ(servo.position, 3000);
+  until(&ServoCells::enable);
+  servo.place = 4.5;
+  scans(1);
+  EXPECT_EQ(servo.requestedPosition, 3500);
+  EXPECT_EQ(servo.position, 3000);
+  scans(1);
+  EXPECT_EQ(servo.position, 3500);
 }
 
 TEST_F(Servo, PowerOff) {

@@ -45,19 +45,53 @@ constexpr RtmModule kModules[] = {{"AXIS", "RTM.Axis", 16},
                                   {"MAN", "RTM.Man", 1},
                                   {"CONTROL", "RTM.Control", 1}};
 
-// Pos0_Ax to Pos6_Ax, Pos6Shift_Ax, and the words of an EtherCAT drive (man. l.12778-12830, l.12908-12918).
+struct Part {
+  std::string_view symbol;
+  uint32_t part;
+};
+constexpr Part kDriveParts[] = {{"DriveStatus", kServoStatus},
+                                {"DriveErrReg", kServoError},
+                                {"DrivePos", kServoPosition},
+                                {"DriveControl", kServoControl},
+                                {"DrivePosReq", kServoRequestedPosition},
+                                {"DriveVeloReq", kServoRequestedVelocity},
+                                {"State", kServoState},
+                                {"MoveDisReq", kServoBlocksMotion},
+                                {"Error", kServoFaulty}};
+constexpr Part kServoParts[] = {
+    {"ICounter", kFollowingErrorMm},     {"ICounter_S", kFollowingErrorUm},          {"ServoPosition", kMeasuredMm},
+    {"ServoPosition_S", kMeasuredUm},    {"ServoPosition_Inc", kMeasuredIncrements}, {"ServoReqPosition", kRequestedMm},
+    {"ServoReqPosition_S", kRequestedUm}};
+constexpr Part kIncrements[] = {
+    {"IncPt_Ax", kPerTick},         {"Inc_Ax", kPerMinute},        {"IncManPos1_Ax", kByHand},
+    {"IncManPos2_Ax", kByHand},     {"IncManPos3_Ax", kByHand},    {"IncManPos4_Ax", kByHand},
+    {"IncManPos5_Ax", kByHand},     {"Pos5Inc", kPath5PerTick},    {"Pos6Inc", kPath6PerTick},
+    {"Pos5IncPm", kPath5PerMinute}, {"Pos6IncPm", kPath6PerMinute}};
+
+ModulePoint pointIn(std::span<const Part> parts, std::string_view symbol, ModulePoint::Kind kind, uint32_t number) {
+  const auto found = std::ranges::find(parts, symbol, &Part::symbol);
+  return found == parts.end() ? ModulePoint{} : ModulePoint{kind, number, found->part};
+}
+
+ModulePoint sharedPoint(std::string_view area, std::string_view symbol, uint32_t number) {
+  for (uint32_t i = 0; i < std::size(kSharedElements); ++i)
+    if (kSharedElements[i].area == area && kSharedElements[i].element == symbol)
+      return {ModulePoint::Kind::Shared, number, i};
+  return {};
+}
+
+// What simulated devices have of the real-time manager (man. l.12760-12868, l.12871-12920).
 ModulePoint pointOf(std::string_view area, std::string_view symbol, uint32_t number) {
-  if (area == "RTM.Servo.Edrv") {
-    constexpr std::string_view kParts[] = {"DriveStatus", "DriveErrReg", "DriveControl"};
-    const auto* const part = std::ranges::find(kParts, symbol);
-    if (part == std::end(kParts)) return {};
-    return {ModulePoint::Kind::Servo, number, static_cast<uint32_t>(part - std::begin(kParts))};
-  }
+  using Kind = ModulePoint::Kind;
+  if (const ModulePoint shared = sharedPoint(area, symbol, number); shared.kind != Kind::None) return shared;
+  if (area == "RTM.Servo.Edrv") return pointIn(kDriveParts, symbol, Kind::Servo, number);
+  if (area == "RTM.Servo") return pointIn(kServoParts, symbol, Kind::Servo, number);
   if (area != "RTM.Axis") return {};
-  if (symbol == "Pos6Shift_Ax") return {ModulePoint::Kind::Shift, number};
+  if (symbol == "Pos6Shift_Ax") return {Kind::Shift, number};
+  if (const ModulePoint of = pointIn(kIncrements, symbol, Kind::Increment, number); of.kind != Kind::None) return of;
   const bool isPosition = symbol.size() == 7 && symbol.starts_with("Pos") && symbol.ends_with("_Ax");
   if (!isPosition) return {};
-  return {ModulePoint::Kind::Position, number, static_cast<uint32_t>(symbol[3] - '0')};
+  return {Kind::Position, number, static_cast<uint32_t>(symbol[3] - '0')};
 }
 
 // MODULE[x].NAME or MODULE.NAME[x]: x is the axis or servo in both (man. l.12753 reads RTM.Axis[2].Pos0_AX).
@@ -80,7 +114,9 @@ std::optional<ModuleElement> rtmElement(std::string_view rest, std::string& prob
       problem = std::string(signal->symbol) + " has the elements 0 to " + std::to_string(signal->count - 1);
       return std::nullopt;
     }
-    const bool ofMember = signal->count == 1 && module.members > 1;
+    // What all axes have in common is one element, whichever axis is named.
+    const bool isCommon = module.area == std::string_view("RTM.Axis");
+    const bool ofMember = signal->count == 1 && module.members > 1 && !isCommon;
     const uint32_t number = ofMember ? member : element;
     ModuleElement made{.key = area + "." + signal->symbol + "/" + std::to_string(number),
                        .type = typeOf(*signal),
@@ -132,7 +168,21 @@ std::optional<ModuleElement> ModuleCells::element(std::string_view identifier, s
 }
 
 void ModuleCells::reset() {
-  for (ModuleCell& cell : cells_) cell.bits = 0;
+  for (ModuleCell& cell : cells_) cell.bits = cell.given = 0;
+}
+
+void ModuleCells::addShared() {
+  std::string problem;
+  for (const SharedElement& shared : kSharedElements) {
+    const bool isServo = shared.area != "RTM.Axis";
+    const std::string element(shared.element);
+    const uint32_t count = findSignal(nc::technolSignals(), element, shared.area)->count;
+    for (uint32_t i = 0; i < count; ++i) {
+      const std::string index = "[" + std::to_string(i) + "]";
+      const std::string name = isServo ? "RTM.Servo" + index + ".Edrv." + element : "RTM.Axis." + element + index;
+      cellOf(*moduleElement(nc::technol::canonical(name), problem));
+    }
+  }
 }
 
 uint32_t ModuleCells::cellOf(const ModuleElement& element) {

@@ -23,13 +23,62 @@ struct ModulePoint {
     ProcessData, // the entry of the process image
     Position,    // the axis, from 0, in the space `part`, 0 to 6
     Shift,       // the axis, from 0: what SHIFT adds in POS6
+    Increment,   // the axis, from 0; its AxisIncrement
     Servo,       // the servo; its ServoPart
+    Shared,      // a cell of the program: `number` of the row `part` of kSharedElements
   } kind = Kind::None;
   uint32_t number = 0;
   uint32_t part = 0;
 };
-// RTM.Servo[x].Edrv: DriveStatus, DriveErrReg and DriveControl.
-enum ServoPart : uint32_t { kServoStatus, kServoError, kServoControl };
+// What a servo is given, then what it gives.
+enum ServoPart : uint32_t {
+  kServoStatus,
+  kServoError,
+  kServoPosition,
+  kServoInputs,
+  kServoControl = kServoInputs,
+  kServoRequestedPosition,
+  kServoRequestedVelocity,
+  kServoState,
+  kServoBlocksMotion,
+  kServoFaulty,
+  kFollowingErrorMm, // the rest in millimetres, micrometres, increments
+  kFollowingErrorUm,
+  kMeasuredMm,
+  kMeasuredUm,
+  kMeasuredIncrements,
+  kRequestedMm,
+  kRequestedUm
+};
+// Of the path in a space; T is a millisecond (man. l.2664, l.12764-12868).
+enum AxisIncrement : uint32_t {
+  kPerTick,
+  kPerMinute,
+  kByHand,
+  kPath5PerTick,
+  kPath6PerTick,
+  kPath5PerMinute,
+  kPath6PerMinute
+};
+
+// Elements that are cells of the program under another name: what is put at one is at the other.
+struct SharedElement {
+  std::string_view area, element; // as the signals have them
+  std::string_view cell;          // of a servo, its number follows
+};
+inline constexpr SharedElement kSharedElements[] = {
+    {"RTM.Axis", "ReqShift", "REQ_ESHIFT"},               // l.10882, l.12760
+    {"RTM.Axis", "ActShift", "ACT_ESHIFT"},               // l.10885, l.12761
+    {"RTM.Axis", "KnobStep", "KNOB_STEP"},                // l.11054, l.12798
+    {"RTM.Axis", "ShiftEnable_Ax", "SHIFT_ENABLE"},       // l.11056, l.12762; a bit an axis
+    {"RTM.Servo.Edrv", "Simul", "flEdrvSimul"},           // l.10378, l.12894
+    {"RTM.Servo.Edrv", "Init", "flEdrvInit"},             // l.10360, l.12896
+    {"RTM.Servo.Edrv", "On", "flEdrvOn"},                 // l.10362, l.12904
+    {"RTM.Servo.Edrv", "Enable", "flEdrvEnable"},         // l.10365, l.12900
+    {"RTM.Servo.Edrv", "Disable", "flEdrvDisable"},       // l.10368, l.12902
+    {"RTM.Servo.Edrv", "Done", "flEdrvDone"},             // l.10371, l.12898
+    {"RTM.Servo.Edrv", "Erase", "flEdrvErase"},           // l.10374, l.12906
+    {"RTM.Servo.Edrv", "ScaleSpeed", "rEdrvScaleSpeed"}}; // l.10376, l.12920
 
 struct ModuleElement {
   std::string key; // one an element, whichever way it is written
@@ -48,7 +97,8 @@ std::optional<ModuleElement> moduleElement(std::string_view identifier, std::str
 struct ModuleCell {
   nc::ExchangeType type = nc::ExchangeType::Bit;
   bool typeIsOpen = false;
-  uint64_t bits = 0; // of the type; a bit is 0 or 1
+  uint64_t bits = 0;  // of the type; a bit is 0 or 1
+  uint64_t given = 0; // what a device has put there last
 };
 
 class ModuleCells {
@@ -59,6 +109,8 @@ public:
   std::optional<ModuleElement> element(std::string_view identifier, std::string& problem) const;
 
   void reset(); // all cells 0
+  // Cells for the elements of kSharedElements, whether or not they are connected.
+  void addShared();
   // Cells stay where they are while a table of connections holds their numbers.
   uint32_t cellOf(const ModuleElement& element);
   ModuleCell& at(uint32_t cell) { return cells_[cell]; }

@@ -31,7 +31,10 @@ public:
     log_.clear();
     control_.prepare(instance, kind);
     devices_.powerOn(instance, kind, [this](std::string_view id) { return configuration_.constant(id); });
-    if (devices_.simulated()) exchange_.cells().simulate(devices_.image());
+    if (devices_.simulated()) {
+      exchange_.cells().simulate(devices_.image());
+      exchange_.cells().addShared();
+    }
     nc::technol::writeCell(instance, nc::kLicenceCell, configuration_.licences());
     exchange_.beforeInit(instance, true);
     control_.start(instance);

@@ -64,13 +64,16 @@ void Axes::tick(const AxisInputs& in, AxisRequests& requests) {
 
 void Axes::show(AxisOutputs& out) const {
   out.motion = blockMotion_;
-  out.negative = 0;
+  out.negative = out.movedByHand = 0;
   out.inPosition = true;
   for (uint32_t i = 0; i < count(); ++i) {
     const Axis& axis = axes_[i];
     if (axis.requested) setBit(out.motion, i);
     if (axis.negative) setBit(out.negative, i);
     if (axis.moves() && !axis.spindle) out.inPosition = false;
+    if (axis.mover == Mover::Manual) setBit(out.movedByHand, i);
+    out.speed[i] = axis.motion.speed() * 60;
+    out.shiftSpeed[i] = axis.shift.speed() * 60;
     out.position[i] = axis.measured();
     out.positionEx[i] = std::llround(axis.measured() * 1000 * 65536);
     if (i < out.positionShort.size())

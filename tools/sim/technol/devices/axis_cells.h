@@ -85,6 +85,9 @@ struct AxisOutputs {
   std::array<uint8_t, kMaxAxes> knobSelected = {}; // KnobSelAxn: 1 manual, 2 SHIFT
   std::array<double, kMaxAxes> position = {};      // mm: RTM.Axis.Posk_Ax, k < 6
   std::array<double, kMaxAxes> shiftMm = {};       // Pos6ShiftAxn; POS6 is position + shiftMm
+  std::array<double, kMaxAxes> speed = {};         // mm/min, signed: RTM.Axis.Inc_Ax, without what SHIFT adds
+  std::array<double, kMaxAxes> shiftSpeed = {};    // mm/min: what it adds
+  AxisMask movedByHand = 0;                        // their speed is that of manual motion
   std::array<int64_t, kMaxAxes> positionEx = {};   // B_POL_EX, POSITION_POSk_EX (k < 6): 1/65536 µm
   std::array<int32_t, 6> positionShort = {};       // B_POL: 1/8 µm
 };

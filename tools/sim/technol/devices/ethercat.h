@@ -72,6 +72,7 @@ private:
   std::string configureObject(std::string_view place, std::string_view value);
   std::string configureEntry(uint32_t slave, std::string_view place, std::string_view value);
   std::string setName(uint32_t slave, std::string_view name);
+  std::string setMotor(uint32_t slave, std::string_view value);
   std::string setRefused(uint32_t slave, std::string_view value);
   std::string unknownSlave(uint32_t slave) const;
 

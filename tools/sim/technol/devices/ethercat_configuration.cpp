@@ -90,13 +90,22 @@ std::string EtherCat::configureSlave(std::string_view place, std::string_view va
 std::string EtherCat::configureAttribute(uint32_t slave, std::string_view attribute, std::string_view value) {
   if (attribute == "name") return setName(slave, value);
   if (attribute == "refuse") return setRefused(slave, value);
+  if (attribute == "motor") return setMotor(slave, value);
   if (attribute != "ds402")
-    return "a device has coe, soe, pdo, name, refuse, ds402, not '" + std::string(attribute) + "'";
+    return "a device has coe, soe, pdo, name, refuse, ds402, motor, not '" + std::string(attribute) + "'";
   bool isDrive = false;
   std::string wrong = setFlag(isDrive, value);
   if (!wrong.empty()) return wrong;
   if (isDrive && !slaves_[slave].protocols.coe) return "a drive by CiA 402 needs the protocol coe";
   slaves_.makeDrive(slave, isDrive);
+  return {};
+}
+
+std::string EtherCat::setMotor(uint32_t slave, std::string_view value) {
+  if (value != "position" && value != "velocity")
+    return "a motor follows position or velocity, not '" + std::string(value) + "'";
+  if (!slaves_[slave].isDrive) return "a motor needs a drive: ds402 1 before it";
+  slaves_.giveMotor(slave, value == "position" ? EthercatMotor::Position : EthercatMotor::Velocity);
   return {};
 }
 

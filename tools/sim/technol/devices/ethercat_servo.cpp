@@ -1,6 +1,10 @@
 // Servos of EtherCAT drives (see ethercat_servo.h).
 #include "tools/sim/technol/devices/ethercat_servo.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace rung::sim::technol {
 namespace {
 
@@ -39,6 +43,14 @@ bool isCarriedOut(const Request& request, uint16_t status) {
   return request.bit == &ServoCells::done ? !isOn : status == kSwitchedOn;
 }
 
+// Positions are INT32 that wrap (l.10337); so they are counted as unsigned.
+uint32_t incrementsAt(double place) { return static_cast<uint32_t>(std::llround(place * 1000)); }
+
+int32_t limited(double value) {
+  using Limits = std::numeric_limits<int32_t>;
+  return static_cast<int32_t>(std::lround(std::clamp<double>(value, Limits::min(), Limits::max())));
+}
+
 } // namespace
 
 void EthercatServo::serve(ServoCells& cells) {
@@ -57,15 +69,38 @@ void EthercatServo::eraseFault(ServoCells& cells) {
   pulse_ = cells.erase && !pulse_;
 }
 
+// Its motor has an absolute encoder, and goes where it was asked to in the scan before.
+void EthercatServo::simulate(ServoCells& cells) {
+  own_.step(cells.control);
+  if (!isPlaced_) ownPosition_ = static_cast<int32_t>(incrementsAt(cells.place));
+  isPlaced_ = true;
+  if (own_.status() == kOperationEnabled) ownPosition_ = cells.requestedPosition;
+  cells.status = own_.status();
+  cells.error = own_.error();
+  cells.position = ownPosition_;
+}
+
+// A drive that is not enabled is asked to stay where it is, so that it does not jump when it is. The velocity is that
+// of the last scan as a whole: a drive that keeps it for a scan has gone as far as was asked.
+void EthercatServo::follow(ServoCells& cells) {
+  constexpr double kScansPerSecond = 50;
+  const uint32_t place = incrementsAt(cells.place);
+  const auto before = static_cast<uint32_t>(cells.requestedPosition);
+  const bool isHeld = cells.blocksMotion || !hasBase_;
+  if (isHeld) base_ = static_cast<uint32_t>(cells.position) - place;
+  hasBase_ = true;
+  cells.requestedPosition = static_cast<int32_t>(base_ + place);
+  const double scale = cells.velocityScale == 0 ? 1 : cells.velocityScale;
+  const auto way = static_cast<int32_t>(base_ + place - before);
+  cells.requestedVelocity = isHeld ? 0 : limited(way * kScansPerSecond * scale);
+}
+
 void EthercatServo::scan(ServoCells& cells) {
-  if (!cells.isSimulated && !cells.isConnected) return;
-  if (cells.isSimulated) {
-    own_.step(cells.control);
-    cells.status = own_.status();
-    cells.error = own_.error();
-  }
+  if (!cells.exists()) return;
+  if (cells.isSimulated) simulate(cells);
   cells.isFaulty = (cells.status & kFault) != 0;
   cells.blocksMotion = (cells.status & kStatusMask) != kOperationEnabled;
+  follow(cells);
   serve(cells);
   eraseFault(cells);
   cells.control = static_cast<uint16_t>(control_ | (pulse_ ? kControlFaultReset : 0));

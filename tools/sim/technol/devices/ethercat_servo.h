@@ -1,5 +1,6 @@
-// EtherCAT drives as the control's servos order them (TECHNOL manual 13.18, l.10216-10479): what the request bits
-// flEdrv…N do to the control word of a drive, by its status word.
+// EtherCAT drives as the control's servos order them (TECHNOL manual 13.18, 13.19, l.10216-10807): what the request
+// bits flEdrv…N do to the control word of a drive, by its status word, and the position and velocity that are asked of
+// it. An increment of a drive is a micrometre (1/1000 degree).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -23,6 +24,18 @@ struct ServoCells {
   ServoState state = ServoState::Done;
   bool isFaulty = false;     // flEdrvErrorN
   bool blocksMotion = false; // flEdrvMoveDisReqN: the drive is not enabled
+
+  double place = 0;              // where its axis is to be, mm; of an axis that does not exist always 0
+  double velocityScale = 0;      // rEdrvScaleSpeedN; 0, as at a power-on, counts as 1
+  int32_t position = 0;          // dwEdrvDrivePosN, 6064h, increments: in, of a simulated one out
+  int32_t requestedPosition = 0; // dwEdrvDrivePosReqN, 607Ah, increments: out
+  int32_t requestedVelocity = 0; // dwEdrvDriveVeloReqN, 60FFh, increments per second times the scale: out
+
+  bool exists() const { return isSimulated || isConnected; }
+  // DIFCIT_X, in increments: 0 while the drive is not enabled.
+  int32_t followingError() const {
+    return static_cast<int32_t>(static_cast<uint32_t>(requestedPosition) - static_cast<uint32_t>(position));
+  }
 };
 
 class EthercatServo {
@@ -32,10 +45,16 @@ public:
   void scan(ServoCells& cells);
 
 private:
+  void simulate(ServoCells& cells);
   void serve(ServoCells& cells);
   void eraseFault(ServoCells& cells);
+  void follow(ServoCells& cells);
 
-  Ds402Drive own_;       // while it is simulated
+  Ds402Drive own_;          // while it is simulated
+  int32_t ownPosition_ = 0; // of its motor
+  bool isPlaced_ = false;   // its motor stands at the axis
+  uint32_t base_ = 0;       // increments of the drive where the axis is at 0
+  bool hasBase_ = false;
   uint16_t control_ = 0; // without the pulse that resets faults
   bool pulse_ = false;
 };

@@ -57,20 +57,27 @@ void EthercatSlaves::makeDrive(uint32_t number, bool isDrive) {
   EthercatSlave& slave = slaves_[number];
   slave.isDrive = isDrive;
   if (!isDrive) return;
-  slave.controlWord = wordOfDrive(number, kControlWord, true);
-  slave.statusWord = wordOfDrive(number, kStatusWord, false);
-  slave.errorCode = wordOfDrive(number, kErrorCode, false);
+  slave.controlWord = objectOfDrive(number, kControlWord, 2, true);
+  slave.statusWord = objectOfDrive(number, kStatusWord, 2, false);
+  slave.errorCode = objectOfDrive(number, kErrorCode, 2, false);
+}
+
+void EthercatSlaves::giveMotor(uint32_t number, EthercatMotor motor) {
+  EthercatSlave& slave = slaves_[number];
+  slave.motor = motor;
+  slave.target = objectOfDrive(number, motor == EthercatMotor::Position ? kTargetPosition : kTargetVelocity, 4, true);
+  slave.actualPosition = objectOfDrive(number, kActualPosition, 4, false);
 }
 
 uint32_t EthercatSlaves::objectOfEntry(uint32_t slave, uint32_t index, uint32_t sub) {
   const bool isDriveWord = sub == 0 && (index == kControlWord || index == kStatusWord || index == kErrorCode);
-  return isDriveWord ? wordOfDrive(slave, index, index == kControlWord) : find(slave, false, index, sub);
+  return isDriveWord ? objectOfDrive(slave, index, 2, index == kControlWord) : find(slave, false, index, sub);
 }
 
-uint32_t EthercatSlaves::wordOfDrive(uint32_t slave, uint32_t index, bool mayWrite) {
+uint32_t EthercatSlaves::objectOfDrive(uint32_t slave, uint32_t index, uint32_t bytes, bool mayWrite) {
   const uint32_t known = find(slave, false, index, 0);
   if (known != RUNG_NONE) return known;
-  objects_.push_back({.slave = slave, .index = index, .bytes = 2, .mayWrite = mayWrite});
+  objects_.push_back({.slave = slave, .index = index, .bytes = bytes, .mayWrite = mayWrite});
   return static_cast<uint32_t>(objects_.size()) - 1;
 }
 
@@ -96,6 +103,7 @@ void EthercatSlaves::powerOn() {
     slave.isSilent = false;
     slave.injectedError = 0;
     slave.drive.powerOn();
+    slave.rest = 0;
   }
   for (EthercatObject& object : objects_) object.value = object.initial;
 }
@@ -106,7 +114,21 @@ void EthercatSlaves::tick() {
     slave.drive.step(static_cast<uint16_t>(objects_[slave.controlWord].value));
     objects_[slave.statusWord].value = slave.drive.status();
     objects_[slave.errorCode].value = slave.drive.error();
+    move(slave);
   }
+}
+
+void EthercatSlaves::move(EthercatSlave& slave) {
+  constexpr int64_t kTicksPerSecond = 1000;
+  if (slave.motor == EthercatMotor::None || slave.drive.status() != kOperationEnabled) return;
+  const auto target = static_cast<int32_t>(objects_[slave.target].value);
+  if (slave.motor == EthercatMotor::Position) {
+    set(slave.actualPosition, static_cast<uint64_t>(target));
+    return;
+  }
+  slave.rest += target;
+  set(slave.actualPosition, objects_[slave.actualPosition].value + static_cast<uint64_t>(slave.rest / kTicksPerSecond));
+  slave.rest %= kTicksPerSecond;
 }
 
 // ---- the mailbox -------------------------------------------------------------------------------------------------

@@ -69,6 +69,15 @@ std::optional<NcCell> panelCell(const AxisOutputs& out, std::string_view name) {
   return NcCell{.width = 8, .bits = out.knobSelected[*axis]};
 }
 
+// What panels show of SHIFT and the handwheel: cells of the program (l.10940-10944), as the last pass has left them.
+std::optional<NcCell> shownCell(const AxisInputs& in, const AxisRequests& requests, std::string_view name) {
+  if (text::equalsIgnoringCase(name, "ReqShift")) return NcCell{.width = 1, .bits = requests.shiftSelected ? 1u : 0u};
+  if (text::equalsIgnoringCase(name, "ActShift")) return NcCell{.width = 1, .bits = requests.shiftActive ? 1u : 0u};
+  if (text::equalsIgnoringCase(name, "KnobStep")) return NcCell{.width = 16, .bits = requests.knobStep};
+  if (text::equalsIgnoringCase(name, "ShiftEnable")) return NcCell{.width = 8, .bits = in.shiftEnable};
+  return std::nullopt;
+}
+
 // DISPTOC1.Shown[0][16]: row and column in pixels.
 struct ShownAt {
   uint32_t wheel = 0; // from 1
@@ -94,6 +103,7 @@ std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
     return cell;
   }
   if (const auto cell = simulated_ ? panelCell(axisOutputs_, name) : std::nullopt) return cell;
+  if (const auto cell = simulated_ ? shownCell(axisInputs_, axisRequests_, name) : std::nullopt) return cell;
   if (const auto at = shownAt(name)) {
     const HandwheelDisplay* display = displayOf(at->wheel);
     if (display == nullptr || !HandwheelDisplay::isPixel(at->row, at->column)) return std::nullopt;
@@ -109,31 +119,43 @@ std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
 std::optional<NcCell> SimulatedDevices::readModule(std::string_view name) const {
   const std::string identifier = nc::technol::canonical(nc::memoryText(name));
   const nc::technol::Reference reference = nc::technol::withoutBit(identifier);
-  const auto point = givenPoint(reference.base);
-  if (!point) return std::nullopt;
-  if (point->kind != ModulePoint::Kind::ProcessData)
-    return reference.bit ? std::nullopt
-                         : std::optional(NcCell{.isReal = true,
-                                                .bits = std::bit_cast<uint64_t>(positionAt(*point, axisOutputs_))});
-  const EthercatImage& image = ethercat_.image();
-  const uint64_t bits = image.read(point->number);
-  const uint32_t width = 8 * image.bytesOf(point->number);
-  if (!reference.bit) return NcCell{.width = width, .bits = bits};
-  return *reference.bit < width ? std::optional(NcCell{.width = 1, .bits = bits >> *reference.bit & 1}) : std::nullopt;
+  const auto whole = readElement(reference.base);
+  if (!whole || !reference.bit) return whole;
+  const bool hasBit = !whole->isReal && *reference.bit < whole->width;
+  return hasBit ? std::optional(NcCell{.width = 1, .bits = whole->bits >> *reference.bit & 1}) : std::nullopt;
 }
 
-// An input of the simulated net, or the position of an axis that exists.
-std::optional<ModulePoint> SimulatedDevices::givenPoint(std::string_view identifier) const {
-  if (!simulated_) return std::nullopt;
-  const EthercatImage& image = ethercat_.image();
-  if (const uint32_t entry = image.find(identifier); entry != RUNG_NONE && image[entry].isInput)
-    return ModulePoint{ModulePoint::Kind::ProcessData, entry};
-  std::string problem;
-  const auto element = moduleElement(identifier, problem);
+// An input of the simulated net, or what axes and servos give.
+std::optional<NcCell> SimulatedDevices::readElement(std::string_view identifier) const {
+  if (const uint32_t entry = inputOfNet(identifier); entry != RUNG_NONE)
+    return NcCell{.width = 8 * ethercat_.image().bytesOf(entry), .bits = ethercat_.image().read(entry)};
+  const auto element = givenElement(identifier);
   if (!element) return std::nullopt;
-  const ModulePoint& point = element->point;
-  const bool isPosition = point.kind == ModulePoint::Kind::Position || point.kind == ModulePoint::Kind::Shift;
-  return isPosition && axes_.exists(point.number + 1) ? std::optional(point) : std::nullopt;
+  return NcCell{.isReal = element->type == nc::ExchangeType::Real,
+                .width = widthOf(element->type),
+                .bits = *givenAt(element->point, axisOutputs_, axes_.count(), servoCells_)};
+}
+
+uint32_t SimulatedDevices::inputOfNet(std::string_view identifier) const {
+  const EthercatImage& image = ethercat_.image();
+  const uint32_t entry = simulated_ ? image.find(identifier) : RUNG_NONE;
+  return entry != RUNG_NONE && image[entry].isInput ? entry : RUNG_NONE;
+}
+
+std::optional<ModuleElement> SimulatedDevices::givenElement(std::string_view identifier) const {
+  std::string problem;
+  const auto element = simulated_ ? moduleElement(identifier, problem) : std::nullopt;
+  const bool isGiven = element && givenAt(element->point, axisOutputs_, axes_.count(), servoCells_);
+  return isGiven ? element : std::nullopt;
+}
+
+std::string SimulatedDevices::givenProblem(std::string_view identifier) const {
+  if (inputOfNet(identifier) != RUNG_NONE)
+    return "it is what the device gives: `set NC.ETHERCAT.DEVICE.INDEX.SUB` sets the object";
+  const auto element = givenElement(identifier);
+  if (!element) return {};
+  if (element->point.kind == ModulePoint::Kind::Servo) return "it is what the servo gives";
+  return "it is where the axis is: `set NC.TRUE." + std::to_string(element->point.number + 1) + "` moves it";
 }
 
 const HandwheelDisplay* SimulatedDevices::displayOf(uint32_t wheel) const {
@@ -176,10 +198,7 @@ std::optional<std::string> SimulatedDevices::writeCell(std::string_view name, co
     return std::string();
   }
   const std::string identifier = nc::technol::canonical(nc::memoryText(name));
-  if (const auto point = givenPoint(nc::technol::withoutBit(identifier).base))
-    return point->kind == ModulePoint::Kind::ProcessData
-               ? "it is what the device gives: `set NC.ETHERCAT.DEVICE.INDEX.SUB` sets the object"
-               : "it is where the axis is: `set NC.TRUE." + std::to_string(point->number + 1) + "` moves it";
+  if (std::string problem = givenProblem(nc::technol::withoutBit(identifier).base); !problem.empty()) return problem;
   if (shownAt(name)) return "what the display shows is written by the program, to DISPTOC1 and DISPTOC2";
   if (const auto unit = UnitCell::named(name)) {
     if (!simulated_ || !unit->problem(can_).empty()) return std::nullopt;

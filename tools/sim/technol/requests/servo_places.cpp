@@ -23,7 +23,8 @@ constexpr Flag kFlagNames[] = {{"flEdrvInit", &ServoCells::init},
                                {"flEdrvSimul", &ServoCells::isSimulated},
                                {"flEdrvError", &ServoCells::isFaulty},
                                {"flEdrvMoveDisReq", &ServoCells::blocksMotion}};
-constexpr const char* kWordNames[] = {"wEdrvDriveStatus", "wEdrvDriveErrReg", "wEdrvDriveControl", "bEdrvState"};
+constexpr const char* kWordNames[] = {"wEdrvDriveStatus", "wEdrvDriveErrReg",  "wEdrvDriveControl",
+                                      "bEdrvState",       "dwEdrvDrivePosReq", "dwEdrvDriveVeloReq"};
 
 } // namespace
 
@@ -34,7 +35,13 @@ ServoPlaces::ServoPlaces(const rung_program& program) {
     for (uint32_t i = 0; i < kFlags; ++i)
       flags_[servo][i] = nc::technol::locateSignal(program, kFlagNames[i].name + number);
     for (uint32_t i = 0; i < kWords; ++i) words_[servo][i] = nc::technol::locateSignal(program, kWordNames[i] + number);
+    position_[servo] = nc::technol::locateSignal(program, "dwEdrvDrivePos" + number);
+    velocityScale_[servo] = nc::technol::locateSignal(program, "rEdrvScaleSpeed" + number);
   }
+  nc::technol::locateElements(program, "DIFCIT_X", followingError_);
+  nc::technol::locateElements(program, "ServoReqPosition", requested_);
+  nc::technol::locateElements(program, "ServoPosition", measured_);
+  nc::technol::locateElements(program, "SERVO_POSITION", increments_);
 }
 
 void ServoPlaces::read(const rt::Memory& memory, EthercatServos::Cells& servos) const {
@@ -42,16 +49,27 @@ void ServoPlaces::read(const rt::Memory& memory, EthercatServos::Cells& servos) 
     for (uint32_t i = 0; i < kFlags; ++i) servos[servo].*kFlagNames[i].member = memory.read(flags_[servo][i]) != 0;
     servos[servo].status = static_cast<uint16_t>(memory.read(words_[servo][0]));
     servos[servo].error = static_cast<uint16_t>(memory.read(words_[servo][1]));
+    servos[servo].position = static_cast<int32_t>(memory.readSigned(position_[servo]));
+    servos[servo].velocityScale = memory.readReal(velocityScale_[servo]);
   }
 }
 
 void ServoPlaces::write(const rt::Memory& memory, const EthercatServos::Cells& servos) const {
   for (uint32_t servo = 0; servo < servos.size(); ++servo) {
     const ServoCells& cells = servos[servo];
-    if (!cells.isSimulated && !cells.isConnected) continue;
+    if (!cells.exists()) continue;
     for (uint32_t i = 0; i < kFlags; ++i) memory.write(flags_[servo][i], cells.*kFlagNames[i].member ? 1 : 0);
-    const uint64_t numbers[] = {cells.status, cells.error, cells.control, static_cast<uint64_t>(cells.state)};
+    const uint64_t numbers[] = {cells.status,
+                                cells.error,
+                                cells.control,
+                                static_cast<uint64_t>(cells.state),
+                                static_cast<uint64_t>(cells.requestedPosition),
+                                static_cast<uint64_t>(cells.requestedVelocity)};
     for (uint32_t i = 0; i < kWords; ++i) memory.write(words_[servo][i], numbers[i]);
+    for (const OfServos* places : {&position_, &measured_, &increments_})
+      memory.write((*places)[servo], static_cast<uint64_t>(cells.position));
+    memory.write(requested_[servo], static_cast<uint64_t>(cells.requestedPosition));
+    memory.write(followingError_[servo], static_cast<uint64_t>(cells.followingError()));
   }
 }
 

@@ -1,4 +1,4 @@
-// Cells of EtherCAT drives (man. 13.18).
+// Cells of EtherCAT drives (man. 13.18, 13.19).
 #pragma once
 #include <array>
 
@@ -17,9 +17,13 @@ public:
   void write(const rt::Memory& memory, const EthercatServos::Cells& servos) const;
 
 private:
-  static constexpr uint32_t kFlags = 9, kWords = 4;
+  using OfServos = std::array<rt::Place, EthercatServos::kCount>;
+  static constexpr uint32_t kFlags = 9, kWords = 6;
   std::array<std::array<rt::Place, kFlags>, EthercatServos::kCount> flags_;
   std::array<std::array<rt::Place, kWords>, EthercatServos::kCount> words_;
+  OfServos position_, velocityScale_;
+  // Micrometres, micrometres, micrometres, increments (l.10390-10396).
+  OfServos followingError_, requested_, measured_, increments_;
 };
 
 } // namespace rung::sim::technol

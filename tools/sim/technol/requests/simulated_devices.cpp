@@ -76,6 +76,7 @@ void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind, const
   ethercatCalls_.clear();
   ethercat_.powerOn();
   servos_.powerOn();
+  servoCells_ = {};
   axisInputs_ = {};
   keyboards_.power();
   keyProblem_ = keyboards_.resolveCommands(constantOf);
@@ -110,6 +111,7 @@ void SimulatedDevices::locate(host::Instance& instance) {
   inputs_.locate(program);
   statePlaces_ = StatePlaces(program);
   servoPlaces_ = ServoPlaces(program);
+  sharedPoints_ = SharedPoints(program);
   keyboardPlaces_ = KeyboardPlaces(program);
 }
 
@@ -206,8 +208,10 @@ void SimulatedDevices::pass(host::Instance& instance, ModuleCells& cells, int64_
   const auto ticks = static_cast<uint32_t>(restUs_ / kUsPerTick);
   restUs_ %= kUsPerTick;
   if (ticks != 0) {
+    sharedPoints_.take(instance.memory(), cells);
     tickAxes(instance, ticks);
     tickOthers(instance, cells, ticks);
+    sharedPoints_.give(instance.memory(), cells);
   }
   inputs_.pass(instance.memory(), axes_, us);
 }
@@ -226,6 +230,7 @@ void SimulatedDevices::tickOthers(host::Instance& instance, ModuleCells& cells, 
   canPlaces_.read(memory, canInputs_.units, canInputs_.drives, canOutputs_.units.errors);
   statePlaces_.read(memory, stateBits_);
   servoPlaces_.read(memory, servoCells_);
+  for (uint32_t i = 0; i < axes_.count(); ++i) servoCells_[i].place = axes_.physical(i + 1);
   takeOutputs(cells, ethercat_.image(), servoCells_);
   for (uint32_t i = 0; i < ticks; ++i) {
     com_.tick();

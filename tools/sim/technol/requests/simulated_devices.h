@@ -28,6 +28,7 @@
 #include "tools/sim/technol/requests/keyboard_places.h"
 #include "tools/sim/technol/requests/module_points.h"
 #include "tools/sim/technol/requests/servo_places.h"
+#include "tools/sim/technol/requests/shared_points.h"
 
 namespace rung::sim::technol {
 
@@ -120,7 +121,13 @@ private:
   void pass(host::Instance& instance, ModuleCells& cells, int64_t us);
   std::optional<NcCell> readTable(std::string_view name) const;
   std::optional<NcCell> readModule(std::string_view name) const;
-  std::optional<ModulePoint> givenPoint(std::string_view identifier) const;
+  std::optional<NcCell> readElement(std::string_view identifier) const;
+  // RUNG_NONE: it is not an input of the simulated net.
+  uint32_t inputOfNet(std::string_view identifier) const;
+  // Nothing: neither axes nor servos give it.
+  std::optional<ModuleElement> givenElement(std::string_view identifier) const;
+  // Why an element cannot be set, "": devices do not give it.
+  std::string givenProblem(std::string_view identifier) const;
   std::optional<std::string> writeTable(std::string_view name, const NcCell& value);
   // Of a place that is not on the display, or of a handwheel that is not there.
   std::string displayProblem(uint32_t wheel) const;
@@ -153,6 +160,7 @@ private:
   device_requests::CanPlaces canPlaces_;
   device_requests::StatePlaces statePlaces_;
   ServoPlaces servoPlaces_;
+  SharedPoints sharedPoints_;
   KeyboardPlaces keyboardPlaces_;
   AxisInputs axisInputs_;
   AxisRequests axisRequests_;

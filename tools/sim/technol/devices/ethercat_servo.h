@@ -52,7 +52,7 @@ private:
 
   Ds402Drive own_;          // while it is simulated
   int32_t ownPosition_ = 0; // of its motor
-  bool isPlaced_ = false;   // its motor stands at the axis
+  bool isPlaced_ = false;   // its motor is where the axis is
   uint32_t base_ = 0;       // increments of the drive where the axis is at 0
   bool hasBase_ = false;
   uint16_t control_ = 0; // without the pulse that resets faults

@@ -107,6 +107,8 @@ AxisPlaces::AxisPlaces(const rung_program& program) {
   locateElements(program, "SERVO_POSITION", servoPosition_);
   locateElements(program, "B_POL_EX", positionEx_);
   locateElements(program, "B_POL", positionShort_);
+  locateElements(program, "B_INK_EX", incrementEx_);
+  locateElements(program, "B_INK", incrementShort_);
   locateElements(program, "SHIFT_x", shift_);
   locateElements(program, "SU_OUT_PLC", output_);
   for (uint32_t i = 0; i < kMaxAxes; ++i) knobSelected_[i] = locateSignal(program, "KnobSelAx" + std::to_string(i));
@@ -159,10 +161,14 @@ void AxisPlaces::write(const rt::Memory& memory, uint32_t count, AxisMask blockM
   memory.write(knobStep_, requests.knobStep);
   memory.write(shiftControl_, out.shiftControl);
   for (uint32_t i = 0; i < shift_.size(); ++i) memory.write(shift_[i], static_cast<uint64_t>(out.shift[i]));
-  for (uint32_t i = 0; i < positionShort_.size() && i < count; ++i)
+  // A position is the sum of both buffers (l.5988); all of it is in B_POL.
+  for (uint32_t i = 0; i < positionShort_.size() && i < count; ++i) {
     memory.write(positionShort_[i], static_cast<uint64_t>(out.positionShort[i]));
+    memory.write(incrementShort_[i], 0);
+  }
   for (uint32_t i = 0; i < count; ++i) {
     memory.write(positionEx_[i], static_cast<uint64_t>(out.positionEx[i]));
+    memory.write(incrementEx_[i], 0);
     memory.write(knobSelected_[i], out.knobSelected[i]);
     for (const auto& places : positionOfSpaces_) memory.write(places[i], static_cast<uint64_t>(out.positionEx[i]));
   }

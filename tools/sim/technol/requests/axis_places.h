@@ -35,8 +35,8 @@ private:
   std::vector<rt::Place> inputFlags_, outputFlags_, requestFlags_, requestMasks_;
   Bits loop_, positioning_, motion_, direction_;
   rt::Place feedOverride_, feedMultiplier_, feed_, rapidFeed_, shiftEnable_, knobStep_, shiftControl_;
-  std::array<rt::Place, kMaxAxes> refpointDist_, servoPosition_, positionEx_, knobSelected_, output_;
-  std::array<rt::Place, 6> positionShort_, shift_;
+  std::array<rt::Place, kMaxAxes> refpointDist_, servoPosition_, positionEx_, incrementEx_, knobSelected_, output_;
+  std::array<rt::Place, 6> positionShort_, incrementShort_, shift_;
   std::array<std::array<rt::Place, kMaxAxes>, 5> positionOfSpaces_;
 };
 

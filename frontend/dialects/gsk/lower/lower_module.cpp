@@ -262,9 +262,11 @@ void ModuleLowering::addTasks() {
   addLatch(module_->tasks[1], areas::kF);
   const ir::Step advance{.op = RUNG_STEP_ADVANCE, .arg = kSlotUs};
   const ir::Step level1{.op = RUNG_STEP_RUN, .task = module_->fastTask, .arg = 1};
-  const ir::Step level2{.op = RUNG_STEP_PART, .task = module_->mainTask, .arg = 1};
+  const uint32_t runOrPart = parts_ == 1 ? RUNG_STEP_RUN : RUNG_STEP_PART;
+  const ir::Step level2{.op = runOrPart, .task = module_->mainTask, .arg = 1};
   for (uint32_t part = 0; part < parts_; ++part) {
-    module_->scan.insert(module_->scan.end(), {advance, level1, level2, ir::Step{.op = RUNG_STEP_SLOT}});
+    if (part != 0) module_->scan.push_back({.op = RUNG_STEP_SLOT});
+    module_->scan.insert(module_->scan.end(), {advance, level1, level2});
   }
   module_->fast = {advance, level1};
 }

@@ -207,7 +207,6 @@ private:
       addSlice(module_.scan, last ? config_.periodUs - (slices - 1) * slice : slice);
     }
     module_.scan.push_back(run(module_.mainTask));
-    module_.scan.push_back({.op = RUNG_STEP_SLOT, .task = {}, .arg = 0});
     addSlice(module_.fast, config_.timesliceUs);
   }
 

@@ -324,7 +324,8 @@ void RungWriter::openIf(const Op& op, size_t index) {
     statement(fmt::format("{} {};", cppType(typeOf(*rung_, id)), v(id)));
   }
   regions_.push_back({index, &end});
-  statement(fmt::format("if ({}) {{", a(op, 0)));
+  constexpr std::string_view kHints[] = {"", "[[likely]] ", "[[unlikely]] "}; // by Odds
+  statement(fmt::format("if ({}) {}{{", a(op, 0), kHints[op.ref]));
   ++indent_;
 }
 

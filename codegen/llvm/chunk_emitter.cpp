@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <llvm/IR/IntrinsicsAArch64.h>
 #include <llvm/IR/IntrinsicsX86.h>
+#include <llvm/IR/MDBuilder.h>
 
 #include "ir/support/check.h"
 
@@ -135,7 +136,11 @@ void ChunkEmitter::emitOp(const Op& op) {
 void ChunkEmitter::openIf(const Op& op) {
   llvm::BasicBlock* then = block("then");
   llvm::BasicBlock* other = block("else");
-  builder_.CreateCondBr(isSet(arg(op, 0)), then, other);
+  llvm::MDBuilder odds(builder_.getContext());
+  llvm::MDNode* weights = nullptr;
+  if (op.ref == kMostly) weights = odds.createLikelyBranchWeights();
+  if (op.ref == kSeldom) weights = odds.createUnlikelyBranchWeights();
+  builder_.CreateCondBr(isSet(arg(op, 0)), then, other, weights);
   regions_.push_back({.opener = &op, .head = builder_.GetInsertBlock(), .other = other, .end = other});
   builder_.SetInsertPoint(then);
 }
@@ -256,7 +261,8 @@ ChunkEmitter::Value* ChunkEmitter::serviceRequest(const Op& op) {
 void ChunkEmitter::trap(const Op& op) {
   llvm::BasicBlock* fault = block("fault");
   llvm::BasicBlock* go = block("go");
-  builder_.CreateCondBr(isSet(arg(op, 0)), fault, go);
+  llvm::MDBuilder odds(builder_.getContext());
+  builder_.CreateCondBr(isSet(arg(op, 0)), fault, go, odds.createUnlikelyBranchWeights());
   builder_.SetInsertPoint(fault);
   Value* record = ctxField(AbiTypes::kFault);
   const auto set = [&](AbiTypes::FaultField field, uint32_t value) {

@@ -514,9 +514,10 @@ constexpr OpInfo kOps[] = {
      .types = kNoTypes,
      .operands = {C::Bit},
      .result = C::None,
-     .attr = Attr::None,
+     .attr = Attr::Odds,
      .effects = kStructure,
-     .doc = "Opens a region that runs when the operand is 1."},
+     .doc = "Opens a region that runs when the operand is 1. `mostly` and `seldom` say how often it is, on which "
+            "only the order of the code depends."},
     {.code = OpCode::Else,
      .name = "else",
      .types = kNoTypes,

@@ -48,6 +48,14 @@ enum class Attr : uint8_t {
   ResultNo,  // imm: index of the result
   Fault,     // ref: fault
   Text,      // ref: text in Rung::notes
+  Odds,      // ref: enum Odds
+};
+
+// How often the condition of an if is 1 where it is reached. Only the order of the code depends on it.
+enum Odds : uint8_t {
+  kEven = 0, // nothing is known
+  kMostly = 1,
+  kSeldom = 2,
 };
 
 enum Effect : uint8_t {

@@ -100,7 +100,7 @@ private:
     for (const CellRanges& way : ways_) {
       CellRanges held = way;
       ranges_.run(rung, cells_, held);
-      writer_.openIf(first, question(first, way));
+      writer_.openIf(first, question(first, way), &way == &ways_.back() ? kMostly : kEven);
       for (const Op& op : rung.ops)
         if (!becomesConstant(op) && !shrinks(op) && op.code != OpCode::Note) writer_.copy(op);
       writer_.turnElse(first, leaving());

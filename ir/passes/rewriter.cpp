@@ -113,7 +113,9 @@ ValueId RungRewriter::putConstant(const Op& op, Type type, uint64_t bits) {
   return added.result;
 }
 
-void RungRewriter::openIf(const Op& at, ValueId cond) { appendOther(at, OpCode::If, Type::None, {&cond, 1}); }
+void RungRewriter::openIf(const Op& at, ValueId cond, Odds odds) {
+  appendOther(at, OpCode::If, Type::None, {&cond, 1}).ref = odds;
+}
 
 void RungRewriter::turnElse(const Op& at, std::span<const ValueId> yields) {
   appendOther(at, OpCode::Else, Type::None, yields);

@@ -286,6 +286,10 @@ std::string Printer::attribute(const Rung& rung, const Op& op) const {
   case Attr::Service: return services_.text(op.ref);
   case Attr::ResultNo: return std::to_string(op.imm);
   case Attr::Fault: return faults_.text(op.ref);
+  case Attr::Odds: {
+    const Keyword* keyword = findKeyword(kOdds, op.ref);
+    return keyword != nullptr ? std::string(keyword->word) : std::string();
+  }
   case Attr::Text: return op.ref < rung.notes.size() ? inQuotes(rung.notes[op.ref]) : fmt::format("#{}", op.ref);
   }
   return {};
@@ -323,9 +327,9 @@ void Printer::printOp(const Rung& rung, const Op& op) {
     add(typeName(op.type));
   }
   std::string_view lead = " %";
-  if (info.attr != Attr::None) {
+  if (const std::string text = attribute(rung, op); !text.empty()) {
     add(" ");
-    add(attribute(rung, op));
+    add(text);
     lead = ", %";
   }
   for (uint32_t i = 0; i < op.argCount; ++i, lead = ", %") {

@@ -280,6 +280,7 @@ void RungCheck::host() {
         if (argType(op, k) != Type::I64)
           fail(Rule::Host, i, fmt::format("argument {} is {}", k, typeName(argType(op, k))));
     }
+    if (attr == Attr::Odds && op.ref > kSeldom) fail(Rule::Form, i, "there are no such odds");
     if (attr == Attr::Fault && op.ref >= module_.faults.size()) fail(Rule::Host, i, "the fault does not exist");
     if (attr == Attr::ResultNo && (op.imm < 0 || op.imm >= static_cast<int64_t>(RUNG_MAX_SERVICE_ARGS)))
       fail(Rule::Host, i, "there is no such result");

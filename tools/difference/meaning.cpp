@@ -73,6 +73,7 @@ private:
     case Attr::ResultNo: return put(out, " {}", op.imm);
     case Attr::Count: return put(out, " {}", op.count);
     case Attr::MessageOp: return put(out, " {}", op.ref);
+    case Attr::Odds:
     case Attr::Text:
     case Attr::None: return;
     }

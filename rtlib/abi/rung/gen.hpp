@@ -51,7 +51,7 @@ typedef bool __attribute__((may_alias)) mbool; // the runtime keeps these bytes 
   RUNG_SET_BIT((offset) + static_cast<u64>(i) * (unit) + (b) / 8, (b) % 8, value)
 
 #define RUNG_TRAP(condition, fault_code, rung_number, source_line)                                                     \
-  if (condition) {                                                                                                     \
+  if (condition) [[unlikely]] {                                                                                        \
     ctx->fault.code = (fault_code);                                                                                    \
     ctx->fault.rung = (rung_number);                                                                                   \
     ctx->fault.line = (source_line);                                                                                   \

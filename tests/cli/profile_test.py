@@ -41,6 +41,14 @@ rung
 def rungc(*arguments):
     return subprocess.run([RUNGC, *map(str, arguments)], capture_output=True, text=True, timeout=300, errors="replace")
 
+# A box that is evaluated while its input is on.
+SUM = """dialect nct
+module MAIN
+
+rung "sum"
+|--[5100.00]--{ADD 5200 5200 #1}
+"""
+
 
 class Profile(unittest.TestCase):
     def setUp(self):
@@ -200,6 +208,47 @@ class Profile(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertRegex(done.stdout, r"measuring costs \d+\.\d ns an execution, which is subtracted; a scan takes ")
         self.assertIn("  ... and ", done.stdout)
+
+    def branches(self, program, statements):
+        """The file of -o, of a scenario of these statements."""
+        scenario = self.write("branches.scn", f"program {program.name}\n{statements}\nexpect 5101.00 0\n")
+        done = rungc("profile", scenario, "--repeat", 1, "-o", self.folder / "sum.prof")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return self.folder / "sum.prof"
+
+    def generated(self, program, *options):
+        done = rungc("emit", "cpp", program, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout, done.stderr
+
+    def test_code_is_laid_out_by_what_branches_did(self):
+        program = self.write("sum.lad", SUM)
+        for on, hint in ((0, "[[unlikely]] {"), (1, "[[likely]] {")):
+            profile = self.branches(program, f"set 5100.00 {on}\nscan 20")
+            code, told = self.generated(program, "--profile-use", profile)
+            self.assertIn(hint, code)
+            self.assertEqual(told, "")
+        self.assertNotIn("likely]] {", self.generated(program)[0])
+        shared = self.folder / "sum.so"
+        built = rungc("build", program, "--profile-use", profile, "-o", shared)
+        self.assertEqual(built.returncode, 0, built.stderr)
+        self.assertEqual(rungc("run", shared, "--for", "1s").returncode, 0)
+
+    def test_branches_of_a_rung_that_has_changed_are_left_out(self):
+        program = self.write("sum.lad", SUM)
+        profile = self.branches(program, "scan 20")
+        program.write_text(SUM.replace("[5100.00]", "[5100.01]"))
+        code, told = self.generated(program, "--profile-use", profile)
+        self.assertNotIn("likely]] {", code)
+        self.assertIn("sum.prof: 1 of 1 rungs with branches are not in it, or have changed since", told)
+        for file, text in ((self.write("wrong.prof", "{}"), "wrong.prof: it was not written by rungc profile -o"),
+                           (self.folder / "none.prof", "cannot read")):
+            done = rungc("emit", "cpp", program, "--profile-use", file)
+            self.assertEqual(done.returncode, 3)
+            self.assertIn(text, done.stderr)
+        done = rungc("profile", self.folder / "branches.scn", "--repeat", 1, "-o", self.folder / "none/sum.prof")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("cannot write", done.stderr)
 
     def test_wrong_usage(self):
         for arguments, text in (

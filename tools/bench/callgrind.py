@@ -25,9 +25,25 @@ def callgrind(options, *words):
     return run("valgrind", "--tool=callgrind", *options, *words, env={**os.environ, "GLIBC_TUNABLES": PLAIN_COPIES})
 
 
-def counted(profile, *words):
+def counted(profile, *words, options=()):
     """Runs it; what it collects, and dumps where it says so, is in `profile` and `profile.N`. Gives what it prints."""
-    return callgrind(["--collect-atstart=no", f"--callgrind-out-file={profile}"], *words)
+    return callgrind(["--collect-atstart=no", f"--callgrind-out-file={profile}", *options], *words)
+
+
+# For `code_lines`, of what `counted` runs.
+BY_ADDRESS = ("--dump-instr=yes", "--compress-pos=no")
+
+
+def code_lines(path, name):
+    """Lines of 64 bytes of the code of that file which ran; the profile is by address."""
+    names, within, lines = {}, "", set()
+    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
+        if found := re.match(r"(c?)ob=\((\d+)\)(?: (.*))?", line):
+            known = names.setdefault(found[2], found[3])
+            within = within if found[1] else known
+        elif (found := re.match(r"0x([0-9a-f]+) ", line)) and within.endswith(name):
+            lines.add(int(found[1], 16) // 64)
+    return len(lines)
 
 
 def touched(line, folder, *words):

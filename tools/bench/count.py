@@ -87,7 +87,7 @@ def main():
     print(services.text_of(of_services))
     print(report.counts_text(rows))
     print(report.resting_text(resting, rows))
-    counts = {name: total for name, (_, total) in of_machines.items()}
+    counts = {name: total for name, (_, total, _) in of_machines.items()}
     counts |= services.names_of(of_services) | names_of(rows) | names_of_resting(resting)
     if options.update:
         kept = json.loads(TABLE.read_text(encoding="utf-8"))

@@ -2,23 +2,26 @@
 import tempfile
 from pathlib import Path
 
-from callgrind import TARGET, counted, run, self_costs
+from callgrind import BY_ADDRESS, TARGET, code_lines, counted, run, self_costs
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 RECORDINGS = HERE / "machines" / "recordings"
 IDLE_PARTS = (200, 500)  # the first one that is counted, and how many
+SEEN_PART = 100  # whose lines of code are counted
 
 MACHINES = {
     "gsk-mill": {"part program": "nc-program.scn", "tool change": "tool-change.scn"},
     "nct-turning-centre": {"part program": "nc-program.scn", "tool change": "nc-tools.scn"},
     "technol-machining-centre": {"part program": "part-program.scn", "tool change": "tool-change.scn"},
 }
+PROFILED = "part program"
 HEAD = """## Instructions of the example machines
 
 Counted by callgrind, exactly: a program built by `rungc build`, in a host of the runtime's library with the control of its dialect. What its machine does comes from a
 recording; writing it into the program's memory is not counted. A part is a scan, of GSK a slot of 8 ms. After each part all of the program's
-memory is compared with that of the interpreter, by a hash. `./dev bench --count` makes this table and the next ones alone.
+memory is compared with that of the interpreter, by a hash. `./dev bench --count` makes this table and the next ones alone. "With its profile": built with `--profile-use`, by
+what `rungc profile -o` counted of the part program. Lines of code: of 64 bytes, of the compiled rungs, in one part; a scan after a sleep loads each of them.
 """
 
 
@@ -41,14 +44,25 @@ def record(tools):
 
 
 def count(tools, program, path, parts, folder):
-    """Instructions a part: those of the program's code, and all."""
+    """Of a part: instructions of the program's code, all instructions, lines of the program's code."""
     profile = Path(folder) / "profile"
     first, number = parts
     run(tools / "rung-bench-scan", program, path)
     counted(profile, tools / "rung-bench-scan", program, path, first, number)
     costs = self_costs(profile)
     rungs = sum(cost for name, cost in costs.items() if name and name.endswith(program.name))
-    return round(rungs / number), round(sum(costs.values()) / number)
+    counted(profile, tools / "rung-bench-scan", program, path, min(SEEN_PART, first + number - 1), 1, options=BY_ADDRESS)
+    return round(rungs / number), round(sum(costs.values()) / number), code_lines(profile, program.name)
+
+
+def build(tools, machine, program, *options):
+    run(tools / "rungc", "build", "--target", TARGET, *options, "-o", program, cwd=ROOT / "examples" / machine)
+
+
+def built_with_profile(tools, machine, scenario, program):
+    branches = program.with_suffix(".prof")
+    run(tools / "rungc", "profile", "--repeat", "1", "-o", branches, scenario, cwd=ROOT / "examples" / machine)
+    build(tools, machine, program, "--profile-use", branches)
 
 
 def measure(tools):
@@ -58,16 +72,19 @@ def measure(tools):
         nothing.write_text("recording of nothing\n", encoding="ascii")
         for machine, situations in MACHINES.items():
             program = Path(folder) / f"{machine}.so"
-            run(tools / "rungc", "build", "--target", TARGET, "-o", program, cwd=ROOT / "examples" / machine)
+            build(tools, machine, program)
             rows[f"{machine}, after cold start"] = count(tools, program, nothing, IDLE_PARTS, folder)
             for situation in situations:
                 path = recording(machine, situation)
                 rows[f"{machine}, {situation}"] = count(tools, program, path, (0, parts_of(path)), folder)
+            built_with_profile(tools, machine, situations[PROFILED], program)
+            path = recording(machine, PROFILED)
+            rows[f"{machine}, {PROFILED}, with its profile"] = count(tools, program, path, (0, parts_of(path)), folder)
     return rows
 
 
 def text_of(rows):
-    lines = [HEAD, "| machine | compiled rungs | around them | instructions a part |", "| --- | --- | --- | --- |"]
-    for name, (rungs, total) in rows.items():
-        lines.append(f"| {name} | {rungs:,} | {total - rungs:,} | {total:,} |")
+    lines = [HEAD, "| machine | compiled rungs | around them | instructions a part | lines of code |", "| --- | --- | --- | --- | --- |"]
+    for name, (rungs, total, code) in rows.items():
+        lines.append(f"| {name} | {rungs:,} | {total - rungs:,} | {total:,} | {code:,} |")
     return "\n".join(lines) + "\n"

@@ -10,6 +10,7 @@
 
 #include "frontend/dialects/dialect.h"
 #include "ir/layout/layout.h"
+#include "ir/passes/odds.h"
 #include "ir/passes/pipeline.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
@@ -35,6 +36,7 @@ struct CompileRequest {
   bool keepSource = false; // keep what the front end knows of the text
   ir::LayoutOptions layout;
   std::vector<LayoutClaim> layouts;
+  const ir::BranchCounts* branches = nullptr;        // of earlier runs, for the order of the code; null: none
   std::function<void(std::string_view stage)> ended; // called at the end of each stage, to measure it; may be empty
 };
 
@@ -44,6 +46,7 @@ struct Compiled {
   std::unique_ptr<ir::Module> built;  // as the dialect made it, where that was asked for
   std::unique_ptr<ir::Module> module; // final, optimised
   ir::PassOptions passes;             // between the two
+  ir::OddsResult odds;                // of the branches of the request
   std::unique_ptr<ir::Layout> layout;
   ir::Marks marks;                  // where they were asked for
   frontend::CompileOptions options; // of the request

@@ -1,9 +1,11 @@
-// The three measurements (see profiler.h).
+// The measurements (see profiler.h).
 #include "tools/profile/profiler.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+
+#include "tools/profile/branches.h"
 
 namespace rung::profile {
 namespace {
@@ -76,6 +78,13 @@ protected:
   Collector collector_; // of no rungs before the first start
   Place place_;
   std::vector<uint64_t> remembered_;
+};
+
+// Nothing but which scan it is.
+class RunOnly final : public Measurement {
+protected:
+  void begin(host::Instance&) override {}
+  void end(const host::Instance&, bool, const Place&) override {}
 };
 
 // Operations: remembers the scan with the most.
@@ -193,6 +202,7 @@ public:
     TimeRungs rungs(scans.longest());
     if (!measure("timing rungs", rungs, request_.repeat, request_.engine, {}, true)) return std::move(outcome_);
     if (!agree(operations, rungs)) return std::move(outcome_);
+    if (request_.branches != nullptr && !countBranches(*request_.branches)) return std::move(outcome_);
     outcome_.profile = assemble(operations, scans, rungs);
     outcome_.done = true;
     return std::move(outcome_);
@@ -240,6 +250,15 @@ private:
       }
     }
     return true;
+  }
+
+  bool countBranches(ir::BranchCounts& counts) {
+    RunOnly runs;
+    compiler::EngineOptions watched;
+    watched.observer = [&](const compiler::Compiled& compiled) {
+      return std::make_unique<BranchCounter>(*compiled.module, counts);
+    };
+    return measure("counting branches", runs, 1, compiler::EngineKind::Interp, watched, false);
   }
 
   // A scenario does the same in every run, or its counts would mean nothing.

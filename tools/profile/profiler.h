@@ -4,12 +4,14 @@
 //   once       on the interpreter, which counts operations: exact, the same in every run
 //   N times    as the machine will run it: times of whole scans, slices and tasks
 //   N times    with counters and clock around each rung
+//   once       on the interpreter, where branches are to be counted
 #pragma once
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "ir/passes/odds.h"
 #include "rtlib/profile/profile.h"
 #include "tools/compiler/engines.h"
 #include "tools/profile/scan_times.h"
@@ -24,6 +26,7 @@ struct Request {
   Order order = Order::Operations;
   uint32_t repeat = 5;                              // N
   std::function<void(const std::string&)> progress; // what is being done; may be empty
+  ir::BranchCounts* branches = nullptr;             // what branches of rungs did is added there; null: not counted
 };
 
 // A rung that did more in one scan than it usually does.

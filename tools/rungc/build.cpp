@@ -13,6 +13,7 @@
 #include "tools/compiler/kept_ir.h"
 #include "tools/console/working.h"
 #include "tools/mapping/file.h"
+#include "tools/profile/branches.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -29,6 +30,7 @@ struct BuildOptions {
   std::string level = "2";
   bool debugInfo = false;
   bool profile = false;
+  std::string profileUse;            // a file of `rungc profile -o`
   bool noIr = false;                 // build only
   std::vector<std::string> bindings; // files of rungc bind; build only
 };
@@ -39,6 +41,8 @@ void addCodeOptions(Command command, BuildOptions& options) {
   addActivityOption(command, options.source.activity);
   command.flag("-g", options.debugInfo, "With debug information for the PLC source");
   command.flag("--profile", options.profile, "Count and time every rung");
+  command.option("--profile-use", options.profileUse,
+                 "Lay out the code by what rungc profile -o has counted: what seldom runs is put aside");
   command.option("--target", options.target,
                  "Triple: x86_64-linux-gnu, aarch64-linux-gnu, armv7-linux-gnueabihf, riscv64-linux-gnu");
 }
@@ -48,6 +52,26 @@ compiler::CompileRequest requestOf(const BuildOptions& options) {
   request.instrument = options.profile;
   request.optimise = options.level != "0";
   return request;
+}
+
+// Compiles with the profile that the options name; what it has of other programs is told.
+std::optional<compiler::Compiled> compileWithProfile(SourceManager& sources, const BuildOptions& options,
+                                                     compiler::CompileRequest request, int& status) {
+  ir::BranchCounts branches;
+  if (!options.profileUse.empty()) {
+    Result<ir::BranchCounts> read = profile::branchesIn(options.profileUse);
+    if (!read.ok()) {
+      status = environmentError(read.error());
+      return std::nullopt;
+    }
+    branches = std::move(read).value();
+    request.branches = &branches;
+  }
+  std::optional<compiler::Compiled> compiled = compileSources(sources, options.source, request, status);
+  if (compiled && compiled->odds.unknown != 0)
+    fmt::print(stderr, "rungc: {}: {} of {} rungs with branches are not in it, or have changed since\n",
+               options.profileUse, compiled->odds.unknown, compiled->odds.known + compiled->odds.unknown);
+  return compiled;
 }
 
 // What the program is compiled for, from the files of rungc bind.
@@ -171,7 +195,7 @@ void addBuild(CommandLine& app, int& status) {
       options->bindings.insert(options->bindings.begin(), options->source.project->bindings.begin(),
                                options->source.project->bindings.end());
     if (!takeBindings(*options, request, status)) return;
-    auto compiled = compileSources(sources, options->source, request, status);
+    const auto compiled = compileWithProfile(sources, *options, request, status);
     if (!compiled) return;
     if (!options->listing.empty()) status = writeListing(sources, *compiled, options->listing);
     if (status == kOk) status = buildObject(*compiled, *options);
@@ -189,7 +213,7 @@ void addEmit(CommandLine& app, int& status) {
   addCodeOptions(command, *options);
   command.onRun([options, &status] {
     SourceManager sources;
-    if (auto compiled = compileSources(sources, options->source, requestOf(*options), status))
+    if (const auto compiled = compileWithProfile(sources, *options, requestOf(*options), status))
       status = emitText(*compiled, *options);
   });
 }

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "tools/console/working.h"
+#include "tools/profile/branches.h"
 #include "tools/profile/text.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/profile_page.h"
@@ -24,6 +25,7 @@ struct ProfileOptions {
   std::string by = "operations";
   std::string baseline;
   std::string html;
+  std::string out;
   profile::TextOptions text;
   uint32_t repeat = 5;
   bool json = false;
@@ -77,6 +79,8 @@ int runProfile(const ProfileOptions& options) {
     if (!read.ok()) return environmentError(read.error());
     baseline = std::move(read).value();
   }
+  ir::BranchCounts branches;
+  if (!options.out.empty()) request.branches = &branches;
   const profile::Outcome outcome = [&] {
     console::Working working("compiling");
     request.progress = [&](const std::string& text) { working.say(text); };
@@ -92,6 +96,8 @@ int runProfile(const ProfileOptions& options) {
     if (!page.ok()) return environmentError(page.error());
     if (const int status = writeFile(page.value(), options.html); status != kOk) return status;
   }
+  if (!options.out.empty())
+    if (const int status = writeFile(profile::branchesJson(branches), options.out); status != kOk) return status;
   if (options.json) {
     std::cout << profile::profileJson(outcome.profile, comparison ? &*comparison : nullptr);
     return kOk;
@@ -123,6 +129,7 @@ void addProfile(CommandLine& app, int& status) {
   command.option("--baseline", options->baseline, "Compare with a profile that --json wrote");
   command.option("--html", options->html,
                  "Write a page: the drawing of the program, its rungs coloured by their share");
+  command.option("-o,--output", options->out, "Write how often each branch was taken, for rungc build --profile-use");
   command.flag("--json", options->json, "As JSON, with everything (docs/profile-format.md)");
   command.onRun([options, &status] { status = runProfile(*options); });
 }

@@ -1,0 +1,31 @@
+// How often the branches of a program are taken, as runs of it have shown, and the odds of its ifs by that.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "ir/core/module.h"
+
+namespace rung::ir {
+
+// An if of a rung: how often it was reached, and how often its condition was 1 then.
+struct Branch {
+  uint64_t reached = 0;
+  uint64_t taken = 0;
+  bool operator==(const Branch&) const = default;
+};
+
+// By Rung::key, the ifs of a rung as its front end built it, in their order. Rungs of the compiler, without a key, have
+// none.
+using BranchCounts = std::map<uint64_t, std::vector<Branch>>;
+
+struct OddsResult {
+  size_t known = 0;   // rungs with ifs whose counts are there
+  size_t unknown = 0; // without: the rung is new, another one now, or was made by another compiler
+};
+
+// Sets the odds of the ifs of a module that no pass has changed.
+OddsResult setOdds(Module& module, const BranchCounts& counts);
+
+} // namespace rung::ir

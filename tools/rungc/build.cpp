@@ -54,7 +54,7 @@ compiler::CompileRequest requestOf(const BuildOptions& options) {
   return request;
 }
 
-// Compiles with the profile that the options name; what it has of other programs is told.
+// Compiles with the profile that the options name; rungs that it does not know are reported.
 std::optional<compiler::Compiled> compileWithProfile(SourceManager& sources, const BuildOptions& options,
                                                      compiler::CompileRequest request, int& status) {
   ir::BranchCounts branches;

@@ -30,7 +30,7 @@ TEST(Guard, SmallNumbers) {
   EXPECT_EQ(bodyOf(module), R"(%0:i32 = load D[0]
 %1:i32 = const 31
 %2:bit = le_u.i32 %0, %1
-if %2
+if mostly, %2
 %3:i32 = const 3
 %4:i32 = and %0, %1
 %5:bit = load_bit_at D[11 count 32], %4, %3
@@ -83,7 +83,7 @@ else
 %9:i32 = const 14
 %10:bit = eq.i32 %3, %9
 %11:bit = and %8, %10
-if %11
+if mostly, %11
 %12:i32 = load D[24]
 store.i32 D[27], %12
 else

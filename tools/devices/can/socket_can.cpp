@@ -13,6 +13,8 @@
 #include <chrono>
 #include <cstring>
 
+#include "rtlib/host/realtime.h"
+
 namespace rung::devices {
 namespace {
 
@@ -101,6 +103,8 @@ SocketCan::Counts SocketCan::counts() const { return {sent_, received_, fromBus_
 // ---- the thread -----------------------------------------------------------------------------------------------------
 
 void SocketCan::run() {
+  host::blockSignals();
+  host::runOrdinary();
   while (!stop_) {
     if (descriptor_ < 0 && !reopen()) continue;
     const bool good = moveIn() && moveOut();

@@ -3,6 +3,7 @@
 
 #include "rtlib/nc/technol/signals.h"
 #include "tests/unit/devices/can_rig.h"
+#include "tools/devices/can/unit_mapping.h"
 
 namespace {
 
@@ -17,8 +18,19 @@ struct Units : testing::Test, CanRig {
     configure("CAN[1].Kla50Cnt", "1");
     configure("CAN[1].KnobCnt", "1");
     devices.power();
-    run();
+    run(40); // they are mapped, started and asked what they are
   }
+  // The answer to a packet of the program.
+  CanPacket ask(const CanPacket& packet) {
+    EXPECT_EQ(devices.control().channel(2).send(packet), CanError::Ok);
+    run(2);
+    return received(2);
+  }
+  void tell(std::initializer_list<uint8_t> order) { // network management
+    EXPECT_EQ(devices.control().channel(2).send(packetOf(0, order)), CanError::Ok);
+    run(1);
+  }
+  CanPacket readObject(uint32_t node, sdo::Object object) { return ask(sdo::read(node, object)); }
   GroupCodes codes(uint32_t group) const { return out.units.groups[group - 1]; }
 };
 
@@ -157,6 +169,53 @@ TEST_F(Units, HandwheelKeysAndEncoders) { // l.7483
   EXPECT_EQ(out.units.keys[0][1], 0x80);
   EXPECT_EQ(item(3, 1, {kEncoder, 2}), 0xFFFEu);
   EXPECT_EQ(item(3, 1, {kEncoder + 2, 2}), 7u);
+}
+
+// A field has eight bits: only the low bytes come (l.4705).
+TEST_F(Units, EncodersCountOn) {
+  const InoutsItem counter{kEncoder, 2};
+  for (const uint16_t now : {100, 200, 300, 399, 300, 200, 100, 0, 0xFFF0, 0x10}) {
+    devices.wires(3, 1)->encoders[0] = now;
+    run();
+    EXPECT_EQ(item(3, 1, counter), now);
+  }
+}
+
+// The units' part of it: l.4401-4406, l.4699-4714, l.4774-4790.
+TEST_F(Units, TheControlMapsTheProcessData) {
+  const auto mapping = [&](uint32_t node, uint16_t index) {
+    std::vector<uint32_t> fields;
+    for (uint8_t i = 1; i <= kPdoFields; ++i) fields.push_back(sdo::value(readObject(node, {index, i})));
+    return fields;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(mapping(0x22, 0x1600), ElementsAre(0x62000108, 0x62000208, 0x62000308, 0x00050008, 0x00050008, 0x00050008,
+                                                 0x00050008, 0x00050008));
+  EXPECT_THAT(mapping(0x22, 0x1A00), ElementsAre(0x60000108, 0x60000208, 0x60000308, 0x60000408, 0x21080108, 0x21080208,
+                                                 0x21080308, 0x21080408));
+  EXPECT_THAT(mapping(0x45, 0x1600), ElementsAre(0x210F0608, 0x210F0708, 0x210F0C08, 0x210F0D08, 0x210F0E08, 0x210F0F08,
+                                                 0x210F0A08, 0x210F0908));
+  EXPECT_THAT(mapping(0x45, 0x1A00), ElementsAre(0x21110108, 0x21110208, 0x210D0108, 0x210D0208, 0x00050008, 0x00050008,
+                                                 0x00050008, 0x00050008));
+  EXPECT_EQ(sdo::value(readObject(0x45, {0x2110, 0})), 1u) << "wheel mode";
+  EXPECT_EQ(sdo::value(readObject(0x22, {0x1801, 1})), 0x800002A2) << "TPDO2 only in the analogue mode";
+}
+
+// The simulated unit: what it takes, and that it does what it was told.
+TEST_F(Units, MappingsByTheProgram) {
+  const auto map = [&](uint32_t field) { return sdo::value(ask(sdo::write(0x21, {0x1A00, 1}, 4, field))); };
+  EXPECT_EQ(map(0x60000208), sdo::kWrongState) << "it is operational";
+  tell({0x80, 0x21});
+  EXPECT_EQ(map(0x60000210), sdo::kNotMappable) << "16 bits";
+  EXPECT_EQ(map(0x62000108), sdo::kNotMappable) << "an output";
+  EXPECT_EQ(map(0x60000508), sdo::kNotMappable) << "there are four inputs";
+  EXPECT_EQ(map(0x60000208), 0u);
+  EXPECT_EQ(sdo::value(ask(sdo::write(0x21, {0x1600, 0}, 1, 4))), sdo::kReadOnly) << "eight is the number of fields";
+  EXPECT_EQ(sdo::value(ask(sdo::write(0x21, {0x1801, 2}, 1, 0))), sdo::kWrongValue);
+  tell({1, 0x21});
+  in.terminals[1] = 0x77;
+  run();
+  EXPECT_EQ(item(1, 1, {kIn}), 0x77u);
 }
 
 TEST_F(Units, HandwheelDisplayWaitsForTheProgram) { // l.7507-7531
@@ -350,11 +409,6 @@ TEST_F(Units, ThePdosOfUnitsAreTheControls) {
 }
 
 TEST_F(Units, SdoByTheProgram) { // l.4358-4463
-  const auto ask = [&](const CanPacket& packet) {
-    EXPECT_EQ(devices.control().channel(2).send(packet), CanError::Ok);
-    run();
-    return received(2);
-  };
   EXPECT_EQ(ask(packetOf(0x621, {0x40, 0x00, 0x10, 0, 0, 0, 0, 0})),
             packetOf(0x5A1, {0x43, 0x00, 0x10, 0, 0x91, 0x01, 0x03, 0x00}));
   EXPECT_EQ(ask(packetOf(0x621, {0x40, 0x01, 0x10, 0, 0, 0, 0, 0})),

@@ -2,8 +2,9 @@
 // receives, its orders. What moves the packets, a simulated bus or a real one, is a CanPort (port.h). All of it runs on
 // the scan's thread.
 #pragma once
+#include "tools/devices/can/bounded_queue.h"
 #include "tools/devices/can/orders.h"
-#include "tools/devices/can/packet_queue.h"
+#include "tools/devices/can/packet.h"
 
 namespace rung::devices {
 
@@ -53,7 +54,7 @@ private:
   uint32_t number_;
   CanOrders& orders_;
   BusState state_ = BusState::Inactive;
-  PacketQueue<kQueue> toSend_, received_;
+  BoundedQueue<CanPacket, kQueue> toSend_, received_;
 };
 
 } // namespace rung::devices

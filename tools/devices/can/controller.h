@@ -57,8 +57,9 @@ public:
   void putReceived(uint32_t channel, const CanPacket& packet) { received_[channel - 1].pushAnyway(packet); }
   // The oldest packet of the program's CAN_SEND that went to the port; of more than 1024 the oldest is lost.
   bool takeSent(uint32_t channel, CanPacket& packet) { return sent_[channel - 1].pop(packet); }
-  // Messages 4217 and 4219 of the control.
+  // Messages 4217 and 4219 of the control, and what it says of units.
   bool takeMessage(DriveMessage& message) { return drives_.takeMessage(message); }
+  bool takeMessage(UnitMessage& message) { return units_.takeMessage(message); }
 
   // The channel has the state of its port again, which may change between two ticks.
   void updateState(uint32_t channel);
@@ -78,8 +79,8 @@ private:
   std::array<CanPort*, kChannels> ports_{&noPort_, &noPort_};
   CanUnits units_;
   CanDrives drives_;
-  std::array<PacketQueue<256>, kChannels> received_;
-  std::array<PacketQueue<1024>, kChannels> sent_;
+  std::array<BoundedQueue<CanPacket, 256>, kChannels> received_;
+  std::array<BoundedQueue<CanPacket, 1024>, kChannels> sent_;
 };
 
 } // namespace rung::devices

@@ -12,6 +12,9 @@ constexpr uint8_t kStartNode = 1, kAllNodes = 0; // network management of CiA 30
 constexpr uint16_t kDisableVoltage = 0x00, kShutdown = 0x06, kSwitchOn = 0x07, kEnableOperation = 0x0F;
 constexpr uint16_t kStateBits = 0x4F, kSwitchOnDisabled = 0x40;
 
+constexpr uint8_t kStatusBytes = 4; // of TPDO1
+constexpr uint8_t kCodeBytes = 2;   // of an emergency
+
 // Emergencies of the ServoStar in the order of the manual's list, whose numbers begin with 1 (l.9656-9740).
 constexpr uint16_t kEmergencies[] = {0x1000, 0x1080, 0x2330, 0x3100, 0x3110, 0x3120, 0x3130, 0x4110, 0x4210, 0x4310,
                                      0x5111, 0x5380, 0x5400, 0x5420, 0x5441, 0x5530, 0x5581, 0x6010, 0x6181, 0x6182,
@@ -36,9 +39,10 @@ std::string textOf(const DriveMessage& message) {
 
 void CanDrives::reset() {
   for (Drive& drive : drives_) drive = {.type = drive.type};
-  sinceSync_ = messageCount_ = waitsFor_ = 0;
+  sinceSync_ = waitsFor_ = 0;
   started_ = isToSend_ = false;
   question_ = answer_ = {};
+  messages_.clear();
 }
 
 // The brake counts before the enable (man. l.9377-9384); neither: switched on without torque. The states between are
@@ -82,7 +86,7 @@ void CanDrives::watch(uint32_t number, CanPort& port) {
   if (++drive.silentMs % kDriveTimeoutMs != 0) return;
   port.transmit(packetOf(kNodeControl, {kStartNode, static_cast<uint8_t>(number)}));
   if (drive.silentMs == kDriveTimeoutMs)
-    report({.number = DriveMessage::kTimeout, .drive = static_cast<uint16_t>(number)});
+    messages_.push({.number = DriveMessage::kTimeout, .drive = static_cast<uint16_t>(number)});
   drive.status = drive.manufacturer = 0;
   drive.mustRelease = true;
 }
@@ -94,17 +98,18 @@ bool CanDrives::take(const CanPacket& packet) {
     answer_ = packet;
     waitsFor_ = 0;
   }
-  if (node == 0 || node > count_) return isAnswer;
+  if (node == 0 || node > count_ || !packet.isFromNode()) return isAnswer;
   Drive& drive = drives_[node - 1];
   drive.silentMs = 0;
   if (packet.isObject(kTpdo1)) {
+    if (packet.length < kStatusBytes) return true; // it says nothing
     drive.status = static_cast<uint16_t>(numberAt(packet.data, 2));
     drive.manufacturer = static_cast<uint16_t>(numberAt(packet.data + 2, 2));
     return true;
   }
   const auto emergency = static_cast<uint16_t>(numberAt(packet.data, 2));
-  if (packet.isObject(kEmergency) && emergency != 0)
-    report({DriveMessage::kEmergency, static_cast<uint16_t>(node), faultOf(emergency), emergency});
+  if (packet.isObject(kEmergency) && packet.length >= kCodeBytes && emergency != 0)
+    messages_.push({DriveMessage::kEmergency, static_cast<uint16_t>(node), faultOf(emergency), emergency});
   return isAnswer;
 }
 
@@ -115,18 +120,6 @@ void CanDrives::send(uint32_t axis, CanPacket& packet) {
   question_ = packet;
   waitsFor_ = axis;
   isToSend_ = true;
-}
-
-void CanDrives::report(const DriveMessage& message) {
-  if (messageCount_ < messages_.size()) messages_[messageCount_++] = message;
-}
-
-bool CanDrives::takeMessage(DriveMessage& message) {
-  if (messageCount_ == 0) return false;
-  message = messages_[0];
-  std::copy(messages_.begin() + 1, messages_.begin() + messageCount_, messages_.begin());
-  --messageCount_;
-  return true;
 }
 
 } // namespace rung::devices

@@ -38,6 +38,8 @@ struct DriveMessage {
   uint16_t drive = 0;     // from 1
   uint16_t fault = 0;     // row of the list of emergencies (man. l.9656 ...), 0: not in it
   uint16_t emergency = 0; // error code of CiA 301
+
+  bool operator==(const DriveMessage&) const = default;
 };
 
 // As the log has it.
@@ -56,7 +58,7 @@ public:
   // A packet has come. True: the control alone was meant.
   bool take(const CanPacket& packet);
   // The oldest message that nobody took; of more than 16 the newest are lost.
-  bool takeMessage(DriveMessage& message);
+  bool takeMessage(DriveMessage& message) { return messages_.pop(message); }
 
   // CAN_AX_SEND: fills in what the program leaves open of CAN_AX_SEND_PACKET and sends it (man. l.9480-9493).
   void send(uint32_t axis, CanPacket& packet);
@@ -73,7 +75,6 @@ private:
   };
   static uint16_t controlWord(Drive& drive, uint16_t command);
   void watch(uint32_t number, CanPort& port);
-  void report(const DriveMessage& message);
 
   std::array<Drive, kMostDrives> drives_{};
   uint32_t count_ = 0;
@@ -84,8 +85,7 @@ private:
   bool isToSend_ = false;
   CanPacket question_, answer_;
 
-  std::array<DriveMessage, 16> messages_{};
-  uint32_t messageCount_ = 0;
+  BoundedQueue<DriveMessage, 16> messages_;
 };
 
 } // namespace rung::devices

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 
 namespace rung::devices {
 
@@ -14,7 +15,8 @@ inline constexpr uint8_t kCanDataBytes = 8;
 
 // COB-ID = object + NODE-ID.
 inline constexpr uint16_t kNodeControl = 0x000, kSync = 0x080, kEmergency = 0x080, kTpdo1 = 0x180, kRpdo1 = 0x200,
-                          kTpdo2 = 0x280, kSdoAnswer = 0x580, kSdoRequest = 0x600;
+                          kTpdo2 = 0x280, kTpdo3 = 0x380, kTpdo4 = 0x480, kSdoAnswer = 0x580, kSdoRequest = 0x600,
+                          kHeartbeat = 0x700; // and what a node sends once it has booted
 
 // The twelve bytes of TCANMSGS, in its order.
 struct CanPacket {
@@ -26,6 +28,13 @@ struct CanPacket {
   bool operator==(const CanPacket&) const = default;
   bool isObject(uint16_t object) const { return (id & kCanObject) == object; }
   uint8_t node() const { return static_cast<uint8_t>(id & kCanNode); }
+  // The node itself has sent it, not somebody to it.
+  bool isFromNode() const {
+    const auto object = static_cast<uint16_t>(id & kCanObject);
+    constexpr uint16_t kObjects[] = {kEmergency, kTpdo1, kTpdo2, kTpdo3, kTpdo4, kSdoAnswer, kHeartbeat};
+    return remote == 0 && node() != 0 &&
+           std::find(std::begin(kObjects), std::end(kObjects), object) != std::end(kObjects);
+  }
 };
 static_assert(sizeof(CanPacket) == 12);
 

@@ -9,7 +9,8 @@ namespace rung::devices::sdo {
 inline constexpr uint8_t kRead = 0x40, kWritten = 0x60, kAbort = 0x80, kSegmented = 0x41, kReadSegment = 0x60;
 
 inline constexpr uint32_t kNoSuchObject = 0x06020000, kNoSuchSubindex = 0x06090011, kWriteOnly = 0x06010001,
-                          kReadOnly = 0x06010002, kWrongLength = 0x06070010, kUnknownCommand = 0x05040001;
+                          kReadOnly = 0x06010002, kNotMappable = 0x06040041, kWrongLength = 0x06070010,
+                          kWrongValue = 0x06090030, kWrongState = 0x08000022, kUnknownCommand = 0x05040001;
 
 struct Object {
   uint16_t index = 0;

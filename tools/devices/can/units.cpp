@@ -34,15 +34,17 @@ uint32_t CanUnits::count(uint32_t group) const {
 
 void CanUnits::reset() {
   for (CanUnit& unit : units_) unit.power();
+  messages_.clear();
   display_ = {};
   sinceSync_ = 0;
   started_ = false;
 }
 
+// Other nodes of the channel are the program's: they are started, and then left alone.
 void CanUnits::tick(const UnitOrders& orders, UnitStates& states, CanPort& port) {
   if (units_.empty()) return;
   if (!started_) started_ = port.transmit(packetOf(kNodeControl, {kStart, kAllNodes}));
-  for (CanUnit& unit : units_) unit.tick(port);
+  for (CanUnit& unit : units_) unit.tick(port, messages_);
   output(orders, states);
   if (++sinceSync_ >= syncPeriod_) synchronize(orders, port);
   states.groups = {};
@@ -64,7 +66,8 @@ void CanUnits::synchronize(const UnitOrders& orders, CanPort& port) {
   sinceSync_ = 0;
   for (uint32_t i = 0; i < kHandwheels; ++i)
     if (!orders.displayBusy[i]) display_[i] = orders.display[i];
-  for (CanUnit& unit : units_) port.transmit(unit.outputPacket(display_[(unit.board() - 1) % kHandwheels]));
+  for (CanUnit& unit : units_)
+    if (unit.isStarted()) port.transmit(unit.outputPacket(display_[(unit.board() - 1) % kHandwheels]));
   port.transmit(packetOf(kSync, {}));
 }
 

@@ -2,9 +2,8 @@
 // them, sends their outputs and takes their inputs by SYNC and PDOs, reads and writes their objects by SDO, keeps the
 // structure INOUTS of each, and notices errors and time-outs. It knows packets, so the units may be simulated or real.
 //
-// The manual names the identifiers of PDOs (l.4370-4383) and the objects, but not what the bytes of PDOs are, which
-// the control maps itself: RPDO1 is OUT0 to OUT2, of a handwheel TOC_DISPLS; TPDO1 is IN0 to IN3 and TL0 to TL3, of a
-// handwheel IN0, IN1, IRC0, IRC1; TPDO2 is ANL0 to ANL7. A unit reports errors by emergency packets.
+// The identifiers of PDOs are those of l.4370-4383, their bytes those of unit_mapping.h; TPDO2 is ANL0 to ANL7. A unit
+// reports errors by emergency packets.
 #pragma once
 #include <vector>
 
@@ -52,6 +51,8 @@ public:
   void reset();
   // A millisecond. Of `states`, `errors` is read, too.
   void tick(const UnitOrders& orders, UnitStates& states, CanPort& port);
+  // The oldest message that nobody took.
+  bool takeMessage(UnitMessage& message) { return messages_.pop(message); }
   // A packet has come. True: the control alone was meant, the program does not get it.
   bool take(const CanPacket& packet);
 
@@ -71,6 +72,7 @@ private:
   std::vector<CanUnit> units_;                                // by group and board
   std::array<uint8_t, kCanNode + 1> numbers_{};               // of units in `units_` by node, from 1; 0: no unit
   std::array<std::array<uint8_t, 8>, kHandwheels> display_{}; // as they were when the program was not filling them
+  UnitMessages messages_;
   uint32_t syncPeriod_ = 1, sinceSync_ = 0;
   bool started_ = false;
 };

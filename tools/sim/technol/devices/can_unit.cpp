@@ -12,8 +12,53 @@ constexpr uint32_t kDeviceType = 0x00030191; // inputs and outputs of CiA 401
 constexpr uint32_t kMaker = 1;
 constexpr std::string_view kNames[kUnitGroups] = {"INOUT08", "KLA50", "TOC"};
 constexpr uint16_t kErrorRegister = 0x1001, kName = 0x1008, kShortedOutput = 0x2101, kMatrixOutputs = 0x2109,
-                   kReadInput = 0x6000, kWriteOutput = 0x6200, kPotentiometer = 0x6404;
-constexpr sdo::Object kTpdo2Type{0x1801, 2};
+                   kPotentiometer = 0x6404;
+constexpr sdo::Object kTpdo2Id{0x1801, 1}, kTpdo2Type{0x1801, 2}, kWheelMode{0x2110, 0};
+constexpr uint32_t kNotValid = 0x8000'0000;                           // of a COB-ID
+constexpr uint8_t kEverySync = 1, kMostSyncs = 240, kAtRequest = 252; // types of transmission (l.4699-4703)
+constexpr uint8_t kLastOfDisplay = 19;
+constexpr PdoFields kDefaultOutputs = {{{kWriteOutput, 1},
+                                        {kWriteOutput, 2},
+                                        {kWriteOutput, 3},
+                                        {kWriteOutput, 4},
+                                        kNoField,
+                                        kNoField,
+                                        kNoField,
+                                        kNoField}};
+constexpr PdoFields kDefaultInputs = {
+    {{kReadInput, 1}, {kReadInput, 2}, {kReadInput, 3}, {kReadInput, 4}, kNoField, kNoField, kNoField, kNoField}};
+
+sdo::Object fieldOf(uint32_t mapping) {
+  return {static_cast<uint16_t>(mapping >> 16), static_cast<uint8_t>(mapping >> 8)};
+}
+
+bool isMapping(sdo::Object place) {
+  return (place.index == kRpdoMapping || place.index == kTpdoMapping) && place.subindex != 0;
+}
+
+// Subindices of fields that a PDO may have.
+struct Fields {
+  uint16_t pdo = 0, index = 0;
+  uint8_t first = 0, last = 0;
+};
+constexpr Fields kFields[] = {{kRpdoMapping, kUnusedField, 0, 0},
+                              {kRpdoMapping, kWriteOutput, 1, 4},
+                              {kRpdoMapping, kDisplay, kDisplayRow, kLastOfDisplay},
+                              {kTpdoMapping, kUnusedField, 0, 0},
+                              {kTpdoMapping, kReadInput, 1, 4},
+                              {kTpdoMapping, kMatrixInput, 1, 4},
+                              {kTpdoMapping, kEncoderCounter, 1, 3},
+                              {kTpdoMapping, kWheelKeys, 1, 2}};
+
+// Only fields of eight bits (l.4705-4709).
+bool isMappable(uint16_t pdo, uint32_t mapping) {
+  const sdo::Object field = fieldOf(mapping);
+  return mapping == mappingOf(field) && std::any_of(std::begin(kFields), std::end(kFields), [&](const Fields& known) {
+           return known.pdo == pdo && known.index == field.index && field.subindex >= known.first &&
+                  field.subindex <= known.last;
+         });
+}
+
 // Error codes of emergencies (CiA 301, CiA 401).
 constexpr uint16_t kNoError = 0, kGenericError = 0x1000, kShortedOutputs = 0x2300;
 
@@ -31,8 +76,30 @@ SimulatedUnit::SimulatedUnit(uint32_t group, uint32_t board)
   }
   for (uint8_t i = 1; i <= kUnitInputs; ++i) objects_.add({{kReadInput, i}, 1});
   for (uint8_t i = 1; i <= 8; ++i) objects_.add({{kPotentiometer, i}, 1});
-  objects_.add({kTpdo2Type, 1, 0, ObjectAccess::ReadWrite});
+  for (const sdo::Object place : {kTpdo2Type, kWheelMode}) objects_.add({place, 1, 0, ObjectAccess::ReadWrite});
+  objects_.add({kTpdo2Id, 4, 0, ObjectAccess::ReadWrite});
   objects_.add({{kMatrixOutputs, 0}, 2, 0, ObjectAccess::ReadWrite});
+  for (const uint16_t pdo : {kRpdoMapping, kTpdoMapping}) {
+    objects_.add({{pdo, 0}, 1, kPdoFields});
+    for (uint8_t i = 1; i <= kPdoFields; ++i) objects_.add({{pdo, i}, 4, 0, ObjectAccess::ReadWrite});
+  }
+  for (uint8_t i = 1; group == kHandwheel && i <= kLastOfDisplay; ++i)
+    objects_.add({{kDisplay, i}, 1, 0, ObjectAccess::ReadWrite});
+  setDefaults();
+}
+
+void SimulatedUnit::setDefaults() {
+  rpdo_ = kDefaultOutputs;
+  tpdo_ = kDefaultInputs;
+  for (uint8_t i = 0; i < kPdoFields; ++i) {
+    objects_.set({kRpdoMapping, static_cast<uint8_t>(i + 1)}, mappingOf(rpdo_[i]));
+    objects_.set({kTpdoMapping, static_cast<uint8_t>(i + 1)}, mappingOf(tpdo_[i]));
+  }
+  sendsAnalogue_ = group_ == kInOut08;
+  objects_.set(kTpdo2Id, kTpdo2 + node_ + (sendsAnalogue_ ? 0 : kNotValid));
+  objects_.set(kTpdo2Type, kEverySync);
+  objects_.set(kWheelMode, 0);
+  objects_.set({kMatrixOutputs, 0}, 0);
 }
 
 void SimulatedUnit::power() {
@@ -40,14 +107,12 @@ void SimulatedUnit::power() {
   wires_.shorts = {};
   wires_.silent = false;
   operational_ = false;
-  sendsAnalogue_ = false;
-  received_ = {};
+  received_ = shown_ = {};
   outputs_ = {};
   reported_ = 0;
   reportedShorts_ = {};
   for (HandwheelDisplay& display : display_) display.clear();
-  objects_.set(kTpdo2Type, 0);
-  objects_.set({kMatrixOutputs, 0}, 0);
+  setDefaults();
 }
 
 // The unit switches shorted outputs off by itself (man. l.4511-4517).
@@ -78,8 +143,7 @@ void SimulatedUnit::receive(const CanPacket& packet, NodePackets& answers) {
     if (packet.data[1] == 0 || packet.data[1] == node_) operational_ = packet.data[0] == 1;
   } else if (packet.id == kSync) {
     if (!operational_) return;
-    std::copy_n(received_.begin(), kUnitOutputs, outputs_.begin());
-    for (HandwheelDisplay& display : display_) display.show(received_);
+    takeOver();
     sendInputs(answers);
   } else if (packet.id == kRpdo1 + node_) {
     std::copy_n(packet.data, received_.size(), received_.begin());
@@ -88,15 +152,33 @@ void SimulatedUnit::receive(const CanPacket& packet, NodePackets& answers) {
   }
 }
 
+// Bytes of RPDO1 go where they are mapped; a display that nobody has mapped shows nothing.
+void SimulatedUnit::takeOver() {
+  for (uint32_t i = 0; i < kPdoFields; ++i) {
+    const sdo::Object field = rpdo_[i];
+    if (field.index == kWriteOutput && field.subindex <= kUnitOutputs) outputs_[field.subindex - 1u] = received_[i];
+    if (field.index != kDisplay) continue;
+    const auto* const shown = std::find(kWheelOutputFields.begin(), kWheelOutputFields.end(), field);
+    const auto place = static_cast<size_t>(shown - kWheelOutputFields.begin());
+    if (place < shown_.size()) shown_[place] = received_[i];
+  }
+  for (HandwheelDisplay& display : display_) display.show(shown_);
+}
+
+uint8_t SimulatedUnit::input(sdo::Object field) const {
+  const uint32_t number = field.subindex - 1u;
+  switch (field.index) {
+  case kReadInput: return wires_.in[number];
+  case kMatrixInput: return wires_.keys[number];
+  case kWheelKeys: return objects_.value(kWheelMode) != 0 ? wires_.in[number] : 0;
+  case kEncoderCounter: return number < wires_.encoders.size() ? static_cast<uint8_t>(wires_.encoders[number]) : 0;
+  default: return 0;
+  }
+}
+
 void SimulatedUnit::sendInputs(NodePackets& answers) const {
   CanPacket inputs{.id = static_cast<uint16_t>(kTpdo1 + node_), .length = kCanDataBytes};
-  if (group_ == kHandwheel) {
-    std::copy_n(wires_.in.begin(), 2, inputs.data);
-    for (uint32_t i = 0; i < 2; ++i) putNumber(inputs.data + 2 + 2 * i, 2, wires_.encoders[i]);
-  } else {
-    std::copy(wires_.in.begin(), wires_.in.end(), inputs.data);
-    std::copy(wires_.keys.begin(), wires_.keys.end(), inputs.data + wires_.in.size());
-  }
+  for (uint32_t i = 0; i < kPdoFields; ++i) inputs.data[i] = input(tpdo_[i]);
   answers.push(inputs);
   if (!sendsAnalogue_) return;
   CanPacket analogue{.id = static_cast<uint16_t>(kTpdo2 + node_), .length = kCanDataBytes};
@@ -130,10 +212,32 @@ void SimulatedUnit::answer(const CanPacket& request, NodePackets& answers) {
     answers.push(sdo::packet(kSdoAnswer + node_, sdo::kSegmented, {kName, 0}, length));
     return;
   }
+  if (const uint32_t code = refusal(request)) {
+    answers.push(sdo::abort(node_, sdo::object(request), code));
+    return;
+  }
   refresh();
   const CanObject* written = nullptr;
   answers.push(objects_.answer(node_, request, written));
-  if (written != nullptr && written->place == kTpdo2Type) sendsAnalogue_ = written->value != 0;
+  if (written != nullptr) takeWritten(*written);
+}
+
+// 0: none by what the value means.
+uint32_t SimulatedUnit::refusal(const CanPacket& request) const {
+  if (!sdo::isWrite(request)) return 0;
+  const sdo::Object place = sdo::object(request);
+  const uint32_t value = sdo::value(request);
+  if (place == kTpdo2Type && value != kAtRequest && (value < kEverySync || value > kMostSyncs)) return sdo::kWrongValue;
+  if (!isMapping(place)) return 0;
+  if (operational_) return sdo::kWrongState;
+  return isMappable(place.index, value) ? 0 : sdo::kNotMappable;
+}
+
+void SimulatedUnit::takeWritten(const CanObject& object) {
+  if (object.place == kTpdo2Id) sendsAnalogue_ = (object.value & kNotValid) == 0;
+  if (!isMapping(object.place)) return;
+  PdoFields& pdo = object.place.index == kRpdoMapping ? rpdo_ : tpdo_;
+  pdo[object.place.subindex - 1u] = fieldOf(object.value);
 }
 
 } // namespace rung::sim::technol

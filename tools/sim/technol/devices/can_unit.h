@@ -1,14 +1,16 @@
 // A simulated unit on CAN channel 2: INOUT08, KLA50 or EPU panel, handwheel (man. 9.2, 9.6). The control's side of it
-// is devices::CanUnit, where the bytes of the PDOs are described.
+// is devices::CanUnit. 1600h and 1A00h, written while it is not operational, say what the bytes of RPDO1 and TPDO1 are;
+// by default they are outputs and inputs (l.4805-4858).
 #pragma once
-#include "tools/devices/can/packet_queue.h"
+#include "tools/devices/can/bounded_queue.h"
 #include "tools/devices/can/unit.h"
+#include "tools/devices/can/unit_mapping.h"
 #include "tools/sim/technol/devices/can_objects.h"
 #include "tools/sim/technol/devices/handwheel_display.h"
 
 namespace rung::sim::technol {
 
-using NodePackets = devices::PacketQueue<512>;
+using NodePackets = devices::BoundedQueue<devices::CanPacket, 512>;
 
 // What is wired to a unit, and what is wrong with it.
 struct UnitWires {
@@ -42,7 +44,12 @@ public:
   void tick(NodePackets& answers);
 
 private:
+  void setDefaults();
   uint8_t errorRegister() const;
+  void takeOver();
+  uint8_t input(devices::sdo::Object field) const;
+  uint32_t refusal(const devices::CanPacket& request) const;
+  void takeWritten(const CanObject& object);
   void answer(const devices::CanPacket& request, NodePackets& answers);
   void sendInputs(NodePackets& answers) const;
   void refresh();
@@ -53,8 +60,10 @@ private:
   CanObjects objects_{devices::sdo::kNoSuchObject};
   std::vector<HandwheelDisplay> display_; // one, of a handwheel
   bool operational_ = false;
-  bool sendsAnalogue_ = false;        // object 1801h-2, asked at each SYNC
+  bool sendsAnalogue_ = false; // TPDO2 after each SYNC, by object 1801h-1
+  devices::PdoFields rpdo_{}, tpdo_{};
   std::array<uint8_t, 8> received_{}; // RPDO1, taken over with SYNC
+  std::array<uint8_t, 8> shown_{};    // TOC_DISPLS
   std::array<uint8_t, devices::kUnitOutputs> outputs_{};
   uint8_t reported_ = 0; // error register and shorts of the last emergency
   std::array<uint8_t, devices::kUnitOutputs> reportedShorts_{};

@@ -13,6 +13,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+PROGRAMS = ("can", "can-orders-1", "can-orders-2", "can-orders-3")  # of the scenarios
 MODULES = ("can", "can-raw", "can-dev", "vcan", "sch_tbf")
 PATIENCE = 300  # seconds; it takes some 20
 INIT = """#!/bin/sh
@@ -24,7 +25,7 @@ mount -t tmpfs tmpfs /run
 for module in {modules}; do insmod "$(find /usr/lib/uml/modules/$(uname -r) -name $module.ko)"; done
 ip link set lo up
 cd {root}
-TMPDIR=/run RUNG_SOCKETS=/run/rung python3 tests/can/vcan_test.py {bin} {program} >{folder}/log 2>&1
+TMPDIR=/run RUNG_SOCKETS=/run/rung python3 tests/can/vcan_test.py {bin} {folder} >{folder}/log 2>&1
 echo $? >{folder}/status
 echo o >/proc/sysrq-trigger
 sleep 60
@@ -59,9 +60,10 @@ def main():
         return 1
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        program = folder / "can.so"
-        subprocess.run([programs / "rungc", "build", "-q", ROOT / "tests/scenarios/technol/can.plc", "-o", program], check=True)
-        words = {"folder": folder, "root": ROOT, "bin": programs, "program": program}
+        for program in PROGRAMS:
+            subprocess.run([programs / "rungc", "build", "-q", ROOT / f"tests/scenarios/technol/{program}.plc", "-o", folder / f"{program}.so"],
+                           check=True)
+        words = {"folder": folder, "root": ROOT, "bin": programs}
         init = folder / "init"
         init.write_text(INIT.format(modules=" ".join(MODULES), **{key: shlex.quote(str(value)) for key, value in words.items()}),
                         encoding="utf-8")

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""rung-run at a CAN interface of the kernel, vcan0: vcan_test.py BIN PROGRAM
+"""rung-run at a CAN interface of the kernel, vcan0: vcan_test.py BIN FOLDER
 
-For a machine of its own (in_uml.py), as root: interfaces are made and switched off. PROGRAM is that of the scenarios of CAN."""
+For a machine of its own (in_uml.py), as root: interfaces are made and switched off. FOLDER has the programs of the scenarios of
+CAN, compiled."""
 import json
 import os
 import socket
@@ -13,7 +14,7 @@ import time
 import unittest
 from pathlib import Path
 
-BIN = PROGRAM = None
+BIN = FOLDER = None
 PATIENCE = 20
 BUS_OFF, RESTARTED = 0x40, 0x100  # classes of error frames (linux/can/error.h)
 FRAME = struct.Struct("=IB3x8s")
@@ -33,6 +34,7 @@ def soon(condition):
 
 
 class Vcan(unittest.TestCase):
+    program = "can"
     options = ()
     constants = ""
 
@@ -44,10 +46,10 @@ class Vcan(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         folder = Path(self.folder.name)
-        (folder / "can.map").write_text('[rungctl]\nallow = ["set"]\n' + self.constants, encoding="utf-8")
+        (folder / "can.map").write_text('[rungctl]\nallow = ["set", "reload"]\n' + self.constants, encoding="utf-8")
         self.log = open(folder / "log", "w+", encoding="utf-8")
         self.addCleanup(self.log.close)
-        self.process = subprocess.Popen([BIN / "rung-run", PROGRAM, folder / "can.map", "--can", "2=vcan0", *self.options],
+        self.process = subprocess.Popen([BIN / "rung-run", FOLDER / f"{self.program}.so", folder / "can.map", "--can", "2=vcan0", *self.options],
                                         stderr=self.log)
         self.addCleanup(self.end)
         self.says("listening at")
@@ -151,9 +153,29 @@ class Units(Vcan):
 
     def test_the_control_is_the_master_of_its_units(self):
         self.next(0x80)
-        self.assertEqual(self.next(0x221)[0], 8)
-        self.put(0x1A1, b"\x5a\0\0\0")
+        self.assertEqual(self.next(0x621)[0], 8)
+        self.put(0x1A1, b"\x5a\0\0\0\0\0\0\0")
         self.assertTrue(soon(lambda: self.get("P1IN") == 0x5A))
+        self.assertEqual(self.next(0x221)[0], 8)
+        self.says("CAN unit INOUT08 2 (node 22h) does not answer")
+
+
+class Replaced(Vcan):
+    """Orders of packets while one program takes the place of another."""
+    program = "can-orders-1"
+
+    def test_orders_continue_as_long_as_they_have_a_buffer(self):
+        self.put(0x5A1, b"\x01\x02")
+        self.assertTrue(soon(lambda: self.get("CALLS") == 1), self.logged())
+        self.ctl("reload", FOLDER / "can-orders-2.so", "--yes")
+        self.put(0x5A1, b"\x03\x04")
+        self.assertTrue(soon(lambda: self.get("CALLS") == 2), self.logged())
+        self.assertEqual((self.get("WORD.ORDER+4"), self.get("DWRD.MORE+4"), self.get("OTHERS")), (0x0403, 0, 0))
+        self.ctl("reload", FOLDER / "can-orders-3.so", "--yes")
+        self.says("CAN_RECV_REQ: the order with the handle 1 has ended, as the new program does not have its buffer")
+        self.put(0x5A1, b"\x05\x06")
+        self.assertTrue(soon(lambda: self.order("DORECV") or self.get("WORD.INBUF") == 0x5A1))
+        self.assertEqual(self.get("CALLS"), 2)
 
 
 class FullQueue(Vcan):
@@ -174,5 +196,5 @@ class FullQueue(Vcan):
 
 if __name__ == "__main__":
     BIN = Path(sys.argv.pop(1)).resolve()
-    PROGRAM = Path(sys.argv.pop(1)).resolve()
+    FOLDER = Path(sys.argv.pop(1)).resolve()
     unittest.main(verbosity=2)

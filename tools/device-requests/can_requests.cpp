@@ -26,6 +26,16 @@ std::array<uint8_t, devices::inouts::kBytes> itemWidths() {
   return widths;
 }
 
+// Bytes that an argument names, in another program; nothing: it does not have them.
+std::optional<int64_t> movedBytes(const host::Relocation& relocation, int64_t argument) noexcept {
+  const nc::technol::ArgumentBytes at = nc::technol::bytesOfArgument(argument);
+  host::Ref bytes = host::intRef(at.space, at.first, 8);
+  bytes.count = at.count;
+  const auto moved = relocation.place(bytes);
+  if (!moved) return std::nullopt;
+  return nc::technol::bytesArgument(moved->space, at.count, moved->byte);
+}
+
 } // namespace
 
 CanOrder canOrder(std::string_view service) {
@@ -101,19 +111,30 @@ void CanCalls::endOrder(DeviceCall& call) {
   call.set(0, known ? 1 : 0);
 }
 
-void CanCalls::relocate(const CanPlaces& former, const CanPlaces& now, const Move& move) {
+void CanCalls::relocate(const CanPlaces& former, const CanPlaces& now, const host::Relocation& relocation) noexcept {
   for (Order& order : orders_) {
     if (order.handle == 0) continue;
-    const auto buffer = move(nc::technol::bytesOfArgument(order.buffer));
+    const auto buffer = movedBytes(relocation, order.buffer);
     const auto procedure = now.numberOf(former, order.procedure);
-    if (buffer && procedure) {
-      order.buffer = nc::technol::bytesArgument(buffer->space, buffer->count, buffer->first);
-      order.procedure = *procedure;
-    } else {
-      can_.orders().remove(order.handle);
-      order = {};
-    }
+    if (buffer && procedure)
+      order.buffer = *buffer, order.procedure = *procedure;
+    else
+      end(order, {.handle = order.handle, .lacksBuffer = !buffer, .lacksProcedure = !procedure});
   }
+}
+
+void CanCalls::end(Order& order, const EndedOrder& why) noexcept {
+  can_.orders().remove(order.handle);
+  order = {};
+  ended_.push(why);
+}
+
+std::string textOf(const EndedOrder& order) {
+  const char* const lacks = !order.lacksBuffer      ? "procedure"
+                            : !order.lacksProcedure ? "buffer"
+                                                    : "buffer and its procedure";
+  return "CAN_RECV_REQ: the order with the handle " + std::to_string(order.handle) +
+         " has ended, as the new program does not have its " + lacks;
 }
 
 // Programs name an item by the member.
@@ -227,7 +248,7 @@ void CanPlaces::locateProcedures(const rung_program& program) {
   }
 }
 
-std::optional<uint64_t> CanPlaces::numberOf(const CanPlaces& other, uint64_t number) const {
+std::optional<uint64_t> CanPlaces::numberOf(const CanPlaces& other, uint64_t number) const noexcept {
   if (number >= other.procedures_.size()) return std::nullopt;
   const auto found = std::ranges::find(procedures_, other.procedures_[number].name, &NamedProcedure::name);
   if (found == procedures_.end()) return std::nullopt;

@@ -1,12 +1,13 @@
 // CAN_*: packets, orders, units and drives, and their cells (man. ch. 9, 13.14).
 #pragma once
 #include <array>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "rtlib/core/ring.h"
+#include "rtlib/host/relocation.h"
 #include "rtlib/nc/control/technol/cells.h"
 #include "tools/device-requests/device_call.h"
 #include "tools/devices/can/controller.h"
@@ -40,7 +41,7 @@ public:
     return number < procedures_.size() ? &procedures_[number].procedure : nullptr;
   }
   // The number of the procedure that another program has as `number`; nothing: none of its name.
-  std::optional<uint64_t> numberOf(const CanPlaces& other, uint64_t number) const;
+  std::optional<uint64_t> numberOf(const CanPlaces& other, uint64_t number) const noexcept;
 
 private:
   std::array<rt::Place, devices::kInputPorts> in_;
@@ -61,16 +62,25 @@ private:
   std::vector<NamedProcedure> procedures_;
 };
 
+// An order of packets that has ended because another program has taken over, and what that one does not have.
+struct EndedOrder {
+  uint32_t handle = 0;
+  bool lacksBuffer = false, lacksProcedure = false;
+};
+// As the log has it.
+std::string textOf(const EndedOrder& order);
+
 class CanCalls {
 public:
   explicit CanCalls(devices::CanController& can);
 
   // At a power-on and START PLC: no order is left.
   void clear() { orders_ = {}; }
-  // Another program has taken over: orders continue with its procedures and its buffers, which `move` finds. Those that
-  // it lacks are deleted.
-  using Move = std::function<std::optional<nc::technol::ArgumentBytes>(const nc::technol::ArgumentBytes&)>;
-  void relocate(const CanPlaces& former, const CanPlaces& now, const Move& move);
+  // Another program has taken over: orders continue with its procedures and its buffers. Those that lack one of them
+  // end. Allocates nothing.
+  void relocate(const CanPlaces& former, const CanPlaces& now, const host::Relocation& relocation) noexcept;
+  // The oldest such order that nobody took, of at most 64; any one thread.
+  bool takeEnded(EndedOrder& order) { return ended_.pop(order); }
   void answer(CanOrder order, DeviceCall& call);
   // After the ticks of a scan: what has come goes into the buffers of orders, and their procedures run; else it waits
   // for CAN_RECV. A program that is stopped has no orders, and its packets are dropped.
@@ -88,6 +98,7 @@ private:
   void receive(DeviceCall& call);
   void order(DeviceCall& call);
   void endOrder(DeviceCall& call);
+  void end(Order& order, const EndedOrder& why) noexcept;
   void readItem(DeviceCall& call);
   void writeItem(DeviceCall& call);
   void sendToDrive(DeviceCall& call);
@@ -97,6 +108,7 @@ private:
   devices::CanController& can_;
   const std::array<uint8_t, devices::inouts::kBytes> itemWidths_; // of INOUTS, by place
   std::array<Order, devices::kMostCanOrders> orders_ = {};
+  rt::FixedRing<EndedOrder, 64> ended_;
   bool asksDrive_ = false;
 };
 

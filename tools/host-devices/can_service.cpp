@@ -44,6 +44,8 @@ void CanService::close() {
 void CanService::tick() noexcept {
   control_.transmit(unitOrders_, units_, driveOrders_, drives_);
   control_.receive();
+  for (devices::DriveMessage message; control_.takeMessage(message);) ofDrives_.push(message);
+  for (devices::UnitMessage message; control_.takeMessage(message);) ofUnits_.push(message);
 }
 
 void CanService::step(int64_t ns) noexcept {
@@ -60,11 +62,6 @@ void CanService::powerOn() noexcept {
   units_ = {};
   shownErrors_ = {};
   drives_ = {};
-}
-
-void CanService::forgetOrders() noexcept {
-  control_.startProgram();
-  calls_.clear();
 }
 
 // Of ERRLI_PnOUT the program resets bits, and the units set them meanwhile (man. l.3526-3531).

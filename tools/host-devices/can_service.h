@@ -30,6 +30,11 @@ public:
     return isOpen_[channel - 1] ? &ports_[channel - 1] : nullptr;
   }
 
+  // Orders that a replacement of the program has ended, and messages about drives and units; any one thread.
+  bool takeEnded(device_requests::EndedOrder& order) { return calls_.takeEnded(order); }
+  bool takeMessage(devices::DriveMessage& message) { return ofDrives_.pop(message); }
+  bool takeMessage(devices::UnitMessage& message) { return ofUnits_.pop(message); }
+
   // ---- the scan; nothing waits, allocates or locks
   // The clock has moved on: what is due of each millisecond.
   void step(int64_t ns) noexcept;
@@ -44,8 +49,11 @@ public:
   void dropPackets(host::Instance& instance, const device_requests::CanPlaces& places) noexcept;
   // After a fault: drives are disabled.
   void disableDrives() noexcept { driveOrders_ = {}; }
-  // Another program: orders of the former one are over, as their buffers and procedures were its.
-  void forgetOrders() noexcept;
+  // Another program has taken over: orders of packets continue with its buffers and procedures.
+  void relocate(const device_requests::CanPlaces& former, const device_requests::CanPlaces& now,
+                const host::Relocation& relocation) noexcept {
+    calls_.relocate(former, now, relocation);
+  }
 
 private:
   void tick() noexcept;
@@ -61,6 +69,8 @@ private:
   devices::UnitStates units_;
   std::array<uint8_t, devices::kOutputPorts> shownErrors_{}; // in the cells
   devices::DriveStates drives_;
+  rt::FixedRing<devices::DriveMessage, 64> ofDrives_;
+  rt::FixedRing<devices::UnitMessage, 256> ofUnits_;
   int64_t restNs_ = 0; // of the millisecond that has begun
 };
 

@@ -9,7 +9,7 @@
 namespace rung::host_devices {
 namespace {
 
-constexpr int64_t kBetweenLossesNs = 1'000'000'000;
+constexpr int64_t kBetweenNs = 1'000'000'000;
 
 std::string channelName(uint32_t channel) { return "CAN channel " + std::to_string(channel); }
 
@@ -28,9 +28,12 @@ std::string sentenceOf(devices::BusState state) {
 std::vector<std::string> DeviceReport::next() {
   std::vector<std::string> lines;
   states(lines);
+  orders(lines);
   ports(lines);
-  if (const int64_t now = host::monotonicNs(); now >= nextLossesNs_) {
-    nextLossesNs_ = now + kBetweenLossesNs;
+  const int64_t now = host::monotonicNs();
+  messages(lines, now);
+  if (now >= nextLossesNs_) {
+    nextLossesNs_ = now + kBetweenNs;
     losses(lines);
   }
   if (std::string problem = devices_.tables.takeProblem(); !problem.empty())
@@ -51,6 +54,24 @@ void DeviceReport::states(std::vector<std::string>& lines) {
   }
 }
 
+void DeviceReport::orders(std::vector<std::string>& lines) {
+  for (device_requests::EndedOrder order; devices_.can.takeEnded(order);) lines.push_back(textOf(order));
+}
+
+template <class Message>
+void DeviceReport::say(const Message& message, Said<Message>& said, int64_t now, std::vector<std::string>& lines) {
+  if (message == said.message && now < said.untilNs) return;
+  said = {.message = message, .untilNs = now + kBetweenNs};
+  lines.push_back(textOf(message));
+}
+
+void DeviceReport::messages(std::vector<std::string>& lines, int64_t now) {
+  for (devices::DriveMessage message; devices_.can.takeMessage(message);)
+    say(message, saidOfDrives_[message.drive - 1u], now, lines);
+  for (devices::UnitMessage message; devices_.can.takeMessage(message);)
+    say(message, saidOfUnits_[message.group - 1u][message.board - 1u], now, lines);
+}
+
 void DeviceReport::losses(std::vector<std::string>& lines) {
   for (uint32_t channel = 1; channel <= channels_.size(); ++channel) {
     const devices::SocketCan* port = devices_.can.port(channel);
@@ -59,10 +80,15 @@ void DeviceReport::losses(std::vector<std::string>& lines) {
     const uint64_t lost = counts.lost - std::exchange(channels_[channel - 1].lost, counts.lost);
     const bool isFull = counts.full != std::exchange(channels_[channel - 1].full, counts.full);
     const bool wasFull = std::exchange(channels_[channel - 1].isFull, isFull);
+    const bool isUnheard = counts.timeouts != std::exchange(channels_[channel - 1].timeouts, counts.timeouts);
+    const bool wasUnheard = std::exchange(channels_[channel - 1].isUnheard, isUnheard);
     if (lost > 0)
       lines.push_back(channelName(channel) + ": " + std::to_string(lost) + " packets were lost, as they came too fast");
     if (isFull && !wasFull)
       lines.push_back(channelName(channel) + ": the queue of the interface is full, packets wait");
+    if (isUnheard && !wasUnheard)
+      lines.push_back(channelName(channel) + ": nobody acknowledges what is sent; is a device connected, has it power "
+                                             "and the bit rate of the interface?");
   }
   for (uint32_t port = 0; port < portLosses_.size(); ++port) {
     const uint32_t now = devices_.ports[port].lostBytes();

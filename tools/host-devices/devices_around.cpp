@@ -8,9 +8,9 @@ namespace rung::host_devices {
 using namespace device_requests;
 
 struct DevicesAround::Places final : nc::Places {
-  explicit Places(const rung_program& program)
-      : services(deviceOrders(program)), can(program), states(program), outputs(program) {}
+  explicit Places(const rung_program& of) : program(of), services(deviceOrders(of)), can(of), states(of), outputs(of) {}
 
+  const rung_program& program;
   std::vector<DeviceOrder> services; // by the program's numbers
   CanPlaces can;
   StatePlaces states;
@@ -27,10 +27,10 @@ std::unique_ptr<nc::Places> DevicesAround::locate(const rung_program& program) c
 
 const DevicesAround::Places& DevicesAround::places() const { return static_cast<const Places&>(*places_); }
 
-// The bytes that orders of packets fill may lie elsewhere in the new program.
 void DevicesAround::exchangePlaces(std::unique_ptr<nc::Places>& places) noexcept {
   places_.swap(places);
-  devices_.can.forgetOrders();
+  const auto& former = static_cast<const Places&>(*places);
+  devices_.can.relocate(former.can, this->places().can, host::Relocation(former.program, this->places().program));
 }
 
 uint32_t DevicesAround::works() const { return control_->works() | 1u << nc::kHookBeforeInput; }

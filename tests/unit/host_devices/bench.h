@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <list>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -43,7 +44,15 @@ public:
   void end() {
     plc->powerOff();
     devices.end();
+    replacements_.clear();
     plc.reset();
+  }
+  // That program takes over, at its next pass.
+  void replaceBy(const std::string& program) {
+    const Image next = adopted(others_.emplace_back(program, scenarioProgram(program)).program());
+    Replacement& replacement = replacements_.emplace_back(*plc, next);
+    replacement.allowLate();
+    EXPECT_TRUE(soon([&] { return rung_instance_replace(plc->handle(), replacement.handle()) == RUNG_OK; }));
   }
   // A millisecond, and none of it is spent.
   void step() {
@@ -75,12 +84,16 @@ public:
   }
 
 private:
-  testing::CompiledProgram compiled_; // outlives all
+  testing::CompiledProgram compiled_; // outlives all, as do the others
+  std::list<testing::CompiledProgram> others_;
   std::optional<Image> image_;
 
 public:
   host_devices::HostDevices devices;
   std::optional<Instance> plc;
+
+private:
+  std::list<Replacement> replacements_; // end before the instance
 };
 
 } // namespace rung::test

@@ -2,7 +2,6 @@
 #include "tools/sim/technol/exchange.h"
 
 #include "rtlib/host/program_info.h"
-#include "tools/sim/relocation.h"
 
 namespace rung::sim::technol {
 
@@ -30,7 +29,7 @@ void Exchange::afterInit(host::Instance& instance) {
 
 void Exchange::programChanged(host::Instance& instance) {
   if (program_ == nullptr) return; // before the first power-on
-  shared_.relocate(Relocation(*program_, instance.program()));
+  shared_.relocate(host::Relocation(*program_, instance.program()));
   program_ = &instance.program();
   ports_.locate(instance);
   afterInit(instance);

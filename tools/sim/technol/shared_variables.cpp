@@ -106,7 +106,7 @@ host::Ref extentOf(const SharedVariable& variable) {
 }
 
 // False: it is not there, or not with all of its parts.
-bool moveTo(const Relocation& relocation, SharedVariable& variable) {
+bool moveTo(const host::Relocation& relocation, SharedVariable& variable) {
   const auto place = relocation.place(extentOf(variable));
   if (!place) return false;
   for (std::optional<host::Ref>* limit : {&variable.least, &variable.most}) {
@@ -122,7 +122,7 @@ bool moveTo(const Relocation& relocation, SharedVariable& variable) {
 
 } // namespace
 
-void SharedVariables::relocate(const Relocation& relocation) {
+void SharedVariables::relocate(const host::Relocation& relocation) {
   byKey_.clear();
   uint32_t kept = 0;
   for (SharedVariable& variable : all_) {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "rtlib/host/instance.h"
+#include "rtlib/host/relocation.h"
 #include "rtlib/nc/technol/exchange.h"
-#include "tools/sim/relocation.h"
 
 namespace rung::sim::technol {
 
@@ -43,7 +43,7 @@ public:
   bool define(const rung_program& program, SharedVariable variable, bool& isNew);
 
   // In another program; those that it does not have are dropped.
-  void relocate(const Relocation& relocation);
+  void relocate(const host::Relocation& relocation);
 
   const std::vector<SharedVariable>& all() const { return all_; }
   // By a canonical identifier of a DEF_IN or DEF_OUT.

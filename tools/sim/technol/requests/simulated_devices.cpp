@@ -7,7 +7,6 @@
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "tools/devices/key_text.h"
-#include "tools/sim/relocation.h"
 
 namespace rung::sim::technol {
 
@@ -91,15 +90,7 @@ void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind, const
 void SimulatedDevices::programChanged(host::Instance& instance, const rung_program& former) {
   const CanPlaces before = std::move(canPlaces_);
   locate(instance);
-  const Relocation relocation(former, instance.program());
-  canCalls_.relocate(before, canPlaces_,
-                     [&](const nc::technol::ArgumentBytes& at) -> std::optional<nc::technol::ArgumentBytes> {
-                       host::Ref bytes = host::intRef(at.space, at.first, 8);
-                       bytes.count = at.count;
-                       const auto moved = relocation.place(bytes);
-                       if (!moved) return std::nullopt;
-                       return nc::technol::ArgumentBytes{moved->space, at.count, moved->byte};
-                     });
+  canCalls_.relocate(before, canPlaces_, host::Relocation(former, instance.program()));
 }
 
 void SimulatedDevices::locate(host::Instance& instance) {
@@ -250,8 +241,12 @@ void SimulatedDevices::tickOthers(host::Instance& instance, ModuleCells& cells, 
 void SimulatedDevices::takeLog(std::vector<std::string>& log) {
   Complaint complaint;
   while (axes_.takeComplaint(complaint) || complaints_.take(complaint)) log.push_back(complaint.text());
-  devices::DriveMessage message;
-  while (can_.control().takeMessage(message)) log.push_back(devices::textOf(message));
+  devices::DriveMessage ofDrive;
+  while (can_.control().takeMessage(ofDrive)) log.push_back(devices::textOf(ofDrive));
+  devices::UnitMessage ofUnit;
+  while (can_.control().takeMessage(ofUnit)) log.push_back(devices::textOf(ofUnit));
+  EndedOrder ended;
+  while (canCalls_.takeEnded(ended)) log.push_back(textOf(ended));
 }
 
 } // namespace rung::sim::technol

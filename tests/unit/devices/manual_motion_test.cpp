@@ -382,7 +382,7 @@ TEST(ManualMotion, LeavesAxesOfOthersAlone) {
   EXPECT_EQ(machine.axes.measured(1), 0);
   EXPECT_GT(machine.axes.measured(2), 0);
   machine.axes.posInit(2, 0, true); // manual motion has it
-  EXPECT_EQ(machine.axes.posControl(2, 0, true).status, kUnitError);
+  EXPECT_EQ(machine.axes.posControl(2, 0, true).status, rung::devices::kUnitError);
 }
 
 } // namespace

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <random>
 
-#include "tools/sim/technol/devices/motion.h"
+#include "tools/devices/axes/motion.h"
 
 namespace {
 
-using rung::sim::technol::Motion;
+using rung::devices::Motion;
 
 int ticksToStand(Motion& motion) {
   int ticks = 0;

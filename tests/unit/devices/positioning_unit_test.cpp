@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace rung::sim::technol;
+using namespace rung::devices;
 using rung::test::AxesMachine;
 
 constexpr uint32_t mmPerMin(double speed) { return static_cast<uint32_t>(speed * 65536); }

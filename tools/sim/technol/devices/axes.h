@@ -11,13 +11,16 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/devices/axes/positioning_unit.h"
 #include "tools/sim/technol/devices/manual_motion.h"
-#include "tools/sim/technol/devices/positioning_unit.h"
 #include "tools/sim/technol/devices/reference.h"
 #include "tools/sim/technol/devices/spindle_positioning.h"
 #include "tools/sim/technol/devices/spindles.h"
 
 namespace rung::sim::technol {
+
+using devices::kLastSpace;
+using devices::PositioningUnits;
 
 class Axes {
 public:

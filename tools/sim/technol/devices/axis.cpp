@@ -24,9 +24,8 @@ void Axis::setPhysical(double place) {
 }
 
 void Axis::letGo(double acceleration) {
-  mover = Mover::None;
   forgetPulse();
-  motion.stop(acceleration);
+  leave(acceleration);
 }
 
 void Axis::tick() {

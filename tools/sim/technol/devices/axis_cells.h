@@ -6,22 +6,21 @@
 #include <string>
 #include <string_view>
 
+#include "tools/devices/axes/axis_permits.h"
 #include "tools/sim/technol/devices/axis.h"
 
 namespace rung::sim::technol {
 
-using AxisMask = uint16_t;
-
-constexpr bool has(AxisMask mask, uint32_t index) { return (mask >> index & 1) != 0; }
-constexpr AxisMask bitOf(uint32_t index) { return static_cast<AxisMask>(1u << index); }
-constexpr void clearBit(AxisMask& mask, uint32_t index) { mask = static_cast<AxisMask>(mask & ~bitOf(index)); }
-constexpr void setBit(AxisMask& mask, uint32_t index) { mask = static_cast<AxisMask>(mask | bitOf(index)); }
+using devices::AxisMask;
+using devices::bitOf;
+using devices::clearBit;
+using devices::has;
+using devices::Hold;
+using devices::setBit;
 
 // Only read. What is not said otherwise is as after MODULE_INIT.
-struct AxisInputs {
-  AxisMask enabled = 0xFFFF;                        // MPxPI l.6177
+struct AxisInputs : devices::AxisPermits {
   AxisMask manualEnabled = 0;                       // MPxMAN l.6216
-  AxisMask limitPlus = 0, limitMinus = 0;           // KHx0, KHx1 l.6674
   AxisMask refSwitch = 0, reverseSwitch = 0;        // KRx, KRRx l.6668
   AxisMask slowSwitch = 0;                          // ZPRx
   AxisMask servoSwitch = 0;                         // REF_SERV_n, servo n is that of axis n
@@ -93,17 +92,6 @@ struct AxisOutputs {
 };
 
 enum class Stop : uint8_t { None, Normal, Emergency };
-
-// What keeps an axis from moving in a direction.
-enum class Hold : uint8_t { None, Disabled, Limit };
-
-constexpr bool atLimit(const AxisInputs& in, uint32_t index, bool negative) {
-  return has(negative ? in.limitMinus : in.limitPlus, index);
-}
-constexpr Hold holdOf(const AxisInputs& in, uint32_t index, bool negative, AxisMask enabled) {
-  if (atLimit(in, index, negative)) return Hold::Limit;
-  return has(enabled, index) ? Hold::None : Hold::Disabled;
-}
 
 // What the log is to say: `ANALOG: axis 17`.
 struct Complaint {

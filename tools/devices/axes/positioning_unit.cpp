@@ -1,9 +1,9 @@
 // Positioning units (see positioning_unit.h).
-#include "tools/sim/technol/devices/positioning_unit.h"
+#include "tools/devices/axes/positioning_unit.h"
 
 #include <algorithm>
 
-namespace rung::sim::technol {
+namespace rung::devices {
 
 const PositioningUnits::Unit* PositioningUnits::find(uint32_t number) const {
   const auto* const found = std::ranges::find(units_, number, &Unit::axis);
@@ -16,7 +16,7 @@ PositioningUnits::Unit* PositioningUnits::unitFor(uint32_t number) {
   return own != nullptr ? own : find(0);
 }
 
-void PositioningUnits::init(Axis& axis, uint32_t number, bool allowed) {
+void PositioningUnits::init(DrivenAxis& axis, uint32_t number, bool allowed) {
   Unit* const unit = allowed ? unitFor(number) : nullptr;
   if (unit == nullptr) return fail(number);
   clearBit(errors_, number - 1);
@@ -27,7 +27,7 @@ void PositioningUnits::init(Axis& axis, uint32_t number, bool allowed) {
   axis.motion.stop(acceleration);
 }
 
-PositioningUnits::Mode PositioningUnits::program(const Axis& axis, uint32_t number, int32_t length,
+PositioningUnits::Mode PositioningUnits::program(const DrivenAxis& axis, uint32_t number, int32_t length,
                                                  uint16_t acceleration) {
   Unit* const unit = find(number);
   const bool moving = unit != nullptr && unit->underWay() && (unit->started || !axis.motion.standing());
@@ -42,7 +42,7 @@ PositioningUnits::Mode PositioningUnits::program(const Axis& axis, uint32_t numb
   return {.accepted = true, .control = controlOf(*unit)};
 }
 
-PositioningUnits::State PositioningUnits::control(const Axis& axis, uint32_t number, uint32_t feed, bool mp) {
+PositioningUnits::State PositioningUnits::control(const DrivenAxis& axis, uint32_t number, uint32_t feed, bool mp) {
   Unit* const unit = find(number);
   if (unit == nullptr) return {.status = statusOf(axis, number)};
   unit->feed = feed / 65536. / 60;
@@ -50,14 +50,14 @@ PositioningUnits::State PositioningUnits::control(const Axis& axis, uint32_t num
   return {.status = statusOf(axis, number), .programmed = unit->programmed, .control = controlOf(*unit)};
 }
 
-void PositioningUnits::release(Axis& axis, uint32_t number) {
+void PositioningUnits::release(DrivenAxis& axis, uint32_t number) {
   Unit* const unit = find(number);
   if (unit == nullptr) return;
-  axis.letGo(unit->acceleration);
+  axis.leave(unit->acceleration);
   *unit = {};
 }
 
-void PositioningUnits::lose(Axis& axis, uint32_t number) {
+void PositioningUnits::lose(DrivenAxis& axis, uint32_t number) {
   if (!holds(number)) return;
   release(axis, number);
   fail(number);
@@ -76,7 +76,7 @@ uint8_t PositioningUnits::controlOf(const Unit& unit) {
   return static_cast<uint8_t>(mp | (unit.initiated ? kControlContinue : kControlInit));
 }
 
-uint16_t PositioningUnits::statusOf(const Axis& axis, uint32_t number) const {
+uint16_t PositioningUnits::statusOf(const DrivenAxis& axis, uint32_t number) const {
   uint32_t status = has(errors_, number - 1) ? kUnitError : 0;
   const Unit* const unit = find(number);
   if (unit == nullptr) return static_cast<uint16_t>(status);
@@ -88,7 +88,7 @@ uint16_t PositioningUnits::statusOf(const Axis& axis, uint32_t number) const {
   return static_cast<uint16_t>(status);
 }
 
-void PositioningUnits::drive(Axis& axis, uint32_t number, const AxisInputs& in) {
+void PositioningUnits::drive(DrivenAxis& axis, uint32_t number, const AxisPermits& in) {
   Unit* const unit = find(number);
   if (unit == nullptr) return;
   if (unit->braking && axis.motion.standing()) unit->braking = false;
@@ -96,7 +96,7 @@ void PositioningUnits::drive(Axis& axis, uint32_t number, const AxisInputs& in) 
   if (!unit->underWay() && axis.motion.standing()) axis.requested = false;
 }
 
-void PositioningUnits::follow(Unit& unit, Axis& axis, uint32_t index, const AxisInputs& in) {
+void PositioningUnits::follow(Unit& unit, DrivenAxis& axis, uint32_t index, const AxisPermits& in) {
   if (!unit.placed) unit.target = axis.motion.position() + unit.length;
   unit.placed = unit.initiated = true;
   const bool wanted = unit.mp && unit.feed > 0;
@@ -111,7 +111,7 @@ void PositioningUnits::follow(Unit& unit, Axis& axis, uint32_t index, const Axis
   axis.requested = wanted || !axis.motion.standing();
 }
 
-void PositioningUnits::look(Axis& axis, uint32_t number) {
+void PositioningUnits::look(DrivenAxis& axis, uint32_t number) {
   Unit* const unit = find(number);
   if (unit == nullptr || !unit->underWay() || !unit->placed) return;
   if (axis.motion.speed() != 0) unit->started = true;
@@ -120,4 +120,4 @@ void PositioningUnits::look(Axis& axis, uint32_t number) {
   axis.requested = false;
 }
 
-} // namespace rung::sim::technol
+} // namespace rung::devices

@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <utility>
 
-#include "tools/sim/technol/devices/axis_cells.h"
+#include "tools/devices/axes/axis_permits.h"
+#include "tools/devices/axes/driven_axis.h"
 
-namespace rung::sim::technol {
+namespace rung::devices {
 
 inline constexpr int64_t kLastSpace = 6; // of the transformations, from 0 (l.12166)
 
@@ -35,21 +36,21 @@ public:
 
   void reset() { *this = PositioningUnits(); }
   // `allowed`: the axis exists, its position loop is closed and nobody else moves it.
-  void init(Axis& axis, uint32_t number, bool allowed);
+  void init(DrivenAxis& axis, uint32_t number, bool allowed);
   // Distance in µm (1/1000 °), acceleration in mm/s² (l.12224-12238).
-  Mode program(const Axis& axis, uint32_t number, int32_t length, uint16_t acceleration);
+  Mode program(const DrivenAxis& axis, uint32_t number, int32_t length, uint16_t acceleration);
   // Speed in 1/65536 mm/min (l.12258).
-  State control(const Axis& axis, uint32_t number, uint32_t feed, bool mp);
-  void release(Axis& axis, uint32_t number);
+  State control(const DrivenAxis& axis, uint32_t number, uint32_t feed, bool mp);
+  void release(DrivenAxis& axis, uint32_t number);
   // The axis became a spindle.
-  void lose(Axis& axis, uint32_t number);
+  void lose(DrivenAxis& axis, uint32_t number);
   void fail(uint32_t number) { setBit(errors_, number - 1); }
   bool holds(uint32_t number) const { return find(number) != nullptr; }
   // Fault, HALT: they brake.
   void brakeAll();
 
-  void drive(Axis& axis, uint32_t number, const AxisInputs& in);
-  void look(Axis& axis, uint32_t number);
+  void drive(DrivenAxis& axis, uint32_t number, const AxisPermits& in);
+  void look(DrivenAxis& axis, uint32_t number);
 
 private:
   struct Unit {
@@ -68,12 +69,12 @@ private:
   const Unit* find(uint32_t number) const;
   Unit* find(uint32_t number) { return const_cast<Unit*>(std::as_const(*this).find(number)); }
   Unit* unitFor(uint32_t number);
-  static void follow(Unit& unit, Axis& axis, uint32_t index, const AxisInputs& in);
+  static void follow(Unit& unit, DrivenAxis& axis, uint32_t index, const AxisPermits& in);
   static uint8_t controlOf(const Unit& unit);
-  uint16_t statusOf(const Axis& axis, uint32_t number) const;
+  uint16_t statusOf(const DrivenAxis& axis, uint32_t number) const;
 
   std::array<Unit, kUnits> units_ = {};
   AxisMask errors_ = 0; // ERR, until a POS_INIT succeeds
 };
 
-} // namespace rung::sim::technol
+} // namespace rung::devices

@@ -1,4 +1,6 @@
-// Attributes of an axis by name (see axis.h).
+// Attributes of an axis by name (see axis_attributes.h).
+#include "tools/devices/axes/axis_attributes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -6,9 +8,8 @@
 
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
-#include "tools/sim/technol/devices/axis.h"
 
-namespace rung::sim::technol {
+namespace rung::devices {
 namespace {
 
 enum class Takes : uint8_t { Any, Positive, NotNegative, Whole };
@@ -95,4 +96,4 @@ std::string AxisAttributes::set(std::string_view name, std::string_view value) {
   return {};
 }
 
-} // namespace rung::sim::technol
+} // namespace rung::devices

@@ -1,11 +1,11 @@
 // Trapezoids (see motion.h).
-#include "tools/sim/technol/devices/motion.h"
+#include "tools/devices/axes/motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace rung::sim::technol {
+namespace rung::devices {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
@@ -127,4 +127,4 @@ void Motion::tick() {
   speed_ = now.speed + now.acceleration * t;
 }
 
-} // namespace rung::sim::technol
+} // namespace rung::devices

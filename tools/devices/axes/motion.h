@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace rung::sim::technol {
+namespace rung::devices {
 
 class Motion {
 public:
@@ -66,4 +66,4 @@ private:
   double time_ = 0, duration_ = 0;
 };
 
-} // namespace rung::sim::technol
+} // namespace rung::devices

@@ -15,6 +15,7 @@ struct DrivenAxis {
   Mover mover = Mover::None;
   bool requested = false; // PO_OSxPI: a motion is wanted, also where it is not allowed (l.6243-6250)
   bool negative = false;  // SM_POxPI: direction of that motion
+  bool settled = true;    // what moves is where `motion` has it, within what the configuration allows
 
   void request(bool inNegative) {
     requested = true;

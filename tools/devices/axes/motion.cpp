@@ -8,6 +8,7 @@
 namespace rung::devices {
 namespace {
 
+constexpr double kNsInSecond = 1e9;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 // What differs by less is equal: a nanometre and a nanosecond are far above what rounding does, far below what counts.
 constexpr double kEqual = 1e-9;
@@ -30,7 +31,7 @@ bool Motion::isNew(const Order& order) {
   if (order == order_) return false;
   order_ = order;
   count_ = phase_ = 0;
-  ticks_ = 0;
+  ns_ = 0;
   time_ = 0;
   last_ = {.begin = 0, .position = position_, .speed = speed_, .acceleration = 0};
   return true;
@@ -111,9 +112,10 @@ void Motion::runPast(double position, double speed, double acceleration) {
   end(standstill, 0);
 }
 
-void Motion::tick() {
+void Motion::advance(int64_t ns) {
   if (time_ >= duration_) return;
-  time_ = static_cast<double>(++ticks_) * kTickSeconds;
+  ns_ += ns;
+  time_ = static_cast<double>(ns_) / kNsInSecond;
   if (time_ >= duration_ - kEqual) {
     time_ = duration_;
     position_ = last_.position;

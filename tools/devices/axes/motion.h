@@ -1,5 +1,5 @@
 // The motion of one axis along an ideal trapezoid: ramps of constant acceleration and runs of constant speed. A motion
-// is planned once, as phases that follow each other, and looked at every millisecond by closed formulas, so nothing
+// is planned once, as phases that follow each other, and looked at in each step of time by closed formulas, so nothing
 // accumulates and the end is exact. Lengths in mm (degrees), times in seconds.
 #pragma once
 #include <array>
@@ -9,7 +9,7 @@ namespace rung::devices {
 
 class Motion {
 public:
-  static constexpr double kTickSeconds = 0.001;
+  static constexpr int64_t kTickNs = 1'000'000;
 
   double position() const { return position_; }
   double speed() const { return speed_; } // per second, signed
@@ -34,8 +34,10 @@ public:
   // Where it would begin to move in the direction of the signed speed, and no faster.
   double inRange(double speed, double acceleration) const;
 
+  // So much time passes, at least 0.
+  void advance(int64_t ns);
   // A millisecond.
-  void tick();
+  void tick() { advance(kTickNs); }
 
 private:
   enum class Kind : uint8_t { None, Run, To, Past };
@@ -61,8 +63,8 @@ private:
   Order order_;
   std::array<Phase, kPhases> phases_ = {};
   uint32_t count_ = 0, phase_ = 0;
-  Phase last_; // where planning has got to, then the end
-  uint64_t ticks_ = 0;
+  Phase last_;     // where planning has got to, then the end
+  int64_t ns_ = 0; // since it was planned
   double time_ = 0, duration_ = 0;
 };
 

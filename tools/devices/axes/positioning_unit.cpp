@@ -115,7 +115,7 @@ void PositioningUnits::look(DrivenAxis& axis, uint32_t number) {
   Unit* const unit = find(number);
   if (unit == nullptr || !unit->underWay() || !unit->placed) return;
   if (axis.motion.speed() != 0) unit->started = true;
-  if (!axis.motion.standsAt(unit->target)) return;
+  if (!axis.motion.standsAt(unit->target) || !axis.settled) return;
   unit->arrived = true;
   axis.requested = false;
 }

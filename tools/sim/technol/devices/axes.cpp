@@ -75,9 +75,7 @@ void Axes::show(AxisOutputs& out) const {
     out.speed[i] = axis.motion.speed() * 60;
     out.shiftSpeed[i] = axis.shift.speed() * 60;
     out.position[i] = axis.measured();
-    out.positionEx[i] = std::llround(axis.measured() * 1000 * 65536);
-    if (i < out.positionShort.size())
-      out.positionShort[i] = static_cast<int32_t>(std::llround(axis.measured() * 8000)); // wraps as the cell does
+    out.place(i, axis.measured());
   }
   out.reference = reference_.ownUnderWay();
   manual_.show(existing(), out);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "tools/devices/axes/axis_permits.h"
+#include "tools/devices/axes/axis_report.h"
 #include "tools/sim/technol/devices/axis.h"
 
 namespace rung::sim::technol {
@@ -69,9 +70,7 @@ struct AxisRequests {
 };
 
 // Only written, all of them for axes that exist.
-struct AxisOutputs {
-  AxisMask motion = 0;                             // PO_OSxPI
-  AxisMask negative = 0;                           // SM_POxPI
+struct AxisOutputs : devices::AxisReport {
   bool inPosition = true;                          // INPOS: nothing moves but spindles
   bool reference = false;                          // REFPI
   bool manual = false;                             // ACK_AUTMAN
@@ -87,8 +86,6 @@ struct AxisOutputs {
   std::array<double, kMaxAxes> speed = {};         // mm/min, signed: RTM.Axis.Inc_Ax, without what SHIFT adds
   std::array<double, kMaxAxes> shiftSpeed = {};    // mm/min: what it adds
   AxisMask movedByHand = 0;                        // their speed is that of manual motion
-  std::array<int64_t, kMaxAxes> positionEx = {};   // B_POL_EX, POSITION_POSk_EX (k < 6): 1/65536 µm
-  std::array<int32_t, 6> positionShort = {};       // B_POL: 1/8 µm
 };
 
 enum class Stop : uint8_t { None, Normal, Emergency };

@@ -16,11 +16,10 @@ struct Cell {
 
 // Bits of each axis.
 constexpr Cell<AxisInputs, AxisMask> kInputMasks[] = {
-    {"MP#PI", &AxisInputs::enabled},       {"MP#MAN", &AxisInputs::manualEnabled},
-    {"KH#0", &AxisInputs::limitPlus},      {"KH#1", &AxisInputs::limitMinus},
-    {"KR#", &AxisInputs::refSwitch},       {"KRR#", &AxisInputs::reverseSwitch},
-    {"ZPR#", &AxisInputs::slowSwitch},     {"REF_SERV_%", &AxisInputs::servoSwitch},
-    {"EXM_#0", &AxisInputs::externalPlus}, {"EXM_#1", &AxisInputs::externalMinus}};
+    {"MP#MAN", &AxisInputs::manualEnabled},   {"KR#", &AxisInputs::refSwitch},
+    {"KRR#", &AxisInputs::reverseSwitch},     {"ZPR#", &AxisInputs::slowSwitch},
+    {"REF_SERV_%", &AxisInputs::servoSwitch}, {"EXM_#0", &AxisInputs::externalPlus},
+    {"EXM_#1", &AxisInputs::externalMinus}};
 constexpr Cell<AxisOutputs, AxisMask> kOutputMasks[] = {{"MM_#0", &AxisOutputs::manualPlus},
                                                         {"MM_#1", &AxisOutputs::manualMinus}};
 constexpr Cell<AxisInputs, bool> kInputFlags[] = {{"PO_F", &AxisInputs::block},
@@ -64,36 +63,18 @@ constexpr Cell<AxisOutputs, bool> kOutputFlags[] = {{"INPOS", &AxisOutputs::inPo
 using nc::technol::locateElements;
 using nc::technol::locateSignal;
 
-std::array<rt::Place, kMaxAxes> bitsOf(const rung_program& program, std::string_view pattern) {
-  std::array<rt::Place, kMaxAxes> places;
-  for (uint32_t axis = 1; axis <= kMaxAxes; ++axis) places[axis - 1] = locateSignal(program, nameOfAxis(pattern, axis));
-  return places;
-}
-
 } // namespace
 
-std::string nameOfAxis(std::string_view pattern, uint32_t axis) {
-  constexpr const char* kLetters[] = {"X", "Y", "Z"};
-  const size_t at = pattern.find_first_of("#%");
-  const bool letter = pattern[at] == '#' && axis <= 3;
-  return std::string(pattern.substr(0, at)) + (letter ? kLetters[axis - 1] : std::to_string(axis)) +
-         std::string(pattern.substr(at + 1));
-}
-
-AxisPlaces::AxisPlaces(const rung_program& program) {
+AxisPlaces::AxisPlaces(const rung_program& program) : cells_(program), positioning_(program, "POLOHV_#") {
   const auto names = [&](auto& places, const auto& cells) {
     for (const auto& cell : cells) places.push_back(locateSignal(program, cell.name));
   };
-  for (const auto& cell : kInputMasks) inputMasks_.push_back(bitsOf(program, cell.name));
-  for (const auto& cell : kOutputMasks) outputMasks_.push_back(bitsOf(program, cell.name));
+  for (const auto& cell : kInputMasks) inputMasks_.emplace_back(program, cell.name);
+  for (const auto& cell : kOutputMasks) outputMasks_.emplace_back(program, cell.name);
   names(inputFlags_, kInputFlags);
   names(outputFlags_, kOutputFlags);
   names(requestFlags_, kRequestFlags);
   names(requestMasks_, kRequestMasks);
-  loop_ = bitsOf(program, "VAZBA_#");
-  positioning_ = bitsOf(program, "POLOHV_#");
-  motion_ = bitsOf(program, "PO_OS#PI");
-  direction_ = bitsOf(program, "SM_PO#PI");
   // BZH09 and BZH10 are one word (man. l.6530).
   if (const auto word = nc::technol::signalPlace(program, "BZH09"))
     feedOverride_ = host::locate({program, nullptr}, host::intRef(word->space, word->byte, 16));
@@ -105,32 +86,16 @@ AxisPlaces::AxisPlaces(const rung_program& program) {
   knobStep_ = locateSignal(program, "KNOB_STEP");
   locateElements(program, "REFPOINT_DIST", refpointDist_);
   locateElements(program, "SERVO_POSITION", servoPosition_);
-  locateElements(program, "B_POL_EX", positionEx_);
-  locateElements(program, "B_POL", positionShort_);
-  locateElements(program, "B_INK_EX", incrementEx_);
-  locateElements(program, "B_INK", incrementShort_);
   locateElements(program, "SHIFT_x", shift_);
   locateElements(program, "SU_OUT_PLC", output_);
   for (uint32_t i = 0; i < kMaxAxes; ++i) knobSelected_[i] = locateSignal(program, "KnobSelAx" + std::to_string(i));
-  for (uint32_t space = 1; space <= positionOfSpaces_.size(); ++space)
-    locateElements(program, "POSITION_POS" + std::to_string(space) + "_EX", positionOfSpaces_[space - 1]);
-}
-
-AxisMask AxisPlaces::maskOf(const rt::Memory& memory, const Bits& bits) {
-  AxisMask mask = 0;
-  for (uint32_t i = 0; i < kMaxAxes; ++i)
-    if (memory.read(bits[i]) != 0) setBit(mask, i);
-  return mask;
-}
-
-void AxisPlaces::putMask(const rt::Memory& memory, const Bits& bits, uint32_t count, AxisMask mask) {
-  for (uint32_t i = 0; i < count; ++i) memory.write(bits[i], has(mask, i) ? 1 : 0);
 }
 
 void AxisPlaces::read(const rt::Memory& memory, AxisInputs& in, AxisRequests& requests) const {
-  for (size_t i = 0; i < inputMasks_.size(); ++i) in.*kInputMasks[i].member = maskOf(memory, inputMasks_[i]);
+  cells_.read(memory, in);
+  for (size_t i = 0; i < inputMasks_.size(); ++i) in.*kInputMasks[i].member = inputMasks_[i].read(memory);
   for (size_t i = 0; i < inputFlags_.size(); ++i) in.*kInputFlags[i].member = memory.read(inputFlags_[i]) != 0;
-  in.blockMotion = static_cast<AxisMask>(in.blockMotion & motion(memory));
+  in.blockMotion = static_cast<AxisMask>(in.blockMotion & cells_.motions().read(memory));
   in.feedOverride = static_cast<uint16_t>(memory.read(feedOverride_));
   in.feedMultiplier = static_cast<uint16_t>(memory.read(feedMultiplier_));
   in.feed = static_cast<uint16_t>(memory.read(feed_));
@@ -140,7 +105,7 @@ void AxisPlaces::read(const rt::Memory& memory, AxisInputs& in, AxisRequests& re
     in.refpointDist[i] = memory.readSigned(refpointDist_[i]);
     in.servoPosition[i] = static_cast<int32_t>(memory.readSigned(servoPosition_[i]));
   }
-  requests.positioning = maskOf(memory, positioning_);
+  requests.positioning = positioning_.read(memory);
   for (size_t i = 0; i < requestMasks_.size(); ++i)
     requests.*kRequestMasks[i].member = static_cast<AxisMask>(memory.read(requestMasks_[i]));
   for (size_t i = 0; i < requestFlags_.size(); ++i)
@@ -148,30 +113,20 @@ void AxisPlaces::read(const rt::Memory& memory, AxisInputs& in, AxisRequests& re
   requests.knobStep = static_cast<uint16_t>(memory.read(knobStep_));
 }
 
-void AxisPlaces::write(const rt::Memory& memory, uint32_t count, AxisMask blockMotion, const AxisRequests& requests,
+void AxisPlaces::write(const rt::Memory& memory, uint32_t count, const AxisRequests& requests,
                        const AxisOutputs& out) const {
-  for (size_t i = 0; i < outputMasks_.size(); ++i) putMask(memory, outputMasks_[i], count, out.*kOutputMasks[i].member);
+  const auto all = static_cast<AxisMask>((1u << count) - 1);
+  cells_.write(memory, all, out);
+  for (size_t i = 0; i < outputMasks_.size(); ++i) outputMasks_[i].write(memory, all, out.*kOutputMasks[i].member);
   for (size_t i = 0; i < outputFlags_.size(); ++i) memory.write(outputFlags_[i], out.*kOutputFlags[i].member ? 1 : 0);
-  putMask(memory, motion_, count, static_cast<AxisMask>(out.motion | blockMotion));
-  putMask(memory, direction_, count, out.negative);
-  putMask(memory, positioning_, kMaxAxes, requests.positioning);
+  positioning_.write(memory, ~AxisMask{0}, requests.positioning);
   for (size_t i = 0; i < requestMasks_.size(); ++i) memory.write(requestMasks_[i], requests.*kRequestMasks[i].member);
   for (size_t i = 0; i < requestFlags_.size(); ++i)
     memory.write(requestFlags_[i], requests.*kRequestFlags[i].member ? 1 : 0);
   memory.write(knobStep_, requests.knobStep);
   memory.write(shiftControl_, out.shiftControl);
   for (uint32_t i = 0; i < shift_.size(); ++i) memory.write(shift_[i], static_cast<uint64_t>(out.shift[i]));
-  // A position is the sum of both buffers (l.5988); all of it is in B_POL.
-  for (uint32_t i = 0; i < positionShort_.size() && i < count; ++i) {
-    memory.write(positionShort_[i], static_cast<uint64_t>(out.positionShort[i]));
-    memory.write(incrementShort_[i], 0);
-  }
-  for (uint32_t i = 0; i < count; ++i) {
-    memory.write(positionEx_[i], static_cast<uint64_t>(out.positionEx[i]));
-    memory.write(incrementEx_[i], 0);
-    memory.write(knobSelected_[i], out.knobSelected[i]);
-    for (const auto& places : positionOfSpaces_) memory.write(places[i], static_cast<uint64_t>(out.positionEx[i]));
-  }
+  for (uint32_t i = 0; i < count; ++i) memory.write(knobSelected_[i], out.knobSelected[i]);
 }
 
 void AxisPlaces::zeroOutputs(const rt::Memory& memory) const {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tools/device-requests/analog_requests.h"
+#include "tools/device-requests/position_requests.h"
 
 namespace rung::sim::technol {
 
@@ -11,10 +12,10 @@ using device_requests::AxisOrder, device_requests::DeviceCall;
 
 namespace {
 
-// The axes' side of analogue outputs.
-class Outputs final : public device_requests::AnalogTarget {
+// The axes' side of analogue outputs and of positioning units.
+class Target final : public device_requests::AnalogTarget, public device_requests::PositionTarget {
 public:
-  explicit Outputs(Axes& axes) : axes_(axes) {}
+  explicit Target(Axes& axes) : axes_(axes) {}
   void analogPort(int64_t port) override { axes_.analogPort(port); }
   AnalogOutput analog(int64_t value) override { return axes_.analog(value); }
   AnalogOutput analogOnSpindle(int64_t value, int64_t axis, int64_t spi) override {
@@ -23,6 +24,14 @@ public:
   AnalogOutput analogSpi(int64_t value, int64_t axis) override { return axes_.analogSpi(value, axis); }
   AnalogOutput axSpi(int64_t axis, SpindleRole role) override { return axes_.axSpi(axis, role); }
   void spiMain(int64_t axis) override { axes_.spiMain(axis); }
+  void posInit(int64_t axis, int64_t space, bool loopClosed) override { axes_.posInit(axis, space, loopClosed); }
+  PositioningUnits::Mode posMode(int64_t axis, int32_t length, uint16_t acceleration) override {
+    return axes_.posMode(axis, length, acceleration);
+  }
+  PositioningUnits::State posControl(int64_t axis, uint32_t feed, bool mp) override {
+    return axes_.posControl(axis, feed, mp);
+  }
+  void posReset(int64_t axis) override { axes_.posReset(axis); }
 
 private:
   Axes& axes_;
@@ -36,45 +45,15 @@ void toAxis(Axes& axes, DeviceCall& call) {
     call.refuse();
 }
 
-void control(Axes& axes, DeviceCall& call) {
-  const PositioningUnits::State state =
-      axes.posControl(call.arg(2), static_cast<uint32_t>(call.arg(0)), call.arg(1) != 0);
-  call.set(0, state.status);
-  call.set(1, state.programmed ? state.control : nc::technol::kNotGiven);
-}
-
-void mode(Axes& axes, DeviceCall& call) {
-  const PositioningUnits::Mode mode =
-      axes.posMode(call.arg(2), static_cast<int32_t>(call.arg(0)), static_cast<uint16_t>(call.arg(1)));
-  call.set(0, mode.accepted ? mode.control : nc::technol::kNotGiven);
-}
-
-void position(Axes& axes, const AxisPlaces& places, AxisOrder order, DeviceCall& call) {
-  switch (order) {
-  case AxisOrder::PositionInit: {
-    const int64_t axis = call.arg(0);
-    const bool known = axis >= 1 && axis <= kMaxAxes;
-    const bool closed = known && places.isLoopClosed(call.memory(), static_cast<uint32_t>(axis));
-    return axes.posInit(axis, call.argOr(1, 0), closed);
-  }
-  case AxisOrder::PositionReset: return axes.posReset(call.arg(0));
-  case AxisOrder::PositionMode: return mode(axes, call);
-  default: return control(axes, call);
-  }
-}
-
 } // namespace
 
 void answerAxis(Axes& axes, const AxisPlaces& places, AxisOrder order, DeviceCall& call) {
-  Outputs outputs(axes);
-  if (device_requests::answerAnalog(outputs, order, call)) return;
+  Target target(axes);
+  if (device_requests::answerAnalog(target, order, call)) return;
+  if (device_requests::answerPosition(target, places.cells(), order, call)) return;
   switch (order) {
   case AxisOrder::None: return;
   case AxisOrder::ToAxis: return toAxis(axes, call);
-  case AxisOrder::PositionInit:
-  case AxisOrder::PositionReset:
-  case AxisOrder::PositionMode:
-  case AxisOrder::PositionControl: return position(axes, places, order, call);
   default:
     return axes.regul(static_cast<int64_t>(order) - static_cast<int64_t>(AxisOrder::RegulatorX) + 1, call.arg(0));
   }

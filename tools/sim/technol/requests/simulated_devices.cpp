@@ -176,7 +176,7 @@ void SimulatedDevices::fault(host::Instance& instance) {
 void SimulatedDevices::blockStarted(host::Instance& instance) {
   if (!simulated_) return;
   const int own = axisOutputs_.motion & ~axisInputs_.blockMotion;
-  axisInputs_.blockMotion = static_cast<AxisMask>(axisPlaces_.motion(instance.memory()) & ~own);
+  axisInputs_.blockMotion = static_cast<AxisMask>(axisPlaces_.cells().motions().read(instance.memory()) & ~own);
 }
 
 // ---- time ----------------------------------------------------------------------------------------------------------
@@ -212,7 +212,7 @@ void SimulatedDevices::tickAxes(host::Instance& instance, uint32_t ticks) {
   axisPlaces_.read(memory, axisInputs_, axisRequests_);
   for (uint32_t i = 0; i < ticks; ++i) axes_.tick(axisInputs_, axisRequests_);
   axes_.show(axisOutputs_);
-  axisPlaces_.write(memory, axes_.count(), axisInputs_.blockMotion, axisRequests_, axisOutputs_);
+  axisPlaces_.write(memory, axes_.count(), axisRequests_, axisOutputs_);
 }
 
 void SimulatedDevices::tickOthers(host::Instance& instance, ModuleCells& cells, uint32_t ticks) {

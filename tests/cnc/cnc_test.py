@@ -148,10 +148,12 @@ def session(bench, options):
 
 
 def start_machine(bench):
-    bench.run("linuxcnc", "-r", str(bench.home / "machine.ini"))
+    """What LinuxCNC has printed meanwhile."""
+    output = bench.run("linuxcnc", "-r", str(bench.home / "machine.ini")).stdout
     result = bench.home / "result.txt"
     expect(result.exists(), "LinuxCNC did not start the driver")
     expect(result.read_text(encoding="utf-8") == "passed", result.read_text(encoding="utf-8"))
+    return output
 
 
 PROGRAM_AXIS = """
@@ -169,23 +171,37 @@ HOME_SEQUENCE = 0
 """
 
 
-def services(bench, options):
-    """What a program asks of its CNC: LinuxCNC moves an axis for it, and gives and takes data."""
-    bench.program(HERE / "services.pmc")
-    bench.copy(HERE / "services.map", "program.map")
-    ini = (HERE / "machine.ini").read_text(encoding="utf-8") + PROGRAM_AXIS
+def prepare_extra_joint(bench, options, program, joint):
+    """A machine with a fourth joint, and the files that have the name of the program."""
+    name = Path(program).stem
+    bench.program(HERE / program)
+    bench.copy(HERE / f"{name}.map", "program.map")
+    ini = (HERE / "machine.ini").read_text(encoding="utf-8") + joint
     for old, new in (("JOINTS = 3", "JOINTS = 4"), ("coordinates=XYZ", "coordinates=XYZ kinstype=BOTH"),
-                     ("./drive.py", "./services.py")):
+                     ("./drive.py", f"./{name}.py")):
         expect(ini.count(old) == 1, f"{old} is not once in machine.ini")
         ini = ini.replace(old, new)
     bench.file("machine.ini", ini)
-    bench.copy(HERE / "services.hal", "machine.hal")
-    for name in ("tool.tbl", "drive.py", "services.py"):
-        bench.copy(HERE / name)
+    bench.copy(HERE / f"{name}.hal", "machine.hal")
+    for file in ("tool.tbl", "drive.py", f"{name}.py"):
+        bench.copy(HERE / file)
     tools = HERE.parents[1] / "tools/rung-hal"
     for tool in (Path(options.rungc).parent / "rungctl", tools / "rung-operator", tools / "rung-services"):
         shutil.copy(tool, bench.home)
+
+
+def services(bench, options):
+    """What a program asks of its CNC: LinuxCNC moves an axis for it, and gives and takes data."""
+    prepare_extra_joint(bench, options, "services.pmc", PROGRAM_AXIS)
     start_machine(bench)
+
+
+def axes(bench, options):
+    """The positioning unit of a TECHNOL program moves an extra joint, whose reference is not at 0."""
+    prepare_extra_joint(bench, options, "axes.plc", PROGRAM_AXIS.replace("HOME = 0\n", "HOME = 7\nHOME_OFFSET = 7\n"))
+    output = start_machine(bench)
+    for reason in ("POS_INIT is refused, as it has no reference", "the positioning unit has lost it, as its drive"):
+        expect(f"rung: axis 4: {reason}" in output, f"no message: {reason}")
 
 
 LOAD = """
@@ -409,7 +425,7 @@ def sources(bench, options):
 
 
 def main():
-    cases = {case.__name__: case for case in (session, services, fault, devices, sources, instances, unload, retained, mistakes)}
+    cases = {case.__name__: case for case in (session, services, axes, fault, devices, sources, instances, unload, retained, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")

@@ -62,7 +62,7 @@ DEVICES = ("tools/devices/", "tools/control-files/", "rtlib/text/", "rtlib/nc/",
 DEVICE_FOLDERS = {
     "tools/devices": DEVICES,
     "tools/device-requests": ("tools/device-requests/", *DEVICES, "rtlib/host/", "rtlib/core/"),
-    "tools/host-devices": ("tools/host-devices/", "tools/device-requests/", *DEVICES, "tools/mapping/file.h", "rtlib/host/",
+    "tools/host-devices": ("tools/host-devices/", "tools/device-requests/", *DEVICES, "tools/mapping/file.h", "tools/plc/pin_cell.h", "rtlib/host/",
                            "rtlib/core/", "rtlib/runtime/surroundings.h"),
 }
 TABLES = ("rtlib/nc/gsk/", "rtlib/nc/nct/", "rtlib/nc/technol/")  # of the dialects: for them, and for tools/services

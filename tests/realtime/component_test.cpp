@@ -238,6 +238,110 @@ TEST_F(Component, MessagesArePrintedByTheService) {
   expectNothingLeft();
 }
 
+// Axis 4 of the program is a joint of which the test is the drive: feedback is the last command.
+class AxisAtPins : public Component {
+protected:
+  void SetUp() override {
+    build("tests/scenarios/technol/device-units.plc", "axes.so");
+    write("axes.map", R"(
+[in]
+take = { type = "bit", name = "TAKE" }
+begin = { type = "bit", name = "BEGIN" }
+fail = { type = "bit", name = "FAULT" }
+[out]
+reached = { type = "bit", name = "POL" }
+error = { type = "bit", name = "ERR" }
+[const]
+AXIS = 4
+LEN = 100000
+ACC = 500
+FEED = 393216000
+ALLOW = true
+EACH = true
+[devices.axes]
+4 = { pins = "table", AccelerationEmergency = 4000 }
+)");
+    ASSERT_EQ(hal.load(path("axes.so"), path("axes.map")), 0);
+    real("position-feedback") = 5;
+    for (const char* pin : {"homed", "enabled"}) tableBit(pin) = true;
+    turn(40);
+    bit("take") = true;
+    turn(20);
+    bit("take") = false;
+    turn(20);
+    bit("begin") = true;
+    turn(20);
+    bit("begin") = false;
+  }
+  volatile double& real(const std::string& pin) { return hal.value<double>("rung.table." + pin); }
+  volatile bool& tableBit(const std::string& pin) { return hal.value<bool>("rung.table." + pin); }
+  double command() { return real("position-command"); }
+  void turn(int ms) {
+    for (int i = 0; i < ms; ++i) {
+      scan(1);
+      real("position-feedback") = command();
+    }
+  }
+};
+
+TEST_F(AxisAtPins, MovesByTheDistance) {
+  EXPECT_TRUE(tableBit("enable"));
+  turn(600);
+  const double place = command();
+  turn(10);
+  EXPECT_NEAR(command() - place, 1, 1e-6); // 100 mm/s
+  EXPECT_FALSE(bit("reached"));
+  turn(1000);
+  EXPECT_EQ(command(), 105);
+  EXPECT_TRUE(bit("reached"));
+  hal.unload();
+  expectNothingLeft();
+}
+
+TEST_F(AxisAtPins, AFaultOfTheDriveIsAnError) {
+  turn(400);
+  const double place = command();
+  tableBit("fault") = true;
+  turn(60);
+  EXPECT_NEAR(command() - place, 100. * 100 / 2 / 4000, 1e-6);
+  EXPECT_TRUE(bit("error"));
+  ASSERT_TRUE(scanUntil([&] { return !hal.lines().empty(); }));
+  EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung: axis 4: the positioning unit has lost it, as its drive has a")));
+  hal.unload();
+}
+
+// The command does not become 0, and the program begins anew when the axis stands.
+TEST_F(AxisAtPins, AFaultOfTheProgramBrakesIt) {
+  turn(400);
+  bit("fail") = true;
+  turn(20);
+  ASSERT_TRUE(bit("fault"));
+  bit("fail") = false;
+  const double place = command();
+  bit("reset") = true;
+  turn(150);
+  EXPECT_GT(command(), place + 5);
+  EXPECT_TRUE(bit("fault"));
+  ASSERT_TRUE(scanUntil([&] { return !bit("fault"); }));
+  EXPECT_NEAR(command() - place, 10, 2); // of the ramp some steps were before
+  hal.unload();
+  EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung: the program has been restarted")));
+}
+
+TEST_F(AxisAtPins, PoweredOffItHasComeToRest) {
+  turn(400);
+  const double place = command();
+  bit("power-off") = true;
+  turn(150);
+  EXPECT_FALSE(bit("powered-off"));
+  turn(150);
+  EXPECT_TRUE(bit("powered-off"));
+  EXPECT_FALSE(tableBit("enable"));
+  EXPECT_NEAR(command() - place, 10, 3); // and the last scans of the program
+  hal.unload();
+  expectNothingLeft();
+}
+
 // What it switches off answers it, as long as HAL's thread runs.
 TEST_F(Component, ThePinPowerOffIsTheRegularEnd) {
   ASSERT_EQ(hal.load(path("ending.so"), path("ending.map")), 0);

@@ -1,5 +1,5 @@
 // What a host does with real devices of a TECHNOL program in a step, while all of them are at work: a CAN bus that is a
-// socket pair, a serial port that is a pseudo terminal, tables in files, shared areas in memory.
+// socket pair, a serial port that is a pseudo terminal, tables in files, shared areas in memory, an axis.
 #include <gtest/gtest.h>
 
 #include <pty.h>
@@ -26,8 +26,10 @@ protected:
   ~DevicesInAStep() override { fs::remove_all(folder_); }
 
   std::string inFolder(const std::string& name) const { return folder_ / name; }
-  // A program of the scenarios, stepped for half a second with bits that it resets set again and again.
-  void run(const std::string& program, std::initializer_list<const char*> bits) {
+  // A program of the scenarios, stepped for half a second with bits that it resets set again and again, and values that
+  // it reads.
+  void run(const std::string& program, std::initializer_list<const char*> bits,
+           std::initializer_list<std::pair<const char*, int64_t>> values = {}) {
     const std::string object = inFolder(program + ".so");
     ASSERT_EQ(std::system((RUNG_TEST_RUNGC " build -q tests/scenarios/technol/" + program + " -o " + object).c_str()),
               0);
@@ -35,6 +37,7 @@ protected:
     Instance plc = devices_.instance(image, sized<rung_instance_options>());
     plc.powerOn(Power::Cold);
     devices_.start();
+    for (const auto& [name, value] : values) plc.write(plc.find(name, Access::Write), value);
     std::vector<rung_cell> cells;
     for (const char* bit : bits) cells.push_back(plc.find(bit, Access::Write));
     Guard guard;
@@ -82,6 +85,30 @@ TEST_F(DevicesInAStep, Tables) {
   ASSERT_EQ(devices_.configure("PlcTableDef3", "tests/scenarios/technol/tools.PlcTDef"), "");
   ASSERT_EQ(devices_.configure("PlcTable3", inFolder("tools.PlcT")), "");
   run("tables.plc", {"GO_REAL", "GO_STR", "GO_BIN", "GO_SET", "GO_COL"});
+}
+
+// An axis whose drive does what it is told.
+TEST_F(DevicesInAStep, Axes) {
+  mapping::File map;
+  map.devices.push_back({mapping::DeviceSetting::Kind::Axis, "4", "table", {}});
+  std::vector<std::string> errors;
+  devices_.set(map, errors);
+  devices_.addAxisPins(map, errors);
+  ASSERT_TRUE(errors.empty());
+  double place = 0; // where it is commanded to
+  bool on = true, fault = false, enable = false;
+  const auto cellOf = [&](const mapping::Pin& pin) -> plc::PinCell {
+    if (pin.type == mapping::PinType::Float) return {.real = &place};
+    if (pin.direction == mapping::Direction::Out) return {.bit = &enable};
+    return {.bit = pin.name.ends_with("fault") ? &fault : &on};
+  };
+  std::vector<plc::PinCell> cells;
+  for (const mapping::Pin& pin : map.pins) cells.push_back(cellOf(pin));
+  devices_.connectAxes(cells.data(), plc::kVariables);
+  run("device-units.plc", {"TAKE", "BEGIN", "EACH", "ALLOW"},
+      {{"AXIS", 4}, {"LEN", 1000}, {"ACC", 500}, {"FEED", int64_t{6000} << 16}});
+  EXPECT_TRUE(enable);
+  EXPECT_GT(place, 0);
 }
 
 TEST_F(DevicesInAStep, Areas) { run("shared-area.plc", {"GO1", "GO2"}); }

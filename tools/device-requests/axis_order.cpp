@@ -3,6 +3,7 @@
 
 #include "tools/device-requests/device_call.h"
 #include "tools/devices/analog/analog_outputs.h"
+#include "tools/devices/axes/positioning_unit.h"
 
 namespace rung::device_requests {
 namespace {
@@ -22,19 +23,19 @@ struct Limit {
   int64_t least, most;
 };
 constexpr auto kMostRole = static_cast<int64_t>(devices::SpindleRole::Assistant);
-constexpr int64_t kMostAxes = 16, kLastSpace = 6; // l.8085, l.12166
+using devices::kLastSpace, devices::kMaxAxes;
 constexpr Limit kLimits[] = {
     {AnalogPort, AnalogPort, 0, 0, "port", 1, devices::kAnalogPorts},
-    {Analog, Analog, 3, 1, "axis", 1, kMostAxes},
+    {Analog, Analog, 3, 1, "axis", 1, kMaxAxes},
     {Analog, Analog, 3, 2, "spi", 0, kMostRole},
-    {AnalogSpindle, AnalogSpindle, 0, 1, "axis", 1, kMostAxes},
-    {ToSpindle, MainSpindle, 0, 0, "axis", 1, kMostAxes},
+    {AnalogSpindle, AnalogSpindle, 0, 1, "axis", 1, kMaxAxes},
+    {ToSpindle, MainSpindle, 0, 0, "axis", 1, kMaxAxes},
     {ToSpindle, ToSpindle, 0, 1, "spi", nc::technol::kFirstSpindleWord, kMostRole},
-    {ToAxis, ToAxis, 0, 4, "axis", 1, kMostAxes},
+    {ToAxis, ToAxis, 0, 4, "axis", 1, kMaxAxes},
     {RegulatorX, Regulator6, 0, 0, "set", 1, devices::kRegulatorSets},
-    {PositionInit, PositionReset, 0, 0, "axis", 1, kMostAxes},
+    {PositionInit, PositionReset, 0, 0, "axis", 1, kMaxAxes},
     {PositionInit, PositionInit, 0, 1, "space", 0, kLastSpace},
-    {PositionMode, PositionControl, 0, 2, "axis", 1, kMostAxes},
+    {PositionMode, PositionControl, 0, 2, "axis", 1, kMaxAxes},
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-// Analogue outputs, and axes that are not there (see axis_service.h).
+// Analogue outputs and positioning units, and axes that are not there (see axis_service.h).
 #include "tools/host-devices/axis_service.h"
 
 #include <utility>
@@ -22,9 +22,11 @@ void OutputPlaces::zero(const rt::Memory& memory) const {
 void AxisService::powerOn() noexcept {
   outputs_.reset();
   spindles_ = 0;
+  positioned_.powerOn();
 }
 
-bool AxisService::answer(device_requests::DeviceOrder device, device_requests::DeviceCall& call) {
+bool AxisService::answer(device_requests::DeviceOrder device, device_requests::DeviceCall& call,
+                         const device_requests::AxisCells& cells) {
   const auto order = static_cast<AxisOrder>(device.order);
   const uint32_t bit = 1u << static_cast<uint32_t>(order);
   if (outOfRange(device, call.request())) {
@@ -33,13 +35,16 @@ bool AxisService::answer(device_requests::DeviceOrder device, device_requests::D
     return true;
   }
   if (answerAnalog(*this, order, call)) return true;
+  if (const auto axis = positionedAxis(order, call.request()); axis && positioned_.has(*axis))
+    return answerPosition(positioned_, cells, order, call);
   refused_.fetch_or(bit, std::memory_order_relaxed);
   return false;
 }
 
-void AxisService::zeroOutputs(const rt::Memory& memory, const OutputPlaces& places) noexcept {
+void AxisService::fault(const rt::Memory& memory, const OutputPlaces& places) noexcept {
   outputs_.zeroOutputs();
   places.zero(memory);
+  positioned_.brake();
 }
 
 // ---- analogue outputs ----------------------------------------------------------------------------------------------
@@ -56,6 +61,7 @@ AnalogOutput AxisService::analogSpi(int64_t value, int64_t axis) {
 
 AnalogOutput AxisService::axSpi(int64_t axis, SpindleRole role) {
   spindles_ |= 1u << (axis - 1);
+  positioned_.becomeSpindle(static_cast<uint32_t>(axis));
   return outputs_.switchTo(static_cast<uint32_t>(axis), role);
 }
 
@@ -74,7 +80,10 @@ void AxisService::report(std::vector<std::string>& lines) {
     for (uint32_t i = 0; i < 32; ++i)
       if ((fresh >> i & 1) != 0) lines.push_back(std::string(nameOf(static_cast<AxisOrder>(i))) + sentence);
   };
-  add(refused_, refusedReported_, ": this host moves no axes for the program; the instruction is refused");
+  add(refused_, refusedReported_,
+      positioned_.added() == 0 ? ": this host moves no axes for the program; the instruction is refused"
+                               : ": this host moves no such axis for the program; the instruction is refused");
+  positioned_.report(lines);
   add(outOfRange_, outOfRangeReported_, ": an axis, port or role is out of range; nothing is done");
 }
 

@@ -1,5 +1,5 @@
-// Analogue outputs and spindles of a program, and its orders to axes, which this host does not move for it: SPI_AX,
-// POS_* and REGUL_* are refused (inventory of the services, 17).
+// Analogue outputs, spindles and positioning units of a program. Orders to axes that this host does not move for it are
+// refused: SPI_AX, REGUL_*, and POS_* of axes without pins (inventory of the services, 17).
 #pragma once
 #include <array>
 #include <atomic>
@@ -8,6 +8,7 @@
 
 #include "rtlib/host/instance.h"
 #include "tools/device-requests/analog_requests.h"
+#include "tools/host-devices/positioned_axes.h"
 
 namespace rung::host_devices {
 
@@ -24,12 +25,15 @@ private:
 
 class AxisService final : public device_requests::AnalogTarget {
 public:
+  PositionedAxes& positioned() { return positioned_; }
+
   // ---- the scan; nothing waits, allocates or locks
   void powerOn() noexcept;
   // False: it is refused.
-  bool answer(device_requests::DeviceOrder order, device_requests::DeviceCall& call);
-  // After a fault.
-  void zeroOutputs(const rt::Memory& memory, const OutputPlaces& places) noexcept;
+  bool answer(device_requests::DeviceOrder order, device_requests::DeviceCall& call,
+              const device_requests::AxisCells& cells);
+  // After a fault: outputs are 0, positioning units brake.
+  void fault(const rt::Memory& memory, const OutputPlaces& places) noexcept;
 
   // ---- any one thread but the scan's: a sentence for what went wrong for the first time
   void report(std::vector<std::string>& lines);
@@ -43,6 +47,7 @@ private:
   void spiMain(int64_t axis) override;
 
   devices::AnalogOutputs outputs_;
+  PositionedAxes positioned_;
   uint32_t spindles_ = 0;                            // by AX_SPI, a bit each
   std::atomic<uint32_t> refused_{0}, outOfRange_{0}; // a bit for each order
   uint32_t refusedReported_ = 0, outOfRangeReported_ = 0;

@@ -8,13 +8,15 @@ namespace rung::host_devices {
 using namespace device_requests;
 
 struct DevicesAround::Places final : nc::Places {
-  explicit Places(const rung_program& of) : program(of), services(deviceOrders(of)), can(of), states(of), outputs(of) {}
+  explicit Places(const rung_program& of)
+      : program(of), services(deviceOrders(of)), can(of), states(of), outputs(of), axes(of) {}
 
   const rung_program& program;
   std::vector<DeviceOrder> services; // by the program's numbers
   CanPlaces can;
   StatePlaces states;
   OutputPlaces outputs;
+  AxisCells axes;
 };
 
 DevicesAround::DevicesAround(Devices& devices, const rung_program& program)
@@ -55,7 +57,9 @@ void DevicesAround::beforePart(host::Instance& instance) {
 
 void DevicesAround::afterPart(host::Instance& instance) {
   control_->afterSlice(instance);
-  if (instance.atListStart() && !instance.faulted()) devices_.can.take(instance.memory(), places().can);
+  if (!instance.atListStart() || instance.faulted()) return;
+  devices_.can.take(instance.memory(), places().can);
+  devices_.axes.positioned().take(instance.memory(), places().axes);
 }
 
 void DevicesAround::onHook(host::Instance& instance, uint32_t work) {
@@ -69,6 +73,7 @@ void DevicesAround::beforeInput(host::Instance& instance) {
   answered = ethercat_.finish(instance, bytes_) || answered;
   if (answered) instance.services().deliver();
   devices_.can.show(instance, places().can);
+  devices_.axes.positioned().show(instance.memory(), places().axes);
 }
 
 void DevicesAround::tickMaster(const rt::Memory& memory) {
@@ -83,7 +88,7 @@ void DevicesAround::onFault(host::Instance& instance) {
   control_->onFault(instance);
   devices_.can.take(instance.memory(), places().can);
   devices_.can.disableDrives();
-  devices_.axes.zeroOutputs(instance.memory(), places().outputs);
+  devices_.axes.fault(instance.memory(), places().outputs);
 }
 
 // ---- requests ------------------------------------------------------------------------------------------------------
@@ -103,7 +108,7 @@ bool DevicesAround::answer(host::Instance& instance, const rt::ServiceRequest& r
   case DeviceKind::Tables: return askTable(static_cast<TableOrder>(order.order), call);
   case DeviceKind::ReadArea: readShared(devices_.areas, call); return noteArea(call);
   case DeviceKind::WriteArea: writeShared(devices_.areas, call); return noteArea(call);
-  case DeviceKind::Axes: return devices_.axes.answer(order, call);
+  case DeviceKind::Axes: return devices_.axes.answer(order, call, places().axes);
   case DeviceKind::Com: answerCom(portOf(call), static_cast<ComOrder>(order.order), call); return true;
   case DeviceKind::Can: devices_.can.answer(static_cast<CanOrder>(order.order), call); return true;
   case DeviceKind::Ethercat: ethercat_.begin(static_cast<EthercatOrder>(order.order), call); return true;

@@ -9,6 +9,7 @@
 #include "rtlib/text/number.h"
 #include "tools/devices/com/tty_thread.h"
 #include "tools/devices/key_text.h"
+#include "tools/host-devices/axis_pins.h"
 #include "tools/host-devices/device_report.h"
 #include "tools/host-devices/devices_around.h"
 
@@ -35,6 +36,7 @@ std::string found(std::string_view setting) { return ", not '" + std::string(set
 
 struct HostDevices::Machine {
   Devices devices;
+  AxisPins axisPins;
   std::array<std::string, kChannels> interfaces;                    // that were named
   std::array<std::string, devices::com::kMostPorts> devicesOfPorts; // that were named
   std::array<bool, kChannels> adopted{};
@@ -44,6 +46,9 @@ struct HostDevices::Machine {
   bool started = false;
 
   std::string setPort(std::string_view key, std::string_view value);
+  std::string setAxis(std::string_view key, std::string_view value);
+  PositionedAxes& axes() { return devices.axes.positioned(); }
+  void stepAxes(int64_t ns) noexcept;
   void setActive(uint32_t port, bool isActive);
   std::string ofTable(uint32_t table, std::string wrong);
   std::string interfaceOf(uint32_t channel) const;
@@ -87,6 +92,12 @@ std::string HostDevices::Machine::setPort(std::string_view key, std::string_view
   return {};
 }
 
+std::string HostDevices::Machine::setAxis(std::string_view key, std::string_view value) {
+  devices::AxisKey own;
+  if (std::string wrong = readAxisKey(key, own); !wrong.empty()) return wrong;
+  return axes().set(own.axis, own.attribute, value);
+}
+
 void HostDevices::Machine::setActive(uint32_t port, bool isActive) {
   devices::com::Settings settings = devices.ports[port].settings();
   settings.isActive = isActive;
@@ -108,14 +119,15 @@ std::string HostDevices::configure(std::string_view key, std::string_view value)
   if (const auto table = devices::numberAfter(key, "PlcTable"))
     return machine_->ofTable(*table, devices.tables.setTable(*table, path));
   if (devices::com::isPortKey(key)) return machine_->setPort(key, value);
+  if (devices::isAxisKey(key)) return machine_->setAxis(key, value);
   if (text::equalsIgnoringCase(key, "EtherCATOPViaPLC")) {
     devices.programStartsMaster = value == "1";
     return value == "0" || value == "1" ? "" : "EtherCATOPViaPLC takes 0 or 1" + found(value);
   }
   if (const auto wrong = devices.can.settings().set(key, value)) return *wrong;
   return "'" + std::string(key) +
-         "' is not a key of a device; there are COM[n], CAN[n], drive.n.type, PlcTableDefN, PlcTableN and "
-         "EtherCATOPViaPLC";
+         "' is not a key of a device; there are COM[n], CAN[n], drive.n.type, axis.n, PlcTableDefN, "
+         "PlcTableN and EtherCATOPViaPLC";
 }
 
 void HostDevices::set(const mapping::File& map, std::vector<std::string>& errors) {
@@ -124,6 +136,7 @@ void HostDevices::set(const mapping::File& map, std::vector<std::string>& errors
     switch (setting.kind) {
     case Kind::Can: return setCan(setting.key + "=" + setting.value);
     case Kind::Com: return setCom(setting.key + "=" + setting.value);
+    case Kind::Axis: machine_->axes().add(text::numberIn<uint32_t>(setting.key).value()); break;
     case Kind::SharedFile: return setSharedFile(setting.value);
     case Kind::Config: return configure(setting.key, setting.value);
     }
@@ -132,6 +145,15 @@ void HostDevices::set(const mapping::File& map, std::vector<std::string>& errors
   for (const mapping::DeviceSetting& setting : map.devices)
     if (const std::string wrong = apply(setting); !wrong.empty())
       errors.push_back(map.message(setting.at, "devices: " + wrong));
+}
+
+void HostDevices::addAxisPins(mapping::File& map, std::vector<std::string>& errors) {
+  for (const mapping::DeviceSetting& setting : map.devices) {
+    if (setting.kind != mapping::DeviceSetting::Kind::Axis) continue;
+    const auto axis = text::numberIn<uint32_t>(setting.key).value();
+    if (const std::string wrong = machine_->axisPins.add(map, axis, setting.value); !wrong.empty())
+      errors.push_back(map.message(setting.at, "devices.axes: " + wrong));
+  }
 }
 
 void HostDevices::useMaster(devices::ethercat::Master& master) { machine_->devices.master = &master; }
@@ -212,7 +234,31 @@ void HostDevices::end() {
   machine_->devices.tables.end();
 }
 
-void HostDevices::step(int64_t ns) noexcept { machine_->devices.can.step(ns); }
+void HostDevices::connectAxes(const plc::PinCell* cells, const plc::PinAccess& access) {
+  machine_->axisPins.connect(cells, access);
+}
+
+void HostDevices::Machine::stepAxes(int64_t ns) noexcept {
+  axisPins.read(axes());
+  axes().step(ns);
+  axisPins.write(axes());
+}
+
+void HostDevices::step(int64_t ns) noexcept {
+  machine_->devices.can.step(ns);
+  machine_->stepAxes(ns);
+}
+
+bool HostDevices::axesAtRest() const noexcept { return machine_->axes().atRest(); }
+
+bool HostDevices::rest(int64_t ns) noexcept {
+  machine_->axes().brake();
+  machine_->stepAxes(ns);
+  if (!axesAtRest()) return false;
+  machine_->axes().open();
+  machine_->axisPins.write(machine_->axes());
+  return true;
+}
 
 std::vector<std::string> HostDevices::report() { return machine_->report.next(); }
 

@@ -1,6 +1,6 @@
 // The devices of this machine for a TECHNOL program of a host: serial ports, CAN interfaces, PLC tables in their files,
-// shared areas; an EtherCAT master where the host gives one (inventory of the services, 17). What is not named does
-// not exist: its instructions give the error of their section, its cells stay what they are.
+// shared areas, axes at the pins of a map; an EtherCAT master where the host gives one (inventory of the services, 17).
+// What is not named does not exist: its instructions give the error of their section, its cells stay what they are.
 //
 // Order of things: settings; `instance`, once; `start`; the program runs, with `step` in its thread; the program ends;
 // `end`. In the scan nothing waits, allocates or locks; with a file of shared areas, SA_READ and SA_WRITE each ask the
@@ -14,6 +14,7 @@
 #include "rung/runtime.hpp"
 #include "tools/devices/ethercat/master.h"
 #include "tools/mapping/file.h"
+#include "tools/plc/pin_cell.h"
 
 namespace rung::host_devices {
 
@@ -34,7 +35,9 @@ public:
   std::string setSharedFile(const std::string& path);
   // All that the table [devices] of a mapping file says; mistakes are further errors, with their places.
   void set(const mapping::File& map, std::vector<std::string>& errors);
-  // A key of the configuration that belongs to a device: COM[n], CAN[n], drive.n.type, PlcTableDefN, PlcTableN,
+  // The pins of the axes that it names; mistakes as for `set`.
+  void addAxisPins(mapping::File& map, std::vector<std::string>& errors);
+  // A key of the configuration that belongs to a device: COM[n], CAN[n], drive.n.type, axis.n, PlcTableDefN, PlcTableN,
   // EtherCATOPViaPLC. Files are named from the working folder.
   std::string configure(std::string_view key, std::string_view value);
   // A master of the host, which outlives this.
@@ -49,6 +52,8 @@ public:
   Instance instance(const Image& image, const rung_instance_options& options);
   // What is configured and has no device here, a sentence each; after `instance`.
   std::vector<std::string> warnings() const;
+  // As many cells as the map has pins, in their order; cells and access outlive this. Before the first step.
+  void connectAxes(const plc::PinCell* cells, const plc::PinAccess& access);
   // The threads that serve the devices.
   void start();
   // Outputs of CAN units are 0, tables are on disk. After the program's power-off.
@@ -57,6 +62,11 @@ public:
   // The thread of the program, before each of its steps, also where nothing of it is due: the clock has moved on. Not
   // while another thread switches the program on.
   void step(int64_t ns) noexcept;
+  // No axis moves.
+  bool axesAtRest() const noexcept;
+  // In the place of `step` once the program has ended: axes that move brake, then no drive is enabled any more, and it
+  // is true.
+  bool rest(int64_t ns) noexcept;
 
   // What an operator should know of devices since the last call: gone, back, what was lost, what is refused. Any one
   // thread but the program's.

@@ -40,9 +40,10 @@ struct Pin {
   std::string name;
   PinType type = PinType::Bit;
   Direction direction = Direction::In;
-  Position at;        // the first of these places
-  double safe = 0;    // the value where the program does not run: before its first scan, after a fault, at the end
-  bool holds = false; // it keeps its last value then instead
+  Position at;         // the first of these places
+  double safe = 0;     // the value where the program does not run: before its first scan, after a fault, at the end
+  bool holds = false;  // it keeps its last value then instead
+  bool ofHost = false; // the host itself reads and writes it, also where the program does not run
 };
 
 // in, out, io, param: the pin and the name are the same quantity.
@@ -164,8 +165,9 @@ std::string_view kindName(Connection::Kind kind); // the table
 // values it takes; paths are from the folder of the file.
 struct DeviceSetting {
   enum class Kind : uint8_t {
-    Can, // a channel and its interface
-    Com, // a port and its device
+    Can,  // a channel and its interface
+    Com,  // a port and its device
+    Axis, // one that the program positions, and what the names of its pins begin with
     SharedFile,
     Config, // a key of the control's configuration and its value
   };
@@ -213,6 +215,8 @@ File loadMap(const std::string& path, std::vector<std::string>& errors, const Re
 
 // For hosts that serve no connections: each is a mistake.
 void refuseConnections(const File& map, std::string_view host, std::vector<std::string>& errors);
+// For hosts that move no axes: each is a mistake.
+void refuseAxes(const File& map, std::string_view host, std::vector<std::string>& errors);
 
 std::string_view pinTypeName(PinType type);
 std::string_view tableName(Direction direction); // "in"

@@ -208,8 +208,9 @@ StepResult Box::stepFast(int64_t ns, bool reset) noexcept {
 
 // False: the program does not run.
 bool Box::beginStep(int64_t ns, bool reset) noexcept {
-  const bool asked = reset && !wasReset_;
-  wasReset_ = reset;
+  const bool resets = reset && restartable_;
+  const bool asked = resets && !wasReset_;
+  wasReset_ = resets;
   orders_.take([this](Order& order) { return obey(order); });
   const State state = state_.load(std::memory_order_acquire);
   if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
@@ -270,7 +271,7 @@ void Box::setPins(const mapping::PinLink& link, const Value& value) noexcept {
 void Box::clearPins() noexcept {
   for (uint32_t i = 0; i < map_.pins.size(); ++i) {
     const mapping::Pin& pin = map_.pins[i];
-    if (mapping::fromProgram(pin.direction) && !pin.holds) pins_.set(i, constant(pin.type, pin.safe));
+    if (mapping::fromProgram(pin.direction) && !pin.holds && !pin.ofHost) pins_.set(i, constant(pin.type, pin.safe));
   }
   pins_.write();
 }
@@ -290,6 +291,7 @@ bool Box::nextRequest(services::Request& request) const {
 int32_t Box::obey(Order& order) noexcept {
   const State now = state_.load(std::memory_order_acquire);
   if (order.kind == Order::Kind::Restart && now == State::Stopped) {
+    if (!restartable_) return RUNG_LATER;
     state_.store(State::Restarting, std::memory_order_release);
     return RUNG_OK;
   }

@@ -62,6 +62,8 @@ public:
     constexpr int64_t kHour = 3'600'000'000'000; // more is none
     rung_instance_limit(plc_.handle(), std::min(ns, kHour));
   }
+  // Whether a restart after a fault may begin, before a step: it waits while the host still moves something.
+  void setRestartable(bool is) noexcept { restartable_ = is; }
   // Any thread but the scan's, which does it in its next step (see orders.h).
   Answer order(Order& order, std::chrono::milliseconds time = kPatience) { return orders_.give(order, time); }
   static constexpr std::chrono::milliseconds kPatience{1000};
@@ -126,6 +128,7 @@ private:
   Pins pins_;
   OrderSlot orders_;
   bool wasReset_ = false;
+  bool restartable_ = true;
   bool sliceBegun_ = false; // by `stepFast`
   bool reported_ = false;   // the fault that has stopped it: by `serve`
   std::atomic<uint32_t> faultLine_{0};

@@ -178,11 +178,13 @@ Image imageOf(const Request& request) {
   return image;
 }
 
-// A TECHNOL program has the devices of its map around it, and a pin for each analogue output; none: the control alone.
+// A TECHNOL program has the devices of its map around it, and pins for its axes and analogue outputs; none: the control
+// alone.
 plc::Box::NewInstance withDevices(PlcInstance& c, mapping::File& map, std::vector<std::string>& errors) {
   if (std::string_view(c.image->program().dialect) != "technol") return {};
   c.devices = std::make_unique<host_devices::HostDevices>();
   c.devices->set(map, errors);
+  c.devices->addAxisPins(map, errors);
   host_devices::addAnalogPins(map, c.image->program());
   return [&c](const Image& of, const rung_instance_options& with) { return c.devices->instance(of, with); };
 }
@@ -272,6 +274,7 @@ bool makePins(PlcInstance& c) {
   for (size_t i = 0; i < pins.size() && ok; ++i) ok = makeMapped(c, pins[i], c.cells[i]);
   if (!ok) return false;
   c.box->connect(c.cells, hal::kAccess); // all of them are there
+  if (c.devices != nullptr) c.devices->connectAxes(c.cells, hal::kAccess);
   return true;
 }
 
@@ -284,9 +287,16 @@ plc::StepResult runFunction(PlcInstance& c, Function function, long periodNs) {
   return c.box->step(hasElapsed ? 0 : periodNs, reset);
 }
 
+// Axes are at rest before their program is restarted, which takes a while.
+void stepDevices(PlcInstance& c, long periodNs) {
+  if (c.devices == nullptr || c.box->restarting()) return;
+  c.devices->step(periodNs);
+  c.box->setRestartable(c.devices->axesAtRest());
+}
+
 void runStep(PlcInstance& c, Function function, long periodNs) {
   constexpr int64_t kNsInUs = 1000;
-  if (c.devices != nullptr && function == kScan && !c.box->restarting()) c.devices->step(periodNs);
+  if (function == kScan) stepDevices(c, periodNs);
   // While it does not run, the box may belong to the thread that restarts it.
   if (c.box->running()) c.box->setTimeLimit(int64_t{hal::u32(c.status->maxTime)} * kNsInUs);
   const plc::StepResult result = runFunction(c, function, periodNs);
@@ -301,14 +311,14 @@ void runStep(PlcInstance& c, Function function, long periodNs) {
   hal::setU32(c.status->missed, static_cast<uint32_t>(state.missed));
 }
 
-// The program has had its regular end: nothing of it runs any more.
-bool isPoweredOff(PlcInstance& c) {
+// The program has had its regular end: nothing of it runs any more, and its axes come to rest.
+bool isPoweredOff(PlcInstance& c, Function function, long periodNs) {
   c.poweringOff = c.poweringOff || hal::bit(c.status->powerOff);
   if (!c.poweringOff || !c.box->ends()) return false;
   c.box->clearPins();
   hal::setBit(c.status->functionsBusy, false);
   hal::setBit(c.status->functionsTimeout, false);
-  hal::setBit(c.status->poweredOff, true);
+  if (function == kScan && (c.devices == nullptr || c.devices->rest(periodNs))) hal::setBit(c.status->poweredOff, true);
   return true;
 }
 
@@ -331,7 +341,7 @@ void call(PlcInstance& c, Function function, long periodNs) {
   if (!c.ending->load()) {
     if (isApart(c, function)) {
       if (function == kScan) stayApart(c); // again and again: the other thread may have been about to end its call
-    } else if (!isPoweredOff(c)) {
+    } else if (!isPoweredOff(c, function, periodNs)) {
       runStep(c, function, periodNs);
     }
   }

@@ -157,6 +157,7 @@ plc::Box::NewInstance surroundingsOf(const Options& options, const Image& image,
     return [&simulation](const Image& of, const rung_instance_options& with) { return simulation->instance(of, with); };
   }
   if (!isOfTechnol(image)) return {};
+  mapping::refuseAxes(map, "rung-run: LinuxCNC alone moves axes", errors);
   devices.set(map, errors);
   setDevices(devices, options); // they go before the map
   return [&devices](const Image& of, const rung_instance_options& with) { return devices.instance(of, with); };

@@ -7,7 +7,7 @@
 
 #include "ir/support/temporary_folder.h"
 #include "tests/support/count_allocations.h"
-#include "tests/unit/host_devices/bench.h"
+#include "tests/unit/host_devices/axis_bench.h"
 
 namespace {
 
@@ -49,6 +49,16 @@ TEST(DevicesAroundAProgram, Com) {
   EXPECT_EQ(allocationsOf(bench, {"DO1", "DO2", "DO3"}), 0);
   close(slave);
   close(master);
+}
+
+TEST(DevicesAroundAProgram, Axes) {
+  rung::test::AxisBench bench("device-units.plc");
+  bench.beginWith();
+  bench.move(1000);
+  EXPECT_EQ(allocationsOf(bench, {"TAKE", "BEGIN"}), 0);
+  EXPECT_NE(bench.command(), 5) << "nothing has moved";
+  bench.bit("fault") = true;
+  EXPECT_EQ(allocationsOf(bench, {"TAKE", "BEGIN"}), 0);
 }
 
 TEST(DevicesAroundAProgram, TablesAndAreas) {

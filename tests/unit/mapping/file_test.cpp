@@ -389,9 +389,49 @@ TEST(MapFile, Devices) {
                   "\"/dev/ttyUSB0\"",
                   "m.map:4:11: devices.sa-file: found \"\", expected the path of a file; write for example "
                   "sa-file = \"/dev/shm/areas\"",
-                  "m.map:5:1: devices: found an unknown key ports, expected can, com, sa-file, config",
+                  "m.map:5:1: devices: found an unknown key ports, expected can, com, axes, sa-file, config",
                   "m.map:6:16: devices.config.A: found a list, expected a text or a number; write for example "
                   "\"COM[1].ComSpeed\" = 19200"));
+}
+
+TEST(MapFile, AxesThatTheProgramPositions) {
+  using Kind = DeviceSetting::Kind;
+  const File map = faultlessMap("[devices.axes]\n4 = { pins = \"table\", FeedRT = 6000 }\n05 = \"turret\"\n");
+  const std::vector<std::tuple<Kind, std::string, std::string>> expected = {
+      {Kind::Axis, "4", "table"}, {Kind::Config, "axis.4.FeedRT", "6000"}, {Kind::Axis, "5", "turret"}};
+  ASSERT_EQ(map.devices.size(), expected.size());
+  for (size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(std::tie(map.devices[i].kind, map.devices[i].key, map.devices[i].value),
+              std::tie(std::get<0>(expected[i]), std::get<1>(expected[i]), std::get<2>(expected[i])));
+  EXPECT_THAT(map.pins, IsEmpty()); // whoever moves axes makes them
+  std::vector<std::string> errors;
+  refuseAxes(map, "a host", errors);
+  EXPECT_THAT(errors, ElementsAre("m.map:2:14: devices.axes: found axis 4, expected none in a host; remove it",
+                                  "m.map:3:6: devices.axes: found axis 5, expected none in a host; remove it"));
+}
+
+TEST(MapFile, MistakesOfAxes) {
+  EXPECT_THAT(errorsOf("devices.axes = [1]\n"),
+              ElementsAre("m.map:1:16: devices.axes: found a list, expected a table of axes and their pins; write for "
+                          "example axes = { 4 = \"table\" }"));
+  EXPECT_THAT(errorsOf("[devices.axes]\n0 = \"a\"\n17 = \"a\"\nZ = \"a\"\n4 = \"a b\"\n5 = { FeedRT = [1] }\n"
+                       "04 = \"b\"\n6 = \"c\"\n06 = \"d\"\n"),
+              ElementsAre("m.map:2:1: devices.axes: found \"0\", expected the number of an axis, 1 to 16; write for "
+                          "example 4 = \"table\"",
+                          "m.map:3:1: devices.axes: found \"17\", expected the number of an axis, 1 to 16; write for "
+                          "example 4 = \"table\"",
+                          "m.map:4:1: devices.axes: found \"Z\", expected the number of an axis, 1 to 16; write for "
+                          "example 4 = \"table\"",
+                          "m.map:5:5: devices.axes.4: found \"a b\", expected what the names of its pins begin with: "
+                          "letters, digits, '-', '_' and '.'; write for example 4 = \"table\", or 4 = { pins = "
+                          "\"table\", FeedRT = 6000 }",
+                          "m.map:6:5: devices.axes.5: found a table, expected what the names of its pins begin with: "
+                          "letters, digits, '-', '_' and '.'; write for example 5 = \"table\", or 5 = { pins = "
+                          "\"table\", FeedRT = 6000 }",
+                          "m.map:6:16: devices.axes.5.FeedRT: found a list, expected a text or a number; write for "
+                          "example FeedRT = 6000",
+                          "m.map:9:1: devices.axes: found axis 6 again, expected each axis once; remove one of the "
+                          "lines"));
 }
 
 TEST(MapFile, PinsOfFunctionsThatHaveAnotherUse) {

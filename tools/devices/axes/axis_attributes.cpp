@@ -8,9 +8,12 @@
 
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "tools/devices/axes/axis_mask.h"
 
 namespace rung::devices {
 namespace {
+
+constexpr std::string_view kKey = "axis.";
 
 enum class Takes : uint8_t { Any, Positive, NotNegative, Whole };
 
@@ -93,6 +96,17 @@ std::string AxisAttributes::set(std::string_view name, std::string_view value) {
     return "'" + std::string(name) + "' needs " + (far ? "a number of -1e9 to 1e9" : expectation(*found)) +
            "; found '" + std::string(value) + "'";
   this->*found->member = *number;
+  return {};
+}
+
+bool isAxisKey(std::string_view key) { return key.starts_with(kKey); }
+
+std::string readAxisKey(std::string_view key, AxisKey& read) {
+  std::string_view rest = key.substr(kKey.size());
+  const auto number = text::takeNumber<uint32_t>(rest);
+  if (!number || *number < 1 || *number > kMaxAxes || !rest.starts_with('.'))
+    return "'" + std::string(key) + "' needs an axis from 1 to 16: axis.1.Feed";
+  read = {.axis = *number, .attribute = rest.substr(1)};
   return {};
 }
 

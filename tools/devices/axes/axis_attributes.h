@@ -41,4 +41,13 @@ struct AxisAttributes {
   static bool has(std::string_view name);
 };
 
+// A key axis.N.ATTRIBUTE of the configuration.
+struct AxisKey {
+  uint32_t axis = 0; // from 1
+  std::string_view attribute;
+};
+bool isAxisKey(std::string_view key);
+// "" or what is wrong.
+std::string readAxisKey(std::string_view key, AxisKey& read);
+
 } // namespace rung::devices

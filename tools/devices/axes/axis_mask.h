@@ -4,7 +4,7 @@
 
 namespace rung::devices {
 
-inline constexpr uint32_t kMaxAxes = 16;
+inline constexpr uint32_t kMaxAxes = 16; // l.8085
 
 using AxisMask = uint16_t;
 

@@ -37,14 +37,11 @@ std::string Axes::configure(std::string_view key, std::string_view value) {
     if (problem.empty()) letters_ = value;
     return problem;
   }
-  std::string_view rest = key;
-  if (!rest.starts_with("axis.")) return "the axes have no key '" + std::string(key) + "'";
-  rest.remove_prefix(5);
-  const auto number = text::takeNumber<uint32_t>(rest);
-  if (!number || *number < 1 || *number > kMaxAxes || !rest.starts_with('.'))
-    return "'" + std::string(key) + "' needs an axis from 1 to 16: axis.1.Feed";
-  configured_.emplace(*number, key);
-  return axes_[*number - 1].attributes.set(rest.substr(1), value);
+  if (!devices::isAxisKey(key)) return "the axes have no key '" + std::string(key) + "'";
+  devices::AxisKey own;
+  if (std::string wrong = readAxisKey(key, own); !wrong.empty()) return wrong;
+  configured_.emplace(own.axis, key);
+  return axes_[own.axis - 1].attributes.set(own.attribute, value);
 }
 
 std::string Axes::configurationProblem() const {

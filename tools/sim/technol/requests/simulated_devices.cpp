@@ -36,7 +36,7 @@ std::optional<std::string> SimulatedDevices::configure(std::string_view key, std
     hasTables_ = true;
     return files_.setTable(*table, path);
   }
-  if (text::equalsIgnoringCase(key, "axes") || key.starts_with("axis.")) return axes_.configure(key, value);
+  if (text::equalsIgnoringCase(key, "axes") || devices::isAxisKey(key)) return axes_.configure(key, value);
   if (const auto wired = inputs_.configure(key, value, axes_)) return *wired;
   if (ComPorts::owns(key)) return com_.configure(key, value);
   if (EtherCat::owns(key)) return ethercat_.configure(key, value);

@@ -7,6 +7,7 @@
 
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "tools/devices/channel_file.h"
 #include "tools/devices/com/tty_thread.h"
 #include "tools/devices/key_text.h"
 #include "tools/host-devices/axis_pins.h"
@@ -47,6 +48,7 @@ struct HostDevices::Machine {
 
   std::string setPort(std::string_view key, std::string_view value);
   std::string setAxis(std::string_view key, std::string_view value);
+  std::string setEthercat(std::string_view value);
   PositionedAxes& axes() { return devices.axes.positioned(); }
   void stepAxes(int64_t ns) noexcept;
   void setActive(uint32_t port, bool isActive);
@@ -104,6 +106,11 @@ void HostDevices::Machine::setActive(uint32_t port, bool isActive) {
   devices.ports[port].configure(settings);
 }
 
+std::string HostDevices::Machine::setEthercat(std::string_view value) {
+  devices.programStartsMaster = value == "1";
+  return value == "0" || value == "1" ? "" : "EtherCATOPViaPLC takes 0 or 1" + found(value);
+}
+
 // A file that cannot be read is left alone, and its table does not exist; the program runs.
 std::string HostDevices::Machine::ofTable(uint32_t table, std::string wrong) {
   if (table >= devices::PlcTables::kTables || wrong.empty()) return wrong;
@@ -120,14 +127,31 @@ std::string HostDevices::configure(std::string_view key, std::string_view value)
     return machine_->ofTable(*table, devices.tables.setTable(*table, path));
   if (devices::com::isPortKey(key)) return machine_->setPort(key, value);
   if (devices::isAxisKey(key)) return machine_->setAxis(key, value);
-  if (text::equalsIgnoringCase(key, "EtherCATOPViaPLC")) {
-    devices.programStartsMaster = value == "1";
-    return value == "0" || value == "1" ? "" : "EtherCATOPViaPLC takes 0 or 1" + found(value);
-  }
+  if (text::equalsIgnoringCase(key, "EtherCATOPViaPLC")) return machine_->setEthercat(value);
+  if (text::equalsIgnoringCase(key, "PlcConfig")) return configureBy(path);
   if (const auto wrong = devices.can.settings().set(key, value)) return *wrong;
   return "'" + std::string(key) +
          "' is not a key of a device; there are COM[n], CAN[n], drive.n.type, axis.n, PlcTableDefN, "
-         "PlcTableN and EtherCATOPViaPLC";
+         "PlcTableN, EtherCATOPViaPLC and PlcConfig";
+}
+
+// Of an axis the file says much that is not this machine's.
+std::string HostDevices::configureBy(const std::string& path) {
+  struct Own final : devices::ConfiguredDevices {
+    explicit Own(HostDevices& given) : all(given) {}
+    std::string set(std::string_view key, std::string_view value) override {
+      devices::AxisKey axis;
+      const bool isAxis = devices::isAxisKey(key) && readAxisKey(key, axis).empty();
+      return isAxis && !PositionedAxes::takes(axis.attribute) ? "" : all.configure(key, value);
+    }
+    uint32_t drives() const override { return all.machine_->devices.can.settings().drives; }
+    HostDevices& all;
+  };
+  control_files::ControlFiles files;
+  if (std::string wrong = readControlFile(control_files::ControlFileKind::Channel, path, files); !wrong.empty())
+    return wrong;
+  Own own(*this);
+  return devices::configureDevices(own, files.devices);
 }
 
 void HostDevices::set(const mapping::File& map, std::vector<std::string>& errors) {

@@ -38,7 +38,8 @@ public:
   // The pins of the axes that it names; mistakes as for `set`.
   void addAxisPins(mapping::File& map, std::vector<std::string>& errors);
   // A key of the configuration that belongs to a device: COM[n], CAN[n], drive.n.type, axis.n, PlcTableDefN, PlcTableN,
-  // EtherCATOPViaPLC. Files are named from the working folder.
+  // EtherCATOPViaPLC; PlcConfig, the control's own file of the channel, whose devices they are. Files are named from
+  // the working folder.
   std::string configure(std::string_view key, std::string_view value);
   // A master of the host, which outlives this.
   void useMaster(devices::ethercat::Master& master);
@@ -73,6 +74,8 @@ public:
   std::vector<std::string> report();
 
 private:
+  std::string configureBy(const std::string& path);
+
   struct Machine;
   std::unique_ptr<Machine> machine_;
 };

@@ -32,12 +32,17 @@ std::string setLength(double& length, std::string_view attribute, std::string_vi
 
 void PositionedAxes::add(uint32_t axis) { devices::setBit(added_, index(axis)); }
 
+bool PositionedAxes::takes(std::string_view attribute) {
+  const auto is = [&](std::string_view name) { return text::equalsIgnoringCase(attribute, name); };
+  return is("MaxDifference") || is("FollowingErrorLimit") || std::ranges::any_of(kDynamics, is);
+}
+
 std::string PositionedAxes::set(uint32_t number, std::string_view attribute, std::string_view value) {
   Axis& axis = axes_[index(number)];
   const auto is = [&](std::string_view name) { return text::equalsIgnoringCase(attribute, name); };
   if (is("MaxDifference")) return setLength(axis.maxDifference, attribute, value);
   if (is("FollowingErrorLimit")) return setLength(axis.followingErrorLimit, attribute, value);
-  if (std::ranges::any_of(kDynamics, is)) return axis.attributes.set(attribute, value);
+  if (takes(attribute)) return axis.attributes.set(attribute, value);
   return "'" + std::string(attribute) + "' is not an attribute of an axis here; there are Acceleration, " +
          "AccelerationEmergency, FeedRT, MaxDifference and FollowingErrorLimit";
 }

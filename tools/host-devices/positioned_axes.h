@@ -28,6 +28,7 @@ class PositionedAxes final : public device_requests::PositionTarget {
 public:
   // ---- before start
   void add(uint32_t axis);
+  static bool takes(std::string_view attribute);
   // "" or what is wrong; the axis may be added later.
   std::string set(uint32_t axis, std::string_view attribute, std::string_view value);
   bool has(int64_t axis) const { return axis >= 1 && axis <= devices::kMaxAxes && devices::has(added_, index(axis)); }

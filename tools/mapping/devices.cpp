@@ -17,10 +17,11 @@ std::optional<std::string> settingOf(const toml::node& node) {
   return std::nullopt;
 }
 
-// Those of the configuration that name a file: PlcTable3, PlcTableDef3.
+// Those of the configuration that name a file: PlcConfig, PlcTable3, PlcTableDef3.
 bool namesFile(std::string_view key) {
   constexpr std::string_view kTables = "PlcTable";
-  return key.size() > kTables.size() && text::equalsIgnoringCase(key.substr(0, kTables.size()), kTables);
+  return text::equalsIgnoringCase(key, "PlcConfig") ||
+         (key.size() > kTables.size() && text::equalsIgnoringCase(key.substr(0, kTables.size()), kTables));
 }
 
 class DeviceReader {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "ir/support/temporary_folder.h"
 #include "tests/unit/host_devices/axis_bench.h"
 
 namespace {
@@ -107,6 +108,20 @@ TEST_F(PositionedAxis, TheNetRateIsCapped) { // FeedRT
   const double place = command();
   ms(100);
   EXPECT_NEAR(command() - place, 5, 1e-6); // 50 mm/s
+}
+
+TEST_F(PositionedAxis, HasTheAttributesOfTheChannelsFile) {
+  const rung::TemporaryFolder folder;
+  const std::string file = folder / "Channel0.ChannelConfig";
+  std::ofstream(file) << "<ChannelConfig><NCAxis No=\"3\" RefMethod=\"9\" FeedRT=\"1200\"></NCAxis></ChannelConfig>";
+  ASSERT_EQ(devices.configure("PlcConfig", file), "");
+  beginWith();
+  take();
+  move(100'000);
+  ms(300);
+  const double place = command();
+  ms(100);
+  EXPECT_NEAR(command() - place, 2, 1e-6); // 20 mm/s
 }
 
 TEST_F(PositionedAxis, WithoutAReferenceItIsRefused) {

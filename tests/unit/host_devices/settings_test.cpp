@@ -1,6 +1,7 @@
 // What names devices, and what is wrong with it.
 #include <gmock/gmock.h>
 
+#include "ir/support/temporary_folder.h"
 #include "tests/support/faultless_map.h"
 #include "tests/unit/host_devices/bench.h"
 #include "tools/host-devices/analog_pins.h"
@@ -66,6 +67,35 @@ TEST(DeviceSettings, DevicesOfTheConfiguration) {
   bench.begin();
   EXPECT_THAT(bench.devices.warnings(), IsEmpty());
   EXPECT_TRUE(bench.soonReports("/dev/ttyS199 cannot be opened"));
+}
+
+// The control's own file says the same as the keys, and later keys override it.
+TEST(DeviceSettings, OfTheChannelsFile) {
+  const rung::TemporaryFolder folder;
+  const std::string file = folder / "Channel0.ChannelConfig";
+  std::ofstream(file) << "<ChannelConfig>\n<NCAxis No=\"3\" RefMethod=\"9\" FeedRT=\"3000\"></NCAxis>\n"
+                         "<ComChannel No=\"1\" Active=\"1\" PhysicalComNo=\"200\" ComSpeed=\"19200\"></ComChannel>\n"
+                         "<ComChannel No=\"2\" Active=\"1\" PhysicalComNo=\"200\"></ComChannel>\n</ChannelConfig>\n";
+  DeviceBench bench("com.plc");
+  EXPECT_EQ(bench.devices.configure("PlcConfig", file), "");
+  EXPECT_EQ(bench.devices.configure("COM[2].PhysicalComNo", "201"), "");
+  bench.begin();
+  EXPECT_THAT(bench.devices.warnings(), IsEmpty());
+  std::string all;
+  EXPECT_TRUE(bench.soon([&] {
+    for (const std::string& line : bench.devices.report()) all += line + '\n';
+    return all.find("/dev/ttyS199 cannot be opened") != std::string::npos &&
+           all.find("/dev/ttyS200 cannot be opened") != std::string::npos;
+  })) << all;
+}
+
+TEST(DeviceSettings, MistakesOfTheChannelsFile) {
+  const rung::TemporaryFolder folder;
+  const std::string file = folder / "Channel0.ChannelConfig";
+  HostDevices devices;
+  EXPECT_THAT(devices.configure("PlcConfig", file), HasSubstr(file));
+  std::ofstream(file) << "<ChannelConfig>\n  <ComChannel No=\"1\" ComSpeed=\"fast\"></ComChannel>\n</ChannelConfig>\n";
+  EXPECT_THAT(devices.configure("PlcConfig", file), HasSubstr(file + ":2:3: COM[1].ComSpeed: ComSpeed: expected 50"));
 }
 
 TEST(DeviceSettings, OtherDialects) {

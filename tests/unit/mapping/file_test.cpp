@@ -369,13 +369,14 @@ TEST(MapFile, Devices) {
   using Kind = DeviceSetting::Kind;
   const File map = faultlessMap("[devices]\ncan = { 2 = \"can0\" }\ncom = { 1 = \"/dev/ttyS0\" }\nsa-file = \"areas\"\n"
                                 "[devices.config]\n\"COM[1].ComSpeed\" = 19200\nPlcTable3 = \"t.PlcT\"\n"
-                                "\"CAN[1].Active\" = true\n");
+                                "\"CAN[1].Active\" = true\nPlcConfig = \"c\"\n");
   const std::vector<std::tuple<Kind, std::string, std::string>> expected = {{Kind::Can, "2", "can0"},
                                                                             {Kind::Com, "1", "/dev/ttyS0"},
                                                                             {Kind::SharedFile, "", "areas"},
                                                                             {Kind::Config, "COM[1].ComSpeed", "19200"},
                                                                             {Kind::Config, "PlcTable3", "t.PlcT"},
-                                                                            {Kind::Config, "CAN[1].Active", "1"}};
+                                                                            {Kind::Config, "CAN[1].Active", "1"},
+                                                                            {Kind::Config, "PlcConfig", "c"}};
   ASSERT_EQ(map.devices.size(), expected.size());
   for (size_t i = 0; i < expected.size(); ++i)
     EXPECT_EQ(std::tie(map.devices[i].kind, map.devices[i].key, map.devices[i].value),

@@ -6,6 +6,7 @@
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "tools/devices/channel_file.h"
 #include "tools/devices/key_text.h"
 
 namespace rung::sim::technol {
@@ -42,6 +43,19 @@ std::optional<std::string> SimulatedDevices::configure(std::string_view key, std
   if (EtherCat::owns(key)) return ethercat_.configure(key, value);
   if (const auto keyboard = keyboards_.configure(key, path)) return *keyboard;
   return can_.configure(key, value);
+}
+
+std::string SimulatedDevices::define(std::span<const control_files::DeviceDefinition> definitions) {
+  struct Own final : devices::ConfiguredDevices {
+    explicit Own(SimulatedDevices& given) : all(given) {}
+    std::string set(std::string_view key, std::string_view value) override {
+      return all.configure(key, value, {}).value_or("");
+    }
+    uint32_t drives() const override { return all.can_.drives(); }
+    SimulatedDevices& all;
+  };
+  Own own(*this);
+  return devices::configureDevices(own, definitions);
 }
 
 void SimulatedDevices::loadTables() {

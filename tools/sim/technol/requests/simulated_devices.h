@@ -39,7 +39,7 @@ public:
   // Before the first power-on. "" or what is wrong; nothing: a key of something else. `path` is that of a file.
   std::optional<std::string> configure(std::string_view key, std::string_view value, const std::string& path);
   // What the control's own file of the channel says of devices. "" or what is wrong, with its place.
-  std::string define(std::span<const control_files::DeviceDefinition> devices);
+  std::string define(std::span<const control_files::DeviceDefinition> definitions);
   bool simulated() const { return simulated_; }
 
   // Memory has been started; MODULE_INIT follows. A cold start reads the tables' files anew.
@@ -115,8 +115,6 @@ private:
 
   bool answers(device_requests::DeviceOrder order) const;
   void locate(host::Instance& instance);
-  std::string define(const control_files::DeviceDefinition& device);
-  std::string defineServo(const control_files::DeviceDefinition& servo);
   void loadTables();
   void pass(host::Instance& instance, ModuleCells& cells, int64_t us);
   std::optional<NcCell> readTable(std::string_view name) const;

@@ -240,6 +240,14 @@ TEST_F(Bus, NobodyAcknowledges) {
   EXPECT_TRUE(soonReports("CAN channel 2: nobody acknowledges what is sent"));
 }
 
+// Those of the control's own file of the channel.
+TEST_F(Bus, UnitsOfTheChannelsFile) {
+  beginWith({{"PlcConfig", "tests/scenarios/technol/devices.ChannelConfig"}});
+  put(0x1A1, {0x5A, 0, 0, 0, 0, 0, 0, 0});
+  EXPECT_TRUE(soonIs("P1IN", 0x5A));
+  EXPECT_TRUE(sent(0x221));
+}
+
 TEST_F(Bus, AtTheEndOutputsAreZero) {
   beginWith({{"CAN[1].InOut08Cnt", "1"}});
   put(0x1A1, {0, 0, 0, 0});

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <vector>
 
+#include "ir/chunks/rung_costs.h"
 #include "tests/random/random.h"
 
 namespace rung::ir {
@@ -119,6 +121,109 @@ TEST(StraightEnd, IsWhereTheLastCircleEnds) {
     }
   }
   EXPECT_GT(between, 30u);
+}
+
+// Rungs of the routine where control may be next.
+std::set<uint32_t> nextOf(const std::vector<Rung>& rungs, uint32_t rung) {
+  const Transfer& transfer = rungs[rung].transfer;
+  std::set<uint32_t> next(transfer.targets.begin(), transfer.targets.end());
+  if (transfer.kind == TransferKind::Next || transfer.kind == TransferKind::Call || transfer.cond.valid())
+    next.insert(rung + 1);
+  if (transfer.kind == TransferKind::Goto) next.insert(transfer.target);
+  next.erase(static_cast<uint32_t>(rungs.size()));
+  return next;
+}
+
+Module weighted(uint64_t seed) {
+  Module module = randomModule(seed, {.rungs = 8, .ops = 4});
+  for (Routine& routine : module.routines)
+    for (size_t i = 0; i < routine.rungs.size(); ++i) routine.rungs[i].weight = 1 + static_cast<uint32_t>(i % 3);
+  return module;
+}
+
+TEST(HeaviestWay, IsAWayAndCostsWhatItSays) {
+  uint32_t calls = 0;
+  for (uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const Module module = weighted(seed);
+    const Cut cut(module, {.maxChunkRungs = 2});
+    const std::vector<uint64_t> weights = rungWeights(cut);
+    for (uint32_t t = 0; t < module.tasks.size(); ++t) {
+      const HeaviestWay way = heaviestWay(cut, TaskId{t}, weights);
+      ASSERT_FALSE(way.routines.empty());
+      EXPECT_EQ(way.routines[0].routine, module.tasks[t].entry);
+      EXPECT_EQ(way.routines[0].cost, way.cost);
+      EXPECT_EQ(way.routines[0].runs, 1u);
+      std::map<uint32_t, uint64_t> runs{{way.routines[0].routine.index, 1}};
+      std::map<uint32_t, uint64_t> costs;
+      for (const RoutineWay& routine : way.routines) {
+        costs[routine.routine.index] = routine.cost;
+        EXPECT_EQ(routine.runs, runs[routine.routine.index]); // its callers come before it
+        for (const RoutineWay::Call& call : routine.calls) runs[call.callee.index] += routine.runs;
+        calls += static_cast<uint32_t>(routine.calls.size());
+      }
+      for (const RoutineWay& routine : way.routines) {
+        const std::vector<Rung>& rungs = module.at(routine.routine).rungs;
+        const uint32_t first = cut.rungNumber(routine.routine, 0);
+        uint64_t cost = 0;
+        for (size_t i = 0; i < routine.rungs.size(); ++i) {
+          cost += weights[routine.rungs[i]];
+          if (i > 0) EXPECT_TRUE(nextOf(rungs, routine.rungs[i - 1] - first).contains(routine.rungs[i] - first));
+        }
+        for (const RoutineWay::Call& call : routine.calls) cost += costs.at(call.callee.index);
+        EXPECT_EQ(routine.cost, cost);
+      }
+    }
+  }
+  EXPECT_GT(calls, 20u);
+}
+
+// By its calls, its own first.
+std::vector<RoutineId> reachedRoutines(const Module& module, TaskId task) {
+  std::vector<RoutineId> reached{module.tasks[task.index].entry};
+  for (size_t i = 0; i < reached.size(); ++i)
+    for (const Rung& rung : module.at(reached[i]).rungs)
+      if (rung.transfer.kind == TransferKind::Call && std::ranges::find(reached, rung.transfer.callee) == reached.end())
+        reached.push_back(rung.transfer.callee);
+  return reached;
+}
+
+TEST(HeaviestWay, NamesTheRungsOfCircles) {
+  uint32_t found = 0;
+  for (uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const Module module = weighted(seed);
+    const Cut cut(module, {.maxChunkRungs = 3});
+    for (uint32_t t = 0; t < module.tasks.size(); ++t) {
+      if (module.tasks[t].parts != 1) continue;
+      const HeaviestWay way = heaviestWay(cut, TaskId{t}, rungWeights(cut));
+      std::map<uint32_t, size_t> circleOf;
+      for (size_t c = 0; c < way.circles.size(); ++c)
+        for (const uint32_t rung : way.circles[c]) EXPECT_TRUE(circleOf.emplace(rung, c).second);
+      found += static_cast<uint32_t>(way.circles.size());
+      for (const RoutineId routine : reachedRoutines(module, TaskId{t})) {
+        const std::vector<Rung>& rungs = module.at(routine).rungs;
+        const auto reachedFrom = [&](uint32_t rung) { // in at least one step
+          std::set<uint32_t> reached = nextOf(rungs, rung);
+          for (size_t before = 0; before != reached.size();) {
+            before = reached.size();
+            for (const uint32_t from : std::set(reached)) reached.merge(nextOf(rungs, from));
+          }
+          return reached;
+        };
+        std::set<uint32_t> ran = reachedFrom(0);
+        ran.insert(0);
+        for (const uint32_t rung : ran) {
+          const uint32_t number = cut.rungNumber(routine, rung);
+          EXPECT_EQ(reachedFrom(rung).contains(rung), circleOf.contains(number));
+          for (const uint32_t other : ran)
+            if (circleOf.contains(number) && reachedFrom(rung).contains(other) && reachedFrom(other).contains(rung))
+              EXPECT_EQ(circleOf[number], circleOf[cut.rungNumber(routine, other)]);
+        }
+      }
+    }
+  }
+  EXPECT_GT(found, 20u);
 }
 
 // The length of a routine is not limited by the stack.

@@ -116,9 +116,12 @@ Result<std::unique_ptr<llvm::TargetMachine>> makeTargetMachine(const LlvmOptions
   const llvm::CodeGenOptLevel level =
       options.level == LlvmLevel::Fast ? llvm::CodeGenOptLevel::None : llvm::CodeGenOptLevel::Less;
   const bool jit = use == MachineUse::Jit;
+  // The JIT's linker puts all that is in an object together. LLVM would think it far apart, and call by address.
+  const bool isNear = jit && llvm::Triple(host).isX86();
+  const std::optional<llvm::CodeModel::Model> model = isNear ? std::optional(llvm::CodeModel::Small) : std::nullopt;
   std::unique_ptr<llvm::TargetMachine> machine(target->createTargetMachine(
       jit ? host : triple, jit ? llvm::sys::getHostCPUName() : row.cpu, jit ? hostFeatures() : row.features,
-      machineOptions, llvm::Reloc::PIC_, std::nullopt, level, jit));
+      machineOptions, llvm::Reloc::PIC_, model, level, jit));
   if (machine == nullptr) return failure(fmt::format("no code generator for '{}'", triple));
   return machine;
 }

@@ -12,7 +12,7 @@
 #include <llvm/ExecutionEngine/Orc/LLJIT.h>
 
 #include "codegen/jit/object_cache.h"
-#include "codegen/llvm/llvm_module.h"
+#include "codegen/jit/pieces.h"
 #include "ir/chunks/cut.h"
 #include "ir/layout/program_image.h"
 #include "ir/support/check.h"
@@ -37,47 +37,7 @@ struct JitCode::Linker {
 
 namespace {
 
-// Small enough that threads have the same amount of work, also of a program of some hundred rungs, that memory stays
-// flat and that the first piece is soon there; large enough that a piece's own cost is small beside it.
-constexpr uint32_t kOpsPerPiece = 2048;
-
 std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
-
-uint32_t operationsOf(const Module& module, const Chunk& chunk) {
-  const std::vector<Rung>& rungs = module.at(chunk.routine).rungs;
-  uint32_t ops = 0;
-  for (uint32_t i = 0; i < chunk.rungCount; ++i) ops += static_cast<uint32_t>(rungs[chunk.firstRung + i].ops.size());
-  return ops;
-}
-
-// Each of chunks that follow one another.
-std::vector<ModulePart> cutPieces(const Cut& cut, std::span<const uint32_t> chunks) {
-  std::vector<ModulePart> pieces;
-  uint32_t ops = 0;
-  for (const uint32_t chunk : chunks) {
-    const bool follows = !pieces.empty() && pieces.back().firstChunk + pieces.back().chunkCount == chunk;
-    if (ops >= kOpsPerPiece || !follows) {
-      pieces.push_back({.firstChunk = chunk, .tableName = fmt::format("rung_chunks_{}", chunk)});
-      ops = 0;
-    }
-    ++pieces.back().chunkCount;
-    ops += operationsOf(cut.module(), cut.chunks()[chunk]);
-  }
-  return pieces;
-}
-
-Result<std::string> compilePiece(const Layout& layout, uint64_t codeHash, const LlvmOptions& options,
-                                 const ModulePart& piece) {
-  Result<std::unique_ptr<llvm::TargetMachine>> machine = makeTargetMachine(options, MachineUse::Jit);
-  if (!machine.ok()) return machine.failure();
-  llvm::LLVMContext context;
-  context.setDiscardValueNames(true);
-  Result<std::unique_ptr<llvm::Module>> module =
-      buildModule(context, *machine.value(), layout, codeHash, options, piece);
-  if (!module.ok()) return module.failure();
-  runPasses(*module.value(), *machine.value(), options.level);
-  return generateCode(*module.value(), *machine.value(), llvm::CodeGenFileType::ObjectFile);
-}
 
 // By any thread: what fails within the compiler or LLVM ends the piece, and not the process.
 Result<std::string> containedPiece(const Layout& layout, uint64_t codeHash, const LlvmOptions& options,

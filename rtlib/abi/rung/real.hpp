@@ -105,10 +105,11 @@ constexpr Coefficients inverseOdds() noexcept {
 inline constexpr Coefficients kInverseFactorial = inverseFactorials(); // 1 / n!
 inline constexpr Coefficients kInverseOdd = inverseOdds();             // 1 / (2 n + 1)
 
-// The sum of c[first + step * k] * z^k, k = 0 to terms, with alternating signs or without; z is Q0.128, below 1.
+// The sum of c[first + step * k] * z^k, k = 0 to terms, with alternating signs or without; z is Q0.128, below 1. There
+// are fewer terms than kTerms, which the loop says for those who look for the longest path through its code.
 RUNG_SHARED U128 series(const Coefficients& c, u32 first, u32 step, u32 terms, bool alternating, U128 z) noexcept {
   U128 sum = c.at[first + step * terms];
-  for (u32 k = terms; k-- != 0;) {
+  for (u32 k = terms % kTerms; k-- != 0;) {
     const U128 next = mul(sum, z);
     sum = alternating ? sub(c.at[first + step * k], next) : add(c.at[first + step * k], next);
   }

@@ -1,0 +1,168 @@
+// Reads the graph of each function at the end of code generation (see instruction_bound.h).
+#include "codegen/jit/instruction_bound.h"
+
+#include <numeric>
+
+#include <llvm/Analysis/LoopInfo.h>
+#include <llvm/Analysis/ScalarEvolution.h>
+#include <llvm/CodeGen/MachineFunctionPass.h>
+#include <llvm/CodeGen/MachineInstr.h>
+#include <llvm/CodeGen/MachineLoopInfo.h>
+#include <llvm/CodeGen/TargetOpcodes.h>
+#include <llvm/IR/Constants.h>
+#include <llvm/IR/InstIterator.h>
+#include <llvm/IR/InstrTypes.h>
+#include <llvm/InitializePasses.h>
+#include <llvm/PassRegistry.h>
+
+#include "codegen/jit/pieces.h"
+
+namespace rung::codegen {
+namespace {
+
+struct PieceCode {
+  std::vector<std::string> chunks; // names of their functions
+  std::map<std::string, FunctionCode> functions;
+};
+
+// Padding before a block that is aligned runs where control falls into the block.
+uint64_t paddingAfter(const llvm::MachineBasicBlock& block) {
+  constexpr uint64_t kShortestNop = 4; // bytes, of as many as fit
+  const llvm::MachineBasicBlock* next = block.getNextNode();
+  return next == nullptr ? 0 : (next->getAlignment().value() - 1) / kShortestNop;
+}
+
+// The bounds of loops are those of the IR that the code was made of: its blocks know which they come from, and code
+// generation makes no loop of its own and repeats none more often.
+class CodeReader final : public llvm::MachineFunctionPass {
+public:
+  CodeReader(std::string tableName, PieceCode& code)
+      : MachineFunctionPass(kId), tableName_(std::move(tableName)), code_(code) {
+    llvm::PassRegistry& registry = *llvm::PassRegistry::getPassRegistry();
+    llvm::initializeScalarEvolutionWrapperPassPass(registry);
+    llvm::initializeLoopInfoWrapperPassPass(registry);
+    llvm::initializeMachineLoopInfoWrapperPassPass(registry);
+  }
+
+  void getAnalysisUsage(llvm::AnalysisUsage& usage) const override {
+    usage.addRequired<llvm::ScalarEvolutionWrapperPass>();
+    usage.addRequired<llvm::LoopInfoWrapperPass>();
+    usage.addRequired<llvm::MachineLoopInfoWrapperPass>();
+    usage.setPreservesAll();
+    MachineFunctionPass::getAnalysisUsage(usage);
+  }
+
+  bool doInitialization(llvm::Module& module) override {
+    const llvm::Constant* table = module.getNamedGlobal(tableName_)->getInitializer();
+    for (unsigned i = 0; const llvm::Constant* chunk = table->getAggregateElement(i); ++i)
+      code_.chunks.push_back(chunk->stripPointerCasts()->getName().str());
+    return false;
+  }
+
+  bool runOnMachineFunction(llvm::MachineFunction& function) override {
+    machineLoops_ = &getAnalysis<llvm::MachineLoopInfoWrapperPass>().getLI();
+    loops_ = &getAnalysis<llvm::LoopInfoWrapperPass>().getLoopInfo();
+    evolution_ = &getAnalysis<llvm::ScalarEvolutionWrapperPass>().getSE();
+    FunctionCode& code = code_.functions[function.getName().str()];
+    blocks_.clear();
+    loopNumbers_.clear();
+    byPointer_ = 0;
+    for (const llvm::MachineBasicBlock& block : function)
+      blocks_.try_emplace(&block, static_cast<uint32_t>(blocks_.size()));
+    for (const llvm::MachineLoop* loop : *machineLoops_) addLoop(*loop, kNoLoop, code);
+    for (const llvm::MachineBasicBlock& block : function) code.blocks.push_back(read(block, code));
+    if (byPointer_ > hostCalls(function.getFunction())) code.unknown = "it calls by a pointer";
+    return false;
+  }
+
+private:
+  static char kId; // LLVM knows a pass by its address
+
+  void addLoop(const llvm::MachineLoop& loop, uint32_t parent, FunctionCode& code) {
+    const auto number = static_cast<uint32_t>(code.loops.size());
+    loopNumbers_[&loop] = number;
+    code.loops.push_back({.header = blocks_.at(loop.getHeader()), .parent = parent, .rounds = roundsOf(loop)});
+    for (const llvm::MachineLoop* inner : loop) addLoop(*inner, number, code);
+  }
+
+  // Where loops of the IR have one header in the code, the code has one loop for them.
+  uint64_t roundsOf(const llvm::MachineLoop& loop) {
+    const auto irLoopOf = [&](const llvm::MachineLoop* of) -> const llvm::Loop* {
+      const llvm::BasicBlock* block = of == nullptr ? nullptr : of->getHeader()->getBasicBlock();
+      return block == nullptr ? nullptr : loops_->getLoopFor(block);
+    };
+    const llvm::Loop* around = irLoopOf(loop.getParentLoop());
+    const llvm::Loop* own = irLoopOf(&loop);
+    if (own == nullptr || own == around) return 0;
+    uint64_t rounds = 1;
+    for (; own != nullptr && own != around; own = own->getParentLoop()) {
+      const unsigned most = evolution_->getSmallConstantMaxTripCount(own);
+      if (most == 0 || rounds > UINT32_MAX) return 0;
+      rounds *= most;
+    }
+    return rounds;
+  }
+
+  CodeBlock read(const llvm::MachineBasicBlock& block, FunctionCode& code) {
+    CodeBlock out{.instructions = paddingAfter(block)};
+    if (const llvm::MachineLoop* loop = machineLoops_->getLoopFor(&block)) out.loop = loopNumbers_.at(loop);
+    for (const llvm::MachineBasicBlock* next : block.successors()) out.next.push_back(blocks_.at(next));
+    for (const llvm::MachineInstr& instruction : block) {
+      if (instruction.isMetaInstruction() || instruction.getOpcode() == llvm::TargetOpcode::MEMBARRIER) continue;
+      ++out.instructions;
+      if (instruction.isInlineAsm()) code.unknown = "it has assembly in it";
+      if (instruction.isCall()) addCall(instruction, out);
+    }
+    return out;
+  }
+
+  void addCall(const llvm::MachineInstr& call, CodeBlock& block) {
+    for (const llvm::MachineOperand& operand : call.operands()) {
+      if (operand.isGlobal()) return block.calls.push_back(operand.getGlobal()->getName().str());
+      if (operand.isSymbol()) return block.calls.push_back(operand.getSymbolName());
+    }
+    ++byPointer_;
+  }
+
+  // What the code's source calls by a pointer are the host's functions, which are not the code's.
+  static uint32_t hostCalls(const llvm::Function& function) {
+    uint32_t calls = 0;
+    for (const llvm::Instruction& instruction : llvm::instructions(function)) {
+      const auto* call = llvm::dyn_cast<llvm::CallBase>(&instruction);
+      if (call != nullptr && call->isIndirectCall()) ++calls;
+    }
+    return calls;
+  }
+
+  std::string tableName_; // of the piece's chunks
+  PieceCode& code_;
+  // Of the function in hand.
+  const llvm::MachineLoopInfo* machineLoops_ = nullptr;
+  const llvm::LoopInfo* loops_ = nullptr;
+  llvm::ScalarEvolution* evolution_ = nullptr;
+  std::map<const llvm::MachineBasicBlock*, uint32_t> blocks_;
+  std::map<const llvm::MachineLoop*, uint32_t> loopNumbers_;
+  uint32_t byPointer_ = 0; // calls
+};
+
+char CodeReader::kId = 0;
+
+} // namespace
+
+Result<std::vector<CodeLength>> boundInstructions(const ir::Layout& layout, uint64_t codeHash,
+                                                  const LlvmOptions& options) {
+  std::vector<uint32_t> all(layout.cut().chunks().size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<CodeLength> lengths;
+  for (const ModulePart& piece : cutPieces(layout.cut(), all)) {
+    PieceCode code;
+    const Result<std::string> object =
+        compilePiece(layout, codeHash, options, piece, std::make_unique<CodeReader>(piece.tableName, code));
+    if (!object.ok()) return object.failure();
+    CodeLengths measured(std::move(code.functions));
+    for (const std::string& chunk : code.chunks) lengths.push_back(measured.of(chunk));
+  }
+  return lengths;
+}
+
+} // namespace rung::codegen

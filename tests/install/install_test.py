@@ -222,7 +222,7 @@ class System(unittest.TestCase):
     def test_manual_pages(self):
         pages = sorted((PREFIX / "share/man").glob("man?/*"))
         names = {"rung-run.1", "rung.toml.5", "rung-map.5", "rung-binding.5", "rung-scenario.5", "rung-ladder.5",
-                 "rung-coverage.5", "rung-profile.5"}
+                 "rung-coverage.5", "rung-profile.5", "rung-wcet.5"}
         for program in ("rungc", "rungctl"):
             commands = re.findall(rf"(?m)^  {program} (\S+)", run(PREFIX / f"bin/{program}", "help").stdout)
             self.assertGreater(len(commands), 10)

@@ -56,6 +56,7 @@ public:
   void ended(const host::Instance& instance, uint32_t task) override;
 
   const Shortest& scans() const { return scans_; }
+  const std::vector<Shortest>& tasks() const { return tasks_; } // runs of each; empty before a start
   // The scan, its slices when it has several, and each task that ran.
   std::vector<Deadline> deadlines(const rung_program& program, const Clock& clock) const;
 

@@ -38,7 +38,9 @@ struct SourceOptions {
   std::string color = "auto";
 };
 
-void addSourceOptions(Command command, SourceOptions& options);
+// `json`: what --json means to the command.
+void addSourceOptions(Command command, SourceOptions& options,
+                      const std::string& json = "Diagnostics as JSON on standard output");
 // Finds the project: that of --project, of the only folder or rung.toml among the files, that all the named files
 // belong to, or without files the nearest one from the working directory upwards. What it says goes into the options;
 // those of the command line go before it. Gives the exit status.
@@ -101,5 +103,6 @@ void addSeal(CommandLine& app, int& status);
 void addKey(CommandLine& app, int& status);
 void addMap(CommandLine& app, int& status);
 void addBind(CommandLine& app, int& status);
+void addWcet(CommandLine& app, int& status);
 
 } // namespace rung::rungc

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
        .exitStatus = "0 ok, 1 the program or scenario is wrong, 2 wrong usage, 3 environment",
        .guide = "docs/guide.md",
        .seeAlso = {"rung.toml(5)", "rung-map(5)", "rung-binding(5)", "rung-scenario(5)", "rung-ladder(5)",
-                   "rung-coverage(5)", "rung-profile(5)", "rung_hal(9)"}});
+                   "rung-coverage(5)", "rung-profile(5)", "rung-wcet(5)", "rung_hal(9)"}});
   int status = kOk;
   addNew(app, status);
   addCheck(app, status);
@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   addRun(app, status);
   addTest(app, status);
   addProfile(app, status);
+  addWcet(app, status);
   addExplain(app, status);
   addDoc(app, status);
   cli::addUsage(app, status);

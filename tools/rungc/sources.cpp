@@ -17,7 +17,7 @@
 
 namespace rung::rungc {
 
-void addSourceOptions(Command command, SourceOptions& options) {
+void addSourceOptions(Command command, SourceOptions& options, const std::string& json) {
   command.option("FILE", options.files,
                  "Source files in order (.lad, .pmc, .plc), or the folder of a project; - reads standard input; "
                  "without any, the project (rung.toml) of the working directory or of a folder above it");
@@ -28,7 +28,7 @@ void addSourceOptions(Command command, SourceOptions& options) {
   command.option("--dialect", options.dialect, "nct, gsk or technol; needed where the file does not name it");
   command.option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated").oneValue();
   command.flag("--strict", options.strict, "Warnings that the control's own rules call errors are errors");
-  command.flag("--json", options.json, "Diagnostics as JSON on standard output");
+  command.flag("--json", options.json, json);
   command.flag("-q,--quiet", options.quiet, "Nothing but errors and warnings");
   addColorOption(command, options.color, "Colours in diagnostics");
   command.onParsed([&options] { return takeProject(options); });

@@ -1,0 +1,81 @@
+// rungc wcet: the longest that a run of each task may take.
+#include <fmt/format.h>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "tools/compiler/engines.h"
+#include "tools/console/working.h"
+#include "tools/rungc/commands.h"
+#include "tools/rungc/run_scenario.h"
+#include "tools/wcet/measure.h"
+
+namespace rung::rungc {
+namespace {
+
+struct WcetOptions {
+  SourceOptions source;
+  std::string scenarioFile;
+  RunScenario scenario;
+};
+
+// Gives the exit status; what is wrong is printed.
+int findBounds(const WcetOptions& options, const ConfigPairs& config, const compiler::Compiled& compiled,
+               host::Engine& engine, wcet::Bounds& bounds) {
+  const console::Working working("measuring");
+  Result<wcet::Bounds> found = wcet::boundsOf(compiled, engine);
+  if (!found.ok()) return environmentError(found.error());
+  bounds = std::move(found).value();
+  if (options.scenarioFile.empty()) return kOk;
+  const wcet::Drive drive{.name = options.scenarioFile,
+                          .config = config,
+                          .connects = options.scenario.connects,
+                          .statements = options.scenario.statements};
+  const Result<void> done = wcet::measure(compiled, engine, drive, bounds);
+  if (done.ok()) return kOk;
+  fmt::print(stderr, "rungc: {}\n", done.error());
+  return kWrong;
+}
+
+int runWcet(const WcetOptions& options) {
+  for (const std::string& file : options.source.files)
+    if (file.ends_with(".so"))
+      return usageError(fmt::format("'{}' is compiled: the heaviest way is found in the sources", file));
+  int status = kOk;
+  const std::optional<ConfigPairs> config = configPairs(options.source.config, status);
+  if (!config) return status;
+  SourceManager sources;
+  compiler::CompileRequest request;
+  if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
+  SourceOptions diagnostics = options.source;
+  diagnostics.json = false; // standard output is the bounds'
+  const std::optional<compiler::Compiled> compiled = compileSources(sources, diagnostics, request, status);
+  if (!compiled) return status;
+  const Result<std::unique_ptr<host::Engine>> engine = compiler::makeEngine(compiler::EngineKind::Jit, *compiled, {});
+  if (!engine.ok()) return environmentError(engine.error());
+  wcet::Bounds bounds;
+  status = findBounds(options, *config, *compiled, *engine.value(), bounds);
+  if (status != kOk) return status;
+  const rung_program& program = engine.value()->program();
+  std::cout << (options.source.json ? wcet::jsonOf(bounds, program) : wcet::textOf(bounds, program));
+  return kOk;
+}
+
+} // namespace
+
+void addWcet(CommandLine& app, int& status) {
+  Command command = app.add("wcet", "The longest that a run of each task may take, and the way that takes it");
+  auto options = std::make_shared<WcetOptions>();
+  addSourceOptions(command, options->source, "As JSON, with everything (docs/wcet-format.md)");
+  command.option("--scenario", options->scenarioFile,
+                 "Also measure runs while a scenario drives the program; without a FILE the scenario's own program");
+  command.onParsed([options] {
+    int wrong = kOk;
+    if (!options->scenarioFile.empty())
+      wrong = readRunScenario(options->scenarioFile, options->source, options->scenario);
+    return wrong == kOk ? takeProject(options->source) : wrong;
+  });
+  command.onRun([options, &status] { status = runWcet(*options); });
+}
+
+} // namespace rung::rungc

@@ -1,0 +1,96 @@
+// The bounds (see bounds.h).
+#include "tools/wcet/bounds.h"
+
+#include <algorithm>
+
+#include "codegen/jit/instruction_bound.h"
+#include "ir/chunks/rung_costs.h"
+#include "tools/compiler/engines.h"
+#include "tools/wcet/task_cost.h"
+
+namespace rung::wcet {
+namespace {
+
+// Of a program.
+struct Known {
+  const ir::Cut& cut;
+  std::vector<codegen::CodeLength> chunks;
+  std::vector<HostFunction> functions;
+  double nsPerStep = 0;
+};
+
+// A chunk's instructions are those of its first rung: it is entered nowhere else.
+void boundInstructions(const Known& known, const TaskCost& cost, TaskBound& task) {
+  std::vector<uint64_t> costs(known.cut.rungCount(), 0);
+  for (uint32_t c = 0; c < known.chunks.size(); ++c) {
+    const ir::Chunk& chunk = known.cut.chunks()[c];
+    costs[known.cut.rungNumber(chunk.routine, chunk.firstRung)] = known.chunks[c].instructions;
+    if (task.noInstructions.empty() && cost.reaches(chunk)) task.noInstructions = known.chunks[c].unknown;
+  }
+  if (task.noInstructions.empty()) task.instructions = cost.most(costs);
+}
+
+TaskBound boundTask(const Known& known, ir::TaskId id) {
+  const ir::Task& task = known.cut.module().tasks[id.index];
+  TaskBound bound{.name = task.name,
+                  .periodUs = task.periodUs,
+                  .parts = task.parts,
+                  .budget = task.budget,
+                  .way = ir::heaviestWay(known.cut, id, ir::rungWeights(known.cut)),
+                  .instructions = {},
+                  .noInstructions = {},
+                  .calls = {},
+                  .seen = {}};
+  bound.steps = bound.way.circles.empty() ? std::min<uint64_t>(bound.way.cost, task.budget) : task.budget;
+  bound.codeNs = static_cast<double>(bound.steps) * known.nsPerStep;
+  const TaskCost cost(known.cut, id, bound.way.circles);
+  boundInstructions(known, cost, bound);
+  for (const HostFunction& function : known.functions)
+    if (const uint64_t most = cost.most(ir::mostOperations(known.cut, function.operation)); most > 0)
+      bound.calls.push_back({function, most});
+  return bound;
+}
+
+} // namespace
+
+double TaskBound::callsNs() const {
+  double ns = 0;
+  for (const HostCalls& of : calls) ns += of.ns();
+  return ns;
+}
+
+Result<Bounds> boundsOf(const compiler::Compiled& compiled, host::Engine& machineCode) {
+  Result<std::vector<codegen::CodeLength>> chunks =
+      codegen::boundInstructions(*compiled.layout, compiled.codeHash, compiler::jitOptionsOf({}).code);
+  if (!chunks.ok()) return chunks.failure();
+  Bounds bounds{.program = compiled.module->name, .routines = {}, .tasks = {}, .slice = {}, .measured = {}};
+  bounds.slice = host::measureBound({.program = machineCode.program(), .engine = machineCode.context()});
+  const Known known{.cut = compiled.layout->cut(),
+                    .chunks = std::move(chunks).value(),
+                    .functions = measureHostFunctions(),
+                    .nsPerStep = bounds.slice.nsPerWeight};
+  for (const ir::Routine& routine : compiled.module->routines) bounds.routines.push_back(routine.name);
+  for (uint32_t t = 0; t < compiled.module->tasks.size(); ++t) bounds.tasks.push_back(boundTask(known, ir::TaskId{t}));
+  return bounds;
+}
+
+std::vector<Stretch> stretches(const std::vector<uint32_t>& numbers) {
+  std::vector<Stretch> out;
+  for (const uint32_t number : numbers) {
+    const bool goesOn = !out.empty() && (out.back().last == number || out.back().last + 1 == number);
+    if (goesOn)
+      out.back().last = number;
+    else
+      out.push_back({number, number});
+  }
+  return out;
+}
+
+std::vector<Stretch> drawnStretches(const std::vector<uint32_t>& rungs, const rung_program& program) {
+  std::vector<uint32_t> numbers;
+  for (const uint32_t rung : rungs)
+    if (program.rungs[rung].number != 0) numbers.push_back(program.rungs[rung].number);
+  return stretches(numbers);
+}
+
+} // namespace rung::wcet

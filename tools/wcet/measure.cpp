@@ -1,0 +1,119 @@
+// The measurements (see measure.h).
+#include "tools/wcet/measure.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+#include "ir/chunks/rung_costs.h"
+#include "rtlib/host/instance.h"
+#include "rtlib/nc/config_key.h"
+#include "rtlib/profile/clock.h"
+#include "tools/compiler/engines.h"
+#include "tools/profile/scan_times.h"
+#include "tools/scenario/session.h"
+
+namespace rung::wcet {
+namespace {
+
+constexpr uint32_t kTimedRuns = 5; // of which the shortest time of each piece counts
+
+class CountSteps final : public scenario::Observer, public host::TaskWatch {
+public:
+  explicit CountSteps(size_t tasks) : seen_(tasks) {}
+
+  // Counts while the engine that has it runs.
+  class Weigher final : public ir::RungObserver {
+  public:
+    Weigher(const ir::Layout& layout, uint64_t& steps) : weights_(ir::rungWeights(layout.cut())), steps_(steps) {}
+    void rungRan(uint32_t number, std::span<const uint64_t>) override { steps_ += weights_[number]; }
+
+  private:
+    std::vector<uint64_t> weights_;
+    uint64_t& steps_;
+  };
+  std::unique_ptr<ir::RungObserver> weigher(const ir::Layout& layout) {
+    return std::make_unique<Weigher>(layout, steps_);
+  }
+
+  void started(scenario::Session& session) override { session.instance().setTaskWatch(this); }
+  void scanned(const scenario::Session&) override {}
+  void begins(const host::Instance&, uint32_t) override { steps_ = 0; }
+  void ended(const host::Instance&, uint32_t task) override {
+    ++seen_[task].runs;
+    seen_[task].steps = std::max(seen_[task].steps, steps_);
+  }
+  const std::vector<Seen>& seen() const { return seen_; }
+
+private:
+  uint64_t steps_ = 0; // of the run
+  std::vector<Seen> seen_;
+};
+
+class TimeTasks final : public scenario::Observer {
+public:
+  void rewind() { times_.rewind(); }
+  void started(scenario::Session& session) override {
+    times_.started(session.instance());
+    session.instance().setTaskWatch(&times_);
+  }
+  void scanned(const scenario::Session&) override { times_.scanned(false); }
+  double longestNs(uint32_t task) const {
+    return profile::spreadOf(times_.tasks()[task].values(), profile::calibratedClock().nsPerTick).max;
+  }
+
+private:
+  profile::ScanTimes times_;
+};
+
+std::string configure(const compiler::Compiled& compiled, const Drive& drive, scenario::Session& session) {
+  for (const auto& [key, value] : drive.config) {
+    const nc::ConfigKey* row = nc::findConfigKey(compiled.dialect->configKeys, key);
+    if (row != nullptr && row->reader == nc::ConfigReader::Compiler) continue;
+    if (std::string wrong = session.config(key, value); !wrong.empty()) return wrong;
+  }
+  for (const scenario::Statement& connect : drive.connects)
+    if (std::string wrong = session.connect(connect.words[0], connect.words[1]); !wrong.empty())
+      return textOf(problemAt(connect, std::move(wrong)));
+  return {};
+}
+
+Result<void> run(const compiler::Compiled& compiled, host::Engine& engine, const Drive& drive,
+                 scenario::Observer& observer) {
+  scenario::Session session("");
+  session.addEngine(engine);
+  session.setCompiled([&compiled]() -> Result<const compiler::Compiled*> { return &compiled; });
+  if (std::string wrong = configure(compiled, drive, session); !wrong.empty()) return failure(wrong);
+  for (const sim::NcProblem& problem : session.start()) return failure(problem.text);
+  session.addObserver(observer);
+  for (const scenario::Statement& statement : drive.statements)
+    if (const auto problem = session.execute(statement)) return failure(textOf(*problem));
+  if (const std::string fault = session.unexpectedFault(); !fault.empty()) return failure(fault);
+  return {};
+}
+
+} // namespace
+
+Result<void> measure(const compiler::Compiled& compiled, host::Engine& machineCode, const Drive& drive,
+                     Bounds& bounds) {
+  CountSteps steps(bounds.tasks.size());
+  compiler::EngineOptions options;
+  options.observer = [&](const compiler::Compiled& of) { return steps.weigher(*of.layout); };
+  const Result<std::unique_ptr<host::Engine>> interpreter =
+      compiler::makeEngine(compiler::EngineKind::Interp, compiled, options);
+  if (!interpreter.ok()) return interpreter.failure();
+  if (Result<void> done = run(compiled, *interpreter.value(), drive, steps); !done.ok()) return done;
+  TimeTasks times;
+  for (uint32_t i = 0; i < kTimedRuns; ++i) {
+    times.rewind();
+    if (Result<void> done = run(compiled, machineCode, drive, times); !done.ok()) return done;
+  }
+  for (uint32_t t = 0; t < bounds.tasks.size(); ++t) {
+    bounds.tasks[t].seen = steps.seen()[t];
+    bounds.tasks[t].seen->ns = times.longestNs(t);
+  }
+  bounds.measured = drive.name;
+  return {};
+}
+
+} // namespace rung::wcet

@@ -78,6 +78,10 @@ constexpr ConfigKey kKeys[] = {
     {.key = "ethercat.<d>.<ATTRIBUTE>",
      .takes = "a text",
      .doc = "name, coe.INDEX.SUB, soe.IDN.DRIVE, pdo.Inputs.ENTRY, pdo.Outputs.ENTRY, refuse, ds402, motor of a slave"},
+    {.key = "servo.<n>.<ATTRIBUTE>",
+     .takes = "a number",
+     .doc = "servo n, 0 to 15: ServoType, MeasConstNumerator, MeasConstDenominator, by which increments of its drive "
+            "count (l.8547-8573, l.10150-10191)"},
     {.key = "EtherCATOPViaPLC",
      .form = Choice,
      .takes = "0 1",

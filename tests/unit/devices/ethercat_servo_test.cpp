@@ -298,6 +298,42 @@ TEST_F(Servo, PositionsWrapAsTheirCellsDo) {
   EXPECT_EQ(servo.requestedVelocity, std::numeric_limits<int32_t>::max());
 }
 
+TEST_F(Servo, IncrementsOfTheTrajectoryMode) { // l.10187-10191
+  ASSERT_EQ(servos.configure("servo.3.ServoType", "28"), "");
+  ASSERT_EQ(servos.configure("servo.3.measconstnumerator", "1"), "");
+  ASSERT_EQ(servos.configure("servo.3.MeasConstDenominator", "16384"), "");
+  EXPECT_EQ(servos.incrementsPerUm(3), 4);
+  EXPECT_EQ(servos.incrementsPerUm(2), 1);
+  servo.incrementsPerUm = 4;
+  servo.isSimulated = true;
+  servo.place = -0.5;
+  scans(1);
+  EXPECT_EQ(servo.position, -2000);
+  EXPECT_EQ(servo.micrometres(servo.position), -500);
+}
+
+TEST_F(Servo, IncrementsOfTheSpeedMode) { // l.8565-8567
+  ASSERT_EQ(servos.configure("servo.0.MeasConstNumerator", "5"), "");
+  EXPECT_EQ(servos.incrementsPerUm(0), 0.2);
+  ASSERT_EQ(servos.configure("servo.0.MeasConstDenominator", "2"), "");
+  ASSERT_EQ(servos.configure("servo.0.ServoType", "1"), "");
+  EXPECT_EQ(servos.incrementsPerUm(0), 0.4);
+  ASSERT_EQ(servos.configure("servo.0.MeasConstNumerator", "-5"), "");
+  EXPECT_EQ(servos.incrementsPerUm(0), -0.4);
+  ASSERT_EQ(servos.configure("servo.0.MeasConstNumerator", "0"), "");
+  EXPECT_EQ(servos.incrementsPerUm(0), 2);
+}
+
+TEST_F(Servo, WrongAttributes) {
+  EXPECT_NE(servos.configure("servo.16.ServoType", "28").find("a servo from 0 to 15"), std::string::npos);
+  EXPECT_NE(servos.configure("servo.x", "28").find("a servo from 0 to 15"), std::string::npos);
+  EXPECT_NE(servos.configure("servo.0.Gain", "1").find("not 'Gain'"), std::string::npos);
+  for (const char* wrong : {"1.5", "2147483648", "", "x"})
+    EXPECT_NE(servos.configure("servo.0.MeasConstNumerator", wrong).find("needs a whole number"), std::string::npos)
+        << wrong;
+  EXPECT_EQ(servos.incrementsPerUm(0), 1);
+}
+
 TEST_F(Servo, ASimulatedDriveGoesAScanLater) {
   servo.isSimulated = true;
   servo.place = 3;

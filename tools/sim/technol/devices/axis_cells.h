@@ -32,7 +32,7 @@ struct AxisInputs : devices::AxisPermits {
   uint16_t feedOverride = 1000;                     // WORD.BZH09, 1/1000
   uint16_t feedMultiplier = 1000;                   // FEED_OVR_MULTIPLIER, 1/1000 l.6542
   std::array<int64_t, kMaxAxes> refpointDist = {};  // REFPOINT_DIST, 1/65536 µm l.6647
-  std::array<int32_t, kMaxAxes> servoPosition = {}; // SERVO_POSITION, increments of the drive, taken as µm
+  std::array<int32_t, kMaxAxes> servoPosition = {}; // SERVO_POSITION, in µm
 
   // Manual motion, l.10842-11056.
   bool autmanAllowed = true;                    // EN_AUTMAN

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "rtlib/text/number.h"
+
 namespace rung::sim::technol {
 namespace {
 
@@ -44,7 +46,9 @@ bool isCarriedOut(const Request& request, uint16_t status) {
 }
 
 // Positions are INT32 that wrap (l.10337); so they are counted as unsigned.
-uint32_t incrementsAt(double place) { return static_cast<uint32_t>(std::llround(place * 1000)); }
+uint32_t incrementsAt(const ServoCells& cells) {
+  return static_cast<uint32_t>(std::llround(cells.place * 1000 * cells.incrementsPerUm));
+}
 
 int32_t limited(double value) {
   using Limits = std::numeric_limits<int32_t>;
@@ -72,7 +76,7 @@ void EthercatServo::eraseFault(ServoCells& cells) {
 // Its motor has an absolute encoder, and goes where it was asked to in the scan before.
 void EthercatServo::simulate(ServoCells& cells) {
   own_.step(cells.control);
-  if (!isPlaced_) ownPosition_ = static_cast<int32_t>(incrementsAt(cells.place));
+  if (!isPlaced_) ownPosition_ = static_cast<int32_t>(incrementsAt(cells));
   isPlaced_ = true;
   if (own_.status() == kOperationEnabled) ownPosition_ = cells.requestedPosition;
   cells.status = own_.status();
@@ -84,7 +88,7 @@ void EthercatServo::simulate(ServoCells& cells) {
 // of the last scan as a whole: a drive that keeps it for a scan has gone as far as was asked.
 void EthercatServo::follow(ServoCells& cells) {
   constexpr double kScansPerSecond = 50;
-  const uint32_t place = incrementsAt(cells.place);
+  const uint32_t place = incrementsAt(cells);
   const auto before = static_cast<uint32_t>(cells.requestedPosition);
   const bool isHeld = cells.blocksMotion || !hasBase_;
   if (isHeld) base_ = static_cast<uint32_t>(cells.position) - place;
@@ -104,6 +108,14 @@ void EthercatServo::scan(ServoCells& cells) {
   serve(cells);
   eraseFault(cells);
   cells.control = static_cast<uint16_t>(control_ | (pulse_ ? kControlFaultReset : 0));
+}
+
+std::string EthercatServos::configure(std::string_view key, std::string_view value) {
+  std::string_view rest = key.substr(std::string_view("servo.").size());
+  const auto number = text::takeNumber<uint32_t>(rest);
+  if (!number || *number >= kCount || !rest.starts_with('.'))
+    return "'" + std::string(key) + "' needs a servo from 0 to 15: servo.0.MeasConstNumerator";
+  return measures_[*number].set(rest.substr(1), value);
 }
 
 void EthercatServos::powerOn() {

@@ -1,11 +1,15 @@
 // EtherCAT drives as the control's servos order them (TECHNOL manual 13.18, 13.19, l.10216-10807): what the request
 // bits flEdrv…N do to the control word of a drive, by its status word, and the position and velocity that are asked of
-// it. An increment of a drive is a micrometre (1/1000 degree).
+// it.
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 #include "tools/sim/technol/devices/ds402_drive.h"
+#include "tools/sim/technol/devices/servo_measure.h"
 
 namespace rung::sim::technol {
 
@@ -26,6 +30,7 @@ struct ServoCells {
   bool blocksMotion = false; // flEdrvMoveDisReqN: the drive is not enabled
 
   double place = 0;              // where its axis is to be, mm; of an axis that does not exist always 0
+  double incrementsPerUm = 1;    // of the configuration
   double velocityScale = 0;      // rEdrvScaleSpeedN; 0, as at a power-on, counts as 1
   int32_t position = 0;          // dwEdrvDrivePosN, 6064h, increments: in, of a simulated one out
   int32_t requestedPosition = 0; // dwEdrvDrivePosReqN, 607Ah, increments: out
@@ -35,6 +40,10 @@ struct ServoCells {
   // DIFCIT_X, in increments: 0 while the drive is not enabled.
   int32_t followingError() const {
     return static_cast<int32_t>(static_cast<uint32_t>(requestedPosition) - static_cast<uint32_t>(position));
+  }
+  // Micrometres (1/1000 degree), which wrap as their cells do.
+  int32_t micrometres(int32_t increments) const {
+    return static_cast<int32_t>(static_cast<uint32_t>(std::llround(increments / incrementsPerUm)));
   }
 };
 
@@ -64,6 +73,11 @@ public:
   static constexpr uint32_t kCount = 16;
   using Cells = std::array<ServoCells, kCount>;
 
+  // `servo.N.ATTRIBUTE`, N from 0, as ServoMeasure. "" or what is wrong.
+  static bool owns(std::string_view key) { return key.starts_with("servo."); }
+  std::string configure(std::string_view key, std::string_view value);
+  double incrementsPerUm(uint32_t servo) const { return measures_[servo].incrementsPerMicrometre(); }
+
   void powerOn();
   // One millisecond; the servos work in each 20th, so that one step takes one scan.
   void tick(Cells& cells);
@@ -71,6 +85,7 @@ public:
 private:
   static constexpr uint32_t kScanTicks = 20;
   std::array<EthercatServo, kCount> servos_;
+  std::array<ServoMeasure, kCount> measures_;
   uint32_t ticks_ = 0;
 };
 

@@ -42,7 +42,6 @@ void takeServos(const ModuleCells& cells, EthercatServos::Cells& servos) {
 }
 
 uint64_t bitsOfReal(double value) { return std::bit_cast<uint64_t>(value); }
-uint64_t bitsOfMm(int32_t micrometres) { return bitsOfReal(micrometres / 1000.); }
 
 double positionAt(const ModulePoint& point, const AxisOutputs& axes) {
   constexpr uint32_t kSpaceWithShift = 6;
@@ -75,23 +74,25 @@ double incrementAt(const ModulePoint& point, const AxisOutputs& axes) {
 // What a servo gives has the width of its cell; its measures are 32 bits.
 std::optional<uint64_t> servoGives(uint32_t part, const ServoCells& servo) {
   const auto word = [](int32_t value) { return uint64_t{static_cast<uint32_t>(value)}; };
+  const auto um = [&](int32_t increments) { return word(servo.micrometres(increments)); };
+  const auto mm = [&](int32_t increments) { return bitsOfReal(increments / servo.incrementsPerUm / 1000); };
   switch (static_cast<ServoPart>(part)) {
   case kServoStatus:
   case kServoError:
   case kServoPosition: return std::nullopt;
   case kServoControl: return servo.control;
-  case kServoRequestedPosition:
-  case kRequestedUm: return word(servo.requestedPosition);
+  case kServoRequestedPosition: return word(servo.requestedPosition);
   case kServoRequestedVelocity: return word(servo.requestedVelocity);
   case kServoState: return static_cast<uint64_t>(servo.state);
   case kServoBlocksMotion: return servo.blocksMotion ? 1 : 0;
   case kServoFaulty: return servo.isFaulty ? 1 : 0;
-  case kFollowingErrorMm: return bitsOfMm(servo.followingError());
-  case kFollowingErrorUm: return word(servo.followingError());
-  case kMeasuredMm: return bitsOfMm(servo.position);
-  case kMeasuredUm:
+  case kFollowingErrorMm: return mm(servo.followingError());
+  case kFollowingErrorUm: return um(servo.followingError());
+  case kMeasuredMm: return mm(servo.position);
+  case kMeasuredUm: return um(servo.position);
   case kMeasuredIncrements: return word(servo.position);
-  case kRequestedMm: return bitsOfMm(servo.requestedPosition);
+  case kRequestedMm: return mm(servo.requestedPosition);
+  case kRequestedUm: return um(servo.requestedPosition);
   }
   return std::nullopt;
 }

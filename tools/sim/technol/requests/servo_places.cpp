@@ -66,10 +66,11 @@ void ServoPlaces::write(const rt::Memory& memory, const EthercatServos::Cells& s
                                 static_cast<uint64_t>(cells.requestedPosition),
                                 static_cast<uint64_t>(cells.requestedVelocity)};
     for (uint32_t i = 0; i < kWords; ++i) memory.write(words_[servo][i], numbers[i]);
-    for (const OfServos* places : {&position_, &measured_, &increments_})
+    for (const OfServos* places : {&position_, &increments_})
       memory.write((*places)[servo], static_cast<uint64_t>(cells.position));
-    memory.write(requested_[servo], static_cast<uint64_t>(cells.requestedPosition));
-    memory.write(followingError_[servo], static_cast<uint64_t>(cells.followingError()));
+    memory.write(measured_[servo], static_cast<uint64_t>(cells.micrometres(cells.position)));
+    memory.write(requested_[servo], static_cast<uint64_t>(cells.micrometres(cells.requestedPosition)));
+    memory.write(followingError_[servo], static_cast<uint64_t>(cells.micrometres(cells.followingError())));
   }
 }
 

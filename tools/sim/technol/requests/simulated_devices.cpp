@@ -2,6 +2,7 @@
 #include "tools/sim/technol/requests/simulated_devices.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/letters.h"
@@ -41,6 +42,7 @@ std::optional<std::string> SimulatedDevices::configure(std::string_view key, std
   if (const auto wired = inputs_.configure(key, value, axes_)) return *wired;
   if (ComPorts::owns(key)) return com_.configure(key, value);
   if (EtherCat::owns(key)) return ethercat_.configure(key, value);
+  if (EthercatServos::owns(key)) return servos_.configure(key, value);
   if (const auto keyboard = keyboards_.configure(key, path)) return *keyboard;
   return can_.configure(key, value);
 }
@@ -224,6 +226,9 @@ void SimulatedDevices::pass(host::Instance& instance, ModuleCells& cells, int64_
 void SimulatedDevices::tickAxes(host::Instance& instance, uint32_t ticks) {
   const rt::Memory memory = instance.memory();
   axisPlaces_.read(memory, axisInputs_, axisRequests_);
+  for (uint32_t i = 0; i < kMaxAxes; ++i)
+    axisInputs_.servoPosition[i] =
+        static_cast<int32_t>(std::llround(axisInputs_.servoPosition[i] / servos_.incrementsPerUm(i)));
   for (uint32_t i = 0; i < ticks; ++i) axes_.tick(axisInputs_, axisRequests_);
   axes_.show(axisOutputs_);
   axisPlaces_.write(memory, axes_.count(), axisRequests_, axisOutputs_);
@@ -235,6 +240,7 @@ void SimulatedDevices::tickOthers(host::Instance& instance, ModuleCells& cells, 
   canPlaces_.read(memory, canInputs_.units, canInputs_.drives, canOutputs_.units.errors);
   statePlaces_.read(memory, stateBits_);
   servoPlaces_.read(memory, servoCells_);
+  for (uint32_t i = 0; i < servoCells_.size(); ++i) servoCells_[i].incrementsPerUm = servos_.incrementsPerUm(i);
   for (uint32_t i = 0; i < axes_.count(); ++i) servoCells_[i].place = axes_.physical(i + 1);
   takeOutputs(cells, ethercat_.image(), servoCells_);
   for (uint32_t i = 0; i < ticks; ++i) {

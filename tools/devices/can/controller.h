@@ -26,6 +26,8 @@ public:
 
   // At a power-on.
   void power();
+  // A millisecond before the first one of the program; see CanUnits::prepare.
+  void prepareUnits() { units_.prepare(*ports_[kUnitChannel - 1]); }
   // START PLC: orders are deleted, all else stays.
   void startProgram() { orders_.clear(); }
 

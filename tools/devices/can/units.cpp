@@ -41,10 +41,17 @@ void CanUnits::reset() {
 }
 
 // Other nodes of the channel are the program's: they are started, and then left alone.
-void CanUnits::tick(const UnitOrders& orders, UnitStates& states, CanPort& port) {
+void CanUnits::prepare(CanPort& port) {
   if (units_.empty()) return;
   if (!started_) started_ = port.transmit(packetOf(kNodeControl, {kStart, kAllNodes}));
   for (CanUnit& unit : units_) unit.tick(port, messages_);
+}
+
+bool CanUnits::areStarted() const { return std::ranges::all_of(units_, &CanUnit::isStarted); }
+
+void CanUnits::tick(const UnitOrders& orders, UnitStates& states, CanPort& port) {
+  if (units_.empty()) return;
+  prepare(port);
   output(orders, states);
   if (++sinceSync_ >= syncPeriod_) synchronize(orders, port);
   states.groups = {};

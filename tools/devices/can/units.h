@@ -49,6 +49,10 @@ public:
 
   // At a power-on.
   void reset();
+  // A millisecond before the first tick, without process data: units get their mapping and are started. A control whose
+  // program waits for that has nothing of it in its scans.
+  void prepare(CanPort& port);
+  bool areStarted() const;
   // A millisecond. Of `states`, `errors` is read, too.
   void tick(const UnitOrders& orders, UnitStates& states, CanPort& port);
   // The oldest message that nobody took.

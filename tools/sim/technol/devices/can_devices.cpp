@@ -20,6 +20,18 @@ CanDevices::CanDevices() {
 void CanDevices::power() {
   for (SimulatedCanBus& bus : buses_) bus.power();
   control_.power();
+  prepareUnits();
+}
+
+// Each answers, so that its objects take some milliseconds: far fewer than these.
+void CanDevices::prepareUnits() {
+  constexpr uint32_t kMostMs = 100;
+  SimulatedCanBus& bus = buses_[kUnitChannel - 1];
+  for (uint32_t ms = 0; ms < kMostMs && bus.isActive() && !control_.units().areStarted(); ++ms) {
+    control_.prepareUnits();
+    bus.tick();
+    control_.receive();
+  }
 }
 
 void CanDevices::openForScenario() {

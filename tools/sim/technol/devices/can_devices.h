@@ -50,7 +50,8 @@ public:
   // wrong; nothing: a key of something else. Names in any case.
   std::optional<std::string> configure(std::string_view key, std::string_view value);
 
-  // Power off and on: everything starts anew and whole, what is wired to the units stays.
+  // Power off and on: everything starts anew and whole, what is wired to the units stays. Units have their mapping
+  // before the first tick, as the program of a control begins when its bus is ready.
   void power();
   // After that, where a scenario answers for the devices: no bus, but orders of packets on both channels.
   void openForScenario();
@@ -78,6 +79,7 @@ public:
 private:
   using Problem = std::optional<std::string>;
 
+  void prepareUnits();
   Problem configureObject(std::string_view key, std::string_view value);
   void follow(const devices::CanSettings& settings);
   void setDrives(uint32_t count);

@@ -18,7 +18,7 @@ namespace {
 std::string shortHelp(const CommandLine& app) {
   size_t width = 0;
   for (const Command& command : app.commands()) width = std::max(width, command.name().size());
-  std::string text = app.root().description() + "\n\n";
+  std::string text = app.root().description() + "\n";
   for (const Command& command : app.commands())
     text += fmt::format("  {} {:<{}} {}\n", app.text().name, command.name(), width, command.description());
   return text + fmt::format("\n{} help COMMAND says more about one; {} shows them at work.\n", app.text().name,

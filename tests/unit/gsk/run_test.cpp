@@ -86,7 +86,7 @@ TEST(GskModule, KeysSurviveEditsElsewhere) {
 TEST(GskModule, ScheduleOfSlots) {
   const auto program = compiled("FUNC 0\nFUNC 1\n", {.config = {{"period_us", "24000"}}});
   const ir::Module& module = *program->module;
-  EXPECT_EQ(module.scan.size(), 12u) << "four steps a slot";
+  EXPECT_EQ(module.scan.size(), 11u) << "three steps a slot, and two ends of slots between them";
   EXPECT_EQ(module.fast.size(), 2u);
   EXPECT_EQ(module.tasks[module.mainTask.index].parts, 3u);
   EXPECT_EQ(module.tasks[module.mainTask.index].periodUs, 24000u);

@@ -68,7 +68,7 @@ entry:
   %2 = add i16 %1, 1
   %3 = icmp eq i16 %2, 3
   %4 = zext i1 %3 to i8
-  br i1 %3, label %fault, label %go
+  br i1 %3, label %fault, label %go, !prof !3
 
 fault:                                            ; preds = %entry
   %5 = getelementptr inbounds %rung_ctx, ptr %ctx, i32 0, i32 5

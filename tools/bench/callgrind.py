@@ -34,16 +34,21 @@ def counted(profile, *words, options=()):
 BY_ADDRESS = ("--dump-instr=yes", "--compress-pos=no")
 
 
+def by_object(path):
+    """Each line of a profile, with the file whose code it is about (the format of callgrind's profiles)."""
+    names, within = {}, ""
+    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
+        if found := re.match(r"(c?)ob=\((\d+)\)(?: (.*))?", line):  # cob: of what is called
+            name = names.setdefault(found[2], found[3])
+            within = within if found[1] else name
+        else:
+            yield within, line
+
+
 def code_lines(path, name):
     """Lines of 64 bytes of the code of that file which ran; the profile is by address."""
-    names, within, lines = {}, "", set()
-    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
-        if found := re.match(r"(c?)ob=\((\d+)\)(?: (.*))?", line):
-            known = names.setdefault(found[2], found[3])
-            within = within if found[1] else known
-        elif (found := re.match(r"0x([0-9a-f]+) ", line)) and within.endswith(name):
-            lines.add(int(found[1], 16) // 64)
-    return len(lines)
+    found = (re.match(r"0x([0-9a-f]+) ", line) for within, line in by_object(path) if within and within.endswith(name))
+    return len({int(each[1], 16) // 64 for each in found if each})
 
 
 def touched(line, folder, *words):
@@ -58,13 +63,10 @@ def touched(line, folder, *words):
 
 
 def self_costs(path):
-    """Instructions by the file of the code, calls not included (the format of callgrind's profiles)."""
-    names, costs, within, skip = {}, {}, "", False
-    for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
-        if found := re.match(r"(c?)ob=\((\d+)\)(?: (.*))?", line):  # cob: of what is called
-            name = names.setdefault(found[2], found[3])
-            within = within if found[1] else name
-        elif line.startswith("calls="):
+    """Instructions by the file of the code, calls not included."""
+    costs, skip = {}, False
+    for within, line in by_object(path):
+        if line.startswith("calls="):
             skip = True  # the next line is what the call costs, callee included
         elif found := re.match(r"[+\-*\d]\S* (\d+)$", line):
             if not skip:

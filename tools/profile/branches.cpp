@@ -59,8 +59,10 @@ void BranchCounter::rungRan(uint32_t number, std::span<const uint64_t> values) {
   reached_.assign(plan.ifs.size(), 1);
   for (size_t i = 0; i < plan.ifs.size(); ++i) {
     const If& own = plan.ifs[i];
-    if (own.outer != i)
-      reached_[i] = reached_[own.outer] != 0 && (values[plan.ifs[own.outer].condition] != 0) != own.inElse ? 1 : 0;
+    if (own.outer != i) {
+      const bool isTaken = values[plan.ifs[own.outer].condition] != 0;
+      reached_[i] = reached_[own.outer] != 0 && isTaken != own.inElse ? 1 : 0;
+    }
     if (reached_[i] == 0) continue;
     ir::Branch& branch = (*plan.counts)[i];
     ++branch.reached;

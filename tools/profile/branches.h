@@ -9,7 +9,7 @@
 
 namespace rung::profile {
 
-// Of one program that one thread runs.
+// Of one program that one thread runs. Of a loop the last pass counts.
 class BranchCounter final : public ir::RungObserver {
 public:
   // A module that no pass has changed, which may go; what is counted is added to `counts`, which outlive it.

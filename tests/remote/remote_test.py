@@ -224,6 +224,18 @@ class Commands(Host):
         for wanted in ("$var wire 1 ! X0.3 $end", '$var wire 16 " D8:2 $end', "\n0!\n", "\n1!\n", '\nb11 "\n'):
             self.assertIn(wanted, text)
 
+    def test_an_interrupted_trace_has_all_that_came_before(self):
+        out = self.home / "late.vcd"
+        tracing = subprocess.Popen([BIN / "rungctl", "trace", "X0.3", "-o", out], env=self.environment,
+                                   stdout=subprocess.DEVNULL)
+        time.sleep(0.3)
+        tracing.send_signal(signal.SIGSTOP)  # as on a machine that has other work
+        self.ctl("set", "X0.3", "1")
+        tracing.send_signal(signal.SIGINT)
+        tracing.send_signal(signal.SIGCONT)
+        self.assertEqual(tracing.wait(PATIENCE), OK)
+        self.assertIn("\n1!\n", out.read_text())
+
     def test_sigrok_reads_a_trace(self):
         out = self.home / "sigrok.vcd"
         tracing = subprocess.Popen([BIN / "rungctl", "trace", "X0.3", "Y0.0", "D8:2", "-o", out, "--for", "1"],

@@ -79,15 +79,21 @@ json Client::ask(const json& request, std::chrono::milliseconds patience) {
 
 std::optional<json> Client::event(const volatile int& stop) {
   constexpr std::chrono::milliseconds kTurn(100);
-  while (stop == 0 && events_.empty()) {
-    const std::optional<json> line = next(kTurn);
-    if (line && line->contains("event")) return line;
-    if (connection_.ended()) throw std::runtime_error("the host " + host_ + " has ended");
+  std::optional<json> found;
+  while (stop == 0 && !found) found = event(kTurn);
+  return found;
+}
+
+std::optional<json> Client::event(std::chrono::milliseconds patience) {
+  if (!events_.empty()) {
+    json first = std::move(events_.front());
+    events_.pop_front();
+    return first;
   }
-  if (events_.empty()) return std::nullopt;
-  json first = events_.front();
-  events_.pop_front();
-  return first;
+  std::optional<json> line = next(patience);
+  if (line && line->contains("event")) return line;
+  if (connection_.ended()) throw std::runtime_error("the host " + host_ + " has ended");
+  return std::nullopt;
 }
 
 // The next line, nothing within that time; or the host has gone.

@@ -20,8 +20,10 @@ public:
   static constexpr std::chrono::seconds kAnswer{15};
   // Waits for the answer. Throws std::runtime_error where the host has gone.
   nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds patience = kAnswer);
-  // The next event; waits for it, until `stop` is not 0.
+  // The next event; waits for it, until `stop` is not 0. Throws std::runtime_error where the host has ended.
   std::optional<nlohmann::json> event(const volatile int& stop);
+  // The same within that time.
+  std::optional<nlohmann::json> event(std::chrono::milliseconds patience);
 
   // For lines that are passed on as they are.
   remote::Connection& connection() { return connection_; }

@@ -125,6 +125,19 @@ int watch(Client& client, const Words& words) {
   return cli::kOk;
 }
 
+// What the program has done until now and has not arrived yet: a busy machine lets this process wait.
+void addRest(Client& client, const Words& words, rungctl::Trace& trace) {
+  using std::chrono::milliseconds;
+  // 0 where no pass ends any more.
+  const uint64_t newest = client.ask({{"do", "get"}, {"names", words.names}}).value("pass", uint64_t{0});
+  const milliseconds patience(newest == 0 ? 0 : 2000);
+  while (newest == 0 || trace.lastPass() < newest) {
+    const std::optional<json> event = client.event(patience);
+    if (!event) return;
+    if (event->value("event", "") == "values") trace.add(*event);
+  }
+}
+
 int trace(Client& client, const Words& words) {
   std::ofstream file(words.file, std::ios::binary);
   if (!file) return fail("cannot write " + words.file, cli::kEnvironment);
@@ -134,6 +147,7 @@ int trace(Client& client, const Words& words) {
   while (gStop == 0 && (words.seconds == 0 || std::chrono::steady_clock::now() < end))
     if (const std::optional<json> event = client.event(gStop); event && event->value("event", "") == "values")
       trace.add(*event);
+  addRest(client, words, trace);
   trace.end();
   if (!file.flush()) return fail("cannot write " + words.file, cli::kEnvironment);
   print(words, {{"ok", true}, {"passes", trace.passes()}},

@@ -46,6 +46,7 @@ void Trace::add(const json& event) {
   lost_ = lost;
   vcd_.sample(event.value("us", int64_t{0}), values_);
   ++passes_;
+  lastPass_ = event.value("pass", uint64_t{0});
 }
 
 } // namespace rung::rungctl

@@ -18,12 +18,14 @@ public:
   void add(const nlohmann::json& event);
   void end() { vcd_.end(); }
   uint64_t passes() const { return passes_; }
+  uint64_t lastPass() const { return lastPass_; } // 0 before the first
 
 private:
   host::VcdWriter vcd_;
   std::vector<host::VcdValue> values_;
   uint64_t lost_ = 0;
   uint64_t passes_ = 0;
+  uint64_t lastPass_ = 0;
 };
 
 } // namespace rung::rungctl

@@ -16,6 +16,7 @@ RUNGC = ""
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 ROOT = Path(__file__).resolve().parents[2]
 PATIENCE = 60  # seconds until a test gives up; a loaded machine is slow, not wrong
+RUNNING = r"scan \d+, [\d.]+ s, running for "  # a statement that takes its time
 
 LAMP = """dialect nct
 module MAIN
@@ -472,8 +473,7 @@ class OnATerminal(Folder):
     def test_control_c_interrupts_a_run(self):
         terminal = self.start()
         terminal.type("run 900000s\r")
-        terminal.until("\n")
-        time.sleep(0.3)
+        terminal.until(RUNNING)
         terminal.type("\x03")
         shown = terminal.until(r"interrupted\s+scan (\d+), [\d.]+ s> ")
         scans = int(re.search(r"scan (\d+), [\d.]+ s> $", shown).group(1))
@@ -489,8 +489,7 @@ class OnATerminal(Folder):
         self.file("long.part", "run 900000s\nset STOP 1\nscan 5\n")
         terminal = self.start()
         terminal.type("include long.part\r")
-        terminal.until("\n")
-        time.sleep(0.3)
+        terminal.until(RUNNING)
         terminal.type("\x03")
         terminal.until(r"interrupted\s+scan \d+, [\d.]+ s> $")
         self.assertIn("STOP = 0", terminal.line("STOP"))
@@ -499,7 +498,7 @@ class OnATerminal(Folder):
         self.file("long.scn", "program lamp.lad\nrun 900000s\n")
         terminal = Terminal("run", "--scenario", "long.scn", cwd=self.folder)
         self.addCleanup(terminal.close)
-        time.sleep(1)
+        terminal.until(RUNNING)
         terminal.type("\x03")
         terminal.until(r"interrupted at long.scn:2")
         self.assertEqual(terminal.end(), WRONG)
@@ -543,7 +542,7 @@ class OnATerminal(Folder):
     def test_progress_is_shown_and_gone(self):
         terminal = self.start()
         terminal.type("run 900000s\r")
-        terminal.until(r"scan \d+, [\d.]+ s, running for ")
+        terminal.until(RUNNING)
         terminal.type("\x03")
         terminal.until(r"interrupted")
 

@@ -284,7 +284,7 @@ class Watching(Folder):
         self.file("notes.txt", "no scenario\n")
         self.silence(0.5)
         self.process.send_signal(signal.SIGINT)
-        self.assertEqual(self.process.wait(10), WRONG)
+        self.assertEqual(self.process.wait(60), WRONG)
 
     def test_waits_for_a_program_that_is_not_there(self):
         self.file("a.scn", GOOD.replace("lamp.lad", "later.lad"))
@@ -293,7 +293,7 @@ class Watching(Folder):
         self.file("later.lad", LAMP)
         self.assertIn("1 passed, 0 failed", self.until("Ctrl-C ends\n"))
         self.process.send_signal(signal.SIGTERM)
-        self.assertEqual(self.process.wait(10), OK)
+        self.assertEqual(self.process.wait(60), OK)
 
 
 if __name__ == "__main__":

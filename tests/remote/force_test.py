@@ -34,7 +34,7 @@ class Forcing(SourceHost):
         return connection
 
     def answer(self, connection):
-        connection[0].settimeout(60)
+        connection[0].settimeout(2 * PATIENCE)
         return json.loads(connection[1].readline())
 
     def fake(self, body):
@@ -224,8 +224,7 @@ class ForcesOfDialects(SourceHost):
     def run_example(self, name):
         self.end()
         self.program = EXAMPLES / name
-        self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc"],
-                                     stderr=self.log, env=self.environment)
+        self.start()
         self.wait(lambda: self.socket.exists() and self.logged().count("listening at") == 2)
 
     def test_nct(self):
@@ -302,7 +301,7 @@ class ForceAttacks(Forcing):
             os.dup2(image, 4)
 
         done = subprocess.Popen([BIN / "rung-compile", *words], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
-                                stderr=subprocess.DEVNULL, close_fds=False, preexec_fn=give_files)
+                                stderr=subprocess.DEVNULL, close_fds=False, preexec_fn=give_files, start_new_session=True)
         os.close(answer)
         with os.fdopen(answers, "rb") as answers:
             try:

@@ -16,7 +16,7 @@ from pathlib import Path
 
 BIN = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
-PATIENCE = 10  # seconds until something counts as never happening
+PATIENCE = 60  # seconds until something counts as never happening
 
 # X0.0 lights Y0.0, X0.1 lets the program never end.
 PROGRAM = """dialect gsk
@@ -68,11 +68,16 @@ class Host(unittest.TestCase):
         (self.home / "plc.map").write_text(self.map)
         self.log = open(self.home / "log", "w+")
         self.addCleanup(self.log.close)
-        self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc"],
-                                     stderr=self.log, env=self.environment)
+        self.start()
         self.addCleanup(self.end)
         self.socket = self.home / "sockets/plc.sock"
         self.wait(lambda: self.socket.exists() and "listening at" in self.logged())
+
+    def start(self):
+        # In a session of its own, where its compiler process, which has the lowest priority, gets the host's share of a
+        # busy processor (sched_autogroup).
+        self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc"],
+                                     stderr=self.log, env=self.environment, start_new_session=True)
 
     def end(self):
         self.host.terminate()
@@ -89,13 +94,30 @@ class Host(unittest.TestCase):
             time.sleep(0.01)
 
     def ctl(self, *words, status=OK):
-        done = subprocess.run([BIN / "rungctl", *map(str, words)], capture_output=True, text=True, timeout=60,
+        done = subprocess.run([BIN / "rungctl", *map(str, words)], capture_output=True, text=True, timeout=2 * PATIENCE,
                               env=self.environment)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done.stdout if status == OK else done.stdout + done.stderr
 
     def get(self, name):
         return json.loads(self.ctl("get", name, "--json"))["values"][name]
+
+    def passes(self):
+        return json.loads(self.ctl("status", "--json"))["passes"]
+
+    def pass_by(self, count):
+        """Waits for that many passes of the program."""
+        end = self.passes() + count
+        self.wait(lambda: self.passes() >= end)
+
+    def trace(self, out, *words):
+        """A trace of names into a file, which sees every pass from the next one on."""
+        tracing = subprocess.Popen([BIN / "rungctl", "trace", *words, "-o", out], env=self.environment, stdout=subprocess.DEVNULL)
+        self.addCleanup(tracing.wait)
+        self.addCleanup(tracing.kill)
+        self.wait(lambda: out.exists() and out.stat().st_size > 0)
+        self.pass_by(2)
+        return tracing
 
     def connect(self):
         made = socket.socket(socket.AF_UNIX)
@@ -154,7 +176,7 @@ class Commands(Host):
         self.wait(lambda: self.get("Y0.0"))
         self.ctl("stop")
         self.assertEqual(self.ctl("forced"), "nothing is forced\n")
-        time.sleep(0.05)
+        time.sleep(0.05)  # which are passes that it is not to run
         self.assertTrue(self.get("Y0.0"))  # it stays as it is
         self.ctl("start")
         self.wait(lambda: not self.get("Y0.0"))
@@ -214,21 +236,24 @@ class Commands(Host):
 
     def test_trace(self):
         out = self.home / "trace.vcd"
-        tracing = subprocess.Popen([BIN / "rungctl", "trace", "X0.3", "D8:2", "-o", out, "--for", "1"], env=self.environment,
-                                   stdout=subprocess.DEVNULL)
-        time.sleep(0.3)
+        tracing = self.trace(out, "X0.3", "D8:2")
         self.ctl("set", "X0.3", "1")
         self.ctl("set", "D8:2", "3")
+        self.pass_by(2)
+        tracing.send_signal(signal.SIGINT)
         self.assertEqual(tracing.wait(PATIENCE), OK)
         text = out.read_text()
         for wanted in ("$var wire 1 ! X0.3 $end", '$var wire 16 " D8:2 $end', "\n0!\n", "\n1!\n", '\nb11 "\n'):
             self.assertIn(wanted, text)
 
+    def test_a_trace_that_ends_by_itself(self):
+        out = self.home / "short.vcd"
+        self.assertEqual(self.trace(out, "X0.3", "--for", "0.5").wait(PATIENCE), OK)
+        self.assertIn("\n0!\n", out.read_text())
+
     def test_an_interrupted_trace_has_all_that_came_before(self):
         out = self.home / "late.vcd"
-        tracing = subprocess.Popen([BIN / "rungctl", "trace", "X0.3", "-o", out], env=self.environment,
-                                   stdout=subprocess.DEVNULL)
-        time.sleep(0.3)
+        tracing = self.trace(out, "X0.3")
         tracing.send_signal(signal.SIGSTOP)  # as on a machine that has other work
         self.ctl("set", "X0.3", "1")
         tracing.send_signal(signal.SIGINT)
@@ -238,12 +263,11 @@ class Commands(Host):
 
     def test_sigrok_reads_a_trace(self):
         out = self.home / "sigrok.vcd"
-        tracing = subprocess.Popen([BIN / "rungctl", "trace", "X0.3", "Y0.0", "D8:2", "-o", out, "--for", "1"],
-                                   env=self.environment, stdout=subprocess.DEVNULL)
-        time.sleep(0.3)
+        tracing = self.trace(out, "X0.3", "Y0.0", "D8:2")
         for value in (1, 0, 1):
             self.ctl("set", "X0.3", value)
-            time.sleep(0.1)
+            self.pass_by(2)
+        tracing.send_signal(signal.SIGINT)
         self.assertEqual(tracing.wait(PATIENCE), OK)
         done = subprocess.run(["sigrok-cli", "-I", "vcd:downsample=1000", "-i", out, "-O", "csv:header=false:label=off"],
                               capture_output=True, text=True, timeout=60)
@@ -290,9 +314,13 @@ class Profile(Host):
         self.assertRegex(text, r"\.\.\. and \d+ more\n\d+ of \d+ rungs have run\n$")
 
     def test_reset(self):
-        self.wait(lambda: self.rows()[1].get(4, {"executions": 0})["executions"] > 200)
+        def executions():
+            return self.rows()[1].get(4, {"executions": 0})["executions"]
+
+        self.wait(lambda: executions() > 200)
+        before = self.passes()
         self.assertTrue(self.ctl("profile", "--reset").endswith("from now on they are counted anew\n"))
-        self.assertLess(self.rows()[1].get(4, {"executions": 0})["executions"], 150)
+        self.assertLessEqual(executions(), self.passes() - before)  # one a pass, and none of the 200
         self.assertIn(": clear the profile", self.logged())
 
     def test_wrong_words(self):

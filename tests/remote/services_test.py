@@ -180,13 +180,21 @@ class Services(Provider):
 
     def test_what_is_not_answered_is_refused(self):
         provider = self.provider()
-        begin = time.monotonic()
+        watching = self.connect()
+        watching[1].readline()
+        self.assertTrue(self.ask(watching, do="watch", names=["X0.0", "R10.0"], all=False)["ok"])
         self.ctl("set", "X0.0", "1")
         asked = self.event(provider)
-        self.wait(lambda: self.get("R10.0"))
-        self.assertTrue(4 < time.monotonic() - begin < 8)
+        began, ended = self.us_of(watching, [True, False]), self.us_of(watching, [True, True])
+        self.assertTrue(4e6 < ended - began < 8e6, ended - began)
         self.assertEqual(self.get("D2:2"), 6)
         self.assertIn("or was too late", self.ask(provider, do="served", ticket=asked["ticket"], outcome="done", value=1)["error"])
+
+    def us_of(self, watching, values):
+        """When the program had these values, in its time."""
+        while (event := self.event(watching))["values"] != values:
+            pass
+        return event["us"]
 
     def test_one_serves_at_a_time(self):
         provider = self.provider()
@@ -379,7 +387,7 @@ class GskAxes(Provider):
         provider = self.provider()
         self.order(1, 100, 100)
         ticket = self.asked(provider, way="by", value=0.01, speed=100.0)
-        time.sleep(5.5)  # longer than other requests wait
+        self.pass_by(5500 // 8)  # longer than other requests wait
         self.over(provider, ticket)
         self.wait(lambda: self.get("EINPA") and not self.get("EIALA"))
 

@@ -143,6 +143,7 @@ int trace(Client& client, const Words& words) {
   if (!file) return fail("cannot write " + words.file, cli::kEnvironment);
   const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", true}});
   rungctl::Trace trace(file, client.greeting().value("program", ""), begun["names"]);
+  file.flush(); // its head: whoever looks knows that no pass is missed from now on
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(words.seconds);
   while (gStop == 0 && (words.seconds == 0 || std::chrono::steady_clock::now() < end))
     if (const std::optional<json> event = client.event(gStop); event && event->value("event", "") == "values")

@@ -6,10 +6,11 @@ import hal
 import linuxcnc
 
 import drive
-from drive import check, command, done, pin, pins, state, wait
+from drive import at_rest, check, command, done, passes, pin, pins, state, wait
 
 HOME = 7       # of joint 3 in the INI file, mm
 FEED = 6000    # mm/min: 100 mm/s
+SLOW = 600     # for what is done in a motion
 UNITS = 65536  # of a feed, in a mm/min (l.12258)
 
 
@@ -30,7 +31,7 @@ def watch():
     """From now on the extremes of what the drive is told are kept."""
     for name in ("places", "speeds", "accelerations"):
         hal.set_p(f"{name}.reset", "1")
-    time.sleep(0.05)
+    passes(5)
     for name in ("places", "speeds", "accelerations"):
         hal.set_p(f"{name}.reset", "0")
 
@@ -39,8 +40,8 @@ def extremes(name):
     return hal.get_value(f"{name}.min"), hal.get_value(f"{name}.max")
 
 
-def go(length):
-    put(length=length, feed=FEED * UNITS, allow=True)
+def go(length, feed=FEED):
+    put(length=length, feed=feed * UNITS, allow=True)
     put(go=True)
 
 
@@ -63,7 +64,7 @@ def homing():
     command.home(-1)
     wait("homed", lambda: state("homed")[:4] == (1, 1, 1, 1))
     pins(**{"table.homed": True})
-    time.sleep(0.1)
+    passes(10)
     check(near(place(), HOME), f"the command is {place()}")
     least, most = extremes("places")
     check(near(least, most), f"the motor moved from {least} to {most}")
@@ -73,7 +74,6 @@ def distances():
     """By the trapezoid of the unit, within the feed and the acceleration of the program."""
     watch()
     go(60000)
-    pins(wanted=True)
     ends(arrived=True, failed=False)
     check(near(place(), HOME + 60), f"it is at {place()}")
     go(-80000)
@@ -86,22 +86,22 @@ def distances():
 
 def held():
     """Without its permission it brakes, and continues with it."""
-    go(50000)
-    wait("motion", lambda: place() > HOME - 10)
+    go(50000, SLOW)
+    pins(wanted=True)
+    wait("motion", lambda: place() > HOME - 19)
     put(allow=False)
-    time.sleep(0.5)
-    here = place()
-    time.sleep(0.1)
+    here = at_rest(place)
+    passes(10)
     check(place() == here and here < HOME + 30, f"it is not held at {here}, but at {place()}")
-    put(allow=True)
+    put(allow=True, feed=FEED * UNITS)
     ends(arrived=True, failed=False)
     check(near(place(), HOME + 30), f"it is at {place()}")
 
 
 def switched_off():
     """The machine goes off in a motion: ERR, and no jump when it is on again."""
-    go(-60000)
-    wait("motion", lambda: place() < HOME + 20)
+    go(-60000, SLOW)
+    wait("motion", lambda: place() < HOME + 28)
     command.state(linuxcnc.STATE_OFF)
     done("machine off")
     ends(failed=True, arrived=False)
@@ -109,7 +109,7 @@ def switched_off():
     command.state(linuxcnc.STATE_ON)
     done("machine on")
     pins(**{"table.enabled": True})
-    time.sleep(0.1)
+    passes(10)
     check(near(place(), here), f"it jumped from {here} to {place()}")
     go(5000)
     ends(arrived=True, failed=False)
@@ -118,7 +118,7 @@ def switched_off():
 
 def faulted():
     """A fault of its drive, by which LinuxCNC switches the machine off."""
-    go(-60000)
+    go(-60000, SLOW)
     pins(wanted=True)
     hal.set_p("joint.3.amp-fault-in", "1")
     ends(failed=True, arrived=False)

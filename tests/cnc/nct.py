@@ -7,7 +7,7 @@ import hal
 import linuxcnc
 
 import drive
-from drive import change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, pin, pins, rungctl, set_mode, state, wait
+from drive import at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, passes, pin, pins, progress, rungctl, set_mode, state, wait
 from panel import connect, panel, press, put
 
 # What the simulated machine and the panel have as signals: driven by pins of this component.
@@ -17,12 +17,7 @@ SIGNALS = {"estop-chain": (hal.HAL_BIT, True), "door": (hal.HAL_BIT, True), "key
 
 def mode(name):
     """LinuxCNC refuses a mode while something moves: an operator presses the key again."""
-    def comes():
-        press("key-" + name)
-        time.sleep(0.05)
-        return pin("lamp-" + name)
-
-    wait(f"lamp-{name}", comes)
+    press("key-" + name, lambda: pin("lamp-" + name))
 
 
 def forget_errors():
@@ -83,9 +78,9 @@ def by_hand():
     put("key-x-minus", True)
     wait("x jogs", lambda: position("x") < -0.2)
     put("key-x-minus", False)
-    time.sleep(0.2)
-    stood = position("x")
-    time.sleep(0.1)
+    passes(10)
+    stood = at_rest(lambda: position("x"))
+    passes(10)
     check(near(position("x"), stood, 0.001), "x did not stop")
     mode("step")
     press("key-step-1000")
@@ -107,7 +102,7 @@ def by_hand():
     put("door", False)
     pins(hold=True, wheel_axis=0)
     panel["wheel-counts"] = 7
-    time.sleep(0.1)
+    passes(10)
     check(near(position("x"), before + 0.2), "x moved with an open door")
     panel["wheel-counts"] = -3
     put("door", True)
@@ -152,23 +147,19 @@ def functions():
 
 def part():
     """A part program from the panel: start, stop, single block, feed switch, optional stop."""
-    load("M3 S600\nM8\nG1 X-30 F1200\nG0 X-5\nM9\nM1\nM5\nM30\n")
-    press("key-start")
+    load("M3 S600\nM8\nG1 X-30 F200\nG0 X-5\nM9\nM1\nM5\nM30\n")
+    press("key-start", lambda: pin("started"))
     pins(started=True, lamp_start=True)
     wait("x cuts", lambda: position("x") < -7)
     pins(coolant_1=True, cutting=True, cutting_enabled=True, in_position=False)
-    press("key-stop")
-    pins(stopped=True)
-    stood = position("x")
-    press("key-start")
-    pins(stopped=False)
+    press("key-stop", lambda: pin("stopped"))
+    stood = at_rest(lambda: position("x"))
+    press("key-start", lambda: not pin("stopped"))
     wait("x continues", lambda: position("x") < stood - 1)
     put("feed-switch", 0)
     wait("feed 0", lambda: state("feedrate") == 0)
-    time.sleep(0.1)
-    stood = position("x")
-    time.sleep(0.1)
-    check(near(position("x"), stood), "x moves with feed 0")
+    stood = at_rest(lambda: position("x"))
+    check(stood > -29, "the cut was over before the feed was 0")
     put("feed-switch", 15)
     wait("feed 140 %", lambda: near(state("feedrate"), 1.4, 0.001))
     put("feed-switch", 12)
@@ -181,14 +172,16 @@ def part():
     pins(lamp_single=True)
     wait("optional stop", lambda: state("optional_stop"))
     for _ in range(8):
-        press("key-start", 0.12)
-        time.sleep(0.05)
-        if near(position("x"), -5) or state("interp_state") == linuxcnc.INTERP_IDLE:
+        before = progress()
+        press("key-start", lambda: progress() != before)
+        if near(at_rest(lambda: position("x")), -3) or state("interp_state") == linuxcnc.INTERP_IDLE:
             break
-    check(near(position("x"), -5), f"single block did not stop at -5 but at {position('x')}")
+    check(near(position("x"), -3), f"single block did not stop at -3 but at {position('x')}")
     press("key-single")
     press("key-stop-1")
-    press("key-start")
+    pins(lamp_single=False)
+    wait("no optional stop", lambda: not state("optional_stop"))
+    press("key-start", lambda: position("x") < -4)
     idle()
     at("x", -7)
 
@@ -200,7 +193,7 @@ def counted():
     mdi("M230")
     check(rungctl("get", "TOTAL") == f"TOTAL = {before + 1}\n", "the workpiece was not counted")
     wait("the log", lambda: f"Workpieces: {before + 1}" in rungctl("messages"))
-    time.sleep(0.2)  # for rung-operator
+    time.sleep(0.2)  # in which rung-operator may say something
     told = errors.poll()
     check(told is None, f"the operator was told {told}")
 
@@ -248,8 +241,9 @@ def remote():
     """While it cuts: an input and a coil forced, edited sources loaded, and back."""
     mdi("M3 S600")
     mdi("M8")
-    command.mdi("G1 X-40 F100")
-    wait("x cuts", lambda: position("x") < -8)
+    before = position("x")
+    command.mdi("G1 X-40 F10")
+    wait("x cuts", lambda: position("x") < before - 0.1)
     rungctl("set", "CONV_W", "true")
     pins(conveyor=True)
     rungctl("set", "CONV_W", "false")
@@ -272,7 +266,7 @@ def alarm():
     command.mdi("G0 X-20")
     operator("Spindle start refused: chuck, door, readiness")
     before = position("x")
-    time.sleep(0.3)
+    passes(30)
     check(near(position("x"), before), "x moved in spite of the fault")
     press("key-reset")
     idle()

@@ -3,9 +3,10 @@ import time
 
 import hal
 
-from drive import passes, pin
+from drive import again_until, passes, pin
 
-PASSES = 4  # of the program in which a key is down, at least
+PRESS = 0.08  # seconds that a key is down, at least
+PASSES = 4  # of the program in which it is
 
 panel = hal.component("panel")
 driven = set()
@@ -30,10 +31,13 @@ def put(name, value):
         hal.set_p("rung." + name, str(int(value)))
 
 
-def press(key, seconds=0.08):
+def press(key, until=None):
+    """Holds the key until the program has seen it; again until this comes of it."""
+    if until:
+        return again_until(f"what {key} is pressed for", lambda: press(key), until)
     begin = pin("scans")
     put(key, True)
-    time.sleep(seconds)
+    time.sleep(PRESS)
     passes(PASSES, begin)
     put(key, False)
     passes(1)

@@ -6,7 +6,8 @@ import hal
 import linuxcnc
 
 import drive
-from drive import change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, pin, pins, rungctl, state, wait
+from drive import (at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, passes, pin, pins,
+                   program_time, progress, rungctl, state, wait)
 from panel import connect, press, put
 
 # What the simulated machine and the panel have as signals: driven by pins of this component.
@@ -44,13 +45,12 @@ def at(axis, wanted):
 
 def stands():
     """X does, and the program knows it."""
+    at_rest(lambda: position("x"))
     pins(x_moves=False)
-    time.sleep(0.1)
 
 
 def mode(key, wanted):
-    press("panel-" + key)
-    wait(f"mode {key}", lambda: state("task_mode") == wanted)
+    press("panel-" + key, lambda: state("task_mode") == wanted)
 
 
 def machine_m(code):
@@ -68,7 +68,7 @@ def by_hand():
     wait("x jogs", lambda: position("x") < -1)
     pins(x_moves=True, x_jogs_minus=True)
     put("key-door", True)  # refused while an axis moves
-    time.sleep(0.1)
+    passes(5)
     put("key-door", False)
     check(not pin("door-free"), "the door opened beside a moving axis")
     put("panel-x-minus", False)
@@ -84,7 +84,7 @@ def by_hand():
     pins(door_free=True, hand_enabled=False, lamp_door=True)
     stood = position("x")
     put("panel-x-minus", True)
-    time.sleep(0.2)
+    passes(10)
     put("panel-x-minus", False)
     check(abs(position("x") - stood) < 0.01, "an axis moved with the door free")
     press("key-door")
@@ -111,7 +111,7 @@ def by_program():
     rungctl("set", "AUTMAN_SELECT", "true")
     wait("manual mode again", lambda: state("task_mode") == linuxcnc.MODE_MANUAL)
     pins(manual_chosen=False)
-    time.sleep(0.1)  # the key was up for LinuxCNC, too
+    time.sleep(0.1)  # in which the key is up for LinuxCNC, too
     mode("mdi", linuxcnc.MODE_MDI)
     mdi("G0 X0")
 
@@ -120,9 +120,9 @@ def spindle():
     """A direction contactor, the speed at the drive, feed that waits for it; the other way; orientation; gears."""
     mode("mdi", linuxcnc.MODE_MDI)
     mdi("M3 S1000")
-    began = time.monotonic()
+    began = program_time()
     mdi("G1 X5 F6000")
-    check(time.monotonic() - began > 0.2, "the feed did not wait for the spindle")
+    check(program_time() - began > 0.2, "the feed did not wait for the spindle")
     pins(spindle_cw=True, cw_in=True, spindle_reached=True)
     check(abs(pin("spindle-volt") - 2.5) < 0.01, f"{pin('spindle-volt')} V")
     mdi("M4 S2000")
@@ -216,7 +216,7 @@ def part():
 def stops():
     """Feed hold and START by the panel, the open door, M64 and M66, the feed override, single blocks."""
     mdi_inputs = "M64 P0\nG4 P0.06\nM66 P0 L3 Q2\nM65 P0\n"
-    load("M10\n" + mdi_inputs + "G1 X20 F1200\nG0 X0\nM2\n")
+    load("M10\n" + mdi_inputs + "G1 X40 F240\nG0 X0\nM2\n")
     press("panel-start")
     wait("x moves", lambda: position("x") > 2)
     check(state("din")[0] == 1 and pin("light"), "M66 and M64")
@@ -230,9 +230,9 @@ def stops():
     pins(door_free=False, door_locked=True, stop=False, x_enabled=True)
     command.feedrate(0.2)
     wait("x moves on", lambda: position("x") > stood + 0.2)
-    wait("slowly", lambda: abs(state("current_vel") - 4) < 0.2)
+    wait("slowly", lambda: abs(state("current_vel") - 0.8) < 0.04)
     command.feedrate(1.5)
-    wait("fast", lambda: abs(state("current_vel") - 30) < 0.4)
+    wait("fast", lambda: abs(state("current_vel") - 6) < 0.08)
     command.feedrate(1.0)
     idle()
     check(abs(position("x")) < 0.05, "the program did not end at 0")
@@ -246,9 +246,9 @@ def stops():
 
 
 def step_to(wanted):
-    press("panel-start")
-    time.sleep(0.1)
-    return abs(position("x") - wanted) < 0.05
+    before = progress()
+    press("panel-start", lambda: progress() != before)
+    return abs(at_rest(lambda: position("x")) - wanted) < 0.05
 
 
 def alarm():
@@ -276,7 +276,7 @@ def remote():
     """While an axis cuts: an input and a coil forced, edited sources loaded, and back."""
     mdi("M8")
     pins(coolant_2=True)
-    command.mdi("G1 X40 F200")
+    command.mdi("G1 X40 F20")
     lit = pin("light")
     change_in_motion([("K_LIGHT", "true", "light", not lit, not lit),  # a key that changes it
                       ("O_COOL2", "false", "coolant_2", False, True)], "edited")
@@ -291,7 +291,7 @@ def remote():
 def emergency_stop():
     """In the cut: everything stops, LinuxCNC too; then the machine is switched on and works again."""
     mdi("M3 S1000")
-    command.mdi("G1 X40 F600")
+    command.mdi("G1 X40 F120")
     wait("x moves", lambda: position("x") > 2)
     put("estop-chain", False)
     pins(spindle_cw=False, main_contactor=False, power=False, lamp_red=True)
@@ -299,7 +299,7 @@ def emergency_stop():
     stood = position("x")
     check(stood < 35, "the axis went on")
     put("estop-chain", True)
-    time.sleep(0.2)
+    passes(10)
     check(not pin("main-contactor") and abs(position("x") - stood) < 0.01, "something started by itself")
     command.state(linuxcnc.STATE_ESTOP_RESET)
     is_state(linuxcnc.STATE_ESTOP_RESET)

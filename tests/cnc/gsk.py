@@ -9,7 +9,7 @@ import traceback
 import hal
 import linuxcnc
 
-from drive import PATIENCE, again_until, at_rest, change_in_motion, check, command, done, end_motion, operator, passes, pin, pins, polled, program_time, rungctl, run, status, wait
+from drive import PATIENCE, again_until, at_rest, change_in_motion, check, command, done, end_motion, operator, passes, pin, pins, polled, program_time, progress, rungctl, run, status, wait
 
 PRESS = 0.15  # seconds that a key is held
 PASSES = 4  # of the program in which it is, at least
@@ -242,9 +242,10 @@ def single():
     command.wait_complete(PATIENCE)
     seen = [round(position(0))]
     while seen[-1] != 3 and len(seen) < 12:
-        press("start")
+        before = progress()
+        press("start", until=lambda: progress() != before)
         # "In position" was seen while the joint was still short of it.
-        wait("the end of the block", lambda: polled().inpos and abs(position(0) - round(position(0))) < 0.0005)
+        wait("the end of the block", lambda: polled().inpos and abs(at_rest(lambda: position(0)) - round(position(0))) < 0.0005)
         seen.append(round(position(0)))
     check(seen == sorted(seen) and set(seen) == {0, 1, 2, 3}, f"single blocks: {seen}")
     press("single")

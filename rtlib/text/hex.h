@@ -15,4 +15,21 @@ inline std::string hexOf(std::span<const uint8_t> bytes) {
   return text;
 }
 
+// "01 02 FF".
+inline std::string hexInPairs(std::string_view bytes) {
+  std::string text;
+  for (const char byte : bytes) {
+    const auto value = static_cast<uint8_t>(byte);
+    text += (text.empty() ? "" : " ") + hexOf({&value, 1});
+  }
+  return text;
+}
+
+// Of a number of at most eight bytes, the highest digit first.
+inline std::string hexOfNumber(uint64_t number, uint32_t bytes) {
+  uint8_t highFirst[8];
+  for (uint32_t i = 0; i < bytes; ++i) highFirst[i] = static_cast<uint8_t>(number >> 8 * (bytes - 1 - i));
+  return hexOf(std::span(highFirst).first(bytes));
+}
+
 } // namespace rung::text

@@ -34,4 +34,15 @@ constexpr bool equalsIgnoringCase(std::string_view a, std::string_view b) {
   return a.size() == b.size() && compareIgnoringCase(a, b) == 0;
 }
 
+constexpr bool startsWithIgnoringCase(std::string_view text, std::string_view prefix) {
+  return equalsIgnoringCase(text.substr(0, prefix.size()), prefix);
+}
+
+// The prefix at the beginning of the text, which loses it.
+constexpr bool takePrefixIgnoringCase(std::string_view& text, std::string_view prefix) {
+  if (!startsWithIgnoringCase(text, prefix)) return false;
+  text.remove_prefix(prefix.size());
+  return true;
+}
+
 } // namespace rung::text

@@ -15,14 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool begins(std::string_view word, const std::string& candidate) {
-  return text::equalsIgnoringCase(std::string_view(candidate).substr(0, word.size()), word);
-}
-
 std::vector<std::string> beginning(std::string_view word, const std::vector<std::string>& candidates) {
   std::vector<std::string> found;
   std::ranges::copy_if(candidates, std::back_inserter(found),
-                       [&](const std::string& candidate) { return begins(word, candidate); });
+                       [&](const std::string& candidate) { return text::startsWithIgnoringCase(candidate, word); });
   return found;
 }
 

@@ -19,8 +19,7 @@ inline std::optional<uint32_t> numberBetween(std::string_view text, int64_t leas
 
 // The number after a prefix, in any case, of the key: PlcTableDef3.
 inline std::optional<uint32_t> numberAfter(std::string_view key, std::string_view prefix) {
-  if (!text::equalsIgnoringCase(key.substr(0, prefix.size()), prefix)) return std::nullopt;
-  return text::numberIn<uint32_t>(key.substr(prefix.size()));
+  return text::takePrefixIgnoringCase(key, prefix) ? text::numberIn<uint32_t>(key) : std::nullopt;
 }
 
 // The text up to the character, which both go away from `text`; all of it where the character is not there.

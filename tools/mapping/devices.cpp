@@ -21,7 +21,7 @@ std::optional<std::string> settingOf(const toml::node& node) {
 bool namesFile(std::string_view key) {
   constexpr std::string_view kTables = "PlcTable";
   return text::equalsIgnoringCase(key, "PlcConfig") ||
-         (key.size() > kTables.size() && text::equalsIgnoringCase(key.substr(0, kTables.size()), kTables));
+         (key.size() > kTables.size() && text::startsWithIgnoringCase(key, kTables));
 }
 
 class DeviceReader {

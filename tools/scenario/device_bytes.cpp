@@ -3,19 +3,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <fmt/format.h>
 
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/services.h"
 #include "tools/sim/hex_bytes.h"
 
 namespace rung::scenario {
-
-std::string hexOf(std::string_view bytes) {
-  std::string text;
-  for (const char byte : bytes) text += fmt::format("{}{:02X}", text.empty() ? "" : " ", static_cast<uint8_t>(byte));
-  return text;
-}
 
 std::optional<std::string> bytesOf(const Value& value, bool isHex) {
   if (value.kind == ValueKind::Text)

@@ -11,7 +11,6 @@
 
 namespace rung::scenario {
 
-std::string hexOf(std::string_view bytes);
 // What a value means as bytes: `isHex` of a text in pairs of digits, else of its characters; of a number its eight
 // bytes, the lowest first.
 std::optional<std::string> bytesOf(const Value& value, bool isHex);

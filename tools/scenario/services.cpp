@@ -13,6 +13,7 @@
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/services.h"
+#include "rtlib/text/hex.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "tools/scenario/values.h"
@@ -117,8 +118,8 @@ std::string bytesDifference(const ServiceSignature& signature, std::string_view 
   auto wanted = bytesOf(key.value, text::equalsIgnoringCase(key.key, "data"));
   if (wanted && key.value.kind != ValueKind::Text) wanted->resize(std::min(wanted->size(), found.size()));
   return wanted == found ? std::string()
-                         : fmt::format("{}: {} is {} (\"{}\"), expected {}", signature.name(), key.key, hexOf(found),
-                                       nc::shownText(found), key.value.text);
+                         : fmt::format("{}: {} is {} (\"{}\"), expected {}", signature.name(), key.key,
+                                       text::hexInPairs(found), nc::shownText(found), key.value.text);
 }
 
 std::string argumentDifference(const ServiceSignature& signature, const Asked& asked, int index, const KeyValue& key) {

@@ -20,7 +20,7 @@ void ProgramText::skipBlanks() {
 }
 
 bool ProgramText::take(std::string_view word) {
-  if (!text::equalsIgnoringCase(text_.substr(std::min(at_, text_.size()), word.size()), word)) return false;
+  if (!text::startsWithIgnoringCase(text_.substr(std::min(at_, text_.size())), word)) return false;
   at_ += word.size();
   return true;
 }

@@ -69,8 +69,8 @@ std::string explainQuantity(std::string_view name) {
 // "MW 70", "mr104".
 std::string explainFunction(std::string_view word) {
   for (const nc::nct::FunctionAccess access : {nc::nct::FunctionAccess::Read, nc::nct::FunctionAccess::Write}) {
-    if (!text::equalsIgnoringCase(word.substr(0, 2), mnemonicOf(access)) || word.size() < 3) continue;
-    std::string_view digits = word.substr(2);
+    std::string_view digits = word;
+    if (!text::takePrefixIgnoringCase(digits, mnemonicOf(access)) || digits.empty()) continue;
     digits.remove_prefix(std::min(digits.find_first_not_of(" #"), digits.size()));
     const auto code = text::numberIn<uint32_t>(digits);
     if (!code) return "";

@@ -31,8 +31,7 @@ std::optional<PalletName> palletName(std::string_view name) {
 // PROGRAM, PROGRAM1 … PROGRAM64: from 0; 64 when it is another name.
 uint32_t programIndex(std::string_view name) {
   constexpr std::string_view kProgram = "PROGRAM";
-  if (!text::equalsIgnoringCase(name.substr(0, kProgram.size()), kProgram)) return kMaxPrograms;
-  name.remove_prefix(kProgram.size());
+  if (!text::takePrefixIgnoringCase(name, kProgram)) return kMaxPrograms;
   if (name.empty()) return 0;
   const uint32_t number = text::numberIn<uint32_t>(name).value_or(0);
   return number >= 1 && number <= kMaxPrograms ? number - 1 : kMaxPrograms;

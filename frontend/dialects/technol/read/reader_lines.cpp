@@ -117,7 +117,7 @@ constexpr std::string_view kInclude = "T_INCLUDE";
 
 // `text` begins with this word.
 bool startsWith(std::string_view text, std::string_view word) {
-  if (text.size() <= word.size() || !text::equalsIgnoringCase(text.substr(0, word.size()), word)) return false;
+  if (text.size() <= word.size() || !text::startsWithIgnoringCase(text, word)) return false;
   return text[word.size()] == ' ' || text[word.size()] == '\t';
 }
 

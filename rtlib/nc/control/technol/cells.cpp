@@ -19,8 +19,7 @@ constexpr const char* kBlocks = "BLK";
 // The type that a program writes before an element; the host reads and writes elements in their own.
 std::string_view withoutType(std::string_view element) {
   for (const std::string_view type : {"BYTE.", "WORD.", "DWRD.", "QWRD.", "REAL."})
-    if (element.size() > type.size() && text::equalsIgnoringCase(element.substr(0, type.size()), type))
-      return element.substr(type.size());
+    if (element.size() > type.size() && text::startsWithIgnoringCase(element, type)) return element.substr(type.size());
   return element;
 }
 
@@ -78,7 +77,7 @@ static std::optional<host::Ref> partPlace(const rung_program& program, std::stri
 }
 
 std::optional<host::Ref> signalPlace(const rung_program& program, std::string_view name) {
-  if (name.size() > 4 && text::equalsIgnoringCase(name.substr(0, 4), "BLK[")) return blockElement(program, name);
+  if (text::startsWithIgnoringCase(name, "BLK[")) return blockElement(program, name);
   const Signal* found = findSignal(technolSignals(), name, kCells);
   return found == nullptr ? partPlace(program, name) : placeOf(program, *found);
 }

@@ -9,7 +9,6 @@
 #include "rtlib/text/number.h"
 #include "tools/sim/hex_bytes.h"
 #include "tools/sim/technol/requests/event_keys.h"
-#include "tools/sim/technol/requests/scenario_texts.h"
 #include "tools/sim/technol/requests/simulated_devices.h"
 
 namespace rung::sim::technol {
@@ -99,9 +98,9 @@ std::string readPacket(const EventKeys& keys, devices::CanPacket& packet) {
 }
 
 std::string textOf(const devices::CanPacket& packet) {
-  const uint8_t id[] = {static_cast<uint8_t>(packet.id >> 8), static_cast<uint8_t>(packet.id)};
-  return "id=0x" + text::hexOf(id) + " rtr=" + std::to_string(packet.remote) + " len=" + std::to_string(packet.length) +
-         " data=\"" + text::hexOf(std::span(packet.data).first(packet.length)) + "\"";
+  return "id=0x" + text::hexOfNumber(packet.id, 2) + " rtr=" + std::to_string(packet.remote) +
+         " len=" + std::to_string(packet.length) + " data=\"" +
+         text::hexOf(std::span(packet.data).first(packet.length)) + "\"";
 }
 
 // Keys that are not given do not count, nor does the data of a request for data.
@@ -187,8 +186,9 @@ std::optional<std::string> SimulatedDevices::portEvent(std::string_view name, st
 
 std::string SimulatedDevices::expectSent(std::string_view port, std::span<const NcArgument> keys) {
   std::string_view rest = port;
-  const bool com = takeAnyCase(rest, "COM[");
-  if (!com && !takeAnyCase(rest, "CAN[")) return "ports are COM[n] and CAN[n], not '" + std::string(port) + "'";
+  const bool com = text::takePrefixIgnoringCase(rest, "COM[");
+  if (!com && !text::takePrefixIgnoringCase(rest, "CAN["))
+    return "ports are COM[n] and CAN[n], not '" + std::string(port) + "'";
   const bool isClosed = rest.ends_with(']');
   const auto number = text::numberIn<uint32_t>(rest.substr(0, rest.size() - (isClosed ? 1 : 0)));
   const uint32_t count = com ? ComPorts::kMost : devices::CanController::kChannels;

@@ -5,8 +5,8 @@
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/hex.h"
+#include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
-#include "tools/sim/technol/requests/scenario_texts.h"
 #include "tools/sim/technol/requests/simulated_devices.h"
 #include "tools/sim/technol/requests/unit_cells.h"
 
@@ -20,7 +20,8 @@ struct AreaCell {
   uint32_t area = 0, offset = 0, width = 0;
 };
 bool isAreaName(std::string_view name) {
-  return takeAnyCase(name, "SA") && name.size() > 1 && name[0] >= '0' && name[0] <= '9' && name[1] == '+';
+  return text::takePrefixIgnoringCase(name, "SA") && name.size() > 1 && name[0] >= '0' && name[0] <= '9' &&
+         name[1] == '+';
 }
 std::optional<AreaCell> areaCell(std::string_view name) {
   if (!isAreaName(name)) return std::nullopt;
@@ -42,7 +43,7 @@ struct TableCell {
   std::string_view column;
 };
 std::optional<TableCell> tableCell(std::string_view name) {
-  if (!takeAnyCase(name, "PlcTable")) return std::nullopt;
+  if (!text::takePrefixIgnoringCase(name, "PlcTable")) return std::nullopt;
   const size_t end = name.find_first_of("[.");
   const auto table = text::numberIn<uint32_t>(name.substr(0, end));
   if (!table || end == std::string_view::npos) return std::nullopt;
@@ -61,8 +62,8 @@ std::optional<TableCell> tableCell(std::string_view name) {
 
 // KnobSelAx0, Pos6ShiftAx0 …: what panels show of the axes (l.10926-10937).
 std::optional<NcCell> panelCell(const AxisOutputs& out, std::string_view name) {
-  const bool shift = takeAnyCase(name, "Pos6ShiftAx");
-  if (!shift && !takeAnyCase(name, "KnobSelAx")) return std::nullopt;
+  const bool shift = text::takePrefixIgnoringCase(name, "Pos6ShiftAx");
+  if (!shift && !text::takePrefixIgnoringCase(name, "KnobSelAx")) return std::nullopt;
   const auto axis = text::numberIn<uint32_t>(name);
   if (!axis || *axis >= kMaxAxes) return std::nullopt;
   if (shift) return NcCell{.isReal = true, .bits = std::bit_cast<uint64_t>(out.shiftMm[*axis])};
@@ -84,10 +85,11 @@ struct ShownAt {
   uint32_t row = 0, column = 0;
 };
 std::optional<ShownAt> shownAt(std::string_view name) {
-  if (!takeAnyCase(name, "DISPTOC") || name.empty()) return std::nullopt;
+  if (!text::takePrefixIgnoringCase(name, "DISPTOC") || name.empty()) return std::nullopt;
   const auto wheel = text::numberIn<uint32_t>(name.substr(0, 1));
   name.remove_prefix(1);
-  if (!wheel || *wheel < 1 || *wheel > devices::kHandwheels || !takeAnyCase(name, ".Shown")) return std::nullopt;
+  if (!wheel || *wheel < 1 || *wheel > devices::kHandwheels || !text::takePrefixIgnoringCase(name, ".Shown"))
+    return std::nullopt;
   const auto row = nc::technol::takeIndex(name), column = nc::technol::takeIndex(name);
   if (!row || !column || !name.empty()) return std::nullopt;
   return ShownAt{*wheel, *row, *column};

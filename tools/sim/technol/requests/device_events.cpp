@@ -8,7 +8,6 @@
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "tools/devices/key_text.h"
-#include "tools/sim/technol/requests/scenario_texts.h"
 #include "tools/sim/technol/requests/simulated_devices.h"
 
 namespace rung::sim::technol {
@@ -108,7 +107,7 @@ std::optional<double> SimulatedDevices::quantity(std::string_view name) const {
   if (text::equalsIgnoringCase(name, "ECSTATE")) return static_cast<double>(ethercat_.state());
   const auto ofAxis = [&](std::string_view prefix, auto value) -> std::optional<double> {
     std::string_view rest = name;
-    if (!takeAnyCase(rest, prefix)) return std::nullopt;
+    if (!text::takePrefixIgnoringCase(rest, prefix)) return std::nullopt;
     const uint32_t axis = takePart(rest);
     return axes_.exists(axis) && rest.empty() ? std::optional<double>(value(axis)) : std::nullopt;
   };
@@ -119,32 +118,33 @@ std::optional<double> SimulatedDevices::quantity(std::string_view name) const {
   if (auto v = ofAxis("REGUL.", [&](uint32_t axis) { return axes_.regulator(axis); })) return v;
   std::string_view rest = name;
   const auto asReal = [](auto value) { return value ? std::optional(static_cast<double>(*value)) : std::nullopt; };
-  if (takeAnyCase(rest, "ECSTATE.")) return asReal(ethercat_.slaveState(takePart(rest)));
+  if (text::takePrefixIgnoringCase(rest, "ECSTATE.")) return asReal(ethercat_.slaveState(takePart(rest)));
   const auto three = [&](auto act) {
     const uint32_t a = takePart(rest), b = takePart(rest), c = takePart(rest);
     return act(a, b, c);
   };
-  if (takeAnyCase(rest, "DRIVE."))
+  if (text::takePrefixIgnoringCase(rest, "DRIVE."))
     return asReal(three([&](auto a, auto b, auto c) { return can_.driveObject(a, b, c); }));
-  if (takeAnyCase(rest, "ETHERCAT."))
+  if (text::takePrefixIgnoringCase(rest, "ETHERCAT."))
     return asReal(three([&](auto a, auto b, auto c) { return ethercat_.object(a, b, c); }));
-  if (takeAnyCase(rest, "IDN.")) return asReal(three([&](auto a, auto b, auto c) { return ethercat_.idn(a, b, c); }));
+  if (text::takePrefixIgnoringCase(rest, "IDN."))
+    return asReal(three([&](auto a, auto b, auto c) { return ethercat_.idn(a, b, c); }));
   return std::nullopt;
 }
 
 std::optional<std::string> SimulatedDevices::setQuantity(std::string_view name, double value) {
   if (!simulated_) return std::nullopt;
   std::string_view rest = name;
-  const bool measured = takeAnyCase(rest, "MPOS.");
-  if (measured || takeAnyCase(rest, "TRUE.")) {
+  const bool measured = text::takePrefixIgnoringCase(rest, "MPOS.");
+  if (measured || text::takePrefixIgnoringCase(rest, "TRUE.")) {
     const uint32_t axis = takePart(rest);
     if (!axes_.exists(axis)) return "there is no axis of this number";
     if (!(std::fabs(value) <= kFarthest)) return "a place is a number of -1e9 to 1e9";
     measured ? axes_.setMeasured(axis, value) : axes_.setPhysical(axis, value);
     return std::string();
   }
-  const bool object = takeAnyCase(rest, "ETHERCAT.");
-  if (!object && !takeAnyCase(rest, "IDN.")) {
+  const bool object = text::takePrefixIgnoringCase(rest, "ETHERCAT.");
+  if (!object && !text::takePrefixIgnoringCase(rest, "IDN.")) {
     if (!quantity(name)) return std::nullopt;
     return "it is what a device does; set are NC.MPOS, NC.TRUE, NC.ETHERCAT and NC.IDN";
   }

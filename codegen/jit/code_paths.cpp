@@ -98,7 +98,8 @@ private:
 const CodeLength& CodeLengths::of(const std::string& function) {
   if (const auto known = known_.find(function); known != known_.end()) return known->second;
   const auto found = functions_.find(function);
-  if (found == functions_.end()) return known_[function] = {.unknown = "it calls '" + function + "'"};
+  if (found == functions_.end())
+    return known_[function] = {.unknown = "it calls '" + function + "', whose code is not known"};
   known_[function] = {.unknown = "'" + function + "' calls itself"}; // as long as it is being measured
   const FunctionCode& code = found->second;
   CodeLength length{.unknown = code.unknown};
@@ -112,7 +113,7 @@ const CodeLength& CodeLengths::of(const std::string& function) {
     }
   }
   for (const CodeLoop& loop : code.loops)
-    if (loop.rounds == 0 && length.unknown.empty()) length.unknown = "the rounds of a loop are not known";
+    if (loop.rounds == 0 && length.unknown.empty()) length.unknown = "a loop has no constant bound";
   if (length.unknown.empty() && !PathSearch(code, std::move(costs)).run(length.instructions))
     length.unknown = kIrregular;
   return known_[function] = std::move(length);

@@ -71,7 +71,7 @@ public:
       blocks_.try_emplace(&block, static_cast<uint32_t>(blocks_.size()));
     for (const llvm::MachineLoop* loop : *machineLoops_) addLoop(*loop, kNoLoop, code);
     for (const llvm::MachineBasicBlock& block : function) code.blocks.push_back(read(block, code));
-    if (byPointer_ > hostCalls(function.getFunction())) code.unknown = "it calls by a pointer";
+    if (byPointer_ > hostCalls(function.getFunction())) code.unknown = "it calls a function through a pointer";
     return false;
   }
 
@@ -110,7 +110,7 @@ private:
     for (const llvm::MachineInstr& instruction : block) {
       if (instruction.isMetaInstruction() || instruction.getOpcode() == llvm::TargetOpcode::MEMBARRIER) continue;
       ++out.instructions;
-      if (instruction.isInlineAsm()) code.unknown = "it has assembly in it";
+      if (instruction.isInlineAsm()) code.unknown = "it contains inline assembly";
       if (instruction.isCall()) addCall(instruction, out);
     }
     return out;

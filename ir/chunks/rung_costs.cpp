@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ir/support/saturate.h"
+
 namespace rung::ir {
 namespace {
 
@@ -26,14 +28,15 @@ struct Region {
 uint64_t mostIn(const Rung& rung, OpCode operation) {
   std::vector<Region> open(1);
   for (const Op& op : rung.ops) {
-    if (op.code == operation) ++open.back().count;
+    if (op.code == operation) open.back().count = saturatedSum(open.back().count, 1);
     if (op.code == OpCode::If) open.emplace_back();
     if (op.code == OpCode::Loop) open.push_back({.rounds = op.count});
     if (op.code == OpCode::Else) open.back() = {.first = open.back().count};
     if (op.code != OpCode::EndIf && op.code != OpCode::EndLoop) continue;
     const Region closed = open.back();
     open.pop_back();
-    open.back().count += std::max(closed.first, closed.count) * closed.rounds;
+    const uint64_t most = saturatedProduct(std::max(closed.first, closed.count), closed.rounds);
+    open.back().count = saturatedSum(open.back().count, most);
   }
   return open.back().count;
 }

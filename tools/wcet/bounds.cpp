@@ -11,23 +11,48 @@
 namespace rung::wcet {
 namespace {
 
-// Of a program.
+struct KnownFunction {
+  HostFunction function;
+  std::vector<uint64_t> most; // calls
+};
+
+// Of a program; costs are those of rungs, by their numbers.
 struct Known {
   const ir::Cut& cut;
   std::vector<codegen::CodeLength> chunks;
-  std::vector<HostFunction> functions;
+  std::vector<uint64_t> weights;
+  std::vector<uint64_t> instructions;
+  std::vector<KnownFunction> functions;
   double nsPerStep = 0;
 };
 
 // A chunk's instructions are those of its first rung: it is entered nowhere else.
-void boundInstructions(const Known& known, const TaskCost& cost, TaskBound& task) {
-  std::vector<uint64_t> costs(known.cut.rungCount(), 0);
-  for (uint32_t c = 0; c < known.chunks.size(); ++c) {
-    const ir::Chunk& chunk = known.cut.chunks()[c];
-    costs[known.cut.rungNumber(chunk.routine, chunk.firstRung)] = known.chunks[c].instructions;
-    if (task.noInstructions.empty() && cost.reaches(chunk)) task.noInstructions = known.chunks[c].unknown;
+std::vector<uint64_t> instructionsOf(const ir::Cut& cut, const std::vector<codegen::CodeLength>& chunks) {
+  std::vector<uint64_t> costs(cut.rungCount(), 0);
+  for (uint32_t c = 0; c < chunks.size(); ++c) {
+    const ir::Chunk& chunk = cut.chunks()[c];
+    costs[cut.rungNumber(chunk.routine, chunk.firstRung)] = chunks[c].instructions;
   }
-  if (task.noInstructions.empty()) task.instructions = cost.most(costs);
+  return costs;
+}
+
+Known knownOf(const ir::Cut& cut, std::vector<codegen::CodeLength> chunks, double nsPerStep) {
+  Known known{.cut = cut,
+              .chunks = std::move(chunks),
+              .weights = ir::rungWeights(cut),
+              .instructions = {},
+              .functions = {},
+              .nsPerStep = nsPerStep};
+  known.instructions = instructionsOf(cut, known.chunks);
+  for (const HostFunction& function : measureHostFunctions())
+    known.functions.push_back({function, ir::mostOperations(cut, function.operation)});
+  return known;
+}
+
+void boundInstructions(const Known& known, const TaskCost& cost, TaskBound& task) {
+  for (uint32_t c = 0; c < known.chunks.size() && task.noInstructions.empty(); ++c)
+    if (cost.reaches(known.cut.chunks()[c])) task.noInstructions = known.chunks[c].unknown;
+  if (task.noInstructions.empty()) task.instructions = cost.most(known.instructions);
 }
 
 TaskBound boundTask(const Known& known, ir::TaskId id) {
@@ -36,7 +61,7 @@ TaskBound boundTask(const Known& known, ir::TaskId id) {
                   .periodUs = task.periodUs,
                   .parts = task.parts,
                   .budget = task.budget,
-                  .way = ir::heaviestWay(known.cut, id, ir::rungWeights(known.cut)),
+                  .way = ir::heaviestWay(known.cut, id, known.weights),
                   .instructions = {},
                   .noInstructions = {},
                   .calls = {},
@@ -45,9 +70,8 @@ TaskBound boundTask(const Known& known, ir::TaskId id) {
   bound.codeNs = static_cast<double>(bound.steps) * known.nsPerStep;
   const TaskCost cost(known.cut, id, bound.way.circles);
   boundInstructions(known, cost, bound);
-  for (const HostFunction& function : known.functions)
-    if (const uint64_t most = cost.most(ir::mostOperations(known.cut, function.operation)); most > 0)
-      bound.calls.push_back({function, most});
+  for (const KnownFunction& of : known.functions)
+    if (const uint64_t most = cost.most(of.most); most > 0) bound.calls.push_back({of.function, most});
   return bound;
 }
 
@@ -65,10 +89,7 @@ Result<Bounds> boundsOf(const compiler::Compiled& compiled, host::Engine& machin
   if (!chunks.ok()) return chunks.failure();
   Bounds bounds{.program = compiled.module->name, .routines = {}, .tasks = {}, .slice = {}, .measured = {}};
   bounds.slice = host::measureBound({.program = machineCode.program(), .engine = machineCode.context()});
-  const Known known{.cut = compiled.layout->cut(),
-                    .chunks = std::move(chunks).value(),
-                    .functions = measureHostFunctions(),
-                    .nsPerStep = bounds.slice.nsPerWeight};
+  const Known known = knownOf(compiled.layout->cut(), std::move(chunks).value(), bounds.slice.nsPerWeight);
   for (const ir::Routine& routine : compiled.module->routines) bounds.routines.push_back(routine.name);
   for (uint32_t t = 0; t < compiled.module->tasks.size(); ++t) bounds.tasks.push_back(boundTask(known, ir::TaskId{t}));
   return bounds;

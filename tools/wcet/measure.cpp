@@ -1,53 +1,30 @@
 // The measurements (see measure.h).
 #include "tools/wcet/measure.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
-#include "ir/chunks/rung_costs.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/config_key.h"
 #include "rtlib/profile/clock.h"
 #include "tools/compiler/engines.h"
 #include "tools/profile/scan_times.h"
 #include "tools/scenario/session.h"
+#include "tools/wcet/step_counter.h"
 
 namespace rung::wcet {
 namespace {
 
 constexpr uint32_t kTimedRuns = 5; // of which the shortest time of each piece counts
 
-class CountSteps final : public scenario::Observer, public host::TaskWatch {
+class CountSteps final : public scenario::Observer {
 public:
-  explicit CountSteps(size_t tasks) : seen_(tasks) {}
-
-  // Counts while the engine that has it runs.
-  class Weigher final : public ir::RungObserver {
-  public:
-    Weigher(const ir::Layout& layout, uint64_t& steps) : weights_(ir::rungWeights(layout.cut())), steps_(steps) {}
-    void rungRan(uint32_t number, std::span<const uint64_t>) override { steps_ += weights_[number]; }
-
-  private:
-    std::vector<uint64_t> weights_;
-    uint64_t& steps_;
-  };
-  std::unique_ptr<ir::RungObserver> weigher(const ir::Layout& layout) {
-    return std::make_unique<Weigher>(layout, steps_);
-  }
-
-  void started(scenario::Session& session) override { session.instance().setTaskWatch(this); }
+  explicit CountSteps(StepCounter& counter) : counter_(counter) {}
+  void started(scenario::Session& session) override { session.instance().setTaskWatch(&counter_); }
   void scanned(const scenario::Session&) override {}
-  void begins(const host::Instance&, uint32_t) override { steps_ = 0; }
-  void ended(const host::Instance&, uint32_t task) override {
-    ++seen_[task].runs;
-    seen_[task].steps = std::max(seen_[task].steps, steps_);
-  }
-  const std::vector<Seen>& seen() const { return seen_; }
 
 private:
-  uint64_t steps_ = 0; // of the run
-  std::vector<Seen> seen_;
+  StepCounter& counter_;
 };
 
 class TimeTasks final : public scenario::Observer {
@@ -96,9 +73,10 @@ Result<void> run(const compiler::Compiled& compiled, host::Engine& engine, const
 
 Result<void> measure(const compiler::Compiled& compiled, host::Engine& machineCode, const Drive& drive,
                      Bounds& bounds) {
-  CountSteps steps(bounds.tasks.size());
+  StepCounter counter(bounds.tasks.size());
+  CountSteps steps(counter);
   compiler::EngineOptions options;
-  options.observer = [&](const compiler::Compiled& of) { return steps.weigher(*of.layout); };
+  options.observer = [&](const compiler::Compiled& of) { return counter.observer(of.layout->cut()); };
   const Result<std::unique_ptr<host::Engine>> interpreter =
       compiler::makeEngine(compiler::EngineKind::Interp, compiled, options);
   if (!interpreter.ok()) return interpreter.failure();
@@ -109,8 +87,8 @@ Result<void> measure(const compiler::Compiled& compiled, host::Engine& machineCo
     if (Result<void> done = run(compiled, machineCode, drive, times); !done.ok()) return done;
   }
   for (uint32_t t = 0; t < bounds.tasks.size(); ++t) {
-    bounds.tasks[t].seen = steps.seen()[t];
-    bounds.tasks[t].seen->ns = times.longestNs(t);
+    const StepCounter::Count& count = counter.counts()[t];
+    bounds.tasks[t].seen = {.runs = count.runs, .steps = count.most, .ns = times.longestNs(t)};
   }
   bounds.measured = drive.name;
   return {};

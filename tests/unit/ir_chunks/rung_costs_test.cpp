@@ -35,6 +35,11 @@ TEST(MostOperations, OfAllRounds) {
   EXPECT_EQ(mostMessages({loop(0), kMessage, kEndLoop}), 0u);
 }
 
+TEST(MostOperations, AtMostWhatACounterHolds) {
+  const Op most = loop(UINT32_MAX);
+  EXPECT_EQ(mostMessages({most, most, most, kMessage, kEndLoop, kEndLoop, kEndLoop, kMessage}), UINT64_MAX);
+}
+
 TEST(MostOperations, OfOthersNone) { EXPECT_EQ(mostMessages({{.code = OpCode::ServicePoll}}), 0u); }
 
 } // namespace

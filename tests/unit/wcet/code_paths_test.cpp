@@ -31,12 +31,13 @@ TEST(CodePaths, RepeatLoopsAndTheirInnerLoops) {
 
 TEST(CodePaths, SayWhyThereIsNoBound) {
   FunctionCode endless{.blocks = {{.instructions = 1, .next = {0}, .loop = 0}}, .loops = {{.header = 0}}};
-  EXPECT_EQ(lengthOf(endless).unknown, "the rounds of a loop are not known");
+  EXPECT_EQ(lengthOf(endless).unknown, "a loop has no constant bound");
   const FunctionCode irregular{.blocks = {{.instructions = 1, .next = {1, 2}},
                                           {.instructions = 1, .next = {2}},
                                           {.instructions = 1, .next = {1}}}};
   EXPECT_EQ(lengthOf(irregular).unknown, "control enters a loop of the machine code in two places");
-  EXPECT_EQ(lengthOf({.blocks = {{.instructions = 1, .calls = {"memset"}}}}).unknown, "it calls 'memset'");
+  EXPECT_EQ(lengthOf({.blocks = {{.instructions = 1, .calls = {"memset"}}}}).unknown,
+            "it calls 'memset', whose code is not known");
   EXPECT_EQ(lengthOf({.blocks = {{.instructions = 1, .calls = {"F"}}}}).unknown, "'F' calls itself");
 }
 

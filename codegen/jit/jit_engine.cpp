@@ -74,7 +74,7 @@ public:
     std::vector<std::thread> helpers;
     for (uint32_t i = 1; i < std::min<size_t>(options_.threads, pieces_.size()); ++i)
       helpers.emplace_back([&] {
-        host::runOrdinary();
+        host::becomeHelper();
         work();
       });
     work();

@@ -53,12 +53,9 @@ int64_t monotonicNs() {
   return int64_t{now.tv_sec} * kNsPerSecond + now.tv_nsec;
 }
 
-void runOrdinary() noexcept {
+void becomeHelper() noexcept {
   const sched_param none{};
   pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);
-}
-
-void blockSignals() noexcept {
   sigset_t all;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, nullptr);

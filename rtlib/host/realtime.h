@@ -40,10 +40,10 @@ private:
   bool raised_ = false;
 };
 
-// The calling thread has no real-time priority from now on: a helper inherits that of the thread that starts it.
-void runOrdinary() noexcept;
-// The calling thread gets no signals: they are for the thread that waits for them.
-void blockSignals() noexcept;
+// The calling thread is a helper: it loses the real-time priority that it has inherited from the thread that started
+// it, and gets no signals, which are for the thread that waits for them; a pipe whose reader has gone is an error for
+// it.
+void becomeHelper() noexcept;
 
 struct RealTimeStats {
   uint64_t slices = 0;

@@ -240,7 +240,7 @@ void RetainSaver::saveOffered() noexcept {
 }
 
 void RetainSaver::work() {
-  runOrdinary();
+  becomeHelper();
   for (bool stop = false; !stop;) {
     uint64_t asked = 0;
     {

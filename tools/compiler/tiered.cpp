@@ -109,7 +109,7 @@ Result<void> TieredEngine::compile(codegen::JitCode& code, std::atomic<uint32_t>
 }
 
 void TieredEngine::work() {
-  host::runOrdinary();
+  host::becomeHelper();
   const Result<void> done = makeCode();
   problem_ =
       done.ok() ? cacheTroubleText(code_->report().cacheTrouble) : "no machine code can be made: " + done.error();

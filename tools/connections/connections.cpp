@@ -36,7 +36,7 @@ Connections::Connections(const mapping::File& map) {
 void Connections::start() {
   for (Served& served : served_)
     served.thread = std::thread([this, &served] {
-      host::blockSignals();
+      host::becomeHelper();
       served.service->run(ending_);
     });
 }

@@ -75,8 +75,7 @@ void TableService::end() {
 }
 
 void TableService::run() noexcept {
-  host::blockSignals();
-  host::runOrdinary();
+  host::becomeHelper();
   while (!ending_) {
     serve();
     if (std::string wrong = files_.save(tables_, host::monotonicNs()); !wrong.empty()) note(std::move(wrong));

@@ -4,7 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sched.h>
-#include <signal.h> // NOLINT(modernize-deprecated-headers): kill, pthread_sigmask
+#include <signal.h> // NOLINT(modernize-deprecated-headers): kill
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "rtlib/host/file.h"
+#include "rtlib/host/realtime.h"
 #include "tools/sources/compiler_program.h"
 #include "tools/sources/limits.h"
 #include "tools/sources/sources.h"
@@ -154,9 +155,7 @@ struct Compilation::Outcome {
 template <class Work>
 void Compilation::begin(Work work) {
   worker_ = std::thread([this, work = std::move(work)] {
-    sigset_t all; // signals are for the host's other threads, and a pipe whose reader has gone is an error
-    sigfillset(&all);
-    pthread_sigmask(SIG_BLOCK, &all, nullptr);
+    host::becomeHelper();
     try {
       work();
     } catch (const std::exception& problem) { // no memory

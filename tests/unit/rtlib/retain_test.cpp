@@ -464,6 +464,23 @@ TEST_F(SaverTest, SavesWhatWasOffered) {
   EXPECT_EQ(load().generation, 5u);
 }
 
+TEST_F(SaverTest, SignalsAreForOthers) {
+  sigset_t one, before, pending;
+  sigemptyset(&one);
+  sigaddset(&one, SIGUSR1);
+  ASSERT_EQ(pthread_sigmask(SIG_UNBLOCK, &one, &before), 0);
+  const auto s = saver(1);
+  const uint64_t ticket = offer(*s, 1);
+  ASSERT_TRUE(becomes([&] { return s->stored() == ticket; }));
+  ASSERT_EQ(pthread_sigmask(SIG_BLOCK, &one, nullptr), 0);
+  ASSERT_EQ(kill(getpid(), SIGUSR1), 0); // ends the process where a thread takes it
+  sigpending(&pending);
+  EXPECT_EQ(sigismember(&pending, SIGUSR1), 1);
+  int taken = 0;
+  sigwait(&one, &taken);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
 // While the saver does not look, the newest image takes the place of those before.
 TEST_F(SaverTest, TheNewestIsSaved) {
   {

@@ -103,8 +103,7 @@ SocketCan::Counts SocketCan::counts() const { return {sent_, received_, fromBus_
 // ---- the thread -----------------------------------------------------------------------------------------------------
 
 void SocketCan::run() {
-  host::blockSignals();
-  host::runOrdinary();
+  host::becomeHelper();
   while (!stop_) {
     if (descriptor_ < 0 && !reopen()) continue;
     const bool good = moveIn() && moveOut();

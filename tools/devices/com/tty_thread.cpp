@@ -31,8 +31,7 @@ std::vector<std::string> TtyThread::problems() const {
 }
 
 void TtyThread::run() noexcept {
-  host::blockSignals();
-  host::runOrdinary();
+  host::becomeHelper();
   std::vector<pollfd> waited(lines_.size());
   for (bool last = false; !last;) {
     last = ending_;

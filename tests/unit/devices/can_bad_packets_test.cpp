@@ -118,10 +118,9 @@ TEST_F(BadUnits, WhoRefusesTheMapping) {
   run(40);
   EXPECT_TRUE(hasSent(kStart));
   EXPECT_FALSE(hasSent(kStartWheel));
-  EXPECT_THAT(messages(), ElementsAre("CAN unit INOUT08 1 (node 21h) refuses what its object 1600h:3 is to be, abort "
-                                      "06040041h",
-                                      "CAN unit Knob 1 (node 45h) refuses what its object 1600h:3 is to be, abort "
-                                      "06040041h"));
+  EXPECT_THAT(messages(),
+              ElementsAre("CAN unit INOUT08 1 (node 21h) rejects the value of object 1600h:3, abort code 06040041h",
+                          "CAN unit Knob 1 (node 45h) rejects the value of object 1600h:3, abort code 06040041h"));
   run(120);
   EXPECT_EQ(units.groups[kHandwheel - 1].timeoutNumber, 1) << "for the program it is not there";
   messages();
@@ -134,9 +133,8 @@ TEST_F(BadUnits, WhoDoesNotAnswerBySdo) {
   for (int i = 0; i < 40; ++i) isAlive(), run(10);
   EXPECT_TRUE(hasSent(kStart));
   EXPECT_FALSE(hasSent(kStartWheel));
-  EXPECT_THAT(messages(),
-              ElementsAre("CAN unit INOUT08 1 (node 21h) does not answer the request for its object 1001h:0",
-                          "CAN unit Knob 1 (node 45h) does not answer the request for its object 1001h:0"));
+  EXPECT_THAT(messages(), ElementsAre("CAN unit INOUT08 1 (node 21h) does not answer the request for object 1001h:0",
+                                      "CAN unit Knob 1 (node 45h) does not answer the request for object 1001h:0"));
   put(0x1A1, {0x5A, 1, 2, 3, 4, 5, 6, 7});
   run(2);
   EXPECT_EQ(units.in[0], 0x5A);

@@ -6,8 +6,6 @@
 namespace rung::devices {
 namespace {
 
-constexpr uint8_t kStartNode = 1, kAllNodes = 0; // network management of CiA 301
-
 // Control words and states of CiA 402.
 constexpr uint16_t kDisableVoltage = 0x00, kShutdown = 0x06, kSwitchOn = 0x07, kEnableOperation = 0x0F;
 constexpr uint16_t kStateBits = 0x4F, kSwitchOnDisabled = 0x40;
@@ -32,9 +30,8 @@ uint16_t faultOf(uint16_t emergency) {
 std::string textOf(const DriveMessage& message) {
   const std::string number = std::to_string(message.number), drive = std::to_string(message.drive);
   if (message.number == DriveMessage::kTimeout) return number + ": time-out of drive " + drive;
-  const uint8_t code[] = {static_cast<uint8_t>(message.emergency >> 8), static_cast<uint8_t>(message.emergency)};
   return number + ": emergency of drive " + drive + ", fault " + std::to_string(message.fault) + ", emergency " +
-         text::hexOf(code);
+         text::hexOfNumber(message.emergency, 2);
 }
 
 void CanDrives::reset() {
@@ -64,7 +61,7 @@ void CanDrives::tick(const DriveOrders& orders, DriveStates& states, CanPort& po
   if (isToSend_) port.transmit(question_); // a bus that takes nothing now does not get it later
   isToSend_ = false;
   if (count_ == 0) return;
-  if (!started_) started_ = port.transmit(packetOf(kNodeControl, {kStartNode, kAllNodes}));
+  if (!started_) started_ = port.transmit(nodeCommand(kStartNode, kAllNodes));
   for (uint32_t i = 0; i < count_; ++i) watch(i + 1, port);
   if (++sinceSync_ >= syncPeriod_) {
     sinceSync_ = 0;
@@ -84,7 +81,7 @@ void CanDrives::tick(const DriveOrders& orders, DriveStates& states, CanPort& po
 void CanDrives::watch(uint32_t number, CanPort& port) {
   Drive& drive = drives_[number - 1];
   if (++drive.silentMs % kDriveTimeoutMs != 0) return;
-  port.transmit(packetOf(kNodeControl, {kStartNode, static_cast<uint8_t>(number)}));
+  port.transmit(nodeCommand(kStartNode, number));
   if (drive.silentMs == kDriveTimeoutMs)
     messages_.push({.number = DriveMessage::kTimeout, .drive = static_cast<uint16_t>(number)});
   drive.status = drive.manufacturer = 0;

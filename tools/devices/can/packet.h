@@ -53,6 +53,16 @@ inline CanPacket packetOf(uint32_t id, std::initializer_list<uint8_t> data) {
   return packet;
 }
 
+// Commands of network management (CiA 301) to a node, or to all of them: it takes part in the exchange of process data,
+// or leaves it.
+inline constexpr uint8_t kStartNode = 0x01, kPrepareNode = 0x80, kAllNodes = 0;
+inline CanPacket nodeCommand(uint8_t command, uint32_t node) {
+  return packetOf(kNodeControl, {command, static_cast<uint8_t>(node)});
+}
+inline bool isNodeCommandFor(const CanPacket& packet, uint32_t node) {
+  return packet.id == kNodeControl && (packet.data[1] == kAllNodes || packet.data[1] == node);
+}
+
 // Numbers in packets and in structures of the control: the low byte comes first.
 inline uint32_t numberAt(const uint8_t* bytes, uint32_t width) {
   uint32_t value = 0;

@@ -18,6 +18,10 @@ struct Object {
   bool operator==(const Object&) const = default;
 };
 
+// Objects that every node has (CiA 301).
+inline constexpr Object kDeviceType{0x1000, 0}, kErrorRegister{0x1001, 0}, kName{0x1008, 0},
+    kHardwareVersion{0x1009, 0}, kSoftwareVersion{0x100A, 0}, kVendor{0x1018, 1};
+
 inline uint8_t command(const CanPacket& packet) { return packet.data[0]; }
 inline Object object(const CanPacket& packet) {
   return {static_cast<uint16_t>(numberAt(packet.data + 1, 2)), packet.data[3]};

@@ -15,8 +15,6 @@ namespace {
 
 using control_files::inQuotes;
 
-constexpr std::string_view kGroupNames[kUnitGroups] = {"INOUT08", "KLA50", "KNOB"}; // of keys, in capitals
-constexpr std::string_view kCountNames[kUnitGroups] = {".INOUT08CNT", ".KLA50CNT", ".KNOBCNT"};
 constexpr int64_t kSpeeds[] = {100'000, 125'000, 250'000, 500'000, 1'000'000}; // bit/s
 constexpr int64_t kServicePeriods[] = {250, 500, 1000};                        // us
 constexpr int64_t kMostPhysicalChannel = 15, kMostSyncPeriod = 15;
@@ -75,8 +73,9 @@ std::optional<std::string> CanSettings::setChannel(std::string_view key, std::st
     return own.physical ? "" : takes(key, upTo(kMostPhysicalChannel));
   }
   if (channel == 1 && rest == ".DRIVES") return put(drives, key, value, 0, kMostDrives, upTo(kMostDrives));
-  for (uint32_t group = 0; channel == 2 && group < kUnitGroups; ++group)
-    if (rest == kCountNames[group]) return put(units[group], key, value, 0, kMostUnits[group], upTo(kMostUnits[group]));
+  for (uint32_t group = 0; channel == 2 && rest.starts_with('.') && group < kUnitGroups; ++group)
+    if (text::equalsIgnoringCase(rest.substr(1), kUnitGroupNames[group].count))
+      return put(units[group], key, value, 0, kMostUnits[group], upTo(kMostUnits[group]));
   return noAttribute(key, channel);
 }
 
@@ -85,7 +84,7 @@ std::optional<std::string> CanSettings::setUnit(std::string_view key, std::strin
   rest.remove_prefix(1);
   for (uint32_t group = 0; group < kUnitGroups; ++group) {
     std::string_view unit = rest;
-    if (!nc::technol::takePrefix(unit, kGroupNames[group])) continue;
+    if (!text::takePrefixIgnoringCase(unit, kUnitGroupNames[group].unit)) continue;
     const uint32_t number = nc::technol::takeIndex(unit).value_or(0);
     if (unit == ".CONTROL" && number < kMostUnits[group])
       return put(controls[group][number], key, value, 0, 255, "0 to 255");

@@ -10,7 +10,6 @@ using namespace inouts;
 namespace {
 
 constexpr uint8_t kNotSerious = kErrorAny | kErrorShort; // man. l.3674
-constexpr uint8_t kStartNode = 1, kPrepareNode = 0x80;   // network management of CiA 301: operational, pre-operational
 constexpr uint8_t kBootUp = 0;                           // the state of its first heartbeat
 constexpr uint8_t kEmergencyBytes = 3;                   // up to the error register
 
@@ -63,8 +62,8 @@ void CanUnit::reportRefusal(UnitMessages& messages) {
 }
 
 void CanUnit::start(CanPort& port) {
-  if (!isPrepared_) isPrepared_ = port.transmit(packetOf(kNodeControl, {kPrepareNode, node()}));
-  if (!isStarted_ && mayStart()) isStarted_ = port.transmit(packetOf(kNodeControl, {kStartNode, node()}));
+  if (!isPrepared_) isPrepared_ = port.transmit(nodeCommand(kPrepareNode, node()));
+  if (!isStarted_ && mayStart()) isStarted_ = port.transmit(nodeCommand(kStartNode, node()));
 }
 
 bool CanUnit::isPreparing() const { return !isStarted_ && isPending(requests::kBeforeStart); }

@@ -15,7 +15,16 @@ namespace rung::devices {
 inline constexpr uint32_t kUnitGroups = 3, kInOut08 = 1, kPanel = 2, kHandwheel = 3;
 inline constexpr uint32_t kMostUnits[kUnitGroups] = {32, 4, 2};
 inline constexpr uint32_t kFirstNode[kUnitGroups] = {0x21, 0x41, 0x45}; // of board 1
-inline constexpr uint32_t kUnitOutputs = 3, kUnitInputs = 4;            // ports OP0 to OP2, IP0 to IP3
+constexpr uint8_t nodeOf(uint32_t group, uint32_t board) {
+  return static_cast<uint8_t>(kFirstNode[group - 1] + board - 1);
+}
+// In the control's configuration: the name of a unit, and the attribute that says how many there are.
+struct UnitGroupNames {
+  const char *unit, *count;
+};
+inline constexpr UnitGroupNames kUnitGroupNames[kUnitGroups] = {
+    {"INOUT08", "InOut08Cnt"}, {"KLA50", "Kla50Cnt"}, {"Knob", "KnobCnt"}};
+inline constexpr uint32_t kUnitOutputs = 3, kUnitInputs = 4; // ports OP0 to OP2, IP0 to IP3
 // The manual does not say how long a unit may be silent (l.3534).
 inline constexpr uint32_t kUnitTimeoutMs = 100;
 
@@ -26,7 +35,7 @@ public:
 
   uint32_t group() const { return group_; }
   uint32_t board() const { return board_; }
-  uint8_t node() const { return static_cast<uint8_t>(kFirstNode[group_ - 1] + board_ - 1); }
+  uint8_t node() const { return nodeOf(group_, board_); }
   // CONTROL after a power-on.
   void setControl(uint8_t control) { control_ = control; }
 

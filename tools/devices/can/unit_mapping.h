@@ -2,24 +2,17 @@
 // whose number is fixed, and fields without use have to be mapped, too (man. l.4705-4714, l.4780-4790); the control
 // maps them by the objects 1600h and 1A00h. TPDO2 is fixed: what the unit's analogue inputs are.
 //
-// The manual names the objects (l.4390-4463, l.4567-4663) and the structures of programs (l.4074-4185, l.7492-7503),
-// but not which byte is what: that is the control's own affair.
+// The manual names the objects (unit_objects.h) and the structures of programs (l.4074-4185, l.7492-7503), but not
+// which byte is what: the control decides that.
 #pragma once
 #include "tools/devices/can/inouts.h"
-#include "tools/devices/can/sdo.h"
+#include "tools/devices/can/unit_objects.h"
 
 namespace rung::devices {
 
-inline constexpr uint16_t kRpdoMapping = 0x1600, kTpdoMapping = 0x1A00; // subindices 1 to 8
 inline constexpr uint32_t kPdoFields = 8;
 
 inline constexpr uint16_t kUnusedField = 0x0005; // the unsigned byte of CiA 301 that is mapped where nothing is
-inline constexpr uint16_t kReadInput = 0x6000, kWriteOutput = 0x6200, kMatrixInput = 0x2108, kEncoderCounter = 0x210D,
-                          kDisplay = 0x210F, kWheelKeys = 0x2111;
-// Subindices of the display (man. l.4620-4663).
-inline constexpr uint8_t kDisplayInitialise = 1, kDisplayEnable = 2, kDisplayRow = 6, kDisplayColumn = 7,
-                         kDisplayMask = 8, kDisplayInversion = 9, kDisplaySize = 10, kDisplayCount = 11,
-                         kDisplayCharacter = 12;
 
 // The value of a mapping object: index, subindex, bits.
 constexpr uint32_t mappingOf(sdo::Object field) { return uint32_t{field.index} << 16 | field.subindex << 8 | 8u; }

@@ -13,9 +13,8 @@ namespace {
 using namespace inouts;
 
 constexpr uint32_t kPatienceMs = 50; // then the next request is sent; this one comes again
-constexpr uint32_t kMatrixOutputs = 8;
-constexpr uint32_t kNotValid = 0x8000'0000; // of a COB-ID: the PDO is not sent (CiA 301)
-constexpr uint8_t kCharacters = 4;          // of TOC_DISPLS
+constexpr uint32_t kScanningOutputs = 8;
+constexpr uint8_t kCharacters = 4; // of TOC_DISPLS
 
 enum class Kind : uint8_t { Item, Register, Value, Analogue, Matrix };
 
@@ -26,23 +25,23 @@ struct Request {
   uint8_t value = 0; // what is written
 };
 
-// Without those of the mapping, which lie between 2110h and 1801h.
+// Without those of the mapping, which lie between the wheel's mode and TPDO2.
 constexpr Request kRequests[] = {
-    {{0x2101, 1}, Kind::Item, {kShort}},
-    {{0x2101, 2}, Kind::Item, {kShort + 1}},
-    {{0x2101, 3}, Kind::Item, {kShort + 2}},
-    {{0x1001, 0}, Kind::Register, {}},
-    {{0x2110, 0}, Kind::Value, {}, 1},
-    {{0x1801, 1}, Kind::Analogue, {}}, // with each SYNC, which is the type of a unit's transmissions, or never
-    {{0x2109, 0}, Kind::Matrix, {}},   // outputs that scan the matrix (man. l.4578-4587)
+    {{kShortedOutput, 1}, Kind::Item, {kShort}},
+    {{kShortedOutput, 2}, Kind::Item, {kShort + 1}},
+    {{kShortedOutput, 3}, Kind::Item, {kShort + 2}},
+    {sdo::kErrorRegister, Kind::Register, {}},
+    {kWheelMode, Kind::Value, {}, 1},
+    {kTpdo2Id, Kind::Analogue, {}},     // with each SYNC, which is the type of a unit's transmissions, or never
+    {kMatrixOutputs, Kind::Matrix, {}}, // outputs that scan the matrix (man. l.4578-4587)
     {{kDisplay, kDisplayInitialise}, Kind::Value, {}, 1},
     {{kDisplay, kDisplayEnable}, Kind::Value, {}, 1},
     {{kDisplay, kDisplayMask}, Kind::Value, {}, 0xFF},
     {{kDisplay, kDisplayCount}, Kind::Value, {}, kCharacters},
-    {{0x1018, 1}, Kind::Item, kVendor},
-    {{0x1008, 0}, Kind::Item, kDeviceName},
-    {{0x1009, 0}, Kind::Item, kHardwareVersion},
-    {{0x100A, 0}, Kind::Item, kSoftwareVersion},
+    {sdo::kVendor, Kind::Item, kVendor},
+    {sdo::kName, Kind::Item, kDeviceName},
+    {sdo::kHardwareVersion, Kind::Item, kHardwareVersion},
+    {sdo::kSoftwareVersion, Kind::Item, kSoftwareVersion},
 };
 constexpr uint32_t kMappings = 2 * kPdoFields;
 static_assert(std::size(kRequests) + kMappings == std::bit_width(requests::kIdentity));
@@ -72,7 +71,7 @@ CanPacket packetOf(const Request& request, uint32_t node, uint8_t mode) {
   case Kind::Value: return sdo::write(node, request.object, 1, request.value);
   case Kind::Analogue:
     return sdo::write(node, request.object, 4, kTpdo2 + node + (mode == kModeAnalogue ? 0 : kNotValid));
-  case Kind::Matrix: return sdo::write(node, request.object, 2, mode == kModeMatrix ? kMatrixOutputs : 0);
+  case Kind::Matrix: return sdo::write(node, request.object, 2, mode == kModeMatrix ? kScanningOutputs : 0);
   default: return sdo::read(node, request.object);
   }
 }

@@ -4,8 +4,6 @@
 namespace rung::devices {
 namespace {
 
-constexpr uint8_t kStart = 1, kAllNodes = 0; // network management of CiA 301
-
 bool isItem(InoutsItem item) {
   const bool width = item.bytes == 1 || item.bytes == 2 || item.bytes == 4;
   return width && item.offset < inouts::kBytes && item.offset + item.bytes <= inouts::kBytes;
@@ -43,7 +41,7 @@ void CanUnits::reset() {
 // Other nodes of the channel are the program's: they are started, and then left alone.
 void CanUnits::prepare(CanPort& port) {
   if (units_.empty()) return;
-  if (!started_) started_ = port.transmit(packetOf(kNodeControl, {kStart, kAllNodes}));
+  if (!started_) started_ = port.transmit(nodeCommand(kStartNode, kAllNodes));
   for (CanUnit& unit : units_) unit.tick(port, messages_);
 }
 
@@ -97,7 +95,7 @@ bool CanUnits::take(const CanPacket& packet) {
 
 uint32_t CanUnits::numberOf(uint32_t group, uint32_t board) const {
   if (group < 1 || group > kUnitGroups || board < 1 || board > kMostUnits[group - 1]) return 0;
-  return numbers_[kFirstNode[group - 1] + board - 1];
+  return numbers_[nodeOf(group, board)];
 }
 
 const Inouts* CanUnits::find(uint32_t group, uint32_t board) const {

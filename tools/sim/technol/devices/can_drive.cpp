@@ -7,8 +7,7 @@ namespace {
 using namespace devices;
 
 constexpr uint32_t kDeviceType = 0x00020192; // servo drive of CiA 402
-constexpr sdo::Object kTypeObject{0x1000, 0}, kRegisterObject{0x1001, 0}, kCodeObject{0x603F, 0},
-    kControlObject{0x6040, 0}, kStatusObject{0x6041, 0};
+constexpr sdo::Object kCodeObject{0x603F, 0}, kControlObject{0x6040, 0}, kStatusObject{0x6041, 0};
 
 // Bits of the control word (CiA 402).
 constexpr uint16_t kSwitchOn = 1, kVoltage = 2, kNoQuickStop = 4, kEnable = 8, kFaultReset = 0x80;
@@ -43,8 +42,8 @@ void SimulatedDrive::power() {
   operational_ = holds_ = silent_ = false;
   state_ = State::SwitchOnDisabled;
   word_ = received_ = code_ = manufacturer_ = 0;
-  objects_.add({kTypeObject, 4, kDeviceType});
-  objects_.add({kRegisterObject, 1});
+  objects_.add({sdo::kDeviceType, 4, kDeviceType});
+  objects_.add({sdo::kErrorRegister, 1});
   objects_.add({kCodeObject, 2});
   objects_.add({kControlObject, 2, 0, ObjectAccess::ReadWrite});
   objects_.add({kStatusObject, 2});
@@ -54,8 +53,8 @@ void SimulatedDrive::power() {
 
 void SimulatedDrive::receive(const CanPacket& packet, NodePackets& answers) {
   if (silent_) return;
-  if (packet.id == kNodeControl) {
-    if (packet.data[1] == 0 || packet.data[1] == node_) operational_ = packet.data[0] == 1;
+  if (isNodeCommandFor(packet, node_)) {
+    operational_ = packet.data[0] == kStartNode;
   } else if (packet.id == kSync) {
     if (!operational_) return;
     control(received_, answers);
@@ -142,7 +141,7 @@ void SimulatedDrive::sendStatus(NodePackets& answers) const {
 }
 
 void SimulatedDrive::refresh() {
-  objects_.set(kRegisterObject, state_ == State::Fault ? kErrorAny : 0);
+  objects_.set(sdo::kErrorRegister, state_ == State::Fault ? kErrorAny : 0);
   objects_.set(kCodeObject, code_);
   objects_.set(kControlObject, word_);
   objects_.set(kStatusObject, status());

@@ -11,10 +11,7 @@ using namespace devices;
 constexpr uint32_t kDeviceType = 0x00030191; // inputs and outputs of CiA 401
 constexpr uint32_t kMaker = 1;
 constexpr std::string_view kNames[kUnitGroups] = {"INOUT08", "KLA50", "TOC"};
-constexpr uint16_t kErrorRegister = 0x1001, kName = 0x1008, kShortedOutput = 0x2101, kMatrixOutputs = 0x2109,
-                   kPotentiometer = 0x6404;
-constexpr sdo::Object kTpdo2Id{0x1801, 1}, kTpdo2Type{0x1801, 2}, kWheelMode{0x2110, 0};
-constexpr uint32_t kNotValid = 0x8000'0000;                           // of a COB-ID
+constexpr uint16_t kPotentiometer = 0x6404;
 constexpr uint8_t kEverySync = 1, kMostSyncs = 240, kAtRequest = 252; // types of transmission (l.4699-4703)
 constexpr uint8_t kLastOfDisplay = 19;
 constexpr PdoFields kDefaultOutputs = {{{kWriteOutput, 1},
@@ -65,11 +62,11 @@ constexpr uint16_t kNoError = 0, kGenericError = 0x1000, kShortedOutputs = 0x230
 } // namespace
 
 SimulatedUnit::SimulatedUnit(uint32_t group, uint32_t board)
-    : group_(group), board_(board), node_(static_cast<uint8_t>(kFirstNode[group - 1] + board - 1)) {
+    : group_(group), board_(board), node_(nodeOf(group, board)) {
   if (group == kHandwheel) display_.resize(1);
-  objects_.add({{0x1000, 0}, 4, kDeviceType});
-  objects_.add({{kErrorRegister, 0}, 1});
-  objects_.add({{0x1018, 1}, 4, kMaker});
+  objects_.add({sdo::kDeviceType, 4, kDeviceType});
+  objects_.add({sdo::kErrorRegister, 1});
+  objects_.add({sdo::kVendor, 4, kMaker});
   for (uint8_t i = 1; i <= kUnitOutputs; ++i) {
     objects_.add({{kShortedOutput, i}, 1});
     objects_.add({{kWriteOutput, i}, 1});
@@ -78,7 +75,7 @@ SimulatedUnit::SimulatedUnit(uint32_t group, uint32_t board)
   for (uint8_t i = 1; i <= 8; ++i) objects_.add({{kPotentiometer, i}, 1});
   for (const sdo::Object place : {kTpdo2Type, kWheelMode}) objects_.add({place, 1, 0, ObjectAccess::ReadWrite});
   objects_.add({kTpdo2Id, 4, 0, ObjectAccess::ReadWrite});
-  objects_.add({{kMatrixOutputs, 0}, 2, 0, ObjectAccess::ReadWrite});
+  objects_.add({kMatrixOutputs, 2, 0, ObjectAccess::ReadWrite});
   for (const uint16_t pdo : {kRpdoMapping, kTpdoMapping}) {
     objects_.add({{pdo, 0}, 1, kPdoFields});
     for (uint8_t i = 1; i <= kPdoFields; ++i) objects_.add({{pdo, i}, 4, 0, ObjectAccess::ReadWrite});
@@ -99,7 +96,7 @@ void SimulatedUnit::setDefaults() {
   objects_.set(kTpdo2Id, kTpdo2 + node_ + (sendsAnalogue_ ? 0 : kNotValid));
   objects_.set(kTpdo2Type, kEverySync);
   objects_.set(kWheelMode, 0);
-  objects_.set({kMatrixOutputs, 0}, 0);
+  objects_.set(kMatrixOutputs, 0);
 }
 
 void SimulatedUnit::power() {
@@ -139,8 +136,8 @@ void SimulatedUnit::tick(NodePackets& answers) {
 
 void SimulatedUnit::receive(const CanPacket& packet, NodePackets& answers) {
   if (wires_.silent) return;
-  if (packet.id == kNodeControl) {
-    if (packet.data[1] == 0 || packet.data[1] == node_) operational_ = packet.data[0] == 1;
+  if (isNodeCommandFor(packet, node_)) {
+    operational_ = packet.data[0] == kStartNode;
   } else if (packet.id == kSync) {
     if (!operational_) return;
     takeOver();
@@ -187,7 +184,7 @@ void SimulatedUnit::sendInputs(NodePackets& answers) const {
 }
 
 void SimulatedUnit::refresh() {
-  objects_.set({kErrorRegister, 0}, errorRegister());
+  objects_.set(sdo::kErrorRegister, errorRegister());
   for (uint8_t i = 0; i < kUnitOutputs; ++i) {
     const auto subindex = static_cast<uint8_t>(i + 1);
     objects_.set({kShortedOutput, subindex}, wires_.shorts[i]);
@@ -207,9 +204,9 @@ void SimulatedUnit::answer(const CanPacket& request, NodePackets& answers) {
     answers.push(segment);
     return;
   }
-  if (sdo::command(request) == sdo::kRead && sdo::object(request) == sdo::Object{kName, 0}) {
+  if (sdo::command(request) == sdo::kRead && sdo::object(request) == sdo::kName) {
     const auto length = static_cast<uint32_t>(name.size());
-    answers.push(sdo::packet(kSdoAnswer + node_, sdo::kSegmented, {kName, 0}, length));
+    answers.push(sdo::packet(kSdoAnswer + node_, sdo::kSegmented, sdo::kName, length));
     return;
   }
   if (const uint32_t code = refusal(request)) {

@@ -14,12 +14,7 @@ using namespace devices;
 
 namespace {
 
-struct Group {
-  std::string_view name;  // canonical
-  std::string_view count; // of its units, in the configuration
-};
-constexpr Group kGroups[kUnitGroups] = {
-    {"INPUTOUTPUT_CAN2_", "InOut08Cnt"}, {"PANEL_CAN2_", "Kla50Cnt"}, {"KNOB_CAN2_", "KnobCnt"}};
+constexpr std::string_view kGroups[kUnitGroups] = {"INPUTOUTPUT_CAN2_", "PANEL_CAN2_", "KNOB_CAN2_"}; // canonical
 
 // The decimal digits at the beginning of the text, which loses them.
 std::optional<uint32_t> takeDecimal(std::string_view& text) {
@@ -82,7 +77,7 @@ std::optional<UnitCell> UnitCell::named(std::string_view name) {
   const std::string canonical = nc::technol::canonical(name);
   for (uint32_t group = 1; group <= kUnitGroups; ++group) {
     std::string_view rest = canonical;
-    if (!nc::technol::takePrefix(rest, kGroups[group - 1].name)) continue;
+    if (!nc::technol::takePrefix(rest, kGroups[group - 1])) continue;
     const auto number = takeDecimal(rest);
     const bool isUnit = number && *number < kMostUnits[group - 1] && nc::technol::takePrefix(rest, ".INOUT_");
     if (!isUnit) return std::nullopt;
@@ -109,10 +104,9 @@ void UnitCell::takeElement(std::string_view text) {
 }
 
 std::string UnitCell::problem(const CanDevices& can) const {
-  const Group& group = kGroups[group_ - 1];
   if (can.unit(group_, board_) == nullptr)
-    return "there is no such unit; `config CAN[1]." + std::string(group.count) + " " + std::to_string(board_) +
-           "` adds it";
+    return "there is no such unit; `config CAN[1]." + std::string(kUnitGroupNames[group_ - 1].count) + " " +
+           std::to_string(board_) + "` adds it";
   if (element_ == nullptr) {
     std::string names;
     for (const Element& known : kElements) names.append(names.empty() ? "INOUT_" : ", INOUT_").append(known.name);

@@ -25,10 +25,11 @@ std::string ServoMeasure::set(std::string_view name, std::string_view value) {
   const bool isType = text::equalsIgnoringCase(name, kType);
   int32_t& place = isType ? type_ : text::equalsIgnoringCase(name, kNumerator) ? numerator_ : denominator_;
   place = *number;
+  incrementsPerMicrometre_ = computed();
   return {};
 }
 
-double ServoMeasure::incrementsPerMicrometre() const {
+double ServoMeasure::computed() const {
   if (numerator_ == 0 && denominator_ == 0) return 1;
   const double numerator = numerator_ == 0 ? 1 : numerator_, denominator = denominator_ == 0 ? 1 : denominator_;
   const bool isTrajectory = type_ == kTrajectoryCoe || type_ == kTrajectorySoe;

@@ -92,6 +92,7 @@ void SimulatedDevices::powerOn(host::Instance& instance, nc::PowerOn kind, const
   ethercat_.powerOn();
   servos_.powerOn();
   servoCells_ = {};
+  for (uint32_t i = 0; i < servoCells_.size(); ++i) servoCells_[i].incrementsPerUm = servos_.incrementsPerUm(i);
   axisInputs_ = {};
   keyboards_.power();
   keyProblem_ = keyboards_.resolveCommands(constantOf);
@@ -240,7 +241,6 @@ void SimulatedDevices::tickOthers(host::Instance& instance, ModuleCells& cells, 
   canPlaces_.read(memory, canInputs_.units, canInputs_.drives, canOutputs_.units.errors);
   statePlaces_.read(memory, stateBits_);
   servoPlaces_.read(memory, servoCells_);
-  for (uint32_t i = 0; i < servoCells_.size(); ++i) servoCells_[i].incrementsPerUm = servos_.incrementsPerUm(i);
   for (uint32_t i = 0; i < axes_.count(); ++i) servoCells_[i].place = axes_.physical(i + 1);
   takeOutputs(cells, ethercat_.image(), servoCells_);
   for (uint32_t i = 0; i < ticks; ++i) {

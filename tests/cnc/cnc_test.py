@@ -203,7 +203,7 @@ def axes(bench, options):
     """The positioning unit of a TECHNOL program moves an extra joint, whose reference is not at 0."""
     prepare_extra_joint(bench, options, "axes.plc", PROGRAM_AXIS.replace("HOME = 0\n", "HOME = 7\nHOME_OFFSET = 7\n"))
     output = start_machine(bench)
-    for reason in ("POS_INIT is refused, as it has no reference", "the positioning unit has lost it, as its drive"):
+    for reason in ("POS_INIT is refused: the axis has no reference", "the positioning unit has lost the axis: its drive"):
         expect(f"rung: axis 4: {reason}" in output, f"no message: {reason}")
 
 

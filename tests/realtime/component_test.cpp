@@ -306,7 +306,8 @@ TEST_F(AxisAtPins, AFaultOfTheDriveIsAnError) {
   EXPECT_NEAR(command() - place, 100. * 100 / 2 / 4000, 1e-6);
   EXPECT_TRUE(bit("error"));
   ASSERT_TRUE(scanUntil([&] { return !hal.lines().empty(); }));
-  EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung: axis 4: the positioning unit has lost it, as its drive has a")));
+  EXPECT_THAT(hal.lines(),
+              Contains(HasSubstr("rung: axis 4: the positioning unit has lost the axis: its drive has a")));
   hal.unload();
 }
 

@@ -83,19 +83,20 @@ void DeviceReport::losses(std::vector<std::string>& lines) {
     const bool isUnheard = counts.timeouts != std::exchange(channels_[channel - 1].timeouts, counts.timeouts);
     const bool wasUnheard = std::exchange(channels_[channel - 1].isUnheard, isUnheard);
     if (lost > 0)
-      lines.push_back(channelName(channel) + ": " + std::to_string(lost) + " packets were lost, as they came too fast");
+      lines.push_back(channelName(channel) + ": " + std::to_string(lost) +
+                      " packets were lost, because they came too fast");
     if (isFull && !wasFull)
       lines.push_back(channelName(channel) + ": the queue of the interface is full, packets wait");
     if (isUnheard && !wasUnheard)
-      lines.push_back(channelName(channel) + ": nobody acknowledges what is sent; is a device connected, has it power "
-                                             "and the bit rate of the interface?");
+      lines.push_back(channelName(channel) + ": no device acknowledges what is sent; check that one is connected, has "
+                                             "power and has the bit rate of the interface");
   }
   for (uint32_t port = 0; port < portLosses_.size(); ++port) {
     const uint32_t now = devices_.ports[port].lostBytes();
     const uint32_t lost = now - std::exchange(portLosses_[port], now);
     if (lost > 0)
       lines.push_back("the serial port " + std::to_string(port) + ": " + std::to_string(lost) +
-                      " bytes were lost, as the program does not take them");
+                      " bytes were lost, because the program does not take them");
   }
 }
 

@@ -90,7 +90,7 @@ void PositionedAxes::step(Axis& axis, uint32_t number, int64_t ns) noexcept {
   axis.motion.advance(ns);
   axis.settled = std::fabs(axis.in.position - axis.motion.position()) <= axis.maxDifference;
   units_.look(axis, number);
-  if (axis.mover == devices::Mover::None && axis.motion.standing()) axis.requested = false;
+  if (axis.mover == devices::Mover::None && axis.motion.isAtRest()) axis.requested = false;
 }
 
 DriveOutputs PositionedAxes::outputs(uint32_t axis) const {
@@ -98,7 +98,7 @@ DriveOutputs PositionedAxes::outputs(uint32_t axis) const {
 }
 
 bool PositionedAxes::atRest() const noexcept {
-  return std::ranges::all_of(axes_, [](const Axis& axis) { return axis.motion.standing(); });
+  return std::ranges::all_of(axes_, [](const Axis& axis) { return axis.motion.isAtRest(); });
 }
 
 void PositionedAxes::take(const rt::Memory& memory, const device_requests::AxisCells& cells) noexcept {
@@ -163,13 +163,13 @@ void PositionedAxes::forget(uint32_t number) noexcept {
 void PositionedAxes::reportNew(const Masks& masks, std::array<AxisMask, kObstacles>& reported, std::string_view what,
                                std::vector<std::string>& lines) {
   constexpr std::string_view kReasons[] = {
-      "",                         // None
-      "it has no reference",      // NotHomed
-      "its drive is not enabled", // NotEnabled
-      "its drive has a fault",    // Fault
-      "it is too far from where it is to be (FollowingErrorLimit)",
+      "",                          // None
+      "the axis has no reference", // NotHomed
+      "its drive is not enabled",  // NotEnabled
+      "its drive has a fault",     // Fault
+      "its following error exceeds FollowingErrorLimit",
       "its position loop is open (VAZBA_x)",
-      "it is a spindle",
+      "the axis is a spindle",
       "all six units have an axis", // l.12040
   };
   static_assert(std::size(kReasons) == kObstacles);
@@ -183,8 +183,8 @@ void PositionedAxes::reportNew(const Masks& masks, std::array<AxisMask, kObstacl
 }
 
 void PositionedAxes::report(std::vector<std::string>& lines) {
-  reportNew(refused_, refusedReported_, "POS_INIT is refused, as ", lines);
-  reportNew(lost_, lostReported_, "the positioning unit has lost it, as ", lines);
+  reportNew(refused_, refusedReported_, "POS_INIT is refused: ", lines);
+  reportNew(lost_, lostReported_, "the positioning unit has lost the axis: ", lines);
 }
 
 } // namespace rung::host_devices

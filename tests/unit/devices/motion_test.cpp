@@ -12,7 +12,7 @@ using rung::devices::Motion;
 
 int ticksToStand(Motion& motion) {
   int ticks = 0;
-  while (!motion.standing() && ticks < 10'000'000) {
+  while (!motion.isAtRest() && ticks < 10'000'000) {
     motion.tick();
     ++ticks;
   }
@@ -47,7 +47,7 @@ TEST(Motion, OfAnyLengthEndsExactly) {
     EXPECT_NEAR(motion.duration(), seconds, 1e-9);
     EXPECT_NEAR(ticksToStand(motion), std::ceil(seconds * 1000 - 1e-6), 1);
     ASSERT_EQ(motion.position(), target);
-    ASSERT_TRUE(motion.standsAt(target));
+    ASSERT_TRUE(motion.isAtRestAt(target));
   }
 }
 
@@ -105,7 +105,7 @@ TEST(Motion, ComesBackToATargetThatItCannotBrakeFor) {
   ticks(motion, 100);
   motion.moveTo(motion.position() + 1, 100, 1000); // it needs 5 mm
   double most = 0;
-  while (!motion.standing()) {
+  while (!motion.isAtRest()) {
     motion.tick();
     most = std::max(most, motion.position());
   }
@@ -150,7 +150,7 @@ TEST(Motion, RunIsWithoutDrift) {
   motion.run(1.0 / 3, 1000);
   ticks(motion, 3'000'000); // 3000 s, of which the ramp costs v²/2a
   EXPECT_NEAR(motion.position(), 1000 - 1.0 / 9 / 2000, 1e-9);
-  EXPECT_FALSE(motion.standing());
+  EXPECT_FALSE(motion.isAtRest());
 }
 
 } // namespace

@@ -134,7 +134,7 @@ TEST_F(PositionedAxis, WithoutAReferenceItIsRefused) {
   take();
   EXPECT_EQ((*this)["ERR"], 1);
   EXPECT_EQ((*this)["DISP"], 0);
-  EXPECT_THAT(reports(), StrEq("axis 4: POS_INIT is refused, as it has no reference\n"));
+  EXPECT_THAT(reports(), StrEq("axis 4: POS_INIT is refused: the axis has no reference\n"));
   take();
   EXPECT_EQ(reports(), "") << "it was said";
   bit("homed") = true;
@@ -169,7 +169,7 @@ TEST_F(PositionedAxis, ADriveThatIsDisabledIsLost) {
   EXPECT_EQ((*this)["ERR"], 1);
   EXPECT_EQ((*this)["DISP"], 0);
   EXPECT_EQ((*this)["PO_OS4PI"], 0);
-  EXPECT_THAT(reports(), StrEq("axis 4: the positioning unit has lost it, as its drive is not enabled\n"));
+  EXPECT_THAT(reports(), StrEq("axis 4: the positioning unit has lost the axis: its drive is not enabled\n"));
   bit("enabled") = true;
   follows = true;
   ms(500);
@@ -190,7 +190,7 @@ TEST_F(PositionedAxis, AFaultBrakesIt) {
   ms(40);
   EXPECT_NEAR(command(), place + 1, 1e-9);
   EXPECT_EQ((*this)["ERR"], 1);
-  EXPECT_THAT(reports(), HasSubstr("has lost it, as its drive has a fault"));
+  EXPECT_THAT(reports(), HasSubstr("has lost the axis: its drive has a fault"));
 }
 
 TEST_F(PositionedAxis, FollowingError) { // l.10177
@@ -203,7 +203,7 @@ TEST_F(PositionedAxis, FollowingError) { // l.10177
   ms(140);
   EXPECT_EQ((*this)["ERR"], 1);
   EXPECT_EQ((*this)["DISP"], 0);
-  EXPECT_THAT(reports(), HasSubstr("it is too far from where it is to be (FollowingErrorLimit)"));
+  EXPECT_THAT(reports(), HasSubstr("its following error exceeds FollowingErrorLimit"));
 }
 
 TEST_F(PositionedAxis, ASpindleIsNoAxis) {
@@ -214,7 +214,7 @@ TEST_F(PositionedAxis, ASpindleIsNoAxis) {
   EXPECT_EQ((*this)["ERR"], 1);
   take();
   EXPECT_EQ((*this)["ERR"], 1);
-  EXPECT_THAT(reports(), HasSubstr("POS_INIT is refused, as it is a spindle"));
+  EXPECT_THAT(reports(), HasSubstr("POS_INIT is refused: the axis is a spindle"));
 }
 
 TEST_F(PositionedAxis, AFaultOfTheProgramBrakesIt) {

@@ -1,4 +1,4 @@
-// What the cells of axes say of their motions and places, all of it for axes that exist.
+// What the cells of axes report of their motions and positions; only axes that exist have any.
 #pragma once
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// An axis as those who move it have it: its configuration, the motion that it is to make, and who has it.
+// What all movers of an axis share: its configuration, its commanded motion, and which of them has it.
 #pragma once
 #include <cstdint>
 
@@ -13,15 +13,15 @@ struct DrivenAxis {
   AxisAttributes attributes;
   Motion motion;
   Mover mover = Mover::None;
-  bool requested = false; // PO_OSxPI: a motion is wanted, also where it is not allowed (l.6243-6250)
+  bool requested = false; // PO_OSxPI: a motion is requested, even where it is not permitted (l.6243-6250)
   bool negative = false;  // SM_POxPI: direction of that motion
-  bool settled = true;    // what moves is where `motion` has it, within what the configuration allows
+  bool settled = true;    // the actual position follows `motion` within the configured tolerance
 
   void request(bool inNegative) {
     requested = true;
     negative = inNegative;
   }
-  // Its mover leaves it: it brakes to a standstill, until which its motion is reported.
+  // Its mover leaves it: it brakes to a standstill, and its motion is reported until then.
   void leave(double acceleration) {
     mover = Mover::None;
     motion.stop(acceleration);

@@ -13,8 +13,8 @@ public:
 
   double position() const { return position_; }
   double speed() const { return speed_; } // per second, signed
-  bool standing() const { return speed_ == 0 && time_ >= duration_; }
-  bool standsAt(double place) const { return standing() && position_ == place; }
+  bool isAtRest() const { return speed_ == 0 && time_ >= duration_; }
+  bool isAtRestAt(double place) const { return isAtRest() && position_ == place; }
   // Seconds from where the motion was planned to its end; infinite for a run.
   double duration() const { return duration_; }
 

@@ -23,14 +23,14 @@ void PositioningUnits::init(DrivenAxis& axis, uint32_t number, bool allowed) {
   const double acceleration = unit->acceleration > 0 ? unit->acceleration : axis.attributes.acceleration;
   *unit = {.axis = number, .acceleration = acceleration};
   axis.mover = Mover::PositioningUnit;
-  unit->braking = !axis.motion.standing();
+  unit->braking = !axis.motion.isAtRest();
   axis.motion.stop(acceleration);
 }
 
 PositioningUnits::Mode PositioningUnits::program(const DrivenAxis& axis, uint32_t number, int32_t length,
                                                  uint16_t acceleration) {
   Unit* const unit = find(number);
-  const bool moving = unit != nullptr && unit->underWay() && (unit->started || !axis.motion.standing());
+  const bool moving = unit != nullptr && unit->underWay() && (unit->started || !axis.motion.isAtRest());
   if (unit == nullptr || acceleration == 0 || (moving && !unit->braking)) {
     fail(number);
     return {};
@@ -91,9 +91,9 @@ uint16_t PositioningUnits::statusOf(const DrivenAxis& axis, uint32_t number) con
 void PositioningUnits::drive(DrivenAxis& axis, uint32_t number, const AxisPermits& in) {
   Unit* const unit = find(number);
   if (unit == nullptr) return;
-  if (unit->braking && axis.motion.standing()) unit->braking = false;
+  if (unit->braking && axis.motion.isAtRest()) unit->braking = false;
   if (!unit->braking && unit->underWay()) follow(*unit, axis, number - 1, in);
-  if (!unit->underWay() && axis.motion.standing()) axis.requested = false;
+  if (!unit->underWay() && axis.motion.isAtRest()) axis.requested = false;
 }
 
 void PositioningUnits::follow(Unit& unit, DrivenAxis& axis, uint32_t index, const AxisPermits& in) {
@@ -108,14 +108,14 @@ void PositioningUnits::follow(Unit& unit, DrivenAxis& axis, uint32_t index, cons
     axis.motion.stop(hold == Hold::Limit ? axis.attributes.accelerationEmergency : unit.acceleration); // l.6692
   }
   axis.request(negative);
-  axis.requested = wanted || !axis.motion.standing();
+  axis.requested = wanted || !axis.motion.isAtRest();
 }
 
 void PositioningUnits::look(DrivenAxis& axis, uint32_t number) {
   Unit* const unit = find(number);
   if (unit == nullptr || !unit->underWay() || !unit->placed) return;
   if (axis.motion.speed() != 0) unit->started = true;
-  if (!axis.motion.standsAt(unit->target) || !axis.settled) return;
+  if (!axis.motion.isAtRestAt(unit->target) || !axis.settled) return;
   unit->arrived = true;
   axis.requested = false;
 }

@@ -31,7 +31,7 @@ void Axis::letGo(double acceleration) {
 void Axis::tick() {
   motion.tick();
   shift.tick();
-  if (mover == Mover::None && (spindle || motion.standing())) requested = false;
+  if (mover == Mover::None && (spindle || motion.isAtRest())) requested = false;
 }
 
 double Axis::nextPulse(double from, bool downwards) const {

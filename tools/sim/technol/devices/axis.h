@@ -26,7 +26,7 @@ public:
   double physical() const { return motion.position() + shift.position(); }
   double measured() const { return motion.position() + offset_; }
   double speedPerMinute() const { return (motion.speed() + shift.speed()) * 60; }
-  bool moves() const { return !motion.standing() || !shift.standing(); }
+  bool moves() const { return !motion.isAtRest() || !shift.isAtRest(); }
   // The place where it is has this measure.
   void setMeasured(double value) { offset_ = value - motion.position(); }
   // Puts it there, physically and measured.

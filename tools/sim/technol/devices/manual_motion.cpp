@@ -83,7 +83,7 @@ void ManualMotion::driveAxis(Axis& axis, uint32_t index, const AxisInputs& in, d
 void ManualMotion::driveWheel(Axis& axis, uint32_t index, const AxisInputs& in) {
   const double target = wheelTargets_[index];
   axis.mover = Mover::Manual;
-  if (axis.motion.standsAt(target)) return drop(axis, index);
+  if (axis.motion.isAtRestAt(target)) return drop(axis, index);
   axis.request(target < axis.motion.position());
   const bool free = holdOf(in, index, axis.negative, enabledFor(axis, in)) == Hold::None;
   if (free)
@@ -119,7 +119,7 @@ void ManualMotion::drive(std::span<Axis> axes, const AxisInputs& in, AxisRequest
 void ManualMotion::watchStop(std::span<const Axis> axes, const AxisInputs& in) {
   const bool moves = ordered_.plus != 0 || ordered_.minus != 0 || wheels_ != 0;
   const auto back = [&](uint32_t i) {
-    return axes[i].motion.standing() && std::fabs(axes[i].motion.position() - stopPlaces_[i]) < kBackAtStop;
+    return axes[i].motion.isAtRest() && std::fabs(axes[i].motion.position() - stopPlaces_[i]) < kBackAtStop;
   };
   if (!in.block)
     atStop_ = true;

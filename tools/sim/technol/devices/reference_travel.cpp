@@ -114,9 +114,9 @@ double ReferenceTravel::target(const Axis& axis) const {
 bool ReferenceTravel::look(Axis& axis) {
   const AxisAttributes& own = axis.attributes;
   if (phase_ == Phase::Seek && armed_ && axis.passedPulse(own.machineNullPoint)) phase_ = Phase::Overrun;
-  if (phase_ == Phase::Overrun && axis.motion.standing() && own.moveToPosAfterRef != 0) phase_ = Phase::Further;
-  const bool there = phase_ == Phase::Overrun ? axis.motion.standing()
-                                              : phase_ == Phase::Further && axis.motion.standsAt(target(axis));
+  if (phase_ == Phase::Overrun && axis.motion.isAtRest() && own.moveToPosAfterRef != 0) phase_ = Phase::Further;
+  const bool there = phase_ == Phase::Overrun ? axis.motion.isAtRest()
+                                              : phase_ == Phase::Further && axis.motion.isAtRestAt(target(axis));
   if (!there) return false;
   end(axis, own.accelerationRT);
   axis.requested = false;

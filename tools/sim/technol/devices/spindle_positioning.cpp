@@ -78,12 +78,12 @@ void SpindlePositioning::drive(Axis& axis, uint32_t index, const AxisInputs& in,
 void SpindlePositioning::look(Axis& axis, uint32_t index, AxisRequests& requests) {
   if (phase_ == Phase::Seek && axis.passedPulse(axis.attributes.machineNullPoint)) phase_ = Phase::Overrun;
   const double target = axis.pulse() + angle_;
-  if (phase_ == Phase::Overrun && axis.motion.standing() && angle_ != 0) {
+  if (phase_ == Phase::Overrun && axis.motion.isAtRest() && angle_ != 0) {
     phase_ = Phase::Turn;
     axis.request(target < axis.motion.position());
   }
   const bool there =
-      phase_ == Phase::Overrun ? axis.motion.standing() : phase_ == Phase::Turn && axis.motion.standsAt(target);
+      phase_ == Phase::Overrun ? axis.motion.isAtRest() : phase_ == Phase::Turn && axis.motion.isAtRestAt(target);
   if (!there) return;
   end(axis, acceleration_);
   axis.requested = false;

@@ -17,7 +17,7 @@ void Spindles::drive(Axis& axis, uint32_t number) const {
   if (!axis.spindle) return;
   axis.motion.run(output(number) * axis.attributes.speedAt10V / 60, axis.attributes.acceleration);
   // One that was switched off and does not turn is an axis of the position loop again.
-  if (isOff(number) && axis.motion.standing()) axis.spindle = false;
+  if (isOff(number) && axis.motion.isAtRest()) axis.spindle = false;
 }
 
 } // namespace rung::sim::technol

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "rtlib/text/blanks.h"
+#include "rtlib/text/hex.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
@@ -61,6 +62,31 @@ TEST(Letters, CompareWithoutCase) {
   EXPECT_FALSE(text::equalsIgnoringCase("@", "`"));
   EXPECT_FALSE(text::equalsIgnoringCase("\xC4", "\xE4"));
   EXPECT_FALSE(text::equalsIgnoringCase(std::string_view("a\0b", 3), std::string_view("a\0c", 3)));
+}
+
+TEST(Letters, BeginningsWithoutCase) {
+  EXPECT_TRUE(text::startsWithIgnoringCase("PlcTable3", "pLCtABLE"));
+  EXPECT_TRUE(text::startsWithIgnoringCase("a", ""));
+  EXPECT_TRUE(text::startsWithIgnoringCase("ab", "AB"));
+  EXPECT_FALSE(text::startsWithIgnoringCase("a", "ab"));
+  EXPECT_FALSE(text::startsWithIgnoringCase("", "a"));
+  EXPECT_FALSE(text::startsWithIgnoringCase("{a", "["));
+  std::string_view rest = "Can[1].x";
+  EXPECT_FALSE(text::takePrefixIgnoringCase(rest, "COM["));
+  EXPECT_EQ(rest, "Can[1].x");
+  EXPECT_TRUE(text::takePrefixIgnoringCase(rest, "CAN["));
+  EXPECT_EQ(rest, "1].x");
+}
+
+TEST(Hex, OfBytesAndNumbers) {
+  const uint8_t bytes[] = {0x01, 0x2A, 0xFF};
+  EXPECT_EQ(text::hexOf(bytes), "012AFF");
+  EXPECT_EQ(text::hexOf({}), "");
+  EXPECT_EQ(text::hexInPairs("\x01*\xFF"), "01 2A FF");
+  EXPECT_EQ(text::hexInPairs(""), "");
+  EXPECT_EQ(text::hexOfNumber(0x6040041, 4), "06040041");
+  EXPECT_EQ(text::hexOfNumber(0x1234, 1), "34");
+  EXPECT_EQ(text::hexOfNumber(UINT64_MAX, 8), "FFFFFFFFFFFFFFFF");
 }
 
 TEST(Letters, OrderIsThatOfTheCapitals) {

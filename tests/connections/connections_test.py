@@ -21,7 +21,7 @@ BIN = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 SERVER = """[modbus-server]
 port = {port}
-timeout = 0.3
+timeout = 2
 status = "ok"
 [modbus-server.coils]
 run = 0
@@ -92,9 +92,9 @@ class WithHost(unittest.TestCase):
 
 
 class WithServer(WithHost):
-    def setUp(self):
+    def server(self, more="timeout = 2"):
         self.port = free_port()
-        self.begin(SERVER.format(port=self.port))
+        self.begin(SERVER.format(port=self.port).replace("timeout = 2", more))
 
     def client(self, port=None):
         made = Client(port or self.port)
@@ -110,6 +110,9 @@ class WithServer(WithHost):
 
 
 class Server(WithServer):
+    def setUp(self):
+        self.server()
+
     def test_values_go_both_ways_by_pymodbus(self):
         client = ModbusTcpClient("127.0.0.1", port=self.port)
         self.assertTrue(client.connect())
@@ -218,22 +221,7 @@ class Server(WithServer):
         writer, reader = self.client(), self.client()
         writer.write(0, 9)
         self.sees(9, "D8:2")
-        end = time.monotonic() + 1
-        while time.monotonic() < end:
-            reader.read(0, 1)
-        self.assertEqual(self.host.get("D8:2", "X0.7"), (-5, False))
-
-    def test_a_client_that_stops_in_mid_message(self):
-        half = self.client()
-        whole = frame(struct.pack(">BHHBH", 16, 0, 1, 2, 77))
-        half.socket.sendall(whole[:9])
-        before = self.host.status()["clock"]["overruns"]
-        begin = time.monotonic()
-        self.keeps_working()
-        self.assertLess(time.monotonic() - begin, 2)
-        self.assertNotEqual(self.host.get("D8:2"), 77)
-        self.assertIsNone(half.answer(), "it is not waited for")
-        self.assertIsInstance(before, int)
+        self.assertTrue(wait_until(lambda: reader.read(0, 1) and self.host.get("D8:2", "X0.7") == (-5, False)))
 
     def test_bytes_in_pieces_are_one_message(self):
         client = self.client()
@@ -271,7 +259,7 @@ class Server(WithServer):
             client = Client(self.port)
             client.socket.sendall(bytes(data) + good[0])
             client.socket.shutdown(socket.SHUT_WR)
-            client.socket.settimeout(2)
+            client.socket.settimeout(PATIENCE)
             try:
                 while client.socket.recv(4096):
                     pass
@@ -282,18 +270,22 @@ class Server(WithServer):
         self.keeps_working()
 
 
-class Limits(WithHost):
-    def server(self, more):
-        self.port = free_port()
-        self.begin(SERVER.format(port=self.port).replace("timeout = 0.3", more))
-
-    def client(self):
-        made = Client(self.port)
-        self.addCleanup(made.close)
-        return made
+class Limits(WithServer):
+    def test_a_client_that_stops_in_mid_message(self):
+        self.server("timeout = 8")
+        half = self.client()
+        whole = frame(struct.pack(">BHHBH", 16, 0, 1, 2, 77))
+        half.socket.sendall(whole[:9])
+        self.keeps_working()
+        half.socket.setblocking(False)
+        with self.assertRaises(BlockingIOError, msg="the others were served after it"):
+            half.socket.recv(1)
+        half.socket.settimeout(PATIENCE)
+        self.assertNotEqual(self.host.get("D8:2"), 77)
+        self.assertIsNone(half.answer(), "it is not waited for")
 
     def test_as_many_clients_as_may_be(self):
-        self.server("timeout = 0.5\nconnections = 2")
+        self.server("timeout = 2\nconnections = 2")
         first, second = self.client(), self.client()
         first.write(0, 1)
         second.write(0, 2)
@@ -301,7 +293,7 @@ class Limits(WithHost):
         self.assertIsNone(third.write(0, 3), "there are two")
         self.sees(2, "D8:2")
         # The place of one that is silent for longer is free.
-        end = time.monotonic() + 0.7
+        end = time.monotonic() + 2.2
         while time.monotonic() < end:
             second.write(0, 2)
         fourth = self.client()
@@ -350,7 +342,7 @@ CLIENT = """[[modbus-client]]
 host = "127.0.0.1"
 port = {port}
 period = 0.02
-timeout = 0.3
+timeout = 2
 status = "ok"
 [modbus-client.discrete-inputs]
 door = {{ at = 4, safe = true }}
@@ -422,8 +414,7 @@ class ClientOfDevice(ClientSide):
         device.process.send_signal(signal.SIGSTOP)
         self.sees((-5, False), "D8:2", "X0.7")
         steps = self.host.status()["clock"]["steps"]
-        time.sleep(0.3)
-        self.assertGreater(self.host.status()["clock"]["steps"], steps + 100)  # the scan waits for nobody
+        self.assertTrue(wait_until(lambda: self.host.status()["clock"]["steps"] > steps + 100))  # the scan waits for nobody
         device.process.send_signal(signal.SIGCONT)
         self.sees((0, True), "D8:2", "X0.7")
 
@@ -480,7 +471,7 @@ class ClientOfDevice(ClientSide):
 MEMORY = """[shared-memory]
 name = "{name}"
 period = 0.005
-timeout = 0.3
+timeout = 2
 status = "ok"
 [shared-memory.pins]
 run = 0
@@ -580,7 +571,7 @@ class Memory(WithHost):
         self.begin_with_peer()
         self.peer.begin_writing()
         struct.pack_into("i", self.peer.map, self.peer.inputs + 4, 55)
-        time.sleep(0.4)
+        self.host.pass_by(2500 // 8)  # for longer than it may be silent
         self.assertEqual(self.host.get("D8:2", "X0.7"), (-5, False))
         self.assertTrue(wait_until(lambda: self.peer.write(True, True, 56, 1) or self.host.get("D8:2") == 56))
 
@@ -674,7 +665,7 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
         self.sees((0x20, False), "F3", "F1.1")  # automatic mode, the reset has ended
         self.host.ctl("event", "program", "blocks=O12 N10 M3 S1500; N20 T5; N30 M30")
         inputs(True, True, False)
-        time.sleep(0.1)
+        self.host.pass_by(12)
         inputs(False, True, False)
         self.sees((3, 1500, 5), "F10:4", "F22:4", "F7")  # M3 and S1500, with MF and SF
         self.assertTrue(wait_until(lambda: struct.unpack_from("I", peer.map, peer.outputs)[0] == 3))
@@ -707,7 +698,7 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
 
     def press(self, put, pin):
         put(**{pin: True})
-        time.sleep(0.06)
+        self.host.pass_by(4)
         put(**{pin: False})
 
     def test_a_part_program_of_nct(self):
@@ -725,11 +716,11 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
         put(key_on=True)
         on("request")
         put(key_on=False, monitored=True, k1_off=False, k2_off=False)
-        time.sleep(0.6)
+        self.host.pass_by(60)
         put(pump=True, pressure=True)
         on("ready")
         put(pedal=True)
-        time.sleep(0.03)
+        self.host.pass_by(4)
         put(pedal=False, chuck_out=False, chuck_pressure=True)
         on("chuck_ok")
         self.press(put, "key_auto")

@@ -11,7 +11,7 @@ import threading
 import time
 from pathlib import Path
 
-PATIENCE = 10  # seconds until something counts as never happening
+PATIENCE = 60  # seconds until something counts as never happening
 # X0.n lights Y0.n; D cells come and go through pins.
 PROGRAM = "dialect gsk\nFUNC END1\n" + "".join(f"LD   X0.{n}\nOUT  Y0.{n}\n" for n in range(8)) + "FUNC END2\n"
 PINS = """[in]
@@ -87,6 +87,12 @@ class Host:
 
     def status(self):
         return self.ctl("status")
+
+    def pass_by(self, count):
+        """Waits for that many passes of the program."""
+        end = self.status()["passes"] + count
+        if not wait_until(lambda: self.status()["passes"] >= end):
+            raise AssertionError(f"it does not run: {self.logged()}")
 
     def end(self):
         """Its status; a second time as well."""

@@ -26,7 +26,7 @@ public:
   Ways(const Cut& cut, std::span<const uint64_t> costs, Ways* callees, uint32_t limit)
       : cut_(cut), costs_(costs), callees_(callees), limit_(limit), marks_(cut.rungCount(), Mark::New),
         longest_(cut.rungCount(), 0), next_(cut.rungCount(), RUNG_NONE), order_(cut.rungCount(), 0),
-        lowest_(cut.rungCount(), 0) {}
+        lowest_(cut.rungCount(), 0), leadsToCircle_(cut.rungCount(), 0) {}
 
   uint64_t from(Place start) {
     stack_.push_back(start);
@@ -61,6 +61,8 @@ public:
 
   // By number.
   const std::vector<std::vector<uint32_t>>& circles() const { return circles_; }
+  // Whether some way from there, which has been measured, comes to a circle.
+  bool leadToCircle(Place place) const { return leadsToCircle_[number(place)] != 0; }
 
 private:
   enum class Mark : uint8_t { New, Open, Done };
@@ -102,17 +104,29 @@ private:
   // Tarjan's components of the graph, of which those with a way back to their rungs are circles.
   void closeCircle(Place place) {
     const uint32_t own = number(place);
+    const Transfer& transfer = transferOf(place);
     bool itself = false;
-    forNext(place, transferOf(place), [&](Place next) {
+    bool leads =
+        transfer.kind == TransferKind::Call && callees_ == nullptr && leadToCircle({.routine = transfer.callee});
+    forNext(place, transfer, [&](Place next) {
       itself = itself || number(next) == own;
+      leads = leads || leadToCircle(next);
       if (order_[number(next)] != kClosed) lowest_[own] = std::min(lowest_[own], lowest_[number(next)]);
     });
     if (lowest_[own] != order_[own]) return;
+    if (reached_.back() == own && !itself) { // alone
+      reached_.pop_back();
+      order_[own] = kClosed;
+      leadsToCircle_[own] = leads ? 1 : 0;
+      return;
+    }
     const auto first = std::find(reached_.rbegin(), reached_.rend(), own).base() - 1;
     std::vector<uint32_t> rungs(first, reached_.end());
     reached_.erase(first, reached_.end());
-    for (const uint32_t rung : rungs) order_[rung] = kClosed;
-    if (rungs.size() == 1 && !itself) return;
+    for (const uint32_t rung : rungs) {
+      order_[rung] = kClosed;
+      leadsToCircle_[rung] = 1;
+    }
     std::ranges::sort(rungs);
     circles_.push_back(std::move(rungs));
   }
@@ -142,6 +156,7 @@ private:
   std::vector<uint32_t> next_;   // on the longest way, in the same routine; RUNG_NONE: it ends
   std::vector<uint32_t> order_;  // in which rungs were opened
   std::vector<uint32_t> lowest_; // that can be reached and is not in a circle that is known
+  std::vector<uint8_t> leadsToCircle_;
   uint32_t opened_ = 0;
   std::vector<uint32_t> reached_; // numbers of rungs whose circles are not known yet, as they were opened
   std::vector<std::vector<uint32_t>> circles_;
@@ -167,6 +182,22 @@ public:
   uint64_t cost() const { return cost_; }
   uint32_t part() const { return part_; }
   const std::vector<std::vector<uint32_t>>& circles() const { return circles_; }
+
+  // From the last chunk back to where a circle can be reached.
+  Straight straight() {
+    Straight out;
+    if (task_.parts > 1) return out;
+    uint64_t most = 0;
+    for (auto c = static_cast<uint32_t>(cut_.chunks().size()); c-- > 0;) {
+      const Chunk& chunk = cut_.chunks()[c];
+      if (chunk.routine != task_.entry) continue;
+      const Place place{.routine = chunk.routine, .rung = chunk.firstRung};
+      most = std::max(most, whole_.from(place));
+      if (whole_.leadToCircle(place)) break;
+      out = {.chunk = c, .weight = static_cast<uint32_t>(std::min<uint64_t>(most, UINT32_MAX))};
+    }
+    return out;
+  }
 
   // Each routine before those that it calls.
   std::vector<RoutineWay> routines() {
@@ -238,31 +269,15 @@ private:
 
 HeaviestRun heaviestRun(const Cut& cut, TaskId task) {
   const std::vector<uint64_t> weights = rungWeights(cut);
-  const TaskWays ways(cut, task, weights);
+  TaskWays ways(cut, task, weights);
   return {.weight = static_cast<uint32_t>(std::min<uint64_t>(ways.cost(), cut.module().tasks[task.index].budget)),
-          .circles = !ways.circles().empty()};
+          .circles = !ways.circles().empty(),
+          .straight = ways.straight()};
 }
 
 HeaviestWay heaviestWay(const Cut& cut, TaskId task, std::span<const uint64_t> costs) {
   TaskWays ways(cut, task, costs);
   return {.cost = ways.cost(), .part = ways.part(), .routines = ways.routines(), .circles = ways.circles()};
-}
-
-Straight straightEnd(const Cut& cut, TaskId id) {
-  const Task& task = cut.module().tasks[id.index];
-  Straight out;
-  if (task.parts > 1) return out;
-  const std::vector<uint64_t> weights = rungWeights(cut);
-  Ways ways(cut, weights, nullptr, RUNG_NONE);
-  uint64_t most = 0;
-  for (auto c = static_cast<uint32_t>(cut.chunks().size()); c-- > 0;) {
-    const Chunk& chunk = cut.chunks()[c];
-    if (chunk.routine != task.entry) continue;
-    most = std::max(most, ways.from({.routine = chunk.routine, .rung = chunk.firstRung}));
-    if (!ways.circles().empty()) break;
-    out = {.chunk = c, .weight = static_cast<uint32_t>(std::min<uint64_t>(most, UINT32_MAX))};
-  }
-  return out;
 }
 
 } // namespace rung::ir

@@ -9,22 +9,20 @@
 
 namespace rung::ir {
 
-struct HeaviestRun {
-  uint32_t weight = 0;  // at most the task's budget
-  bool circles = false; // control may go in circles; the weight is that of a way without the jump that closes one
-};
-
-// Of a task, or of the heaviest of its parts where it is cut.
-HeaviestRun heaviestRun(const Cut& cut, TaskId task);
-
 // The end of a run's circles.
 struct Straight {
   uint32_t chunk = RUNG_PC_DONE; // from it on, outside of calls, control goes in no circles; RUNG_PC_DONE: never
   uint32_t weight = 0;           // of the heaviest way from there or from a later chunk, at most UINT32_MAX
 };
 
-// Of a task that is not cut: a cut one has none.
-Straight straightEnd(const Cut& cut, TaskId task);
+struct HeaviestRun {
+  uint32_t weight = 0;  // at most the task's budget
+  bool circles = false; // control may go in circles; the weight is that of a way without the jump that closes one
+  Straight straight;    // a task that is cut has none
+};
+
+// Of a task, or of the heaviest of its parts where it is cut.
+HeaviestRun heaviestRun(const Cut& cut, TaskId task);
 
 // The part of a way that lies in one routine.
 struct RoutineWay {

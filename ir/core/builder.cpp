@@ -21,7 +21,7 @@ Op& RungBuilder::append(OpCode code, Type type, std::span<const ValueId> args) {
 void RungBuilder::checkArgs(const Op& op) const {
   const OpInfo& info = opInfo(op.code);
   RUNG_CHECK(contains(info.types, op.type), "operation of a type it does not have");
-  const int fixed = fixedOperands(info);
+  const int fixed = info.fixed;
   RUNG_CHECK(isVariadic(info) ? op.argCount >= fixed : op.argCount == fixed, "wrong number of operands");
   for (int i = 0; i < fixed; ++i)
     RUNG_CHECK(satisfies(info.operands[static_cast<size_t>(i)], op.type, typeOf(arg(rung_, op, i))),

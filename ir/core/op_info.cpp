@@ -5,10 +5,10 @@
 
 namespace rung::ir {
 namespace {
-
 using C = Constraint;
+}
 
-constexpr OpInfo kOps[] = {
+constexpr OpInfo kOpRows[] = {
     {.code = OpCode::Const,
      .name = "const",
      .types = kAllTypes,
@@ -623,8 +623,9 @@ constexpr OpInfo kOps[] = {
      .doc = "Ends the measurement of this rung and counts it."},
 };
 
+namespace {
+
 constexpr bool rowsInOrder() {
-  if (std::size(kOps) != kOpCount) return false;
   constexpr std::string_view kNames[] = {
 #define RUNG_OP(name, text) text,
 #include "ir/core/ops.def"
@@ -635,8 +636,8 @@ constexpr bool rowsInOrder() {
 #include "ir/core/ops.def"
   };
   for (int i = 0; i < kOpCount; ++i)
-    if (static_cast<int>(kOps[i].code) != i || kOps[i].name != kNames[i] || kOps[i].doc.empty() ||
-        isEvaluable(kOps[i]) != kEvaluable[i])
+    if (static_cast<int>(kOpRows[i].code) != i || kOpRows[i].name != kNames[i] || kOpRows[i].doc.empty() ||
+        isEvaluable(kOpRows[i]) != kEvaluable[i])
       return false;
   return true;
 }
@@ -645,46 +646,10 @@ static_assert(rowsInOrder(),
 
 } // namespace
 
-const OpInfo& opInfo(OpCode code) { return kOps[static_cast<int>(code)]; }
-std::span<const OpInfo> allOps() { return kOps; }
 const OpInfo* findOp(std::string_view name) {
-  for (const OpInfo& info : kOps)
+  for (const OpInfo& info : kOpRows)
     if (info.name == name) return &info;
   return nullptr;
-}
-
-bool satisfies(Constraint constraint, Type own, Type actual) {
-  switch (constraint) {
-  case Constraint::None: return false;
-  case Constraint::Same: return actual == own;
-  case Constraint::Bit: return actual == Type::Bit;
-  case Constraint::I32: return actual == Type::I32;
-  case Constraint::I64: return actual == Type::I64;
-  case Constraint::F64: return actual == Type::F64;
-  case Constraint::Narrower: return actual != Type::F64 && bitWidth(actual) < bitWidth(own);
-  case Constraint::Wider: return isInt(actual) && bitWidth(actual) > bitWidth(own);
-  case Constraint::AnyInt: return isInt(actual);
-  case Constraint::Any:
-  case Constraint::Variadic: return true;
-  }
-  return false;
-}
-
-Type resultType(Constraint constraint, Type own) {
-  switch (constraint) {
-  case Constraint::Bit: return Type::Bit;
-  case Constraint::I32: return Type::I32;
-  case Constraint::I64: return Type::I64;
-  case Constraint::F64: return Type::F64;
-  case Constraint::Same: return own;
-  case Constraint::None:
-  case Constraint::Narrower:
-  case Constraint::Wider:
-  case Constraint::AnyInt:
-  case Constraint::Any:
-  case Constraint::Variadic: return Type::None;
-  }
-  return Type::None;
 }
 
 } // namespace rung::ir

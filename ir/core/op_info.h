@@ -68,37 +68,72 @@ enum Effect : uint8_t {
   kClock = 32,     // fixed within a scan
 };
 
+using Operands = std::array<Constraint, 4>;
+constexpr uint8_t countFixed(const Operands& operands) {
+  uint8_t n = 0;
+  for (Constraint c : operands) n += (c != Constraint::None && c != Constraint::Variadic) ? 1 : 0;
+  return n;
+}
+
 struct OpInfo {
   OpCode code;
   std::string_view name;
   TypeSet types; // legal T; kNoTypes where the operation has no type
-  std::array<Constraint, 4> operands;
+  Operands operands;
   Constraint result;
   Attr attr;
-  uint8_t effects;      // Effect
-  std::string_view doc; // one or two sentences, with the result of every odd input
+  uint8_t effects;                      // Effect
+  std::string_view doc;                 // one or two sentences, with the result of every odd input
+  uint8_t fixed = countFixed(operands); // without a Variadic one
 };
 
-const OpInfo& opInfo(OpCode code);
-std::span<const OpInfo> allOps();
+// In the order of OpCode; use `opInfo`.
+extern const OpInfo kOpRows[kOpCount];
+
+inline const OpInfo& opInfo(OpCode code) { return kOpRows[static_cast<int>(code)]; }
+inline std::span<const OpInfo> allOps() { return kOpRows; }
 // Null when there is no operation of this name.
 const OpInfo* findOp(std::string_view name);
 
-// Fixed operands of the row, without a Variadic one.
-constexpr int fixedOperands(const OpInfo& info) {
-  int n = 0;
-  for (Constraint c : info.operands) n += (c != Constraint::None && c != Constraint::Variadic) ? 1 : 0;
-  return n;
-}
 constexpr bool isVariadic(const OpInfo& info) {
   for (Constraint c : info.operands)
     if (c == Constraint::Variadic) return true;
   return false;
 }
 // Whether a value of type `actual` satisfies `constraint` for an operation of type `own`.
-bool satisfies(Constraint constraint, Type own, Type actual);
+constexpr bool satisfies(Constraint constraint, Type own, Type actual) {
+  switch (constraint) {
+  case Constraint::None: return false;
+  case Constraint::Same: return actual == own;
+  case Constraint::Bit: return actual == Type::Bit;
+  case Constraint::I32: return actual == Type::I32;
+  case Constraint::I64: return actual == Type::I64;
+  case Constraint::F64: return actual == Type::F64;
+  case Constraint::Narrower: return actual != Type::F64 && bitWidth(actual) < bitWidth(own);
+  case Constraint::Wider: return isInt(actual) && bitWidth(actual) > bitWidth(own);
+  case Constraint::AnyInt: return isInt(actual);
+  case Constraint::Any:
+  case Constraint::Variadic: return true;
+  }
+  return false;
+}
 // The type of a result; None where there is none or the row does not fix it.
-Type resultType(Constraint constraint, Type own);
+constexpr Type resultType(Constraint constraint, Type own) {
+  switch (constraint) {
+  case Constraint::Bit: return Type::Bit;
+  case Constraint::I32: return Type::I32;
+  case Constraint::I64: return Type::I64;
+  case Constraint::F64: return Type::F64;
+  case Constraint::Same: return own;
+  case Constraint::None:
+  case Constraint::Narrower:
+  case Constraint::Wider:
+  case Constraint::AnyInt:
+  case Constraint::Any:
+  case Constraint::Variadic: return Type::None;
+  }
+  return Type::None;
+}
 // Whether the host may look at memory meanwhile: every store above must have been done, and none below.
 constexpr bool hostReads(const OpInfo& info) { return (info.effects & kHost) != 0 && (info.effects & kReads) != 0; }
 constexpr bool isPure(const OpInfo& info) { return info.effects == kPure || info.effects == kClock; }

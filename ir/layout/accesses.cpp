@@ -25,10 +25,11 @@ void forUses(const Module& module, const Routine& routine, Visit visit) {
 
 bool isOneBit(const Use& use) { return use.type == Type::Bit && !use.computed; }
 
-// In the memory block.
-std::vector<rung_span> bytesOf(const MemoryLayout& layout, const Use& use) {
-  if (isOneBit(use)) return {{layout.bit(use.place.space, use.place.first).offset, 1}};
-  return layout.pieces(bytesOf(use.place));
+// Adds what is used in the memory block.
+void addBytes(const MemoryLayout& layout, const Use& use, std::vector<rung_span>& spans) {
+  if (isOneBit(use)) return spans.push_back({layout.bit(use.place.space, use.place.first).offset, 1});
+  const std::vector<rung_span> pieces = layout.pieces(bytesOf(use.place));
+  spans.insert(spans.end(), pieces.begin(), pieces.end());
 }
 
 // ---- writing -----------------------------------------------------------------------------------------------------
@@ -101,11 +102,11 @@ std::vector<rung_span> joined(std::vector<rung_span> spans) {
   return out;
 }
 
-// What an operation reads or writes of the memory block.
-std::vector<rung_span> touchedBytes(const MemoryLayout& layout, const Op& op) {
-  if (opInfo(op.code).attr == Attr::Slot) return {{layout.slot(SlotId{op.ref}), std::max(1u, byteWidth(op.type))}};
-  const std::optional<Use> use = useOf(layout.module(), op);
-  return use ? bytesOf(layout, *use) : std::vector<rung_span>{};
+// Adds what an operation reads or writes of the memory block.
+void addTouched(const MemoryLayout& layout, const Op& op, std::vector<rung_span>& spans) {
+  if (opInfo(op.code).attr == Attr::Slot)
+    return spans.push_back({layout.slot(SlotId{op.ref}), std::max(1u, byteWidth(op.type))});
+  if (const std::optional<Use> use = useOf(layout.module(), op)) addBytes(layout, *use, spans);
 }
 
 uint64_t sizeOf(const std::vector<rung_span>& spans) {
@@ -144,9 +145,7 @@ std::vector<rung_span> readBytes(const MemoryLayout& layout, TaskId id) {
   for (uint32_t r = 0; r < routines.size(); ++r) {
     if (!routines[r]) continue;
     forUses(module, module.routines[r], [&](const Use& use) {
-      if (use.writes) return;
-      const std::vector<rung_span> bytes = bytesOf(layout, use);
-      spans.insert(spans.end(), bytes.begin(), bytes.end());
+      if (!use.writes) addBytes(layout, use, spans);
     });
   }
   return joined(std::move(spans));
@@ -192,9 +191,7 @@ std::vector<uint32_t> changedWords(const MemoryLayout& layout, TaskId id) {
     for (const Rung& rung : module.routines[r].rungs)
       for (const Op& op : rung.ops) {
         if (does(op, kHost)) return {};
-        if (!does(op, kWrites)) continue;
-        const std::vector<rung_span> bytes = touchedBytes(layout, op);
-        spans.insert(spans.end(), bytes.begin(), bytes.end());
+        if (does(op, kWrites)) addTouched(layout, op, spans);
       }
   }
   std::vector<uint32_t> words = wordsOver(joined(std::move(spans)), layout.size());
@@ -228,9 +225,8 @@ Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk) {
   for (const Rung& rung : std::span(routine.rungs).subspan(chunk.firstRung, chunk.rungCount)) {
     for (const Op& op : rung.ops) {
       mayRest = mayRest && !asksOthers(op);
-      const std::vector<rung_span> bytes = touchedBytes(layout, op);
-      out.all.insert(out.all.end(), bytes.begin(), bytes.end());
-      if (does(op, kWrites)) out.written.insert(out.written.end(), bytes.begin(), bytes.end());
+      addTouched(layout, op, out.all);
+      if (does(op, kWrites)) addTouched(layout, op, out.written);
     }
   }
   out.all = joined(std::move(out.all));

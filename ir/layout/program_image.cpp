@@ -214,9 +214,8 @@ private:
       const HeaviestRun heaviest = heaviestRun(layout_.cut(), TaskId{i});
       out.heaviest = heaviest.weight;
       out.circles = heaviest.circles ? 1 : 0;
-      const Straight straight = straightEnd(layout_.cut(), TaskId{i});
-      out.straight_chunk = straight.chunk;
-      out.straight_weight = straight.weight;
+      out.straight_chunk = heaviest.straight.chunk;
+      out.straight_weight = heaviest.straight.weight;
       append(readBytes(layout_.memory(), TaskId{i}), image_.reads_, out.read_first, out.read_count);
       append(changedWords(layout_.memory(), TaskId{i}), image_.changes_, out.change_first, out.change_count);
       image_.tasks_.push_back(out);

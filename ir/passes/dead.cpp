@@ -15,8 +15,7 @@ class DeadOps {
 public:
   void run(Rung& rung) {
     rung_ = &rung;
-    findRegions(rung, regions_);
-    findEffects();
+    if (findRegions(rung, regions_)) findEffects();
     findUses();
     if (!changes_) return;
     writer_.start(rung);
@@ -73,8 +72,8 @@ private:
         changes_ = true;
         if (op(i).code == OpCode::Else) // with its notes
           std::fill(keep_.begin() + i, keep_.begin() + regions_[i].end, uint8_t{0});
-        else
-          i = regions_[i].begin; // a dead region as a whole; itself where it is none
+        else if (op(i).code == OpCode::EndIf || op(i).code == OpCode::EndLoop)
+          i = regions_[i].begin; // all of the region
       }
     }
   }
@@ -134,10 +133,12 @@ private:
 
 } // namespace
 
-void removeDeadOps(Module& module) {
+void removeDeadOps(Module& module, Settled& settled) {
   DeadOps dead;
-  for (Routine& routine : module.routines)
-    for (Rung& rung : routine.rungs) dead.run(rung);
+  settled.eachOpen(module, kDeadRemoved, [&](Rung& rung, uint32_t, uint8_t before) -> uint8_t {
+    dead.run(rung);
+    return before | kDeadRemoved;
+  });
 }
 
 } // namespace rung::ir

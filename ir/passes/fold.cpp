@@ -12,14 +12,17 @@ class Folder {
 public:
   explicit Folder(const Module& module) : module_(module) {}
 
-  void run(Rung& rung, uint32_t number) {
+  // Whether it has changed the rung.
+  bool run(Rung& rung, uint32_t number) {
     rung_ = &rung;
+    changed_ = false;
     writer_.start(rung);
     findRegions(rung, regions_);
     // Each returns the last operation that it has dealt with.
     for (uint32_t i = 0; i < rung.ops.size(); ++i) i = fold(i);
-    writer_.finish(rung);
+    if (changed_) writer_.finish(rung);
     foldTransfer(rung.transfer, number);
+    return changed_;
   }
 
 private:
@@ -45,7 +48,9 @@ private:
       endIf(i);
     else if (code == OpCode::EndLoop)
       endLoop(i);
-    else if (!simplify(module_, writer_, op(i)))
+    else if (simplify(module_, writer_, op(i)))
+      changed_ = true;
+    else
       writer_.copy(op(i));
     return i;
   }
@@ -57,6 +62,7 @@ private:
       open_.push_back({.inlined = false, .yields = {}});
       return i;
     }
+    changed_ = true;
     const uint32_t end = regions_[i].end;
     if (cond == 0 && op(end).code == OpCode::EndIf) return end;
     open_.push_back({.inlined = true, .yields = {}});
@@ -82,13 +88,16 @@ private:
       writer_.copy(op(i));
       // What both regions yield was there before.
       for (uint32_t k = 0; k < op(i).argCount; ++k)
-        if (const ValueId yield = writer_.nowArg(op(i), k); yield == open_.back().yields[k])
+        if (const ValueId yield = writer_.nowArg(op(i), k); yield == open_.back().yields[k]) {
           writer_.replace({op(i).result.index + k}, yield);
+          changed_ = true;
+        }
     }
     open_.pop_back();
   }
 
   uint32_t beginLoop(uint32_t i) {
+    changed_ = changed_ || op(i).count <= 1;
     if (op(i).count == 0) {
       resultsAre(regions_[i].end, op(i));
       return regions_[i].end;
@@ -116,13 +125,17 @@ private:
     uint64_t bits = 0;
     if (transfer.value.valid() && isConstant(writer_, transfer.value, bits)) {
       const uint32_t target = transfer.targets[bits < transfer.targets.size() ? bits : 0];
+      changed_ = true;
       transfer = {.kind = TransferKind::Goto, .target = target};
     }
     if (transfer.cond.valid() && isConstant(writer_, transfer.cond, bits)) {
+      changed_ = true;
       transfer.cond = {};
       if (bits == 0) transfer = {};
     }
-    if (transfer.kind == TransferKind::Goto && transfer.target == number + 1) transfer = {};
+    if (transfer.kind != TransferKind::Goto || transfer.target != number + 1) return;
+    changed_ = true;
+    transfer = {};
   }
 
   const Module& module_;
@@ -130,14 +143,16 @@ private:
   RungRewriter writer_;
   std::vector<Region> regions_;
   std::vector<Frame> open_;
+  bool changed_ = false;
 };
 
 } // namespace
 
-void foldConstants(Module& module) {
+void foldConstants(Module& module, Settled& settled) {
   Folder folder(module);
-  for (Routine& routine : module.routines)
-    for (uint32_t i = 0; i < routine.rungs.size(); ++i) folder.run(routine.rungs[i], i);
+  settled.eachOpen(module, kFolded, [&](Rung& rung, uint32_t number, uint8_t before) -> uint8_t {
+    return folder.run(rung, number) ? kNothingSettled : before | kFolded;
+  });
 }
 
 } // namespace rung::ir

@@ -24,21 +24,28 @@ bool isCompare(const Op& op) {
   return opInfo(op.code).result == Constraint::Bit && op.type != Type::Bit && isEvaluable(opInfo(op.code));
 }
 
+bool mayBeKnown(const Op& op) { return isWindow(op) || isCompare(op); }
+
 class Guard {
 public:
   explicit Guard(const Module& module) : module_(module), values_(module), ranges_(module) {}
 
-  void run(Rung& rung) {
+  // Whether the rung has got ways.
+  bool run(Rung& rung) {
     rung_ = &rung;
     findIndexCells(rung, cells_);
-    if (cells_.empty() || cells_.size() > kMaxCells) return;
+    if (cells_.empty() || cells_.size() > kMaxCells) return false;
     findWays();
-    if (!ways_.empty()) split(rung);
+    if (ways_.empty()) return false;
+    split(rung);
+    return true;
   }
 
 private:
   void findWays() {
     ways_.clear();
+    const auto all = static_cast<uint32_t>(std::ranges::count_if(rung_->ops, mayBeKnown));
+    if (all < kLeastGainFixed) return;
     const uint32_t before = known(wholeCells());
     for (size_t n = 0; hasValues(n); ++n) {
       CellRanges way = valuesOf(n);
@@ -47,6 +54,7 @@ private:
     if (!ways_.empty()) return;
     uint32_t most = before + kLeastGain - 1;
     for (const uint64_t limit : kLimits) {
+      if (most >= all) return;
       CellRanges way = below(limit);
       const uint32_t now = known(way);
       if (now <= most) continue;
@@ -191,10 +199,11 @@ private:
 
 } // namespace
 
-void guardIndices(Module& module) {
+void guardIndices(Module& module, Settled& settled) {
   Guard guard(module);
-  for (Routine& routine : module.routines)
-    for (Rung& rung : routine.rungs) guard.run(rung);
+  settled.eachOpen(module, kNothingSettled, [&](Rung& rung, uint32_t, uint8_t before) {
+    return guard.run(rung) ? uint8_t{kNothingSettled} : before;
+  });
 }
 
 } // namespace rung::ir

@@ -28,6 +28,7 @@ bool add(std::vector<uint64_t>& values, uint64_t value) {
 
 void findIndexCells(const Rung& rung, std::vector<Cell>& cells) {
   cells.clear();
+  if (std::ranges::none_of(rung.ops, isWindow)) return;
   std::vector<bool> needed(rung.values.size(), false); // by value: an index is made of it
   const auto need = [&](const Op& op, int operand) { needed[arg(rung, op, operand).index] = true; };
   for (size_t i = rung.ops.size(); i-- > 0;) {
@@ -73,17 +74,22 @@ void IndexValues::findCells() {
 }
 
 void IndexValues::findConstants() {
+  const auto stores = [&](const Op& op) { return storesCell(op) && find(cellOf(op)) != nullptr; };
   for (const Routine& routine : module_.routines)
-    for (const Rung& rung : routine.rungs) {
-      std::vector<const Op*> constants(rung.values.size(), nullptr);
-      for (const Op& op : rung.ops) {
-        if (op.code == OpCode::Const) constants[op.result.index] = &op;
-        if (!storesCell(op)) continue;
-        const Op* stored = constants[arg(rung, op, 0).index];
-        std::vector<uint64_t>* values = stored == nullptr ? nullptr : find(cellOf(op));
-        if (values != nullptr) add(*values, static_cast<uint64_t>(stored->imm) & valueMask(op.type));
-      }
-    }
+    for (const Rung& rung : routine.rungs)
+      if (std::ranges::any_of(rung.ops, stores)) storing_.push_back(&rung);
+  for (const Rung* rung : storing_) findConstants(*rung);
+}
+
+void IndexValues::findConstants(const Rung& rung) {
+  std::vector<const Op*> constants(rung.values.size(), nullptr);
+  for (const Op& op : rung.ops) {
+    if (op.code == OpCode::Const) constants[op.result.index] = &op;
+    if (!storesCell(op)) continue;
+    const Op* stored = constants[arg(rung, op, 0).index];
+    std::vector<uint64_t>* values = stored == nullptr ? nullptr : find(cellOf(op));
+    if (values != nullptr) add(*values, static_cast<uint64_t>(stored->imm) & valueMask(op.type));
+  }
 }
 
 // Says whether there is something new.
@@ -91,8 +97,7 @@ bool IndexValues::derive() {
   RungRanges ranges(module_);
   bool isNew = false;
   for (size_t n = 0; n < kMost; ++n)
-    for (const Routine& routine : module_.routines)
-      for (const Rung& rung : routine.rungs) isNew |= deriveFrom(rung, n, ranges);
+    for (const Rung* rung : storing_) isNew |= deriveFrom(*rung, n, ranges);
   return isNew;
 }
 

@@ -28,12 +28,14 @@ public:
 private:
   void findCells();
   void findConstants();
+  void findConstants(const Rung& rung);
   bool derive();
   bool deriveFrom(const Rung& rung, size_t n, RungRanges& ranges);
   std::vector<uint64_t>* find(const Cell& cell);
 
   const Module& module_;
   std::unordered_map<uint64_t, std::vector<uint64_t>> values_; // by cell
+  std::vector<const Rung*> storing_;                           // rungs that store one of these, in their order
 };
 
 } // namespace rung::ir

@@ -51,8 +51,7 @@ private:
         for (uint32_t k = 0; k < op.argCount; ++k) need(rung_->args[op.firstArg + k]);
     need(rung_->transfer.cond);
     need(rung_->transfer.value);
-    for (const Op& op : ops) // what nobody needs
-      if (mayMove(op)) need(op.result);
+    for (uint32_t value = 0; value < rung_->values.size(); ++value) need({value}); // what nobody needs
   }
 
   // Operands before the operation, without recursion: rungs may be long.

@@ -3,18 +3,21 @@
 #pragma once
 #include "ir/core/marks.h"
 #include "ir/core/module.h"
+#include "ir/passes/settled.h"
 
 namespace rung::ir {
 
 // Not in the pipeline: for a module as its front end built it. `marks` (or null) go along.
 void orderOperations(Module& module, Marks* marks = nullptr);
 
-void inlineRoutines(Module& module);        // a routine with one caller takes the place of the call
-void foldConstants(Module& module);         // constants, algebra, branches that are known
-void reuseValues(Module& module);           // an equal operation, load or stored value above is used again
-void removeDeadOps(Module& module);         // results that nothing uses, regions without effect
-void removeTransientStores(Module& module); // values of registers between rungs that nothing reads
-void guardIndices(Module& module);          // short ways through a rung, for likely indices
-void instrumentRungs(Module& module);       // measures each rung
+void inlineRoutines(Module& module);  // a routine with one caller takes the place of the call
+void instrumentRungs(Module& module); // measures each rung
+
+// These go over rungs that are not settled.
+void foldConstants(Module& module, Settled& settled);         // constants, algebra, branches that are known
+void reuseValues(Module& module, Settled& settled);           // an equal operation, load or stored value above is used
+void removeDeadOps(Module& module, Settled& settled);         // results that nothing uses, regions without effect
+void removeTransientStores(Module& module, Settled& settled); // values of registers between rungs that nothing reads
+void guardIndices(Module& module, Settled& settled);          // short ways through a rung, for likely indices
 
 } // namespace rung::ir

@@ -14,13 +14,21 @@ public:
 
   void run(void (*pass)(Module&)) {
     pass(module_);
+    check();
+  }
+  void run(void (*pass)(Module&, Settled&), Settled& settled) {
+    pass(module_, settled);
+    check();
+  }
+
+private:
+  void check() const {
     if (!verifyEach_) return;
     const std::vector<VerifyError> errors = verify(module_, module_.instrumented ? Mode::Final : Mode::Built);
     const std::string text = errors.empty() ? std::string() : render(module_, errors);
     RUNG_CHECK(errors.empty(), text.c_str());
   }
 
-private:
   Module& module_;
   bool verifyEach_;
 };
@@ -31,17 +39,18 @@ void runPasses(Module& module, const PassOptions& options) {
   Pipeline pipeline(module, options.verifyEach);
   if (options.optimise) {
     pipeline.run(inlineRoutines);
-    pipeline.run(foldConstants);
-    pipeline.run(reuseValues);
-    pipeline.run(foldConstants); // of values that now are known to have been stored
-    pipeline.run(removeDeadOps); // loads, that else would keep stores to registers
-    pipeline.run(removeTransientStores);
-    pipeline.run(removeDeadOps);
-    pipeline.run(guardIndices);
-    pipeline.run(foldConstants);
-    pipeline.run(reuseValues);
-    pipeline.run(foldConstants);
-    pipeline.run(removeDeadOps);
+    Settled settled(module);
+    pipeline.run(foldConstants, settled);
+    pipeline.run(reuseValues, settled);
+    pipeline.run(foldConstants, settled); // of values that now are known to have been stored
+    pipeline.run(removeDeadOps, settled); // loads, that else would keep stores to registers
+    pipeline.run(removeTransientStores, settled);
+    pipeline.run(removeDeadOps, settled);
+    pipeline.run(guardIndices, settled);
+    pipeline.run(foldConstants, settled);
+    pipeline.run(reuseValues, settled);
+    pipeline.run(foldConstants, settled);
+    pipeline.run(removeDeadOps, settled);
   }
   if (options.instrument) pipeline.run(instrumentRungs);
 }

@@ -19,58 +19,72 @@ bool isCommutative(OpCode code) {
          code == OpCode::FMul || code == OpCode::FEq;
 }
 
+// First what is there already is found, for all of a rung; only where there is something the rung is written anew.
 class Reuser {
 public:
   explicit Reuser(const Module& module) : writes_(module) {}
 
-  void run(Rung& rung) {
+  // What of the rung is settled then.
+  uint8_t run(Rung& rung, uint8_t before) {
     rung_ = &rung;
-    writer_.start(rung);
+    reused_.clear();
+    tookFromLoop_ = false;
+    same_.resize(rung.values.size());
     table_.clear(rung.ops.size());
     writes_.start(rung);
     findWritingLoops();
-    size_t reused = 0;
-    for (uint32_t i = 0; i < rung.ops.size(); ++i) reused += visit(i) ? 1 : 0;
-    if (reused != 0) writer_.finish(rung);
+    for (uint32_t i = 0; i < rung.ops.size(); ++i)
+      if (isReused(i)) reused_.push_back(i);
+    if (reused_.empty()) return before | kReused;
+    write(rung);
+    return tookFromLoop_ ? kNothingSettled : kReused;
   }
 
 private:
-  // Whether the results of operation i are there already.
-  bool visit(uint32_t i) {
+  // Whether the results of operation i, or what it stores, are there already.
+  bool isReused(uint32_t i) {
     const Op& op = rung_->ops[i];
     const OpInfo& info = opInfo(op.code);
     const uint32_t time = i + 1;
-    if (onlyReads(info)) return reuse(op, time);
+    if (onlyReads(info)) return hasResult(op, info, time);
+    for (uint32_t k = 0; k < op.resultCount; ++k) same_[op.result.index + k] = {op.result.index + k};
+    if ((info.effects & kWrites) != 0) return isStored(op, time);
     if (op.code == OpCode::Else || op.code == OpCode::EndIf || op.code == OpCode::EndLoop) table_.close();
     if (op.code == OpCode::If || op.code == OpCode::Else || op.code == OpCode::Loop) table_.open();
     if (op.code == OpCode::Loop && writingLoop_[i]) writes_.writeAll(time);
-    if (isThere(op)) return true;
-    writer_.copy(op);
-    if ((info.effects & kWrites) != 0) {
-      writes_.write(op, time);
-      if (op.code == OpCode::Store || op.code == OpCode::SlotStore)
-        table_.enter(keyOf(op), writer_.nowArg(op, 0), time);
-    }
     return false;
   }
 
-  // A store of what its place holds already.
-  bool isThere(const Op& op) {
-    if (op.code != OpCode::Store && op.code != OpCode::SlotStore) return false;
-    const ValueTable::Entry* entry = table_.find(keyOf(op));
-    return entry != nullptr && entry->value == writer_.nowArg(op, 0) && writes_.unchanged(op, entry->time);
-  }
-
-  bool reuse(const Op& op, uint32_t time) {
-    const bool reads = opInfo(op.code).effects == kReads;
+  bool hasResult(const Op& op, const OpInfo& info, uint32_t time) {
     const ValueKey key = keyOf(op);
-    const ValueTable::Entry* entry = table_.find(key);
-    if (entry != nullptr && (!reads || writes_.unchanged(op, entry->time))) {
-      writer_.replace(op.result, entry->value);
+    const ValueTable::Spot spot = table_.find(key);
+    const ValueTable::Entry* entry = table_.at(spot);
+    if (entry != nullptr && (info.effects != kReads || writes_.unchanged(op, entry->time))) {
+      same_[op.result.index] = entry->value;
       return true;
     }
-    writer_.copy(op);
-    table_.enter(key, writer_.now(op.result), time);
+    same_[op.result.index] = op.result;
+    table_.enter(spot, key, op.result, time);
+    return false;
+  }
+
+  // A store of what its place holds already; of others it is known then what the place holds.
+  bool isStored(const Op& op, uint32_t time) {
+    const bool known = op.code == OpCode::Store || op.code == OpCode::SlotStore;
+    if (!known) {
+      writes_.write(op, time);
+      return false;
+    }
+    const ValueKey key = keyOf(op);
+    const ValueId value = same_[arg(*rung_, op, 0).index];
+    const ValueTable::Spot spot = table_.find(key);
+    const ValueTable::Entry* entry = table_.at(spot);
+    if (entry != nullptr && entry->value == value && writes_.unchanged(op, entry->time)) {
+      tookFromLoop_ = tookFromLoop_ || hasLoop_;
+      return true;
+    }
+    writes_.write(op, time);
+    table_.enter(spot, key, value, time);
     return false;
   }
 
@@ -82,12 +96,29 @@ private:
     else if (op.code == OpCode::SlotStore)
       key.code = OpCode::SlotLoad;
     else
-      for (uint32_t i = 0; i < op.argCount; ++i) key.args[i] = writer_.nowArg(op, i).index;
+      for (uint32_t i = 0; i < op.argCount; ++i) key.args[i] = same_[rung_->args[op.firstArg + i].index].index;
     if (isCommutative(op.code) && key.args[0] > key.args[1]) std::swap(key.args[0], key.args[1]);
     return key;
   }
 
+  void write(Rung& rung) {
+    writer_.start(rung);
+    auto next = reused_.begin();
+    for (uint32_t i = 0; i < rung.ops.size(); ++i) {
+      const Op& op = rung.ops[i];
+      if (next == reused_.end() || *next != i) {
+        writer_.copy(op);
+        continue;
+      }
+      ++next;
+      if (op.resultCount != 0) writer_.replace(op.result, writer_.now(same_[op.result.index]));
+    }
+    writer_.finish(rung);
+  }
+
   void findWritingLoops() {
+    hasLoop_ = std::ranges::any_of(rung_->ops, [](const Op& op) { return op.code == OpCode::Loop; });
+    if (!hasLoop_) return;
     writingLoop_.assign(rung_->ops.size(), false);
     std::vector<uint32_t> open;
     for (uint32_t i = 0; i < rung_->ops.size(); ++i) {
@@ -104,19 +135,22 @@ private:
     }
   }
 
-  Rung* rung_ = nullptr;
-  RungRewriter writer_;
+  const Rung* rung_ = nullptr;
+  std::vector<uint32_t> reused_; // operations that are not done again
+  std::vector<ValueId> same_;    // by value: the first that is the same
   ValueTable table_;
   WriteTimes writes_;
-  std::vector<bool> writingLoop_; // by operation
+  bool hasLoop_ = false;
+  std::vector<bool> writingLoop_; // by operation, where there are loops
+  bool tookFromLoop_ = false;     // a store, perhaps
+  RungRewriter writer_;
 };
 
 } // namespace
 
-void reuseValues(Module& module) {
+void reuseValues(Module& module, Settled& settled) {
   Reuser reuser(module);
-  for (Routine& routine : module.routines)
-    for (Rung& rung : routine.rungs) reuser.run(rung);
+  settled.eachOpen(module, kReused, [&](Rung& rung, uint32_t, uint8_t before) { return reuser.run(rung, before); });
 }
 
 } // namespace rung::ir

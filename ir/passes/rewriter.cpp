@@ -1,23 +1,30 @@
 // Writing a rung anew (see rewriter.h).
 #include "ir/passes/rewriter.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace rung::ir {
 
-void findRegions(const Rung& rung, std::vector<Region>& regions) {
+bool findRegions(const Rung& rung, std::vector<Region>& regions) {
   regions.resize(rung.ops.size());
   std::vector<uint32_t> open; // the operation that began the region: if, else or loop
+  bool any = false;
   for (uint32_t i = 0; i < rung.ops.size(); ++i) {
     const OpCode code = rung.ops[i].code;
+    const bool opens = code == OpCode::If || code == OpCode::Else || code == OpCode::Loop;
+    const bool closes = code == OpCode::Else || code == OpCode::EndIf || code == OpCode::EndLoop;
+    if (!opens && !closes) continue;
+    any = true;
     regions[i] = {i, i};
-    if (code == OpCode::Else || code == OpCode::EndIf || code == OpCode::EndLoop) {
+    if (closes) {
       regions[open.back()].end = i;
       regions[i].begin = regions[open.back()].begin;
       open.pop_back();
     }
-    if (code == OpCode::If || code == OpCode::Else || code == OpCode::Loop) open.push_back(i);
+    if (opens) open.push_back(i);
   }
+  return any;
 }
 
 void RungRewriter::start(const Rung& rung) {
@@ -26,19 +33,12 @@ void RungRewriter::start(const Rung& rung) {
   ops_.clear();
   args_.clear();
   values_.clear();
-  definedBy_.clear();
   notes_.clear();
-}
-
-ValueId RungRewriter::newValue(Type type) {
-  values_.push_back(type);
-  definedBy_.push_back(static_cast<uint32_t>(ops_.size()) - 1);
-  return {static_cast<uint32_t>(values_.size()) - 1};
 }
 
 // The operation without operands and results.
 Op& RungRewriter::append(const Op& op) {
-  Op& added = ops_.emplace_back(op);
+  Op& added = *ops_.add(1) = op;
   added.firstArg = static_cast<uint32_t>(args_.size());
   added.argCount = 0;
   added.resultCount = 0;
@@ -47,16 +47,15 @@ Op& RungRewriter::append(const Op& op) {
 }
 
 Op& RungRewriter::copy(const Op& op) {
-  Op& added = append(op);
-  added.argCount = op.argCount;
-  for (uint32_t i = 0; i < op.argCount; ++i) args_.push_back(nowArg(op, i));
+  Op& added = *ops_.add(1) = op;
+  added.firstArg = static_cast<uint32_t>(args_.size());
+  std::transform(argsOf(*rung_, op), argsOf(*rung_, op) + op.argCount, args_.add(op.argCount),
+                 [&](ValueId old) { return now(old); });
+  if (op.resultCount != 0) added.result = {static_cast<uint32_t>(values_.size())};
   for (uint32_t i = 0; i < op.resultCount; ++i) {
     const ValueId old{op.result.index + i};
-    const ValueId id = newValue(rung_->values[old.index]);
-    replace(old, id);
-    if (i == 0) added.result = id;
+    replace(old, newValue(rung_->values[old.index]));
   }
-  added.resultCount = op.resultCount;
   if (op.code == OpCode::Note) {
     added.ref = static_cast<uint32_t>(notes_.size());
     notes_.push_back(op.ref);
@@ -68,7 +67,7 @@ Op& RungRewriter::copySome(const Op& op, std::span<const uint8_t> keep) {
   Op& added = append(op);
   for (uint32_t i = 0; i < op.argCount; ++i) {
     if (keep[i] == 0) continue;
-    args_.push_back(nowArg(op, i));
+    *args_.add(1) = nowArg(op, i);
     ++added.argCount;
     if (op.resultCount == 0) continue;
     const ValueId old{op.result.index + i};
@@ -87,7 +86,7 @@ Op& RungRewriter::appendOther(const Op& op, OpCode code, Type type, std::span<co
   added.count = 0;
   added.imm = 0;
   added.argCount = static_cast<uint16_t>(args.size());
-  args_.insert(args_.end(), args.begin(), args.end());
+  std::ranges::copy(args, args_.add(args.size()));
   return added;
 }
 
@@ -138,7 +137,8 @@ void RungRewriter::finish(Rung& rung) {
   // Copied, not swapped: storage that a large rung needed must not stay with a small one.
   rung.ops.assign(ops_.begin(), ops_.end());
   rung.args.assign(args_.begin(), args_.end());
-  rung.values.assign(values_.begin(), values_.end());
+  rung.values.resize(values_.size());
+  for (size_t i = 0; i < values_.size(); ++i) rung.values[i] = values_[i].type;
   // Notes keep their order, so each moves down or stays.
   for (uint32_t i = 0; i < notes_.size(); ++i)
     if (notes_[i] != i) rung.notes[i] = std::move(rung.notes[notes_[i]]);

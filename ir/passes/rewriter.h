@@ -10,12 +10,37 @@
 namespace rung::ir {
 
 // For the operation that opens, divides or closes a region: the one that ends it (if: its else or endif; else: its
-// endif; loop: its endloop) and the one that opened it (else, endif: the if; endloop: the loop). Own index for others.
+// endif; loop: its endloop) and the one that opened it (else, endif: the if; endloop: the loop). Own index where there
+// is none.
 struct Region {
   uint32_t end;
   uint32_t begin;
 };
-void findRegions(const Rung& rung, std::vector<Region>& regions);
+// By operation; nothing is said of those that have to do with no region. False when there are no others.
+bool findRegions(const Rung& rung, std::vector<Region>& regions);
+
+// A list that is only appended to, and keeps its room when it is cleared. Unlike std::vector it appends several at once
+// without touching them first.
+template <class Item>
+class Pile {
+public:
+  size_t size() const { return size_; }
+  void clear() { size_ = 0; }
+  const Item& operator[](size_t i) const { return room_[i]; }
+  Item& operator[](size_t i) { return room_[i]; }
+  const Item* begin() const { return room_.data(); }
+  const Item* end() const { return room_.data() + size_; }
+  // So many more, which hold anything. Valid until the next ones.
+  Item* add(size_t count) {
+    if (room_.size() - size_ < count) room_.resize(2 * room_.size() + count);
+    size_ += count;
+    return room_.data() + size_ - count;
+  }
+
+private:
+  std::vector<Item> room_;
+  size_t size_ = 0;
+};
 
 class RungRewriter {
 public:
@@ -45,25 +70,34 @@ public:
   void closeIf(const Op& at, std::span<const ValueId> yields, std::span<const ValueId> old);
 
   // The new operation that gives a value, with its new operands. Valid until the next one is written.
-  const Op& definition(ValueId now) const { return ops_[definedBy_[now.index]]; }
+  const Op& definition(ValueId now) const { return ops_[values_[now.index].definedBy]; }
   ValueId arg(const Op& written, uint32_t i) const { return args_[written.firstArg + i]; }
-  Type type(ValueId now) const { return values_[now.index]; }
+  Type type(ValueId now) const { return values_[now.index].type; }
 
   // Puts the new operations into the rung, also as conditions of its transfer.
   void finish(Rung& rung);
 
 private:
+  struct NewValue {
+    Type type = Type::None;
+    uint32_t definedBy = 0; // operation
+  };
+
   Op& append(const Op& op);
   Op& appendOther(const Op& op, OpCode code, Type type, std::span<const ValueId> args);
-  ValueId newValue(Type type);
+  // Of the last operation.
+  ValueId newValue(Type type) {
+    const ValueId id{static_cast<uint32_t>(values_.size())};
+    *values_.add(1) = {type, static_cast<uint32_t>(ops_.size()) - 1};
+    return id;
+  }
 
   const Rung* rung_ = nullptr;
   std::vector<ValueId> now_; // by old value
-  std::vector<Op> ops_;
-  std::vector<ValueId> args_;
-  std::vector<Type> values_;
-  std::vector<uint32_t> definedBy_; // by new value
-  std::vector<uint32_t> notes_;     // the old numbers of the notes that are kept
+  Pile<Op> ops_;
+  Pile<ValueId> args_;
+  Pile<NewValue> values_;
+  std::vector<uint32_t> notes_; // the old numbers of the notes that are kept
 };
 
 } // namespace rung::ir

@@ -207,7 +207,8 @@ class StoreRemover {
 public:
   explicit StoreRemover(const Module& module) : module_(module), state_(module.slots.size()) {}
 
-  void run(Rung& rung, std::span<const Access> accesses) {
+  // Whether some are taken out.
+  bool run(Rung& rung, std::span<const Access> accesses) {
     bool stores = false;
     for (const Access& access : accesses) {
       state_[access.slot] = {.needed = access.neededAfter || access.leftAlone,
@@ -215,11 +216,12 @@ public:
                              .loadsInLoop = access.loadsInLoop};
       stores = stores || (access.stores && !access.leftAlone);
     }
-    if (!stores || !findDead(rung)) return;
+    if (!stores || !findDead(rung)) return false;
     writer_.start(rung);
     for (size_t i = 0; i < rung.ops.size(); ++i)
       if (dead_[i] == 0) writer_.copy(rung.ops[i]);
     writer_.finish(rung);
+    return true;
   }
 
 private:
@@ -264,14 +266,15 @@ private:
 
 } // namespace
 
-void removeTransientStores(Module& module) {
+void removeTransientStores(Module& module, Settled& settled) {
   AccessList accesses(module);
   if (accesses.all().empty()) return;
   SlotFlow(module, accesses.all()).run();
   StoreRemover remover(module);
   uint32_t node = 0;
-  for (Routine& routine : module.routines)
-    for (Rung& rung : routine.rungs) remover.run(rung, accesses.of(node++));
+  settled.eachOpen(module, kNothingSettled, [&](Rung& rung, uint32_t, uint8_t before) -> uint8_t {
+    return remover.run(rung, accesses.of(node++)) ? before & kFolded : before;
+  });
 }
 
 } // namespace rung::ir

@@ -82,7 +82,7 @@ Range chosen(const Range& cond, const Range& a, const Range& b) {
 }
 
 bool allOne(const OpInfo& info, const Range* args) {
-  for (int i = 0; i < fixedOperands(info); ++i)
+  for (int i = 0; i < info.fixed; ++i)
     if (!args[i].isOne()) return false;
   return true;
 }
@@ -93,7 +93,7 @@ bool allOne(const OpInfo& info, const Range* args) {
 Range rangeOf(const OpInfo& info, Type type, Type first, const Range* args) {
   if (isEvaluable(info) && allOne(info, args)) {
     uint64_t bits[3] = {0, 0, 0};
-    for (int i = 0; i < fixedOperands(info); ++i) bits[i] = args[i].low;
+    for (int i = 0; i < info.fixed; ++i) bits[i] = args[i].low;
     const uint64_t value = evalPure(info.code, type, first, bits);
     return {value, value};
   }

@@ -1,6 +1,8 @@
 // FNV-1a, for keys that must be the same on every machine: rung keys, layout and code hashes.
 #pragma once
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <string_view>
 
 namespace rung {
@@ -16,6 +18,20 @@ constexpr uint64_t hashBytes(std::string_view bytes, uint64_t seed = kHashSeed) 
 constexpr uint64_t hashNumber(uint64_t number, uint64_t seed) {
   seed = (seed ^ number) * 0x9E3779B97F4A7C15ull;
   return seed ^ (seed >> 32);
+}
+
+// Of a text, eight bytes at a time.
+inline uint64_t hashText(std::string_view text, uint64_t seed) {
+  static_assert(std::endian::native == std::endian::little, "else other words, and so another hash");
+  seed = hashNumber(text.size(), seed);
+  uint64_t word = 0;
+  for (; text.size() >= sizeof word; text.remove_prefix(sizeof word)) {
+    std::memcpy(&word, text.data(), sizeof word);
+    seed = hashNumber(word, seed);
+  }
+  word = 0;
+  for (const char c : text) word = word << 8 | static_cast<unsigned char>(c);
+  return text.empty() ? seed : hashNumber(word, seed);
 }
 
 } // namespace rung

@@ -3,11 +3,9 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <optional>
 #include <unordered_map>
 
 #include "ir/support/ascii.h"
-#include "ir/support/hash.h"
 #include "ir/support/put.h"
 #include "ir/text/keywords.h"
 #include "ir/text/text.h"
@@ -119,13 +117,6 @@ public:
   void printRung(const Rung& rung, uint32_t number, const Remark& remark);
   std::string take() { return std::move(out_); }
 
-  // Operations, which are nearly all of a module, go in as numbers.
-  uint64_t hashModule() {
-    hash_ = kHashSeed;
-    printModule();
-    return hashBytes(out_, *hash_);
-  }
-
 private:
   template <class... Args>
   void put(fmt::format_string<Args...> format, Args&&... args) {
@@ -178,7 +169,6 @@ private:
   std::string_view comment(const Op& op) const;
   void printResults(const Rung& rung, const Op& op);
   void printOp(const Rung& rung, const Op& op);
-  void hashOps(const Rung& rung);
   void printOps(const Rung& rung, const Remark& remark);
   void printTransfer(const Rung& rung);
   void printRemark(const Remark& remark, size_t index, size_t indent);
@@ -187,7 +177,6 @@ private:
   References files_, spaces_, faults_, services_, routines_, tasks_;
   std::unordered_map<PlaceKey, std::string_view, PlaceKeyHash> symbols_;
   std::string out_;
-  std::optional<uint64_t> hash_; // of operations, which are not printed then
 };
 
 // ---- declarations --------------------------------------------------------------------------------------------------
@@ -351,22 +340,6 @@ void Printer::printOp(const Rung& rung, const Op& op) {
   add("\n");
 }
 
-// All that printOps shows; the fields that an operation does not use are 0, and its operands and results follow those
-// of the one before.
-void Printer::hashOps(const Rung& rung) {
-  const auto add = [&](uint64_t high, uint64_t low) { hash_ = hashNumber(high << 32 | low, *hash_); };
-  for (const Op& op : rung.ops) {
-    add(uint64_t{op.argCount} << 16 | op.resultCount,
-        static_cast<uint64_t>(op.code) << 8 | static_cast<uint64_t>(op.type));
-    add(op.ref, op.count);
-    add(0, op.line);
-    hash_ = hashNumber(static_cast<uint64_t>(op.imm), *hash_);
-  }
-  for (const ValueId arg : rung.args) add(0, arg.index);
-  for (const Type type : rung.values) add(0, static_cast<uint64_t>(type));
-  for (const std::string& note : rung.notes) putQuoted(out_, note);
-}
-
 void Printer::printTransfer(const Rung& rung) {
   const Transfer& transfer = rung.transfer;
   put("  }}");
@@ -419,10 +392,7 @@ void Printer::printRung(const Rung& rung, uint32_t number, const Remark& remark)
     more = end != std::string_view::npos;
     source.remove_prefix(more ? end + 1 : source.size());
   }
-  if (hash_)
-    hashOps(rung);
-  else
-    printOps(rung, remark);
+  printOps(rung, remark);
   printTransfer(rung);
   printRemark(remark, rung.ops.size(), 2);
 }
@@ -434,8 +404,6 @@ std::string print(const Module& module) {
   printer.printModule();
   return printer.take();
 }
-
-uint64_t hashOf(const Module& module) { return Printer(module).hashModule(); }
 
 std::string printRung(const Module& module, RoutineId routine, uint32_t rung, const Remark& remark) {
   Printer printer(module);

@@ -32,7 +32,7 @@ uint64_t byteCount(const Space& space);
 
 // False when the rungs cannot be checked, because the tables they refer to are broken.
 bool checkModule(ModuleCheck& check);
-void checkRung(ModuleCheck& check, RoutineId routine, uint32_t rung);
+void checkRungs(ModuleCheck& check);
 // Needs transfers that are in range.
 void checkCalls(ModuleCheck& check);
 

@@ -13,11 +13,13 @@ constexpr uint64_t kMaxPasses = 1ull << 20;
 
 class RungCheck {
 public:
-  RungCheck(ModuleCheck& check, RoutineId routine, uint32_t number)
-      : check_(check), module_(check.module), routine_(routine), number_(number),
-        rung_(module_.at(routine).rungs[number]) {}
+  explicit RungCheck(ModuleCheck& check) : check_(check), module_(check.module) {}
 
-  void run() {
+  void run(RoutineId routine, uint32_t number) {
+    routine_ = routine;
+    number_ = number;
+    rung_ = &module_.at(routine).rungs[number];
+    failed_ = false;
     for (void (RungCheck::*rule)() :
          {&RungCheck::header, &RungCheck::form, &RungCheck::regions, &RungCheck::scope, &RungCheck::types,
           &RungCheck::yields, &RungCheck::places, &RungCheck::windows, &RungCheck::slotUse, &RungCheck::host,
@@ -34,10 +36,19 @@ private:
   }
   template <class Visit>
   void eachOp(Visit visit) {
-    for (size_t i = 0; i < rung_.ops.size(); ++i) visit(rung_.ops[i], i);
+    for (size_t i = 0; i < rung_->ops.size(); ++i) visit(rung_->ops[i], i);
   }
-  Type argType(const Op& op, uint32_t i) const { return typeOf(rung_, rung_.args[op.firstArg + i]); }
-  Type resultTypeAt(const Op& op, uint32_t i) const { return rung_.values[op.result.index + i]; }
+  // For operations with this attribute.
+  template <class Visit>
+  void eachOp(Attr attr, Visit visit) {
+    if ((attributes_ & bitOf(attr)) == 0) return;
+    eachOp([&](const Op& op, size_t i) {
+      if (opInfo(op.code).attr == attr) visit(op, i);
+    });
+  }
+  static uint32_t bitOf(Attr attr) { return 1u << static_cast<unsigned>(attr); }
+  Type argType(const Op& op, uint32_t i) const { return typeOf(*rung_, rung_->args[op.firstArg + i]); }
+  Type resultTypeAt(const Op& op, uint32_t i) const { return rung_->values[op.result.index + i]; }
 
   void header();
   void form();
@@ -57,20 +68,26 @@ private:
 
   ModuleCheck& check_;
   const Module& module_;
-  const RoutineId routine_;
-  const uint32_t number_;
-  const Rung& rung_;
+  RoutineId routine_;
+  uint32_t number_ = 0;
+  const Rung* rung_ = nullptr;
   bool failed_ = false;
-  std::vector<bool> visible_; // by value, at the end of the rung; filled by scope()
+  // What form() sees in the rung.
+  uint32_t attributes_ = 0; // set of them
+  bool hasRegions_ = false;
+  bool measures_ = false;
+  std::vector<const Op*> open_; // of each open region the if, its else, or the loop
+  // For scope(), by value: in a region that has ended; where there are regions.
+  std::vector<uint8_t> hidden_;
 };
 
 void RungCheck::header() {
-  const Location& begin = rung_.begin;
+  const Location& begin = rung_->begin;
   if (begin.file.valid() ? begin.file.index >= module_.files.size() : begin.line != 0)
     fail(Rule::Header, kNoOp, "the file does not exist");
-  if (rung_.lastLine != 0 && rung_.lastLine < begin.line)
+  if (rung_->lastLine != 0 && rung_->lastLine < begin.line)
     fail(Rule::Header, kNoOp, "the last line is before the first");
-  if (rung_.weight == 0) fail(Rule::Header, kNoOp, "the weight is 0");
+  if (rung_->weight == 0) fail(Rule::Header, kNoOp, "the weight is 0");
 }
 
 // ---- form ----------------------------------------------------------------------------------------------------------
@@ -92,12 +109,18 @@ bool unusedFieldsAreEmpty(const Op& op) {
   return (usesImm || op.imm == 0) && (usesCount || op.count == 0) && (usesRef || op.ref == 0);
 }
 
+bool isRegion(OpCode code) {
+  return code == OpCode::If || code == OpCode::Else || code == OpCode::EndIf || code == OpCode::Loop ||
+         code == OpCode::EndLoop;
+}
+
+bool isMeasuring(OpCode code) { return code == OpCode::ProfEnter || code == OpCode::ProfLeave; }
+
 void RungCheck::formOf(const Op& op, size_t i) {
   const OpInfo& info = opInfo(op.code);
-  const auto fixed = static_cast<uint32_t>(fixedOperands(info));
   if (!contains(info.types, op.type))
     return fail(Rule::Form, i, fmt::format("{} has no type {}", info.name, typeName(op.type)));
-  if (isVariadic(info) ? op.argCount < fixed : op.argCount != fixed)
+  if (op.argCount != info.fixed && (op.argCount < info.fixed || !isVariadic(info)))
     return fail(Rule::Form, i, fmt::format("{} operands", op.argCount));
   if (op.resultCount != resultsOf(op)) return fail(Rule::Form, i, fmt::format("{} results", op.resultCount));
   if (op.resultCount == 0 && op.result.valid()) return fail(Rule::Form, i, "a number of results without results");
@@ -107,41 +130,49 @@ void RungCheck::formOf(const Op& op, size_t i) {
 }
 
 void RungCheck::form() {
+  attributes_ = 0;
+  hasRegions_ = false;
+  measures_ = false;
   size_t args = 0;
   size_t values = 0;
   size_t notes = 0;
   eachOp([&](const Op& op, size_t i) {
     if (failed_) return;
     formOf(op, i);
-    if (op.firstArg != args || args + op.argCount > rung_.args.size())
+    attributes_ |= bitOf(opInfo(op.code).attr);
+    hasRegions_ = hasRegions_ || isRegion(op.code);
+    measures_ = measures_ || isMeasuring(op.code);
+    if (op.firstArg != args || args + op.argCount > rung_->args.size())
       return fail(Rule::Form, i, "operands out of sequence");
-    if (op.resultCount != 0 && (op.result.index != values || values + op.resultCount > rung_.values.size()))
+    if (op.resultCount != 0 && (op.result.index != values || values + op.resultCount > rung_->values.size()))
       return fail(Rule::Form, i, "results out of sequence");
     if (opInfo(op.code).attr == Attr::Text) {
-      if (op.ref != notes || notes >= rung_.notes.size()) return fail(Rule::Form, i, "notes out of sequence");
+      if (op.ref != notes || notes >= rung_->notes.size()) return fail(Rule::Form, i, "notes out of sequence");
       ++notes;
     }
     args += op.argCount;
     values += op.resultCount;
   });
   if (failed_) return;
-  if (args != rung_.args.size() || values != rung_.values.size() || notes != rung_.notes.size())
+  if (args != rung_->args.size() || values != rung_->values.size() || notes != rung_->notes.size())
     fail(Rule::Form, kNoOp, "operands, values or notes of no operation");
 }
 
 // ---- structure -----------------------------------------------------------------------------------------------------
 
 void RungCheck::regions() {
-  std::vector<OpCode> open;
+  if (!hasRegions_) return;
+  std::vector<const Op*>& open = open_;
+  open.clear();
   eachOp([&](const Op& op, size_t i) {
-    const OpCode inner = open.empty() ? OpCode::Note : open.back();
+    const OpCode inner = open.empty() ? OpCode::Note : open.back()->code;
     if (op.code == OpCode::If || op.code == OpCode::Loop) {
-      open.push_back(op.code);
+      open.push_back(&op);
     } else if (op.code == OpCode::Else) {
       if (inner != OpCode::If)
         fail(Rule::Regions, i, "else without if");
       else
-        open.back() = OpCode::Else;
+        open.back() = &op;
     } else if (op.code == OpCode::EndIf) {
       if (inner != OpCode::If && inner != OpCode::Else)
         fail(Rule::Regions, i, "endif without if");
@@ -154,36 +185,34 @@ void RungCheck::regions() {
         open.pop_back();
     }
   });
-  if (!open.empty() && !failed_) fail(Rule::Regions, rung_.ops.size(), "a region is not closed");
+  if (!open.empty() && !failed_) fail(Rule::Regions, rung_->ops.size(), "a region is not closed");
 }
 
 void RungCheck::scope() {
-  visible_.assign(rung_.values.size(), false);
+  hidden_.assign(hasRegions_ ? rung_->values.size() : 0, 0);
   std::vector<uint32_t> firstOfRegion; // values from here on belong to the open region
   uint32_t next = 0;
+  const auto need = [&](ValueId id, size_t i) {
+    if (id.index >= next || (hasRegions_ && hidden_[id.index] != 0))
+      fail(Rule::Scope, i, fmt::format("%{} is not defined here", id.index));
+  };
   eachOp([&](const Op& op, size_t i) {
-    for (uint32_t k = 0; k < op.argCount; ++k) {
-      const ValueId id = rung_.args[op.firstArg + k];
-      if (id.index >= visible_.size() || !visible_[id.index])
-        fail(Rule::Scope, i, fmt::format("%{} is not defined here", id.index));
-    }
+    for (uint32_t k = 0; k < op.argCount; ++k) need(rung_->args[op.firstArg + k], i);
     if (op.code == OpCode::Else || op.code == OpCode::EndIf || op.code == OpCode::EndLoop) {
-      for (uint32_t v = firstOfRegion.back(); v < next; ++v) visible_[v] = false;
+      std::fill(hidden_.begin() + firstOfRegion.back(), hidden_.begin() + next, uint8_t{1});
       firstOfRegion.pop_back();
     }
     if (op.code == OpCode::If || op.code == OpCode::Else || op.code == OpCode::Loop) firstOfRegion.push_back(next);
-    for (uint32_t k = 0; k < op.resultCount; ++k) visible_[next++] = true;
+    next += op.resultCount;
   });
-  for (ValueId id : {rung_.transfer.cond, rung_.transfer.value})
-    if (id.valid() && (id.index >= visible_.size() || !visible_[id.index]))
-      fail(Rule::Scope, rung_.ops.size(), fmt::format("%{} is not defined here", id.index));
+  for (ValueId id : {rung_->transfer.cond, rung_->transfer.value})
+    if (id.valid()) need(id, rung_->ops.size());
 }
 
 void RungCheck::types() {
   eachOp([&](const Op& op, size_t i) {
     const OpInfo& info = opInfo(op.code);
-    const auto fixed = static_cast<uint32_t>(fixedOperands(info));
-    for (uint32_t k = 0; k < fixed; ++k)
+    for (uint32_t k = 0; k < info.fixed; ++k)
       if (!satisfies(info.operands[k], op.type, argType(op, k)))
         fail(Rule::Types, i, fmt::format("operand {} is {}", k, typeName(argType(op, k))));
     for (uint32_t k = 0; k < op.resultCount; ++k)
@@ -208,8 +237,10 @@ void RungCheck::checkYield(const Op& op, size_t i, const Op& like, uint32_t skip
 }
 
 void RungCheck::yields() {
+  if (!hasRegions_) return;
   static const Op kNothing{};
-  std::vector<const Op*> open; // the if, its else, or the loop
+  std::vector<const Op*>& open = open_;
+  open.clear();
   eachOp([&](const Op& op, size_t i) {
     if (op.code == OpCode::If) {
       open.push_back(&op);
@@ -231,8 +262,7 @@ void RungCheck::yields() {
 // ---- memory and host -----------------------------------------------------------------------------------------------
 
 void RungCheck::places() {
-  eachOp([&](const Op& op, size_t i) {
-    if (opInfo(op.code).attr != Attr::Place) return;
+  eachOp(Attr::Place, [&](const Op& op, size_t i) {
     if (op.ref >= module_.spaces.size()) return fail(Rule::Places, i, "the space does not exist");
     if (op.type != Type::Bit && op.imm % 8 != 0) return fail(Rule::Places, i, "the access begins within a byte");
     const uint64_t bytes = op.type == Type::Bit ? 1 : byteWidth(op.type);
@@ -242,8 +272,7 @@ void RungCheck::places() {
 }
 
 void RungCheck::windows() {
-  eachOp([&](const Op& op, size_t i) {
-    if (opInfo(op.code).attr != Attr::Window) return;
+  eachOp(Attr::Window, [&](const Op& op, size_t i) {
     if (op.ref >= module_.spaces.size()) return fail(Rule::Windows, i, "the space does not exist");
     if (op.count == 0) return fail(Rule::Windows, i, "the window is empty");
     if (op.imm < 0 || op.imm % 8 != 0) return fail(Rule::Windows, i, "the window begins within a byte");
@@ -255,8 +284,7 @@ void RungCheck::windows() {
 }
 
 void RungCheck::slotUse() {
-  eachOp([&](const Op& op, size_t i) {
-    if (opInfo(op.code).attr != Attr::Slot) return;
+  eachOp(Attr::Slot, [&](const Op& op, size_t i) {
     if (op.ref >= module_.slots.size())
       fail(Rule::SlotUse, i, "the slot does not exist");
     else if (module_.slots[op.ref].type != op.type)
@@ -265,29 +293,33 @@ void RungCheck::slotUse() {
 }
 
 void RungCheck::host() {
-  eachOp([&](const Op& op, size_t i) {
-    const Attr attr = opInfo(op.code).attr;
-    if (attr == Attr::MessageOp) {
-      const Type value = argType(op, 3);
-      if (op.ref > RUNG_MESSAGE_LOG) fail(Rule::Host, i, "there is no such kind of message");
-      if (value != Type::I64 && value != Type::F64)
-        fail(Rule::Host, i, fmt::format("the value of the message is {}", typeName(value)));
-    }
-    if (attr == Attr::Service) {
-      if (op.ref >= module_.services.size()) fail(Rule::Host, i, "the service does not exist");
-      if (op.argCount > RUNG_MAX_SERVICE_ARGS) fail(Rule::Host, i, "too many arguments of a service");
-      for (uint32_t k = 0; k < op.argCount; ++k)
-        if (argType(op, k) != Type::I64)
-          fail(Rule::Host, i, fmt::format("argument {} is {}", k, typeName(argType(op, k))));
-    }
-    if (attr == Attr::Odds && op.ref > kSeldom) fail(Rule::Form, i, "there are no such odds");
-    if (attr == Attr::Fault && op.ref >= module_.faults.size()) fail(Rule::Host, i, "the fault does not exist");
-    if (attr == Attr::ResultNo && (op.imm < 0 || op.imm >= static_cast<int64_t>(RUNG_MAX_SERVICE_ARGS)))
+  eachOp(Attr::MessageOp, [&](const Op& op, size_t i) {
+    const Type value = argType(op, 3);
+    if (op.ref > RUNG_MESSAGE_LOG) fail(Rule::Host, i, "there is no such kind of message");
+    if (value != Type::I64 && value != Type::F64)
+      fail(Rule::Host, i, fmt::format("the value of the message is {}", typeName(value)));
+  });
+  eachOp(Attr::Service, [&](const Op& op, size_t i) {
+    if (op.ref >= module_.services.size()) fail(Rule::Host, i, "the service does not exist");
+    if (op.argCount > RUNG_MAX_SERVICE_ARGS) fail(Rule::Host, i, "too many arguments of a service");
+    for (uint32_t k = 0; k < op.argCount; ++k)
+      if (argType(op, k) != Type::I64)
+        fail(Rule::Host, i, fmt::format("argument {} is {}", k, typeName(argType(op, k))));
+  });
+  eachOp(Attr::Odds, [&](const Op& op, size_t i) {
+    if (op.ref > kSeldom) fail(Rule::Form, i, "there are no such odds");
+  });
+  eachOp(Attr::Fault, [&](const Op& op, size_t i) {
+    if (op.ref >= module_.faults.size()) fail(Rule::Host, i, "the fault does not exist");
+  });
+  eachOp(Attr::ResultNo, [&](const Op& op, size_t i) {
+    if (op.imm < 0 || op.imm >= static_cast<int64_t>(RUNG_MAX_SERVICE_ARGS))
       fail(Rule::Host, i, "there is no such result");
   });
 }
 
 void RungCheck::loops() {
+  if ((attributes_ & bitOf(Attr::Count)) == 0) return;
   std::vector<uint64_t> passes{1}; // of the open loops, multiplied
   uint64_t total = 0;
   eachOp([&](const Op& op, size_t i) {
@@ -302,21 +334,22 @@ void RungCheck::loops() {
 
 void RungCheck::profile() {
   const bool instrumented = module_.instrumented;
-  const size_t last = rung_.ops.size() - 1;
+  const size_t last = rung_->ops.size() - 1;
   if (check_.mode == Mode::Built && instrumented) fail(Rule::Profile, kNoOp, "the module is instrumented already");
-  if (instrumented && (rung_.ops.empty() || rung_.ops.front().code != OpCode::ProfEnter ||
-                       rung_.ops[last].code != OpCode::ProfLeave || last == 0))
+  if (instrumented && (rung_->ops.empty() || rung_->ops.front().code != OpCode::ProfEnter ||
+                       rung_->ops[last].code != OpCode::ProfLeave || last == 0))
     return fail(Rule::Profile, kNoOp, "the rung is not measured");
+  if (!measures_) return;
   eachOp([&](const Op& op, size_t i) {
-    if (op.code != OpCode::ProfEnter && op.code != OpCode::ProfLeave) return;
+    if (!isMeasuring(op.code)) return;
     if (!instrumented || i != (op.code == OpCode::ProfEnter ? 0 : last))
       fail(Rule::Profile, i, "profiling out of place");
   });
 }
 
 void RungCheck::transfer() {
-  const Transfer& t = rung_.transfer;
-  const size_t at = rung_.ops.size();
+  const Transfer& t = rung_->transfer;
+  const size_t at = rung_->ops.size();
   const size_t rungs = module_.at(routine_).rungs.size();
   const auto refuse = [&](std::string_view message) { fail(Rule::Transfer, at, std::string(message)); };
   if (t.kind == TransferKind::Goto ? t.target >= rungs : t.target != 0) refuse("the target does not exist");
@@ -326,15 +359,19 @@ void RungCheck::transfer() {
   if (switches == t.targets.empty()) refuse(switches ? "a switch without targets" : "targets without a switch");
   for (uint32_t target : t.targets)
     if (target >= rungs) refuse(fmt::format("target {} does not exist", target));
-  if (switches ? !t.value.valid() || typeOf(rung_, t.value) != Type::I32 : t.value.valid())
+  if (switches ? !t.value.valid() || typeOf(*rung_, t.value) != Type::I32 : t.value.valid())
     refuse("the value of a switch is an i32");
   const bool conditional = t.kind != TransferKind::Next && !switches;
-  if (t.cond.valid() && (!conditional || typeOf(rung_, t.cond) != Type::Bit))
+  if (t.cond.valid() && (!conditional || typeOf(*rung_, t.cond) != Type::Bit))
     refuse(conditional ? "the condition is not a bit" : "a condition that is not used");
 }
 
 } // namespace
 
-void checkRung(ModuleCheck& check, RoutineId routine, uint32_t rung) { RungCheck(check, routine, rung).run(); }
+void checkRungs(ModuleCheck& check) {
+  RungCheck rungs(check);
+  for (uint32_t r = 0; r < check.module.routines.size(); ++r)
+    for (uint32_t i = 0; i < check.module.routines[r].rungs.size(); ++i) rungs.run(RoutineId{r}, i);
+}
 
 } // namespace rung::ir

@@ -24,8 +24,7 @@ std::vector<VerifyError> verify(const Module& module, Mode mode) {
   std::vector<VerifyError> errors;
   ModuleCheck check(module, mode, errors);
   if (!checkModule(check)) return errors;
-  for (uint32_t r = 0; r < module.routines.size(); ++r)
-    for (uint32_t i = 0; i < module.routines[r].rungs.size(); ++i) checkRung(check, RoutineId{r}, i);
+  checkRungs(check);
   if (errors.empty()) checkCalls(check);
   return errors;
 }

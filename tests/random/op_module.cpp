@@ -134,7 +134,7 @@ private:
     for (Type first : kTypes) {
       if (!satisfies(info_.operands[0], type, first)) continue;
       inRung([&](RungBuilder& b) {
-        if (fixedOperands(info_) == 1)
+        if (info_.fixed == 1)
           unary(b, type, first);
         else
           binary(b, type, first);

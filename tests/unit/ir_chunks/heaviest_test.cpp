@@ -114,7 +114,7 @@ TEST(StraightEnd, IsWhereTheLastCircleEnds) {
         most = std::max(most, *way);
         expected = {.chunk = c, .weight = static_cast<uint32_t>(most)};
       }
-      const Straight found = straightEnd(cut, TaskId{t});
+      const Straight found = heaviestRun(cut, TaskId{t}).straight;
       EXPECT_EQ(found.chunk, expected.chunk);
       EXPECT_EQ(found.weight, expected.weight);
       between += found.chunk != RUNG_PC_DONE && found.chunk != cut.entry(task.entry) ? 1 : 0;

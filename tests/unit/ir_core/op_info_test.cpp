@@ -43,7 +43,7 @@ TEST(OpInfo, EveryTypeCanBeUsed) {
     for (int t = 1; t < kTypeCount; ++t) {
       const Type own = static_cast<Type>(t);
       if (!contains(info.types, own)) continue;
-      for (int i = 0; i < fixedOperands(info); ++i) {
+      for (int i = 0; i < info.fixed; ++i) {
         bool any = false;
         for (int k = 1; k < kTypeCount; ++k)
           any = any || satisfies(info.operands[static_cast<size_t>(i)], own, static_cast<Type>(k));

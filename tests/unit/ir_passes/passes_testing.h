@@ -5,10 +5,24 @@
 #include <vector>
 
 #include "ir/core/module.h"
+#include "ir/passes/passes.h"
 
 namespace rung::ir {
 
 using Pass = void (*)(Module&);
+using SettlingPass = void (*)(Module&, Settled&);
+
+// Over all rungs.
+template <SettlingPass pass>
+void overAll(Module& module) {
+  Settled nothing(module);
+  pass(module, nothing);
+}
+inline void foldConstants(Module& module) { overAll<foldConstants>(module); }
+inline void reuseValues(Module& module) { overAll<reuseValues>(module); }
+inline void removeDeadOps(Module& module) { overAll<removeDeadOps>(module); }
+inline void removeTransientStores(Module& module) { overAll<removeTransientStores>(module); }
+inline void guardIndices(Module& module) { overAll<guardIndices>(module); }
 
 // One rung: its lines and its transfer, from `}` on ("} goto 2 if %3").
 struct RungText {

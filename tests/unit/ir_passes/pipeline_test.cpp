@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
+#include <utility>
 
 #include "ir/core/builder.h"
 #include "ir/interp/interp.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/pipeline.h"
+#include "ir/support/hash.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
 #include "rtlib/host/compare.h"
@@ -73,6 +75,53 @@ TEST(PipelineDeathTest, VerifiesEachPass) {
   Module module = moduleOf("%0:bit = load B[0.0]\nstore.bit B[0.1], %0");
   module.routines[0].rungs[0].ops[1].imm = int64_t{64} * 8;
   EXPECT_DEATH(runPasses(module, {.optimise = true, .instrument = false, .verifyEach = true}), "outside its space");
+}
+
+// ---- settled rungs
+
+// Passes in any order that leave out what is settled, and the same ones that look at each rung.
+TEST(Settled, IsWhatAPassWouldLeaveAsItIs) {
+  struct Two {
+    SettlingPass leavesOut;
+    Pass overAll;
+  };
+  constexpr Two kPasses[] = {{foldConstants, foldConstants},
+                             {reuseValues, reuseValues},
+                             {removeDeadOps, removeDeadOps},
+                             {removeTransientStores, removeTransientStores},
+                             {guardIndices, guardIndices}};
+  for (uint64_t seed = 0; seed < 600; ++seed) {
+    RandomOptions options;
+    options.ops = seed % 3 == 0 ? 60 : 16;
+    Module module = randomModule(seed, options);
+    Module whole = module;
+    Settled settled(module);
+    std::string order;
+    uint64_t random = seed;
+    for (int i = 0; i < 10; ++i) {
+      random = hashNumber(random, kHashSeed);
+      const size_t next = random % std::size(kPasses);
+      order += static_cast<char>('0' + next);
+      kPasses[next].leavesOut(module, settled);
+      kPasses[next].overAll(whole);
+      ASSERT_EQ(print(module), print(whole)) << "seed " << seed << ", passes " << order;
+    }
+  }
+}
+
+TEST(Settled, RungsAreLeftOut) {
+  Module module = moduleOf(kSealIn);
+  Settled settled(module);
+  int rungs = 0;
+  const auto count = [&](Rung&, uint32_t, uint8_t before) {
+    ++rungs;
+    return before;
+  };
+  settled.eachOpen(module, kDeadRemoved, count);
+  EXPECT_GT(std::exchange(rungs, 0), 0);
+  removeDeadOps(module, settled);
+  settled.eachOpen(module, kDeadRemoved, count);
+  EXPECT_EQ(rungs, 0);
 }
 
 // ---- the same behaviour

@@ -60,7 +60,7 @@ TEST(ValueRange, HoldsEveryResult) {
       Type types[3] = {type, type, type};
       Range ranges[3];
       bool possible = true;
-      for (int k = 0; k < fixedOperands(info); ++k) {
+      for (int k = 0; k < info.fixed; ++k) {
         types[k] = operandOf(numbers, info.operands[static_cast<size_t>(k)], type);
         possible = possible && types[k] != Type::None;
         ranges[k] = possible ? numbers.range(types[k]) : Range{};

@@ -60,9 +60,31 @@ TEST(Hash, ChangesWithEveryField) {
   }
   for (ValueId& arg : rung.args) expectOther(arg.index, grow);
   for (Type& type : rung.values) expectOther(type, [](Type& t) { t = t == Type::I8 ? Type::I16 : Type::I8; });
-  expectOther(rung.title, [](std::string& title) { title += "x"; });
+  const auto lengthen = [](std::string& text) { text += "x"; };
+  const auto repeat = [](auto& list) { list.push_back(list.back()); };
+  const auto turn = [](bool& flag) { flag = !flag; };
+  expectOther(rung.title, lengthen);
+  expectOther(rung.title, [](std::string& title) { title = "nine bytes"; });
+  expectOther(rung.sourceText, lengthen);
+  expectOther(rung.begin.line, grow);
+  expectOther(rung.weight, grow);
+  expectOther(rung.key, grow);
   expectOther(rung.transferLine, grow);
-  expectOther(module.name, [](std::string& name) { name += "x"; });
+  expectOther(rung.transfer.targets, [](std::vector<uint32_t>& targets) { targets.push_back(0); });
+  expectOther(rung.origin, [](Origin& origin) { origin = {"R", 0}; });
+  expectOther(module.name, lengthen);
+  expectOther(module.activity, turn);
+  expectOther(module.spaces.at(0).units, grow);
+  expectOther(module.spaces.at(0).packedOnly, turn);
+  expectOther(module.routines, repeat);
+  expectOther(module.tasks, repeat);
+  expectOther(module.tasks.at(0).budget, grow);
+  expectOther(module.scan, repeat);
+  expectOther(module.slots, [](std::vector<Slot>& slots) { slots.push_back({}); });
+  expectOther(module.symbols, [](std::vector<Symbol>& symbols) { symbols.push_back({}); });
+  expectOther(module.continuations, [](std::vector<Continuation>& all) { all.push_back({}); });
+  expectOther(module.messages, [](std::vector<MessageText>& messages) { messages.push_back({}); });
+  expectOther(module.inits, [](std::vector<Init>& inits) { inits.push_back({}); });
   EXPECT_EQ(hashOf(module), hash);
   EXPECT_EQ(print(module), text);
 }

@@ -124,7 +124,7 @@ private:
   // TS <- M, but only the bits that were written.
   std::vector<ir::Copy> toTimeSlice(const WrittenRange& written) {
     const uint32_t first = written.first * 4;
-    const uint32_t end = std::min(written.end * 4, synchronisedEnd());
+    const uint32_t end = std::min(written.end * 4, synchronisedEnd_);
     if (written.first >= written.end || first >= end) return {};
     ir::Copy transfer = copy(spaces_.m, first, spaces_.ts, first, end - first);
     transfer.masked = true;
@@ -136,7 +136,7 @@ private:
   // After the last byte of the NC area that is in two memories: the words of signals, which the NC reads and writes,
   // what a rung names beyond them, and what it may reach by `!`. A word that is only reached by an index in the
   // synchronised memory, and that the NC does not know, is in one memory: nobody sees a difference.
-  uint32_t synchronisedEnd() const {
+  uint32_t findSynchronisedEnd() const {
     const uint32_t nvram = config_.plcNvram * 4;
     uint32_t end = nc::areaBytes(nc::nctSignals(), "M");
     const auto take = [&](const ir::Use& use) {
@@ -167,11 +167,12 @@ private:
                   .begin = {},
                   .end = {},
                   .borders = {}};
+    synchronisedEnd_ = findSynchronisedEnd();
     // What INT0 wrote without `!` since the last cycle must outlive the synchronisation; nobody reads the time-slice
     // memory between here and the end of the run.
     task.begin = toTimeSlice(int0.written);
     // All but FLAGS; word 0001 of the time-slice memory is always 0, so what was written there is gone.
-    task.begin.push_back(copy(spaces_.ts, 4, spaces_.m, 4, synchronisedEnd() - 4));
+    task.begin.push_back(copy(spaces_.ts, 4, spaces_.m, 4, synchronisedEnd_ - 4));
     task.end = toTimeSlice(main.written);
     module_.mainTask = {0};
     module_.tasks.push_back(std::move(task));
@@ -218,6 +219,7 @@ private:
   ir::Marks* const marks_;
   MemorySpaces spaces_;
   ir::SpaceId flags_;
+  uint32_t synchronisedEnd_ = 0; // set when the rungs are there
   WrittenRange written_;
 };
 

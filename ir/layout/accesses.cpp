@@ -202,6 +202,27 @@ std::vector<uint32_t> changedWords(const MemoryLayout& layout, TaskId id) {
 
 namespace {
 
+// What the copy takes has come from where it goes to: the run has begun with the copy in the other direction.
+bool goesBack(const Task& task, const Copy& copy) {
+  return std::ranges::any_of(task.begin, [&](const Copy& in) {
+    return !in.masked && in.from.space == copy.to && in.to == copy.from.space && in.from.byte <= copy.toByte &&
+           copy.toByte + copy.from.size <= in.from.byte + in.from.size &&
+           in.toByte - in.from.byte == copy.from.byte - copy.toByte;
+  });
+}
+
+// A bit of a mask says that what the run has written is to go back to where the run has it from. Where a chunk is left
+// out because it would write what is there already, nothing has to go back: marks do not count as changes.
+bool marksWhatGoesBack(const Module& module, const Use& use) {
+  if (!module.mainTask.valid()) return false;
+  const Task& task = module.tasks[module.mainTask.index];
+  return std::ranges::any_of(task.end, [&](const Copy& copy) {
+    if (!copy.masked || copy.mask != use.place.space || !goesBack(task, copy)) return false;
+    const SpaceSpan bytes = bytesOf(use.place);
+    return copy.maskByte <= bytes.byte && bytes.byte + bytes.size <= copy.maskByte + copy.from.size;
+  });
+}
+
 constexpr uint64_t kMostTouched = 4096; // bytes: comparing more for one chunk does not pay
 
 bool asksOthers(const Op& op) { return does(op, kHost | kClock); }
@@ -225,6 +246,8 @@ Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk) {
   for (const Rung& rung : std::span(routine.rungs).subspan(chunk.firstRung, chunk.rungCount)) {
     for (const Op& op : rung.ops) {
       mayRest = mayRest && !asksOthers(op);
+      if (const std::optional<Use> use = useOf(module, op); use && use->writes && marksWhatGoesBack(module, *use))
+        continue;
       addTouched(layout, op, out.all);
       if (does(op, kWrites)) addTouched(layout, op, out.written);
     }

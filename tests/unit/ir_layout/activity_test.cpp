@@ -64,8 +64,9 @@ Ran compareScans(const Module& module, uint64_t seed) {
 }
 
 // Ladders: each rung writes the combination of three bits to a fourth, which others read and may write too; some leap
-// over the next ones, some add to a word.
-Module ladder(uint64_t seed) {
+// over the next ones, some add to a word. `fromImage`: a run takes the bits from an image and gives back those that
+// rungs have written.
+Module ladder(uint64_t seed, bool fromImage = false) {
   constexpr uint32_t kRungs = 40;
   constexpr uint32_t kBytes = 24; // of bits
   RandomSource random(seed);
@@ -77,6 +78,13 @@ Module ladder(uint64_t seed) {
   module.tasks.push_back({.name = "T", .entry = RoutineId{0}, .budgetFault = FaultId{0}});
   module.mainTask = TaskId{0};
   module.scan = {{.op = RUNG_STEP_ADVANCE, .task = {}, .arg = 1000}, {.task = TaskId{0}}};
+  constexpr SpaceId kBits{0}, kImage{2}, kMarks{3};
+  if (fromImage) {
+    module.spaces.push_back({.name = "I", .unitBytes = 1, .units = kBytes});
+    module.spaces.push_back({.name = "M", .unitBytes = 1, .units = kBytes});
+    module.tasks[0].begin = {{.from = {kImage, 0, kBytes}, .to = kBits}};
+    module.tasks[0].end = {{.masked = true, .from = {kBits, 0, kBytes}, .to = kImage, .mask = kMarks}};
+  }
   const auto anyBit = [&] { return Place{SpaceId{0}, random.below(kBytes), random.below(8)}; };
   for (uint32_t i = 0; i < kRungs; ++i) {
     Rung& rung = module.routines[0].rungs[i];
@@ -86,7 +94,9 @@ Module ladder(uint64_t seed) {
     const ValueId second = b.load(Type::Bit, anyBit());
     const ValueId third = b.load(Type::Bit, anyBit());
     const ValueId power = b.and_(b.or_(first, second), random.chance(50) ? third : b.not_(third));
-    b.store(anyBit(), power);
+    const Place coil = anyBit();
+    b.store(coil, power);
+    if (fromImage) b.store({kMarks, coil.byte, coil.bit}, b.constant(Type::Bit, 1));
     if (random.chance(10)) {
       const Place word{SpaceId{1}, 2 * random.below(4), 0};
       b.if_(power);
@@ -99,11 +109,13 @@ Module ladder(uint64_t seed) {
   return module;
 }
 
-TEST(Activity, ALadderDoesTheSameAndRests) {
+class LadderWithActivity : public testing::TestWithParam<bool> {};
+
+TEST_P(LadderWithActivity, DoesTheSameAndRests) {
   Ran sum;
   for (uint64_t seed = 0; seed < 200 && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
-    Module module = ladder(seed);
+    Module module = ladder(seed, GetParam());
     module.activity = true;
     const Ran ran = compareScans(module, seed);
     sum.all += ran.all;
@@ -111,6 +123,7 @@ TEST(Activity, ALadderDoesTheSameAndRests) {
   }
   EXPECT_LT(sum.active, sum.all / 10 * 7) << "hardly anything rested, so nothing was tested";
 }
+INSTANTIATE_TEST_SUITE_P(OfAnImage, LadderWithActivity, testing::Bool());
 
 // Calls, loops, computed addresses, messages, services, faults: little of it rests.
 TEST(Activity, ARandomProgramDoesTheSame) {

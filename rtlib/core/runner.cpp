@@ -135,14 +135,28 @@ void copyMasked(uint8_t* to, const uint8_t* from, uint8_t* mask, uint32_t size) 
 
 } // namespace
 
-void Runner::copyAll(uint32_t first, uint32_t count) noexcept {
+void Runner::copyAll(std::span<const rung_copy> copies) noexcept {
   uint8_t* const memory = memory_; // which what is written could otherwise change, for all that a compiler knows
-  for (const rung_copy& c : std::span(program_->copies + first, count))
+  for (const rung_copy& c : copies)
     if (c.kind == RUNG_COPY_ALL)
       copyBytes(memory + c.to, memory + c.from, c.size);
     else
       copyMasked(memory + c.to, memory + c.from, memory + c.mask, c.size);
   hold();
+}
+
+inline void Runner::copyBegin(uint32_t task) noexcept {
+  const rung_task& t = program_->tasks[task];
+  if (t.begin_count == 0) return;
+  copyAll(copies_ != nullptr ? copies_->of(copies_->tasks[task].begin)
+                             : std::span(program_->copies + t.begin_first, t.begin_count));
+}
+
+inline void Runner::copyEnd(uint32_t task) noexcept {
+  const rung_task& t = program_->tasks[task];
+  if (t.end_count == 0) return;
+  copyAll(copies_ != nullptr ? copies_->of(copies_->tasks[task].end)
+                             : std::span(program_->copies + t.end_first, t.end_count));
 }
 
 namespace {
@@ -241,7 +255,7 @@ inline void Runner::begin(uint32_t task) noexcept {
 // What follows the chunks of a run or a part. A pc that is neither a chunk nor DONE counts as a fault too.
 inline bool Runner::finish(uint32_t task, uint32_t pc) noexcept {
   const bool fault = pc != RUNG_PC_DONE && pc >= program_->chunk_count;
-  if (!fault) copy(program_->tasks[task].end_first, program_->tasks[task].end_count);
+  if (!fault) copyEnd(task);
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, false);
   inTask_ = false;
   if (fault) stopOnFault(task);
@@ -365,12 +379,11 @@ inline bool Runner::runPlain(uint32_t task, uint32_t times) noexcept {
 
 bool Runner::runWhole(uint32_t task, uint32_t times) noexcept {
   if (!mayRun() || task >= program_->task_count || times == 0) return false;
-  const rung_task& t = program_->tasks[task];
   if (isPlain(task)) return runPlain(task, times);
   for (;;) {
     latch(task);
     begin(task);
-    copy(t.begin_first, t.begin_count);
+    copyBegin(task);
     if (!finish(task, runToEnd(task))) return false;
     if (--times == 0 || stopped_) return true;
   }
@@ -384,7 +397,7 @@ bool Runner::runNextPart(uint32_t task) noexcept {
   if (state.part == 0) latch(task);
   begin(task);
   if (state.part == 0) {
-    copy(t.begin_first, t.begin_count);
+    copyBegin(task);
     state.pc = t.entry;
     state.budget = t.budget;
   }

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "rtlib/core/activity.h"
+#include "rtlib/core/needed_copies.h"
 #include "rung/program.h"
 
 namespace rung::rt {
@@ -73,6 +74,10 @@ public:
   }
   // Of the program that runs, also of the next one; null: every chunk runs. Outlives the runner.
   void setActivity(Activity* activity) noexcept { activity_ = activity; }
+  // Of the program that runs, also of the next one: tasks begin and end with these copies; null: with all that the
+  // program's tables have. Outlives the runner.
+  void setCopies(const NeededCopies* copies) noexcept { copies_ = copies; }
+  const NeededCopies* copies() const noexcept { return copies_; }
   // What runs longer ends as if its budget were used up.
   void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
   // Another program takes over, between two passes: its memory and part states; the clock continues, a fault stays.
@@ -158,10 +163,9 @@ private:
   void begin(uint32_t task) noexcept;
   bool finish(uint32_t task, uint32_t pc) noexcept;
   void beginStack() noexcept;
-  void copy(uint32_t first, uint32_t count) noexcept {
-    if (count != 0) copyAll(first, count);
-  }
-  void copyAll(uint32_t first, uint32_t count) noexcept;
+  void copyBegin(uint32_t task) noexcept;
+  void copyEnd(uint32_t task) noexcept;
+  void copyAll(std::span<const rung_copy> copies) noexcept;
   bool runWhole(uint32_t task, uint32_t times) noexcept;
   bool runNextPart(uint32_t task) noexcept;
   void doStep(const rung_step& step) noexcept;
@@ -197,6 +201,7 @@ private:
   Code code_; // that runs
   std::span<const ForcedBits> forced_;
   Activity* activity_ = nullptr;
+  const NeededCopies* copies_ = nullptr;
   TimeLimit limit_;
   int64_t deadline_ = 0;
   std::span<const rung_step> list_; // the pass: rung_program::scan or ::slices

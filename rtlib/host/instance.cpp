@@ -79,12 +79,35 @@ void Instance::setRunnerHooks() {
 void Instance::setTaskWatch(TaskWatch* watch) {
   taskWatch_ = watch;
   setRunnerHooks();
+  useCopies();
 }
 
 void Instance::setLatching(bool latching) {
   latching_ = latching;
   setRunnerHooks();
 }
+
+// ---- border copies -----------------------------------------------------------------------------------------------
+
+void Instance::setNeededCopiesOnly(bool only) noexcept {
+  if (only == neededCopiesOnly_) return;
+  neededCopiesOnly_ = only;
+  useCopies();
+}
+
+void Instance::useCopies() noexcept {
+  const bool only = neededCopiesOnly_ && taskWatch_ == nullptr;
+  if (!only) bringInLeftOut();
+  runner_.setCopies(only ? &loaded_.neededCopies : nullptr);
+}
+
+void Instance::bringInLeftOut() noexcept {
+  if (runner_.copies() == nullptr) return;
+  loaded_.neededCopies.copyLeftOut(loaded_.block.get());
+  hold();
+}
+
+// ---- requests ----------------------------------------------------------------------------------------------------
 
 bool Instance::respondHook(void* self, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
   auto& instance = *static_cast<Instance*>(self);
@@ -164,6 +187,7 @@ ReplaceResult Instance::replace(Replacement& replacement) {
   if (!atListStart() && !faulted()) return ReplaceResult::WithinPass;
   if (!servicesAgree(replacement.next())) return ReplaceResult::RequestsWait;
   if (replacement.there_.waiting(loaded_.block.get()) != nullptr) return ReplaceResult::MechanismWaits;
+  bringInLeftOut(); // the next program may look at it
   replacement.exchange(loaded_);
   runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data(), loaded_.engine);
   ctx_->fault = translated(ctx_->fault, former, program());

@@ -74,6 +74,12 @@ public:
   void setTaskWatch(TaskWatch* watch); // null: none, which costs nothing
   void setLatching(bool latching);     // whether onLatch is called; not at first
 
+  // Whether tasks copy, at their borders, only what rungs touch, for hosts that look at none of the bytes that are left
+  // out; not at first. When that ends, these are brought in. While a task watch looks on, all is copied.
+  void setNeededCopiesOnly(bool only) noexcept;
+  bool neededCopiesOnly() const noexcept { return neededCopiesOnly_; }
+  const rt::NeededCopies& neededCopies() const noexcept { return loaded_.neededCopies; }
+
   // Memory as the program's tables say, queues empty, no fault, schedule at its beginning; clock and profile continue.
   // The host's side of the queues may be active meanwhile.
   void coldStart();
@@ -158,6 +164,8 @@ public:
 
 private:
   void setRunnerHooks();
+  void useCopies() noexcept;
+  void bringInLeftOut() noexcept;
   bool servicesAgree(const rung_program& next) const;
   void resetRun();
   static void stepHook(void* self, uint32_t work);
@@ -170,6 +178,7 @@ private:
   ScheduleHooks* hooks_;
   TaskWatch* taskWatch_ = nullptr;
   bool latching_ = false;
+  bool neededCopiesOnly_ = false;
   std::unique_ptr<rung_ctx> ctx_;
   std::unique_ptr<rt::HostPort> port_;
   rt::Runner runner_;

@@ -6,6 +6,7 @@
 
 #include "rtlib/core/runner.h"
 #include "rtlib/host/activity_memory.h"
+#include "rtlib/host/copy_lists.h"
 #include "rtlib/host/overwritten.h"
 
 namespace rung::host {
@@ -38,7 +39,9 @@ struct LoadedProgram {
   std::vector<uint8_t> retained;    // room for a warm start
   Overwritten overwritten;
   ActivityMemory activityMemory;
-  rt::Activity activity; // over that
+  rt::Activity activity;         // over that
+  CopyLists copyLists;           // whole in a block of somebody else, who may look at all of it
+  rt::NeededCopies neededCopies; // in these
 };
 
 } // namespace rung::host

@@ -24,6 +24,7 @@ public:
   Replacement(const rung_program& running, const Runnable& next);
 
   const rung_program& next() const { return *loaded_.program; }
+  const rt::NeededCopies& neededCopies() const { return loaded_.neededCopies; } // of the next one
   // What becomes of the state.
   const StateTransfer& transfer() const { return there_; }
   // That taking over copies: its time is in proportion to them. It copies all of the state where the block of the

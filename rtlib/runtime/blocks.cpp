@@ -93,7 +93,11 @@ void BlockPlan::addInput(const HostBlock& block, const BlockPlace& place) {
 
 void BlockPlan::addOutput(const HostBlock& block, const BlockPlace& place) {
   if (place.state != BlockState::Good) return outputs_.push_back({block.address, kNowhere, block.bytes, false});
-  for (uint32_t i = 0; i < block.bytes; ++i) append(outputs_, byteOf(block, place, i));
+  for (uint32_t i = 0; i < block.bytes; ++i) {
+    const Piece byte = byteOf(block, place, i);
+    seesLeftOut_ = seesLeftOut_ || copies_.leavesOut(byte.offset, byte.expanded ? 8 : 1);
+    append(outputs_, byte);
+  }
 }
 
 void BlockPlan::copyIn(const std::vector<Piece>& pieces, uint8_t* memory) noexcept {

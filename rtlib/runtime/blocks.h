@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rtlib/core/needed_copies.h"
 #include "rtlib/runtime/surroundings.h"
 #include "rung/runtime.h"
 
@@ -39,7 +40,9 @@ BlockPlace locateBlock(const Surroundings& around, const rung_program& program, 
 // The blocks in one program. Copying allocates nothing.
 class BlockPlan {
 public:
-  explicit BlockPlan(const rung_program& program) : program_(&program), reads_(program.task_count) {}
+  // `copies`: of this program; their lists outlive the plan.
+  BlockPlan(const rung_program& program, const rt::NeededCopies& copies)
+      : program_(&program), copies_(copies), reads_(program.task_count) {}
 
   void add(const Surroundings& around, const HostBlock& block);
 
@@ -48,6 +51,8 @@ public:
   void readRest(uint8_t* memory) const noexcept { copyIn(rest_, memory); }
   void write(const uint8_t* memory) const noexcept;
   void clear() const noexcept;
+  // One of the blocks has bytes that the copies leave out.
+  bool seesLeftOut() const noexcept { return seesLeftOut_; }
 
 private:
   static constexpr uint32_t kNowhere = RUNG_NONE; // as an offset: the program does not have the bytes
@@ -66,6 +71,8 @@ private:
   bool reads(uint32_t task, const Piece& byte) const;
 
   const rung_program* program_;
+  rt::NeededCopies copies_;
+  bool seesLeftOut_ = false;
   std::vector<std::vector<Piece>> reads_; // by task
   std::vector<Piece> rest_;
   std::vector<Piece> outputs_;

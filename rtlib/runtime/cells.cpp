@@ -53,7 +53,25 @@ LocatedCell locateCell(const Surroundings& around, const rung_program& program, 
   return cell;
 }
 
+namespace {
+
+// All elements.
+bool isLeftOut(const rung_program& program, const rt::NeededCopies& copies, const host::Ref& ref) {
+  if (copies.leftOut.empty() || ref.kind == host::RefKind::Constant) return false;
+  constexpr uint32_t kExpanded = 8; // bytes of the block for one of a space, where a bit has a byte
+  const rt::Memory memory(program, nullptr);
+  const uint32_t bytes = (ref.bit + ref.width * ref.count + 7) / 8;
+  for (uint32_t i = 0; i < bytes; ++i)
+    if (const rt::Place place = memory.locateBit(ref.space, ref.byte + i, 0);
+        !place.outside() && copies.leavesOut(place.offset(), kExpanded))
+      return true;
+  return false;
+}
+
+} // namespace
+
 void CellTable::add(const LocatedCell& cell) {
+  if (cell.state == CellState::Good && isLeftOut(*program_, copies_, cell.ref)) seesLeftOut_ = true;
   const uint32_t number = count_.load(std::memory_order_relaxed);
   std::unique_ptr<Block>& block = blocks_[number / kBlock];
   if (block == nullptr) block = std::make_unique<Block>();

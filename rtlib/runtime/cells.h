@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "rtlib/core/needed_copies.h"
 #include "rtlib/core/place_list.h"
 #include "rtlib/runtime/surroundings.h"
 #include "rung/runtime.h"
@@ -49,8 +50,12 @@ class CellTable {
 public:
   static constexpr uint32_t kMostCells = 1 << 16;
 
-  explicit CellTable(const rung_program& program) : program_(&program) {}
+  // `copies`: of this program; their lists outlive the table.
+  CellTable(const rung_program& program, const rt::NeededCopies& copies) : program_(&program), copies_(copies) {}
   const rung_program& program() const { return *program_; }
+
+  // One of the cells lies where the copies leave something out.
+  bool seesLeftOut() const noexcept { return seesLeftOut_.load(std::memory_order_relaxed); }
 
   // Null: no cell has this number.
   const LocatedCell* at(rung_cell cell) const noexcept {
@@ -64,6 +69,8 @@ private:
   using Block = std::array<LocatedCell, kBlock>;
 
   const rung_program* program_;
+  rt::NeededCopies copies_;
+  std::atomic<bool> seesLeftOut_{false};
   std::array<std::unique_ptr<Block>, kMostCells / kBlock> blocks_;
   std::atomic<uint32_t> count_{0};
 };

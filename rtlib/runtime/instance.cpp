@@ -33,6 +33,7 @@ Call::Call(const rung_instance* handle, When when) noexcept : instance_(instance
   } else if (when != When::Always) {
     status_ = failCallback();
   }
+  if (ok()) instance_->bringInWhatIsSeen();
 }
 
 bool isInCallback(const rung_instance& instance) noexcept {
@@ -164,15 +165,17 @@ using namespace rung;
 using namespace rung::runtime;
 
 rung_instance::rung_instance(std::shared_ptr<const Image> from, const rung_instance_options& given,
-                             std::unique_ptr<Surroundings> surroundings)
+                             std::unique_ptr<Surroundings> surroundings, bool alone)
     : options(given), image(std::move(from)), program(&image->program), around(std::move(surroundings)),
-      control(&around->control()), hooks(*this),
+      control(&around->control()), controlAlone(alone), hooks(*this),
       running({image->program, image->engine, static_cast<uint8_t*>(given.memory)}, &hooks), pace(running),
-      cells(std::make_unique<CellTable>(image->program)), blockPlan(std::make_unique<BlockPlan>(image->program)) {
+      cells(std::make_unique<CellTable>(image->program, running.neededCopies())),
+      blockPlan(std::make_unique<BlockPlan>(image->program, running.neededCopies())) {
   control->onReplace(running); // a replacement before the first power-on gets places in exchange
   images.add(image);
   names.join(*around, *cells);
   blocks.join(*around, *blockPlan);
+  beginLeavingOut();
   if (image->program.instrumented != 0) clock = profile::calibratedClock();
 }
 
@@ -190,8 +193,9 @@ int32_t newInstance(rung_image* image, const rung_instance_options* options, std
   if (const int32_t status = checkMemory(handle->image->program, given.memory, given.memory_bytes); status != RUNG_OK)
     return status;
   return contained([&] {
-    if (around == nullptr) around = controlAlone(handle->image->program.dialect);
-    *instance = new rung_instance(handle->image, given, std::move(around));
+    const bool alone = around == nullptr;
+    if (alone) around = controlAlone(handle->image->program.dialect);
+    *instance = new rung_instance(handle->image, given, std::move(around), alone);
     return int32_t{RUNG_OK};
   });
 }

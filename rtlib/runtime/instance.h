@@ -51,8 +51,18 @@ private:
 
 struct rung_instance {
   rung_instance(std::shared_ptr<const rung::runtime::Image> program, const rung_instance_options& given,
-                std::unique_ptr<rung::runtime::Surroundings> surroundings);
+                std::unique_ptr<rung::runtime::Surroundings> surroundings, bool controlAlone);
   ~rung_instance();
+
+  // Border copies leave out what no rung touches, until the host finds or binds something there. Surroundings see all
+  // of the memory.
+  void beginLeavingOut() noexcept {
+    running.setNeededCopiesOnly(controlAlone && !running.neededCopies().leftOut.empty() && !seesLeftOut());
+  }
+  void bringInWhatIsSeen() noexcept {
+    if (running.neededCopiesOnly() && seesLeftOut()) running.setNeededCopiesOnly(false);
+  }
+  bool seesLeftOut() const noexcept { return cells->seesLeftOut() || blockPlan->seesLeftOut(); }
 
   uint32_t mark = rung::runtime::kInstanceMark;
   // The thread that is inside a call; 0: none.
@@ -64,6 +74,7 @@ struct rung_instance {
   rung::runtime::KnownImages images;        // `image` among them, for other threads, too
   std::unique_ptr<rung::runtime::Surroundings> around;
   rung::nc::Control* control; // in `around`
+  bool controlAlone;          // there
   rung::runtime::Hooks hooks;
   rung::host::Instance running;
   rung::host::Pace pace;

@@ -19,7 +19,8 @@ struct rung_replacement {
       : instance(of), image(std::move(next)),
         replacement(*of.program.load(std::memory_order_acquire), {image->program, image->engine, memory}),
         places(of.control->locate(image->program)), placesAround(of.around->locate(image->program)),
-        cells(std::make_unique<CellTable>(image->program)), blockPlan(std::make_unique<BlockPlan>(image->program)),
+        cells(std::make_unique<CellTable>(image->program, replacement.neededCopies())),
+        blockPlan(std::make_unique<BlockPlan>(image->program, replacement.neededCopies())),
         lane(std::make_unique<host::RetainLane>(host::RetainMap(image->program))) {
     if (image->program.instrumented != 0) clock = profile::calibratedClock();
     bound = host::measureBound({image->program, image->engine});
@@ -78,6 +79,7 @@ host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacem
   std::swap(instance.image, replacement.image);
   std::swap(instance.cells, replacement.cells);
   std::swap(instance.blockPlan, replacement.blockPlan);
+  instance.beginLeavingOut();
   std::swap(instance.clock, replacement.clock);
   settleForces(instance);
   if (instance.retention) instance.retention->programChanged(replacement.lane);

@@ -34,10 +34,15 @@ void takeChanges(rung_instance& instance) noexcept {
   while (instance.control->nextChange(instance.running, message)) (void)instance.messages.push(message);
 }
 
+void sampleWatches(rung_instance& instance) noexcept {
+  instance.bringInWhatIsSeen(); // their cells may be new
+  instance.watches.sample(instance);
+}
+
 void endPass(rung_instance& instance) noexcept {
   takeChanges(instance);
   ++instance.passes;
-  instance.watches.sample(instance);
+  sampleWatches(instance);
   instance.lastPassNs = instance.passNs;
   instance.worstPassNs = std::max(instance.worstPassNs, instance.passNs);
   instance.passNs = 0;
@@ -62,7 +67,7 @@ void afterPart(rung_instance& instance) noexcept {
   if (running.faulted()) {
     settleForces(instance);
     clearOutputs(instance);
-    instance.watches.sample(instance);
+    sampleWatches(instance);
     putFormerBack(instance);
     reportFault(instance);
     return;

@@ -144,7 +144,8 @@ typedef struct rung_instance_options {
   uint32_t size;
   uint32_t flags; /* enum rung_instance_flags */
   /* The memory block: memory_size bytes at least, aligned as memory_align says (rung_image_program), for the life of
-   * the instance. Null: the library allocates it. */
+   * the instance. Null: the library allocates it, and where a task begins it copies of an NC's area only what rungs and
+   * cells of the host look at, which takes less time; in a block of the host it copies all of it. */
   void* memory;
   size_t memory_bytes;
   void* user; /* for the callbacks, each of which may be null */

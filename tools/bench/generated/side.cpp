@@ -52,7 +52,18 @@ Result<std::unique_ptr<Ours>> Ours::make(host::Engine& engine, const Program& pr
     if (!ref) return missing(name);
     ours->constants_.emplace_back(host::locate(memory, *ref), value);
   }
+  ours->leaveOut();
   return ours;
+}
+
+// As the runtime's library does, which knows what its host looks at.
+void Ours::leaveOut() {
+  constexpr uint32_t kBytes = 8; // of a place, at most
+  const rt::NeededCopies& copies = instance_.neededCopies();
+  for (const std::vector<rt::Place>* places : {&bits_, &words_, &tables_, &reals_})
+    for (const rt::Place& place : *places)
+      if (copies.leavesOut(place.offset(), kBytes)) return;
+  instance_.setNeededCopiesOnly(true);
 }
 
 void Ours::writeConstants() {

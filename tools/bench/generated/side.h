@@ -44,6 +44,7 @@ public:
 
 private:
   explicit Ours(host::Engine& engine);
+  void leaveOut();
   void writeConstants();
 
   host::Instance instance_;

@@ -32,6 +32,14 @@ void Replay::write(const Part& part) {
 }
 
 uint64_t Replay::hash() const {
+  const bool only = inside_.neededCopiesOnly();
+  inside_.setNeededCopiesOnly(false); // brings in what is left out
+  const uint64_t hash = hashOfAll();
+  inside_.setNeededCopiesOnly(only);
+  return hash;
+}
+
+uint64_t Replay::hashOfAll() const {
   uint64_t hash = kHashSeed;
   const auto add = [&](uint64_t value) {
     hash = hashBytes({reinterpret_cast<const char*>(&value), sizeof value}, hash);

@@ -24,6 +24,7 @@ public:
   const host::Instance& inside() const { return inside_; }
 
 private:
+  uint64_t hashOfAll() const;
   uint32_t spaceOf(const std::string& name) const;
 
   rung::Instance instance_;

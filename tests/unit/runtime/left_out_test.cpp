@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <thread>
 
 #include "tests/unit/runtime/test_image.h"
 
@@ -58,6 +59,10 @@ protected:
   }
   ~BytesThatCopiesLeaveOut() override { withinAPass = nullptr; }
 
+  template <class Work>
+  static void byAnotherThread(Work work) {
+    std::thread(work).join();
+  }
   void scanWith(int value) {
     plc.write(area10, value);
     plc.write(area1000, value);
@@ -95,8 +100,10 @@ TEST_F(BytesThatCopiesLeaveOut, AreThereForAWatchThatBeginsWithinAPass) {
   std::optional<rung::Watch> watch;
   withinAPass = [&] {
     if (watch) return;
-    const rung_cell cell = plc.find("SEEN10");
-    watch.emplace(plc, std::span(&cell, 1), 4);
+    byAnotherThread([&] {
+      const rung_cell cell = plc.find("SEEN10");
+      watch.emplace(plc, std::span(&cell, 1), 4);
+    });
   };
   scanWith(6);
   scanWith(7);
@@ -111,7 +118,7 @@ TEST_F(BytesThatCopiesLeaveOut, AreThereForCallbacks) {
   rung_cell cell = 0;
   rung_value value{};
   withinAPass = [&] {
-    cell = plc.find("SEEN10");
+    byAnotherThread([&] { cell = plc.find("SEEN10"); });
     rung::check(rung_instance_read(plc.handle(), cell, 0, 1, &value));
   };
   scanWith(6);

@@ -53,10 +53,10 @@ protected:
 TEST_F(CopiesShortOfWhatNoRungTouches, HaveItsPieces) {
   const CopyLists lists(test.link(), false);
   const rung::rt::NeededCopies copies = lists.views();
-  EXPECT_THAT(ends(copies.of(copies.tasks[task].begin)), ElementsAre(std::pair(496u, 16u), std::pair(992u, 16u)));
-  EXPECT_THAT(ends(copies.leftOut), ElementsAre(std::pair(0u, 496u), std::pair(512u, 480u), std::pair(1008u, 992u)));
-  EXPECT_TRUE(copies.leavesOut(495, 2));
-  EXPECT_FALSE(copies.leavesOut(496, 16));
+  EXPECT_THAT(ends(copies.of(copies.tasks[task].begin)), ElementsAre(std::pair(448u, 64u), std::pair(960u, 64u)));
+  EXPECT_THAT(ends(copies.leftOut), ElementsAre(std::pair(0u, 448u), std::pair(512u, 448u), std::pair(1024u, 976u)));
+  EXPECT_TRUE(copies.leavesOut(447, 2));
+  EXPECT_FALSE(copies.leavesOut(448, 64));
   EXPECT_TRUE(copies.leavesOut(1999, 1));
   EXPECT_FALSE(copies.leavesOut(2000, 8)) << "where it is copied from";
 }
@@ -70,23 +70,28 @@ TEST_F(CopiesShortOfWhatNoRungTouches, HaveMasksWhereTheyAreWritten) {
 }
 
 TEST_F(CopiesShortOfWhatNoRungTouches, JoinWhatIsNear) {
-  test.reads[0] = {kM + 912, 1};
+  test.reads[0] = {kM + 840, 1}; // two pieces before that of byte 1000
   const CopyLists lists(test.link(), false);
   const rung::rt::NeededCopies copies = lists.views();
-  EXPECT_THAT(ends(copies.of(copies.tasks[task].begin)), ElementsAre(std::pair(912u, 96u)));
+  EXPECT_THAT(ends(copies.of(copies.tasks[task].begin)), ElementsAre(std::pair(832u, 192u)));
 }
 
 TEST_F(CopiesShortOfWhatNoRungTouches, KeepWhatAnotherCopyTakes) {
-  const uint32_t other = test.addTask("FAST", test.functions.size() - 1);
-  test.addBeginCopy(other, {RUNG_COPY_ALL, kM + 4, kOut + 4, 0, 4});
+  const uint32_t other = test.addTask("FAST", 0);
+  test.addEndCopy(other, {RUNG_COPY_ALL, kM + 4, kOut + 4, 0, 4});
   const CopyLists lists(test.link(), false);
-  EXPECT_EQ(lists.views().leftOut[0].to, 16u);
+  EXPECT_EQ(lists.views().leftOut[0].to, 64u);
 }
 
 TEST_F(CopiesShortOfWhatNoRungTouches, KeepWhatIsRetained) {
   test.retains = {{kM + 100, 4}};
   const CopyLists lists(test.link(), false);
   EXPECT_FALSE(lists.views().leavesOut(kM + 100, 4));
+}
+
+TEST_F(CopiesShortOfWhatNoRungTouches, AreWholeWhereAProgramDoesNotSayWhatItReads) {
+  test.addReads(task, {});
+  EXPECT_THAT(CopyLists(test.link(), false).views().leftOut, IsEmpty());
 }
 
 TEST_F(CopiesShortOfWhatNoRungTouches, AreWholeWhereTheyAreShortOrOthersLook) {

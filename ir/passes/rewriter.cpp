@@ -1,7 +1,6 @@
 // Writing a rung anew (see rewriter.h).
 #include "ir/passes/rewriter.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace rung::ir {
@@ -38,7 +37,7 @@ void RungRewriter::start(const Rung& rung) {
 
 // The operation without operands and results.
 Op& RungRewriter::append(const Op& op) {
-  Op& added = *ops_.add(1) = op;
+  Op& added = ops_.emplace_back(op);
   added.firstArg = static_cast<uint32_t>(args_.size());
   added.argCount = 0;
   added.resultCount = 0;
@@ -47,10 +46,9 @@ Op& RungRewriter::append(const Op& op) {
 }
 
 Op& RungRewriter::copy(const Op& op) {
-  Op& added = *ops_.add(1) = op;
+  Op& added = ops_.emplace_back(op);
   added.firstArg = static_cast<uint32_t>(args_.size());
-  std::transform(argsOf(*rung_, op), argsOf(*rung_, op) + op.argCount, args_.add(op.argCount),
-                 [&](ValueId old) { return now(old); });
+  for (uint32_t i = 0; i < op.argCount; ++i) args_.push_back(nowArg(op, i));
   if (op.resultCount != 0) added.result = {static_cast<uint32_t>(values_.size())};
   for (uint32_t i = 0; i < op.resultCount; ++i) {
     const ValueId old{op.result.index + i};
@@ -67,7 +65,7 @@ Op& RungRewriter::copySome(const Op& op, std::span<const uint8_t> keep) {
   Op& added = append(op);
   for (uint32_t i = 0; i < op.argCount; ++i) {
     if (keep[i] == 0) continue;
-    *args_.add(1) = nowArg(op, i);
+    args_.push_back(nowArg(op, i));
     ++added.argCount;
     if (op.resultCount == 0) continue;
     const ValueId old{op.result.index + i};
@@ -86,7 +84,7 @@ Op& RungRewriter::appendOther(const Op& op, OpCode code, Type type, std::span<co
   added.count = 0;
   added.imm = 0;
   added.argCount = static_cast<uint16_t>(args.size());
-  std::ranges::copy(args, args_.add(args.size()));
+  args_.insert(args_.end(), args.begin(), args.end());
   return added;
 }
 

@@ -19,29 +19,6 @@ struct Region {
 // By operation; nothing is said of those that have to do with no region. False when there are no others.
 bool findRegions(const Rung& rung, std::vector<Region>& regions);
 
-// A list that is only appended to, and keeps its room when it is cleared. Unlike std::vector it appends several at once
-// without touching them first.
-template <class Item>
-class Pile {
-public:
-  size_t size() const { return size_; }
-  void clear() { size_ = 0; }
-  const Item& operator[](size_t i) const { return room_[i]; }
-  Item& operator[](size_t i) { return room_[i]; }
-  const Item* begin() const { return room_.data(); }
-  const Item* end() const { return room_.data() + size_; }
-  // So many more, which hold anything. Valid until the next ones.
-  Item* add(size_t count) {
-    if (room_.size() - size_ < count) room_.resize(2 * room_.size() + count);
-    size_ += count;
-    return room_.data() + size_ - count;
-  }
-
-private:
-  std::vector<Item> room_;
-  size_t size_ = 0;
-};
-
 class RungRewriter {
 public:
   void start(const Rung& rung);
@@ -79,24 +56,23 @@ public:
 
 private:
   struct NewValue {
-    Type type = Type::None;
-    uint32_t definedBy = 0; // operation
+    Type type;
+    uint32_t definedBy; // operation
   };
 
   Op& append(const Op& op);
   Op& appendOther(const Op& op, OpCode code, Type type, std::span<const ValueId> args);
   // Of the last operation.
   ValueId newValue(Type type) {
-    const ValueId id{static_cast<uint32_t>(values_.size())};
-    *values_.add(1) = {type, static_cast<uint32_t>(ops_.size()) - 1};
-    return id;
+    values_.push_back({type, static_cast<uint32_t>(ops_.size()) - 1});
+    return {static_cast<uint32_t>(values_.size()) - 1};
   }
 
   const Rung* rung_ = nullptr;
   std::vector<ValueId> now_; // by old value
-  Pile<Op> ops_;
-  Pile<ValueId> args_;
-  Pile<NewValue> values_;
+  std::vector<Op> ops_;
+  std::vector<ValueId> args_;
+  std::vector<NewValue> values_;
   std::vector<uint32_t> notes_; // the old numbers of the notes that are kept
 };
 

@@ -62,8 +62,8 @@ void mark(std::vector<bool>& bytes, uint32_t offset, uint32_t size) {
 CopyLists::CopyLists(const rung_program& program, bool whole)
     : least_(whole || !saysWhatItReads(program) ? RUNG_NONE : kLeast), written_(program.memory_size),
       touched_(program.memory_size), tasks_(program.task_count) {
-  findTouched(program);
   const std::span all(program.copies, program.copy_count);
+  if (std::ranges::any_of(all, [&](const rung_copy& copy) { return copy.size >= least_; })) findTouched(program);
   for (uint32_t t = 0; t < program.task_count; ++t) {
     const rung_task& task = program.tasks[t];
     tasks_[t].begin = add(all.subspan(task.begin_first, task.begin_count));

@@ -25,6 +25,11 @@ void sleepUntil(int64_t ns) noexcept {
   }
 }
 
+void waitAwake(int64_t ns) noexcept {
+  while (monotonicNs() < ns) {
+  }
+}
+
 RealTimeThread::RealTimeThread(const RealTimeOptions& options) {
   if (options.priority > 0) raise(options.priority);
   if (!problem_.empty() || !options.lockMemory || mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return;

@@ -13,6 +13,7 @@ namespace rung::host {
 
 int64_t monotonicNs();
 void sleepUntil(int64_t ns) noexcept; // of that clock
+void waitAwake(int64_t ns) noexcept;  // the same without giving the processor away
 
 struct RealTimeOptions {
   int priority = 0;        // above 0: SCHED_FIFO with this priority, 1 to 99

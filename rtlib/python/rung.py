@@ -525,6 +525,7 @@ _FUNCTIONS = {
     "rung_instance_slot": (c_int32, _Handle),
     "rung_instance_fast": (c_int32, _Handle),
     "rung_instance_limit": (c_int32, _Handle, _I64),
+    "rung_instance_touch": (c_int32, _Handle, _I64),
     "rung_instance_state": (c_int32, _Handle, POINTER(rung_state)),
     "rung_instance_fault": (c_int32, _Handle, POINTER(rung_fault_info)),
     "rung_instance_find": (c_int32, _Handle, _Text, _I32, _Cells),

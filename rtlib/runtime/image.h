@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "rtlib/host/footprint.h"
 #include "rtlib/host/so_engine.h"
 #include "rtlib/runtime/handles.h"
 #include "rung/runtime.h"
@@ -24,6 +25,7 @@ struct Image {
   void (*release)(void* owner) = nullptr;
   void* owner = nullptr;
   std::vector<uint32_t> symbols; // the author's, in the program's table
+  host::Footprint footprint;
   // Entered once, by any thread; null: no compiler serves the image.
   mutable std::atomic<const rung_code_maker*> maker{nullptr};
 };

@@ -161,6 +161,12 @@ int32_t rung_instance_limit(rung_instance* instance, int64_t ns) {
   return RUNG_OK;
 }
 
+int32_t rung_instance_touch(const rung_instance* instance, int64_t until_ns) {
+  const Call call(instance);
+  if (call.ok()) call->image->footprint.touch(call->running.block().data(), until_ns);
+  return call.status();
+}
+
 int32_t rung_instance_stop(rung_instance* instance) {
   const Call call(instance);
   if (!call.ok()) return call.status();

@@ -47,6 +47,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_slot(plc));
   BAD_HANDLE(rung_instance_fast(plc));
   BAD_HANDLE(rung_instance_limit(plc, 0));
+  BAD_HANDLE(rung_instance_touch(plc, 0));
   BAD_HANDLE(rung_instance_state(plc, &state));
   BAD_HANDLE(rung_instance_fault(plc, &fault));
   BAD_HANDLE(rung_instance_find(plc, "X", RUNG_READ, &cell));

@@ -125,7 +125,7 @@ private:
     case 12: return rung_instance_scan(plc);
     case 13: return rung_instance_slot(plc);
     case 14: return rung_instance_fast(plc);
-    case 15: return rung_instance_limit(plc, chance(90) ? 0 : time());
+    case 15: return chance(50) ? rung_instance_touch(plc, time()) : rung_instance_limit(plc, chance(90) ? 0 : time());
     case 16: return withStruct<rung_state>([&](rung_state* s) { return rung_instance_state(plc, s); });
     case 17: return withStruct<rung_fault_info>([&](rung_fault_info* s) { return rung_instance_fault(plc, s); });
     case 18:

@@ -402,6 +402,22 @@ TEST_F(Runtime, MemoryOfTheHost) {
 }
 
 // A disk that fails, and works again.
+TEST_F(Runtime, TouchingChangesNothing) {
+  alignas(64) std::array<uint8_t, 256> block{};
+  auto options = rung::sized<rung_instance_options>();
+  options.memory = block.data();
+  options.memory_bytes = block.size();
+  rung::Instance plc(*image_, &options);
+  EXPECT_EQ(rung_instance_touch(plc.handle(), INT64_MAX), RUNG_OK); // before the power-on, too
+  plc.powerOn();
+  scan(plc, 3);
+  const std::array<uint8_t, 256> before = block;
+  for (const int64_t until : {INT64_MIN, int64_t{0}, INT64_MAX})
+    EXPECT_EQ(rung_instance_touch(plc.handle(), until), RUNG_OK);
+  EXPECT_EQ(block, before);
+  EXPECT_EQ(plc.state().passes, 3u);
+}
+
 TEST_F(Runtime, WhyMemoryIsNotSavedIsToBeRead) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "rung_runtime_unsaved";
   std::filesystem::create_directory(folder);

@@ -833,6 +833,49 @@ pins = {{ answers = 0, runs = 0 }}
         self.assertEqual(host.end(), OK)
 
 
+class Early(unittest.TestCase):
+    """A thread that wakes before its steps are due."""
+    PERIOD_US = 10_000
+
+    def begin(self, *options):
+        host = Host(BIN, PINS, options=["--period", str(self.PERIOD_US), *options])
+        self.addCleanup(host.end)
+        return host
+
+    def seconds_of_processor(self, process):
+        ticks = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()[11:13]
+        return sum(map(int, ticks)) / os.sysconf("SC_CLK_TCK")
+
+    def share(self, *options):
+        """Of the time in which the process has a processor, while 100 steps are done."""
+        host = self.begin(*options)
+        steps = host.status()["clock"]["steps"]
+        used, at = self.seconds_of_processor(host.process), time.monotonic()
+        self.assertTrue(wait_until(lambda: host.status()["clock"]["steps"] >= steps + 100))
+        return (self.seconds_of_processor(host.process) - used) / (time.monotonic() - at)
+
+    def test_it_is_awake_before_a_step(self):
+        self.assertGreater(self.share("--early", "2500"), self.share() + 0.1)
+
+    def test_steps_count_from_when_they_are_due(self):
+        host = self.begin("--early", "2500")
+        begun = time.monotonic()
+        steps = host.status()["clock"]["steps"]
+        self.assertTrue(wait_until(lambda: host.status()["clock"]["steps"] >= steps + 50))
+        clock = host.status()["clock"]
+        self.assertLessEqual((clock["steps"] - steps - 1) * self.PERIOD_US / 1e6, time.monotonic() - begun)
+        self.assertGreater(clock["longest_period_us"], self.PERIOD_US - 2500)
+        self.assertEqual(host.end(), OK)
+
+    def test_bad_values(self):
+        for options, text in ((["--early", "2501"], "--early: found 2501, expected 0 to 2500, a quarter of --period 10000"),
+                              (["--early", "soon"], "--early"), (["--early", "-1"], "--early"), (["--early"], "--early")):
+            host = self.begin(*options)
+            log = host.logged()
+            self.assertEqual(host.end(), USAGE, log)
+            self.assertIn(text, log)
+
+
 class Mistakes(unittest.TestCase):
     def refused(self, connections, status, *texts):
         host = Host(BIN, PINS + connections)

@@ -153,6 +153,7 @@ Outcome runInBox(const rung_program& program, mapping::File map, const std::stri
     {
       const Guarded realTime(guard);
       if (box->running()) box->setTimeLimit(1000 * kNsInMs);
+      box->touch(host::monotonicNs() + kNsInMs); // as rung-run does with --early
       result = box->step(kNsInMs, reset);
     }
     outcome.problem = inSlice(outcome.slices, guard.offences());

@@ -62,6 +62,11 @@ public:
     constexpr int64_t kHour = 3'600'000'000'000; // more is none
     rung_instance_limit(plc_.handle(), std::min(ns, kHour));
   }
+  // For the thread of the steps, between two of them: reads what a step reads of the program, as long as
+  // CLOCK_MONOTONIC has not come to `untilNs`, so that the next one finds it in the processor's caches.
+  void touch(int64_t untilNs) const noexcept {
+    if (running()) rung_instance_touch(plc_.handle(), untilNs);
+  }
   // Whether a restart after a fault may begin, before a step: it waits while the host still moves something.
   void setRestartable(bool is) noexcept { restartable_ = is; }
   // Any thread but the scan's, which does it in its next step (see orders.h).

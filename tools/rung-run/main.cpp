@@ -38,6 +38,7 @@ struct Options {
   std::string name = "rung";
   std::string retain;
   unsigned periodUs = 1000;
+  unsigned earlyUs = 0;
   int priority = 0;
   bool lockMemory = false;
   bool unsealed = false;
@@ -66,6 +67,7 @@ public:
         controller_(options.name, *box_, image, print), server_(options.name, getuid(), controller_),
         scans_(*box_, pins_, connections_, devices,
                {.periodNs = int64_t{options.periodUs} * 1000,
+                .earlyNs = int64_t{options.earlyUs} * 1000,
                 .thread = {.priority = options.priority, .lockMemory = options.lockMemory}}) {
     controller_.addToStatus([this](nlohmann::json& status) {
       rung_run::addStatus(status, scans_.periodNs(), scans_.figures(), connections_.figures());
@@ -163,7 +165,18 @@ plc::Box::NewInstance surroundingsOf(const Options& options, const Image& image,
   return [&devices](const Image& of, const rung_instance_options& with) { return devices.instance(of, with); };
 }
 
+// A real-time thread that is awake for most of the time takes its processor away from all others.
+bool isTooEarly(const Options& options) {
+  constexpr unsigned kPart = 4;
+  const unsigned most = options.periodUs / kPart;
+  if (options.earlyUs <= most) return false;
+  print(fmt::format("--early: found {}, expected 0 to {}, a quarter of --period {}", options.earlyUs, most,
+                    options.periodUs));
+  return true;
+}
+
 int run(const Options& options) try {
+  if (isTooEarly(options)) return cli::kUsage;
   const Image image = imageOf(options);
   if (!options.simulate && namesDevices(options) && !isOfTechnol(image)) {
     print("--can, --com, --sa-file, and --config without --simulate are for programs of TECHNOL; this one is of " +
@@ -204,6 +217,11 @@ int main(int argc, char** argv) {
   command.option("--name", options.name, "The name for rungctl").showDefault();
   command.option("--period", options.periodUs, "Microseconds between two looks at the clock")
       .between(50u, 100000u)
+      .showDefault();
+  command
+      .option("--early", options.earlyUs,
+              "Microseconds before each look in which the thread is awake and reads what a scan reads; up to a quarter "
+              "of the period")
       .showDefault();
   command.option("--retain", options.retain, "Keep the retained memory in FILE.a and FILE.b");
   command

@@ -23,12 +23,20 @@ void ScanThread::run(std::promise<std::string> begun) {
   if (!realTime.problem().empty()) return;
   int64_t last = begunNs_ = host::monotonicNs();
   for (int64_t due = last + options_.periodNs; !(ending_ && box_.ends()); due += options_.periodNs) {
-    host::sleepUntil(due);
+    waitFor(due);
     step(due, last);
     // Periods that have passed meanwhile are over: the next step catches up what is due.
     const int64_t late = host::monotonicNs() - due;
     if (late > options_.periodNs) due += late / options_.periodNs * options_.periodNs;
   }
+}
+
+// A step counts from when it is due, however long before that the thread is awake.
+void ScanThread::waitFor(int64_t due) const noexcept {
+  host::sleepUntil(due - options_.earlyNs);
+  if (options_.earlyNs == 0) return;
+  box_.touch(due);
+  host::waitAwake(due);
 }
 
 void ScanThread::step(int64_t due, int64_t& last) noexcept {

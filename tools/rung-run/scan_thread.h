@@ -18,6 +18,7 @@ namespace rung::rung_run {
 
 struct ScanOptions {
   int64_t periodNs = 1'000'000;
+  int64_t earlyNs = 0; // it wakes so long before a step is due; less than the period
   host::RealTimeOptions thread;
 };
 
@@ -40,6 +41,7 @@ public:
 
 private:
   void run(std::promise<std::string> begun);
+  void waitFor(int64_t due) const noexcept;
   void step(int64_t due, int64_t& last) noexcept;
 
   plc::Box& box_;

@@ -130,7 +130,8 @@ class Programs:
         return {best: self.straight(*work)[best]}
 
     def times(self, dialect, work, form):
-        """Nanoseconds of each wake-up: (hot, after a sleep, after other work) of ours, then of the straight-line form."""
+        """Nanoseconds of each wake-up: (hot, after a sleep, after other work) of ours, then of the straight-line form; then of
+        ours after a sleep that ends early, with what a scan reads touched."""
         return json.loads(run(*self.words("cold", dialect, work, form)))
 
     def footprint(self, dialect, work, forms):
@@ -159,7 +160,7 @@ class Instructions:
         words = [self.dialect, index, rungs, self.program(index, rungs)]
         profile = self.programs.folder / "profile-instruction"
         scans = int(counted(profile, self.programs.program, "count-rungs", *words))
-        hot, cold, _ = json.loads(run(self.programs.program, "cold-rungs", *words))
+        hot, cold, *_ = json.loads(run(self.programs.program, "cold-rungs", *words))
         return sum(self_costs(profile).values()) / scans, median(hot), percentile(cold, 10)
 
     def rows(self):

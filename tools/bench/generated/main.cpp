@@ -32,6 +32,7 @@
 
 #include <fmt/format.h>
 
+#include "rtlib/host/realtime.h"
 #include "rtlib/host/so_engine.h"
 #include "tools/bench/generated/side.h"
 
@@ -48,6 +49,7 @@ constexpr int kCountedScans = 40;
 constexpr int kWakeUps = 2000;
 constexpr int kWakeUpsForRungs = 500; // there are a hundred programs of them
 constexpr auto kSleep = std::chrono::milliseconds(1);
+constexpr int64_t kEarlyNs = 250'000;    // before a scan: the most that rung-run allows of its period
 constexpr size_t kOtherBytes = 2u << 20; // what other work touches in the meantime
 
 struct WrongUsage : std::runtime_error {
@@ -104,9 +106,15 @@ struct Forms {
     for (size_t i = 5; i < words.size(); i += 2)
       sides.push_back(good(bench::Straight::load(at(words, i + 1), of, bitForm(words[i]), program.msAScan)));
   }
+  bench::Ours& ours() const { return static_cast<bench::Ours&>(*sides.front()); }
+  std::vector<bench::Side*> straight() const {
+    std::vector<bench::Side*> others;
+    for (size_t i = 1; i < sides.size(); ++i) others.push_back(sides[i].get());
+    return others;
+  }
   void checkFault() const {
-    auto& ours = static_cast<bench::Ours&>(*sides.front());
-    if (ours.instance().faulted()) throw std::runtime_error("the program has stopped: " + ours.instance().faultText());
+    const host::Instance& running = ours().instance();
+    if (running.faulted()) throw std::runtime_error("the program has stopped: " + running.faultText());
   }
 
   bench::Work of;
@@ -202,10 +210,21 @@ void printList(const std::vector<std::vector<double>>& lists) {
   std::cout << "]\n";
 }
 
-// Three lists for each form: hot, after a sleep, after other work and a sleep.
+// A sleep that ends early, and what a host does then until it is time.
+void sleepAndTouch(const bench::Ours& ours) {
+  const int64_t due = host::monotonicNs() + std::chrono::nanoseconds(kSleep).count();
+  host::sleepUntil(due - kEarlyNs);
+  ours.touch(due);
+  host::waitAwake(due);
+}
+
+// Three lists for each form, ours first: hot, after a sleep, after other work and a sleep. The last list is of ours
+// again: after a sleep that ends early.
 template <class Apply>
-void measure(const std::vector<bench::Side*>& sides, int wakeUps, Apply apply) {
-  std::vector<std::vector<double>> times(3 * sides.size());
+void measure(bench::Ours& ours, const std::vector<bench::Side*>& others, int wakeUps, Apply apply) {
+  std::vector<bench::Side*> sides = {&ours};
+  sides.insert(sides.end(), others.begin(), others.end());
+  std::vector<std::vector<double>> times(3 * sides.size() + 1);
   OtherWork other;
   for (int i = 0; i < wakeUps; ++i)
     for (size_t k = 0; k < sides.size(); ++k) {
@@ -214,7 +233,7 @@ void measure(const std::vector<bench::Side*>& sides, int wakeUps, Apply apply) {
       apply(*sides[k], k);
       times[3 * k].push_back(timed(*sides[k]));
     }
-  for (int i = 0; i < wakeUps; ++i)
+  for (int i = 0; i < wakeUps; ++i) {
     for (const bool disturbed : {false, true})
       for (size_t k = 0; k < sides.size(); ++k) {
         apply(*sides[k], k);
@@ -222,18 +241,19 @@ void measure(const std::vector<bench::Side*>& sides, int wakeUps, Apply apply) {
         std::this_thread::sleep_for(kSleep);
         times[3 * k + (disturbed ? 2 : 1)].push_back(timed(*sides[k]));
       }
+    apply(ours, 0);
+    sleepAndTouch(ours);
+    times.back().push_back(timed(ours));
+  }
   printList(times);
 }
 
 void cold(const Words& words) {
   const Forms forms(words);
-  std::vector<bench::Side*> sides;
   std::vector<bench::Machine> machines;
-  for (const auto& side : forms.sides) {
-    sides.push_back(side.get());
-    settle(*side, machines.emplace_back(forms.of));
-  }
-  measure(sides, kWakeUps, [&](bench::Side& side, size_t k) { side.apply(machines[k].next()); });
+  for (const auto& side : forms.sides) settle(*side, machines.emplace_back(forms.of));
+  measure(forms.ours(), forms.straight(), kWakeUps,
+          [&](bench::Side& side, size_t k) { side.apply(machines[k].next()); });
   forms.checkFault();
 }
 
@@ -252,7 +272,7 @@ void onRungs(const Words& words, bool cold) {
   ours->beginWith(true);
   for (int i = 0; i < kSettleScans; ++i) ours->scan();
   if (cold) {
-    measure({ours.get()}, kWakeUpsForRungs, [](bench::Side&, size_t) {});
+    measure(*ours, {}, kWakeUpsForRungs, [](bench::Side&, size_t) {});
   } else {
     for (int i = 0; i < kCountedScans; ++i) {
       CALLGRIND_TOGGLE_COLLECT;

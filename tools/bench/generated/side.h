@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ir/support/result.h"
+#include "rtlib/host/footprint.h"
 #include "rtlib/host/instance.h"
 #include "tools/bench/generated/form.h"
 #include "tools/bench/generated/machine.h"
@@ -41,6 +42,8 @@ public:
   Values values() const override;
   void beginWith(bool condition); // of a program without a machine: all of its bits
   host::Instance& instance() { return instance_; }
+  // What a scan reads, until the clock has come to that.
+  void touch(int64_t untilNs) const noexcept { footprint_.touch(instance_.block().data(), untilNs); }
 
 private:
   explicit Ours(host::Engine& engine);
@@ -48,6 +51,7 @@ private:
   void writeConstants();
 
   host::Instance instance_;
+  host::Footprint footprint_;
   std::vector<rt::Place> inputs_; // where what the machine writes lasts
   std::vector<rt::Place> bits_, words_, tables_, reals_;
   std::vector<std::pair<rt::Place, uint64_t>> constants_;

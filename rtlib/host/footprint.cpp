@@ -11,12 +11,12 @@ namespace {
 
 // ---- the memory block ----
 
-// Bytes from `first` up to `end`, in whole lines.
 struct Part {
   uint32_t first;
-  uint32_t end;
+  uint32_t end; // after the last one
 };
 
+// Of a block of so many bytes.
 class Parts {
 public:
   explicit Parts(uint32_t size) : size_(size) {}

@@ -85,6 +85,7 @@ int64_t ServiceQueue::result(uint32_t ticket, uint32_t index) const noexcept {
 }
 
 void ServiceQueue::deliver() noexcept {
+  if (replies_.size() == 0) return;
   ServiceReply reply;
   for (uint32_t i = 0; i < kMaxPending && replies_.pop(reply); ++i) {
     ServiceRecord& record = records_[reply.ticket % kRecords];

@@ -10,16 +10,20 @@
 
 namespace rung::rt {
 
-Runner::Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts, void* engine) noexcept
-    : program_(&program), memory_(memory), ctx_(&ctx), parts_(parts), own_{program.chunk_fns, engine} {
+Runner::Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts, void* engine,
+               rung_step* room) noexcept
+    : program_(&program), memory_(memory), ctx_(&ctx), parts_(parts), own_{program.chunk_fns, engine}, room_(room) {
   reset();
 }
 
-void Runner::setProgram(const rung_program& program, uint8_t* memory, PartState* parts, void* engine) noexcept {
+void Runner::setProgram(const rung_program& program, uint8_t* memory, PartState* parts, void* engine,
+                        rung_step* room) noexcept {
   program_ = &program;
   memory_ = memory;
   parts_ = parts;
   own_ = {program.chunk_fns, engine};
+  room_ = room;
+  joined_ = {};
   beginProgram();
 }
 
@@ -32,7 +36,6 @@ void Runner::beginProgram() noexcept {
   for (uint32_t t = 0; t < program_->task_count; ++t) parts_[t] = {};
   ctx_->extra_weight = 0;
   position_ = 0;
-  findRow();
 }
 
 void Runner::reset() noexcept {
@@ -451,76 +454,61 @@ bool Runner::halt(uint32_t fault) noexcept {
 inline void Runner::doStep(const rung_step& step) noexcept {
   if (step.op == RUNG_STEP_ADVANCE) return advance(step.arg);
   if (step.op != RUNG_STEP_RUN) return doRareStep(step);
-  if (!stopped_ && !faulted_) runWhole(step.task, step.arg);
+  if (!stopped_) runWhole(step.task, step.arg);
 }
 
-void Runner::doRareStep(const rung_step& step) noexcept {
+// Not in line: the others need no frame of their own then.
+[[gnu::noinline]] void Runner::doRareStep(const rung_step& step) noexcept {
   if (step.op == RUNG_STEP_PART && !stopped_) runNextPart(step.task);
-  if (step.op != RUNG_STEP_HOOK || isLeftOut(step) || stopped_ || hooks_.step == nullptr) return;
+  if (step.op != RUNG_STEP_HOOK || isIdle(step, hooks_.works) || stopped_ || hooks_.step == nullptr) return;
   inHook_ = true;
   hooks_.step(hooks_.data, step.arg);
   inHook_ = false;
   hold();
 }
 
-void Runner::findRow() noexcept {
-  row_ = {};
-  const std::span<const rung_step> list(program_->scan, program_->scan_count);
-  for (uint32_t i = 1; i < list.size(); ++i) { // the first step begins the pass
-    if (isLeftOut(list[i])) continue;
-    const bool goesOn = row_.times != 0 && list[i].op == RUNG_STEP_RUN && list[i].task == list[row_.first].task;
-    if (goesOn) {
-      row_.last = i;
-      row_.times += list[i].arg;
-    } else if (row_.last != row_.first && row_.times != 0) {
-      return;
-    } else {
-      row_ = list[i].op == RUNG_STEP_RUN ? Row{i, i, list[i].arg} : Row{};
-    }
-  }
+// The list of the pass under way, else that of the one that begins.
+std::span<const rung_step> Runner::realTimePass() const noexcept {
+  if (position_ != 0) return list_;
+  if (program_->slice_count != 0) return {program_->slices, program_->slice_count};
+  return {program_->scan, program_->scan_count};
 }
 
-// The list of the pass under way, else that of the one that begins.
-std::span<const rung_step> Runner::pass(bool realClock) const noexcept {
+// The same where nobody waits for the time of the steps.
+std::span<const rung_step> Runner::pass() noexcept {
   if (position_ != 0) return list_;
-  if (realClock && program_->slice_count != 0) return {program_->slices, program_->slice_count};
-  return {program_->scan, program_->scan_count};
+  const std::span<const rung_step> all(program_->scan, program_->scan_count);
+  if (room_ == nullptr) return all;
+  if (joined_.empty()) joined_ = {room_, joinSteps(all, hooks_.works, room_)};
+  return joined_;
 }
 
 // The steps of the pass under way, up to its end, a fault, or a step after which `ends` says so; it is asked where
 // another one follows.
 template <class Ends>
-inline void Runner::walk(bool realClock, const Ends& ends) noexcept {
+inline void Runner::walk(std::span<const rung_step> list, const Ends& ends) noexcept {
   const FloatEnvironment environment(defaultFloats_);
   startTime();
   hold();
-  const std::span<const rung_step> list = pass(realClock);
   list_ = list;
   if (faulted_) return;
-  const Row row = realClock || list.data() != program_->scan ? Row{} : row_;
+  if (position_ == 0) advance(untimedPeriodUs_);
   uint32_t at = position_;
-  if (at == 0) advance(untimedPeriodUs_);
   while (at < list.size()) {
-    const rung_step& step = list[at];
-    const bool isRow = at == row.first;
-    if (isRow) at = row.last;
     position_ = at;
-    if (!isRow)
-      doStep(step);
-    else if (!stopped_)
-      runWhole(step.task, row.times);
-    ++at;
+    const rung_step& step = list[at++];
+    doStep(step);
     if (faulted_ || (at < list.size() && ends(step, list[at]))) break;
   }
   position_ = at < list.size() ? at : 0;
 }
 
 void Runner::scan() noexcept {
-  walk(false, [](const rung_step&, const rung_step&) { return false; });
+  walk(pass(), [](const rung_step&, const rung_step&) { return false; });
 }
 
 void Runner::slot() noexcept {
-  walk(false, [](const rung_step& step, const rung_step&) { return step.op == RUNG_STEP_SLOT; });
+  walk(pass(), [](const rung_step& step, const rung_step&) { return step.op == RUNG_STEP_SLOT; });
 }
 
 void Runner::fast() noexcept {
@@ -532,13 +520,13 @@ void Runner::fast() noexcept {
 
 uint32_t Runner::sliceDelayUs() const noexcept {
   if (position_ == 0 && untimedPeriodUs_ != 0) return untimedPeriodUs_;
-  const std::span<const rung_step> list = pass(true);
+  const std::span<const rung_step> list = realTimePass();
   const bool waits = position_ < list.size() && list[position_].op == RUNG_STEP_ADVANCE;
   return waits ? list[position_].arg : 0;
 }
 
 void Runner::slice() noexcept {
-  walk(true, [](const rung_step&, const rung_step& next) { return next.op == RUNG_STEP_ADVANCE; });
+  walk(realTimePass(), [](const rung_step&, const rung_step& next) { return next.op == RUNG_STEP_ADVANCE; });
 }
 
 bool Runner::runsFast(const rung_step& step) const noexcept {
@@ -547,7 +535,7 @@ bool Runner::runsFast(const rung_step& step) const noexcept {
 
 bool Runner::fastAhead() const noexcept {
   if (withinSlice()) return false;
-  const std::span<const rung_step> list = pass(true);
+  const std::span<const rung_step> list = realTimePass();
   for (uint32_t i = position_; i < list.size(); ++i) {
     if (i > position_ && list[i].op == RUNG_STEP_ADVANCE) return false;
     if (runsFast(list[i])) return true;
@@ -556,7 +544,7 @@ bool Runner::fastAhead() const noexcept {
 }
 
 void Runner::sliceToFast() noexcept {
-  if (fastAhead()) walk(true, [this](const rung_step& step, const rung_step&) { return runsFast(step); });
+  if (fastAhead()) walk(realTimePass(), [this](const rung_step& step, const rung_step&) { return runsFast(step); });
 }
 
 } // namespace rung::rt

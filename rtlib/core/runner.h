@@ -15,6 +15,7 @@
 
 #include "rtlib/core/activity.h"
 #include "rtlib/core/needed_copies.h"
+#include "rtlib/core/pass_steps.h"
 #include "rung/program.h"
 
 namespace rung::rt {
@@ -63,14 +64,15 @@ struct ForcedBits {
 
 class Runner {
 public:
-  // `parts` has an entry for each task; `engine`: what the program's own code needs in its context. All outlive the
-  // runner.
-  Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts,
-         void* engine = nullptr) noexcept;
+  // `parts` has an entry for each task; `engine`: what the program's own code needs in its context; `room`: for as many
+  // steps as rung_program::scan has, so that a pass takes fewer. All outlive the runner.
+  Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts, void* engine = nullptr,
+         rung_step* room = nullptr) noexcept;
 
+  // What they have no work for is left out from the next pass on.
   void setHooks(RunnerHooks hooks) noexcept {
     hooks_ = hooks;
-    findRow();
+    joined_ = {};
   }
   // Of the program that runs, also of the next one; null: every chunk runs. Outlives the runner.
   void setActivity(Activity* activity) noexcept { activity_ = activity; }
@@ -80,9 +82,10 @@ public:
   const NeededCopies* copies() const noexcept { return copies_; }
   // What runs longer ends as if its budget were used up.
   void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
-  // Another program takes over, between two passes: its memory and part states; the clock continues, a fault stays.
-  // From then on the caller keeps the new ones alive, and no longer those of before.
-  void setProgram(const rung_program& program, uint8_t* memory, PartState* parts, void* engine) noexcept;
+  // Another program takes over, between two passes: its memory, part states and room; the clock continues, a fault
+  // stays. From then on the caller keeps the new ones alive, and no longer those of before.
+  void setProgram(const rung_program& program, uint8_t* memory, PartState* parts, void* engine,
+                  rung_step* room) noexcept;
 
   // From now on `bits` are as they say for all who read them within a scan, whatever copies and the control's work
   // leave there; for what chunks write, `code` sees to that. Between two slices; until `endForces`, which a fault, a
@@ -170,27 +173,16 @@ private:
   bool runNextPart(uint32_t task) noexcept;
   void doStep(const rung_step& step) noexcept;
   void doRareStep(const rung_step& step) noexcept;
-  bool isLeftOut(const rung_step& step) const noexcept {
-    return step.op == RUNG_STEP_HOOK && step.arg < 32 && (hooks_.works >> step.arg & 1) == 0;
-  }
-  void findRow() noexcept;
   void stopOnFault(uint32_t task) noexcept;
   void clearSafes() noexcept;
   bool mayRun() const noexcept { return !faulted_ && !inTask_; }
-  std::span<const rung_step> pass(bool realClock) const noexcept;
+  std::span<const rung_step> realTimePass() const noexcept;
+  std::span<const rung_step> pass() noexcept;
   template <class Ends>
-  void walk(bool realClock, const Ends& ends) noexcept;
+  void walk(std::span<const rung_step> list, const Ends& ends) noexcept;
   bool runsFast(const rung_step& step) const noexcept;
 
   void beginProgram() noexcept;
-
-  // Runs of one task in the scan list with nothing in between, as those of a fast task are where the control has no
-  // work before each: positions of the first and the last step, and how many runs.
-  struct Row {
-    uint32_t first = RUNG_NONE;
-    uint32_t last = 0;
-    uint32_t times = 0;
-  };
 
   const rung_program* program_;
   uint8_t* memory_;
@@ -204,10 +196,11 @@ private:
   const NeededCopies* copies_ = nullptr;
   TimeLimit limit_;
   int64_t deadline_ = 0;
-  std::span<const rung_step> list_; // the pass: rung_program::scan or ::slices
-  uint32_t position_ = 0;           // in it
-  Row row_;                         // the first one of the scan list
-  uint32_t untimedPeriodUs_ = 0;    // what a pass of a list without ADVANCE takes
+  rung_step* room_;
+  std::span<const rung_step> joined_; // rung_program::scan in fewer steps; empty: to be made when a pass begins
+  std::span<const rung_step> list_;   // the pass under way: rung_program::scan, that in fewer steps, or ::slices
+  uint32_t position_ = 0;             // in it
+  uint32_t untimedPeriodUs_ = 0;      // what a pass of a list without ADVANCE takes
   bool faulted_ = false;
   bool stopped_ = false;
   bool inTask_ = false;

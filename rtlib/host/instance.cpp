@@ -9,7 +9,8 @@ namespace rung::host {
 
 Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
     : loaded_(runnable), hooks_(hooks), ctx_(std::make_unique<rung_ctx>()), port_(std::make_unique<rt::HostPort>()),
-      runner_(runnable.program, loaded_.block.get(), *ctx_, loaded_.parts.data(), runnable.engine) {
+      runner_(runnable.program, loaded_.block.get(), *ctx_, loaded_.parts.data(), runnable.engine,
+              loaded_.steps.data()) {
   ctx_->host = &rt::hostApi();
   ctx_->host_data = port_.get();
   ctx_->prof = loaded_.counters();
@@ -189,7 +190,7 @@ ReplaceResult Instance::replace(Replacement& replacement) {
   if (replacement.there_.waiting(loaded_.block.get()) != nullptr) return ReplaceResult::MechanismWaits;
   bringInLeftOut(); // the next program may look at it
   replacement.exchange(loaded_);
-  runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data(), loaded_.engine);
+  runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data(), loaded_.engine, loaded_.steps.data());
   ctx_->fault = translated(ctx_->fault, former, program());
   ctx_->prof = loaded_.counters();
   clearProfile();

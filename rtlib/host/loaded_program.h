@@ -36,6 +36,7 @@ struct LoadedProgram {
   std::unique_ptr<uint8_t, FreeBlock> block;
   std::vector<rung_prof> profile;   // one a rung; empty when the program is not instrumented
   std::vector<rt::PartState> parts; // one a task
+  std::vector<rung_step> steps;     // room for those of a pass
   std::vector<uint8_t> retained;    // room for a warm start
   Overwritten overwritten;
   ActivityMemory activityMemory;

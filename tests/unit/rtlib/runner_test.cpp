@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cfenv>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "rtlib/core/float_environment.h"
@@ -26,7 +27,8 @@ protected:
   Runner& start() {
     parts.resize(test.tasks.size());
     memory.assign(test.memorySize, 0);
-    runner = std::make_unique<Runner>(test.link(), memory.data(), context, parts.data());
+    room.resize(test.scan.size());
+    runner = std::make_unique<Runner>(test.link(), memory.data(), context, parts.data(), nullptr, room.data());
     return *runner;
   }
   std::vector<int> takeTrace() {
@@ -39,6 +41,7 @@ protected:
   TestProgram test;
   rung_ctx context{};
   std::vector<PartState> parts;
+  std::vector<rung_step> room;
   std::vector<uint8_t> memory;
   std::unique_ptr<Runner> runner;
 };
@@ -549,6 +552,35 @@ TEST_F(RunnerTest, HooksRunTasksOutsideTasksOnly) {
                     nullptr, runner.get()});
   runner->scan();
   EXPECT_EQ(takeTrace(), (Trace{0, 1}));
+}
+
+// Others are left out, from the next pass on, and what was around them is one step.
+TEST_F(RunnerTest, HooksThatHaveWork) {
+  test.addChunk(step<0, RUNG_PC_DONE>);
+  test.addTask("MAIN", 0);
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 10}, {RUNG_STEP_HOOK, RUNG_NONE, 0}, {RUNG_STEP_ADVANCE, RUNG_NONE, 10},
+               {RUNG_STEP_HOOK, RUNG_NONE, 1},     {RUNG_STEP_RUN, 0, 1},          {RUNG_STEP_HOOK, RUNG_NONE, 0},
+               {RUNG_STEP_SLOT, RUNG_NONE, 0},     {RUNG_STEP_RUN, 0, 1}};
+  start();
+  std::vector<uint32_t> called;
+  const auto note = [](void* data, uint32_t work) { static_cast<std::vector<uint32_t>*>(data)->push_back(work); };
+  const auto callsOfPass = [&](uint32_t works) {
+    runner->setHooks({.step = note, .data = &called, .works = works});
+    runner->scan();
+    return std::exchange(called, {});
+  };
+  EXPECT_EQ(callsOfPass(0b01), (std::vector<uint32_t>{0, 0}));
+  EXPECT_EQ(callsOfPass(0b10), (std::vector<uint32_t>{1}));
+  EXPECT_EQ(callsOfPass(0b00), (std::vector<uint32_t>{}));
+  EXPECT_EQ(callsOfPass(0b11), (std::vector<uint32_t>{0, 1, 0}));
+  EXPECT_EQ(takeTrace(), (Trace{0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(runner->nowUs(), 80);
+  runner->slot();
+  EXPECT_FALSE(runner->atListStart());
+  EXPECT_EQ(callsOfPass(0b00), (std::vector<uint32_t>{0, 1, 0})) << "within a pass";
+  EXPECT_TRUE(runner->atListStart());
+  EXPECT_EQ(callsOfPass(0b00), (std::vector<uint32_t>{}));
+  EXPECT_EQ(takeTrace(), (Trace{0, 0, 0, 0}));
 }
 
 TEST_F(RunnerTest, FaultHookRunsOnceBehindTheSafeState) {

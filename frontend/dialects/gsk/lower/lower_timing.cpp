@@ -78,21 +78,38 @@ void lowerCounter(FunctionLowering& f) {
   const ir::SlotId w = f.slot("W", Type::Bit);
   const ValueId keep = b.slotLoad(w);
 
+  // Branches: a counter keeps its direction.
+  const auto bottom = [&] { return b.zextOrTrunc(Type::I16, cn0); }; // P26
+  const auto top = [&] { return f.load(Type::I16, preset); };
+  const auto startAgain = [&] {
+    f.store(value, b.choose(down, top, bottom));
+    return b.bit(false);
+  };
+  // From one end to the other.
+  const auto count = [&](ValueId from, ValueId to, ValueId isOver, ValueId next) {
+    const ValueId now = b.select(isOver, from, next);
+    f.store(value, now);
+    return b.eq(now, to); // P27
+  };
   const auto step = [&] {
-    const ValueId top = f.load(Type::I16, preset);
-    const ValueId bottom = b.zextOrTrunc(Type::I16, cn0); // P26
     const ValueId old = f.load(Type::I16, value);
     const ValueId one = b.constant(Type::I16, 1);
-    const ValueId up = b.select(b.leU(top, old), bottom, b.add(old, one));
-    const ValueId downward = b.select(b.leU(old, bottom), top, b.sub(old, one));
-    const ValueId next = b.select(down, downward, up);
-    const ValueId arrived = b.eq(next, b.select(down, bottom, top)); // P27
-    f.store(value, b.select(reset, b.select(down, top, bottom), next));
-    const ValueId out = b.and_(arrived, b.not_(reset));
+    const auto up = [&] {
+      const ValueId end = top();
+      return count(bottom(), end, b.leU(end, old), b.add(old, one));
+    };
+    const auto downward = [&] {
+      const ValueId end = bottom();
+      return count(top(), end, b.leU(old, end), b.sub(old, one));
+    };
+    return b.choose(down, downward, up);
+  };
+  const auto run = [&] {
+    const ValueId out = b.choose(reset, startAgain, step);
     b.slotStore(w, out);
     return out;
   };
-  f.setOutput(b.choose(b.or_(reset, pulse), step, [&] { return keep; }));
+  f.setOutput(b.choose(b.or_(reset, pulse), run, [&] { return keep; }));
 }
 
 // P39: the memory belongs to the instruction.

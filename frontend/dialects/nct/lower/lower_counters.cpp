@@ -20,22 +20,22 @@ ValueId count(Lowering& box, size_t i, ValueId& valid) {
   return value;
 }
 
-// CNT stops at the end value until it is reset (l.1509); CNTR goes round from one end to the other (l.1545-1549).
+// CNT stops at the end value until it is reset (l.1509); CNTR goes round from one end to the other (l.1545-1549). A
+// counter keeps its direction, so there are branches.
 ValueId counted(Lowering& box, ValueId value, ValueId start, ValueId end) {
   RungBuilder& b = box.b;
+  const auto from = [&](ValueId last, ValueId atLast, int32_t step) {
+    return [=, &b] { return b.select(b.eq(value, last), atLast, b.add(value, b.i32(step))); };
+  };
   const ValueId down = box.power(kDown);
-  const ValueId next = b.add(value, b.select(down, b.i32(-1), b.i32(1)));
-  const ValueId atEnd = b.eq(value, end);
-  if (box.variant == kStopping) return b.select(atEnd, value, next);
-  const ValueId atStart = b.eq(value, start);
-  const ValueId whenDown = b.select(atStart, end, next);
-  return b.select(down, whenDown, b.select(atEnd, start, next));
+  if (box.variant == kStopping) return b.choose(down, from(end, value, -1), from(end, value, 1));
+  return b.choose(down, from(start, end, -1), from(end, start, 1));
 }
 
 } // namespace
 
-// The reset goes before the clock; the clock's edge is remembered whatever else happens. Most scans have none: a region
-// is shorter there than selects.
+// The reset goes before the clock; the clock's edge is remembered whatever else happens. Most scans have none, and
+// leave the counter alone.
 ValueId lowerCounter(Lowering& box) {
   RungBuilder& b = box.b;
   const ValueId edge = risingEdge(box, "clock", kClock);
@@ -45,13 +45,16 @@ ValueId lowerCounter(Lowering& box) {
   const ValueId end = count(box, 2, valid);
   const ValueId compare = count(box, 3, valid);
   if (box.variant == kRing) valid = box.memory.both(valid, b.leS(start, end));
-  return guarded(box, valid, [&] {
+  const auto put = [&](ValueId value) {
+    box.memory.storeWord(counter, value);
+    return b.eq(value, compare);
+  };
+  const auto step = [&] {
     const ValueId value = box.memory.loadWord(counter);
-    const ValueId stepped = b.choose(edge, [&] { return counted(box, value, start, end); }, [&] { return value; });
-    const ValueId result = b.select(box.power(kClear), start, stepped);
-    box.memory.storeWord(counter, result);
-    return b.eq(result, compare);
-  });
+    const auto count = [&] { return put(counted(box, value, start, end)); };
+    return b.choose(edge, count, [&] { return b.eq(value, compare); });
+  };
+  return guarded(box, valid, [&] { return b.choose(box.power(kClear), [&] { return put(start); }, step); });
 }
 
 } // namespace rung::nct

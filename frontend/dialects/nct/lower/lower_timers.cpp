@@ -18,12 +18,6 @@ constexpr int64_t kUnitMs[] = {1, 1000, 60'000, 3'600'000};
 constexpr int64_t kLimit[] = {2'147'483'647, 2'147'483, 35'791, 596};
 constexpr int64_t kUsPerMs = 1000;
 
-// A set value that is known to be more than 0.
-bool isLong(std::span<const Operand> operands) {
-  const Operand& set = operands[1];
-  return set.form == Form::Constant && operands[2].form == Form::Constant && set.constant.integer > 0;
-}
-
 struct TimerState {
   SlotId active;    // triggered at the last evaluation
   SlotId evaluated; // of an off-delay: at least once
@@ -75,54 +69,52 @@ ValueId countDown(RungBuilder& b, ValueId left, ValueId passedMs) {
   return b.select(b.leS(left, passedMs), b.i32(0), b.sub(left, passedMs));
 }
 
-// Where it is not known when the last evaluation was: `since` is what the register has been counted down to, in
-// microseconds, for what is less than a millisecond counts later. -1: the timer was never evaluated, or runs on in a
-// changed program where its time was the run's; then nothing counts yet.
-ValueId countedSince(Lowering& box, SlotId slot, ValueId counting, ValueId left, ValueId rest) {
-  RungBuilder& b = box.b;
-  const ValueId now = b.now();
-  const auto countOn = [&] {
-    const ValueId last = b.slotLoad(slot);
-    const ValueId since = b.select(b.ltS(last, b.constant(Type::I64, 0)), now, last);
-    const ValueId ms = wholeMs(b, b.sub(now, since));
-    return std::array{countDown(b, left, atMostRegister(b, ms)),
-                      b.add(since, b.mul(ms, b.constant(Type::I64, kUsPerMs)))};
-  };
-  const auto [counted, until] = b.choose(counting, countOn, [&] { return std::array{rest, now}; });
-  b.slotStore(slot, until);
-  return counted;
+// What the register holds now, where it is not known when the last evaluation was: `since` is what it has been counted
+// down to, in microseconds, for what is less than a millisecond counts later. -1: the timer was never evaluated, or
+// runs on in a changed program where its time was the run's; then nothing counts yet.
+ValueId countedSince(RungBuilder& b, SlotId slot, ValueId left) {
+  const ValueId last = b.slotLoad(slot);
+  const ValueId since = b.select(b.ltS(last, b.constant(Type::I64, 0)), b.now(), last);
+  const ValueId ms = wholeMs(b, b.sub(b.now(), since));
+  b.slotStore(slot, b.add(since, b.mul(ms, b.constant(Type::I64, kUsPerMs))));
+  return countDown(b, left, atMostRegister(b, ms));
 }
 
 // One evaluation; gives the output. The trigger writes the preset and counts nothing; afterwards the register loses
 // the whole milliseconds since the last evaluation. Idle, it holds the preset.
 ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerState& state) {
   RungBuilder& b = box.b;
-  const ValueId input = box.power();
-  const ValueId active = box.variant == kOffDelay ? b.not_(input) : input;
-  const ValueId counting = b.and_(active, b.slotLoad(state.active));
-  b.slotStore(state.active, active);
-  const ValueId none = b.i32(0);
-  ValueId rest = presetMs;
-  if (box.variant == kOffDelay) {
+  const bool isOffDelay = box.variant == kOffDelay;
+  const auto put = [&](ValueId ms) {
+    box.memory.storeWord(timer, ms);
+    const ValueId over = b.eq(ms, b.i32(0));
+    return box.variant == kOnDelay ? over : b.not_(over);
+  };
+  const auto begin = [&](bool active) {
+    b.slotStore(state.active, b.bit(active));
+    if (isOffDelay) b.slotStore(state.evaluated, b.bit(true));
+    if (state.since.valid()) b.slotStore(state.since, b.now());
+  };
+  const auto idle = [&] {
+    begin(false);
+    box.memory.storeWord(timer, presetMs);
+    return b.bit(isOffDelay);
+  };
+  const auto trigger = [&] {
     // Never evaluated and its input is off: it has not been triggered, whatever the register holds.
-    rest = b.select(b.or_(input, b.slotLoad(state.evaluated)), presetMs, none);
-    b.slotStore(state.evaluated, b.bit(true));
-  }
-  const ValueId left = box.memory.loadWord(timer);
-  const ValueId value = state.since.valid()
-                            ? countedSince(box, state.since, counting, left, rest)
-                            : b.select(counting, countDown(b, left, b.slotLoad(box.time.passedMs)), rest);
-  box.memory.storeWord(timer, value);
-  const ValueId over = b.eq(value, none);
-  // A register that does not count down holds the preset (of an off-delay that was never triggered: 0). Where that is
-  // not 0, the register alone says whether the time is over.
-  const bool alone = isLong(box.operands);
-  switch (static_cast<TimerVariant>(box.variant)) {
-  case kOnDelay: return alone ? over : b.and_(active, over);
-  case kOffDelay: return alone ? b.not_(over) : b.or_(input, b.not_(over));
-  case kTimedPulse: return b.and_(active, b.not_(over));
-  }
-  return {};
+    const ValueId rest = isOffDelay ? b.select(b.slotLoad(state.evaluated), presetMs, b.i32(0)) : presetMs;
+    const ValueId output = put(rest);
+    begin(true);
+    return output;
+  };
+  const auto count = [&] {
+    const ValueId left = box.memory.loadWord(timer);
+    return put(state.since.valid() ? countedSince(b, state.since, left)
+                                   : countDown(b, left, b.slotLoad(box.time.passedMs)));
+  };
+  const ValueId input = box.power();
+  const ValueId active = isOffDelay ? b.not_(input) : input;
+  return b.choose(active, [&] { return b.choose(b.slotLoad(state.active), count, trigger); }, idle);
 }
 
 } // namespace

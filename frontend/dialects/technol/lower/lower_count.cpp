@@ -14,11 +14,18 @@ void lowerTimer(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const CountCell cell = l.countCell(o[0]);
   const ValueId rlo = l.r().rlo();
-  const ValueId count = l.state.load(cell);
-  const ValueId reached = b.leU(l.r().dr(cell.type), count);
-  const ValueId counted = b.select(reached, count, b.add(count, b.constant(cell.type, 1)));
-  l.state.store(cell, b.select(rlo, counted, b.constant(cell.type, 0)));
-  l.r().setRlo(b.and_(rlo, reached));
+  const ValueId preset = l.r().dr(cell.type);
+  const auto run = [&] {
+    const ValueId count = l.state.load(cell);
+    const ValueId reached = b.leU(preset, count);
+    b.when(b.not_(reached), [&] { l.state.store(cell, b.add(count, b.constant(cell.type, 1))); });
+    return reached;
+  };
+  const auto clear = [&] {
+    l.state.store(cell, b.constant(cell.type, 0));
+    return b.bit(false);
+  };
+  l.r().setRlo(b.choose(rlo, run, clear));
 }
 
 // Counts on 0 -> 1 of RLO; then RLO says whether the count is the preset in DR, and DR is the count (man. l.955-977).
@@ -30,12 +37,15 @@ void lowerCounter(StatementContext& l, std::span<const Operand> o, int kind) {
   const ValueId rises = edge(b, b.slotLoad(former), rlo);
   b.slotStore(former, rlo);
   const ValueId count = l.state.load(cell);
-  const ValueId one = b.constant(cell.type, 1);
-  ValueId next = kind == kCountDown ? b.sub(count, one) : b.add(count, one);
-  if (kind == kCountUpBcd)
-    next = b.op(OpCode::BcdEncode, cell.type, {b.add(b.op(OpCode::BcdDecode, cell.type, {count}), one)});
-  const ValueId now = b.select(rises, next, count);
-  l.state.store(cell, now);
+  const auto step = [&] {
+    const ValueId one = b.constant(cell.type, 1);
+    ValueId next = kind == kCountDown ? b.sub(count, one) : b.add(count, one);
+    if (kind == kCountUpBcd)
+      next = b.op(OpCode::BcdEncode, cell.type, {b.add(b.op(OpCode::BcdDecode, cell.type, {count}), one)});
+    l.state.store(cell, next);
+    return next;
+  };
+  const ValueId now = b.choose(rises, step, [&] { return count; });
   l.r().setRlo(b.eq(now, l.r().dr(cell.type)));
   l.r().setDr(b.zextOrTrunc(Type::I64, now));
 }

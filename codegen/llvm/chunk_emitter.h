@@ -10,6 +10,7 @@
 #include "codegen/llvm/debug_info.h"
 #include "codegen/llvm/llvm_module.h"
 #include "ir/chunks/cut.h"
+#include "ir/chunks/late_stores.h"
 
 namespace rung::codegen {
 
@@ -61,6 +62,11 @@ private:
   Value* loadBitAt(const ir::Op& op);
 
   void store(const ir::Op& op);
+  void storeNow(const ir::Op& op);
+  void beginLateStores();
+  void doLateStores();
+  void doLateStores(uint32_t group);
+  llvm::ConstantInt* never(uint32_t group);
   void storeAt(const ir::Op& op);
   void slotStore(const ir::Op& op);
   struct Element;
@@ -126,6 +132,8 @@ private:
   Value* messageSpace_ = nullptr;
   Value* argsSpace_ = nullptr;
   Value* extra_ = nullptr; // where a chunk adds up its extra weight, if it has any
+  ir::LateStores late_;
+  std::vector<Value*> kept_; // by its groups: where a number is remembered
   uint32_t firstRung_ = 0;
   std::vector<llvm::BasicBlock*> rungBlocks_; // of the chunk's rungs, where something jumps to them
   const ir::Rung* rung_ = nullptr;

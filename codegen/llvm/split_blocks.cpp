@@ -1,6 +1,7 @@
 // See split_blocks.h.
 #include "codegen/llvm/split_blocks.h"
 
+#include <llvm/ADT/DenseMap.h>
 #include <llvm/IR/BasicBlock.h>
 #include <llvm/IR/Function.h>
 #include <llvm/IR/Instructions.h>
@@ -20,29 +21,37 @@ llvm::BasicBlock::iterator cutOf(llvm::BasicBlock& block) {
   return block.end();
 }
 
-class SplitBlocks final : public llvm::FunctionPass {
-public:
-  SplitBlocks() : FunctionPass(kId) {}
-
-  bool runOnFunction(llvm::Function& function) override {
-    bool changed = false;
-    for (auto block = function.begin(); block != function.end(); ++block) { // those that are made follow
-      const auto cut = cutOf(*block);
-      if (cut == block->end()) continue;
-      block->splitBasicBlock(cut);
-      changed = true;
+// The selector folds addresses of the memory block into the instructions of their own block, and keeps those of other
+// blocks in registers.
+void takeAddresses(llvm::BasicBlock& block) {
+  llvm::DenseMap<llvm::Instruction*, llvm::Instruction*> own;
+  for (llvm::Instruction& instruction : block) {
+    if (llvm::isa<llvm::PHINode>(instruction)) continue;
+    for (llvm::Use& operand : instruction.operands()) {
+      auto* address = llvm::dyn_cast<llvm::GetElementPtrInst>(operand.get());
+      if (address == nullptr || address->getParent() == &block) continue;
+      if (!address->hasAllConstantIndices() || !llvm::isa<llvm::Argument>(address->getPointerOperand())) continue;
+      llvm::Instruction*& here = own[address];
+      if (here == nullptr) {
+        here = address->clone();
+        here->insertBefore(block.getFirstInsertionPt());
+      }
+      operand.set(here);
     }
-    return changed;
   }
-
-private:
-  static char kId; // LLVM knows a pass by its address
-};
-
-char SplitBlocks::kId = 0;
+}
 
 } // namespace
 
-std::unique_ptr<llvm::FunctionPass> makeSplitBlocks() { return std::make_unique<SplitBlocks>(); }
+bool splitBlocks(llvm::Function& function) {
+  bool changed = false;
+  for (auto block = function.begin(); block != function.end(); ++block) { // those that are made follow
+    const auto cut = cutOf(*block);
+    if (cut == block->end()) continue;
+    takeAddresses(*block->splitBasicBlock(cut));
+    changed = true;
+  }
+  return changed;
+}
 
 } // namespace rung::codegen

@@ -13,8 +13,8 @@
 #include <llvm/TargetParser/Host.h>
 #include <llvm/TargetParser/SubtargetFeature.h>
 
+#include "codegen/llvm/before_selection.h"
 #include "codegen/llvm/llvm_module.h"
-#include "codegen/llvm/split_blocks.h"
 #include "ir/support/check.h"
 
 namespace rung::codegen {
@@ -72,7 +72,7 @@ bool addCodeGenerator(llvm::LLVMTargetMachine& machine, llvm::legacy::PassManage
   auto* info = new llvm::MachineModuleInfoWrapperPass(&machine);
   if (machine.getOptLevel() != llvm::CodeGenOptLevel::None) { // else instructions are selected one by one
     const std::unique_ptr<llvm::FunctionPass> last(llvm::createCodeGenPrepareLegacyPass());
-    config->insertPass(last->getPassID(), makeSplitBlocks().release());
+    config->insertPass(last->getPassID(), makeBeforeSelection().release());
   }
   passes.add(config);
   passes.add(info);

@@ -1,0 +1,107 @@
+// See stores_in_branches.h.
+#include "codegen/llvm/stores_in_branches.h"
+
+#include <llvm/ADT/STLExtras.h>
+#include <llvm/IR/CFG.h>
+#include <llvm/IR/Function.h>
+
+#include "codegen/llvm/memory_place.h"
+
+namespace rung::codegen {
+namespace {
+
+constexpr unsigned kMostBranches = 4;
+
+class BranchStores {
+public:
+  explicit BranchStores(const llvm::Function& function)
+      : memory_(*function.getArg(0)), data_(function.getParent()->getDataLayout()) {}
+
+  bool run(llvm::BasicBlock& block) {
+    if (!isJoin(block)) return false;
+    bool changed = false;
+    for (auto next = block.begin(); next != block.end();) {
+      auto* joined = llvm::dyn_cast<llvm::PHINode>(&*next++);
+      if (joined == nullptr) break;
+      if (isOnlyStored(*joined)) {
+        store(*joined);
+        changed = true;
+      }
+    }
+    return changed;
+  }
+
+private:
+  // Nothing but this block follows those before it.
+  static bool isJoin(const llvm::BasicBlock& block) {
+    return !block.hasNPredecessorsOrMore(kMostBranches + 1) &&
+           llvm::all_of(llvm::predecessors(&block), [](const llvm::BasicBlock* before) {
+             const auto* jump = llvm::dyn_cast<llvm::BranchInst>(before->getTerminator());
+             return jump != nullptr && jump->isUnconditional();
+           });
+  }
+
+  bool isOnlyStored(llvm::PHINode& joined) const {
+    const bool hasConstant = llvm::any_of(joined.incoming_values(),
+                                          [](const llvm::Use& value) { return llvm::isa<llvm::ConstantInt>(value); });
+    return hasConstant && !joined.use_empty() && llvm::all_of(joined.users(), [&](llvm::User* user) {
+             auto* store = llvm::dyn_cast<llvm::StoreInst>(user);
+             return store != nullptr && store->isSimple() && store->getValueOperand() == &joined &&
+                    store->getParent() == joined.getParent() && mayBeFirst(*store);
+           });
+  }
+
+  // Nothing above it in its block accesses its place.
+  bool mayBeFirst(llvm::StoreInst& store) const {
+    const std::optional<int64_t> place = offsetIn(memory_, *store.getPointerOperand(), data_);
+    if (!place) return false;
+    const int64_t end = *place + bytesOf(*store.getValueOperand()->getType(), data_);
+    for (llvm::Instruction& above : *store.getParent()) {
+      if (&above == &store) return true;
+      if (!above.mayReadOrWriteMemory()) continue;
+      const llvm::Value* address = llvm::getLoadStorePointerOperand(&above);
+      const std::optional<int64_t> other = address != nullptr ? offsetIn(memory_, *address, data_) : std::nullopt;
+      if (!other) return false;
+      const int64_t otherEnd = *other + bytesOf(*llvm::getLoadStoreType(&above), data_);
+      if (*other < end && *place < otherEnd) return false;
+    }
+    return false;
+  }
+
+  static void store(llvm::PHINode& joined) {
+    while (!joined.use_empty()) {
+      auto& after = *llvm::cast<llvm::StoreInst>(*joined.user_begin());
+      for (unsigned i = 0; i < joined.getNumIncomingValues(); ++i) {
+        llvm::Instruction* jump = joined.getIncomingBlock(i)->getTerminator();
+        auto* address = llvm::dyn_cast<llvm::Instruction>(after.getPointerOperand());
+        llvm::Value* place = after.getPointerOperand();
+        if (address != nullptr) {
+          llvm::Instruction* here = address->clone();
+          here->insertBefore(jump->getIterator());
+          place = here;
+        }
+        llvm::Instruction* store = after.clone();
+        store->setOperand(0, joined.getIncomingValue(i));
+        store->setOperand(1, place);
+        store->insertBefore(jump->getIterator());
+      }
+      after.eraseFromParent();
+    }
+    joined.eraseFromParent();
+  }
+
+  const llvm::Argument& memory_;
+  const llvm::DataLayout& data_;
+};
+
+} // namespace
+
+bool storeInBranches(llvm::Function& function) {
+  BranchStores stores(function);
+  bool changed = false;
+  for (llvm::BasicBlock& block : function)
+    if (stores.run(block)) changed = true;
+  return changed;
+}
+
+} // namespace rung::codegen

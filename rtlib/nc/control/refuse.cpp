@@ -1,19 +1,27 @@
 // The refusal of a request (see refuse.h).
 #include "rtlib/nc/control/refuse.h"
 
-#include "rtlib/host/program_info.h"
 #include "rtlib/nc/gsk/window_functions.h"
 
 namespace rung::nc {
+namespace {
+
+// "windr function length … -> end data": the name is before its arguments. Other services differ in the first letters.
+bool isOf(const char* service, const char* nameAndBlank) noexcept {
+  for (; *nameAndBlank != '\0'; ++service, ++nameAndBlank)
+    if (*service != *nameAndBlank) return false;
+  return true;
+}
+
+} // namespace
 
 rt::ServiceReply refuse(const rung_program& program, const rt::ServiceRequest& request) noexcept {
-  // "windr function length … -> end data": the name is before its arguments.
-  std::string_view service = host::serviceName(program, request.service);
-  service = service.substr(0, service.find(' '));
-  if (service != "windr" && service != "windw") return {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};
+  const char* const service = request.service < program.service_count ? program.services[request.service] : "";
+  const bool reads = isOf(service, "windr ");
+  if (!reads && !isOf(service, "windw ")) return {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};
   return {.ticket = request.ticket,
           .state = RUNG_SERVICE_DONE,
-          .resultCount = service == "windr" ? 2u : 1u,
+          .resultCount = reads ? 2u : 1u,
           .results = {gsk::kWindowNotProvided}};
 }
 

@@ -7,18 +7,18 @@ namespace rung::nc {
 namespace {
 
 // "windr function length … -> end data": the name is before its arguments. Other services differ in the first letters.
-bool isOf(const char* service, const char* nameAndBlank) noexcept {
-  for (; *nameAndBlank != '\0'; ++service, ++nameAndBlank)
-    if (*service != *nameAndBlank) return false;
-  return true;
+bool isOf(const char* service, const char* name) noexcept {
+  for (; *name != '\0'; ++service, ++name)
+    if (*service != *name) return false;
+  return *service == ' ' || *service == '\0';
 }
 
 } // namespace
 
 rt::ServiceReply refuse(const rung_program& program, const rt::ServiceRequest& request) noexcept {
   const char* const service = request.service < program.service_count ? program.services[request.service] : "";
-  const bool reads = isOf(service, "windr ");
-  if (!reads && !isOf(service, "windw ")) return {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};
+  const bool reads = isOf(service, "windr");
+  if (!reads && !isOf(service, "windw")) return {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};
   return {.ticket = request.ticket,
           .state = RUNG_SERVICE_DONE,
           .resultCount = reads ? 2u : 1u,

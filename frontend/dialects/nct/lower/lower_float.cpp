@@ -40,7 +40,8 @@ ValueId underflows(RungBuilder& b, FloatVariant variant, ValueId x, ValueId y, V
 } // namespace
 
 // Overflow: finite operands, infinite result. A NaN operand, or a result that is none (∞ - ∞), is not executed; nor is
-// a division by 0.
+// a division by 0. What nearly all results are is asked first: finite, and of products and quotients not 0. They have
+// none of these flags.
 ValueId lowerFloatArithmetic(Lowering& box) {
   constexpr OpCode kCodes[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
   RungBuilder& b = box.b;
@@ -52,16 +53,27 @@ ValueId lowerFloatArithmetic(Lowering& box) {
     return guarded(box, valid, [&] {
       const auto variant = static_cast<FloatVariant>(box.variant);
       const ValueId result = b.op(kCodes[variant], Type::F64, {x, y});
-      ValueId ok = isNumber(b, result);
-      if (variant == kFloatDiv) ok = b.and_(ok, b.not_(isZero(b, y)));
-      return when(box, ok, [&] {
-        const ValueId over = b.and_(b.and_(isFinite(b, x), isFinite(b, y)), b.not_(isFinite(b, result)));
-        const ValueId under = underflows(b, variant, x, y, result);
+      const auto put = [&](ValueId under, ValueId over) {
         box.memory.storeDouble(target, result);
         box.memory.setErrorFlag(false);
         box.memory.setFlag(kFlagUf, under);
         box.memory.setFlag(kFlagOf, over);
-      });
+      };
+      const auto putOrdinary = [&] {
+        put(b.bit(false), b.bit(false));
+        return b.bit(true);
+      };
+      const auto putOther = [&] {
+        ValueId ok = isNumber(b, result);
+        if (variant == kFloatDiv) ok = b.and_(ok, b.not_(isZero(b, y)));
+        return when(box, ok, [&] {
+          const ValueId over = b.and_(b.and_(isFinite(b, x), isFinite(b, y)), b.not_(isFinite(b, result)));
+          put(underflows(b, variant, x, y, result), over);
+        });
+      };
+      ValueId ordinary = isFinite(b, result);
+      if (variant == kFloatMul || variant == kFloatDiv) ordinary = b.and_(ordinary, b.not_(isZero(b, result)));
+      return b.choose(ordinary, putOrdinary, putOther);
     });
   });
 }

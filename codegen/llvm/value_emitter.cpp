@@ -1,6 +1,8 @@
 // Operations with values, and stores, as LLVM instructions (see chunk_emitter.h).
 #include "codegen/llvm/chunk_emitter.h"
+#include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/MDBuilder.h>
+#include <llvm/IR/PatternMatch.h>
 
 #include <fmt/format.h>
 
@@ -156,6 +158,31 @@ static llvm::CmpInst::Predicate predicateOf(OpCode code) {
   }
 }
 
+namespace {
+
+// Whether the bits of `cut`, sign and all, are not those of `wide`, as the flag that processors have for it: where that
+// is a sum, a difference or a product of numbers that are as wide as what `cut` has kept. Null: it is not.
+llvm::Value* overflow(llvm::IRBuilder<>& builder, llvm::Value* cut, llvm::Value* wide) {
+  using namespace llvm::PatternMatch;
+  const auto* result = llvm::dyn_cast<llvm::BinaryOperator>(wide);
+  if (result == nullptr || !match(cut, m_SExt(m_Trunc(m_Specific(wide))))) return nullptr;
+  llvm::Type* kept = llvm::cast<llvm::SExtInst>(cut)->getSrcTy();
+  if (wide->getType()->getIntegerBitWidth() < 2 * kept->getIntegerBitWidth()) return nullptr;
+  llvm::Intrinsic::ID operation = 0;
+  if (result->getOpcode() == llvm::Instruction::Add) operation = llvm::Intrinsic::sadd_with_overflow;
+  if (result->getOpcode() == llvm::Instruction::Sub) operation = llvm::Intrinsic::ssub_with_overflow;
+  if (result->getOpcode() == llvm::Instruction::Mul) operation = llvm::Intrinsic::smul_with_overflow;
+  const auto isNarrow = [&](const llvm::Value* operand) {
+    const auto* widened = llvm::dyn_cast<llvm::SExtInst>(operand);
+    return widened != nullptr && widened->getSrcTy() == kept;
+  };
+  if (operation == 0 || !isNarrow(result->getOperand(0)) || !isNarrow(result->getOperand(1))) return nullptr;
+  const auto narrow = [&](unsigned i) { return llvm::cast<llvm::SExtInst>(result->getOperand(i))->getOperand(0); };
+  return builder.CreateExtractValue(builder.CreateBinaryIntrinsic(operation, narrow(0), narrow(1)), 1);
+}
+
+} // namespace
+
 ChunkEmitter::Value* ChunkEmitter::arithmetic(const Op& op) {
   Value* a = arg(op, 0);
   if (op.code == OpCode::Neg) return builder_.CreateNeg(a);
@@ -168,6 +195,8 @@ ChunkEmitter::Value* ChunkEmitter::arithmetic(const Op& op) {
   if (op.code == OpCode::And) return builder_.CreateAnd(a, b);
   if (op.code == OpCode::Or) return builder_.CreateOr(a, b);
   if (op.code == OpCode::Xor) return builder_.CreateXor(a, b);
+  if (op.code == OpCode::Ne)
+    if (Value* tooWide = overflow(builder_, a, b)) return asBit(tooWide);
   return asBit(builder_.CreateCmp(predicateOf(op.code), a, b));
 }
 

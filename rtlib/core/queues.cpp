@@ -84,8 +84,7 @@ int64_t ServiceQueue::result(uint32_t ticket, uint32_t index) const noexcept {
   return ticket != 0 && record.ticket == ticket && index < record.resultCount ? record.results[index] : 0;
 }
 
-void ServiceQueue::deliver() noexcept {
-  if (replies_.size() == 0) return;
+void ServiceQueue::deliverAll() noexcept {
   ServiceReply reply;
   for (uint32_t i = 0; i < kMaxPending && replies_.pop(reply); ++i) {
     ServiceRecord& record = records_[reply.ticket % kRecords];

@@ -60,8 +60,10 @@ public:
   uint32_t request(uint32_t service, const int64_t* args, uint32_t count) noexcept;
   uint32_t poll(uint32_t ticket) const noexcept; // enum rung_service_state
   int64_t result(uint32_t ticket, uint32_t index) const noexcept;
-  // Scan thread, between scans: makes replies visible.
-  void deliver() noexcept;
+  // Scan thread, between scans: makes replies visible. Mostly there are none.
+  void deliver() noexcept {
+    if (replies_.size() != 0) deliverAll();
+  }
 
   // Host. Requests wait in order; a taken one is pending until `complete`. False: more replies than requests.
   uint32_t waiting() const noexcept { return requests_.size(); }
@@ -84,6 +86,7 @@ public:
 private:
   const ServiceRecord& recordOf(uint32_t ticket) const noexcept { return records_[ticket % kRecords]; }
   uint32_t freeTicket() noexcept;
+  void deliverAll() noexcept;
 
   ServiceRecord records_[kRecords];
   uint32_t lastTicket_ = 0;

@@ -148,18 +148,19 @@ void Runner::copyAll(std::span<const rung_copy> copies) noexcept {
   hold();
 }
 
-inline void Runner::copyBegin(uint32_t task) noexcept {
-  const rung_task& t = program_->tasks[task];
-  if (t.begin_count == 0) return;
-  copyAll(copies_ != nullptr ? copies_->of(copies_->tasks[task].begin)
-                             : std::span(program_->copies + t.begin_first, t.begin_count));
+inline void Runner::copyBorder(uint32_t task, uint32_t first, uint32_t count,
+                               NeededCopies::Range NeededCopies::Task::* needed) noexcept {
+  if (count == 0) return;
+  copyAll(copies_ != nullptr ? copies_->of(copies_->tasks[task].*needed)
+                             : std::span<const rung_copy>(program_->copies + first, count));
 }
 
-inline void Runner::copyEnd(uint32_t task) noexcept {
-  const rung_task& t = program_->tasks[task];
-  if (t.end_count == 0) return;
-  copyAll(copies_ != nullptr ? copies_->of(copies_->tasks[task].end)
-                             : std::span(program_->copies + t.end_first, t.end_count));
+inline void Runner::copyBegin(uint32_t task, const rung_task& t) noexcept {
+  copyBorder(task, t.begin_first, t.begin_count, &NeededCopies::Task::begin);
+}
+
+inline void Runner::copyEnd(uint32_t task, const rung_task& t) noexcept {
+  copyBorder(task, t.end_first, t.end_count, &NeededCopies::Task::end);
 }
 
 namespace {
@@ -256,9 +257,9 @@ inline void Runner::begin(uint32_t task) noexcept {
 }
 
 // What follows the chunks of a run or a part. A pc that is neither a chunk nor DONE counts as a fault too.
-inline bool Runner::finish(uint32_t task, uint32_t pc) noexcept {
+inline bool Runner::finish(uint32_t task, const rung_task& t, uint32_t pc) noexcept {
   const bool fault = pc != RUNG_PC_DONE && pc >= program_->chunk_count;
-  if (!fault) copyEnd(task);
+  if (!fault) copyEnd(task, t);
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, false);
   inTask_ = false;
   if (fault) stopOnFault(task);
@@ -283,8 +284,8 @@ inline bool Runner::hasActivity(uint32_t task) const noexcept { return activity_
 
 bool Runner::looksAt(uint32_t task) noexcept { return hasActivity(task) && activity_->looks(); }
 
-inline uint32_t Runner::runFrom(uint32_t pc, uint32_t limit, uint32_t task, uint32_t& budget) noexcept {
-  const rung_task& t = program_->tasks[task];
+inline uint32_t Runner::runFrom(uint32_t pc, uint32_t limit, uint32_t task, const rung_task& t,
+                                uint32_t& budget) noexcept {
   const bool looks = looksAt(task);
   if (looks || limit_.ns != 0) return runWatched(pc, limit, t, budget, looks);
   return isBounded(t) ? runBounded(pc, limit) : runCounted(pc, limit, t, budget);
@@ -305,11 +306,10 @@ uint32_t Runner::runWatched(uint32_t pc, uint32_t limit, const rung_task& task, 
   return looks ? runChunks<true, true>(pc, limit, task, budget) : runChunks<true, false>(pc, limit, task, budget);
 }
 
-inline uint32_t Runner::runToEnd(uint32_t task) noexcept {
-  const rung_task& t = program_->tasks[task];
+inline uint32_t Runner::runToEnd(uint32_t task, const rung_task& t) noexcept {
   beginStack();
   uint32_t budget = t.budget;
-  return runFrom(t.entry, RUNG_PC_DONE, task, budget);
+  return runFrom(t.entry, RUNG_PC_DONE, task, t, budget);
 }
 
 // Nothing but its chunks, as a fast task mostly is.
@@ -370,7 +370,7 @@ uint32_t Runner::runAgain(const rung_task& task, uint32_t times) noexcept {
 }
 
 // With nothing in between, at one time.
-inline bool Runner::runPlain(uint32_t task, uint32_t times) noexcept {
+bool Runner::runPlain(uint32_t task, uint32_t times) noexcept {
   const rung_task& t = program_->tasks[task];
   inTask_ = true;
   uint32_t pc = runRow(t.entry, 1);
@@ -380,16 +380,21 @@ inline bool Runner::runPlain(uint32_t task, uint32_t times) noexcept {
   return pc == RUNG_PC_DONE;
 }
 
-bool Runner::runWhole(uint32_t task, uint32_t times) noexcept {
-  if (!mayRun() || task >= program_->task_count || times == 0) return false;
-  if (isPlain(task)) return runPlain(task, times);
+bool Runner::runWithBorders(uint32_t task, uint32_t times) noexcept {
+  const rung_task& t = program_->tasks[task];
   for (;;) {
     latch(task);
     begin(task);
-    copyBegin(task);
-    if (!finish(task, runToEnd(task))) return false;
+    copyBegin(task, t);
+    if (!finish(task, t, runToEnd(task, t))) return false;
     if (--times == 0 || stopped_) return true;
   }
+}
+
+// In line, and neither kind of run: each saves the registers that it needs alone.
+inline bool Runner::runWhole(uint32_t task, uint32_t times) noexcept {
+  if (!mayRun() || task >= program_->task_count || times == 0) return false;
+  return isPlain(task) ? runPlain(task, times) : runWithBorders(task, times);
 }
 
 bool Runner::runNextPart(uint32_t task) noexcept {
@@ -400,7 +405,7 @@ bool Runner::runNextPart(uint32_t task) noexcept {
   if (state.part == 0) latch(task);
   begin(task);
   if (state.part == 0) {
-    copyBegin(task);
+    copyBegin(task, t);
     state.pc = t.entry;
     state.budget = t.budget;
   }
@@ -414,8 +419,8 @@ bool Runner::runNextPart(uint32_t task) noexcept {
   state.part = state.part + 1 < t.part_count ? state.part + 1 : 0;
   if (state.part == 0) limit = RUNG_PC_DONE; // the last step ends the run whatever was jumped over
   beginStack();
-  state.pc = runFrom(state.pc, limit, task, state.budget);
-  return finish(task, state.pc);
+  state.pc = runFrom(state.pc, limit, task, t, state.budget);
+  return finish(task, t, state.pc);
 }
 
 void Runner::clearSafes() noexcept {

@@ -145,9 +145,9 @@ private:
   bool runPlain(uint32_t task, uint32_t times) noexcept;
   uint32_t runRow(uint32_t entry, uint32_t times) noexcept;
   uint32_t runAgain(const rung_task& task, uint32_t times) noexcept;
-  uint32_t runToEnd(uint32_t task) noexcept;
+  uint32_t runToEnd(uint32_t task, const rung_task& t) noexcept;
   uint32_t runBounded(uint32_t pc, uint32_t limit) noexcept;
-  uint32_t runFrom(uint32_t pc, uint32_t limit, uint32_t task, uint32_t& budget) noexcept;
+  uint32_t runFrom(uint32_t pc, uint32_t limit, uint32_t task, const rung_task& t, uint32_t& budget) noexcept;
   uint32_t runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
   uint32_t runWatched(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget, bool looks) noexcept;
   bool hasActivity(uint32_t task) const noexcept;
@@ -164,12 +164,15 @@ private:
   uint32_t overrun(const rung_task& task, const rung_chunk& chunk) noexcept;
   void latch(uint32_t task) noexcept;
   void begin(uint32_t task) noexcept;
-  bool finish(uint32_t task, uint32_t pc) noexcept;
+  bool finish(uint32_t task, const rung_task& t, uint32_t pc) noexcept;
   void beginStack() noexcept;
-  void copyBegin(uint32_t task) noexcept;
-  void copyEnd(uint32_t task) noexcept;
+  void copyBegin(uint32_t task, const rung_task& t) noexcept;
+  void copyEnd(uint32_t task, const rung_task& t) noexcept;
+  void copyBorder(uint32_t task, uint32_t first, uint32_t count,
+                  NeededCopies::Range NeededCopies::Task::* needed) noexcept;
   void copyAll(std::span<const rung_copy> copies) noexcept;
   bool runWhole(uint32_t task, uint32_t times) noexcept;
+  bool runWithBorders(uint32_t task, uint32_t times) noexcept;
   bool runNextPart(uint32_t task) noexcept;
   void doStep(const rung_step& step) noexcept;
   void doRareStep(const rung_step& step) noexcept;

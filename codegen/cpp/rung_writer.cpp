@@ -129,12 +129,12 @@ void RungWriter::writeLateStores() {
   }
   statement("const auto do_late_stores = [&] {");
   ++indent_;
-  for (uint32_t i = 0; i < count; ++i) writeLateStores(i);
+  for (uint32_t i = 0; i < count; ++i) writeLateStoresOf(i);
   --indent_;
   statement("};");
 }
 
-void RungWriter::writeLateStores(uint32_t number) {
+void RungWriter::writeLateStoresOf(uint32_t number) {
   const LateStores::Group& group = late_.groups()[number];
   rung_ = group.rung;
   statement(fmt::format("if (late{} != {}) {{", number, never(number)));
@@ -175,8 +175,8 @@ std::string RungWriter::load(const Op& op) const {
 }
 
 void RungWriter::store(const Op& op) {
-  const LateStores::Store late = late_.of(op);
-  const bool remembers = late.place == LateStores::Place::Remembers;
+  const LateStores::Part late = late_.of(op);
+  const bool remembers = late.role == LateStores::Role::Remembers;
   if (late.isFirst) statement(fmt::format("late{} = {};", late.group, remembers ? v(late.from) : never(late.group)));
   if (!remembers) storeNow(op);
 }

@@ -46,7 +46,7 @@ private:
   std::string load(const ir::Op& op) const;
   void store(const ir::Op& op);
   void storeNow(const ir::Op& op);
-  void writeLateStores(uint32_t group);
+  void writeLateStoresOf(uint32_t group);
   std::string never(uint32_t group) const;
   void storeAt(const ir::Op& op);
   void openIf(const ir::Op& op, size_t index);

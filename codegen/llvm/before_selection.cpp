@@ -14,18 +14,14 @@ public:
 
   bool runOnFunction(llvm::Function& function) override {
     bool changed = false;
-    if (isChunk(function)) {
+    if (function.hasFnAttribute(kChunkAttribute)) {
       changed = storeInBranches(function) || changed;
       changed = reloadValues(function) || changed;
     }
-    return splitBlocks(function) || changed; // the last, for it gives each block its addresses
+    return splitBlocks(function) || changed; // the last, for it gives blocks that it cuts their addresses
   }
 
 private:
-  static bool isChunk(const llvm::Function& function) {
-    return function.arg_size() == 3 && function.getArg(0)->getType()->isPointerTy();
-  }
-
   static char kId; // LLVM knows a pass by its address
 };
 

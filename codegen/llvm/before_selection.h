@@ -6,6 +6,9 @@
 
 namespace rung::codegen {
 
+// Of a function that is a chunk: its first argument is the memory block.
+inline constexpr char kChunkAttribute[] = "rung-chunk";
+
 std::unique_ptr<llvm::FunctionPass> makeBeforeSelection();
 
 } // namespace rung::codegen

@@ -10,6 +10,7 @@
 #include <llvm/IR/IntrinsicsX86.h>
 #include <llvm/IR/MDBuilder.h>
 
+#include "codegen/llvm/before_selection.h"
 #include "ir/support/check.h"
 
 namespace rung::codegen {
@@ -34,6 +35,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   function_ = llvm::Function::Create(signature, llvm::GlobalValue::InternalLinkage, name, target_);
   function_->setDoesNotThrow();
   function_->addFnAttr("frame-pointer", "non-leaf");
+  function_->addFnAttr(kChunkAttribute);
   if (!hostReadsMemory(module_, place)) function_->addParamAttr(0, llvm::Attribute::NoAlias);
   if (extendsWords_) function_->addRetAttr(llvm::Attribute::SExt);
   mem_ = function_->getArg(0);
@@ -339,10 +341,10 @@ void ChunkEmitter::beginLateStores() {
 }
 
 void ChunkEmitter::doLateStores() {
-  for (uint32_t i = 0; i < kept_.size(); ++i) doLateStores(i);
+  for (uint32_t i = 0; i < kept_.size(); ++i) doLateStoresOf(i);
 }
 
-void ChunkEmitter::doLateStores(uint32_t number) {
+void ChunkEmitter::doLateStoresOf(uint32_t number) {
   const LateStores::Group& group = late_.groups()[number];
   Value* from = builder_.CreateLoad(never(number)->getType(), kept_[number]);
   llvm::BasicBlock* stores = block("late");

@@ -65,7 +65,7 @@ private:
   void storeNow(const ir::Op& op);
   void beginLateStores();
   void doLateStores();
-  void doLateStores(uint32_t group);
+  void doLateStoresOf(uint32_t group);
   llvm::ConstantInt* never(uint32_t group);
   void storeAt(const ir::Op& op);
   void slotStore(const ir::Op& op);

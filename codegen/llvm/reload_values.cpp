@@ -3,6 +3,8 @@
 
 #include <llvm/ADT/DenseMap.h>
 #include <llvm/IR/Function.h>
+#include <llvm/IR/Module.h>
+#include <llvm/TargetParser/Triple.h>
 
 #include "codegen/llvm/memory_place.h"
 
@@ -13,8 +15,8 @@ constexpr uint32_t kFar = 24; // instructions of LLVM's IR: of the values of so 
 
 class BlockReloads {
 public:
-  BlockReloads(const llvm::Argument& memory, const llvm::DataLayout& data)
-      : memory_(memory), data_(data), isAlone_(memory.hasNoAliasAttr()) {}
+  BlockReloads(const llvm::Argument& memory, const llvm::DataLayout& data, int64_t mostBytes)
+      : memory_(memory), data_(data), isAlone_(memory.hasNoAliasAttr()), mostBytes_(mostBytes) {}
 
   bool run(llvm::BasicBlock& block) {
     for (llvm::Instruction& instruction : block) {
@@ -64,6 +66,7 @@ private:
   }
 
   void hold(llvm::Value& value, llvm::Value* address, int64_t offset) {
+    if (bytesOf(*value.getType(), data_) > mostBytes_) return;
     held_[&value] = {address, offset, position_, position_, &value};
   }
 
@@ -92,6 +95,7 @@ private:
   const llvm::Argument& memory_;
   const llvm::DataLayout& data_;
   const bool isAlone_; // nothing else points to it
+  const int64_t mostBytes_;
   uint32_t position_ = 0;
   uint32_t allWritten_ = 0;                   // position at which anything may have been written
   llvm::DenseMap<int64_t, uint32_t> written_; // by offset: position
@@ -101,10 +105,13 @@ private:
 
 } // namespace
 
+// RISC-V may load what is not aligned a byte at a time.
 bool reloadValues(llvm::Function& function) {
+  const llvm::Module& module = *function.getParent();
+  const int64_t mostBytes = llvm::Triple(module.getTargetTriple()).isRISCV() ? 1 : 8;
   bool changed = false;
   for (llvm::BasicBlock& block : function)
-    if (BlockReloads(*function.getArg(0), function.getParent()->getDataLayout()).run(block)) changed = true;
+    if (BlockReloads(*function.getArg(0), module.getDataLayout(), mostBytes).run(block)) changed = true;
   return changed;
 }
 

@@ -11,6 +11,7 @@ namespace rung::codegen {
 namespace {
 
 constexpr unsigned kMostBranches = 4;
+constexpr unsigned kMostAbove = 64; // instructions that a store may pass
 
 class BranchStores {
 public:
@@ -20,13 +21,10 @@ public:
   bool run(llvm::BasicBlock& block) {
     if (!isJoin(block)) return false;
     bool changed = false;
-    for (auto next = block.begin(); next != block.end();) {
-      auto* joined = llvm::dyn_cast<llvm::PHINode>(&*next++);
-      if (joined == nullptr) break;
-      if (isOnlyStored(*joined)) {
-        store(*joined);
-        changed = true;
-      }
+    for (llvm::PHINode& joined : llvm::make_early_inc_range(block.phis())) {
+      if (!isOnlyStored(joined)) continue;
+      store(joined);
+      changed = true;
     }
     return changed;
   }
@@ -56,8 +54,10 @@ private:
     const std::optional<int64_t> place = offsetIn(memory_, *store.getPointerOperand(), data_);
     if (!place) return false;
     const int64_t end = *place + bytesOf(*store.getValueOperand()->getType(), data_);
+    unsigned count = 0;
     for (llvm::Instruction& above : *store.getParent()) {
       if (&above == &store) return true;
+      if (++count > kMostAbove) return false;
       if (!above.mayReadOrWriteMemory()) continue;
       const llvm::Value* address = llvm::getLoadStorePointerOperand(&above);
       const std::optional<int64_t> other = address != nullptr ? offsetIn(memory_, *address, data_) : std::nullopt;

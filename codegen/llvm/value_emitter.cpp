@@ -1,10 +1,9 @@
 // Operations with values, and stores, as LLVM instructions (see chunk_emitter.h).
 #include "codegen/llvm/chunk_emitter.h"
-#include <llvm/IR/IntrinsicInst.h>
-#include <llvm/IR/MDBuilder.h>
-#include <llvm/IR/PatternMatch.h>
 
 #include <fmt/format.h>
+#include <llvm/IR/MDBuilder.h>
+#include <llvm/IR/PatternMatch.h>
 
 #include "ir/support/check.h"
 
@@ -267,8 +266,8 @@ ChunkEmitter::Value* ChunkEmitter::load(const Op& op) {
 }
 
 void ChunkEmitter::store(const Op& op) {
-  const LateStores::Store late = late_.of(op);
-  const bool remembers = late.place == LateStores::Place::Remembers;
+  const LateStores::Part late = late_.of(op);
+  const bool remembers = late.role == LateStores::Role::Remembers;
   if (late.isFirst) builder_.CreateStore(remembers ? values_[late.from.index] : never(late.group), kept_[late.group]);
   if (!remembers) storeNow(op);
 }

@@ -2,6 +2,8 @@
 #include "ir/chunks/late_stores.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <optional>
 
 #include "ir/core/eval.h"
@@ -142,7 +144,8 @@ public:
   void run() {
     if (!isClosed()) return;
     for (const Rung& rung : rungs_) findSources(rung);
-    std::erase_if(cells_, [](Cell& cell) { return !findCommonWay(cell); });
+    for (Cell& cell : cells_) keepCommonWay(cell);
+    std::erase_if(cells_, [](const Cell& cell) { return cell.sources.size() < kLeastPlaces; });
     if (cells_.empty()) return;
     for (const Rung& rung : rungs_) findAccesses(rung);
     std::erase_if(cells_, [](const Cell& cell) { return cell.isAccessed; });
@@ -200,15 +203,13 @@ private:
 
   Cell& cellOf(const Op& store) {
     const BitRange bits = useOf(module_, store)->place;
-    const auto isThat = [&](const Cell& cell) { return cell.bits == bits && cell.type == store.type; };
-    const auto found = std::ranges::find_if(cells_, isThat);
-    if (found != cells_.end()) return *found;
-    cells_.push_back({.bits = bits, .type = store.type, .sources = {}, .stores = {}});
-    return cells_.back();
+    const auto [found, isNew] = cellAt_.try_emplace({store.ref, bits.first, bits.count}, cells_.size());
+    if (isNew) cells_.push_back({.bits = bits, .type = store.type, .sources = {}, .stores = {}});
+    return cells_[found->second];
   }
 
-  // Keeps the sources that are alike, of those the most; false: too few are.
-  static bool findCommonWay(Cell& cell) {
+  // Of the sources those that are alike, the most of them.
+  static void keepCommonWay(Cell& cell) {
     std::vector<std::vector<size_t>> alike;
     for (size_t i = 0; i < cell.sources.size(); ++i) {
       const Found& each = cell.sources[i];
@@ -225,7 +226,6 @@ private:
     std::vector<Found> kept;
     for (const size_t i : most) kept.push_back(std::move(cell.sources[i]));
     cell.sources = std::move(kept);
-    return cell.sources.size() >= kLeastPlaces;
   }
 
   void findAccesses(const Rung& rung) {
@@ -267,11 +267,13 @@ private:
 
   size_t waysOut() const {
     size_t ways = 0;
-    const auto count = [&](const Destination& to) { ways += to.inside() ? 0 : 1; };
     for (const Exit& exit : exits_) {
-      count(exit.otherwise);
-      if (exit.kind == TransferKind::Goto || exit.kind == TransferKind::Call) count(exit.taken);
+      const auto count = [&](const Destination& to) { ways += to.inside() ? 0 : 1; };
       std::ranges::for_each(exit.targets, count);
+      const bool jumps = exit.kind != TransferKind::Next && exit.kind != TransferKind::Switch;
+      if (jumps) count(exit.taken);
+      const bool goesOn = !jumps || exit.cond.valid();
+      if (goesOn && exit.kind != TransferKind::Switch) count(exit.otherwise);
     }
     return ways;
   }
@@ -284,18 +286,15 @@ private:
         .rung = example.rung, .from = from, .never = leastOf(typeOf(*example.rung, from)), .ops = {}};
     const auto number = static_cast<uint32_t>(found_.groups_.size());
     for (size_t i = 0; i < stores.size(); ++i) {
-      const bool isExample = stores[i].op == example.store;
-      const Cell* first = *std::ranges::min_element(cells, {}, [&](const Cell* cell) { return cell->stores[i].op; });
+      const Source* late = stores[i].late;
       for (const Cell* cell : cells) {
         const Store& store = cell->stores[i];
-        using Place = LateStores::Place;
-        LateStores::Store& late = found_.stores_[store.op];
-        late = {.place = Place::Forgets, .isFirst = cell == first, .group = number, .from = {}};
-        if (stores[i].late != nullptr) {
-          late.place = Place::Remembers;
-          late.from = stores[i].late->from;
-        }
-        if (!isExample) continue;
+        // The first cell is none of constants, so its store comes after what is remembered.
+        found_.parts_[store.op] = {.role = late != nullptr ? LateStores::Role::Remembers : LateStores::Role::Forgets,
+                                   .isFirst = cell == cells.front(),
+                                   .group = number,
+                                   .from = late != nullptr ? late->from : ValueId{}};
+        if (stores[i].op != example.store) continue;
         group.ops.push_back(store.op);
         group.ops.insert(group.ops.end(), store.late->ops.begin(), store.late->ops.end());
       }
@@ -309,6 +308,7 @@ private:
   std::span<const Rung> rungs_;
   std::span<const Exit> exits_;
   std::vector<Cell> cells_;
+  std::map<std::array<uint32_t, 3>, size_t> cellAt_; // by space, first bit and number of bits, until some are dropped
   std::vector<std::vector<const Cell*>> groups_;
   LateStores& found_;
 };

@@ -3,7 +3,8 @@
 // one number that its flags follow from; the last one remembered is what counts.
 //
 // The memory block is the same wherever the chunk is left. So nothing in the chunk may access such a cell but these
-// stores, and no chunk has them that the host may look into, or that may end with a fault.
+// stores, and no chunk has them that the host may look into, or that may end with a fault. There are more places than
+// ways out of the chunk, for each of these does them.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -23,17 +24,17 @@ public:
     int64_t never;              // a number that the value never is
     std::vector<const Op*> ops; // what computes the values, and the stores, as they are in the rung
   };
-  // What comes in place of the stores of a place, or before them.
-  enum class Place : uint8_t {
+  // What a store is for the chunk.
+  enum class Role : uint8_t {
     Ordinary,
-    Remembers, // the number takes their place
-    Forgets,   // they are done, and what was remembered counts no more
+    Remembers, // a number is remembered in its place
+    Forgets,   // it is done, and what was remembered counts no more
   };
-  struct Store {
-    Place place = Place::Ordinary;
-    bool isFirst = false; // of those of the group there
+  struct Part {
+    Role role = Role::Ordinary;
+    bool isFirst = false; // the one of its place that remembers or forgets for all of them
     uint32_t group = 0;
-    ValueId from; // remembered
+    ValueId from; // to be remembered
   };
 
   LateStores() = default; // none
@@ -41,15 +42,15 @@ public:
   LateStores(const Module& module, const Chunk& chunk, std::span<const Exit> exits);
 
   std::span<const Group> groups() const { return groups_; }
-  Store of(const Op& store) const {
-    const auto found = stores_.find(&store);
-    return found == stores_.end() ? Store{} : found->second;
+  Part of(const Op& store) const {
+    const auto found = parts_.find(&store);
+    return found == parts_.end() ? Part{} : found->second;
   }
 
 private:
   friend class LateStoreFinder;
   std::vector<Group> groups_;
-  std::unordered_map<const Op*, Store> stores_;
+  std::unordered_map<const Op*, Part> parts_; // of stores that are not ordinary
 };
 
 } // namespace rung::ir

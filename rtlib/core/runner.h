@@ -65,11 +65,11 @@ struct ForcedBits {
 class Runner {
 public:
   // `parts` has an entry for each task; `engine`: what the program's own code needs in its context; `room`: for as many
-  // steps as rung_program::scan has, so that a pass takes fewer. All outlive the runner.
+  // steps as rung_program::scan has, so that a pass takes fewer; or null. All outlive the runner.
   Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts, void* engine = nullptr,
          rung_step* room = nullptr) noexcept;
 
-  // What they have no work for is left out from the next pass on.
+  // Work that is new among them is done from the next pass on.
   void setHooks(RunnerHooks hooks) noexcept {
     hooks_ = hooks;
     joined_ = {};

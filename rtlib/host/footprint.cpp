@@ -114,7 +114,7 @@ int findSegment(dl_phdr_info* object, size_t, void* data) {
   return sought.end != 0 ? 1 : 0;
 }
 
-// A shared object has no code but its program's.
+// Of a shared object that has no code but its program's.
 std::span<const uint8_t> codeOf(const rung_program& program) {
   if (program.chunk_count == 0) return {};
   const auto addressOf = [](rung_chunk_fn function) { return reinterpret_cast<uintptr_t>(function); };
@@ -148,8 +148,10 @@ private:
 
 } // namespace
 
-Footprint::Footprint(const rung_program& program)
-    : tables_(tablesOf(program)), memory_(memoryOf(program)), code_(codeOf(program)) {}
+Footprint::Footprint(const rung_program& program, bool inFile)
+    : tables_(tablesOf(program)), memory_(memoryOf(program)) {
+  if (inFile) code_ = codeOf(program);
+}
 
 // What is needed first goes first.
 void Footprint::touch(const uint8_t* memory, int64_t untilNs) const noexcept {

@@ -13,8 +13,8 @@ class Footprint {
 public:
   static constexpr uint32_t kLine = 64; // bytes of a line
 
-  // The program outlives it, and has passed checkProgram.
-  explicit Footprint(const rung_program& program);
+  // The program outlives it, and has passed checkProgram. `inFile`: it is all that an object file has, which is loaded.
+  Footprint(const rung_program& program, bool inFile);
 
   // Reads a byte of each line, once, of an instance whose memory block that is; ends before that where CLOCK_MONOTONIC
   // has come to `untilNs`. Writes nothing, and allocates, locks and calls nothing but the clock.
@@ -23,7 +23,7 @@ public:
   // Parts of the memory block that a run of a task, a border copy or the compiler's own state may use: ascending, in
   // whole lines but for the end of the block, none touches the next.
   std::span<const rung_span> memory() const noexcept { return memory_; }
-  // Of an object file that is loaded, from the program's first chunk on; empty for code that lies in none.
+  // From the program's first chunk on; empty for code that is in no file of its own.
   std::span<const uint8_t> code() const noexcept { return code_; }
 
 private:

@@ -18,11 +18,11 @@ std::vector<uint32_t> authorsSymbols(const rung_program& program) {
 } // namespace
 
 Image::Image(std::unique_ptr<host::SoEngine> file)
-    : loaded(std::move(file)), program(loaded->program()), symbols(authorsSymbols(program)), footprint(program) {}
+    : loaded(std::move(file)), program(loaded->program()), symbols(authorsSymbols(program)), footprint(program, true) {}
 
 Image::Image(const rung_program& inMemory, void* context, void (*releases)(void*), void* ownedBy)
     : program(inMemory), engine(context), release(releases), owner(ownedBy), symbols(authorsSymbols(program)),
-      footprint(program) {}
+      footprint(program, false) {}
 
 Image::~Image() {
   const std::unique_ptr<const rung_code_maker> serving(maker.load());

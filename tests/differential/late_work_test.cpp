@@ -117,6 +117,7 @@ private:
 
   void arithmetic(RungBuilder& b) {
     b.when(b.load(Type::Bit, bit()), [&] {
+      if (below(4) == 0) b.store(flag(0), b.bit(false)); // of another box before it
       const auto wide = [&] { return b.sextOrTrunc(Type::I64, b.load(Type::I32, word())); };
       constexpr OpCode kOps[] = {OpCode::Add, OpCode::Add, OpCode::Sub, OpCode::Mul, OpCode::DivS};
       const OpCode code = kOps[below(5)];

@@ -222,7 +222,7 @@ RUNG_API int32_t rung_instance_limit(rung_instance* instance, int64_t ns);
 /* Reads what a scan reads, code, tables and the program's part of the memory block, a byte of each line of 64, until
  * all has been read or CLOCK_MONOTONIC has come to `until_ns`; changes nothing and runs nothing. For hosts that wake
  * some microseconds before a slice is due: the processor has it in its caches then. The code is that of a program in a
- * file or linked into the host. [rt] */
+ * file of its own. [rt] */
 RUNG_API int32_t rung_instance_touch(const rung_instance* instance, int64_t until_ns);
 
 enum rung_state_flags {

@@ -62,9 +62,9 @@ Counts countsOf(const Module& module) {
   Counts counts{.groups = late.groups().size()};
   for (const Rung& rung : module.routines[0].rungs)
     for (const Op& op : rung.ops) {
-      const LateStores::Store store = late.of(op);
+      const LateStores::Part store = late.of(op);
       if (!store.isFirst) continue;
-      ++(store.place == LateStores::Place::Remembers ? counts.remembers : counts.forgets);
+      ++(store.role == LateStores::Role::Remembers ? counts.remembers : counts.forgets);
     }
   return counts;
 }
@@ -79,6 +79,41 @@ TEST(LateStores, FlagsThatFollowFromOneNumber) {
   const LateStores::Group& group = late.groups()[0];
   EXPECT_EQ(group.never, INT64_MIN);
   EXPECT_EQ(std::ranges::count(group.ops, OpCode::Store, [](const Op* op) { return op->code; }), 2);
+}
+
+// Passes may leave the constant's store before the sum: what is remembered is stored by one that follows from it.
+TEST(LateStores, ANumberIsRememberedOnceItIsThere) {
+  Module module = additions(5, [](RungBuilder&) {});
+  Rung& rung = module.routines[0].rungs[4];
+  const auto carry = std::ranges::find_if(
+      rung.ops, [](const Op& op) { return op.code == OpCode::Store && op.imm == 2 && op.type == Type::Bit; });
+  const auto bit =
+      std::ranges::find_if(rung.ops, [](const Op& op) { return op.code == OpCode::Const && op.type == Type::Bit; });
+  const auto first = std::ranges::find(rung.ops, OpCode::If, &Op::code) + 1;
+  std::rotate(bit, carry, carry + 1); // right before the constant, then both to the front of the region
+  std::rotate(first, bit + 1, bit + 2);
+  std::rotate(first + 1, bit + 1, bit + 2);
+  const Cut cut(module, {});
+  const LateStores late(module, cut.chunks()[0], exitsOf(cut, cut.chunks()[0]));
+  ASSERT_EQ(late.groups().size(), 1u);
+  std::vector<bool> isThere(rung.values.size(), false);
+  for (const Op& op : rung.ops) {
+    const LateStores::Part part = late.of(op);
+    if (part.isFirst) EXPECT_TRUE(isThere[part.from.index]);
+    if (op.resultCount == 1) isThere[op.result.index] = true;
+  }
+}
+
+TEST(LateStores, WaysOutThatAreMoreThanThePlaces) {
+  for (const TransferKind kind : {TransferKind::Ret, TransferKind::End}) {
+    Module module = additions(8, [](RungBuilder&) {});
+    for (size_t i = 0; i < 8; ++i) {
+      Rung& rung = module.routines[0].rungs[i];
+      rung.transfer.kind = kind;
+      rung.transfer.cond = arg(rung, *std::ranges::find(rung.ops, OpCode::If, &Op::code), 0);
+    }
+    EXPECT_EQ(countsOf(module), Counts{});
+  }
 }
 
 TEST(LateStores, TooFew) {

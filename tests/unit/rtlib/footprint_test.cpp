@@ -40,7 +40,7 @@ void build(TestProgram& program, uint32_t unit) {
 
 std::vector<std::pair<uint32_t, uint32_t>> partsOf(const TestProgram& program) {
   std::vector<std::pair<uint32_t, uint32_t>> parts; // first byte, bytes
-  const Footprint footprint(program.program);
+  const Footprint footprint(program.program, true);
   for (const rung_span& part : footprint.memory()) parts.emplace_back(part.offset, part.size);
   return parts;
 }
@@ -129,7 +129,7 @@ private:
 TEST(Footprint, IsReadAndNeverWritten) {
   TestProgram program;
   build(program, static_cast<uint32_t>(sysconf(_SC_PAGESIZE)));
-  const Footprint footprint(program.program);
+  const Footprint footprint(program.program, true);
   const Pages pages(5);
   footprint.touch(pages.block(), monotonicNs() + kSecond);
   EXPECT_THAT(pages.touches(), testing::ElementsAre(0, 1, 3, 4));
@@ -138,7 +138,7 @@ TEST(Footprint, IsReadAndNeverWritten) {
 TEST(Footprint, IsLeftAloneWhereTheTimeIsOver) {
   TestProgram program;
   build(program, static_cast<uint32_t>(sysconf(_SC_PAGESIZE)));
-  const Footprint footprint(program.program);
+  const Footprint footprint(program.program, true);
   const Pages pages(5);
   footprint.touch(pages.block(), monotonicNs());
   EXPECT_THAT(pages.touches(), testing::IsEmpty());
@@ -150,7 +150,7 @@ TEST(Footprint, MayBeginWithinALine) {
   std::vector<uint8_t> block(program.memorySize + 8, 7);
   const std::vector<uint8_t> before = block;
   for (size_t shift = 0; shift <= 8; ++shift)
-    Footprint(program.program).touch(block.data() + shift, monotonicNs() + kSecond);
+    Footprint(program.program, false).touch(block.data() + shift, monotonicNs() + kSecond);
   EXPECT_EQ(block, before);
 }
 
@@ -166,7 +166,7 @@ TEST(Footprint, HasTheCodeOfASharedObject) {
   std::string error;
   const auto engine = SoEngine::open(RUNG_TEST_SO_GOOD, error, {.mayLackSeal = true});
   ASSERT_NE(engine, nullptr) << error;
-  const Footprint footprint(engine->program());
+  const Footprint footprint(engine->program(), true);
   EXPECT_TRUE(has(footprint.code(), engine->program().chunk_fns[0]));
   EXPECT_FALSE(has(footprint.code(), &done));
   EXPECT_LT(footprint.code().size(), 65536u);
@@ -180,13 +180,20 @@ TEST(Footprint, HasNoCodeThatLiesInNoFile) {
   alignas(16) static std::array<uint8_t, 16> made{}; // as a compiler in the process makes it
   program.addTask("MAIN", program.addChunk(reinterpret_cast<rung_chunk_fn>(made.data())));
   program.link();
-  EXPECT_TRUE(Footprint(program.program).code().empty());
+  EXPECT_TRUE(Footprint(program.program, true).code().empty());
+}
+
+TEST(Footprint, HasNoCodeOfTheHost) {
+  TestProgram program;
+  program.addTask("MAIN", program.addChunk(&done));
+  program.link();
+  EXPECT_TRUE(Footprint(program.program, false).code().empty());
 }
 
 TEST(Footprint, OfAProgramWithoutChunks) {
   TestProgram program;
   program.link();
-  const Footprint footprint(program.program);
+  const Footprint footprint(program.program, true);
   EXPECT_TRUE(footprint.code().empty());
   std::vector<uint8_t> block(program.memorySize);
   footprint.touch(block.data(), monotonicNs() + kSecond);

@@ -554,33 +554,60 @@ TEST_F(RunnerTest, HooksRunTasksOutsideTasksOnly) {
   EXPECT_EQ(takeTrace(), (Trace{0, 1}));
 }
 
-// Others are left out, from the next pass on, and what was around them is one step.
+// Others are left out, and what was around them is one step.
 TEST_F(RunnerTest, HooksThatHaveWork) {
   test.addChunk(step<0, RUNG_PC_DONE>);
   test.addTask("MAIN", 0);
   test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 10}, {RUNG_STEP_HOOK, RUNG_NONE, 0}, {RUNG_STEP_ADVANCE, RUNG_NONE, 10},
                {RUNG_STEP_HOOK, RUNG_NONE, 1},     {RUNG_STEP_RUN, 0, 1},          {RUNG_STEP_HOOK, RUNG_NONE, 0},
-               {RUNG_STEP_SLOT, RUNG_NONE, 0},     {RUNG_STEP_RUN, 0, 1}};
+               {RUNG_STEP_SLOT, RUNG_NONE, 0},     {RUNG_STEP_RUN, 0, 1},          {RUNG_STEP_HOOK, RUNG_NONE, 1}};
   start();
   std::vector<uint32_t> called;
   const auto note = [](void* data, uint32_t work) { static_cast<std::vector<uint32_t>*>(data)->push_back(work); };
-  const auto callsOfPass = [&](uint32_t works) {
+  const auto callsOfRest = [&](uint32_t works) {
     runner->setHooks({.step = note, .data = &called, .works = works});
     runner->scan();
     return std::exchange(called, {});
   };
-  EXPECT_EQ(callsOfPass(0b01), (std::vector<uint32_t>{0, 0}));
-  EXPECT_EQ(callsOfPass(0b10), (std::vector<uint32_t>{1}));
-  EXPECT_EQ(callsOfPass(0b00), (std::vector<uint32_t>{}));
-  EXPECT_EQ(callsOfPass(0b11), (std::vector<uint32_t>{0, 1, 0}));
+  using Calls = std::vector<uint32_t>;
+  EXPECT_EQ(callsOfRest(0b01), (Calls{0, 0}));
+  EXPECT_EQ(callsOfRest(0b10), (Calls{1, 1}));
+  EXPECT_EQ(callsOfRest(0b00), Calls{});
+  EXPECT_EQ(callsOfRest(0b11), (Calls{0, 1, 0, 1}));
   EXPECT_EQ(takeTrace(), (Trace{0, 0, 0, 0, 0, 0, 0, 0}));
   EXPECT_EQ(runner->nowUs(), 80);
+  // Within a pass work that is gone is left out at once, and what is new waits for the next one.
   runner->slot();
   EXPECT_FALSE(runner->atListStart());
-  EXPECT_EQ(callsOfPass(0b00), (std::vector<uint32_t>{0, 1, 0})) << "within a pass";
+  EXPECT_EQ(std::exchange(called, {}), (Calls{0, 1, 0}));
+  EXPECT_EQ(callsOfRest(0b01), Calls{});
   EXPECT_TRUE(runner->atListStart());
-  EXPECT_EQ(callsOfPass(0b00), (std::vector<uint32_t>{}));
-  EXPECT_EQ(takeTrace(), (Trace{0, 0, 0, 0}));
+  runner->slot();
+  EXPECT_EQ(std::exchange(called, {}), (Calls{0, 0}));
+  EXPECT_EQ(callsOfRest(0b11), Calls{});
+  EXPECT_EQ(callsOfRest(0b11), (Calls{0, 1, 0, 1}));
+  EXPECT_EQ(runner->nowUs(), 140);
+}
+
+// Whoever begins a pass by slots and goes on with slices stays in its list.
+TEST_F(RunnerTest, SlicesFinishAPassThatSlotsBegan) {
+  test.addChunk(step<0, RUNG_PC_DONE>);
+  test.addTask("MAIN", 0);
+  test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 4},
+               {RUNG_STEP_HOOK, RUNG_NONE, 0},
+               {RUNG_STEP_ADVANCE, RUNG_NONE, 4},
+               {RUNG_STEP_RUN, 0, 1},
+               {RUNG_STEP_SLOT, RUNG_NONE, 0},
+               {RUNG_STEP_ADVANCE, RUNG_NONE, 8},
+               {RUNG_STEP_RUN, 0, 2}};
+  start().setHooks({.works = 0});
+  runner->slot();
+  EXPECT_EQ(runner->nowUs(), 8);
+  EXPECT_EQ(runner->sliceDelayUs(), 8u);
+  runner->slice();
+  EXPECT_EQ(takeTrace(), (Trace{0, 0, 0}));
+  EXPECT_TRUE(runner->atListStart());
+  EXPECT_EQ(runner->sliceDelayUs(), 4u) << "the program's own list";
 }
 
 TEST_F(RunnerTest, FaultHookRunsOnceBehindTheSafeState) {

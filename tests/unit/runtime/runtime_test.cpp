@@ -401,7 +401,6 @@ TEST_F(Runtime, MemoryOfTheHost) {
   EXPECT_EQ(block[kCount], 5);
 }
 
-// A disk that fails, and works again.
 TEST_F(Runtime, TouchingChangesNothing) {
   alignas(64) std::array<uint8_t, 256> block{};
   auto options = rung::sized<rung_instance_options>();
@@ -418,6 +417,7 @@ TEST_F(Runtime, TouchingChangesNothing) {
   EXPECT_EQ(plc.state().passes, 3u);
 }
 
+// A disk that fails, and works again.
 TEST_F(Runtime, WhyMemoryIsNotSavedIsToBeRead) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "rung_runtime_unsaved";
   std::filesystem::create_directory(folder);

@@ -1,4 +1,4 @@
-// Finding stores that can wait (see late_stores.h).
+// Finds the stores that a chunk does when it is left (see late_stores.h).
 #include "ir/chunks/late_stores.h"
 
 #include <algorithm>

@@ -58,6 +58,7 @@ public:
       : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout.cut(), chunks)),
         cache_(options.cacheFolder), report_(report) {
     report_ = {.modules = static_cast<uint32_t>(pieces_.size())};
+    shareMembers();
     if (options.cacheFolder.empty()) return;
     const CacheKeys keys(layout, codeHash, options.code, machine);
     for (ModulePart& piece : pieces_) piece.key = keys.of(piece);
@@ -84,6 +85,12 @@ public:
   }
 
 private:
+  void shareMembers() {
+    if (!options_.code.debugInfo) return;
+    const auto members = std::make_shared<const std::vector<MemoryMember>>(memoryMembers(layout_.memory()));
+    for (ModulePart& piece : pieces_) piece.members = members;
+  }
+
   void doPiece(const ModulePart& piece, llvm::orc::LLJIT& jit, const JitCode::Take& take) {
     std::optional<std::string> found = cache_.find(piece);
     Result<std::string> object = found ? std::move(*found) : containedPiece(layout_, codeHash_, options_.code, piece);

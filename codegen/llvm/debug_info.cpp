@@ -5,8 +5,6 @@
 #include <llvm/IR/DIBuilder.h>
 #include <llvm/IR/Module.h>
 
-#include "ir/layout/memory_members.h"
-
 namespace rung::codegen {
 
 using namespace ir;
@@ -18,8 +16,7 @@ class MemoryType {
 public:
   MemoryType(llvm::DIBuilder& builder, llvm::DIFile* file) : builder_(builder), file_(file) {}
 
-  llvm::DIType* make(const MemoryLayout& layout) {
-    const std::vector<MemoryMember> members = memoryMembers(layout);
+  llvm::DIType* make(const std::vector<MemoryMember>& members) {
     std::vector<llvm::Metadata*> fields;
     for (const MemoryMember& member : members) fields.push_back(field(member));
     return builder_.createStructType(file_, "rung_memory", file_, 0, uint64_t{bytesOf(members)} * 8, 8,
@@ -70,9 +67,9 @@ private:
 
 } // namespace
 
-DebugInfo::DebugInfo(llvm::Module& target, const MemoryLayout& layout, bool optimised)
+DebugInfo::DebugInfo(llvm::Module& target, const Module& source, const std::vector<MemoryMember>& members,
+                     bool optimised)
     : target_(target), builder_(std::make_unique<llvm::DIBuilder>(target)), optimised_(optimised) {
-  const Module& source = layout.module();
   target.addModuleFlag(llvm::Module::Warning, "Debug Info Version", llvm::DEBUG_METADATA_VERSION);
   target.addModuleFlag(llvm::Module::Warning, "Dwarf Version", 4);
   // No directory: debuggers look for the files where they run, and the output is the same wherever it was made.
@@ -80,7 +77,7 @@ DebugInfo::DebugInfo(llvm::Module& target, const MemoryLayout& layout, bool opti
   llvm::DIFile* first = files_.empty() ? builder_->createFile(source.name, "") : files_.front();
   builder_->createCompileUnit(llvm::dwarf::DW_LANG_C_plus_plus, first, "rungc", optimised, "", 0);
   type_ = builder_->createSubroutineType(builder_->getOrCreateTypeArray({}));
-  memory_ = builder_->createPointerType(MemoryType(*builder_, first).make(layout),
+  memory_ = builder_->createPointerType(MemoryType(*builder_, first).make(members),
                                         target.getDataLayout().getPointerSizeInBits());
 }
 

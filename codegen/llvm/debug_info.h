@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ir/layout/memory_layout.h"
+#include "ir/layout/memory_members.h"
 
 namespace llvm {
 class BasicBlock;
@@ -27,7 +27,9 @@ namespace rung::codegen {
 
 class DebugInfo {
 public:
-  DebugInfo(llvm::Module& target, const ir::MemoryLayout& layout, bool optimised);
+  // `members`: of the source's memory block (memoryMembers).
+  DebugInfo(llvm::Module& target, const ir::Module& source, const std::vector<ir::MemoryMember>& members,
+            bool optimised);
   ~DebugInfo();
 
   // What follows belongs to `function`. Without a file it has no lines.

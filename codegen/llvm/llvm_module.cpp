@@ -120,7 +120,10 @@ Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, co
   auto module = std::make_unique<llvm::Module>(layout.module().name, context);
   addFlags(*module, machine);
   std::optional<DebugInfo> debug;
-  if (options.debugInfo) debug.emplace(*module, layout.memory(), options.level == LlvmLevel::Opt);
+  if (options.debugInfo)
+    debug.emplace(*module, layout.module(),
+                  part.members != nullptr ? *part.members : ir::memoryMembers(layout.memory()),
+                  options.level == LlvmLevel::Opt);
   ChunkEmitter emitter(*module, layout, options, debug ? &*debug : nullptr);
   std::vector<llvm::Constant*> functions;
   for (uint32_t i = 0; i < part.chunkCount; ++i) functions.push_back(emitter.emit(part.firstChunk + i));

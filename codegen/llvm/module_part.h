@@ -2,7 +2,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <vector>
+
+#include "ir/layout/memory_members.h"
 
 namespace rung::codegen {
 
@@ -15,6 +19,8 @@ struct ModulePart {
   // a PieceIdentity. Empty: it is the whole program and exports rung_program_v1.
   std::string tableName{};
   CacheKey key{}; // of a piece
+  // For debug information: all pieces need the same ones. Null: they are found for the module.
+  std::shared_ptr<const std::vector<ir::MemoryMember>> members{};
 
   std::string identityName() const { return tableName + "_identity"; }
 };

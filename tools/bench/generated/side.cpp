@@ -30,7 +30,7 @@ bool find(const rung_program& program, rt::Memory memory, const std::vector<std:
 
 } // namespace
 
-Ours::Ours(host::Engine& engine) : instance_(engine), footprint_(engine.program()) {}
+Ours::Ours(host::Engine& engine) : instance_(engine), footprint_(engine.program(), true) {}
 
 Result<std::unique_ptr<Ours>> Ours::make(host::Engine& engine, const Program& program) {
   std::unique_ptr<Ours> ours(new Ours(engine));

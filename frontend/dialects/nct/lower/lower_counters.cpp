@@ -34,7 +34,7 @@ ValueId counted(Lowering& box, ValueId value, ValueId start, ValueId end) {
 
 } // namespace
 
-// The reset goes before the clock; the clock's edge is remembered whatever else happens. Most scans have none, and
+// The reset goes before the clock; the clock's edge is remembered whatever else happens. Most scans have neither, and
 // leave the counter alone.
 ValueId lowerCounter(Lowering& box) {
   RungBuilder& b = box.b;

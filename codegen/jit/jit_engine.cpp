@@ -1,22 +1,10 @@
-// Compiles pieces of a program to objects and links them into the process (see jit_engine.h).
+// See jit_engine.h.
 #include "codegen/jit/jit_engine.h"
 
-#include <atomic>
-#include <mutex>
 #include <numeric>
-#include <stdexcept>
-#include <thread>
+#include <vector>
 
-#include <fmt/format.h>
-#include <llvm/ExecutionEngine/Orc/Debugging/DebuggerSupport.h>
-#include <llvm/ExecutionEngine/Orc/LLJIT.h>
-
-#include "codegen/jit/object_cache.h"
-#include "codegen/jit/pieces.h"
-#include "ir/chunks/cut.h"
 #include "ir/layout/program_image.h"
-#include "ir/support/check.h"
-#include "rtlib/host/realtime.h"
 
 namespace rung::codegen {
 
@@ -30,146 +18,20 @@ struct JitEngine::State {
   std::vector<rung_chunk_fn> functions; // by chunk
 };
 
-struct JitCode::Linker {
-  std::unique_ptr<llvm::orc::LLJIT> jit;
-  std::string machine; // that the code is for
-};
-
-namespace {
-
-std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
-
-// By any thread: what fails within the compiler or LLVM ends the piece, and not the process.
-Result<std::string> containedPiece(const Layout& layout, uint64_t codeHash, const LlvmOptions& options,
-                                   const ModulePart& piece) {
-  try {
-    const ThrowingChecks throwing;
-    return compilePiece(layout, codeHash, options, piece);
-  } catch (const std::logic_error& error) {
-    return failure(error.what());
-  }
-}
-
-// Compiles or finds all pieces, and links each.
-class Compiler {
-public:
-  Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine,
-           std::span<const uint32_t> chunks, JitReport& report)
-      : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout.cut(), chunks)),
-        cache_(options.cacheFolder), report_(report) {
-    report_ = {.modules = static_cast<uint32_t>(pieces_.size())};
-    shareMembers();
-    if (options.cacheFolder.empty()) return;
-    const CacheKeys keys(layout, codeHash, options.code, machine);
-    for (ModulePart& piece : pieces_) piece.key = keys.of(piece);
-  }
-
-  Result<void> run(llvm::orc::LLJIT& jit, const JitCode::Take& take, const std::atomic<bool>* stop) {
-    const auto work = [&] {
-      while (stop == nullptr || !stop->load(std::memory_order_relaxed)) {
-        const size_t i = next_++;
-        if (i >= pieces_.size()) return;
-        doPiece(pieces_[i], jit, take);
-      }
-    };
-    std::vector<std::thread> helpers;
-    for (uint32_t i = 1; i < std::min<size_t>(options_.threads, pieces_.size()); ++i)
-      helpers.emplace_back([&] {
-        host::becomeHelper();
-        work();
-      });
-    work();
-    for (std::thread& helper : helpers) helper.join();
-    if (!trouble_.empty()) return failure(trouble_);
-    return {};
-  }
-
-private:
-  void shareMembers() {
-    if (!options_.code.debugInfo) return;
-    const auto members = std::make_shared<const std::vector<MemoryMember>>(memoryMembers(layout_.memory()));
-    for (ModulePart& piece : pieces_) piece.members = members;
-  }
-
-  void doPiece(const ModulePart& piece, llvm::orc::LLJIT& jit, const JitCode::Take& take) {
-    std::optional<std::string> found = cache_.find(piece);
-    Result<std::string> object = found ? std::move(*found) : containedPiece(layout_, codeHash_, options_.code, piece);
-    const Result<void> kept = object.ok() && !found ? cache_.keep(piece, object.value()) : Result<void>();
-    const std::lock_guard lock(mutex_);
-    if (found) ++report_.fromCache;
-    if (!kept.ok()) report_.cacheTrouble = kept.error();
-    const Result<void> linked = object.ok() ? link(piece, object.value(), jit, take) : object.failure();
-    if (!linked.ok()) trouble_ = linked.error();
-  }
-
-  static Result<void> link(const ModulePart& piece, const std::string& object, llvm::orc::LLJIT& jit,
-                           const JitCode::Take& take) {
-    auto bytes = llvm::MemoryBuffer::getMemBufferCopy(object, piece.tableName);
-    if (llvm::Error error = jit.addObjectFile(std::move(bytes))) return failure(textOf(std::move(error)));
-    llvm::Expected<llvm::orc::ExecutorAddr> table = jit.lookup(piece.tableName);
-    if (!table) return failure(textOf(table.takeError()));
-    const auto* functions = table->toPtr<const rung_chunk_fn*>();
-    for (uint32_t c = 0; c < piece.chunkCount; ++c) take(piece.firstChunk + c, functions[c]);
-    return {};
-  }
-
-  const Layout& layout_;
-  uint64_t codeHash_;
-  const JitOptions& options_;
-  std::vector<ModulePart> pieces_;
-  ObjectCache cache_;
-  std::atomic<size_t> next_{0};
-  std::mutex mutex_; // of what follows, and of linking
-  JitReport& report_;
-  std::string trouble_;
-};
-
-Result<std::unique_ptr<llvm::orc::LLJIT>> makeLinker(const JitOptions& options) {
-  llvm::orc::LLJITBuilder builder;
-  builder.setPlatformSetUp(
-      llvm::orc::setUpInactivePlatform); // no constructors, no thread-local data: nothing to set up
-  llvm::Expected<std::unique_ptr<llvm::orc::LLJIT>> jit = builder.create();
-  if (!jit) return failure(textOf(jit.takeError()));
-  if (options.gdb)
-    if (llvm::Error error = llvm::orc::enableDebuggerSupport(**jit)) return failure(textOf(std::move(error)));
-  return std::move(*jit);
-}
-
-} // namespace
-
-JitCode::JitCode(const JitOptions& options, std::unique_ptr<Linker> linker)
-    : options_(options), linker_(std::move(linker)) {}
-JitCode::~JitCode() = default;
-
-Result<std::unique_ptr<JitCode>> JitCode::make(const JitOptions& options) {
-  if (!options.code.target.empty()) return failure("the JIT makes code for this machine only");
-  Result<std::unique_ptr<llvm::TargetMachine>> machine = makeTargetMachine(options.code, MachineUse::Jit);
-  if (!machine.ok()) return machine.failure();
-  Result<std::unique_ptr<llvm::orc::LLJIT>> jit = makeLinker(options);
-  if (!jit.ok()) return jit.failure();
-  auto linker = std::make_unique<Linker>(std::move(jit).value(), describeMachine(*machine.value()));
-  return std::unique_ptr<JitCode>(new JitCode(options, std::move(linker)));
-}
-
-Result<void> JitCode::compile(const Layout& layout, uint64_t codeHash, std::span<const uint32_t> chunks,
-                              const Take& take, const std::atomic<bool>* stop) {
-  return Compiler(layout, codeHash, options_, linker_->machine, chunks, report_).run(*linker_->jit, take, stop);
-}
-
 JitEngine::JitEngine(std::unique_ptr<State> state) : state_(std::move(state)) {}
 JitEngine::~JitEngine() = default;
 const rung_program& JitEngine::program() const { return state_->image.program(); }
 const JitReport& JitEngine::report() const { return state_->code->report(); }
 
 Result<std::unique_ptr<JitEngine>> compileJit(const Layout& layout, uint64_t codeHash, const JitOptions& options) {
-  Result<std::unique_ptr<JitCode>> code = JitCode::make(options);
+  Result<std::unique_ptr<JitCode>> code = makeJitCode(options);
   if (!code.ok()) return code.failure();
   auto state = std::make_unique<JitEngine::State>(layout, codeHash);
   state->code = std::move(code).value();
   std::vector<uint32_t> all(layout.cut().chunks().size());
   std::iota(all.begin(), all.end(), 0);
-  const Result<void> compiled = state->code->compile(
-      layout, codeHash, all, [&](uint32_t chunk, rung_chunk_fn function) { state->functions[chunk] = function; });
+  const auto take = [&](uint32_t chunk, rung_chunk_fn function) { state->functions[chunk] = function; };
+  const Result<void> compiled = state->code->compile(layout, codeHash, all, take, nullptr);
   if (!compiled.ok()) return compiled.failure();
   state->image.program().chunk_fns = state->functions.data();
   return std::unique_ptr<JitEngine>(new JitEngine(std::move(state)));

@@ -1,54 +1,12 @@
-// JIT: a layout becomes machine code in this process, by the Engine interface. Free of LLVM.
+// All of a layout as machine code, by the Engine interface. Free of LLVM.
 #pragma once
-#include <atomic>
-#include <cstdint>
-#include <functional>
 #include <memory>
-#include <span>
-#include <string>
 #include <string_view>
 
-#include "codegen/llvm/llvm_emitter.h"
+#include "codegen/jit/jit_code.h"
 #include "rtlib/host/engine.h"
 
 namespace rung::codegen {
-
-struct JitOptions {
-  LlvmOptions code;        // for this machine: `target` is empty
-  bool gdb = false;        // make the code known to a debugger
-  std::string cacheFolder; // keeps object files there and takes them from there; empty: no cache
-  uint32_t threads = 1;    // that compile at the same time
-};
-
-struct JitReport {
-  uint32_t modules = 0;     // pieces that the program was compiled in
-  uint32_t fromCache = 0;   // of them
-  std::string cacheTrouble; // why a piece could not be kept; the code is good all the same
-};
-
-// Machine code of chunks, for the pieces of a program one after the other.
-class JitCode {
-public:
-  // One thread at a time calls it, any of those that compile.
-  using Take = std::function<void(uint32_t chunk, rung_chunk_fn function)>;
-
-  static Result<std::unique_ptr<JitCode>> make(const JitOptions& options);
-  ~JitCode();
-
-  // `chunks`: ascending, each once in the life of the code. Those of a piece are taken once the piece is there, and
-  // stay as long as the code, also after a failure. Ends early, and with success, when `stop` (which may be null) says
-  // so. `codeHash`: of the whole program, for the cache.
-  Result<void> compile(const ir::Layout& layout, uint64_t codeHash, std::span<const uint32_t> chunks, const Take& take,
-                       const std::atomic<bool>* stop = nullptr);
-  const JitReport& report() const { return report_; } // of the last compilation
-
-private:
-  struct Linker;
-  JitCode(const JitOptions& options, std::unique_ptr<Linker> linker);
-  JitOptions options_;
-  std::unique_ptr<Linker> linker_;
-  JitReport report_;
-};
 
 class JitEngine final : public host::Engine {
 public:

@@ -7,8 +7,4 @@ namespace rung::codegen {
 // LLVM bitcode of sem_bitcode.cpp.
 std::string_view semBitcode();
 
-// Changes whenever a source changes that decides what code a module becomes: code made by another version must not be
-// taken from a cache.
-std::string_view codeVersion();
-
 } // namespace rung::codegen

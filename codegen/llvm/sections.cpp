@@ -33,11 +33,11 @@ Result<std::string> withSection(std::string_view object, std::string_view name, 
   return std::string(out.begin(), out.end());
 }
 
-std::optional<std::string> sectionOf(std::string_view object, std::string_view name) {
+Result<std::optional<std::string>> sectionOf(std::string_view object, std::string_view name) {
   llvm::Expected<std::unique_ptr<llvm::object::ObjectFile>> file = read(object);
   if (!file) {
     llvm::consumeError(file.takeError());
-    return std::nullopt;
+    return std::optional<std::string>();
   }
   for (const llvm::object::SectionRef& section : (*file)->sections()) {
     llvm::Expected<llvm::StringRef> found = section.getName();
@@ -45,9 +45,9 @@ std::optional<std::string> sectionOf(std::string_view object, std::string_view n
     const bool good = static_cast<bool>(found) && static_cast<bool>(contents);
     if (!found) llvm::consumeError(found.takeError());
     if (!contents) llvm::consumeError(contents.takeError());
-    if (good && *found == refOf(name)) return contents->str();
+    if (good && *found == refOf(name)) return std::optional(contents->str());
   }
-  return std::nullopt;
+  return std::optional<std::string>();
 }
 
 } // namespace rung::codegen

@@ -1,39 +1,88 @@
-// Child processes by LLVM (see process.h).
+// Child processes (see process.h).
 #include "codegen/process/process.h"
 
-#include <array>
-#include <cstring>
-#include <vector>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
-#include <llvm/Support/Program.h>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <vector>
 
 namespace rung::codegen {
 namespace {
 
-std::optional<llvm::StringRef> refOf(const std::optional<std::string>& path) {
-  return path ? std::optional<llvm::StringRef>(*path) : std::nullopt;
+// Where a child's output goes.
+class Redirects {
+public:
+  explicit Redirects(const ProcessOutput& output) {
+    posix_spawn_file_actions_init(&actions_);
+    if (output.out) open(STDOUT_FILENO, *output.out);
+    if (output.error && output.error == output.out)
+      posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
+    else if (output.error)
+      open(STDERR_FILENO, *output.error);
+  }
+  ~Redirects() { posix_spawn_file_actions_destroy(&actions_); }
+  Redirects(const Redirects&) = delete;
+  Redirects& operator=(const Redirects&) = delete;
+  const posix_spawn_file_actions_t* actions() const { return &actions_; }
+
+private:
+  void open(int file, const std::string& path) {
+    constexpr int kNew = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_addopen(&actions_, file, path.c_str(), kNew, 0666);
+  }
+  posix_spawn_file_actions_t actions_{};
+};
+
+bool isExecutable(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0;
+}
+
+// Of the child's end, as waitpid gives it.
+int waitFor(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
 }
 
 } // namespace
 
 std::optional<std::string> findProgram(std::string_view name) {
-  if (name.empty()) return std::nullopt; // LLVM asserts that there is a name
-  llvm::ErrorOr<std::string> found = llvm::sys::findProgramByName(name);
-  if (!found || !llvm::sys::fs::can_execute(*found)) return std::nullopt;
-  return std::move(*found);
+  if (name.empty()) return std::nullopt;
+  if (name.find('/') != std::string_view::npos)
+    return isExecutable(std::string(name)) ? std::optional<std::string>(name) : std::nullopt;
+  const char* path = std::getenv("PATH");
+  std::string_view rest = path == nullptr ? "" : path;
+  while (!rest.empty()) {
+    const size_t end = std::min(rest.find(':'), rest.size());
+    std::string candidate = std::string(rest.substr(0, end)).append("/").append(name);
+    if (end > 0 && isExecutable(candidate)) return candidate;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return std::nullopt;
 }
 
 Result<int> runProgram(std::span<const std::string> words, const ProcessOutput& output) {
   const std::string name = words.empty() ? "" : words.front();
   const std::optional<std::string> program = findProgram(name);
   if (!program) return failure("'" + name + "' is not an executable file, nor is it in a folder of PATH");
-  const std::vector<llvm::StringRef> arguments(words.begin(), words.end());
-  const std::array<std::optional<llvm::StringRef>, 3> redirects = {std::nullopt, refOf(output.out),
-                                                                   refOf(output.error)};
-  std::string error;
-  const int code = llvm::sys::ExecuteAndWait(*program, arguments, std::nullopt, redirects, 0, 0, &error);
-  if (code < 0) return failure("'" + *program + "': " + error);
-  return code;
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const Redirects redirects(output);
+  pid_t child = 0;
+  const int error = posix_spawn(&child, program->c_str(), redirects.actions(), nullptr, arguments.data(), environ);
+  if (error != 0) return failure("'" + *program + "': " + std::strerror(error));
+  const int status = waitFor(child);
+  if (WIFSIGNALED(status)) return failure("'" + *program + "': " + strsignal(WTERMSIG(status)));
+  return WEXITSTATUS(status);
 }
 
 } // namespace rung::codegen

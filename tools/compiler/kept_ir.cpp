@@ -68,7 +68,9 @@ Result<std::string> withIr(std::string_view object, const Compiled& compiled) {
 }
 
 Result<Compiled> irOf(std::string_view object, const Hashes& program) {
-  const std::optional<std::string> section = codegen::sectionOf(object, kSection);
+  const Result<std::optional<std::string>> found = codegen::sectionOf(object, kSection);
+  if (!found.ok()) return found.failure();
+  const std::optional<std::string>& section = found.value();
   if (!section) return failure("it carries no IR: it was built with --no-ir, or by another linker");
   const std::optional<std::string> text = unpacked(*section);
   if (!text) return failure("its IR is damaged");

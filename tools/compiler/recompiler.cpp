@@ -1,7 +1,7 @@
 // Chunks with forced cells (see recompiler.h).
 #include "tools/compiler/recompiler.h"
 
-#include "codegen/jit/jit_engine.h"
+#include "codegen/jit/jit_code.h"
 #include "ir/interp/interp.h"
 #include "tools/compiler/forced_program.h"
 #include "tools/compiler/tiered.h"
@@ -36,11 +36,11 @@ public:
   Result<void> change(const ForcedProgram& program, std::span<const uint32_t> chunks,
                       const codegen::JitOptions& options) {
     for (const uint32_t chunk : chunks) isChanged_[chunk] = true;
-    Result<std::unique_ptr<codegen::JitCode>> code = codegen::JitCode::make(options);
+    Result<std::unique_ptr<codegen::JitCode>> code = codegen::makeJitCode(options);
     if (!code.ok()) return code.failure();
     changed_ = std::move(code).value();
-    return changed_->compile(program.layout, 0, chunks,
-                             [&](uint32_t chunk, rung_chunk_fn function) { functions_[chunk] = function; });
+    const auto take = [&](uint32_t chunk, rung_chunk_fn function) { functions_[chunk] = function; };
+    return changed_->compile(program.layout, 0, chunks, take, nullptr);
   }
 
   // The other chunks: as the program has them, or will have them.

@@ -95,7 +95,7 @@ Result<void> TieredEngine::begin(Pace pace) {
 Result<std::unique_ptr<codegen::JitCode>> TieredEngine::codeOf(codegen::LlvmLevel level) {
   codegen::JitOptions options = options_;
   options.code.level = level;
-  return codegen::JitCode::make(options);
+  return codegen::makeJitCode(options);
 }
 
 Result<void> TieredEngine::compile(codegen::JitCode& code, std::atomic<uint32_t>& done) {

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "codegen/jit/jit_engine.h"
+#include "codegen/jit/jit_code.h"
 #include "ir/interp/interp.h"
 #include "rtlib/host/engine.h"
 #include "rtlib/host/scan_bound.h"

@@ -33,11 +33,10 @@ public:
   virtual std::string event(const std::string& name, const nlohmann::json& keys) = 0;
 };
 
-// What the plug-in exports: a simulation for a dialect, which the caller deletes, and the build that it belongs to.
+// What the plug-in exports (rtlib/host/plugin.h): a simulation for a dialect, which the caller deletes.
 using MakeSimulation = Simulation* (*)(const char* dialect);
-using SimulationBuild = const char* (*)();
 inline constexpr const char* kMakeSimulation = "rung_make_simulation";
-inline constexpr const char* kSimulationBuild = "rung_simulation_build";
+inline constexpr const char* kSimulationPlugin = "rung-simulation.so";
 
 // Of whoever includes this; it changes with every version, compiler and interface between host and plug-in.
 inline std::string simulationBuild() {

@@ -89,7 +89,7 @@ private:
 } // namespace rung::rung_run
 
 // What is C++ between the two is of one build: rung-run compares them.
-extern "C" const char* rung_simulation_build() {
+extern "C" const char* rung_plugin_build() {
   static const std::string build = rung::rung_run::simulationBuild();
   return build.c_str();
 }

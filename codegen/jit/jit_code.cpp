@@ -1,0 +1,153 @@
+// Compiles pieces of a program to objects and links them into the process (see jit_code.h).
+#include "codegen/jit/jit_code.h"
+
+#include <atomic>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include <fmt/format.h>
+#include <llvm/ExecutionEngine/Orc/Debugging/DebuggerSupport.h>
+#include <llvm/ExecutionEngine/Orc/LLJIT.h>
+
+#include "codegen/jit/object_cache.h"
+#include "codegen/jit/pieces.h"
+#include "ir/chunks/cut.h"
+#include "ir/support/check.h"
+#include "rtlib/host/realtime.h"
+
+namespace rung::codegen {
+
+using namespace ir;
+
+namespace {
+
+std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
+
+// By any thread: what fails within the compiler or LLVM ends the piece, and not the process.
+Result<std::string> containedPiece(const Layout& layout, uint64_t codeHash, const LlvmOptions& options,
+                                   const ModulePart& piece) {
+  try {
+    const ThrowingChecks throwing;
+    return compilePiece(layout, codeHash, options, piece);
+  } catch (const std::logic_error& error) {
+    return failure(error.what());
+  }
+}
+
+// Compiles or finds all pieces, and links each.
+class Compiler {
+public:
+  Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine,
+           std::span<const uint32_t> chunks, JitReport& report)
+      : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout.cut(), chunks)),
+        cache_(options.cacheFolder), report_(report) {
+    report_ = {.modules = static_cast<uint32_t>(pieces_.size())};
+    shareMembers();
+    if (options.cacheFolder.empty()) return;
+    const CacheKeys keys(layout, codeHash, options.code, machine);
+    for (ModulePart& piece : pieces_) piece.key = keys.of(piece);
+  }
+
+  Result<void> run(llvm::orc::LLJIT& jit, const JitCode::Take& take, const std::atomic<bool>* stop) {
+    const auto work = [&] {
+      while (stop == nullptr || !stop->load(std::memory_order_relaxed)) {
+        const size_t i = next_++;
+        if (i >= pieces_.size()) return;
+        doPiece(pieces_[i], jit, take);
+      }
+    };
+    std::vector<std::thread> helpers;
+    for (uint32_t i = 1; i < std::min<size_t>(options_.threads, pieces_.size()); ++i)
+      helpers.emplace_back([&] {
+        host::becomeHelper();
+        work();
+      });
+    work();
+    for (std::thread& helper : helpers) helper.join();
+    if (!trouble_.empty()) return failure(trouble_);
+    return {};
+  }
+
+private:
+  void shareMembers() {
+    if (!options_.code.debugInfo) return;
+    const auto members = std::make_shared<const std::vector<MemoryMember>>(memoryMembers(layout_.memory()));
+    for (ModulePart& piece : pieces_) piece.members = members;
+  }
+
+  void doPiece(const ModulePart& piece, llvm::orc::LLJIT& jit, const JitCode::Take& take) {
+    std::optional<std::string> found = cache_.find(piece);
+    Result<std::string> object = found ? std::move(*found) : containedPiece(layout_, codeHash_, options_.code, piece);
+    const Result<void> kept = object.ok() && !found ? cache_.keep(piece, object.value()) : Result<void>();
+    const std::lock_guard lock(mutex_);
+    if (found) ++report_.fromCache;
+    if (!kept.ok()) report_.cacheTrouble = kept.error();
+    const Result<void> linked = object.ok() ? link(piece, object.value(), jit, take) : object.failure();
+    if (!linked.ok()) trouble_ = linked.error();
+  }
+
+  static Result<void> link(const ModulePart& piece, const std::string& object, llvm::orc::LLJIT& jit,
+                           const JitCode::Take& take) {
+    auto bytes = llvm::MemoryBuffer::getMemBufferCopy(object, piece.tableName);
+    if (llvm::Error error = jit.addObjectFile(std::move(bytes))) return failure(textOf(std::move(error)));
+    llvm::Expected<llvm::orc::ExecutorAddr> table = jit.lookup(piece.tableName);
+    if (!table) return failure(textOf(table.takeError()));
+    const auto* functions = table->toPtr<const rung_chunk_fn*>();
+    for (uint32_t c = 0; c < piece.chunkCount; ++c) take(piece.firstChunk + c, functions[c]);
+    return {};
+  }
+
+  const Layout& layout_;
+  uint64_t codeHash_;
+  const JitOptions& options_;
+  std::vector<ModulePart> pieces_;
+  ObjectCache cache_;
+  std::atomic<size_t> next_{0};
+  std::mutex mutex_; // of what follows, and of linking
+  JitReport& report_;
+  std::string trouble_;
+};
+
+Result<std::unique_ptr<llvm::orc::LLJIT>> makeLinker(const JitOptions& options) {
+  llvm::orc::LLJITBuilder builder;
+  builder.setPlatformSetUp(
+      llvm::orc::setUpInactivePlatform); // no constructors, no thread-local data: nothing to set up
+  llvm::Expected<std::unique_ptr<llvm::orc::LLJIT>> jit = builder.create();
+  if (!jit) return failure(textOf(jit.takeError()));
+  if (options.gdb)
+    if (llvm::Error error = llvm::orc::enableDebuggerSupport(**jit)) return failure(textOf(std::move(error)));
+  return std::move(*jit);
+}
+
+class LinkedCode final : public JitCode {
+public:
+  LinkedCode(const JitOptions& options, std::unique_ptr<llvm::orc::LLJIT> jit, std::string machine)
+      : options_(options), jit_(std::move(jit)), machine_(std::move(machine)) {}
+
+  Result<void> compile(const Layout& layout, uint64_t codeHash, std::span<const uint32_t> chunks, const Take& take,
+                       const std::atomic<bool>* stop) override {
+    return Compiler(layout, codeHash, options_, machine_, chunks, report_).run(*jit_, take, stop);
+  }
+  const JitReport& report() const override { return report_; }
+
+private:
+  JitOptions options_;
+  std::unique_ptr<llvm::orc::LLJIT> jit_;
+  std::string machine_; // that the code is for
+  JitReport report_;
+};
+
+} // namespace
+
+Result<std::unique_ptr<JitCode>> makeJitCode(const JitOptions& options) {
+  if (!options.code.target.empty()) return failure("the JIT makes code for this machine only");
+  Result<std::unique_ptr<llvm::TargetMachine>> machine = makeTargetMachine(options.code, MachineUse::Jit);
+  if (!machine.ok()) return machine.failure();
+  Result<std::unique_ptr<llvm::orc::LLJIT>> jit = makeLinker(options);
+  if (!jit.ok()) return jit.failure();
+  return std::unique_ptr<JitCode>(
+      std::make_unique<LinkedCode>(options, std::move(jit).value(), describeMachine(*machine.value())));
+}
+
+} // namespace rung::codegen

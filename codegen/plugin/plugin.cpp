@@ -1,0 +1,39 @@
+// The side of the plug-in (see functions.h).
+#include "codegen/plugin/functions.h"
+
+#include <stdexcept>
+
+#include "codegen/llvm/code_version.h"
+#include "ir/support/check.h"
+
+namespace rung::codegen {
+namespace {
+
+// Inside the plug-in a ThrowingChecks of the program is not known: what fails within the compiler or LLVM is a failure.
+template <auto function>
+struct Contained;
+template <class Answer, class... Arguments, Answer (*function)(Arguments...)>
+struct Contained<function> {
+  static Answer call(Arguments... arguments) try {
+    const ThrowingChecks throwing;
+    return function(arguments...);
+  } catch (const std::logic_error& error) {
+    return failure(error.what());
+  }
+};
+
+constexpr LlvmFunctions kFunctions{
+    .irText = &Contained<&emitLlvmIr>::call,
+    .assembly = &Contained<&emitAssembly>::call,
+    .sharedObject = &Contained<&buildLlvmSharedObject>::call,
+    .withSection = &Contained<&withSection>::call,
+    .sectionOf = &Contained<&sectionOf>::call,
+    .jitCode = &Contained<&makeJitCode>::call,
+    .instructionBound = &Contained<&boundInstructions>::call,
+};
+
+} // namespace
+} // namespace rung::codegen
+
+extern "C" const char* rung_plugin_build() { return rung::codegen::codeVersion().data(); }
+extern "C" const rung::codegen::LlvmFunctions* rung_llvm_functions() { return &rung::codegen::kFunctions; }

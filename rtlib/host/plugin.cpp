@@ -1,0 +1,42 @@
+// See plugin.h.
+#include "rtlib/host/plugin.h"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <climits>
+
+namespace rung::host {
+namespace {
+
+std::string folderOfProgram() {
+  char self[PATH_MAX];
+  const ssize_t size = readlink("/proc/self/exe", self, sizeof self);
+  const std::string program(self, size > 0 ? static_cast<size_t>(size) : 0);
+  return program.substr(0, program.rfind('/'));
+}
+
+// Programs lie in bin, some in a folder below it.
+std::string pathOf(const std::string& name) {
+  const std::string below = folderOfProgram() + "/../lib/rung/" + name;
+  const std::string deeper = folderOfProgram() + "/../../lib/rung/" + name;
+  return access(below.c_str(), F_OK) != 0 && access(deeper.c_str(), F_OK) == 0 ? deeper : below;
+}
+
+} // namespace
+
+Plugin::Plugin(const char* name, std::string_view build) {
+  const std::string path = pathOf(name);
+  library_ = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (library_ == nullptr) {
+    problem_ = dlerror();
+    return;
+  }
+  const auto itsBuild = function<const char* (*)()>("rung_plugin_build");
+  if (itsBuild == nullptr || itsBuild() != build)
+    problem_ = path + ": it is of another build than this program; install both together";
+}
+
+void* Plugin::symbol(const char* name) const { return dlsym(library_, name); }
+
+} // namespace rung::host

@@ -36,8 +36,8 @@ public:
   // `chunks`: ascending, each once in the life of the code. Those of a piece are taken once the piece is there, and
   // stay as long as the code, also after a failure. Ends early, and with success, when `stop` (which may be null) says
   // so. `codeHash`: of the whole program, for the cache.
-  virtual Result<void> compile(const ir::Layout& layout, uint64_t codeHash, std::span<const uint32_t> chunks, const Take& take,
-                       const std::atomic<bool>* stop) = 0;
+  virtual Result<void> compile(const ir::Layout& layout, uint64_t codeHash, std::span<const uint32_t> chunks,
+                               const Take& take, const std::atomic<bool>* stop) = 0;
   virtual const JitReport& report() const = 0; // of the last compilation
 };
 

@@ -13,7 +13,8 @@ Result<const LlvmFunctions*> llvmFunctions() {
   return plugin.function<GetLlvmFunctions>(kGetLlvmFunctions)();
 }
 
-template <auto member, class... Arguments> auto call(Arguments&&... arguments) {
+template <auto member, class... Arguments>
+auto call(Arguments&&... arguments) {
   const Result<const LlvmFunctions*> functions = llvmFunctions();
   using Answer = decltype((functions.value()->*member)(std::forward<Arguments>(arguments)...));
   if (!functions.ok()) return Answer(functions.failure());

@@ -1,5 +1,5 @@
-// Libraries of a program of ours that it loads when it first needs them: those in lib/rung below the folder that its own
-// folder lies in, as they are built and installed.
+// Libraries of a program of ours that it loads when it first needs them: those in lib/rung below the folder that its
+// own folder lies in, as they are built and installed.
 #pragma once
 #include <string>
 #include <string_view>

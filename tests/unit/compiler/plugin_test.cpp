@@ -1,0 +1,52 @@
+// Plug-ins: one that is not there, one of another build, and LLVM's back end, which is loaded when it is needed.
+#include "rtlib/host/plugin.h"
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <string>
+
+#include "codegen/plugin/functions.h"
+
+namespace rung {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+bool isLoaded(const std::string& library) {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);)
+    if (line.find(library) != std::string::npos) return true;
+  return false;
+}
+
+// The first, as what is loaded stays.
+TEST(Plugin, LlvmIsLoadedWhenItIsNeeded) {
+  EXPECT_FALSE(isLoaded("libLLVM"));
+  EXPECT_EQ(codegen::sectionOf("no object", ".rung.ir").value(), std::nullopt);
+  EXPECT_TRUE(isLoaded("libLLVM"));
+}
+
+TEST(Plugin, ThatIsNotThere) {
+  const host::Plugin plugin("no-such.so", "any");
+  EXPECT_FALSE(plugin.ok());
+  EXPECT_THAT(plugin.problem(), HasSubstr("/lib/rung/no-such.so: cannot open shared object file"));
+}
+
+TEST(Plugin, OfAnotherBuildIsRefused) {
+  const host::Plugin plugin(codegen::kLlvmPlugin, "another build");
+  EXPECT_FALSE(plugin.ok());
+  EXPECT_THAT(plugin.problem(),
+              EndsWith("rung-llvm.so: it is of another build than this program; install both together"));
+}
+
+// What fails in there does not end the program, nor is it thrown through the library.
+TEST(Plugin, WhatFailsInItIsAFailure) {
+  codegen::JitOptions options;
+  options.code.target = "riscv64-linux-gnu";
+  EXPECT_EQ(codegen::makeJitCode(options).error(), "the JIT makes code for this machine only");
+}
+
+} // namespace
+} // namespace rung

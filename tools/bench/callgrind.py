@@ -15,7 +15,10 @@ class Failure(Exception):
 
 
 def run(*words, **options):
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, **options)
+    try:
+        done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, **options)
+    except (OSError, subprocess.TimeoutExpired) as problem:
+        raise Failure(str(problem)) from problem
     if done.returncode != 0:
         raise Failure(f"{' '.join(str(word) for word in words)}:\n{done.stdout}{done.stderr}")
     return done.stdout

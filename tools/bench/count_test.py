@@ -1,9 +1,16 @@
 #!/usr/bin/env python3
-"""The rules of count.py: what is a failure, and where."""
+"""The rules of count.py: what is a failure, and where; and which compilers of others are counted, and how."""
+import os
+import tempfile
 import unittest
+from pathlib import Path
+from unittest import mock
 
 import count
+import peers
+import report
 import services
+from callgrind import Failure
 
 HERE = {"compiler": "1"}
 TABLE = {"environment": HERE, "instructions": {"a": 1000, "b": 2000}}
@@ -42,6 +49,69 @@ class Services(unittest.TestCase):
     def test_at_rest_they_add_two_hundred_instructions_at_most(self):
         self.assertEqual(services.excess(self.rows(200)), "")
         self.assertIn("add 201 instructions", services.excess(self.rows(201)))
+
+
+class PeersFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name).resolve()
+        environment = mock.patch.dict(os.environ, {"PEERS_DIR": str(self.folder)})
+        environment.start()
+        self.addCleanup(environment.stop)
+
+    def executable(self, path, text):
+        path.parent.mkdir(parents=True)
+        path.write_text(f"#!/bin/sh\n{text}\n", encoding="ascii")
+        path.chmod(0o755)
+        return path
+
+    def test_without_it_there_are_none(self):
+        del os.environ["PEERS_DIR"]
+        self.assertEqual(peers.versions(), {})
+        self.assertEqual(peers.Peers("/nowhere", self.folder).forms("bits", 100), {})
+
+    def test_only_those_that_are_there_are_named(self):
+        (self.folder / "matiec").mkdir()
+        self.assertEqual(peers.named(), {peers.Matiec: self.folder / "matiec"})
+        self.assertEqual(peers.versions(), {"matiec": "of an unknown version"})
+
+    def test_a_folder_without_any_is_a_failure(self):
+        with self.assertRaisesRegex(Failure, "none of the folders matiec, strucpp"):
+            peers.named()
+
+    def test_one_that_cannot_be_run_is_a_failure_with_its_text(self):
+        generated = self.executable(self.folder / "bin" / "generated", "echo text")
+        self.executable(self.folder / "matiec" / "iec2c", "echo no such function >&2; exit 1")
+        with self.assertRaisesRegex(Failure, "no such function"):
+            peers.Peers(generated, self.folder).forms("bits", 100)
+
+    def test_one_that_is_not_there_is_a_failure_that_names_it(self):
+        generated = self.executable(self.folder / "bin" / "generated", "echo text")
+        (self.folder / "matiec").mkdir()
+        with self.assertRaisesRegex(Failure, "matiec/iec2c"):
+            peers.Peers(generated, self.folder).forms("bits", 100)
+
+    def test_what_their_languages_lack_is_left_out(self):
+        (self.folder / "matiec").mkdir()
+        self.assertEqual(peers.Peers("/nowhere", self.folder).forms("mechanisms", 100), {})
+        self.assertEqual(peers.Peers("/nowhere", self.folder).forms("bits", 10_000), {})
+
+
+class PeersTable(unittest.TestCase):
+    def row(self, ours, of_peers):
+        return {"ours": ours, "rungs": ours - 10, "straight": {("byte", "g++"): 500}, "peers": of_peers}
+
+    def test_the_compiler_with_fewer_instructions_counts(self):
+        rows = {("nct", "bits", 100): None,
+                ("gsk", "bits", 100): self.row(900, {"matiec, gcc": 2000, "matiec, clang": 1800, "STruC++, g++": 1}),
+                ("technol", "bits", 100): self.row(450, {"matiec, gcc": 1000, "matiec, clang": 900})}
+        self.assertIn("| 100 × bit logic | – | 900 | 450 | 500 | 1,800 | clang | – | 0.50 | 0.50 |",
+                      report.peers_text(rows, {"matiec": "abc"}).splitlines())
+
+    def test_without_peers_there_is_no_table(self):
+        rows = {(dialect, "bits", 100): self.row(900, {}) for dialect in report.DIALECTS}
+        self.assertEqual(report.peers_text(rows, {}), "")
 
 
 if __name__ == "__main__":

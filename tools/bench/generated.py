@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from callgrind import TARGET, Failure, counted, run, self_costs, touched
+from peers import Peers
 
 DIALECTS = ("nct", "gsk", "technol")
 KINDS = ("bits", "timers-idle", "timers-running", "counters", "integers", "reals", "indexed", "signals", "mechanisms-idle",
@@ -35,6 +36,7 @@ class Programs:
         minutes for."""
         self.tools, self.folder, self.checks_forms = tools, Path(folder), checks_forms
         self.program = tools / "rung-bench-generated"
+        self.peers = Peers(self.program, folder)
 
     def build(self, name, source, ending, *options):
         path = self.folder / f"{name}.so"
@@ -76,20 +78,26 @@ class Programs:
                 made[form, name] = path
         return made
 
+    def others(self, kind, size):
+        return self.straight(kind, size) | self.peers.forms(kind, size)
+
     def words(self, command, dialect, work, forms, activity=False):
         kind, size = work
         paths = [word for (form, _), path in forms.items() for word in (form, path)]
         return [self.program, command, dialect, kind, size, self.ours(dialect, kind, size, activity), *paths]
 
     def count(self, dialect, work, forms):
-        """Instructions a scan: of our compiled rungs, of all of ours, and of each straight-line form."""
+        """Instructions a scan: of our compiled rungs, of all of ours, of each straight-line form, of each peer."""
         run(*self.words("check", dialect, work, forms))
         profile = self.folder / f"profile-{dialect}-{work[0]}-{work[1]}"
         scans = int(counted(profile, *self.words("count", dialect, work, forms)))
         costs = [self_costs(Path(f"{profile}.{i + 1}")) for i in range(1 + len(forms))]
         rungs = sum(cost for name, cost in costs[0].items() if name and name.endswith(f"{dialect}-{work[0]}-{work[1]}.so"))
         totals = [round(sum(each.values()) / scans) for each in costs]
-        return {"rungs": round(rungs / scans), "ours": totals[0], "straight": dict(zip(forms, totals[1:]))}
+        others = dict(zip(forms, totals[1:]))
+        return {"rungs": round(rungs / scans), "ours": totals[0],
+                "straight": {key: total for key, total in others.items() if key[0] in FORMS},
+                "peers": {name: total for (form, name), total in others.items() if form not in FORMS}}
 
     def resting(self, all_works):
         """By dialect, kind, size: instructions a scan with --activity, where something is new in each scan, and where
@@ -114,7 +122,7 @@ class Programs:
         """By dialect, kind, size. Where there is no room: None."""
         def one(work):
             rows = {}
-            forms = self.straight(*work) if with_straight and any(self.ours(d, *work) for d in DIALECTS) else {}
+            forms = self.others(*work) if with_straight and any(self.ours(d, *work) for d in DIALECTS) else {}
             for dialect in DIALECTS:
                 if self.ours(dialect, *work) is None:
                     rows[dialect, *work] = None

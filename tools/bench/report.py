@@ -12,6 +12,7 @@ import tempfile
 from pathlib import Path
 
 import machines
+import peers
 import plot
 import services
 import start
@@ -33,6 +34,13 @@ and written in each dialect, and as straight-line C++ in two forms, a byte a bit
 some of which change before each scan, and the same outputs: bits, words, tables and floating-point numbers are compared after every one of 400 scans. The
 reference is the straight-line form with the fewest instructions. "Full" is bit logic with, for each ten rungs of it, a timer, a counter and two of integer
 arithmetic. A missing count: the control cannot hold so many rungs, or has no such instruction. In brackets: of these the compiled rungs, without the runner.
+"""
+PEERS_HEAD = """### The same programs by other compilers
+
+Programs in Structured Text of IEC 61131-3, whose C or C++ is compiled at -O3 by gcc and clang; counted is the one with fewer instructions. They do
+what ours and the straight-line forms do, and are compared with ours after every one of 400 scans. A bit is a variable of the type BOOL, an integer UDINT, a table an
+array; no variable has an address in the I/O image, so nothing is copied around a scan. A timer is the standard's TON; a counter is written
+with IF and assignments, as the standard's CTU stays at its preset. Ratios are of ours to the peer.
 """
 RESTING_HEAD = """### Programs that leave out what rests
 
@@ -93,6 +101,34 @@ def counts_text(rows):
             cells += [f"{reference(some):,}", ", ".join(form), *(f"{row['ours'] / reference(row):.2f}" if row else "–" for row in each)]
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
+
+
+def fewest(row, title):
+    """(its compiler, instructions) of a peer."""
+    counts = {name.removeprefix(f"{title}, "): count for name, count in row["peers"].items() if name.startswith(f"{title}, ")}
+    return min(counts.items(), key=lambda each: each[1], default=None)
+
+
+def peer_lines(rows, title):
+    for work in dict.fromkeys(key[1:] for key in rows):
+        each = [rows[(dialect, *work)] for dialect in DIALECTS]
+        some = next((row for row in each if row and fewest(row, title)), None)
+        if some is None:
+            continue
+        compiler, count = fewest(some, title)
+        cells = [named(work), *(f"{row['ours']:,}" if row else "–" for row in each), f"{reference(some):,}", f"{count:,}", compiler,
+                 *(f"{row['ours'] / fewest(row, title)[1]:.2f}" if row else "–" for row in each)]
+        yield f"| {' | '.join(cells)} |"
+
+
+def peers_text(rows, versions):
+    """Nothing where there is no peer."""
+    lines = [PEERS_HEAD] if versions else []
+    for title, version in versions.items():
+        head = ["program", *(NAMES[d] for d in DIALECTS), "straight-line reference", title, "its C by",
+                *(f"{NAMES[d]} / {title}" for d in DIALECTS)]
+        lines += [f"{title} {version}:", "", f"| {' | '.join(head)} |", "|" + " --- |" * len(head), *peer_lines(rows, title), ""]
+    return "\n".join(lines)
 
 
 def resting_text(resting, rows):
@@ -179,6 +215,7 @@ def main(tools, folder):
     print(machines.text_of(of_machines))
     print(services.text_of(of_services))
     print(f"{counts_text(rows)}\n![Ratios of instructions, a bar for each dialect and program](performance-counts.svg)\n")
+    print(peers_text(rows, peers.versions()))
     print(resting_text(resting, rows))
     print(f"{cold}\n![Ratios of cold scans, with their spread](performance-cold.svg)\n")
     print(f"Measured on {machine}.\n\n{costs}")

@@ -3,17 +3,18 @@
 //
 //   source DIALECT KIND SIZE               the program in its language; status 4 where the control has no room for it
 //   straight KIND SIZE byte|packed         the straight-line form
-//   instructions DIALECT                   the titles of what costs are known for
-//   instruction DIALECT NUMBER COUNT       a program of COUNT rungs of one of them
-//   check DIALECT KIND SIZE PROGRAM.so [byte|packed FORM.so]...
+//   structured-text KIND SIZE              the program for compilers of others; status 4 where the language lacks
+//   something places KIND SIZE                       what else a peer is made from (peer.h) instructions DIALECT the
+//   titles of what costs are known for instruction DIALECT NUMBER COUNT       a program of COUNT rungs of one of them
+//   check DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          all forms side by side, compared after every scan
-//   count DIALECT KIND SIZE PROGRAM.so [byte|packed FORM.so]...
+//   count DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          under callgrind: scans of each form, and a dump of its own for each
-//   count-quiet DIALECT KIND SIZE PROGRAM.so [byte|packed FORM.so]...
+//   count-quiet DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          the same where one input changes in ten scans
-//   touch DIALECT KIND SIZE PROGRAM.so [byte|packed FORM.so]...
+//   touch DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          under callgrind: one scan of the last form, from empty caches
-//   cold DIALECT KIND SIZE PROGRAM.so [byte|packed FORM.so]...
+//   cold DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          a form after the other, each scan after a sleep: nanoseconds as JSON
 //   count-rungs, cold-rungs DIALECT NUMBER COUNT PROGRAM.so
 //                                          the same of a program of equal rungs, with the condition 1
@@ -34,7 +35,9 @@
 
 #include "rtlib/host/realtime.h"
 #include "rtlib/host/so_engine.h"
+#include "tools/bench/generated/peer.h"
 #include "tools/bench/generated/side.h"
+#include "tools/bench/generated/structured_text.h"
 
 namespace {
 
@@ -87,7 +90,7 @@ bench::Work work(const std::string& kind, const std::string& size) {
 }
 
 bench::BitForm bitForm(const std::string& text) {
-  if (text != "byte" && text != "packed") throw WrongUsage(text + " is neither byte nor packed");
+  if (text != "byte" && text != "packed") throw WrongUsage(text + " is not byte, packed or peer");
   return text == "byte" ? bench::BitForm::Byte : bench::BitForm::Packed;
 }
 
@@ -103,14 +106,17 @@ struct Forms {
   explicit Forms(const Words& words)
       : of(work(at(words, 2), at(words, 3))), program(good(form(at(words, 1))->write(of))), engine(load(at(words, 4))) {
     sides.push_back(good(bench::Ours::make(*engine, program)));
-    for (size_t i = 5; i < words.size(); i += 2)
-      sides.push_back(good(bench::Straight::load(at(words, i + 1), of, bitForm(words[i]), program.msAScan)));
+    for (size_t i = 5; i < words.size(); i += 2) sides.push_back(other(words[i], at(words, i + 1)));
+  }
+  std::unique_ptr<bench::Side> other(const std::string& form, const std::string& path) const {
+    if (form == "peer") return good(bench::Peer::load(path, of, program.msAScan));
+    return good(bench::Straight::load(path, of, bitForm(form), program.msAScan));
   }
   bench::Ours& ours() const { return static_cast<bench::Ours&>(*sides.front()); }
-  std::vector<bench::Side*> straight() const {
-    std::vector<bench::Side*> others;
-    for (size_t i = 1; i < sides.size(); ++i) others.push_back(sides[i].get());
-    return others;
+  std::vector<bench::Side*> others() const {
+    std::vector<bench::Side*> all;
+    for (size_t i = 1; i < sides.size(); ++i) all.push_back(sides[i].get());
+    return all;
   }
   void checkFault() const {
     const host::Instance& running = ours().instance();
@@ -252,8 +258,7 @@ void cold(const Words& words) {
   const Forms forms(words);
   std::vector<bench::Machine> machines;
   for (const auto& side : forms.sides) settle(*side, machines.emplace_back(forms.of));
-  measure(forms.ours(), forms.straight(), kWakeUps,
-          [&](bench::Side& side, size_t k) { side.apply(machines[k].next()); });
+  measure(forms.ours(), forms.others(), kWakeUps, [&](bench::Side& side, size_t k) { side.apply(machines[k].next()); });
   forms.checkFault();
 }
 
@@ -284,15 +289,29 @@ void onRungs(const Words& words, bool cold) {
   if (ours->instance().faulted()) throw std::runtime_error("the program has stopped: " + ours->instance().faultText());
 }
 
+int printed(const Result<std::string>& text) {
+  if (!text.ok()) {
+    std::cerr << text.error() << '\n';
+    return kNoRoom;
+  }
+  std::cout << text.value();
+  return 0;
+}
+
+Result<std::string> sourceOf(const std::string& dialect, const bench::Work& work) {
+  auto program = form(dialect)->write(work);
+  if (!program.ok()) return program.failure();
+  return std::move(program).value().text;
+}
+
 int run(const Words& words) {
   const std::string& command = at(words, 0);
   if (command == "source") {
-    const auto program = form(at(words, 1))->write(work(at(words, 2), at(words, 3)));
-    if (!program.ok()) {
-      std::cerr << program.error() << '\n';
-      return kNoRoom;
-    }
-    std::cout << program.value().text;
+    return printed(sourceOf(at(words, 1), work(at(words, 2), at(words, 3))));
+  } else if (command == "structured-text") {
+    return printed(structuredText(work(at(words, 1), at(words, 2))));
+  } else if (command == "places") {
+    std::cout << peerPlaces(work(at(words, 1), at(words, 2)));
   } else if (command == "straight") {
     std::cout << straightSource(work(at(words, 1), at(words, 2)), bitForm(at(words, 3)));
   } else if (command == "instructions") {

@@ -99,8 +99,11 @@ class Debug(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
         # The command's own debug information would only cost gdb time to read.
-        self.rungc = str(self.folder / "rungc")
-        subprocess.run(["strip", "--strip-debug", "-o", self.rungc, RUNGC], check=True)
+        self.rungc = str(self.folder / "bin/rungc")
+        for file in ("bin/rungc", "lib/rung/rung-llvm.so"):
+            stripped = self.folder / file
+            stripped.parent.mkdir(parents=True)
+            subprocess.run(["strip", "--strip-debug", "-o", stripped, Path(RUNGC).parents[1] / file], check=True)
 
     def shared_object(self, source, level, *options):
         out = self.folder / f"{source}.so"

@@ -16,7 +16,7 @@ STAGES = ("process", "check", "lowering", "verifier", "uses", "passes", "layout"
 HEAD = """## Start
 
 A program starts as `rungc run` starts it: interpreted, while a thread for each core compiles it with all optimisations. CPU time is that of all threads, in ms: of the start of the
-process (most of it loads LLVM), the stages of the compiler, and the making of the engine with the first scan; then real time from `main` until the last piece is optimised, on {cores} cores. Medians of {runs} runs ({large_runs} of the programs of {large:,} rungs and more, which are bit logic). Memory is the most that the process ever had.
+process, the stages of the compiler, and the making of the engine with the first scan; then real time from `main` until the last piece is optimised, on {cores} cores, in which LLVM is loaded. Medians of {runs} runs ({large_runs} of the programs of {large:,} rungs and more, which are bit logic). Memory is the most that the process ever had.
 """
 
 

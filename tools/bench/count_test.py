@@ -109,6 +109,14 @@ class PeersTable(unittest.TestCase):
         self.assertIn("| 100 × bit logic | – | 900 | 450 | 500 | 1,800 | clang | – | 0.50 | 0.50 |",
                       report.peers_text(rows, {"matiec": "abc"}).splitlines())
 
+    def test_small_ratios_keep_two_digits(self):
+        rows = {(dialect, "bits", 100): self.row(820, {"ClassicLadder, gcc": 281222}) for dialect in report.DIALECTS}
+        self.assertIn("| 281,222 | gcc | 0.0029 | 0.0029 | 0.0029 |", report.peers_text(rows, {"ClassicLadder": "abc"}))
+
+    def test_each_is_counted_with_the_kinds_that_it_has(self):
+        self.assertEqual(peers.ClassicLadder.kinds, ("bits",))
+        self.assertFalse([kind for peer in peers.KNOWN for kind in peer.kinds if kind not in report.TITLES])
+
     def test_without_peers_there_is_no_table(self):
         rows = {(dialect, "bits", 100): self.row(900, {}) for dialect in report.DIALECTS}
         self.assertEqual(report.peers_text(rows, {}), "")

@@ -35,12 +35,14 @@ some of which change before each scan, and the same outputs: bits, words, tables
 reference is the straight-line form with the fewest instructions. "Full" is bit logic with, for each ten rungs of it, a timer, a counter and two of integer
 arithmetic. A missing count: the control cannot hold so many rungs, or has no such instruction. In brackets: of these the compiled rungs, without the runner.
 """
-PEERS_HEAD = """### The same programs by other compilers
+PEERS_HEAD = """### The same programs by others
 
-Programs in Structured Text of IEC 61131-3, whose C or C++ is compiled at -O3 by gcc and clang; counted is the one with fewer instructions. They do
-what ours and the straight-line forms do, and are compared with ours after every one of 400 scans. A bit is a variable of the type BOOL, an integer UDINT, a table an
-array; no variable has an address in the I/O image, so nothing is copied around a scan. A timer is the standard's TON; a counter is written
-with IF and assignments, as the standard's CTU stays at its preset. Ratios are of ours to the peer.
+What ClassicLadder interprets, and what matiec and STruC++ make of Structured Text (IEC 61131-3), compiled at -O3 by gcc and clang; the one with fewer instructions counts. They
+are compared with ours after every one of 400 scans, with the same inputs. In Structured Text a bit is a BOOL, an integer a UDINT, a table an array. No
+variable is in the I/O image, so nothing is copied before and after a scan; of ours the whole pass is counted, as above. A timer is the standard's TON, which keeps the elapsed time
+as well; a counter is written with IF and assignments, as the standard's CTU stays at its preset. Ratios are ours to theirs.
+Left out: mechanisms, which Structured Text does not have; what is not bit logic in ClassicLadder, whose arithmetic is 32-bit text with times in tenths of a second; larger
+programs, which take compilers of one large function too long.
 """
 RESTING_HEAD = """### Programs that leave out what rests
 
@@ -109,6 +111,10 @@ def fewest(row, title):
     return min(counts.items(), key=lambda each: each[1], default=None)
 
 
+def ratio_text(ratio):
+    return f"{ratio:.2f}" if ratio >= 0.1 else f"{ratio:.2g}"
+
+
 def peer_lines(rows, title):
     for work in dict.fromkeys(key[1:] for key in rows):
         each = [rows[(dialect, *work)] for dialect in DIALECTS]
@@ -117,7 +123,7 @@ def peer_lines(rows, title):
             continue
         compiler, count = fewest(some, title)
         cells = [named(work), *(f"{row['ours']:,}" if row else "–" for row in each), f"{reference(some):,}", f"{count:,}", compiler,
-                 *(f"{row['ours'] / fewest(row, title)[1]:.2f}" if row else "–" for row in each)]
+                 *(ratio_text(row["ours"] / fewest(row, title)[1]) if row else "–" for row in each)]
         yield f"| {' | '.join(cells)} |"
 
 

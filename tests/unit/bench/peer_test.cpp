@@ -90,6 +90,15 @@ TEST(StructuredText, RefusesMechanisms) {
   EXPECT_EQ(structuredText(bench::drawWork(bench::Kind::Mechanisms, 1)).error(), "Structured Text has no mechanisms");
 }
 
+TEST(PeerRungs, AreOfBitLogicAlone) {
+  bench::Work work;
+  work.elements = {{.op = Op::Logic, .parallel = true, .first = {1, true}, .second = {2}, .third = {3}, .coil = 4},
+                   {.op = Op::Logic, .first = {5}, .second = {6, true}, .third = {7}, .coil = 8}};
+  EXPECT_EQ(peerRungs(work).value(), "LOGIC(1, 1, 1, 2, 0, 3, 0, 4)\nLOGIC(0, 5, 0, 6, 1, 7, 0, 8)\n");
+  work.elements.push_back({.op = Op::Timer});
+  EXPECT_EQ(peerRungs(work).error(), "only bit logic is written as rungs");
+}
+
 std::string built(const std::string& source, const TemporaryFolder& folder, const char* name) {
   codegen::CppBuildOptions options;
   options.compiler = "g++";

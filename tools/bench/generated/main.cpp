@@ -310,6 +310,8 @@ int run(const Words& words) {
     return printed(sourceOf(at(words, 1), work(at(words, 2), at(words, 3))));
   } else if (command == "structured-text") {
     return printed(structuredText(work(at(words, 1), at(words, 2))));
+  } else if (command == "rungs") {
+    return printed(peerRungs(work(at(words, 1), at(words, 2))));
   } else if (command == "places") {
     std::cout << peerPlaces(work(at(words, 1), at(words, 2)));
   } else if (command == "straight") {

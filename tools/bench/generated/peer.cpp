@@ -29,6 +29,17 @@ std::string peerPlaces(const Work& work) {
   return out;
 }
 
+Result<std::string> peerRungs(const Work& work) {
+  std::string out;
+  for (const Element& e : work.elements) {
+    if (e.op != Op::Logic) return failure("only bit logic is written as rungs");
+    put(out, "LOGIC({:d}", e.parallel);
+    for (const Contact& c : {e.first, e.second, e.third}) put(out, ", {}, {:d}", c.bit, c.negated);
+    put(out, ", {})\n", e.coil);
+  }
+  return out;
+}
+
 Peer::Peer(Begin begin, Scan scan, void* const* places, const Work& work, int msAScan)
     : begin_(begin), scan_(scan), bits_(places), words_(bits_ + work.bits()), tables_(words_ + work.words()),
       reals_(tables_ + entries(work)), work_(work), msAScan_(msAScan) {}

@@ -13,6 +13,10 @@ namespace rung::bench {
 // macros of the sources in tools/bench/peers.
 std::string peerPlaces(const Work& work);
 
+// The rungs for ClassicLadder's data, in the same way: LOGIC(parallel, bit, negated, bit, negated, bit, negated, coil).
+// Fails where the work has something else.
+Result<std::string> peerRungs(const Work& work);
+
 // A shared object made from tools/bench/peers. It exports
 //   void peer_begin(void)    the program as at its start
 //   void peer_scan(int ms)   one scan, `ms` after the one before

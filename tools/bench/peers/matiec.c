@@ -25,7 +25,7 @@ EXPORTED void peer_scan(int ms) {
 
 #define BIT(number) &INSTANCE0.B##number.value,
 #define WORD(number) &INSTANCE0.W##number.value,
-#define ENTRY(table, index) &INSTANCE0.A##table.value.table[index],
+#define ENTRY(number, index) &INSTANCE0.A##number.value.table[index],
 #define REAL(number) &INSTANCE0.R##number.value,
 EXPORTED void* peer_places[] = {
 #include "places.inc"

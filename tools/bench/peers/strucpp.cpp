@@ -21,7 +21,7 @@ EXPORTED void peer_scan(int ms) {
 
 #define BIT(number) configuration.INSTANCE0.B##number.raw_ptr(),
 #define WORD(number) configuration.INSTANCE0.W##number.raw_ptr(),
-#define ENTRY(table, index) configuration.INSTANCE0.A##table[index].raw_ptr(),
+#define ENTRY(number, index) configuration.INSTANCE0.A##number[index].raw_ptr(),
 #define REAL(number) configuration.INSTANCE0.R##number.raw_ptr(),
 EXPORTED void* peer_places[];
 void* peer_places[] = {

@@ -7,8 +7,11 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <llvm/ExecutionEngine/Orc/Debugging/DebuggerSupport.h>
+#include <llvm/ExecutionEngine/Orc/DebugObjectManagerPlugin.h>
+#include <llvm/ExecutionEngine/Orc/EPCDebugObjectRegistrar.h>
 #include <llvm/ExecutionEngine/Orc/LLJIT.h>
+#include <llvm/ExecutionEngine/Orc/ObjectLinkingLayer.h>
+#include <llvm/ExecutionEngine/Orc/TargetProcess/JITLoaderGDB.h>
 
 #include "codegen/jit/object_cache.h"
 #include "codegen/jit/pieces.h"
@@ -109,14 +112,26 @@ private:
   std::string trouble_;
 };
 
+// As LLVM's enableDebuggerSupport, which looks for the function by its name, among what all libraries of the process
+// see: not where LLVM was loaded for us alone. False: this machine's kind has no such linker.
+bool showDebugger(llvm::orc::LLJIT& jit) {
+  auto* layer = llvm::dyn_cast<llvm::orc::ObjectLinkingLayer>(&jit.getObjLinkingLayer());
+  if (layer == nullptr) return false;
+  llvm::orc::ExecutionSession& session = jit.getExecutionSession();
+  auto registrar = std::make_unique<llvm::orc::EPCDebugObjectRegistrar>(
+      session, llvm::orc::ExecutorAddr::fromPtr(&llvm_orc_registerJITLoaderGDBWrapper));
+  layer->addPlugin(std::make_unique<llvm::orc::DebugObjectManagerPlugin>(session, std::move(registrar), false, true));
+  return true;
+}
+
 Result<std::unique_ptr<llvm::orc::LLJIT>> makeLinker(const JitOptions& options) {
   llvm::orc::LLJITBuilder builder;
   builder.setPlatformSetUp(
       llvm::orc::setUpInactivePlatform); // no constructors, no thread-local data: nothing to set up
   llvm::Expected<std::unique_ptr<llvm::orc::LLJIT>> jit = builder.create();
   if (!jit) return failure(textOf(jit.takeError()));
-  if (options.gdb)
-    if (llvm::Error error = llvm::orc::enableDebuggerSupport(**jit)) return failure(textOf(std::move(error)));
+  if (options.gdb && !showDebugger(**jit))
+    return failure("the JIT of this machine's kind cannot show code to a debugger");
   return std::move(*jit);
 }
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from callgrind import Failure, run
 
 SOURCES = Path(__file__).resolve().parent / "peers"
-MOST_RUNGS = 1000  # what they make of a program is one function, which takes compilers too long beyond
+MOST_RUNGS = 1000  # what they make of a program is one function, whose compilation grows faster than its size
 LIMIT_S = 1800  # for a compiler
 FLAGS = ("-O3", "-w", "-shared", "-fPIC", "-fvisibility=hidden", "-I.")
 C = {"gcc": ("gcc",), "clang": ("clang-19",)}

@@ -158,15 +158,15 @@ Values Straight::values() const {
   return values;
 }
 
-std::string difference(const Values& ours, const Values& straight, const Program& program) {
+std::string difference(const Values& ours, const Values& theirs, const Program& program) {
   const auto first = [](const auto& a, const auto& b, const std::vector<std::string>& names) -> std::string {
     for (size_t i = 0; i < names.size(); ++i)
-      if (a[i] != b[i]) return fmt::format("{}: ours {}, straight-line {}", names[i], +a[i], +b[i]);
+      if (a[i] != b[i]) return fmt::format("{}: ours {}, theirs {}", names[i], +a[i], +b[i]);
     return {};
   };
   for (std::string found :
-       {first(ours.bits, straight.bits, program.bits), first(ours.words, straight.words, program.words),
-        first(ours.tables, straight.tables, program.tables), first(ours.reals, straight.reals, program.reals)})
+       {first(ours.bits, theirs.bits, program.bits), first(ours.words, theirs.words, program.words),
+        first(ours.tables, theirs.tables, program.tables), first(ours.reals, theirs.reals, program.reals)})
     if (!found.empty()) return found;
   return {};
 }

@@ -82,6 +82,6 @@ private:
 };
 
 // "" or the first place where they differ.
-std::string difference(const Values& ours, const Values& straight, const Program& program);
+std::string difference(const Values& ours, const Values& theirs, const Program& program);
 
 } // namespace rung::bench

@@ -87,7 +87,7 @@ def main():
     print(machines.text_of(of_machines))
     print(services.text_of(of_services))
     print(report.counts_text(rows))
-    print(report.peers_text(rows, peers.versions()))
+    print(report.peers_text(rows, peers.versions()), end="")
     print(report.resting_text(resting, rows))
     counts = {name: total for name, (_, total, _) in of_machines.items()}
     counts |= services.names_of(of_services) | names_of(rows) | names_of_resting(resting)

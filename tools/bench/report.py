@@ -134,7 +134,7 @@ def peers_text(rows, versions):
         head = ["program", *(NAMES[d] for d in DIALECTS), "straight-line reference", title, "its C by",
                 *(f"{NAMES[d]} / {title}" for d in DIALECTS)]
         lines += [f"{title} {version}:", "", f"| {' | '.join(head)} |", "|" + " --- |" * len(head), *peer_lines(rows, title), ""]
-    return "\n".join(lines)
+    return "\n".join(lines) + "\n" if lines else ""
 
 
 def resting_text(resting, rows):
@@ -221,7 +221,7 @@ def main(tools, folder):
     print(machines.text_of(of_machines))
     print(services.text_of(of_services))
     print(f"{counts_text(rows)}\n![Ratios of instructions, a bar for each dialect and program](performance-counts.svg)\n")
-    print(peers_text(rows, peers.versions()))
+    print(peers_text(rows, peers.versions()), end="")
     print(resting_text(resting, rows))
     print(f"{cold}\n![Ratios of cold scans, with their spread](performance-cold.svg)\n")
     print(f"Measured on {machine}.\n\n{costs}")

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <mutex>
-#include <stdexcept>
 #include <thread>
 
 #include <fmt/format.h>
@@ -16,7 +15,7 @@
 #include "codegen/jit/object_cache.h"
 #include "codegen/jit/pieces.h"
 #include "ir/chunks/cut.h"
-#include "ir/support/check.h"
+#include "ir/support/contained.h"
 #include "rtlib/host/realtime.h"
 
 namespace rung::codegen {
@@ -26,17 +25,6 @@ using namespace ir;
 namespace {
 
 std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
-
-// By any thread: what fails within the compiler or LLVM ends the piece, and not the process.
-Result<std::string> containedPiece(const Layout& layout, uint64_t codeHash, const LlvmOptions& options,
-                                   const ModulePart& piece) {
-  try {
-    const ThrowingChecks throwing;
-    return compilePiece(layout, codeHash, options, piece);
-  } catch (const std::logic_error& error) {
-    return failure(error.what());
-  }
-}
 
 // Compiles or finds all pieces, and links each.
 class Compiler {
@@ -79,9 +67,14 @@ private:
     for (ModulePart& piece : pieces_) piece.members = members;
   }
 
+  // What fails within the compiler or LLVM ends the piece, and not the process.
+  Result<std::string> compiled(const ModulePart& piece) const {
+    return contained([&] { return compilePiece(layout_, codeHash_, options_.code, piece); });
+  }
+
   void doPiece(const ModulePart& piece, llvm::orc::LLJIT& jit, const JitCode::Take& take) {
     std::optional<std::string> found = cache_.find(piece);
-    Result<std::string> object = found ? std::move(*found) : containedPiece(layout_, codeHash_, options_.code, piece);
+    Result<std::string> object = found ? std::move(*found) : compiled(piece);
     const Result<void> kept = object.ok() && !found ? cache_.keep(piece, object.value()) : Result<void>();
     const std::lock_guard lock(mutex_);
     if (found) ++report_.fromCache;

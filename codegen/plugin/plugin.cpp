@@ -1,10 +1,8 @@
 // The side of the plug-in (see functions.h).
 #include "codegen/plugin/functions.h"
 
-#include <stdexcept>
-
 #include "codegen/llvm/code_version.h"
-#include "ir/support/check.h"
+#include "ir/support/contained.h"
 
 namespace rung::codegen {
 namespace {
@@ -14,11 +12,8 @@ template <auto function>
 struct Contained;
 template <class Answer, class... Arguments, Answer (*function)(Arguments...)>
 struct Contained<function> {
-  static Answer call(Arguments... arguments) try {
-    const ThrowingChecks throwing;
-    return function(arguments...);
-  } catch (const std::logic_error& error) {
-    return failure(error.what());
+  static Answer call(Arguments... arguments) {
+    return contained([&] { return function(arguments...); });
   }
 };
 

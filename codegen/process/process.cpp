@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -44,12 +45,13 @@ bool isExecutable(const std::string& path) {
   return std::filesystem::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0;
 }
 
-// Of the child's end, as waitpid gives it.
-int waitFor(pid_t child) {
+// How the child ended, as waitpid says it; nothing, with errno, where that cannot be known.
+std::optional<int> waitFor(pid_t child) {
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
+  pid_t ended = 0;
+  do ended = waitpid(child, &status, 0);
+  while (ended < 0 && errno == EINTR);
+  return ended == child ? std::optional(status) : std::nullopt;
 }
 
 } // namespace
@@ -80,9 +82,10 @@ Result<int> runProgram(std::span<const std::string> words, const ProcessOutput& 
   pid_t child = 0;
   const int error = posix_spawn(&child, program->c_str(), redirects.actions(), nullptr, arguments.data(), environ);
   if (error != 0) return failure("'" + *program + "': " + std::strerror(error));
-  const int status = waitFor(child);
-  if (WIFSIGNALED(status)) return failure("'" + *program + "': " + strsignal(WTERMSIG(status)));
-  return WEXITSTATUS(status);
+  const std::optional<int> status = waitFor(child);
+  if (!status) return failure("'" + *program + "': " + std::strerror(errno));
+  if (WIFSIGNALED(*status)) return failure("'" + *program + "': " + strsignal(WTERMSIG(*status)));
+  return WEXITSTATUS(*status);
 }
 
 } // namespace rung::codegen

@@ -18,8 +18,9 @@ std::string folderOfProgram() {
 
 // Programs lie in bin, some in a folder below it.
 std::string pathOf(const std::string& name) {
-  const std::string below = folderOfProgram() + "/../lib/rung/" + name;
-  const std::string deeper = folderOfProgram() + "/../../lib/rung/" + name;
+  const std::string folder = folderOfProgram();
+  const std::string below = folder + "/../lib/rung/" + name;
+  const std::string deeper = folder + "/../../lib/rung/" + name;
   return access(below.c_str(), F_OK) != 0 && access(deeper.c_str(), F_OK) == 0 ? deeper : below;
 }
 
@@ -27,7 +28,7 @@ std::string pathOf(const std::string& name) {
 
 Plugin::Plugin(const char* name, std::string_view build) {
   const std::string path = pathOf(name);
-  library_ = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  library_ = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // a scan may call it: nothing is looked up later
   if (library_ == nullptr) {
     problem_ = dlerror();
     return;

@@ -41,8 +41,8 @@ What ClassicLadder interprets, and what matiec and STruC++ make of Structured Te
 are compared with ours after every one of 400 scans, with the same inputs. In Structured Text a bit is a BOOL, an integer a UDINT, a table an array. No
 variable is in the I/O image, so nothing is copied before and after a scan; of ours the whole pass is counted, as above. A timer is the standard's TON, which keeps the elapsed time
 as well; a counter is written with IF and assignments, as the standard's CTU stays at its preset. Ratios are ours to theirs.
-Left out: mechanisms, which Structured Text does not have; programs of more than 1,000 rungs, each of which is one function to compile. For ClassicLadder only bit logic is
-written: its timers count tenths of a second, and of its arithmetic, texts that it reads in each scan, there is no form here.
+Left out: mechanisms, which Structured Text does not have; programs of more than 1,000 rungs, each of which is one function to compile. ClassicLadder has bit
+logic only: its timers count in tenths of a second, and its arithmetic is text, which it parses in every scan.
 """
 RESTING_HEAD = """### Programs that leave out what rests
 

@@ -11,9 +11,8 @@ namespace {
 
 MakeSimulation load() {
   static const host::Plugin plugin(kSimulationPlugin, simulationBuild());
-  const auto make = plugin.ok() ? plugin.function<MakeSimulation>(kMakeSimulation) : nullptr;
-  if (make == nullptr) throw std::runtime_error("no control can be simulated: " + plugin.problem());
-  return make;
+  if (!plugin.ok()) throw std::runtime_error("no control can be simulated: " + plugin.problem());
+  return plugin.function<MakeSimulation>(kMakeSimulation);
 }
 
 } // namespace

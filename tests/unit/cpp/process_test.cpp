@@ -1,6 +1,7 @@
 // Child processes: what is found, run, and said about what cannot be run.
 #include "codegen/process/process.h"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -54,6 +55,15 @@ TEST(Process, SaysWhyAProgramDidNotRun) {
   std::ofstream(script) << "#!/no/such/interpreter\n";
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
   EXPECT_THAT(run({script}).error(), HasSubstr("No such file or directory"));
+}
+
+// Where somebody ignores the ends of children, the system keeps none.
+TEST(Process, AnEndThatIsNotKnownIsAFailure) {
+  const auto before = std::signal(SIGCHLD, SIG_IGN);
+  const Result<int> done = run({"true"});
+  std::signal(SIGCHLD, before);
+  ASSERT_FALSE(done.ok());
+  EXPECT_THAT(done.error(), HasSubstr("No child processes"));
 }
 
 TEST(Process, MistakesOfTheCompilerAreShown) {

@@ -3,9 +3,10 @@
 //
 //   source DIALECT KIND SIZE               the program in its language; status 4 where the control has no room for it
 //   straight KIND SIZE byte|packed         the straight-line form
-//   structured-text KIND SIZE              the program for compilers of others; status 4 where the language lacks
-//   something places KIND SIZE                       what else a peer is made from (peer.h) instructions DIALECT the
-//   titles of what costs are known for instruction DIALECT NUMBER COUNT       a program of COUNT rungs of one of them
+//   structured-text KIND SIZE              the program for compilers of others; status 4 where it cannot say it
+//   rungs, places KIND SIZE                what else a peer is made from (peer.h)
+//   instructions DIALECT                   the titles of what costs are known for
+//   instruction DIALECT NUMBER COUNT       a program of COUNT rungs of one of them
 //   check DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          all forms side by side, compared after every scan
 //   count DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...

@@ -11,6 +11,7 @@
 #include <llvm/IR/MDBuilder.h>
 
 #include "codegen/llvm/before_selection.h"
+#include "ir/chunks/alike_rungs.h"
 #include "ir/support/check.h"
 
 namespace rung::codegen {
@@ -36,6 +37,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   function_->setDoesNotThrow();
   function_->addFnAttr("frame-pointer", "non-leaf");
   function_->addFnAttr(kChunkAttribute);
+  if (hasAlikeRungs(module_, place)) function_->addFnAttr(kAlikeAttribute);
   if (!hostReadsMemory(module_, place)) function_->addParamAttr(0, llvm::Attribute::NoAlias);
   if (extendsWords_) function_->addRetAttr(llvm::Attribute::SExt);
   mem_ = function_->getArg(0);

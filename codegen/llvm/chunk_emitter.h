@@ -14,6 +14,9 @@
 
 namespace rung::codegen {
 
+// Of a function whose chunk has rows of alike rungs (ir/chunks/alike_rungs.h).
+inline constexpr char kAlikeAttribute[] = "rung-alike";
+
 class ChunkEmitter {
 public:
   // `debug` may be null: no debug information.

@@ -19,6 +19,7 @@
 #include <llvm/Transforms/Scalar/Reassociate.h>
 #include <llvm/Transforms/Scalar/SROA.h>
 #include <llvm/Transforms/Scalar/SimplifyCFG.h>
+#include <llvm/Transforms/Vectorize/SLPVectorizer.h>
 
 #include "codegen/llvm/chunk_emitter.h"
 #include "codegen/llvm/embedded.h"
@@ -112,6 +113,14 @@ void addIdentity(llvm::Module& module, const ModulePart& part) {
                            part.identityName());
 }
 
+// Elsewhere the vectoriser finds little, and looking for it takes as long as all other passes and the code generator.
+struct VectorsOfAlikeRungs : llvm::PassInfoMixin<VectorsOfAlikeRungs> {
+  llvm::PreservedAnalyses run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
+    if (!function.hasFnAttribute(kAlikeAttribute)) return llvm::PreservedAnalyses::all();
+    return llvm::SLPVectorizerPass().run(function, analyses);
+  }
+};
+
 } // namespace
 
 Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, const llvm::TargetMachine& machine,
@@ -167,6 +176,7 @@ void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel lev
   perFunction.addPass(llvm::EarlyCSEPass(true));
   perFunction.addPass(llvm::DSEPass());
   perFunction.addPass(llvm::InstCombinePass());
+  perFunction.addPass(VectorsOfAlikeRungs());
   llvm::ModulePassManager passes;
   passes.addPass(llvm::AlwaysInlinerPass(false));
   passes.addPass(llvm::createModuleToFunctionPassAdaptor(std::move(perFunction)));

@@ -315,7 +315,7 @@ std::string RungWriter::pure(const Op& op) {
 
 void RungWriter::writeOp(const Op& op) {
   const size_t index = static_cast<size_t>(&op - rung_->ops.data());
-  beginLine(op.line != 0 ? op.line : rung_->begin.line, false);
+  beginLine(lineOf(*rung_, op), false);
   switch (op.code) {
   case OpCode::Store: return store(op);
   case OpCode::StoreAt:
@@ -346,8 +346,7 @@ void RungWriter::writeOp(const Op& op) {
   case OpCode::ProfEnter:
   case OpCode::ProfLeave: return host(op);
   case OpCode::Trap:
-    return statement(fmt::format("RUNG_TRAP({}, {}u, {}u, {}u)", a(op, 0), op.ref, number_,
-                                 op.line != 0 ? op.line : rung_->begin.line),
+    return statement(fmt::format("RUNG_TRAP({}, {}u, {}u, {}u)", a(op, 0), op.ref, number_, lineOf(*rung_, op)),
                      module_.faults[op.ref]);
   case OpCode::Note: return statement("// " + commentText(rung_->notes[op.ref]));
   default: break;

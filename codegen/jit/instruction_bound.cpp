@@ -36,8 +36,7 @@ uint64_t paddingAfter(const llvm::MachineBasicBlock& block) {
 // generation makes no loop of its own and repeats none more often.
 class CodeReader final : public llvm::MachineFunctionPass {
 public:
-  CodeReader(std::string tableName, PieceCode& code)
-      : MachineFunctionPass(kId), tableName_(std::move(tableName)), code_(code) {
+  explicit CodeReader(PieceCode& code) : MachineFunctionPass(kId), code_(code) {
     llvm::PassRegistry& registry = *llvm::PassRegistry::getPassRegistry();
     llvm::initializeScalarEvolutionWrapperPassPass(registry);
     llvm::initializeLoopInfoWrapperPassPass(registry);
@@ -53,7 +52,7 @@ public:
   }
 
   bool doInitialization(llvm::Module& module) override {
-    const llvm::Constant* table = module.getNamedGlobal(tableName_)->getInitializer();
+    const llvm::Constant* table = module.getNamedGlobal(kPieceTable)->getInitializer();
     for (unsigned i = 0; const llvm::Constant* chunk = table->getAggregateElement(i); ++i)
       code_.chunks.push_back(chunk->stripPointerCasts()->getName().str());
     return false;
@@ -134,7 +133,6 @@ private:
     return calls;
   }
 
-  std::string tableName_; // of the piece's chunks
   PieceCode& code_;
   // Of the function in hand.
   const llvm::MachineLoopInfo* machineLoops_ = nullptr;
@@ -157,7 +155,7 @@ Result<std::vector<CodeLength>> boundInstructions(const ir::Layout& layout, uint
   for (const ModulePart& piece : cutPieces(layout.cut(), all)) {
     PieceCode code;
     const Result<std::string> object =
-        compilePiece(layout, codeHash, options, piece, std::make_unique<CodeReader>(piece.tableName, code));
+        compilePiece(layout, codeHash, options, piece, std::make_unique<CodeReader>(code));
     if (!object.ok()) return object.failure();
     CodeLengths measured(std::move(code.functions));
     for (const std::string& chunk : code.chunks) lengths.push_back(measured.of(chunk));

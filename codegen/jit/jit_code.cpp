@@ -14,6 +14,7 @@
 
 #include "codegen/jit/object_cache.h"
 #include "codegen/jit/pieces.h"
+#include "codegen/llvm/piece_numbers.h"
 #include "ir/chunks/cut.h"
 #include "ir/support/contained.h"
 #include "rtlib/host/realtime.h"
@@ -83,15 +84,30 @@ private:
     if (!linked.ok()) trouble_ = linked.error();
   }
 
-  static Result<void> link(const ModulePart& piece, const std::string& object, llvm::orc::LLJIT& jit,
-                           const JitCode::Take& take) {
-    auto bytes = llvm::MemoryBuffer::getMemBufferCopy(object, piece.tableName);
-    if (llvm::Error error = jit.addObjectFile(std::move(bytes))) return failure(textOf(std::move(error)));
-    llvm::Expected<llvm::orc::ExecutorAddr> table = jit.lookup(piece.tableName);
+  // Each piece by itself: all have the same names.
+  Result<void> link(const ModulePart& piece, const std::string& object, llvm::orc::LLJIT& jit,
+                    const JitCode::Take& take) const {
+    const std::string name = fmt::format("chunks from {}", piece.firstChunk);
+    llvm::Expected<llvm::orc::JITDylib&> library = jit.createJITDylib(name);
+    if (!library) return failure(textOf(library.takeError()));
+    if (llvm::Error error = defineNumbers(piece, jit, *library)) return failure(textOf(std::move(error)));
+    auto bytes = llvm::MemoryBuffer::getMemBufferCopy(object, name);
+    if (llvm::Error error = jit.addObjectFile(*library, std::move(bytes))) return failure(textOf(std::move(error)));
+    llvm::Expected<llvm::orc::ExecutorAddr> table = jit.lookup(*library, kPieceTable);
     if (!table) return failure(textOf(table.takeError()));
     const auto* functions = table->toPtr<const rung_chunk_fn*>();
     for (uint32_t c = 0; c < piece.chunkCount; ++c) take(piece.firstChunk + c, functions[c]);
     return {};
+  }
+
+  llvm::Error defineNumbers(const ModulePart& piece, llvm::orc::LLJIT& jit, llvm::orc::JITDylib& library) const {
+    const PieceNumbers numbers(layout_.cut(), piece);
+    llvm::orc::SymbolMap symbols;
+    for (uint32_t i = 0; const uint32_t value : numbers.values())
+      symbols[jit.mangleAndIntern(PieceNumbers::name(i++))] = {llvm::orc::ExecutorAddr(value),
+                                                               llvm::JITSymbolFlags::Exported};
+    if (symbols.empty()) return llvm::Error::success();
+    return library.define(llvm::orc::absoluteSymbols(std::move(symbols)));
   }
 
   const Layout& layout_;

@@ -8,6 +8,7 @@
 #include <llvm/Object/ObjectFile.h>
 #include <llvm/Support/SHA256.h>
 
+#include "codegen/llvm/piece_numbers.h"
 #include "ir/chunks/cut.h"
 #include "ir/support/put.h"
 #include "ir/text/text.h"
@@ -19,42 +20,91 @@ CacheKey sha256(std::string_view bytes) {
   return llvm::SHA256::hash({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
 }
 
-void putDestination(const ir::Destination& to, std::string& text) {
-  put(text, " {}:{}+{}", to.chunk, to.rung, to.extra);
-}
-
-// All of a rung that its code depends on; lines of the source only where a fault names them.
-void putRung(const ir::Rung& rung, uint32_t number, std::string& text) {
-  put(text, "rung {}", number);
-  for (const ir::Type type : rung.values) put(text, " {}", static_cast<int>(type));
-  text += '\n';
-  for (const ir::Op& op : rung.ops) {
-    put(text, "{} {} {} {} {} {}", static_cast<int>(op.code), static_cast<int>(op.type), op.result.index, op.ref,
-        op.count, op.imm);
-    for (int i = 0; i < op.argCount; ++i) put(text, " {}", ir::arg(rung, op, i).index);
-    if (op.code == ir::OpCode::Trap) put(text, " @{}", op.line != 0 ? op.line : rung.begin.line);
-    text += '\n';
+// All of a piece that its code depends on, but for where it is in its program (PieceNumbers) and for the memory that it
+// does not touch.
+class PieceText {
+public:
+  PieceText(const ir::Layout& layout, const ModulePart& piece)
+      : layout_(layout), cut_(layout.cut()), numbers_(layout.cut(), piece) {
+    for (uint32_t i = 0; i < piece.chunkCount; ++i) putChunk(cut_.chunks()[piece.firstChunk + i]);
   }
-  put(text, "{} {}\n", rung.transfer.cond.index, rung.transfer.value.index);
-}
+  std::string take() { return std::move(text_); }
 
-// The cut of a chunk, its rungs, and where they go with which extra weight.
-void putChunk(const ir::Cut& cut, const ir::Chunk& chunk, std::string& text) {
-  const ir::Routine& routine = cut.module().at(chunk.routine);
-  put(text, "chunk {} {} {}\n", routine.name, chunk.firstRung, chunk.rungCount);
-  for (uint32_t i = chunk.firstRung; i < chunk.firstRung + chunk.rungCount; ++i)
-    putRung(routine.rungs[i], cut.rungNumber(chunk.routine, i), text);
-  for (const ir::Exit& exit : ir::exitsOf(cut, chunk)) {
-    put(text, "{}", static_cast<int>(exit.kind));
-    putDestination(exit.taken, text);
-    putDestination(exit.otherwise, text);
-    for (const ir::Destination& to : exit.targets) putDestination(to, text);
-    text += '\n';
+private:
+  using Kind = PieceNumbers::Kind;
+
+  // The rungs of a chunk, and where they go with which extra weight.
+  void putChunk(const ir::Chunk& chunk) {
+    put(text_, "chunk {}\n", chunk.rungCount);
+    first_ = chunk.firstRung;
+    for (uint32_t i = chunk.firstRung; i < chunk.firstRung + chunk.rungCount; ++i) {
+      putRung(cut_.module().at(chunk.routine).rungs[i], cut_.rungNumber(chunk.routine, i));
+      putExit(ir::exitOf(cut_, chunk.routine, i));
+    }
   }
-}
 
-// What the object exports under that name; nothing when it is not an object or has none.
-std::optional<PieceIdentity> identityIn(std::string_view object, const std::string& name) {
+  void putRung(const ir::Rung& rung, uint32_t number) {
+    text_ += "rung";
+    for (const ir::Type type : rung.values) put(text_, " {}", static_cast<int>(type));
+    text_ += '\n';
+    for (const ir::Op& op : rung.ops) {
+      put(text_, "{} {} {} {}", static_cast<int>(op.code), static_cast<int>(op.type), op.result.index, op.count);
+      putAttribute(op);
+      for (int i = 0; i < op.argCount; ++i) put(text_, " {}", ir::arg(rung, op, i).index);
+      if (op.code == ir::OpCode::Trap) put(text_, " @{}", numbers_.index(Kind::Line, lineOf(rung, op)));
+      if (PieceNumbers::namesRung(op.code)) put(text_, " #{}", numbers_.index(Kind::Rung, number));
+      text_ += '\n';
+    }
+    put(text_, "{} {}\n", rung.transfer.cond.index, rung.transfer.value.index);
+  }
+
+  // Places by where they lie, as the numbers of slots, and places of other cells, are of the whole program.
+  void putAttribute(const ir::Op& op) {
+    const ir::MemoryLayout& memory = layout_.memory();
+    const auto byte = static_cast<uint32_t>(op.imm / 8);
+    switch (ir::opInfo(op.code).attr) {
+    case ir::Attr::Slot: return put(text_, " slot {}", memory.slot(ir::SlotId{op.ref}));
+    case ir::Attr::Window:
+      put(text_, " {} window", op.ref);
+      if (op.count != 0)
+        put(text_, " {} {}", memory.byte(ir::SpaceId{op.ref}, byte), cut_.module().spaces[op.ref].unitBytes);
+      return;
+    case ir::Attr::Place:
+      if (op.type == ir::Type::Bit) {
+        const ir::BitLocation at = memory.bit(ir::SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
+        return put(text_, " {} bit {} {} {}", op.ref, at.offset, at.bit, at.wholeByte);
+      }
+      return put(text_, " {} at {}", op.ref, memory.byte(ir::SpaceId{op.ref}, byte));
+    default: return put(text_, " {} {}", op.ref, op.imm);
+    }
+  }
+
+  void putExit(const ir::Exit& exit) {
+    put(text_, "{}", static_cast<int>(exit.kind));
+    putDestination(exit.taken);
+    putDestination(exit.otherwise);
+    for (const ir::Destination& to : exit.targets) putDestination(to);
+    text_ += '\n';
+  }
+
+  void putDestination(const ir::Destination& to) {
+    if (to.inside())
+      put(text_, " +{} {}", to.rung - first_, to.extra);
+    else if (to.chunk == RUNG_NONE)
+      text_ += " back";
+    else
+      put(text_, " {}", numbers_.index(Kind::Chunk, to.chunk));
+  }
+
+  const ir::Layout& layout_;
+  const ir::Cut& cut_;
+  PieceNumbers numbers_;
+  uint32_t first_ = 0; // of the chunk in hand
+  std::string text_;
+};
+
+// What the object says of itself; nothing when it is not an object or says nothing.
+std::optional<PieceIdentity> identityIn(std::string_view object) {
   const llvm::MemoryBufferRef bytes({object.data(), object.size()}, "");
   llvm::Expected<std::unique_ptr<llvm::object::ObjectFile>> file = llvm::object::ObjectFile::createObjectFile(bytes);
   if (!file) {
@@ -68,7 +118,7 @@ std::optional<PieceIdentity> identityIn(std::string_view object, const std::stri
     return std::optional<Value>();
   };
   for (const llvm::object::SymbolRef& symbol : (*file)->symbols()) {
-    if (valueOf(symbol.getName()) != llvm::StringRef(name)) continue;
+    if (valueOf(symbol.getName()) != llvm::StringRef(kPieceIdentity)) continue;
     const auto section = valueOf(symbol.getSection());
     const auto offset = valueOf(symbol.getValue());
     if (!section || *section == (*file)->section_end() || !offset) return std::nullopt;
@@ -89,19 +139,17 @@ std::string cacheSeal(std::string_view object) {
 
 CacheKeys::CacheKeys(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, std::string_view machine,
                      std::string_view version)
-    : layout_(layout) {
+    : layout_(layout), debugInfo_(options.debugInfo) {
   std::string text = fmt::format("{} {} {} {} {}\n", version, machine, RUNG_ABI_VERSION,
                                  static_cast<int>(options.level), options.debugInfo);
-  text += layout.memory().text();
-  if (options.debugInfo) text += fmt::format("{:x}\n", codeHash) + ir::print(layout.module()); // it has all names
+  // Debug information has all names and where the pieces are.
+  if (debugInfo_) text += fmt::format("{:x}\n", codeHash) + layout.memory().text() + ir::print(layout.module());
   whole_ = sha256(text);
 }
 
 CacheKey CacheKeys::of(const ModulePart& piece) const {
-  std::string text = fmt::format("{} {} {}\n", llvm::toHex(whole_, true), piece.firstChunk, piece.chunkCount);
-  for (uint32_t i = 0; i < piece.chunkCount; ++i)
-    putChunk(layout_.cut(), layout_.cut().chunks()[piece.firstChunk + i], text);
-  return sha256(text);
+  std::string text = fmt::format("{} {}\n", llvm::toHex(whole_, true), debugInfo_ ? piece.firstChunk : 0);
+  return sha256(text + PieceText(layout_, piece).take());
 }
 
 ObjectCache::ObjectCache(const std::string& folder) {
@@ -116,8 +164,7 @@ std::optional<std::string> ObjectCache::find(const ModulePart& piece) const {
   if (!bytes || bytes->size() < sealSize) return std::nullopt;
   const std::string_view object(bytes->data(), bytes->size() - sealSize);
   if (cacheSeal(object) != std::string_view(*bytes).substr(object.size())) return std::nullopt;
-  if (identityIn(object, piece.identityName()) != PieceIdentity{piece.key, piece.firstChunk, piece.chunkCount})
-    return std::nullopt;
+  if (identityIn(object) != PieceIdentity{piece.key, piece.chunkCount}) return std::nullopt;
   bytes->resize(object.size());
   return bytes;
 }

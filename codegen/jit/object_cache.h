@@ -1,8 +1,8 @@
 // Object files kept in a folder, one a piece, by the hash of all that makes the piece's code, before any pass of LLVM:
-// of a program that changes in one rung, and keeps its memory, the other pieces are found. The key is also in the
-// object (see PieceIdentity) and is compared there: a file under a right name with other contents counts as absent, as
-// a damaged one does, and one that others could have written (see host::CodeFolder). Several processes may use one
-// folder.
+// of a program that changes in one rung the other pieces are found, also where they have moved, but for those whose
+// cells lie elsewhere in memory now. The key is also in the object (see PieceIdentity) and is compared there: a file
+// under a right name with other contents counts as absent, as a damaged one does, and one that others could have
+// written (see host::CodeFolder). Several processes may use one folder.
 #pragma once
 #include <optional>
 #include <string>
@@ -24,6 +24,7 @@ public:
 
 private:
   const ir::Layout& layout_;
+  bool debugInfo_;
   CacheKey whole_ = {}; // all that the pieces share
 };
 

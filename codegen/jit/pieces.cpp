@@ -1,8 +1,6 @@
 // From chunks to pieces, and from a piece to an object file (see pieces.h).
 #include "codegen/jit/pieces.h"
 
-#include <fmt/format.h>
-
 #include "ir/chunks/cut.h"
 
 namespace rung::codegen {
@@ -14,6 +12,12 @@ namespace {
 // Small enough that threads have the same amount of work, also of a program of some hundred rungs, that memory stays
 // flat and that the first piece is soon there; large enough that a piece's own cost is small beside it.
 constexpr uint32_t kOpsPerPiece = 2048;
+
+// Where a piece may end when it is half full: by what the next chunk begins with, so that where rungs are inserted above
+// the pieces are soon cut at the same places again.
+bool maybeEnds(const Module& module, const Chunk& next) {
+  return module.at(next.routine).rungs[next.firstRung].key % 2 == 0;
+}
 
 uint32_t operationsOf(const Module& module, const Chunk& chunk) {
   const std::vector<Rung>& rungs = module.at(chunk.routine).rungs;
@@ -29,8 +33,9 @@ std::vector<ModulePart> cutPieces(const Cut& cut, std::span<const uint32_t> chun
   uint32_t ops = 0;
   for (const uint32_t chunk : chunks) {
     const bool follows = !pieces.empty() && pieces.back().firstChunk + pieces.back().chunkCount == chunk;
-    if (ops >= kOpsPerPiece || !follows) {
-      pieces.push_back({.firstChunk = chunk, .tableName = fmt::format("rung_chunks_{}", chunk)});
+    const bool ends = ops >= kOpsPerPiece / 2 && maybeEnds(cut.module(), cut.chunks()[chunk]);
+    if (ops >= kOpsPerPiece || ends || !follows) {
+      pieces.push_back({.firstChunk = chunk, .isPiece = true});
       ops = 0;
     }
     ++pieces.back().chunkCount;

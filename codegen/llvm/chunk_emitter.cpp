@@ -11,14 +11,16 @@
 #include <llvm/IR/MDBuilder.h>
 
 #include "codegen/llvm/before_selection.h"
+#include "ir/chunks/alike_rungs.h"
 #include "ir/support/check.h"
 
 namespace rung::codegen {
 
 using namespace ir;
 
-ChunkEmitter::ChunkEmitter(llvm::Module& target, const Layout& layout, const LlvmOptions& options, DebugInfo* debug)
-    : target_(target), layout_(layout), module_(layout.module()), options_(options), debug_(debug),
+ChunkEmitter::ChunkEmitter(llvm::Module& target, const Layout& layout, const LlvmOptions& options, DebugInfo* debug,
+                           const PieceNumbers* numbers)
+    : target_(target), layout_(layout), module_(layout.module()), options_(options), debug_(debug), numbers_(numbers),
       abi_(target.getContext()), builder_(target.getContext()),
       extendsWords_(llvm::Triple(target.getTargetTriple()).isRISCV64()) {
   abi_.check(target.getDataLayout());
@@ -29,13 +31,15 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   bitsAreBytes_ = hasMostlyBytes(place);
   const Routine& routine = module_.at(place.routine);
   const Rung& first = routine.rungs[place.firstRung];
-  const std::string name = fmt::format("{}.{}", routine.name, place.firstRung);
+  const bool isNamed = numbers_ == nullptr || debug_ != nullptr; // else the code may be found for another place
+  const std::string name = isNamed ? fmt::format("{}.{}", routine.name, place.firstRung) : "chunk";
   auto* signature = llvm::FunctionType::get(builder_.getInt32Ty(),
                                             {builder_.getPtrTy(), builder_.getPtrTy(), builder_.getInt32Ty()}, false);
   function_ = llvm::Function::Create(signature, llvm::GlobalValue::InternalLinkage, name, target_);
   function_->setDoesNotThrow();
   function_->addFnAttr("frame-pointer", "non-leaf");
   function_->addFnAttr(kChunkAttribute);
+  if (hasAlikeRungs(module_, place)) function_->addFnAttr(kAlikeAttribute);
   if (!hostReadsMemory(module_, place)) function_->addParamAttr(0, llvm::Attribute::NoAlias);
   if (extendsWords_) function_->addRetAttr(llvm::Attribute::SExt);
   mem_ = function_->getArg(0);
@@ -83,6 +87,24 @@ void ChunkEmitter::setLine(uint32_t line) {
     builder_.SetCurrentDebugLocation(debug_->at(rung_->begin.file, line != 0 ? line : rung_->begin.line));
 }
 
+// An address that is no address but the number, which the linker puts in.
+llvm::GlobalVariable* ChunkEmitter::symbol(PieceNumbers::Kind kind, uint32_t number) {
+  const std::string name = PieceNumbers::name(numbers_->index(kind, number));
+  if (llvm::GlobalVariable* known = target_.getNamedGlobal(name)) return known;
+  auto* made =
+      new llvm::GlobalVariable(target_, builder_.getInt8Ty(), true, llvm::GlobalValue::ExternalLinkage, nullptr, name);
+  llvm::Type* word = builder_.getIntPtrTy(target_.getDataLayout());
+  llvm::Metadata* range[] = {llvm::ConstantAsMetadata::get(llvm::ConstantInt::get(word, 0)),
+                             llvm::ConstantAsMetadata::get(llvm::ConstantInt::get(word, uint64_t{1} << 31))};
+  made->setMetadata(llvm::LLVMContext::MD_absolute_symbol, llvm::MDNode::get(target_.getContext(), range));
+  return made;
+}
+
+llvm::Constant* ChunkEmitter::number(PieceNumbers::Kind kind, uint32_t number) {
+  if (numbers_ == nullptr) return builder_.getInt32(number);
+  return llvm::ConstantExpr::getPtrToInt(symbol(kind, number), builder_.getInt32Ty());
+}
+
 // Keeps the address of the memory block where a debugger finds it all through the function.
 void ChunkEmitter::showMemory() {
   llvm::AllocaInst* slot = builder_.CreateAlloca(builder_.getPtrTy());
@@ -94,7 +116,7 @@ void ChunkEmitter::showMemory() {
 // happened: a fence within the thread is not an instruction.
 void ChunkEmitter::settleMemory(const Op& op) {
   if (debug_ == nullptr || options_.level == LlvmLevel::Fast) return;
-  const uint32_t line = op.line != 0 ? op.line : rung_->begin.line;
+  const uint32_t line = lineOf(*rung_, op);
   if (line != settledLine_)
     builder_.CreateFence(llvm::AtomicOrdering::SequentiallyConsistent, llvm::SyncScope::SingleThread);
   const bool border = op.code == OpCode::If || op.code == OpCode::Else || op.code == OpCode::EndIf ||
@@ -252,7 +274,7 @@ void ChunkEmitter::message(const Op& op) {
   set(AbiTypes::kIndex, arg(op, 2));
   set(AbiTypes::kValue, real ? builder_.CreateBitCast(value, builder_.getInt64Ty()) : value);
   set(AbiTypes::kReal, num(real ? 1 : 0));
-  set(AbiTypes::kRung, num(number_));
+  set(AbiTypes::kRung, number(PieceNumbers::Kind::Rung, number_));
   callHost(AbiTypes::kMessage, builder_.getVoidTy(), {space});
 }
 
@@ -271,19 +293,19 @@ void ChunkEmitter::trap(const Op& op) {
   builder_.CreateCondBr(isSet(arg(op, 0)), fault, go, odds.createUnlikelyBranchWeights());
   builder_.SetInsertPoint(fault);
   Value* record = ctxField(AbiTypes::kFault);
-  const auto set = [&](AbiTypes::FaultField field, uint32_t value) {
-    builder_.CreateStore(num(value), builder_.CreateStructGEP(abi_.fault, record, field));
+  const auto set = [&](AbiTypes::FaultField field, Value* value) {
+    builder_.CreateStore(value, builder_.CreateStructGEP(abi_.fault, record, field));
   };
-  set(AbiTypes::kFaultCode, op.ref);
-  set(AbiTypes::kFaultRung, number_);
-  set(AbiTypes::kFaultLine, op.line != 0 ? op.line : rung_->begin.line);
+  set(AbiTypes::kFaultCode, num(op.ref));
+  set(AbiTypes::kFaultRung, number(PieceNumbers::Kind::Rung, number_));
+  set(AbiTypes::kFaultLine, number(PieceNumbers::Kind::Line, lineOf(*rung_, op)));
   builder_.CreateRet(num(RUNG_PC_FAULT));
   builder_.SetInsertPoint(go);
 }
 
 ChunkEmitter::Value* ChunkEmitter::profOfRung() {
   Value* counters = builder_.CreateLoad(builder_.getPtrTy(), ctxField(AbiTypes::kProf));
-  return builder_.CreateConstInBoundsGEP1_64(abi_.prof, counters, number_);
+  return builder_.CreateInBoundsGEP(abi_.prof, counters, number(PieceNumbers::Kind::Rung, number_));
 }
 
 // In order: what comes before has been done when the counter is read, and what follows has not begun. Otherwise a rung
@@ -400,7 +422,7 @@ void ChunkEmitter::goTo(const Destination& to) {
   } else if (to.chunk == RUNG_NONE) {
     returnToCaller();
   } else {
-    returnValue(num(to.chunk));
+    returnValue(number(PieceNumbers::Kind::Chunk, to.chunk));
   }
 }
 
@@ -418,7 +440,7 @@ void ChunkEmitter::pushReturn(uint32_t chunk) {
   Value* spField = ctxField(AbiTypes::kSp);
   Value* sp = builder_.CreateLoad(builder_.getInt32Ty(), spField);
   Value* index = builder_.CreateZExt(sp, builder_.getInt64Ty());
-  builder_.CreateStore(num(chunk),
+  builder_.CreateStore(number(PieceNumbers::Kind::Chunk, chunk),
                        builder_.CreateInBoundsGEP(builder_.getInt32Ty(), ctxField(AbiTypes::kStack), index));
   builder_.CreateStore(builder_.CreateAdd(sp, num(1)), spField);
 }
@@ -432,15 +454,19 @@ void ChunkEmitter::emitSwitch(const Exit& exit) {
     for (uint32_t i = 1; i < exit.targets.size(); ++i) jump->addCase(builder_.getInt32(i), blockOf(exit.targets[i]));
     return;
   }
-  std::vector<uint32_t> chunks;
-  for (const Destination& to : exit.targets) chunks.push_back(to.chunk);
-  llvm::Constant* table = llvm::ConstantDataArray::get(target_.getContext(), chunks);
+  const bool areSymbols = numbers_ != nullptr; // then of the size of addresses, which each linker can put into data
+  llvm::Type* type = areSymbols ? static_cast<llvm::Type*>(builder_.getPtrTy()) : builder_.getInt32Ty();
+  std::vector<llvm::Constant*> chunks;
+  for (const Destination& to : exit.targets)
+    chunks.push_back(areSymbols ? static_cast<llvm::Constant*>(symbol(PieceNumbers::Kind::Chunk, to.chunk))
+                                : builder_.getInt32(to.chunk));
+  llvm::Constant* table = llvm::ConstantArray::get(llvm::ArrayType::get(type, chunks.size()), chunks);
   auto* variable =
       new llvm::GlobalVariable(target_, table->getType(), true, llvm::GlobalValue::PrivateLinkage, table, "targets");
   Value* index = builder_.CreateSelect(builder_.CreateICmpULT(value, num(chunks.size())), value, num(0));
-  Value* entry =
-      builder_.CreateInBoundsGEP(builder_.getInt32Ty(), variable, builder_.CreateZExt(index, builder_.getInt64Ty()));
-  returnValue(builder_.CreateLoad(builder_.getInt32Ty(), entry));
+  Value* entry = builder_.CreateInBoundsGEP(type, variable, builder_.CreateZExt(index, builder_.getInt64Ty()));
+  Value* chunk = builder_.CreateLoad(type, entry);
+  returnValue(areSymbols ? builder_.CreatePtrToInt(chunk, builder_.getInt32Ty()) : chunk);
 }
 
 // After an if with the condition of the jump its two regions go their ways without meeting.

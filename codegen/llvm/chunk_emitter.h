@@ -9,15 +9,21 @@
 #include "codegen/llvm/abi_types.h"
 #include "codegen/llvm/debug_info.h"
 #include "codegen/llvm/llvm_module.h"
+#include "codegen/llvm/piece_numbers.h"
 #include "ir/chunks/cut.h"
 #include "ir/chunks/late_stores.h"
 
 namespace rung::codegen {
 
+// Of a function whose chunk has rows of alike rungs (ir/chunks/alike_rungs.h).
+inline constexpr char kAlikeAttribute[] = "rung-alike";
+
 class ChunkEmitter {
 public:
-  // `debug` may be null: no debug information.
-  ChunkEmitter(llvm::Module& target, const ir::Layout& layout, const LlvmOptions& options, DebugInfo* debug);
+  // `debug` may be null: no debug information. `numbers`: of the piece that all chunks are of; null: they are the whole
+  // program's, and numbers are in the code.
+  ChunkEmitter(llvm::Module& target, const ir::Layout& layout, const LlvmOptions& options, DebugInfo* debug,
+               const PieceNumbers* numbers);
 
   llvm::Function* emit(uint32_t chunk);
 
@@ -98,6 +104,9 @@ private:
   bool leaveFromRegions(const ir::Exit& exit);
   void pushReturn(uint32_t chunk);
 
+  llvm::GlobalVariable* symbol(PieceNumbers::Kind kind, uint32_t number);
+  llvm::Constant* number(PieceNumbers::Kind kind, uint32_t number);
+
   Value* arg(const ir::Op& op, int i) const { return values_[ir::arg(*rung_, op, i).index]; }
   llvm::Type* type(ir::Type type) const;
   // Between the IR's bits and what LLVM's comparisons give and branches take.
@@ -120,6 +129,7 @@ private:
   const ir::Module& module_;
   const LlvmOptions& options_;
   DebugInfo* debug_;
+  const PieceNumbers* numbers_;
   AbiTypes abi_;
   llvm::IRBuilder<> builder_;
   bool extendsWords_;         // the ABI wants 32-bit arguments and results sign-extended

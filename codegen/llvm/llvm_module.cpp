@@ -19,9 +19,11 @@
 #include <llvm/Transforms/Scalar/Reassociate.h>
 #include <llvm/Transforms/Scalar/SROA.h>
 #include <llvm/Transforms/Scalar/SimplifyCFG.h>
+#include <llvm/Transforms/Vectorize/SLPVectorizer.h>
 
 #include "codegen/llvm/chunk_emitter.h"
 #include "codegen/llvm/embedded.h"
+#include "codegen/llvm/piece_numbers.h"
 #include "codegen/llvm/table_constants.h"
 #include "ir/layout/program_image.h"
 
@@ -94,23 +96,28 @@ void addFlags(llvm::Module& module, const llvm::TargetMachine& machine) {
     module.addModuleFlag(llvm::Module::Error, "target-abi", llvm::MDString::get(module.getContext(), abi));
 }
 
-llvm::GlobalVariable* addChunkTable(llvm::Module& module, const std::vector<llvm::Constant*>& functions,
-                                    const std::string& exported) {
+llvm::GlobalVariable* addChunkTable(llvm::Module& module, const std::vector<llvm::Constant*>& functions, bool isPiece) {
   auto* type = llvm::ArrayType::get(llvm::PointerType::getUnqual(module.getContext()), functions.size());
-  const auto linkage = exported.empty() ? llvm::GlobalValue::PrivateLinkage : llvm::GlobalValue::ExternalLinkage;
+  const auto linkage = isPiece ? llvm::GlobalValue::ExternalLinkage : llvm::GlobalValue::PrivateLinkage;
   return new llvm::GlobalVariable(module, type, true, linkage, llvm::ConstantArray::get(type, functions),
-                                  exported.empty() ? "chunks" : exported);
+                                  isPiece ? kPieceTable : "chunks");
 }
 
 void addIdentity(llvm::Module& module, const ModulePart& part) {
   llvm::LLVMContext& context = module.getContext();
   llvm::Constant* value =
       llvm::ConstantStruct::getAnon({llvm::ConstantDataArray::get(context, part.key),
-                                     llvm::ConstantInt::get(llvm::Type::getInt32Ty(context), part.firstChunk),
                                      llvm::ConstantInt::get(llvm::Type::getInt32Ty(context), part.chunkCount)});
-  new llvm::GlobalVariable(module, value->getType(), true, llvm::GlobalValue::ExternalLinkage, value,
-                           part.identityName());
+  new llvm::GlobalVariable(module, value->getType(), true, llvm::GlobalValue::ExternalLinkage, value, kPieceIdentity);
 }
+
+// Elsewhere the vectoriser finds little, and looking for it takes as long as all other passes and the code generator.
+struct VectorsOfAlikeRungs : llvm::PassInfoMixin<VectorsOfAlikeRungs> {
+  llvm::PreservedAnalyses run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
+    if (!function.hasFnAttribute(kAlikeAttribute)) return llvm::PreservedAnalyses::all();
+    return llvm::SLPVectorizerPass().run(function, analyses);
+  }
+};
 
 } // namespace
 
@@ -124,12 +131,14 @@ Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, co
     debug.emplace(*module, layout.module(),
                   part.members != nullptr ? *part.members : ir::memoryMembers(layout.memory()),
                   options.level == LlvmLevel::Opt);
-  ChunkEmitter emitter(*module, layout, options, debug ? &*debug : nullptr);
+  std::optional<PieceNumbers> numbers;
+  if (part.isPiece) numbers.emplace(layout.cut(), part);
+  ChunkEmitter emitter(*module, layout, options, debug ? &*debug : nullptr, numbers ? &*numbers : nullptr);
   std::vector<llvm::Constant*> functions;
   for (uint32_t i = 0; i < part.chunkCount; ++i) functions.push_back(emitter.emit(part.firstChunk + i));
   if (debug) debug->finish();
-  llvm::GlobalVariable* table = addChunkTable(*module, functions, part.tableName);
-  if (part.tableName.empty()) {
+  llvm::GlobalVariable* table = addChunkTable(*module, functions, part.isPiece);
+  if (!part.isPiece) {
     const ir::ProgramImage image(layout, codeHash);
     addProgramTables(*module, image.program(), table);
   } else {
@@ -167,6 +176,7 @@ void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel lev
   perFunction.addPass(llvm::EarlyCSEPass(true));
   perFunction.addPass(llvm::DSEPass());
   perFunction.addPass(llvm::InstCombinePass());
+  perFunction.addPass(VectorsOfAlikeRungs());
   llvm::ModulePassManager passes;
   passes.addPass(llvm::AlwaysInlinerPass(false));
   passes.addPass(llvm::createModuleToFunctionPassAdaptor(std::move(perFunction)));

@@ -10,6 +10,7 @@
 namespace rung::ir {
 namespace {
 
+constexpr uint32_t kNear = 8; // places within this part of a chunk are near one another
 constexpr uint32_t kRestingRungs = 32; // fewer: more to look at; more: they rest less often
 
 uint32_t weightOf(const Rung& rung) { return std::max(1u, rung.weight); }
@@ -50,7 +51,7 @@ private:
     cut_.after_.emplace_back(rungs.size());
     const auto count = static_cast<uint32_t>(rungs.size());
     for (uint32_t first = 0; first < count;) {
-      const uint32_t end = chunkEnd(first, count);
+      const uint32_t end = chunkEnd(routine, first);
       chunkOf.insert(chunkOf.end(), end - first, static_cast<uint32_t>(cut_.chunks_.size()));
       cut_.chunks_.push_back({.routine = RoutineId{routine}, .firstRung = first, .rungCount = end - first});
       for (uint32_t i = first; i < end; ++i)
@@ -110,17 +111,25 @@ private:
     std::partial_sum(crossing_.begin(), crossing_.end(), crossing_.begin());
   }
 
-  // A full chunk is cut in its second half, as late as possible where the fewest jumps would have to leave it.
-  uint32_t chunkEnd(uint32_t first, uint32_t count) const {
+  // A full chunk is cut in its second half, as late as possible where the fewest jumps would have to leave it; but of
+  // such places that lie near one another the rungs' keys choose, so that a rung which is inserted above moves one cut or
+  // two, and not all that follow.
+  uint32_t chunkEnd(uint32_t routine, uint32_t first) const {
+    const std::vector<Rung>& rungs = module_.routines[routine].rungs;
+    const auto count = static_cast<uint32_t>(rungs.size());
     uint32_t end = first + 1;
     while (end < count && !heads_[end] && end - first < options_.maxChunkRungs &&
            opsBefore_[end + 1] - opsBefore_[first] <= options_.maxChunkOps)
       ++end;
     if (end == count || heads_[end]) return end;
+    const uint32_t earliest = first + (end - first) / 2 + 1;
     uint32_t best = end;
-    for (uint32_t i = end; i > first + (end - first) / 2; --i)
+    for (uint32_t i = end; i >= earliest; --i)
       if (crossing_[i] < crossing_[best]) best = i;
-    return best;
+    uint32_t chosen = best;
+    for (uint32_t i = best; i >= earliest && best - i < (end - first) / kNear; --i)
+      if (crossing_[i] == crossing_[best] && rungs[i].key < rungs[chosen].key) chosen = i;
+    return chosen;
   }
 
   template <class Visit>

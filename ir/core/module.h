@@ -225,5 +225,6 @@ std::vector<const Symbol*> placedSymbols(const Module& module);
 inline const ValueId* argsOf(const Rung& rung, const Op& op) { return rung.args.data() + op.firstArg; }
 inline ValueId arg(const Rung& rung, const Op& op, int i) { return rung.args[op.firstArg + static_cast<uint32_t>(i)]; }
 inline Type typeOf(const Rung& rung, ValueId value) { return rung.values[value.index]; }
+inline uint32_t lineOf(const Rung& rung, const Op& op) { return op.line != 0 ? op.line : rung.begin.line; }
 
 } // namespace rung::ir

@@ -160,7 +160,7 @@ void RungRun::request(const Op& op) {
 void RungRun::setFault(const Op& op) {
   ctx_.fault.code = op.ref;
   ctx_.fault.rung = number_;
-  ctx_.fault.line = op.line != 0 ? op.line : rung_.begin.line;
+  ctx_.fault.line = lineOf(rung_, op);
 }
 
 uint64_t RungRun::clock() const { return counting_ == Counting::Operations ? operations_ : rt::readTicks(); }

@@ -98,16 +98,17 @@ private:
       }
   }
 
-  // Widest first, so that each is aligned without gaps.
+  // Widest first, so that each is aligned without gaps; one more of a size moves those of other sizes seldom.
   void placeSlots() {
     layout_.slotOffsets_.resize(module_.slots.size());
-    next_ = alignUp(next_, kBlockAlign);
-    for (uint32_t size : {8u, 4u, 2u, 1u})
+    for (uint32_t size : {8u, 4u, 2u, 1u}) {
+      next_ = alignUp(next_, kBlockAlign);
       for (size_t i = 0; i < module_.slots.size(); ++i)
         if (slotBytes(module_.slots[i]) == size) {
           layout_.slotOffsets_[i] = used(next_);
           next_ += size;
         }
+    }
   }
 
   MemoryLayout& layout_;

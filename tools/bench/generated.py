@@ -12,8 +12,8 @@ from callgrind import TARGET, Failure, counted, run, self_costs, touched
 from peers import Peers
 
 DIALECTS = ("nct", "gsk", "technol")
-KINDS = ("bits", "timers-idle", "timers-running", "counters", "integers", "reals", "indexed", "signals", "mechanisms-idle",
-         "mechanisms-waiting", "mechanisms", "full")
+KINDS = ("bits", "arrays", "timers-idle", "timers-running", "counters", "integers", "reals", "indexed", "signals",
+         "mechanisms-idle", "mechanisms-waiting", "mechanisms", "full")
 SIZES = (100, 1000)
 LARGE_SIZES = (10_000, 50_000)
 LARGE_KINDS = ("bits", "full")  # of these the usual report has large ones, too

@@ -19,7 +19,7 @@ import start
 from callgrind import Failure, run
 from generated import DIALECTS, LARGE_KINDS, LARGE_RESTING, RESTING, Instructions, Programs, percentile, works
 
-TITLES = {"bits": "bit logic", "timers-idle": "timers, idle", "timers-running": "timers, running", "counters": "counters",
+TITLES = {"bits": "bit logic", "arrays": "bit logic of arrays", "timers-idle": "timers, idle", "timers-running": "timers, running", "counters": "counters",
           "integers": "integer arithmetic", "reals": "floating-point arithmetic", "indexed": "indexed addressing",
           "signals": "bit logic on NC signals", "mechanisms-idle": "mechanisms, idle",
           "mechanisms-waiting": "mechanisms, waiting", "mechanisms": "mechanisms", "full": "full"}
@@ -32,7 +32,7 @@ COUNTS_HEAD = """## Instructions of generated programs
 Counted by callgrind, exactly, as above: a scan in the host's runner, without a control, after twenty others. A program is drawn from a seed (tools/bench/generated)
 and written in each dialect, and as straight-line C++ in two forms, a byte a bit and 64 bits a word, compiled by g++ and clang++ at -O3. All have the same inputs,
 some of which change before each scan, and the same outputs: bits, words, tables and floating-point numbers are compared after every one of 400 scans. The
-reference is the straight-line form with the fewest instructions. "Full" is bit logic with, for each ten rungs of it, a timer, a counter and two of integer
+reference is the straight-line form with the fewest instructions. "Bit logic of arrays" has rows of 50 rungs that are alike over neighbouring bits, alarms that stay and their lamps. "Full" is bit logic with, for each ten rungs of it, a timer, a counter and two of integer
 arithmetic. A missing count: the control cannot hold so many rungs, or has no such instruction. In brackets: of these the compiled rungs, without the runner.
 """
 PEERS_HEAD = """### The same programs by others

@@ -101,9 +101,9 @@ TEST_P(GeneratedProgram, DoesInEachDialectWhatItsStraightLineFormsDo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, GeneratedProgram,
-                         testing::Values("bits", "timers-idle", "timers-running", "counters", "integers", "reals",
-                                         "indexed", "signals", "mechanisms-idle", "mechanisms-waiting", "mechanisms",
-                                         "full"));
+                         testing::Values("bits", "arrays", "timers-idle", "timers-running", "counters", "integers",
+                                         "reals", "indexed", "signals", "mechanisms-idle", "mechanisms-waiting",
+                                         "mechanisms", "full"));
 
 TEST(GeneratedInstructions, CompileAndRunInEachDialect) {
   for (const std::string_view dialect : bench::kDialects) {

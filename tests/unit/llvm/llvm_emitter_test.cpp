@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <unistd.h>
 
+#include "ir/core/builder.h"
 #include "ir/support/check.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/host/sealing.h"
@@ -115,6 +116,25 @@ TEST(LlvmEmitter, OptInlinesTheSemantics) {
     const Result<std::string> ir = emitLlvmIr(layout, 42, {.level = LlvmLevel::Opt, .target = std::string(target)});
     ASSERT_TRUE(ir.ok()) << ir.error();
     EXPECT_THAT(ir.value(), Not(HasSubstr("@rung_sem_"))) << target;
+  }
+}
+
+TEST(LlvmEmitter, RowsOfAlikeRungsAreVectors) {
+  constexpr uint32_t kRungs = 64;
+  Module module = sampleModule();
+  module.routines.push_back({.name = "ROW", .rungs = std::vector<Rung>(kRungs)});
+  module.spaces.push_back({.name = "L", .unitBytes = 1, .units = 2 * kRungs / 8});
+  const SpaceId lamps{static_cast<uint32_t>(module.spaces.size() - 1)};
+  for (uint32_t i = 0; i < kRungs; ++i) {
+    RungBuilder b(module, module.routines.back().rungs[i]);
+    b.store({lamps, (kRungs + i) / 8, i % 8}, b.not_(b.load(Type::Bit, {lamps, i / 8, i % 8})));
+  }
+  const Layout layout(module, {});
+  for (const std::string_view target : {"x86_64-linux-gnu", "aarch64-linux-gnu"}) {
+    const Result<std::string> ir =
+        emitLlvmIr(layout, 42, {.level = LlvmLevel::Opt, .debugInfo = false, .target = std::string(target)});
+    ASSERT_TRUE(ir.ok()) << ir.error();
+    EXPECT_THAT(ir.value(), HasSubstr("xor <16 x i8>")) << target;
   }
 }
 

@@ -15,12 +15,14 @@ constexpr uint32_t kInputs = 1024;
 constexpr uint32_t kIndices = 16;
 constexpr uint32_t kOperands = 48;
 constexpr uint32_t kResults = 192;     // shared by the elements beyond
+constexpr uint32_t kArray = 50;        // rungs
 constexpr uint32_t kPresetStepMs = 40; // a whole number of scans in each dialect
 constexpr uint32_t kPresets = 8;       // of counters
 constexpr uint32_t kLongMs = 800'000;  // no timer of a bench gets there
 
 constexpr std::array kKinds = {
     KindRow{Kind::Bits, "bits", "bit logic"},
+    KindRow{Kind::Arrays, "arrays", "bit logic of arrays"},
     KindRow{Kind::TimersIdle, "timers-idle", "timers, idle"},
     KindRow{Kind::TimersRunning, "timers-running", "timers, running"},
     KindRow{Kind::Counters, "counters", "counters"},
@@ -54,6 +56,7 @@ public:
     switch (work_.kind) {
     case Kind::Bits:
     case Kind::Signals: many(size, [&] { logic(); }); break;
+    case Kind::Arrays: arrays(size); break;
     case Kind::TimersIdle: resting(false, size, [&] { timer({firstHalf(), longMs()}); }); break;
     case Kind::TimersRunning: resting(true, size, [&] { timer({firstHalf(), longMs()}); }); break;
     case Kind::Counters: many(size, [&] { counter({input(), input()}); }); break;
@@ -78,6 +81,27 @@ private:
     work_.changes = false;
     work_.firstHalf = first;
     many(size, draw);
+  }
+  // One of alarms, one of the lamps for them, one of alarms, …
+  void arrays(uint32_t size) {
+    for (uint32_t i = 0; i < size; ++i) {
+      if (i % kArray == 0) array_ = {.inputs = below(kInputs - kArray), .first = input(), .second = input()};
+      const uint32_t coil = newCoil();
+      if (i / kArray % 2 == 0)
+        add({.op = Op::Logic,
+             .parallel = true,
+             .first = {array_.inputs + i % kArray},
+             .second = {coil},
+             .third = {array_.first.bit, true},
+             .coil = coil});
+      else
+        add({.op = Op::Logic,
+             .parallel = true,
+             .first = {coil - kArray},
+             .second = array_.first,
+             .third = array_.second,
+             .coil = coil});
+    }
   }
   void full(uint32_t size) {
     for (uint32_t i = 0; i < size; ++i) {
@@ -174,7 +198,13 @@ private:
          .number = work_.mechanisms++});
   }
 
+  struct Array {
+    uint32_t inputs = 0; // the first of neighbours
+    Contact first{}, second{};
+  };
+
   std::mt19937_64 random_;
+  Array array_;
   uint32_t results_ = 0;
   Work work_;
 };

@@ -41,6 +41,7 @@ struct Element {
 
 enum class Kind : uint8_t {
   Bits,
+  Arrays, // alarms that stay until they are reset, and their lamps: rungs that are alike over neighbouring bits
   TimersIdle,
   TimersRunning,
   Counters,

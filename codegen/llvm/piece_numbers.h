@@ -1,0 +1,41 @@
+// The numbers in a piece's code that say where the piece is in its program: of chunks that it goes to, of rungs and
+// lines that it names to the host. A rung that is inserted above changes these and nothing else. So the code has
+// symbols for them, whose values the linker puts in, and the same object serves wherever the piece is. Free of LLVM.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "codegen/llvm/module_part.h"
+#include "ir/chunks/cut.h"
+
+namespace rung::codegen {
+
+class PieceNumbers {
+public:
+  enum class Kind : uint8_t { Chunk, Rung, Line };
+
+  PieceNumbers(const ir::Cut& cut, const ModulePart& piece);
+
+  // Which of the values it is; the piece's code has it.
+  uint32_t index(Kind kind, uint32_t number) const { return indices_.at({kind, number}); }
+  std::span<const uint32_t> values() const { return values_; }
+
+  // Whether an operation tells the host its rung.
+  static bool namesRung(ir::OpCode code);
+  // The symbol of a value.
+  static std::string name(uint32_t index);
+
+private:
+  void addRung(const ir::Rung& rung, uint32_t number);
+  void addExit(const ir::Exit& exit);
+  void add(Kind kind, uint32_t number);
+
+  std::map<std::pair<Kind, uint32_t>, uint32_t> indices_;
+  std::vector<uint32_t> values_; // in the order in which the piece first has them
+};
+
+} // namespace rung::codegen

@@ -87,7 +87,7 @@ void ChunkEmitter::setLine(uint32_t line) {
     builder_.SetCurrentDebugLocation(debug_->at(rung_->begin.file, line != 0 ? line : rung_->begin.line));
 }
 
-// An address that is no address but the number, which the linker puts in.
+// The number as the address of a symbol, which the linker puts in.
 llvm::GlobalVariable* ChunkEmitter::symbol(PieceNumbers::Kind kind, uint32_t number) {
   const std::string name = PieceNumbers::name(numbers_->index(kind, number));
   if (llvm::GlobalVariable* known = target_.getNamedGlobal(name)) return known;

@@ -24,7 +24,7 @@ public:
   uint32_t index(Kind kind, uint32_t number) const { return indices_.at({kind, number}); }
   std::span<const uint32_t> values() const { return values_; }
 
-  // Whether an operation tells the host its rung.
+  // Whether an operation reports its rung to the host.
   static bool namesRung(ir::OpCode code);
   // The symbol of a value.
   static std::string name(uint32_t index);

@@ -38,8 +38,8 @@ TEST(AlikeRungs, ARowOfThemIsFound) {
 }
 
 TEST(AlikeRungs, ARowThatIsInterruptedIsShort) {
-  Module m = empty(20);
-  for (uint32_t i = 0; i < 20; ++i) copyBit(m, i, i == 10);
+  Module m = empty(15);
+  for (uint32_t i = 0; i < 15; ++i) copyBit(m, i, i == 7);
   EXPECT_FALSE(found(m));
 }
 
@@ -50,9 +50,9 @@ TEST(AlikeRungs, GroupsOfRungsAreComparedAsGroups) {
 }
 
 TEST(AlikeRungs, ARungThatJumpsEndsARow) {
-  Module m = empty(20);
-  for (uint32_t i = 0; i < 20; ++i) copyBit(m, i, false);
-  m.routines[0].rungs[9].transfer = {.kind = TransferKind::Goto, .cond = {0}, .target = 19};
+  Module m = empty(15);
+  for (uint32_t i = 0; i < 15; ++i) copyBit(m, i, false);
+  m.routines[0].rungs[7].transfer = {.kind = TransferKind::Goto, .cond = {0}, .target = 14};
   EXPECT_FALSE(found(m));
 }
 

@@ -115,8 +115,8 @@ void RungBuilder::slotStore(SlotId slot, ValueId value) {
   append(OpCode::SlotStore, typeOf(value), {&value, 1}).ref = slot.index;
 }
 
-void RungBuilder::if_(ValueId cond) {
-  append(OpCode::If, Type::None, {&cond, 1});
+void RungBuilder::if_(ValueId cond, Odds odds) {
+  append(OpCode::If, Type::None, {&cond, 1}).ref = odds;
   yieldTypes_.emplace_back();
 }
 

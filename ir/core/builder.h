@@ -79,13 +79,13 @@ public:
   ValueId now() { return op(OpCode::Now, Type::I64, {}); }
 
   // Regions. `yields` of both branches must agree in number and types; endIf gives the results.
-  void if_(ValueId cond);
+  void if_(ValueId cond, Odds odds = kEven);
   void else_(std::span<const ValueId> yields = {});
   std::vector<ValueId> endIf(std::span<const ValueId> yields = {});
   // `body` adds the operations of a region without results. An invalid condition: they always run.
   template <class Body>
-  void when(ValueId cond, Body body) {
-    if (cond.valid()) if_(cond);
+  void when(ValueId cond, Body body, Odds odds = kEven) {
+    if (cond.valid()) if_(cond, odds);
     body();
     if (cond.valid()) endIf();
   }
@@ -101,11 +101,11 @@ public:
   // Each branch adds its operations and gives its value, or a std::array or a struct of nothing but values; gives that
   // of the branch which runs.
   template <class Yes, class No>
-  auto choose(ValueId cond, Yes yes, No no) {
+  auto choose(ValueId cond, Yes yes, No no, Odds odds = kEven) {
     using Result = decltype(yes());
     static_assert(sizeof(Result) % sizeof(ValueId) == 0);
     using Values = std::array<ValueId, sizeof(Result) / sizeof(ValueId)>;
-    if_(cond);
+    if_(cond, odds);
     Values values = std::bit_cast<Values>(yes());
     else_(values);
     const Values others = std::bit_cast<Values>(no());

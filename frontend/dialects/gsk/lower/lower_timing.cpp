@@ -9,7 +9,7 @@ namespace {
 using ir::Type;
 using ir::ValueId;
 
-constexpr int64_t kNotRunning = -1; // as the elapsed time
+constexpr int64_t kNotRunning = INT64_MIN / 2; // as the elapsed time: no gain makes 0 of it
 
 // The preset in microseconds.
 ValueId presetOf(FunctionLowering& f) {
@@ -45,12 +45,14 @@ void lowerTimer(FunctionLowering& f) {
   const auto grow = [&] {
     const ValueId preset = presetOf(f);
     const ValueId gain = gainOf(f);
-    const ValueId before = b.slotLoad(elapsed);
+    const ValueId grown = b.add(b.slotLoad(elapsed), gain);
+    b.slotStore(elapsed, grown);
     const ValueId zero = b.constant(Type::I64, 0);
-    const ValueId grown = b.add(before, gain);
-    const ValueId time = b.select(b.ltS(before, zero), zero, grown);
-    b.slotStore(elapsed, time);
-    return b.leS(preset, time);
+    const auto begin = [&] {
+      b.slotStore(elapsed, zero);
+      return zero;
+    };
+    return b.leS(preset, b.choose(b.ltS(grown, zero), begin, [&] { return grown; }, ir::kSeldom));
   };
   f.setOutput(b.choose(f.act(), grow, [&] {
     b.slotStore(elapsed, b.constant(Type::I64, kNotRunning));

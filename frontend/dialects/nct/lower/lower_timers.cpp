@@ -64,20 +64,15 @@ ValueId atMostRegister(RungBuilder& b, ValueId ms) {
   return b.zextOrTrunc(Type::I32, b.select(b.ltU(ms, most), ms, most));
 }
 
-// What the register holds after `passedMs`; what the program wrote there is counted down, too.
-ValueId countDown(RungBuilder& b, ValueId left, ValueId passedMs) {
-  return b.select(b.leS(left, passedMs), b.i32(0), b.sub(left, passedMs));
-}
-
-// What the register holds now, where it is not known when the last evaluation was: `since` is what it has been counted
-// down to, in microseconds, for what is less than a millisecond counts later. -1: the timer was never evaluated, or
-// runs on in a changed program where its time was the run's; then nothing counts yet.
-ValueId countedSince(RungBuilder& b, SlotId slot, ValueId left) {
+// The time since the last evaluation, where it is not known when that was: `since` is what the register has been
+// counted down to, in microseconds, for what is less than a millisecond counts later. -1: the timer was never
+// evaluated, or runs on in a changed program where its time was the run's; then nothing counts yet.
+ValueId passedSince(RungBuilder& b, SlotId slot) {
   const ValueId last = b.slotLoad(slot);
   const ValueId since = b.select(b.ltS(last, b.constant(Type::I64, 0)), b.now(), last);
   const ValueId ms = wholeMs(b, b.sub(b.now(), since));
   b.slotStore(slot, b.add(since, b.mul(ms, b.constant(Type::I64, kUsPerMs))));
-  return countDown(b, left, atMostRegister(b, ms));
+  return atMostRegister(b, ms);
 }
 
 // One evaluation; gives the output. The trigger writes the preset and counts nothing; afterwards the register loses
@@ -85,11 +80,8 @@ ValueId countedSince(RungBuilder& b, SlotId slot, ValueId left) {
 ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerState& state) {
   RungBuilder& b = box.b;
   const bool isOffDelay = box.variant == kOffDelay;
-  const auto put = [&](ValueId ms) {
-    box.memory.storeWord(timer, ms);
-    const ValueId over = b.eq(ms, b.i32(0));
-    return box.variant == kOnDelay ? over : b.not_(over);
-  };
+  const auto outputOf = [&](ValueId over) { return box.variant == kOnDelay ? over : b.not_(over); };
+  const auto outputWhen = [&](bool over) { return b.bit(over == (box.variant == kOnDelay)); };
   const auto begin = [&](bool active) {
     b.slotStore(state.active, b.bit(active));
     if (isOffDelay) b.slotStore(state.evaluated, b.bit(true));
@@ -103,14 +95,20 @@ ValueId step(Lowering& box, const Place& timer, ValueId presetMs, const TimerSta
   const auto trigger = [&] {
     // Never evaluated and its input is off: it has not been triggered, whatever the register holds.
     const ValueId rest = isOffDelay ? b.select(b.slotLoad(state.evaluated), presetMs, b.i32(0)) : presetMs;
-    const ValueId output = put(rest);
+    box.memory.storeWord(timer, rest);
     begin(true);
-    return output;
+    return outputOf(b.eq(rest, b.i32(0)));
   };
+  // What the program wrote into the register is counted down, too.
   const auto count = [&] {
     const ValueId left = box.memory.loadWord(timer);
-    return put(state.since.valid() ? countedSince(b, state.since, left)
-                                   : countDown(b, left, b.slotLoad(box.time.passedMs)));
+    const ValueId passed = state.since.valid() ? passedSince(b, state.since) : b.slotLoad(box.time.passedMs);
+    box.memory.storeWord(timer, b.sub(left, passed));
+    const auto end = [&] {
+      box.memory.storeWord(timer, b.i32(0));
+      return outputWhen(true);
+    };
+    return b.choose(b.leS(left, passed), end, [&] { return outputWhen(false); }, ir::kSeldom);
   };
   const ValueId input = box.power();
   const ValueId active = isOffDelay ? b.not_(input) : input;

@@ -17,9 +17,11 @@ void lowerTimer(StatementContext& l, std::span<const Operand> o, int) {
   const ValueId preset = l.r().dr(cell.type);
   const auto run = [&] {
     const ValueId count = l.state.load(cell);
-    const ValueId reached = b.leU(preset, count);
-    b.when(b.not_(reached), [&] { l.state.store(cell, b.add(count, b.constant(cell.type, 1))); });
-    return reached;
+    const auto further = [&] {
+      l.state.store(cell, b.add(count, b.constant(cell.type, 1)));
+      return b.bit(false);
+    };
+    return b.choose(b.ltU(count, preset), further, [&] { return b.bit(true); });
   };
   const auto clear = [&] {
     l.state.store(cell, b.constant(cell.type, 0));

@@ -1,6 +1,10 @@
 // See before_selection.h.
 #include "codegen/llvm/before_selection.h"
 
+#include <llvm/IR/Module.h>
+#include <llvm/TargetParser/Triple.h>
+
+#include "codegen/llvm/negations_in_flags.h"
 #include "codegen/llvm/reload_values.h"
 #include "codegen/llvm/split_blocks.h"
 #include "codegen/llvm/stores_in_branches.h"
@@ -12,10 +16,16 @@ class BeforeSelection final : public llvm::FunctionPass {
 public:
   BeforeSelection() : FunctionPass(kId) {}
 
+  bool doInitialization(llvm::Module& module) override {
+    isX86_ = llvm::Triple(module.getTargetTriple()).isX86();
+    return false;
+  }
+
   bool runOnFunction(llvm::Function& function) override {
     bool changed = false;
     if (function.hasFnAttribute(kChunkAttribute)) {
       changed = storeInBranches(function) || changed;
+      if (isX86_) changed = negateInFlags(function) || changed;
       changed = reloadValues(function) || changed;
     }
     return splitBlocks(function) || changed; // the last, for it gives blocks that it cuts their addresses
@@ -23,6 +33,7 @@ public:
 
 private:
   static char kId; // LLVM knows a pass by its address
+  bool isX86_ = false;
 };
 
 char BeforeSelection::kId = 0;

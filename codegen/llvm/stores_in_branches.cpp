@@ -4,6 +4,7 @@
 #include <llvm/ADT/STLExtras.h>
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/Function.h>
+#include <llvm/Transforms/Utils/BasicBlockUtils.h>
 
 #include "codegen/llvm/memory_place.h"
 
@@ -23,6 +24,7 @@ public:
     bool changed = false;
     for (llvm::PHINode& joined : llvm::make_early_inc_range(block.phis())) {
       if (!isOnlyStored(joined)) continue;
+      giveBranches(block);
       store(joined);
       changed = true;
     }
@@ -30,13 +32,20 @@ public:
   }
 
 private:
-  // Nothing but this block follows those before it.
+  // From each block before it there is one way to it.
   static bool isJoin(const llvm::BasicBlock& block) {
     return !block.hasNPredecessorsOrMore(kMostBranches + 1) &&
            llvm::all_of(llvm::predecessors(&block), [](const llvm::BasicBlock* before) {
              const auto* jump = llvm::dyn_cast<llvm::BranchInst>(before->getTerminator());
-             return jump != nullptr && jump->isUnconditional();
+             return jump != nullptr && (jump->isUnconditional() || jump->getSuccessor(0) != jump->getSuccessor(1));
            });
+  }
+
+  // Each way to the block gets a block of its own.
+  static void giveBranches(llvm::BasicBlock& block) {
+    const llvm::SmallVector<llvm::BasicBlock*, kMostBranches> all(llvm::predecessors(&block));
+    for (llvm::BasicBlock* before : all)
+      if (before->getSingleSuccessor() == nullptr) llvm::SplitEdge(before, &block);
   }
 
   bool isOnlyStored(llvm::PHINode& joined) const {

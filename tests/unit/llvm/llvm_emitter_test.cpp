@@ -138,6 +138,26 @@ TEST(LlvmEmitter, RowsOfAlikeRungsAreVectors) {
   }
 }
 
+TEST(LlvmEmitter, NegationsAreInFlags) {
+  constexpr uint32_t kRungs = 8;
+  Module module = sampleModule();
+  module.routines.push_back({.name = "LOGIC", .rungs = std::vector<Rung>(kRungs)});
+  module.spaces.push_back({.name = "L", .unitBytes = 1, .units = 4 * kRungs / 8});
+  const SpaceId bits{static_cast<uint32_t>(module.spaces.size() - 1)};
+  for (uint32_t i = 0; i < kRungs; ++i) {
+    RungBuilder b(module, module.routines.back().rungs[i]);
+    const auto bit = [&](uint32_t array) { return Place{bits, (array * kRungs + i) / 8, i % 8}; };
+    const ValueId open = b.and_(b.load(Type::Bit, bit(0)), b.load(Type::Bit, bit(1)));
+    const ValueId closed = b.not_(b.load(Type::Bit, bit(2)));
+    b.store(bit(3), i % 2 == 0 ? b.and_(open, closed) : b.or_(open, closed));
+  }
+  const Layout layout(module, {});
+  const LlvmOptions options{.level = LlvmLevel::Opt, .debugInfo = false, .target = "x86_64-linux-gnu"};
+  const Result<std::string> code = emitAssembly(layout, 42, options);
+  ASSERT_TRUE(code.ok()) << code.error();
+  EXPECT_THAT(code.value(), testing::AllOf(HasSubstr("setb"), HasSubstr("setae")));
+}
+
 TEST(LlvmEmitter, LinesOfTheSource) {
   const Module module = sampleModule();
   const Layout layout(module, {});

@@ -78,7 +78,6 @@ void lowerCounter(FunctionLowering& f) {
   }
   const ValueId pulse = frontend::edge(b, before, f.act());
   const ir::SlotId w = f.slot("W", Type::Bit);
-  const ValueId keep = b.slotLoad(w);
 
   // Branches: a counter keeps its direction.
   const auto bottom = [&] { return b.zextOrTrunc(Type::I16, cn0); }; // P26
@@ -106,12 +105,14 @@ void lowerCounter(FunctionLowering& f) {
     };
     return b.choose(down, downward, up);
   };
-  const auto run = [&] {
-    const ValueId out = b.choose(reset, startAgain, step);
+  const auto kept = [&](ValueId out) {
     b.slotStore(w, out);
     return out;
   };
-  f.setOutput(b.choose(b.or_(reset, pulse), run, [&] { return keep; }));
+  const auto go = [&] {
+    return b.choose(pulse, [&] { return kept(step()); }, [&] { return b.slotLoad(w); }, ir::kSeldom);
+  };
+  f.setOutput(b.choose(reset, [&] { return kept(startAgain()); }, go, ir::kSeldom));
 }
 
 // P39: the memory belongs to the instruction.

@@ -25,6 +25,7 @@ namespace rung::codegen {
 namespace {
 
 using namespace ir;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -155,7 +156,23 @@ TEST(LlvmEmitter, NegationsAreInFlags) {
   const LlvmOptions options{.level = LlvmLevel::Opt, .debugInfo = false, .target = "x86_64-linux-gnu"};
   const Result<std::string> code = emitAssembly(layout, 42, options);
   ASSERT_TRUE(code.ok()) << code.error();
-  EXPECT_THAT(code.value(), testing::AllOf(HasSubstr("setb"), HasSubstr("setae")));
+  EXPECT_THAT(code.value(), AllOf(HasSubstr("setb"), HasSubstr("setae")));
+}
+
+TEST(LlvmEmitter, WhatATrapHasAskedIsNotAskedAgain) {
+  Module module = sampleModule();
+  module.routines.push_back({.name = "REALS", .rungs = std::vector<Rung>(1)});
+  module.spaces.push_back({.name = "F", .unitBytes = 8, .units = 2});
+  const SpaceId reals{static_cast<uint32_t>(module.spaces.size() - 1)};
+  RungBuilder b(module, module.routines.back().rungs[0]);
+  const ValueId product =
+      b.op(OpCode::FMul, Type::F64, {b.load(Type::F64, {reals, 0, 0}), b.load(Type::F64, {reals, 8, 0})});
+  b.trap(b.not_(b.op(OpCode::FEq, Type::F64, {product, product})), {0});
+  b.store({reals, 0, 0}, product);
+  const Layout layout(module, {});
+  const Result<std::string> ir = emitLlvmIr(layout, 42, {.level = LlvmLevel::Opt, .debugInfo = false});
+  ASSERT_TRUE(ir.ok()) << ir.error();
+  EXPECT_THAT(ir.value(), AllOf(HasSubstr("fcmp uno double"), Not(HasSubstr("select i1"))));
 }
 
 TEST(LlvmEmitter, LinesOfTheSource) {

@@ -13,8 +13,8 @@ namespace {
 // flat and that the first piece is soon there; large enough that a piece's own cost is small beside it.
 constexpr uint32_t kOpsPerPiece = 2048;
 
-// Where a piece may end when it is half full: by what the next chunk begins with, so that where rungs are inserted above
-// the pieces are soon cut at the same places again.
+// Where a piece may end when it is half full: by what the next chunk begins with, so that where rungs are inserted
+// above the pieces are soon cut at the same places again.
 bool maybeEnds(const Module& module, const Chunk& next) {
   return module.at(next.routine).rungs[next.firstRung].key % 2 == 0;
 }

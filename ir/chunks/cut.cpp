@@ -10,7 +10,7 @@
 namespace rung::ir {
 namespace {
 
-constexpr uint32_t kNear = 8; // places within this part of a chunk are near one another
+constexpr uint32_t kNear = 8;          // places within this part of a chunk are near one another
 constexpr uint32_t kRestingRungs = 32; // fewer: more to look at; more: they rest less often
 
 uint32_t weightOf(const Rung& rung) { return std::max(1u, rung.weight); }
@@ -112,8 +112,8 @@ private:
   }
 
   // A full chunk is cut in its second half, as late as possible where the fewest jumps would have to leave it; but of
-  // such places that lie near one another the rungs' keys choose, so that a rung which is inserted above moves one cut or
-  // two, and not all that follow.
+  // such places that lie near one another the rungs' keys choose, so that a rung which is inserted above moves one cut
+  // or two, and not all that follow.
   uint32_t chunkEnd(uint32_t routine, uint32_t first) const {
     const std::vector<Rung>& rungs = module_.routines[routine].rungs;
     const auto count = static_cast<uint32_t>(rungs.size());

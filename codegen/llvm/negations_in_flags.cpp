@@ -5,6 +5,7 @@
 #include <llvm/Analysis/ValueTracking.h>
 #include <llvm/IR/Function.h>
 #include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/Module.h>
 #include <llvm/IR/PatternMatch.h>
 #include <llvm/Transforms/Utils/Local.h>
 
@@ -20,8 +21,8 @@ using Operation = llvm::Instruction::BinaryOps;
 // What an and, or an or, joins.
 struct Joined {
   Operation by = llvm::Instruction::And;
-  Values plain;
-  Values negated; // without their negation
+  Values plain{};
+  Values negated{}; // without their negation
 };
 
 bool isBit(const Value& value, const llvm::DataLayout& data) {

@@ -5,9 +5,8 @@
 #include <random>
 
 #include "ir/chunks/alike_rungs.h"
-#include "ir/core/builder.h"
 #include "ir/passes/pipeline.h"
-#include "tests/support/differential.h"
+#include "tests/differential/optimised_code.h"
 
 namespace rung {
 namespace {
@@ -29,24 +28,16 @@ public:
   explicit Generator(uint64_t seed) : random_(seed) {}
 
   Module module() {
-    Module m;
-    m.name = "rows";
-    m.dialect = "none";
+    Module m = testing::oneTask("rows");
     m.spaces.push_back({.name = "B", .unitBytes = 1, .units = kBitCount / 8});
     m.spaces.push_back({.name = "W", .unitBytes = 4, .units = kWordCount + 1});
     m.spaces.push_back({.name = "R", .unitBytes = 8, .units = kRealCount});
-    m.faults.emplace_back("watchdog");
-    m.routines.push_back({.name = "MAIN", .rungs = {}});
     std::vector<Rung>& rungs = m.routines[0].rungs;
     inputs(m, rungs.emplace_back());
     for (uint32_t array = 0; array < 8; ++array) {
       const Row row = draw();
       for (uint32_t i = 0; i < row.length; ++i) fill(m, rungs.emplace_back(), row, i);
     }
-    m.tasks.push_back(
-        {.name = "MAIN", .entry = {0}, .periodUs = 1000, .budgetFault = {0}, .begin = {}, .end = {}, .borders = {}});
-    m.mainTask = {0};
-    m.scan.push_back({.op = RUNG_STEP_RUN, .task = {0}, .arg = 1});
     return m;
   }
 
@@ -118,8 +109,7 @@ private:
   static void inputs(Module& m, Rung& rung) {
     RungBuilder b(m, rung);
     const Place state{kWords, 4 * kWordCount, 0};
-    const ValueId now = b.add(b.mul(b.load(Type::I32, state), b.i32(1664525)), b.i32(1013904223));
-    b.store(state, now);
+    const ValueId now = testing::nextNumber(b, state);
     b.store({kWords, 4 * 7, 0}, now);
     b.store({kReals, 8 * 5, 0}, b.op(OpCode::IntToF, Type::F64, {b.sextOrTrunc(Type::I64, now)}));
     for (uint32_t n = 0; n < kBitCount / 8; ++n)
@@ -140,19 +130,11 @@ TEST_P(AlikeRungs, AreThoseOfTheInterpreter) {
     layout.expandBits = seed % 3 != 2;
     const compiler::Compiled program = testing::compiledFrom(std::move(module), layout);
     ASSERT_TRUE(hasAlikeRungs(*program.module, program.layout->cut().chunks()[0]));
-    auto reference = compiler::makeEngine(EngineKind::Interp, program, {});
-    auto engine = compiler::makeEngine(GetParam(), program, {.optimise = true});
-    ASSERT_TRUE(reference.ok() && engine.ok());
-    const auto difference = testing::firstDisagreement(*reference.value(), *engine.value(), 12);
-    EXPECT_FALSE(difference) << "seed " << seed << ": " << *difference;
+    testing::expectLikeInterpreter(program, GetParam(), seed, 12);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, AlikeRungs, ::testing::Values(EngineKind::Jit, EngineKind::Cpp, EngineKind::Llvm),
-                         [](const auto& test) {
-                           if (test.param == EngineKind::Jit) return "Jit";
-                           return test.param == EngineKind::Cpp ? "Cpp" : "LlvmSo";
-                         });
+INSTANTIATE_TEST_SUITE_P(Engines, AlikeRungs, testing::optimisingEngines(), testing::engineName);
 
 } // namespace
 } // namespace rung

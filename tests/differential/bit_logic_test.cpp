@@ -4,9 +4,8 @@
 
 #include <random>
 
-#include "ir/core/builder.h"
 #include "ir/passes/pipeline.h"
-#include "tests/support/differential.h"
+#include "tests/differential/optimised_code.h"
 
 namespace rung {
 namespace {
@@ -26,20 +25,12 @@ public:
   explicit Generator(uint64_t seed) : random_(seed) {}
 
   Module module() {
-    Module m;
-    m.name = "logic";
-    m.dialect = "none";
+    Module m = testing::oneTask("logic");
     m.spaces.push_back({.name = "B", .unitBytes = 1, .units = (kInputs + kCoils) / 8});
     m.spaces.push_back({.name = "W", .unitBytes = 4, .units = 2});
-    m.faults.emplace_back("watchdog");
-    m.routines.push_back({.name = "MAIN", .rungs = {}});
     std::vector<Rung>& rungs = m.routines[0].rungs;
     inputs(m, rungs.emplace_back());
     for (uint32_t i = 0; i < kRungs; ++i) fill(m, rungs.emplace_back());
-    m.tasks.push_back(
-        {.name = "MAIN", .entry = {0}, .periodUs = 1000, .budgetFault = {0}, .begin = {}, .end = {}, .borders = {}});
-    m.mainTask = {0};
-    m.scan.push_back({.op = RUNG_STEP_RUN, .task = {0}, .arg = 1});
     return m;
   }
 
@@ -80,8 +71,7 @@ private:
   static void inputs(Module& m, Rung& rung) {
     RungBuilder b(m, rung);
     const Place state{kWords, 0, 0};
-    const ValueId now = b.add(b.mul(b.load(Type::I32, state), b.i32(1664525)), b.i32(1013904223));
-    b.store(state, now);
+    const ValueId now = testing::nextNumber(b, state);
     for (uint32_t n = 0; n < kInputs; ++n)
       b.store(bit(n), b.zextOrTrunc(Type::Bit, b.op(OpCode::ShrU, Type::I32, {now, b.i32(n + 8)})));
   }
@@ -99,19 +89,11 @@ TEST_P(BitLogic, IsThatOfTheInterpreter) {
     LayoutOptions layout;
     layout.expandBits = seed % 3 != 2;
     const compiler::Compiled program = testing::compiledFrom(std::move(module), layout);
-    auto reference = compiler::makeEngine(EngineKind::Interp, program, {});
-    auto engine = compiler::makeEngine(GetParam(), program, {.optimise = true});
-    ASSERT_TRUE(reference.ok() && engine.ok());
-    const auto difference = testing::firstDisagreement(*reference.value(), *engine.value(), 60);
-    EXPECT_FALSE(difference) << "seed " << seed << ": " << *difference;
+    testing::expectLikeInterpreter(program, GetParam(), seed, 60);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, BitLogic, ::testing::Values(EngineKind::Jit, EngineKind::Cpp, EngineKind::Llvm),
-                         [](const auto& test) {
-                           if (test.param == EngineKind::Jit) return "Jit";
-                           return test.param == EngineKind::Cpp ? "Cpp" : "LlvmSo";
-                         });
+INSTANTIATE_TEST_SUITE_P(Engines, BitLogic, testing::optimisingEngines(), testing::engineName);
 
 } // namespace
 } // namespace rung

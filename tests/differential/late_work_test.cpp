@@ -5,9 +5,8 @@
 #include <random>
 
 #include "ir/chunks/late_stores.h"
-#include "ir/core/builder.h"
 #include "ir/passes/pipeline.h"
-#include "tests/support/differential.h"
+#include "tests/differential/optimised_code.h"
 
 namespace rung {
 namespace {
@@ -35,23 +34,16 @@ public:
   Generator(uint64_t seed, const Shape& shape) : random_(seed), shape_(shape) {}
 
   Module module() {
-    Module m;
-    m.name = "flags";
-    m.dialect = "none";
+    Module m = testing::oneTask("flags");
     m.spaces.push_back({.name = "W", .unitBytes = 4, .units = 16});
     m.spaces.push_back({.name = "B", .unitBytes = 1, .units = 16});
     m.spaces.push_back({.name = "R", .unitBytes = 1, .units = 8});
-    m.faults.emplace_back("watchdog");
     m.inits.push_back({kWords, 0, bytes(64)});
-    m.routines.push_back({.name = "MAIN", .rungs = std::vector<Rung>(shape_.rungs)});
+    m.routines[0].rungs.resize(shape_.rungs);
     for (uint32_t i = 0; i < shape_.rungs; ++i) {
       RungBuilder b(m, m.routines[0].rungs[i]);
       fill(b, m.routines[0].rungs[i], i);
     }
-    m.tasks.push_back(
-        {.name = "MAIN", .entry = {0}, .periodUs = 1000, .budgetFault = {0}, .begin = {}, .end = {}, .borders = {}});
-    m.mainTask = {0};
-    m.scan.push_back({.op = RUNG_STEP_RUN, .task = {0}, .arg = 1});
     return m;
   }
 
@@ -87,8 +79,7 @@ private:
   // Some bits are new in each scan.
   static void inputs(RungBuilder& b) {
     const Place cell{kWords, 4 * kWordCount, 0};
-    const ValueId now = b.add(b.mul(b.load(Type::I32, cell), b.i32(1664525)), b.i32(1013904223));
-    b.store(cell, now);
+    const ValueId now = testing::nextNumber(b, cell);
     for (uint32_t n = 0; n < kBitCount; n += 2)
       b.store({kBits, n / 8, n % 8}, b.zextOrTrunc(Type::Bit, b.op(OpCode::ShrU, Type::I32, {now, b.i32(n / 2 + 8)})));
   }
@@ -161,20 +152,12 @@ TEST_P(LateWork, AreThoseOfTheInterpreter) {
     layout.expandBits = seed % 4 != 2;
     const compiler::Compiled program = testing::compiledFrom(std::move(module), layout);
     groups += lateGroups(program);
-    auto reference = compiler::makeEngine(EngineKind::Interp, program, {});
-    auto engine = compiler::makeEngine(GetParam(), program, {.optimise = true});
-    ASSERT_TRUE(reference.ok() && engine.ok());
-    const auto difference = testing::firstDisagreement(*reference.value(), *engine.value(), 12);
-    EXPECT_FALSE(difference) << "seed " << seed << ": " << *difference;
+    testing::expectLikeInterpreter(program, GetParam(), seed, 12);
   }
   EXPECT_GT(groups, seeds / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, LateWork, ::testing::Values(EngineKind::Jit, EngineKind::Cpp, EngineKind::Llvm),
-                         [](const auto& test) {
-                           if (test.param == EngineKind::Jit) return "Jit";
-                           return test.param == EngineKind::Cpp ? "Cpp" : "LlvmSo";
-                         });
+INSTANTIATE_TEST_SUITE_P(Engines, LateWork, testing::optimisingEngines(), testing::engineName);
 
 } // namespace
 } // namespace rung

@@ -121,9 +121,11 @@ struct SelectsAfterBranches : llvm::PassInfoMixin<SelectsAfterBranches> {
     for (llvm::BasicBlock& block : function) {
       const auto* branch = llvm::dyn_cast<llvm::BranchInst>(block.getTerminator());
       if (branch == nullptr || branch->isUnconditional()) continue;
-      for (llvm::User* user : branch->getCondition()->users()) {
+      auto* condition = llvm::dyn_cast<llvm::Instruction>(branch->getCondition()); // a constant has users elsewhere
+      if (condition == nullptr) continue;
+      for (llvm::User* user : condition->users()) {
         auto* select = llvm::dyn_cast<llvm::SelectInst>(user);
-        if (select == nullptr || select->getCondition() != branch->getCondition()) continue;
+        if (select == nullptr || select->getCondition() != condition) continue;
         auto& tree = analyses.getResult<llvm::DominatorTreeAnalysis>(function);
         for (const unsigned way : {0, 1}) {
           const llvm::BasicBlockEdge edge(&block, branch->getSuccessor(way));

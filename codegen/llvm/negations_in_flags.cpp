@@ -87,7 +87,7 @@ private:
 
   // Whether a bit is set, by flags. Null: no negation would be saved, or it is something else.
   llvm::ICmpInst* asTruth(llvm::BinaryOperator& bit) {
-    if (!bit.getType()->isIntegerTy(8) || !isBit(bit, data_)) return nullptr;
+    if (!bit.getType()->isIntegerTy(8)) return nullptr;
     builder_.SetInsertPoint(&bit);
     Value* inner = nullptr;
     if (match(&bit, m_Xor(m_Value(inner), m_One()))) return isBit(*inner, data_) ? isZero(inner) : nullptr;
@@ -96,7 +96,7 @@ private:
     collect(bit, joined);
     const bool isAnd = joined.by == llvm::Instruction::And;
     const auto isBitHere = [&](const Value* value) { return isBit(*value, data_); };
-    if (joined.negated.empty() || !llvm::all_of(joined.negated, isBitHere)) return nullptr;
+    if (joined.negated.empty() || !isBit(bit, data_) || !llvm::all_of(joined.negated, isBitHere)) return nullptr;
     // An or of bits is one; of an and one item at least has to be.
     if (isAnd && !joined.plain.empty() && llvm::none_of(joined.plain, isBitHere)) {
       joined.plain.front() = asBit(*joined.plain.front());

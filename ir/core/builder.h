@@ -78,7 +78,8 @@ public:
   void slotStore(SlotId slot, ValueId value);
   ValueId now() { return op(OpCode::Now, Type::I64, {}); }
 
-  // Regions. `yields` of both branches must agree in number and types; endIf gives the results.
+  // Regions. `yields` of both branches must agree in number and types; endIf gives the results. `odds`: of the
+  // condition.
   void if_(ValueId cond, Odds odds = kEven);
   void else_(std::span<const ValueId> yields = {});
   std::vector<ValueId> endIf(std::span<const ValueId> yields = {});

@@ -1,31 +1,55 @@
 // Comparing, waking and resting (see activity.h).
 #include "rtlib/core/activity.h"
 
-#include <array>
+#include <algorithm>
 #include <cstring>
 
 namespace rung::rt {
 namespace {
 
-constexpr uint32_t kAtOnce = 4;       // lines
-constexpr uint32_t kMostRan = 60;     // per cent of the chunks; when more ran, comparing does not pay
-constexpr uint32_t kRunsWithout = 31; // runs without comparing, then
+// In weights of chunks, whose unit is about that of an instruction.
+constexpr uint64_t kLineCost = 3;        // of comparing a line among many
+constexpr uint64_t kChunkCost = 40;      // of looking at a chunk that ran
+constexpr uint64_t kWrittenLineCost = 9; // and at a line that it may have written
+constexpr uint64_t kByteCost = 30;       // of one that differs
+constexpr uint64_t kWakeCost = 8;        // of a word of chunks that it wakes
+constexpr uint64_t kMostGained = 8; // times what a look costs: how long looking goes on when it does not pay any more
+constexpr uint32_t kWord = 8;       // bytes
+constexpr uint32_t kFirstPause = 31;
+constexpr uint32_t kLongestPause = 511; // runs; what comes to rest during them is found late
 
-template <uint32_t Bytes>
-bool same(const uint8_t* a, const uint8_t* b) noexcept {
-  std::array<uint64_t, Bytes / 8> here, there;
-  std::memcpy(&here, a, sizeof here);
-  std::memcpy(&there, b, sizeof there);
-  uint64_t different = 0;
-  for (size_t i = 0; i < here.size(); ++i) different |= here[i] ^ there[i];
-  return different == 0;
+// GCC's and clang's, on every processor.
+using Vector = uint64_t __attribute__((vector_size(kActivityLine), may_alias));
+
+template <uint32_t Lines>
+Vector difference(const uint8_t* memory, const uint8_t* copy) noexcept {
+  Vector different{};
+  for (uint32_t i = 0; i < Lines; ++i)
+    different |= *reinterpret_cast<const Vector*>(memory + i * kActivityLine) ^
+                 *reinterpret_cast<const Vector*>(copy + i * kActivityLine);
+  return different;
 }
+
+bool isZero(Vector vector) noexcept { return (vector[0] | vector[1]) == 0; }
+
+template <uint32_t Lines>
+bool same(const uint8_t* memory, const uint8_t* copy) noexcept {
+  return isZero(difference<Lines>(memory, copy));
+}
+
+constexpr bool kLittleEndian = std::endian::native == std::endian::little;
+
+// Of a word that is not 0, in the order of memory.
+int firstByte(uint64_t word) noexcept { return (kLittleEndian ? std::countr_zero(word) : std::countl_zero(word)) / 8; }
+uint64_t byteMask(int byte) noexcept { return uint64_t{0xFF} << 8 * (kLittleEndian ? byte : 7 - byte); }
 
 } // namespace
 
 void Activity::forget() noexcept {
-  for (Rest& rest : tables_.rests) rest = {};
+  wakeAll();
+  gained_ = 0;
   without_ = 0;
+  pause_ = kFirstPause;
 }
 
 bool Activity::looks() noexcept {
@@ -34,47 +58,107 @@ bool Activity::looks() noexcept {
   return false;
 }
 
-// True: the line differed from the copy. The copy is updated, and the chunks that watch the changed bytes are awake.
-bool Activity::take(const uint8_t* memory, uint32_t line) noexcept {
-  const uint8_t* const now = memory + tables_.lineOffsets[line];
-  uint8_t* const before = tables_.copy.data() + size_t{line} * kActivityLine;
-  if (same<kActivityLine>(now, before)) return false;
-  for (uint32_t i = 0; i < kActivityLine; ++i) {
-    if (now[i] == before[i]) continue;
-    before[i] = now[i];
-    const uint32_t byte = line * kActivityLine + i;
-    for (uint32_t w = tables_.firstWatcher[byte]; w < tables_.firstWatcher[byte + 1]; ++w)
-      tables_.rests[tables_.watchers[w]].rests = 0;
+void Activity::wakeAll() noexcept {
+  std::ranges::fill(tables_.passed, 0);
+  std::ranges::fill(tables_.turned, 0);
+  copied_ = false;
+}
+
+// Those who watch the byte, counted over all lines.
+void Activity::wake(uint32_t byte) noexcept {
+  const uint32_t first = tables_.firstWatcher[byte];
+  const uint32_t end = tables_.firstWatcher[byte + 1];
+  waking_ += kByteCost + (end - first) * kWakeCost;
+  for (uint32_t w = first; w < end; ++w) {
+    const ChunkBits& chunks = tables_.watchers[w];
+    tables_.passed[chunks.word] &= ~chunks.bits;
+    tables_.turned[chunks.word] &= ~chunks.bits;
   }
-  return true;
+}
+
+// From `now` into the copy; `byte` is its first one, as in `wake`.
+void Activity::takeWord(const uint8_t* now, uint8_t* copy, uint32_t byte) noexcept {
+  uint64_t here, there;
+  std::memcpy(&here, now, kWord);
+  std::memcpy(&there, copy, kWord);
+  std::memcpy(copy, &here, kWord);
+  for (uint64_t different = here ^ there; different != 0;) {
+    const int first = firstByte(different);
+    different &= ~byteMask(first);
+    wake(byte + static_cast<uint32_t>(first));
+  }
+}
+
+// The line differs: the copy is updated, and the chunks that watch the changed bytes are awake.
+void Activity::takeLine(const uint8_t* memory, uint32_t offset) noexcept {
+  const uint32_t line = tables_.lineNumbers[offset / kActivityLine];
+  for (uint32_t at = 0; at < kActivityLine; at += kWord)
+    takeWord(memory + offset + at, tables_.copy.data() + offset + at, line * kActivityLine + at);
+  if (waking_ > tables_.mostWaking) wakeAll();
+}
+
+// From `offset` to `end`, as far as there are so many at a time. Gives where the next ones begin.
+template <uint32_t Lines>
+uint32_t Activity::takeLines(const uint8_t* memory, uint32_t offset, uint32_t end) noexcept {
+  const uint8_t* const copy = tables_.copy.data();
+  constexpr uint32_t kSize = Lines * kActivityLine;
+  for (; offset + kSize <= end && copied_; offset += kSize) {
+    if (same<Lines>(memory + offset, copy + offset)) continue;
+    if constexpr (Lines == 1)
+      takeLine(memory, offset);
+    else
+      takeLines<Lines / 4>(memory, offset, offset + kSize);
+  }
+  return offset;
 }
 
 void Activity::begin(const uint8_t* memory) noexcept {
+  comparing_ = waking_ = left_ = 0;
+  copies_ = !copied_;
   for (const ActivityStretch& stretch : tables_.stretches) {
-    uint32_t line = stretch.firstLine;
-    const uint32_t end = line + stretch.lineCount;
-    const uint8_t* now = memory + stretch.offset;
-    const uint8_t* before = tables_.copy.data() + size_t{line} * kActivityLine;
-    constexpr uint32_t kBytes = kAtOnce * kActivityLine;
-    for (; line + kAtOnce <= end; line += kAtOnce, now += kBytes, before += kBytes) {
-      if (same<kBytes>(now, before)) continue;
-      for (uint32_t i = 0; i < kAtOnce; ++i) take(memory, line + i);
+    comparing_ += stretch.size / kActivityLine * kLineCost;
+    if (copies_) {
+      std::memcpy(tables_.copy.data() + stretch.offset, memory + stretch.offset, stretch.size);
+    } else {
+      const uint32_t end = stretch.offset + stretch.size;
+      const uint32_t few = takeLines<16>(memory, stretch.offset, end);
+      takeLines<1>(memory, takeLines<4>(memory, few, end), end);
     }
-    for (; line < end; ++line) take(memory, line);
   }
-  passed_ = ran_ = 0;
+  copied_ = copied_ || copies_;
 }
 
 void Activity::ran(const uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept {
-  ++ran_;
-  bool changed = false;
-  const uint32_t end = tables_.firstWritten[chunk + 1];
-  for (uint32_t w = tables_.firstWritten[chunk]; w < end; ++w) changed |= take(memory, tables_.writtenLines[w]);
-  if (!changed && tables_.mayRest[chunk] != 0) tables_.rests[chunk] = {next, weight, 1};
+  if (!copied_) return;
+  const uint8_t* const copy = tables_.copy.data();
+  const uint32_t first = tables_.firstWritten[chunk];
+  const std::span<const uint32_t> lines = tables_.writtenLines.subspan(first, tables_.firstWritten[chunk + 1] - first);
+  comparing_ += kChunkCost + lines.size() * kWrittenLineCost;
+  Vector different{};
+  for (const uint32_t line : lines) different |= difference<1>(memory + line, copy + line);
+  if (!isZero(different)) {
+    for (const uint32_t line : lines)
+      if (!same<1>(memory + line, copy + line)) takeLine(memory, line);
+    return;
+  }
+  if (tables_.mayRest[chunk] == 0) return;
+  tables_.rests[chunk] = {next, weight};
+  const std::span<uint64_t> bits = next == chunk + 1 ? tables_.passed : tables_.turned;
+  bits[chunk / kChunkBits] |= uint64_t{1} << chunk % kChunkBits;
 }
 
+// A run that begins with a new copy can only find what rests.
 void Activity::end() noexcept {
-  if (uint64_t{ran_} * 100 > uint64_t{passed_} * kMostRan) without_ = kRunsWithout;
+  if (!copies_ || !copied_) {
+    const uint64_t cost = comparing_ + waking_;
+    const auto gain = static_cast<int64_t>(left_ * tables_.meanWeight - cost);
+    gained_ = std::min(gained_ + gain, static_cast<int64_t>(kMostGained * cost));
+  }
+  if (gained_ >= 0) return;
+  gained_ = 0;
+  wakeAll();
+  without_ = pause_;
+  pause_ = std::min(2 * pause_ + 1, kLongestPause);
 }
 
 } // namespace rung::rt

@@ -6,9 +6,10 @@
 // Changes are found by comparing with a copy of the memory: all that matters to some chunk where a run begins, whoever
 // has written it, and after each chunk that ran what it may have written. So nobody who writes has to say so.
 //
-// While most chunks run, comparing does not pay: then runs without it follow, and the next one with it finds all
-// changes since. The scan thread's.
+// A run in which too much changes goes on without looking at changes: every chunk is awake then, and the next run
+// begins with a new copy. Where looking costs more than what it leaves out, runs without it follow. The scan thread's.
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -20,29 +21,39 @@ inline constexpr uint32_t kActivityLine = 16; // bytes that are compared at once
 struct Rest {
   uint32_t next = 0;   // the chunk that it gave
   uint32_t weight = 0; // that it has used up
-  uint32_t rests = 0;  // 1: the chunk is left out
+};
+
+// Bits of chunks, of one word: bit k of word w is of chunk 64 * w + k.
+struct ChunkBits {
+  uint32_t word = 0;
+  uint64_t bits = 0;
 };
 
 // Consecutive lines of the memory block.
 struct ActivityStretch {
-  uint32_t offset = 0;    // in the memory block
-  uint32_t firstLine = 0; // over all stretches
-  uint32_t lineCount = 0;
+  uint32_t offset = 0; // in the memory block
+  uint32_t size = 0;   // bytes
 };
 
 // Of one program; host::ActivityMemory makes it.
 struct ActivityTables {
   uint32_t task = 0; // whose runs are looked at
   std::span<const ActivityStretch> stretches;
-  std::span<const uint32_t> lineOffsets;  // by line
-  std::span<const uint32_t> firstWatcher; // by byte of all lines, and one more: in `watchers`
-  std::span<const uint32_t> watchers;     // chunks that a change of the byte wakes
+  std::span<const uint32_t> lineNumbers;  // by line of the memory block: which of those in stretches it is
+  std::span<const uint32_t> firstWatcher; // by byte of the lines in stretches, and one more: in `watchers`
+  std::span<const ChunkBits> watchers;    // chunks that a change of the byte wakes
   std::span<const uint32_t> firstWritten; // by chunk, and one more: in `writtenLines`
-  std::span<const uint32_t> writtenLines; // that the chunk may change
+  std::span<const uint32_t> writtenLines; // their offsets: what the chunk may change
   std::span<const uint8_t> mayRest;       // by chunk
+  uint64_t meanWeight = 0;                // of a chunk
+  uint64_t mostWaking = 0;                // in the unit of weights: where waking costs more, a run goes on without it
   std::span<Rest> rests;                  // by chunk
-  std::span<uint8_t> copy;                // of the lines
+  std::span<uint64_t> passed; // by chunk and one more, as in ChunkBits: it rests, and the next one follows it
+  std::span<uint64_t> turned; // by chunk, likewise: it rests, and another one follows it
+  std::span<uint8_t> copy;    // of the memory block; of the lines in stretches
 };
+
+inline constexpr uint32_t kChunkBits = 64; // in a word
 
 class Activity {
 public:
@@ -52,11 +63,23 @@ public:
   bool of(uint32_t task) const noexcept { return !tables_.rests.empty() && tables_.task == task; }
   // Whether the run that begins is to be looked at. Counts runs.
   bool looks() noexcept;
-  // Before the first chunk of a run, and where a part of one begins.
+  // Before the first chunk of a run, and where a part of one begins. `memory` begins with a line.
   void begin(const uint8_t* memory) noexcept;
-  const Rest& rest(uint32_t chunk) noexcept {
-    ++passed_;
-    return tables_.rests[chunk];
+  // The first chunk from this one on that does not rest, or gave another one than the next.
+  uint32_t firstAwake(uint32_t chunk) noexcept {
+    uint32_t word = chunk / kChunkBits;
+    uint64_t awake = ~tables_.passed[word] & (~uint64_t{0} << chunk % kChunkBits);
+    while (awake == 0) awake = ~tables_.passed[++word];
+    const uint32_t found = word * kChunkBits + static_cast<uint32_t>(std::countr_zero(awake));
+    left_ += found - chunk;
+    return found;
+  }
+  // Its last run where it rests, else null.
+  const Rest* rest(uint32_t chunk) noexcept {
+    const uint32_t word = chunk / kChunkBits;
+    if (((tables_.passed[word] | tables_.turned[word]) >> chunk % kChunkBits & 1) == 0) return nullptr;
+    ++left_;
+    return &tables_.rests[chunk];
   }
   // After a chunk that ran, with what it gave and used.
   void ran(const uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept;
@@ -66,12 +89,22 @@ public:
   void forget() noexcept;
 
 private:
-  bool take(const uint8_t* memory, uint32_t line) noexcept;
+  template <uint32_t Lines>
+  uint32_t takeLines(const uint8_t* memory, uint32_t offset, uint32_t end) noexcept;
+  void takeLine(const uint8_t* memory, uint32_t offset) noexcept;
+  void takeWord(const uint8_t* now, uint8_t* copy, uint32_t byte) noexcept;
+  void wake(uint32_t byte) noexcept;
+  void wakeAll() noexcept;
 
   ActivityTables tables_;
-  uint32_t passed_ = 0; // chunks in this run, also those that were left out
-  uint32_t ran_ = 0;
+  bool copied_ = false;    // the copy is that of the last run; else every chunk is awake
+  bool copies_ = false;    // this run has begun with a new copy
+  uint64_t left_ = 0;      // chunks that this run has left out
+  uint64_t comparing_ = 0; // what this run has cost, in the unit of weights
+  uint64_t waking_ = 0;
+  int64_t gained_ = 0;   // weight that looking has saved, less what it has cost
   uint32_t without_ = 0; // runs that are not looked at, still
+  uint32_t pause_ = 0;   // how many there are when looking does not pay
 };
 
 } // namespace rung::rt

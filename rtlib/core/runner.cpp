@@ -193,6 +193,31 @@ inline uint32_t Runner::runBounded(uint32_t pc, uint32_t limit) noexcept {
   }
 }
 
+// As runBounded, where chunks that rest are left out. A chunk that rests is in the routine of the one that follows it.
+uint32_t Runner::runAwake(uint32_t pc, uint32_t limit) noexcept {
+  uint8_t* const memory = memory_;
+  rung_ctx* const ctx = ctx_;
+  const rung_chunk* const chunks = program_->chunks;
+  const uint32_t count = program_->chunk_count;
+  const uint32_t first = std::min(limit, count);
+  activity_->begin(memory);
+  while (pc < first || (pc < count && ctx->sp != 1)) {
+    const uint32_t here = activity_->firstAwake(pc);
+    if (here != pc) {
+      pc = pc < first ? std::min(here, first) : here;
+      continue;
+    }
+    if (const Rest* rest = activity_->rest(here); rest != nullptr) {
+      pc = rest->next;
+      continue;
+    }
+    pc = functionOf(code_.functions, here)(memory, ctx, here);
+    activity_->ran(memory, here, pc, chunks[here].weight);
+  }
+  activity_->end();
+  return pc;
+}
+
 uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcept {
   ctx_->fault.code = task.budget_fault;
   ctx_->fault.rung = chunk.first_rung;
@@ -218,11 +243,10 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
     const uint32_t here = pc;
     const rung_chunk& chunk = chunks[here];
     if constexpr (Looks) {
-      const Rest& rest = activity_->rest(here);
-      if (rest.rests != 0) {
-        if (rest.weight > left) return overrun(task, chunk);
-        left -= rest.weight;
-        pc = rest.next;
+      if (const Rest* rest = activity_->rest(here); rest != nullptr) {
+        if (rest->weight > left) return overrun(task, chunk);
+        left -= rest->weight;
+        pc = rest->next;
         continue;
       }
     }
@@ -287,8 +311,9 @@ bool Runner::looksAt(uint32_t task) noexcept { return hasActivity(task) && activ
 inline uint32_t Runner::runFrom(uint32_t pc, uint32_t limit, uint32_t task, const rung_task& t,
                                 uint32_t& budget) noexcept {
   const bool looks = looksAt(task);
+  if (limit_.ns == 0 && isBounded(t)) return looks ? runAwake(pc, limit) : runBounded(pc, limit);
   if (looks || limit_.ns != 0) return runWatched(pc, limit, t, budget, looks);
-  return isBounded(t) ? runBounded(pc, limit) : runCounted(pc, limit, t, budget);
+  return runCounted(pc, limit, t, budget);
 }
 
 // As long as control may go in circles; what comes after them is mostly far lighter than what is left of the budget.

@@ -147,6 +147,7 @@ private:
   uint32_t runAgain(const rung_task& task, uint32_t times) noexcept;
   uint32_t runToEnd(uint32_t task, const rung_task& t) noexcept;
   uint32_t runBounded(uint32_t pc, uint32_t limit) noexcept;
+  uint32_t runAwake(uint32_t pc, uint32_t limit) noexcept;
   uint32_t runFrom(uint32_t pc, uint32_t limit, uint32_t task, const rung_task& t, uint32_t& budget) noexcept;
   uint32_t runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
   uint32_t runWatched(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget, bool looks) noexcept;

@@ -52,73 +52,95 @@ ActivityMemory::ActivityMemory(const rung_program& program) {
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
     mayRest_[chunk] = program.activity[chunk].touched_count != 0 ? 1 : 0;
   rests_.make(program.chunk_count);
-  copy_.make(lineOffsets_.size * kActivityLine);
+  passed_.make(program.chunk_count / rt::kChunkBits + 1);
+  turned_.make(program.chunk_count / rt::kChunkBits + 1);
+  for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk) weights_ += program.chunks[chunk].weight;
+  copy_.make(program.memory_size);
 }
 
+// Short gaps between lines are compared, too: nobody watches them.
 void ActivityMemory::findLines(const rung_program& program) {
-  lineAt_.make(program.memory_size / kActivityLine);
-  std::ranges::fill(lineAt_.all(), RUNG_NONE);
-  uint32_t count = 0;
+  constexpr uint32_t kGap = 8; // lines
+  lineNumbers_.make(program.memory_size / kActivityLine);
+  std::ranges::fill(lineNumbers_.all(), RUNG_NONE);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
-    forLines(touched(program, chunk), [&](uint32_t line) {
-      if (lineAt_[line] == RUNG_NONE) ++count;
-      lineAt_[line] = 0;
-    });
-  lineOffsets_.make(count);
-  stretches_.make(count); // at most
+    forLines(touched(program, chunk), [&](uint32_t line) { lineNumbers_[line] = 0; });
+  stretches_.make(lineNumbers_.size); // at most
   stretches_.size = 0;
-  uint32_t number = 0;
-  for (uint32_t line = 0; line < lineAt_.size; ++line) {
-    if (lineAt_[line] == RUNG_NONE) continue;
-    if (line == 0 || lineAt_[line - 1] == RUNG_NONE) stretches_[stretches_.size++] = {line * kActivityLine, number, 0};
-    ++stretches_[stretches_.size - 1].lineCount;
-    lineOffsets_[number] = line * kActivityLine;
-    lineAt_[line] = number++;
+  uint32_t end = 0; // of the last stretch
+  for (uint32_t line = 0; line < lineNumbers_.size; ++line) {
+    if (lineNumbers_[line] == RUNG_NONE) continue;
+    if (stretches_.size == 0 || line > end + kGap)
+      stretches_[stretches_.size++] = {line * kActivityLine, 0};
+    else
+      for (; end < line; ++end) lineNumbers_[end] = lineCount_++;
+    lineNumbers_[line] = lineCount_++;
+    end = line + 1;
+    rt::ActivityStretch& stretch = stretches_[stretches_.size - 1];
+    stretch.size = end * kActivityLine - stretch.offset;
   }
 }
 
+// Chunks come in ascending order, so those of one word follow one another.
 void ActivityMemory::findWatchers(const rung_program& program) {
   const auto forBytes = [&](uint32_t chunk, const auto& visit) {
     for (const rung_span& span : touched(program, chunk))
       for (uint32_t at = span.offset; at < span.offset + span.size; ++at)
-        visit(lineAt_[at / kActivityLine] * kActivityLine + at % kActivityLine);
+        visit(lineNumbers_[at / kActivityLine] * kActivityLine + at % kActivityLine);
   };
-  const uint32_t bytes = lineOffsets_.size * kActivityLine;
+  const uint32_t bytes = lineCount_ * kActivityLine;
+  Numbers lastWord;
+  lastWord.make(bytes);
+  std::ranges::fill(lastWord.all(), RUNG_NONE);
   firstWatcher_.make(bytes + 1);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
-    forBytes(chunk, [&](uint32_t byte) { ++firstWatcher_[byte]; });
+    forBytes(chunk, [&](uint32_t byte) {
+      const uint32_t word = chunk / rt::kChunkBits;
+      if (lastWord[byte] != word) ++firstWatcher_[byte];
+      lastWord[byte] = word;
+    });
   watchers_.make(begins(firstWatcher_.all()));
   Numbers next;
   next.make(bytes);
   std::ranges::copy(firstWatcher_.all().first(bytes), next.items.get());
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
-    forBytes(chunk, [&](uint32_t byte) { watchers_[next[byte]++] = chunk; });
+    forBytes(chunk, [&](uint32_t byte) {
+      const uint32_t word = chunk / rt::kChunkBits;
+      const bool isNew = next[byte] == firstWatcher_[byte] || watchers_[next[byte] - 1].word != word;
+      if (isNew) watchers_[next[byte]++] = {word, 0};
+      watchers_[next[byte] - 1].bits |= uint64_t{1} << chunk % rt::kChunkBits;
+    });
 }
 
 void ActivityMemory::findWritten(const rung_program& program) {
   firstWritten_.make(program.chunk_count + 1);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
     forLines(written(program, chunk),
-             [&](uint32_t line) { firstWritten_[chunk] += lineAt_[line] != RUNG_NONE ? 1 : 0; });
+             [&](uint32_t line) { firstWritten_[chunk] += lineNumbers_[line] != RUNG_NONE ? 1 : 0; });
   writtenLines_.make(begins(firstWritten_.all()));
   uint32_t next = 0;
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
     forLines(written(program, chunk), [&](uint32_t line) {
-      if (lineAt_[line] != RUNG_NONE) writtenLines_[next++] = lineAt_[line];
+      if (lineNumbers_[line] != RUNG_NONE) writtenLines_[next++] = line * kActivityLine;
     });
 }
 
 rt::Activity ActivityMemory::make() noexcept {
   if (rests_.size == 0) return {};
+  constexpr uint64_t kWakingPart = 8; // of what the chunks do, which waking may cost
   return rt::Activity({.task = task_,
                        .stretches = stretches_.all(),
-                       .lineOffsets = lineOffsets_.all(),
+                       .lineNumbers = lineNumbers_.all(),
                        .firstWatcher = firstWatcher_.all(),
                        .watchers = watchers_.all(),
                        .firstWritten = firstWritten_.all(),
                        .writtenLines = writtenLines_.all(),
                        .mayRest = mayRest_.all(),
+                       .meanWeight = weights_ / rests_.size,
+                       .mostWaking = weights_ / kWakingPart,
                        .rests = rests_.all(),
+                       .passed = passed_.all(),
+                       .turned = turned_.all(),
                        .copy = copy_.all()});
 }
 

@@ -35,15 +35,18 @@ private:
   void findWritten(const rung_program& program);
 
   uint32_t task_ = RUNG_NONE;
-  Numbers lineAt_; // by line of the block: which of the lines that are looked at; RUNG_NONE: none
-  Numbers lineOffsets_;
+  Numbers lineNumbers_; // by line of the block; RUNG_NONE: no chunk touches it
+  uint32_t lineCount_ = 0;
   Array<rt::ActivityStretch> stretches_;
   Numbers firstWatcher_;
-  Numbers watchers_;
+  Array<rt::ChunkBits> watchers_;
   Numbers firstWritten_;
   Numbers writtenLines_;
   Array<uint8_t> mayRest_;
   Array<rt::Rest> rests_;
+  Array<uint64_t> passed_;
+  Array<uint64_t> turned_;
+  uint64_t weights_ = 0; // of all chunks
   Array<uint8_t> copy_;
 };
 

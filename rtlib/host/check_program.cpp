@@ -355,6 +355,8 @@ private:
       return fail("the table of activity has ", p_.activity_count, " entries, there are ", p_.chunk_count, " chunks");
     if (p_.memory_size % rt::kActivityLine != 0)
       return fail("the memory block of ", p_.memory_size, " bytes does not have whole lines of ", rt::kActivityLine);
+    if (p_.memory_align < rt::kActivityLine)
+      return fail("the memory block has alignment ", p_.memory_align, ", its lines have ", rt::kActivityLine);
     for (uint32_t i = 0; error_.empty() && i < p_.activity_count; ++i) {
       const rung_activity& a = p_.activity[i];
       piece("activity", i, "written spans", a.written_first, a.written_count, p_.activity_span_count);

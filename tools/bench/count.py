@@ -43,8 +43,7 @@ def names_of(rows):
 
 
 def names_of_resting(rows):
-    return {f"{dialect} {kind} {size}, --activity, {pace}": count
-            for (dialect, kind, size), row in rows.items() for pace, count in zip(("busy", "quiet"), row)}
+    return {f"{dialect} {kind} {size}, --activity, {pace}": count for (dialect, kind, size, pace), (_, count) in rows.items()}
 
 
 def compare(counts, kept):
@@ -88,7 +87,7 @@ def main():
     print(services.text_of(of_services))
     print(report.counts_text(rows))
     print(report.peers_text(rows, peers.versions()), end="")
-    print(report.resting_text(resting, rows))
+    print(report.resting_text(resting))
     counts = {name: total for name, (_, total, _) in of_machines.items()}
     counts |= services.names_of(of_services) | names_of(rows) | names_of_resting(resting)
     if options.update:

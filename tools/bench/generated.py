@@ -20,6 +20,8 @@ LARGE_KINDS = ("bits", "full")  # of these the usual report has large ones, too
 ARITHMETIC = ("integers", 200)  # of the full program of 1,000 rungs; 100 timers and 100 counters are in SIZES
 RESTING = (("full", 1000),)  # that are built with --activity, too
 LARGE_RESTING = (("bits", 10_000),)  # in the usual report
+# Something is new in each scan; one input in every tenth; all inputs in one scan after those.
+PACES = {"busy": "count-long", "quiet": "count-quiet", "wakes": "count-wake"}
 NO_ROOM = 4  # status of rung-bench-generated
 COMPILERS = {"g++": "g++", "clang++": "clang++-19"}
 FORMS = ("byte", "packed")
@@ -100,8 +102,7 @@ class Programs:
                 "peers": {name: total for (form, name), total in others.items() if form not in FORMS}}
 
     def resting(self, all_works):
-        """By dialect, kind, size: instructions a scan with --activity, where something is new in each scan, and where
-        one input is new in ten; and of the latter without it."""
+        """By dialect, kind, size, pace: instructions a scan without --activity and with it."""
         rows = {}
         for work in all_works:
             for dialect in DIALECTS:
@@ -109,8 +110,8 @@ class Programs:
                     continue
                 forms = self.straight(*work) if self.checks_forms else {}
                 run(*self.words("check", dialect, work, forms, True))
-                rows[dialect, *work] = [self.one_count(command, dialect, work, activity)
-                                        for command, activity in (("count", True), ("count-quiet", True), ("count-quiet", False))]
+                for pace, command in PACES.items():
+                    rows[dialect, *work, pace] = [self.one_count(command, dialect, work, activity) for activity in (False, True)]
         return rows
 
     def one_count(self, command, dialect, work, activity):
@@ -137,10 +138,10 @@ class Programs:
         best = min(row["straight"], key=row["straight"].get)
         return {best: self.straight(*work)[best]}
 
-    def times(self, dialect, work, form):
+    def times(self, dialect, work, form, quiet=False):
         """Nanoseconds of each wake-up: (hot, after a sleep, after other work) of ours, then of the straight-line form; then of
-        ours after a sleep that ends early, with what a scan reads touched."""
-        return json.loads(run(*self.words("cold", dialect, work, form)))
+        ours after a sleep that ends early, with what a scan reads touched. `quiet`: of the program with --activity."""
+        return json.loads(run(*self.words("cold-quiet" if quiet else "cold", dialect, work, form, quiet)))
 
     def footprint(self, dialect, work, forms):
         """(lines of code, of data), (pages of code, of data) that one scan touches; of the last form, without one of ours."""

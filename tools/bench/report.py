@@ -17,7 +17,7 @@ import plot
 import services
 import start
 from callgrind import Failure, run
-from generated import DIALECTS, LARGE_KINDS, LARGE_RESTING, RESTING, Instructions, Programs, percentile, works
+from generated import DIALECTS, LARGE_KINDS, LARGE_RESTING, PACES, RESTING, Instructions, Programs, percentile, works
 
 TITLES = {"bits": "bit logic", "arrays": "bit logic of arrays", "timers-idle": "timers, idle", "timers-running": "timers, running", "counters": "counters",
           "integers": "integer arithmetic", "reals": "floating-point arithmetic", "indexed": "indexed addressing",
@@ -46,10 +46,11 @@ logic only: its timers count in tenths of a second, and its arithmetic is text, 
 """
 RESTING_HEAD = """### Programs that leave out what rests
 
-Built with `--activity`, as above; "quiet": one input changes in every tenth scan.
+Instructions a scan without `--activity`, with it, and the ratio. Busy: something is new in each scan, for more than a thousand of them. Quiet: one input is new in every
+tenth scan. All wakes: the one scan after those in which all inputs change.
 
-| program | busy | busy, --activity | quiet | quiet, --activity |
-| --- | --- | --- | --- | --- |"""
+| program | busy | quiet | all wakes |
+| --- | --- | --- | --- |"""
 COLD_HEAD = """## Cold scans
 
 A task of 1 ms always runs after a sleep. Here a scan of ours and one of the reference are run in turn in one process, each after a sleep of 1 ms, 2,000 times: what
@@ -137,12 +138,11 @@ def peers_text(rows, versions):
     return "\n".join(lines) + "\n" if lines else ""
 
 
-def resting_text(resting, rows):
+def resting_text(resting):
     lines = [RESTING_HEAD]
-    for (dialect, *work), (busy, quiet, all_quiet) in resting.items():
-        row = rows.get((dialect, *work))
-        plain = f"{row['ours']:,}" if row else "–"
-        lines.append(f"| {NAMES[dialect]}, {named(work)} | {plain} | {busy:,} | {all_quiet:,} | {quiet:,} |")
+    for dialect, *work in dict.fromkeys(key[:-1] for key in resting):
+        cells = [f"{plain:,}, {active:,}, {active / plain:.2f}" for plain, active in (resting[dialect, *work, pace] for pace in PACES)]
+        lines.append(f"| {NAMES[dialect]}, {named(work)} | {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 
 
@@ -156,10 +156,25 @@ def ratio_spread(ours, theirs):
     return tuple(percentile(ratios, p) for p in (10, 50, 90))
 
 
+def cold_row(name, times):
+    ours_hot, ours, ours_disturbed, hot, cold, disturbed, early = times
+
+    def cell(a, b, percent):
+        x, y = microseconds(a, percent), microseconds(b, percent)
+        return f"{x:.2f}, {y:.2f}, {x / y:.2f}"
+
+    def early_cell(percent):
+        x = microseconds(early, percent)
+        return f"{x:.2f}, {x / microseconds(ours, percent):.2f}"
+    return (f"| {name} | {microseconds(ours_hot, 50):.2f}, {microseconds(hot, 50):.2f} | {cell(ours, cold, 10)} | "
+            f"{cell(ours, cold, 50)} | {cell(ours_disturbed, disturbed, 10)} | {early_cell(10)} | {early_cell(50)} |")
+
+
 def cold_text(programs, rows):
     """The text, and groups for the plot: a program, and of each dialect the spread of ratios."""
     lines = [COLD_HEAD, "| program | hot: ours, reference | cold, 10 %: ours, reference, ratio | cold, median: ours, reference, ratio | "
              "disturbed, 10 %: ours, reference, ratio | early, 10 %: ours, ratio to cold | early, median: ours, ratio to cold |", "|" + " --- |" * 7]
+    quiet = []
     places = [TOUCHED_HEAD]
     groups = []
     for work in COLD:
@@ -170,24 +185,17 @@ def cold_text(programs, rows):
                 spreads.append(None)
                 continue
             fastest = programs.fastest(row, work)
-            ours_hot, ours, ours_disturbed, hot, cold, disturbed, early = programs.times(dialect, work, fastest)
-
-            def cell(a, b, percent):
-                x, y = microseconds(a, percent), microseconds(b, percent)
-                return f"{x:.2f}, {y:.2f}, {x / y:.2f}"
-
-            def early_cell(percent):
-                x = microseconds(early, percent)
-                return f"{x:.2f}, {x / microseconds(ours, percent):.2f}"
             name = f"{NAMES[dialect]}, {named(work)}"
-            lines.append(f"| {name} | {microseconds(ours_hot, 50):.2f}, {microseconds(hot, 50):.2f} | {cell(ours, cold, 10)} | "
-                         f"{cell(ours, cold, 50)} | {cell(ours_disturbed, disturbed, 10)} | {early_cell(10)} | {early_cell(50)} |")
-            spreads.append(ratio_spread(ours, cold))
+            times = programs.times(dialect, work, fastest)
+            lines.append(cold_row(name, times))
+            if work in RESTING:
+                quiet.append(cold_row(f"{name}, --activity, quiet", programs.times(dialect, work, fastest, True)))
+            spreads.append(ratio_spread(times[1], times[4]))
             own, theirs = programs.footprint(dialect, work, {}), programs.footprint(dialect, work, fastest)
             cells = [f"{side[0][i]:,} lines, {side[1][i]} pages" for side in (own, theirs) for i in (0, 1)]
             places.append(f"| {name} | {' | '.join(cells)} |")
         groups.append((named(work), spreads))
-    return "\n".join([*lines, "", *places]) + "\n", groups
+    return "\n".join([*lines, *quiet, "", *places]) + "\n", groups
 
 
 def cost_text(programs):
@@ -222,7 +230,7 @@ def main(tools, folder):
     print(services.text_of(of_services))
     print(f"{counts_text(rows)}\n![Ratios of instructions, a bar for each dialect and program](performance-counts.svg)\n")
     print(peers_text(rows, peers.versions()), end="")
-    print(resting_text(resting, rows))
+    print(resting_text(resting))
     print(f"{cold}\n![Ratios of cold scans, with their spread](performance-cold.svg)\n")
     print(f"Measured on {machine}.\n\n{costs}")
 

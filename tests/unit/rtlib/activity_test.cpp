@@ -33,9 +33,11 @@ uint32_t done(uint8_t* mem, rung_ctx*, uint32_t) {
 
 class ActivityTest : public testing::Test {
 protected:
+  static constexpr uint32_t kHeavy = 1000; // looking pays
+
   template <uint8_t N, uint8_t From, uint8_t To, uint8_t Plus = 0>
-  void addMove() {
-    test.addChunk(&move<N, From, To, Plus>);
+  void addMove(uint32_t weight = kHeavy) {
+    test.addChunk(&move<N, From, To, Plus>, weight);
     if (From < To)
       test.addActivity({{To, 1}}, {{From, 1}, {To, 1}});
     else if (From > To)
@@ -44,8 +46,8 @@ protected:
       test.addActivity({{To, 1}}, {{To, 1}});
   }
   // The last chunk, which always runs.
-  void start(uint32_t budget = 1000) {
-    test.addChunk(&done);
+  void start(uint32_t budget = 1'000'000) {
+    test.addChunk(&done, kHeavy);
     test.addActivity({}, {});
     task = test.addTask("MAIN", 0, budget);
     test.program.main_task = task;
@@ -81,16 +83,30 @@ TEST_F(ActivityTest, RestsOnceARunHasChangedNothing) {
   addMove<3, 2, 61>();
   start();
   EXPECT_EQ(run(), (Trace{0, 1, 2, 3, 9})); // 0 to 0 everywhere
-  for (int i = 0; i < 31; ++i)
-    EXPECT_EQ(run(), (Trace{0, 1, 2, 3, 9})) << "all have run, so runs follow without a look";
   EXPECT_EQ(run(), (Trace{9}));
 }
 
-// As above, until they are looked at again.
+TEST_F(ActivityTest, LooksSeldomWhereThatDoesNotPay) {
+  addMove<0, 1, 20>(1);
+  addMove<1, 20, 40>(1);
+  addMove<2, 2, 60>(1);
+  start();
+  test.weights.back() = 1;
+  test.link();
+  watched = std::make_unique<host::ActivityMemory>(test.program);
+  activity = watched->make();
+  // The first run of two finds what rests, the second one what that saves.
+  for (const int pause : {31, 63, 127, 255, 511, 511}) {
+    run();
+    EXPECT_EQ(run(), (Trace{9}));
+    for (int i = 0; i < pause; ++i) ASSERT_EQ(run(), (Trace{0, 1, 2, 9})) << i;
+  }
+}
+
 class Resting : public ActivityTest {
 protected:
   void rest() {
-    for (int i = 0; i < 40; ++i) run();
+    for (int i = 0; i < 3; ++i) run();
     EXPECT_EQ(run(), (Trace{9}));
   }
 };
@@ -126,6 +142,19 @@ TEST_F(Resting, WhatReadsABoveItsWriterSeesItInTheNextRun) {
   EXPECT_EQ(memory[20], 7);
 }
 
+TEST_F(Resting, WhereMuchChangesAllRuns) {
+  addMove<0, 1, 20>(40);
+  addMove<1, 2, 40>(40);
+  addMove<2, 3, 60>(40);
+  addMove<3, 4, 61>();
+  start();
+  rest();
+  for (uint8_t at = 1; at < 12; ++at) memory[at] = 7; // few enough for looking to go on
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(run(), (Trace{0, 1, 2, 3, 9})) << "first without a look, then with a new copy";
+  EXPECT_EQ(run(), (Trace{9}));
+  EXPECT_EQ(memory[20] + memory[40] + memory[60] + memory[61], 28);
+}
+
 TEST_F(Resting, TwoWhoWriteTheSameNeverRestWhileTheyDiffer) {
   addMove<0, 1, 20>();
   addMove<1, 2, 20>();
@@ -150,7 +179,7 @@ TEST_F(Resting, ACounterNeverRests) {
   addMove<2, 3, 60>();
   addMove<3, 4, 61>();
   start();
-  for (int i = 0; i < 40; ++i) run();
+  for (int i = 0; i < 3; ++i) run();
   const uint8_t before = memory[20];
   EXPECT_EQ(run(), (Trace{0, 9}));
   EXPECT_EQ(memory[20], before + 1);
@@ -171,13 +200,12 @@ TEST_F(Resting, OtherCodeWakesAll) {
 }
 
 TEST_F(Resting, CountsForTheBudgetAsIfItRan) {
-  addMove<0, 1, 20>();
-  addMove<1, 2, 40>();
-  test.weights = {3, 4, 1};
-  start(8);
+  addMove<0, 1, 20>(3000);
+  addMove<1, 2, 40>(4000);
+  start(7000 + kHeavy);
   rest();
   EXPECT_EQ(run(), (Trace{9}));
-  test.tasks[task].budget = 7;
+  --test.tasks[task].budget;
   EXPECT_FALSE(runner->runTask(task));
   EXPECT_TRUE(runner->faulted());
 }

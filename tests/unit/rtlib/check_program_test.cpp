@@ -208,6 +208,13 @@ const Case kCases[] = {
        t.link();
      },
      "activity span 2 does not lie above the one before it"},
+    {"ActivityAlignment",
+     [](TestProgram& t) {
+       for (size_t i = 0; i < t.functions.size(); ++i) t.addActivity({}, {});
+       t.link();
+       t.program.memory_align = 8;
+     },
+     "the memory block has alignment 8, its lines have 16"},
     {"ActivityPlace",
      [](TestProgram& t) {
        for (size_t i = 0; i < t.functions.size(); ++i) t.addActivity({{1 << 20, 1}}, {});

@@ -136,7 +136,7 @@ struct TestProgram {
     program.dialect = dialect.c_str();
     program.compiler = "hand";
     program.memory_size = memorySize;
-    program.memory_align = 8;
+    program.memory_align = 16;
     program.instrumented = instrumented ? 1 : 0;
     program.fast_task = RUNG_NONE;
     point(spaces, program.spaces, program.space_count);

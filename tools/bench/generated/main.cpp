@@ -11,12 +11,14 @@
 //                                          all forms side by side, compared after every scan
 //   count DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          under callgrind: scans of each form, and a dump of its own for each
-//   count-quiet DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
-//                                          the same where one input changes in ten scans
+//   count-long, count-quiet, count-wake DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
+//                                          the same over many scans, where one input changes in ten scans, and of the
+//                                          one scan after these in which all inputs change
 //   touch DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          under callgrind: one scan of the last form, from empty caches
 //   cold DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          a form after the other, each scan after a sleep: nanoseconds as JSON
+//   cold-quiet ...                         the same where one input changes in ten scans
 //   count-rungs, cold-rungs DIALECT NUMBER COUNT PROGRAM.so
 //                                          the same of a program of equal rungs, with the condition 1
 #include <valgrind/callgrind.h>
@@ -47,9 +49,11 @@ using Words = std::vector<std::string>;
 
 constexpr int kNoRoom = 4;
 constexpr int kSettleScans = 20;       // before what is measured
+constexpr int kLongSettleScans = 600;  // until a program that leaves out what rests has found out that nothing does
 constexpr int kCheckedScans = 400;     // compared one by one
 constexpr int kQuietSettleScans = 200; // until a program that leaves out what rests has come to rest
 constexpr int kCountedScans = 40;
+constexpr int kLongScans = 512;
 constexpr int kWakeUps = 2000;
 constexpr int kWakeUpsForRungs = 500; // there are a hundred programs of them
 constexpr auto kSleep = std::chrono::milliseconds(1);
@@ -156,13 +160,30 @@ void settle(bench::Side& side, bench::Machine& machine, int scans = kSettleScans
   }
 }
 
-void count(const Words& words, bench::Pace pace) {
+struct Counting {
+  bench::Pace pace = bench::Pace::Busy;
+  int settleScans = kSettleScans;
+  int scans = kCountedScans;
+  bool wakes = false; // all inputs change in each scan
+};
+
+void changeAllInputs(bench::Side& side, const bench::Work& work) {
+  for (uint32_t bit = 0; bit < work.inputs; ++bit) {
+    bench::Change change;
+    change.bitCount = 1;
+    change.bits[0] = bit;
+    side.apply(change);
+  }
+}
+
+void count(const Words& words, const Counting& counting) {
   const Forms forms(words);
   std::vector<bench::Values> ends;
   for (const auto& side : forms.sides) {
-    bench::Machine machine(forms.of, pace);
-    settle(*side, machine, pace == bench::Pace::Quiet ? kQuietSettleScans : kSettleScans);
-    for (int i = 0; i < kCountedScans; ++i) {
+    bench::Machine machine(forms.of, counting.pace);
+    settle(*side, machine, counting.settleScans);
+    for (int i = 0; i < counting.scans; ++i) {
+      if (counting.wakes) changeAllInputs(*side, forms.of);
       side->apply(machine.next());
       CALLGRIND_TOGGLE_COLLECT;
       side->scan();
@@ -174,7 +195,7 @@ void count(const Words& words, bench::Pace pace) {
       throw std::runtime_error(wrong);
   }
   forms.checkFault();
-  std::cout << kCountedScans << '\n';
+  std::cout << counting.scans << '\n';
 }
 
 void touch(const Words& words) {
@@ -255,10 +276,10 @@ void measure(bench::Ours& ours, const std::vector<bench::Side*>& others, int wak
   printList(times);
 }
 
-void cold(const Words& words) {
+void cold(const Words& words, bench::Pace pace, int settleScans) {
   const Forms forms(words);
   std::vector<bench::Machine> machines;
-  for (const auto& side : forms.sides) settle(*side, machines.emplace_back(forms.of));
+  for (const auto& side : forms.sides) settle(*side, machines.emplace_back(forms.of, pace), settleScans);
   measure(forms.ours(), forms.others(), kWakeUps, [&](bench::Side& side, size_t k) { side.apply(machines[k].next()); });
   forms.checkFault();
 }
@@ -325,13 +346,19 @@ int run(const Words& words) {
   } else if (command == "check") {
     check(words);
   } else if (command == "count") {
-    count(words, bench::Pace::Busy);
+    count(words, {});
+  } else if (command == "count-long") {
+    count(words, {.settleScans = kLongSettleScans, .scans = kLongScans});
   } else if (command == "count-quiet") {
-    count(words, bench::Pace::Quiet);
+    count(words, {.pace = bench::Pace::Quiet, .settleScans = kQuietSettleScans});
+  } else if (command == "count-wake") {
+    count(words, {.pace = bench::Pace::Quiet, .settleScans = kQuietSettleScans, .scans = 1, .wakes = true});
   } else if (command == "touch") {
     touch(words);
   } else if (command == "cold") {
-    cold(words);
+    cold(words, bench::Pace::Busy, kSettleScans);
+  } else if (command == "cold-quiet") {
+    cold(words, bench::Pace::Quiet, kQuietSettleScans);
   } else if (command == "count-rungs" || command == "cold-rungs") {
     onRungs(words, command == "cold-rungs");
   } else {

@@ -7,6 +7,7 @@
 
 #include "ir/chunks/heaviest.h"
 #include "ir/layout/accesses.h"
+#include "ir/layout/timers.h"
 #include "ir/support/check.h"
 #include "ir/support/version.h"
 
@@ -238,9 +239,16 @@ private:
   // A measured rung counts its runs.
   void addActivity() {
     if (!module_.activity || module_.instrumented) return;
-    for (const Chunk& chunk : layout_.cut().chunks()) {
+    const std::vector<bool> once = rungsRunOnce(module_);
+    const std::vector<std::vector<rung_timer>> timers = timersOf(layout_.memory(), layout_.cut(), once);
+    const RoutineId entry = module_.mainTask.valid() ? module_.tasks[module_.mainTask.index].entry : RoutineId{};
+    for (uint32_t i = 0; i < timers.size(); ++i) {
+      const Chunk& chunk = layout_.cut().chunks()[i];
       const Touched touched = touchedBytes(layout_.memory(), chunk);
       rung_activity out{};
+      out.of_entry = chunk.routine == entry ? 1 : 0;
+      out.once = chunk.routine == entry && !once.empty() && once[chunk.firstRung] ? 1 : 0;
+      append(timers[i], image_.timers_, out.timer_first, out.timer_count);
       append(touched.written, image_.activitySpans_, out.written_first, out.written_count);
       append(touched.all, image_.activitySpans_, out.touched_first, out.touched_count);
       image_.activity_.push_back(out);
@@ -324,6 +332,7 @@ private:
     point(image_.reads_, p.reads, p.read_count);
     point(image_.activity_, p.activity, p.activity_count);
     point(image_.activitySpans_, p.activity_spans, p.activity_span_count);
+    point(image_.timers_, p.timers, p.timer_count);
     point(image_.changes_, p.changes, p.change_count);
   }
 

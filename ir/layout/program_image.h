@@ -53,6 +53,7 @@ private:
   std::vector<uint32_t> changes_;
   std::vector<rung_activity> activity_;
   std::vector<rung_span> activitySpans_;
+  std::vector<rung_timer> timers_;
 };
 
 } // namespace rung::ir

@@ -13,6 +13,7 @@ constexpr uint64_t kChunkCost = 40;      // of looking at a chunk that ran
 constexpr uint64_t kWrittenLineCost = 9; // and at a line that it may have written
 constexpr uint64_t kByteCost = 30;       // of one that differs
 constexpr uint64_t kWakeCost = 8;        // of a word of chunks that it wakes
+constexpr uint64_t kMoveCost = 8;        // of moving a number on
 constexpr uint64_t kMostGained = 8; // times what a look costs: how long looking goes on when it does not pay any more
 constexpr uint32_t kWord = 8;       // bytes
 constexpr uint32_t kFirstPause = 31;
@@ -46,7 +47,10 @@ uint64_t byteMask(int byte) noexcept { return uint64_t{0xFF} << 8 * (kLittleEndi
 } // namespace
 
 void Activity::forget() noexcept {
-  wakeAll();
+  std::ranges::fill(tables_.passed, 0);
+  std::ranges::fill(tables_.turned, 0);
+  timers_.forget();
+  copied_ = false;
   gained_ = 0;
   without_ = 0;
   pause_ = kFirstPause;
@@ -58,48 +62,47 @@ bool Activity::looks() noexcept {
   return false;
 }
 
-void Activity::wakeAll() noexcept {
+void Activity::wakeAll(uint8_t* memory) noexcept {
   std::ranges::fill(tables_.passed, 0);
   std::ranges::fill(tables_.turned, 0);
+  timers_.wakeAll(memory, tables_.copy.data());
   copied_ = false;
 }
 
+void Activity::wakeChunks(uint8_t* memory, const ChunkBits& chunks) noexcept {
+  tables_.passed[chunks.word] &= ~chunks.bits;
+  tables_.turned[chunks.word] &= ~chunks.bits;
+  timers_.wake(memory, tables_.copy.data(), chunks.word, chunks.bits);
+}
+
 // Those who watch the byte, counted over all lines.
-void Activity::wake(uint32_t byte) noexcept {
+void Activity::wakeWatchers(uint8_t* memory, uint32_t byte) noexcept {
   const uint32_t first = tables_.firstWatcher[byte];
   const uint32_t end = tables_.firstWatcher[byte + 1];
   waking_ += kByteCost + (end - first) * kWakeCost;
-  for (uint32_t w = first; w < end; ++w) {
-    const ChunkBits& chunks = tables_.watchers[w];
-    tables_.passed[chunks.word] &= ~chunks.bits;
-    tables_.turned[chunks.word] &= ~chunks.bits;
-  }
-}
-
-// From `now` into the copy; `byte` is its first one, as in `wake`.
-void Activity::takeWord(const uint8_t* now, uint8_t* copy, uint32_t byte) noexcept {
-  uint64_t here, there;
-  std::memcpy(&here, now, kWord);
-  std::memcpy(&there, copy, kWord);
-  std::memcpy(copy, &here, kWord);
-  for (uint64_t different = here ^ there; different != 0;) {
-    const int first = firstByte(different);
-    different &= ~byteMask(first);
-    wake(byte + static_cast<uint32_t>(first));
-  }
+  for (const ChunkBits& chunks : tables_.watchers.subspan(first, end - first)) wakeChunks(memory, chunks);
 }
 
 // The line differs: the copy is updated, and the chunks that watch the changed bytes are awake.
-void Activity::takeLine(const uint8_t* memory, uint32_t offset) noexcept {
+void Activity::takeLine(uint8_t* memory, uint32_t offset) noexcept {
   const uint32_t line = tables_.lineNumbers[offset / kActivityLine];
-  for (uint32_t at = 0; at < kActivityLine; at += kWord)
-    takeWord(memory + offset + at, tables_.copy.data() + offset + at, line * kActivityLine + at);
-  if (waking_ > tables_.mostWaking) wakeAll();
+  for (uint32_t at = 0; at < kActivityLine; at += kWord) {
+    uint64_t here, there;
+    std::memcpy(&here, memory + offset + at, kWord);
+    std::memcpy(&there, &tables_.copy[offset + at], kWord);
+    std::memcpy(&tables_.copy[offset + at], &here, kWord);
+    for (uint64_t different = here ^ there; different != 0;) {
+      const int first = firstByte(different);
+      different &= ~byteMask(first);
+      wakeWatchers(memory, line * kActivityLine + at + static_cast<uint32_t>(first));
+    }
+  }
+  if (waking_ > tables_.mostWaking) wakeAll(memory);
 }
 
 // From `offset` to `end`, as far as there are so many at a time. Gives where the next ones begin.
 template <uint32_t Lines>
-uint32_t Activity::takeLines(const uint8_t* memory, uint32_t offset, uint32_t end) noexcept {
+uint32_t Activity::takeLines(uint8_t* memory, uint32_t offset, uint32_t end) noexcept {
   const uint8_t* const copy = tables_.copy.data();
   constexpr uint32_t kSize = Lines * kActivityLine;
   for (; offset + kSize <= end && copied_; offset += kSize) {
@@ -112,7 +115,8 @@ uint32_t Activity::takeLines(const uint8_t* memory, uint32_t offset, uint32_t en
   return offset;
 }
 
-void Activity::begin(const uint8_t* memory) noexcept {
+void Activity::begin(uint8_t* memory) noexcept {
+  timers_.begin();
   comparing_ = waking_ = left_ = 0;
   copies_ = !copied_;
   for (const ActivityStretch& stretch : tables_.stretches) {
@@ -128,9 +132,11 @@ void Activity::begin(const uint8_t* memory) noexcept {
   copied_ = copied_ || copies_;
 }
 
-void Activity::ran(const uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept {
+void Activity::ran(uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept {
   if (!copied_) return;
-  const uint8_t* const copy = tables_.copy.data();
+  uint8_t* const copy = tables_.copy.data();
+  const bool mayRest = tables_.mayRest[chunk] != 0;
+  const uint64_t moved = mayRest ? timers_.take(memory, copy, chunk) : 0;
   const uint32_t first = tables_.firstWritten[chunk];
   const std::span<const uint32_t> lines = tables_.writtenLines.subspan(first, tables_.firstWritten[chunk + 1] - first);
   comparing_ += kChunkCost + lines.size() * kWrittenLineCost;
@@ -141,14 +147,16 @@ void Activity::ran(const uint8_t* memory, uint32_t chunk, uint32_t next, uint32_
       if (!same<1>(memory + line, copy + line)) takeLine(memory, line);
     return;
   }
-  if (tables_.mayRest[chunk] == 0) return;
+  if (!mayRest || !timers_.settle(memory, chunk, moved)) return;
   tables_.rests[chunk] = {next, weight};
   const std::span<uint64_t> bits = next == chunk + 1 ? tables_.passed : tables_.turned;
   bits[chunk / kChunkBits] |= uint64_t{1} << chunk % kChunkBits;
 }
 
-// A run that begins with a new copy can only find what rests.
-void Activity::end() noexcept {
+void Activity::end(uint8_t* memory, bool completed) noexcept {
+  comparing_ += kMoveCost * timers_.end(memory, tables_.copy.data(), completed,
+                                        [&](const ChunkBits& chunk) { wakeChunks(memory, chunk); });
+  // A run that begins with a new copy can only find what rests.
   if (!copies_ || !copied_) {
     const uint64_t cost = comparing_ + waking_;
     const auto gain = static_cast<int64_t>(left_ * tables_.meanWeight - cost);
@@ -156,7 +164,7 @@ void Activity::end() noexcept {
   }
   if (gained_ >= 0) return;
   gained_ = 0;
-  wakeAll();
+  wakeAll(memory);
   without_ = pause_;
   pause_ = std::min(2 * pause_ + 1, kLongestPause);
 }

@@ -3,6 +3,8 @@
 // nothing. What it may touch is in the program's tables (rung_program::activity); chunks that ask the clock or the
 // host, call, or return never rest.
 //
+// Timers that run do not keep a chunk awake (see running_timers.h).
+//
 // Changes are found by comparing with a copy of the memory: all that matters to some chunk where a run begins, whoever
 // has written it, and after each chunk that ran what it may have written. So nobody who writes has to say so.
 //
@@ -13,6 +15,8 @@
 #include <cstdint>
 #include <span>
 
+#include "rtlib/core/running_timers.h"
+
 namespace rung::rt {
 
 inline constexpr uint32_t kActivityLine = 16; // bytes that are compared at once
@@ -21,12 +25,6 @@ inline constexpr uint32_t kActivityLine = 16; // bytes that are compared at once
 struct Rest {
   uint32_t next = 0;   // the chunk that it gave
   uint32_t weight = 0; // that it has used up
-};
-
-// Bits of chunks, of one word: bit k of word w is of chunk 64 * w + k.
-struct ChunkBits {
-  uint32_t word = 0;
-  uint64_t bits = 0;
 };
 
 // Consecutive lines of the memory block.
@@ -51,20 +49,19 @@ struct ActivityTables {
   std::span<uint64_t> passed; // by chunk and one more, as in ChunkBits: it rests, and the next one follows it
   std::span<uint64_t> turned; // by chunk, likewise: it rests, and another one follows it
   std::span<uint8_t> copy;    // of the memory block; of the lines in stretches
+  TimerTables timers;         // of no chunk where the program has none
 };
-
-inline constexpr uint32_t kChunkBits = 64; // in a word
 
 class Activity {
 public:
   Activity() = default;
-  explicit Activity(const ActivityTables& tables) noexcept : tables_(tables) { forget(); }
+  explicit Activity(const ActivityTables& tables) noexcept : tables_(tables), timers_(tables.timers) { forget(); }
 
   bool of(uint32_t task) const noexcept { return !tables_.rests.empty() && tables_.task == task; }
   // Whether the run that begins is to be looked at. Counts runs.
   bool looks() noexcept;
   // Before the first chunk of a run, and where a part of one begins. `memory` begins with a line.
-  void begin(const uint8_t* memory) noexcept;
+  void begin(uint8_t* memory) noexcept;
   // The first chunk from this one on that does not rest, or gave another one than the next.
   uint32_t firstAwake(uint32_t chunk) noexcept {
     uint32_t word = chunk / kChunkBits;
@@ -81,22 +78,26 @@ public:
     ++left_;
     return &tables_.rests[chunk];
   }
-  // After a chunk that ran, with what it gave and used.
-  void ran(const uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept;
-  void end() noexcept;
+  // Before a chunk runs.
+  void reach(uint32_t chunk) noexcept { timers_.reach(chunk); }
+  // After it, with what it gave and used.
+  void ran(uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept;
+  // `completed`: no fault has ended the run.
+  void end(uint8_t* memory, bool completed) noexcept;
 
   // No chunk rests any more: memory or code has been replaced.
   void forget() noexcept;
 
 private:
   template <uint32_t Lines>
-  uint32_t takeLines(const uint8_t* memory, uint32_t offset, uint32_t end) noexcept;
-  void takeLine(const uint8_t* memory, uint32_t offset) noexcept;
-  void takeWord(const uint8_t* now, uint8_t* copy, uint32_t byte) noexcept;
-  void wake(uint32_t byte) noexcept;
-  void wakeAll() noexcept;
+  uint32_t takeLines(uint8_t* memory, uint32_t offset, uint32_t end) noexcept;
+  void takeLine(uint8_t* memory, uint32_t offset) noexcept;
+  void wakeWatchers(uint8_t* memory, uint32_t byte) noexcept;
+  void wakeChunks(uint8_t* memory, const ChunkBits& chunks) noexcept;
+  void wakeAll(uint8_t* memory) noexcept;
 
   ActivityTables tables_;
+  RunningTimers timers_;
   bool copied_ = false;    // the copy is that of the last run; else every chunk is awake
   bool copies_ = false;    // this run has begun with a new copy
   uint64_t left_ = 0;      // chunks that this run has left out

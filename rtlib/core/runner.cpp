@@ -193,6 +193,9 @@ inline uint32_t Runner::runBounded(uint32_t pc, uint32_t limit) noexcept {
   }
 }
 
+// A pc that is neither a chunk nor DONE counts as one, too.
+inline bool Runner::isFault(uint32_t pc) const noexcept { return pc != RUNG_PC_DONE && pc >= program_->chunk_count; }
+
 // As runBounded, where chunks that rest are left out. A chunk that rests is in the routine of the one that follows it.
 uint32_t Runner::runAwake(uint32_t pc, uint32_t limit) noexcept {
   uint8_t* const memory = memory_;
@@ -211,10 +214,11 @@ uint32_t Runner::runAwake(uint32_t pc, uint32_t limit) noexcept {
       pc = rest->next;
       continue;
     }
+    activity_->reach(here);
     pc = functionOf(code_.functions, here)(memory, ctx, here);
     activity_->ran(memory, here, pc, chunks[here].weight);
   }
-  activity_->end();
+  activity_->end(memory, !isFault(pc));
   return pc;
 }
 
@@ -242,29 +246,34 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
       break;
     const uint32_t here = pc;
     const rung_chunk& chunk = chunks[here];
+    const auto takesTooLong = [&] {
+      if constexpr (Looks) activity_->end(memory, false);
+      return overrun(task, chunk);
+    };
     if constexpr (Looks) {
+      activity_->reach(here);
       if (const Rest* rest = activity_->rest(here); rest != nullptr) {
-        if (rest->weight > left) return overrun(task, chunk);
+        if (rest->weight > left) return takesTooLong();
         left -= rest->weight;
         pc = rest->next;
         continue;
       }
     }
     if (chunk.weight > left) [[unlikely]]
-      return overrun(task, chunk);
+      return takesTooLong();
     left -= chunk.weight;
     pc = functionOf(functions, here)(memory, ctx, here);
     if constexpr (Timed)
-      if (isLate()) return overrun(task, chunk);
+      if (isLate()) return takesTooLong();
     const uint32_t extra = ctx->extra_weight;
     if (extra != 0) {
       ctx->extra_weight = 0;
-      if (extra > left) return overrun(task, chunk);
+      if (extra > left) return takesTooLong();
       left -= extra;
     }
     if constexpr (Looks) activity_->ran(memory, here, pc, chunk.weight + extra);
   }
-  if constexpr (Looks) activity_->end();
+  if constexpr (Looks) activity_->end(memory, !isFault(pc));
   budget = left;
   return pc;
 }
@@ -280,9 +289,9 @@ inline void Runner::begin(uint32_t task) noexcept {
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, true);
 }
 
-// What follows the chunks of a run or a part. A pc that is neither a chunk nor DONE counts as a fault too.
+// What follows the chunks of a run or a part.
 inline bool Runner::finish(uint32_t task, const rung_task& t, uint32_t pc) noexcept {
-  const bool fault = pc != RUNG_PC_DONE && pc >= program_->chunk_count;
+  const bool fault = isFault(pc);
   if (!fault) copyEnd(task, t);
   if (hooks_.task != nullptr) hooks_.task(hooks_.data, task, false);
   inTask_ = false;

@@ -162,6 +162,7 @@ private:
   }
   void holdAll() noexcept;
   bool isLate() const noexcept { return limit_.nowNs() > deadline_; }
+  bool isFault(uint32_t pc) const noexcept;
   uint32_t overrun(const rung_task& task, const rung_chunk& chunk) noexcept;
   void latch(uint32_t task) noexcept;
   void begin(uint32_t task) noexcept;

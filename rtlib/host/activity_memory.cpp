@@ -48,6 +48,7 @@ ActivityMemory::ActivityMemory(const rung_program& program) {
   findLines(program);
   findWatchers(program);
   findWritten(program);
+  findTimers(program);
   mayRest_.make(program.chunk_count);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
     mayRest_[chunk] = program.activity[chunk].touched_count != 0 ? 1 : 0;
@@ -125,6 +126,28 @@ void ActivityMemory::findWritten(const rung_program& program) {
     });
 }
 
+// The chunks of a routine follow one another.
+void ActivityMemory::findTimers(const rung_program& program) {
+  const uint32_t words = program.chunk_count / rt::kChunkBits + 1;
+  numbers_.make(program.timer_count);
+  chunkTimers_.make(program.chunk_count);
+  onlyMoved_.make(words);
+  moving_.make(words);
+  starting_.make(words);
+  timers_ = {.chunks = {program.activity, program.activity_count},
+             .timers = {program.timers, program.timer_count},
+             .numbers = numbers_.all(),
+             .states = chunkTimers_.all(),
+             .onlyMoved = onlyMoved_.all(),
+             .moving = moving_.all(),
+            .starting = starting_.all()};
+  for (uint32_t chunk = program.chunk_count; chunk-- > 0;) {
+    if (program.activity[chunk].of_entry == 0) continue;
+    timers_.firstChunk = chunk;
+    timers_.endChunk = std::max(timers_.endChunk, chunk + 1);
+  }
+}
+
 rt::Activity ActivityMemory::make() noexcept {
   if (rests_.size == 0) return {};
   constexpr uint64_t kWakingPart = 8; // of what the chunks do, which waking may cost
@@ -141,7 +164,8 @@ rt::Activity ActivityMemory::make() noexcept {
                        .rests = rests_.all(),
                        .passed = passed_.all(),
                        .turned = turned_.all(),
-                       .copy = copy_.all()});
+                       .copy = copy_.all(),
+                       .timers = timers_});
 }
 
 } // namespace rung::host

@@ -33,6 +33,7 @@ private:
   void findLines(const rung_program& program);
   void findWatchers(const rung_program& program);
   void findWritten(const rung_program& program);
+  void findTimers(const rung_program& program);
 
   uint32_t task_ = RUNG_NONE;
   Numbers lineNumbers_; // by line of the block; RUNG_NONE: no chunk touches it
@@ -48,6 +49,12 @@ private:
   Array<uint64_t> turned_;
   uint64_t weights_ = 0; // of all chunks
   Array<uint8_t> copy_;
+  rt::TimerTables timers_;
+  Array<rt::MovingNumber> numbers_;
+  Array<rt::ChunkTimers> chunkTimers_;
+  Array<uint64_t> onlyMoved_;
+  Array<uint64_t> moving_;
+  Array<uint64_t> starting_;
 };
 
 } // namespace rung::host

@@ -49,8 +49,8 @@ public:
     for (void (Checker::*check)() :
          {&Checker::checkHead, &Checker::checkPresence, &Checker::checkSpaces, &Checker::checkSymbols,
           &Checker::checkSlots, &Checker::checkContinuations, &Checker::checkMemory, &Checker::checkCopies,
-          &Checker::checkCode, &Checker::checkActivity, &Checker::checkTasks, &Checker::checkSchedule,
-          &Checker::checkTexts}) {
+          &Checker::checkCode, &Checker::checkActivity, &Checker::checkTimers, &Checker::checkTasks,
+          &Checker::checkSchedule, &Checker::checkTexts}) {
       (this->*check)();
       if (!error_.empty()) break; // what follows relies on it
     }
@@ -130,6 +130,7 @@ private:
     present("activity spans", p_.activity_span_count, p_.activity_spans);
     present("read spans", p_.read_count, p_.reads);
     present("changes", p_.change_count, p_.changes);
+    present("timers", p_.timer_count, p_.timers);
   }
 
   // ---- memory ------------------------------------------------------------------------------------------------------
@@ -361,8 +362,26 @@ private:
       const rung_activity& a = p_.activity[i];
       piece("activity", i, "written spans", a.written_first, a.written_count, p_.activity_span_count);
       piece("activity", i, "touched spans", a.touched_first, a.touched_count, p_.activity_span_count);
+      piece("activity", i, "timers", a.timer_first, a.timer_count, p_.timer_count);
+      if (a.timer_count > RUNG_MOST_TIMERS) failAt("activity", i, "has too many timers");
+      if (a.once != 0 && a.of_entry == 0) failAt("activity", i, "is not of the main task's entry, but run once");
+      if (a.timer_count != 0 && a.once == 0) failAt("activity", i, "has timers, but is not run once");
       if (error_.empty()) checkActivitySpans(a.written_first, a.written_count);
       if (error_.empty()) checkActivitySpans(a.touched_first, a.touched_count);
+    }
+  }
+
+  void checkTimers() {
+    for (uint32_t i = 0; error_.empty() && i < p_.timer_count; ++i) {
+      const rung_timer& timer = p_.timers[i];
+      if (timer.size != sizeof(int32_t) && timer.size != sizeof(int64_t))
+        return failAt("timer", i, "has ", timer.size, " bytes, expected 4 or 8");
+      if (timer.down > 1) failAt("timer", i, "has the unknown direction ", timer.down);
+      inBlock("timer", i, timer.cell, timer.size);
+      inBlock("timer", i, timer.amount, timer.size);
+      if (timer.limit_cell != RUNG_NONE) inBlock("timer", i, timer.limit_cell, sizeof(uint16_t));
+      if (timer.limit < 0 || timer.limit > RUNG_MOST_TIMER_LIMIT)
+        failAt("timer", i, "has a limit outside 0 to RUNG_MOST_TIMER_LIMIT");
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -183,6 +184,140 @@ TEST_F(Resting, ACounterNeverRests) {
   const uint8_t before = memory[20];
   EXPECT_EQ(run(), (Trace{0, 9}));
   EXPECT_EQ(memory[20], before + 1);
+}
+
+// ---- timers
+
+constexpr uint32_t kCell = 20, kAmount = 48, kInput = 1, kOutput = 60;
+
+int32_t word(const uint8_t* mem, uint32_t at) {
+  int32_t value;
+  std::memcpy(&value, mem + at, sizeof value);
+  return value;
+}
+void setWord(uint8_t* mem, uint32_t at, int32_t value) { std::memcpy(mem + at, &value, sizeof value); }
+
+// On delay: while the input is on, the cell comes down from 100 by the amount of each run.
+uint32_t timer(uint8_t* mem, rung_ctx*, uint32_t chunk) {
+  trace(mem, 1);
+  mem[kOutput] = 0;
+  if (mem[kInput] == 0) {
+    setWord(mem, kCell, 100);
+  } else {
+    const int32_t left = word(mem, kCell), amount = word(mem, kAmount);
+    setWord(mem, kCell, left <= amount ? 0 : left - amount);
+    mem[kOutput] = left <= amount ? 1 : 0;
+  }
+  return chunk + 1;
+}
+
+class RunningTimer : public Resting {
+protected:
+  // move 0, the timer, move 2 and 3, and one that always runs.
+  void SetUp() override {
+    addMove<0, 2, 40>();
+    test.addChunk(&timer, kHeavy);
+    test.addActivity({{kCell, 4}, {kOutput, 1}}, {{kInput, 1}, {kCell, 4}, {kAmount, 4}, {kOutput, 1}});
+    test.addTimer({.cell = kCell, .amount = kAmount, .size = 4, .down = 1, .limit_cell = RUNG_NONE});
+    addMove<2, 3, 61>();
+    addMove<3, kOutput, 62>();
+    start();
+    setWord(memory.data(), kAmount, 10);
+    rest();
+    EXPECT_EQ(word(memory.data(), kCell), 100);
+  }
+  int32_t cell() const { return word(memory.data(), kCell); }
+};
+
+TEST_F(RunningTimer, RestsUntilItsTimeIsOver) {
+  memory[kInput] = 1;
+  EXPECT_EQ(run(), (Trace{1, 9})) << "the first run that moves it on";
+  EXPECT_EQ(run(), (Trace{1, 9})) << "the second one does nothing else";
+  for (int32_t left = 70; left > 0; left -= 10) {
+    EXPECT_EQ(run(), (Trace{9}));
+    EXPECT_EQ(cell(), left) << "moved on as if it ran";
+  }
+  EXPECT_EQ(memory[kOutput], 0);
+  EXPECT_EQ(run(), (Trace{1, 3, 9}));
+  EXPECT_EQ(cell(), 0);
+  EXPECT_EQ(memory[62], 1);
+  run();
+  EXPECT_EQ(run(), (Trace{9})) << "over, it rests like others";
+  EXPECT_EQ(cell(), 0);
+}
+
+TEST_F(RunningTimer, WakesWhenSomebodyWritesWhatItReads) {
+  memory[kInput] = 1;
+  for (int i = 0; i < 3; ++i) run();
+  EXPECT_EQ(cell(), 70);
+  setWord(memory.data(), kCell, 35);
+  EXPECT_EQ(run(), (Trace{1, 9}));
+  EXPECT_EQ(cell(), 25);
+  run();
+  EXPECT_EQ(cell(), 15);
+  setWord(memory.data(), kAmount, 3);
+  EXPECT_EQ(run(), (Trace{1, 9}));
+  EXPECT_EQ(cell(), 12);
+  run();
+  EXPECT_EQ(run(), (Trace{9}));
+  EXPECT_EQ(cell(), 6);
+  memory[kInput] = 0;
+  EXPECT_EQ(run(), (Trace{1, 9}));
+  EXPECT_EQ(cell(), 100);
+}
+
+// Woken in a run after it has been passed, or before.
+TEST_F(RunningTimer, IsMovedOnOnceInARunThatWakesIt) {
+  memory[kInput] = 1;
+  for (int i = 0; i < 3; ++i) run();
+  EXPECT_EQ(cell(), 70);
+  test.functions[2] = [](uint8_t* mem, rung_ctx*, uint32_t chunk) {
+    trace(mem, 2);
+    setWord(mem, kAmount, mem[3]);
+    return chunk + 1;
+  };
+  test.activitySpans[test.activity[2].written_first] = {kAmount, 4};
+  memory[3] = 5;
+  test.link();
+  watched = std::make_unique<host::ActivityMemory>(test.program);
+  activity = watched->make();
+  setWord(memory.data(), kCell, 1000);
+  setWord(memory.data(), kAmount, 5);
+  for (int i = 0; i < 4; ++i) run();
+  EXPECT_EQ(run(), (Trace{9}));
+  EXPECT_EQ(cell(), 975);
+  memory[3] = 7;
+  EXPECT_EQ(run(), (Trace{2, 9})) << "it went by the amount of before";
+  EXPECT_EQ(cell(), 970);
+  EXPECT_EQ(run(), (Trace{1, 2, 9}));
+  EXPECT_EQ(cell(), 963);
+}
+
+TEST_F(RunningTimer, AChangeThatLooksLikeAStepIsNone) {
+  setWord(memory.data(), kCell, 110);
+  EXPECT_EQ(run(), (Trace{1, 9}));
+  EXPECT_EQ(cell(), 100) << "its input is off: it stores 100";
+  run();
+  EXPECT_EQ(run(), (Trace{9}));
+  EXPECT_EQ(cell(), 100);
+}
+
+TEST_F(RunningTimer, AFaultEndsARunBetweenChunks) {
+  memory[kInput] = 1;
+  for (int i = 0; i < 3; ++i) run();
+  test.functions.back() = [](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_FAULT; };
+  memory[200] = 0;
+  EXPECT_FALSE(runner->runTask(task));
+  EXPECT_EQ(cell(), 60) << "before the fault";
+}
+
+TEST_F(RunningTimer, WhatAFaultComesBeforeIsNotMovedOn) {
+  memory[kInput] = 1;
+  for (int i = 0; i < 3; ++i) run();
+  test.functions.front() = [](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_FAULT; };
+  memory[2] = 1; // wakes it
+  EXPECT_FALSE(runner->runTask(task));
+  EXPECT_EQ(cell(), 70);
 }
 
 TEST_F(Resting, OtherCodeWakesAll) {

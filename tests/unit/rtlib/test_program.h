@@ -33,6 +33,7 @@ struct TestProgram {
   std::vector<rung_written> writes;
   std::vector<rung_activity> activity;
   std::vector<rung_span> activitySpans;
+  std::vector<rung_timer> timers;
   std::vector<rung_span> reads;
   std::vector<uint32_t> changes;
   std::vector<rung_copy> copies;
@@ -98,9 +99,15 @@ struct TestProgram {
   void addActivity(std::vector<rung_span> written, std::vector<rung_span> touched) {
     const auto first = static_cast<uint32_t>(activitySpans.size());
     const auto count = static_cast<uint32_t>(written.size());
-    activity.push_back({first, count, first + count, static_cast<uint32_t>(touched.size())});
+    activity.push_back({first, count, first + count, static_cast<uint32_t>(touched.size()),
+                        static_cast<uint32_t>(timers.size()), 0, 1, 1});
     activitySpans.insert(activitySpans.end(), written.begin(), written.end());
     activitySpans.insert(activitySpans.end(), touched.begin(), touched.end());
+  }
+  // Of the chunk that `addActivity` was called for last.
+  void addTimer(const rung_timer& timer) {
+    timers.push_back(timer);
+    ++activity.back().timer_count;
   }
   // What the task may read; all of one task after the other.
   void addReads(uint32_t task, std::vector<rung_span> spans) {
@@ -162,6 +169,7 @@ struct TestProgram {
     point(writes, program.writes, program.write_count);
     point(reads, program.reads, program.read_count);
     point(changes, program.changes, program.change_count);
+    point(timers, program.timers, program.timer_count);
     point(files, program.files, program.file_count);
     point(routines, program.routines, program.routine_count);
     program.chunk_fns = functions.data();

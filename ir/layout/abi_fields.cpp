@@ -64,7 +64,8 @@ constexpr FieldInfo kActivityFields[] = {
     RUNG_FIELD(rung_activity, written_first, U32), RUNG_FIELD(rung_activity, written_count, U32),
     RUNG_FIELD(rung_activity, touched_first, U32), RUNG_FIELD(rung_activity, touched_count, U32),
     RUNG_FIELD(rung_activity, timer_first, U32),   RUNG_FIELD(rung_activity, timer_count, U32),
-    RUNG_FIELD(rung_activity, of_entry, U32),      RUNG_FIELD(rung_activity, once, U32)};
+    RUNG_FIELD(rung_activity, of_entry, U32),      RUNG_FIELD(rung_activity, once, U32),
+    RUNG_FIELD(rung_activity, may_rest, U32),      RUNG_FIELD(rung_activity, asks_host, U32)};
 constexpr StructInfo kActivity{"rung_activity", sizeof(rung_activity), kActivityFields};
 
 constexpr FieldInfo kTimerFields[] = {RUNG_FIELD(rung_timer, cell, U32),       RUNG_FIELD(rung_timer, amount, U32),

@@ -225,8 +225,6 @@ bool marksWhatGoesBack(const Module& module, const Use& use) {
 
 constexpr uint64_t kMostTouched = 4096; // bytes: comparing more for one chunk does not pay
 
-bool asksOthers(const Op& op) { return does(op, kHost | kClock); }
-
 // Calls and returns change the stack, and a routine returns after its last rung.
 bool staysInRoutine(const Routine& routine, const Chunk& chunk) {
   if (chunk.firstRung + chunk.rungCount == routine.rungs.size()) return false;
@@ -242,10 +240,11 @@ Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk) {
   const Module& module = layout.module();
   const Routine& routine = module.at(chunk.routine);
   Touched out;
-  bool mayRest = staysInRoutine(routine, chunk);
+  out.mayRest = staysInRoutine(routine, chunk);
   for (const Rung& rung : std::span(routine.rungs).subspan(chunk.firstRung, chunk.rungCount)) {
     for (const Op& op : rung.ops) {
-      mayRest = mayRest && !asksOthers(op);
+      out.mayRest = out.mayRest && !does(op, kHost | kClock);
+      out.asksHost = out.asksHost || (does(op, kHost) && does(op, kReads | kWrites));
       if (const std::optional<Use> use = useOf(module, op); use && use->writes && marksWhatGoesBack(module, *use))
         continue;
       addTouched(layout, op, out.all);
@@ -254,7 +253,7 @@ Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk) {
   }
   out.all = joined(std::move(out.all));
   out.written = joined(std::move(out.written));
-  if (!mayRest || sizeOf(out.all) > kMostTouched) out.all.clear();
+  out.mayRest = out.mayRest && !out.all.empty() && sizeOf(out.all) <= kMostTouched;
   return out;
 }
 

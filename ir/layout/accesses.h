@@ -21,8 +21,9 @@ std::vector<uint32_t> changedWords(const MemoryLayout& layout, TaskId task);
 // What a chunk touches of the memory block, ascending, none touches the next.
 struct Touched {
   std::vector<rung_span> written; // may be written
-  std::vector<rung_span> all; // may be read or written; empty where the chunk must always run: its effect depends on
-                              // more than memory, or it may touch too much to compare
+  std::vector<rung_span> all;     // may be read or written
+  bool mayRest = false;           // its effect depends on that memory alone, which is not too much to compare
+  bool asksHost = false;          // who may read or write any of the memory
 };
 Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk);
 

@@ -248,6 +248,8 @@ private:
       rung_activity out{};
       out.of_entry = chunk.routine == entry ? 1 : 0;
       out.once = chunk.routine == entry && !once.empty() && once[chunk.firstRung] ? 1 : 0;
+      out.may_rest = touched.mayRest ? 1 : 0;
+      out.asks_host = touched.asksHost ? 1 : 0;
       append(timers[i], image_.timers_, out.timer_first, out.timer_count);
       append(touched.written, image_.activitySpans_, out.written_first, out.written_count);
       append(touched.all, image_.activitySpans_, out.touched_first, out.touched_count);

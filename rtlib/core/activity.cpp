@@ -66,6 +66,7 @@ void Activity::wakeAll(uint8_t* memory) noexcept {
   std::ranges::fill(tables_.passed, 0);
   std::ranges::fill(tables_.turned, 0);
   timers_.wakeAll(memory, tables_.copy.data());
+  if (copied_) relayed_.end(memory, tables_.copy.data(), timers_.passed());
   copied_ = false;
 }
 
@@ -118,10 +119,12 @@ uint32_t Activity::takeLines(uint8_t* memory, uint32_t offset, uint32_t end) noe
 void Activity::begin(uint8_t* memory) noexcept {
   timers_.begin();
   comparing_ = waking_ = left_ = 0;
-  copies_ = !copied_;
+  const bool copies = !copied_;
+  looked_ = copies ? 0 : looked_ + 1;
+  learns_ = copies;
   for (const ActivityStretch& stretch : tables_.stretches) {
     comparing_ += stretch.size / kActivityLine * kLineCost;
-    if (copies_) {
+    if (copies) {
       std::memcpy(tables_.copy.data() + stretch.offset, memory + stretch.offset, stretch.size);
     } else {
       const uint32_t end = stretch.offset + stretch.size;
@@ -129,12 +132,14 @@ void Activity::begin(uint8_t* memory) noexcept {
       takeLines<1>(memory, takeLines<4>(memory, few, end), end);
     }
   }
-  copied_ = copied_ || copies_;
+  copied_ = copied_ || copies;
+  if (copied_) relayed_.begin(memory, [&](const ChunkBits& chunk) { wakeChunks(memory, chunk); });
 }
 
 void Activity::ran(uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept {
   if (!copied_) return;
   uint8_t* const copy = tables_.copy.data();
+  relayed_.ran(memory, copy, chunk, [&](const ChunkBits& next) { wakeChunks(memory, next); });
   const bool mayRest = tables_.mayRest[chunk] != 0;
   const uint64_t moved = mayRest ? timers_.take(memory, copy, chunk) : 0;
   const uint32_t first = tables_.firstWritten[chunk];
@@ -148,16 +153,17 @@ void Activity::ran(uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weig
     return;
   }
   if (!mayRest || !timers_.settle(memory, chunk, moved)) return;
+  if (moved != 0 && looked_ == 1) learns_ = true;
   tables_.rests[chunk] = {next, weight};
   const std::span<uint64_t> bits = next == chunk + 1 ? tables_.passed : tables_.turned;
   bits[chunk / kChunkBits] |= uint64_t{1} << chunk % kChunkBits;
 }
 
 void Activity::end(uint8_t* memory, bool completed) noexcept {
+  if (copied_) relayed_.end(memory, tables_.copy.data(), completed ? UINT32_MAX : timers_.passed());
   comparing_ += kMoveCost * timers_.end(memory, tables_.copy.data(), completed,
                                         [&](const ChunkBits& chunk) { wakeChunks(memory, chunk); });
-  // A run that begins with a new copy can only find what rests.
-  if (!copies_ || !copied_) {
+  if (!learns_ || !copied_) {
     const uint64_t cost = comparing_ + waking_;
     const auto gain = static_cast<int64_t>(left_ * tables_.meanWeight - cost);
     gained_ = std::min(gained_ + gain, static_cast<int64_t>(kMostGained * cost));

@@ -3,7 +3,8 @@
 // nothing. What it may touch is in the program's tables (rung_program::activity); chunks that ask the clock or the
 // host, call, or return never rest.
 //
-// Timers that run do not keep a chunk awake (see running_timers.h).
+// Timers that run do not keep a chunk awake (running_timers.h), nor do bytes that each run changes anew
+// (relayed_bytes.h).
 //
 // Changes are found by comparing with a copy of the memory: all that matters to some chunk where a run begins, whoever
 // has written it, and after each chunk that ran what it may have written. So nobody who writes has to say so.
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <span>
 
+#include "rtlib/core/relayed_bytes.h"
 #include "rtlib/core/running_timers.h"
 
 namespace rung::rt {
@@ -49,13 +51,17 @@ struct ActivityTables {
   std::span<uint64_t> passed; // by chunk and one more, as in ChunkBits: it rests, and the next one follows it
   std::span<uint64_t> turned; // by chunk, likewise: it rests, and another one follows it
   std::span<uint8_t> copy;    // of the memory block; of the lines in stretches
-  TimerTables timers;         // of no chunk where the program has none
+  RelayTables relayed;
+  TimerTables timers; // of no chunk where the program has none
 };
 
 class Activity {
 public:
   Activity() = default;
-  explicit Activity(const ActivityTables& tables) noexcept : tables_(tables), timers_(tables.timers) { forget(); }
+  explicit Activity(const ActivityTables& tables) noexcept
+      : tables_(tables), timers_(tables.timers), relayed_(tables.relayed) {
+    forget();
+  }
 
   bool of(uint32_t task) const noexcept { return !tables_.rests.empty() && tables_.task == task; }
   // Whether the run that begins is to be looked at. Counts runs.
@@ -79,11 +85,19 @@ public:
     return &tables_.rests[chunk];
   }
   // Before a chunk runs.
-  void reach(uint32_t chunk) noexcept { timers_.reach(chunk); }
+  void reach(uint8_t* memory, uint32_t chunk) noexcept {
+    timers_.reach(chunk);
+    if (copied_) relayed_.reach(memory, chunk);
+  }
   // After it, with what it gave and used.
   void ran(uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept;
   // `completed`: no fault has ended the run.
   void end(uint8_t* memory, bool completed) noexcept;
+  // The run ends at a chunk, which has run or not.
+  void stop(uint8_t* memory, uint32_t chunk) noexcept {
+    timers_.reach(chunk);
+    end(memory, false);
+  }
 
   // No chunk rests any more: memory or code has been replaced.
   void forget() noexcept;
@@ -98,8 +112,10 @@ private:
 
   ActivityTables tables_;
   RunningTimers timers_;
+  RelayedBytes relayed_;
   bool copied_ = false;    // the copy is that of the last run; else every chunk is awake
-  bool copies_ = false;    // this run has begun with a new copy
+  uint32_t looked_ = 0;    // runs that have been looked at since the one that began with a new copy
+  bool learns_ = false;    // this run can only find what rests: it began with a new copy, or timers have come to rest
   uint64_t left_ = 0;      // chunks that this run has left out
   uint64_t comparing_ = 0; // what this run has cost, in the unit of weights
   uint64_t waking_ = 0;

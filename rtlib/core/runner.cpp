@@ -214,7 +214,7 @@ uint32_t Runner::runAwake(uint32_t pc, uint32_t limit) noexcept {
       pc = rest->next;
       continue;
     }
-    activity_->reach(here);
+    activity_->reach(memory, here);
     pc = functionOf(code_.functions, here)(memory, ctx, here);
     activity_->ran(memory, here, pc, chunks[here].weight);
   }
@@ -247,11 +247,10 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
     const uint32_t here = pc;
     const rung_chunk& chunk = chunks[here];
     const auto takesTooLong = [&] {
-      if constexpr (Looks) activity_->end(memory, false);
+      if constexpr (Looks) activity_->stop(memory, here);
       return overrun(task, chunk);
     };
     if constexpr (Looks) {
-      activity_->reach(here);
       if (const Rest* rest = activity_->rest(here); rest != nullptr) {
         if (rest->weight > left) return takesTooLong();
         left -= rest->weight;
@@ -262,6 +261,7 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
     if (chunk.weight > left) [[unlikely]]
       return takesTooLong();
     left -= chunk.weight;
+    if constexpr (Looks) activity_->reach(memory, here);
     pc = functionOf(functions, here)(memory, ctx, here);
     if constexpr (Timed)
       if (isLate()) return takesTooLong();

@@ -57,6 +57,8 @@ public:
   void reach(uint32_t chunk) noexcept {
     if (chunk >= tables_.firstChunk && chunk < tables_.endChunk) passed_ = chunk;
   }
+  // Chunks of the routine below this one have been passed in this run.
+  uint32_t passed() const noexcept { return passed_; }
   // After it: takes numbers that it has moved on from the memory into the copy. Gives which, a bit for each of its
   // timers.
   uint64_t take(const uint8_t* memory, uint8_t* copy, uint32_t chunk) const noexcept;
@@ -99,7 +101,7 @@ private:
   void move(uint8_t* memory, uint8_t* copy, uint32_t chunk) const noexcept;
 
   TimerTables tables_;
-  uint32_t passed_ = 0; // chunks of the routine below this one have been passed in this run
+  uint32_t passed_ = 0;
 };
 
 } // namespace rung::rt

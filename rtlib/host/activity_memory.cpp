@@ -13,6 +13,11 @@ std::span<const rung_span> touched(const rung_program& program, uint32_t chunk) 
   return {program.activity_spans + activity.touched_first, activity.touched_count};
 }
 
+// What a chunk must be awake for: nothing where it always runs.
+std::span<const rung_span> watched(const rung_program& program, uint32_t chunk) {
+  return program.activity[chunk].may_rest != 0 ? touched(program, chunk) : std::span<const rung_span>{};
+}
+
 std::span<const rung_span> written(const rung_program& program, uint32_t chunk) {
   const rung_activity& activity = program.activity[chunk];
   return {program.activity_spans + activity.written_first, activity.written_count};
@@ -26,6 +31,12 @@ void forLines(std::span<const rung_span> spans, Visit visit) {
     for (uint32_t line = std::max(done, span.offset / kActivityLine); line < end; ++line) visit(line);
     done = std::max(done, end);
   }
+}
+
+template <class Visit>
+void forEachByte(std::span<const rung_span> spans, Visit visit) {
+  for (const rung_span& span : spans)
+    for (uint32_t at = span.offset; at < span.offset + span.size; ++at) visit(at);
 }
 
 // Turns the number of entries of each list into the index where it begins, in one array that holds all lists; gives
@@ -45,18 +56,74 @@ uint32_t begins(std::span<uint32_t> first) {
 ActivityMemory::ActivityMemory(const rung_program& program) {
   if (program.activity_count == 0) return;
   task_ = program.main_task;
+  findRelayed(program);
   findLines(program);
   findWatchers(program);
   findWritten(program);
   findTimers(program);
   mayRest_.make(program.chunk_count);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
-    mayRest_[chunk] = program.activity[chunk].touched_count != 0 ? 1 : 0;
+    mayRest_[chunk] = program.activity[chunk].may_rest != 0 ? 1 : 0;
   rests_.make(program.chunk_count);
   passed_.make(program.chunk_count / rt::kChunkBits + 1);
   turned_.make(program.chunk_count / rt::kChunkBits + 1);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk) weights_ += program.chunks[chunk].weight;
   copy_.make(program.memory_size);
+}
+
+// Those that several chunks write, where each run comes to all that may touch them exactly once.
+void ActivityMemory::findRelayed(const rung_program& program) {
+  relayedAt_.make(program.memory_size);
+  std::ranges::fill(relayedAt_.all(), RUNG_NONE);
+  firstOfChunk_.make(program.chunk_count + 1);
+  const std::span<const rung_activity> chunks(program.activity, program.activity_count);
+  if (std::ranges::any_of(chunks, [](const rung_activity& a) { return a.asks_host != 0 && a.once == 0; })) return;
+
+  Array<uint8_t> writers; // by byte: 0, 1, more
+  Array<uint8_t> excluded;
+  writers.make(program.memory_size);
+  excluded.make(program.memory_size);
+  for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk) {
+    forEachByte(written(program, chunk), [&](uint32_t at) { writers[at] = writers[at] == 0 ? 1 : 2; });
+    if (chunks[chunk].once == 0) forEachByte(touched(program, chunk), [&](uint32_t at) { excluded[at] = 1; });
+  }
+  relayedBytes_.make(static_cast<uint32_t>(std::ranges::count(writers.all(), 2)));
+  relayedBytes_.size = 0;
+  for (uint32_t at = 0; at < program.memory_size; ++at) {
+    if (writers[at] < 2 || excluded[at] != 0) continue;
+    relayedAt_[at] = relayedBytes_.size;
+    relayedBytes_[relayedBytes_.size++].offset = at;
+  }
+
+  // Whoever asks the host touches all of them.
+  const auto forMembers = [&](uint32_t chunk, const auto& visit) {
+    if (chunks[chunk].asks_host != 0) {
+      for (uint32_t byte = 0; byte < relayedBytes_.size; ++byte) visit(byte);
+    } else {
+      forEachByte(touched(program, chunk), [&](uint32_t at) {
+        if (isRelayed(at)) visit(relayedAt_[at]);
+      });
+    }
+  };
+  for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
+    forMembers(chunk, [&](uint32_t byte) {
+      ++relayedBytes_[byte].endMember;
+      ++firstOfChunk_[chunk];
+    });
+  ofChunk_.make(begins(firstOfChunk_.all()));
+  members_.make(ofChunk_.size);
+  uint32_t first = 0;
+  for (rt::RelayedByte& byte : relayedBytes_.all()) {
+    const uint32_t count = byte.endMember;
+    byte.firstMember = byte.endMember = first;
+    first += count;
+  }
+  uint32_t next = 0;
+  for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
+    forMembers(chunk, [&](uint32_t byte) {
+      ofChunk_[next++] = relayedBytes_[byte].endMember;
+      members_[relayedBytes_[byte].endMember++] = {.chunk = chunk, .byte = byte};
+    });
 }
 
 // Short gaps between lines are compared, too: nobody watches them.
@@ -65,7 +132,7 @@ void ActivityMemory::findLines(const rung_program& program) {
   lineNumbers_.make(program.memory_size / kActivityLine);
   std::ranges::fill(lineNumbers_.all(), RUNG_NONE);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
-    forLines(touched(program, chunk), [&](uint32_t line) { lineNumbers_[line] = 0; });
+    forLines(watched(program, chunk), [&](uint32_t line) { lineNumbers_[line] = 0; });
   stretches_.make(lineNumbers_.size); // at most
   stretches_.size = 0;
   uint32_t end = 0; // of the last stretch
@@ -85,9 +152,9 @@ void ActivityMemory::findLines(const rung_program& program) {
 // Chunks come in ascending order, so those of one word follow one another.
 void ActivityMemory::findWatchers(const rung_program& program) {
   const auto forBytes = [&](uint32_t chunk, const auto& visit) {
-    for (const rung_span& span : touched(program, chunk))
-      for (uint32_t at = span.offset; at < span.offset + span.size; ++at)
-        visit(lineNumbers_[at / kActivityLine] * kActivityLine + at % kActivityLine);
+    forEachByte(watched(program, chunk), [&](uint32_t at) {
+      if (!isRelayed(at)) visit(lineNumbers_[at / kActivityLine] * kActivityLine + at % kActivityLine);
+    });
   };
   const uint32_t bytes = lineCount_ * kActivityLine;
   Numbers lastWord;
@@ -140,7 +207,7 @@ void ActivityMemory::findTimers(const rung_program& program) {
              .states = chunkTimers_.all(),
              .onlyMoved = onlyMoved_.all(),
              .moving = moving_.all(),
-            .starting = starting_.all()};
+             .starting = starting_.all()};
   for (uint32_t chunk = program.chunk_count; chunk-- > 0;) {
     if (program.activity[chunk].of_entry == 0) continue;
     timers_.firstChunk = chunk;
@@ -165,6 +232,7 @@ rt::Activity ActivityMemory::make() noexcept {
                        .passed = passed_.all(),
                        .turned = turned_.all(),
                        .copy = copy_.all(),
+                       .relayed = {relayedBytes_.all(), members_.all(), firstOfChunk_.all(), ofChunk_.all()},
                        .timers = timers_});
 }
 

@@ -34,6 +34,8 @@ private:
   void findWatchers(const rung_program& program);
   void findWritten(const rung_program& program);
   void findTimers(const rung_program& program);
+  void findRelayed(const rung_program& program);
+  bool isRelayed(uint32_t byte) const { return relayedAt_[byte] != RUNG_NONE; }
 
   uint32_t task_ = RUNG_NONE;
   Numbers lineNumbers_; // by line of the block; RUNG_NONE: no chunk touches it
@@ -49,6 +51,11 @@ private:
   Array<uint64_t> turned_;
   uint64_t weights_ = 0; // of all chunks
   Array<uint8_t> copy_;
+  Numbers relayedAt_; // by byte of the block: in `relayedBytes_`; RUNG_NONE: none of them
+  Array<rt::RelayedByte> relayedBytes_;
+  Array<rt::RelayMember> members_;
+  Numbers firstOfChunk_;
+  Numbers ofChunk_;
   rt::TimerTables timers_;
   Array<rt::MovingNumber> numbers_;
   Array<rt::ChunkTimers> chunkTimers_;

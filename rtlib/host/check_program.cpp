@@ -365,6 +365,8 @@ private:
       piece("activity", i, "timers", a.timer_first, a.timer_count, p_.timer_count);
       if (a.timer_count > RUNG_MOST_TIMERS) failAt("activity", i, "has too many timers");
       if (a.once != 0 && a.of_entry == 0) failAt("activity", i, "is not of the main task's entry, but run once");
+      if (a.may_rest > 1 || a.asks_host > 1)
+        failAt("activity", i, "has a `may_rest` or `asks_host` that is not 0 or 1");
       if (a.timer_count != 0 && a.once == 0) failAt("activity", i, "has timers, but is not run once");
       if (error_.empty()) checkActivitySpans(a.written_first, a.written_count);
       if (error_.empty()) checkActivitySpans(a.touched_first, a.touched_count);

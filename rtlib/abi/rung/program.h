@@ -175,12 +175,14 @@ typedef struct rung_activity {
   uint32_t written_first; /* in `activity_spans`: what the chunk may write */
   uint32_t written_count;
   uint32_t touched_first; /* in `activity_spans`: what it may read or write */
-  uint32_t touched_count; /* 0: the chunk may not be left out */
-  uint32_t timer_first;   /* in `timers` */
-  uint32_t timer_count;   /* at most RUNG_MOST_TIMERS */
-  uint32_t of_entry;      /* 1: of the routine that the main task begins with */
-  uint32_t once; /* 1: of that, and each run comes to it exactly once, where a fault does not end it before. Such
-                    a task has one part. Other chunks have no timers */
+  uint32_t touched_count;
+  uint32_t timer_first; /* in `timers` */
+  uint32_t timer_count; /* at most RUNG_MOST_TIMERS */
+  uint32_t of_entry;    /* 1: of the routine that the main task begins with */
+  uint32_t once;        /* 1: of that, and each run comes to it exactly once, where a fault does not end it before. Such
+                           a task has one part. Other chunks have no timers */
+  uint32_t may_rest;    /* 1: what it does depends on what it touches alone, and it does nothing else */
+  uint32_t asks_host;   /* 1: the host may read or write any of the memory while it runs */
 } rung_activity;
 #define RUNG_MOST_TIMERS 64u
 

@@ -156,22 +156,62 @@ TEST_F(Resting, WhereMuchChangesAllRuns) {
   EXPECT_EQ(memory[20] + memory[40] + memory[60] + memory[61], 28);
 }
 
-TEST_F(Resting, TwoWhoWriteTheSameNeverRestWhileTheyDiffer) {
-  addMove<0, 1, 20>();
-  addMove<1, 2, 20>();
-  addMove<2, 3, 60>();
-  addMove<3, 4, 61>();
-  addMove<4, 5, 62>();
-  addMove<5, 6, 63>();
-  start();
-  rest();
-  memory[2] = 1;
-  run();
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(run(), (Trace{0, 1, 9}));
-  memory[1] = 1;
-  run();
-  run();
+// A byte that two of them write, and one in between reads: each run changes it twice.
+class Relayed : public Resting {
+protected:
+  void SetUp() override {
+    addMove<0, 1, 20>();
+    addMove<1, 20, 40>();
+    addMove<2, 2, 20>();
+    addMove<3, 20, 60>();
+    addMove<4, 5, 61>();
+    start();
+    memory[1] = 7;
+    memory[2] = 1;
+    for (int i = 0; i < 3; ++i) run();
+  }
+};
+
+TEST_F(Relayed, ThoseWhoTouchItRest) {
   EXPECT_EQ(run(), (Trace{9}));
+  EXPECT_EQ(memory[20], 1);
+  EXPECT_EQ(memory[40], 7);
+  EXPECT_EQ(memory[60], 1);
+}
+
+TEST_F(Relayed, WhatOneLeavesOtherwiseWakesTheNext) {
+  memory[1] = 8;
+  EXPECT_EQ(run(), (Trace{0, 1, 2, 9})) << "the third one found 8 where it had found 7, and left the same";
+  EXPECT_EQ(memory[20], 1);
+  EXPECT_EQ(memory[40], 8);
+  memory[2] = 3;
+  EXPECT_EQ(run(), (Trace{1, 2, 3, 9})) << "the second one has changed something in the run before";
+  EXPECT_EQ(memory[20], 3);
+  EXPECT_EQ(run(), (Trace{0, 3, 9})) << "the first one finds 3 where it had found 1";
+  EXPECT_EQ(run(), (Trace{9}));
+  EXPECT_EQ(memory[20], 3);
+  EXPECT_EQ(memory[40], 8);
+  EXPECT_EQ(memory[60], 3);
+}
+
+TEST_F(Relayed, AnyoneWhoWritesItWakesTheFirst) {
+  memory[20] = 9;
+  EXPECT_EQ(run(), (Trace{0, 9}));
+  EXPECT_EQ(memory[20], 1);
+  EXPECT_EQ(memory[40], 7);
+  EXPECT_EQ(run(), (Trace{0, 9})) << "it finds 1 again";
+  EXPECT_EQ(run(), (Trace{9}));
+}
+
+TEST_F(Relayed, AFaultLeavesWhatWasLeftBeforeIt) {
+  EXPECT_EQ(run(), (Trace{9}));
+  test.functions[1] = [](uint8_t* mem, rung_ctx*, uint32_t) {
+    EXPECT_EQ(mem[20], 7);
+    return RUNG_PC_FAULT;
+  };
+  memory[40] = 5; // wakes the second one
+  EXPECT_FALSE(runner->runTask(task));
+  EXPECT_EQ(memory[20], 7);
 }
 
 TEST_F(Resting, ACounterNeverRests) {

@@ -82,7 +82,9 @@ AT(rung_activity, timer_first, 16);
 AT(rung_activity, timer_count, 20);
 AT(rung_activity, of_entry, 24);
 AT(rung_activity, once, 28);
-SIZE(rung_activity, 32);
+AT(rung_activity, may_rest, 32);
+AT(rung_activity, asks_host, 36);
+SIZE(rung_activity, 40);
 
 AT(rung_timer, cell, 0);
 AT(rung_timer, amount, 4);

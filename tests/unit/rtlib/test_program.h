@@ -100,7 +100,7 @@ struct TestProgram {
     const auto first = static_cast<uint32_t>(activitySpans.size());
     const auto count = static_cast<uint32_t>(written.size());
     activity.push_back({first, count, first + count, static_cast<uint32_t>(touched.size()),
-                        static_cast<uint32_t>(timers.size()), 0, 1, 1});
+                        static_cast<uint32_t>(timers.size()), 0, 1, 1, touched.empty() ? 0u : 1u, 0});
     activitySpans.insert(activitySpans.end(), written.begin(), written.end());
     activitySpans.insert(activitySpans.end(), touched.begin(), touched.end());
   }

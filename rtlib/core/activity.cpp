@@ -14,7 +14,7 @@ constexpr uint64_t kWrittenLineCost = 9; // and at a line that it may have writt
 constexpr uint64_t kByteCost = 30;       // of one that differs
 constexpr uint64_t kWakeCost = 8;        // of a word of chunks that it wakes
 constexpr uint64_t kMoveCost = 8;        // of moving a number on
-constexpr uint64_t kMostGained = 8; // times what a look costs: how long looking goes on when it does not pay any more
+constexpr uint64_t kMostGained = 8; // times what a look costs: how long looking continues when it does not pay any more
 constexpr uint32_t kWord = 8;       // bytes
 constexpr uint32_t kFirstPause = 31;
 constexpr uint32_t kLongestPause = 511; // runs; what comes to rest during them is found late
@@ -136,6 +136,11 @@ void Activity::begin(uint8_t* memory) noexcept {
   if (copied_) relayed_.begin(memory, [&](const ChunkBits& chunk) { wakeChunks(memory, chunk); });
 }
 
+void Activity::reach(uint8_t* memory, uint32_t chunk) noexcept {
+  timers_.reach(chunk);
+  if (copied_) relayed_.reach(memory, chunk);
+}
+
 void Activity::ran(uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept {
   if (!copied_) return;
   uint8_t* const copy = tables_.copy.data();
@@ -173,6 +178,11 @@ void Activity::end(uint8_t* memory, bool completed) noexcept {
   wakeAll(memory);
   without_ = pause_;
   pause_ = std::min(2 * pause_ + 1, kLongestPause);
+}
+
+void Activity::stop(uint8_t* memory, uint32_t chunk) noexcept {
+  timers_.reach(chunk);
+  end(memory, false);
 }
 
 } // namespace rung::rt

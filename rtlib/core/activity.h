@@ -9,7 +9,7 @@
 // Changes are found by comparing with a copy of the memory: all that matters to some chunk where a run begins, whoever
 // has written it, and after each chunk that ran what it may have written. So nobody who writes has to say so.
 //
-// A run in which too much changes goes on without looking at changes: every chunk is awake then, and the next run
+// A run in which too much changes continues without looking at changes: every chunk is awake then, and the next run
 // begins with a new copy. Where looking costs more than what it leaves out, runs without it follow. The scan thread's.
 #pragma once
 #include <bit>
@@ -46,7 +46,7 @@ struct ActivityTables {
   std::span<const uint32_t> writtenLines; // their offsets: what the chunk may change
   std::span<const uint8_t> mayRest;       // by chunk
   uint64_t meanWeight = 0;                // of a chunk
-  uint64_t mostWaking = 0;                // in the unit of weights: where waking costs more, a run goes on without it
+  uint64_t mostWaking = 0;                // in the unit of weights: where waking costs more, a run continues without it
   std::span<Rest> rests;                  // by chunk
   std::span<uint64_t> passed; // by chunk and one more, as in ChunkBits: it rests, and the next one follows it
   std::span<uint64_t> turned; // by chunk, likewise: it rests, and another one follows it
@@ -85,19 +85,13 @@ public:
     return &tables_.rests[chunk];
   }
   // Before a chunk runs.
-  void reach(uint8_t* memory, uint32_t chunk) noexcept {
-    timers_.reach(chunk);
-    if (copied_) relayed_.reach(memory, chunk);
-  }
+  void reach(uint8_t* memory, uint32_t chunk) noexcept;
   // After it, with what it gave and used.
   void ran(uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept;
   // `completed`: no fault has ended the run.
   void end(uint8_t* memory, bool completed) noexcept;
   // The run ends at a chunk, which has run or not.
-  void stop(uint8_t* memory, uint32_t chunk) noexcept {
-    timers_.reach(chunk);
-    end(memory, false);
-  }
+  void stop(uint8_t* memory, uint32_t chunk) noexcept;
 
   // No chunk rests any more: memory or code has been replaced.
   void forget() noexcept;

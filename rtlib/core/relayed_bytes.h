@@ -1,5 +1,5 @@
 // Bytes that several chunks write in one run, as the flags of arithmetic (see activity.h). They change within each run,
-// though each chunk finds and leaves the same there from run to run; so such a byte is no reason for a chunk to run as
+// though each chunk finds and leaves the same there from run to run; so a chunk need not run for such a byte as
 // long as it would find what it found in its last run, and it then leaves what it left.
 //
 // All chunks that touch the byte are its members, in the order in which each run comes to them, exactly once. What

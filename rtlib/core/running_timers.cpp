@@ -25,7 +25,7 @@ void add(uint8_t* memory, uint8_t* copy, const MovingNumber& number) noexcept {
   std::memcpy(copy + number.cell, &value, sizeof value);
 }
 
-// In how many runs from now on the number stays before its limit, or behind it. It and the amount are not negative.
+// In how many runs from now on the number stays below its limit, or beyond it. It and the amount are not negative.
 int64_t runsBefore(const rung_timer& timer, const uint8_t* memory, int64_t number, int64_t amount) noexcept {
   if (timer.down != 0) return (number - 1) / amount;
   const int64_t limit =

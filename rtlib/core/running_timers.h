@@ -78,11 +78,13 @@ public:
   // each chunk that is to run in the next run. Gives how many numbers it has moved on.
   template <class Wake>
   uint64_t end(uint8_t* memory, uint8_t* copy, bool completed, const Wake& wake) noexcept {
+    const uint32_t end = completed ? UINT32_MAX : passed_;
+    passed_ = 0; // what is woken from now on has been moved on
     uint64_t count = 0;
     for (uint32_t word = 0; word < tables_.moving.size(); ++word) {
       for (uint64_t left = tables_.moving[word]; left != 0; left &= left - 1) {
         const uint32_t chunk = word * kChunkBits + static_cast<uint32_t>(std::countr_zero(left));
-        if (!completed && chunk >= passed_) return count;
+        if (chunk >= end) return count;
         move(memory, copy, chunk);
         count += tables_.states[chunk].count;
         if (--tables_.states[chunk].runs != 0) continue;

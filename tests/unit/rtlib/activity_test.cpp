@@ -342,6 +342,23 @@ TEST_F(RunningTimer, AChangeThatLooksLikeAStepIsNone) {
   EXPECT_EQ(cell(), 100);
 }
 
+// Looking does not pay, so it ends while the timer is moved on, and begins again.
+TEST_F(RunningTimer, GoesOnWhereLookingEnds) {
+  test.weights.assign(test.functions.size(), 1);
+  test.link();
+  watched = std::make_unique<host::ActivityMemory>(test.program);
+  activity = watched->make();
+  memory[kInput] = 1;
+  setWord(memory.data(), kCell, 10'000);
+  bool moved = false;
+  for (int32_t i = 1; i < 300; ++i) {
+    const Trace ran = run();
+    moved = moved || ran.front() != 1;
+    ASSERT_EQ(cell(), 10'000 - 10 * i) << i;
+  }
+  EXPECT_TRUE(moved);
+}
+
 TEST_F(RunningTimer, AFaultEndsARunBetweenChunks) {
   memory[kInput] = 1;
   for (int i = 0; i < 3; ++i) run();

@@ -9,7 +9,7 @@ namespace {
 
 // In weights of chunks, whose unit is about that of an instruction.
 constexpr uint64_t kLineCost = 3;        // of comparing a line among many
-constexpr uint64_t kChunkCost = 40;      // of looking at a chunk that ran
+constexpr uint64_t kChunkCost = 60;      // of looking at a chunk that ran
 constexpr uint64_t kWrittenLineCost = 9; // and at a line that it may have written
 constexpr uint64_t kByteCost = 30;       // of one that differs
 constexpr uint64_t kWakeCost = 8;        // of a word of chunks that it wakes
@@ -138,15 +138,17 @@ void Activity::begin(uint8_t* memory) noexcept {
 
 void Activity::reach(uint8_t* memory, uint32_t chunk) noexcept {
   timers_.reach(chunk);
-  if (copied_) relayed_.reach(memory, chunk);
+  if (copied_ && (tables_.properties[chunk] & kRelays) != 0) relayed_.reach(memory, chunk);
 }
 
 void Activity::ran(uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weight) noexcept {
   if (!copied_) return;
   uint8_t* const copy = tables_.copy.data();
-  relayed_.ran(memory, copy, chunk, [&](const ChunkBits& next) { wakeChunks(memory, next); });
-  const bool mayRest = tables_.mayRest[chunk] != 0;
-  const uint64_t moved = mayRest ? timers_.take(memory, copy, chunk) : 0;
+  const uint8_t properties = tables_.properties[chunk];
+  if ((properties & kRelays) != 0)
+    relayed_.ran(memory, copy, chunk, [&](const ChunkBits& next) { wakeChunks(memory, next); });
+  const bool hasTimers = (properties & kHasTimers) != 0;
+  const uint64_t moved = hasTimers ? timers_.take(memory, copy, chunk) : 0;
   const uint32_t first = tables_.firstWritten[chunk];
   const std::span<const uint32_t> lines = tables_.writtenLines.subspan(first, tables_.firstWritten[chunk + 1] - first);
   comparing_ += kChunkCost + lines.size() * kWrittenLineCost;
@@ -157,7 +159,7 @@ void Activity::ran(uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weig
       if (!same<1>(memory + line, copy + line)) takeLine(memory, line);
     return;
   }
-  if (!mayRest || !timers_.settle(memory, chunk, moved)) return;
+  if ((properties & kMayRest) == 0 || (hasTimers && !timers_.settle(memory, chunk, moved))) return;
   if (moved != 0 && looked_ == 1) learns_ = true;
   tables_.rests[chunk] = {next, weight};
   const std::span<uint64_t> bits = next == chunk + 1 ? tables_.passed : tables_.turned;

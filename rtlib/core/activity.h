@@ -35,6 +35,8 @@ struct ActivityStretch {
   uint32_t size = 0;   // bytes
 };
 
+enum ChunkProperty : uint8_t { kMayRest = 1, kHasTimers = 2, kRelays = 4 };
+
 // Of one program; host::ActivityMemory makes it.
 struct ActivityTables {
   uint32_t task = 0; // whose runs are looked at
@@ -44,7 +46,7 @@ struct ActivityTables {
   std::span<const ChunkBits> watchers;    // chunks that a change of the byte wakes
   std::span<const uint32_t> firstWritten; // by chunk, and one more: in `writtenLines`
   std::span<const uint32_t> writtenLines; // their offsets: what the chunk may change
-  std::span<const uint8_t> mayRest;       // by chunk
+  std::span<const uint8_t> properties;    // by chunk: of ChunkProperty
   uint64_t meanWeight = 0;                // of a chunk
   uint64_t mostWaking = 0;                // in the unit of weights: where waking costs more, a run continues without it
   std::span<Rest> rests;                  // by chunk

@@ -61,9 +61,7 @@ ActivityMemory::ActivityMemory(const rung_program& program) {
   findWatchers(program);
   findWritten(program);
   findTimers(program);
-  mayRest_.make(program.chunk_count);
-  for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk)
-    mayRest_[chunk] = program.activity[chunk].may_rest != 0 ? 1 : 0;
+  findProperties(program);
   rests_.make(program.chunk_count);
   passed_.make(program.chunk_count / rt::kChunkBits + 1);
   turned_.make(program.chunk_count / rt::kChunkBits + 1);
@@ -215,6 +213,18 @@ void ActivityMemory::findTimers(const rung_program& program) {
   }
 }
 
+// A chunk that always runs need not be told apart by its timers.
+void ActivityMemory::findProperties(const rung_program& program) {
+  properties_.make(program.chunk_count);
+  for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk) {
+    const rung_activity& activity = program.activity[chunk];
+    const bool rests = activity.may_rest != 0;
+    const bool relays = firstOfChunk_[chunk + 1] != firstOfChunk_[chunk];
+    properties_[chunk] = static_cast<uint8_t>((rests ? rt::kMayRest : 0) | (relays ? rt::kRelays : 0) |
+                                              (rests && activity.timer_count != 0 ? rt::kHasTimers : 0));
+  }
+}
+
 rt::Activity ActivityMemory::make() noexcept {
   if (rests_.size == 0) return {};
   constexpr uint64_t kWakingPart = 8; // of what the chunks do, which waking may cost
@@ -225,7 +235,7 @@ rt::Activity ActivityMemory::make() noexcept {
                        .watchers = watchers_.all(),
                        .firstWritten = firstWritten_.all(),
                        .writtenLines = writtenLines_.all(),
-                       .mayRest = mayRest_.all(),
+                       .properties = properties_.all(),
                        .meanWeight = weights_ / rests_.size,
                        .mostWaking = weights_ / kWakingPart,
                        .rests = rests_.all(),

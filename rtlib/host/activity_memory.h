@@ -34,6 +34,7 @@ private:
   void findWatchers(const rung_program& program);
   void findWritten(const rung_program& program);
   void findTimers(const rung_program& program);
+  void findProperties(const rung_program& program);
   void findRelayed(const rung_program& program);
   bool isRelayed(uint32_t byte) const { return relayedAt_[byte] != RUNG_NONE; }
 
@@ -45,7 +46,7 @@ private:
   Array<rt::ChunkBits> watchers_;
   Numbers firstWritten_;
   Numbers writtenLines_;
-  Array<uint8_t> mayRest_;
+  Array<uint8_t> properties_;
   Array<rt::Rest> rests_;
   Array<uint64_t> passed_;
   Array<uint64_t> turned_;

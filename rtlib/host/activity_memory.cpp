@@ -213,7 +213,7 @@ void ActivityMemory::findTimers(const rung_program& program) {
   }
 }
 
-// A chunk that always runs need not be told apart by its timers.
+// Timers matter of chunks that may rest.
 void ActivityMemory::findProperties(const rung_program& program) {
   properties_.make(program.chunk_count);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk) {

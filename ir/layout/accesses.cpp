@@ -241,10 +241,10 @@ Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk) {
   const Routine& routine = module.at(chunk.routine);
   Touched out;
   out.mayRest = staysInRoutine(routine, chunk);
+  out.asksHost = hostReadsMemory(module, chunk);
   for (const Rung& rung : std::span(routine.rungs).subspan(chunk.firstRung, chunk.rungCount)) {
     for (const Op& op : rung.ops) {
       out.mayRest = out.mayRest && !does(op, kHost | kClock);
-      out.asksHost = out.asksHost || (does(op, kHost) && does(op, kReads | kWrites));
       if (const std::optional<Use> use = useOf(module, op); use && use->writes && marksWhatGoesBack(module, *use))
         continue;
       addTouched(layout, op, out.all);

@@ -23,7 +23,7 @@ struct Touched {
   std::vector<rung_span> written; // may be written
   std::vector<rung_span> all;     // may be read or written
   bool mayRest = false;           // its effect depends on that memory alone, which is not too much to compare
-  bool asksHost = false;          // who may read or write any of the memory
+  bool asksHost = false;          // who may read any of the memory
 };
 Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk);
 

@@ -222,15 +222,14 @@ private:
     }
     std::ranges::sort(ofSlot_, {}, [](const auto& entry) { return entry.first; });
     std::ranges::sort(ofSpace_, {}, [](const auto& entry) { return key(entry.first.space, entry.first.first); });
-    bool hostMayUse = false;
+    bool hostReadsAny = false;
     for (uint32_t r = 0; r < module_.routines.size(); ++r)
       for (uint32_t i = 0; i < module_.routines[r].rungs.size(); ++i)
         for (const Op& op : module_.routines[r].rungs[i].ops) {
           exclude(op, r == entry_.index ? i : RUNG_NONE);
-          const uint8_t effects = opInfo(op.code).effects;
-          hostMayUse = hostMayUse || ((effects & kHost) != 0 && (effects & (kReads | kWrites)) != 0);
+          hostReadsAny = hostReadsAny || hostReads(opInfo(op.code));
         }
-    if (hostMayUse)
+    if (hostReadsAny)
       for (const auto& [place, candidate] : ofSpace_) candidate->alone = false;
     for (const Task& task : module_.tasks) {
       for (const Copy& copy : task.begin) excludeCopy(copy);

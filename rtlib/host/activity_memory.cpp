@@ -69,8 +69,12 @@ ActivityMemory::ActivityMemory(const rung_program& program) {
   copy_.make(program.memory_size);
 }
 
-// Those that several chunks write, where each run comes to all that may touch them exactly once.
+// Those that several chunks write, where each run comes to all that may touch them exactly once. Not those that go back
+// where they are marked: who writes such a byte has to run, for its mark, when somebody else has written it. And not
+// what computed addresses reach, which is too much to follow.
 void ActivityMemory::findRelayed(const rung_program& program) {
+  constexpr uint32_t kMostRelayed = 64;    // each costs a little in every run; the others keep their chunks awake
+  constexpr uint32_t kMostTogether = 1024; // bytes side by side that one chunk touches
   relayedAt_.make(program.memory_size);
   std::ranges::fill(relayedAt_.all(), RUNG_NONE);
   firstOfChunk_.make(program.chunk_count + 1);
@@ -81,13 +85,22 @@ void ActivityMemory::findRelayed(const rung_program& program) {
   Array<uint8_t> excluded;
   writers.make(program.memory_size);
   excluded.make(program.memory_size);
+  const auto exclude = [&](std::span<const rung_span> spans) {
+    forEachByte(spans, [&](uint32_t at) { excluded[at] = 1; });
+  };
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk) {
     forEachByte(written(program, chunk), [&](uint32_t at) { writers[at] = writers[at] == 0 ? 1 : 2; });
-    if (chunks[chunk].once == 0) forEachByte(touched(program, chunk), [&](uint32_t at) { excluded[at] = 1; });
+    if (chunks[chunk].once == 0) exclude(touched(program, chunk));
+    for (const rung_span& span : touched(program, chunk))
+      if (span.size > kMostTogether) exclude({&span, 1});
   }
-  relayedBytes_.make(static_cast<uint32_t>(std::ranges::count(writers.all(), 2)));
+  for (const rung_copy& copy : std::span(program.copies, program.copy_count)) {
+    const rung_span from{copy.from, copy.size};
+    if (copy.kind == RUNG_COPY_MASKED) exclude({&from, 1});
+  }
+  relayedBytes_.make(kMostRelayed);
   relayedBytes_.size = 0;
-  for (uint32_t at = 0; at < program.memory_size; ++at) {
+  for (uint32_t at = 0; at < program.memory_size && relayedBytes_.size < kMostRelayed; ++at) {
     if (writers[at] < 2 || excluded[at] != 0) continue;
     relayedAt_[at] = relayedBytes_.size;
     relayedBytes_[relayedBytes_.size++].offset = at;

@@ -36,18 +36,27 @@ struct Running {
   std::unique_ptr<host::Instance> instance;
 };
 
+constexpr uint32_t kRungs = 40;
+constexpr uint32_t kBytes = 24; // of bits
+constexpr SpaceId kBits{0}, kWords{1}, kTimes{2}, kImage{2}, kMarks{3};
+
 struct Ran {
   uint64_t all = 0;
   uint64_t active = 0;
   uint32_t timers = 0; // that a host can move on
 };
 
-// Most scans come without a change, so that there is time to rest.
+// Most scans come without a change, so that there is time to rest. In some programs somebody writes one byte the same
+// in every scan, whatever the program has left there.
 Ran compareScans(const Module& module, uint64_t seed) {
   const Layout layout(module, {.cut = {.maxChunkRungs = 1 + static_cast<uint32_t>(seed % 3)}});
   Running all(layout, false);
   Running active(layout, true);
   RandomSource random(seed);
+  const bool holds = random.chance(25);
+  const uint32_t heldSpace = kImage.index < module.spaces.size() && random.chance(75) ? kImage.index : kBits.index;
+  const uint32_t heldByte = random.below(module.spaces[heldSpace].unitBytes * module.spaces[heldSpace].units);
+  const auto held = static_cast<uint8_t>(random.next());
   for (int scan = 0; scan < 300; ++scan) {
     const uint32_t space = random.below(static_cast<uint32_t>(module.spaces.size()));
     const uint32_t byte = random.below(module.spaces[space].unitBytes * module.spaces[space].units);
@@ -55,6 +64,7 @@ Ran compareScans(const Module& module, uint64_t seed) {
     const bool writes = random.chance(4);
     for (Running* running : {&all, &active}) {
       if (writes) running->instance->memory().writeByte(space, byte, value);
+      if (holds) running->instance->memory().writeByte(heldSpace, heldByte, held);
       running->instance->scan();
     }
     const auto difference = host::firstDifference(*all.instance, *active.instance, nc::describe);
@@ -73,10 +83,6 @@ enum class Kind : uint8_t {
   FromImage, // a run takes the bits from an image and gives back those that rungs have written
   Timers,    // one rung in four has one
 };
-
-constexpr uint32_t kRungs = 40;
-constexpr uint32_t kBytes = 24; // of bits
-constexpr SpaceId kBits{0}, kWords{1}, kTimes{2}, kImage{2}, kMarks{3};
 
 // The time of each run, which the first rung takes: 0 to 3 ms, as a word of the machine says.
 SlotId addRunTime(Module& module, Rung& rung) {

@@ -65,15 +65,15 @@ bool Activity::looks() noexcept {
 void Activity::wakeAll(uint8_t* memory) noexcept {
   std::ranges::fill(tables_.passed, 0);
   std::ranges::fill(tables_.turned, 0);
-  timers_.wakeAll(memory, tables_.copy.data());
-  if (copied_) relayed_.end(memory, tables_.copy.data(), timers_.passed());
+  timers_.wakeAll(memory, tables_.copy.data(), passed_);
+  if (copied_) relayed_.end(memory, tables_.copy.data(), passed_);
   copied_ = false;
 }
 
 void Activity::wakeChunks(uint8_t* memory, const ChunkBits& chunks) noexcept {
   tables_.passed[chunks.word] &= ~chunks.bits;
   tables_.turned[chunks.word] &= ~chunks.bits;
-  timers_.wake(memory, tables_.copy.data(), chunks.word, chunks.bits);
+  timers_.wake(memory, tables_.copy.data(), chunks, passed_);
 }
 
 // Those who watch the byte, counted over all lines.
@@ -117,7 +117,7 @@ uint32_t Activity::takeLines(uint8_t* memory, uint32_t offset, uint32_t end) noe
 }
 
 void Activity::begin(uint8_t* memory) noexcept {
-  timers_.begin();
+  passed_ = 0;
   comparing_ = waking_ = left_ = 0;
   const bool copies = !copied_;
   looked_ = copies ? 0 : looked_ + 1;
@@ -136,8 +136,12 @@ void Activity::begin(uint8_t* memory) noexcept {
   if (copied_) relayed_.begin(memory, [&](const ChunkBits& chunk) { wakeChunks(memory, chunk); });
 }
 
+void Activity::pass(uint32_t chunk) noexcept {
+  if (chunk >= tables_.firstOfEntry && chunk < tables_.endOfEntry) passed_ = chunk;
+}
+
 void Activity::reach(uint8_t* memory, uint32_t chunk) noexcept {
-  timers_.reach(chunk);
+  pass(chunk);
   if (copied_ && (tables_.properties[chunk] & kRelays) != 0) relayed_.reach(memory, chunk);
 }
 
@@ -146,7 +150,7 @@ void Activity::ran(uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weig
   uint8_t* const copy = tables_.copy.data();
   const uint8_t properties = tables_.properties[chunk];
   if ((properties & kRelays) != 0)
-    relayed_.ran(memory, copy, chunk, [&](const ChunkBits& next) { wakeChunks(memory, next); });
+    relayed_.ran(memory, copy, chunk, [&](const ChunkBits& waking) { wakeChunks(memory, waking); });
   const bool hasTimers = (properties & kHasTimers) != 0;
   const uint64_t moved = hasTimers ? timers_.take(memory, copy, chunk) : 0;
   const uint32_t first = tables_.firstWritten[chunk];
@@ -163,12 +167,15 @@ void Activity::ran(uint8_t* memory, uint32_t chunk, uint32_t next, uint32_t weig
   if (moved != 0 && looked_ == 1) learns_ = true;
   tables_.rests[chunk] = {next, weight};
   const std::span<uint64_t> bits = next == chunk + 1 ? tables_.passed : tables_.turned;
-  bits[chunk / kChunkBits] |= uint64_t{1} << chunk % kChunkBits;
+  const auto [word, bit] = bitOf(chunk);
+  bits[word] |= bit;
 }
 
 void Activity::end(uint8_t* memory, bool completed) noexcept {
-  if (copied_) relayed_.end(memory, tables_.copy.data(), completed ? UINT32_MAX : timers_.passed());
-  comparing_ += kMoveCost * timers_.end(memory, tables_.copy.data(), completed,
+  const uint32_t end = completed ? UINT32_MAX : passed_;
+  if (copied_) relayed_.end(memory, tables_.copy.data(), end);
+  passed_ = 0; // what is woken from now on has been moved on
+  comparing_ += kMoveCost * timers_.end(memory, tables_.copy.data(), end,
                                         [&](const ChunkBits& chunk) { wakeChunks(memory, chunk); });
   if (!learns_ || !copied_) {
     const uint64_t cost = comparing_ + waking_;
@@ -183,7 +190,7 @@ void Activity::end(uint8_t* memory, bool completed) noexcept {
 }
 
 void Activity::stop(uint8_t* memory, uint32_t chunk) noexcept {
-  timers_.reach(chunk);
+  pass(chunk);
   end(memory, false);
 }
 

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <span>
 
+#include "rtlib/core/chunk_bits.h"
 #include "rtlib/core/relayed_bytes.h"
 #include "rtlib/core/running_timers.h"
 
@@ -53,6 +54,8 @@ struct ActivityTables {
   std::span<uint64_t> passed; // by chunk and one more, as in ChunkBits: it rests, and the next one follows it
   std::span<uint64_t> turned; // by chunk, likewise: it rests, and another one follows it
   std::span<uint8_t> copy;    // of the memory block; of the lines in stretches
+  uint32_t firstOfEntry = 0;  // chunks of the routine that the task begins with
+  uint32_t endOfEntry = 0;
   RelayTables relayed;
   TimerTables timers; // of no chunk where the program has none
 };
@@ -103,12 +106,14 @@ private:
   uint32_t takeLines(uint8_t* memory, uint32_t offset, uint32_t end) noexcept;
   void takeLine(uint8_t* memory, uint32_t offset) noexcept;
   void wakeWatchers(uint8_t* memory, uint32_t byte) noexcept;
+  void pass(uint32_t chunk) noexcept;
   void wakeChunks(uint8_t* memory, const ChunkBits& chunks) noexcept;
   void wakeAll(uint8_t* memory) noexcept;
 
   ActivityTables tables_;
   RunningTimers timers_;
   RelayedBytes relayed_;
+  uint32_t passed_ = 0;    // chunks of the entry below this one have been passed in this run
   bool copied_ = false;    // the copy is that of the last run; else every chunk is awake
   uint32_t looked_ = 0;    // runs that have been looked at since the one that began with a new copy
   bool learns_ = false;    // this run can only find what rests: it began with a new copy, or timers have come to rest

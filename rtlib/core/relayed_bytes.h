@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include "rtlib/core/running_timers.h"
-#include "rung/program.h"
+#include "rtlib/core/chunk_bits.h"
 
 namespace rung::rt {
 
@@ -69,7 +68,7 @@ public:
       if (m + 1 < byte.endMember) expect(m + 1, member.after, wake);
     }
   }
-  // The run is over: memory has what the last ones left; those below `endChunk`, where it goes no further.
+  // The run is over, or is not followed any more: memory has what the last ones below `endChunk` left.
   void end(uint8_t* memory, uint8_t* copy, uint32_t endChunk) noexcept {
     for (RelayedByte& byte : tables_.bytes) {
       uint32_t last = byte.endMember;
@@ -88,7 +87,7 @@ private:
   template <class Wake>
   void expect(uint32_t m, uint8_t value, const Wake& wake) const noexcept {
     const RelayMember& member = tables_.members[m];
-    if (member.before != value) wake(ChunkBits{member.chunk / kChunkBits, uint64_t{1} << member.chunk % kChunkBits});
+    if (member.before != value) wake(bitOf(member.chunk));
   }
 
   RelayTables tables_;

@@ -52,8 +52,8 @@ uint64_t RunningTimers::take(const uint8_t* memory, uint8_t* copy, uint32_t chun
 
 bool RunningTimers::settle(const uint8_t* memory, uint32_t chunk, uint64_t moved) noexcept {
   ChunkTimers& state = tables_.states[chunk];
-  const uint64_t bit = uint64_t{1} << chunk % kChunkBits;
-  uint64_t& onlyMoved = tables_.onlyMoved[chunk / kChunkBits];
+  const auto [word, bit] = bitOf(chunk);
+  uint64_t& onlyMoved = tables_.onlyMoved[word];
   const bool again = (onlyMoved & bit) != 0 && state.moved == moved;
   state.moved = moved;
   onlyMoved |= bit;
@@ -71,7 +71,7 @@ bool RunningTimers::settle(const uint8_t* memory, uint32_t chunk, uint64_t moved
   if (runs <= 0) return false;
   state.count = count;
   state.runs = static_cast<uint32_t>(runs);
-  tables_.starting[chunk / kChunkBits] |= bit;
+  tables_.starting[word] |= bit;
   return true;
 }
 
@@ -84,16 +84,16 @@ void RunningTimers::move(uint8_t* memory, uint8_t* copy, uint32_t chunk) const n
       add<int64_t>(memory, copy, number);
 }
 
-void RunningTimers::stop(uint8_t* memory, uint8_t* copy, uint32_t word, uint64_t bits) noexcept {
-  tables_.moving[word] &= ~bits;
-  for (; bits != 0; bits &= bits - 1) {
-    const uint32_t chunk = word * kChunkBits + static_cast<uint32_t>(std::countr_zero(bits));
-    if (chunk < passed_) move(memory, copy, chunk);
+void RunningTimers::stop(uint8_t* memory, uint8_t* copy, const ChunkBits& chunks, uint32_t passed) noexcept {
+  tables_.moving[chunks.word] &= ~chunks.bits;
+  for (uint64_t left = chunks.bits; left != 0; left &= left - 1) {
+    const uint32_t chunk = chunks.word * kChunkBits + static_cast<uint32_t>(std::countr_zero(left));
+    if (chunk < passed) move(memory, copy, chunk);
   }
 }
 
-void RunningTimers::wakeAll(uint8_t* memory, uint8_t* copy) noexcept {
-  for (uint32_t word = 0; word < tables_.moving.size(); ++word) wake(memory, copy, word, ~uint64_t{0});
+void RunningTimers::wakeAll(uint8_t* memory, uint8_t* copy, uint32_t passed) noexcept {
+  for (uint32_t word = 0; word < tables_.moving.size(); ++word) wake(memory, copy, {word, ~uint64_t{0}}, passed);
 }
 
 void RunningTimers::forget() noexcept {

@@ -9,17 +9,10 @@
 #include <cstdint>
 #include <span>
 
+#include "rtlib/core/chunk_bits.h"
 #include "rung/program.h"
 
 namespace rung::rt {
-
-inline constexpr uint32_t kChunkBits = 64; // in a word
-
-// Bits of chunks, of one word: bit k of word w is of chunk 64 * w + k.
-struct ChunkBits {
-  uint32_t word = 0;
-  uint64_t bits = 0;
-};
 
 // A number that is moved on.
 struct MovingNumber {
@@ -38,8 +31,6 @@ struct ChunkTimers {
 struct TimerTables {
   std::span<const rung_activity> chunks;
   std::span<const rung_timer> timers;
-  uint32_t firstChunk = 0; // of the routine whose chunks have timers
-  uint32_t endChunk = 0;
   std::span<MovingNumber> numbers; // by timer
   std::span<ChunkTimers> states;   // by chunk
   std::span<uint64_t> onlyMoved;   // a bit by chunk, as in ChunkBits: its last run has moved numbers on, nothing else
@@ -52,34 +43,26 @@ public:
   RunningTimers() = default;
   explicit RunningTimers(const TimerTables& tables) noexcept : tables_(tables) {}
 
-  void begin() noexcept { passed_ = 0; }
-  // A chunk runs.
-  void reach(uint32_t chunk) noexcept {
-    if (chunk >= tables_.firstChunk && chunk < tables_.endChunk) passed_ = chunk;
-  }
-  // Chunks of the routine below this one have been passed in this run.
-  uint32_t passed() const noexcept { return passed_; }
-  // After it: takes numbers that it has moved on from the memory into the copy. Gives which, a bit for each of its
-  // timers.
+  // After a chunk that ran: takes numbers that it has moved on from the memory into the copy. Gives which, a bit for
+  // each of its timers.
   uint64_t take(const uint8_t* memory, uint8_t* copy, uint32_t chunk) const noexcept;
   // It has changed nothing but those. Whether it may rest.
   bool settle(const uint8_t* memory, uint32_t chunk, uint64_t moved) noexcept;
 
-  // Chunks of one word are awake. What they have passed by in this run is moved on.
-  void wake(uint8_t* memory, uint8_t* copy, uint32_t word, uint64_t bits) noexcept {
-    tables_.onlyMoved[word] &= ~bits;
-    tables_.starting[word] &= ~bits;
-    if (const uint64_t stopped = tables_.moving[word] & bits; stopped != 0) stop(memory, copy, word, stopped);
+  // These chunks are awake. This run has passed by those below `passed`: their numbers are moved on.
+  void wake(uint8_t* memory, uint8_t* copy, const ChunkBits& chunks, uint32_t passed) noexcept {
+    tables_.onlyMoved[chunks.word] &= ~chunks.bits;
+    tables_.starting[chunks.word] &= ~chunks.bits;
+    const uint64_t stopped = tables_.moving[chunks.word] & chunks.bits;
+    if (stopped != 0) stop(memory, copy, {chunks.word, stopped}, passed);
   }
-  void wakeAll(uint8_t* memory, uint8_t* copy) noexcept;
+  void wakeAll(uint8_t* memory, uint8_t* copy, uint32_t passed) noexcept;
   void forget() noexcept;
 
-  // Moves on what rests; of a run that a fault has ended, what rests before there. Calls `wake` with the ChunkBits of
-  // each chunk that is to run in the next run. Gives how many numbers it has moved on.
+  // Moves on what rests below `end`. Calls `wake` with the ChunkBits of each chunk that is to run in the next run.
+  // Gives how many numbers it has moved on.
   template <class Wake>
-  uint64_t end(uint8_t* memory, uint8_t* copy, bool completed, const Wake& wake) noexcept {
-    const uint32_t end = completed ? UINT32_MAX : passed_;
-    passed_ = 0; // what is woken from now on has been moved on
+  uint64_t end(uint8_t* memory, uint8_t* copy, uint32_t end, const Wake& wake) noexcept {
     uint64_t count = 0;
     for (uint32_t word = 0; word < tables_.moving.size(); ++word) {
       for (uint64_t left = tables_.moving[word]; left != 0; left &= left - 1) {
@@ -99,11 +82,10 @@ public:
   }
 
 private:
-  void stop(uint8_t* memory, uint8_t* copy, uint32_t word, uint64_t bits) noexcept;
+  void stop(uint8_t* memory, uint8_t* copy, const ChunkBits& chunks, uint32_t passed) noexcept;
   void move(uint8_t* memory, uint8_t* copy, uint32_t chunk) const noexcept;
 
   TimerTables tables_;
-  uint32_t passed_ = 0;
 };
 
 } // namespace rung::rt

@@ -204,7 +204,6 @@ void ActivityMemory::findWritten(const rung_program& program) {
     });
 }
 
-// The chunks of a routine follow one another.
 void ActivityMemory::findTimers(const rung_program& program) {
   const uint32_t words = program.chunk_count / rt::kChunkBits + 1;
   numbers_.make(program.timer_count);
@@ -219,14 +218,9 @@ void ActivityMemory::findTimers(const rung_program& program) {
              .onlyMoved = onlyMoved_.all(),
              .moving = moving_.all(),
              .starting = starting_.all()};
-  for (uint32_t chunk = program.chunk_count; chunk-- > 0;) {
-    if (program.activity[chunk].of_entry == 0) continue;
-    timers_.firstChunk = chunk;
-    timers_.endChunk = std::max(timers_.endChunk, chunk + 1);
-  }
 }
 
-// Timers matter of chunks that may rest.
+// The chunks of a routine follow one another. Timers matter of chunks that may rest.
 void ActivityMemory::findProperties(const rung_program& program) {
   properties_.make(program.chunk_count);
   for (uint32_t chunk = 0; chunk < program.chunk_count; ++chunk) {
@@ -235,6 +229,9 @@ void ActivityMemory::findProperties(const rung_program& program) {
     const bool relays = firstOfChunk_[chunk + 1] != firstOfChunk_[chunk];
     properties_[chunk] = static_cast<uint8_t>((rests ? rt::kMayRest : 0) | (relays ? rt::kRelays : 0) |
                                               (rests && activity.timer_count != 0 ? rt::kHasTimers : 0));
+    if (activity.of_entry == 0) continue;
+    if (endOfEntry_ == 0) firstOfEntry_ = chunk;
+    endOfEntry_ = chunk + 1;
   }
 }
 
@@ -255,6 +252,8 @@ rt::Activity ActivityMemory::make() noexcept {
                        .passed = passed_.all(),
                        .turned = turned_.all(),
                        .copy = copy_.all(),
+                       .firstOfEntry = firstOfEntry_,
+                       .endOfEntry = endOfEntry_,
                        .relayed = {relayedBytes_.all(), members_.all(), firstOfChunk_.all(), ofChunk_.all()},
                        .timers = timers_});
 }

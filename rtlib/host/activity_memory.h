@@ -51,6 +51,8 @@ private:
   Array<uint64_t> passed_;
   Array<uint64_t> turned_;
   uint64_t weights_ = 0; // of all chunks
+  uint32_t firstOfEntry_ = 0;
+  uint32_t endOfEntry_ = 0;
   Array<uint8_t> copy_;
   Numbers relayedAt_; // by byte of the block: in `relayedBytes_`; RUNG_NONE: none of them
   Array<rt::RelayedByte> relayedBytes_;

@@ -67,6 +67,7 @@ void addWcet(CommandLine& app, int& status) {
   Command command = app.add("wcet", "The longest that a run of each task may take, and the way that takes it");
   auto options = std::make_shared<WcetOptions>();
   addSourceOptions(command, options->source, "As JSON, with everything (docs/wcet-format.md)");
+  addActivityOption(command, options->source.activity);
   command.option("--scenario", options->scenarioFile,
                  "Also measure runs while a scenario drives the program; without a FILE the scenario's own program");
   command.onParsed([options] {

@@ -53,9 +53,10 @@ Json taskJson(const TaskBound& task, const Bounds& bounds, const rung_program& p
 
 std::string jsonOf(const Bounds& bounds, const rung_program& program) {
   Json json = {{"wcet", 1}, {"program", bounds.program}, {"dialect", program.dialect}};
-  json["slice"] = {{"steps", bounds.slice.weight},       {"time_ns", bounds.slice.ns},
-                   {"period_ns", bounds.slice.periodNs}, {"step_ns", bounds.slice.nsPerWeight},
-                   {"circles", bounds.slice.circles},    {"fits", bounds.slice.fits()}};
+  json["slice"] = {{"steps", bounds.slice.weight},        {"time_ns", bounds.slice.ns},
+                   {"period_ns", bounds.slice.periodNs},  {"step_ns", bounds.slice.nsPerWeight},
+                   {"circles", bounds.slice.circles},     {"fits", bounds.slice.fits()},
+                   {"looking_ns", bounds.slice.lookingNs}};
   if (!bounds.measured.empty()) json["measured_by"] = bounds.measured;
   json["tasks"] = Json::array();
   for (const TaskBound& task : bounds.tasks) json["tasks"].push_back(taskJson(task, bounds, program));

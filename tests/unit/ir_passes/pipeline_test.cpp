@@ -232,6 +232,29 @@ TEST_P(SameBehaviour, OfRandomModules) {
   }
 }
 
+// Random modules write nearly everywhere: here what would write to the input or its latch writes to an output.
+TEST(LatchesOfUnwrittenInputs, BehaveTheSameInRandomModules) {
+  constexpr SpaceId kInput{0}, kOutput{1}, kLatch{6};
+  uint32_t changed = 0;
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    Module module = randomModule(seed, {});
+    for (Routine& routine : module.routines)
+      for (Rung& rung : routine.rungs)
+        for (Op& op : rung.ops)
+          if (const std::optional<Use> use = useOf(module, op);
+              use && use->writes && (use->place.space == kInput || use->place.space == kLatch))
+            op.ref = kOutput.index;
+    const Module plain = module;
+    readSourcesOfLatches(module);
+    changed += print(plain) != print(module) ? 1 : 0;
+    const std::vector<VerifyError> errors = verify(module, Mode::Final);
+    ASSERT_TRUE(errors.empty()) << "seed " << seed << "\n" << render(module, errors);
+    module.tasks[0].begin = plain.tasks[0].begin; // for the contents of the latch itself
+    ASSERT_EQ(difference(plain, module, seed), "") << "seed " << seed;
+  }
+  EXPECT_GT(changed, 50u);
+}
+
 TEST_P(SameBehaviour, OfEveryOperation) {
   for (const OpInfo& info : allOps()) {
     Module module = moduleForOp(info.code);

@@ -10,8 +10,10 @@
 namespace rung::ir {
 namespace {
 
-constexpr uint32_t kNear = 8;          // places within this part of a chunk are near one another
-constexpr uint32_t kRestingRungs = 32; // fewer: more to look at; more: they rest less often
+constexpr uint32_t kNear = 8; // places within this part of a chunk are near one another
+// Of a chunk that may rest. Less: more to look at, and more ends of chunks; more: it rests less often.
+constexpr uint32_t kRestingRungs = 48;
+constexpr uint32_t kRestingOps = 384;
 
 uint32_t weightOf(const Rung& rung) { return std::max(1u, rung.weight); }
 bool leavesRoutine(TransferKind kind) {
@@ -23,9 +25,7 @@ bool leavesRoutine(TransferKind kind) {
 // Fills a Cut step by step.
 class Cutter {
 public:
-  Cutter(Cut& cut, const CutOptions& options) : cut_(cut), module_(*cut.module_), options_(options) {
-    if (module_.activity) options_.maxChunkRungs = std::min(options_.maxChunkRungs, kRestingRungs);
-  }
+  Cutter(Cut& cut, const CutOptions& options) : cut_(cut), module_(*cut.module_), options_(options) {}
 
   void run() {
     numberRungs();
@@ -111,6 +111,13 @@ private:
     std::partial_sum(crossing_.begin(), crossing_.end(), crossing_.begin());
   }
 
+  // From `first` up to the rung before `end`.
+  bool isFull(uint32_t first, uint32_t end) const {
+    const uint32_t rungs = end - first;
+    if (rungs >= options_.maxChunkRungs || opsBefore_[end + 1] - opsBefore_[first] > options_.maxChunkOps) return true;
+    return module_.activity && rungs >= kRestingRungs && opsBefore_[end] - opsBefore_[first] >= kRestingOps;
+  }
+
   // A full chunk is cut in its second half, as late as possible where the fewest jumps would have to leave it; but of
   // such places that lie near one another the rungs' keys choose, so that a rung which is inserted above moves one cut
   // or two, and not all that follow.
@@ -118,9 +125,7 @@ private:
     const std::vector<Rung>& rungs = module_.routines[routine].rungs;
     const auto count = static_cast<uint32_t>(rungs.size());
     uint32_t end = first + 1;
-    while (end < count && !heads_[end] && end - first < options_.maxChunkRungs &&
-           opsBefore_[end + 1] - opsBefore_[first] <= options_.maxChunkOps)
-      ++end;
+    while (end < count && !heads_[end] && !isFull(first, end)) ++end;
     if (end == count || heads_[end]) return end;
     const uint32_t earliest = first + (end - first) / 2 + 1;
     uint32_t best = end;

@@ -9,11 +9,12 @@ namespace {
 
 // In weights of chunks, whose unit is about that of an instruction.
 constexpr uint64_t kLineCost = 3;        // of comparing a line among many
-constexpr uint64_t kChunkCost = 60;      // of looking at a chunk that ran
+constexpr uint64_t kFindCost = 60;       // of finding one that differs among them
+constexpr uint64_t kChunkCost = 120;     // of looking at a chunk that ran
 constexpr uint64_t kWrittenLineCost = 9; // and at a line that it may have written
 constexpr uint64_t kByteCost = 30;       // of one that differs
 constexpr uint64_t kWakeCost = 8;        // of a word of chunks that it wakes
-constexpr uint64_t kMoveCost = 8;        // of moving a number on
+constexpr uint64_t kMoveCost = 12;       // of moving a number on
 constexpr uint64_t kMostGained = 8; // times what a look costs: how long looking continues when it does not pay any more
 constexpr uint32_t kWord = 8;       // bytes
 constexpr uint32_t kFirstPause = 31;
@@ -108,9 +109,11 @@ uint32_t Activity::takeLines(uint8_t* memory, uint32_t offset, uint32_t end) noe
   constexpr uint32_t kSize = Lines * kActivityLine;
   for (; offset + kSize <= end && copied_; offset += kSize) {
     if (same<Lines>(memory + offset, copy + offset)) continue;
-    if constexpr (Lines == 1)
+    if constexpr (Lines == 1) {
+      comparing_ += kFindCost;
       takeLine(memory, offset);
-    else
+    } else
+
       takeLines<Lines / 4>(memory, offset, offset + kSize);
   }
   return offset;

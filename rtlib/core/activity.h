@@ -73,6 +73,8 @@ public:
   bool looks() noexcept;
   // Before the first chunk of a run, and where a part of one begins. `memory` begins with a line.
   void begin(uint8_t* memory) noexcept;
+  // False: too much has changed, and the rest of the run is one like any other.
+  bool isLooking() const noexcept { return copied_; }
   // The first chunk from this one on that does not rest, or gave another one than the next.
   uint32_t firstAwake(uint32_t chunk) noexcept {
     uint32_t word = chunk / kChunkBits;

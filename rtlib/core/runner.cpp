@@ -205,6 +205,10 @@ uint32_t Runner::runAwake(uint32_t pc, uint32_t limit) noexcept {
   const uint32_t first = std::min(limit, count);
   activity_->begin(memory);
   while (pc < first || (pc < count && ctx->sp != 1)) {
+    if (!activity_->isLooking()) {
+      pc = runBounded(pc, limit);
+      break;
+    }
     const uint32_t here = activity_->firstAwake(pc);
     if (here != pc) {
       pc = pc < first ? std::min(here, first) : here;

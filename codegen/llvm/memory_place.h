@@ -20,6 +20,12 @@ inline std::optional<int64_t> offsetIn(const llvm::Argument& memory, const llvm:
   return offset.getSExtValue();
 }
 
+// In the memory of another argument, where nothing else points to the block.
+inline bool isElsewhere(const llvm::Argument& memory, const llvm::Value& address) {
+  const auto* other = llvm::dyn_cast<llvm::Argument>(address.stripInBoundsConstantOffsets());
+  return memory.hasNoAliasAttr() && other != nullptr && other != &memory;
+}
+
 inline int64_t bytesOf(const llvm::Type& type, const llvm::DataLayout& data) {
   return static_cast<int64_t>(data.getTypeStoreSize(const_cast<llvm::Type*>(&type)).getFixedValue());
 }

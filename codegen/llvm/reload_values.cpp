@@ -16,7 +16,7 @@ constexpr uint32_t kFar = 24; // instructions of LLVM's IR: of the values of so 
 class BlockReloads {
 public:
   BlockReloads(const llvm::Argument& memory, const llvm::DataLayout& data, int64_t mostBytes)
-      : memory_(memory), data_(data), isAlone_(memory.hasNoAliasAttr()), mostBytes_(mostBytes) {}
+      : memory_(memory), data_(data), mostBytes_(mostBytes) {}
 
   bool run(llvm::BasicBlock& block) {
     for (llvm::Instruction& instruction : block) {
@@ -55,9 +55,7 @@ private:
     const std::optional<int64_t> offset = offsetOf(store.getPointerOperand());
     llvm::Value* value = store.getValueOperand();
     if (!offset || !store.isSimple()) {
-      const auto* other = llvm::dyn_cast<llvm::Argument>(store.getPointerOperand()->stripInBoundsConstantOffsets());
-      const bool isElsewhere = isAlone_ && other != nullptr && other != &memory_;
-      if (!isElsewhere) allWritten_ = position_;
+      if (!isElsewhere(memory_, *store.getPointerOperand())) allWritten_ = position_;
       return;
     }
     for (int64_t i = 0; i < bytesOf(*value->getType(), data_); ++i) written_[*offset + i] = position_;
@@ -94,7 +92,6 @@ private:
 
   const llvm::Argument& memory_;
   const llvm::DataLayout& data_;
-  const bool isAlone_; // nothing else points to it
   const int64_t mostBytes_;
   uint32_t position_ = 0;
   uint32_t allWritten_ = 0;                   // position at which anything may have been written

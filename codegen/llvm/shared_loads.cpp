@@ -42,9 +42,7 @@ public:
       if (auto* load = llvm::dyn_cast<llvm::LoadInst>(&instruction)) {
         if (pays(*load)) add(*load);
       } else if (const auto* store = llvm::dyn_cast<llvm::StoreInst>(&instruction)) {
-        const std::optional<int64_t> offset = offsetIn(memory_, *store->getPointerOperand(), data_);
-        if (!offset) return false;
-        stores_.push_back({store, *offset, *offset + bytesOf(*store->getValueOperand()->getType(), data_)});
+        if (!note(*store)) return false;
       } else if (llvm::isa<llvm::CallBase>(instruction) || instruction.mayWriteToMemory()) {
         return false;
       }
@@ -78,6 +76,13 @@ private:
     return !llvm::all_of(load.users(), [](const llvm::User* user) {
       return llvm::isa<llvm::ICmpInst>(user) && llvm::isa<llvm::Constant>(user->getOperand(1));
     });
+  }
+
+  bool note(const llvm::StoreInst& store) {
+    const std::optional<int64_t> offset = offsetIn(memory_, *store.getPointerOperand(), data_);
+    if (!offset) return isElsewhere(memory_, *store.getPointerOperand());
+    stores_.push_back({&store, *offset, *offset + bytesOf(*store.getValueOperand()->getType(), data_)});
+    return true;
   }
 
   void add(llvm::LoadInst& load) {

@@ -2,7 +2,8 @@
 // module; where a byte lies is another matter (ir/layout).
 //
 // A chunk is a run of at most `maxChunkRungs` rungs (and about `maxChunkOps` operations) of one routine, entered only
-// at its head. Within it control goes down only: a Goto or Switch to a rung further down in the same chunk stays
+// at its head. Of a program that leaves out what rests (Module::activity), chunks are smaller, and rungs that may rest
+// are apart from others where they are many. Within it control goes down only: a Goto or Switch to a rung further down in the same chunk stays
 // inside, every other one leaves. So a chunk begins at each routine's start, after every Call, where a part of a task
 // begins, and at every target that is not below its jump in one chunk. Compile time grows linearly with the number of
 // chunks.
@@ -88,6 +89,9 @@ std::vector<Exit> exitsOf(const Cut& cut, const Chunk& chunk);
 // Whether the host may read memory while the chunk runs. Elsewhere the chunk alone reaches the memory block, and
 // back ends say so to their compilers.
 bool hostReadsMemory(const Module& module, const Chunk& chunk);
+// Whether what the rung does depends on memory alone, and it changes nothing else: a chunk that is left out for that
+// (rtlib/core/activity.h) has only such rungs. Calls and returns change the stack.
+bool dependsOnMemoryAlone(const Rung& rung);
 // Whether some way through the chunk costs extra weight.
 bool hasExtraWeight(const std::vector<Exit>& exits);
 

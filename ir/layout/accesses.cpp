@@ -225,26 +225,17 @@ bool marksWhatGoesBack(const Module& module, const Use& use) {
 
 constexpr uint64_t kMostTouched = 4096; // bytes: comparing more for one chunk does not pay
 
-// Calls and returns change the stack, and a routine returns after its last rung.
-bool staysInRoutine(const Routine& routine, const Chunk& chunk) {
-  if (chunk.firstRung + chunk.rungCount == routine.rungs.size()) return false;
-  return std::ranges::none_of(std::span(routine.rungs).subspan(chunk.firstRung, chunk.rungCount), [](const Rung& rung) {
-    const TransferKind kind = rung.transfer.kind;
-    return kind == TransferKind::Call || kind == TransferKind::Ret || kind == TransferKind::End;
-  });
-}
-
 } // namespace
 
 Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk) {
   const Module& module = layout.module();
   const Routine& routine = module.at(chunk.routine);
   Touched out;
-  out.mayRest = staysInRoutine(routine, chunk);
+  out.mayRest = chunk.firstRung + chunk.rungCount != routine.rungs.size(); // after its last rung a routine returns
   out.asksHost = hostReadsMemory(module, chunk);
   for (const Rung& rung : std::span(routine.rungs).subspan(chunk.firstRung, chunk.rungCount)) {
+    out.mayRest = out.mayRest && dependsOnMemoryAlone(rung);
     for (const Op& op : rung.ops) {
-      out.mayRest = out.mayRest && !does(op, kHost | kClock);
       if (const std::optional<Use> use = useOf(module, op); use && use->writes && marksWhatGoesBack(module, *use))
         continue;
       addTouched(layout, op, out.all);

@@ -231,8 +231,7 @@ ScanBound measureBound(const Runnable& runnable) {
   double fullest = -1;
   for (const Slice& slice : slicesOf(program)) {
     const int64_t lookingNs = static_cast<int64_t>(slice.looks) * looking;
-    const double ns =
-        static_cast<double>(slice.weight) * dearest.nsPerWeight + static_cast<double>(rest + lookingNs);
+    const double ns = static_cast<double>(slice.weight) * dearest.nsPerWeight + static_cast<double>(rest + lookingNs);
     bound.circles = bound.circles || slice.circles;
     const double full = slice.periodNs == 0 ? 0 : ns / static_cast<double>(slice.periodNs);
     if (full <= fullest) continue;

@@ -159,6 +159,37 @@ TEST(LlvmEmitter, NegationsAreInFlags) {
   EXPECT_THAT(code.value(), AllOf(HasSubstr("setb"), HasSubstr("setae")));
 }
 
+// Eight rungs each take a number off one of their own where a bit is 1. Gives how often the number is loaded.
+size_t loadsOfANumber(bool isWritten) {
+  constexpr uint32_t kRungs = 8;
+  Module module = sampleModule();
+  module.routines.push_back({.name = "TIMES", .rungs = std::vector<Rung>(kRungs)});
+  module.spaces.push_back({.name = "N", .unitBytes = 4, .units = kRungs + 2});
+  const SpaceId numbers{static_cast<uint32_t>(module.spaces.size() - 1)};
+  const Place shared{numbers, 0, 0};
+  for (uint32_t i = 0; i < kRungs; ++i) {
+    RungBuilder b(module, module.routines.back().rungs[i]);
+    const Place own{numbers, 4 * (i + 1), 0};
+    b.when(b.load(Type::Bit, {numbers, 4 * (kRungs + 1), i}),
+           [&] { b.store(own, b.sub(b.load(Type::I32, own), b.load(Type::I32, shared))); });
+    if (isWritten && i == kRungs - 1) b.store(shared, b.i32(0));
+  }
+  const Layout layout(module, {});
+  const LlvmOptions options{.level = LlvmLevel::Opt, .debugInfo = false, .target = "x86_64-linux-gnu"};
+  const Result<std::string> code = emitAssembly(layout, 42, options);
+  EXPECT_TRUE(code.ok()) << code.error();
+  if (!code.ok()) return 0;
+  const std::string load = "\t" + std::to_string(layout.memory().byte(numbers, 0)) + "(%rdi), %e";
+  size_t count = 0;
+  for (size_t at = code.value().find(load); at != std::string::npos; at = code.value().find(load, at + 1)) ++count;
+  return count;
+}
+
+TEST(LlvmEmitter, ANumberThatManyBranchesLoadIsLoadedOnce) {
+  EXPECT_EQ(loadsOfANumber(false), 1u);
+  EXPECT_EQ(loadsOfANumber(true), 8u) << "it is written below them";
+}
+
 TEST(LlvmEmitter, WhatATrapHasAskedIsNotAskedAgain) {
   Module module = sampleModule();
   module.routines.push_back({.name = "REALS", .rungs = std::vector<Rung>(1)});

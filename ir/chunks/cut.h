@@ -3,10 +3,10 @@
 //
 // A chunk is a run of at most `maxChunkRungs` rungs (and about `maxChunkOps` operations) of one routine, entered only
 // at its head. Of a program that leaves out what rests (Module::activity), chunks are smaller, and rungs that may rest
-// are apart from others where they are many. Within it control goes down only: a Goto or Switch to a rung further down in the same chunk stays
-// inside, every other one leaves. So a chunk begins at each routine's start, after every Call, where a part of a task
-// begins, and at every target that is not below its jump in one chunk. Compile time grows linearly with the number of
-// chunks.
+// are apart from others where they are many. Within it control goes down only: a Goto or Switch to a rung further down
+// in the same chunk stays inside, every other one leaves. So a chunk begins at each routine's start, after every Call,
+// where a part of a task begins, and at every target that is not below its jump in one chunk. Compile time grows
+// linearly with the number of chunks.
 //
 // The watchdog counts the rungs that are run: a chunk weighs what its lightest way from the head out weighs, and a jump
 // or a step down within it that is not on the lightest way from there costs the difference (Destination::extra). So a

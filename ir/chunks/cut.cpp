@@ -133,8 +133,8 @@ private:
     uint32_t end = first + 1;
     const bool rests = isEnoughToRest(first, first + restsFrom_[first]);
     while (end < count && !heads_[end] && !isFull(first, end) && !(rests && isEnoughToRest(first, end))) {
-      const bool ends = rests ? restsFrom_[end] == 0 : isEnoughToRest(end, end + restsFrom_[end]);
-      if (ends) return end;
+      // Rungs that may rest are apart from others where they are many.
+      if (rests ? restsFrom_[end] == 0 : isEnoughToRest(end, end + restsFrom_[end])) return end;
       ++end;
     }
     if (end == count || heads_[end]) return end;

@@ -7,12 +7,13 @@
 
 namespace rung::ir {
 
-// Not in the pipeline: for a module as its front end built it. `marks` (or null) go along.
+// Not in the pipeline: for a module as its front end built it, before anybody asks what its rungs use. `marks` (or
+// null) go along.
 void orderOperations(Module& module, Marks* marks = nullptr);
-
 void readSourcesOfLatches(Module& module); // what a task copies when it begins is read where it comes from
-void inlineRoutines(Module& module);       // a routine with one caller takes the place of the call
-void instrumentRungs(Module& module);      // measures each rung
+
+void inlineRoutines(Module& module);  // a routine with one caller takes the place of the call
+void instrumentRungs(Module& module); // measures each rung
 
 // These go over rungs that are not settled.
 void foldConstants(Module& module, Settled& settled);         // constants, algebra, branches that are known

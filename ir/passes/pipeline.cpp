@@ -38,7 +38,6 @@ private:
 void runPasses(Module& module, const PassOptions& options) {
   Pipeline pipeline(module, options.verifyEach);
   if (options.optimise) {
-    pipeline.run(readSourcesOfLatches);
     pipeline.run(inlineRoutines);
     Settled settled(module);
     pipeline.run(foldConstants, settled);

@@ -112,9 +112,9 @@ uint32_t Activity::takeLines(uint8_t* memory, uint32_t offset, uint32_t end) noe
     if constexpr (Lines == 1) {
       comparing_ += kFindCost;
       takeLine(memory, offset);
-    } else
-
+    } else {
       takeLines<Lines / 4>(memory, offset, offset + kSize);
+    }
   }
   return offset;
 }

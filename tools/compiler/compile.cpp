@@ -81,6 +81,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   if (request.keepSource) out.source = std::move(program);
   for (const LayoutClaim& claim : request.layouts) addClaim(*out.module, claim);
   ir::orderOperations(*out.module, options.marks);
+  ir::readSourcesOfLatches(*out.module);
   out.module->name = std::filesystem::path(sources.name(files[0])).stem().string();
   out.module->activity = request.activity;
   ended("lowering");

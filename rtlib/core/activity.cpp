@@ -27,8 +27,8 @@ template <uint32_t Lines>
 Vector difference(const uint8_t* memory, const uint8_t* copy) noexcept {
   Vector different{};
   for (uint32_t i = 0; i < Lines; ++i)
-    different |= *reinterpret_cast<const Vector*>(memory + i * kActivityLine) ^
-                 *reinterpret_cast<const Vector*>(copy + i * kActivityLine);
+    different |= *reinterpret_cast<const Vector*>(memory + size_t{i} * kActivityLine) ^
+                 *reinterpret_cast<const Vector*>(copy + size_t{i} * kActivityLine);
   return different;
 }
 

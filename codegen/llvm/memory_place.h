@@ -20,6 +20,15 @@ inline std::optional<int64_t> offsetIn(const llvm::Argument& memory, const llvm:
   return offset.getSExtValue();
 }
 
+// The address once more, computed right before an instruction that does not follow it.
+inline llvm::Value& addressBefore(llvm::Value& address, llvm::Instruction& user) {
+  const auto* computed = llvm::dyn_cast<llvm::Instruction>(&address);
+  if (computed == nullptr) return address;
+  llvm::Instruction* again = computed->clone();
+  again->insertBefore(user.getIterator());
+  return *again;
+}
+
 // In the memory of another argument, where nothing else points to the block.
 inline bool isElsewhere(const llvm::Argument& memory, const llvm::Value& address) {
   const auto* other = llvm::dyn_cast<llvm::Argument>(address.stripInBoundsConstantOffsets());

@@ -113,13 +113,8 @@ llvm::Instruction& above(const Place& place, const llvm::DominatorTree& tree) {
 
 void loadOnce(const Place& place, llvm::Instruction& here) {
   llvm::LoadInst& any = *place.loads.front();
-  llvm::Value* address = any.getPointerOperand();
-  if (const auto* computed = llvm::dyn_cast<llvm::Instruction>(address)) {
-    llvm::Instruction* again = computed->clone();
-    again->insertBefore(here.getIterator());
-    address = again;
-  }
-  auto* shared = new llvm::LoadInst(place.type, address, "", false, any.getAlign(), here.getIterator());
+  llvm::Value& address = addressBefore(*any.getPointerOperand(), here);
+  auto* shared = new llvm::LoadInst(place.type, &address, "", false, any.getAlign(), here.getIterator());
   for (llvm::LoadInst* load : place.loads) {
     load->replaceAllUsesWith(shared);
     load->eraseFromParent();

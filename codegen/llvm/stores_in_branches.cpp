@@ -83,16 +83,9 @@ private:
       auto& after = *llvm::cast<llvm::StoreInst>(*joined.user_begin());
       for (unsigned i = 0; i < joined.getNumIncomingValues(); ++i) {
         llvm::Instruction* jump = joined.getIncomingBlock(i)->getTerminator();
-        auto* address = llvm::dyn_cast<llvm::Instruction>(after.getPointerOperand());
-        llvm::Value* place = after.getPointerOperand();
-        if (address != nullptr) {
-          llvm::Instruction* here = address->clone();
-          here->insertBefore(jump->getIterator());
-          place = here;
-        }
         llvm::Instruction* store = after.clone();
         store->setOperand(0, joined.getIncomingValue(i));
-        store->setOperand(1, place);
+        store->setOperand(1, &addressBefore(*after.getPointerOperand(), *jump));
         store->insertBefore(jump->getIterator());
       }
       after.eraseFromParent();

@@ -15,6 +15,8 @@ struct BitRange {
   bool operator==(const BitRange&) const = default;
 };
 bool overlap(const BitRange& a, const BitRange& b);
+inline BitRange bitsOf(const SpaceSpan& span) { return {span.space, span.byte * 8, span.size * 8}; }
+inline BitRange targetOf(const Copy& copy) { return bitsOf({copy.to, copy.toByte, copy.from.size}); }
 
 struct Use {
   BitRange place; // computed: all that the address can reach
@@ -26,5 +28,12 @@ struct Use {
 
 // What an operation touches; nothing when it touches no memory.
 std::optional<Use> useOf(const Module& module, const Op& op);
+
+template <class Visit>
+void forUses(const Module& module, const Routine& routine, Visit visit) {
+  for (const Rung& rung : routine.rungs)
+    for (const Op& op : rung.ops)
+      if (const std::optional<Use> use = useOf(module, op)) visit(*use);
+}
 
 } // namespace rung::ir

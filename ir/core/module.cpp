@@ -29,4 +29,18 @@ std::vector<const Symbol*> placedSymbols(const Module& module) {
   return placed;
 }
 
+std::vector<RoutineId> routinesFrom(const Module& module, RoutineId entry) {
+  std::vector<bool> seen(module.routines.size(), false);
+  std::vector<RoutineId> reached{entry};
+  seen[entry.index] = true;
+  for (size_t i = 0; i < reached.size(); ++i)
+    for (const Rung& rung : module.at(reached[i]).rungs) {
+      const RoutineId callee = rung.transfer.callee;
+      if (rung.transfer.kind != TransferKind::Call || seen[callee.index]) continue;
+      seen[callee.index] = true;
+      reached.push_back(callee);
+    }
+  return reached;
+}
+
 } // namespace rung::ir

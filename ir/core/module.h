@@ -218,6 +218,8 @@ struct Module {
 SpaceId findSpace(const Module& module, std::string_view name);
 RoutineId findRoutine(const Module& module, std::string_view name);
 TaskId findTask(const Module& module, std::string_view name);
+// The routines that a run may come to which begins with this one: itself first, each once.
+std::vector<RoutineId> routinesFrom(const Module& module, RoutineId entry);
 // Symbols of places in memory, not of constants: the author's first, then hidden ones.
 std::vector<const Symbol*> placedSymbols(const Module& module);
 

@@ -16,13 +16,6 @@ SpaceSpan bytesOf(const BitRange& place) {
   return {place.space, first, (place.first + place.count + 7) / 8 - first};
 }
 
-template <class Visit>
-void forUses(const Module& module, const Routine& routine, Visit visit) {
-  for (const Rung& rung : routine.rungs)
-    for (const Op& op : rung.ops)
-      if (const std::optional<Use> use = useOf(module, op); use) visit(*use);
-}
-
 bool isOneBit(const Use& use) { return use.type == Type::Bit && !use.computed; }
 
 // Adds what is used in the memory block.
@@ -72,23 +65,6 @@ private:
 };
 
 // ---- reading -----------------------------------------------------------------------------------------------------
-
-// The routines that a task may come to.
-std::vector<bool> routinesOf(const Module& module, RoutineId entry) {
-  std::vector<bool> found(module.routines.size(), false);
-  std::vector<RoutineId> left{entry};
-  found[entry.index] = true;
-  while (!left.empty()) {
-    const Routine& routine = module.at(left.back());
-    left.pop_back();
-    for (const Rung& rung : routine.rungs) {
-      if (rung.transfer.kind != TransferKind::Call || found[rung.transfer.callee.index]) continue;
-      found[rung.transfer.callee.index] = true;
-      left.push_back(rung.transfer.callee);
-    }
-  }
-  return found;
-}
 
 std::vector<rung_span> joined(std::vector<rung_span> spans) {
   std::ranges::sort(spans, {}, &rung_span::offset);
@@ -141,13 +117,10 @@ std::vector<rung_span> readBytes(const MemoryLayout& layout, TaskId id) {
     spans.insert(spans.end(), pieces.begin(), pieces.end());
   };
   for (const Copy& copy : task.begin) addPieces(copy.from);
-  const std::vector<bool> routines = routinesOf(module, task.entry);
-  for (uint32_t r = 0; r < routines.size(); ++r) {
-    if (!routines[r]) continue;
-    forUses(module, module.routines[r], [&](const Use& use) {
+  for (const RoutineId routine : routinesFrom(module, task.entry))
+    forUses(module, module.at(routine), [&](const Use& use) {
       if (!use.writes) addBytes(layout, use, spans);
     });
-  }
   return joined(std::move(spans));
 }
 
@@ -185,15 +158,12 @@ std::vector<uint32_t> changedWords(const MemoryLayout& layout, TaskId id) {
   const Module& module = layout.module();
   if (module.instrumented || !runsAgain(module, id)) return {};
   std::vector<rung_span> spans;
-  const std::vector<bool> routines = routinesOf(module, module.tasks[id.index].entry);
-  for (uint32_t r = 0; r < routines.size(); ++r) {
-    if (!routines[r]) continue;
-    for (const Rung& rung : module.routines[r].rungs)
+  for (const RoutineId routine : routinesFrom(module, module.tasks[id.index].entry))
+    for (const Rung& rung : module.at(routine).rungs)
       for (const Op& op : rung.ops) {
         if (does(op, kHost)) return {};
         if (does(op, kWrites)) addTouched(layout, op, spans);
       }
-  }
   std::vector<uint32_t> words = wordsOver(joined(std::move(spans)), layout.size());
   return words.size() <= RUNG_MOST_CHANGES ? words : std::vector<uint32_t>{};
 }

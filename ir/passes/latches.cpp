@@ -13,10 +13,6 @@ namespace {
 constexpr uint32_t kNoTask = RUNG_NONE;
 constexpr uint32_t kSeveralTasks = RUNG_NONE - 1;
 
-BitRange bitsOf(const SpaceSpan& span) { return {span.space, span.byte * 8, span.size * 8}; }
-BitRange targetOf(const Copy& copy) { return {copy.to, copy.toByte * 8, copy.from.size * 8}; }
-BitRange maskOf(const Copy& copy) { return {copy.mask, copy.maskByte * 8, copy.from.size * 8}; }
-
 bool contains(const BitRange& whole, const BitRange& part) {
   return whole.space == part.space && whole.first <= part.first && part.first + part.count <= whole.first + whole.count;
 }
@@ -45,14 +41,6 @@ void forCopies(const Module& module, Visit visit) {
       for (const Copy& copy : *copies) visit(copy);
 }
 
-template <class Visit>
-void forUses(const Module& module, Visit visit) {
-  for (const Routine& routine : module.routines)
-    for (const Rung& rung : routine.rungs)
-      for (const Op& op : rung.ops)
-        if (const std::optional<Use> use = useOf(module, op)) visit(*use);
-}
-
 // Those whose source nothing writes while they hold.
 std::vector<Latch> latchesOf(const Module& module) {
   std::vector<Latch> latches;
@@ -69,32 +57,24 @@ std::vector<Latch> latchesOf(const Module& module) {
   };
   forCopies(module, [&](const Copy& copy) {
     written(targetOf(copy), &copy);
-    if (copy.masked) written(maskOf(copy)); // it is emptied
+    if (copy.masked) written(bitsOf({copy.mask, copy.maskByte, copy.from.size})); // the mask is emptied
   });
   if (latches.empty()) return latches; // as mostly
-  forUses(module, [&](const Use& use) {
-    if (use.writes) written(use.place);
-  });
+  for (const Routine& routine : module.routines)
+    forUses(module, routine, [&](const Use& use) {
+      if (use.writes) written(use.place);
+    });
   return latches;
 }
 
 // By routine: the only task that runs it.
 std::vector<uint32_t> tasksOf(const Module& module) {
   std::vector<uint32_t> tasks(module.routines.size(), kNoTask);
-  std::vector<RoutineId> open;
-  const auto reach = [&](RoutineId routine, uint32_t task) {
-    uint32_t& known = tasks[routine.index];
-    if (known == task || known == kSeveralTasks) return;
-    known = known == kNoTask ? task : kSeveralTasks;
-    open.push_back(routine);
-  };
-  for (uint32_t t = 0; t < module.tasks.size(); ++t) reach(module.tasks[t].entry, t);
-  while (!open.empty()) {
-    const RoutineId caller = open.back();
-    open.pop_back();
-    for (const Rung& rung : module.at(caller).rungs)
-      if (rung.transfer.kind == TransferKind::Call) reach(rung.transfer.callee, tasks[caller.index]);
-  }
+  for (uint32_t t = 0; t < module.tasks.size(); ++t)
+    for (const RoutineId routine : routinesFrom(module, module.tasks[t].entry)) {
+      uint32_t& task = tasks[routine.index];
+      task = task == kNoTask ? t : kSeveralTasks;
+    }
   return tasks;
 }
 
@@ -112,7 +92,7 @@ void removeUnread(Module& module, std::vector<Latch> latches) {
   const auto read = [&](const BitRange& bits) {
     std::erase_if(latches, [&](const Latch& latch) { return overlap(latch.held, bits); });
   };
-  forUses(module, [&](const Use& use) { read(use.place); });
+  for (const Routine& routine : module.routines) forUses(module, routine, [&](const Use& use) { read(use.place); });
   forCopies(module, [&](const Copy& copy) { read(bitsOf(copy.from)); });
   for (const SpaceSpan& span : module.retains) read(bitsOf(span));
   for (Task& task : module.tasks)

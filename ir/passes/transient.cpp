@@ -164,28 +164,13 @@ private:
     for (const Access& access : accesses_)
       if (access.stores) storedIn[routineOfNode[access.node]].push_back(access.slot);
     for (uint32_t t = 0; t < module_.tasks.size(); ++t) {
-      for (uint32_t r : reachedFrom(module_.tasks[t].entry)) {
-        for (uint32_t slot : storedIn[r]) {
+      for (const RoutineId routine : routinesFrom(module_, module_.tasks[t].entry)) {
+        for (uint32_t slot : storedIn[routine.index]) {
           if (taskOf[slot] != kNobody && taskOf[slot] != t) shared_[slot] = true;
           taskOf[slot] = t;
         }
       }
     }
-  }
-
-  std::vector<uint32_t> reachedFrom(RoutineId entry) const {
-    std::vector<bool> seen(module_.routines.size(), false);
-    std::vector<uint32_t> reached{entry.index};
-    seen[entry.index] = true;
-    for (size_t i = 0; i < reached.size(); ++i) {
-      for (const Rung& rung : module_.routines[reached[i]].rungs) {
-        const uint32_t callee = rung.transfer.callee.index;
-        if (!rung.transfer.callee.valid() || seen[callee]) continue;
-        seen[callee] = true;
-        reached.push_back(callee);
-      }
-    }
-    return reached;
   }
 
   const Module& module_;

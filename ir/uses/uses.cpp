@@ -20,8 +20,6 @@ void addOnce(std::vector<T>& list, const T& item) {
   if (!contains(list, item)) list.push_back(item);
 }
 
-BitRange bitsOf(const SpaceSpan& span) { return {span.space, span.byte * 8, span.size * 8}; }
-
 bool anyMeets(const std::vector<SpaceSpan>& spans, const BitRange& place) {
   return std::ranges::any_of(spans, [&](const SpaceSpan& span) { return overlap(bitsOf(span), place); });
 }
@@ -138,7 +136,7 @@ Uses::Writers Uses::writersOf(const BitRange& place) const {
 std::vector<BitRange> Uses::copiedFrom(const BitRange& place) const {
   std::vector<BitRange> sources;
   for (const Copy& copy : copies_) {
-    const BitRange to{copy.to, copy.toByte * 8, copy.from.size * 8};
+    const BitRange to = targetOf(copy);
     if (!overlap(to, place)) continue;
     const uint32_t first = std::max(to.first, place.first);
     const uint32_t end = std::min(to.first + to.count, place.first + place.count);

@@ -36,6 +36,7 @@ void Runner::beginProgram() noexcept {
   for (uint32_t t = 0; t < program_->task_count; ++t) parts_[t] = {};
   ctx_->extra_weight = 0;
   position_ = 0;
+  findPlain();
 }
 
 void Runner::reset() noexcept {
@@ -350,11 +351,19 @@ inline uint32_t Runner::runToEnd(uint32_t task, const rung_task& t) noexcept {
   return runFrom(t.entry, RUNG_PC_DONE, task, t, budget);
 }
 
-// Nothing but its chunks, as a fast task mostly is.
-inline bool Runner::isPlain(uint32_t task) const noexcept {
+bool Runner::copiesNothing(uint32_t task) const noexcept {
   const rung_task& t = program_->tasks[task];
-  return t.begin_count + t.end_count == 0 && hooks_.latch == nullptr && hooks_.task == nullptr && limit_.ns == 0 &&
-         !hasActivity(task) && isBounded(t);
+  if (t.begin_count + t.end_count == 0) return true;
+  if (copies_ == nullptr) return false;
+  const NeededCopies::Task& needed = copies_->tasks[task];
+  return needed.begin.count + needed.end.count == 0;
+}
+
+void Runner::findPlain() noexcept {
+  plain_ = 0;
+  if (hooks_.latch != nullptr || hooks_.task != nullptr || limit_.ns != 0) return;
+  for (uint32_t t = 0; t < std::min(program_->task_count, kMostPlain); ++t)
+    if (copiesNothing(t) && !hasActivity(t) && isBounded(program_->tasks[t])) plain_ |= uint64_t{1} << t;
 }
 
 namespace {
@@ -432,7 +441,8 @@ bool Runner::runWithBorders(uint32_t task, uint32_t times) noexcept {
 // In line, and neither kind of run: each saves the registers that it needs alone.
 inline bool Runner::runWhole(uint32_t task, uint32_t times) noexcept {
   if (!mayRun() || task >= program_->task_count || times == 0) return false;
-  return isPlain(task) ? runPlain(task, times) : runWithBorders(task, times);
+  const bool isPlain = task < kMostPlain && (plain_ >> task & 1) != 0;
+  return isPlain ? runPlain(task, times) : runWithBorders(task, times);
 }
 
 bool Runner::runNextPart(uint32_t task) noexcept {
@@ -520,9 +530,10 @@ std::span<const rung_step> Runner::realTimePass() const noexcept {
 // The same where nobody waits for the time of the steps.
 std::span<const rung_step> Runner::pass() noexcept {
   if (position_ != 0) return list_;
-  const std::span<const rung_step> all(program_->scan, program_->scan_count);
-  if (room_ == nullptr) return all;
-  if (joined_.empty()) joined_ = {room_, joinSteps(all, hooks_.works, room_)};
+  if (joined_.empty()) {
+    joined_ = {program_->scan, program_->scan_count};
+    if (room_ != nullptr) joined_ = {room_, joinSteps(joined_, hooks_.works, room_)};
+  }
   return joined_;
 }
 

@@ -73,15 +73,25 @@ public:
   void setHooks(RunnerHooks hooks) noexcept {
     hooks_ = hooks;
     joined_ = {};
+    findPlain();
   }
   // Of the program that runs, also of the next one; null: every chunk runs. Outlives the runner.
-  void setActivity(Activity* activity) noexcept { activity_ = activity; }
+  void setActivity(Activity* activity) noexcept {
+    activity_ = activity;
+    findPlain();
+  }
   // Of the program that runs, also of the next one: tasks begin and end with these copies; null: with all that the
   // program's tables have. Outlives the runner.
-  void setCopies(const NeededCopies* copies) noexcept { copies_ = copies; }
+  void setCopies(const NeededCopies* copies) noexcept {
+    copies_ = copies;
+    findPlain();
+  }
   const NeededCopies* copies() const noexcept { return copies_; }
   // What runs longer ends as if its budget were used up.
-  void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
+  void setTimeLimit(TimeLimit limit) noexcept {
+    limit_ = limit;
+    findPlain();
+  }
   // Another program takes over, between two passes: its memory, part states and room; the clock continues, a fault
   // stays. From then on the caller keeps the new ones alive, and no longer those of before.
   void setProgram(const rung_program& program, uint8_t* memory, PartState* parts, void* engine,
@@ -141,7 +151,8 @@ public:
   bool stopped() const noexcept { return stopped_; }
 
 private:
-  bool isPlain(uint32_t task) const noexcept;
+  bool copiesNothing(uint32_t task) const noexcept;
+  void findPlain() noexcept; // after what a run begins or ends with has changed
   bool runPlain(uint32_t task, uint32_t times) noexcept;
   uint32_t runRow(uint32_t entry, uint32_t times) noexcept;
   uint32_t runAgain(const rung_task& task, uint32_t times) noexcept;
@@ -200,9 +211,11 @@ private:
   Activity* activity_ = nullptr;
   const NeededCopies* copies_ = nullptr;
   TimeLimit limit_;
+  static constexpr uint32_t kMostPlain = 64; // tasks
+  uint64_t plain_ = 0;                       // a bit by task: a run is nothing but its chunks
   int64_t deadline_ = 0;
   rung_step* room_;
-  std::span<const rung_step> joined_; // rung_program::scan in fewer steps; empty: to be made when a pass begins
+  std::span<const rung_step> joined_; // rung_program::scan, with room in fewer steps; empty: not made yet
   std::span<const rung_step> list_;   // the pass under way: rung_program::scan, that in fewer steps, or ::slices
   uint32_t position_ = 0;             // in it
   uint32_t untimedPeriodUs_ = 0;      // what a pass of a list without ADVANCE takes

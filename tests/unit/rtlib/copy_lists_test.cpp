@@ -16,7 +16,7 @@ using rung::test::TestProgram;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr uint32_t kM = 0, kTs = 2000, kMask = 4000, kOut = 6000, kBytes = 2000;
+constexpr uint32_t kM = 0, kTs = 2000, kMask = 4000, kOut = 6000, kBytes = 2000, kApart = 8000;
 
 // A run copies TS over M, adds M 500 to M 1000, marks M 1000 as written, and M goes where it is marked to OUT.
 uint32_t add(uint8_t* mem, rung_ctx* ctx, uint32_t) {
@@ -149,6 +149,54 @@ TEST_F(InstanceThatLeavesOut, CopiesAllWhileSomebodyLooksOn) {
   instance.setTaskWatch(nullptr);
   fill(instance, 3);
   instance.scan();
+  EXPECT_FALSE(isCopied(instance, 10));
+}
+
+// Counts runs elsewhere.
+uint32_t touchNothingThatIsCopied(uint8_t* mem, rung_ctx* ctx, uint32_t) {
+  ++mem[kApart];
+  return rung::test::popChunk(ctx);
+}
+
+TEST_F(InstanceThatLeavesOut, LeavesAllOutUntilSomebodyNeedsIt) {
+  test.tasks[task].heaviest = 1; // so that nothing is counted
+  TestProgram next = test;       // needs copies
+  test.functions[0] = &touchNothingThatIsCopied;
+  test.reads = {};
+  test.addReads(task, {{kApart, 1}});
+  test.writes = {{kApart, 1, 255}};
+  class : public TaskWatch {
+  public:
+    int runs = 0;
+
+  private:
+    void begins(const Instance&, uint32_t) override { ++runs; }
+    void ended(const Instance&, uint32_t) override {}
+  } watch;
+  const rung_program& running = test.link();
+  Instance instance(running);
+  instance.setNeededCopiesOnly(true);
+  fill(instance, 1);
+  instance.scan();
+  EXPECT_FALSE(isCopied(instance, 500));
+  EXPECT_EQ(instance.block()[kApart], 1);
+
+  instance.setTaskWatch(&watch);
+  instance.scan();
+  EXPECT_EQ(watch.runs, 1);
+  EXPECT_TRUE(isCopied(instance, 500));
+  instance.setTaskWatch(nullptr);
+  fill(instance, 2);
+  instance.scan();
+  EXPECT_EQ(watch.runs, 1);
+  EXPECT_FALSE(isCopied(instance, 500));
+  EXPECT_EQ(instance.block()[kApart], 3);
+
+  Replacement replacement(running, {next.link()});
+  ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
+  fill(instance, 3);
+  instance.scan();
+  EXPECT_TRUE(isCopied(instance, 500));
   EXPECT_FALSE(isCopied(instance, 10));
 }
 

@@ -28,6 +28,13 @@ bool find(const rung_program& program, rt::Memory memory, const std::vector<std:
   return true;
 }
 
+template <class T>
+std::vector<T> copied(const uint8_t* from, size_t count) {
+  std::vector<T> values(count);
+  if (count != 0) std::memcpy(values.data(), from, count * sizeof(T)); // which takes no null
+  return values;
+}
+
 } // namespace
 
 Ours::Ours(host::Engine& engine) : instance_(engine), footprint_(engine.program(), true) {}
@@ -149,12 +156,9 @@ void Straight::apply(const Change& change) {
 Values Straight::values() const {
   Values values;
   for (uint32_t i = 0; i < work_.bits(); ++i) values.bits.push_back(bit(i));
-  values.words.resize(work_.words());
-  std::memcpy(values.words.data(), bytes() + layout_.words, 4 * values.words.size());
-  values.tables.resize(work_.hasTables ? kTables * kEntries : 0);
-  std::memcpy(values.tables.data(), bytes() + layout_.tables, 4 * values.tables.size());
-  values.reals.resize(work_.reals());
-  std::memcpy(values.reals.data(), bytes() + layout_.reals, 8 * values.reals.size());
+  values.words = copied<uint32_t>(bytes() + layout_.words, work_.words());
+  values.tables = copied<uint32_t>(bytes() + layout_.tables, work_.hasTables ? kTables * kEntries : 0);
+  values.reals = copied<uint64_t>(bytes() + layout_.reals, work_.reals());
   return values;
 }
 

@@ -121,7 +121,7 @@ class Wcet(unittest.TestCase):
     def text(self, *arguments):
         done = rungc("wcet", *arguments)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        return re.sub(r"(machine instructions: )\d+", r"\1N", re.sub(r"[\d.e+]+ [num]?s\b", "TIME", done.stdout))
+        return re.sub(r"(machine instructions: )\d+", r"\1N", re.sub(r"[\d.e+]+\s+[num]?s\b", "TIME", done.stdout))
 
     def test_ladder_with_a_jump_and_calls(self):
         tasks, report = self.tasks(self.write("a.lad", LADDER))

@@ -361,7 +361,7 @@ bool Runner::copiesNothing(uint32_t task) const noexcept {
 
 void Runner::findPlain() noexcept {
   plain_ = 0;
-  if (hooks_.latch != nullptr || hooks_.task != nullptr || limit_.ns != 0) return;
+  if (hooks_.latch != nullptr || hooks_.task != nullptr) return;
   for (uint32_t t = 0; t < std::min(program_->task_count, kMostPlain); ++t)
     if (copiesNothing(t) && !hasActivity(t) && isBounded(program_->tasks[t])) plain_ |= uint64_t{1} << t;
 }
@@ -441,7 +441,7 @@ bool Runner::runWithBorders(uint32_t task, uint32_t times) noexcept {
 // In line, and neither kind of run: each saves the registers that it needs alone.
 inline bool Runner::runWhole(uint32_t task, uint32_t times) noexcept {
   if (!mayRun() || task >= program_->task_count || times == 0) return false;
-  const bool isPlain = task < kMostPlain && (plain_ >> task & 1) != 0;
+  const bool isPlain = task < kMostPlain && (plain_ >> task & 1) != 0 && limit_.ns == 0;
   return isPlain ? runPlain(task, times) : runWithBorders(task, times);
 }
 

@@ -88,10 +88,7 @@ public:
   }
   const NeededCopies* copies() const noexcept { return copies_; }
   // What runs longer ends as if its budget were used up.
-  void setTimeLimit(TimeLimit limit) noexcept {
-    limit_ = limit;
-    findPlain();
-  }
+  void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
   // Another program takes over, between two passes: its memory, part states and room; the clock continues, a fault
   // stays. From then on the caller keeps the new ones alive, and no longer those of before.
   void setProgram(const rung_program& program, uint8_t* memory, PartState* parts, void* engine,
@@ -212,7 +209,7 @@ private:
   const NeededCopies* copies_ = nullptr;
   TimeLimit limit_;
   static constexpr uint32_t kMostPlain = 64; // tasks
-  uint64_t plain_ = 0;                       // a bit by task: a run is nothing but its chunks
+  uint64_t plain_ = 0;                       // a bit by task: without a limit, a run is nothing but its chunks
   int64_t deadline_ = 0;
   rung_step* room_;
   std::span<const rung_step> joined_; // rung_program::scan, with room in fewer steps; empty: not made yet

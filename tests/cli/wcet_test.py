@@ -100,6 +100,10 @@ def rungc(*arguments):
     return subprocess.run([RUNGC, *map(str, arguments)], capture_output=True, text=True, timeout=300, errors="replace")
 
 
+def without_figures(text):
+    return re.sub(r"(machine instructions: )\d+", r"\1N", re.sub(r"[\d.e+]+ [num]?s\b", "TIME", text))
+
+
 class Wcet(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -118,10 +122,17 @@ class Wcet(unittest.TestCase):
         self.assertEqual(report["wcet"], 1)
         return {task["name"]: task for task in report["tasks"]}, report
 
-    def text(self, *arguments):
+    def output(self, *arguments):
         done = rungc("wcet", *arguments)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        return re.sub(r"(machine instructions: )\d+", r"\1N", re.sub(r"[\d.e+]+\s+[num]?s\b", "TIME", done.stdout))
+        return done.stdout
+
+    def text(self, *arguments):
+        return without_figures(self.output(*arguments))
+
+    def slice(self, *arguments):
+        """What is said of the longest slice, in one line: where it is wrapped depends on its figures."""
+        return without_figures(" ".join(self.output(*arguments).split("longest slice")[1].split()))
 
     def test_ladder_with_a_jump_and_calls(self):
         tasks, report = self.tasks(self.write("a.lad", LADDER))
@@ -143,7 +154,8 @@ class Wcet(unittest.TestCase):
         self.assertNotIn("measured", main)
 
     def test_ladder_as_text(self):
-        ways, slice_ = self.text(self.write("a.lad", LADDER)).split("longest slice")
+        source = self.write("a.lad", LADDER)
+        ways = self.text(source).split("longest slice")[0]
         self.assertEqual(ways, """MAIN: at most 27 steps of a budget of 1000000
   machine instructions: N
   time on this machine: TIME
@@ -151,7 +163,7 @@ class Wcet(unittest.TestCase):
   MAIN.SBN2, 6 steps, 2 times: rungs 8-10
 
 """)
-        self.assertRegex(" ".join(slice_.split()), r"^with its copies: TIME: 27 steps of TIME at most \(rung .*\), and the period is TIME$")
+        self.assertRegex(self.slice(source), r"^with its copies: TIME: 27 steps of TIME at most \(rung .*\), and the period is TIME$")
 
     def test_slice_of_a_program_that_leaves_out_what_rests(self):
         source = self.write("a.lad", LADDER)
@@ -161,8 +173,7 @@ class Wcet(unittest.TestCase):
         self.assertGreater(report["slice"]["looking_ns"], 0)
         self.assertGreater(report["slice"]["time_ns"],
                            report["slice"]["steps"] * report["slice"]["step_ns"] + report["slice"]["looking_ns"] - 1)
-        slice_ = self.text("--activity", source).split("longest slice")[1]
-        self.assertIn(", TIME of looking for changes, and the period is TIME", " ".join(slice_.split()))
+        self.assertIn(", TIME of looking for changes, and the period is TIME", self.slice("--activity", source))
 
     def test_list_with_a_circle(self):
         tasks, report = self.tasks(self.write("a.pmc", LIST))

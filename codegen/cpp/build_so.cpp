@@ -11,6 +11,7 @@
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/cpp/embedded_headers.h"
 #include "codegen/process/process.h"
+#include "ir/support/put.h"
 #include "ir/support/temporary_folder.h"
 
 namespace rung::codegen {
@@ -31,7 +32,39 @@ void appendWords(std::string_view text, std::vector<std::string>& words) {
   for (std::string word; in >> word;) words.push_back(word);
 }
 
+// Vectors would be of coils of neighbouring rungs, and cost more to put together than their stores do.
+constexpr std::string_view kFlags = "-x c++ -std=c++20 -fPIC -shared -fvisibility=hidden -fno-exceptions -fno-rtti "
+                                    "-ffp-contract=off -fno-math-errno -fno-strict-aliasing -fno-tree-slp-vectorize -w";
+
+// The driver with its own flags, and those of the build.
+std::vector<std::string> driverWords(const CppBuildOptions& options) {
+  std::vector<std::string> words;
+  appendWords(options.compiler, words);
+  if (words.empty()) return words;
+  appendWords(kFlags, words);
+  words.push_back(options.optimisation);
+  if (options.debugInfo) words.push_back("-gdwarf-4");
+  return words;
+}
+
+// A compiler by its file, as a new version has another size or time.
+std::string compilerFacts(std::string_view name) {
+  const std::string path = findProgram(name).value_or(std::string(name));
+  std::error_code none;
+  const fs::path file = fs::canonical(path, none);
+  return fmt::format("{} {} {}", file.string(), fs::file_size(file, none),
+                     fs::last_write_time(file, none).time_since_epoch().count());
+}
+
 } // namespace
+
+std::string cppBuildIdentity(std::string_view text, const CppBuildOptions& options) {
+  const std::vector<std::string> words = driverWords(options);
+  std::string identity = words.empty() ? "" : compilerFacts(words[0]);
+  for (const std::string& word : words) identity += '\n' + word;
+  for (const EmbeddedHeader& header : embeddedHeaders()) put(identity, "\n{}\n{}", header.name, header.text);
+  return identity.append("\n").append(text);
+}
 
 Result<std::string> buildCppSharedObject(std::string_view text, const CppBuildOptions& options) {
   TemporaryFolder folder;
@@ -41,15 +74,8 @@ Result<std::string> buildCppSharedObject(std::string_view text, const CppBuildOp
     written = written && writeFile(folder / header.name, header.text);
   if (!written) return failure("cannot write the generated C++ to a temporary folder");
 
-  std::vector<std::string> words;
-  appendWords(options.compiler, words);
+  std::vector<std::string> words = driverWords(options);
   if (words.empty()) return failure("the name of the C++ compiler is empty");
-  // Vectors would be of coils of neighbouring rungs, and cost more to put together than their stores do.
-  appendWords("-x c++ -std=c++20 -fPIC -shared -fvisibility=hidden -fno-exceptions -fno-rtti -ffp-contract=off "
-              "-fno-math-errno -fno-strict-aliasing -fno-tree-slp-vectorize -w",
-              words);
-  words.push_back(options.optimisation);
-  if (options.debugInfo) words.push_back("-gdwarf-4");
   for (std::string word : {std::string("-I"), (folder / ".").string(), (folder / "program.cpp").string(),
                            std::string("-o"), (folder / "program.so").string()})
     words.push_back(std::move(word));

@@ -26,6 +26,9 @@ struct CppBuildOptions {
   bool debugInfo = true;
 };
 
+// All that decides the bytes of buildCppSharedObject: the text with its headers, the options, and which compiler it is.
+std::string cppBuildIdentity(std::string_view text, const CppBuildOptions& options);
+
 // Compiles the text to the bytes of a shared object. The headers that the text includes are built into this library.
 // Fails with what the compiler said.
 Result<std::string> buildCppSharedObject(std::string_view text, const CppBuildOptions& options);

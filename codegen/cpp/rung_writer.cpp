@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "ir/core/eval.h"
+#include "ir/core/op_info.h"
 #include "ir/support/check.h"
 #include "ir/support/put.h"
 

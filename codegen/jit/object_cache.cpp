@@ -10,6 +10,7 @@
 
 #include "codegen/llvm/piece_numbers.h"
 #include "ir/chunks/cut.h"
+#include "ir/core/op_info.h"
 #include "ir/support/put.h"
 #include "ir/text/text.h"
 

@@ -12,6 +12,7 @@
 
 #include "codegen/llvm/before_selection.h"
 #include "ir/chunks/alike_rungs.h"
+#include "ir/core/op_info.h"
 #include "ir/support/check.h"
 
 namespace rung::codegen {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "ir/core/op_info.h"
+
 namespace rung::codegen {
 
 using namespace ir;

@@ -5,6 +5,7 @@
 #include <llvm/IR/MDBuilder.h>
 #include <llvm/IR/PatternMatch.h>
 
+#include "ir/core/op_info.h"
 #include "ir/support/check.h"
 
 namespace rung::codegen {

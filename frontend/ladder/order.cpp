@@ -4,6 +4,7 @@
 #include <queue>
 
 #include "frontend/ladder/rung.h"
+#include "ir/support/diag/ladder.h"
 
 namespace rung::ladder {
 namespace {
@@ -91,7 +92,7 @@ void linkNets(Rung& rung) {
 void orderElements(Rung& rung, Diagnostics& diagnostics) {
   const std::vector<uint32_t> order = evaluationOrder(rung);
   if (order.size() != rung.elements.size()) {
-    diagnostics.report(Diag::PowerLoop, rung.element(findLoop(rung, order)).range);
+    diagnostics.report(diag::PowerLoop, rung.element(findLoop(rung, order)).range);
     rung.bad = true;
     return;
   }

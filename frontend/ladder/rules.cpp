@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "frontend/ladder/rung.h"
+#include "ir/support/diag/ladder.h"
 
 namespace rung::ladder {
 namespace {
@@ -9,9 +10,9 @@ namespace {
 bool checkElement(const Rung& rung, const Element& element, Diagnostics& diagnostics) {
   const auto isOutput = [&](const Pin& pin) { return element.output.valid() && pin.input == element.output; };
   if (std::ranges::any_of(rung.pinsOf(element), isOutput)) {
-    diagnostics.report(Diag::ShortCircuit, element.range);
+    diagnostics.report(diag::ShortCircuit, element.range);
   } else if (element.output == kRail) {
-    diagnostics.report(Diag::PowerLoop, element.range);
+    diagnostics.report(diag::PowerLoop, element.range);
   } else {
     return true;
   }
@@ -26,7 +27,7 @@ bool checkPower(const Rung& rung, Diagnostics& diagnostics) {
   if (!good) return false;
   for (uint32_t net = 1; net < rung.nets.size(); ++net) {
     if (!rung.driversOf(NetId{net}).empty()) continue;
-    diagnostics.report(Diag::DanglingWire, rung.nets[net].range) << "nothing leads to this from the left rail";
+    diagnostics.report(diag::DanglingWire, rung.nets[net].range) << "nothing leads to this from the left rail";
     good = false;
   }
   return good;
@@ -36,7 +37,7 @@ bool checkClosed(const Rung& rung, Diagnostics& diagnostics) {
   bool good = true;
   for (uint32_t net = 1; net < rung.nets.size(); ++net) {
     if (!rung.consumersOf(NetId{net}).empty()) continue;
-    diagnostics.report(Diag::MissingClosingElement, rung.nets[net].range) << "a wire";
+    diagnostics.report(diag::MissingClosingElement, rung.nets[net].range) << "a wire";
     good = false;
   }
   return good;

@@ -1,6 +1,8 @@
 // Comparisons (see compare.h).
 #include "frontend/lower/compare.h"
 
+#include "ir/core/op_info.h"
+
 namespace rung::frontend {
 
 using ir::OpCode;
@@ -13,7 +15,7 @@ ir::ValueId compare(ir::RungBuilder& b, int relation, ir::ValueId x, ir::ValueId
   case kLess: return b.binary(less, x, y);
   case kLessEqual: return b.binary(atMost, x, y);
   case kEqual: return b.binary(real ? OpCode::FEq : OpCode::Eq, x, y);
-  case kNotEqual: return real ? b.not_(b.binary(OpCode::FEq, x, y)) : b.ne(x, y);
+  case kNotEqual: return real ? b.not_(b.fEq(x, y)) : b.ne(x, y);
   case kGreaterEqual: return b.binary(atMost, y, x);
   case kGreater: return b.binary(less, y, x);
   }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "frontend/network/language.h"
+#include "ir/support/diag/operand.h"
 #include "ir/support/diagnostics.h"
 
 namespace rung::network {
@@ -19,7 +20,7 @@ struct OperandTraits {
   Length length = Length::OfKind;    // of an address
   uint32_t bytes = 1;                // of an address, with OfKind
   std::optional<Area> area = {};     // of an address: the only one that is allowed
-  Diag elsewhere = Diag::BadOperand; // it is in another area
+  Diag elsewhere = diag::BadOperand; // it is in another area
   bool rest = false;                 // of an address: all that follows in its area may be meant
   bool selects = false;              // Format: says whether it is a constant or an address
   std::string_view written = "{}";   // how a value is written; Named begins with its letter

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "ir/support/diag/operand.h"
+
 namespace rung::frontend {
 namespace {
 
@@ -35,7 +37,7 @@ bool countFits(const InstructionInfo& info, size_t found, SourceRange at, Diagno
   const auto least = static_cast<size_t>(std::ranges::count(operands, false, &OperandInfo::optional));
   const bool repeated = !operands.empty() && operands.back().repeated;
   if (found >= least && (found <= operands.size() || repeated)) return true;
-  DiagBuilder report = diagnostics.report(Diag::OperandCount, at);
+  DiagBuilder report = diagnostics.report(diag::OperandCount, at);
   report << info.mnemonic << countText(least, operands.size(), repeated) << found;
   if (!operands.empty())
     report.note("its operands in order: " + listed(operands) +

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/diag/source.h"
 #include "ir/support/utf8.h"
 #include "rtlib/text/blanks.h"
 
@@ -82,7 +83,7 @@ bool checkEncoding(const SourceManager& sources, FileId file, Diagnostics& diagn
   const std::string_view text = sources.text(file);
   const size_t offset = std::min(findInvalidUtf8(text), text.find('\0'));
   if (offset == std::string_view::npos) return true;
-  diagnostics.report(Diag::BadEncoding, sources.range(file, offset, offset + 1))
+  diagnostics.report(diag::BadEncoding, sources.range(file, offset, offset + 1))
       << fmt::format("0x{:02X}", static_cast<unsigned char>(text[offset]));
   return false;
 }

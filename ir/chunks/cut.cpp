@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "ir/core/op_info.h"
 #include "ir/support/check.h"
 
 namespace rung::ir {

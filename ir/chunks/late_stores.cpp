@@ -8,6 +8,7 @@
 
 #include "ir/core/eval.h"
 #include "ir/core/memory_use.h"
+#include "ir/core/op_info.h"
 
 namespace rung::ir {
 namespace {

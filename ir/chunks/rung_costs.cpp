@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "ir/core/op_info.h"
 #include "ir/support/saturate.h"
 
 namespace rung::ir {

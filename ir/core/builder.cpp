@@ -1,6 +1,7 @@
 // The rung builder (see builder.h).
 #include "ir/core/builder.h"
 
+#include "ir/core/op_info.h"
 #include "ir/support/check.h"
 
 namespace rung::ir {
@@ -41,6 +42,47 @@ ValueId RungBuilder::op(OpCode code, Type type, std::initializer_list<ValueId> a
   const Type result = resultType(opInfo(code).result, type);
   return result == Type::None ? ValueId{} : newResult(added, result);
 }
+
+ValueId RungBuilder::add(ValueId a, ValueId b) { return binary(OpCode::Add, a, b); }
+ValueId RungBuilder::sub(ValueId a, ValueId b) { return binary(OpCode::Sub, a, b); }
+ValueId RungBuilder::mul(ValueId a, ValueId b) { return binary(OpCode::Mul, a, b); }
+ValueId RungBuilder::and_(ValueId a, ValueId b) { return binary(OpCode::And, a, b); }
+ValueId RungBuilder::or_(ValueId a, ValueId b) { return binary(OpCode::Or, a, b); }
+ValueId RungBuilder::xor_(ValueId a, ValueId b) { return binary(OpCode::Xor, a, b); }
+ValueId RungBuilder::not_(ValueId a) { return op(OpCode::Not, typeOf(a), {a}); }
+ValueId RungBuilder::eq(ValueId a, ValueId b) { return binary(OpCode::Eq, a, b); }
+ValueId RungBuilder::ne(ValueId a, ValueId b) { return binary(OpCode::Ne, a, b); }
+ValueId RungBuilder::ltS(ValueId a, ValueId b) { return binary(OpCode::LtS, a, b); }
+ValueId RungBuilder::leS(ValueId a, ValueId b) { return binary(OpCode::LeS, a, b); }
+ValueId RungBuilder::ltU(ValueId a, ValueId b) { return binary(OpCode::LtU, a, b); }
+ValueId RungBuilder::leU(ValueId a, ValueId b) { return binary(OpCode::LeU, a, b); }
+ValueId RungBuilder::shl(ValueId a, ValueId count) { return binary(OpCode::Shl, a, count); }
+ValueId RungBuilder::shrU(ValueId a, ValueId count) { return binary(OpCode::ShrU, a, count); }
+ValueId RungBuilder::divS(ValueId a, ValueId b) { return binary(OpCode::DivS, a, b); }
+ValueId RungBuilder::divU(ValueId a, ValueId b) { return binary(OpCode::DivU, a, b); }
+ValueId RungBuilder::remS(ValueId a, ValueId b) { return binary(OpCode::RemS, a, b); }
+ValueId RungBuilder::remU(ValueId a, ValueId b) { return binary(OpCode::RemU, a, b); }
+ValueId RungBuilder::fAdd(ValueId a, ValueId b) { return binary(OpCode::FAdd, a, b); }
+ValueId RungBuilder::fSub(ValueId a, ValueId b) { return binary(OpCode::FSub, a, b); }
+ValueId RungBuilder::fMul(ValueId a, ValueId b) { return binary(OpCode::FMul, a, b); }
+ValueId RungBuilder::fEq(ValueId a, ValueId b) { return binary(OpCode::FEq, a, b); }
+ValueId RungBuilder::fLt(ValueId a, ValueId b) { return binary(OpCode::FLt, a, b); }
+ValueId RungBuilder::fLe(ValueId a, ValueId b) { return binary(OpCode::FLe, a, b); }
+ValueId RungBuilder::neg(ValueId a) { return op(OpCode::Neg, typeOf(a), {a}); }
+ValueId RungBuilder::popCount(ValueId a) { return op(OpCode::PopCount, typeOf(a), {a}); }
+ValueId RungBuilder::bcdEncode(ValueId a) { return op(OpCode::BcdEncode, typeOf(a), {a}); }
+ValueId RungBuilder::bcdDecode(ValueId a) { return op(OpCode::BcdDecode, typeOf(a), {a}); }
+ValueId RungBuilder::fNeg(ValueId a) { return op(OpCode::FNeg, typeOf(a), {a}); }
+ValueId RungBuilder::fAbs(ValueId a) { return op(OpCode::FAbs, typeOf(a), {a}); }
+ValueId RungBuilder::trunc(Type type, ValueId a) { return op(OpCode::Trunc, type, {a}); }
+ValueId RungBuilder::sext(Type type, ValueId a) { return op(OpCode::SExt, type, {a}); }
+ValueId RungBuilder::bitsToF(ValueId bits) { return op(OpCode::BitsToF, Type::F64, {bits}); }
+ValueId RungBuilder::fToBits(ValueId real) { return op(OpCode::FToBits, Type::I64, {real}); }
+ValueId RungBuilder::intToF(ValueId integer) { return op(OpCode::IntToF, Type::F64, {integer}); }
+ValueId RungBuilder::select(ValueId cond, ValueId a, ValueId b) { return op(OpCode::Select, typeOf(a), {cond, a, b}); }
+ValueId RungBuilder::zextOrTrunc(Type type, ValueId a) { return resize(OpCode::ZExt, type, a); }
+ValueId RungBuilder::sextOrTrunc(Type type, ValueId a) { return resize(OpCode::SExt, type, a); }
+ValueId RungBuilder::now() { return op(OpCode::Now, Type::I64, {}); }
 
 ValueId RungBuilder::constant(Type type, int64_t value) {
   Op& added = append(OpCode::Const, type, {});

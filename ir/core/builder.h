@@ -49,24 +49,47 @@ public:
   ValueId op(OpCode code, Type type, std::initializer_list<ValueId> args);
 
   // T is taken from the first operand.
-  ValueId add(ValueId a, ValueId b) { return binary(OpCode::Add, a, b); }
-  ValueId sub(ValueId a, ValueId b) { return binary(OpCode::Sub, a, b); }
-  ValueId mul(ValueId a, ValueId b) { return binary(OpCode::Mul, a, b); }
-  ValueId and_(ValueId a, ValueId b) { return binary(OpCode::And, a, b); }
-  ValueId or_(ValueId a, ValueId b) { return binary(OpCode::Or, a, b); }
-  ValueId xor_(ValueId a, ValueId b) { return binary(OpCode::Xor, a, b); }
-  ValueId not_(ValueId a) { return op(OpCode::Not, typeOf(a), {a}); }
-  ValueId eq(ValueId a, ValueId b) { return binary(OpCode::Eq, a, b); }
-  ValueId ne(ValueId a, ValueId b) { return binary(OpCode::Ne, a, b); }
-  ValueId ltS(ValueId a, ValueId b) { return binary(OpCode::LtS, a, b); }
-  ValueId leS(ValueId a, ValueId b) { return binary(OpCode::LeS, a, b); }
-  ValueId ltU(ValueId a, ValueId b) { return binary(OpCode::LtU, a, b); }
-  ValueId leU(ValueId a, ValueId b) { return binary(OpCode::LeU, a, b); }
+  ValueId add(ValueId a, ValueId b);
+  ValueId sub(ValueId a, ValueId b);
+  ValueId mul(ValueId a, ValueId b);
+  ValueId and_(ValueId a, ValueId b);
+  ValueId or_(ValueId a, ValueId b);
+  ValueId xor_(ValueId a, ValueId b);
+  ValueId not_(ValueId a);
+  ValueId eq(ValueId a, ValueId b);
+  ValueId ne(ValueId a, ValueId b);
+  ValueId ltS(ValueId a, ValueId b);
+  ValueId leS(ValueId a, ValueId b);
+  ValueId ltU(ValueId a, ValueId b);
+  ValueId leU(ValueId a, ValueId b);
+  ValueId shl(ValueId a, ValueId count);
+  ValueId shrU(ValueId a, ValueId count);
+  ValueId divS(ValueId a, ValueId b);
+  ValueId divU(ValueId a, ValueId b);
+  ValueId remS(ValueId a, ValueId b);
+  ValueId remU(ValueId a, ValueId b);
+  ValueId neg(ValueId a);
+  ValueId popCount(ValueId a);
+  ValueId bcdEncode(ValueId a);
+  ValueId bcdDecode(ValueId a);
+  ValueId fAdd(ValueId a, ValueId b);
+  ValueId fSub(ValueId a, ValueId b);
+  ValueId fMul(ValueId a, ValueId b);
+  ValueId fNeg(ValueId a);
+  ValueId fAbs(ValueId a);
+  ValueId fEq(ValueId a, ValueId b);
+  ValueId fLt(ValueId a, ValueId b);
+  ValueId fLe(ValueId a, ValueId b);
   ValueId binary(OpCode code, ValueId a, ValueId b) { return op(code, typeOf(a), {a, b}); }
-  ValueId select(ValueId cond, ValueId a, ValueId b) { return op(OpCode::Select, typeOf(a), {cond, a, b}); }
+  ValueId select(ValueId cond, ValueId a, ValueId b);
+  ValueId trunc(Type type, ValueId a);
+  ValueId sext(Type type, ValueId a);
+  ValueId bitsToF(ValueId bits);
+  ValueId fToBits(ValueId real);
+  ValueId intToF(ValueId integer);
   // To `type` by zext, sext or trunc as the widths say; the value itself when it has the type already.
-  ValueId zextOrTrunc(Type type, ValueId a) { return resize(OpCode::ZExt, type, a); }
-  ValueId sextOrTrunc(Type type, ValueId a) { return resize(OpCode::SExt, type, a); }
+  ValueId zextOrTrunc(Type type, ValueId a);
+  ValueId sextOrTrunc(Type type, ValueId a);
 
   ValueId load(Type type, Place place);
   void store(Place place, ValueId value);
@@ -76,7 +99,7 @@ public:
   void storeBitAt(Window window, ValueId index, ValueId bitNumber, ValueId value);
   ValueId slotLoad(SlotId slot);
   void slotStore(SlotId slot, ValueId value);
-  ValueId now() { return op(OpCode::Now, Type::I64, {}); }
+  ValueId now();
 
   // Regions. `yields` of both branches must agree in number and types; endIf gives the results. `odds`: of the
   // condition.

@@ -5,7 +5,8 @@
 #pragma once
 #include <cstdint>
 
-#include "ir/core/op_info.h"
+#include "ir/core/op_code.h"
+#include "ir/core/type.h"
 
 namespace rung::ir {
 
@@ -14,9 +15,6 @@ constexpr uint64_t valueMask(Type type) {
   const uint32_t width = bitWidth(type);
   return width >= 64 ? ~0ull : (1ull << width) - 1;
 }
-
-// Whether evalPure knows the operation: pure, and its value depends on nothing but its operands.
-constexpr bool isEvaluable(const OpInfo& info) { return info.effects == kPure && info.code != OpCode::Const; }
 
 // `type` is the operation's T, `first` the type of its first operand; `args` are as many as the row says.
 uint64_t evalPure(OpCode code, Type type, Type first, const uint64_t* args);

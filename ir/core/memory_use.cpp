@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ir/core/op_info.h"
+
 namespace rung::ir {
 namespace {
 

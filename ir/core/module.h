@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ir/core/ids.h"
-#include "ir/core/op_info.h"
+#include "ir/core/op_code.h"
 #include "ir/core/type.h"
 #include "rung/program.h"
 
@@ -24,7 +24,7 @@ struct Location {
 
 // One operation. `args` and results are ids of the rung's values; see Attr for imm, ref and count.
 struct Op {
-  OpCode code = OpCode::Note;
+  OpCode code{};
   Type type = Type::None; // T of the OpInfo row; None where the row has no types
   uint16_t argCount = 0;
   uint16_t resultCount = 0;

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "ir/core/op_code.h"
 #include "ir/core/type.h"
 
 namespace rung::ir {
@@ -49,13 +50,6 @@ enum class Attr : uint8_t {
   Fault,     // ref: fault
   Text,      // ref: text in Rung::notes
   Odds,      // ref: enum Odds
-};
-
-// How often the condition of an if is 1 where it is reached. Only the order of the code depends on it.
-enum Odds : uint8_t {
-  kEven = 0, // nothing is known
-  kMostly = 1,
-  kSeldom = 2,
 };
 
 enum Effect : uint8_t {
@@ -137,6 +131,8 @@ constexpr Type resultType(Constraint constraint, Type own) {
 // Whether the host may look at memory meanwhile: every store above must have been done, and none below.
 constexpr bool hostReads(const OpInfo& info) { return (info.effects & kHost) != 0 && (info.effects & kReads) != 0; }
 constexpr bool isPure(const OpInfo& info) { return info.effects == kPure || info.effects == kClock; }
+// Whether evalPure knows the operation: pure, and its value depends on nothing but its operands.
+constexpr bool isEvaluable(const OpInfo& info) { return info.effects == kPure && info.code != OpCode::Const; }
 // Nothing but reading to do for the result.
 constexpr bool onlyReads(const OpInfo& info) { return isPure(info) || info.effects == kReads; }
 

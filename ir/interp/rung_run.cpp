@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ir/core/eval.h"
+#include "ir/core/op_info.h"
 #include "ir/support/check.h"
 #include "rtlib/core/ticks.h"
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "ir/core/memory_use.h"
+#include "ir/core/op_info.h"
 
 namespace rung::ir {
 namespace {

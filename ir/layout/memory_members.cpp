@@ -8,6 +8,7 @@
 #include <tuple>
 #include <unordered_set>
 
+#include "ir/core/op_info.h"
 #include "ir/support/ascii.h"
 
 namespace rung::ir {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <span>
 
+#include "ir/core/op_info.h"
 #include "rung/types.hpp"
 
 namespace rung::ir {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "ir/core/memory_use.h"
+#include "ir/core/op_info.h"
 
 namespace rung::ir {
 namespace {

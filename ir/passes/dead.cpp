@@ -3,6 +3,7 @@
 // one by one. Other notes stay.
 #include <algorithm>
 
+#include "ir/core/op_info.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ir/core/memory_use.h"
+#include "ir/core/op_info.h"
 #include "ir/passes/rewriter.h"
 
 namespace rung::ir {

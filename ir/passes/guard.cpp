@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "ir/core/op_info.h"
 #include "ir/passes/index_values.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"

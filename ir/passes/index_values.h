@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "ir/core/op_info.h"
 #include "ir/passes/rung_ranges.h"
 
 namespace rung::ir {

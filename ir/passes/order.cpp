@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ir/core/op_info.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"
 

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "ir/core/op_info.h"
+
 namespace rung::ir {
 
 bool findRegions(const Rung& rung, std::vector<Region>& regions) {

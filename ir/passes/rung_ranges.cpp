@@ -2,6 +2,8 @@
 // both, and what they leave is joined. A loop's passes are taken together: what it carries or writes may be anything.
 #include "ir/passes/rung_ranges.h"
 
+#include "ir/core/op_info.h"
+
 namespace rung::ir {
 namespace {
 

@@ -3,6 +3,7 @@
 #include "ir/passes/simplify.h"
 
 #include "ir/core/eval.h"
+#include "ir/core/op_info.h"
 
 namespace rung::ir {
 namespace {

@@ -5,6 +5,8 @@
 #include <bit>
 #include <optional>
 
+#include "ir/core/op_info.h"
+
 namespace rung::ir {
 namespace {
 

@@ -10,7 +10,7 @@
 namespace rung::ir {
 
 struct ValueKey {
-  OpCode code = OpCode::Const;
+  OpCode code{};
   Type type = Type::None;
   uint32_t ref = 0;
   uint32_t count = 0;

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <span>
 
+#include "ir/core/op_info.h"
+
 namespace rung::ir {
 namespace {
 

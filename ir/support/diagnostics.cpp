@@ -2,6 +2,7 @@
 #include "ir/support/diagnostics.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iterator>
 #include <unordered_map>
@@ -10,6 +11,14 @@
 #include <fmt/format.h>
 
 #include "ir/support/check.h"
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/ladder.h"
+#include "ir/support/diag/nct.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/project.h"
+#include "ir/support/diag/source.h"
+#include "ir/support/diag/structure.h"
+#include "ir/support/diag/technol.h"
 #include "ir/support/put.h"
 #include "rtlib/text/utf8.h"
 
@@ -17,10 +26,17 @@ namespace rung {
 namespace {
 
 constexpr DiagInfo kDiags[] = {
-#define DIAG(name, code, severity, message, explanation) {Diag::name, code, Severity::severity, message, explanation},
+#define DIAG(name, code, severity, message, explanation) {diag::name, code, Severity::severity, message, explanation},
 #include "ir/support/diag/all.def"
 #undef DIAG
 };
+
+/// Where each family begins in the table.
+constexpr auto kFirstOfFamily = [] {
+  std::array<size_t, 256> first{};
+  for (size_t i = std::size(kDiags); i-- > 0;) first[static_cast<unsigned>(kDiags[i].id) >> 8] = i;
+  return first;
+}();
 
 /// No message has more placeholders.
 constexpr size_t kMaxArgs = 8;
@@ -41,8 +57,8 @@ std::unordered_map<std::string_view, const DiagInfo*> makeCodeIndex() {
 } // namespace
 
 const DiagInfo& diagInfo(Diag id) {
-  const auto index = static_cast<size_t>(id);
-  RUNG_CHECK(index < std::size(kDiags), "no such diagnostic");
+  const size_t index = kFirstOfFamily[static_cast<unsigned>(id) >> 8] + (static_cast<unsigned>(id) & 0xFF);
+  RUNG_CHECK(index < std::size(kDiags) && kDiags[index].id == id, "no such diagnostic");
   return kDiags[index];
 }
 
@@ -121,9 +137,7 @@ bool Diagnostics::isNew(const Diagnostic& diagnostic) {
 }
 
 void Diagnostics::add(Diagnostic diagnostic) {
-  const bool raised =
-      static_cast<size_t>(diagnostic.id) < raised_.size() && raised_[static_cast<size_t>(diagnostic.id)];
-  if (raised) diagnostic.severity = Severity::Error;
+  if (std::ranges::find(raised_, diagnostic.id) != raised_.end()) diagnostic.severity = Severity::Error;
   const bool isError = diagnostic.severity == Severity::Error;
   size_t& kept = isError ? keptErrors_ : keptWarnings_;
   if (kept < limit_ && !isNew(diagnostic)) return;
@@ -137,8 +151,7 @@ void Diagnostics::add(Diagnostic diagnostic) {
 }
 
 void Diagnostics::raiseToError(std::initializer_list<Diag> ids) {
-  raised_.resize(std::size(kDiags));
-  for (const Diag id : ids) raised_[static_cast<size_t>(id)] = true;
+  raised_.insert(raised_.end(), ids.begin(), ids.end());
 }
 
 bool Diagnostics::has(Diag id) const {

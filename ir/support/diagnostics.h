@@ -1,8 +1,9 @@
 // Diagnostics: what the compiler says about a program.
 // Every code is one entry of ir/support/diag/*.def with its severity, its message and its explanation; reports name the
 // code, a place and the arguments of the message:
-//   diags.report(Diag::DuplicateSymbol, range) << name;
-//   diags.report(Diag::DuplicateSymbol, range).note(first, "first declared here") << name;
+//   diags.report(diag::DuplicateSymbol, range) << name;
+//   diags.report(diag::DuplicateSymbol, range).note(first, "first declared here") << name;
+// Who reports includes the header of the code's family, ir/support/diag/*.h: a new entry compiles those files alone.
 // A report is complete at the end of its full expression. The same code at the same place with the same arguments is
 // kept once. Codes are stable names: scenarios and users refer to them.
 #pragma once
@@ -23,11 +24,16 @@ namespace rung {
 
 enum class Severity : uint8_t { Warning, Error };
 
-enum class Diag : uint16_t {
-#define DIAG(name, code, severity, message, explanation) name,
-#include "ir/support/diag/all.def"
-#undef DIAG
-};
+/// A code: its family in the upper byte, its line in the family's file in the lower one.
+enum class Diag : uint16_t {};
+
+namespace diag {
+/// In the order in which allDiags() has them.
+enum class Family : uint8_t { Source, Project, Ladder, Operand, Structure, Gsk, Nct, Technol };
+constexpr Diag codeOf(Family family, uint8_t line) {
+  return static_cast<Diag>(static_cast<unsigned>(family) << 8 | line);
+}
+} // namespace diag
 
 struct DiagInfo {
   Diag id;
@@ -40,7 +46,7 @@ struct DiagInfo {
 const DiagInfo& diagInfo(Diag id);
 /// The entry of a code such as "unbalanced-stack", or nullptr.
 const DiagInfo* findDiag(std::string_view code);
-/// All entries, in the order of the enumeration.
+/// All entries, family by family.
 std::span<const DiagInfo> allDiags();
 
 using DiagArg = std::variant<int64_t, std::string>;
@@ -139,7 +145,7 @@ private:
 
   std::vector<Diagnostic> kept_;
   std::unordered_set<uint64_t> seen_;
-  std::vector<bool> raised_;
+  std::vector<Diag> raised_;
   size_t limit_ = kDefaultLimit;
   size_t errors_ = 0;
   size_t warnings_ = 0;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unordered_map>
 
+#include "ir/core/op_info.h"
 #include "ir/support/ascii.h"
 #include "ir/support/put.h"
 #include "ir/text/keywords.h"

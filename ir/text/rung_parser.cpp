@@ -5,6 +5,7 @@
 #include <bit>
 #include <fmt/format.h>
 
+#include "ir/core/op_info.h"
 #include "ir/text/keywords.h"
 
 namespace rung::ir {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <unordered_set>
 
+#include "ir/core/op_info.h"
 #include "ir/support/hash.h"
 
 namespace rung::ir {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "ir/core/eval.h"
+#include "ir/core/op_info.h"
 #include "ir/verify/rules.h"
 
 namespace rung::ir {

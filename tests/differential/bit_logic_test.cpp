@@ -4,8 +4,10 @@
 
 #include <random>
 
+#include "ir/core/op_info.h"
 #include "ir/passes/pipeline.h"
 #include "tests/differential/optimised_code.h"
+#include "tests/support/long_run.h"
 
 namespace rung {
 namespace {
@@ -82,7 +84,7 @@ private:
 class BitLogic : public ::testing::TestWithParam<EngineKind> {};
 
 TEST_P(BitLogic, IsThatOfTheInterpreter) {
-  const uint64_t seeds = GetParam() == EngineKind::Jit ? 60 : 10;
+  const uint64_t seeds = GetParam() == EngineKind::Jit ? testing::howMany(20, 60) : testing::howMany(3, 10);
   for (uint64_t seed = 1; seed <= seeds; ++seed) {
     Module module = Generator(seed).module();
     runPasses(module, {});

@@ -3,9 +3,11 @@
 // operation.
 #include <gtest/gtest.h>
 
+#include "ir/core/op_info.h"
 #include "ir/passes/pipeline.h"
 #include "tests/random/random.h"
 #include "tests/support/differential.h"
+#include "tests/support/long_run.h"
 #include "tests/support/saboteur.h"
 
 namespace rung {
@@ -85,7 +87,7 @@ TEST_P(EveryOp, AWrongEmitterIsCaught) {
 class RandomModules : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(RandomModules, AgreeWithTheInterpreter) {
-  const uint64_t seeds = GetParam().kind == EngineKind::Jit ? 150 : 12;
+  const uint64_t seeds = GetParam().kind == EngineKind::Jit ? testing::howMany(40, 150) : testing::howMany(4, 12);
   for (uint64_t seed = 1; seed <= seeds; ++seed) {
     ir::Module module = ir::randomModule(seed);
     module.activity = seed % 3 == 1;

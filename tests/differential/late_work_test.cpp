@@ -5,8 +5,10 @@
 #include <random>
 
 #include "ir/chunks/late_stores.h"
+#include "ir/core/op_info.h"
 #include "ir/passes/pipeline.h"
 #include "tests/differential/optimised_code.h"
+#include "tests/support/long_run.h"
 
 namespace rung {
 namespace {
@@ -142,7 +144,7 @@ size_t lateGroups(const compiler::Compiled& program) {
 class LateWork : public ::testing::TestWithParam<EngineKind> {};
 
 TEST_P(LateWork, AreThoseOfTheInterpreter) {
-  const uint64_t seeds = GetParam() == EngineKind::Jit ? 100 : 6;
+  const uint64_t seeds = GetParam() == EngineKind::Jit ? testing::howMany(25, 100) : testing::howMany(3, 6);
   size_t groups = 0;
   for (uint64_t seed = 1; seed <= seeds; ++seed) {
     const Shape shape{.rungs = 80, .readers = seed % 4 == 0, .exits = seed % 3 == 0, .flags = seed % 5 != 0};

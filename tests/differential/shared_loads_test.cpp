@@ -4,8 +4,10 @@
 
 #include <random>
 
+#include "ir/core/op_info.h"
 #include "ir/passes/pipeline.h"
 #include "tests/differential/optimised_code.h"
+#include "tests/support/long_run.h"
 
 namespace rung {
 namespace {
@@ -83,7 +85,7 @@ private:
 class SharedLoads : public ::testing::TestWithParam<EngineKind> {};
 
 TEST_P(SharedLoads, AreThoseOfTheInterpreter) {
-  const uint64_t seeds = GetParam() == EngineKind::Jit ? 80 : 6;
+  const uint64_t seeds = GetParam() == EngineKind::Jit ? testing::howMany(20, 80) : testing::howMany(2, 6);
   for (uint64_t seed = 1; seed <= seeds; ++seed) {
     Module module = Generator(seed, {.writes = seed % 2 == 0, .exits = seed % 3 == 0}).module();
     runPasses(module, {});

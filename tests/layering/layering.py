@@ -98,7 +98,7 @@ DIALECT_NAME = re.compile(r"(?<![A-Za-z])(?:gsk|nct|technol)(?![a-z])|(?:Gsk|Nct
 
 # Lowerings of programs without errors, which report nothing.
 CHECKED_BEFORE = ("frontend/dialects/technol/lower",)
-REPORT = re.compile(r"\bDiag::\w+|\b[dD]iagnostics\b")
+REPORT = re.compile(r"\bdiag::\w+|\b[dD]iagnostics\b")
 
 
 def within(path, folder):

@@ -3,6 +3,7 @@
 
 #include "ir/core/builder.h"
 #include "ir/core/eval.h"
+#include "ir/core/op_info.h"
 #include "tests/random/random.h"
 
 namespace rung::ir {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ir/core/eval.h"
+#include "ir/core/op_info.h"
 
 namespace rung::ir {
 namespace {

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Edits of every kind on the example machines, put in while the machine works. machines_test.py RUNGC
+"""Edits of every kind on the example machines, put in while the machine works. machines_test.py RUNGC [--long]
 
-Each case changes a few lines of a machine's sources, replaces the running program by the result on all engines, and says
+With --long on all engines, and all scenarios of the examples while their program is replaced; without it on the interpreter
+and the JIT, and one scenario of each example. Each case changes a few lines of a machine's sources, replaces the running program by the result, and says
 what the report has, no more and no less, and how the machine goes on: its timers have counted on, its counters and what
 it retains are as they were, and its outputs do not change in the scan after.
 """
@@ -15,8 +16,13 @@ import unittest
 from pathlib import Path
 
 RUNGC = ""
+LONG = False
 ROOT = Path(__file__).resolve().parents[2]
-PATIENCE = 1500  # seconds: each program is compiled for every engine
+PATIENCE = 3000  # seconds, of a busy machine: each program is compiled for every engine
+
+
+def engines():
+    return "all" if LONG else "jit,interp"
 
 
 class Edit:
@@ -104,7 +110,7 @@ class Machine(unittest.TestCase):
                 f"{goes_on}\n{after}\nscan\n{goes_on}\n{after}\n{until}\n")
         scenario = self.now / f"{name}.scn"
         scenario.write_text(text, encoding="utf-8")
-        done = subprocess.run([RUNGC, "test", str(scenario), "--engine", "all", "-O", "0"], capture_output=True,
+        done = subprocess.run([RUNGC, "test", str(scenario), "--engine", engines(), "-O", "0"], capture_output=True,
                               text=True, timeout=PATIENCE)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
 
@@ -354,7 +360,8 @@ class ToAndFro(unittest.TestCase):
             lines.append(line)
         scenario.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
-    def check(self, name, *edits):
+    def check(self, name, short, *edits):
+        """`short`: the scenario of a run without --long."""
         with tempfile.TemporaryDirectory() as scratch:
             folder = Path(scratch) / name
             shutil.copytree(ROOT / "examples" / name, folder)
@@ -364,7 +371,8 @@ class ToAndFro(unittest.TestCase):
             files = tomllib.loads((folder / "rung.toml").read_text(encoding="utf-8"))["files"]
             for scenario in list(folder.glob("*.scn")):
                 text = scenario.read_text(encoding="utf-8")
-                if "expect_error" in text or "\nslot" in text:  # no program, or passes that do not end
+                # No program, or passes that do not end.
+                if "expect_error" in text or "\nslot" in text or not (LONG or scenario.stem == short):
                     scenario.unlink()
                     continue
                 program = re.search(r"^program (.*)", text, re.M)
@@ -374,25 +382,26 @@ class ToAndFro(unittest.TestCase):
                 shutil.copy(scenario, fro)
                 self.with_replacements(scenario, programs)
                 self.with_replacements(fro, programs[::-1])
+            self.assertTrue(list(folder.glob("*.fro.scn")), "there is no such scenario")
             done = subprocess.run([RUNGC, "test", str(folder), "--engine", "jit,interp", "-O", "0"], capture_output=True,
                                   text=True, timeout=PATIENCE)
             self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
 
     def test_gsk_mill(self):
-        self.check("gsk-mill", Edit("mill.pmc", "FUNC END1\n", "FUNC END1\nLD   R199.0\nFUNC WINDW\nPRM  D900\n"
+        self.check("gsk-mill", "coolant-lubrication", Edit("mill.pmc", "FUNC END1\n", "FUNC END1\nLD   R199.0\nFUNC WINDW\nPRM  D900\n"
                                                                "PRM  R198\nOUT  R199.1\n"))
 
     def test_gsk_panel(self):
-        self.check("gsk-panel", Edit("panel.lad", "module LEVEL2\n", "module LEVEL2\n\nrung\n|--[R199.0]--(R199.1)\n"))
+        self.check("gsk-panel", "panel", Edit("panel.lad", "module LEVEL2\n", "module LEVEL2\n\nrung\n|--[R199.0]--(R199.1)\n"))
 
     mr = "\n\nrung\n|--[6199.00]--{MR 6150 #10}--(6199.01)\n"
 
     def test_nct_lathe(self):
-        self.check("nct-lathe", Edit("main.lad", "section \"Start-up\"\n", "section \"Start-up\"" + self.mr))
+        self.check("nct-lathe", "turret", Edit("main.lad", "section \"Start-up\"\n", "section \"Start-up\"" + self.mr))
 
     def test_nct_turning_centre(self):
         order = "section \"Order of a cycle\""
-        self.check("nct-turning-centre", Edit("main.lad", order, order + self.mr))
+        self.check("nct-turning-centre", "lubrication", Edit("main.lad", order, order + self.mr))
 
     @staticmethod
     def padded(file):
@@ -400,16 +409,19 @@ class ToAndFro(unittest.TestCase):
                 Edit(file, "\nMODULE_MAIN\n", "\nMODULE_MAIN\n        LDR  PAD_IN\n        WR   PAD_OUT\n"))
 
     def test_technol_mill(self):
-        self.check("technol-mill", *self.padded("mill.plc"))
+        self.check("technol-mill", "tool-change", *self.padded("mill.plc"))
 
     def test_technol_machining_centre(self):
         lamp = "\nMODULE_INIT\n        DEF_OUT L_PAD,'Lamp.Pad',TYPE_BIT\n"
-        self.check("technol-machining-centre", *self.padded("main.plc"), Edit("main.plc", "\nMODULE_INIT\n", lamp))
+        self.check("technol-machining-centre", "lubrication", *self.padded("main.plc"), Edit("main.plc", "\nMODULE_INIT\n", lamp))
 
 
 def main():
-    global RUNGC
+    global RUNGC, LONG
     RUNGC = sys.argv.pop(1)
+    if "--long" in sys.argv:
+        sys.argv.remove("--long")
+        LONG = True
     unittest.main()
 
 

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """`replace` in scenarios and at the prompt of rungc run: what it says, and what of the machine goes along.
-tools_test.py RUNGC"""
+tools_test.py RUNGC [--long]
+
+With --long on all engines, else on the interpreter and the JIT."""
 import subprocess
 import sys
 import tempfile
@@ -8,6 +10,7 @@ import unittest
 from pathlib import Path
 
 RUNGC = ""
+ENGINES = "jit,interp"
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 PATIENCE = 300
 
@@ -79,7 +82,7 @@ class Folder(unittest.TestCase):
         return self.rungc("test", "a.scn", *args)
 
     def passes(self, text, *args):
-        done = self.scenario(text, *(args or ("--engine", "all", "-O", "0")))
+        done = self.scenario(text, *(args or ("--engine", ENGINES, "-O", "0")))
         self.assertEqual((done.returncode, done.stderr), (OK, ""), done.stdout)
         return done.stdout
 
@@ -396,8 +399,11 @@ class Prompt(Folder):
 
 
 def main():
-    global RUNGC
+    global RUNGC, ENGINES
     RUNGC = str(Path(sys.argv.pop(1)).resolve())
+    if "--long" in sys.argv:
+        sys.argv.remove("--long")
+        ENGINES = "all"
     unittest.main()
 
 

@@ -7,6 +7,7 @@ count.py BIN --check    fails where a count has grown by more than 1 % against c
                         in the environment another one fails, too, and so does a count that the file does not have
 count.py BIN --update   writes counts.json
 count.py BIN --record   makes the recordings anew, after a change of an example or of the simulation
+count.py BIN --small    of generated programs those of 100 rungs alone
 count.py BIN --all      of generated programs those of 10,000 and 50,000 rungs, too: compilers take an hour for them
 """
 import argparse
@@ -22,7 +23,7 @@ import peers
 import report
 import services
 from callgrind import TARGET, Failure, run
-from generated import KINDS, RESTING, Programs, works
+from generated import KINDS, RESTING, SMALL_WORKS, Programs, works
 
 TABLE = Path(__file__).resolve().parent / "counts.json"
 GROWTH = 1.01
@@ -71,7 +72,9 @@ def main():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--update", action="store_true")
     parser.add_argument("--record", action="store_true")
-    parser.add_argument("--all", action="store_true")
+    sizes = parser.add_mutually_exclusive_group()
+    sizes.add_argument("--small", action="store_true")
+    sizes.add_argument("--all", action="store_true")
     options = parser.parse_args()
     options.tools = options.tools.resolve()
     if options.record:
@@ -81,13 +84,14 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         programs = Programs(options.tools, folder, not options.check)
         # A check needs no straight-line form, which compilers take minutes for.
-        rows = programs.counts(works(KINDS if options.all else ()), not options.check)
-        resting = programs.resting(RESTING)
+        rows = programs.counts(SMALL_WORKS if options.small else works(KINDS if options.all else ()), not options.check)
+        resting = programs.resting(() if options.small else RESTING)
     print(machines.text_of(of_machines))
     print(services.text_of(of_services))
     print(report.counts_text(rows))
     print(report.peers_text(rows, peers.versions()), end="")
-    print(report.resting_text(resting))
+    if resting:
+        print(report.resting_text(resting))
     counts = {name: total for name, (_, total, _) in of_machines.items()}
     counts |= services.names_of(of_services) | names_of(rows) | names_of_resting(resting)
     if options.update:

@@ -18,6 +18,7 @@ SIZES = (100, 1000)
 LARGE_SIZES = (10_000, 50_000)
 LARGE_KINDS = ("bits", "full")  # of these the usual report has large ones, too
 ARITHMETIC = ("integers", 200)  # of the full program of 1,000 rungs; 100 timers and 100 counters are in SIZES
+SMALL_WORKS = [(kind, SIZES[0]) for kind in KINDS]
 RESTING = (("bits", 1000), ("full", 1000))  # that are built with --activity, too
 LARGE_RESTING = (("bits", 10_000),)  # in the usual report
 # Something is new in each scan; one input in every tenth; all inputs in one scan after those.

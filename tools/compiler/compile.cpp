@@ -9,6 +9,8 @@
 #include "frontend/ladder/text/ladder_file.h"
 #include "ir/passes/passes.h"
 #include "ir/support/check.h"
+#include "ir/support/diag/ladder.h"
+#include "ir/support/diag/source.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
 
@@ -36,15 +38,15 @@ const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<c
   const SourceRange start = sources.range(files[0], 0, 0);
   if (!name.empty()) {
     const frontend::Dialect* named = frontend::findDialect(name);
-    if (named == nullptr) diagnostics.report(Diag::UnknownDialect, start) << name;
+    if (named == nullptr) diagnostics.report(diag::UnknownDialect, start) << name;
     return named;
   }
   const frontend::Dialect* found = frontend::dialectOf(sources, files[0]);
   if (found != nullptr) return found;
   if (const std::string_view unknown = ladder::peekDialect(sources, files[0]); !unknown.empty())
-    diagnostics.report(Diag::UnknownDialect, start) << unknown;
+    diagnostics.report(diag::UnknownDialect, start) << unknown;
   else
-    diagnostics.report(Diag::MissingDialect, start);
+    diagnostics.report(diag::MissingDialect, start);
   return nullptr;
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/diag/project.h"
 #include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
 #include "tools/sim/simulated_nc.h"
@@ -78,10 +79,10 @@ std::vector<ConfigProblem> checkConfiguration(const frontend::Dialect& dialect, 
 void report(const ConfigProblem& problem, const frontend::Dialect& dialect, SourceRange range,
             Diagnostics& diagnostics) {
   if (!problem.isUnknown) {
-    diagnostics.report(Diag::ConfigValue, range) << problem.text;
+    diagnostics.report(diag::ConfigValue, range) << problem.text;
     return;
   }
-  DiagBuilder report = diagnostics.report(Diag::UnknownConfigKey, range);
+  DiagBuilder report = diagnostics.report(diag::UnknownConfigKey, range);
   report << problem.key << fmt::format("{} programs", dialect.name);
   report.meant({}, suggestion(dialect, problem.key));
   report.note("`rungc explain config` lists the keys");

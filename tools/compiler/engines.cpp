@@ -6,11 +6,15 @@
 #include <fmt/format.h>
 
 #include "codegen/cpp/cpp_emitter.h"
+#include "codegen/llvm/code_version.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "codegen/process/process.h"
+#include "ir/support/put.h"
 #include "ir/support/temporary_folder.h"
+#include "ir/text/text.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
+#include "tools/compiler/object_folder.h"
 #include "tools/compiler/tiered.h"
 
 namespace rung::compiler {
@@ -39,14 +43,12 @@ private:
   std::string_view name_;
 };
 
-template <class Build>
-Result<std::unique_ptr<host::Engine>> buildAndLoad(std::string_view name, Build build) {
+Result<std::unique_ptr<host::Engine>> loaded(std::string_view name, const Result<std::string>& sealedObject) {
   const TemporaryFolder folder;
   if (!folder.ok()) return failure("cannot make a temporary folder");
-  const Result<std::string> image = build();
-  if (!image.ok()) return image.failure();
+  if (!sealedObject.ok()) return sealedObject.failure();
   const std::string path = (folder / "program.so").string();
-  std::string error = host::replaceFile(path, host::sealed(image.value()), {.mode = host::kProgramMode});
+  std::string error = host::replaceFile(path, sealedObject.value(), {.mode = host::kProgramMode});
   if (!error.empty()) return failure(error);
   std::unique_ptr<host::SoEngine> loaded = host::SoEngine::open(path, error);
   if (loaded == nullptr) return failure(error);
@@ -58,6 +60,32 @@ codegen::LlvmOptions llvmOptions(const EngineOptions& options) {
   llvm.level = options.optimise ? codegen::LlvmLevel::Opt : codegen::LlvmLevel::Fast;
   llvm.debugInfo = options.debugger;
   return llvm;
+}
+
+Result<std::string> cppObject(const Compiled& compiled, const EngineOptions& options) {
+  codegen::CppOptions emit;
+  emit.debugInfo = options.debugger;
+  codegen::CppBuildOptions build;
+  build.compiler = options.cppCompiler.empty() ? defaultCppCompiler() : options.cppCompiler;
+  build.optimisation = options.optimise ? "-O2" : "-O0";
+  build.debugInfo = options.debugger;
+  const std::string text = codegen::emitCpp(*compiled.layout, compiled.codeHash, emit);
+  const std::string identity = options.cacheFolder.empty() ? "" : codegen::cppBuildIdentity(text, build);
+  return sealedObject(options.cacheFolder, identity, [&] { return codegen::buildCppSharedObject(text, build); });
+}
+
+// The back end's version, its options, and all that it sees of the program.
+std::string llvmIdentity(const Compiled& compiled, const EngineOptions& options) {
+  std::string identity =
+      fmt::format("llvm {} {} {} {}\n", codegen::codeVersion(), RUNG_ABI_VERSION, options.optimise, options.debugger);
+  for (const ir::Chunk& chunk : compiled.layout->cut().chunks())
+    put(identity, "chunk {} {} {}\n", chunk.routine.index, chunk.firstRung, chunk.rungCount);
+  return identity + compiled.layout->memory().text() + ir::print(compiled.layout->module());
+}
+
+Result<std::string> llvmObject(const Compiled& compiled, const EngineOptions& options) {
+  const std::string identity = options.cacheFolder.empty() ? "" : llvmIdentity(compiled, options);
+  return sealedObject(options.cacheFolder, identity, [&] { return sharedObject(compiled, options); });
 }
 
 } // namespace
@@ -107,17 +135,8 @@ Result<std::unique_ptr<host::Engine>> makeEngine(EngineKind kind, const Compiled
     if (options.observer) engine->setObserver(options.observer(compiled));
     return std::unique_ptr<host::Engine>(std::move(engine));
   }
-  case EngineKind::Cpp:
-    return buildAndLoad(engineName(kind), [&] {
-      codegen::CppOptions emit;
-      emit.debugInfo = options.debugger;
-      codegen::CppBuildOptions build;
-      build.compiler = options.cppCompiler.empty() ? defaultCppCompiler() : options.cppCompiler;
-      build.optimisation = options.optimise ? "-O2" : "-O0";
-      build.debugInfo = options.debugger;
-      return codegen::buildCppSharedObject(codegen::emitCpp(layout, compiled.codeHash, emit), build);
-    });
-  case EngineKind::Llvm: return buildAndLoad(engineName(kind), [&] { return sharedObject(compiled, options); });
+  case EngineKind::Cpp: return loaded(engineName(kind), cppObject(compiled, options));
+  case EngineKind::Llvm: return loaded(engineName(kind), llvmObject(compiled, options));
   case EngineKind::Jit: {
     Result<std::unique_ptr<codegen::JitEngine>> engine =
         codegen::compileJit(layout, compiled.codeHash, jitOptionsOf(options));

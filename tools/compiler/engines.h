@@ -32,7 +32,7 @@ std::span<const EngineKind> allEngines();
 struct EngineOptions {
   bool optimise = true;         // false: fastest compilation
   bool debugger = false;        // with debug information, and the code of the JIT is reported to gdb
-  std::string cacheFolder;      // JIT: see JitOptions; empty: no cache
+  std::string cacheFolder;      // of code made before (object_folder.h, JitOptions); empty: no cache
   std::string cppCompiler;      // empty: the first of clang++-19, g++, c++ that is installed
   bool virtualClock = false;    // tiered: no code has to keep up with a clock
   bool countOperations = false; // interp: profile counters count operations executed, not time

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "ir/core/op_info.h"
+
 namespace rung::coverage {
 namespace {
 

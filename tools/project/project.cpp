@@ -9,6 +9,8 @@
 #include <toml++/toml.h>
 
 #include "frontend/dialects/dialect.h"
+#include "ir/support/diag/project.h"
+#include "ir/support/diag/source.h"
 #include "ir/support/similar.h"
 #include "ir/support/utf8.h"
 
@@ -43,7 +45,7 @@ public:
     try {
       readTable(toml::parse(sources_.text(file_), path));
     } catch (const toml::parse_error& error) {
-      diagnostics_.report(Diag::ProjectSyntax, rangeOf(error.source())) << error.description();
+      diagnostics_.report(diag::ProjectSyntax, rangeOf(error.source())) << error.description();
     }
     return std::move(project_);
   }
@@ -66,12 +68,12 @@ private:
   SourceRange start() const { return sources_.range(file_, 0, 0); }
 
   void wrong(std::string_view key, const toml::node& node, std::string_view expected, std::string_view found) {
-    diagnostics_.report(Diag::ProjectValue, rangeOf(node.source())) << key << found << expected;
+    diagnostics_.report(diag::ProjectValue, rangeOf(node.source())) << key << found << expected;
   }
 
   void reportUnknown(const toml::key& key) {
     const SourceRange range = rangeOf(key.source());
-    DiagBuilder report = diagnostics_.report(Diag::UnknownProjectKey, range);
+    DiagBuilder report = diagnostics_.report(diag::UnknownProjectKey, range);
     report << key.str();
     const std::string_view meant = mostSimilar(key.str(), kKeys);
     report.meant(range, meant);
@@ -135,7 +137,7 @@ private:
 
   void readDialect(const toml::node* node) {
     if (node == nullptr) {
-      diagnostics_.report(Diag::MissingProjectKey, start())
+      diagnostics_.report(diag::MissingProjectKey, start())
           << "dialect" << "write dialect = \"nct\", \"gsk\" or \"technol\"";
       return;
     }
@@ -149,7 +151,7 @@ private:
   void readFiles(const toml::node* node) {
     constexpr std::string_view kExample = "[\"main.lad\", \"io.lad\"]";
     if (node == nullptr) {
-      diagnostics_.report(Diag::MissingProjectKey, start()) << "files" << fmt::format("write files = {}", kExample);
+      diagnostics_.report(diag::MissingProjectKey, start()) << "files" << fmt::format("write files = {}", kExample);
       return;
     }
     forTexts("files", *node, kExample, [&](const std::string& name, const toml::node& element) {
@@ -170,7 +172,7 @@ private:
   }
 
   void missing(const toml::node& node, const std::string& path, std::string_view what) {
-    diagnostics_.report(Diag::MissingProjectFile, rangeOf(node.source())) << path << what;
+    diagnostics_.report(diag::MissingProjectFile, rangeOf(node.source())) << path << what;
   }
 
   void readNc(const toml::node& node) {
@@ -216,7 +218,7 @@ private:
     std::error_code error;
     const std::string path = inFolder(setting.value);
     if (!fs::exists(path, error))
-      diagnostics_.report(Diag::MissingProjectFile, sources_.range(file_, setting.begin, setting.end))
+      diagnostics_.report(diag::MissingProjectFile, sources_.range(file_, setting.begin, setting.end))
           << path << nc::takesOf(*row);
     setting.value = fs::absolute(path, error).string();
   }
@@ -257,7 +259,7 @@ private:
 std::optional<Project> load(SourceManager& sources, const std::string& file, Diagnostics& diagnostics) {
   const Result<FileId> id = sources.addFile(file);
   if (!id.ok()) {
-    diagnostics.report(Diag::FileNotFound) << file << id.error();
+    diagnostics.report(diag::FileNotFound) << file << id.error();
     return std::nullopt;
   }
   const size_t before = diagnostics.errorCount();

@@ -7,6 +7,7 @@
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/dialects/gsk/language.h"
 #include "frontend/network/convert/convert.h"
+#include "ir/support/diag/source.h"
 #include "tools/console/working.h"
 #include "tools/rungc/commands.h"
 
@@ -24,7 +25,7 @@ std::optional<std::string> convert(SourceManager& sources, std::span<const FileI
   const frontend::Dialect* dialect = compiler::chooseDialect(sources, files, options.source.dialect, diagnostics);
   if (dialect == nullptr) return std::nullopt;
   if (dialect != &gsk::kGsk) {
-    diagnostics.report(Diag::NoConversion, sources.range(files[0], 0, 0)) << dialect->title;
+    diagnostics.report(diag::NoConversion, sources.range(files[0], 0, 0)) << dialect->title;
     return std::nullopt;
   }
   if (dialect->compile(sources, files, compile, diagnostics) == nullptr) return std::nullopt;

@@ -466,8 +466,7 @@ void addRun(CommandLine& app, int& status) {
   command.option(
       "--retain", options->retain,
       "Keep the retained memory in FILE.a and FILE.b: taken at the start, saved during the run and at its end");
-  command.option("--cache", options->cache,
-                 "Folder for compiled code of engines jit and tiered, to start the same program faster");
+  command.option("--cache", options->cache, "Folder for compiled code, to start the same program faster");
   addLevelOption(command, options->level);
   addActivityOption(command, options->source.activity);
   // The scenario may name the program, so it is read before the program is looked for.

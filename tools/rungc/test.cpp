@@ -33,6 +33,7 @@ struct TestOptions {
   bool activity = false;
   bool strict = false;
   std::string level = "2";
+  std::string cache;
   CoverageOptions coverage;
   ScenarioTrace trace;
 };
@@ -130,6 +131,7 @@ int runTests(TestOptions& options) {
   run.strict = options.strict;
   run.engine.cppCompiler = options.cxx;
   run.engine.optimise = options.level != "0";
+  run.engine.cacheFolder = options.cache;
   options.trace.attach(run);
   for (int status = kOk;;) {
     const auto since = std::filesystem::file_time_type::clock::now();
@@ -174,6 +176,8 @@ void addTest(CommandLine& app, int& status) {
   options->trace.addTo(command);
   command.option("--junit", options->junit, "Write the results as JUnit XML");
   command.option("--cxx", options->cxx, "C++ compiler of the engine cpp");
+  command.option("--cache", options->cache,
+                 "Folder for compiled code: programs that have not changed are not compiled again");
   addLevelOption(command, options->level);
   addActivityOption(command, options->activity);
   command.flag("--strict", options->strict,

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "ir/support/diag/source.h"
 #include "tools/console/working.h"
 #include "tools/rungc/commands.h"
 #include "tools/view/drawn_program.h"
@@ -29,7 +30,7 @@ std::optional<view::Program> read(SourceManager& sources, std::span<const FileId
   const frontend::Dialect* dialect = compiler::chooseDialect(sources, files, options.source.dialect, diagnostics);
   if (dialect == nullptr) return std::nullopt;
   if (view::hasDrawing(*dialect)) return view::drawnProgram(sources, files, *dialect, compile, diagnostics);
-  diagnostics.report(Diag::NoDrawing, sources.range(files[0], 0, 0)) << dialect->title;
+  diagnostics.report(diag::NoDrawing, sources.range(files[0], 0, 0)) << dialect->title;
   return std::nullopt;
 }
 

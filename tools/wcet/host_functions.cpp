@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "ir/core/op_info.h"
 #include "rtlib/core/queues.h"
 #include "rtlib/host/realtime.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "ir/core/op_info.h"
+#include "ir/core/op_code.h"
 
 namespace rung::wcet {
 

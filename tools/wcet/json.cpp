@@ -1,6 +1,7 @@
 // Bounds as JSON (docs/wcet-format.md).
 #include <nlohmann/json.hpp>
 
+#include "ir/core/op_info.h"
 #include "tools/wcet/bounds.h"
 
 namespace rung::wcet {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "ir/core/op_info.h"
 #include "tools/profile/text.h"
 #include "tools/wcet/bounds.h"
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/diag/structure.h"
 #include "tools/xref/place_names.h"
 #include "tools/xref/place_search.h"
 
@@ -129,7 +130,7 @@ void Checker::addImplicit(const ir::BitRange& place, Sides& sides) const {
 }
 
 void Checker::reportUnused(const Definition& definition) {
-  if (settled_.insert(placeOf(definition)).second) report(Diag::UnusedName, definition);
+  if (settled_.insert(placeOf(definition)).second) report(diag::UnusedName, definition);
 }
 
 void Checker::report(Diag code, const Definition& definition, SourceRange operand) {
@@ -154,8 +155,8 @@ void Checker::check(const Definition& definition, bool used) {
   if (sides.read == sides.written || reference_.uses().isRetained(*place)) return;
   const Entry entry = reference_.of(refAt(*place));
   const SourceRange operand = sides.operands.empty() ? SourceRange{} : sides.operands.front();
-  if (!sides.written && !entry.controlWrites) report(Diag::NeverWritten, definition, operand);
-  if (!sides.read && !entry.controlReads) report(Diag::NeverRead, definition, operand);
+  if (!sides.written && !entry.controlWrites) report(diag::NeverWritten, definition, operand);
+  if (!sides.read && !entry.controlReads) report(diag::NeverRead, definition, operand);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/diag/operand.h"
 #include "rtlib/nc/config_key.h"
 
 namespace rung::gsk {
@@ -51,19 +52,19 @@ std::optional<uint64_t> periodOf(const frontend::CompileOptions& options) {
 void checkConfig(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
   if (const auto period = periodOf(options);
       period && (*period == 0 || *period % kSlotUs != 0 || *period / kSlotUs > kMaxParts))
-    diagnostics.report(Diag::ConstantOutOfRange, options.placeOf("period_us"))
+    diagnostics.report(diag::ConstantOutOfRange, options.placeOf("period_us"))
         << fmt::format("period_us {}", options.config.at("period_us"))
         << fmt::format("multiples of {} up to {}", kSlotUs, kSlotUs * kMaxParts);
   if (const auto steps = options.config.find(kSlotSteps); steps != options.config.end()) {
     const nc::ConfigKey& row = *nc::findConfigKey(nc::gskConfigKeys(), kSlotSteps);
     if (!nc::wrongValue(row, kSlotSteps, steps->second).empty())
-      diagnostics.report(Diag::ConstantOutOfRange, options.placeOf(kSlotSteps))
+      diagnostics.report(diag::ConstantOutOfRange, options.placeOf(kSlotSteps))
           << fmt::format("{} {}", kSlotSteps, steps->second) << nc::takesOf(row);
   }
   for (const auto& [key, text] : options.config) {
     const auto entry = entryOf(key, text);
     if (!entry || isSound(*entry)) continue;
-    diagnostics.report(Diag::ConstantOutOfRange, options.placeOf(key))
+    diagnostics.report(diag::ConstantOutOfRange, options.placeOf(key))
         << fmt::format("{} {}", key, text)
         << fmt::format("{}.1 to {}.{} with 0 to {}", entry->family, entry->family, kNumbers, entry->max);
   }
@@ -86,7 +87,7 @@ Machine configuredMachine(const frontend::CompileOptions& options, Diagnostics& 
   if (at == options.config.end()) return Machine::Any;
   if (at->second == "mill") return Machine::Mill;
   if (at->second == "turn") return Machine::Turn;
-  diagnostics.report(Diag::ConstantOutOfRange, options.placeOf("machine"))
+  diagnostics.report(diag::ConstantOutOfRange, options.placeOf("machine"))
       << "machine " + at->second << nc::takesOf(*nc::findConfigKey(nc::gskConfigKeys(), "machine"));
   return Machine::Any;
 }

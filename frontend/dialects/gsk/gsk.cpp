@@ -9,6 +9,8 @@
 #include "frontend/network/check/analyse.h"
 #include "frontend/network/format.h"
 #include "frontend/network/read/reading.h"
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/nct.h"
 #include "rtlib/nc/gsk/signals.h"
 
 namespace rung::gsk {
@@ -60,7 +62,7 @@ private:
 
 std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,
                                                 const frontend::CompileOptions& options, Diagnostics& diagnostics) {
-  if (options.strict) diagnostics.raiseToError({Diag::DuplicateCounter, Diag::DoubleCoil, Diag::MixedOutput}); // P29
+  if (options.strict) diagnostics.raiseToError({diag::DuplicateCounter, diag::DoubleCoil, diag::MixedOutput}); // P29
   auto program = std::make_unique<GskProgram>(sources, files, options, diagnostics);
   program->check();
   return program;

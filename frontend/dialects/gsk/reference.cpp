@@ -12,6 +12,9 @@
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/language.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/nct.h"
+#include "ir/support/diag/structure.h"
 #include "rtlib/nc/gsk/axis_commands.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/nc/gsk/window_functions.h"
@@ -192,9 +195,9 @@ void addReference(ReferencePage& page) {
   addressAreas(page);
   limits(page);
   pins(page);
-  frontend::addWarnings(page, {Diag::ConditionIgnored, Diag::DuplicateTimer, Diag::DuplicateCounter,
-                               Diag::DuplicateEdgeNumber, Diag::DoubleCoil, Diag::MixedOutput, Diag::SystemAreaWrite,
-                               Diag::LabelZero, Diag::LabelUnused, Diag::SubprogramUnused, Diag::SignalOfOtherMachine});
+  frontend::addWarnings(page, {diag::ConditionIgnored, diag::DuplicateTimer, diag::DuplicateCounter,
+                               diag::DuplicateEdgeNumber, diag::DoubleCoil, diag::MixedOutput, diag::SystemAreaWrite,
+                               diag::LabelZero, diag::LabelUnused, diag::SubprogramUnused, diag::SignalOfOtherMachine});
   windowFunctions(page);
   axisCommands(page);
   signals(page);

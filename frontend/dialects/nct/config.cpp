@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/project.h"
 #include "rtlib/nc/config_key.h"
 #include "rtlib/nc/nct/signals.h"
 
@@ -19,7 +21,7 @@ void readPeriod(const frontend::CompileOptions& options, const char* key, int64_
   if (wrong.empty())
     out = static_cast<uint32_t>(parse(entry->second));
   else
-    diagnostics.report(Diag::ConfigValue, options.placeOf(key)) << wrong;
+    diagnostics.report(diag::ConfigValue, options.placeOf(key)) << wrong;
 }
 
 void readWord(const frontend::CompileOptions& options, const char* key, uint32_t least, uint32_t& out,
@@ -30,7 +32,7 @@ void readWord(const frontend::CompileOptions& options, const char* key, uint32_t
   if (word >= least && word < kWords)
     out = static_cast<uint32_t>(word);
   else
-    diagnostics.report(Diag::ConstantOutOfRange, options.placeOf(key))
+    diagnostics.report(diag::ConstantOutOfRange, options.placeOf(key))
         << std::string(key) + " " + entry->second << std::to_string(least) + " to " + std::to_string(kWords - 1);
 }
 

@@ -13,6 +13,10 @@
 #include "frontend/dialects/nct/lower/build_module.h"
 #include "frontend/dialects/nct/reference.h"
 #include "frontend/ladder/text/format.h"
+#include "ir/support/diag/nct.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/source.h"
+#include "ir/support/diag/structure.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/nct/messages.h"
 
@@ -51,7 +55,7 @@ private:
     for (FileId file : ids_) {
       ladder::LadderFile& parsed = files_.emplace_back(ladder::parseLadder(sources_, file, diagnostics_, findBoxInfo));
       if (!parsed.dialect.empty() && parsed.dialect != "nct")
-        diagnostics_.report(Diag::DialectConflict, parsed.dialectRange) << parsed.dialect << "nct";
+        diagnostics_.report(diag::DialectConflict, parsed.dialectRange) << parsed.dialect << "nct";
       if (parsed.dialect.empty()) nameless_ = true; // the file could not be read
     }
   }
@@ -82,7 +86,7 @@ private:
     }
     if (!program_.main.exists && !program_.main.range.valid() && !nameless_) {
       const SourceRange range = files_.empty() ? SourceRange{} : files_[0].dialectRange;
-      diagnostics_.report(Diag::MissingMain, range);
+      diagnostics_.report(diag::MissingMain, range);
     }
   }
 
@@ -97,11 +101,11 @@ private:
     uint32_t number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) {
-      diagnostics_.report(Diag::ConstantFormat, declaration.name.range) << digits;
+      diagnostics_.report(diag::ConstantFormat, declaration.name.range) << digits;
     } else if (error != std::errc() || number < 1 || number > most) {
-      diagnostics_.report(Diag::ConstantOutOfRange, declaration.name.range) << digits << "1 to " + std::to_string(most);
+      diagnostics_.report(diag::ConstantOutOfRange, declaration.name.range) << digits << "1 to " + std::to_string(most);
     } else if (!numbers_.insert(number + offset).second) {
-      diagnostics_.report(Diag::DuplicateSymbol, declaration.name.range) << digits;
+      diagnostics_.report(diag::DuplicateSymbol, declaration.name.range) << digits;
     } else {
       texts_.messages.push_back({number + offset, std::string(declaration.value.text)});
       return number;
@@ -116,14 +120,14 @@ private:
     TypedModule* module = name == "MAIN" ? &program_.main : name == "INT0" ? &program_.int0 : nullptr;
     if (module == nullptr || statement.name.size() > 1) {
       const SourceRange range = join(statement.name.front().range, statement.name.back().range);
-      DiagBuilder report = diagnostics_.report(Diag::UnknownModule, range);
+      DiagBuilder report = diagnostics_.report(diag::UnknownModule, range);
       report << sources_.text(range) << "MAIN or INT0";
       report.meant(range, mostSimilar(sources_.text(range), std::array{"MAIN", "INT0"}));
       nameless_ = true;
       return reported_;
     }
     if (module->exists && module->lastFile == &file) {
-      diagnostics_.report(Diag::DuplicateModule, statement.range).note(module->range, "here") << name;
+      diagnostics_.report(diag::DuplicateModule, statement.range).note(module->range, "here") << name;
       module->partial = true;
       return reported_;
     }
@@ -176,7 +180,7 @@ private:
 
 std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,
                                                 const CompileOptions& options, Diagnostics& diagnostics) {
-  if (options.strict) diagnostics.raiseToError({Diag::SymbolInNcArea});
+  if (options.strict) diagnostics.raiseToError({diag::SymbolInNcArea});
   auto program = std::make_unique<NctProgram>(sources, files, options, diagnostics);
   program->check();
   return program;

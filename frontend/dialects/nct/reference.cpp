@@ -4,6 +4,9 @@
 #include "frontend/dialects/nct/config.h"
 #include "frontend/dialects/nct/rows/instructions.h"
 #include "frontend/dialects/nct/signal_text.h"
+#include "ir/support/diag/nct.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/structure.h"
 #include "rtlib/nc/nct/axis_codes.h"
 #include "rtlib/nc/nct/messages.h"
 #include "rtlib/nc/nct/parameters.h"
@@ -215,9 +218,9 @@ void signals(ReferencePage& page) {
 void addReference(ReferencePage& page) {
   memory(page);
   pins(page);
-  frontend::addWarnings(page, {Diag::WriteToInput, Diag::SymbolInNcArea, Diag::UnknownFunctionCode,
-                               Diag::Int0OnlySignal, Diag::SignalIndex, Diag::MixedOutput, Diag::BackwardJump,
-                               Diag::LabelUnused, Diag::SubroutineUnused, Diag::SharedState});
+  frontend::addWarnings(page, {diag::WriteToInput, diag::SymbolInNcArea, diag::UnknownFunctionCode,
+                               diag::Int0OnlySignal, diag::SignalIndex, diag::MixedOutput, diag::BackwardJump,
+                               diag::LabelUnused, diag::SubroutineUnused, diag::SharedState});
   functions(page);
   parameters(page);
   messages(page);

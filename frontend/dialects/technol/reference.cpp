@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frontend/dialects/technol/read/symbols.h"
+#include "ir/support/diag/technol.h"
 #include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"
@@ -79,9 +80,9 @@ void addReference(ReferencePage& page) {
     page.row(fmt::format("`{}`", signal.symbol), typeOf(signal), accessText(signal),
              signal.meaning + (use.empty() ? "" : "; " + use), fmt::format("l.{}", signal.manualLine));
   }
-  addWarnings(page, {Diag::CntsPrefix, Diag::JloAlias, Diag::MixedRealInteger, Diag::NameTooLong, Diag::ReservedWord,
-                     Diag::SharedName, Diag::StringTooLong, Diag::TextAfterStop, Diag::TmOutsideDftm,
-                     Diag::UnterminatedEquation, Diag::ValueNotPreserved});
+  addWarnings(page, {diag::CntsPrefix, diag::JloAlias, diag::MixedRealInteger, diag::NameTooLong, diag::ReservedWord,
+                     diag::SharedName, diag::StringTooLong, diag::TextAfterStop, diag::TmOutsideDftm,
+                     diag::UnterminatedEquation, diag::ValueNotPreserved});
 }
 
 namespace {

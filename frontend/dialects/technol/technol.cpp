@@ -12,6 +12,7 @@
 #include "frontend/dialects/technol/read/reader.h"
 #include "frontend/dialects/technol/reference.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
+#include "ir/support/diag/technol.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend {
@@ -25,7 +26,7 @@ uint32_t periodOf(const CompileOptions& options, Diagnostics& diagnostics) {
   if (found == options.config.end()) return technol::kDefaultPeriodUs;
   const nc::ConfigKey& row = *nc::findConfigKey(nc::technolConfigKeys(), "period_us");
   if (nc::wrongValue(row, row.key, found->second).empty()) return static_cast<uint32_t>(nc::wholeNumber(found->second));
-  diagnostics.report(Diag::OperandRange, options.placeOf("period_us"))
+  diagnostics.report(diag::OperandRange, options.placeOf("period_us"))
       << "period_us " + found->second << nc::takesOf(row);
   return technol::kDefaultPeriodUs;
 }
@@ -35,7 +36,7 @@ technol::Encoding encodingOf(const CompileOptions& options, Diagnostics& diagnos
   if (found == options.config.end()) return technol::Encoding::Detect;
   const technol::Encoding encoding = technol::encodingNamed(found->second);
   if (encoding == technol::Encoding::Detect)
-    diagnostics.report(Diag::OperandRange, options.placeOf("encoding"))
+    diagnostics.report(diag::OperandRange, options.placeOf("encoding"))
         << "encoding " + found->second << nc::takesOf(*nc::findConfigKey(nc::technolConfigKeys(), "encoding"));
   return encoding;
 }

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "frontend/ladder/text/drawing.h"
+#include "ir/support/diag/ladder.h"
+#include "ir/support/diag/source.h"
 #include "ir/support/similar.h"
 
 namespace rung::ladder {
@@ -69,13 +71,13 @@ LadderFile Parser::run() {
   LineReader lines(sources_, result_.file);
   for (SourceLine source; lines.next(source);) line(source);
   closeRung();
-  if (!hadStatement_) diagnostics_.report(Diag::MissingDialect, sources_.range(result_.file, 0, 0));
+  if (!hadStatement_) diagnostics_.report(diag::MissingDialect, sources_.range(result_.file, 0, 0));
   return std::move(result_);
 }
 
 void Parser::line(const SourceLine& source) {
   const size_t tab = source.text.find('\t');
-  if (tab != std::string_view::npos) diagnostics_.report(Diag::TabCharacter, source.range(tab, tab + 1));
+  if (tab != std::string_view::npos) diagnostics_.report(diag::TabCharacter, source.range(tab, tab + 1));
   const size_t first = source.text.find_first_not_of(" \t");
   if (first == std::string_view::npos) {
     closeRung();
@@ -102,7 +104,7 @@ void Parser::drawingLine(const SourceLine& source) {
   } else if (place_ == Place::Outside && rungIsEmpty_) { // this is its drawing, and it has been reported
     place_ = Place::Skipped;
   } else if (place_ == Place::Outside) {
-    DiagBuilder report = diagnostics_.report(Diag::StrayDrawing, source.range());
+    DiagBuilder report = diagnostics_.report(diag::StrayDrawing, source.range());
     if (!result_.rungs.empty())
       report.note(result_.rungs.back().statement, "this rung's drawing ended at a blank line or another statement");
     place_ = Place::Skipped;
@@ -110,7 +112,7 @@ void Parser::drawingLine(const SourceLine& source) {
 }
 
 void Parser::reportUnknown(const Word& keyword) {
-  DiagBuilder report = diagnostics_.report(Diag::UnknownStatement, keyword.range);
+  DiagBuilder report = diagnostics_.report(diag::UnknownStatement, keyword.range);
   report << keyword.text;
   if (keyword.text.starts_with("//") || keyword.text.starts_with('#')) {
     report.note("a comment begins with ';'");
@@ -131,7 +133,7 @@ bool Parser::checkWords(const SourceLine& source) {
     return false;
   }
   if (!words_.unterminatedQuote) return true;
-  diagnostics_.report(Diag::UnterminatedQuote, words_.words.back().range) << '"';
+  diagnostics_.report(diag::UnterminatedQuote, words_.words.back().range) << '"';
   return false;
 }
 
@@ -150,7 +152,7 @@ void Parser::statement(const SourceLine& source) {
     place_ = Place::Skipped;
     return;
   }
-  if (isFirst && keyword.text != "dialect") diagnostics_.report(Diag::MissingDialect, keyword.range);
+  if (isFirst && keyword.text != "dialect") diagnostics_.report(diag::MissingDialect, keyword.range);
   dispatch(source, keyword.text);
 }
 
@@ -166,12 +168,12 @@ void Parser::dispatch(const SourceLine& source, std::string_view keyword) {
 }
 
 void Parser::malformed(std::string_view form) {
-  diagnostics_.report(Diag::MalformedStatement, statementRange()) << words_.words.front().text << form;
+  diagnostics_.report(diag::MalformedStatement, statementRange()) << words_.words.front().text << form;
 }
 
 void Parser::dialect() {
   if (!result_.dialect.empty() || !result_.statements.empty()) {
-    diagnostics_.report(Diag::MisplacedDialect, statementRange());
+    diagnostics_.report(diag::MisplacedDialect, statementRange());
   } else if (words_.words.size() != 2 || words_.words[1].quoted) {
     malformed("dialect NAME");
   } else {
@@ -224,7 +226,7 @@ void Parser::openRung(const SourceLine& source) {
   if (!result_.modules.empty()) {
     rung.module = static_cast<uint32_t>(result_.modules.size() - 1);
   } else if (!hadOutsideRung_) {
-    diagnostics_.report(Diag::RungOutsideModule, rung.statement);
+    diagnostics_.report(diag::RungOutsideModule, rung.statement);
     hadOutsideRung_ = true;
   }
   add(StatementKind::Rung, result_.rungs.size());
@@ -241,7 +243,7 @@ void Parser::closeRung() {
 
 void Parser::finishRung(Rung& rung) {
   if (!drawing_.bad && drawing_.elements.empty()) {
-    diagnostics_.report(Diag::EmptyRung, rung.statement)
+    diagnostics_.report(diag::EmptyRung, rung.statement)
         .note("its drawing begins on the next line, without a blank line between");
     drawing_.bad = true;
     rungIsEmpty_ = true;

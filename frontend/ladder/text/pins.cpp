@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "frontend/ladder/text/drawing.h"
+#include "ir/support/diag/ladder.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::ladder {
@@ -115,7 +116,7 @@ void PinGrouper::box(const DrawnLine& line, const Token& token) {
       row.group = near->group;
     } else if (const Row* meant = misalignedTo(line, token, near)) {
       const SourceRange box = drawing_.elements[groups_[meant->group].head].range;
-      diagnostics_.report(Diag::MisalignedBox, element.range).label(box, "the box") << meant->column + 1;
+      diagnostics_.report(diag::MisalignedBox, element.range).label(box, "the box") << meant->column + 1;
       drawing_.bad = true;
       // Continue as if it were where it should be, so that the lines below are judged by the box.
       addPin(meant->group, token.element);

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "frontend/ladder/text/drawing.h"
+#include "ir/support/diag/ladder.h"
+#include "ir/support/diag/source.h"
 #include "ir/support/utf8.h"
 
 namespace rung::ladder {
@@ -112,7 +114,7 @@ void LineScanner::strayText() {
     badCharacter(at_);
     return;
   }
-  diagnostics_.report(Diag::StrayText, line_.range(at_, end)) << text_.substr(at_, end - at_);
+  diagnostics_.report(diag::StrayText, line_.range(at_, end)) << text_.substr(at_, end - at_);
 }
 
 /// The comment after the line belongs to its last element.
@@ -163,12 +165,12 @@ void LineScanner::unread() {
 }
 
 bool LineScanner::unclosed(size_t end, char close) {
-  diagnostics_.report(Diag::UnclosedElement, line_.range(at_, dropBlanks(at_ + 1, end))) << close;
+  diagnostics_.report(diag::UnclosedElement, line_.range(at_, dropBlanks(at_ + 1, end))) << close;
   return false;
 }
 
 bool LineScanner::badElement(size_t end, std::string_view forms) {
-  diagnostics_.report(Diag::BadElement, line_.range(at_, end)) << forms;
+  diagnostics_.report(diag::BadElement, line_.range(at_, end)) << forms;
   return false;
 }
 
@@ -255,7 +257,7 @@ bool LineScanner::box(Element& element) {
     if (quoted) {
       const size_t close = text_.find('"', at + 1);
       if (close == std::string_view::npos) {
-        diagnostics_.report(Diag::UnterminatedQuote, line_.range(at, text_.size())) << '"';
+        diagnostics_.report(diag::UnterminatedQuote, line_.range(at, text_.size())) << '"';
         return false;
       }
       end = close + 1;
@@ -307,7 +309,7 @@ void reportBadCharacter(const SourceLine& line, size_t offset, Diagnostics& diag
   const SourceRange range = line.range(offset, offset + character.length);
   std::string name = fmt::format("U+{:04X}", character.value);
   if (character.value > 0x20) name += fmt::format(" '{}'", line.text.substr(offset, character.length));
-  DiagBuilder report = diagnostics.report(Diag::BadCharacter, range);
+  DiagBuilder report = diagnostics.report(diag::BadCharacter, range);
   report << name;
   if (const char* meant = asciiFor(character.value)) report.note(fmt::format("write {}", meant));
 }

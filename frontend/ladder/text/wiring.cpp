@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "frontend/ladder/text/drawing.h"
+#include "ir/support/diag/ladder.h"
 
 namespace rung::ladder {
 namespace {
@@ -125,7 +126,7 @@ void Wiring::loose(uint32_t line, size_t begin, size_t end, std::string_view wha
   drawing_.bad = true;
   if (reported_[line]) return;
   reported_[line] = true;
-  diagnostics_.report(Diag::DanglingWire, drawing_.lines[line].source.range(begin, end)) << what;
+  diagnostics_.report(diag::DanglingWire, drawing_.lines[line].source.range(begin, end)) << what;
 }
 
 void Wiring::joinLine(uint32_t line) {
@@ -312,9 +313,9 @@ void Wiring::checkOpenEnds() {
       loose(end.line, drawing_.tokens[end.token].begin, drawing_.tokens[end.token].end,
             "this wire has nothing on its right");
     } else if (onlyCoilsDrive(net)) {
-      diagnostics_.report(Diag::ElementAfterClosing, range) << "a coil";
+      diagnostics_.report(diag::ElementAfterClosing, range) << "a coil";
     } else {
-      DiagBuilder report = diagnostics_.report(Diag::MissingClosingElement, range);
+      DiagBuilder report = diagnostics_.report(diag::MissingClosingElement, range);
       report << "a wire";
       if (const auto join = nearestJoin(end))
         report.note(join->place, fmt::format("this '+' is in column {}, the end of the branch in column {}: branches "

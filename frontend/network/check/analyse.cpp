@@ -8,6 +8,8 @@
 
 #include "frontend/network/check/analyse.h"
 #include "frontend/sema/call_graph.h"
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/structure.h"
 
 namespace rung::network {
 namespace {
@@ -35,8 +37,8 @@ public:
     for (const Network& network : unit_.networks) count(controlOf(network));
     for (uint32_t i = 0; i < unit_.networks.size(); ++i) visit(i);
     if (incomplete_) return;
-    if (jmp_.open != kNone) missing(Diag::MissingJmpe, jmp_);
-    if (com_.open != kNone) missing(Diag::MissingCome, com_);
+    if (jmp_.open != kNone) missing(diag::MissingJmpe, jmp_);
+    if (com_.open != kNone) missing(diag::MissingCome, com_);
   }
 
 private:
@@ -73,11 +75,11 @@ private:
 
   void visit(uint32_t i) {
     const Control control = controlOf(unit_.networks[i]);
-    if (control == Control::Come && ends(com_, Diag::StrayCome, i)) come(i);
+    if (control == Control::Come && ends(com_, diag::StrayCome, i)) come(i);
     unit_.networks[i].com = com_.open;
-    if (control == Control::Com) begin(com_, Diag::NestedCom, i);
-    if (control == Control::Jmp) begin(jmp_, Diag::NestedJmp, i);
-    if (control == Control::Jmpe && ends(jmp_, Diag::StrayJmpe, i)) jmpe(i);
+    if (control == Control::Com) begin(com_, diag::NestedCom, i);
+    if (control == Control::Jmp) begin(jmp_, diag::NestedJmp, i);
+    if (control == Control::Jmpe && ends(jmp_, diag::StrayJmpe, i)) jmpe(i);
   }
 
   void begin(Kind& kind, Diag nested, uint32_t i) {
@@ -101,7 +103,7 @@ private:
 
   // Reports that a jump region and a common line overlap; `note` is where the other one begins.
   void overlap(SourceRange range, const Kind& note, std::string_view what) {
-    diagnostics_.report(Diag::JumpOutOfCom, range).note(at(note.open), fmt::format("{} is here", nameOf(note.opens)))
+    diagnostics_.report(diag::JumpOutOfCom, range).note(at(note.open), fmt::format("{} is here", nameOf(note.opens)))
         << what << nameOf(com_.opens);
   }
 
@@ -192,7 +194,7 @@ void Analysis::addLabel(uint32_t unit, uint32_t index) {
   const SourceRange range = network.function.params[0].range;
   const auto [at, isNew] = labels_.emplace(*number, Label{unit, index, range});
   if (!isNew)
-    diagnostics_.report(Diag::DuplicateLabel, range).note(at->second.range, "the first one is here")
+    diagnostics_.report(diag::DuplicateLabel, range).note(at->second.range, "the first one is here")
         << language_.numbered(Control::Lbl, *number);
 }
 
@@ -217,7 +219,7 @@ void Analysis::resolveCalls() {
     const auto at = subprograms_.find(*number);
     if (at == subprograms_.end()) {
       if (!incomplete_)
-        diagnostics_.report(Diag::UndefinedSubprogram, network.function.params[0].range)
+        diagnostics_.report(diag::UndefinedSubprogram, network.function.params[0].range)
             << language_.numbered(Control::Sp, *number);
       return;
     }
@@ -233,7 +235,7 @@ bool Analysis::findCircles() {
   order_ = std::move(order.calleesFirst);
   const auto nameOfUnit = [&](uint32_t unit) { return nameOf(language_, program_.units[unit]); };
   for (const frontend::CallGraph::Circle& circle : order.circles)
-    diagnostics_.report(Diag::RecursiveCall, circle.call.range)
+    diagnostics_.report(diag::RecursiveCall, circle.call.range)
         << nameOfUnit(circle.call.callee) << frontend::CallGraph::throughText(circle, nameOfUnit);
   return order.circles.empty();
 }
@@ -248,7 +250,7 @@ void Analysis::checkDepth() {
       runs[call.callee] = true;
       depth[call.callee] = std::max(depth[call.callee], depth[*at] + 1);
       if (depth[*at] == language_.maxCallDepth)
-        diagnostics_.report(Diag::NestingTooDeep, call.range) << language_.maxCallDepth;
+        diagnostics_.report(diag::NestingTooDeep, call.range) << language_.maxCallDepth;
     }
   }
 }
@@ -277,7 +279,7 @@ void Analysis::resolveJumps() {
   eachNetwork([&](uint32_t u, uint32_t, Network& network) {
     const Control control = controlOf(network);
     if (control == Control::Jmpc && program_.units[u].kind != UnitKind::Subprogram)
-      diagnostics_.report(Diag::JmpcOutsideSubprogram, network.function.range) << network.function.row->info.mnemonic;
+      diagnostics_.report(diag::JmpcOutsideSubprogram, network.function.range) << network.function.row->info.mnemonic;
     if (control == Control::Jmpb || control == Control::Jmpc) resolveJump(u, network);
   });
 }
@@ -292,7 +294,7 @@ void Analysis::resolveJump(uint32_t u, Network& network) {
   const std::string name = language_.numbered(Control::Lbl, *number);
   const auto at = labels_.find(*number);
   if (at == labels_.end()) {
-    if (!incomplete_ && !labelLost_) diagnostics_.report(Diag::UndefinedLabel, range) << name << "in this program";
+    if (!incomplete_ && !labelLost_) diagnostics_.report(diag::UndefinedLabel, range) << name << "in this program";
     return;
   }
   at->second.used = true;
@@ -300,12 +302,12 @@ void Analysis::resolveJump(uint32_t u, Network& network) {
   const Unit& unit = program_.units[u];
   if (leaves && unit.kind != UnitKind::Subprogram) return; // reported
   if (leaves ? at->second.unit != kLevel2 || unit.fromLevel1 : at->second.unit != u) {
-    diagnostics_.report(Diag::JumpAcrossEnd, range).note(at->second.range, "the label is here") << name;
+    diagnostics_.report(diag::JumpAcrossEnd, range).note(at->second.range, "the label is here") << name;
     return;
   }
   const uint32_t targetCom = program_.units[at->second.unit].networks[at->second.network].com;
   if (leaves ? network.com != kNone || targetCom != kNone : network.com != targetCom)
-    diagnostics_.report(Diag::JumpOutOfCom, range)
+    diagnostics_.report(diag::JumpOutOfCom, range)
         << network.function.row->info.mnemonic << language_.mnemonicOf(Control::Com);
   if (leaves)
     resolveLeave(network, at->second);
@@ -324,11 +326,11 @@ void Analysis::reportUnused() {
   if (incomplete_) return;
   if (!jumpLost_)
     for (const auto& [number, label] : labels_)
-      if (!label.used) diagnostics_.report(Diag::LabelUnused, label.range) << language_.numbered(Control::Lbl, number);
+      if (!label.used) diagnostics_.report(diag::LabelUnused, label.range) << language_.numbered(Control::Lbl, number);
   if (callLost_) return;
   for (const auto& [number, unit] : subprograms_)
     if (!called_[unit])
-      diagnostics_.report(Diag::SubprogramUnused, program_.units[unit].nameRange)
+      diagnostics_.report(diag::SubprogramUnused, program_.units[unit].nameRange)
           << language_.numbered(Control::Sp, number);
 }
 
@@ -341,9 +343,9 @@ void Analysis::checkNumbers() {
     if (row == nullptr || row->numbers == Row::Numbers::Free || network.function.params.empty() ||
         network.function.params[0].bad)
       return;
-    const Diag code = row->numbers == Row::Numbers::Timer     ? Diag::DuplicateTimer
-                      : row->numbers == Row::Numbers::Counter ? Diag::DuplicateCounter
-                                                              : Diag::DuplicateEdgeNumber;
+    const Diag code = row->numbers == Row::Numbers::Timer     ? diag::DuplicateTimer
+                      : row->numbers == Row::Numbers::Counter ? diag::DuplicateCounter
+                                                              : diag::DuplicateEdgeNumber;
     const int family = row->numbers == Row::Numbers::Edge ? -1 : row->info.number;
     const Param& number = network.function.params[0];
     const auto [at, isNew] = seen.emplace(std::pair(family, number.value), number.range);

@@ -16,6 +16,8 @@
 #include <fmt/format.h>
 
 #include "frontend/network/check/analyse.h"
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/nct.h"
 
 namespace rung::network {
 namespace {
@@ -266,7 +268,7 @@ std::string CoilCheck::whereIs(const Place& other, const Place& here) const {
 void CoilCheck::doubleCoil(const Place& here, const Place& other) {
   if (!reported_.insert(here.coil).second) return;
   doubles_.insert(keyOf(here.coil->bit));
-  diagnostics_.report(Diag::DoubleCoil, here.coil->range)
+  diagnostics_.report(diag::DoubleCoil, here.coil->range)
           .note(other.coil->range, "the other coil is " + whereIs(other, here))
       << textOf(language_, here.coil->bit);
 }
@@ -274,7 +276,7 @@ void CoilCheck::doubleCoil(const Place& here, const Place& other) {
 // Once for a bit.
 void CoilCheck::mixed(const std::optional<Place>& out, const std::optional<Place>& latch) {
   if (!out || !latch || !mixed_.insert(keyOf(out->coil->bit)).second) return;
-  diagnostics_.report(Diag::MixedOutput, out->coil->range)
+  diagnostics_.report(diag::MixedOutput, out->coil->range)
           .note(latch->coil->range,
                 fmt::format("{} is {}", language_.nameOf(commandOf(latch->coil->kind)), whereIs(*latch, *out)))
       << textOf(language_, out->coil->bit);

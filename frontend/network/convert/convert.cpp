@@ -9,6 +9,7 @@
 #include "frontend/network/convert/drawing.h"
 #include "frontend/network/convert/writers.h"
 #include "ir/support/check.h"
+#include "ir/support/diag/gsk.h"
 
 namespace rung::network {
 namespace {
@@ -72,7 +73,7 @@ bool checkDrawings(const Language& language, const SourceProgram& model, Diagnos
     for (const SourceNetwork& network : unit.networks) {
       const convert::DrawingSize size = sizeOf(language, network);
       if (size.lines * size.columns > convert::kMaxDrawing)
-        diagnostics.report(Diag::DrawingTooLarge, network.range) << size.lines << size.columns;
+        diagnostics.report(diag::DrawingTooLarge, network.range) << size.lines << size.columns;
     }
   }
   return !diagnostics.hasErrors();

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "ir/support/ascii.h"
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/operand.h"
 #include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
 
@@ -39,7 +41,7 @@ bool checkArea(Context& context, const Word& word, Area area, uint64_t byte, uin
   const AreaInfo& info = context.language.at(area);
   if (byte + length <= info.bytes) return true;
   const std::string shown = length > 1 ? fmt::format("{} with {} bytes", word.text, length) : std::string(word.text);
-  context.diagnostics.report(Diag::AddressOutOfRange, word.range)
+  context.diagnostics.report(diag::AddressOutOfRange, word.range)
       << shown << fmt::format("{0}0 to {0}{1}", info.letter, info.bytes - 1);
   return false;
 }
@@ -55,7 +57,7 @@ std::optional<NamedAddress> readAddress(Diagnostics& diagnostics, const AddressT
   NamedAddress address{{text.area, static_cast<uint32_t>(std::min<uint64_t>(text.byte, UINT32_MAX)), 0, text.hasPoint}};
   if (!text.hasPoint) return address;
   if (text.bit.size() != 1 || text.bit[0] < '0' || text.bit[0] > '7') {
-    DiagBuilder report = diagnostics.report(Diag::BadBitNumber, word.range);
+    DiagBuilder report = diagnostics.report(diag::BadBitNumber, word.range);
     report << text.bit;
     if (text.bit.find_first_of("oO") != std::string_view::npos) report.note("a zero is a digit, not the letter O");
     return std::nullopt;
@@ -108,7 +110,7 @@ void explain(const Context& context, const UndeclaredName& use, DiagBuilder& rep
 
 // A word that is an address is one also where the table has a signal of that name: T00 to T31.
 void reportNoBit(Context& context, const Word& word, const Address& address) {
-  DiagBuilder report = context.diagnostics.report(Diag::BitAddressExpected, word.range);
+  DiagBuilder report = context.diagnostics.report(diag::BitAddressExpected, word.range);
   report << word.text;
   const nc::Signal* signal = nc::findSignal(context.language.signals(), word.text);
   if (signal != nullptr && addressOf(context.language, *signal) != address)
@@ -125,7 +127,7 @@ frontend::NamedPlace placeOf(const Language& language, const Address& address, u
 
 UserName* Names::declare(Context& context, const Word& name, UserName::Kind kind) {
   if (name.quoted || !isFreeName(context.language, name.text)) {
-    context.diagnostics.report(Diag::BadOperand, name.range)
+    context.diagnostics.report(diag::BadOperand, name.range)
         << name.text << "free name: a letter, then letters, digits and _, and no command, address, label or subprogram";
     return nullptr;
   }
@@ -147,7 +149,7 @@ void Names::addSymbol(Context& context, const Word& name, const Word& value, std
     symbol->address = *signal;
     symbol->bad = false;
   } else {
-    context.diagnostics.report(Diag::BadOperand, value.range) << value.text << "bit or byte address or signal";
+    context.diagnostics.report(diag::BadOperand, value.range) << value.text << "bit or byte address or signal";
   }
   symbol->definition = context.analysis.define({.name = name.text, .comment = comment, .range = name.range});
   if (!symbol->bad)
@@ -158,7 +160,7 @@ void Names::addConstant(Context& context, const Word& name, const Word& value) {
   UserName* constant = declare(context, name, UserName::Kind::Constant);
   if (constant == nullptr) return;
   const auto number = parseConstant(value.text);
-  if (!number) context.diagnostics.report(Diag::BadOperand, value.range) << value.text << "constant";
+  if (!number) context.diagnostics.report(diag::BadOperand, value.range) << value.text << "constant";
   constant->value = number.value_or(0);
   constant->bad = !number;
   constant->definition = context.analysis.define({.name = name.text, .range = name.range, .value = value.text});
@@ -185,7 +187,7 @@ std::optional<NamedAddress> Names::useSignal(Context& context, const Word& word)
 
 void reportUnknownCommand(Context& context, const Word& word) {
   const Language& language = context.language;
-  DiagBuilder report = context.diagnostics.report(Diag::UnknownCommand, word.range);
+  DiagBuilder report = context.diagnostics.report(diag::UnknownCommand, word.range);
   report << word.text;
   if (const Row* row = language.findFunction(word.text)) {
     report.note(
@@ -196,7 +198,7 @@ void reportUnknownCommand(Context& context, const Word& word) {
 }
 
 void reportUnknownFunction(Context& context, std::string_view name, SourceRange range) {
-  DiagBuilder report = context.diagnostics.report(Diag::UnknownFunction, range);
+  DiagBuilder report = context.diagnostics.report(diag::UnknownFunction, range);
   report << name;
   if (!context.diagnostics.suggests()) return;
   const auto isFunction = [](const Row* row) { return row->info.number >= 0; };
@@ -208,19 +210,19 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
 void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std::string_view expected) {
   const UndeclaredName use{{word.text, word.range}, kind, expected};
   if (isFreeName(context.language, word.text) && !context.names.has(word.text)) return context.undeclared.add(use);
-  DiagBuilder report = context.diagnostics.report(Diag::BadOperand, word.range);
+  DiagBuilder report = context.diagnostics.report(diag::BadOperand, word.range);
   report << word.text;
   explain(context, use, report);
 }
 
 void reportUndeclared(Context& context) {
-  context.undeclared.report(context.diagnostics, Diag::BadOperand,
+  context.undeclared.report(context.diagnostics, diag::BadOperand,
                             [&](DiagBuilder& report, const UndeclaredName& use) { explain(context, use, report); });
 }
 
 void countStep(Context& context, SourceRange range) {
   const uint32_t most = context.language.maxSteps;
-  if (++context.steps == most + 1) context.diagnostics.report(Diag::ProgramTooLarge, range) << most;
+  if (++context.steps == most + 1) context.diagnostics.report(diag::ProgramTooLarge, range) << most;
 }
 
 std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint32_t length) {
@@ -228,7 +230,7 @@ std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint
   if (!found.known) unknownOperand(context, word, UserName::Kind::Symbol, "byte address, signal or declared name");
   if (!found.address) return std::nullopt;
   if (found.address->isBit) {
-    context.diagnostics.report(Diag::ByteAddressExpected, word.range) << word.text;
+    context.diagnostics.report(diag::ByteAddressExpected, word.range) << word.text;
     return std::nullopt;
   }
   if (!checkArea(context, word, found.address->area, found.address->byte, length)) return std::nullopt;
@@ -240,15 +242,15 @@ bool checkWritable(Context& context, const Address& address, uint32_t length, So
   const AreaInfo& area = context.language.at(address.area);
   const std::string text = textOf(context.language, address);
   if (area.use == AreaUse::Input) {
-    context.diagnostics.report(Diag::WriteToInput, range) << text << "an input and cannot be written";
+    context.diagnostics.report(diag::WriteToInput, range) << text << "an input and cannot be written";
     return false;
   }
   if (touchesPreset(area, address.byte, length)) {
-    context.diagnostics.report(Diag::WriteToPreset, range) << text;
+    context.diagnostics.report(diag::WriteToPreset, range) << text;
     return false;
   }
   if (address.byte + length > area.system)
-    context.diagnostics.report(Diag::SystemAreaWrite, range) << text << area.letter;
+    context.diagnostics.report(diag::SystemAreaWrite, range) << text << area.letter;
   return true;
 }
 

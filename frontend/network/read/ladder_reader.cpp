@@ -10,6 +10,9 @@
 #include "frontend/network/read/condition.h"
 #include "frontend/network/read/network_builder.h"
 #include "frontend/network/read/title.h"
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/ladder.h"
+#include "ir/support/diag/source.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
@@ -76,14 +79,14 @@ std::string RungReader::nameOf(const Element& element) const {
 
 bool RungReader::checkKind(const Element& element) {
   if (element.edge != 0) {
-    diagnostics_.report(Diag::UnsupportedElement, element.range)
+    diagnostics_.report(diag::UnsupportedElement, element.range)
         << (element.kind == ElementKind::Coil ? "a coil for an edge" : "an edge contact")
         << fmt::format("use {}",
                        context_.language.mnemonicsOf([](const Row& row) { return row.numbers == Row::Numbers::Edge; }));
     return false;
   }
   if (element.kind == ElementKind::Contact && !element.output.valid()) {
-    diagnostics_.report(Diag::MissingClosingElement, element.range) << "a contact";
+    diagnostics_.report(diag::MissingClosingElement, element.range) << "a contact";
     return false;
   }
   return true;
@@ -97,9 +100,9 @@ bool RungReader::checkLeft(const Element& element) {
       if (left == ElementKind::Contact || (left == ElementKind::Box && element.kind == ElementKind::Coil)) continue;
       const Row* row = left == ElementKind::Box ? context_.language.findFunction(rung_.element(id).mnemonic) : nullptr;
       if (row != nullptr && row->info.output == frontend::Output::None)
-        diagnostics_.report(Diag::ElementAfterClosing, element.range) << row->info.mnemonic;
+        diagnostics_.report(diag::ElementAfterClosing, element.range) << row->info.mnemonic;
       else
-        diagnostics_.report(Diag::MultiLevelOutput, element.range);
+        diagnostics_.report(diag::MultiLevelOutput, element.range);
       return false;
     }
   }
@@ -110,12 +113,12 @@ bool RungReader::checkLeft(const Element& element) {
 void RungReader::reportSecondBox(const Element& element) {
   const Row* row = context_.language.findFunction(box_->mnemonic);
   if (context_.language.findFunction(element.mnemonic) == nullptr && element.column == box_->column)
-    diagnostics_.report(Diag::UnknownPin, element.range)
+    diagnostics_.report(diag::UnknownPin, element.range)
         << box_->mnemonic << element.mnemonic
         << (row == nullptr || furtherPinsOf(row->info).empty() ? "no further pins"
                                                                : "its pins on the lines directly below");
   else
-    diagnostics_.report(Diag::MultiLevelOutput, element.range);
+    diagnostics_.report(diag::MultiLevelOutput, element.range);
 }
 
 // Finds the box and the coils; a network has one function at most.
@@ -146,13 +149,13 @@ bool RungReader::checkBox() {
     return false;
   }
   if (isEnd(row_->control) || row_->control == Control::Sp) {
-    diagnostics_.report(Diag::UnsupportedElement, box_->range)
+    diagnostics_.report(diag::UnsupportedElement, box_->range)
         << fmt::format("a box {}", row_->info.mnemonic) << "a `module` statement begins and ends what it would";
     return false;
   }
   if (row_->info.output == frontend::Output::None && box_->output.valid()) {
     const auto after = rung_.consumersOf(box_->output);
-    diagnostics_.report(Diag::ElementAfterClosing, after.empty() ? box_->range : rung_.element(after[0]).range)
+    diagnostics_.report(diag::ElementAfterClosing, after.empty() ? box_->range : rung_.element(after[0]).range)
         << row_->info.mnemonic;
     return false;
   }
@@ -164,22 +167,22 @@ bool RungReader::checkPins() {
   const auto wanted = row_->info.pins.all();
   for (size_t i = 1; i < std::max(pins.size(), wanted.size()); ++i) {
     if (i >= pins.size()) {
-      diagnostics_.report(Diag::MissingPin, box_->range) << row_->info.mnemonic << wanted[i].name;
+      diagnostics_.report(diag::MissingPin, box_->range) << row_->info.mnemonic << wanted[i].name;
       return false;
     }
     if (i >= wanted.size() || !text::equalsIgnoringCase(pins[i].name, wanted[i].name)) {
       const std::string_view expected = i >= wanted.size() ? "none" : wanted[i].name;
-      diagnostics_.report(Diag::UnknownPin, pins[i].range) << row_->info.mnemonic << pins[i].name << expected;
+      diagnostics_.report(diag::UnknownPin, pins[i].range) << row_->info.mnemonic << pins[i].name << expected;
       return false;
     }
   }
   if (wanted.empty() && pins[0].input != ladder::kRail && row_->control != Control::Lbl) {
-    diagnostics_.report(Diag::FirstColumnRequired, box_->range) << row_->info.mnemonic;
+    diagnostics_.report(diag::FirstColumnRequired, box_->range) << row_->info.mnemonic;
     return false;
   }
   for (size_t i = 0; i < wanted.size(); ++i) {
     if (pins[i].input != ladder::kRail) continue;
-    diagnostics_.report(Diag::MissingCondition, pins[i].range)
+    diagnostics_.report(diag::MissingCondition, pins[i].range)
         << row_->info.mnemonic << fmt::format("pin {}", wanted[i].name);
     return false;
   }
@@ -190,21 +193,21 @@ bool RungReader::checkPins() {
 bool RungReader::checkCoils() {
   if (coils_.empty()) {
     if (row_ != nullptr && row_->info.output == frontend::Output::Always)
-      diagnostics_.report(Diag::MissingOutput, box_->range) << row_->info.mnemonic;
+      diagnostics_.report(diag::MissingOutput, box_->range) << row_->info.mnemonic;
     return row_ != nullptr && row_->info.output != frontend::Output::Always;
   }
   const NetId net = box_ != nullptr ? box_->output : rung_.inputOf(*coils_[0]);
   for (const Element* coil : coils_) {
     if (net.valid() && rung_.inputOf(*coil) == net) continue;
-    diagnostics_.report(Diag::MultiLevelOutput, coil->range);
+    diagnostics_.report(diag::MultiLevelOutput, coil->range);
     return false;
   }
   if (net == ladder::kRail) {
-    diagnostics_.report(Diag::MissingCondition, coils_[0]->range) << "the coil" << "its left";
+    diagnostics_.report(diag::MissingCondition, coils_[0]->range) << "the coil" << "its left";
     return false;
   }
   if (box_ != nullptr && rung_.driversOf(net).size() > 1) {
-    diagnostics_.report(Diag::NotSeriesParallel, box_->range) << "the coils";
+    diagnostics_.report(diag::NotSeriesParallel, box_->range) << "the coils";
     return false;
   }
   return true;
@@ -221,7 +224,7 @@ bool RungReader::decomposeInputs() {
     auto tree = decompose(rung_, net);
     if (!tree) {
       const Element& target = box_ != nullptr ? *box_ : *coils_[0];
-      diagnostics_.report(Diag::NotSeriesParallel, target.range) << nameOf(target);
+      diagnostics_.report(diag::NotSeriesParallel, target.range) << nameOf(target);
       return false;
     }
     inputs_.push_back(std::move(*tree));
@@ -355,7 +358,7 @@ void LadderReader::module(const ladder::Module& module) {
                                 module.name[1].range);
     condition(module);
   } else {
-    context_.diagnostics.report(Diag::MalformedStatement, module.range)
+    context_.diagnostics.report(diag::MalformedStatement, module.range)
         << "module"
         << fmt::format("module {}, module {} or module {} {}n", language.levels[kLevel1], language.levels[kLevel2],
                        language.subprogram, language.letterOf(Control::Sp));
@@ -368,7 +371,7 @@ void LadderReader::condition(const ladder::Module& module) {
   const Condition condition = conditionAfter(context_, file_.file, context_.sources.lineCol(module.range.begin).line);
   conditionEnd_ = condition.lastLine;
   if (condition.commands.empty()) return;
-  context_.diagnostics.report(Diag::ConditionIgnored, condition.commands.front().range)
+  context_.diagnostics.report(diag::ConditionIgnored, condition.commands.front().range)
       << context_.language.mnemonicOf(Control::Sp);
   for (const Written& written : condition.commands) countStep(context_, written.range);
 }
@@ -420,7 +423,7 @@ void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {
   Diagnostics& diagnostics = context.diagnostics;
   const std::string_view own = context.language.name;
   if (!file.dialect.empty() && !text::equalsIgnoringCase(file.dialect, own))
-    diagnostics.report(Diag::DialectConflict, file.dialectRange) << file.dialect << own;
+    diagnostics.report(diag::DialectConflict, file.dialectRange) << file.dialect << own;
   for (const ladder::Declaration& declaration : file.declarations) {
     switch (declaration.kind) {
     case ladder::DeclarationKind::Symbol:
@@ -429,7 +432,7 @@ void readLadderDeclarations(Context& context, const ladder::LadderFile& file) {
     case ladder::DeclarationKind::Const: context.names.addConstant(context, declaration.name, declaration.value); break;
     case ladder::DeclarationKind::Message:
     case ladder::DeclarationKind::Button:
-      diagnostics.report(Diag::UnsupportedElement, declaration.range)
+      diagnostics.report(diag::UnsupportedElement, declaration.range)
           << "a statement for texts" << context.language.messageTexts;
       break;
     }

@@ -3,6 +3,7 @@
 
 #include "frontend/network/read/network_builder.h"
 #include "frontend/network/read/title.h"
+#include "ir/support/diag/source.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::network {
@@ -78,7 +79,7 @@ void ListReader::lostOperand(Command command, const Word& name, Place at) {
 void ListReader::checkDialect(const Word& word) {
   const std::string_view own = context_.language.name;
   if (!text::equalsIgnoringCase(word.text, own))
-    context_.diagnostics.report(Diag::DialectConflict, word.range) << word.text << own;
+    context_.diagnostics.report(diag::DialectConflict, word.range) << word.text << own;
 }
 
 const Row* ListReader::functionOf(const Word& word) {

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "frontend/network/address.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/source.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::network {
@@ -60,9 +62,9 @@ bool checkCharacters(Diagnostics& diagnostics, std::span<const Word> words) {
     const SourcePos begin{word.range.begin.value + offset};
     const SourceRange range{begin, {begin.value + static_cast<uint32_t>(length)}};
     if (static_cast<unsigned char>(*bad) < 0x80)
-      diagnostics.report(Diag::BadCharacter, range) << fmt::format("0x{:02X}", static_cast<unsigned char>(*bad));
+      diagnostics.report(diag::BadCharacter, range) << fmt::format("0x{:02X}", static_cast<unsigned char>(*bad));
     else
-      diagnostics.report(Diag::BadCharacter, range) << fmt::format("'{}'", word.text.substr(offset, length));
+      diagnostics.report(diag::BadCharacter, range) << fmt::format("'{}'", word.text.substr(offset, length));
     return false;
   }
   return true;
@@ -72,13 +74,13 @@ bool checkOperands(Diagnostics& diagnostics, Command command, std::span<const Wo
   const size_t wanted = operandCount(command);
   if (words.size() - 1 == wanted) return true;
   if (isDeclaration(command))
-    diagnostics.report(Diag::BadOperand, words[0].range)
+    diagnostics.report(diag::BadOperand, words[0].range)
         << words[0].text << fmt::format("complete statement: {}", wantedOperand(command));
   else if (words.size() - 1 < wanted)
-    diagnostics.report(Diag::BadOperand, words[0].range)
+    diagnostics.report(diag::BadOperand, words[0].range)
         << words[0].text << fmt::format("complete statement: {} is missing", wantedOperand(command));
   else
-    diagnostics.report(Diag::BadOperand, words[wanted + 1].range)
+    diagnostics.report(diag::BadOperand, words[wanted + 1].range)
         << words[wanted + 1].text
         << fmt::format("part of this statement: {} takes {}", words[0].text,
                        wanted == 0 ? "nothing" : wantedOperand(command));

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/structure.h"
+
 namespace rung::network {
 namespace {
 
@@ -43,7 +47,7 @@ void NetworkBuilder::extend(Place at) {
 
 void NetworkBuilder::stackError(Place at, std::string_view what) {
   network_.bad = true;
-  if (!silent_) context_.diagnostics.report(Diag::UnbalancedStack, at.range) << what;
+  if (!silent_) context_.diagnostics.report(diag::UnbalancedStack, at.range) << what;
   silent_ = true;
 }
 
@@ -60,7 +64,7 @@ bool NetworkBuilder::mayHaveCoils() const {
 void NetworkBuilder::contactOutOfPlace(Place at) {
   if (state_ == State::Outputs || (state_ == State::Function && mayHaveCoils())) {
     network_.bad = true;
-    if (!silent_) context_.diagnostics.report(Diag::MultiLevelOutput, at.range);
+    if (!silent_) context_.diagnostics.report(diag::MultiLevelOutput, at.range);
     silent_ = true;
     state_ = State::Outputs; // an output that is missing is part of this error
   } else {
@@ -74,7 +78,7 @@ void NetworkBuilder::contact(Logic kind, bool negated, const Word& operand, Plac
     if (state_ != State::Logic) begin(at);
     if (++depth_ > context_.language.stackDepth) {
       network_.bad = true;
-      if (!silent_) context_.diagnostics.report(Diag::StackOverflow, at.range) << context_.language.stackDepth;
+      if (!silent_) context_.diagnostics.report(diag::StackOverflow, at.range) << context_.language.stackDepth;
       silent_ = true;
     }
   } else if (state_ != State::Logic) {
@@ -127,13 +131,13 @@ void NetworkBuilder::checkConditions(const Row& row, Place at) {
   const auto wanted = static_cast<uint32_t>(row.info.pins.size());
   if (depth_ == wanted) return;
   if (row.ignoresCondition && depth_ == 1) {
-    context_.diagnostics.report(Diag::ConditionIgnored, network_.range) << row.info.mnemonic;
+    context_.diagnostics.report(diag::ConditionIgnored, network_.range) << row.info.mnemonic;
     network_.logic.clear();
     return;
   }
   std::string names;
   for (const frontend::PinInfo& pin : row.info.pins.all()) names += fmt::format(" {}", pin.name);
-  DiagBuilder report = context_.diagnostics.report(Diag::WrongConditionCount, at.range);
+  DiagBuilder report = context_.diagnostics.report(diag::WrongConditionCount, at.range);
   report << row.info.mnemonic << wanted << depth_;
   if (!names.empty()) report.note(fmt::format("its conditions in order:{}", names));
   network_.bad = true;
@@ -153,7 +157,7 @@ void NetworkBuilder::function(const Row* row, Place at) {
   write(Command::Function, row->info.mnemonic, at);
   checkConditions(*row, at);
   if (!row->built) {
-    context_.diagnostics.report(Diag::NotBuiltYet, at.range) << row->info.mnemonic;
+    context_.diagnostics.report(diag::NotBuiltYet, at.range) << row->info.mnemonic;
     network_.bad = true;
   }
 }
@@ -166,7 +170,7 @@ void NetworkBuilder::parameter(const Word& operand, Place at) {
   } else {
     step(at);
     if (!network_.incomplete)
-      context_.diagnostics.report(Diag::StrayParameter, at.range) << context_.language.nameOf(Command::Parameter);
+      context_.diagnostics.report(diag::StrayParameter, at.range) << context_.language.nameOf(Command::Parameter);
   }
 }
 
@@ -178,7 +182,7 @@ void NetworkBuilder::tableRow(const Word& operand, Place at) {
   } else {
     step(at);
     if (!network_.incomplete)
-      context_.diagnostics.report(Diag::StrayTable, at.range)
+      context_.diagnostics.report(diag::StrayTable, at.range)
           << context_.language.nameOf(Command::Table)
           << context_.language.mnemonicsOf([](const Row& row) { return row.hasTable; });
   }
@@ -194,7 +198,7 @@ void NetworkBuilder::completeFunction() {
   const Row* row = network_.function.row;
   if (row == nullptr) return;
   if (row->info.output == frontend::Output::Always && state_ == State::Function && !network_.incomplete) {
-    context_.diagnostics.report(Diag::MissingOutput, network_.function.range) << row->info.mnemonic;
+    context_.diagnostics.report(diag::MissingOutput, network_.function.range) << row->info.mnemonic;
     network_.bad = true;
   }
   if (!checkFunction(context_, parameters_, table_, network_.function)) network_.bad = true;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "frontend/network/read/network_builder.h"
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/operand.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::network {
@@ -73,7 +75,7 @@ bool ParameterCheck::checkFormat(const Word& word, Param& param) {
   const bool address = selects && word.text.size() == 4 && (value == 1001 || value == 1002 || value == 1004);
   const bool tooLong = selects && word.text.size() > 4;
   if ((!constant && !address) || tooLong) {
-    context_.diagnostics.report(Diag::BadFormat, word.range) << word.text << function_.row->info.mnemonic;
+    context_.diagnostics.report(diag::BadFormat, word.range) << word.text << function_.row->info.mnemonic;
     lengthKnown_ = false;
     return false;
   }
@@ -90,7 +92,7 @@ bool ParameterCheck::checkNumber(const OperandInfo& info, const Word& word, Para
   if (param.value < info.min || param.value > info.max) {
     const std::string range =
         info.min == info.max ? fmt::format("{}", info.min) : fmt::format("{} to {}", info.min, info.max);
-    context_.diagnostics.report(Diag::ParameterOutOfRange, word.range)
+    context_.diagnostics.report(diag::ParameterOutOfRange, word.range)
         << word.text << range << function_.row->info.mnemonic;
     return false;
   }
@@ -104,7 +106,7 @@ bool ParameterCheck::checkConstant(const Word& word, Param& param) {
   param.value = *constant;
   if (!lengthKnown_ || fits(param.value, function_.length)) return true;
   const uint32_t bits = function_.length * 8;
-  context_.diagnostics.report(Diag::ConstantOutOfRange, word.range)
+  context_.diagnostics.report(diag::ConstantOutOfRange, word.range)
       << word.text << fmt::format("{} to {}", -(int64_t{1} << (bits - 1)), (int64_t{1} << bits) - 1);
   return false;
 }
@@ -112,7 +114,7 @@ bool ParameterCheck::checkConstant(const Word& word, Param& param) {
 bool ParameterCheck::checkMask(const Word& word, Param& param) {
   const auto isBinary = [](char c) { return c == '0' || c == '1'; };
   if (word.text.size() != 4 || !std::all_of(word.text.begin(), word.text.end(), isBinary)) {
-    context_.diagnostics.report(Diag::BadMask, word.range) << word.text;
+    context_.diagnostics.report(diag::BadMask, word.range) << word.text;
     return false;
   }
   for (char c : word.text) param.value = param.value * 2 + (c - '0');
@@ -125,17 +127,17 @@ bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param
   const bool named = !word.text.empty() && text::upper(word.text[0]) == letter[0];
   const auto number = named ? parseDigits(word.text.substr(1)) : std::nullopt;
   if (!number) {
-    context_.diagnostics.report(Diag::BadOperand, word.range)
+    context_.diagnostics.report(diag::BadOperand, word.range)
         << word.text << fmt::format("{} such as {}1", param.kind->name, letter);
     return false;
   }
   param.value = static_cast<int64_t>(*number);
   if (param.value > info.max) {
-    context_.diagnostics.report(Diag::ParameterOutOfRange, word.range)
+    context_.diagnostics.report(diag::ParameterOutOfRange, word.range)
         << word.text << info.doc << function_.row->info.mnemonic;
     return false;
   }
-  if (param.value == 0) context_.diagnostics.report(Diag::LabelZero, word.range) << info.doc;
+  if (param.value == 0) context_.diagnostics.report(diag::LabelZero, word.range) << info.doc;
   const Control control = function_.row->control;
   context_.analysis.use({.range = word.range,
                          .scope = letter,
@@ -197,7 +199,7 @@ bool ParameterCheck::checkOne(const OperandInfo& info, const Word& word, Param& 
 bool ParameterCheck::check(const std::vector<Word>& words) {
   const auto operands = function_.row->info.operands.all();
   if (words.size() != operands.size()) { // nobody knows which one is missing
-    DiagBuilder report = context_.diagnostics.report(Diag::WrongParameterCount, function_.range);
+    DiagBuilder report = context_.diagnostics.report(diag::WrongParameterCount, function_.range);
     report << function_.row->info.mnemonic << operands.size() << words.size();
     std::string names;
     for (const OperandInfo& operand : operands) names += fmt::format("{}{}", names.empty() ? " " : ", ", operand.name);
@@ -224,7 +226,7 @@ bool ParameterCheck::checkTable(const std::vector<Word>& rows, bool capacityKnow
   if (!capacityKnown) return false;
   const int64_t capacity = function_.params[1].value;
   if (static_cast<int64_t>(rows.size()) == capacity) return good;
-  context_.diagnostics.report(Diag::TableSizeMismatch, function_.range)
+  context_.diagnostics.report(diag::TableSizeMismatch, function_.range)
       << (rows.size() == 1 ? "1 row" : fmt::format("{} rows", rows.size())) << capacity;
   return false;
 }

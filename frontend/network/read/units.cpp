@@ -3,6 +3,9 @@
 
 #include "frontend/network/read/units.h"
 
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/structure.h"
+
 namespace rung::network {
 
 std::string nameOf(const Language& language, const Unit& unit) {
@@ -43,14 +46,14 @@ void UnitAssembler::body(Network&& network) {
 void UnitAssembler::end1(Network&& network) {
   const SourceRange range = network.function.range;
   if (sawEnd1_) {
-    context_.diagnostics.report(Diag::DuplicateEnd1, range) << language_.fullNameOf(Control::End1);
+    context_.diagnostics.report(diag::DuplicateEnd1, range) << language_.fullNameOf(Control::End1);
     return;
   }
   sawEnd1_ = true;
   if (sawEnd2_) { // what is between them is misplaced for that reason alone
     stray_.clear();
     strayReported_ = false;
-    return static_cast<void>(context_.diagnostics.report(Diag::EndOrder, range)
+    return static_cast<void>(context_.diagnostics.report(diag::EndOrder, range)
                              << language_.fullNameOf(Control::End1) << language_.fullNameOf(Control::End2));
   }
   closeAll();
@@ -61,7 +64,7 @@ void UnitAssembler::end1(Network&& network) {
 void UnitAssembler::end2(Network&& network) {
   const SourceRange range = network.function.range;
   if (sawEnd2_) {
-    context_.diagnostics.report(Diag::DuplicateEnd2, range) << language_.fullNameOf(Control::End2);
+    context_.diagnostics.report(diag::DuplicateEnd2, range) << language_.fullNameOf(Control::End2);
     return;
   }
   sawEnd2_ = true;
@@ -75,7 +78,7 @@ uint32_t UnitAssembler::subprogram(uint32_t number, SourceRange range, SourceRan
   const auto index = static_cast<uint32_t>(program_.units.size());
   const auto [at, isNew] = subprograms_.emplace(number, index);
   if (!isNew)
-    context_.diagnostics.report(Diag::DuplicateSubprogram, name)
+    context_.diagnostics.report(diag::DuplicateSubprogram, name)
             .note(program_.units[at->second].nameRange, "the first one is here")
         << language_.numbered(Control::Sp, number);
   program_.units.push_back(Unit{.kind = UnitKind::Subprogram, .number = number, .range = range, .nameRange = name});
@@ -88,7 +91,7 @@ void UnitAssembler::nest(SourceRange inner) {
   if (open_.back().closedInner) {
     open_.back().closedInner = false; // forgotten: this one is beside the second
   } else {
-    context_.diagnostics.report(Diag::NestedSubprogram, inner)
+    context_.diagnostics.report(diag::NestedSubprogram, inner)
         .note(program_.units[open_.back().unit].range, "the outer one begins here");
     nestedReported_ = true;
   }
@@ -116,7 +119,7 @@ void UnitAssembler::beginSubprogram(const Network& network) {
 void UnitAssembler::endSubprogram(Network&& network) {
   if (open_.empty()) {
     if (!incomplete_)
-      context_.diagnostics.report(Diag::StraySpe, network.function.range)
+      context_.diagnostics.report(diag::StraySpe, network.function.range)
           << language_.mnemonicOf(Control::Spe) << language_.mnemonicOf(Control::Sp);
     return;
   }
@@ -129,29 +132,29 @@ void UnitAssembler::endSubprogram(Network&& network) {
 // At an end: the subprogram that is still open.
 void UnitAssembler::closeAll() {
   if (!open_.empty() && !nestedReported_ && !incomplete_)
-    context_.diagnostics.report(Diag::MissingSpe, program_.units[current_].range)
+    context_.diagnostics.report(diag::MissingSpe, program_.units[current_].range)
         << nameOf(language_, program_.units[current_]) << language_.mnemonicOf(Control::Spe);
   open_.clear();
 }
 
 void UnitAssembler::endOfList(SourceRange lastLine) {
   const std::string_view end2 = language_.mnemonicOf(Control::End2);
-  for (SourceRange range : stray_) context_.diagnostics.report(Diag::CodeAfterEnd2, range) << end2;
+  for (SourceRange range : stray_) context_.diagnostics.report(diag::CodeAfterEnd2, range) << end2;
   if (!sawEnd2_ && misplaced_.size() > 1) misplaced_.resize(1); // the missing END2 is the mistake
-  for (SourceRange range : misplaced_) context_.diagnostics.report(Diag::SubprogramMisplaced, range) << end2;
+  for (SourceRange range : misplaced_) context_.diagnostics.report(diag::SubprogramMisplaced, range) << end2;
   closeAll();
   if (incomplete_) return;
   if (!sawEnd1_)
-    context_.diagnostics.report(Diag::MissingEnd1, sawEnd2_ ? end2Range_ : lastLine)
+    context_.diagnostics.report(diag::MissingEnd1, sawEnd2_ ? end2Range_ : lastLine)
         << language_.fullNameOf(Control::End1);
-  if (!sawEnd2_) context_.diagnostics.report(Diag::MissingEnd2, lastLine) << language_.fullNameOf(Control::End2);
+  if (!sawEnd2_) context_.diagnostics.report(diag::MissingEnd2, lastLine) << language_.fullNameOf(Control::End2);
 }
 
 uint32_t UnitAssembler::openModule(UnitKind kind, uint32_t number, SourceRange module, SourceRange name) {
   if (kind == UnitKind::Subprogram) return subprogram(number, module, name);
   const uint32_t unit = kind == UnitKind::Level1 ? kLevel1 : kLevel2;
   if (sawList_ || moduleOpened_[unit])
-    context_.diagnostics.report(Diag::DuplicateModule, module) << nameOf(language_, program_.units[unit]);
+    context_.diagnostics.report(diag::DuplicateModule, module) << nameOf(language_, program_.units[unit]);
   moduleOpened_[unit] = true;
   program_.units[unit].range = module;
   return unit;

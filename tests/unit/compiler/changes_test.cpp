@@ -14,6 +14,7 @@
 #include "rtlib/host/replacement.h"
 #include "tests/random/random.h"
 #include "tests/support/differential.h"
+#include "tests/support/long_run.h"
 #include "tools/compiler/recompiler.h"
 #include "tools/compiler/tiered.h"
 
@@ -210,7 +211,7 @@ void runSeed(uint64_t seed, Counts& counts) {
 
 TEST(Changes, OfEveryKindAtTheSameTime) {
   Counts counts;
-  for (uint64_t seed = 0; seed < 12 && !::testing::Test::HasFailure(); ++seed) {
+  for (uint64_t seed = 0; seed < testing::howMany(4, 12) && !::testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     runSeed(seed, counts);
   }

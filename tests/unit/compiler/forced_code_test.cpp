@@ -1,5 +1,6 @@
 // Code with forced cells, of random programs: every engine does what the interpreter does without the optimiser, and
 // the forced bits are as they should be after every rung.
+#include "tests/support/long_run.h"
 #include "tools/compiler/recompiler.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +79,7 @@ void changeInputs(host::Instance& instance, uint64_t seed, int scan) {
 class ForcedCodeOf : public ::testing::TestWithParam<EngineKind> {};
 
 TEST_P(ForcedCodeOf, RandomPrograms) {
-  const uint64_t seeds = GetParam() == EngineKind::Interp ? 300 : 60;
+  const uint64_t seeds = GetParam() == EngineKind::Interp ? 300 : testing::howMany(20, 60);
   uint32_t withCode = 0;
   uint32_t forcedAtEnd = 0;
   for (uint64_t seed = 0; seed < seeds; ++seed) {

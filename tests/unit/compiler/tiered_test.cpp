@@ -1,4 +1,5 @@
 // Programs whose code is exchanged while they run: they do what the interpreter does, whatever code they have.
+#include "tests/support/long_run.h"
 #include "tools/compiler/tiered.h"
 
 #include <gmock/gmock.h>
@@ -49,7 +50,7 @@ struct Both {
 TEST(Tiered, RandomProgramsWhileTheirCodeArrives) {
   uint32_t interpretedFirst = 0;
   uint32_t mixed = 0;
-  for (uint64_t seed = 0; seed < 40; ++seed) {
+  for (uint64_t seed = 0; seed < testing::howMany(12, 40); ++seed) {
     SCOPED_TRACE(seed);
     Both both(ir::randomModule(seed, {.traps = seed % 4 == 0}));
     interpretedFirst += both.engine->finishedChunks() == 0 ? 1 : 0;
@@ -65,13 +66,13 @@ TEST(Tiered, RandomProgramsWhileTheirCodeArrives) {
     for (uint64_t last = scan + 4; scan < last; ++scan) both.scan(seed, scan);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(interpretedFirst, 10u);
-  EXPECT_GT(mixed, 10u);
+  EXPECT_GT(interpretedFirst, testing::howMany(3, 10));
+  EXPECT_GT(mixed, testing::howMany(3, 10));
 }
 
 // Any chunk may have either code at any time.
 TEST(Tiered, AnyMixtureDoesTheSame) {
-  for (uint64_t seed = 100; seed < 130; ++seed) {
+  for (uint64_t seed = 100; seed < 100 + testing::howMany(10, 30); ++seed) {
     SCOPED_TRACE(seed);
     Both both(ir::randomModule(seed, {}));
     EXPECT_EQ(both.engine->finish(), "");
@@ -91,7 +92,7 @@ TEST(Tiered, AnyMixtureDoesTheSame) {
 TEST(Tiered, ForcesStayWhileCodeArrives) {
   uint32_t forced = 0;
   uint32_t arrived = 0; // chunks whose code came into the table of the force
-  for (uint64_t seed = 200; seed < 230; ++seed) {
+  for (uint64_t seed = 200; seed < 200 + testing::howMany(10, 30); ++seed) {
     SCOPED_TRACE(seed);
     Both both(ir::randomModule(seed, {}));
     const host::ForcedCell cell{.ref = host::intRef(1 + static_cast<uint32_t>(seed) % 2, 0, 8), .bits = 0x5A};

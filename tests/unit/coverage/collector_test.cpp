@@ -1,6 +1,7 @@
 // Counting under the interpreter: rungs, contacts, coils, what decided; regions, faults, rungs lowered twice.
 #include <gtest/gtest.h>
 
+#include "ir/core/op_info.h"
 #include "tests/unit/ir_interp/machine.h"
 #include "tools/coverage/collector.h"
 

@@ -5,6 +5,7 @@
 
 #include "ir/core/builder.h"
 #include "ir/core/eval.h"
+#include "ir/core/op_info.h"
 #include "tools/coverage/expression.h"
 
 namespace rung::coverage {

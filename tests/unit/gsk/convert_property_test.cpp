@@ -5,6 +5,7 @@
 
 #include "frontend/network/read/list_syntax.h"
 #include "ir/text/text.h"
+#include "tests/support/long_run.h"
 #include "tests/unit/gsk/convert.h"
 #include "tests/unit/gsk/program_generator.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 using network::Command;
 
-constexpr uint64_t kPrograms = 2000;
+const uint64_t kPrograms = rung::testing::howMany(500, 2000);
 
 // Commands of a list, one a line; functions by their mnemonic.
 std::string commandsOf(const std::string& list) {

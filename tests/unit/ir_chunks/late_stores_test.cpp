@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "ir/core/builder.h"
+#include "ir/core/op_info.h"
 
 namespace rung::ir {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ir/core/op_info.h"
 #include "tests/random/random.h"
 
 namespace rung::ir {

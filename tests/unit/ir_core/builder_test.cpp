@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/core/builder.h"
+#include "ir/core/op_info.h"
 
 namespace rung::ir {
 namespace {

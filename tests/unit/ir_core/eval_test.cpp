@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/core/eval.h"
+#include "ir/core/op_info.h"
 #include "rung/sem.hpp"
 #include "tests/random/random.h"
 

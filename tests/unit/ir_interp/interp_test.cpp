@@ -2,6 +2,7 @@
 // (ir_core).
 #include <gtest/gtest.h>
 
+#include "ir/core/op_info.h"
 #include "ir/core/parts.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/nc/names/names.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "ir/core/op_info.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"
 #include "ir/text/text.h"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ir/core/builder.h"
+#include "ir/core/op_info.h"
 #include "ir/interp/interp.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/pipeline.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/core/builder.h"
+#include "ir/core/op_info.h"
 #include "ir/text/text.h"
 #include "tests/random/random.h"
 #include "tests/unit/ir_text/module_equal.h"

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "ir/core/builder.h"
+#include "ir/core/op_info.h"
 #include "ir/verify/verify.h"
 #include "tests/random/random.h"
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "codegen/llvm/llvm_emitter.h"
+#include "ir/core/op_info.h"
 #include "ir/interp/interp.h"
 #include "rtlib/host/file.h"
 #include "tests/random/random.h"

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "frontend/network/operand_kind.h"
+#include "ir/support/diag/gsk.h"
 
 namespace rung::network::test {
 
@@ -16,7 +17,7 @@ inline constexpr AreaInfo kAreas[] = {
 
 inline constexpr OperandKind kByte{{"byte", "an address"}, {}};
 inline constexpr OperandKind kWords{{"words", "an address of 2 bytes in M"},
-                                    {.bytes = 2, .area = Area{2}, .elsewhere = Diag::WorkAreaNotInR}};
+                                    {.bytes = 2, .area = Area{2}, .elsewhere = diag::WorkAreaNotInR}};
 inline constexpr OperandKind kNumber{{"number", "a number"}, {.parse = OperandClass::Number}};
 inline constexpr OperandKind kMark{{"mark", "K1 to K9"}, {.parse = OperandClass::Named, .written = "K{}"}};
 inline constexpr OperandKind kPart{{"part", "U1 to U9"}, {.parse = OperandClass::Named, .written = "U{}"}};

@@ -1,4 +1,5 @@
 // Branches of rungs, counted by their values, and the file of the counts.
+#include "ir/core/op_info.h"
 #include "tools/profile/branches.h"
 
 #include <filesystem>

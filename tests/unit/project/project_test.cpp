@@ -1,4 +1,5 @@
 // The project file: what is read, and every mistake with its place.
+#include "ir/support/diag/source.h"
 #include "tools/project/project.h"
 
 #include <filesystem>
@@ -124,7 +125,7 @@ TEST_F(ProjectFile, MistakesOfToml) {
 
 TEST_F(ProjectFile, AFileThatCannotBeRead) {
   EXPECT_FALSE(load(sources_, path("none.toml"), diagnostics_));
-  EXPECT_TRUE(diagnostics_.has(Diag::FileNotFound));
+  EXPECT_TRUE(diagnostics_.has(diag::FileNotFound));
 }
 
 TEST_F(ProjectFile, IsFoundUpwards) {

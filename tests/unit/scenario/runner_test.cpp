@@ -7,6 +7,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "ir/core/op_info.h"
 #include "tests/support/saboteur.h"
 #include "tools/scenario/runner.h"
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ir/support/diag/operand.h"
 #include "ir/support/source.h"
 #include "rtlib/text/letters.h"
 
@@ -49,7 +50,7 @@ TEST_F(NamesTest, ASecondDeclarationShowsTheFirst) {
   table.declare({"pump", range(0, 4), 1}, diagnostics_);
   EXPECT_EQ(table.declare({"pump", range(10, 14), 2}, diagnostics_), kNoName);
   ASSERT_EQ(diagnostics_.reported().size(), 1u);
-  EXPECT_EQ(reported().id, Diag::DuplicateSymbol);
+  EXPECT_EQ(reported().id, diag::DuplicateSymbol);
   EXPECT_EQ(reported().range, range(10, 14));
   EXPECT_EQ(reported().notes.at(0).range, range(0, 4));
   EXPECT_EQ(reported().notes.at(0).text, "first declared here");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "frontend/dialects/dialect.h"
+#include "ir/support/diag/technol.h"
 #include "ir/support/diag_render.h"
 
 namespace rung::frontend {
@@ -53,7 +54,7 @@ SourceRange at(uint32_t begin) { return {{begin}, {begin + 1}}; }
 // The place of each report, and its notes.
 std::vector<std::string> reported(Names& names) {
   Diagnostics diagnostics;
-  names.report(diagnostics, Diag::UndefinedSymbol, [](DiagBuilder&, const UndeclaredUse&) {});
+  names.report(diagnostics, diag::UndefinedSymbol, [](DiagBuilder&, const UndeclaredUse&) {});
   std::vector<std::string> found;
   for (const Diagnostic& d : diagnostics.reported()) {
     found.push_back(std::get<std::string>(d.args.at(0)) + " at " + std::to_string(d.range.begin.value));

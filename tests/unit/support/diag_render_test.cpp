@@ -1,4 +1,9 @@
 // Diagnostics as text and as JSON.
+#include "ir/support/diag/ladder.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/source.h"
+#include "ir/support/diag/structure.h"
+#include "ir/support/diag/technol.h"
 #include "ir/support/diag_render.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +25,7 @@ struct Fixture {
 
 TEST(RenderText, ShowsTheLineAndUnderlinesThePlace) {
   Fixture f("dialect nct\n|--[A--(X)\n");
-  f.diags.report(Diag::UnclosedElement, f.range(15, 18)) << ']';
+  f.diags.report(diag::UnclosedElement, f.range(15, 18)) << ']';
   EXPECT_EQ(f.text(), R"(main.lad:2:4: error: this element is not closed; ']' expected [unclosed-element]
     2 | |--[A--(X)
       |    ^~~
@@ -29,7 +34,7 @@ TEST(RenderText, ShowsTheLineAndUnderlinesThePlace) {
 
 TEST(RenderText, ShowsLabelsNotesAndFixes) {
   Fixture f("symbol A 0056\nsymbol A 57\n");
-  f.diags.report(Diag::DuplicateSymbol, f.range(21, 22))
+  f.diags.report(diag::DuplicateSymbol, f.range(21, 22))
           .label(f.range(23, 25), "this value")
           .note(f.range(7, 8), "first declared here")
           .note("names are common to all modules")
@@ -54,34 +59,34 @@ note: names are common to all modules
 
 TEST(RenderText, WithoutPlace) {
   Fixture f("");
-  f.diags.report(Diag::FileNotFound) << "x.lad" << "No such file or directory";
+  f.diags.report(diag::FileNotFound) << "x.lad" << "No such file or directory";
   EXPECT_EQ(f.text(), "error: cannot read 'x.lad': No such file or directory [file-not-found]\n");
 }
 
 TEST(RenderText, Warning) {
   Fixture f("L9");
-  f.diags.report(Diag::LabelUnused, f.range(0, 2)) << "L9";
+  f.diags.report(diag::LabelUnused, f.range(0, 2)) << "L9";
   EXPECT_EQ(f.text(), "main.lad:1:1: warning: no jump leads to label L9 [label-unused]\n    1 | L9\n      | ^~\n");
 }
 
 TEST(RenderText, CaretBehindTheLastCharacterAndInAnEmptyFile) {
   Fixture f("ab\n");
-  f.diags.report(Diag::MissingStop, f.range(2, 2));
+  f.diags.report(diag::MissingStop, f.range(2, 2));
   EXPECT_NE(f.text().find("    1 | ab\n      |   ^\n"), std::string::npos) << f.text();
   Fixture empty("");
-  empty.diags.report(Diag::MissingStop, empty.range(0, 0));
+  empty.diags.report(diag::MissingStop, empty.range(0, 0));
   EXPECT_NE(empty.text().find("main.lad:1:1: error"), std::string::npos) << empty.text();
 }
 
 TEST(RenderText, RangeOverSeveralLinesIsUnderlinedOnItsFirst) {
   Fixture f("abcd\nefgh\n");
-  f.diags.report(Diag::MissingStop, f.range(2, 8));
+  f.diags.report(diag::MissingStop, f.range(2, 8));
   EXPECT_NE(f.text().find("    1 | abcd\n      |   ^~\n"), std::string::npos) << f.text();
 }
 
 TEST(RenderText, WideCharactersTakeTwoCells) {
   Fixture f("\u4E2D\u6587 x\n");
-  f.diags.report(Diag::MissingStop, f.range(7, 8));
+  f.diags.report(diag::MissingStop, f.range(7, 8));
   EXPECT_NE(f.text().find("main.lad:1:4:"), std::string::npos) << f.text();
   EXPECT_NE(f.text().find("\n      |      ^\n"), std::string::npos) << f.text();
 }
@@ -89,7 +94,7 @@ TEST(RenderText, WideCharactersTakeTwoCells) {
 TEST(RenderText, LongLinesAreClippedAroundThePlace) {
   const std::string padding(5'000'000, '-');
   Fixture f(padding + "[A" + padding);
-  f.diags.report(Diag::UnclosedElement, f.range(padding.size(), padding.size() + 2)) << ']';
+  f.diags.report(diag::UnclosedElement, f.range(padding.size(), padding.size() + 2)) << ']';
   const std::string text = f.text({.width = 20});
   EXPECT_EQ(text, "main.lad:1:5000001: error: this element is not closed; ']' expected [unclosed-element]\n"
                   "    1 | ...----------[A--------...\n"
@@ -98,7 +103,7 @@ TEST(RenderText, LongLinesAreClippedAroundThePlace) {
 
 TEST(RenderText, TerminalDoesNotObeyTheSource) {
   Fixture f("\x1b[31m\ttext\xFF\n");
-  f.diags.report(Diag::UnknownStatement, f.range(0, 5)) << "\x1b[31m";
+  f.diags.report(diag::UnknownStatement, f.range(0, 5)) << "\x1b[31m";
   const std::string text = f.text();
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
   EXPECT_NE(text.find("| \uFFFD[31m text\uFFFD\n"), std::string::npos) << text;
@@ -106,7 +111,7 @@ TEST(RenderText, TerminalDoesNotObeyTheSource) {
 
 TEST(RenderText, ColorOnlyOnRequest) {
   Fixture f("x");
-  f.diags.report(Diag::MissingStop, f.range(0, 1));
+  f.diags.report(diag::MissingStop, f.range(0, 1));
   EXPECT_EQ(f.text().find('\x1b'), std::string::npos);
   const std::string colored = f.text({.color = true});
   EXPECT_NE(colored.find("\x1b[1;31merror: \x1b[0m"), std::string::npos);
@@ -115,9 +120,9 @@ TEST(RenderText, ColorOnlyOnRequest) {
 TEST(RenderText, SortedByPositionAndSaysWhatIsLeftOut) {
   Fixture f("abc");
   f.diags.setErrorLimit(2);
-  f.diags.report(Diag::BadOperand, f.range(2, 3)) << "c" << "number";
-  f.diags.report(Diag::BadOperand, f.range(0, 1)) << "a" << "number";
-  f.diags.report(Diag::BadOperand, f.range(1, 2)) << "b" << "number";
+  f.diags.report(diag::BadOperand, f.range(2, 3)) << "c" << "number";
+  f.diags.report(diag::BadOperand, f.range(0, 1)) << "a" << "number";
+  f.diags.report(diag::BadOperand, f.range(1, 2)) << "b" << "number";
   const std::string text = f.text();
   EXPECT_LT(text.find("'a' is not a number"), text.find("'c' is not a number"));
   EXPECT_NE(text.find("(1 more diagnostics are not shown)"), std::string::npos);
@@ -125,7 +130,7 @@ TEST(RenderText, SortedByPositionAndSaysWhatIsLeftOut) {
 
 TEST(RenderJson, HasPlaceMessageNotesAndFixes) {
   Fixture f("symbol A 0056\nsymbol A 57\n");
-  f.diags.report(Diag::DuplicateSymbol, f.range(21, 22))
+  f.diags.report(diag::DuplicateSymbol, f.range(21, 22))
           .note(f.range(7, 8), "first declared here")
           .fix(f.range(21, 22), "B")
       << "A";
@@ -142,7 +147,7 @@ TEST(RenderJson, HasPlaceMessageNotesAndFixes) {
 TEST(RenderJson, EmptyAndWithoutPlace) {
   Fixture f("");
   EXPECT_EQ(renderJson(f.diags, f.sources), "[]\n");
-  f.diags.report(Diag::MissingStop);
+  f.diags.report(diag::MissingStop);
   const auto list = nlohmann::json::parse(renderJson(f.diags, f.sources));
   EXPECT_EQ(list[0]["file"], "");
   EXPECT_EQ(list[0]["line"], 0);
@@ -150,7 +155,7 @@ TEST(RenderJson, EmptyAndWithoutPlace) {
 
 TEST(RenderJson, BytesThatAreNoTextDoNotBreakIt) {
   Fixture f("\xFF");
-  f.diags.report(Diag::UnknownStatement, f.range(0, 1)) << "\xFF";
+  f.diags.report(diag::UnknownStatement, f.range(0, 1)) << "\xFF";
   const auto list = nlohmann::json::parse(renderJson(f.diags, f.sources));
   EXPECT_EQ(list[0]["message"], "unknown statement '\uFFFD'");
 }

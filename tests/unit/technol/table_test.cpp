@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "frontend/dialects/technol/rows/operand_kinds.h"
+#include "ir/core/op_info.h"
 #include "rtlib/nc/technol/services.h"
 #include "tests/unit/technol/program.h"
 

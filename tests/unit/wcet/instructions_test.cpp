@@ -8,7 +8,9 @@
 #include <ucontext.h>
 
 #include "ir/core/builder.h"
+#include "ir/core/op_info.h"
 #include "rtlib/core/queues.h"
+#include "tests/support/long_run.h"
 #include "tests/unit/wcet/bounds_testing.h"
 #include "tools/scenario/runner.h"
 
@@ -144,7 +146,7 @@ Measured measured(const compiler::Compiled& compiled, int scans) {
 TEST(Instructions, AreNeverMoreThanTheBound) {
   uint32_t ran = 0;
   uint32_t called = 0;
-  for (uint64_t seed = 1; seed <= 25; ++seed) {
+  for (uint64_t seed = 1; seed <= testing::howMany(8, 25); ++seed) {
     SCOPED_TRACE(seed);
     const Measured of = measured(randomProgram(seed, {.ops = 12}), 2);
     for (uint32_t t = 0; t < of.most.size(); ++t) {
@@ -153,8 +155,8 @@ TEST(Instructions, AreNeverMoreThanTheBound) {
       expectWithin(of.most[t], of.bounds.tasks[t]);
     }
   }
-  EXPECT_GT(ran, 20u);
-  EXPECT_GT(called, 10u);
+  EXPECT_GT(ran, testing::howMany(8, 20));
+  EXPECT_GT(called, testing::howMany(3, 10));
 }
 
 TEST(Instructions, OfEachOperation) {

@@ -104,6 +104,7 @@ enum TimerVariant { kTimerPage, kTimerFixed, kTimerMemory };
 enum CounterVariant { kCounterPage, kCounterMemory };
 enum EdgeVariant { kRising, kFalling };
 enum WindowVariant { kWindowRead, kWindowWrite };
+enum LogicVariant { kXor, kAnd, kOr };
 enum ArithmeticVariant { kAdd, kSubtract, kMultiply };
 
 void lowerTimer(FunctionLowering& f);

@@ -1,6 +1,7 @@
 // Arithmetic with the flags of R1000 (§6.5, §7.9, §7.12). All of it is done in twice the width, where nothing
 // overflows.
 #include "frontend/dialects/gsk/lower/lower.h"
+#include "ir/core/op_info.h"
 
 namespace rung::gsk {
 namespace {
@@ -28,7 +29,7 @@ void storeFlags(FunctionLowering& f, ValueId zero, ValueId negative, ValueId ove
 // Stores the low bytes of a result and the flags; gives W, the overflow (P38).
 ValueId storeResult(FunctionLowering& f, const network::Address& address, ValueId wide) {
   ir::RungBuilder& b = f.b;
-  const ValueId low = b.op(OpCode::Trunc, f.dataType(), {wide});
+  const ValueId low = b.trunc(f.dataType(), wide);
   const ValueId overflow = b.ne(b.sextOrTrunc(doubled(f), low), wide);
   const ValueId zero = b.constant(doubled(f), 0);
   f.store(address, low);
@@ -55,8 +56,8 @@ void lowerDivision(FunctionLowering& f) {
     const ValueId a = wideOperand(f, 1);
     const ValueId divisor = wideOperand(f, 2);
     const auto divide = [&] {
-      const ValueId remainder = b.op(OpCode::Trunc, f.dataType(), {b.op(OpCode::RemS, doubled(f), {a, divisor})});
-      const ValueId overflow = storeResult(f, f.param(3).address, b.op(OpCode::DivS, doubled(f), {a, divisor}));
+      const ValueId remainder = b.trunc(f.dataType(), b.remS(a, divisor));
+      const ValueId overflow = storeResult(f, f.param(3).address, b.divS(a, divisor));
       f.store({areas::kR, kRemainder}, remainder);
       return overflow;
     };
@@ -71,9 +72,9 @@ ValueId toBcd(FunctionLowering& f, ValueId source) {
   constexpr int64_t kLimits[] = {0, 99, 9999, 0, 99999999};
   ir::RungBuilder& b = f.b;
   const ValueId negative = b.ltS(source, b.constant(f.dataType(), 0));
-  const ValueId magnitude = b.select(negative, b.op(OpCode::Neg, f.dataType(), {source}), source);
+  const ValueId magnitude = b.select(negative, b.neg(source), source);
   const ValueId overflow = b.ltU(b.constant(f.dataType(), kLimits[f.function.length]), magnitude);
-  f.b.when(b.not_(overflow), [&] { f.store(f.param(2).address, b.op(OpCode::BcdEncode, f.dataType(), {magnitude})); });
+  f.b.when(b.not_(overflow), [&] { f.store(f.param(2).address, b.bcdEncode(magnitude)); });
   storeFlags(f, {}, negative, overflow);
   return overflow;
 }
@@ -81,9 +82,9 @@ ValueId toBcd(FunctionLowering& f, ValueId source) {
 // BCD to binary; W when a digit is above 9, which shows when the number is written in BCD again.
 ValueId fromBcd(FunctionLowering& f, ValueId source, ValueId sign) {
   ir::RungBuilder& b = f.b;
-  const ValueId magnitude = b.op(OpCode::BcdDecode, f.dataType(), {source});
-  const ValueId error = b.ne(b.op(OpCode::BcdEncode, f.dataType(), {magnitude}), source);
-  const ValueId result = b.select(sign, b.op(OpCode::Neg, f.dataType(), {magnitude}), magnitude);
+  const ValueId magnitude = b.bcdDecode(source);
+  const ValueId error = b.ne(b.bcdEncode(magnitude), source);
+  const ValueId result = b.select(sign, b.neg(magnitude), magnitude);
   const ValueId good = b.not_(error);
   f.b.when(good, [&] { f.store(f.param(2).address, result); });
   storeFlags(f, {}, b.and_(good, b.ltS(result, b.constant(f.dataType(), 0))), {});

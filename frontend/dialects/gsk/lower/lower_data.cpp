@@ -3,7 +3,6 @@
 
 namespace rung::gsk {
 
-using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
@@ -12,7 +11,7 @@ void lowerDecode(FunctionLowering& f) {
   ir::RungBuilder& b = f.b;
   const ValueId code = f.load(f.dataType(), f.param(1).address);
   const ValueId distance = b.zextOrTrunc(Type::I32, b.sub(code, b.constant(f.dataType(), f.param(2).value)));
-  const ValueId bits = b.op(OpCode::Shl, Type::I8, {b.constant(Type::I8, 1), distance});
+  const ValueId bits = b.shl(b.constant(Type::I8, 1), distance);
   f.store(f.param(3).address, b.select(f.act(), bits, b.constant(Type::I8, 0)));
 }
 
@@ -58,10 +57,24 @@ void lowerNumber(FunctionLowering& f) {
   f.b.when(f.act(), [&] { f.store(f.param(2).address, f.b.constant(f.dataType(), f.param(1).value)); });
 }
 
+namespace {
+
+ValueId joined(FunctionLowering& f, ValueId a, ValueId b) {
+  switch (static_cast<LogicVariant>(f.variant())) {
+  case kXor: return f.b.xor_(a, b);
+  case kAnd: return f.b.and_(a, b);
+  case kOr: return f.b.or_(a, b);
+  }
+  return {};
+}
+
+} // namespace
+
 void lowerLogic(FunctionLowering& f) {
   f.b.when(f.act(), [&] {
     const ValueId a = f.load(f.dataType(), f.param(1).address);
-    f.store(f.param(3).address, f.b.binary(static_cast<OpCode>(f.variant()), a, f.operand(2, f.dataType())));
+    const ValueId b = f.operand(2, f.dataType());
+    f.store(f.param(3).address, joined(f, a, b));
   });
 }
 
@@ -76,20 +89,19 @@ void lowerShift(FunctionLowering& f) {
     const ValueId right = f.condition(0);
     const ValueId old = f.load(Type::I16, f.param(0).address);
     const ValueId one = b.i32(1);
-    const ValueId shifted =
-        b.select(right, b.op(OpCode::ShrU, Type::I16, {old, one}), b.op(OpCode::Shl, Type::I16, {old, one}));
+    const ValueId shifted = b.select(right, b.shrU(old, one), b.shl(old, one));
     const ValueId kept = b.select(f.condition(1), b.or_(shifted, old), shifted);
-    const ValueId end = b.select(right, old, b.op(OpCode::ShrU, Type::I16, {old, b.i32(15)}));
+    const ValueId end = b.select(right, old, b.shrU(old, b.i32(15)));
     f.store(f.param(0).address, kept);
-    return b.op(OpCode::Trunc, Type::Bit, {end});
+    return b.trunc(Type::Bit, end);
   });
 }
 
 // Conditions OE, RST, ACT.
 void lowerParity(FunctionLowering& f) {
   f.resettable([&] {
-    const ValueId ones = f.b.op(OpCode::PopCount, Type::I8, {f.load(Type::I8, f.param(0).address)});
-    return f.b.xor_(f.b.op(OpCode::Trunc, Type::Bit, {ones}), f.condition(0));
+    const ValueId ones = f.b.popCount(f.load(Type::I8, f.param(0).address));
+    return f.b.xor_(f.b.trunc(Type::Bit, ones), f.condition(0));
   });
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/config.h"
+#include "ir/support/diag/gsk.h"
 #include "ir/support/hash.h"
 #include "rtlib/nc/faults.h"
 
@@ -213,7 +214,7 @@ void ModuleLowering::planParts() {
   for (const ir::PartPiece& piece : ir::partPieces(*module_, levels_[0].routines[network::kLevel1]))
     level1 += piece.weight;
   if (level1 >= *slotSteps) {
-    context_.diagnostics.report(Diag::Level1TooLong) << level1 << *slotSteps;
+    context_.diagnostics.report(diag::Level1TooLong) << level1 << *slotSteps;
     return;
   }
   const uint64_t room = *slotSteps - level1;
@@ -224,7 +225,7 @@ void ModuleLowering::planParts() {
   if (!given)
     parts_ = needed;
   else if (needed > *given)
-    context_.diagnostics.report(Diag::PeriodTooShort)
+    context_.diagnostics.report(diag::PeriodTooShort)
         << *given * kSlotUs / 1000 << level1 + ir::heaviestPart(pieces, *given) << *slotSteps
         << needed * kSlotUs / 1000;
 }
@@ -238,7 +239,7 @@ void ModuleLowering::reportLongRungs(const std::vector<ir::PartPiece>& pieces, u
       return n.firstLine == rungs[piece.firstRung].begin.line &&
              fileIndex_.at(n.file.index) == rungs[piece.firstRung].begin.file;
     });
-    context_.diagnostics.report(Diag::RungTooLong, network == networks.end() ? SourceRange{} : network->range)
+    context_.diagnostics.report(diag::RungTooLong, network == networks.end() ? SourceRange{} : network->range)
         << piece.weight << room;
   }
 }

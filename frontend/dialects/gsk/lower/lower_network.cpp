@@ -153,8 +153,8 @@ void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t 
 
 ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set) {
   const ir::ValueId bits = b.constant(ir::Type::I64, static_cast<int64_t>(set));
-  const ir::ValueId shifted = b.op(ir::OpCode::ShrU, ir::Type::I64, {bits, b.zextOrTrunc(ir::Type::I32, number)});
-  return b.op(ir::OpCode::Trunc, ir::Type::Bit, {shifted});
+  const ir::ValueId shifted = b.shrU(bits, b.zextOrTrunc(ir::Type::I32, number));
+  return b.trunc(ir::Type::Bit, shifted);
 }
 
 // ---- FunctionLowering ----------------------------------------------------------------------------------------------

@@ -6,7 +6,6 @@
 namespace rung::gsk {
 namespace {
 
-using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
@@ -46,7 +45,7 @@ void lowerPositionZones(FunctionLowering& f) {
     const Limits limits = limitsOf(f, kZones - 1);
     ValueId zone = b.i32(0);
     for (ValueId limit : limits.values) zone = b.add(zone, b.zextOrTrunc(Type::I32, b.leS(limit, limits.position)));
-    const ValueId bits = b.op(OpCode::ShrU, Type::I8, {b.constant(Type::I8, 0x80), zone});
+    const ValueId bits = b.shrU(b.constant(Type::I8, 0x80), zone);
     f.store(f.param(1).address, b.select(limits.good, bits, b.constant(Type::I8, 0)));
     f.store(f.param(2).address, limits.result);
   });

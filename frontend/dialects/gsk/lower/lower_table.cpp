@@ -8,7 +8,6 @@
 namespace rung::gsk {
 namespace {
 
-using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
@@ -37,7 +36,7 @@ struct Way {
 
 Way wayOf(FunctionLowering& f, ValueId count, ValueId current, ValueId target, ValueId base) {
   ir::RungBuilder& b = f.b;
-  const auto wrapped = [&](ValueId x) { return b.op(OpCode::RemU, Type::I64, {x, count}); };
+  const auto wrapped = [&](ValueId x) { return b.remU(x, count); };
   const ValueId one = b.constant(Type::I64, 1);
   const ValueId forward = wrapped(b.sub(b.add(target, count), current));
   const ValueId backward = wrapped(b.sub(b.add(current, count), target));
@@ -63,7 +62,7 @@ void lowerRotation(FunctionLowering& f) {
     const ValueId target = b.sub(unsignedWord(f, 3, Type::I64), base);
     const auto turn = [&] {
       const Way way = wayOf(f, count, current, target, base);
-      f.store(f.param(4).address, b.op(OpCode::Trunc, f.dataType(), {way.result}));
+      f.store(f.param(4).address, b.trunc(f.dataType(), way.result));
       return way.reverse;
     };
     // Never with a count of 0.

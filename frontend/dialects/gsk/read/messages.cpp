@@ -10,6 +10,9 @@
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/language.h"
 #include "frontend/syntax/word_lexer.h"
+#include "ir/support/diag/gsk.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/source.h"
 
 namespace rung::gsk {
 namespace {
@@ -59,17 +62,17 @@ private:
     SourceRange range;
   };
 
-  void bad(const Word& at, std::string_view what) { diagnostics_.report(Diag::BadMessage, at.range) << what; }
+  void bad(const Word& at, std::string_view what) { diagnostics_.report(diag::BadMessage, at.range) << what; }
 
   void add(const Word& word, uint64_t number, std::string_view text) {
     if (number < 1 || number > kMessages) {
-      diagnostics_.report(Diag::ConstantOutOfRange, word.range)
+      diagnostics_.report(diag::ConstantOutOfRange, word.range)
           << word.text << fmt::format("1 to {} (A0.0 to A31.7)", kMessages);
       return;
     }
     const auto [at, isNew] = texts_.emplace(static_cast<uint32_t>(number), Entry{text, word.range});
     if (!isNew)
-      diagnostics_.report(Diag::DuplicateSymbol, word.range).note(at->second.range, "the first text of this message")
+      diagnostics_.report(diag::DuplicateSymbol, word.range).note(at->second.range, "the first text of this message")
           << word.text;
   }
 
@@ -85,7 +88,7 @@ std::vector<ir::MessageText> readMessages(SourceManager& sources, FileId program
   const std::string name = (folder / path).lexically_normal().string();
   const Result<FileId> file = sources.addFile(name);
   if (!file.ok()) {
-    diagnostics.report(Diag::FileNotFound) << name << file.error();
+    diagnostics.report(diag::FileNotFound) << name << file.error();
     return {};
   }
   if (!checkEncoding(sources, file.value(), diagnostics)) return {};

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/language.h"
+#include "ir/support/diag/gsk.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/text/letters.h"
 
@@ -69,7 +70,7 @@ void watchSignals(network::Context& context, Machine machine) {
     const nc::Signal* signal = foreignSignal(machine, address, length);
     if (signal == nullptr) return;
     const bool onMill = machine == Machine::Mill;
-    diagnostics.report(Diag::SignalOfOtherMachine, word.range)
+    diagnostics.report(diag::SignalOfOtherMachine, word.range)
             .note(fmt::format("man. l.{}: {}", signal->manualLine, signal->meaning))
         << signal->symbol << (onMill ? "turning" : "milling") << (onMill ? "mill" : "turn");
   };

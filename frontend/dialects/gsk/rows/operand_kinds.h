@@ -2,6 +2,7 @@
 #pragma once
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/network/operand_kind.h"
+#include "ir/support/diag/gsk.h"
 
 namespace rung::gsk {
 
@@ -51,10 +52,10 @@ inline constexpr OperandKind kSubprogram{{"subprogram", "P1 to P512", "P1", "P51
                                          {.parse = OperandClass::Named, .written = "P{}"}};
 inline constexpr OperandKind kDataTable{
     {"data-table", "address in D", "D10", "R10", "not-a-data-table"},
-    {.length = Length::OfFormat, .area = areas::kD, .elsewhere = Diag::NotADataTable, .rest = true}};
+    {.length = Length::OfFormat, .area = areas::kD, .elsewhere = diag::NotADataTable, .rest = true}};
 inline constexpr OperandKind kWorkArea{
     {"work-area", "address of the first of 4 bytes in R", "R10", "D10", "work-area-not-in-r"},
-    {.bytes = 4, .area = areas::kR, .elsewhere = Diag::WorkAreaNotInR}};
+    {.bytes = 4, .area = areas::kR, .elsewhere = diag::WorkAreaNotInR}};
 inline constexpr OperandKind kRecord{{"record", "address of the first of as many bytes as the instruction's block has",
                                       "R10", "R1098", "address-out-of-range"},
                                      {.length = Length::OfRow}};

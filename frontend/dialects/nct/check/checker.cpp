@@ -8,6 +8,10 @@
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "frontend/dialects/nct/rows/operand_kinds.h"
 #include "frontend/sema/operand_count.h"
+#include "ir/support/diag/ladder.h"
+#include "ir/support/diag/nct.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/structure.h"
 #include "ir/support/similar.h"
 
 namespace rung::nct {
@@ -61,14 +65,14 @@ void OutputReservations::add(Reservation reservation, const Operand& operand) {
   Owner& owner = owners_[key];
   const SourceRange here = operand.source->range;
   if (reservation == Reservation::Once && owner.once.valid()) {
-    diagnostics_.report(Diag::DuplicateOutput, here).note(owner.once, "here") << operand.source->text;
+    diagnostics_.report(diag::DuplicateOutput, here).note(owner.once, "here") << operand.source->text;
     return;
   }
   const bool wasMixed = owner.once.valid() && owner.setReset.valid();
   if (reservation == Reservation::Once) owner.once = here;
   if (reservation == Reservation::SetReset && !owner.setReset.valid()) owner.setReset = here;
   if (!wasMixed && owner.once.valid() && owner.setReset.valid())
-    diagnostics_.report(Diag::MixedOutput, here)
+    diagnostics_.report(diag::MixedOutput, here)
             .note(reservation == Reservation::Once ? owner.setReset : owner.once, "the other one")
         << operand.source->text;
 }
@@ -95,7 +99,7 @@ TypedRung RungChecker::check(const ladder::LadderFile& file, const ladder::Rung&
       continue;
     if (typed.bad) break;
     typed.bad = true;
-    diagnostics_.report(Diag::FirstColumnRequired, element.element->range).note("it needs a rung of its own")
+    diagnostics_.report(diag::FirstColumnRequired, element.element->range).note("it needs a rung of its own")
         << element.row->info.mnemonic;
   }
   return typed;
@@ -112,7 +116,7 @@ const NctInstruction* RungChecker::rowOf(const ladder::Element& element, const O
 }
 
 void RungChecker::reportUnknown(const ladder::Element& element) {
-  DiagBuilder report = diagnostics_.report(Diag::UnknownInstruction, element.mnemonicRange);
+  DiagBuilder report = diagnostics_.report(diag::UnknownInstruction, element.mnemonicRange);
   report << element.mnemonic;
   if (!diagnostics_.suggests()) return;
   const auto isBox = [](const NctInstruction& row) { return row.shape == Shape::Box; };
@@ -132,7 +136,7 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
     added.operandCount = 1;
     Operand& operand = typed.operands.back();
     if (element.edge != 0 && operand.edge != 0) {
-      diagnostics_.report(Diag::ModifierNotAllowed, operand.source->range)
+      diagnostics_.report(diag::ModifierNotAllowed, operand.source->range)
           << std::string(1, operand.edge) << fmt::format("a contact with '{}'", element.edge);
       operand.form = Form::Bad;
     }
@@ -149,7 +153,7 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
   const bool drawn = rung.bad || checkDrawn(rung, element, *added.row); // of a bad one no net is known
   bool ok = readOperands(typed, added) && drawn;
   if (ok && !added.row->isBuilt()) {
-    diagnostics_.report(Diag::NotBuiltYet, element.mnemonicRange) << added.row->info.mnemonic;
+    diagnostics_.report(diag::NotBuiltYet, element.mnemonicRange) << added.row->info.mnemonic;
     ok = false;
   }
   if (!ok) typed.bad = true;
@@ -169,13 +173,13 @@ bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element
   };
   for (const ladder::Pin& pin : rung.pinsOf(element)) {
     if (row.info.placement == Placement::AfterContact && pin.input == ladder::kRail)
-      complain(Diag::FirstColumnNotAllowed, pin.range);
+      complain(diag::FirstColumnNotAllowed, pin.range);
     if (row.info.placement == Placement::AtRail && pin.input != ladder::kRail)
-      complain(Diag::FirstColumnRequired, pin.range);
+      complain(diag::FirstColumnRequired, pin.range);
   }
   const bool connected = element.output.valid();
-  if (row.info.output == Output::None && connected) complain(Diag::ElementAfterClosing, element.range);
-  if (row.info.output == Output::Always && !connected) complain(Diag::MissingClosingElement, element.range);
+  if (row.info.output == Output::None && connected) complain(diag::ElementAfterClosing, element.range);
+  if (row.info.output == Output::Always && !connected) complain(diag::MissingClosingElement, element.range);
   return ok;
 }
 
@@ -185,11 +189,11 @@ bool RungChecker::checkPins(const ladder::Rung& rung, const ladder::Element& ele
   bool ok = true;
   for (size_t i = 1; i < drawn.size() || i < known.size(); ++i) {
     if (i >= drawn.size()) {
-      diagnostics_.report(Diag::MissingPin, element.range) << row.info.mnemonic << known[i].name;
+      diagnostics_.report(diag::MissingPin, element.range) << row.info.mnemonic << known[i].name;
       return false;
     }
     if (i < known.size() && drawn[i].name == known[i].name) continue;
-    diagnostics_.report(Diag::UnknownPin, drawn[i].range)
+    diagnostics_.report(diag::UnknownPin, drawn[i].range)
         << row.info.mnemonic << drawn[i].name
         << (i < known.size() ? known[i].name : std::string_view("no further pin"));
     ok = false;
@@ -255,17 +259,17 @@ bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Op
   if (operand.form == Form::Constant) {
     if (kind.constants != 0) return checkConstant(row, index, operand);
     if (operand.fromSymbol)
-      diagnostics_.report(Diag::SymbolKindMismatch, range)
+      diagnostics_.report(diag::SymbolKindMismatch, range)
           << text << "a constant" << (kind.form == Form::Bit ? "a bit" : "an address");
     else
-      diagnostics_.report(Diag::OperandNotRegister, range) << static_cast<int>(index + 1)
+      diagnostics_.report(diag::OperandNotRegister, range) << static_cast<int>(index + 1)
                                                            << (row.shape == Shape::Contact ? "a contact"
                                                                : row.shape == Shape::Coil  ? "a coil"
                                                                                            : row.info.mnemonic);
     return false;
   }
   if (operand.form != kind.form) {
-    diagnostics_.report(Diag::SymbolKindMismatch, range) << text << describe(operand.form) << describe(kind.form);
+    diagnostics_.report(diag::SymbolKindMismatch, range) << text << describe(operand.form) << describe(kind.form);
     return false;
   }
   return checkRegister(row, index, operand);
@@ -278,17 +282,17 @@ bool RungChecker::checkRegister(const NctInstruction& row, size_t index, const O
   const SourceRange range = operand.source->range;
   if (kind.words == 2) {
     if (address.word == kWords - 1 && address.isFixed()) {
-      diagnostics_.report(Diag::DoubleAt9999, range);
+      diagnostics_.report(diag::DoubleAt9999, range);
       return false;
     }
     if (address.oddIndex) {
-      diagnostics_.report(Diag::OddDoubleIndex, range) << operand.source->text;
+      diagnostics_.report(diag::OddDoubleIndex, range) << operand.source->text;
       return false;
     }
   }
   const uint32_t userMemory = symbols_.config().plcNvram;
   if (kind.userMemory && address.isFixed() && address.word < userMemory) {
-    diagnostics_.report(Diag::UserAreaRequired, range) << operand.source->text << fmt::format("{:04}", userMemory);
+    diagnostics_.report(diag::UserAreaRequired, range) << operand.source->text << fmt::format("{:04}", userMemory);
     return false;
   }
   return info.access == Access::Read || checkDestination(info, operand);
@@ -299,12 +303,12 @@ bool RungChecker::checkDestination(const OperandInfo& info, const Operand& opera
   if (address.indexRegister != kNoRegister) return true;
   const SourceRange range = operand.source->range;
   if (address.word == kFlagsWord) {
-    diagnostics_.report(Diag::WriteToFlags, range);
+    diagnostics_.report(diag::WriteToFlags, range);
     return false;
   }
   const bool isDouble = kindOf(info).words == 2;
   if (symbols_.isInputWord(address.word) || (isDouble && symbols_.isInputWord(address.word + 1)))
-    diagnostics_.report(Diag::WriteToInput, range).severity(Severity::Warning)
+    diagnostics_.report(diag::WriteToInput, range).severity(Severity::Warning)
         << operand.source->text
         << (address.word == kReserved ? "a reserved word and the next one an input; nothing that is written there stays"
                                       : "an input; what is written there stays until the NC writes it again");
@@ -317,12 +321,12 @@ bool RungChecker::checkConstant(const NctInstruction& row, size_t index, const O
   const bool fits = (kindOf(info).constants & setOf(is)) != 0;
   const int64_t value = operand.constant.integer;
   if (fits && info.min <= info.max && (value < info.min || value > info.max)) {
-    diagnostics_.report(Diag::ConstantOutOfRange, operand.source->range)
+    diagnostics_.report(diag::ConstantOutOfRange, operand.source->range)
         << operand.source->text << fmt::format("{} to {}", info.min, info.max);
     return false;
   }
   if (!fits)
-    diagnostics_.report(Diag::OperandTypeMismatch, operand.source->range)
+    diagnostics_.report(diag::OperandTypeMismatch, operand.source->range)
         << operand.source->text << describe(is) << row.info.mnemonic << kindOf(info).wanted;
   return fits;
 }
@@ -333,28 +337,28 @@ bool RungChecker::checkModifiers(const NctInstruction& row, const ladder::Elemen
   const bool immediate = operand.address.immediate;
   const std::string edge(operand.edge == 0 ? 0 : 1, operand.edge);
   if (immediate && operand.edge != 0) {
-    diagnostics_.report(Diag::EdgeWithImmediate, range) << edge;
+    diagnostics_.report(diag::EdgeWithImmediate, range) << edge;
     return false;
   }
   if (immediate && !inInt0_) {
-    DiagBuilder report = diagnostics_.report(Diag::ImmediateOutsideInt0, range);
+    DiagBuilder report = diagnostics_.report(diag::ImmediateOutsideInt0, range);
     if (element.kind == ElementKind::Contact) report.note("a closed contact is written [/x]");
     return false;
   }
   if (immediate && element.kind == ElementKind::Box) {
-    diagnostics_.report(Diag::ImmediateNotAllowed, range) << "an operand of " + std::string(row.info.mnemonic);
+    diagnostics_.report(diag::ImmediateNotAllowed, range) << "an operand of " + std::string(row.info.mnemonic);
     return false;
   }
   if (immediate && operand.form == Form::Word) {
-    diagnostics_.report(Diag::ImmediateNotAllowed, range) << "a contact on a word";
+    diagnostics_.report(diag::ImmediateNotAllowed, range) << "a contact on a word";
     return false;
   }
   if (immediate && !symbols_.isNcWord(operand.address.word)) {
-    diagnostics_.report(Diag::ImmediateNotAllowed, range) << "an address outside the NC's area";
+    diagnostics_.report(diag::ImmediateNotAllowed, range) << "an address outside the NC's area";
     return false;
   }
   if (operand.edge != 0 && element.kind != ElementKind::Contact) {
-    diagnostics_.report(Diag::ModifierNotAllowed, range) << edge << nameOf(element, row);
+    diagnostics_.report(diag::ModifierNotAllowed, range) << edge << nameOf(element, row);
     return false;
   }
   return true;
@@ -394,7 +398,7 @@ void RungChecker::warnInt0Only(const Operand& operand) {
     return signal->type != nc::SignalType::Bit || (operand.address.isBit && operand.address.bit == signal->bit);
   };
   for (const nc::Signal* signal : {handwheel_, fastClock_})
-    if (concerns(signal)) diagnostics_.report(Diag::Int0OnlySignal, operand.source->range) << operand.source->text;
+    if (concerns(signal)) diagnostics_.report(diag::Int0OnlySignal, operand.source->range) << operand.source->text;
 }
 
 } // namespace rung::nct

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/nct/lower/lowering.h"
+#include "ir/support/diag/nct.h"
 #include "rtlib/nc/nct/messages.h"
 
 namespace rung::nct {
@@ -19,12 +20,12 @@ TextKind checkText(const Word& text, Diagnostics& diagnostics) {
     const auto place = nc::nct::readPlaceholder(rest);
     const std::string_view shown = rest.substr(0, std::min(rest.find('}'), rest.size() - 1) + 1);
     if (!place) {
-      diagnostics.report(Diag::MessageFormat, text.range) << shown << "it is written {#0:F0} or {*0:F2}";
+      diagnostics.report(diag::MessageFormat, text.range) << shown << "it is written {#0:F0} or {*0:F2}";
       return TextKind::Bad;
     }
     const TextKind own = place->real ? TextKind::Real : TextKind::Integer;
     if (kind != TextKind::Plain && kind != own) {
-      diagnostics.report(Diag::MessageFormat, text.range) << shown << "a message has either an integer or a double";
+      diagnostics.report(diag::MessageFormat, text.range) << shown << "a message has either an integer or a double";
       return TextKind::Bad;
     }
     kind = own;
@@ -41,7 +42,7 @@ void checkBox(const TextKinds& texts, const NctInstruction& row, const Operand& 
   if (found == texts.end()) return;
   const bool real = (row.variant & kMessageOfReal) != 0;
   if (found->second.kind != (real ? TextKind::Integer : TextKind::Real)) return;
-  diagnostics.report(Diag::MessageFormat, number.source->range).note(found->second.range, "the text")
+  diagnostics.report(diag::MessageFormat, number.source->range).note(found->second.range, "the text")
       << (real ? "{#0:F0}" : "{*0:Fi}")
       << fmt::format("{} takes {}, so the text has {}", row.info.mnemonic, real ? "a double" : "an integer",
                      real ? "{*0:Fi}" : "{#0:F0}");

@@ -8,6 +8,8 @@
 
 #include "frontend/dialects/nct/rows/operand_kinds.h"
 #include "frontend/sema/call_graph.h"
+#include "ir/support/diag/nct.h"
+#include "ir/support/diag/structure.h"
 #include "ir/support/similar.h"
 
 namespace rung::nct {
@@ -73,7 +75,7 @@ private:
     const bool isEnd = !elements.empty() && elements[0].row != nullptr && elements[0].row->flow == Flow::End;
     if (!ended_ || inSubroutine() || startsBody || isEnd || reportedAfterEnd_) return;
     reportedAfterEnd_ = true;
-    diagnostics_.report(Diag::CodeAfterEnd, module_.rungs[rung].rung->statement).note(endRange_, "the module's END");
+    diagnostics_.report(diag::CodeAfterEnd, module_.rungs[rung].rung->statement).note(endRange_, "the module's END");
   }
 
   bool inSubroutine() const { return module_.bodies.size() > 1; }
@@ -110,13 +112,13 @@ private:
     if (!mine.valid()) mine = range;
     if (!other.valid() || use.conflict) return;
     use.conflict = true;
-    diagnostics_.report(Diag::LabelConflict, range).note(other, "the other use") << number;
+    diagnostics_.report(diag::LabelConflict, range).note(other, "the other use") << number;
   }
 
   // What an END in the wrong place ends is not certain: what follows it is not looked at.
   void end(SourceRange range, bool bad) {
     if (ended_) {
-      diagnostics_.report(Diag::DuplicateEnd, range).note(endRange_, "the first one");
+      diagnostics_.report(diag::DuplicateEnd, range).note(endRange_, "the first one");
       return;
     }
     ended_ = true;
@@ -128,14 +130,14 @@ private:
     if (inSubroutine())
       hasRet_ = true;
     else if (!incomplete_)
-      diagnostics_.report(Diag::RetOutsideSubroutine, range);
+      diagnostics_.report(diag::RetOutsideSubroutine, range);
   }
 
   void label(uint32_t number, uint32_t rung, SourceRange range) {
     reserve(number, false, range);
     std::optional<uint32_t>& place = module_.labels[number];
     if (place)
-      diagnostics_.report(Diag::DuplicateLabel, range).note(labelRange_[number], "here") << number;
+      diagnostics_.report(diag::DuplicateLabel, range).note(labelRange_[number], "here") << number;
     else
       labelRange_[number] = range;
     if (!place) place = rung;
@@ -145,7 +147,7 @@ private:
     reserve(number, true, range);
     if (!ended_ && !incomplete_) {
       misplaced_ = true;
-      diagnostics_.report(Diag::SubroutineBeforeEnd, range) << number;
+      diagnostics_.report(diag::SubroutineBeforeEnd, range) << number;
     }
     closeBody(rung);
     module_.bodies.push_back({.first = rung, .end = rung, .number = number});
@@ -153,7 +155,7 @@ private:
     hasRet_ = false;
     std::optional<uint32_t>& place = module_.subroutines[number];
     if (place)
-      diagnostics_.report(Diag::DuplicateSubroutine, range).note(subroutineRange_[number], "here") << number;
+      diagnostics_.report(diag::DuplicateSubroutine, range).note(subroutineRange_[number], "here") << number;
     else
       subroutineRange_[number] = range;
     if (!place) place = static_cast<uint32_t>(module_.bodies.size() - 1);
@@ -165,7 +167,7 @@ private:
     if (!body.number) return;
     const auto rungs = std::span(module_.rungs).subspan(body.first, body.end - body.first);
     if (!hasRet_ && std::ranges::none_of(rungs, [&](const TypedRung& r) { return hides(r); }))
-      diagnostics_.report(Diag::MissingRet, bodyRange_) << *body.number;
+      diagnostics_.report(diag::MissingRet, bodyRange_) << *body.number;
   }
 
   uint32_t bodyOf(uint32_t rung) const {
@@ -178,29 +180,29 @@ private:
     if (uses_[jump.number].conflict) return;
     const std::optional<uint32_t> target = module_.labels[jump.number];
     if (!target) {
-      diagnostics_.report(Diag::UndefinedLabel, jump.range) << jump.number << "in this module";
+      diagnostics_.report(diag::UndefinedLabel, jump.range) << jump.number << "in this module";
     } else if (misplaced_) {
       // Where bodies begin and end is not known.
     } else if (bodyOf(*target) != bodyOf(jump.rung)) {
-      diagnostics_.report(Diag::JumpAcrossSubroutine, jump.range).note(labelRange_[jump.number], "its target")
+      diagnostics_.report(diag::JumpAcrossSubroutine, jump.range).note(labelRange_[jump.number], "its target")
           << jump.number;
     } else if (*target <= jump.rung) {
-      diagnostics_.report(Diag::BackwardJump, jump.range).note(labelRange_[jump.number], "its target") << jump.number;
+      diagnostics_.report(diag::BackwardJump, jump.range).note(labelRange_[jump.number], "its target") << jump.number;
     }
     uses_[jump.number].referenced = true;
   }
 
   void checkCall(const Reference& call) {
     if (uses_[call.number].conflict) return;
-    if (!module_.subroutines[call.number]) diagnostics_.report(Diag::UndefinedSubroutine, call.range) << call.number;
+    if (!module_.subroutines[call.number]) diagnostics_.report(diag::UndefinedSubroutine, call.range) << call.number;
     uses_[call.number].referenced = true;
   }
 
   void warnUnused() {
     for (uint32_t n = 0; n < kLabels; ++n) {
       if (uses_[n].referenced || uses_[n].conflict) continue;
-      if (module_.labels[n]) diagnostics_.report(Diag::LabelUnused, labelRange_[n]) << n;
-      if (module_.subroutines[n] && !misplaced_) diagnostics_.report(Diag::SubroutineUnused, subroutineRange_[n]) << n;
+      if (module_.labels[n]) diagnostics_.report(diag::LabelUnused, labelRange_[n]) << n;
+      if (module_.subroutines[n] && !misplaced_) diagnostics_.report(diag::SubroutineUnused, subroutineRange_[n]) << n;
     }
   }
 
@@ -210,7 +212,7 @@ private:
       if (const auto& callee = module_.subroutines[call.number]) graph.add(bodyOf(call.rung), *callee, call.range);
     const auto nameOf = [&](uint32_t body) { return fmt::format("{}", numberOf(module_.bodies[body])); };
     for (const frontend::CallGraph::Circle& circle : graph.order().circles)
-      diagnostics_.report(Diag::RecursiveCall, circle.call.range)
+      diagnostics_.report(diag::RecursiveCall, circle.call.range)
           << "subroutine " + nameOf(circle.call.callee) << frontend::CallGraph::throughText(circle, nameOf);
   }
 
@@ -247,7 +249,7 @@ private:
         if (element.row == nullptr) continue;
         const bool edge = element.row->shape == Shape::Contact;
         if (edge ? rung.operandsOf(element)[0].edge == 0 : !element.row->info.stateful) continue;
-        diagnostics_.report(Diag::SharedState, element.element->range).note(call.range, "one of the calls")
+        diagnostics_.report(diag::SharedState, element.element->range).note(call.range, "one of the calls")
             << (edge ? "the edge" : element.row->info.mnemonic) << numberOf(body);
         return;
       }

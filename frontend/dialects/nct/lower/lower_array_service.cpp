@@ -8,12 +8,12 @@
 
 #include "frontend/dialects/nct/lower/lowering.h"
 #include "frontend/lower/request.h"
+#include "ir/support/diag/nct.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/service_functions.h"
 
 namespace rung::nct {
 
-using ir::OpCode;
 using ir::RungBuilder;
 using ir::SlotId;
 using ir::Type;
@@ -216,8 +216,8 @@ Step ArrayServiceLowering::await() {
 // A host without an NC answers with an error: no function is known there.
 void ArrayServiceLowering::takeAnswer(const WordRange& range) {
   const ValueId word = b_.loop(range.mostWords).front();
-  const ValueId bits = b_.loadAt(Type::I32, mask(), b_.op(OpCode::ShrU, Type::I32, {word, b_.i32(5)}));
-  const ValueId bit = b_.op(OpCode::ShrU, Type::I32, {bits, b_.and_(word, b_.i32(31))});
+  const ValueId bits = b_.loadAt(Type::I32, mask(), b_.shrU(word, b_.i32(5)));
+  const ValueId bit = b_.shrU(bits, b_.and_(word, b_.i32(31)));
   b_.when(b_.zextOrTrunc(Type::Bit, bit),
           [&] { box_.memory.storeIn(range, word, b_.loadAt(Type::I32, words(), word)); });
   b_.endLoop();
@@ -230,7 +230,7 @@ void checkFunction(const Operand& function, FunctionAccess access, Diagnostics& 
   if (function.form != Form::Constant) return;
   const nc::nct::ServiceFunction* known = nc::nct::findServiceFunction(function.constant.integer);
   if (known != nullptr && known->access == access) return;
-  DiagBuilder report = diagnostics.report(Diag::UnknownFunctionCode, function.source->range);
+  DiagBuilder report = diagnostics.report(diag::UnknownFunctionCode, function.source->range);
   report << function.source->text << nc::nct::mnemonicOf(access);
   if (known != nullptr)
     report.note(std::string(function.source->text) + " is a function of " +

@@ -6,7 +6,6 @@
 
 namespace rung::nct {
 
-using ir::OpCode;
 using ir::RungBuilder;
 using ir::Type;
 using ir::ValueId;
@@ -28,7 +27,7 @@ ValueId isProper(Lowering& box, ValueId axis, ValueId code, ValueId speed) {
   ValueId needsSpeed = b.bit(false);
   for (const nc::nct::AxisCode& known : nc::nct::axisCodes())
     if (known.needsSpeed()) needsSpeed = b.or_(needsSpeed, b.eq(code, b.i32(known.code)));
-  const ValueId stopped = b.op(OpCode::FEq, Type::F64, {speed, b.real(0)});
+  const ValueId stopped = b.fEq(speed, b.real(0));
   const ValueId requested = b.and_(axisSignal(box, "AP_PLCR", axis), axisSignal(box, "AN_PLCA", axis));
   const auto codes = static_cast<int64_t>(nc::nct::axisCodes().size());
   const ValueId inRange = b.and_(b.ltU(axis, b.i32(nc::nct::kAxes)), b.ltU(code, b.i32(codes)));
@@ -51,7 +50,7 @@ ValueId lowerAxisCommand(Lowering& box) {
     valid = memory.both(valid, isProper(box, axis, code, speed));
     return guarded(box, valid, [&] {
       const auto send = [&] {
-        const auto bits = [&](ValueId real) { return b.op(OpCode::FToBits, Type::I64, {real}); };
+        const auto bits = [&](ValueId real) { return b.fToBits(real); };
         const ValueId args[] = {b.zextOrTrunc(Type::I64, axis), b.zextOrTrunc(Type::I64, code), bits(speed),
                                 bits(distance)};
         const ValueId ticket = b.serviceRequest(box.shared.service("MOVCMND axis code speed:f distance:f"), args);

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "frontend/dialects/nct/lower/lowering.h"
+#include "ir/core/op_info.h"
 
 namespace rung::nct {
 
@@ -14,10 +15,11 @@ using ir::ValueId;
 namespace {
 
 ValueId isFinite(RungBuilder& b, ValueId x) {
-  return b.op(OpCode::FLe, Type::F64, {b.op(OpCode::FAbs, Type::F64, {x}), b.real(std::numeric_limits<double>::max())});
+  const ValueId magnitude = b.fAbs(x);
+  return b.fLe(magnitude, b.real(std::numeric_limits<double>::max()));
 }
-ValueId isZero(RungBuilder& b, ValueId x) { return b.op(OpCode::FEq, Type::F64, {x, b.real(0)}); }
-ValueId isNumber(RungBuilder& b, ValueId x) { return b.op(OpCode::FEq, Type::F64, {x, x}); }
+ValueId isZero(RungBuilder& b, ValueId x) { return b.fEq(x, b.real(0)); }
+ValueId isNumber(RungBuilder& b, ValueId x) { return b.fEq(x, x); }
 
 // Does `store` when `ok` holds, else only sets FL_ER; gives `ok`. `store` clears FL_ER.
 template <class Store>
@@ -96,10 +98,10 @@ ValueId lowerFloatFunction(Lowering& box) {
       const ValueId result =
           variant == kPower ? b.op(OpCode::FPow, Type::F64, {x, y}) : b.op(kCodes[variant], Type::F64, {x});
       ValueId ok = isNumber(b, result);
-      if (variant == kLogarithm) ok = b.op(OpCode::FLt, Type::F64, {zero, x});
+      if (variant == kLogarithm) ok = b.fLt(zero, x);
       if (variant == kPower) {
-        const ValueId pole = b.and_(isZero(b, x), b.op(OpCode::FLt, Type::F64, {y, zero}));
-        ok = b.and_(b.and_(isNumber(b, y), b.op(OpCode::FLe, Type::F64, {zero, x})), b.not_(pole));
+        const ValueId pole = b.and_(isZero(b, x), b.fLt(y, zero));
+        ok = b.and_(b.and_(isNumber(b, y), b.fLe(zero, x)), b.not_(pole));
       }
       return when(box, ok, [&] {
         box.memory.storeDouble(target, result);
@@ -149,16 +151,15 @@ struct Converted {
 ValueId lowerBin(Lowering& box) {
   RungBuilder& b = box.b;
   return convertWord(box, [&](ValueId source) {
-    const ValueId binary = b.op(OpCode::BcdDecode, Type::I32, {source});
-    return Converted{binary, b.eq(b.op(OpCode::BcdEncode, Type::I32, {binary}), source)};
+    const ValueId binary = b.bcdDecode(source);
+    return Converted{binary, b.eq(b.bcdEncode(binary), source)};
   });
 }
 
 ValueId lowerBcd(Lowering& box) {
   RungBuilder& b = box.b;
-  return convertWord(box, [&](ValueId source) {
-    return Converted{b.op(OpCode::BcdEncode, Type::I32, {source}), b.leU(source, b.i32(99'999'999))};
-  });
+  return convertWord(box,
+                     [&](ValueId source) { return Converted{b.bcdEncode(source), b.leU(source, b.i32(99'999'999))}; });
 }
 
 ValueId lowerFlt(Lowering& box) {
@@ -168,7 +169,7 @@ ValueId lowerFlt(Lowering& box) {
     ValueId valid = target.valid;
     const ValueId source = box.memory.integer(box.operands[1], valid);
     return guarded(box, valid, [&] {
-      box.memory.storeDouble(target, b.op(OpCode::IntToF, Type::F64, {source}));
+      box.memory.storeDouble(target, b.intToF(source));
       box.memory.setErrorFlag(false);
       return ValueId{};
     });
@@ -183,8 +184,8 @@ ValueId lowerFix(Lowering& box) {
     ValueId valid = target.valid;
     const ValueId source = box.memory.real(box.operands[1], valid);
     return guarded(box, valid, [&] {
-      const ValueId aboveLeast = b.op(OpCode::FLe, Type::F64, {b.real(INT32_MIN), source});
-      const ValueId belowGreatest = b.op(OpCode::FLe, Type::F64, {source, b.real(INT32_MAX)});
+      const ValueId aboveLeast = b.fLe(b.real(INT32_MIN), source);
+      const ValueId belowGreatest = b.fLe(source, b.real(INT32_MAX));
       return when(box, b.and_(aboveLeast, belowGreatest), [&] {
         box.memory.storeWord(target, b.op(OpCode::FToInt, Type::I32, {source}));
         box.memory.setErrorFlag(false);
@@ -202,7 +203,7 @@ ValueId lowerAngle(Lowering& box) {
     const double factor = box.variant == kToDegrees ? 180 / std::numbers::pi : std::numbers::pi / 180;
     return guarded(box, valid, [&] {
       return when(box, isNumber(b, source), [&] {
-        box.memory.storeDouble(target, b.op(OpCode::FMul, Type::F64, {source, b.real(factor)}));
+        box.memory.storeDouble(target, b.fMul(source, b.real(factor)));
         box.memory.setErrorFlag(false);
       });
     });

@@ -9,7 +9,6 @@
 
 namespace rung::nct {
 
-using ir::OpCode;
 using ir::RungBuilder;
 using ir::Type;
 using ir::ValueId;
@@ -76,8 +75,8 @@ private:
     const ValueId code = b_.load(Type::I32, place(nc::nct::kWantedWord));
     if (logCell() == 0) {
       const auto digits = [&](uint32_t unit, uint32_t count) {
-        const ValueId above = b_.binary(OpCode::DivU, code, b_.i32(unit));
-        return b_.binary(OpCode::RemU, above, b_.i32(count));
+        const ValueId above = b_.divU(code, b_.i32(unit));
+        return b_.remU(above, b_.i32(count));
       };
       b_.when(b_.ne(code, b_.i32(0)), [&] {
         b_.message(RUNG_MESSAGE_CLEAR, digits(100, 1000), digits(1'000'000, 100), digits(1, 100),

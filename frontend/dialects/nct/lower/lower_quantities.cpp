@@ -4,12 +4,12 @@
 
 #include "frontend/dialects/nct/lower/lowering.h"
 #include "ir/support/check.h"
+#include "ir/support/diag/operand.h"
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "rtlib/nc/nct/signals.h"
 
 namespace rung::nct {
 
-using ir::OpCode;
 using ir::RungBuilder;
 using ir::SlotId;
 using ir::Type;
@@ -107,7 +107,7 @@ ValueId inquire(Lowering& box, Inquiry& inquiry, Valid valid, Body body) {
   });
 }
 
-ValueId asReal(RungBuilder& b, ValueId bits) { return b.op(OpCode::BitsToF, Type::F64, {bits}); }
+ValueId asReal(RungBuilder& b, ValueId bits) { return b.bitsToF(bits); }
 ValueId asArgument(RungBuilder& b, ValueId integer) { return b.sextOrTrunc(Type::I64, integer); }
 
 ValueId macrosLocked(Lowering& box) {
@@ -188,7 +188,7 @@ ValueId loadOwn(Lowering& box, ScopeSource source, ValueId word, ValueId bit) {
   }
   const bool isBit = source == ScopeSource::PlcBit || source == ScopeSource::DirectPlcBit;
   const ValueId integer = isBit ? b.zextOrTrunc(Type::I32, box.memory.loadBit(place)) : box.memory.loadWord(place);
-  return b.op(OpCode::IntToF, Type::F64, {integer});
+  return b.intToF(integer);
 }
 
 } // namespace
@@ -230,7 +230,7 @@ ValueId lowerScope(Lowering& box) {
 void checkMacro(std::span<const Operand> operands, const Config&, Diagnostics& diagnostics) {
   const Operand& channel = operands.back();
   if (channel.form != Form::Constant || (channel.constant.integer >= 0 && channel.constant.integer < kChannels)) return;
-  diagnostics.report(Diag::ConstantOutOfRange, channel.source->range)
+  diagnostics.report(diag::ConstantOutOfRange, channel.source->range)
           .severity(Severity::Warning)
           .note("there is no such channel: FL_ER is 1 and the output FALSE whenever this is executed")
       << channel.source->text << fmt::format("0 to {}", kChannels - 1);
@@ -242,7 +242,7 @@ void checkScope(std::span<const Operand> operands, const Config& config, Diagnos
     const int64_t most = parameter.maximum(config.plcNvram);
     const int64_t value = operand.constant.integer;
     if (operand.form != Form::Constant || (value >= parameter.min && value <= most)) return;
-    diagnostics.report(Diag::ConstantOutOfRange, operand.source->range)
+    diagnostics.report(diag::ConstantOutOfRange, operand.source->range)
             .note(fmt::format("{} of {}", parameter.meaning, symbol.name))
         << operand.source->text
         << (parameter.min == most ? fmt::format("#{}", most) : fmt::format("{} to {}", parameter.min, most));

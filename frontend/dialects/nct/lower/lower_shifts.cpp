@@ -1,5 +1,6 @@
 // ROT, the shift register and the arrays (man. §6.6, §6.7).
 #include "frontend/dialects/nct/lower/lowering.h"
+#include "ir/core/op_info.h"
 
 namespace rung::nct {
 
@@ -84,10 +85,10 @@ ValueId lowerShiftRegister(Lowering& box) {
       const ValueId word = box.memory.loadWord(place);
       const ValueId one = b.i32(1), top = b.i32(31);
       const ValueId in = b.zextOrTrunc(Type::I32, box.power(2));
-      const ValueId left = b.or_(b.op(OpCode::Shl, Type::I32, {word, one}), in);
-      const ValueId right = b.or_(b.op(OpCode::ShrU, Type::I32, {word, one}), b.op(OpCode::Shl, Type::I32, {in, top}));
+      const ValueId left = b.or_(b.shl(word, one), in);
+      const ValueId right = b.or_(b.shrU(word, one), b.shl(in, top));
       const ValueId toRight = box.power(1);
-      const ValueId highest = b.zextOrTrunc(Type::Bit, b.op(OpCode::ShrU, Type::I32, {word, top}));
+      const ValueId highest = b.zextOrTrunc(Type::Bit, b.shrU(word, top));
       b.slotStore(output, b.select(toRight, b.zextOrTrunc(Type::Bit, word), highest));
       box.memory.storeWord(place, b.select(toRight, right, left));
       box.memory.setErrorFlag(false);
@@ -143,8 +144,8 @@ ValueId lowerArray(Lowering& box) {
     return guarded(box, valid, [&] {
       ValueId amount = count;
       if (box.variant == kRotateLeft || box.variant == kRotateRight)
-        amount = b.op(OpCode::RemU, Type::I32, {count, b.mul(array.length, b.i32(32))});
-      const ValueId words = b.op(OpCode::ShrU, Type::I32, {amount, b.i32(5)});
+        amount = b.remU(count, b.mul(array.length, b.i32(32)));
+      const ValueId words = b.shrU(amount, b.i32(5));
       const ValueId bits = b.and_(amount, b.i32(31));
       const auto eachWord = [&](auto act) {
         const ValueId i = b.loop(array.mostWords).front();

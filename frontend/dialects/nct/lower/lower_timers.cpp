@@ -2,10 +2,10 @@
 #include <array>
 
 #include "frontend/dialects/nct/lower/lowering.h"
+#include "ir/support/diag/operand.h"
 
 namespace rung::nct {
 
-using ir::OpCode;
 using ir::RungBuilder;
 using ir::SlotId;
 using ir::Type;
@@ -54,9 +54,7 @@ ValueId preset(Lowering& box, ValueId& valid) {
   return b.mul(count, unit);
 }
 
-ValueId wholeMs(RungBuilder& b, ValueId us) {
-  return b.op(OpCode::DivU, Type::I64, {us, b.constant(Type::I64, kUsPerMs)});
-}
+ValueId wholeMs(RungBuilder& b, ValueId us) { return b.divU(us, b.constant(Type::I64, kUsPerMs)); }
 
 // As i32: more than a register can hold (24 days) leaves nothing of what it holds.
 ValueId atMostRegister(RungBuilder& b, ValueId ms) {
@@ -148,7 +146,7 @@ void checkTimer(std::span<const Operand> operands, const Config&, Diagnostics& d
   if (set.form != Form::Constant || basis.form != Form::Constant) return;
   const int64_t limit = kLimit[basis.constant.integer];
   if (set.constant.integer > limit)
-    diagnostics.report(Diag::ConstantOutOfRange, set.source->range)
+    diagnostics.report(diag::ConstantOutOfRange, set.source->range)
         << set.source->text << "0 to " + std::to_string(limit);
 }
 

@@ -1,5 +1,6 @@
 // Moving, logic and integer arithmetic (man. §6.3, §6.8, §6.9).
 #include "frontend/dialects/nct/lower/lowering.h"
+#include "ir/core/op_info.h"
 
 namespace rung::nct {
 
@@ -65,7 +66,7 @@ ValueId lowerMoveDouble(Lowering& box) {
     ValueId valid = result.valid;
     ValueId source;
     if (box.operands[1].form == Form::Constant) {
-      source = b.op(OpCode::FToBits, Type::I64, {b.real(box.operands[1].constant.real)});
+      source = b.fToBits(b.real(box.operands[1].constant.real));
     } else {
       const Place from = box.memory.twoWords(box.operands[1].address, AccessBound::Read);
       valid = box.memory.both(valid, from.valid);
@@ -127,7 +128,7 @@ ValueId lowerDiv(Lowering& box) {
     return guarded(box, valid, [&] {
       const ValueId zero = b.eq(y, b.i32(0));
       const ValueId over = b.and_(b.eq(x, b.i32(INT32_MIN)), b.eq(y, b.i32(-1)));
-      box.memory.storeWord(result, b.op(OpCode::DivS, Type::I32, {x, y}));
+      box.memory.storeWord(result, b.divS(x, y));
       setFlags(box.memory, {.error = zero, .under = {}, .over = over, .carry = {}});
       return b.not_(zero);
     });

@@ -7,7 +7,6 @@
 
 namespace rung::nct {
 
-using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
@@ -177,8 +176,8 @@ ValueId Memory::loadDouble(const Place& place, Type type) {
 }
 
 ValueId Memory::upperWord(ValueId value) {
-  const ValueId bits = b_.typeOf(value) == Type::F64 ? b_.op(OpCode::FToBits, Type::I64, {value}) : value;
-  return b_.zextOrTrunc(Type::I32, b_.op(OpCode::ShrU, Type::I64, {bits, b_.i32(32)}));
+  const ValueId bits = b_.typeOf(value) == Type::F64 ? b_.fToBits(value) : value;
+  return b_.zextOrTrunc(Type::I32, b_.shrU(bits, b_.i32(32)));
 }
 
 void Memory::storeDouble(const Place& place, ValueId value) {

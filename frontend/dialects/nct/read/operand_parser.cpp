@@ -5,6 +5,8 @@
 #include <string>
 
 #include "ir/support/ascii.h"
+#include "ir/support/diag/nct.h"
+#include "ir/support/diag/operand.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "rtlib/text/number.h"
@@ -27,7 +29,7 @@ struct ConstantReader {
   Diagnostics& diagnostics;
 
   std::optional<Constant> malformed() {
-    DiagBuilder report = diagnostics.report(Diag::ConstantFormat, rangeOf(word, text));
+    DiagBuilder report = diagnostics.report(diag::ConstantFormat, rangeOf(word, text));
     report << text;
     std::string fixed(text);
     std::ranges::replace(fixed, ',', '.');
@@ -40,7 +42,7 @@ struct ConstantReader {
     return std::nullopt;
   }
   std::optional<Constant> tooLarge(std::string_view range) {
-    diagnostics.report(Diag::ConstantOutOfRange, rangeOf(word, text)) << text << range;
+    diagnostics.report(diag::ConstantOutOfRange, rangeOf(word, text)) << text << range;
     return std::nullopt;
   }
 
@@ -90,7 +92,7 @@ public:
                     (comma == std::string_view::npos || readIndex(text.substr(comma + 1)));
     if (!ok) return std::nullopt;
     if (word64_ < 0 || word64_ >= kWords) {
-      diagnostics_.report(Diag::AddressOutOfRange, rangeOf(word_, text)) << text << "0000 to 9999";
+      diagnostics_.report(diag::AddressOutOfRange, rangeOf(word_, text)) << text << "0000 to 9999";
       return std::nullopt;
     }
     result_.address.word = static_cast<uint32_t>(word64_);
@@ -106,13 +108,13 @@ private:
     const int64_t words = int64_t{signal.count} * signal.strideBytes / 4;
     const int64_t offset = word64_ - signal.byteOffset / 4;
     if (words < 2 || (offset >= 0 && offset < words)) return;
-    diagnostics_.report(Diag::SignalIndex, rangeOf(word_, text))
+    diagnostics_.report(diag::SignalIndex, rangeOf(word_, text))
         << text << signal.symbol << (signal.count - 1) * signal.strideBytes / 4;
   }
 
   std::optional<uint32_t> number(std::string_view text) {
     if (text.size() == 4 && allDigits(text)) return static_cast<uint32_t>(decimalValue(text));
-    DiagBuilder report = diagnostics_.report(Diag::AddressFormat, rangeOf(word_, text));
+    DiagBuilder report = diagnostics_.report(diag::AddressFormat, rangeOf(word_, text));
     report << text;
     if (allDigits(text) && text.size() < 4)
       report.note("an address is written " + std::string(4 - text.size(), '0') + std::string(text) + ", a constant #" +
@@ -124,7 +126,7 @@ private:
 
   const Symbol* symbol(std::string_view name) {
     if (name.empty()) {
-      DiagBuilder report = diagnostics_.report(Diag::AddressFormat, word_.range);
+      DiagBuilder report = diagnostics_.report(diag::AddressFormat, word_.range);
       report << word_.text;
       if (word_.text.ends_with(',')) report.note("operands are separated by blanks, without commas");
       return nullptr;
@@ -136,7 +138,7 @@ private:
   }
 
   bool mismatch(std::string_view name, SymbolKind is, std::string_view needed) {
-    diagnostics_.report(Diag::SymbolKindMismatch, rangeOf(word_, name)) << name << describe(is) << needed;
+    diagnostics_.report(diag::SymbolKindMismatch, rangeOf(word_, name)) << name << describe(is) << needed;
     return false;
   }
 
@@ -163,7 +165,7 @@ private:
     result_.address.isBit = true;
     if (mark == ':') return readRegister(text, result_.address.bitRegister);
     if (text.size() != 2 || !allDigits(text)) {
-      DiagBuilder report = diagnostics_.report(Diag::BitFormat, text.empty() ? word_.range : rangeOf(word_, text));
+      DiagBuilder report = diagnostics_.report(diag::BitFormat, text.empty() ? word_.range : rangeOf(word_, text));
       report << text;
       if (text.size() == 1 && allDigits(text)) report.note("write .0" + std::string(text));
       const size_t modifier = text.find_first_of("@%!");
@@ -173,7 +175,7 @@ private:
     }
     result_.address.bit = static_cast<uint32_t>(decimalValue(text));
     if (result_.address.bit < 32) return true;
-    diagnostics_.report(Diag::BitOutOfRange, rangeOf(word_, text)) << text;
+    diagnostics_.report(diag::BitOutOfRange, rangeOf(word_, text)) << text;
     return false;
   }
 
@@ -195,7 +197,7 @@ private:
       const std::optional<Constant> constant = parseConstant(word_, text, diagnostics_);
       if (!constant) return false;
       if (constant->kind == ConstantKind::Decimal) return constantIndex(*constant);
-      diagnostics_.report(Diag::ConstantFormat, rangeOf(word_, text)) << text;
+      diagnostics_.report(diag::ConstantFormat, rangeOf(word_, text)) << text;
       return false;
     }
     if (text.empty() || isDigit(text[0])) return readRegister(text, result_.address.indexRegister);
@@ -204,7 +206,7 @@ private:
     if (found->kind == SymbolKind::Bit) return mismatch(text, found->kind, "a word or a constant");
     if (found->kind == SymbolKind::Constant) {
       if (found->constant.kind != ConstantKind::Real) return constantIndex(found->constant);
-      diagnostics_.report(Diag::OperandTypeMismatch, rangeOf(word_, text)) << text << "a double" << "an index" << "#";
+      diagnostics_.report(diag::OperandTypeMismatch, rangeOf(word_, text)) << text << "a double" << "an index" << "#";
       return false;
     }
     result_.address.indexRegister = found->word;
@@ -285,7 +287,7 @@ Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagno
     return operand;
   }
   if (text.starts_with('-') || text.starts_with('+')) {
-    diagnostics.report(Diag::ConstantFormat, rangeOf(word, text)) << text;
+    diagnostics.report(diag::ConstantFormat, rangeOf(word, text)) << text;
     return operand;
   }
   operand.fromSymbol = !text.empty() && !isDigit(text[0]);
@@ -315,7 +317,7 @@ Operand parseScopeSymbol(const Word& word, Diagnostics& diagnostics) {
     operand.constant.integer = found - symbols.begin();
     return operand;
   }
-  DiagBuilder report = diagnostics.report(Diag::UnknownScopeSymbol, word.range);
+  DiagBuilder report = diagnostics.report(diag::UnknownScopeSymbol, word.range);
   report << word.text;
   report.meant(word.range, mostSimilar(word.text, symbols, &nc::nct::ScopeSymbol::name));
   return operand;
@@ -334,7 +336,7 @@ std::optional<uint32_t> parseLabel(const Word& word, SymbolTable& symbols, Diagn
     const Operand operand = parseOperand(word, symbols, diagnostics);
     if (operand.form == Form::Bad) return std::nullopt;
     if (operand.form != Form::Constant) {
-      diagnostics.report(Diag::SymbolKindMismatch, word.range) << word.text
+      diagnostics.report(diag::SymbolKindMismatch, word.range) << word.text
                                                                << (operand.form == Form::Bit    ? "a bit"
                                                                    : operand.form == Form::Word ? "a word"
                                                                                                 : "a text")
@@ -342,14 +344,14 @@ std::optional<uint32_t> parseLabel(const Word& word, SymbolTable& symbols, Diagn
       return std::nullopt;
     }
     if (operand.constant.kind != ConstantKind::Decimal) {
-      diagnostics.report(Diag::OperandTypeMismatch, word.range)
+      diagnostics.report(diag::OperandTypeMismatch, word.range)
           << word.text << "no decimal constant" << "a label" << "#0 to #99";
       return std::nullopt;
     }
     number = operand.constant.integer;
   }
   if (number >= 0 && number <= 99) return static_cast<uint32_t>(number);
-  diagnostics.report(Diag::LabelOutOfRange, word.range) << word.text;
+  diagnostics.report(diag::LabelOutOfRange, word.range) << word.text;
   return std::nullopt;
 }
 

@@ -3,6 +3,9 @@
 
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "ir/support/ascii.h"
+#include "ir/support/diag/nct.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/source.h"
 #include "ir/support/similar.h"
 
 namespace rung::nct {
@@ -107,7 +110,7 @@ void SymbolTable::noteUndeclared(std::string_view name, SourceRange range, std::
 }
 
 void SymbolTable::reportUndeclared() {
-  undeclared_.report(diagnostics_, Diag::UndeclaredSymbol,
+  undeclared_.report(diagnostics_, diag::UndeclaredSymbol,
                      [&](DiagBuilder& report, const Undeclared& use) { explain(report, use); });
 }
 
@@ -136,7 +139,7 @@ std::string_view SymbolTable::similarTo(std::string_view name) const {
 void SymbolTable::declare(const ladder::Declaration& declaration) {
   const std::string_view name = declaration.name.text;
   if (!isName(name)) {
-    diagnostics_.report(Diag::BadOperand, declaration.name.range) << name << "name of a symbol";
+    diagnostics_.report(diag::BadOperand, declaration.name.range) << name << "name of a symbol";
     return;
   }
   indexOf(name); // one of the NC is declared by it
@@ -164,12 +167,12 @@ void SymbolTable::resolveAll() {
 void SymbolTable::resolve(Symbol& symbol) {
   const Word& value = symbol.declaration->value;
   if (symbol.resolving) {
-    diagnostics_.report(Diag::BadOperand, value.range) << value.text << "fixed address: the declarations form a cycle";
+    diagnostics_.report(diag::BadOperand, value.range) << value.text << "fixed address: the declarations form a cycle";
     symbol.pending = false;
     return;
   }
   if (depth_ >= kMaxDepth) {
-    diagnostics_.report(Diag::TooDeep, value.range) << "declarations that refer to each other are" << kMaxDepth;
+    diagnostics_.report(diag::TooDeep, value.range) << "declarations that refer to each other are" << kMaxDepth;
     symbol.pending = false;
     return;
   }
@@ -187,7 +190,7 @@ void SymbolTable::resolve(Symbol& symbol) {
 void SymbolTable::resolveConstant(Symbol& symbol) {
   const Word& value = symbol.declaration->value;
   if (!value.text.starts_with('#') && !value.text.starts_with('*')) {
-    DiagBuilder report = diagnostics_.report(Diag::ConstantFormat, value.range);
+    DiagBuilder report = diagnostics_.report(diag::ConstantFormat, value.range);
     report << value.text;
     if (!value.text.empty() && value.text.find_first_not_of("0123456789") == std::string_view::npos)
       report.note("write #" + std::string(value.text));
@@ -202,7 +205,7 @@ void SymbolTable::resolveConstant(Symbol& symbol) {
 void SymbolTable::resolveAddress(Symbol& symbol) {
   const Word& value = symbol.declaration->value;
   if (value.text.empty() || std::string_view("#*@%!/+-").find(value.text[0]) != std::string_view::npos) {
-    diagnostics_.report(Diag::BadOperand, value.range) << value.text << "address";
+    diagnostics_.report(diag::BadOperand, value.range) << value.text << "address";
     return;
   }
   const std::optional<ParsedAddress> parsed = parseAddress(value, value.text, *this, diagnostics_);
@@ -210,7 +213,7 @@ void SymbolTable::resolveAddress(Symbol& symbol) {
   if (!parsed || !symbol.pending) return;
   const Address& address = parsed->address;
   if (!address.isFixed()) {
-    diagnostics_.report(Diag::BadOperand, value.range) << value.text << "fixed address";
+    diagnostics_.report(diag::BadOperand, value.range) << value.text << "fixed address";
     return;
   }
   symbol.kind = address.isBit ? SymbolKind::Bit : SymbolKind::Word;
@@ -218,7 +221,7 @@ void SymbolTable::resolveAddress(Symbol& symbol) {
   symbol.bit = address.bit;
   // NC addresses differ between versions of the control (l.6450).
   if (parsed->base == nullptr && address.word > kFlagsWord && address.word < config_.plcNvram)
-    diagnostics_.report(Diag::SymbolInNcArea, value.range) << symbol.name << value.text;
+    diagnostics_.report(diag::SymbolInNcArea, value.range) << symbol.name << value.text;
 }
 
 } // namespace rung::nct

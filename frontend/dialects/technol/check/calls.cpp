@@ -3,13 +3,16 @@
 
 #include <algorithm>
 
+#include "ir/support/diag/source.h"
+#include "ir/support/diag/technol.h"
+
 namespace rung::frontend::technol {
 
 void ProcedureCalls::check(const Program& program) const {
   const CallGraph::Order order = graph_.order();
   const auto nameOf = [&](uint32_t procedure) { return std::string(program.procedures[procedure].name); };
   for (const CallGraph::Circle& circle : order.circles)
-    program.diagnostics.report(Diag::RecursiveProcedure, circle.call.range)
+    program.diagnostics.report(diag::RecursiveProcedure, circle.call.range)
         << program.procedures[circle.call.callee].name << CallGraph::throughText(circle, nameOf);
   if (order.circles.empty()) checkDepth(program, order.calleesFirst);
 }
@@ -21,7 +24,7 @@ void ProcedureCalls::checkDepth(const Program& program, std::span<const uint32_t
     for (const CallGraph::Call& call : graph_.of(caller)) {
       depth[caller] = std::max(depth[caller], depth[call.callee] + 1);
       if (depth[caller] == kMaxDepth)
-        program.diagnostics.report(Diag::TooDeep, call.range) << "procedure calls" << kMaxDepth;
+        program.diagnostics.report(diag::TooDeep, call.range) << "procedure calls" << kMaxDepth;
     }
 }
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/technol.h"
+
 namespace rung::frontend::technol {
 
 // Values beyond the stack's end are lost; that is reported once, also where they are taken off.
@@ -13,7 +16,7 @@ void Equation::loadRlo(SourceRange at, StackUse& use) {
   } else if (depth_ < kStackDepth) {
     use.pushed = depth_++;
   } else if (lost_++ == 0) {
-    diagnostics_.report(Diag::StackOverflow, at) << kStackDepth;
+    diagnostics_.report(diag::StackOverflow, at) << kStackDepth;
   }
 }
 
@@ -22,7 +25,7 @@ uint32_t Equation::pop(const Statement& statement) {
   if (lost_ > 0)
     --lost_;
   else
-    diagnostics_.report(Diag::StackUnderflow, statement.range()) << statement.row->info.mnemonic;
+    diagnostics_.report(diag::StackUnderflow, statement.range()) << statement.row->info.mnemonic;
   return kNone;
 }
 
@@ -59,7 +62,7 @@ void Equation::endMacro(const Statement& statement) {
   case MacroStack::Push: depth_ = std::min(depth + (open ? 1 : 0), kStackDepth), open_ = true; return;
   case MacroStack::Pop:
     if (depth == 0 && diagnostics_.errorCount() == errors)
-      diagnostics_.report(Diag::StackUnderflow, statement.range()) << statement.row->info.mnemonic;
+      diagnostics_.report(diag::StackUnderflow, statement.range()) << statement.row->info.mnemonic;
     depth_ = depth == 0 ? 0 : depth - 1, open_ = open;
     return;
   }
@@ -67,11 +70,11 @@ void Equation::endMacro(const Statement& statement) {
 
 void Equation::checkBalance(SourceRange at, std::string_view where) {
   if (depth_ != 0)
-    diagnostics_.report(Diag::UnbalancedStack, at) << std::to_string(depth_) +
+    diagnostics_.report(diag::UnbalancedStack, at) << std::to_string(depth_) +
                                                           (depth_ == 1 ? " value is" : " values are") +
                                                           " left on the stack at " + std::string(where);
   else if (open_ && !hasUnknown_)
-    diagnostics_.report(Diag::UnterminatedEquation, begin_).note(at, "it is still open here");
+    diagnostics_.report(diag::UnterminatedEquation, begin_).note(at, "it is still open here");
   depth_ = 0;
   lost_ = 0;
 }

@@ -4,6 +4,8 @@
 
 #include "frontend/dialects/technol/check/operand_parser.h"
 #include "frontend/dialects/technol/read/encoding.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/technol.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"
 
@@ -76,7 +78,7 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
     const std::optional<Number> number = parseNumber(head.text);
     const bool pointAfter = tokens.size() > 1 && tokens[1].is('.'); // 1. and 5.A
     if (!number || pointAfter) {
-      program_.diagnostics.report(Diag::BadNumber, head.range()) << std::string(head.text) + (pointAfter ? "." : "");
+      program_.diagnostics.report(diag::BadNumber, head.range()) << std::string(head.text) + (pointAfter ? "." : "");
       return false;
     }
     out.isReal = out.isReal || number->isReal;
@@ -86,7 +88,7 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
   } else if (head.kind == TokenKind::Text) {
     const std::optional<uint8_t> character = characterByte(head.text);
     if (!character) {
-      program_.diagnostics.report(Diag::WrongOperandKind, head.range())
+      program_.diagnostics.report(diag::WrongOperandKind, head.range())
           << "'" + std::string(head.text) + "'" << "a text" << "a value or one character";
       return false;
     }
@@ -116,7 +118,7 @@ bool OperandParser::addSymbol(const Token& name, int sign, Address& out) {
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
   const auto wrong = [&](std::string_view is) {
-    program_.diagnostics.report(Diag::WrongOperandKind, name.range()) << name.text << is << "a variable or a constant";
+    program_.diagnostics.report(diag::WrongOperandKind, name.range()) << name.text << is << "a variable or a constant";
     return false;
   };
   switch (symbol.kind) {
@@ -196,7 +198,7 @@ bool OperandParser::addMember(const Token& member, Address& out) {
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
   if (symbol.kind != SymbolKind::Constant) {
-    program_.diagnostics.report(Diag::WrongOperandKind, member.range())
+    program_.diagnostics.report(diag::WrongOperandKind, member.range())
         << member.text << "no member" << "a member of a structure";
     return false;
   }
@@ -210,7 +212,7 @@ bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t byte
   // An index is checked when it is used; only what no index reaches is wrong now.
   const int64_t slack = address.indexed ? 0xFFFF : 0;
   if (byte < -slack || byte + bytes > program_.bytesOf(address.space) + slack) {
-    program_.diagnostics.report(Diag::AddressOutOfRange, out.range)
+    program_.diagnostics.report(diag::AddressOutOfRange, out.range)
         << spell(out) << (address.space == kInterfaceSpace ? "the interface" : "the program's data");
     return false;
   }
@@ -250,13 +252,13 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
 bool OperandParser::flag(const Token& number, Operand& out) {
   const std::optional<Number> parsed = parseNumber(number.text);
   if (!parsed) {
-    program_.diagnostics.report(Diag::BadNumber, number.range()) << number.text;
+    program_.diagnostics.report(diag::BadNumber, number.range()) << number.text;
     return false;
   }
   out.form = Operand::Form::Integer;
   out.value = parsed->value;
   if (!parsed->isReal && (out.value == 0 || out.value == 1)) return true;
-  program_.diagnostics.report(Diag::OperandRange, out.range) << number.text << "0 or 1";
+  program_.diagnostics.report(diag::OperandRange, out.range) << number.text << "0 or 1";
   return false;
 }
 
@@ -296,7 +298,7 @@ bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where,
   const Symbol& symbol = program_.symbols[index];
   if (symbol.broken) return false;
   if (symbol.kind != SymbolKind::Bit && symbol.kind != SymbolKind::Mechanism) {
-    program_.diagnostics.report(Diag::WrongOperandKind, name.range()) << name.text << describe(symbol) << "a bit";
+    program_.diagnostics.report(diag::WrongOperandKind, name.range()) << name.text << describe(symbol) << "a bit";
     return false;
   }
   if (own && (address.hasBase || !symbol.space.valid())) return syntax("a number of bytes after $", where);
@@ -338,7 +340,7 @@ bool OperandParser::block(const OperandInfo& info, std::span<const Token> tokens
   else if (rest.size() != 1)
     return syntax("an element of a block", rest.subspan(1));
   if (number->value < 0 || number->value >= kQueuedBlocks || k < 0 || k >= element->count) {
-    program_.diagnostics.report(Diag::OperandRange, out.range) << spell(out) << "the queue of command blocks";
+    program_.diagnostics.report(diag::OperandRange, out.range) << spell(out) << "the queue of command blocks";
     return false;
   }
   if (!checkWrite(info, Protection::Error, spell(out), out.range)) return false;

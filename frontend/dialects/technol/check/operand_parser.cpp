@@ -2,6 +2,7 @@
 #include "frontend/dialects/technol/check/operand_parser.h"
 #include "frontend/dialects/technol/read/reader.h"
 #include "frontend/sema/operand_count.h"
+#include "ir/support/diag/technol.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
@@ -72,7 +73,7 @@ bool isNotGiven(std::span<const Token> tokens) {
 
 bool OperandParser::syntax(std::string_view expected, std::span<const Token> tokens) {
   const std::string found = tokens.empty() ? "nothing" : "'" + std::string(tokens[0].text) + "'";
-  program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, tokens, statement_->range()))
+  program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, tokens, statement_->range()))
       << expected << found;
   return false;
 }
@@ -85,7 +86,7 @@ std::string spell(const Operand& operand) {
 }
 
 bool reportWrongKind(Diagnostics& diagnostics, const Operand& operand, std::string_view is, std::string_view wanted) {
-  diagnostics.report(Diag::WrongOperandKind, operand.range) << spell(operand) << is << wanted;
+  diagnostics.report(diag::WrongOperandKind, operand.range) << spell(operand) << is << wanted;
   return false;
 }
 
@@ -143,12 +144,12 @@ bool OperandParser::waitOperands(std::span<Operand> operands) {
   Operand& time = operands[1];
   if (count.prefixed && time.isConstant()) {
     const std::string prefix = std::string(prefixOf(naturalPrefix(count.type)).name) + ".";
-    program_.diagnostics.report(Diag::InvalidTypePrefix, count.range) << prefix << "a constant time";
+    program_.diagnostics.report(diag::InvalidTypePrefix, count.range) << prefix << "a constant time";
     return false;
   }
   const int64_t most = count.type == ir::Type::I8 ? 0xFF : 0xFFFF;
   if (time.isConstant() && (time.value < 0 || time.value > most)) {
-    program_.diagnostics.report(Diag::OperandRange, time.range) << time.value << "0 to " + std::to_string(most);
+    program_.diagnostics.report(diag::OperandRange, time.range) << time.value << "0 to " + std::to_string(most);
     return false;
   }
   return true;
@@ -159,7 +160,7 @@ bool OperandParser::checkWrite(const OperandInfo& info, Protection protection, s
   const bool writes = info.access == Access::Write || info.access == Access::ReadWrite;
   if (!writes || protection == Protection::None) return true;
   const bool error = protection == Protection::Error;
-  program_.diagnostics.report(Diag::WriteToReadonly, range).severity(error ? Severity::Error : Severity::Warning)
+  program_.diagnostics.report(diag::WriteToReadonly, range).severity(error ? Severity::Error : Severity::Warning)
       << name;
   return !error;
 }
@@ -167,7 +168,7 @@ bool OperandParser::checkWrite(const OperandInfo& info, Protection protection, s
 uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
   if (tokens.size() < 2 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return 0;
   if (text::equalsIgnoringCase(tokens[0].text, "CNTS")) {
-    program_.diagnostics.report(Diag::CntsPrefix, tokens[0].range()).fix(tokens[0].range(), "CNST");
+    program_.diagnostics.report(diag::CntsPrefix, tokens[0].range()).fix(tokens[0].range(), "CNST");
     tokens = tokens.subspan(2);
     return kCnst;
   }
@@ -215,7 +216,7 @@ bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, c
                              Operand& out) {
   if (!kind.constant) return wrongKind(out, "a constant", "a variable");
   if (prefix == kQword || prefix == kReal || prefix == kHigh) {
-    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range)
+    program_.diagnostics.report(diag::InvalidTypePrefix, out.range)
         << std::string(prefixOf(prefix).name) + "." << "a constant";
     return false;
   }
@@ -239,7 +240,7 @@ bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, c
   const int64_t least = ranged ? info.min : -(int64_t{1} << (width - 1));
   const int64_t most = ranged ? info.max : (int64_t{1} << width) - 1;
   if (out.value >= least && out.value <= most) return true;
-  program_.diagnostics.report(Diag::OperandRange, out.range)
+  program_.diagnostics.report(diag::OperandRange, out.range)
       << out.value << std::to_string(least) + " to " + std::to_string(most);
   return false;
 }
@@ -256,7 +257,7 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
   if (out.type == ir::Type::None && real && !address.isText) out.type = ir::Type::F64;
   if (out.type == ir::Type::None) {
     if (address.isText) return wrongKind(out, "a text", "a cell");
-    program_.diagnostics.report(Diag::UntypedOperand, out.range) << address.name;
+    program_.diagnostics.report(diag::UntypedOperand, out.range) << address.name;
     return false;
   }
   if (!ir::contains(kind.types, out.type))
@@ -292,7 +293,7 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
   if (kind.ownName) {
     if (tokens.size() == 1 && text::equalsIgnoringCase(tokens[0].text, info.name))
       return out.form = Operand::Form::Register, true;
-    program_.diagnostics.report(Diag::UnsupportedAssembler, statement_->range()).note("in this language: LOD and STO")
+    program_.diagnostics.report(diag::UnsupportedAssembler, statement_->range()).note("in this language: LOD and STO")
         << statement_->row->info.mnemonic;
     return false;
   }
@@ -305,7 +306,7 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
     return true;
   }
   if (width) {
-    program_.diagnostics.report(Diag::InvalidTypePrefix, out.range).note(kind.doc)
+    program_.diagnostics.report(diag::InvalidTypePrefix, out.range).note(kind.doc)
         << width->name << statement_->row->info.mnemonic;
     return false;
   }
@@ -315,13 +316,13 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
   out.form = Operand::Form::Integer;
   out.value = *number;
   if (*number >= info.min && *number <= info.max) return true;
-  program_.diagnostics.report(Diag::OperandRange, out.range)
+  program_.diagnostics.report(diag::OperandRange, out.range)
       << *number << std::to_string(info.min) + " to " + std::to_string(info.max);
   return false;
 }
 
 bool OperandParser::wrongPrefix(uint8_t prefix, const Operand& operand) {
-  program_.diagnostics.report(Diag::InvalidTypePrefix, operand.range)
+  program_.diagnostics.report(diag::InvalidTypePrefix, operand.range)
       << std::string(prefixOf(prefix).name) + "." << statement_->row->info.mnemonic;
   return false;
 }

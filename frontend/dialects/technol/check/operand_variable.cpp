@@ -1,6 +1,7 @@
 // Operands that name variables of MAP_* and DEF_*, and bits for their numbers (see operand_parser.h).
 #include "frontend/dialects/technol/check/operand_parser.h"
 #include "frontend/dialects/technol/read/reader.h"
+#include "ir/support/diag/technol.h"
 
 namespace rung::frontend::technol {
 
@@ -41,7 +42,7 @@ bool OperandParser::exchanged(const OperandKind& kind, const Symbol& symbol, Ope
     const int64_t count = nc::isText(found->type) ? 1 : found->count;
     const bool given = out.tokens.size() > 1;
     if (given && (out.value < 0 || out.value >= count)) {
-      program_.diagnostics.report(Diag::OperandRange, out.range) << out.value << "0 to " + std::to_string(count - 1);
+      program_.diagnostics.report(diag::OperandRange, out.range) << out.value << "0 to " + std::to_string(count - 1);
       return false;
     }
   } else if (found == nullptr || &program_.statements[found->statement] != statement_) {

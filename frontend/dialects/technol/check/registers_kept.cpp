@@ -1,11 +1,13 @@
 // What the registers hold (see registers_kept.h).
 #include "frontend/dialects/technol/check/registers_kept.h"
 
+#include "ir/support/diag/technol.h"
+
 namespace rung::frontend::technol {
 
 void LostRegisters::reportIf(bool& lost, bool reads, const Statement& statement, std::string_view name) {
   if (!lost || !reads) return;
-  diagnostics_.report(Diag::ValueNotPreserved, statement.range()) << name;
+  diagnostics_.report(diag::ValueNotPreserved, statement.range()) << name;
   lost = false;
 }
 
@@ -34,7 +36,7 @@ void Mixing::note(Arithmetic kind, const Statement& statement) {
     return;
   case Arithmetic::Real:
     if (state_ == State::IntegerOnReal)
-      diagnostics_.report(Diag::MixedRealInteger, integer_->range())
+      diagnostics_.report(diag::MixedRealInteger, integer_->range())
               .note(statement.range(), "this works on the real value again")
           << integer_->row->info.mnemonic;
     state_ = State::Real;

@@ -2,6 +2,7 @@
 #include "frontend/dialects/technol/check/check_context.h"
 #include "frontend/dialects/technol/check/rules.h"
 
+#include "ir/support/diag/technol.h"
 #include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/exchange.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 bool inRange(const CheckContext& c, const Operand& given, int64_t least, int64_t most) {
   if (given.value >= least && given.value <= most) return true;
-  c.report(Diag::OperandRange, given.range) << given.value << std::to_string(least) + " to " + std::to_string(most);
+  c.report(diag::OperandRange, given.range) << given.value << std::to_string(least) + " to " + std::to_string(most);
   return false;
 }
 
@@ -24,14 +25,14 @@ bool inRange(const CheckContext& c, const Operand& given, int64_t least, int64_t
 bool identifierFits(const CheckContext& c, const Operand& id, bool defined) {
   if (id.form != Form::Text) return textFits(c, id);
   if (id.text.empty() || id.text.size() > nc::kDefineBytes) {
-    c.report(Diag::OperandRange, id.range)
+    c.report(diag::OperandRange, id.range)
         << std::to_string(id.text.size()) + " characters" << "1 to " + std::to_string(nc::kDefineBytes);
     return false;
   }
   const size_t bracket = id.text.rfind('[');
   const bool index = id.text.back() == ']' && bracket != std::string_view::npos;
   if (!defined || !index || id.text.find_first_not_of('0', bracket + 1) == id.text.size() - 1) return true;
-  c.report(Diag::WrongOperandKind, id.range)
+  c.report(diag::WrongOperandKind, id.range)
       << id.text << "an identifier with an index at its end" << "an identifier without one";
   return false;
 }
@@ -54,7 +55,7 @@ bool defaultFits(const CheckContext& c, const Exchanged& variable, const Operand
 
 void warnIfLong(const CheckContext& c, const Operand& text, const Operand& target) {
   if (text.form == Form::Text && text.text.size() > target.size - 1)
-    c.report(Diag::StringTooLong, text.range) << text.text.size() << target.size - 1;
+    c.report(diag::StringTooLong, text.range) << text.text.size() << target.size - 1;
 }
 
 bool limitsFit(const CheckContext& c, ExchangeType type, std::span<const Operand> o) {
@@ -78,7 +79,7 @@ void checkMessage(const CheckContext& c, std::span<const Operand>, int) {
 
 void checkBitMessage(const CheckContext& c, std::span<const Operand> o, int) {
   if (!isEdge(o[4].value & 3) || !isEdge(o[4].value >> 2))
-    c.report(Diag::OperandRange, o[4].range) << spell(o[4]) << "00b, 01b or 10b in bits 0, 1 and in bits 2, 3";
+    c.report(diag::OperandRange, o[4].range) << spell(o[4]) << "00b, 01b or 10b in bits 0, 1 and in bits 2, 3";
   else if (!o[0].given() && !o[1].place.space.valid())
     c.wrongKind(o[1], "a bit number", "a bit, or its byte before it");
 }

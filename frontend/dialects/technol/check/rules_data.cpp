@@ -1,6 +1,7 @@
 // Checks of data instructions (man. ch. 3.9-3.16).
 #include "frontend/dialects/technol/check/check_context.h"
 #include "frontend/dialects/technol/check/rules.h"
+#include "ir/support/diag/technol.h"
 
 namespace rung::frontend::technol {
 
@@ -27,7 +28,7 @@ void checkToInteger(const CheckContext& c, std::span<const Operand>, int) {
 
 void checkMove(const CheckContext& c, std::span<const Operand> o, int) {
   if (o[0].type == o[1].type) return;
-  c.report(Diag::TypeMismatch, c.statement.range())
+  c.report(diag::TypeMismatch, c.statement.range())
       << c.statement.row->info.mnemonic << describe(o[0].type) << describe(o[1].type);
 }
 

@@ -1,6 +1,7 @@
 // Checks of where control goes, and of what depends on where a statement is.
 #include "frontend/dialects/technol/check/check_context.h"
 #include "frontend/dialects/technol/check/rules.h"
+#include "ir/support/diag/technol.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -24,7 +25,7 @@ void checkTarget(const CheckContext& c, const Operand& operand) {
                       symbolKey(program.tokens[unit.endLabel].text) == symbolKey(label.name);
   if (label.unit == c.statement.unit || ownEnd) return;
   const bool leadsInto = unit.kind == UnitKind::Module && label.unit != kNone;
-  c.report(Diag::JumpCrossesUnit, operand.range)
+  c.report(diag::JumpCrossesUnit, operand.range)
       << label.name << describeUnit(leadsInto ? program.units[label.unit] : unit);
 }
 
@@ -43,7 +44,7 @@ void checkTimer(const CheckContext& c, std::span<const Operand>, int) {
   uint32_t at = c.statement.unit;
   while (at != kNone && units[at].kind == UnitKind::Mechanism) at = units[at].parent;
   if (at == kNone || units[at].kind != UnitKind::Timed)
-    c.report(Diag::TmOutsideDftm, c.statement.range()) << c.statement.row->info.mnemonic;
+    c.report(diag::TmOutsideDftm, c.statement.range()) << c.statement.row->info.mnemonic;
 }
 
 void checkCall(const CheckContext& c, std::span<const Operand> o, int) {

@@ -6,6 +6,8 @@
 #include "frontend/dialects/technol/check/rules.h"
 #include "frontend/dialects/technol/lower/device_request.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/technol.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend::technol {
@@ -19,7 +21,7 @@ uint32_t bytesOf(const Operand& operand) { return operand.prefixed ? ir::byteWid
 // An index shows when the program runs.
 void holds(const CheckContext& c, const Operand& operand, int64_t bytes) {
   if (operand.indexed || operand.form != Operand::Form::Cell || bytes <= bytesOf(operand)) return;
-  c.report(Diag::AddressOutOfRange, operand.range)
+  c.report(diag::AddressOutOfRange, operand.range)
       << spell(operand) + "+" + std::to_string(bytes - 1) << (operand.isText ? "the text" : "the variable");
 }
 
@@ -71,7 +73,7 @@ void checkPacket(const CheckContext& c, std::span<const Operand> o, int) { holds
 // The first operand is a record of two bytes, the second of which may be another variable (man. l.12061).
 void checkRecord(const CheckContext& c, std::span<const Operand> o, int) {
   if (o[0].indexed || o[0].place.byte + kRecordBytes <= c.program.bytesOf(o[0].place.space)) return;
-  c.report(Diag::AddressOutOfRange, o[0].range) << spell(o[0]) + "+1" << "the memory";
+  c.report(diag::AddressOutOfRange, o[0].range) << spell(o[0]) + "+1" << "the memory";
 }
 
 // ECATCMD_MASTER_STATE and ECATCMD_SLAVE_STATE give a state (man. l.18231).
@@ -79,11 +81,11 @@ void checkEtherCatCommand(const CheckContext& c, std::span<const Operand> o, int
   constexpr int64_t kCommands[] = {1, 2, 3, 4, 8, 11, 12, 13, 14, 18, 20, 21}; // man. l.18210-18246
   const bool isNumber = o[2].form == Operand::Form::Integer;
   if (isNumber && std::ranges::find(kCommands, o[2].value) == std::end(kCommands))
-    c.report(Diag::OperandRange, o[2].range) << o[2].value << "the commands 1 to 4, 8, 11 to 14, 18, 20 and 21";
+    c.report(diag::OperandRange, o[2].range) << o[2].value << "the commands 1 to 4, 8, 11 to 14, 18, 20 and 21";
   const bool asks =
       isNumber && (o[2].value == nc::technol::kMasterStateCommand || o[2].value == nc::technol::kSlaveStateCommand);
   if (asks && !(o[3].given() && o[4].given()))
-    c.report(Diag::OperandCount, c.statement.range())
+    c.report(diag::OperandCount, c.statement.range())
         << "ECAT_COMMAND with this command" << "5 operands"
         << static_cast<int64_t>(std::ranges::count_if(o, &Operand::given));
   checkService(c, o, form);

@@ -3,6 +3,9 @@
 
 #include "frontend/dialects/technol/check/check_context.h"
 #include "frontend/dialects/technol/check/rules.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/source.h"
+#include "ir/support/diag/technol.h"
 
 namespace rung::frontend::technol {
 namespace {
@@ -14,7 +17,7 @@ constexpr uint32_t kLongestText = 0xFFFF;
 uint32_t inside(const CheckContext& c, const Operand& operand, uint32_t count, bool written) {
   const uint32_t exist = c.program.bytesOf(operand.place.space) - operand.place.byte;
   if (operand.indexed || count <= exist) return count;
-  c.report(Diag::AddressOutOfRange, operand.range).severity(written ? Severity::Error : Severity::Warning)
+  c.report(diag::AddressOutOfRange, operand.range).severity(written ? Severity::Error : Severity::Warning)
       << spell(operand) + "+" + std::to_string(count - 1)
       << (operand.place.space == kInterfaceSpace ? "the interface" : "the program's data");
   return exist;
@@ -27,11 +30,11 @@ bool textsFit(const CheckContext& c, std::span<const Operand> o) { return textFi
 bool textFits(const CheckContext& c, const Operand& operand) {
   if (operand.form == Operand::Form::Text) return true;
   if (operand.end - operand.begin > kLongestText + 1) {
-    c.report(Diag::TooLarge, operand.range) << "characters in a text" << kLongestText;
+    c.report(diag::TooLarge, operand.range) << "characters in a text" << kLongestText;
     return false;
   }
   if (operand.indexed || (operand.size != 0 && operand.place.byte >= operand.begin)) return true;
-  c.report(Diag::AddressOutOfRange, operand.range) << spell(operand) << "the text";
+  c.report(diag::AddressOutOfRange, operand.range) << spell(operand) << "the text";
   return false;
 }
 
@@ -61,7 +64,7 @@ void checkNumberToText(const CheckContext& c, std::span<const Operand> o, int) {
   if (!textFits(c, o[0])) return;
   const uint32_t characters = o[0].size - 1;
   if (!o[0].indexed && characters >= 1 && characters <= kMostDigits) return;
-  c.report(Diag::OperandRange, o[0].range)
+  c.report(diag::OperandRange, o[0].range)
       << (o[0].indexed ? std::string("+BX") : std::to_string(characters) + " characters") << "1 to 10 characters";
 }
 

@@ -8,7 +8,6 @@
 
 namespace rung::frontend::technol {
 
-using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
@@ -90,7 +89,7 @@ ValueId DeviceRequest::result(std::string_view name) {
 
 ValueId DeviceRequest::flag(std::string_view name) { return l_.b().ne(result(name), l_.b().constant(Type::I64, 0)); }
 
-ValueId DeviceRequest::real(std::string_view name) { return l_.b().op(OpCode::BitsToF, Type::F64, {result(name)}); }
+ValueId DeviceRequest::real(std::string_view name) { return l_.b().bitsToF(result(name)); }
 
 const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Operand> operands) {
   for (size_t i = 0; i < operands.size(); ++i)
@@ -101,7 +100,8 @@ const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Oper
 
 ValueId bytesArgument(ir::RungBuilder& b, const Area& area, ValueId count) {
   const ValueId fixed = b.constant(Type::I64, nc::technol::bytesArgument(area.space.index, 0, 0));
-  const ValueId size = b.op(OpCode::Shl, Type::I64, {b.zextOrTrunc(Type::I64, count), b.i32(32)});
+  const ValueId wide = b.zextOrTrunc(Type::I64, count);
+  const ValueId size = b.shl(wide, b.i32(32));
   return b.or_(b.or_(fixed, size), b.zextOrTrunc(Type::I64, area.at));
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "frontend/lower/compare.h"
-#include "ir/core/op_info.h"
+#include "ir/core/builder.h"
 
 namespace rung::frontend::technol {
 
@@ -12,7 +12,6 @@ class StatementContext;
 struct Operand;
 
 enum BitJoin { kAnd, kOr, kXor };
-inline constexpr ir::OpCode kJoinCodes[] = {ir::OpCode::And, ir::OpCode::Or, ir::OpCode::Xor};
 enum Condition { kAlways, kIfRlo, kIfNotRlo };
 enum Arithmetic { kAdd, kSubtract, kMultiply, kDivide };
 inline constexpr int kEqualIfRlo = kGreater + 1; // besides frontend's Relation
@@ -20,6 +19,7 @@ enum Unary { kIncrement, kDecrement, kNegate, kAbsolute };
 enum Count { kCountUp, kCountDown, kCountUpBcd };
 
 // lower_bits.cpp
+ir::ValueId joined(ir::RungBuilder& b, int join, ir::ValueId left, ir::ValueId right);
 void lowerLoadBit(StatementContext& l, std::span<const Operand> o, int);
 void lowerLicence(StatementContext& l, std::span<const Operand> o, int);
 void lowerJoin(StatementContext& l, std::span<const Operand> o, int join);

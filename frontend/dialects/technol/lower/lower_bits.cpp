@@ -29,10 +29,18 @@ void lowerLicence(StatementContext& l, std::span<const Operand> o, int) {
   l.r().setRlo(l.b().load(Type::Bit, at));
 }
 
+ValueId joined(ir::RungBuilder& b, int join, ValueId left, ValueId right) {
+  switch (static_cast<BitJoin>(join)) {
+  case kAnd: return b.and_(left, right);
+  case kOr: return b.or_(left, right);
+  case kXor: return b.xor_(left, right);
+  }
+  return {};
+}
+
 void lowerJoin(StatementContext& l, std::span<const Operand> o, int kind) {
   const ValueId rlo = l.r().rlo();
-  l.r().setRlo(o[0].given() ? l.b().binary(kJoinCodes[kind], rlo, l.contact(o[0]))
-                            : l.b().binary(kJoinCodes[kind], l.popped(), rlo));
+  l.r().setRlo(o[0].given() ? joined(l.b(), kind, rlo, l.contact(o[0])) : joined(l.b(), kind, l.popped(), rlo));
 }
 
 void lowerComplement(StatementContext& l, std::span<const Operand>, int) { l.r().setRlo(l.b().not_(l.r().rlo())); }

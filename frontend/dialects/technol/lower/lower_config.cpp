@@ -36,7 +36,7 @@ ValueId request(StatementContext& l, Kind kind, ValueId part, const Words& id) {
 
 ValueId asReal(ir::RungBuilder& b, const Operand& operand, ValueId value) {
   if (operand.form == Operand::Form::Integer) return b.real(static_cast<double>(operand.value));
-  return operand.negated ? b.op(ir::OpCode::FNeg, Type::F64, {value}) : value;
+  return operand.negated ? b.fNeg(value) : value;
 }
 
 ValueId defaultOf(StatementContext& l, Kind kind, const Operand& operand, Type type) {
@@ -54,7 +54,7 @@ ValueId defaultOf(StatementContext& l, Kind kind, const Operand& operand, Type t
 
 ValueId resultOf(ir::RungBuilder& b, Kind kind, ValueId ticket, Type type) {
   const ValueId word = b.serviceResult(ticket, kHead);
-  if (kind == Kind::Real) return b.op(ir::OpCode::BitsToF, Type::F64, {word});
+  if (kind == Kind::Real) return b.bitsToF(word);
   return b.zextOrTrunc(type, word);
 }
 

@@ -5,7 +5,6 @@
 
 namespace rung::frontend::technol {
 
-using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
@@ -42,8 +41,7 @@ void lowerCounter(StatementContext& l, std::span<const Operand> o, int kind) {
   const auto step = [&] {
     const ValueId one = b.constant(cell.type, 1);
     ValueId next = kind == kCountDown ? b.sub(count, one) : b.add(count, one);
-    if (kind == kCountUpBcd)
-      next = b.op(OpCode::BcdEncode, cell.type, {b.add(b.op(OpCode::BcdDecode, cell.type, {count}), one)});
+    if (kind == kCountUpBcd) next = b.bcdEncode(b.add(b.bcdDecode(count), one));
     l.state.store(cell, next);
     return next;
   };

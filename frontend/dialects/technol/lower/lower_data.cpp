@@ -1,6 +1,7 @@
 // Data instructions (man. ch. 3.9-3.16).
 #include "frontend/dialects/technol/lower/context.h"
 #include "frontend/dialects/technol/lower/lower.h"
+#include "ir/core/op_info.h"
 #include "rtlib/nc/faults.h"
 
 namespace rung::frontend::technol {
@@ -16,8 +17,8 @@ Type widthOf(const Operand& operand) { return operand.given() ? operand.type : T
 // A result that is not a number, or a division by zero, is the coprocessor's error.
 ValueId checkedReal(StatementContext& l, ValueId result, ValueId divisor = {}) {
   ir::RungBuilder& b = l.b();
-  ValueId bad = b.not_(b.op(OpCode::FEq, Type::F64, {result, result}));
-  if (divisor.valid()) bad = b.or_(bad, b.op(OpCode::FEq, Type::F64, {divisor, b.real(0)}));
+  ValueId bad = b.not_(b.fEq(result, result));
+  if (divisor.valid()) bad = b.or_(bad, b.fEq(divisor, b.real(0)));
   b.trap(bad, l.fault(nc::kTechnolReal));
   return result;
 }
@@ -45,7 +46,7 @@ void divide(StatementContext& l, const Operand& operand) {
   ir::RungBuilder& b = l.b();
   const ValueId right = b.sextOrTrunc(Type::I64, l.value(operand));
   const ValueId left = b.sextOrTrunc(Type::I64, l.r().dr(doubled(operand.type)));
-  const ValueId quotient = b.binary(OpCode::DivS, left, right);
+  const ValueId quotient = b.divS(left, right);
   const ValueId fits = b.eq(b.sextOrTrunc(Type::I64, b.sextOrTrunc(Type::I32, quotient)), quotient);
   b.trap(b.or_(b.eq(right, b.constant(Type::I64, 0)), b.not_(fits)), l.fault(nc::kTechnolDivision));
   l.r().setDr(quotient);
@@ -61,11 +62,11 @@ void lowerLoad(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const ValueId value = l.value(o[0]);
   if (o[0].isReal())
-    l.r().setReal(o[0].negated ? b.op(OpCode::FNeg, Type::F64, {value}) : value);
+    l.r().setReal(o[0].negated ? b.fNeg(value) : value);
   else if (!o[0].negated)
     l.r().setDr(value);
   else
-    l.r().setDr(b.op(OpCode::Neg, Type::I64, {b.sextOrTrunc(Type::I64, value)}));
+    l.r().setDr(b.neg(b.sextOrTrunc(Type::I64, value)));
 }
 
 void lowerStore(StatementContext& l, std::span<const Operand> o, int condition) {
@@ -93,7 +94,7 @@ void lowerArithmetic(StatementContext& l, std::span<const Operand> o, int operat
 
 void lowerBitwise(StatementContext& l, std::span<const Operand> o, int kind) {
   const ValueId right = l.value(o[0]);
-  l.r().setDrPart(l.b().binary(kJoinCodes[kind], l.r().dr(o[0].type), right));
+  l.r().setDrPart(joined(l.b(), kind, l.r().dr(o[0].type), right));
 }
 
 // EQ1 compares only while RLO is 1, and leaves it 0 otherwise (man. l.1404).
@@ -111,26 +112,26 @@ void lowerUnary(StatementContext& l, std::span<const Operand> o, int operation) 
   if (type == Type::F64) {
     const ValueId x = l.r().real();
     switch (operation) {
-    case kIncrement: return l.r().setReal(b.op(OpCode::FAdd, type, {x, b.real(1)}));
-    case kDecrement: return l.r().setReal(b.op(OpCode::FSub, type, {x, b.real(1)}));
-    case kNegate: return l.r().setReal(b.op(OpCode::FNeg, type, {x}));
-    default: return l.r().setReal(b.op(OpCode::FAbs, type, {x}));
+    case kIncrement: return l.r().setReal(b.fAdd(x, b.real(1)));
+    case kDecrement: return l.r().setReal(b.fSub(x, b.real(1)));
+    case kNegate: return l.r().setReal(b.fNeg(x));
+    default: return l.r().setReal(b.fAbs(x));
     }
   }
   const ValueId x = l.r().dr(type);
   switch (operation) {
   case kIncrement: return l.r().setDrPart(b.add(x, b.constant(type, 1)));
   case kDecrement: return l.r().setDrPart(b.sub(x, b.constant(type, 1)));
-  case kNegate: return l.r().setDrPart(b.op(OpCode::Neg, type, {x}));
-  default: return l.r().setDrPart(b.select(b.ltS(x, b.constant(type, 0)), b.op(OpCode::Neg, type, {x}), x));
+  case kNegate: return l.r().setDrPart(b.neg(x));
+  default: return l.r().setDrPart(b.select(b.ltS(x, b.constant(type, 0)), b.neg(x), x));
   }
 }
 
 // 0..9999 in 16 bits; after 9999 comes 0 (man. l.1225).
 void lowerIncrementBcd(StatementContext& l, std::span<const Operand>, int) {
   ir::RungBuilder& b = l.b();
-  const ValueId next = b.add(b.op(OpCode::BcdDecode, Type::I16, {l.r().dr(Type::I16)}), b.constant(Type::I16, 1));
-  l.r().setDrPart(b.op(OpCode::BcdEncode, Type::I16, {next}));
+  const ValueId next = b.add(b.bcdDecode(l.r().dr(Type::I16)), b.constant(Type::I16, 1));
+  l.r().setDrPart(b.bcdEncode(next));
 }
 
 // With DWRD bit 31 marks a negative number, the other bits are its magnitude (man. l.1250).
@@ -138,14 +139,14 @@ void lowerBin(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Type type = widthOf(o[0]);
   const ValueId x = l.r().dr(type);
-  if (type == Type::I16) return l.r().setDrPart(b.op(OpCode::BcdDecode, type, {x}));
-  const ValueId magnitude = b.op(OpCode::BcdDecode, type, {b.and_(x, b.constant(type, 0x7FFFFFFF))});
-  l.r().setDrPart(b.select(b.ltS(x, b.constant(type, 0)), b.op(OpCode::Neg, type, {magnitude}), magnitude));
+  if (type == Type::I16) return l.r().setDrPart(b.bcdDecode(x));
+  const ValueId magnitude = b.bcdDecode(b.and_(x, b.constant(type, 0x7FFFFFFF)));
+  l.r().setDrPart(b.select(b.ltS(x, b.constant(type, 0)), b.neg(magnitude), magnitude));
 }
 
 void lowerBcd(StatementContext& l, std::span<const Operand> o, int) {
   const Type type = widthOf(o[0]);
-  l.r().setDrPart(l.b().op(OpCode::BcdEncode, type, {l.r().dr(type)}));
+  l.r().setDrPart(l.b().bcdEncode(l.r().dr(type)));
 }
 
 void lowerShift(StatementContext& l, std::span<const Operand> o, int right) {
@@ -158,15 +159,16 @@ void lowerShift(StatementContext& l, std::span<const Operand> o, int right) {
 // The integer is sign-extended to 64 bits first and stays in DR (man. l.1511).
 void lowerToReal(StatementContext& l, std::span<const Operand> o, int) {
   const ValueId whole = l.b().sextOrTrunc(Type::I64, l.r().dr(widthOf(o[0])));
-  l.r().setReal(l.b().op(OpCode::IntToF, Type::F64, {whole}));
+  l.r().setReal(l.b().intToF(whole));
   l.r().setDr(whole);
 }
 
 void lowerDrToRlo(StatementContext& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   if (o[0].form == Operand::Form::Integer) {
-    const ValueId shifted = b.op(OpCode::ShrU, Type::I32, {l.r().dr(Type::I32), b.i32(o[0].value)});
-    return l.r().setRlo(b.op(OpCode::Trunc, Type::Bit, {shifted}));
+    const ValueId low = l.r().dr(Type::I32);
+    const ValueId shifted = b.shrU(low, b.i32(o[0].value));
+    return l.r().setRlo(b.trunc(Type::Bit, shifted));
   }
   const Type type = widthOf(o[0]);
   l.r().setRlo(b.ne(l.r().dr(type), b.constant(type, 0)));
@@ -174,7 +176,7 @@ void lowerDrToRlo(StatementContext& l, std::span<const Operand> o, int) {
 
 // FFFFh or FFFFFFFFh for 1; the bits above follow the sign.
 void lowerRloToDr(StatementContext& l, std::span<const Operand>, int) {
-  l.r().setDr(l.b().op(OpCode::SExt, Type::I64, {l.r().rlo()}));
+  l.r().setDr(l.b().sext(Type::I64, l.r().rlo()));
 }
 
 void lowerMovBx(StatementContext& l, std::span<const Operand>, int) {

@@ -24,7 +24,7 @@ ValueId defaultOf(ir::RungBuilder& b, const Operand& given, Type type) {
 }
 
 ValueId fromBits(ir::RungBuilder& b, ValueId word, Type type) {
-  if (type == Type::F64) return b.op(ir::OpCode::BitsToF, Type::F64, {word});
+  if (type == Type::F64) return b.bitsToF(word);
   if (type == Type::Bit) return b.ne(word, b.constant(Type::I64, 0));
   return b.zextOrTrunc(type, word);
 }

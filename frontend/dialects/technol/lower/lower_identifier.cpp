@@ -28,7 +28,7 @@ ValueId loadedWord(StatementContext& l, const Text& text, uint32_t first, uint32
   const ValueId number = b.add(in[0], b.i32(first));
   const auto join = [&] {
     const ValueId byte = b.zextOrTrunc(Type::I64, loadByte(l, text.area, number));
-    return b.or_(in[1], b.op(ir::OpCode::Shl, Type::I64, {byte, b.mul(in[0], b.i32(8))}));
+    return b.or_(in[1], b.shl(byte, b.mul(in[0], b.i32(8))));
   };
   return b.endLoop(std::array{b.choose(b.ltU(number, text.room), join, [&] { return in[1]; })})[0];
 }

@@ -22,7 +22,7 @@ ValueId placeOf(StatementContext& l, const Operand& operand, uint32_t bit) {
   const ir::Place at = operand.place;
   if (!access.indexed) return b.constant(Type::I64, nc::placeArgument(at.space.index, at.byte, bit));
   const ValueId byte = b.zextOrTrunc(Type::I64, access.index);
-  const ValueId shifted = b.op(ir::OpCode::Shl, Type::I64, {byte, b.i32(nc::kPlaceByteShift)});
+  const ValueId shifted = b.shl(byte, b.i32(nc::kPlaceByteShift));
   return b.or_(shifted, b.constant(Type::I64, nc::placeArgument(at.space.index, 0, bit)));
 }
 

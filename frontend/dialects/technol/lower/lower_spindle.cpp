@@ -5,7 +5,6 @@
 
 namespace rung::frontend::technol {
 
-using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 

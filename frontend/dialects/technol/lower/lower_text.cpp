@@ -5,7 +5,6 @@
 
 namespace rung::frontend::technol {
 
-using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
@@ -112,9 +111,9 @@ void lowerNumberToText(StatementContext& l, std::span<const Operand> o, int bcd)
   ValueId rest = b.zextOrTrunc(Type::I64, l.r().dr(o[1].given() ? Type::I32 : Type::I16));
   const ValueId base = b.constant(Type::I64, bcd ? 16 : 10);
   for (uint32_t i = text.most; i-- > 0;) {
-    const ValueId digit = b.zextOrTrunc(Type::I8, b.binary(OpCode::RemU, rest, base));
+    const ValueId digit = b.zextOrTrunc(Type::I8, b.remU(rest, base));
     b.store({.space = text.area.space, .byte = text.area.first + i}, b.add(digit, b.constant(Type::I8, '0')));
-    rest = b.binary(OpCode::DivU, rest, base);
+    rest = b.divU(rest, base);
   }
   b.store({.space = text.area.space, .byte = text.area.first + text.most}, b.constant(Type::I8, 0));
 }

@@ -13,7 +13,8 @@ struct MessageParts {
 
 // par1 and par2, i32, as one.
 inline ir::ValueId bothPars(ir::RungBuilder& b, ir::ValueId par1, ir::ValueId par2) {
-  const ir::ValueId high = b.op(ir::OpCode::Shl, ir::Type::I64, {b.zextOrTrunc(ir::Type::I64, par2), b.i32(32)});
+  const ir::ValueId wide = b.zextOrTrunc(ir::Type::I64, par2);
+  const ir::ValueId high = b.shl(wide, b.i32(32));
   return b.or_(b.zextOrTrunc(ir::Type::I64, par1), high);
 }
 

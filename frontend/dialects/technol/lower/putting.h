@@ -21,7 +21,7 @@ inline void putWords(Memory& m, const Area& to, ir::ValueId count, ir::ValueId t
     const auto in = b.loop(8, std::array{word});
     const ir::ValueId number = b.add(begin, in[0]);
     b.when(b.ltU(number, count), [&] { storeByte(m, to, number, b.zextOrTrunc(ir::Type::I8, in[1])); });
-    b.endLoop(std::array{b.op(ir::OpCode::ShrU, ir::Type::I64, {in[1], b.i32(8)})});
+    b.endLoop(std::array{b.shrU(in[1], b.i32(8))});
   }
 }
 

@@ -4,6 +4,9 @@
 #include "frontend/dialects/technol/read/reader.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
 #include "frontend/sema/operand_count.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/source.h"
+#include "ir/support/diag/technol.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
 
@@ -19,7 +22,7 @@ void Declarations::data(const Statement& statement, const Token* name, uint32_t 
   DataItem item{.role = statement.row->role, .local = structure_.isLocal(), .statement = index};
   const bool needsName = item.role == Role::Str || item.role == Role::Ds;
   if (needsName && name == nullptr && !badName)
-    program_.diagnostics.report(Diag::MissingLabel, statement.range()) << statement.row->info.mnemonic;
+    program_.diagnostics.report(diag::MissingLabel, statement.range()) << statement.row->info.mnemonic;
   if (item.role == Role::Str) item.local = false; // texts are global in all files (man. l.1680)
   if (name != nullptr) {
     Symbol symbol = made(*name, item.role == Role::Str ? SymbolKind::Text : SymbolKind::Cell);
@@ -46,7 +49,7 @@ void Declarations::bits(const Statement& statement, DataItem& item) {
   uint32_t number = 0;
   for (const std::span<const Token> operand : splitOperands(program_.operandTokens(statement))) {
     if (number == 8) {
-      program_.diagnostics.report(Diag::TooManyBits, rangeOf(program_.sources, operand, statement.range()));
+      program_.diagnostics.report(diag::TooManyBits, rangeOf(program_.sources, operand, statement.range()));
       return;
     }
     if (operand.size() == 1 && operand[0].kind == TokenKind::Name) {
@@ -65,9 +68,9 @@ void Declarations::bits(const Statement& statement, DataItem& item) {
 void Declarations::noName(std::span<const Token> tokens, std::string_view expected, const Statement& statement) {
   const SourceRange at = rangeOf(program_.sources, tokens, statement.range());
   if (isOneWord(tokens))
-    program_.diagnostics.report(Diag::BadIdentifier, at) << spelled(tokens);
+    program_.diagnostics.report(diag::BadIdentifier, at) << spelled(tokens);
   else
-    program_.diagnostics.report(Diag::SyntaxError, at)
+    program_.diagnostics.report(diag::SyntaxError, at)
         << expected << (tokens.empty() ? "nothing" : "'" + spelled(tokens) + "'");
 }
 
@@ -82,7 +85,7 @@ void Declarations::constant(const Statement& statement) {
   const std::optional<int64_t> value = constantValue(program_, file_, operands[1], statement.range());
   const bool fits = value && *value >= INT32_MIN && *value <= int64_t{UINT32_MAX}; // 32 bits (man. l.712)
   if (value && !fits)
-    program_.diagnostics.report(Diag::OperandRange, rangeOf(program_.sources, operands[1], statement.range()))
+    program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, operands[1], statement.range()))
         << *value << "-80000000h to 0FFFFFFFFh";
   Symbol symbol = made(name[0], SymbolKind::Constant);
   symbol.value = fits ? *value : 0;
@@ -180,7 +183,7 @@ private:
 uint32_t Placer::take(DataItem& item, int64_t bytes, const Statement& statement) {
   const uint32_t at = program_.dataBytes;
   if (at + bytes > kMaxData) {
-    if (!full_) program_.diagnostics.report(Diag::TooLarge, statement.range()) << "bytes of data" << kMaxData;
+    if (!full_) program_.diagnostics.report(diag::TooLarge, statement.range()) << "bytes of data" << kMaxData;
     full_ = true;
     return 0;
   }
@@ -193,7 +196,7 @@ uint32_t Placer::take(DataItem& item, int64_t bytes, const Statement& statement)
 std::optional<int64_t> Placer::size(std::span<const Token> tokens, const Statement& statement) {
   const std::optional<int64_t> n = constantValue(program_, statement.file, tokens, statement.range());
   if (n && (*n < 1 || *n > kMaxData)) {
-    program_.diagnostics.report(Diag::OperandRange, rangeOf(program_.sources, tokens, statement.range()))
+    program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, tokens, statement.range()))
         << *n << "1 to " + std::to_string(kMaxData);
     return std::nullopt;
   }
@@ -228,7 +231,7 @@ bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statemen
   if (base.broken) return false;
   const bool foreign = !base.predeclared && base.file != statement.file;
   if (base.kind != SymbolKind::Cell || foreign) {
-    program_.diagnostics.report(Diag::WrongOperandKind, tokens[0].range())
+    program_.diagnostics.report(diag::WrongOperandKind, tokens[0].range())
         << tokens[0].text << (foreign ? "a name of another file" : "no variable") << "a variable of this file";
     return false;
   }
@@ -245,7 +248,7 @@ bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statemen
   const int64_t first = base.predeclared ? base.byte : 0;
   const int64_t end = base.predeclared ? int64_t{base.byte} + base.size : int64_t{program_.dataBytes};
   if (*offset < first - base.byte || *offset > end - base.byte - text.size) {
-    program_.diagnostics.report(Diag::AddressOutOfRange, rangeOf(program_.sources, tokens, statement.range()))
+    program_.diagnostics.report(diag::AddressOutOfRange, rangeOf(program_.sources, tokens, statement.range()))
         << std::string(tokens[0].text) + (*offset < 0 ? "" : "+") + std::to_string(*offset)
         << (base.predeclared ? std::string(base.name) : std::string("the program's data"));
     return false;
@@ -260,7 +263,7 @@ void Placer::fillText(const Symbol& text, const Token& token) {
   const std::string inMemory = nc::memoryText(token.text);
   std::string_view value = inMemory;
   if (value.size() > text.size - 1) {
-    program_.diagnostics.report(Diag::StringTooLong, token.range()) << value.size() << text.size - 1;
+    program_.diagnostics.report(diag::StringTooLong, token.range()) << value.size() << text.size - 1;
     value = value.substr(0, text.size - 1);
   }
   if (!value.empty())
@@ -284,7 +287,7 @@ void Placer::placeText(DataItem& item, const Statement& statement) {
   if (operands[1].size() == 1 && operands[1][0].kind == TokenKind::Text)
     fillText(text, operands[1][0]);
   else
-    program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operands[1], statement.range()))
+    program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, operands[1], statement.range()))
         << "a text or an address" << "something else";
 }
 
@@ -320,7 +323,7 @@ void Placer::place(Exchanged& variable) {
     if (count < 0) return;
   }
   if (count < 1 || count > kMaxData / bytes || program_.exchangedBytes + count * bytes > kMaxData) {
-    program_.diagnostics.report(Diag::OperandRange, rangeOf(program_.sources, name, statement.range()))
+    program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, name, statement.range()))
         << count << "1 to " + std::to_string(kMaxData / bytes);
     program_.symbols[variable.symbol].broken = true;
     return;

@@ -2,6 +2,8 @@
 #include "frontend/dialects/technol/read/lexer.h"
 
 #include "ir/support/ascii.h"
+#include "ir/support/diag/source.h"
+#include "ir/support/diag/technol.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
@@ -48,12 +50,12 @@ void reportWord(const SourceLine& line, size_t first, size_t last, Diagnostics& 
   const std::string_view word = line.text.substr(first, last - first);
   for (char c : word)
     if (isNameChar(c)) {
-      DiagBuilder report = diagnostics.report(Diag::BadIdentifier, line.range(first, last));
+      DiagBuilder report = diagnostics.report(diag::BadIdentifier, line.range(first, last));
       report << word;
       if (word.starts_with('"')) report.note("a text is written between apostrophes: 'abc'");
       return;
     }
-  diagnostics.report(Diag::BadCharacter, line.range(first, last)) << word;
+  diagnostics.report(diag::BadCharacter, line.range(first, last)) << word;
 }
 
 } // namespace
@@ -79,7 +81,7 @@ bool tokenize(const SourceLine& line, std::vector<Token>& out, Diagnostics& diag
     if (c == '\'') {
       const size_t close = text.find('\'', i + 1);
       if (close == std::string_view::npos) {
-        diagnostics.report(Diag::BadString, line.range(i, text.size()));
+        diagnostics.report(diag::BadString, line.range(i, text.size()));
         return false;
       }
       out.push_back({text.substr(i + 1, close - i - 1), line.at(i), TokenKind::Text});

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frontend/sema/operand_count.h"
+#include "ir/support/diag/technol.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
@@ -39,7 +40,7 @@ bool MacroSet::flags(std::span<const Token> tokens, MacroStack& stack) {
     const auto* flag = std::find_if(std::begin(kFlags), std::end(kFlags),
                                     [&](const FlagName& f) { return text::equalsIgnoringCase(token.text, f.name); });
     if (flag == std::end(kFlags)) {
-      program_.diagnostics.report(Diag::SyntaxError, token.range())
+      program_.diagnostics.report(diag::SyntaxError, token.range())
           << "T_NORMAL, T_BEGIN, T_END, T_PUSH, T_POP, C_0, C_1, D_OFF or D_ON"
           << "'" + std::string(token.text) + "'";
       return false;
@@ -58,7 +59,7 @@ void MacroSet::declare(const Token& name, uint32_t macro) {
 
 void MacroSet::begin(std::span<const Token> operands, SourceRange at) {
   if (operands.empty() || operands[0].kind != TokenKind::Name) {
-    program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operands, at))
+    program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, operands, at))
         << "the name of a macro" << "none";
     operands = {};
   }
@@ -71,7 +72,7 @@ void MacroSet::begin(std::span<const Token> operands, SourceRange at) {
     if (token.kind == TokenKind::Name)
       macro.formals.push_back(symbolKey(token.text));
     else if (!token.is(','))
-      program_.diagnostics.report(Diag::SyntaxError, token.range())
+      program_.diagnostics.report(diag::SyntaxError, token.range())
           << "the name of a parameter" << "'" + std::string(token.text) + "'";
   }
   declare(operands[0], static_cast<uint32_t>(macros_.size()) - 1);
@@ -94,7 +95,7 @@ bool MacroSet::take(std::span<const Token> tokens, uint32_t line) {
 }
 
 void MacroSet::abandon() {
-  if (defining_) program_.diagnostics.report(Diag::MacroNotClosed, macros_.back().at) << macros_.back().name.text;
+  if (defining_) program_.diagnostics.report(diag::MacroNotClosed, macros_.back().at) << macros_.back().name.text;
   defining_ = false;
 }
 
@@ -103,13 +104,13 @@ void MacroSet::append(std::span<const Token> operands, SourceRange at) {
   const auto isName = [](std::span<const Token> part) { return part.size() == 1 && part[0].kind == TokenKind::Name; };
   if (!countFits(findRow("APPEND_T_MACRO")->info, parts.size(), at, program_.diagnostics)) return;
   if (!isName(parts[0]) || !isName(parts[1])) {
-    program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, parts[isName(parts[0]) ? 1 : 0], at))
+    program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, parts[isName(parts[0]) ? 1 : 0], at))
         << "the name of a macro" << "something else";
     return;
   }
   const auto found = names_.find(symbolKey(parts[0][0].text));
   if (found == names_.end()) {
-    program_.diagnostics.report(Diag::UndefinedSymbol, parts[0][0].range()) << parts[0][0].text;
+    program_.diagnostics.report(diag::UndefinedSymbol, parts[0][0].range()) << parts[0][0].text;
     return;
   }
   Macro alias = macros_[found->second];
@@ -127,7 +128,7 @@ void MacroSet::control(std::span<const Token> operands, SourceRange at) {
   else if (one && text::equalsIgnoringCase(operands[0].text, "POS"))
     first_ = false;
   else
-    program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, operands, at))
+    program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, operands, at))
         << "POS or PRE" << "something else";
 }
 
@@ -181,7 +182,7 @@ bool MacroSet::expand(const Macro& macro, std::span<const Token> operands, Sourc
                       std::vector<Macro::Line>& out) {
   const auto actuals = splitOperands(operands);
   if (actuals.size() != macro.formals.size()) {
-    program_.diagnostics.report(Diag::MacroOperandCount, at).note(macro.name.range(), "it is defined here")
+    program_.diagnostics.report(diag::MacroOperandCount, at).note(macro.name.range(), "it is defined here")
         << macro.name.text << macro.formals.size() << actuals.size();
     return false;
   }

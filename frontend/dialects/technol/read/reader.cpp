@@ -4,6 +4,8 @@
 #include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/file_reader.h"
 #include "frontend/sema/operand_count.h"
+#include "ir/support/diag/operand.h"
+#include "ir/support/diag/technol.h"
 #include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
 
@@ -28,7 +30,7 @@ bool FileReader::splitLabel(uint32_t& first, uint32_t& count) {
   if (colon == tokens.end() || colon - tokens.begin() < 2 || tokens[0].kind == TokenKind::Punct) return false;
   if (tokens[0].kind == TokenKind::Name && findRow(tokens[0].text) != nullptr) return false;
   const auto label = tokens.first(static_cast<size_t>(colon - tokens.begin()));
-  program_.diagnostics.report(Diag::BadIdentifier, rangeOf(program_.sources, label, tokens[0].range()))
+  program_.diagnostics.report(diag::BadIdentifier, rangeOf(program_.sources, label, tokens[0].range()))
       << spelled(label);
   first += static_cast<uint32_t>(label.size()) + 1;
   count -= static_cast<uint32_t>(label.size()) + 1;
@@ -42,7 +44,7 @@ uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
   const Token name = program_.tokens[first];
   uint32_t label = first;
   if (name.kind == TokenKind::Number) {
-    program_.diagnostics.report(Diag::BadIdentifier, name.range()) << name.text;
+    program_.diagnostics.report(diag::BadIdentifier, name.range()) << name.text;
     label = kNone;
   } else if (name.kind != TokenKind::Name) {
     return kNone;
@@ -84,7 +86,7 @@ const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
   const Token& token = tokens[0];
   if (isAssembler(token.text)) {
-    DiagBuilder report = program_.diagnostics.report(Diag::UnsupportedAssembler, token.range());
+    DiagBuilder report = program_.diagnostics.report(diag::UnsupportedAssembler, token.range());
     report << token.text;
     if (const std::string_view other = insteadOf(token.text); !other.empty())
       report.note("in this language: " + std::string(other));
@@ -98,7 +100,7 @@ const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
   Similar similar(word);
   for (const Row& row : allRows()) similar.offer(row.info.mnemonic);
   macros_.offer(similar);
-  DiagBuilder report = program_.diagnostics.report(Diag::UnknownInstruction, token.range());
+  DiagBuilder report = program_.diagnostics.report(diag::UnknownInstruction, token.range());
   report << token.text;
   if (similar.best().empty()) return nullptr;
   report.meant(rangeOf(program_.sources, tokens.first(parted ? 2 : 1), token.range()), similar.best());
@@ -111,13 +113,13 @@ const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
 const Row* FileReader::instruction(uint32_t& first, uint32_t& count) {
   const Token& token = program_.tokens[first];
   if (token.kind != TokenKind::Name) {
-    program_.diagnostics.report(Diag::SyntaxError, token.range()) << "an instruction" << describe({&token, 1});
+    program_.diagnostics.report(diag::SyntaxError, token.range()) << "an instruction" << describe({&token, 1});
     return nullptr;
   }
   const Row* row = findRow(token.text);
   if (row == nullptr) return unknown(first, count);
   if (!text::equalsIgnoringCase(row->info.mnemonic, token.text))
-    program_.diagnostics.report(Diag::JloAlias, token.range()).fix(token.range(), row->info.mnemonic);
+    program_.diagnostics.report(diag::JloAlias, token.range()).fix(token.range(), row->info.mnemonic);
   return row;
 }
 
@@ -144,7 +146,7 @@ void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
   badLabel_ = labelled && label == kNone;
   if (count == 0) return;
   if (program_.tokens[first].is(':')) {
-    program_.diagnostics.report(Diag::SyntaxError, program_.tokens[first].range()) << "a name before ':'" << "none";
+    program_.diagnostics.report(diag::SyntaxError, program_.tokens[first].range()) << "a name before ':'" << "none";
     return;
   }
   if (macroLine(first, count, line) || instance(first, count, line)) return;
@@ -201,7 +203,7 @@ void FileReader::checkEightBits(const Statement& statement) {
   const auto operands = splitOperands(program_.operandTokens(statement));
   const bool all =
       operands.size() >= 8 && std::none_of(operands.begin(), operands.end(), [](const auto& o) { return o.empty(); });
-  if (!all) program_.diagnostics.report(Diag::DfmNeedsEight, statement.range());
+  if (!all) program_.diagnostics.report(diag::DfmNeedsEight, statement.range());
 }
 
 // Labels are this file's alone; they belong to the unit that is open here.
@@ -227,10 +229,10 @@ const Token* FileReader::oneName(const Statement& statement) {
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return &tokens[0];
   const size_t found = splitOperands(tokens).size();
   if (found == 1 && isOneWord(tokens))
-    program_.diagnostics.report(Diag::BadIdentifier, rangeOf(program_.sources, tokens, statement.range()))
+    program_.diagnostics.report(diag::BadIdentifier, rangeOf(program_.sources, tokens, statement.range()))
         << spelled(tokens);
   else if (countFits(statement.row->info, found, statement.range(), program_.diagnostics))
-    program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "a name" << describe(tokens);
+    program_.diagnostics.report(diag::SyntaxError, tokens[0].range()) << "a name" << describe(tokens);
   return nullptr;
 }
 
@@ -275,7 +277,7 @@ void FileReader::checkSwitch(const Statement& statement) {
   if (!countFits(statement.row->info, splitOperands(tokens).size(), statement.range(), program_.diagnostics)) return;
   if (tokens.size() > 1 ||
       !(text::equalsIgnoringCase(tokens[0].text, "ON") || text::equalsIgnoringCase(tokens[0].text, "OFF")))
-    program_.diagnostics.report(Diag::SyntaxError, tokens[0].range()) << "ON or OFF" << describe(tokens);
+    program_.diagnostics.report(diag::SyntaxError, tokens[0].range()) << "ON or OFF" << describe(tokens);
 }
 
 void FileReader::structural(Statement& statement, uint32_t index) {
@@ -295,7 +297,7 @@ void FileReader::structural(Statement& statement, uint32_t index) {
   case Role::Stop: structure_.stop(statement, index); return;
   case Role::Equi: declarations_.constant(statement); return;
   case Role::MemberSize:
-    program_.diagnostics.report(Diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
+    program_.diagnostics.report(diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
     return;
   case Role::NoCode: checkSwitch(statement); return;
   case Role::Code:
@@ -323,7 +325,7 @@ void FileReader::code(Statement& statement, uint32_t index) {
   }
   if (statement.row->effects & kDeclares) declarations_.exchanged(statement, index);
   if (!mayStandThere(statement)) {
-    program_.diagnostics.report(Diag::InitOnlyInstruction, statement.range()) << statement.row->info.mnemonic;
+    program_.diagnostics.report(diag::InitOnlyInstruction, statement.range()) << statement.row->info.mnemonic;
     statement.row = nullptr;
     return;
   }
@@ -363,7 +365,7 @@ void FileReader::code(Statement& statement, uint32_t index) {
 
 void FileReader::checkWait(const Statement& statement) {
   if (!program_.mayWait(statement.unit))
-    program_.diagnostics.report(Diag::ExOutsideMechanism, statement.range()) << statement.row->info.mnemonic;
+    program_.diagnostics.report(diag::ExOutsideMechanism, statement.range()) << statement.row->info.mnemonic;
   else if (program_.inMechanism(statement.unit) && statement.tokenCount > 0)
     program_.mechanisms[program_.units[program_.owner(statement.unit)].index].hasTimers = true;
 }
@@ -376,13 +378,13 @@ void FileReader::checkLoop(const Statement& statement) {
   if (symbol == kNone || program_.symbols[symbol].kind != SymbolKind::Label) return;
   const Label& label = program_.labels[program_.symbols[symbol].index];
   if (label.unit == statement.unit && label.passed == passed_)
-    program_.diagnostics.report(Diag::MechLoopWithoutEx, statement.range())
+    program_.diagnostics.report(diag::MechLoopWithoutEx, statement.range())
         .note(program_.symbols[symbol].declared, "the loop begins here");
 }
 
 void readProgram(Program& program, std::span<const FileId> files) {
   if (files.size() > kMaxFiles) {
-    program.diagnostics.report(Diag::TooManyFiles, program.sources.range(files[kMaxFiles], 0, 0)) << kMaxFiles;
+    program.diagnostics.report(diag::TooManyFiles, program.sources.range(files[kMaxFiles], 0, 0)) << kMaxFiles;
     return;
   }
   for (uint32_t i = 0; i < files.size(); ++i) {
@@ -404,7 +406,7 @@ std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<
     return std::nullopt;
   };
   if (tokens.empty()) {
-    program.diagnostics.report(Diag::SyntaxError, otherwise) << "a constant" << "nothing";
+    program.diagnostics.report(diag::SyntaxError, otherwise) << "a constant" << "nothing";
     return std::nullopt;
   }
   int64_t sum = 0;
@@ -417,24 +419,24 @@ std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<
       continue;
     }
     if (!wantsTerm || token.kind == TokenKind::Punct) {
-      program.diagnostics.report(Diag::SyntaxError, token.range())
+      program.diagnostics.report(diag::SyntaxError, token.range())
           << "a constant" << "'" + std::string(token.text) + "'";
       return std::nullopt;
     }
     int64_t term = 0;
     if (token.kind == TokenKind::Number) {
       const std::optional<Number> number = parseNumber(token.text);
-      if (!number || number->isReal) return fail(Diag::BadNumber, token);
+      if (!number || number->isReal) return fail(diag::BadNumber, token);
       term = number->value;
     } else if (token.kind == TokenKind::Text) {
       const std::optional<uint8_t> character = characterByte(token.text);
-      if (!character) return fail(Diag::BadNumber, token);
+      if (!character) return fail(diag::BadNumber, token);
       term = *character;
     } else {
       const uint32_t symbol = program.symbols.require(token, file);
       if (symbol == kNone || program.symbols[symbol].broken) return std::nullopt;
       if (program.symbols[symbol].kind != SymbolKind::Constant) {
-        program.diagnostics.report(Diag::WrongOperandKind, token.range())
+        program.diagnostics.report(diag::WrongOperandKind, token.range())
             << token.text << "no constant" << "a constant";
         return std::nullopt;
       }
@@ -446,7 +448,7 @@ std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<
     wantsTerm = false;
   }
   if (wantsTerm) {
-    program.diagnostics.report(Diag::SyntaxError, tokens.back().range()) << "a constant" << "the end of the operand";
+    program.diagnostics.report(diag::SyntaxError, tokens.back().range()) << "a constant" << "the end of the operand";
     return std::nullopt;
   }
   return sum;

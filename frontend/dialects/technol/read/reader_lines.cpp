@@ -5,6 +5,8 @@
 #include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/file_reader.h"
 #include "frontend/sema/operand_count.h"
+#include "ir/support/diag/source.h"
+#include "ir/support/diag/technol.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
@@ -66,7 +68,7 @@ void FileReader::readLines(FileId id, uint32_t depth) {
     if (structure_.stopped()) {
       const size_t text = line.text.find_first_not_of(" \t");
       if (text < commentOf(line.text) && text != std::string_view::npos && !textAfterStop_)
-        program_.diagnostics.report(Diag::TextAfterStop, line.range());
+        program_.diagnostics.report(diag::TextAfterStop, line.range());
       textAfterStop_ = textAfterStop_ || (text < commentOf(line.text) && text != std::string_view::npos);
       continue;
     }
@@ -152,7 +154,7 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   const auto column = static_cast<size_t>(name.data() - line.text.data());
   const SourceRange at = name.empty() ? line.range() : line.range(column, column + name.size());
   if (depth >= kMaxIncludes) {
-    program_.diagnostics.report(Diag::TooDeep, at) << "files" << kMaxIncludes;
+    program_.diagnostics.report(diag::TooDeep, at) << "files" << kMaxIncludes;
     return true;
   }
   const bool quoted = name.size() > 1 && name.front() == '\'' && name.back() == '\'';
@@ -162,11 +164,11 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   }
   const IncludedFile file = findIncluded(name, quoted, line.begin);
   if (std::find(including_.begin(), including_.end(), file.path) != including_.end()) {
-    program_.diagnostics.report(Diag::IncludeCycle, at) << file.path;
+    program_.diagnostics.report(diag::IncludeCycle, at) << file.path;
     return true;
   }
   if (!file.id) {
-    program_.diagnostics.report(Diag::IncludeNotFound, at) << name;
+    program_.diagnostics.report(diag::IncludeNotFound, at) << name;
     return true;
   }
   including_.push_back(file.path);
@@ -220,7 +222,7 @@ bool FileReader::allowedInInclude(const Statement& statement) {
   default: break;
   }
   if (!includeReported_)
-    program_.diagnostics.report(Diag::CodeInInclude, statement.range()) << statement.row->info.mnemonic;
+    program_.diagnostics.report(diag::CodeInInclude, statement.range()) << statement.row->info.mnemonic;
   includeReported_ = true;
   return false;
 }
@@ -242,7 +244,7 @@ bool FileReader::macroLine(uint32_t first, uint32_t count, uint32_t line) {
     else if (name == kInclude)
       countFits(row->info, 0, head.range(), program_.diagnostics);
     else
-      program_.diagnostics.report(Diag::SyntaxError, head.range()) << "DEF_T_MACRO" << name;
+      program_.diagnostics.report(diag::SyntaxError, head.range()) << "DEF_T_MACRO" << name;
     return true;
   }
   const Macro* macro = row == nullptr || macros_.first() ? macros_.find(head.text) : nullptr;
@@ -256,11 +258,11 @@ void FileReader::useMacro(const Macro& macro, uint32_t first, uint32_t count, ui
   const std::string key = symbolKey(macro.name.text);
   if (std::find(expanding_.begin(), expanding_.end(), key) != expanding_.end()) {
     const std::string by = expanding_.back() == key ? "" : ", by way of " + expanding_.back();
-    program_.diagnostics.report(Diag::MacroRecursion, head.range()) << macro.name.text << by;
+    program_.diagnostics.report(diag::MacroRecursion, head.range()) << macro.name.text << by;
     return;
   }
   if (expanding_.size() >= kMaxExpansion) {
-    program_.diagnostics.report(Diag::TooDeep, head.range()) << "macros" << kMaxExpansion;
+    program_.diagnostics.report(diag::TooDeep, head.range()) << "macros" << kMaxExpansion;
     return;
   }
   const std::vector<Token> operands(program_.tokens.begin() + first + 1, program_.tokens.begin() + first + count);

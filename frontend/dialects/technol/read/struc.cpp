@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "frontend/dialects/technol/read/reader.h"
+#include "ir/support/diag/source.h"
+#include "ir/support/diag/technol.h"
 #include "ir/support/hash.h"
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
@@ -29,14 +31,14 @@ std::string describe(const Token& token) { return "'" + std::string(token.text) 
 } // namespace
 
 bool Structures::syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise) {
-  program_.diagnostics.report(Diag::SyntaxError, rangeOf(program_.sources, tokens, otherwise))
+  program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, tokens, otherwise))
       << expected << (tokens.empty() ? "the end of the line" : describe(tokens[0]));
   return false;
 }
 
 bool Structures::room(int64_t bytes, SourceRange at) {
   if (bytes <= kMaxData) return true;
-  if (!full_) program_.diagnostics.report(Diag::TooLarge, at) << "bytes of data" << kMaxData;
+  if (!full_) program_.diagnostics.report(diag::TooLarge, at) << "bytes of data" << kMaxData;
   full_ = true;
   return false;
 }
@@ -79,7 +81,7 @@ bool Structures::isMember(std::span<const Token> tokens) {
 void Structures::begin(const Token& name, const Token& keyword) {
   // Outside every module they are accepted: include files hold them.
   if (structure_.inModule() && !structure_.inData() && !structure_.localOpen())
-    program_.diagnostics.report(Diag::DeclarationOutsideData, keyword.range()) << "struc";
+    program_.diagnostics.report(diag::DeclarationOutsideData, keyword.range()) << "struc";
   if (open_) abandon(name.range(), std::string(name.text) + " struc");
   open_ = true;
   name_ = name;
@@ -87,7 +89,7 @@ void Structures::begin(const Token& name, const Token& keyword) {
 }
 
 void Structures::abandon(SourceRange at, std::string_view found) {
-  program_.diagnostics.report(Diag::SyntaxError, at) << std::string(name_.text) + " ends" << found;
+  program_.diagnostics.report(diag::SyntaxError, at) << std::string(name_.text) + " ends" << found;
   open_ = false;
 }
 
@@ -96,7 +98,7 @@ void Structures::abandon(SourceRange at, std::string_view found) {
 void Structures::end(const Token& name) {
   const bool matches = open_ && symbolKey(name.text) == symbolKey(name_.text);
   if (!matches)
-    program_.diagnostics.report(Diag::SyntaxError, name.range())
+    program_.diagnostics.report(diag::SyntaxError, name.range())
         << (open_ ? std::string(name_.text) + " ends" : std::string("a statement")) << std::string(name.text) + " ends";
   if (!open_) return;
   open_ = false;
@@ -181,7 +183,7 @@ bool Structures::repeated(Element element, std::span<const Token> tokens, size_t
   const std::optional<int64_t> count = constantValue(program_, file_, tokens.first(dup), at);
   if (!count) return false;
   if (*count < 0 || *count > kMaxData) {
-    program_.diagnostics.report(Diag::OperandRange, rangeOf(program_.sources, tokens.first(dup), at))
+    program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, tokens.first(dup), at))
         << *count << "0 to " + std::to_string(kMaxData);
     return false;
   }
@@ -202,7 +204,7 @@ bool Structures::fields(uint32_t structure, std::span<const Token> tokens, Sourc
   bool ok = true;
   for (size_t i = 0; i < parts.size(); ++i) {
     if (i >= type.members.size()) {
-      program_.diagnostics.report(Diag::OperandRange, rangeOf(program_.sources, parts[i], otherwise))
+      program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, parts[i], otherwise))
           << std::to_string(parts.size()) + " values" << "at most " + std::to_string(type.members.size());
       return false;
     }
@@ -211,7 +213,7 @@ bool Structures::fields(uint32_t structure, std::span<const Token> tokens, Sourc
     Bytes bytes;
     ok = value({m.elementBytes, m.structure}, parts[i], otherwise, bytes) && ok;
     if (bytes.size() > m.bytes) {
-      program_.diagnostics.report(Diag::OperandRange, rangeOf(program_.sources, parts[i], otherwise))
+      program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, parts[i], otherwise))
           << std::to_string(bytes.size()) + " bytes" << "at most " + std::to_string(m.bytes);
       return false;
     }
@@ -234,7 +236,7 @@ bool Structures::number(uint32_t bytes, std::span<const Token> tokens, SourceRan
     const int64_t most = bytes == 8 ? INT64_MAX : (int64_t{1} << (8 * bytes)) - 1;
     const int64_t least = bytes == 8 ? INT64_MIN : -(int64_t{1} << (8 * bytes - 1));
     if (*whole < least || *whole > most) {
-      program_.diagnostics.report(Diag::OperandRange, rangeOf(program_.sources, tokens, otherwise))
+      program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, tokens, otherwise))
           << *whole << std::to_string(least) + " to " + std::to_string(most);
       return false;
     }

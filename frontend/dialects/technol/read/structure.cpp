@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "ir/support/diag/structure.h"
+#include "ir/support/diag/technol.h"
+
 namespace rung::frontend::technol {
 namespace {
 
@@ -31,11 +34,11 @@ void Structure::checkPlace(const Statement& statement, ModuleKind kind) {
   bool& seen = seen_[static_cast<size_t>(kind)];
   if (kind != ModuleKind::Data && !seen_[0] && !dataReported_) {
     dataReported_ = true;
-    diagnostics.report(Diag::DataNotFirst, statement.range());
+    diagnostics.report(diag::DataNotFirst, statement.range());
   }
-  if (seen) diagnostics.report(Diag::DuplicateModule, statement.range()) << moduleName(kind);
+  if (seen) diagnostics.report(diag::DuplicateModule, statement.range()) << moduleName(kind);
   if (isOneOf(kind, kMainOnly) && !program_.files[file_].main)
-    diagnostics.report(Diag::ModuleNotAllowed, statement.range()) << moduleName(kind);
+    diagnostics.report(diag::ModuleNotAllowed, statement.range()) << moduleName(kind);
   seen = true;
 }
 
@@ -56,7 +59,7 @@ void Structure::beginModule(const Statement& statement, ModuleKind kind, uint32_
 
 void Structure::reportUnclosed(SourceRange at) {
   const Unit& module = program_.units[program_.parts[part_].unit];
-  program_.diagnostics.report(Diag::ModuleNotClosed, at).note(module.begin, "it begins here")
+  program_.diagnostics.report(diag::ModuleNotClosed, at).note(module.begin, "it begins here")
       << moduleName(kind()) << endName(kind());
 }
 
@@ -98,10 +101,10 @@ void Structure::closeUnit(SourceRange at) {
   const Unit& unit = program_.units[unit_];
   switch (unit.kind) {
   case UnitKind::Mechanism:
-    program_.diagnostics.report(Diag::MechNotClosed, at).note(unit.begin, "it begins here") << unit.name;
+    program_.diagnostics.report(diag::MechNotClosed, at).note(unit.begin, "it begins here") << unit.name;
     break;
   case UnitKind::Procedure:
-    program_.diagnostics.report(Diag::ProcNotClosed, at).note(unit.begin, "it begins here") << unit.name;
+    program_.diagnostics.report(diag::ProcNotClosed, at).note(unit.begin, "it begins here") << unit.name;
     break;
   case UnitKind::Timed: lostBlocks_.push_back({program_.tokens[unit.endLabel], unit_}); break;
   case UnitKind::Module: break;
@@ -116,12 +119,12 @@ void Structure::beginLocal(const Statement& statement) {
 
 void Structure::endLocal(const Statement& statement) {
   if (!localOpen_)
-    program_.diagnostics.report(Diag::SyntaxError, statement.range()) << "DATA_LOCAL" << "DATA_LOCAL_END";
+    program_.diagnostics.report(diag::SyntaxError, statement.range()) << "DATA_LOCAL" << "DATA_LOCAL_END";
   localOpen_ = false;
 }
 
 void Structure::closeLocal(SourceRange at) {
-  if (localOpen_) program_.diagnostics.report(Diag::ModuleNotClosed, at) << "DATA_LOCAL" << "DATA_LOCAL_END";
+  if (localOpen_) program_.diagnostics.report(diag::ModuleNotClosed, at) << "DATA_LOCAL" << "DATA_LOCAL_END";
   localOpen_ = false;
 }
 
@@ -137,7 +140,7 @@ void Structure::stop(const Statement& statement, uint32_t index) {
 void Structure::beginMechanism(const Statement& statement, const Token& name) {
   const uint32_t outer = program_.owner(unit_);
   if (program_.inMechanism(unit_))
-    program_.diagnostics.report(Diag::NestedMechanism, statement.range())
+    program_.diagnostics.report(diag::NestedMechanism, statement.range())
             .note(program_.units[outer].begin, "it begins here")
         << program_.units[outer].name;
   const auto index = static_cast<uint32_t>(program_.mechanisms.size());
@@ -154,7 +157,7 @@ uint32_t Structure::innermost(UnitKind kind) const {
 // What was left open inside ends here, too.
 bool Structure::endUnit(const Statement& statement, const Token& name, UnitKind kind) {
   const bool mechanism = kind == UnitKind::Mechanism;
-  const Diag mismatch = mechanism ? Diag::MechNameMismatch : Diag::ProcNameMismatch;
+  const Diag mismatch = mechanism ? diag::MechNameMismatch : diag::ProcNameMismatch;
   const uint32_t at = innermost(kind);
   if (at == kNone) {
     program_.diagnostics.report(mismatch, statement.range())
@@ -172,7 +175,7 @@ bool Structure::endUnit(const Statement& statement, const Token& name, UnitKind 
 
 void Structure::beginProcedure(const Statement& statement, const Token& name) {
   if (const uint32_t outer = innermost(UnitKind::Procedure); outer != kNone)
-    program_.diagnostics.report(Diag::NestedProcedure, statement.range())
+    program_.diagnostics.report(diag::NestedProcedure, statement.range())
             .note(program_.units[outer].begin, "it begins here")
         << program_.units[outer].name;
   const auto index = static_cast<uint32_t>(program_.procedures.size());
@@ -199,7 +202,7 @@ void Structure::passLabel(std::string_view name) {
   // Blocks inside a block are reported when it is certain that it has an end; else its missing end is the mistake.
   std::erase_if(innerBlocks_, [&](const InnerBlock& inner) {
     if (inner.outer != found) return false;
-    program_.diagnostics.report(Diag::SyntaxError, inner.at).note(program_.units[found].begin, "it begins here")
+    program_.diagnostics.report(diag::SyntaxError, inner.at).note(program_.units[found].begin, "it begins here")
         << "label '" + std::string(name) + "', which ends the timed block," << "a timed block inside it";
     return true;
   });
@@ -230,21 +233,21 @@ bool Structure::allowsCode(const Statement& statement) {
   if (localOpen_ && !inData()) closeLocal(statement.range());
   if (inModule() && !inData()) return true;
   if (!outsideReported_)
-    program_.diagnostics.report(Diag::CodeOutsideModule, statement.range()) << statement.row->info.mnemonic;
+    program_.diagnostics.report(diag::CodeOutsideModule, statement.range()) << statement.row->info.mnemonic;
   outsideReported_ = true;
   return false;
 }
 
 bool Structure::allowsData(const Statement& statement) {
   if (localOpen_ || inData()) return true;
-  program_.diagnostics.report(Diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
+  program_.diagnostics.report(diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
   return false;
 }
 
 void Structure::checkMissing() {
   const SourceFile& file = program_.files[file_];
   Diagnostics& diagnostics = program_.diagnostics;
-  if (!seen_[0] && !dataReported_) diagnostics.report(Diag::DataNotFirst, file.lastLine);
+  if (!seen_[0] && !dataReported_) diagnostics.report(diag::DataNotFirst, file.lastLine);
   std::string missing;
   size_t count = 0;
   for (int i = 1; i < kModuleKinds; ++i) {
@@ -254,8 +257,8 @@ void Structure::checkMissing() {
     missing.append(count++ == 0 ? "" : ", ").append(moduleName(kind));
   }
   if (count != 0)
-    diagnostics.report(Diag::MissingModule, file.lastLine) << (count == 1 ? "a module is" : "modules are") << missing;
-  if (file.main && !stopped_) diagnostics.report(Diag::MissingStop, file.lastLine);
+    diagnostics.report(diag::MissingModule, file.lastLine) << (count == 1 ? "a module is" : "modules are") << missing;
+  if (file.main && !stopped_) diagnostics.report(diag::MissingStop, file.lastLine);
 }
 
 void Structure::finish(uint32_t statementCount) {
@@ -276,9 +279,9 @@ void Structure::finish(uint32_t statementCount) {
     if (symbol == kNone)
       program_.symbols.noteUndefined(block.label, file_, {});
     else if (!later)
-      program_.diagnostics.report(Diag::UndefinedSymbol, block.label.range()) << block.label.text;
+      program_.diagnostics.report(diag::UndefinedSymbol, block.label.range()) << block.label.text;
     else
-      program_.diagnostics.report(Diag::JumpCrossesUnit, block.label.range())
+      program_.diagnostics.report(diag::JumpCrossesUnit, block.label.range())
           << block.label.text << "the unit of this timed block";
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ranges>
 
+#include "ir/support/diag/technol.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"
@@ -114,13 +115,13 @@ std::string symbolKey(std::string_view name) {
 
 void SymbolTable::checkName(const Symbol& symbol) {
   if (std::min(symbol.name.find(kUseMark), symbol.name.size()) > kSignificant)
-    diagnostics_.report(Diag::NameTooLong, symbol.declared) << symbol.name;
+    diagnostics_.report(diag::NameTooLong, symbol.declared) << symbol.name;
   switch (reservedWord(symbol.name)) {
   case Reserved::No: break;
   case Reserved::Warn:
-    diagnostics_.report(Diag::ReservedWord, symbol.declared).severity(Severity::Warning) << symbol.name;
+    diagnostics_.report(diag::ReservedWord, symbol.declared).severity(Severity::Warning) << symbol.name;
     break;
-  case Reserved::Yes: diagnostics_.report(Diag::ReservedWord, symbol.declared) << symbol.name; break;
+  case Reserved::Yes: diagnostics_.report(diag::ReservedWord, symbol.declared) << symbol.name; break;
   }
 }
 
@@ -146,7 +147,7 @@ bool SymbolTable::merge(uint32_t earlier, Symbol& symbol) {
   } else {
     return false;
   }
-  diagnostics_.report(Diag::SharedName, symbol.declared).note(first.declared, "also declared here") << symbol.name;
+  diagnostics_.report(diag::SharedName, symbol.declared).note(first.declared, "also declared here") << symbol.name;
   return true;
 }
 
@@ -259,7 +260,7 @@ void SymbolTable::noteUndefined(const Token& name, uint32_t file, Hint hint) {
 }
 
 void SymbolTable::reportUndefined() {
-  undefined_.report(diagnostics_, Diag::UndefinedSymbol, [&](DiagBuilder& report, const Undefined& first) {
+  undefined_.report(diagnostics_, diag::UndefinedSymbol, [&](DiagBuilder& report, const Undefined& first) {
     const std::string_view meant = similar(first);
     report.meant(first.range, meant);
     if (meant.empty() && looksLikeNumber(first.name)) report.note("as a number: 0" + std::string(first.name));

@@ -1,0 +1,5 @@
+// Codes of files, characters and limits: an entry of source.def each.
+#pragma once
+#define RUNG_DIAG_FAMILY Source
+#define RUNG_DIAG_ENTRIES "ir/support/diag/source.def"
+#include "ir/support/diag/codes.inc"

@@ -1,0 +1,5 @@
+// Codes of program structure, labels and calls: an entry of structure.def each.
+#pragma once
+#define RUNG_DIAG_FAMILY Structure
+#define RUNG_DIAG_ENTRIES "ir/support/diag/structure.def"
+#include "ir/support/diag/codes.inc"

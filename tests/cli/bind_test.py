@@ -13,6 +13,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 RUNGC = RUNTIME = STRUCT_HOST = LINUXCNC_HOST = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 EXAMPLE = Path("examples/embed-struct")
@@ -51,7 +54,7 @@ class Bind(unittest.TestCase):
         return self.path(name)
 
     def run_it(self, *words):
-        return subprocess.run([*map(str, words)], capture_output=True, text=True, timeout=300)
+        return subprocess.run([*map(str, words)], capture_output=True, text=True, timeout=patience(300))
 
     def bind(self, *words):
         return self.run_it(RUNGC, "bind", *words)

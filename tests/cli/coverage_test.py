@@ -7,6 +7,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 RUNGC = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 
@@ -117,7 +120,7 @@ expect LAMP 1
 
 
 def run(*args, cwd=None):
-    return subprocess.run([RUNGC, *map(str, args)], cwd=cwd, capture_output=True, text=True, timeout=300)
+    return subprocess.run([RUNGC, *map(str, args)], cwd=cwd, capture_output=True, text=True, timeout=patience(300))
 
 
 class Coverage(unittest.TestCase):

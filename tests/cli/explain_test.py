@@ -6,6 +6,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 RUNGC = None
 
 NCT = """dialect nct
@@ -34,7 +37,7 @@ class ExplainPlace(unittest.TestCase):
         self.path.write_text(NCT)
 
     def explain(self, line, column, status=0):
-        done = subprocess.run([RUNGC, "explain", f"{self.path}:{line}:{column}"], capture_output=True, text=True, timeout=120, check=False)
+        done = subprocess.run([RUNGC, "explain", f"{self.path}:{line}:{column}"], capture_output=True, text=True, timeout=patience(), check=False)
         self.assertEqual(done.returncode, status, done.stderr)
         return (done.stdout + done.stderr).replace(str(self.path), "p.lad")
 

@@ -8,6 +8,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 RUNGC = None
 MILL = Path("examples/gsk-mill")
 
@@ -39,7 +42,7 @@ rung
 
 
 def rungc(*arguments):
-    return subprocess.run([RUNGC, *map(str, arguments)], capture_output=True, text=True, timeout=300, errors="replace")
+    return subprocess.run([RUNGC, *map(str, arguments)], capture_output=True, text=True, timeout=patience(300), errors="replace")
 
 # A box that is evaluated while its input is on.
 SUM = """dialect nct

@@ -8,6 +8,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
@@ -37,7 +40,7 @@ class Cli(unittest.TestCase):
         return str(path)
 
     def rungc(self, *args, status=OK, cwd=None):
-        done = subprocess.run([RUNGC, *args], capture_output=True, timeout=120, cwd=cwd or self.path, stdin=subprocess.DEVNULL)
+        done = subprocess.run([RUNGC, *args], capture_output=True, timeout=patience(), cwd=cwd or self.path, stdin=subprocess.DEVNULL)
         out, err = done.stdout.decode(), done.stderr.decode()
         self.assertEqual(done.returncode, status, f"rungc {' '.join(args)}\n{out}{err}")
         return out, err

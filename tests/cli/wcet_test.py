@@ -8,6 +8,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 RUNGC = None
 
 # The jump leaps over the third rung, which is heavier than the rest; the called one runs twice.
@@ -97,7 +100,7 @@ STOP
 """
 
 def rungc(*arguments):
-    return subprocess.run([RUNGC, *map(str, arguments)], capture_output=True, text=True, timeout=300, errors="replace")
+    return subprocess.run([RUNGC, *map(str, arguments)], capture_output=True, text=True, timeout=patience(300), errors="replace")
 
 
 def without_figures(text):

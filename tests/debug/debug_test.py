@@ -14,6 +14,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 RUNGC = None
 MINI_HOST = None
 HERE = Path("tests/debug")
@@ -86,7 +89,7 @@ CPP = ("g++", "clang++-19")
 
 
 def run(*command):
-    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120, errors="replace")
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=patience(), errors="replace")
 
 
 def tool(name):
@@ -226,7 +229,7 @@ class Debug(unittest.TestCase):
         return [line for line in section.splitlines() if line.split(" ")[0] in programs]
 
     def in_folder(self, command):
-        done = subprocess.run(["bash", "-c", command], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=250, errors="replace")
+        done = subprocess.run(["bash", "-c", command], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=patience(250), errors="replace")
         self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}")
         return done.stdout
 

@@ -6,6 +6,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 RUNGC = None
 JIT = None  # compiles in its process
 HOSTS = []
@@ -28,7 +31,7 @@ class Embedding(unittest.TestCase):
         return output
 
     def run_host(self, host, *arguments):
-        return subprocess.run([host, *arguments], capture_output=True, text=True, timeout=120)
+        return subprocess.run([host, *arguments], capture_output=True, text=True, timeout=patience())
 
     def test_the_toys_run_fault_and_change(self):
         for host in HOSTS:

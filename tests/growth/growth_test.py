@@ -9,6 +9,10 @@ import shutil
 import subprocess
 import sys
 import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
 
 PROGRAM = None
 SIZE = 500
@@ -17,7 +21,7 @@ MOST = 2.5
 
 def instructions(case, size):
     done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", PROGRAM, case, str(size)],
-                          capture_output=True, text=True, timeout=200, check=True)
+                          capture_output=True, text=True, timeout=patience(200), check=True)
     return int(re.search(r"Collected : (\d+)", done.stderr).group(1))
 
 
@@ -30,7 +34,7 @@ def growth(case):
 @unittest.skipUnless(shutil.which("valgrind"), "valgrind is not installed; ./dev setup does it")
 class Growth(unittest.TestCase):
     def test_is_linear(self):
-        cases = subprocess.run([PROGRAM], capture_output=True, text=True, timeout=20, check=True).stdout.split()
+        cases = subprocess.run([PROGRAM], capture_output=True, text=True, timeout=patience(), check=True).stdout.split()
         self.assertGreater(len(cases), 5)
         for case in cases:
             with self.subTest(case):

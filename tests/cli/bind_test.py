@@ -15,6 +15,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = RUNTIME = STRUCT_HOST = LINUXCNC_HOST = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
@@ -413,5 +414,6 @@ class RandomHeader:
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC, RUNTIME, STRUCT_HOST, LINUXCNC_HOST = sys.argv[1:5]
     unittest.main(argv=sys.argv[:1])

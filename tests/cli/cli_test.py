@@ -13,6 +13,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience, seconds_of_children, wait_until
+from root import go_to_root
 
 RUNGC = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
@@ -975,5 +976,6 @@ class HostileInput(Cli):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = os.path.abspath(sys.argv.pop(1))
     unittest.main()

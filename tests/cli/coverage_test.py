@@ -9,6 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
@@ -373,5 +374,6 @@ class Examples(Coverage):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = str(Path(sys.argv.pop(1)).resolve())
     unittest.main()

@@ -9,6 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = None
 SAME, OTHERWISE, USAGE = 0, 1, 2
@@ -101,5 +102,6 @@ rungs: 0 changed, 0 added, 0 removed, 0 moved, 2 the same
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = sys.argv.pop(1)
     unittest.main()

@@ -8,6 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = None
 
@@ -78,5 +79,6 @@ START (7000.00): read, but written by no rung
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = sys.argv.pop(1)
     unittest.main()

@@ -11,6 +11,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
@@ -154,5 +155,6 @@ class Format(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = os.path.abspath(sys.argv.pop(1))
     unittest.main()

@@ -8,6 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
@@ -92,5 +93,6 @@ class Map(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = sys.argv.pop(1)
     unittest.main()

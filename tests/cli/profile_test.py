@@ -10,6 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = None
 MILL = Path("examples/gsk-mill")
@@ -270,5 +271,6 @@ class Profile(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = os.path.abspath(sys.argv.pop(1))
     unittest.main()

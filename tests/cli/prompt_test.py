@@ -13,6 +13,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = ""
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
@@ -547,5 +548,6 @@ class OnATerminal(Folder):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = os.path.abspath(sys.argv.pop(1))
     unittest.main(verbosity=1)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = None
 
@@ -246,5 +247,6 @@ class Wcet(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = sys.argv.pop(1)
     unittest.main()

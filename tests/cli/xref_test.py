@@ -9,6 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = None
 OK, WRONG = 0, 1
@@ -126,5 +127,6 @@ class Xref(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = sys.argv.pop(1)
     unittest.main()

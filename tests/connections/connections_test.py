@@ -17,6 +17,7 @@ from pymodbus.client import ModbusTcpClient
 
 from sides import PINS, Cable, Client, Device, Host, frame, free_port, writing_client
 from patience import patience, wait_until
+from root import go_to_root
 
 BIN = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
@@ -922,5 +923,6 @@ class Mistakes(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     BIN = Path(sys.argv.pop(1)).resolve()
     unittest.main()

@@ -16,6 +16,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = None
 MINI_HOST = None
@@ -256,6 +257,7 @@ class Debug(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = os.path.abspath(sys.argv.pop(1))
     MINI_HOST = os.path.abspath(sys.argv.pop(1))
     unittest.main()

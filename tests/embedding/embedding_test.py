@@ -8,6 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from root import go_to_root
 
 RUNGC = None
 JIT = None  # compiles in its process
@@ -65,5 +66,6 @@ class Embedding(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC, JIT, *HOSTS = sys.argv[1:]
     unittest.main(argv=sys.argv[:1])

@@ -21,6 +21,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "connections"))
 from sides import Host
 from patience import wait_until
+from root import go_to_root
 
 BIN = None
 OK, USAGE, ENVIRONMENT = 0, 2, 3
@@ -247,5 +248,6 @@ class Mistakes(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     BIN = Path(sys.argv.pop(1)).resolve()
     unittest.main()

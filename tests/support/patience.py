@@ -24,11 +24,11 @@ def patience(seconds=PATIENCE):
     return seconds * load()
 
 
-def wait_until(condition, seconds=PATIENCE):
+def wait_until(condition, seconds=PATIENCE, step=STEP):
     """The value of the condition once it is true; None where it never is."""
     begin = time.monotonic()
     while not (value := condition()):
         if time.monotonic() - begin > patience(seconds):
             return None
-        time.sleep(STEP)
+        time.sleep(step)
     return value

@@ -171,7 +171,8 @@ def at_once():
     command.auto(linuxcnc.AUTO_RUN, 0)
     wait("the line", lambda: read(14) in ((0, 2 * UNITS), (0, 3 * UNITS)))
     same(read(1, 1, 0), (0, 30 * UNITS), "the tool table while a part program runs")
-    drive.end_motion()
+    wait("the end of the block", lambda: read(17, 0, 1) == (0, 0))
+    drive.end_motion()  # of the dwell, which takes its time only
     drive.idle()
     same(read(17, 0, 1), (0, 0), "the position")
 

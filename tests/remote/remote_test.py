@@ -208,15 +208,15 @@ class Commands(Host):
         other = self.home / "other.pmc"
         other.write_text(PROGRAM.replace("LD   X0.0", "LDI  X0.0"))
         subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
-        text = self.ctl("reload", self.home / "other.so", "--shadow", "5", status=WRONG)
+        text = self.ctl("reload", self.home / "other.so", "--shadow", "25", status=WRONG)
         self.assertIn("finished, ", text)
         self.assertIn("Y0.0: false now, true in the new program\n", text)
         self.assertIn("nothing has changed", text)
         self.assertFalse(self.get("Y0.0"))
-        text = self.ctl("reload", self.program, "--shadow", "5")
+        text = self.ctl("reload", self.program, "--shadow", "25")
         self.assertIn(", 0 differences\n", text)
         self.assertTrue(text.endswith("the new program runs\n"))
-        self.ctl("reload", self.home / "other.so", "--shadow", "5", "--yes")
+        self.ctl("reload", self.home / "other.so", "--shadow", "25", "--yes")
         self.wait(lambda: self.get("Y0.0"))
         self.ctl("reload", self.program, "--shadow", "0", status=USAGE)
 

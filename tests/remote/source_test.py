@@ -123,13 +123,13 @@ class Reload(SourceHost):
     def test_what_is_lost_asks_first(self):
         with_symbol = self.source(PROGRAM.replace("symbol GUARD X0.2", "symbol GUARD X0.2\nsymbol COUNT D8"))
         self.ctl("reload", with_symbol)
-        text = self.ctl("reload", self.source(PROGRAM), "--shadow", "5", status=WRONG)
+        text = self.ctl("reload", self.source(PROGRAM), "--shadow", "25", status=WRONG)
         self.assertIn("0 differences\nremoved COUNT\n", text)
         self.assertIn("the new program loses state: COUNT; nothing has changed; with --yes", text)
         self.ctl("reload", self.source(PROGRAM), "--yes")
         self.assertEqual(self.ctl("reload", self.home / "none.pmc", status=WRONG),
                          f"cannot read '{self.home}/none.pmc': No such file or directory\nrungctl: nothing has changed\n")
-        text = self.ctl("reload", self.source(PROGRAM.replace("LD   X0.0", "LDI  X0.0")), "--shadow", "5", status=WRONG)
+        text = self.ctl("reload", self.source(PROGRAM.replace("LD   X0.0", "LDI  X0.0")), "--shadow", "25", status=WRONG)
         self.assertIn("Y0.0: false now, true in the new program\n", text)
 
     def test_with_profile_its_rungs_are_counted(self):

@@ -402,10 +402,11 @@ class RandomHeader:
 
     def printer(self, header, read):
         """A program that prints the place of each member, of bit-fields as they show in the bytes."""
+        bit_fields = set(re.findall(r"\b(m\d+) : \d", self.text()))
         lines = ["#include <stddef.h>", "#include <stdio.h>", "#include <string.h>", f'#include "{header}"', "int main(void) {", "  unsigned char bytes[4096];"]
         for name, members in read.items():
             for member in members:
-                if re.search(rf"\b{member.split('.')[-1]} : \d", self.text()):
+                if member.split(".")[-1] in bit_fields:
                     lines.append(f"  {{ {name} s; memset(&s, 0, sizeof s); s.{member} = -1; memcpy(bytes, &s, sizeof s); int bit = 0;"
                                  f" while (!(bytes[bit / 8] >> bit % 8 & 1)) ++bit; printf(\"{name} {member} %d.%d\\n\", bit / 8, bit % 8); }}")
                 else:

@@ -287,10 +287,10 @@ class Retained(Cli):
             command = [RUNGC, "run", program, "--retain", str(Path(self.folder.name) / "image"), "--engine", "interp",
                        "--realtime", "--for", "3600s"]
             begin = time.monotonic()
-            kill_after_stores(command, 5, delay, self.images())
+            kill_after_stores(command, 3, delay, self.images())
             scans = 125 * (time.monotonic() - begin)
             now = self.read(program, "D0:4")[0]
-            self.assertGreaterEqual(now, before + 5)  # a store for each of several counts, and that of reading
+            self.assertGreaterEqual(now, before + 3)  # a store for each of several counts, and that of reading
             self.assertLess(now, before + scans + 2)
             before = now
 

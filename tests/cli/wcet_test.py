@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""rungc wcet as a user sees it: wcet_test.py RUNGC [unittest arguments]; runs in the root of the repository."""
+"""rungc wcet as a user sees it: wcet_test.py RUNGC [unittest arguments]"""
 import json
 import re
 import subprocess

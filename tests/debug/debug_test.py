@@ -2,7 +2,7 @@
 """Native tools on compiled programs: gdb stops at lines of the PLC source and shows the program's names, callgrind counts
 by lines.
 
-debug_test.py RUNGC MINI_HOST [unittest arguments]; runs in the root of the repository.
+debug_test.py RUNGC MINI_HOST [unittest arguments]
 """
 import json
 import os

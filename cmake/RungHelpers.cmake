@@ -1,6 +1,10 @@
 # The few functions by which every folder declares its targets.
 include(GoogleTest)
 
+# Seconds until a test counts as one that never ends, also on a busy machine and with a sanitizer; what a test waits for has
+# limits of its own.
+set(rung_patience 1800)
+
 # Adds the given folders, each of which has a CMakeLists.txt; one that is not there is an error.
 macro(rung_add_subdirectories)
   foreach(rung_folder IN ITEMS ${ARGN})
@@ -48,29 +52,26 @@ function(rung_add_program name)
   target_link_libraries(${name} PRIVATE ${arg_LIBS} rung_warnings)
 endfunction()
 
-# rung_add_test(NAME SOURCES file... LIBS target... [LABEL label] [TIMEOUT seconds] [WHOLE]): GoogleTest program
+# rung_add_test(NAME SOURCES file... LIBS target... [LABEL label] [WHOLE]): GoogleTest program
 # build/bin/tests/rung_test_NAME. Each case is a ctest entry, or with WHOLE the program is one entry (for thousands of
-# short cases). Tests run in the root of the repository, so that files are found by their path in it.
+# short cases). Its main() goes to the root of the repository, so that files are found by their path in it.
 function(rung_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL;TIMEOUT" "SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL" "SOURCES;LIBS")
   set(target rung_test_${name})
   set(rung_headers tests)
-  rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} GTest::gmock GTest::gtest_main)
+  rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} GTest::gmock rung_test_main)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin/tests")
-  if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 300)
-  endif()
-  set(properties TIMEOUT ${arg_TIMEOUT})
+  set(properties TIMEOUT ${rung_patience})
   if(arg_LABEL)
     list(APPEND properties LABELS ${arg_LABEL})
     set_property(GLOBAL APPEND PROPERTY RUNG_TESTS_OF_${arg_LABEL} ${target})
   endif()
   if(arg_WHOLE)
-    add_test(NAME ${name} COMMAND ${target} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+    add_test(NAME ${name} COMMAND ${target})
     set_tests_properties(${name} PROPERTIES ${properties})
   else()
-    gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-      WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" PROPERTIES ${properties})
+    gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT ${rung_patience}
+      PROPERTIES ${properties})
   endif()
 endfunction()
 

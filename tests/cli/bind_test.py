@@ -13,6 +13,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
+
 RUNGC = RUNTIME = STRUCT_HOST = LINUXCNC_HOST = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 EXAMPLE = Path("examples/embed-struct")
@@ -51,7 +55,7 @@ class Bind(unittest.TestCase):
         return self.path(name)
 
     def run_it(self, *words):
-        return subprocess.run([*map(str, words)], capture_output=True, text=True, timeout=300)
+        return subprocess.run([*map(str, words)], capture_output=True, text=True, timeout=patience(300))
 
     def bind(self, *words):
         return self.run_it(RUNGC, "bind", *words)
@@ -398,10 +402,11 @@ class RandomHeader:
 
     def printer(self, header, read):
         """A program that prints the place of each member, of bit-fields as they show in the bytes."""
+        bit_fields = set(re.findall(r"\b(m\d+) : \d", self.text()))
         lines = ["#include <stddef.h>", "#include <stdio.h>", "#include <string.h>", f'#include "{header}"', "int main(void) {", "  unsigned char bytes[4096];"]
         for name, members in read.items():
             for member in members:
-                if re.search(rf"\b{member.split('.')[-1]} : \d", self.text()):
+                if member.split(".")[-1] in bit_fields:
                     lines.append(f"  {{ {name} s; memset(&s, 0, sizeof s); s.{member} = -1; memcpy(bytes, &s, sizeof s); int bit = 0;"
                                  f" while (!(bytes[bit / 8] >> bit % 8 & 1)) ++bit; printf(\"{name} {member} %d.%d\\n\", bit / 8, bit % 8); }}")
                 else:
@@ -410,5 +415,6 @@ class RandomHeader:
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC, RUNTIME, STRUCT_HOST, LINUXCNC_HOST = sys.argv[1:5]
     unittest.main(argv=sys.argv[:1])

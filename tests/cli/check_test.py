@@ -7,6 +7,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
+
 RUNGC = None
 
 NCT = """dialect nct
@@ -91,7 +95,7 @@ class CheckNames(unittest.TestCase):
     def warnings(self, name, text, *args, status=0):
         path = Path(self.folder.name) / name
         path.write_text(text)
-        done = subprocess.run([RUNGC, "check", "--json", *args, path], capture_output=True, text=True, timeout=120, check=False)
+        done = subprocess.run([RUNGC, "check", "--json", *args, path], capture_output=True, text=True, timeout=patience(), check=False)
         self.assertEqual(done.returncode, status, done.stderr)
         lines = text.splitlines()
         return [(one["code"], lines[one["line"] - 1][one["column"] - 1:one["endColumn"] - 1]) for one in json.loads(done.stdout)]
@@ -130,17 +134,18 @@ class CheckNames(unittest.TestCase):
     def test_other_commands_say_nothing(self):
         path = Path(self.folder.name) / "p.lad"
         path.write_text(NCT.format(start="", spare=""))
-        done = subprocess.run([RUNGC, "emit", "ir", path], capture_output=True, text=True, timeout=120, check=False)
+        done = subprocess.run([RUNGC, "emit", "ir", path], capture_output=True, text=True, timeout=patience(), check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_examples_have_none(self):
         for folder in sorted(Path("examples").iterdir()):
             if not (folder / "rung.toml").exists():
                 continue
-            done = subprocess.run([RUNGC, "check", "--json", folder], capture_output=True, text=True, timeout=120, check=False)
+            done = subprocess.run([RUNGC, "check", "--json", folder], capture_output=True, text=True, timeout=patience(), check=False)
             self.assertEqual(json.loads(done.stdout), [], folder)
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = sys.argv.pop(1)
     unittest.main()

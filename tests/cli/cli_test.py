@@ -11,9 +11,12 @@ import unittest
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience, seconds_of_children, wait_until
+from root import go_to_root
+
 RUNGC = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
-PATIENCE = 60  # seconds until something counts as never happening
 
 LAMP = """dialect nct
 module MAIN
@@ -67,16 +70,13 @@ TECHNOL_NULL = "DATA\nDATA_END\n" + "".join(
     f"MODULE_{m}\nMODULE_{m}_END\n" for m in ("INPUT", "BLOCK_INIT", "BLOCK_DONE", "MAIN", "INIT", "CLEAR", "HALT")) + "STOP\n"
 
 
-def rungc(*args, stdin=None, timeout=120):
-    return subprocess.run([RUNGC, *args], input=stdin, capture_output=True, timeout=timeout)
+def rungc(*args, stdin=None):
+    return subprocess.run([RUNGC, *args], input=stdin, capture_output=True, timeout=patience())
 
 
-def wait_until(condition):
-    end = time.monotonic() + PATIENCE
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"it has not come within {PATIENCE} s")
-        time.sleep(0.01)
+def wait(condition):
+    if not wait_until(condition):
+        raise AssertionError("it has not come")
 
 
 def made(folder):
@@ -98,7 +98,7 @@ def kill_after_stores(command, stores, delay, images):
     before = generation(images)
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
         try:
-            wait_until(lambda: generation(images) >= before + stores)
+            wait(lambda: generation(images) >= before + stores)
             time.sleep(delay)
         finally:
             process.kill()
@@ -118,11 +118,11 @@ class Cli(unittest.TestCase):
         return str(path)
 
     def survives(self, path, *args, limit=60):
-        """A clear error or success within a time that nobody calls a hang."""
-        start = time.monotonic()
+        """A clear error or success within a time of the processor that nobody calls a hang."""
+        start = seconds_of_children()
         done = rungc("check", path, *args)
         self.assertIn(done.returncode, (OK, WRONG), done.stderr[-2000:])
-        self.assertLess(time.monotonic() - start, limit)
+        self.assertLess(seconds_of_children() - start, limit)
         if done.returncode == WRONG:
             self.assertIn(b"[", done.stderr, "an error without a code")
         return done
@@ -151,16 +151,21 @@ class Retained(Cli):
     def running(self, program):
         """A process that runs it on the machine's clock until it is stopped."""
         command = [RUNGC, "run", program, "--retain", str(Path(self.folder.name) / "image"), "--engine", "interp",
-                   "--realtime", "--for", "3600s"]
+                   "--realtime", "--for", "3600s", "--watch", "D0:4"]
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(process.kill)
         self.started()
         return process
 
+    def scan_by(self, process, count):
+        """Waits for that many scans, each of which shows its number."""
+        for _ in range(count):
+            self.assertIn(b" D0:4 = ", process.stdout.readline())
+
     def obstruct(self):
         for path in self.images():
             place = Path(f"{path}.tmp")
-            wait_until(lambda: made(place))
+            wait(lambda: made(place))
 
     def clear(self):
         for path in self.images():
@@ -168,7 +173,7 @@ class Retained(Cli):
 
     def started(self):
         """Waits for the image that a program writes when it starts."""
-        wait_until(lambda: any(path.exists() for path in self.images()))
+        wait(lambda: any(path.exists() for path in self.images()))
 
     def test_goes_on_where_it_stopped(self):
         program = self.counter()
@@ -244,7 +249,7 @@ class Retained(Cli):
         with self.running(program) as process:
             self.obstruct()
             self.assertRegex(process.stderr.readline(), rb"rungc: warning: cannot write .*/image\..\.tmp: .*; the program continues")
-            time.sleep(0.5)
+            self.scan_by(process, 60)
             self.clear()
             self.assertRegex(process.stderr.readline(), rb"rungc: .*/image is saved again")
             process.terminate()
@@ -282,20 +287,17 @@ class Retained(Cli):
             command = [RUNGC, "run", program, "--retain", str(Path(self.folder.name) / "image"), "--engine", "interp",
                        "--realtime", "--for", "3600s"]
             begin = time.monotonic()
-            kill_after_stores(command, 5, delay, self.images())
+            kill_after_stores(command, 3, delay, self.images())
             scans = 125 * (time.monotonic() - begin)
             now = self.read(program, "D0:4")[0]
-            self.assertGreaterEqual(now, before + 5)  # a store for each of several counts, and that of reading
+            self.assertGreaterEqual(now, before + 3)  # a store for each of several counts, and that of reading
             self.assertLess(now, before + scans + 2)
             before = now
 
     def test_an_ordinary_end_by_signal_saves(self):
         program = self.counter()
-        command = [RUNGC, "run", program, "--retain", str(Path(self.folder.name) / "image"), "--realtime", "--for", "3600s",
-                   "--engine", "interp"]
-        with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
-            self.started()
-            time.sleep(0.5)
+        with self.running(program) as process:
+            self.scan_by(process, 20)
             process.terminate()
             output = process.communicate()[0].decode()
         scans = int(output.split(" scans")[0].splitlines()[-1])
@@ -974,5 +976,6 @@ class HostileInput(Cli):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = os.path.abspath(sys.argv.pop(1))
     unittest.main()

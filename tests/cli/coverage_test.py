@@ -7,6 +7,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
+
 RUNGC = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 
@@ -117,7 +121,7 @@ expect LAMP 1
 
 
 def run(*args, cwd=None):
-    return subprocess.run([RUNGC, *map(str, args)], cwd=cwd, capture_output=True, text=True, timeout=300)
+    return subprocess.run([RUNGC, *map(str, args)], cwd=cwd, capture_output=True, text=True, timeout=patience(300))
 
 
 class Coverage(unittest.TestCase):
@@ -370,5 +374,6 @@ class Examples(Coverage):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = str(Path(sys.argv.pop(1)).resolve())
     unittest.main()

@@ -7,6 +7,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
+
 RUNGC = None
 SAME, OTHERWISE, USAGE = 0, 1, 2
 
@@ -29,7 +33,7 @@ class Diff(unittest.TestCase):
 
     def diff(self, before, after, *args, ending="lad"):
         old, new = self.file(f"old.{ending}", before), self.file(f"new.{ending}", after)
-        done = subprocess.run([RUNGC, "diff", old, new, *args], capture_output=True, text=True, timeout=300, check=False)
+        done = subprocess.run([RUNGC, "diff", old, new, *args], capture_output=True, text=True, timeout=patience(300), check=False)
         self.assertEqual(done.stderr, "")
         return done.returncode, done.stdout.replace(self.folder.name + "/", "")
 
@@ -98,5 +102,6 @@ rungs: 0 changed, 0 added, 0 removed, 0 moved, 2 the same
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = sys.argv.pop(1)
     unittest.main()

@@ -6,6 +6,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
+
 RUNGC = None
 
 NCT = """dialect nct
@@ -34,7 +38,7 @@ class ExplainPlace(unittest.TestCase):
         self.path.write_text(NCT)
 
     def explain(self, line, column, status=0):
-        done = subprocess.run([RUNGC, "explain", f"{self.path}:{line}:{column}"], capture_output=True, text=True, timeout=120, check=False)
+        done = subprocess.run([RUNGC, "explain", f"{self.path}:{line}:{column}"], capture_output=True, text=True, timeout=patience(), check=False)
         self.assertEqual(done.returncode, status, done.stderr)
         return (done.stdout + done.stderr).replace(str(self.path), "p.lad")
 
@@ -75,5 +79,6 @@ START (7000.00): read, but written by no rung
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = sys.argv.pop(1)
     unittest.main()

@@ -9,6 +9,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
+
 RUNGC = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 
@@ -48,7 +52,7 @@ class Format(unittest.TestCase):
         return path
 
     def format(self, *args, status=OK, stdin=b"", cwd=None):
-        done = subprocess.run([RUNGC, "format", *map(str, args)], input=stdin, capture_output=True, timeout=60, check=False, cwd=cwd)
+        done = subprocess.run([RUNGC, "format", *map(str, args)], input=stdin, capture_output=True, timeout=patience(), check=False, cwd=cwd)
         self.assertEqual(done.returncode, status, done.stderr)
         return done.stdout.decode("latin-1"), done.stderr.decode()
 
@@ -151,5 +155,6 @@ class Format(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = os.path.abspath(sys.argv.pop(1))
     unittest.main()

@@ -6,6 +6,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
+
 RUNGC = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 EXAMPLES = ("gsk-mill", "nct-turning-centre", "technol-machining-centre")
@@ -20,7 +24,7 @@ class Map(unittest.TestCase):
         return Path(self.folder.name) / name
 
     def map(self, *args):
-        return subprocess.run([RUNGC, "map", *map(str, args)], capture_output=True, text=True, timeout=300)
+        return subprocess.run([RUNGC, "map", *map(str, args)], capture_output=True, text=True, timeout=patience(300))
 
     def expect(self, done, status, out="", err=""):
         self.assertEqual((done.returncode, done.stdout, done.stderr), (status, out, err))
@@ -89,5 +93,6 @@ class Map(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = sys.argv.pop(1)
     unittest.main()

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""rungc profile as a user sees it: profile_test.py RUNGC [unittest arguments]; runs in the root of the repository."""
+"""rungc profile as a user sees it: profile_test.py RUNGC [unittest arguments]"""
+import functools
 import json
 import os
 import subprocess
@@ -7,6 +8,10 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
 
 RUNGC = None
 MILL = Path("examples/gsk-mill")
@@ -39,7 +44,7 @@ rung
 
 
 def rungc(*arguments):
-    return subprocess.run([RUNGC, *map(str, arguments)], capture_output=True, text=True, timeout=300, errors="replace")
+    return subprocess.run([RUNGC, *map(str, arguments)], capture_output=True, text=True, timeout=patience(300), errors="replace")
 
 # A box that is evaluated while its input is on.
 SUM = """dialect nct
@@ -66,6 +71,12 @@ class Profile(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return json.loads(done.stdout)
 
+    @staticmethod
+    @functools.cache
+    def tool_change():
+        """What several tests look at."""
+        return json.loads(rungc("profile", "--json", MILL / "tool-change.scn", "--repeat", 1).stdout)
+
     def scenario(self, name, text, program="lamp.lad"):
         if not (self.folder / "lamp.lad").exists():
             self.write("lamp.lad", LAMP)
@@ -81,7 +92,7 @@ class Profile(unittest.TestCase):
             self.assertEqual(exact[0], other)
 
     def test_the_default_order_is_by_operations(self):
-        profile = self.profile(MILL / "tool-change.scn", "--repeat", 1)
+        profile = Profile.tool_change()
         operations = [row["operations"] for row in profile["rungs"]]
         self.assertEqual(operations, sorted(operations, reverse=True))
         self.assertAlmostEqual(sum(row["share"] for row in profile["rungs"] + profile["added"]), 1)
@@ -161,7 +172,7 @@ class Profile(unittest.TestCase):
         self.assertRegex(listed, r'never ran:\n  rung 3 "seldom", \S*lamp.lad:10\n  rung 6 "never", \S*lamp.lad:19\n')
 
     def test_sums_add_up(self):
-        profile = self.profile(MILL / "tool-change.scn", "--repeat", 1)
+        profile = Profile.tool_change()
         for sums in ("subprograms", "modules", "files"):
             self.assertEqual(sum(s["operations"] for s in profile[sums]), profile["operations"], sums)
         self.assertEqual(sum(s["ran"] for s in profile["subprograms"]), len(profile["rungs"]) + len(profile["added"]))
@@ -267,5 +278,6 @@ class Profile(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = os.path.abspath(sys.argv.pop(1))
     unittest.main()

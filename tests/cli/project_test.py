@@ -8,6 +8,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
+
 RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
@@ -37,7 +41,7 @@ class Cli(unittest.TestCase):
         return str(path)
 
     def rungc(self, *args, status=OK, cwd=None):
-        done = subprocess.run([RUNGC, *args], capture_output=True, timeout=120, cwd=cwd or self.path, stdin=subprocess.DEVNULL)
+        done = subprocess.run([RUNGC, *args], capture_output=True, timeout=patience(), cwd=cwd or self.path, stdin=subprocess.DEVNULL)
         out, err = done.stdout.decode(), done.stderr.decode()
         self.assertEqual(done.returncode, status, f"rungc {' '.join(args)}\n{out}{err}")
         return out, err
@@ -307,5 +311,6 @@ class Reference(Cli):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = os.path.abspath(sys.argv.pop(1))
     unittest.main()

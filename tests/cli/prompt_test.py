@@ -8,14 +8,16 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
 
 RUNGC = ""
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 ROOT = Path(__file__).resolve().parents[2]
-PATIENCE = 60  # seconds until a test gives up; a loaded machine is slow, not wrong
 RUNNING = r"scan \d+, [\d.]+ s, running for "  # a statement that takes its time
 
 LAMP = """dialect nct
@@ -55,7 +57,7 @@ FUNC END2
 
 
 def rungc(*args, cwd, stdin=""):
-    return subprocess.run([RUNGC, *args], cwd=cwd, input=stdin, capture_output=True, text=True, timeout=PATIENCE)
+    return subprocess.run([RUNGC, *args], cwd=cwd, input=stdin, capture_output=True, text=True, timeout=patience())
 
 
 class Folder(unittest.TestCase):
@@ -381,9 +383,8 @@ class Terminal:
 
     def until(self, pattern):
         """What the terminal shows up to this; without escape sequences."""
-        end = time.monotonic() + PATIENCE
         while not (found := re.search(pattern, self.seen)):
-            if time.monotonic() > end or not select.select([self.master], [], [], end - time.monotonic())[0]:
+            if not select.select([self.master], [], [], patience())[0]:
                 raise AssertionError(f"no {pattern!r} in:\n{self.seen}")
             try:
                 more = os.read(self.master, 4096)
@@ -402,13 +403,12 @@ class Terminal:
 
     def end(self):
         """The exit status."""
-        end = time.monotonic() + PATIENCE
         try:
-            while select.select([self.master], [], [], max(0, end - time.monotonic()))[0] and os.read(self.master, 4096):
+            while select.select([self.master], [], [], patience())[0] and os.read(self.master, 4096):
                 pass
         except OSError:  # the other end is closed
             pass
-        return self.process.wait(max(1, end - time.monotonic()))
+        return self.process.wait(patience())
 
     def close(self):
         if self.process.poll() is None:
@@ -548,5 +548,6 @@ class OnATerminal(Folder):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = os.path.abspath(sys.argv.pop(1))
     unittest.main(verbosity=1)

@@ -7,6 +7,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 RUNGC = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 
@@ -109,7 +112,7 @@ class Folder(unittest.TestCase):
 
     def run_tests(self, *args, engine="interp"):
         return subprocess.run([RUNGC, "test", *args, "--engine", engine], cwd=self.folder.name, capture_output=True,
-                              timeout=120, text=True)
+                              timeout=patience(), text=True)
 
 
 class Failure(Folder):

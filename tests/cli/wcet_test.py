@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""rungc wcet as a user sees it: wcet_test.py RUNGC [unittest arguments]; runs in the root of the repository."""
+"""rungc wcet as a user sees it: wcet_test.py RUNGC [unittest arguments]"""
 import json
 import re
 import subprocess
@@ -7,6 +7,10 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
 
 RUNGC = None
 
@@ -97,7 +101,7 @@ STOP
 """
 
 def rungc(*arguments):
-    return subprocess.run([RUNGC, *map(str, arguments)], capture_output=True, text=True, timeout=300, errors="replace")
+    return subprocess.run([RUNGC, *map(str, arguments)], capture_output=True, text=True, timeout=patience(300), errors="replace")
 
 
 def without_figures(text):
@@ -243,5 +247,6 @@ class Wcet(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = sys.argv.pop(1)
     unittest.main()

@@ -7,6 +7,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
+
 RUNGC = None
 OK, WRONG = 0, 1
 
@@ -49,7 +53,7 @@ class Xref(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
 
     def xref(self, *args):
-        done = subprocess.run([RUNGC, "xref", *map(str, args)], capture_output=True, text=True, timeout=300, check=False)
+        done = subprocess.run([RUNGC, "xref", *map(str, args)], capture_output=True, text=True, timeout=patience(300), check=False)
         self.assertEqual(done.stderr, "", done.stderr)
         self.assertEqual(done.returncode, OK)
         return done.stdout
@@ -123,5 +127,6 @@ class Xref(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = sys.argv.pop(1)
     unittest.main()

@@ -16,7 +16,10 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 MODULES = Path("/usr/lib/linuxcnc/modules")  # LinuxCNC loads from nowhere else
 SKIPPED = 77
-TIMEOUT = 270
+TIMEOUT = 270  # seconds that a session takes at most, on a machine without other work
+PATIENCE = HERE.parent / "support" / "patience.py"  # what waits, in a session as outside
+sys.path.insert(0, str(PATIENCE.parent))
+from patience import patience  # noqa: E402  pylint: disable=wrong-import-position
 
 # LinuxCNC refuses root. Its lock file lies in /tmp, HAL's shared memory is System V's, its servers have fixed ports.
 INSIDE = """
@@ -68,6 +71,7 @@ class Bench:
         link = self.folder / "modules" / "rung_hal.so"
         link.unlink(missing_ok=True)
         shutil.copy(options.module, link)
+        shutil.copy(PATIENCE, self.home)
         self.rungc = options.rungc
         self.libexec = options.libexec
         self.programs = set()
@@ -101,13 +105,15 @@ class Bench:
         """In a session of its own, which has its share of a busy processor, and with it a compiler of lowest priority in it."""
         line, environment = self.inside(*command)
         done = subprocess.run(line, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, errors="replace", timeout=TIMEOUT, check=False,
+                              stderr=subprocess.STDOUT, text=True, errors="replace", timeout=patience(TIMEOUT), check=False,
                               start_new_session=True)
         print(done.stdout)
         return done
 
     def halrun(self, commands):
         self.file("until", UNTIL).chmod(0o755)
+        self.file("said", SAID).chmod(0o755)
+        shutil.copy(Path(self.rungc).parent / "rungctl", self.home)
         self.file("test.hal", commands)
         return self.run("halrun", "test.hal")
 
@@ -215,18 +221,28 @@ start
 """
 
 
-# Pins of HAL, what test(1) is to find of their values, in their order; after a minute it is shown as it is.
+# Pins of HAL, what test(1) is to find of their values, in their order; after so many looks it is shown as it is.
 UNTIL = """#!/bin/sh
-tries=1200
+tries=6000
 while [ $# -gt 0 ] && [ $tries -gt 0 ]; do
-  if [ "$(halcmd getp "$1")" "$2" "$3" ]; then shift 3; else tries=$((tries - 1)); sleep 0.05; fi
+  if [ "$(halcmd getp "$1")" "$2" "$3" ]; then shift 3; else tries=$((tries - 1)); sleep 0.01; fi
 done
+"""
+# The same with a text in the messages of the program.
+SAID = """#!/bin/sh
+tries=6000
+until rungctl messages | grep -qF "$*" || [ $tries = 0 ]; do tries=$((tries - 1)); sleep 0.01; done
 """
 
 
 def until(*conditions):
     """Lines for halrun that wait for "PIN = VALUE"."""
     return f"loadusr -w ./until {' '.join(conditions)}\n"
+
+
+def said(*texts):
+    """Lines for halrun that wait for words in the program's messages."""
+    return "".join(f"loadusr -w ./said {text}\n" for text in texts)
 
 
 def shown(output, pin):
@@ -241,10 +257,13 @@ def fault(bench, _options):
     bench.copy(HERE / "stuck.map", "program.map")
     show = "show pin box\n"
     runs = until("box.fault = FALSE", "box.lamp = TRUE") + show
-    stopped = until("box.fault = TRUE", "box.lamp = FALSE") + show
-    done = bench.halrun(LOAD.format(options="names=box", prefix="box") + "setp box.number 77\nsetp box.run 1\n" + runs +
-                        "setp box.stick 1\n" + stopped + "setp box.stick 0\nloadusr -w sleep 0.2\n" + show +
-                        "setp box.reset 1\n" + runs + "loadusr -w sleep 0.2\nshow funct\n")
+    stopped = until("box.fault = TRUE", "box.lamp = FALSE", "box.fault-line != 0x00000000") + show
+    # The thread that scans counts a hundred times two of its periods meanwhile.
+    stays = "setp updown.0.reset 1\nsetp updown.0.reset 0\n" + until("updown.0.count -ge 100")
+    counts = "loadrt charge_pump\nloadrt updown\naddf charge-pump servo\naddf updown.0 servo\nnet tick charge-pump.out updown.0.countup\n"
+    done = bench.halrun(LOAD.format(options="names=box", prefix="box") + counts + "setp box.number 77\nsetp box.run 1\n" + runs +
+                        "setp box.stick 1\n" + stopped + "setp box.stick 0\n" + stays + show +
+                        "setp box.reset 1\n" + runs + said("the program has been restarted") + "show funct\n")
     values = {pin: shown(done.stdout, "box." + pin) for pin in ("lamp", "value", "fault", "fault-line", "scans")}
     expect(values["lamp"] == ["TRUE", "FALSE", "FALSE", "TRUE"], values)
     expect([float(value) for value in values["value"]] == [77, 0, 0, 77], values)
@@ -296,7 +315,8 @@ def devices(bench, _options):
     bench.file("program.map", 'in.go = { type = "bit", name = "GO" }\n'
                               f'[devices]\ncom = {{ 1 = "{os.ttyname(slave)}", 2 = "/dev/no-such-port" }}\n')
     done = bench.halrun(LOAD.format(options="", prefix="rung") + "setp rung.go 1\n" +
-                        until("rung.scans -gt 30") + "loadusr -w sleep 0.3\nshow pin rung.analog-out-6\nshow pin rung.analog-out-7\n")
+                        until("rung.scans -gt 30", "rung.analog-out-6 != 0") +
+                        "show pin rung.analog-out-6\nshow pin rung.analog-out-7\n")
     values = [float(shown(done.stdout, f"rung.analog-out-{port}")[0]) for port in (6, 7)]
     expect(abs(values[0] - 0x4000 / 0x7FFF) < 1e-4 and values[1] == 0, values)
     expect(os.read(master, 1024).startswith(b"AAA"), "nothing has left the port")

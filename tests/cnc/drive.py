@@ -6,13 +6,12 @@ import re
 import signal
 import subprocess
 import sys
-import time
 import traceback
 
 import hal
 import linuxcnc
 
-PATIENCE = 60.0  # seconds until something counts as never happening
+from patience import PATIENCE, patience, wait_until
 
 command = linuxcnc.command()
 status = linuxcnc.stat()
@@ -23,24 +22,15 @@ def pin(name):
     return hal.get_value("rung." + name)
 
 
-def comes(condition, patience):
-    end = time.monotonic() + patience
-    while not condition():
-        if time.monotonic() > end:
-            return False
-        time.sleep(0.001)
-    return True
-
-
-def wait(what, condition, patience=PATIENCE):
-    check(comes(condition, patience), f"never came: {what}")
+def wait(what, condition, seconds=PATIENCE):
+    check(wait_until(condition, seconds, step=0.001), f"never came: {what}")
 
 
 def again_until(what, act, condition):
     """LinuxCNC looks at its keys now and then: where the machine is busy it may miss one, and an operator presses it again."""
     def tried():
         act()
-        return comes(condition, 3)
+        return wait_until(condition, 3, step=0.001)
 
     wait(what, tried)
 
@@ -92,7 +82,7 @@ def check(condition, what):
 
 
 def done(what):
-    check(command.wait_complete(PATIENCE) == linuxcnc.RCS_DONE, f"{what} was not done")
+    check(command.wait_complete(patience()) == linuxcnc.RCS_DONE, f"{what} was not done")
 
 
 def mdi(line):
@@ -212,7 +202,7 @@ def counters():
 
 def rungctl(*words, refused=False):
     """What it prints."""
-    ran = subprocess.run(["rungctl", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
+    ran = subprocess.run(["rungctl", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=patience())
     check((ran.returncode != 0) == refused, f"rungctl {' '.join(words)}: {ran.stdout}")
     return ran.stdout
 
@@ -238,9 +228,9 @@ class Recording:
         """The changes of each bit, as sigrok-cli prints them of the trace; before its first value all is 0."""
         for process in (self.tracing, self.watching):
             process.send_signal(signal.SIGINT)
-            check(process.wait(PATIENCE) == 0, f"{process.args[1]} of {self.names}")
+            check(process.wait(patience()) == 0, f"{process.args[1]} of {self.names}")
         read = subprocess.run(["sigrok-cli", "-I", "vcd:downsample=1000", "-i", "cut.vcd", "-O", "csv:header=false:label=off"],
-                              capture_output=True, text=True, timeout=PATIENCE)
+                              capture_output=True, text=True, timeout=patience())
         check(read.returncode == 0, f"sigrok-cli: {read.stderr}")
         columns = zip(*(row.split(",") for row in read.stdout.split() if re.fullmatch("[01](,[01])*", row)))
         return {name: [("false", "true")[int(bit)] for bit in re.sub(r"(.)\1+", r"\1", "".join(column))]

@@ -9,10 +9,11 @@ import traceback
 import hal
 import linuxcnc
 
-from drive import PATIENCE, again_until, at_rest, change_in_motion, check, command, done, end_motion, operator, passes, pin, pins, polled, program_time, progress, rungctl, run, status, wait
+from drive import again_until, at_rest, change_in_motion, check, command, done, end_motion, operator, passes, pin, pins, polled, program_time, progress, rungctl, run, status, wait
+from patience import patience
 
-PRESS = 0.15  # seconds that a key is held
-PASSES = 4  # of the program in which it is, at least
+PRESS = 19  # passes of the program, of 8 ms, in which a key is held: LinuxCNC is to see it, too
+PASSES = 4  # in which it is up
 
 
 def put(name, value):
@@ -20,18 +21,17 @@ def put(name, value):
 
 
 def signal(name, value):
-    subprocess.run(["halcmd", "sets", name, str(value)], check=True, timeout=PATIENCE)
+    subprocess.run(["halcmd", "sets", name, str(value)], check=True, timeout=patience())
 
 
-def press(*keys, seconds=PRESS, until=None):
+def press(*keys, count=PRESS, until=None):
     """Holds the keys until the program has seen them; again until this comes of it."""
     if until:
-        return again_until(f"what {keys} are pressed for", lambda: press(*keys, seconds=seconds), until)
+        return again_until(f"what {keys} are pressed for", lambda: press(*keys, count=count), until)
     begin = pin("scans")
     for key in keys:
         put("key-" + key, 1)
-    time.sleep(seconds)
-    passes(PASSES, begin)
+    passes(count, begin)
     for key in keys:
         put("key-" + key, 0)
     passes(PASSES)
@@ -94,14 +94,14 @@ def mode_meanwhile():
     rungctl("set", "LIFE_WISH", "true")
     mode("mdi", linuxcnc.MODE_MDI)
     wait("the answer", lambda: "false" in rungctl("get", "LIFE_WISH"))
-    time.sleep(0.5)  # in which rung-services may go back to a mode
+    passes(63)  # half a second, in which rung-services may go back to a mode
     check(polled().task_mode == linuxcnc.MODE_MDI, "the mode of the key was undone")
 
 
 def jogged(key):
     """How far X goes while the key is held for some 0.6 s, in mm for each second of the program that it is."""
     begin, stood = program_time(), position(0)
-    press(key, seconds=0.6)
+    press(key, count=75)
     held = program_time() - begin
     return abs(at_rest(lambda: position(0)) - stood) / held
 
@@ -216,7 +216,7 @@ def part():
     put("feed-switch", 2)  # 20 %
     mode("auto", linuxcnc.MODE_AUTO)
     command.program_open(os.path.abspath("part.ngc"))
-    command.wait_complete(PATIENCE)
+    command.wait_complete(patience())
     press("start", until=lambda: polled().interp_state != linuxcnc.INTERP_IDLE)
     wait("the cut", lambda: pin("spindle-cw") and pin("coolant-pump") and position(0) > 22)
     press("hold", until=lambda: pin("paused"))
@@ -239,7 +239,7 @@ def single():
     press("single")
     pins(lamp_single=True)
     command.program_open(os.path.abspath("single.ngc"))
-    command.wait_complete(PATIENCE)
+    command.wait_complete(patience())
     seen = [round(position(0))]
     while seen[-1] != 3 and len(seen) < 12:
         before = progress()
@@ -261,7 +261,7 @@ def alarm():
     pins(no_block_lock=False, beacon_red=True)
     put("motors-ok", 1)
     signal("reset-key", 1)
-    time.sleep(0.3)  # for LinuxCNC, which it aborts as well
+    passes(38)  # so that LinuxCNC, which it aborts as well, has seen it
     pins(no_block_lock=True, beacon_red=False)
     wait("LinuxCNC has given up", lambda: polled().interp_state == linuxcnc.INTERP_IDLE)
     signal("reset-key", 0)
@@ -273,7 +273,7 @@ def probe():
     command.mdi("G38.2 Z-20 F300")
     wait("motion", lambda: position(2) < -0.5)
     signal("probe", 1)
-    check(command.wait_complete(PATIENCE) == linuxcnc.RCS_DONE, "G38.2")
+    check(command.wait_complete(patience()) == linuxcnc.RCS_DONE, "G38.2")
     signal("probe", 0)
     check(polled().probe_tripped and -20 < position(2) < 0, f"probed at {status.probed_position[2]}")
     mdi("G53 G0 Z0")

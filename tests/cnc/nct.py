@@ -147,7 +147,7 @@ def functions():
 
 def part():
     """A part program from the panel: start, stop, single block, feed switch, optional stop."""
-    load("M3 S600\nM8\nG1 X-30 F200\nG0 X-5\nM9\nM1\nM5\nM30\n")
+    load("M3 S600\nM8\nG1 X-30 F300\nG0 X-5\nM9\nM1\nM5\nM30\n")
     press("key-start", lambda: pin("started"))
     pins(started=True, lamp_start=True)
     wait("x cuts", lambda: position("x") < -7)
@@ -193,7 +193,7 @@ def counted():
     mdi("M230")
     check(rungctl("get", "TOTAL") == f"TOTAL = {before + 1}\n", "the workpiece was not counted")
     wait("the log", lambda: f"Workpieces: {before + 1}" in rungctl("messages"))
-    time.sleep(0.2)  # in which rung-operator may say something
+    passes(25)  # in which rung-operator may say something
     told = errors.poll()
     check(told is None, f"the operator was told {told}")
 

@@ -1,12 +1,12 @@
 """What the drivers of the example machines share: signals of the machine and the panel, driven by pins of a component of their own."""
-import time
+import functools
 
 import hal
 
-from drive import again_until, passes, pin
+from drive import again_until, passes, pin, program_state
 
-PRESS = 0.08  # seconds that a key is down, at least
-PASSES = 4  # of the program in which it is
+PRESS_US = 80_000  # of the program's time, in which a key is down: LinuxCNC is to see it, too
+PASSES = 4  # of the program in which it is, at least
 
 panel = hal.component("panel")
 driven = set()
@@ -31,13 +31,19 @@ def put(name, value):
         hal.set_p("rung." + name, str(int(value)))
 
 
+@functools.cache
+def period_us():
+    """From one pass of the program to the next."""
+    state = program_state()
+    return state["us"] // state["passes"]
+
+
 def press(key, until=None):
     """Holds the key until the program has seen it; again until this comes of it."""
     if until:
         return again_until(f"what {key} is pressed for", lambda: press(key), until)
     begin = pin("scans")
     put(key, True)
-    time.sleep(PRESS)
-    passes(PASSES, begin)
+    passes(max(PASSES, PRESS_US // period_us()), begin)
     put(key, False)
     passes(1)

@@ -49,7 +49,7 @@ def clear():
 
 def distances():
     at_rest()
-    order(FEED, 120, 10 * UNITS)  # five seconds
+    order(FEED, 240, 10 * UNITS)  # two and a half seconds
     pins(selected=True, moving=True, in_place=False, distributed=False, controlled=True)
     order(DWELL, 0, 100)
     order(RAPID, 6000, -4 * UNITS)
@@ -62,7 +62,7 @@ def distances():
 
 def held():
     """ESTP holds the axis, and it continues."""
-    order(MACHINE, 120, 0)
+    order(MACHINE, 240, 0)
     wait("motion", lambda: table() < 5.9)
     put(pause=True)
     pins(moving=False, selected=True, distributed=False)
@@ -171,6 +171,8 @@ def at_once():
     command.auto(linuxcnc.AUTO_RUN, 0)
     wait("the line", lambda: read(14) in ((0, 2 * UNITS), (0, 3 * UNITS)))
     same(read(1, 1, 0), (0, 30 * UNITS), "the tool table while a part program runs")
+    wait("the end of the block", lambda: read(17, 0, 1) == (0, 0))
+    drive.end_motion()  # of the dwell, which takes its time only
     drive.idle()
     same(read(17, 0, 1), (0, 0), "the position")
 

@@ -111,7 +111,7 @@ def by_program():
     rungctl("set", "AUTMAN_SELECT", "true")
     wait("manual mode again", lambda: state("task_mode") == linuxcnc.MODE_MANUAL)
     pins(manual_chosen=False)
-    time.sleep(0.1)  # in which the key is up for LinuxCNC, too
+    passes(6)  # in which the key is up for LinuxCNC, too
     mode("mdi", linuxcnc.MODE_MDI)
     mdi("G0 X0")
 
@@ -216,7 +216,7 @@ def part():
 def stops():
     """Feed hold and START by the panel, the open door, M64 and M66, the feed override, single blocks."""
     mdi_inputs = "M64 P0\nG4 P0.06\nM66 P0 L3 Q2\nM65 P0\n"
-    load("M10\n" + mdi_inputs + "G1 X40 F240\nG0 X0\nM2\n")
+    load("M10\n" + mdi_inputs + "G1 X20 F240\nG0 X0\nM2\n")
     press("panel-start")
     wait("x moves", lambda: position("x") > 2)
     check(state("din")[0] == 1 and pin("light"), "M66 and M64")
@@ -233,8 +233,9 @@ def stops():
     wait("slowly", lambda: abs(state("current_vel") - 0.8) < 0.04)
     command.feedrate(1.5)
     wait("fast", lambda: abs(state("current_vel") - 6) < 0.08)
-    command.feedrate(1.0)
+    command.feedrate(10)  # what remains of it takes its time only
     idle()
+    command.feedrate(1.0)
     check(abs(position("x")) < 0.05, "the program did not end at 0")
     put("panel-single-block", True)
     load("G1 X5 F6000\nX10\nX0\nM2\n")

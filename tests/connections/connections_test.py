@@ -15,13 +15,15 @@ from pathlib import Path
 
 from pymodbus.client import ModbusTcpClient
 
-from sides import PATIENCE, PINS, Cable, Client, Device, Host, frame, free_port, wait_until, writing_client
+from sides import PINS, Cable, Client, Device, Host, frame, free_port, writing_client
+from patience import patience, wait_until
+from root import go_to_root
 
 BIN = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
 SERVER = """[modbus-server]
 port = {port}
-timeout = 2
+timeout = 1
 status = "ok"
 [modbus-server.coils]
 run = 0
@@ -82,19 +84,22 @@ class WithHost(unittest.TestCase):
         log = self.host.logged()
         self.assertEqual(self.host.end(), OK, log)
 
-    def sees(self, value, *names):
-        """The program has these values before long."""
-        self.assertTrue(wait_until(lambda: self.host.get(*names) == value),
-                        f"{names} are {self.host.get(*names)}, expected {value}\n{self.host.logged()}")
+    def sees(self, value, *names, again=lambda: None):
+        """The program has these values before long; `again` is done before each look, by a side that is not to fall silent."""
+        def seen():
+            again()
+            return self.host.get(*names) == value
+
+        self.assertTrue(wait_until(seen), f"{names} are {self.host.get(*names)}, expected {value}\n{self.host.logged()}")
 
     def connection(self):
         return self.host.status()["connections"][0]
 
 
 class WithServer(WithHost):
-    def server(self, more="timeout = 2"):
+    def server(self, more="timeout = 1"):
         self.port = free_port()
-        self.begin(SERVER.format(port=self.port).replace("timeout = 2", more))
+        self.begin(SERVER.format(port=self.port).replace("timeout = 1", more))
 
     def client(self, port=None):
         made = Client(port or self.port)
@@ -130,7 +135,7 @@ class Server(WithServer):
 
     def test_values_by_mbpoll(self):
         def mbpoll(*words):
-            return subprocess.run(["mbpoll", "-m", "tcp", "-p", str(self.port), "-0", "-1", *words], capture_output=True, text=True, timeout=30)
+            return subprocess.run(["mbpoll", "-m", "tcp", "-p", str(self.port), "-0", "-1", *words], capture_output=True, text=True, timeout=patience())
         self.assertEqual(mbpoll("-r", "0", "-t", "4", "127.0.0.1", "321").returncode, 0)
         self.sees(321, "D8:2")
         mbpoll("-r", "0", "-t", "4", "127.0.0.1", "322")
@@ -188,8 +193,7 @@ class Server(WithServer):
         self.assertEqual((self.connection()["alive"], self.connection()["losses"]), (False, 1))
         # Who comes back has not written all of them yet: the others are safe, not as they were.
         client = self.client()
-        client.write(0, 7)
-        self.sees((False, 7, True), "X0.0", "D8:2", "X0.7")
+        self.sees((False, 7, True), "X0.0", "D8:2", "X0.7", again=lambda: client.write(0, 7))
 
     def test_a_client_that_is_stopped(self):
         writing = writing_client(self.port)
@@ -209,25 +213,28 @@ class Server(WithServer):
         client = self.client(cable.port)
         self.assertIn(f"pin load holds its last value while modbus-server 127.0.0.1:{self.port} is lost\n", self.host.logged())
         client.write(3, 0, 0x3F80)  # a value that is held
-        client.write(0, 9)
-        self.sees((9, 100, True), "D8:2", "D16:4", "X0.7")
+        self.sees((9, 100, True), "D8:2", "D16:4", "X0.7", again=lambda: client.write(0, 9))
         cable.pulled.set()
         self.sees((-5, 100, False), "D8:2", "D16:4", "X0.7")
         cable.pulled.clear()
-        client.write(0, 10)
-        self.sees((10, 100, True), "D8:2", "D16:4", "X0.7")
+        self.sees((10, 100, True), "D8:2", "D16:4", "X0.7", again=lambda: client.write(0, 10))
 
     def test_a_reader_does_not_keep_a_dead_writer_alive(self):
         writer, reader = self.client(), self.client()
-        writer.write(0, 9)
-        self.sees(9, "D8:2")
+        self.sees(9, "D8:2", again=lambda: writer.write(0, 9))
         self.assertTrue(wait_until(lambda: reader.read(0, 1) and self.host.get("D8:2", "X0.7") == (-5, False)))
+
+    def is_read(self, client):
+        """Whether the server has taken all bytes of the client from its socket, as the kernel tells."""
+        ends = [f"0100007F:{port:04X}" for port in (self.port, client.socket.getsockname()[1])]
+        rows = [line.split() for line in Path("/proc/net/tcp").read_text().splitlines()]
+        return next(row[4].endswith(":00000000") for row in rows if row[1:3] == ends)
 
     def test_bytes_in_pieces_are_one_message(self):
         client = self.client()
         for byte in frame(struct.pack(">BHHBH", 16, 0, 1, 2, 78)):
             client.socket.sendall(bytes([byte]))
-            time.sleep(0.002)
+            self.assertTrue(wait_until(lambda: self.is_read(client)))
         self.assertEqual(client.answer(), struct.pack(">BHH", 16, 0, 1))
         self.sees(78, "D8:2")
 
@@ -259,7 +266,7 @@ class Server(WithServer):
             client = Client(self.port)
             client.socket.sendall(bytes(data) + good[0])
             client.socket.shutdown(socket.SHUT_WR)
-            client.socket.settimeout(PATIENCE)
+            client.socket.settimeout(patience())
             try:
                 while client.socket.recv(4096):
                     pass
@@ -272,7 +279,7 @@ class Server(WithServer):
 
 class Limits(WithServer):
     def test_a_client_that_stops_in_mid_message(self):
-        self.server("timeout = 8")
+        self.server("timeout = 3")
         half = self.client()
         whole = frame(struct.pack(">BHHBH", 16, 0, 1, 2, 77))
         half.socket.sendall(whole[:9])
@@ -280,36 +287,41 @@ class Limits(WithServer):
         half.socket.setblocking(False)
         with self.assertRaises(BlockingIOError, msg="the others were served after it"):
             half.socket.recv(1)
-        half.socket.settimeout(PATIENCE)
+        half.socket.settimeout(patience())
         self.assertNotEqual(self.host.get("D8:2"), 77)
         self.assertIsNone(half.answer(), "it is not waited for")
 
     def test_as_many_clients_as_may_be(self):
-        self.server("timeout = 2\nconnections = 2")
+        self.server("timeout = 1\nconnections = 2")
         first, second = self.client(), self.client()
         first.write(0, 1)
         second.write(0, 2)
         third = self.client()
         self.assertIsNone(third.write(0, 3), "there are two")
-        self.sees(2, "D8:2")
-        # The place of one that is silent for longer is free.
-        end = time.monotonic() + 2.2
-        while time.monotonic() < end:
+        self.sees(2, "D8:2", again=lambda: second.write(0, 2))
+
+        def comes_in():
             second.write(0, 2)
-        fourth = self.client()
-        self.assertEqual(fourth.write(0, 4), struct.pack(">BHH", 16, 0, 1))
+            return self.client().write(0, 4) == struct.pack(">BHH", 16, 0, 1)
+
+        self.assertTrue(wait_until(comes_in), "the place of one that is silent for longer is not free")
         self.assertIsNone(first.write(0, 1))
         self.assertEqual(second.write(0, 2), struct.pack(">BHH", 16, 0, 1))
 
     def test_no_more_requests_than_may_be(self):
         self.server("timeout = 0.5\nrequests = 100")
         client = self.client()
-        begin, count = time.monotonic(), 0
-        while time.monotonic() - begin < 1:
-            client.write(0, count)
-            count += 1
-        self.assertGreater(count, 70)
-        self.assertLess(count, 130)
+
+        def enough():
+            """In a second. A busy machine may leave the client less, and nothing lets it have more."""
+            begin, count = time.monotonic(), 0
+            while time.monotonic() - begin < 1:
+                client.write(0, count)
+                count += 1
+            self.assertLess(count, 30 + 100 * (time.monotonic() - begin))
+            return count > 70
+
+        self.assertTrue(wait_until(enough))
 
     def test_a_client_that_floods(self):
         """It sends without end and takes no answers; another one is served, and the scans come as ever."""
@@ -320,29 +332,34 @@ class Limits(WithServer):
         self.addCleanup(flood.close)
         flood.setblocking(False)
         data = frame(struct.pack(">BHH", 4, 0, 5)) * 200
-        steps = self.host.status()["clock"]["steps"]
-        begin, served = time.monotonic(), 0
-        while time.monotonic() - begin < 2:
-            try:
-                flood.send(data)
-            except BlockingIOError:
-                pass
-            except ConnectionError:
-                flood = socket.create_connection(("127.0.0.1", self.port))
-                self.addCleanup(flood.close)
-                flood.setblocking(False)
-            self.assertIsNotNone(client.write(0, served % 100))
-            served += 1
-        self.assertGreater(served, 200)
-        self.assertGreater(self.host.status()["clock"]["steps"] - steps, 1000)  # of 2000
-        self.assertTrue(self.host.get("X0.7"))
+
+        def as_ever():
+            """In a second of the flood. A busy machine may leave the host and the client less, which is no fault of theirs."""
+            nonlocal flood
+            steps = self.host.status()["clock"]["steps"]
+            begin, served = time.monotonic(), 0
+            while time.monotonic() - begin < 1:
+                try:
+                    flood.send(data)
+                except BlockingIOError:
+                    pass
+                except ConnectionError:
+                    flood = socket.create_connection(("127.0.0.1", self.port))
+                    self.addCleanup(flood.close)
+                    flood.setblocking(False)
+                self.assertIsNotNone(client.write(0, served % 100))
+                served += 1
+            return served > 100 and self.host.status()["clock"]["steps"] - steps > 500  # of 1000
+
+        self.assertTrue(wait_until(as_ever))
+        self.sees(True, "X0.7", again=lambda: client.write(0, 0))
 
 
 CLIENT = """[[modbus-client]]
 host = "127.0.0.1"
 port = {port}
 period = 0.02
-timeout = 2
+timeout = 1
 status = "ok"
 [modbus-client.discrete-inputs]
 door = {{ at = 4, safe = true }}
@@ -442,12 +459,12 @@ class ClientOfDevice(ClientSide):
         """From a seed: anything but answers."""
         chance = random.Random(4711)
         with socket.create_server(("127.0.0.1", 0)) as listening:
-            listening.settimeout(PATIENCE)
+            listening.settimeout(patience())
             self.begin_with(listening.getsockname()[1])
             for _ in range(12):
                 made, _ = listening.accept()
                 with made:
-                    made.settimeout(PATIENCE)
+                    made.settimeout(patience())
                     asked = made.recv(300)
                     answer = bytearray(asked[:8] + bytes(chance.randrange(256) for _ in range(chance.randrange(260))))
                     for _ in range(chance.randrange(4)):
@@ -463,7 +480,7 @@ class ClientOfDevice(ClientSide):
         self.set(panel, 3)
         self.assertTrue(wait_until(lambda: self.registers(panel, 10, 1) == [3]))
         self.host.process.terminate()
-        self.host.process.wait(PATIENCE)
+        self.host.process.wait(patience())
         self.assertEqual(self.registers(panel, 10, 1), [0])
         self.assertFalse(panel.read_coils(1, 1, slave=1).bits[0])
 
@@ -471,7 +488,7 @@ class ClientOfDevice(ClientSide):
 MEMORY = """[shared-memory]
 name = "{name}"
 period = 0.005
-timeout = 2
+timeout = 1
 status = "ok"
 [shared-memory.pins]
 run = 0
@@ -571,7 +588,7 @@ class Memory(WithHost):
         self.begin_with_peer()
         self.peer.begin_writing()
         struct.pack_into("i", self.peer.map, self.peer.inputs + 4, 55)
-        self.host.pass_by(2500 // 8)  # for longer than it may be silent
+        self.host.pass_by(1500 // 8)  # for longer than it may be silent
         self.assertEqual(self.host.get("D8:2", "X0.7"), (-5, False))
         self.assertTrue(wait_until(lambda: self.peer.write(True, True, 56, 1) or self.host.get("D8:2") == 56))
 
@@ -669,7 +686,7 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
         inputs(False, True, False)
         self.sees((3, 1500, 5), "F10:4", "F22:4", "F7")  # M3 and S1500, with MF and SF
         self.assertTrue(wait_until(lambda: struct.unpack_from("I", peer.map, peer.outputs)[0] == 3))
-        time.sleep(0.1)
+        self.host.pass_by(12)
         self.assertEqual(self.host.get("F7"), 5)  # it waits for FIN
         inputs(False, True, True)
         self.sees((5, False), "F26:4", "F0.5")  # T5, and the program has ended
@@ -827,7 +844,8 @@ pins = {{ answers = 0, runs = 0 }}
         self.assertTrue(wait_until(lambda: peer.bit(0) and host.get("ANSWERS")))
         host.process.terminate()
         self.assertTrue(wait_until(lambda: not peer.bit(0)))
-        time.sleep(0.3)
+        written = peer.sequence(24)
+        self.assertTrue(wait_until(lambda: (peer.sequence(24) - written) % 2**32 >= 2 * 30), "the machine sees no outputs any more")
         self.assertIsNone(host.process.poll(), "it has not waited")
         peer.write_bits(False)
         self.assertEqual(host.end(), OK)
@@ -855,7 +873,8 @@ class Early(unittest.TestCase):
         return (self.seconds_of_processor(host.process) - used) / (time.monotonic() - at)
 
     def test_it_is_awake_before_a_step(self):
-        self.assertGreater(self.share("--early", "2500"), self.share() + 0.1)
+        """A quarter of the time, of which a busy machine may leave it less."""
+        self.assertTrue(wait_until(lambda: self.share("--early", "2500") > self.share() + 0.05))
 
     def test_steps_count_from_when_they_are_due(self):
         host = self.begin("--early", "2500")
@@ -905,5 +924,6 @@ class Mistakes(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     BIN = Path(sys.argv.pop(1)).resolve()
     unittest.main()

@@ -8,10 +8,11 @@ import subprocess
 import sys
 import tempfile
 import threading
-import time
 from pathlib import Path
 
-PATIENCE = 60  # seconds until something counts as never happening
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience, wait_until
+
 # X0.n lights Y0.n; D cells come and go through pins.
 PROGRAM = "dialect gsk\nFUNC END1\n" + "".join(f"LD   X0.{n}\nOUT  Y0.{n}\n" for n in range(8)) + "FUNC END2\n"
 PINS = """[in]
@@ -36,16 +37,6 @@ def free_port():
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
-
-
-def wait_until(condition, patience=PATIENCE):
-    """The value of the condition once it is true; None where it never is."""
-    end = time.monotonic() + patience
-    while time.monotonic() < end:
-        if value := condition():
-            return value
-        time.sleep(0.01)
-    return None
 
 
 class Host:
@@ -76,7 +67,7 @@ class Host:
         return (self.home / "log").read_text()
 
     def ctl(self, *words):
-        done = subprocess.run([self.programs / "rungctl", *words, "--json"], capture_output=True, text=True, timeout=60, env=self.environment)
+        done = subprocess.run([self.programs / "rungctl", *words, "--json"], capture_output=True, text=True, timeout=patience(), env=self.environment)
         if done.returncode != 0:
             raise AssertionError(done.stdout + done.stderr)
         return json.loads(done.stdout)
@@ -100,7 +91,7 @@ class Host:
             return self.status_at_end
         if self.process.poll() is None:
             self.process.terminate()
-        self.status_at_end = self.process.wait(PATIENCE)
+        self.status_at_end = self.process.wait(patience())
         self.log.close()
         self.folder.cleanup()
         return self.status_at_end
@@ -151,7 +142,7 @@ class Client:
     """Modbus by hand, right and wrong."""
 
     def __init__(self, port):
-        self.socket = socket.create_connection(("127.0.0.1", port), timeout=PATIENCE)
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=patience())
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
     def ask(self, pdu):

@@ -3,11 +3,15 @@ commands here for what no scenario can show (files, options, project files, prog
 coverage_test.py."""
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+from patience import patience
+
 HERE = Path(__file__).resolve().parent
 SCENARIOS = ("gsk", "nct", "technol")  # the folders that tests/scenarios/CMakeLists.txt runs
 
@@ -91,7 +95,7 @@ class RaisedCodes(unittest.TestCase):
                 with self.subTest(code), tempfile.TemporaryDirectory() as folder:
                     for name, text in files.items():
                         (Path(folder) / name).write_text(text)
-                    done = subprocess.run([Path(self.RUNGC).resolve(), *arguments.split()], cwd=folder, capture_output=True, timeout=120)
+                    done = subprocess.run([Path(self.RUNGC).resolve(), *arguments.split()], cwd=folder, capture_output=True, timeout=patience())
                     self.assertEqual(done.returncode, status, done.stderr[-2000:])
                     self.assertIn(f"[{code}]", done.stderr.decode())
 

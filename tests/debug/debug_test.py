@@ -2,7 +2,7 @@
 """Native tools on compiled programs: gdb stops at lines of the PLC source and shows the program's names, callgrind counts
 by lines.
 
-debug_test.py RUNGC MINI_HOST [unittest arguments]; runs in the root of the repository.
+debug_test.py RUNGC MINI_HOST [unittest arguments]
 """
 import json
 import os
@@ -13,6 +13,10 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
 
 RUNGC = None
 MINI_HOST = None
@@ -86,7 +90,7 @@ CPP = ("g++", "clang++-19")
 
 
 def run(*command):
-    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120, errors="replace")
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=patience(), errors="replace")
 
 
 def tool(name):
@@ -226,7 +230,7 @@ class Debug(unittest.TestCase):
         return [line for line in section.splitlines() if line.split(" ")[0] in programs]
 
     def in_folder(self, command):
-        done = subprocess.run(["bash", "-c", command], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=250, errors="replace")
+        done = subprocess.run(["bash", "-c", command], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=patience(250), errors="replace")
         self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}")
         return done.stdout
 
@@ -253,6 +257,7 @@ class Debug(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC = os.path.abspath(sys.argv.pop(1))
     MINI_HOST = os.path.abspath(sys.argv.pop(1))
     unittest.main()

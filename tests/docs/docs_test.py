@@ -17,6 +17,9 @@ import textwrap
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -219,7 +222,7 @@ class Reader:
         script = f'{command}\nstatus=$?\nprintf "%s\\n" "$PWD" "$PATH" > "{state}"\nexit $status\n'
         done = subprocess.run(["bash", "-c", script], cwd=self.place, env={**os.environ, "PATH": self.path, "RUNG_SOCKETS": str(self.folder / "build" / "sockets")},
                               stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120)
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=patience())
         printed = done.stdout.decode()
         self.test.assertEqual(done.returncode, status, f"{shown(self.page)}: {command}\n{printed[-1600:]}")
         self.place, self.path = state.read_text().splitlines()

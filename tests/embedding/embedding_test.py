@@ -6,6 +6,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
+
 RUNGC = None
 JIT = None  # compiles in its process
 HOSTS = []
@@ -28,7 +32,7 @@ class Embedding(unittest.TestCase):
         return output
 
     def run_host(self, host, *arguments):
-        return subprocess.run([host, *arguments], capture_output=True, text=True, timeout=120)
+        return subprocess.run([host, *arguments], capture_output=True, text=True, timeout=patience())
 
     def test_the_toys_run_fault_and_change(self):
         for host in HOSTS:
@@ -62,5 +66,6 @@ class Embedding(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     RUNGC, JIT, *HOSTS = sys.argv[1:]
     unittest.main(argv=sys.argv[:1])

@@ -16,6 +16,9 @@ import unittest
 import weakref
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 RUNGC = None
 RUNTIME = None
 rung = None  # the module
@@ -262,7 +265,7 @@ class Header(unittest.TestCase):
 class Loading(unittest.TestCase):
     def imports(self, module, code="print(rung.version(), rung._library._name)", **environment):
         plain = {name: value for name, value in os.environ.items() if name not in ("RUNG_RUNTIME", "PYTHONPATH", "LD_LIBRARY_PATH")}
-        return subprocess.run([sys.executable, "-B", "-c", f"import rung; {code}"], capture_output=True, text=True, timeout=60,
+        return subprocess.run([sys.executable, "-B", "-c", f"import rung; {code}"], capture_output=True, text=True, timeout=patience(),
                               env=plain | {"PYTHONPATH": str(Path(module).parent)} | environment)
 
     def loaded(self, module, library, **environment):
@@ -1378,7 +1381,7 @@ class Lives(Case):
                 "plc.scan()\n"
                 "print(plc.replace(change))\n")
         done = subprocess.run([sys.executable, "-B", "-c", code, program("axis.so"), program("axis-2.so")], capture_output=True, text=True,
-                              env=os.environ | {"PYTHONPATH": str(MODULE.parent)}, timeout=60)
+                              env=os.environ | {"PYTHONPATH": str(MODULE.parent)}, timeout=patience())
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "True\n", ""))
 
     def test_errors(self):
@@ -1392,7 +1395,7 @@ class Lives(Case):
 class Example(unittest.TestCase):
     def run_axis(self, *arguments):
         return subprocess.run([sys.executable, "-B", "examples/embed-python/axis.py", *arguments], capture_output=True, text=True,
-                              env=os.environ | {"PYTHONPATH": str(MODULE.parent)}, timeout=60)
+                              env=os.environ | {"PYTHONPATH": str(MODULE.parent)}, timeout=patience())
 
     def test_the_toy_runs_faults_and_changes(self):
         done = self.run_axis(program("axis.so"), program("axis-2.so"))

@@ -12,13 +12,16 @@ import signal
 import struct
 import sys
 import tempfile
+import termios
 import time
 import unittest
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "connections"))
-from sides import Host, wait_until
+from sides import Host
+from patience import wait_until
+from root import go_to_root
 
 BIN = None
 OK, USAGE, ENVIRONMENT = 0, 2, 3
@@ -71,13 +74,17 @@ class Com(WithHost):
         wait_until(more)
         return got
 
+    def unread(self):
+        """How many bytes the port's thread has not taken yet."""
+        return struct.unpack("i", fcntl.ioctl(self.slave, termios.FIONREAD, bytes(4)))[0]
+
     def test_bytes_go_both_ways(self):
         self.set("DWRD.LINE", word("ABCD"))
         self.set("COUNT", 3)
         self.set("DO1", 1)
         self.assertEqual(self.read(5), b"A\rABC")
         os.write(self.master, b"12")
-        time.sleep(0.2)  # the port's thread takes them meanwhile
+        self.assertTrue(wait_until(lambda: self.unread() == 0))
         self.host.pass_by(10)
         self.set("DO2", 1)
         self.sees((0x31, 0x32, False, False), "CODE", "GOT", "NONE1", "NONE2")
@@ -241,5 +248,6 @@ class Mistakes(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    go_to_root()
     BIN = Path(sys.argv.pop(1)).resolve()
     unittest.main()

@@ -14,6 +14,9 @@ import unittest
 import xml.etree.ElementTree
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+
 CMAKE = BUILD = SOURCE = None
 FOLDER = None  # temporary
 HOME = PREFIX = None  # in it: the working directory, and what is installed
@@ -31,7 +34,7 @@ target_link_libraries(host Rung::runtime)
 def run(*command, hidden=True, check=True, cwd=None, timeout=300, **more):
     environment = {"PATH": "/usr/local/bin:/usr/bin:/bin", "HOME": str(HOME), "LANG": "C.UTF-8", "TMPDIR": FOLDER.name}
     done = subprocess.run([*(HIDE if hidden else []), *map(str, command)], env=environment | more, cwd=cwd or HOME,
-                          stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=timeout)
+                          stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=patience(timeout))
     if check and done.returncode != 0:
         raise AssertionError(f"{' '.join(map(str, command))}: status {done.returncode}\n{done.stdout}{done.stderr}")
     return done

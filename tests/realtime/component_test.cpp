@@ -12,6 +12,7 @@
 #include "ir/support/temporary_folder.h"
 #include "tests/realtime/fake_hal.h"
 #include "tests/realtime/guard.h"
+#include "tests/support/patience.h"
 
 namespace rung::test {
 namespace {
@@ -136,11 +137,13 @@ protected:
   // Where something else than the scan is at work.
   template <class Condition>
   bool scanUntil(Condition condition) {
-    for (int i = 0; i < 2000 && !condition(); ++i) {
-      scan(1);
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return condition();
+    return soon([&] { return scan(1), condition(); }, std::chrono::milliseconds(5));
+  }
+
+  // Waits for that many calls of the running thread.
+  bool runs(uint64_t calls) {
+    const uint64_t before = hal.calls();
+    return soon([&] { return hal.calls() >= before + calls; });
   }
 
   void expectNothingLeft() {
@@ -148,9 +151,7 @@ protected:
     EXPECT_EQ(hal.initialised(), 0);
     EXPECT_EQ(openFiles(), filesBefore);
     // The kernel may list a thread for a moment after it has been joined.
-    for (int i = 0; i < 1000 && threads() != threadsBefore; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    EXPECT_EQ(threads(), threadsBefore);
+    EXPECT_TRUE(soon([&] { return threads() == threadsBefore; })) << threads() << " threads, before " << threadsBefore;
   }
 
   static std::unique_ptr<TemporaryFolder> built;
@@ -463,7 +464,7 @@ TEST_F(Component, UnloadsBesideARunningThread) {
     ASSERT_EQ(loadStuck(path("beside")), 0);
     bit("run") = true;
     hal.startThread("rung.scan", kMs);
-    while (hal.calls() < 30) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(runs(30));
     EXPECT_TRUE(bit("lamp"));
     hal.unload();
     EXPECT_THAT(hal.bitsAtExit(), ElementsAre("rung.run"));
@@ -498,15 +499,10 @@ TEST_F(Component, FunctionsInDifferentThreadsDoNotRun) {
     bit("run") = true;
     const FakeHal::Function other = hal.function(std::string(threads) == "rung.scan" ? "rung.fast" : "rung.scan");
     hal.startThread(threads, kMs);
-    while (hal.calls() < 30) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    for (int i = 0; i < 1000 && !(bit("fault") && !bit("lamp")); ++i) {
-      other.call(kMs);
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    EXPECT_TRUE(bit("fault"));
-    EXPECT_FALSE(bit("lamp"));
+    ASSERT_TRUE(runs(30));
+    EXPECT_TRUE(soon([&] { return other.call(kMs), bit("fault") && !bit("lamp"); }));
     bit("reset") = true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ASSERT_TRUE(runs(50));
     EXPECT_TRUE(bit("fault"));
     EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung.fast and rung.scan are in different threads")));
     hal.unload();
@@ -519,8 +515,7 @@ TEST_F(Component, RestartsBesideARunningThread) {
   ASSERT_EQ(loadStuck(path("restarts")), 0);
   hal.startThread("rung.scan", kMs);
   const auto wait = [&](bool faulted) {
-    for (int i = 0; i < 5000 && bit("fault") != faulted; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return bit("fault") == faulted;
+    return soon([&] { return bit("fault") == faulted; });
   };
   for (int round = 0; round < 3; ++round) {
     bit("stick") = true;

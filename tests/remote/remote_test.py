@@ -10,13 +10,14 @@ import socket
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience, wait_until
+
 BIN = None
 OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
-PATIENCE = 60  # seconds until something counts as never happening
 
 # X0.0 lights Y0.0, X0.1 lets the program never end.
 PROGRAM = """dialect gsk
@@ -81,20 +82,17 @@ class Host(unittest.TestCase):
 
     def end(self):
         self.host.terminate()
-        self.assertEqual(self.host.wait(PATIENCE), OK)
+        self.assertEqual(self.host.wait(patience()), OK)
         self.assertFalse(self.socket.exists())
 
     def logged(self):
         return (self.home / "log").read_text()
 
     def wait(self, condition):
-        end = time.monotonic() + PATIENCE
-        while not condition():
-            self.assertLess(time.monotonic(), end, self.logged())
-            time.sleep(0.01)
+        self.assertTrue(wait_until(condition), self.logged())
 
     def ctl(self, *words, status=OK):
-        done = subprocess.run([BIN / "rungctl", *map(str, words)], capture_output=True, text=True, timeout=2 * PATIENCE,
+        done = subprocess.run([BIN / "rungctl", *map(str, words)], capture_output=True, text=True, timeout=patience(),
                               env=self.environment)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done.stdout if status == OK else done.stdout + done.stderr
@@ -122,7 +120,7 @@ class Host(unittest.TestCase):
     def connect(self):
         made = socket.socket(socket.AF_UNIX)
         self.addCleanup(made.close)
-        made.settimeout(PATIENCE)
+        made.settimeout(patience())
         made.connect(str(self.socket))
         lines = made.makefile("r")
         self.addCleanup(lines.close)
@@ -176,7 +174,7 @@ class Commands(Host):
         self.wait(lambda: self.get("Y0.0"))
         self.ctl("stop")
         self.assertEqual(self.ctl("forced"), "nothing is forced\n")
-        time.sleep(0.05)  # which are passes that it is not to run
+        self.pass_by(6)  # in which the program is not to run
         self.assertTrue(self.get("Y0.0"))  # it stays as it is
         self.ctl("start")
         self.wait(lambda: not self.get("Y0.0"))
@@ -210,15 +208,15 @@ class Commands(Host):
         other = self.home / "other.pmc"
         other.write_text(PROGRAM.replace("LD   X0.0", "LDI  X0.0"))
         subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
-        text = self.ctl("reload", self.home / "other.so", "--shadow", "5", status=WRONG)
+        text = self.ctl("reload", self.home / "other.so", "--shadow", "25", status=WRONG)
         self.assertIn("finished, ", text)
         self.assertIn("Y0.0: false now, true in the new program\n", text)
         self.assertIn("nothing has changed", text)
         self.assertFalse(self.get("Y0.0"))
-        text = self.ctl("reload", self.program, "--shadow", "5")
+        text = self.ctl("reload", self.program, "--shadow", "25")
         self.assertIn(", 0 differences\n", text)
         self.assertTrue(text.endswith("the new program runs\n"))
-        self.ctl("reload", self.home / "other.so", "--shadow", "5", "--yes")
+        self.ctl("reload", self.home / "other.so", "--shadow", "25", "--yes")
         self.wait(lambda: self.get("Y0.0"))
         self.ctl("reload", self.program, "--shadow", "0", status=USAGE)
 
@@ -232,7 +230,7 @@ class Commands(Host):
         self.ctl("set", "D8:2", "5")
         self.assertEqual(json.loads(watching.stdout.readline())["values"], [5])
         watching.send_signal(signal.SIGINT)
-        self.assertEqual(watching.wait(PATIENCE), OK)
+        self.assertEqual(watching.wait(patience()), OK)
 
     def test_trace(self):
         out = self.home / "trace.vcd"
@@ -241,14 +239,14 @@ class Commands(Host):
         self.ctl("set", "D8:2", "3")
         self.pass_by(2)
         tracing.send_signal(signal.SIGINT)
-        self.assertEqual(tracing.wait(PATIENCE), OK)
+        self.assertEqual(tracing.wait(patience()), OK)
         text = out.read_text()
         for wanted in ("$var wire 1 ! X0.3 $end", '$var wire 16 " D8:2 $end', "\n0!\n", "\n1!\n", '\nb11 "\n'):
             self.assertIn(wanted, text)
 
     def test_a_trace_that_ends_by_itself(self):
         out = self.home / "short.vcd"
-        self.assertEqual(self.trace(out, "X0.3", "--for", "0.5").wait(PATIENCE), OK)
+        self.assertEqual(self.trace(out, "X0.3", "--for", "0.5").wait(patience()), OK)
         self.assertIn("\n0!\n", out.read_text())
 
     def test_an_interrupted_trace_has_all_that_came_before(self):
@@ -258,7 +256,7 @@ class Commands(Host):
         self.ctl("set", "X0.3", "1")
         tracing.send_signal(signal.SIGINT)
         tracing.send_signal(signal.SIGCONT)
-        self.assertEqual(tracing.wait(PATIENCE), OK)
+        self.assertEqual(tracing.wait(patience()), OK)
         self.assertIn("\n1!\n", out.read_text())
 
     def test_sigrok_reads_a_trace(self):
@@ -268,9 +266,9 @@ class Commands(Host):
             self.ctl("set", "X0.3", value)
             self.pass_by(2)
         tracing.send_signal(signal.SIGINT)
-        self.assertEqual(tracing.wait(PATIENCE), OK)
+        self.assertEqual(tracing.wait(patience()), OK)
         done = subprocess.run(["sigrok-cli", "-I", "vcd:downsample=1000", "-i", out, "-O", "csv:header=false:label=off"],
-                              capture_output=True, text=True, timeout=60)
+                              capture_output=True, text=True, timeout=patience())
         self.assertEqual(done.returncode, OK, done.stderr)
         bits = [line.split(",") for line in done.stdout.splitlines() if re.match("[01],[01]", line)]  # it leaves numbers out
         changes = [now for before, now in zip([None, *bits], bits) if now != before]
@@ -280,14 +278,17 @@ class Commands(Host):
         self.assertEqual(self.ctl("map"), f"in    bit   run ({self.home}/plc.map:2)\nout   bit   lamp ({self.home}/plc.map:4)\n")
 
     def test_messages_are_followed(self):
+        self.ctl("set", "X0.1", "1")
+        self.wait(lambda: "the program has stopped: dead-loop" in self.ctl("messages"))
         following = subprocess.Popen([BIN / "rungctl", "messages", "--follow"], stdout=subprocess.PIPE, text=True,
                                      env=self.environment)
         self.addCleanup(following.stdout.close)
-        time.sleep(0.3)
-        self.ctl("set", "X0.1", "1")
-        self.assertIn("the program has stopped: dead-loop", following.stdout.readline())
+        self.assertIn("the program has stopped: dead-loop", following.stdout.readline())  # what came before
+        self.ctl("set", "X0.1", "0")
+        self.ctl("reset")
+        self.assertIn("the program has been restarted", following.stdout.readline())
         following.terminate()
-        following.wait(PATIENCE)
+        following.wait(patience())
 
 
 class Profile(Host):
@@ -496,7 +497,7 @@ class Protocol(Host):
 
     def test_a_second_host_of_the_name(self):
         done = subprocess.run([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc"], capture_output=True,
-                              text=True, env=self.environment, timeout=PATIENCE)
+                              text=True, env=self.environment, timeout=patience())
         self.assertEqual(done.returncode, ENVIRONMENT)
         self.assertIn("plc.sock: another host has the name plc; give this one another", done.stderr)
         self.ctl("status")
@@ -505,7 +506,7 @@ class Protocol(Host):
 class WithoutAHost(unittest.TestCase):
     def run_ctl(self, folder, *words):
         return subprocess.run([BIN / "rungctl", *words], capture_output=True, text=True,
-                              env={**os.environ, "RUNG_SOCKETS": str(folder)}, timeout=60)
+                              env={**os.environ, "RUNG_SOCKETS": str(folder)}, timeout=patience())
 
     def test_no_host(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -542,7 +543,7 @@ class WithoutAHost(unittest.TestCase):
             stranger.stdout.readline()
             shutil.copy(BIN / "rungctl", folder)
             done = subprocess.run([f"{folder}/rungctl", "status"], user=65534, group=65534, extra_groups=[], capture_output=True,
-                                  text=True, env={**os.environ, "RUNG_SOCKETS": folder}, timeout=60)
+                                  text=True, env={**os.environ, "RUNG_SOCKETS": folder}, timeout=patience())
             stranger.kill()
             stranger.communicate()
             self.assertEqual((done.returncode, done.stderr),
@@ -556,7 +557,7 @@ class WithoutAHost(unittest.TestCase):
             environment = {**os.environ, "RUNG_SOCKETS": str(home / "sockets")}
 
             def run(*words):
-                done = subprocess.run([BIN / "rung-run", *words], capture_output=True, text=True, env=environment, timeout=60)
+                done = subprocess.run([BIN / "rung-run", *words], capture_output=True, text=True, env=environment, timeout=patience())
                 return done.returncode, done.stderr
 
             status, text = run(program, home / "wrong.map")

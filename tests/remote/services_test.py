@@ -4,11 +4,11 @@ import json
 import random
 import subprocess
 import sys
-import time
 import unittest
 
 import remote_test
-from remote_test import Host, PATIENCE, WRONG
+from patience import patience
+from remote_test import Host, WRONG
 
 # X0.0 reads variable 500 into D10:4, end code in D2:2; X0.1 writes D30:4 to the tool number, end code in D22:2;
 # X0.2 reads the machine position of axis D48:2 into D50:4 at once, end code in D42:2.
@@ -253,7 +253,7 @@ class Services(Provider):
         self.assertEqual(json.loads(serving.stdout.readline()), {"ok": True})
         self.wait(lambda: self.get("D10:4") == 40000)
         serving.stdin.close()
-        self.assertEqual(serving.wait(PATIENCE), 0)
+        self.assertEqual(serving.wait(patience()), 0)
         self.ctl("set", "X0.0", "0")
         self.wait(lambda: not self.get("R10.0"))
         self.assertEqual(self.end_of("D2:2", "X0.0", "R10.0"), 6)

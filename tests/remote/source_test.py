@@ -10,12 +10,12 @@ import struct
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
 import remote_test
-from remote_test import ENVIRONMENT, OK, PATIENCE, PROGRAM, USAGE, WRONG, Host
+from patience import patience, wait_until
+from remote_test import ENVIRONMENT, OK, PROGRAM, USAGE, WRONG, Host
 
 BIN = Path(sys.argv[1]).resolve()
 TEMPLATE = Path(__file__).resolve().parents[2] / "tools/project/templates/technol"
@@ -55,21 +55,21 @@ class SourceHost(Host):
                 return answer
         return answer
 
-    def result(self, connection, patience=PATIENCE):
-        end = time.monotonic() + patience
-        while True:
-            answer = self.ask(connection, do="compiled")
-            if answer.get("state") != "compiling":
-                return answer
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.02)
+    def result(self, connection):
+        def answer():
+            found = self.ask(connection, do="compiled")
+            return found if found.get("state") != "compiling" else None
 
-    def compiled(self, data, patience=PATIENCE):
+        found = wait_until(answer)
+        self.assertIsNotNone(found, "it compiles without end")
+        return found
+
+    def compiled(self, data):
         connection = self.connected()
         answer = self.send(connection, data)
         self.assertTrue(answer["ok"], answer)
         self.assertTrue(self.ask(connection, do="compile")["ok"])
-        result = self.result(connection, patience)
+        result = self.result(connection)
         connection[0].shutdown(socket.SHUT_WR)  # another one may send then
         self.assertEqual(connection[1].read(), "")  # the host has let it go
         self.wait(lambda: not self.children())
@@ -123,13 +123,13 @@ class Reload(SourceHost):
     def test_what_is_lost_asks_first(self):
         with_symbol = self.source(PROGRAM.replace("symbol GUARD X0.2", "symbol GUARD X0.2\nsymbol COUNT D8"))
         self.ctl("reload", with_symbol)
-        text = self.ctl("reload", self.source(PROGRAM), "--shadow", "5", status=WRONG)
+        text = self.ctl("reload", self.source(PROGRAM), "--shadow", "25", status=WRONG)
         self.assertIn("0 differences\nremoved COUNT\n", text)
         self.assertIn("the new program loses state: COUNT; nothing has changed; with --yes", text)
         self.ctl("reload", self.source(PROGRAM), "--yes")
         self.assertEqual(self.ctl("reload", self.home / "none.pmc", status=WRONG),
                          f"cannot read '{self.home}/none.pmc': No such file or directory\nrungctl: nothing has changed\n")
-        text = self.ctl("reload", self.source(PROGRAM.replace("LD   X0.0", "LDI  X0.0")), "--shadow", "5", status=WRONG)
+        text = self.ctl("reload", self.source(PROGRAM.replace("LD   X0.0", "LDI  X0.0")), "--shadow", "25", status=WRONG)
         self.assertIn("Y0.0: false now, true in the new program\n", text)
 
     def test_with_profile_its_rungs_are_counted(self):
@@ -215,7 +215,7 @@ class Attacks(SourceHost):
             shutil.copy(BIN / tool, folder)
         folder.chmod(0o755)
         done = subprocess.run([folder / "rung-run", folder / "rung.toml", folder / "m.map"], user=65534, group=65534,
-                              extra_groups=[], capture_output=True, text=True, timeout=2 * PATIENCE, start_new_session=True,
+                              extra_groups=[], capture_output=True, text=True, timeout=patience(), start_new_session=True,
                               env={**os.environ, "RUNG_COMPILE": str(folder / "rung-compile"), "RUNG_SOCKETS": "/tmp/none"})
         self.assertEqual(done.returncode, ENVIRONMENT)
         self.assertIn("main.plc:2:19: error: ", done.stderr)
@@ -246,7 +246,7 @@ class Attacks(SourceHost):
         self.wait(lambda: self.passes() > before + 100)  # others are answered
         self.assertEqual(len(self.children()), 1)
         self.wait(lambda: os.getpriority(os.PRIO_PROCESS, self.children()[0]) == 19)
-        answer = self.result(connection, 120)
+        answer = self.result(connection)
         self.assertEqual(answer["state"], "failed", answer)
         self.assertRegex(answer["report"], r"30 s of processor time|more than 60 s|more than 2048 MB|SIG|signal")
         self.assertScans()
@@ -352,7 +352,7 @@ class BrokenCompilers(SourceHost):
             self.assertIn(error, self.answer(body), body)
 
     def test_one_that_never_ends(self):
-        self.fake("time.sleep(1000)")
+        self.fake("signal.pause()")
         connection = self.connected()
         self.send(connection, b"x")
         self.ask(connection, do="compile")
@@ -386,11 +386,11 @@ class RungRun(unittest.TestCase):
                                     env=environment, start_new_session=True)
             self.assertIn("listening at", host.stderr.readline())
             host.terminate()
-            host.communicate(timeout=PATIENCE)
+            host.communicate(timeout=patience())
             self.assertEqual(host.returncode, OK)
             (home / "a.pmc").write_text(PROGRAM.replace("OUT  Y0.0", "OUT  X0.5"))
             done = subprocess.run([BIN / "rung-run", home / "a.pmc", home / "m.map"], capture_output=True, text=True,
-                                  env=environment, timeout=2 * PATIENCE, start_new_session=True)
+                                  env=environment, timeout=patience(), start_new_session=True)
             self.assertEqual(done.returncode, ENVIRONMENT)
             self.assertIn(f"{home}/a.pmc:5:6: error: ", done.stderr)
 

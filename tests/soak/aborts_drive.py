@@ -12,6 +12,7 @@ import hal
 import linuxcnc
 from drive import check, command, done, errors, mdi, pin, polled, set_mode, status, wait
 from driver import run, switch_on
+from patience import patience
 
 TRIES = 60  # the order to LinuxCNC takes some milliseconds: it may come too late for a step
 FAST = 0.0001
@@ -32,7 +33,7 @@ def is_at(step, seen):
 
 
 def poll(what, condition):
-    end = time.monotonic() + 5
+    end = time.monotonic() + patience(5)
     while not condition():
         check(time.monotonic() < end, f"never came: {what}; levels {levels()}")
         time.sleep(FAST)
@@ -65,7 +66,7 @@ def interrupt(function, kind):
         return seen
     command.abort()
     serial = command.serial
-    end = time.monotonic() + 5
+    end = time.monotonic() + patience(5)
     while pin(TAKEN_BACK[function]) and polled().echo_serial_number < serial:
         check(time.monotonic() < end, "LinuxCNC does not take the abort")
         seen = levels()

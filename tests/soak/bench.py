@@ -3,7 +3,6 @@ import contextlib
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -11,8 +10,7 @@ HERE = Path(__file__).resolve().parent
 CNC = HERE.parent / "cnc"
 sys.path.insert(0, str(CNC))
 import cnc_test  # noqa: E402  pylint: disable=wrong-import-position
-
-PATIENCE = 30  # seconds until something counts as never happening
+from patience import wait_until  # noqa: E402  pylint: disable=wrong-import-position
 
 
 def expect(condition, what):
@@ -21,10 +19,8 @@ def expect(condition, what):
 
 
 def wait(what, condition):
-    end = time.monotonic() + PATIENCE
-    while not (found := condition()):
-        expect(time.monotonic() < end, f"never came: {what}")
-        time.sleep(0.002)
+    found = wait_until(condition, step=0.002)
+    expect(found, f"never came: {what}")
     return found
 
 

@@ -6,14 +6,15 @@
 
 #include <chrono>
 #include <filesystem>
-#include <thread>
 #include <vector>
 
+#include "tests/support/patience.h"
 #include "tools/devices/com/tty_thread.h"
 
 namespace {
 
 using namespace rung::devices::com;
+using rung::test::soon;
 using namespace std::chrono_literals;
 using Bytes = std::vector<uint8_t>;
 
@@ -41,17 +42,18 @@ public:
   void write(const Bytes& bytes) const {
     EXPECT_EQ(::write(far_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
-  // What comes until there are so many, at most two seconds.
+  // What comes until there are so many.
   Bytes read(size_t count) const {
     Bytes all;
-    for (int i = 0; i < 2000 && all.size() < count; ++i) {
+    soon([&] {
       uint8_t block[4096];
-      const ssize_t got = ::read(far_, block, sizeof block);
-      if (got > 0)
+      while (all.size() < count) {
+        const ssize_t got = ::read(far_, block, sizeof block);
+        if (got <= 0) return false;
         all.insert(all.end(), block, block + got);
-      else
-        std::this_thread::sleep_for(1ms);
-    }
+      }
+      return true;
+    });
     return all;
   }
 
@@ -60,15 +62,6 @@ public:
 private:
   int far_ = -1, near_ = -1;
 };
-
-template <class F>
-bool soon(F&& holds) {
-  for (int i = 0; i < 5000; ++i) {
-    if (holds()) return true;
-    std::this_thread::sleep_for(1ms);
-  }
-  return false;
-}
 
 Settings activeSettings() {
   Settings settings;
@@ -255,7 +248,7 @@ TEST_F(Tty, ManyBlocksWhileTheThreadWorks) {
   Bytes sent, got;
   for (int block = 0; block < 200; ++block) {
     const Bytes bytes(static_cast<size_t>(1 + block % 97), static_cast<uint8_t>(block));
-    for (int i = 0; i < 5000 && !port.send(bytes); ++i) std::this_thread::sleep_for(1ms);
+    ASSERT_TRUE(soon([&] { return port.send(bytes); }));
     sent.insert(sent.end(), bytes.begin(), bytes.end());
     const Bytes some = terminal.read(1);
     got.insert(got.end(), some.begin(), some.end());

@@ -7,23 +7,15 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <optional>
 
+#include "tests/support/patience.h"
 #include "tools/devices/can/controller.h"
 
 namespace {
 
 using namespace rung::devices;
-
-bool soon(auto condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
+using rung::test::soon;
 
 class SocketCanTest : public testing::Test {
 protected:

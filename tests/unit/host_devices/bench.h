@@ -2,16 +2,15 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <fstream>
 #include <list>
 #include <optional>
 #include <sstream>
 #include <string>
-#include <thread>
 
 #include "tests/support/adopted_image.h"
 #include "tests/support/compiled_program.h"
+#include "tests/support/patience.h"
 #include "tools/host-devices/host_devices.h"
 
 namespace rung::test {
@@ -62,12 +61,7 @@ public:
   // Steps at their times until it is so.
   template <class Condition>
   bool soon(Condition condition) {
-    for (int i = 0; i < 5000; ++i) {
-      step();
-      if (condition()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return false;
+    return test::soon([&] { return step(), condition(); });
   }
   int64_t operator[](const std::string& name) { return plc->read<int64_t>(plc->find(name)); }
   void set(const std::string& name, int64_t value) { plc->write(plc->find(name, Access::Write), value); }

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
+#include <thread>
 
 #include "ir/support/temporary_folder.h"
 #include "tests/support/count_allocations.h"

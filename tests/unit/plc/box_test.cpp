@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 #include "rtlib/host/retain.h"
 #include "rtlib/nc/technol/signals.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/patience.h"
 #include "tests/unit/mapping/test_program.h"
 #include "tests/unit/plc/bench.h"
 #include "tests/unit/rtlib/test_program.h"
@@ -459,27 +459,29 @@ out.asked = { type = "bit", name = "REQ_BACKUP_MEM" }
     step();
     EXPECT_TRUE(b["asked"].bit); // nothing can be on disk in the same scan
   };
-  const auto wait = [&](auto condition) {
-    for (int i = 0; i < 100 && !condition(); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-      step();
-    }
-    return condition();
+  // The program counts its scans in a byte: it does not scan while it waits for the disk.
+  const auto saves = [&](uint64_t count) {
+    return test::soon([&] { return b.box->state().saves >= count; });
+  };
+  const auto answered = [&] {
+    return test::soon([&] { return step(), !b["asked"].bit; }, std::chrono::milliseconds(10));
   };
   for (int i = 0; i < 3; ++i) step();
   EXPECT_EQ(onDisk(), 0); // nothing is saved without a request
   ask();
-  ASSERT_TRUE(wait([&] { return !b["asked"].bit; }));
+  ASSERT_TRUE(saves(1));
+  ASSERT_TRUE(answered());
   EXPECT_EQ(onDisk(), 5); // of the fifth scan, where it was asked for
   EXPECT_EQ(b.box->state().saves, 1u);
   for (const char* ending : {".a.tmp", ".b.tmp"}) std::filesystem::create_directory(file + ending);
   ask();
-  ASSERT_TRUE(wait([&] { return b.box->failsToSave(); }));
+  ASSERT_TRUE(test::soon([&] { return b.box->failsToSave(); }));
   for (int i = 0; i < 20; ++i) step();
   EXPECT_TRUE(b["asked"].bit); // the program waits
   EXPECT_EQ(onDisk(), 5);
   for (const char* ending : {".a.tmp", ".b.tmp"}) std::filesystem::remove(file + ending);
-  ASSERT_TRUE(wait([&] { return !b["asked"].bit; }));
+  ASSERT_TRUE(saves(2));
+  ASSERT_TRUE(answered());
   EXPECT_FALSE(b.box->failsToSave());
   EXPECT_GT(onDisk(), 5);
   EXPECT_EQ(b.box->close(), "");

@@ -10,10 +10,10 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <thread>
 
 #include "ir/support/temporary_folder.h"
 #include "tests/support/compiled_program.h"
+#include "tests/support/patience.h"
 #include "tests/unit/plc/bench.h"
 
 namespace rung::plc {
@@ -177,11 +177,7 @@ protected:
   // Files are written by another thread, which looks five times a second.
   template <class Condition>
   static bool runUntil(Bench& b, Condition condition) {
-    for (int i = 0; i < 200 && !condition(); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      b.run(20);
-    }
-    return condition();
+    return test::soon([&] { return b.run(20), condition(); }, std::chrono::milliseconds(5));
   }
   void damage() const {
     for (const char* ending : {".a", ".b"}) std::ofstream(file + ending) << "junk";

@@ -5,6 +5,10 @@ import shutil
 import subprocess
 import sys
 import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+from patience import patience
 
 PROGRAM = None
 ROUNDS, PLACES = 1000, 16
@@ -12,7 +16,7 @@ ROUNDS, PLACES = 1000, 16
 
 def instructions(work, rounds):
     done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", PROGRAM, work, str(rounds)],
-                          capture_output=True, text=True, timeout=100, check=True)
+                          capture_output=True, text=True, timeout=patience(), check=True)
     return int(re.search(r"Collected : (\d+)", done.stderr).group(1))
 
 

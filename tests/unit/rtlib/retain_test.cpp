@@ -18,6 +18,7 @@
 #include <fstream>
 #include <thread>
 
+#include "tests/support/patience.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
@@ -440,8 +441,7 @@ protected:
   // Waits for what the saver does by itself.
   template <class Condition>
   static bool becomes(Condition condition) {
-    for (int i = 0; i < 20'000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return condition();
+    return rung::test::soon(condition);
   }
 
   TestProgram test;

@@ -81,11 +81,13 @@ function(rung_test_needs)
   set_property(GLOBAL APPEND PROPERTY RUNG_TEST_TARGETS ${arg_TARGETS})
 endfunction()
 
-# rung_test_family(NAME TARGET LABEL): tests named NAME.*, which only the built program knows.
-function(rung_test_family name target label)
+# rung_test_family(NAME TARGET [LABEL label] [READS path...]): tests named NAME.*, which only the built program knows.
+function(rung_test_family name target)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "LABEL" "READS")
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE folder)
+  list(JOIN arg_READS " " reads)
   set_property(GLOBAL APPEND PROPERTY RUNG_TEST_TARGETS ${target})
-  set_property(GLOBAL APPEND PROPERTY RUNG_TEST_LINES "family\t${name}.\t${folder}\t${target}\t\t${label}")
+  set_property(GLOBAL APPEND PROPERTY RUNG_TEST_LINES "family\t${name}.\t${folder}\t${target}\t${reads}\t${arg_LABEL}")
 endfunction()
 
 # Writes the list, when all folders are read.
@@ -120,11 +122,12 @@ function(rung_write_test_needs)
     CONTENT "# kind\tname\tfolder\ttargets\tfiles and folders it reads\tlabel\n${lines}\n")
 endfunction()
 
-# rung_add_test(NAME SOURCES file... LIBS target... [LABEL label] [TIMEOUT seconds] [WHOLE]): GoogleTest program
+# rung_add_test(NAME SOURCES file... LIBS target... [READS path...] [LABEL label] [TIMEOUT seconds] [WHOLE]): GoogleTest program
 # build/bin/tests/rung_test_NAME. Each case is a ctest entry, or with WHOLE the program is one entry (for thousands of
-# short cases). Tests run in the root of the repository, so that files are found by their path in it.
+# short cases). Tests run in the root of the repository, so that files are found by their path in it. READS: as for
+# rung_test_needs, what the sources do not name.
 function(rung_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL;TIMEOUT" "SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL;TIMEOUT" "SOURCES;LIBS;READS")
   set(target rung_test_${name})
   set(rung_headers tests)
   rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} GTest::gmock GTest::gtest_main)
@@ -140,9 +143,9 @@ function(rung_add_test name)
   if(arg_WHOLE)
     add_test(NAME ${name} COMMAND ${target} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
     set_tests_properties(${name} PROPERTIES ${properties})
-    rung_test_needs(TESTS ${name} TARGETS ${target})
+    rung_test_needs(TESTS ${name} TARGETS ${target} READS ${arg_READS})
   else()
-    rung_test_family(${name} ${target} "${arg_LABEL}")
+    rung_test_family(${name} ${target} LABEL ${arg_LABEL} READS ${arg_READS})
     gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
       WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" PROPERTIES ${properties})
   endif()

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What ./dev decides, with made-up graphs, lists and trees: dev_test.py CMAKE"""
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -206,6 +207,85 @@ class Affected(unittest.TestCase):
     def test_expression(self):
         chosen = [entry for entry in self.ENTRIES if entry.name in ("base.", "user.data")]
         self.assertEqual(affected.expression(chosen), r"^(base\.|user\.data$)")
+
+
+CHECKS = """set -euo pipefail
+source "$1/tools/dev/checks.sh"
+die() { echo "dev: $*" >&2; exit 3; }
+setup() { :; }
+check_parts() { printf '%s\\n' 'good|1|-' 'bad|1|-' 'more|?|-' 'named|-|-'; }
+check_good() { echo good runs; }
+check_bad() { false; echo "goes on after a mistake"; }
+check_more() { echo more runs >&2; }
+check_named() { :; }
+minutes_allowed=${MINUTES:-60}
+check "${@:2}"
+"""
+
+
+class Checks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.git("init", "-q")
+        (self.folder / ".gitignore").write_text("out/\n")
+        self.commit()
+
+    def git(self, *words):
+        subprocess.run(["git", "-c", "user.name=n", "-c", "user.email=e@x", *words], cwd=self.folder, check=True)
+
+    def commit(self):
+        self.git("add", "-A")
+        self.git("commit", "-q", "--allow-empty", "-m", "m")
+
+    def check(self, *words, **environment):
+        done = subprocess.run(["bash", "-c", CHECKS, "dev", ROOT, *words], cwd=self.folder, capture_output=True, text=True,
+                              env={**os.environ, **environment})
+        return done.returncode, done.stdout, done.stderr
+
+    def ran(self, *words, **environment):
+        return re.findall(r"^-- check (\w+)$", self.check(*words, **environment)[1], re.MULTILINE)
+
+    def test_a_part_that_fails_does_not_stop_the_others(self):
+        status, output, errors = self.check()
+        self.assertEqual((status, errors), (3, "dev: failed: bad\n"))
+        self.assertNotIn("goes on", output)
+        for line in (r"^good +[0-9a-f]{12} +\S+ \S+ +0:0\d  passed$", r"^bad .* failed$", r"^more .* passed$", r"^named .* not run$"):
+            self.assertRegex(output, re.compile(line, re.MULTILINE))
+        self.assertEqual((self.folder / "out/check-good.log").read_text(), "good runs\n")
+        self.assertEqual((self.folder / "out/check-more.log").read_text(), "more runs\n")
+
+    def test_any_order(self):
+        self.assertEqual(self.ran("named", "good"), ["named", "good"])
+        self.assertEqual(self.check("good")[0], 0)
+        self.assertIn("'none' is not a check", self.check("none")[2])
+        self.assertIn("'-x' is not an option", self.check("-x")[2])
+
+    def test_resume(self):
+        self.check()
+        self.assertEqual(self.ran("--resume"), ["bad"])
+        self.assertEqual(self.ran("--resume", "named", "good"), ["named"])
+        (self.folder / "new").write_text("")
+        self.assertEqual(self.ran("--resume"), ["good", "bad", "more"], "a tree with changes is not the commit")
+        self.commit()
+        self.assertEqual(self.ran("--resume"), ["good", "bad", "more"], "what ran on a tree with changes counts for no commit")
+        self.assertEqual(self.ran("--resume"), ["bad"])
+        self.assertEqual(self.ran("--table"), [])
+        self.assertIn("passed", self.check("--table")[1])
+
+    def test_the_limit(self):
+        status, output, _ = self.check("good", MINUTES="-1")
+        self.assertEqual(status, 3)
+        self.assertIn("over -1 min", output)
+
+    def test_each_part_of_dev_has_its_function(self):
+        listed = subprocess.run(["bash", "-c", "source <(sed -n '/^check_parts()/,/^}/p' dev); check_parts"], cwd=ROOT,
+                                capture_output=True, text=True, check=True).stdout
+        names = [line.split("|")[0] for line in listed.splitlines()]
+        defined = re.findall(r"^check_([\w-]+)\(\)", (ROOT / "tools/dev/checks.sh").read_text(), re.MULTILINE)
+        self.assertEqual(sorted(names), sorted(set(defined) - {"table"}))
+        self.assertTrue(all(line.count("|") == 2 for line in listed.splitlines()))
 
 
 PROJECT = """cmake_minimum_required(VERSION 3.25)

@@ -94,13 +94,18 @@ def owner(entries, name):
     return max(families, key=lambda entry: len(entry.name), default=None)
 
 
-def listed(build, arguments):
-    """{name: command} of the tests that ctest selects, as far as it knows them before anything more is built."""
+def details(build, arguments):
+    """The tests that ctest selects, as it describes them; those of a program that is not built are missing."""
     command = ["ctest", "--test-dir", build, "--show-only=json-v1", *arguments]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0 or not done.stdout.startswith("{"):
         sys.exit(f"dev: {' '.join(command)} failed\n{done.stdout}{done.stderr}")
-    return {test["name"]: test.get("command", []) for test in json.loads(done.stdout)["tests"]}
+    return json.loads(done.stdout)["tests"]
+
+
+def listed(build, arguments):
+    """{name: command} of those tests."""
+    return {test["name"]: test.get("command", []) for test in details(build, arguments)}
 
 
 def needed(entries, arguments, names_listed, sources_of):

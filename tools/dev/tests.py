@@ -50,6 +50,18 @@ def targets(build, selectors):
         print("\n".join(sorted({target for entry in needed for target in entry.targets})))
 
 
+def reader(build, graph, more):
+    """Of what the tests read; `more`: files that git does not know yet."""
+    here = set(files(git("ls-files", "-z"))) | set(more)
+
+    @functools.cache
+    def sources_of(target):
+        return [below_root(os.path.join(build, source)) for source in graph.sources(target)]
+    commands = {name: [below_root(os.path.join(ROOT, word)) for word in words]
+                for name, words in test_list.listed(build, []).items()}
+    return affected.Reader(ROOT, here, sources_of, commands)
+
+
 def changed(build, commit):
     if not commit:
         commit = git("merge-base", "HEAD", "@{upstream}", check=False).strip() or "HEAD"
@@ -61,15 +73,7 @@ def changed(build, commit):
         return
     graph = ninja_graph.load(build)
     entries = test_list.entries_of(build)
-    here = set(files(git("ls-files", "-z"))) | set(paths)
-
-    @functools.cache
-    def sources_of(target):
-        return [below_root(os.path.join(build, source)) for source in graph.sources(target)]
-    commands = {name: [below_root(os.path.join(ROOT, word)) for word in words]
-                for name, words in test_list.listed(build, []).items()}
-    chosen = affected.choose(sorted(paths), entries, graph, lambda path: str(ROOT / path),
-                             affected.Reader(ROOT, here, sources_of, commands))
+    chosen = affected.choose(sorted(paths), entries, graph, lambda path: str(ROOT / path), reader(build, graph, paths))
     if isinstance(chosen, str):
         say(f"all tests: {chosen}")
         print("all")

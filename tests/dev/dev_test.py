@@ -82,6 +82,11 @@ class Ninja(unittest.TestCase):
     def test_stale_headers_do_not_count(self):
         self.assertEqual(set(ninja_graph.logged_headers(DEPS)), {"base.o", "user.o"})
 
+    def test_names(self):
+        for name, expected in (("../ir/x.h", "/s/ir/x.h"), ("a/b.o", "a/b.o"), ("/s/build/a/b.o", "a/b.o"), ("/s/ir/x.h", "/s/ir/x.h"),
+                               ("${cmake_ninja_workdir}a/b.o", "a/b.o"), ("target", "target"), ("/s/build2/x", "/s/build2/x")):
+            self.assertEqual(ninja_graph.canonical(name, "/s/build"), expected)
+
     def test_reached(self):
         reached = graph().reached(["/s/ir/base.h"])
         self.assertTrue({"base.o", "lib/libbase.a", "bin/user", "user", "test_base"} <= set(reached))
@@ -100,11 +105,15 @@ class Ninja(unittest.TestCase):
             Path(folder, "build.ninja").write_text(
                 f"rule CXX\n  command = touch $out\n  depfile = $out.d\n  deps = gcc\n"
                 f"build a.o: CXX {source}\nbuild b.o: CXX {source}\n")
+            Path(folder, "..", Path(folder).name + ".h").write_text("")
+            header = f"../{Path(folder).name}.h"
+            self.addCleanup(os.remove, folder + ".h")
             for name in ("a.o", "b.o"):
-                Path(folder, name + ".d").write_text(f"{name}: {source}\n")
+                Path(folder, name + ".d").write_text(f"{name}: {source} {header}\n")
             self.assertEqual(ninja_graph.load(folder).unknown, {"a.o", "b.o"})
             subprocess.run(["ninja", "-C", folder, "a.o"], check=True, capture_output=True)
             self.assertEqual(ninja_graph.load(folder).unknown, {"b.o"})
+            self.assertEqual(set(ninja_graph.load(folder).reached([folder + ".h"])), {folder + ".h", "a.o"})
             later = os.stat(Path(folder, "a.o")).st_mtime + 10
             os.utime(source, (later, later))
             self.assertEqual(ninja_graph.load(folder).unknown, {"a.o", "b.o"})
@@ -189,7 +198,8 @@ class Affected(unittest.TestCase):
                      "CMakePresets.json"):
             self.assertIn("decides how everything", self.choose("ir/base.cpp", path))
         self.assertIn("nothing says", self.choose("odd.xyz"))
-        self.assertIn("nothing says", self.choose("ir/new.h"))
+        self.assertIn("nothing known is built", self.choose("ir/new.h"))
+        self.assertIn("nothing known is built", self.choose("tools/reads/new.cpp"))
         self.assertIn("nothing says", self.choose("examples/lathe/lathe.lad"))
 
     def test_pages_are_read_by_what_reads_the_whole_tree(self):

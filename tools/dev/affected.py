@@ -13,6 +13,9 @@ from pathlib import Path
 EVERYTHING = ("CMakeLists.txt", "*/CMakeLists.txt", "*.cmake", "cmake/*", "CMakePresets.json", "dev", ".ci/*", "tools/dev/*")
 # What only tests read that look at the whole tree (READS .).
 HARMLESS = ("*.md", "LICENSE", ".gitignore", "*/.gitignore", ".clang-tidy", ".clang-format", "debian/*", "packaging/*")
+# Where a file of C or C++ that nothing is built from is no known case, whoever reads it.
+PRODUCT = ("codegen/", "frontend/", "ir/", "rtlib/", "tools/")
+INCLUDED = (".h", ".hpp", ".hxx", ".def", ".inc")
 COMPILED = (".c", ".cc", ".cpp")
 TOPS = ("codegen", "debian", "docs", "examples", "frontend", "ir", "packaging", "rtlib", "tests", "tools")
 NAMED = re.compile(r"(?<![\w./-])(?:%s)(?:/[\w.+-]+)*(?=(/?))" % "|".join(TOPS))
@@ -126,22 +129,23 @@ def choose(changed, entries, graph, node_of, reader):
             return f"{file} decides how everything is built or tested"
     unknown = "an object whose headers are not known"
     headers = [file for file in changed if not file.endswith(COMPILED) and
-               (graph.knows(node_of(file)) or file.endswith((".h", ".hpp", ".hxx", ".def", ".inc")))]
+               (graph.knows(node_of(file)) or file.endswith(INCLUDED))]
     starts = {node_of(file): file for file in changed}
     if headers:
         starts.update({name: f"{headers[0]}, {unknown}" for name in graph.unknown})
     reached = graph.reached(starts)
 
-    chosen, explained = {}, set()
+    chosen = {}
     for entry in entries:
         for target in entry.targets:
             if target in reached:
                 chosen.setdefault(entry, f"{starts[reached[target]]} -> {target}")
     for file in changed:
         readers = [entry for entry in entries if reader.reads(entry, file)]
-        if readers or graph.knows(node_of(file)):
-            explained.add(file)
-        elif not matches(file, HARMLESS):
+        built = graph.knows(node_of(file))
+        if not built and file.startswith(PRODUCT) and file.endswith(INCLUDED + COMPILED):
+            return f"nothing known is built from {file}"
+        if not built and not readers and not matches(file, HARMLESS):
             return f"nothing says which tests {file} concerns"
         for entry in readers:
             chosen.setdefault(entry, f"{file} is read")

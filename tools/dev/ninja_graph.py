@@ -15,6 +15,13 @@ def unescaped(name):
     return re.sub(r"\$([ :$])", r"\1", name)
 
 
+def canonical(name, build):
+    """One name for each file: the compiler's cache writes `../ir/x.h`, CMake writes paths below the build in full, too."""
+    name = name.removeprefix("${cmake_ninja_workdir}")
+    path = os.path.normpath(os.path.join(build, name))
+    return os.path.relpath(path, build) if path.startswith(build + "/") else path
+
+
 def statements(text):
     """(outputs, inputs) of each `build` statement; inputs of all three kinds: what only has to be there before counts, too,
     since programs start and load it."""
@@ -96,9 +103,12 @@ def newest(names, build, times):
 def load(build):
     """The graph of a configured folder. The headers of an object that was never compiled, or is older than a file it was
     compiled from, are not known: what it includes now may differ."""
-    made = list(statements((Path(build) / "build.ninja").read_text()))
+    build = os.path.abspath(build)
+    made = [([canonical(name, build) for name in outputs], [canonical(name, build) for name in inputs])
+            for outputs, inputs in statements((Path(build) / "build.ninja").read_text())]
     listed = subprocess.run(["ninja", "-C", build, "-t", "deps"], capture_output=True, text=True, check=True).stdout
-    headers = logged_headers(listed)
+    headers = {canonical(name, build): [canonical(header, build) for header in names]
+               for name, names in logged_headers(listed).items()}
     times, unknown = {}, []
     for outputs, inputs in made:
         if outputs[0].endswith((".o", ".pch")):

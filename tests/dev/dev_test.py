@@ -207,11 +207,11 @@ class Affected(unittest.TestCase):
 
     def test_named_paths(self):
         exists = {"examples/mill": "folder", "examples/mill/mill.pmc": "file", "tests": "folder", "tools": "folder",
-                  "examples": "folder", "docs": "folder"}.get
+                  "examples": "folder", "docs": "folder", "README.md": "file"}.get
         for text, paths in (('"examples/mill/mill.pmc"', {"examples/mill"}), ("'examples/mill'", {"examples/mill"}),
                             ('"examples/" + name', {"examples"}), ('f"examples/{name}/x"', {"examples"}),
                             ('root / "tests"', {"tests"}), ('"the tools are"', set()), ('"check examples"', {"examples"}),
-                            ('"my/tools/x"', set()), ('#include "tools/x.h"', set()), ('"docs/gone.md"', {"docs"})):
+                            ('"my/tools/x"', set()), ('#include "tools/x.h"', set()), ('"docs/gone.md"', {"docs"}), ('Path(ROOT, "README.md")', {"README.md"}), ('"OTHER.md"', set())):
             self.assertEqual(affected.named_paths(text, exists), paths, text)
 
     def test_expression(self):

@@ -18,7 +18,7 @@ PRODUCT = ("codegen/", "frontend/", "ir/", "rtlib/", "tools/")
 INCLUDED = (".h", ".hpp", ".hxx", ".def", ".inc")
 COMPILED = (".c", ".cc", ".cpp")
 TOPS = ("codegen", "debian", "docs", "examples", "frontend", "ir", "packaging", "rtlib", "tests", "tools")
-NAMED = re.compile(r"(?<![\w./-])(?:%s)(?:/[\w.+-]+)*(?=(/?))" % "|".join(TOPS))
+NAMED = re.compile(r"(?<![\w./-])(?:[A-Z]+\.md|LICENSE|(?:%s)(?:/[\w.+-]+)*)(?=(/?))" % "|".join(TOPS))
 INCLUDE = re.compile(r'^\s*#\s*include.*$', re.MULTILINE)
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"|\'((?:[^\'\\\n]|\\.)*)\'')
 
@@ -36,11 +36,15 @@ def named_paths(text, exists):
         literal = one or other
         for match in NAMED.finditer(literal):
             path = match[0]
+            if "/" not in path and exists(path) == "file":
+                found.add(path)
+                continue
             if "/" not in path and not match[1] and literal != path and path != "examples":
                 continue
             while exists(path) is None and "/" in path:  # the rest is a pattern, or made at run time
                 path = os.path.dirname(path)
-            found.add(os.path.dirname(path) if exists(path) == "file" else path)
+            if exists(path) is not None:
+                found.add(os.path.dirname(path) if exists(path) == "file" else path)
     return found
 
 

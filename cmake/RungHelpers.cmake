@@ -52,11 +52,86 @@ function(rung_add_program name)
   target_link_libraries(${name} PRIVATE ${arg_LIBS} rung_warnings)
 endfunction()
 
-# rung_add_test(NAME SOURCES file... LIBS target... [LABEL label] [WHOLE]): GoogleTest program
+# What tests need, for `./dev test`, which builds no more than that, and for `./dev test --changed`. Each test says it beside
+# its add_test(); one that does not is an error of configuring. The list is build/tests.tsv, which tools/dev/tests.py reads.
+#
+# rung_test_needs(TESTS name... [TARGETS target...] [IF_BUILT target...] [READS path...]): what is to be built before (IF_BUILT:
+# where this build has it), and which files and folders of the repository the tests read. Not to be listed: the folder of the
+# CMakeLists.txt, and what a script or the sources of a program name in full ("examples/gsk-mill"). `READS .` is any file.
+function(rung_test_needs)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "TESTS;TARGETS;IF_BUILT;READS")
+  if(arg_UNPARSED_ARGUMENTS OR NOT arg_TESTS)
+    message(FATAL_ERROR "rung_test_needs(TESTS name... [TARGETS target...] [IF_BUILT target...] [READS path...])")
+  endif()
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE folder)
+  foreach(path IN LISTS arg_READS)
+    if(NOT EXISTS "${PROJECT_SOURCE_DIR}/${path}")
+      message(FATAL_ERROR "${arg_TESTS}: there is no ${path} to read")
+    endif()
+  endforeach()
+  set(targets ${arg_TARGETS})
+  foreach(target IN LISTS arg_IF_BUILT)
+    list(APPEND targets "$<$<TARGET_EXISTS:${target}>:${target}>")
+  endforeach()
+  list(JOIN targets " " targets)
+  list(JOIN arg_READS " " reads)
+  foreach(test IN LISTS arg_TESTS)
+    if(NOT TEST ${test})
+      message(FATAL_ERROR "rung_test_needs: ${test} is not a test of this folder")
+    endif()
+    set_property(GLOBAL APPEND PROPERTY RUNG_TESTS_STATED ${test})
+    set_property(GLOBAL APPEND PROPERTY RUNG_TEST_LINES "test\t${test}\t${folder}\t${targets}\t${reads}\t")
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY RUNG_TEST_TARGETS ${arg_TARGETS})
+endfunction()
+
+# rung_test_family(NAME TARGET [LABEL label] [READS path...]): tests named NAME.*, which only the built program knows.
+function(rung_test_family name target)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "LABEL" "READS")
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE folder)
+  list(JOIN arg_READS " " reads)
+  set_property(GLOBAL APPEND PROPERTY RUNG_TEST_TARGETS ${target})
+  set_property(GLOBAL APPEND PROPERTY RUNG_TEST_LINES "family\t${name}.\t${folder}\t${target}\t${reads}\t${arg_LABEL}")
+endfunction()
+
+# Writes the list, when all folders are read.
+function(rung_write_test_needs)
+  get_property(stated GLOBAL PROPERTY RUNG_TESTS_STATED)
+  get_property(targets GLOBAL PROPERTY RUNG_TEST_TARGETS)
+  foreach(target IN LISTS targets)
+    if(NOT TARGET ${target})
+      message(FATAL_ERROR "rung_test_needs: there is no target ${target}")
+    endif()
+  endforeach()
+  set(folders "${PROJECT_SOURCE_DIR}")
+  set(silent "")
+  while(folders)
+    list(POP_FRONT folders folder)
+    get_property(below DIRECTORY "${folder}" PROPERTY SUBDIRECTORIES)
+    list(APPEND folders ${below})
+    get_property(tests DIRECTORY "${folder}" PROPERTY TESTS)
+    list(REMOVE_ITEM tests ${stated} "")
+    # gtest_discover_tests() leaves TARGET[1]_include.cmake there
+    get_property(discovered DIRECTORY "${folder}" PROPERTY TEST_INCLUDE_FILES)
+    list(TRANSFORM discovered REPLACE ".*/([A-Za-z0-9_-]+)[^/]*" "\\1")
+    list(REMOVE_ITEM discovered ${targets} "")
+    list(APPEND silent ${tests} ${discovered})
+  endwhile()
+  if(silent)
+    message(FATAL_ERROR "No rung_test_needs() (cmake/RungHelpers.cmake) says what these tests need: ${silent}")
+  endif()
+  get_property(lines GLOBAL PROPERTY RUNG_TEST_LINES)
+  list(JOIN lines "\n" lines)
+  file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/tests.tsv"
+    CONTENT "# kind\tname\tfolder\ttargets\tfiles and folders it reads\tlabel\n${lines}\n")
+endfunction()
+
+# rung_add_test(NAME SOURCES file... LIBS target... [READS path...] [LABEL label] [WHOLE]): GoogleTest program
 # build/bin/tests/rung_test_NAME. Each case is a ctest entry, or with WHOLE the program is one entry (for thousands of
-# short cases). Its main() goes to the root of the repository, so that files are found by their path in it.
+# short cases). Its main() goes to the root of the repository, so that files are found by their path in it. READS: as for
+# rung_test_needs, what the sources do not name.
 function(rung_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL" "SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL" "SOURCES;LIBS;READS")
   set(target rung_test_${name})
   set(rung_headers tests)
   rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} GTest::gmock rung_test_main)
@@ -69,7 +144,9 @@ function(rung_add_test name)
   if(arg_WHOLE)
     add_test(NAME ${name} COMMAND ${target})
     set_tests_properties(${name} PROPERTIES ${properties})
+    rung_test_needs(TESTS ${name} TARGETS ${target} READS ${arg_READS})
   else()
+    rung_test_family(${name} ${target} LABEL ${arg_LABEL} READS ${arg_READS})
     gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT ${rung_patience}
       PROPERTIES ${properties})
   endif()

@@ -822,7 +822,7 @@ class Seals(Cli):
         self.assertIn(b"7100.00 = 1", on_the_clock.stdout)
 
     def test_profile_shows_what_used_up_the_budget(self):
-        scenarios = Path(__file__).resolve().parents[1] / "scenarios/nct"
+        scenarios = Path(__file__).resolve().parents[2] / "tests/scenarios/nct"
         program = str(scenarios / "int0-timeout.lad")
         for engine in ("jit", "interp"):
             done = rungc("profile", program, "--scenario", str(scenarios / "int0-timeout.scn"), "--engine", engine, "--json")

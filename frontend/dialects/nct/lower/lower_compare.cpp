@@ -4,7 +4,6 @@
 namespace rung::nct {
 
 using ir::RungBuilder;
-using ir::Type;
 using ir::ValueId;
 
 // Exactly one of FL_GT, FL_EQ, FL_LT is 1 afterwards.

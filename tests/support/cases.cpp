@@ -84,4 +84,20 @@ void expectCases(Golden& golden, const fs::path& file, const std::function<std::
   golden.expect(file.filename().string(), text);
 }
 
+std::map<std::string, std::string> filesIn(const std::string& input) {
+  constexpr std::string_view kFile = ">>> ";
+  std::map<std::string, std::string> files;
+  std::istringstream lines(input);
+  std::string* file = nullptr;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(kFile))
+      file = &files[line.substr(kFile.size())];
+    else if (file == nullptr)
+      throw std::runtime_error("files begin with " + std::string(kFile) + "NAME: " + line);
+    else
+      *file += line + '\n';
+  }
+  return files;
+}
+
 } // namespace rung::test

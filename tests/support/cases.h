@@ -10,6 +10,7 @@
 // RUNG_UPDATE=1 writes what they become; a new case needs no more than its name and its input, after which comes `---`.
 #pragma once
 #include <functional>
+#include <map>
 #include <string>
 
 #include "tests/support/golden.h"
@@ -25,5 +26,8 @@ struct Case {
 // lack it.
 void expectCases(Golden& golden, const std::filesystem::path& file,
                  const std::function<std::string(const Case&)>& become);
+
+// Several files in an input, each after a line `>>> NAME`.
+std::map<std::string, std::string> filesIn(const std::string& input);
 
 } // namespace rung::test

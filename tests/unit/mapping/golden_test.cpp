@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 
 #include "rung/runtime.hpp"
@@ -80,18 +79,8 @@ rung_program programOfASpeed() {
   return program;
 }
 
-// Several files in a case, each after a line `>>> PATH`.
-ReadFile filesOf(const std::string& text) {
-  std::map<std::string, std::string> files;
-  std::istringstream lines(text);
-  std::string* file = nullptr;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with(">>> "))
-      file = &files[line.substr(4)];
-    else
-      *file += line + '\n';
-  }
-  return [files = std::move(files)](const std::string& path) {
+ReadFile readerOf(const std::string& text) {
+  return [files = test::filesIn(text)](const std::string& path) {
     const auto found = files.find(path);
     if (found == files.end()) throw std::runtime_error("cannot read " + path + ": No such file or directory");
     return found->second;
@@ -100,12 +89,12 @@ ReadFile filesOf(const std::string& text) {
 
 Errors inFiles(const std::string& text) {
   Errors errors;
-  loadMap("m.map", errors, filesOf(text));
+  loadMap("m.map", errors, readerOf(text));
   return withoutWordsOfTheLibrary(errors);
 }
 
 Errors inMessages(const rung_program& program, const std::string& text) {
-  const ReadFile read = filesOf(text);
+  const ReadFile read = readerOf(text);
   const Instance plc(test::adopted(program));
   Errors errors;
   defineMessages(test::faultlessMap(read("m.map")), plc.handle(), errors, read);

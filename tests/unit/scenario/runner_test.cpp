@@ -182,7 +182,7 @@ TEST_F(ScenarioRunner, AWrongEngineIsCaughtThoughTheScenarioExpectsNothing) {
   options.engines = {EngineKind::Interp, EngineKind::Jit};
   const RunResult result = runText("set 5100.00 1\nscan\n", options);
   ASSERT_FALSE(result.passed);
-  EXPECT_EQ(test::lacking(result.problems[0].message, {"interp", "jit", "5101.00"}), "");
+  EXPECT_EQ(test::lacking(result.problems[0].message, {"engines disagree: interp against jit", "5101.00"}), "");
 }
 
 struct CountersOfTheLastScan final : Observer {

@@ -1,4 +1,5 @@
-// Configuration of the axes, switches by position, quantities, and what a power-up, a fault and STOP PLC do.
+// Configuration of the axes, switches by position, quantities, and what a power-up, a fault and STOP PLC do. What is
+// said about a wrong configuration is a golden (golden_test.cpp).
 #include <gtest/gtest.h>
 
 #include "tests/unit/devices/axes_machine.h"
@@ -14,34 +15,6 @@ TEST(AxesConfiguration, TakesAttributesByTheirNames) {
   EXPECT_EQ(machine.axes.count(), 3u);
   EXPECT_EQ(machine.axes.physical(1), 12.5);
   EXPECT_EQ(machine.axes.measured(1), 0);
-}
-
-TEST(AxesConfiguration, SaysWhatIsWrong) {
-  Axes axes;
-  EXPECT_EQ(axes.configure("axis.1.Colour", "3"), "an axis has no attribute 'Colour'");
-  EXPECT_EQ(axes.configure("axis.17.Feed", "3"), "'axis.17.Feed' needs an axis from 1 to 16: axis.1.Feed");
-  EXPECT_EQ(axes.configure("axis.2.RefMethod", "7"), "'RefMethod' needs 1, 5 or 9 to 15; found '7'");
-  EXPECT_EQ(axes.configure("axis.2.RefSwitch", "3"), "'RefSwitch' needs 0 to 2; found '3'");
-  EXPECT_EQ(axes.configure("axis.2.Acceleration", "0"), "'Acceleration' needs a number above 0; found '0'");
-  EXPECT_EQ(axes.configure("axis.2.Position", "much"), "'Position' needs a number; found 'much'");
-  EXPECT_EQ(axes.configure("axes", "XYX"), "'axes' has the letter 'X' twice");
-  EXPECT_EQ(axes.configure("axes", ""), "'axes' needs 1 to 16 letters");
-  EXPECT_NE(axes.configure("spindle", "1"), "");
-  EXPECT_NE(axes.addSwitch(5, "1 5 -5"), "");
-  EXPECT_NE(axes.addSwitch(5, "1 5"), "");
-  EXPECT_NE(axes.addSwitch(5, "1 5 6 7"), "");
-  EXPECT_EQ(axes.configure("axis.2.Position", "2e9"), "'Position' needs a number of -1e9 to 1e9; found '2e9'");
-}
-
-TEST(AxesConfiguration, AxesThatDoNotExist) {
-  Axes axes;
-  EXPECT_EQ(axes.configurationProblem(), "");
-  EXPECT_EQ(axes.configure("axis.5.Feed", "5"), "");
-  EXPECT_EQ(axes.configurationProblem(), "'axis.5.Feed' is for axis 5; the axes are XYZC, 1 to 4 (config axes)");
-  EXPECT_EQ(axes.configure("axes", "XYZCA"), "");
-  EXPECT_EQ(axes.configurationProblem(), "");
-  EXPECT_EQ(axes.addSwitch(0, "6 1 2"), "");
-  EXPECT_EQ(axes.configurationProblem(), "'switch 6 1 2' is for axis 6; the axes are XYZCA, 1 to 5 (config axes)");
 }
 
 TEST(AxesConfiguration, AFaultEndsReferencesAndPositionings) {

@@ -1,4 +1,5 @@
-// PLC tables from the contents of their files and back.
+// PLC tables from the contents of their files and back. What is said about wrong contents is a golden
+// (golden_test.cpp).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,40 +30,10 @@ std::string column(std::string_view id, std::string_view value) {
   return "<Col ColID='" + std::string(id) + "'>" + std::string(value) + "</Col>";
 }
 
-TEST(PlcTablesLoad, WrongElements) {
-  EXPECT_EQ(mistakes(column("Speed", "1")), "t:3:14: the definition 'Materials' has no column 'Speed'");
-  EXPECT_EQ(mistakes(column("feed", "1")), "t:3:14: the definition 'Materials' has no column 'feed'");
-  EXPECT_EQ(mistakes(column("Feed", "1,5")), "t:3:14: column 'Feed' is '1,5', expected a number");
-  EXPECT_EQ(mistakes(column("Feed", "inf")), "t:3:14: column 'Feed' is 'inf', expected a number");
-  EXPECT_EQ(mistakes(column("Feed", "1e999")), "t:3:14: column 'Feed' is '1e999', expected a number");
-  EXPECT_EQ(mistakes(column("Count", "1.0")),
-            "t:3:14: column 'Count' is '1.0', expected an integer of -2147483648 to 4294967295");
-  EXPECT_THAT(mistakes(column("Count", "99999999999999999999")), HasSubstr("expected an integer"));
-  EXPECT_EQ(mistakes(column("Key", "012")), "t:3:14: column 'Key' is '012', expected pairs of hexadecimal digits");
-  EXPECT_EQ(mistakes(column("Key", "zz")), "t:3:14: column 'Key' is 'zz', expected pairs of hexadecimal digits");
-  EXPECT_EQ(mistakes(column("Název", "Ω")), "t:3:14: column 'Název' is 'Ω', expected characters of Windows-1250");
-  EXPECT_EQ(mistakes(column("Název", std::string(65535, 'a'))), "");
-  EXPECT_EQ(mistakes(column("Název", std::string(65536, 'a'))),
-            "t:3:14: column 'Název' has 65536 characters, expected at most 65535");
-  EXPECT_EQ(mistakes(column("Feed", "x") + "\n" + column("Count", "y")),
-            "t:3:14: column 'Feed' is 'x', expected a number\n"
-            "t:4:1: column 'Count' is 'y', expected an integer of -2147483648 to 4294967295");
-}
-
 TEST(PlcTablesLoad, ManyMistakesAreCounted) {
   std::string many;
   for (int i = 0; i < 150; ++i) many += column("C" + std::to_string(i), "1");
   EXPECT_THAT(mistakes(many), HasSubstr("\nand 50 more mistakes"));
-}
-
-TEST(PlcTablesLoad, WrongColumns) {
-  const auto mistakesOf = [](std::string_view id) {
-    TableDefinition definition{.id = "D", .columns = {{.id = std::string(id), .place = "d:3:1"}}, .place = "d:1:1"};
-    return PlcTables().load(0, definition, {.definition = "D", .place = "t:2:1"});
-  };
-  EXPECT_EQ(mistakesOf("Feed"), "");
-  EXPECT_EQ(mistakesOf("Ω"), "d:3:1: the column ID 'Ω' has characters that Windows-1250 does not have");
-  EXPECT_EQ(mistakesOf(std::string(256, 'a')), "d:3:1: the column ID has 256 characters, expected at most 255");
 }
 
 TEST(PlcTablesLoad, TheMemoryOfAllTables) {

@@ -49,4 +49,11 @@ inline std::unique_ptr<Compiled> compileLadder(const std::string& text, const fr
 
 using Codes = std::vector<std::string>;
 
+// In one text: hundreds of lists to compare with cost the compiler more than the whole rest of a test.
+inline std::string listed(const Codes& codes) {
+  std::string text;
+  for (const std::string& code : codes) text += (text.empty() ? "" : ", ") + code;
+  return text;
+}
+
 } // namespace rung::gsk::test

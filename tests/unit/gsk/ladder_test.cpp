@@ -139,80 +139,77 @@ FUNC SPE
 // ---- errors --------------------------------------------------------------------------------------------------------
 
 // Of a rung of Level 2; the drawing begins in line 4.
-Codes errorsOf(const std::string& drawing) {
-  return compileLadder("dialect gsk\nmodule LEVEL2\nrung\n" + drawing)->codes();
+std::string errorsOf(const std::string& drawing) {
+  return listed(compileLadder("dialect gsk\nmodule LEVEL2\nrung\n" + drawing)->codes());
 }
 
 TEST(GskLadderErrors, Shapes) {
-  EXPECT_EQ(errorsOf("|--[@X0.0]--(Y0.0)\n"), (Codes{"4 unsupported-element"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--(Y0.0)--[X0.1]--(Y0.1)\n"), (Codes{"4 multi-level-output"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 1}--[X0.1]--(Y0.1)\n"), (Codes{"4 multi-level-output"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--+--(Y0.0)\n           +--[X0.1]--(Y0.1)\n"), (Codes{"5 multi-level-output"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{MOVB D0 D1}--(Y0.1)\n"), (Codes{"4 element-after-closing"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 1}\n"), (Codes{"4 missing-output"}));
-  EXPECT_EQ(errorsOf("|--(Y0.0)\n"), (Codes{"4 missing-condition"}));
-  EXPECT_EQ(errorsOf("|--{MOVB D0 D1}\n"), (Codes{"4 missing-condition"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n|----------{ACT             }\n"),
-            (Codes{"5 missing-condition"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--[X0.1]\n"), (Codes{"4 missing-closing-element"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{END1}\n"), (Codes{"4 unsupported-element"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{NOPE 1}\n"), (Codes{"4 unknown-function"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{COME}\n"), (Codes{"4 first-column-required"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{LBL L1}\nrung\n|--[X0.0]--{JMPB L1}\n"), (Codes{"4 condition-ignored"}));
+  EXPECT_EQ(errorsOf("|--[@X0.0]--(Y0.0)\n"), "4 unsupported-element");
+  EXPECT_EQ(errorsOf("|--[X0.0]--(Y0.0)--[X0.1]--(Y0.1)\n"), "4 multi-level-output");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 1}--[X0.1]--(Y0.1)\n"), "4 multi-level-output");
+  EXPECT_EQ(errorsOf("|--[X0.0]--+--(Y0.0)\n           +--[X0.1]--(Y0.1)\n"), "5 multi-level-output");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{MOVB D0 D1}--(Y0.1)\n"), "4 element-after-closing");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 1}\n"), "4 missing-output");
+  EXPECT_EQ(errorsOf("|--(Y0.0)\n"), "4 missing-condition");
+  EXPECT_EQ(errorsOf("|--{MOVB D0 D1}\n"), "4 missing-condition");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n|----------{ACT             }\n"), "5 missing-condition");
+  EXPECT_EQ(errorsOf("|--[X0.0]--[X0.1]\n"), "4 missing-closing-element");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{END1}\n"), "4 unsupported-element");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{NOPE 1}\n"), "4 unknown-function");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{COME}\n"), "4 first-column-required");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{LBL L1}\nrung\n|--[X0.0]--{JMPB L1}\n"), "4 condition-ignored");
 }
 
 TEST(GskLadderErrors, Bridge) {
   EXPECT_EQ(errorsOf("|--[X0.0]--+--[X0.1]------------+--(Y0.0)\n"
                      "           +--[X0.2]--+         |\n"
                      "|--[X0.3]-------------+--[X0.4]-+\n"),
-            (Codes{"4 not-series-parallel"}));
+            "4 not-series-parallel");
 }
 
 TEST(GskLadderErrors, Pins) {
-  EXPECT_EQ(errorsOf("|--[R0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n"), (Codes{"4 missing-pin"}));
-  EXPECT_EQ(errorsOf("|--[R0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n|--[R0.1]--{RST             }\n"),
-            (Codes{"5 unknown-pin"}));
+  EXPECT_EQ(errorsOf("|--[R0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n"), "4 missing-pin");
+  EXPECT_EQ(errorsOf("|--[R0.0]--{ADDB 1 D10 1 D10}--(R10.0)\n|--[R0.1]--{RST             }\n"), "5 unknown-pin");
 }
 
 TEST(GskLadderErrors, Operands) {
-  EXPECT_EQ(errorsOf("|--[X128.0]--[X0.9]--(X0.0)\n"),
-            (Codes{"4 address-out-of-range", "4 bad-bit-number", "4 write-to-input"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 101}--(Y0.0)\n"), (Codes{"4 parameter-out-of-range"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR}--(Y0.0)\n"), (Codes{"4 wrong-parameter-count"}));
+  EXPECT_EQ(errorsOf("|--[X128.0]--[X0.9]--(X0.0)\n"), "4 address-out-of-range, 4 bad-bit-number, 4 write-to-input");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 101}--(Y0.0)\n"), "4 parameter-out-of-range");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR}--(Y0.0)\n"), "4 wrong-parameter-count");
 }
 
 TEST(GskLadderErrors, Modules) {
-  const auto codes = [](const std::string& text) { return compileLadder("dialect gsk\n" + text)->codes(); };
+  const auto codes = [](const std::string& text) { return listed(compileLadder("dialect gsk\n" + text)->codes()); };
   const std::string rung = "rung\n|--[X0.0]--(Y0.0)\n";
-  EXPECT_EQ(codes("module LEVEL1\nrung\n|--[X0.0]--(Y0.1)\nmodule LEVEL2\n" + rung), Codes{});
-  EXPECT_EQ(codes("module LEVEL2\n" + rung), Codes{}) << "Level 1 may be missing";
-  EXPECT_EQ(codes("module LEVEL2\n" + rung + "module LEVEL2\n" + rung), (Codes{"5 duplicate-module"}));
-  EXPECT_EQ(codes("module MAIN\n" + rung), (Codes{"2 malformed-statement"}));
-  EXPECT_EQ(codes("module SUB P513\n" + rung), (Codes{"2 parameter-out-of-range"}));
-  EXPECT_EQ(codes("module SUB 5\n" + rung), (Codes{"2 bad-operand"}));
-  EXPECT_EQ(codes("module LEVEL2\n" + rung + "module SUB P5\n" + rung), (Codes{"5 subprogram-unused"}));
+  EXPECT_EQ(codes("module LEVEL1\nrung\n|--[X0.0]--(Y0.1)\nmodule LEVEL2\n" + rung), "");
+  EXPECT_EQ(codes("module LEVEL2\n" + rung), "") << "Level 1 may be missing";
+  EXPECT_EQ(codes("module LEVEL2\n" + rung + "module LEVEL2\n" + rung), "5 duplicate-module");
+  EXPECT_EQ(codes("module MAIN\n" + rung), "2 malformed-statement");
+  EXPECT_EQ(codes("module SUB P513\n" + rung), "2 parameter-out-of-range");
+  EXPECT_EQ(codes("module SUB 5\n" + rung), "2 bad-operand");
+  EXPECT_EQ(codes("module LEVEL2\n" + rung + "module SUB P5\n" + rung), "5 subprogram-unused");
   EXPECT_EQ(codes("module LEVEL2\nrung\n|--{CALLU P5}\nmodule SUB P5\n" + rung + "module SUB P5\n" + rung),
-            (Codes{"8 duplicate-subprogram"}));
-  EXPECT_EQ(codes("const LIMIT 50\nmodule LEVEL2\nrung\n|--[X0.0]--{NUMEB 1 LIMIT D0}\n"), Codes{});
-  EXPECT_EQ(codes("message 1 \"x\"\nmodule LEVEL2\n" + rung), (Codes{"2 unsupported-element"}));
-  EXPECT_EQ(compileLadder("dialect nct\nmodule LEVEL2\n" + rung)->codes(), (Codes{"1 dialect-conflict"}));
+            "8 duplicate-subprogram");
+  EXPECT_EQ(codes("const LIMIT 50\nmodule LEVEL2\nrung\n|--[X0.0]--{NUMEB 1 LIMIT D0}\n"), "");
+  EXPECT_EQ(codes("message 1 \"x\"\nmodule LEVEL2\n" + rung), "2 unsupported-element");
+  EXPECT_EQ(listed(compileLadder("dialect nct\nmodule LEVEL2\n" + rung)->codes()), "1 dialect-conflict");
 }
 
 TEST(GskLadderErrors, ProgramSize) {
   const auto codes = [](int rungs, const std::string& rest) {
     std::string text = "dialect gsk\nmodule LEVEL2\n"; // two steps: END1, END2
     for (int i = 0; i < rungs; ++i) text += "rung\n|--[X0.0]--(R9.0)\n";
-    return compileLadder(text + rest)->codes();
+    return listed(compileLadder(text + rest)->codes());
   };
-  EXPECT_EQ(codes(5999, ""), Codes{}) << "12000 steps";
-  EXPECT_EQ(codes(5999, "rung\n|--{LBL L1}\n"), (Codes{"12002 program-too-large", "12002 label-unused"}));
+  EXPECT_EQ(codes(5999, ""), "") << "12000 steps";
+  EXPECT_EQ(codes(5999, "rung\n|--{LBL L1}\n"), "12002 program-too-large, 12002 label-unused");
   const std::string sub = "rung\n|--{CALLU P1}\nmodule SUB P1\n"; // five steps
-  EXPECT_EQ(codes(5996, sub), Codes{}) << "11999 steps";
-  EXPECT_EQ(codes(5997, sub), (Codes{"11999 program-too-large"})) << "12001 steps; SPE is one too many";
+  EXPECT_EQ(codes(5996, sub), "") << "11999 steps";
+  EXPECT_EQ(codes(5997, sub), "11999 program-too-large") << "12001 steps; SPE is one too many";
   const std::string condition = "; condition: LD X0.0\n";
-  EXPECT_EQ(codes(5996, sub + condition), (Codes{"11998 condition-ignored"})) << "12000 steps";
+  EXPECT_EQ(codes(5996, sub + condition), "11998 condition-ignored") << "12000 steps";
   EXPECT_EQ(codes(5996, sub + condition + "; condition: AND X0.0\n"),
-            (Codes{"11997 program-too-large", "11998 condition-ignored"}))
+            "11997 program-too-large, 11998 condition-ignored")
       << "12001 steps; SPE, counted last, is one too many";
 }
 
@@ -222,22 +219,22 @@ TEST(GskLadderErrors, ConditionBeforeSp) {
     return compileLadder("dialect gsk\nmodule LEVEL2\nrung\n|--{CALLU P1}\nmodule SUB P1\n" + comments +
                          "rung\n|--[X0.0]--(Y0.0)\n");
   };
-  const auto codes = [&](const std::string& comments) { return compiled(comments)->codes(); };
+  const auto codes = [&](const std::string& comments) { return listed(compiled(comments)->codes()); };
   const std::string load = "; condition: LD X0.0\n";
-  const Codes ignored{"6 condition-ignored"};
+  const std::string ignored = "6 condition-ignored";
   EXPECT_EQ(codes(load), ignored);
   EXPECT_EQ(codes(load + "; condition: ANI MF\n"), ignored) << "a signal";
   EXPECT_EQ(codes(load + load + "; condition: ORB\n; a title\n"), ignored);
-  EXPECT_EQ(codes("\n" + load), Codes{}) << "not directly";
-  EXPECT_EQ(codes("; condition: OR X0.0\n"), Codes{}) << "nothing to join";
-  EXPECT_EQ(codes(load + load), Codes{}) << "two values";
-  EXPECT_EQ(codes("; condition: LD X0.9\n"), Codes{}) << "not a bit";
+  EXPECT_EQ(codes("\n" + load), "") << "not directly";
+  EXPECT_EQ(codes("; condition: OR X0.0\n"), "") << "nothing to join";
+  EXPECT_EQ(codes(load + load), "") << "two values";
+  EXPECT_EQ(codes("; condition: LD X0.9\n"), "") << "not a bit";
   std::string deep = load;
   for (int i = 0; i < 8; ++i) deep += load;
   std::string joined;
   for (int i = 0; i < 8; ++i) joined += "; condition: ORB\n";
   EXPECT_EQ(codes(deep + joined), ignored) << "nine values";
-  EXPECT_EQ(codes(load + deep + joined + "; condition: ORB\n"), Codes{}) << "ten values";
+  EXPECT_EQ(codes(load + deep + joined + "; condition: ORB\n"), "") << "ten values";
   const auto titleOf = [&](const std::string& comments) {
     return compiled(comments)->module->routines.back().rungs.front().title;
   };
@@ -247,16 +244,16 @@ TEST(GskLadderErrors, ConditionBeforeSp) {
 }
 
 TEST(GskLadderErrors, LostRungsCauseNoFurtherErrors) {
-  EXPECT_EQ(compileLadder("dialect gsk\nmodule LEVEL2\nrung\n|--[X0.0]--{JMP 0\nrung\n|--{JMPE}\n")->codes(),
-            (Codes{"4 unclosed-element"}));
+  EXPECT_EQ(listed(compileLadder("dialect gsk\nmodule LEVEL2\nrung\n|--[X0.0]--{JMP 0\nrung\n|--{JMPE}\n")->codes()),
+            "4 unclosed-element");
 }
 
 TEST(GskLadderErrors, OperandsOfALostRungAreChecked) {
-  EXPECT_EQ(errorsOf("|--[X0.9]--{MOVB D0 D5000\n"), (Codes{"4 bad-bit-number", "4 unclosed-element"}));
+  EXPECT_EQ(errorsOf("|--[X0.9]--{MOVB D0 D5000\n"), "4 bad-bit-number, 4 unclosed-element");
   EXPECT_EQ(errorsOf("|--[X0.9]--+--(Y0.0)\n           +--[X0.1]--{MOVB D0 D5000}\n"),
-            (Codes{"4 bad-bit-number", "4 multi-level-output", "5 address-out-of-range"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 101}---\n"), (Codes{"4 parameter-out-of-range", "4 missing-closing-element"}));
-  EXPECT_EQ(errorsOf("|--[X0.0]--{NOPE 1}---\n"), (Codes{"4 unknown-function", "4 missing-closing-element"}));
+            "4 bad-bit-number, 4 multi-level-output, 5 address-out-of-range");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{TMR 101}---\n"), "4 parameter-out-of-range, 4 missing-closing-element");
+  EXPECT_EQ(errorsOf("|--[X0.0]--{NOPE 1}---\n"), "4 unknown-function, 4 missing-closing-element");
 }
 
 } // namespace

@@ -1,17 +1,15 @@
 // First mapping files: they name what a program uses, and have no mistakes.
 #include "tools/map-template/template.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/adopted_image.h"
+#include "tests/support/words.h"
 #include "tests/unit/mapping/test_program.h"
 #include "tools/mapping/binding.h"
 
 namespace rung::mapping {
 namespace {
-
-using ::testing::IsEmpty;
 
 std::string templateOf(const rung_program& program, const std::vector<map_template::UsedName>& used) {
   const Instance instance(test::adopted(program));
@@ -19,7 +17,7 @@ std::string templateOf(const rung_program& program, const std::vector<map_templa
   std::vector<std::string> errors;
   const File map = parseMap(text, "t.map", errors);
   bindMap(map, instance.handle(), program, errors);
-  EXPECT_THAT(errors, IsEmpty());
+  EXPECT_EQ(test::joined(errors), "");
   return text;
 }
 

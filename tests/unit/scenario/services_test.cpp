@@ -1,9 +1,11 @@
-// Requests to services by the names of their arguments, reals, names of quantities and operand blocks.
+// Requests to services by the names of their arguments, reals and names of quantities. What is said about a wrong key
+// is a golden (golden_test.cpp).
 #include <gtest/gtest.h>
 
 #include <bit>
 
 #include "rtlib/nc/nct/scope_symbols.h"
+#include "tests/support/words.h"
 #include "tools/scenario/services.h"
 
 namespace rung::scenario {
@@ -55,17 +57,6 @@ TEST(ScenarioServices, DataCompareModuloTheLength) {
   EXPECT_EQ(difference("data=-2"), "");
 }
 
-TEST(ScenarioServices, KeysAreThoseOfTheService) {
-  const ServiceSignature windr("windr function length -> end data");
-  const Statement good = statement("prepare windr function=1 LENGTH=2 -> end=0 error=1");
-  EXPECT_EQ(keyProblem(windr, good.keys, good.results), "");
-  const Statement argument = statement("prepare windr data=1 -> end=0");
-  EXPECT_EQ(keyProblem(windr, argument.keys, argument.results),
-            "windr has no argument 'data': it has function, length");
-  const Statement result = statement("prepare windr function=1 -> function=1");
-  EXPECT_EQ(keyProblem(windr, result.keys, result.results), "windr has no result 'function': it has end, data, error");
-}
-
 TEST(ScenarioServices, RealsTravelAsTheirBits) {
   const ServiceSignature macw("MACW variable channel value:f ->");
   rt::ServiceRequest request;
@@ -105,25 +96,7 @@ TEST(ScenarioServices, QuantitiesOfScpGoByTheirNames) {
   };
   EXPECT_EQ(difference("symbol=ActPosAx p1=2 p2=0"), "");
   EXPECT_EQ(difference("symbol=ComPosAx"), "SCP: symbol is ActPosAx, expected ComPosAx");
-  EXPECT_EQ(difference("symbol=Position"), "'Position' is not a symbol of SCP");
-  const Statement prepared = statement("prepare SCP symbol=Position -> value=1");
-  EXPECT_EQ(keyProblem(scp, prepared.keys, prepared.results), "'Position' is not a symbol of SCP");
-}
-
-TEST(ScenarioServices, WordsOfBlocksAreKeys) {
-  const ServiceSignature mr("MR function address block -> code");
-  const auto problem = [&](const char* line) {
-    const Statement prepare = statement(line);
-    return keyProblem(mr, prepare.keys, prepare.results);
-  };
-  EXPECT_EQ(problem("prepare MR function=10 address=7000 w1=3 D2=1.5 -> code=0 w4=7 d5=2"), "");
-  EXPECT_EQ(problem("prepare MR w0=3 -> code=0"), "MR has no argument 'w0': it has function, address, wN, dN");
-  EXPECT_EQ(problem("prepare MR w1=3 -> w512=0"), "MR has no result 'w512': it has code, wN, dN, error");
-  EXPECT_EQ(problem("prepare MR d511=3 -> code=0"), "MR has no argument 'd511': it has function, address, wN, dN");
-  EXPECT_EQ(problem("prepare MR w1=3 -> w4=1.5"), "w4 is one word: expected an integer, not 1.5");
-  const ServiceSignature macr("MACR variable channel -> value:f");
-  const Statement noBlock = statement("prepare MACR w4=1 -> value=1");
-  EXPECT_EQ(keyProblem(macr, noBlock.keys, noBlock.results), "MACR has no argument 'w4': it has variable, channel");
+  EXPECT_EQ(test::lacking(difference("symbol=Position"), {"'Position'", "SCP"}), "");
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <unistd.h>
 
+#include "tests/support/words.h"
 #include "tools/compiler/compile.h"
 #include "tools/compiler/engines.h"
 #include "tools/scenario/trace.h"
@@ -101,8 +102,9 @@ TEST_F(ScenarioTrace, NamesByDefaultAreWhatRungsUse) {
 }
 
 TEST_F(ScenarioTrace, RefusesWhatItCannotTrace) {
-  EXPECT_EQ(Trace::nameProblem({"COUNT", "PUMPE"}, session_.instance(), session_.nc()),
-            "'PUMPE' is not a name of this program; did you mean PUMP?");
+  EXPECT_EQ(
+      test::lacking(Trace::nameProblem({"COUNT", "PUMPE"}, session_.instance(), session_.nc()), {"'PUMPE'", "PUMP?"}),
+      "");
   EXPECT_EQ(Trace::nameProblem({"COUNT", "5100.03"}, session_.instance(), session_.nc()), "");
   EXPECT_THAT(traceFileProblem("t.xls"), HasSubstr("must end in .vcd or .csv"));
   EXPECT_EQ(traceFileProblem("t.vcd"), "");

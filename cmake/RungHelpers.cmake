@@ -1,5 +1,4 @@
 # The few functions by which every folder declares its targets.
-include(GoogleTest)
 
 # Adds the given folders, each of which has a CMakeLists.txt; one that is not there is an error.
 macro(rung_add_subdirectories)
@@ -48,30 +47,42 @@ function(rung_add_program name)
   target_link_libraries(${name} PRIVATE ${arg_LIBS} rung_warnings)
 endfunction()
 
-# rung_add_test(NAME SOURCES file... LIBS target... [LABEL label] [TIMEOUT seconds] [WHOLE]): GoogleTest program
-# build/bin/tests/rung_test_NAME. Each case is a ctest entry, or with WHOLE the program is one entry (for thousands of
-# short cases). Tests run in the root of the repository, so that files are found by their path in it.
+# rung_add_test(NAME [FOLDERS folder...] [SOURCES file...] LIBS target... [LABEL label] [TIMEOUT seconds]): GoogleTest
+# program build/bin/tests/rung_test_NAME of every *_test.cpp in the folders, and of the sources. Each of its suites is an
+# entry NAME.SUITE of ctest (suites.cmake). Tests run in the root of the repository, so that files are found by their path
+# in it.
 function(rung_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL;TIMEOUT" "SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "FOLDERS;SOURCES;LIBS")
+  foreach(folder IN LISTS arg_FOLDERS)
+    file(GLOB tests CONFIGURE_DEPENDS ${folder}/*_test.cpp)
+    if(NOT tests)
+      message(FATAL_ERROR "${folder} has no *_test.cpp")
+    endif()
+    list(APPEND arg_SOURCES ${tests})
+  endforeach()
   set(target rung_test_${name})
   set(rung_headers tests)
-  rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} GTest::gmock GTest::gtest_main)
-  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin/tests")
+  rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} rung_test_main GTest::gmock)
+  target_compile_options(${target} PRIVATE ${rung_test_options})
+  set(folder "${PROJECT_BINARY_DIR}/bin/tests")
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${folder}")
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 300)
+    set(arg_TIMEOUT 600)
   endif()
   set(properties TIMEOUT ${arg_TIMEOUT})
   if(arg_LABEL)
     list(APPEND properties LABELS ${arg_LABEL})
     set_property(GLOBAL APPEND PROPERTY RUNG_TESTS_OF_${arg_LABEL} ${target})
   endif()
-  if(arg_WHOLE)
-    add_test(NAME ${name} COMMAND ${target} WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
-    set_tests_properties(${name} PROPERTIES ${properties})
-  else()
-    gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-      WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" PROPERTIES ${properties})
-  endif()
+  file(CONFIGURE OUTPUT "${target}.cmake" @ONLY CONTENT [[
+set(name "@name@")
+set(program "@folder@/@target@")
+set(emulator "@CMAKE_CROSSCOMPILING_EMULATOR@")
+set(root "@PROJECT_SOURCE_DIR@")
+set(properties "@properties@")
+include("@PROJECT_SOURCE_DIR@/cmake/suites.cmake")
+]])
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${CMAKE_CURRENT_BINARY_DIR}/${target}.cmake")
 endfunction()
 
 # rung_add_fuzzer(NAME SOURCES file... LIBS target...): libFuzzer program build/bin/fuzz/rung_fuzz_NAME.

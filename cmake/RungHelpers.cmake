@@ -47,12 +47,12 @@ function(rung_add_program name)
   target_link_libraries(${name} PRIVATE ${arg_LIBS} rung_warnings)
 endfunction()
 
-# rung_add_test(NAME [FOLDERS folder...] [SOURCES file...] LIBS target... [LABEL label] [TIMEOUT seconds]): GoogleTest
-# program build/bin/tests/rung_test_NAME of every *_test.cpp in the folders, and of the sources. Each of its suites is an
-# entry NAME.SUITE of ctest (suites.cmake). Tests run in the root of the repository, so that files are found by their path
-# in it.
+# rung_add_test(NAME [FOLDERS folder...] [SOURCES file...] LIBS target... [LABEL label] [TIMEOUT seconds] [OPTIMISED]):
+# GoogleTest program build/bin/tests/rung_test_NAME of every *_test.cpp in the folders, and of the sources. Each of its
+# suites is an entry NAME.SUITE of ctest (suites.cmake). Tests run in the root of the repository, so that files are found by
+# their path in it.
 function(rung_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "FOLDERS;SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "OPTIMISED" "LABEL;TIMEOUT" "FOLDERS;SOURCES;LIBS")
   foreach(folder IN LISTS arg_FOLDERS)
     file(GLOB tests CONFIGURE_DEPENDS ${folder}/*_test.cpp)
     if(NOT tests)
@@ -62,8 +62,13 @@ function(rung_add_test name)
   endforeach()
   set(target rung_test_${name})
   set(rung_headers tests)
+  if(NOT arg_OPTIMISED)
+    set(rung_headers tests_not_optimised)
+  endif()
   rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} rung_test_main GTest::gmock)
-  target_compile_options(${target} PRIVATE ${rung_test_options})
+  if(NOT arg_OPTIMISED)
+    target_compile_options(${target} PRIVATE ${rung_not_optimised})
+  endif()
   set(folder "${PROJECT_BINARY_DIR}/bin/tests")
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${folder}")
   if(NOT arg_TIMEOUT)

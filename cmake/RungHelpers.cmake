@@ -47,12 +47,12 @@ function(rung_add_program name)
   target_link_libraries(${name} PRIVATE ${arg_LIBS} rung_warnings)
 endfunction()
 
-# rung_add_test(NAME [FOLDERS folder...] [SOURCES file...] LIBS target... [LABEL label] [TIMEOUT seconds] [OPTIMISED]):
+# rung_add_test(NAME [FOLDERS folder...] [SOURCES file...] LIBS target... [LABEL label] [TIMEOUT seconds] [LONG]):
 # GoogleTest program build/bin/tests/rung_test_NAME of every *_test.cpp in the folders, and of the sources. Each of its
 # suites is an entry NAME.SUITE of ctest (suites.cmake). Tests run in the root of the repository, so that files are found by
-# their path in it.
+# their path in it. LONG: it runs long, so it is optimised and started before others.
 function(rung_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "OPTIMISED" "LABEL;TIMEOUT" "FOLDERS;SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LONG" "LABEL;TIMEOUT" "FOLDERS;SOURCES;LIBS")
   foreach(folder IN LISTS arg_FOLDERS)
     file(GLOB tests CONFIGURE_DEPENDS ${folder}/*_test.cpp)
     if(NOT tests)
@@ -62,19 +62,21 @@ function(rung_add_test name)
   endforeach()
   set(target rung_test_${name})
   set(rung_headers tests)
-  if(NOT arg_OPTIMISED)
+  if(NOT arg_LONG)
     set(rung_headers tests_not_optimised)
   endif()
   rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} rung_test_main GTest::gmock)
-  if(NOT arg_OPTIMISED)
-    target_compile_options(${target} PRIVATE ${rung_not_optimised})
-  endif()
   set(folder "${PROJECT_BINARY_DIR}/bin/tests")
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${folder}")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 600)
   endif()
   set(properties TIMEOUT ${arg_TIMEOUT})
+  if(arg_LONG)
+    list(APPEND properties COST 60) # seconds, as ctest measures those of others
+  else()
+    target_compile_options(${target} PRIVATE ${rung_not_optimised})
+  endif()
   if(arg_LABEL)
     list(APPEND properties LABELS ${arg_LABEL})
     set_property(GLOBAL APPEND PROPERTY RUNG_TESTS_OF_${arg_LABEL} ${target})

@@ -1,5 +1,5 @@
-// See count_allocations.h. Through the sanitizer's hooks where one owns the allocator, else by taking the place of all of
-// malloc's entries in the C library.
+// See count_allocations.h. Through the sanitizer's hooks where one owns the allocator, else by taking the place of all
+// of malloc's entries in the C library.
 #include "tests/support/count_allocations.h"
 
 #include <cerrno>

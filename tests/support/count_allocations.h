@@ -1,5 +1,5 @@
-// What a thread asks of the heap, releases too, in a program that has rung_count_allocations among its libraries. Nothing
-// is counted but what is between begin and end, so that such a program has other tests as well.
+// What a thread asks of the heap, releases too, in a program that has rung_count_allocations among its libraries.
+// Nothing is counted but what is between begin and end, so that such a program has other tests as well.
 #pragma once
 
 namespace rung::test {

@@ -1,5 +1,4 @@
 # The few functions by which every folder declares its targets.
-include(GoogleTest)
 
 # Seconds until a test counts as one that never ends, also on a busy machine and with a sanitizer; what a test waits for has
 # limits of its own.
@@ -126,30 +125,47 @@ function(rung_write_test_needs)
     CONTENT "# kind\tname\tfolder\ttargets\tfiles and folders it reads\tlabel\n${lines}\n")
 endfunction()
 
-# rung_add_test(NAME SOURCES file... LIBS target... [READS path...] [LABEL label] [WHOLE]): GoogleTest program
-# build/bin/tests/rung_test_NAME. Each case is a ctest entry, or with WHOLE the program is one entry (for thousands of
-# short cases). Its main() goes to the root of the repository, so that files are found by their path in it. READS: as for
-# rung_test_needs, what the sources do not name.
+# rung_add_test(NAME [FOLDERS folder...] [SOURCES file...] LIBS target... [READS path...] [LABEL label] [LONG]): GoogleTest
+# program build/bin/tests/rung_test_NAME of every *_test.cpp in the folders, and of the sources. Each of its suites is an
+# entry NAME.SUITE of ctest (suites.cmake). Its main() goes to the root of the repository, so that files are found by their
+# path in it. READS: as for rung_test_needs, what the sources do not name. LONG: it runs long, so it is optimised and
+# started before others.
 function(rung_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL" "SOURCES;LIBS;READS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LONG" "LABEL" "FOLDERS;SOURCES;LIBS;READS")
+  foreach(folder IN LISTS arg_FOLDERS)
+    file(GLOB tests CONFIGURE_DEPENDS ${folder}/*_test.cpp)
+    if(NOT tests)
+      message(FATAL_ERROR "${folder} has no *_test.cpp")
+    endif()
+    list(APPEND arg_SOURCES ${tests})
+  endforeach()
   set(target rung_test_${name})
   set(rung_headers tests)
-  rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} GTest::gmock rung_test_main)
-  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin/tests")
+  if(NOT arg_LONG)
+    set(rung_headers tests_not_optimised)
+  endif()
+  rung_add_program(${target} SOURCES ${arg_SOURCES} LIBS ${arg_LIBS} rung_test_main GTest::gmock)
+  set(folder "${PROJECT_BINARY_DIR}/bin/tests")
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${folder}")
   set(properties TIMEOUT ${rung_patience})
+  if(arg_LONG)
+    list(APPEND properties COST 60) # seconds, as ctest measures those of others
+  else()
+    target_compile_options(${target} PRIVATE ${rung_not_optimised})
+  endif()
   if(arg_LABEL)
     list(APPEND properties LABELS ${arg_LABEL})
     set_property(GLOBAL APPEND PROPERTY RUNG_TESTS_OF_${arg_LABEL} ${target})
   endif()
-  if(arg_WHOLE)
-    add_test(NAME ${name} COMMAND ${target})
-    set_tests_properties(${name} PROPERTIES ${properties})
-    rung_test_needs(TESTS ${name} TARGETS ${target} READS ${arg_READS})
-  else()
-    rung_test_family(${name} ${target} LABEL ${arg_LABEL} READS ${arg_READS})
-    gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT ${rung_patience}
-      PROPERTIES ${properties})
-  endif()
+  file(CONFIGURE OUTPUT "${target}.cmake" @ONLY CONTENT [[
+set(name "@name@")
+set(program "@folder@/@target@")
+set(emulator "@CMAKE_CROSSCOMPILING_EMULATOR@")
+set(properties "@properties@")
+include("@PROJECT_SOURCE_DIR@/cmake/suites.cmake")
+]])
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${CMAKE_CURRENT_BINARY_DIR}/${target}.cmake")
+  rung_test_family(${name} ${target} LABEL ${arg_LABEL} READS ${arg_READS})
 endfunction()
 
 # rung_add_fuzzer(NAME SOURCES file... LIBS target...): libFuzzer program build/bin/fuzz/rung_fuzz_NAME.

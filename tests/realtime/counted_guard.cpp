@@ -14,24 +14,26 @@ namespace rung::test {
 
 struct Guard::State {
   SystemCallTrap trap;
+  int allocationsBefore = countedAllocations();
 };
 
-Guard::Guard() : state_(std::make_unique<State>()) { allocations = 0; }
+Guard::Guard() : state_(std::make_unique<State>()) {}
 Guard::~Guard() = default;
 
 void Guard::enter() {
-  counting = true;
+  beginCountingAllocations();
   state_->trap.enter();
 }
 
 void Guard::exit() {
   state_->trap.exit();
-  counting = false;
+  endCountingAllocations();
 }
 
 std::string Guard::offences() const {
   std::string text;
-  if (allocations > 0) text += std::to_string(allocations) + " calls of the heap ";
+  if (const int calls = countedAllocations() - state_->allocationsBefore; calls > 0)
+    text += std::to_string(calls) + " calls of the heap ";
   if (const int calls = state_->trap.count(); calls > 0)
     text += std::to_string(calls) + " system calls, the last of number " + std::to_string(state_->trap.last());
   return text;

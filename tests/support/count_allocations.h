@@ -1,101 +1,22 @@
-// Counts what a thread asks of the heap, releases too: through the sanitizer's hooks where one owns the allocator, else
-// by taking the place of all of malloc's entries in the C library. For one source of a test program: it defines malloc.
+// What a thread asks of the heap, releases too, in a program that has rung_count_allocations among its libraries.
+// Nothing is counted but what is between begin and end, so that such a program has other tests as well.
 #pragma once
-#include <cerrno>
-#include <cstdlib>
 
-#include "tests/support/sanitized.h"
+namespace rung::test {
 
-namespace {
-
-// Volatile, as compilers assume that malloc reads no variable of the program.
-thread_local volatile bool counting = false;
-thread_local volatile int allocations = 0; // and releases
-
-void countOne() {
-  if (counting) allocations = allocations + 1;
-}
-
-} // namespace
-
-#ifdef RUNG_TEST_SANITIZED
-#include <sanitizer/allocator_interface.h>
-
-namespace {
-const int hooksInstalled = __sanitizer_install_malloc_and_free_hooks([](const volatile void*, size_t) { countOne(); },
-                                                                     [](const volatile void*) { countOne(); });
-} // namespace
-#else
-// Taking the place of malloc is what this header is for, by the C library's names.
-// NOLINTBEGIN(bugprone-reserved-identifier,misc-definitions-in-headers,readability-identifier-naming)
-extern "C" {
-void* __libc_malloc(size_t size);
-void* __libc_calloc(size_t count, size_t size);
-void* __libc_realloc(void* old, size_t size);
-void* __libc_memalign(size_t alignment, size_t size);
-void* __libc_valloc(size_t size);
-void* __libc_pvalloc(size_t size);
-void __libc_free(void* block);
-
-void* malloc(size_t size) {
-  countOne();
-  return __libc_malloc(size);
-}
-void* calloc(size_t count, size_t size) {
-  countOne();
-  return __libc_calloc(count, size);
-}
-void* realloc(void* old, size_t size) {
-  countOne();
-  return __libc_realloc(old, size);
-}
-void* reallocarray(void* old, size_t count, size_t size) {
-  countOne();
-  size_t bytes = 0;
-  if (!__builtin_mul_overflow(count, size, &bytes)) return __libc_realloc(old, bytes);
-  errno = ENOMEM;
-  return nullptr;
-}
-void* memalign(size_t alignment, size_t size) {
-  countOne();
-  return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(size_t alignment, size_t size) {
-  countOne();
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** block, size_t alignment, size_t size) {
-  countOne();
-  void* const made = __libc_memalign(alignment, size);
-  if (made == nullptr) return ENOMEM;
-  *block = made;
-  return 0;
-}
-void* valloc(size_t size) {
-  countOne();
-  return __libc_valloc(size);
-}
-void* pvalloc(size_t size) {
-  countOne();
-  return __libc_pvalloc(size);
-}
-void free(void* block) {
-  if (block != nullptr) countOne();
-  __libc_free(block);
-}
-}
-// NOLINTEND(bugprone-reserved-identifier,misc-definitions-in-headers,readability-identifier-naming)
-#endif
-
-namespace {
+// Of the thread that calls them; they do not nest.
+void beginCountingAllocations();
+void endCountingAllocations();
+// All that has been counted so far.
+int countedAllocations();
 
 template <class F>
 int allocationsOf(F&& work) {
-  allocations = 0;
-  counting = true;
+  const int before = countedAllocations();
+  beginCountingAllocations();
   work();
-  counting = false;
-  return allocations;
+  endCountingAllocations();
+  return countedAllocations() - before;
 }
 
-} // namespace
+} // namespace rung::test

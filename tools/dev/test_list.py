@@ -12,9 +12,7 @@ BY_EXPRESSION = {
     "-L": "label", "--label-regex": "label", "-LE": "not label", "--label-exclude": "not label",
 }
 OTHERS = ("-I", "--tests-information", "-U", "--union", "--rerun-failed", "--tests-from-file", "--exclude-from-file")
-CASE = re.compile(r"^[ \t]*(?:TEST|TEST_F|TYPED_TEST)\s*\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
-CASE_OF_VALUES = re.compile(r"^[ \t]*(?:TEST_P|TYPED_TEST_P)\s*\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
-INSTANCE = re.compile(r"INSTANTIATE_\w*TEST_SUITE_P\s*\(\s*(\w*)\s*,\s*(\w+)")
+SUITE = re.compile(r"^[ \t]*(?:TEST|TEST_F|TEST_P|TYPED_TEST|TYPED_TEST_P)\s*\(\s*(\w+)\s*,", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -29,7 +27,7 @@ class Entry:
 
     def listed_when_missing(self):
         """What ctest calls a family whose program is not there."""
-        return f"{self.targets[0]}_NOT_BUILT"
+        return f"{self.name}NOT_BUILT"
 
 
 def read(text):
@@ -57,15 +55,9 @@ def selectors(arguments):
     return found, others
 
 
-def cases(prefix, sources):
-    """Names of the tests in the sources of a family's program; of those with values, their beginning."""
-    names = []
-    for source in sources:
-        names += [f"{prefix}{suite}.{case}" for suite, case in CASE.findall(source)]
-        instances = INSTANCE.findall(source)
-        for suite, case in CASE_OF_VALUES.findall(source):
-            names += [f"{prefix}{instance}/{suite}.{case}/" for instance, of in instances if of == suite]
-    return names
+def suites(prefix, sources):
+    """Names of the tests in the sources of a family's program: one a suite (cmake/suites.cmake)."""
+    return [prefix + suite for source in sources for suite in dict.fromkeys(SUITE.findall(source))]
 
 
 def selects(found, names, labels):
@@ -118,7 +110,7 @@ def needed(entries, arguments, names_listed, sources_of):
         return None
     for entry in entries:
         if entry.family and entry not in chosen and not others:
-            names = [entry.name, *cases(entry.name, sources_of(entry.targets[0]))]
+            names = [entry.name, *suites(entry.name, sources_of(entry.targets[0]))]
             if selects(found, names, [entry.label] if entry.label else []):
                 chosen.append(entry)
     return [entry for entry in entries if entry in chosen]

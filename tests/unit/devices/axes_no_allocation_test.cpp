@@ -7,6 +7,7 @@
 namespace {
 
 using namespace rung::sim::technol;
+using rung::test::allocationsOf;
 using rung::test::AxesMachine;
 
 void work(AxesMachine& machine, int scan) {

@@ -5,6 +5,7 @@
 namespace {
 
 using namespace rung::devices;
+using rung::test::allocationsOf;
 
 TEST(CanNoAllocation, CounterCounts) {
   EXPECT_GT(allocationsOf([] { rung::test::CanRig{}.configure("CAN[1].InOut08Cnt", "2"); }), 0);

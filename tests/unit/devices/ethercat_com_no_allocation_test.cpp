@@ -10,6 +10,7 @@ namespace {
 
 using namespace rung::sim::technol;
 using rung::devices::ethercat::kOperationData;
+using rung::test::allocationsOf;
 using rung::test::EthercatNet;
 
 TEST(DevicesNoAllocation, CounterCounts) {

@@ -13,6 +13,7 @@ namespace {
 
 using namespace rung;
 using namespace rung::devices;
+using rung::test::allocationsOf;
 constexpr int kTicks = 10'000;
 
 TEST(TablesNoAllocation, CounterCounts) {

@@ -90,12 +90,12 @@ TEST_F(Bus, AnOrderRunsItsProcedure) {
   EXPECT_TRUE(soonIs("CALLS", 2));
 }
 
-struct Orders : Bus {
-  Orders() : Bus("can-orders-1.plc") {}
+struct OrdersAtTheBus : Bus {
+  OrdersAtTheBus() : Bus("can-orders-1.plc") {}
 };
 
 // Its procedure and its buffer are found by their names; what the new program orders in MODULE_INIT it has not ordered.
-TEST_F(Orders, ContinueInAnotherProgram) {
+TEST_F(OrdersAtTheBus, ContinueInAnotherProgram) {
   beginWith();
   put(0x5A1, {1, 2});
   ASSERT_TRUE(soonIs("CALLS", 1));
@@ -113,7 +113,7 @@ TEST_F(Orders, ContinueInAnotherProgram) {
   EXPECT_THAT(devices.report(), testing::IsEmpty());
 }
 
-TEST_F(Orders, EndWithoutTheirBuffer) {
+TEST_F(OrdersAtTheBus, EndWithoutTheirBuffer) {
   beginWith();
   put(0x5A1, {1, 2});
   ASSERT_TRUE(soonIs("CALLS", 1));
@@ -132,7 +132,7 @@ TEST_F(Orders, EndWithoutTheirBuffer) {
 }
 
 // can-units.plc has neither.
-TEST_F(Orders, EndWithoutTheirBufferAndProcedure) {
+TEST_F(OrdersAtTheBus, EndWithoutTheirBufferAndProcedure) {
   beginWith();
   put(0x5A1, {1, 2});
   ASSERT_TRUE(soonIs("CALLS", 1));

@@ -21,7 +21,7 @@ int allocationsOf(DeviceBench& bench, std::initializer_list<const char*> bits) {
   for (const char* bit : bits) cells.push_back(bench.plc->find(bit, rung::Access::Write));
   int all = 0;
   for (int i = 0; i < 2000; ++i) {
-    all += ::allocationsOf([&] {
+    all += rung::test::allocationsOf([&] {
       for (const rung_cell cell : cells) bench.plc->write(cell, 1);
       bench.step();
     });

@@ -16,10 +16,9 @@ TEST(Interpreter, AllocatesNothingWhileItRuns) {
     InterpEngine engine(layout, 0);
     ASSERT_FALSE(engine.allocates());
     host::Instance instance(engine);
-    allocations = 0;
-    counting = true;
-    for (int scan = 0; scan < 8; ++scan) instance.scan();
-    counting = false;
+    const int allocations = test::allocationsOf([&] {
+      for (int scan = 0; scan < 8; ++scan) instance.scan();
+    });
     EXPECT_EQ(allocations, 0) << seed;
   }
 }

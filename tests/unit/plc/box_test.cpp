@@ -24,6 +24,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+using rung::test::allocationsOf;
 using testing::Bench;
 using testing::kMs;
 

@@ -16,6 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
+using rung::test::allocationsOf;
 using testing::Bench;
 
 // ---- NCT -----------------------------------------------------------------------------------------------------------

@@ -20,6 +20,7 @@ namespace {
 
 using namespace rung::host;
 using namespace rung::rt;
+using rung::test::allocationsOf;
 using rung::test::TestProgram;
 
 class Model : public ScheduleHooks {

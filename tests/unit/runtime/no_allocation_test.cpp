@@ -11,6 +11,7 @@
 namespace {
 
 using rung::test::adopted;
+using rung::test::allocationsOf;
 
 uint32_t work(uint8_t* mem, rung_ctx* ctx, uint32_t) {
   const rung_message message{RUNG_MESSAGE_SHOW, 20, 0, 0, mem[0], 0, 0};

@@ -8,6 +8,7 @@
 namespace {
 
 using namespace rung::sim;
+using rung::test::allocationsOf;
 using test::GskMachine;
 constexpr uint32_t kF = 1, kG = 2, kPositions = 3; // spaces of the program
 

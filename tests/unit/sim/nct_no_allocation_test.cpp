@@ -8,6 +8,7 @@
 namespace {
 
 using namespace rung::sim;
+using rung::test::allocationsOf;
 using test::NctMachine;
 
 TEST(NctNoAllocation, CounterCounts) {

@@ -13,6 +13,7 @@ namespace {
 
 using namespace rung;
 using namespace rung::sim;
+using rung::test::allocationsOf;
 
 TEST(TechnolNoAllocation, DevicesAtWork) {
   const std::string keys = testing::TempDir() + "rung_no_allocation.KbdConfig";

@@ -78,6 +78,8 @@ TEST_P(EveryOp, AgreesWithTheInterpreter) {
 TEST_P(EveryOp, AWrongEmitterIsCaught) {
   for (const ir::OpInfo& info : ir::allOps()) {
     if (info.code == OpCode::Note) continue; // a remark for readers does nothing that could be wrong
+    // A program of a compiler for each: some are enough to see that this engine is compared at all.
+    if (GetParam().kind == EngineKind::Cpp && !testing::longRun() && static_cast<int>(info.code) % 8 != 0) continue;
     const compiler::Compiled right = testing::compiledFrom(ir::moduleForOp(info.code));
     const auto difference = disagreement(right, sabotaged(right, info.code), GetParam());
     EXPECT_TRUE(difference) << info.name << " is emitted wrongly, and nothing was noticed";
@@ -103,8 +105,16 @@ TEST_P(RandomModules, AgreeWithTheInterpreter) {
   }
 }
 
+// g++ takes longer for an operation than all others together.
+std::vector<Variant> variantsOfOperations() {
+  std::vector<Variant> variants(std::begin(kVariants), std::end(kVariants));
+  if (!testing::longRun())
+    std::erase_if(variants, [](const Variant& variant) { return variant.name == std::string_view("CppGcc"); });
+  return variants;
+}
+
 const auto kVariantName = [](const ::testing::TestParamInfo<Variant>& info) { return std::string(info.param.name); };
-INSTANTIATE_TEST_SUITE_P(Engines, EveryOp, ::testing::ValuesIn(kVariants), kVariantName);
+INSTANTIATE_TEST_SUITE_P(Engines, EveryOp, ::testing::ValuesIn(variantsOfOperations()), kVariantName);
 INSTANTIATE_TEST_SUITE_P(Engines, RandomModules, ::testing::ValuesIn(kVariants), kVariantName);
 
 } // namespace

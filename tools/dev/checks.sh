@@ -120,12 +120,26 @@ check_reads() {
   tools/dev/reads.py build
 }
 
-check_fuzz() { RUNG_MUTATIONS=30000 run_tests -R '^(fuzz|program_files)\.'; }
+check_fuzz() { RUNG_MUTATIONS=30000 run_tests -R '^fuzz\.'; }
 
-check_replace() { # the state afterwards, and the processor time
-  build_some rung_replace
+check_long() { RUNG_LONG=1 run_tests -R '^(differential|engines|gsk|reports)\.'; } # tests/support/long_run.h
+
+check_growth() {
+  build_some rung_growth
+  python3 tests/growth/growth_test.py build/bin/tests/rung_growth 500
+}
+
+check_counts() {
+  build_some rungc rung-bench rung-bench-generated rung-bench-record rung-bench-scan rung-bench-services
+  python3 tools/bench/count.py build/bin --check
+}
+
+check_replace() { # the state afterwards, the processor time, and what the programs do
+  build_some rung_replace rungc
   build/bin/tests/rung_replace build/tests/replace 10000 --bounds
   run_selected -V -R '^replace\.instructions$'
+  python3 tests/replace/tools_test.py build/bin/rungc --long
+  python3 tests/replace/machines_test.py build/bin/rungc --long
 }
 
 # What the scripts below find in the folder of the programs, and what those load and start.

@@ -1,5 +1,4 @@
 // What leads where: from uses, calls and labels to rungs, from names to their rows, from the contents to the blocks.
-#include <regex>
 #include <set>
 
 #include <fmt/format.h>
@@ -51,17 +50,25 @@ std::string writersIn(const Figure& figure) {
   return text;
 }
 
+// What stands between each `begin` and the next quotation mark.
+std::vector<std::string> quotedAfter(const std::string& page, std::string_view begin) {
+  std::vector<std::string> found;
+  for (size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    at += begin.size();
+    found.push_back(page.substr(at, page.find('"', at) - at));
+  }
+  return found;
+}
+
 // Links to places that the page does not have.
 std::string lost(const std::string& page) {
-  std::set<std::string> ids;
-  const std::regex id(" id=\"([^\"]*)\"");
-  const std::regex link("href=\"#([^\"]*)\"");
-  for (std::sregex_iterator at(page.begin(), page.end(), id), end; at != end; ++at) ids.insert((*at)[1]);
+  const std::vector<std::string> ids = quotedAfter(page, " id=\"");
+  const std::set<std::string> known(ids.begin(), ids.end());
+  const std::vector<std::string> links = quotedAfter(page, "href=\"#");
   std::string missing;
-  size_t links = 0;
-  for (std::sregex_iterator at(page.begin(), page.end(), link), end; at != end; ++at, ++links)
-    if (!ids.contains((*at)[1])) missing += (*at)[1].str() + " ";
-  return links == 0 ? "no links" : missing;
+  for (const std::string& link : links)
+    if (!known.contains(link)) missing += link + " ";
+  return links.empty() ? "no links" : missing;
 }
 
 std::string textOf(const std::vector<ContentsEntry>& contents) {

@@ -27,7 +27,7 @@ const int hooksInstalled = __sanitizer_install_malloc_and_free_hooks([](const vo
 } // namespace
 #else
 // Taking the place of malloc is what this header is for, by the C library's names.
-// NOLINTBEGIN(bugprone-reserved-identifier,misc-definitions-in-headers,readability-identifier-naming)
+// NOLINTBEGIN(misc-definitions-in-headers,readability-identifier-naming)
 extern "C" {
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
@@ -84,7 +84,7 @@ void free(void* block) {
   __libc_free(block);
 }
 }
-// NOLINTEND(bugprone-reserved-identifier,misc-definitions-in-headers,readability-identifier-naming)
+// NOLINTEND(misc-definitions-in-headers,readability-identifier-naming)
 #endif
 
 namespace {

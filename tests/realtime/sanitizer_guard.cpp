@@ -2,12 +2,12 @@
 #include "tests/realtime/guard.h"
 
 // Of the sanitizer, which has no header for them.
-// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
+// NOLINTBEGIN(readability-identifier-naming)
 extern "C" {
 void __rtsan_realtime_enter();
 void __rtsan_realtime_exit();
 }
-// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
+// NOLINTEND(readability-identifier-naming)
 
 namespace rung::test {
 

@@ -39,7 +39,7 @@ const int hooksInstalled = __sanitizer_install_malloc_and_free_hooks([](const vo
 using rung::test::countOne;
 
 // Taking the place of malloc is what this file is for, by the C library's names.
-// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
+// NOLINTBEGIN(readability-identifier-naming)
 extern "C" {
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
@@ -96,5 +96,5 @@ void free(void* block) {
   __libc_free(block);
 }
 }
-// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
+// NOLINTEND(readability-identifier-naming)
 #endif

@@ -1,4 +1,5 @@
-// Part programs of the simulated NCT control: the reader, what channels refuse, codes handed over (man. 7.15).
+// Part programs of the simulated NCT control: the reader, what channels refuse, codes handed over (man. 7.15). What the
+// reader says about mistakes is a golden (golden_test.cpp).
 #include <gtest/gtest.h>
 
 #include <random>
@@ -16,11 +17,6 @@ ChannelProgram read(std::string_view text) {
   ChannelProgram program;
   EXPECT_EQ(readChannelProgram(text, program), "") << text;
   return program;
-}
-
-std::string wrong(std::string_view text) {
-  ChannelProgram program;
-  return readChannelProgram(text, program);
 }
 
 TEST(ChannelProgram, Words) {
@@ -51,29 +47,6 @@ TEST(ChannelProgram, ConditionsAssignmentsJumps) {
   EXPECT_EQ(jump(3).value.variable, 6U);
   EXPECT_EQ(jump(4).test, ProgramJump::Test::Always);
   EXPECT_EQ(jump(4).target, 7U);
-}
-
-TEST(ChannelProgram, Mistakes) {
-  EXPECT_EQ(wrong(""), "the program has no blocks");
-  EXPECT_EQ(wrong(";;"), "the program has no blocks");
-  EXPECT_EQ(wrong("M1; M"), "block 2: a number is missing after M");
-  EXPECT_EQ(wrong("M1 M2 M3 M4 M5 M6 M7 M8 M9"), "block 1: more than eight M codes");
-  EXPECT_EQ(wrong("G12"), "block 1: a G code that is not simulated");
-  EXPECT_EQ(wrong("M98 P1"), "block 1: subprograms are not simulated");
-  EXPECT_EQ(wrong("M-1"), "block 1: M takes no such number");
-  EXPECT_EQ(wrong("T100000000"), "block 1: T takes no such number");
-  EXPECT_EQ(wrong("(open"), "block 1: a comment without ')'");
-  EXPECT_EQ(wrong("GOTO 5"), "there is no block N5");
-  EXPECT_EQ(wrong("GOTO"), "block 1: expected the number of a block after GOTO");
-  EXPECT_EQ(wrong("GOTO 4294967296"), "block 1: expected the number of a block after GOTO");
-  EXPECT_EQ(wrong("XNAN"), "block 1: a number is missing after X");
-  EXPECT_EQ(wrong("IF 5"), "block 1: expected a macro variable after IF");
-  EXPECT_EQ(wrong("IF #5=3"), "block 1: expected '=' or a comparison after the macro variable");
-  EXPECT_EQ(wrong("#5 EQ 1 M3"), "block 1: expected GOTO");
-  EXPECT_EQ(wrong("#0=1"), "block 1: expected the number of a macro variable");
-  EXPECT_EQ(wrong("S17=100"), "block 1: spindles are S1 to S16");
-  EXPECT_EQ(wrong("N123456789"), "block 1: numbers have up to eight digits");
-  EXPECT_EQ(wrong("M3 * 2"), "block 1: unexpected character '*'");
 }
 
 // No text makes the reader do anything but answer.

@@ -48,7 +48,8 @@ public:
                          "SA_READ SAIdx Offset Size -> RLO DR Val:b",
                          nc::technol::kDataService.data()};
     program_.addPacked("NCI", 1, nc::areaBytes(nc::technolSignals(), "I"), 0);
-    program_.addTask("MAIN", program_.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return test::popChunk(ctx); }));
+    program_.addTask("MAIN",
+                     program_.addChunk([](uint8_t*, rung_ctx* ctx, uint32_t) { return rung::test::popChunk(ctx); }));
     program_.scan = {{RUNG_STEP_ADVANCE, 0, 20'000}, {RUNG_STEP_HOOK, 0, nc::kHookBeforeInput}, {RUNG_STEP_RUN, 0, 1}};
     program_.fast = program_.scan;
     machine_ = std::make_unique<Machine>(program_.link(), nullptr, makeSimulatedTechnol());
@@ -68,7 +69,7 @@ public:
   }
 
 private:
-  test::TestProgram program_;
+  rung::test::TestProgram program_;
   std::unique_ptr<Machine> machine_;
 };
 

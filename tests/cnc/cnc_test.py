@@ -257,7 +257,7 @@ def fault(bench, _options):
     bench.copy(HERE / "stuck.map", "program.map")
     show = "show pin box\n"
     runs = until("box.fault = FALSE", "box.lamp = TRUE") + show
-    stopped = until("box.fault = TRUE", "box.lamp = FALSE", "box.fault-line != 0x00000000") + show
+    stopped = until("box.fault = TRUE", "box.lamp = FALSE", "box.fault-line -gt 0") + show
     # The thread that scans counts a hundred times two of its periods meanwhile.
     stays = "setp updown.0.reset 1\nsetp updown.0.reset 0\n" + until("updown.0.count -ge 100")
     counts = "loadrt charge_pump\nloadrt updown\naddf charge-pump servo\naddf updown.0 servo\nnet tick charge-pump.out updown.0.countup\n"

@@ -6,6 +6,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 import traceback
 
 import hal
@@ -30,7 +31,10 @@ def again_until(what, act, condition):
     """LinuxCNC looks at its keys now and then: where the machine is busy it may miss one, and an operator presses it again."""
     def tried():
         act()
-        return wait_until(condition, 3, step=0.001)
+        end = time.monotonic() + 3  # then he does, however busy the machine is
+        while not (seen := condition()) and time.monotonic() < end:
+            time.sleep(0.001)
+        return seen
 
     wait(what, tried)
 

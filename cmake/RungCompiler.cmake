@@ -3,6 +3,8 @@ add_library(rung_warnings INTERFACE)
 target_compile_options(rung_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wundef -Wcast-qual -Wimplicit-fallthrough
   $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor;-Woverloaded-virtual>
+  # A new enumerator shows where it has to be thought of.
+  -Werror=switch
   # Table rows name only the fields that differ from the default.
   -Wno-missing-field-initializers
   $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-missing-designated-field-initializers>

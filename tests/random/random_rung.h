@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "ir/core/builder.h"
+#include "ir/core/op_info.h"
 #include "tests/random/random.h"
 #include "tests/random/random_source.h"
 

@@ -514,9 +514,7 @@ TEST_F(Component, FunctionsInDifferentThreadsDoNotRun) {
 TEST_F(Component, RestartsBesideARunningThread) {
   ASSERT_EQ(loadStuck(path("restarts")), 0);
   hal.startThread("rung.scan", kMs);
-  const auto wait = [&](bool faulted) {
-    return soon([&] { return bit("fault") == faulted; });
-  };
+  const auto wait = [&](bool faulted) { return soon([&] { return bit("fault") == faulted; }); };
   for (int round = 0; round < 3; ++round) {
     bit("stick") = true;
     ASSERT_TRUE(wait(true));

@@ -1,6 +1,6 @@
-// Of every GoogleTest program. Files are found by their path in the repository, from whatever folder it is started. What
-// was skipped must not count as passed: the exit status says it (SKIP_RETURN_CODE in cmake/suites.cmake), unless something
-// has failed as well.
+// Of every GoogleTest program. Files are found by their path in the repository, from whatever folder it is started.
+// What was skipped must not count as passed: the exit status says it (SKIP_RETURN_CODE in cmake/suites.cmake), unless
+// something has failed as well.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -461,9 +461,7 @@ out.asked = { type = "bit", name = "REQ_BACKUP_MEM" }
     EXPECT_TRUE(b["asked"].bit); // nothing can be on disk in the same scan
   };
   // The program counts its scans in a byte: it does not scan while it waits for the disk.
-  const auto saves = [&](uint64_t count) {
-    return test::soon([&] { return b.box->state().saves >= count; });
-  };
+  const auto saves = [&](uint64_t count) { return test::soon([&] { return b.box->state().saves >= count; }); };
   const auto answered = [&] {
     return test::soon([&] { return step(), !b["asked"].bit; }, std::chrono::milliseconds(10));
   };

@@ -7,7 +7,7 @@ import sys
 import unittest
 
 ARGUMENTS = None
-COUNT = 24     # every program takes over from every other one twice
+COUNT = 12     # every program takes over from every other one
 FIXED = 10_000  # instructions; the rest is one a byte at most: callgrind counts each byte of a string instruction
 
 

@@ -112,9 +112,9 @@ private:
     const Place state{kWords, 4 * kWordCount, 0};
     const ValueId now = testing::nextNumber(b, state);
     b.store({kWords, 4 * 7, 0}, now);
-    b.store({kReals, 8 * 5, 0}, b.op(OpCode::IntToF, Type::F64, {b.sextOrTrunc(Type::I64, now)}));
+    b.store({kReals, 8 * 5, 0}, b.intToF(b.sextOrTrunc(Type::I64, now)));
     for (uint32_t n = 0; n < kBitCount / 8; ++n)
-      b.store({kBits, n, 3}, b.zextOrTrunc(Type::Bit, b.op(OpCode::ShrU, Type::I32, {now, b.i32(n + 8)})));
+      b.store({kBits, n, 3}, b.zextOrTrunc(Type::Bit, b.shrU(now, b.i32(n + 8))));
   }
 
   std::mt19937_64 random_;

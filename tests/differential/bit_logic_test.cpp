@@ -74,8 +74,7 @@ private:
     RungBuilder b(m, rung);
     const Place state{kWords, 0, 0};
     const ValueId now = testing::nextNumber(b, state);
-    for (uint32_t n = 0; n < kInputs; ++n)
-      b.store(bit(n), b.zextOrTrunc(Type::Bit, b.op(OpCode::ShrU, Type::I32, {now, b.i32(n + 8)})));
+    for (uint32_t n = 0; n < kInputs; ++n) b.store(bit(n), b.zextOrTrunc(Type::Bit, b.shrU(now, b.i32(n + 8))));
   }
 
   std::mt19937_64 random_;

@@ -83,7 +83,7 @@ private:
     const Place cell{kWords, 4 * kWordCount, 0};
     const ValueId now = testing::nextNumber(b, cell);
     for (uint32_t n = 0; n < kBitCount; n += 2)
-      b.store({kBits, n / 8, n % 8}, b.zextOrTrunc(Type::Bit, b.op(OpCode::ShrU, Type::I32, {now, b.i32(n / 2 + 8)})));
+      b.store({kBits, n / 8, n % 8}, b.zextOrTrunc(Type::Bit, b.shrU(now, b.i32(n / 2 + 8))));
   }
 
   void logic(RungBuilder& b) {

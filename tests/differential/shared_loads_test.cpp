@@ -4,7 +4,6 @@
 
 #include <random>
 
-#include "ir/core/op_info.h"
 #include "ir/passes/pipeline.h"
 #include "tests/differential/optimised_code.h"
 #include "tests/support/long_run.h"
@@ -60,8 +59,7 @@ private:
   void inputs(RungBuilder& b) {
     const ValueId now = testing::nextNumber(b, {kWords, 4 * (kAmounts + kWordCount), 0});
     for (uint32_t n = 0; n < kBitCount; ++n)
-      b.store({kBits, n / 8, n % 8},
-              b.zextOrTrunc(Type::Bit, b.op(OpCode::ShrU, Type::I32, {now, b.i32(static_cast<int32_t>(n))})));
+      b.store({kBits, n / 8, n % 8}, b.zextOrTrunc(Type::Bit, b.shrU(now, b.i32(static_cast<int32_t>(n)))));
     if (below(2) == 0) b.store(amount(), now);
   }
 

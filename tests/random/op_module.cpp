@@ -303,7 +303,7 @@ private:
         std::vector<ValueId> next{in[2], b.add(in[1], in[0])};
         for (size_t i = 3; i < in.size(); ++i) {
           const Type type = b.typeOf(in[i]);
-          next.push_back(type == Type::F64 ? b.op(OpCode::FAdd, type, {in[i], in[i]}) : b.not_(in[i]));
+          next.push_back(type == Type::F64 ? b.fAdd(in[i], in[i]) : b.not_(in[i]));
         }
         for (ValueId id : b.endLoop(next)) result(b, id);
         b.loop(count);

@@ -197,9 +197,8 @@ TEST(LlvmEmitter, WhatATrapHasAskedIsNotAskedAgain) {
   module.spaces.push_back({.name = "F", .unitBytes = 8, .units = 2});
   const SpaceId reals{static_cast<uint32_t>(module.spaces.size() - 1)};
   RungBuilder b(module, module.routines.back().rungs[0]);
-  const ValueId product =
-      b.op(OpCode::FMul, Type::F64, {b.load(Type::F64, {reals, 0, 0}), b.load(Type::F64, {reals, 8, 0})});
-  b.trap(b.not_(b.op(OpCode::FEq, Type::F64, {product, product})), {0});
+  const ValueId product = b.fMul(b.load(Type::F64, {reals, 0, 0}), b.load(Type::F64, {reals, 8, 0}));
+  b.trap(b.not_(b.fEq(product, product)), {0});
   b.store({reals, 0, 0}, product);
   const Layout layout(module, {});
   const Result<std::string> ir = emitLlvmIr(layout, 42, {.level = LlvmLevel::Opt, .debugInfo = false});

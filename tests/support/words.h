@@ -1,4 +1,4 @@
-// What a message is about. Its sentence stands in the golden of its module alone, so that a better one is one change;
+// What a message is about. Its sentence is in the golden of its module alone, so that a better one is one change;
 // other tests look for the place, the code and the words that come from the input.
 #pragma once
 #include <initializer_list>

@@ -1,5 +1,5 @@
 // What devices refuse, and all that they say about it: a file of cases for each way to tell them something. A value
-// `@N` stands for a text of N letters.
+// `@N` means a text of N letters.
 #include <gtest/gtest.h>
 
 #include <filesystem>

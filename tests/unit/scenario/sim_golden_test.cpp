@@ -25,7 +25,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-// The simulated controls behind what the cases say to each.
+// The simulated controls, each with what its cases may say.
 struct Gsk {
   static std::unique_ptr<SimulatedNc> bare() { return makeSimulatedGsk(); }
   Gsk(const Pairs& config, const Pairs&) : machine(config) {}

@@ -11,7 +11,7 @@ using Lines = std::vector<std::string>;
 struct Case {
   const char* name;
   const char* data;   // lines 2 and on
-  const char* main;   // behind data, lines 6 and on without data
+  const char* main;   // after the data, lines 6 and on without data
   const char* errors; // ", " between them
   const char* warnings;
 };

@@ -50,7 +50,7 @@ std::string writersIn(const Figure& figure) {
   return text;
 }
 
-// What stands between each `begin` and the next quotation mark.
+// What is between each `begin` and the next quotation mark.
 std::vector<std::string> quotedAfter(const std::string& page, std::string_view begin) {
   std::vector<std::string> found;
   for (size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {

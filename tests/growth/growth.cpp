@@ -108,8 +108,8 @@ void optimiseLargeRung(uint32_t n) {
   optimise(module);
 }
 
-// As many registers as rungs, each stored in the first rung and loaded in the last: all live everywhere. Twice as many as
-// the size says, as a few cost next to nothing.
+// As many registers as rungs, each stored in the first rung and loaded in the last: all live everywhere. Twice as many
+// as the size says, as a few cost next to nothing.
 void optimiseRegisters(uint32_t n) {
   n *= 2;
   Module module = emptyModule(n, n);

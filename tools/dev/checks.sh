@@ -76,7 +76,7 @@ check_table() { # the last run of each part
     [ -n "$part" ] || { printf '%-14s %-14s %-17s %8s  %s\n' "$name" - - - 'not run'; continue; }
     printf '%-14s %-14s %-17s %8s  %s\n' "$name" "$commit" "$began" "$((seconds / 60)):$(printf %02d $((seconds % 60)))" "$result"
   done < <(check_parts)
-  echo "this is $(tree); + has changes that are not committed"
+  echo "this is $(tree) (with a +: changes that are not committed)"
 }
 
 build_tests() { # PRESET FOLDER: no more than its tests need

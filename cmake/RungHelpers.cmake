@@ -110,7 +110,7 @@ function(rung_write_test_needs)
     list(APPEND folders ${below})
     get_property(tests DIRECTORY "${folder}" PROPERTY TESTS)
     list(REMOVE_ITEM tests ${stated} "")
-    # gtest_discover_tests() leaves TARGET[1]_include.cmake there
+    # rung_add_test() leaves TARGET.cmake there, gtest_discover_tests() would TARGET[1]_include.cmake
     get_property(discovered DIRECTORY "${folder}" PROPERTY TEST_INCLUDE_FILES)
     list(TRANSFORM discovered REPLACE ".*/([A-Za-z0-9_-]+)[^/]*" "\\1")
     list(REMOVE_ITEM discovered ${targets} "")

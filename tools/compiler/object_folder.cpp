@@ -25,11 +25,9 @@ Result<std::string> sealedObject(const std::string& folder, std::string_view ide
                                  const std::function<Result<std::string>()>& build) {
   std::string problem;
   const auto kept = folder.empty() ? std::nullopt : host::CodeFolder::open(folder, problem);
-  const std::string name = nameOf(identity);
-  if (kept) {
-    std::optional<std::string> found = kept->read(name);
-    if (found && isWhole(*found)) return std::move(*found);
-  }
+  const std::string name = kept ? nameOf(identity) : "";
+  std::optional<std::string> found = kept ? kept->read(name) : std::nullopt;
+  if (found && isWhole(*found)) return std::move(*found);
   const Result<std::string> built = build();
   if (!built.ok()) return built.failure();
   std::string file = host::sealed(built.value());

@@ -202,7 +202,7 @@ TEST(MapFile, AxesThatTheProgramPositions) {
   for (size_t i = 0; i < expected.size(); ++i)
     EXPECT_EQ(std::tie(map.devices[i].kind, map.devices[i].key, map.devices[i].value),
               std::tie(std::get<0>(expected[i]), std::get<1>(expected[i]), std::get<2>(expected[i])));
-  EXPECT_TRUE(map.pins.empty()); // whoever moves axes makes them
+  EXPECT_TRUE(map.pins.empty()); // the host that moves axes makes them
 }
 
 TEST(MapFile, TheLongestTime) { EXPECT_EQ(faultlessMap("timeout = 1000000").timeoutNs, 1'000'000'000'000'000); }

@@ -6,6 +6,7 @@
 
 #include "ir/core/eval.h"
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/check.h"
 #include "ir/support/put.h"
 

@@ -11,6 +11,7 @@
 #include "codegen/llvm/piece_numbers.h"
 #include "ir/chunks/cut.h"
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/put.h"
 #include "ir/text/text.h"
 

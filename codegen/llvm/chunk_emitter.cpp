@@ -13,6 +13,7 @@
 #include "codegen/llvm/before_selection.h"
 #include "ir/chunks/alike_rungs.h"
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/check.h"
 
 namespace rung::codegen {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::codegen {
 

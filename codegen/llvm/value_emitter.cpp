@@ -6,6 +6,7 @@
 #include <llvm/IR/PatternMatch.h>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/check.h"
 
 namespace rung::codegen {

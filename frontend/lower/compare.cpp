@@ -1,7 +1,7 @@
 // Comparisons (see compare.h).
 #include "frontend/lower/compare.h"
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::frontend {
 

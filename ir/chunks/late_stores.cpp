@@ -9,6 +9,7 @@
 #include "ir/core/eval.h"
 #include "ir/core/memory_use.h"
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::ir {
 namespace {

@@ -2,6 +2,7 @@
 #include "ir/core/builder.h"
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/check.h"
 
 namespace rung::ir {

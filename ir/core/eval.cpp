@@ -1,7 +1,7 @@
 // The evaluator of operations without effects (see eval.h).
 #include "ir/core/eval.h"
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/check.h"
 #include "rung/sem.hpp"
 

@@ -1,5 +1,5 @@
 // The code of an operation, for those who hand it on: a new operation then does not compile them again. A file that
-// names operations includes op_info.h.
+// names operations includes ops.h.
 #pragma once
 #include <cstdint>
 

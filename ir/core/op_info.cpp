@@ -2,6 +2,7 @@
 #include "ir/core/op_info.h"
 
 #include "ir/core/eval.h"
+#include "ir/core/ops.h"
 
 namespace rung::ir {
 namespace {
@@ -645,6 +646,8 @@ static_assert(rowsInOrder(),
               "op_info.cpp: one row for each line of ops.def, in its order, with its name, its kind and a doc");
 
 } // namespace
+
+std::span<const OpInfo> allOps() { return kOpRows; }
 
 const OpInfo* findOp(std::string_view name) {
   for (const OpInfo& info : kOpRows)

@@ -11,16 +11,6 @@
 
 namespace rung::ir {
 
-enum class OpCode : uint8_t {
-#define RUNG_OP(name, text) name,
-#include "ir/core/ops.def"
-};
-
-inline constexpr int kOpCount = 0
-#define RUNG_OP(name, text) +1 // NOLINT(bugprone-macro-parentheses): a sum is made of them
-#include "ir/core/ops.def"
-    ;
-
 // What an operand or the result must be, in terms of the operation's own type T (`Op::type`).
 enum class Constraint : uint8_t {
   None,     // not there
@@ -82,10 +72,10 @@ struct OpInfo {
 };
 
 // In the order of OpCode; use `opInfo`.
-extern const OpInfo kOpRows[kOpCount];
+extern const OpInfo kOpRows[];
 
 inline const OpInfo& opInfo(OpCode code) { return kOpRows[static_cast<int>(code)]; }
-inline std::span<const OpInfo> allOps() { return kOpRows; }
+std::span<const OpInfo> allOps();
 // Null when there is no operation of this name.
 const OpInfo* findOp(std::string_view name);
 
@@ -132,7 +122,7 @@ constexpr Type resultType(Constraint constraint, Type own) {
 constexpr bool hostReads(const OpInfo& info) { return (info.effects & kHost) != 0 && (info.effects & kReads) != 0; }
 constexpr bool isPure(const OpInfo& info) { return info.effects == kPure || info.effects == kClock; }
 // Whether evalPure knows the operation: pure, and its value depends on nothing but its operands.
-constexpr bool isEvaluable(const OpInfo& info) { return info.effects == kPure && info.code != OpCode::Const; }
+constexpr bool isEvaluable(const OpInfo& info) { return info.effects == kPure && info.attr != Attr::Literal; }
 // Nothing but reading to do for the result.
 constexpr bool onlyReads(const OpInfo& info) { return isPure(info) || info.effects == kReads; }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/interp/rung_run.h"
 #include "ir/support/check.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "ir/core/eval.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/check.h"
 #include "rtlib/core/ticks.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "ir/chunks/heaviest.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/layout/accesses.h"
 #include "ir/layout/timers.h"
 #include "ir/support/check.h"

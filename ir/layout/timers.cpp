@@ -7,6 +7,7 @@
 
 #include "ir/core/memory_use.h"
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::ir {
 namespace {

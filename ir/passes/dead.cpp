@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"
 

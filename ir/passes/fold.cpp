@@ -1,7 +1,7 @@
 // Folding: operations with known operands become constants (by the one evaluator, eval.h), others get simpler
 // (simplify.cpp), of an `if` whose condition is known only the region that runs stays, loops of no pass or of one are
 // opened, and transfers whose condition or number is known lose it.
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"
 #include "ir/passes/simplify.h"

@@ -8,6 +8,7 @@
 
 #include "ir/core/memory_use.h"
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/rewriter.h"
 
 namespace rung::ir {

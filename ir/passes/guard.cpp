@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/index_values.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"

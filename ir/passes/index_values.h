@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/rung_ranges.h"
 
 namespace rung::ir {

@@ -4,7 +4,7 @@
 // routine's name and its number, for messages, profiles and explanations.
 #include <algorithm>
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/passes.h"
 
 namespace rung::ir {

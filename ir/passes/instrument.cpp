@@ -1,6 +1,6 @@
 // Profiling: each rung is measured from its first operation to its last. Conditions of the transfer are values of the
 // rung and thus within the measurement; what a call does is not.
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/passes.h"
 
 namespace rung::ir {

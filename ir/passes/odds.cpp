@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::ir {
 namespace {

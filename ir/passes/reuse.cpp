@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"
 #include "ir/passes/value_table.h"

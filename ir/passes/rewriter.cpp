@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::ir {
 

@@ -3,6 +3,7 @@
 #include "ir/passes/rung_ranges.h"
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::ir {
 namespace {

@@ -1,7 +1,7 @@
 // What one operation is when its operands are known or related: a constant, an operand, or a simpler operation.
 #pragma once
 #include "ir/core/module.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/rewriter.h"
 
 namespace rung::ir {

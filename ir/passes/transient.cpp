@@ -6,6 +6,7 @@
 // backward from its loads only as far as it is needed, so slots that live shortly cost little; should all of them
 // together take more than some walks over the whole program, the rest is left alone.
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"
 #include "ir/passes/rung_graph.h"

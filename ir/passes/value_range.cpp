@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::ir {
 namespace {

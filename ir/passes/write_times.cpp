@@ -7,6 +7,7 @@
 #include <span>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::ir {
 namespace {

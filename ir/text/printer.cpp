@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/ascii.h"
 #include "ir/support/put.h"
 #include "ir/text/keywords.h"

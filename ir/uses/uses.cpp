@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/hash.h"
 
 namespace rung::ir {

@@ -4,6 +4,7 @@
 
 #include "ir/core/eval.h"
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/verify/rules.h"
 
 namespace rung::ir {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "ir/chunks/alike_rungs.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/pipeline.h"
 #include "tests/differential/optimised_code.h"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/pipeline.h"
 #include "tests/random/random.h"
 #include "tests/support/differential.h"

@@ -4,6 +4,7 @@
 #include "ir/core/builder.h"
 #include "ir/core/eval.h"
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "tests/random/random.h"
 
 namespace rung::ir {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/core/parts.h"
 #include "ir/support/check.h"
 #include "tests/random/random.h"

@@ -1,7 +1,7 @@
 // Operations made wrong (see saboteur.h).
 #include "tests/support/saboteur.h"
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/rewriter.h"
 
 namespace rung::ir {

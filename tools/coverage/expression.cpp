@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::coverage {
 namespace {

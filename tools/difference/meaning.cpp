@@ -6,6 +6,7 @@
 #include <map>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/hash.h"
 #include "ir/support/put.h"
 #include "rtlib/text/letters.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "rtlib/text/number.h"
 
 namespace rung::profile {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "rtlib/core/queues.h"
 #include "rtlib/host/realtime.h"
 

@@ -209,7 +209,7 @@ protected:
     made.number = number;
     made.key = key;
     made.values = {ir::Type::Bit};
-    made.ops = {{.code = ir::OpCode::Load, .type = ir::Type::Bit, .resultCount = 1, .result = ir::ValueId{0}}};
+    made.ops = {{.code = ir::findOp("load")->code, .type = ir::Type::Bit, .resultCount = 1, .result = ir::ValueId{0}}};
     return made;
   }
   void add(uint32_t routine, ir::Rung code, const std::string& name) {

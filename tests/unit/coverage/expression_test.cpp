@@ -30,9 +30,9 @@ protected:
     size_t loads = 0;
     for (const ir::Op& op : rung_.ops) {
       uint64_t& out = values[op.result.index];
-      if (op.code == ir::OpCode::Load) {
+      if (ir::opInfo(op.code).name == "load") {
         out = bits[loads++] ? 1 : 0;
-      } else if (op.code == ir::OpCode::Const) {
+      } else if (ir::opInfo(op.code).name == "const") {
         out = static_cast<uint64_t>(op.imm);
       } else {
         uint64_t args[3] = {};

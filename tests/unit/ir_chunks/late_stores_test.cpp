@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "ir/core/builder.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::ir {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "tests/random/random.h"
 
 namespace rung::ir {

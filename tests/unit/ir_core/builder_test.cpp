@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/core/builder.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::ir {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "ir/core/eval.h"
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "rung/sem.hpp"
 #include "tests/random/random.h"
 

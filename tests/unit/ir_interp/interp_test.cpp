@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/core/parts.h"
 #include "rtlib/host/compare.h"
 #include "rtlib/nc/names/names.h"

@@ -1,5 +1,6 @@
 // Ranges of values: the result of every operation lies in the range that is made of its operands' ranges.
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/passes/value_range.h"
 
 #include <gtest/gtest.h>

@@ -4,6 +4,7 @@
 
 #include "ir/core/builder.h"
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/text/text.h"
 #include "tests/random/random.h"
 #include "tests/unit/ir_text/module_equal.h"

@@ -7,6 +7,7 @@
 
 #include "ir/core/builder.h"
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/verify/verify.h"
 #include "tests/random/random.h"
 

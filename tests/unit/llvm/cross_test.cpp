@@ -98,10 +98,10 @@ TEST_F(Aarch64, RandomProgramsFast) {
 }
 
 TEST_F(Aarch64, AWrongProgramShows) {
-  const Module module = moduleForOp(OpCode::Add);
+  const Module module = moduleForOp(findOp("add")->code);
   const Layout layout(module, {});
   Module wrong = module;
-  sabotage(wrong, OpCode::Add);
+  sabotage(wrong, findOp("add")->code);
   EXPECT_NE(thereLines(layout.over(wrong), {.target = "aarch64-linux-gnu"}), hereLines(layout));
 }
 

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "ir/core/builder.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/check.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/host/sealing.h"

@@ -4,7 +4,7 @@
 #include "frontend/lower/compare.h"
 #include "frontend/lower/edge.h"
 #include "frontend/lower/module_items.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::frontend {
 namespace {

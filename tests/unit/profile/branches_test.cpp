@@ -22,16 +22,16 @@ ir::Module nestedIfs() {
   rung.key = 7;
   rung.values = {ir::Type::Bit, ir::Type::Bit};
   rung.args = {ir::ValueId{0}, ir::ValueId{1}, ir::ValueId{1}};
-  const auto add = [&](ir::OpCode code, uint16_t args, uint32_t first) {
-    rung.ops.push_back({.code = code, .argCount = args, .firstArg = first});
+  const auto add = [&](std::string_view name, uint16_t args, uint32_t first) {
+    rung.ops.push_back({.code = ir::findOp(name)->code, .argCount = args, .firstArg = first});
   };
-  add(ir::OpCode::If, 1, 0);
-  add(ir::OpCode::Else, 0, 1);
-  add(ir::OpCode::If, 1, 1);
-  add(ir::OpCode::EndIf, 0, 2);
-  add(ir::OpCode::EndIf, 0, 2);
-  add(ir::OpCode::If, 1, 2);
-  add(ir::OpCode::EndIf, 0, 3);
+  add("if", 1, 0);
+  add("else", 0, 1);
+  add("if", 1, 1);
+  add("endif", 0, 2);
+  add("endif", 0, 2);
+  add("if", 1, 2);
+  add("endif", 0, 3);
   module.routines.push_back({.name = "R", .rungs = {rung}});
   return module;
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "ir/support/hash.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"

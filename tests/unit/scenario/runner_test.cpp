@@ -175,7 +175,7 @@ TEST_F(ScenarioRunner, AWrongEngineIsCaughtThoughTheScenarioExpectsNothing) {
   options.store = &store;
   options.engines = {EngineKind::Jit};
   options.started = [](Session&, const compiler::Compiled& compiled) {
-    ir::sabotage(*compiled.module, ir::OpCode::And);
+    ir::sabotage(*compiled.module, ir::findOp("and")->code);
     return std::string();
   };
   EXPECT_TRUE(runText("set 5100.00 1\nscan\n", options).passed);

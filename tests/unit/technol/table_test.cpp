@@ -286,8 +286,9 @@ uint16_t effectsOf(const ir::Module& module, std::string_view routine) {
     if (r.name != routine) continue;
     for (const ir::Rung& rung : r.rungs)
       for (const ir::Op& op : rung.ops) {
-        const bool loads = op.code == ir::OpCode::SlotLoad;
-        if (!loads && op.code != ir::OpCode::SlotStore) continue;
+        const std::string_view name = ir::opInfo(op.code).name;
+        const bool loads = name == "slot_load";
+        if (!loads && name != "slot_store") continue;
         const std::string& key = module.slots[op.ref].key;
         if (key == "RLO") effects |= loads ? kReadsRlo : kSetsRlo;
         if (key == "DR") effects |= loads ? kReadsDr : kSetsDr;

@@ -20,8 +20,8 @@ namespace {
 using compiler::EngineKind;
 
 constexpr uint64_t kTrapFlag = 0x100;
-constexpr ir::OpCode kFunctions[] = {ir::OpCode::Message, ir::OpCode::ServiceRequest, ir::OpCode::ServicePoll,
-                                     ir::OpCode::ServiceResult};
+const ir::OpCode kFunctions[] = {ir::findOp("message")->code, ir::findOp("service_request")->code,
+                                 ir::findOp("service_poll")->code, ir::findOp("service_result")->code};
 
 struct Counts {
   uint64_t instructions = 0;

@@ -1,7 +1,7 @@
 // Arithmetic with the flags of R1000 (§6.5, §7.9, §7.12). All of it is done in twice the width, where nothing
 // overflows.
 #include "frontend/dialects/gsk/lower/lower.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::gsk {
 namespace {

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "frontend/dialects/nct/lower/lowering.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::nct {
 

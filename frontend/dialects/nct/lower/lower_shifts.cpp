@@ -1,6 +1,6 @@
 // ROT, the shift register and the arrays (man. §6.6, §6.7).
 #include "frontend/dialects/nct/lower/lowering.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::nct {
 

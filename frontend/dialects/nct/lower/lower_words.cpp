@@ -1,6 +1,6 @@
 // Moving, logic and integer arithmetic (man. §6.3, §6.8, §6.9).
 #include "frontend/dialects/nct/lower/lowering.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 namespace rung::nct {
 

@@ -1,7 +1,7 @@
 // Data instructions (man. ch. 3.9-3.16).
 #include "frontend/dialects/technol/lower/context.h"
 #include "frontend/dialects/technol/lower/lower.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 #include "rtlib/nc/faults.h"
 
 namespace rung::frontend::technol {

@@ -2,7 +2,7 @@
 #include "frontend/dialects/technol/lower/registers.h"
 
 #include "frontend/lower/module_items.h"
-#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
 
 #include <string>
 

@@ -34,7 +34,7 @@ endif()
 add_compile_options(${rung_instrumentation})
 add_link_options(${rung_instrumentation})
 if(RUNG_SANITIZE MATCHES "undefined") # a program in C has our libraries in C++
-  add_link_options($<$<LINK_LANG_AND_ID:C,Clang>:-fsanitize-link-c++-runtime;-lstdc++>)
+  add_link_options("$<$<LINK_LANG_AND_ID:C,Clang>:-fsanitize-link-c++-runtime;-lstdc++>")
 endif()
 
 # Takes the instrumentation from a program that valgrind runs, or whose instructions are counted. Such a program has

@@ -128,7 +128,7 @@ public:
   auto choose(ValueId cond, Yes yes, No no, Odds odds = kEven) {
     using Result = decltype(yes());
     static_assert(sizeof(Result) % sizeof(ValueId) == 0);
-    using Values = std::array<ValueId, sizeof(Result) / sizeof(ValueId)>;
+    using Values = std::array<ValueId, sizeof(Result) / sizeof(ValueId)>; // NOLINT(bugprone-sizeof-expression): or one
     if_(cond, odds);
     Values values = std::bit_cast<Values>(yes());
     else_(values);

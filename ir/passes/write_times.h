@@ -35,8 +35,8 @@ private:
   // The last write through windows that lie within these bytes.
   struct WindowWrites {
     uint32_t time;
-    uint64_t begin;
-    uint64_t end;
+    uint64_t begin = 0;
+    uint64_t end = 0;
   };
   // Writes through windows; forgotten when `rung` is not the current one.
   struct SpaceWrites {

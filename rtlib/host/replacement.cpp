@@ -30,23 +30,22 @@ void Replacement::planSharedBlock(const rung_program& running) {
 }
 
 // The block may be another one than that in which the program once was, and may be the host's.
-bool Replacement::shares(const LoadedProgram& running) const noexcept {
-  return shared_ && running.blockBytes >= loaded_.program->memory_size &&
-         loaded_.blockBytes >= running.program->memory_size &&
+bool Replacement::mayShare(const LoadedProgram& running) const noexcept {
+  return running.blockBytes >= loaded_.program->memory_size && loaded_.blockBytes >= running.program->memory_size &&
          reinterpret_cast<uintptr_t>(running.block.get()) % loaded_.program->memory_align == 0;
 }
 
 void Replacement::exchange(LoadedProgram& running) noexcept {
-  const bool shares = this->shares(running);
-  (shares ? shared_->there : there_).run(running.block.get(), loaded_.block.get());
+  const SharedBlock* shared = shared_ && mayShare(running) ? &*shared_ : nullptr;
+  (shared != nullptr ? shared->there : there_).run(running.block.get(), loaded_.block.get());
   std::swap(running, loaded_);
   std::swap(there_, back_);
   if (shared_) std::swap(shared_->there, shared_->back);
-  if (!shares) return;
+  if (shared == nullptr) return;
   std::swap(running.block, loaded_.block);
   std::swap(running.blockBytes, loaded_.blockBytes);
   uint8_t* here = running.block.get();
-  for (const rung_span& span : shared_->swaps)
+  for (const rung_span& span : shared->swaps)
     std::swap_ranges(here + span.offset, here + span.offset + span.size, loaded_.block.get() + span.offset);
 }
 

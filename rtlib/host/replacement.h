@@ -42,7 +42,7 @@ private:
     uint64_t swappedBytes; // of both blocks
   };
   void planSharedBlock(const rung_program& running);
-  bool shares(const LoadedProgram& running) const noexcept;
+  bool mayShare(const LoadedProgram& running) const noexcept;
   // The state goes over. `running` is the next program then, and this holds what it was.
   void exchange(LoadedProgram& running) noexcept;
 

@@ -11,7 +11,7 @@ void send(devices::com::Port& port, DeviceCall& call) {
 }
 
 void sendText(devices::com::Port& port, DeviceCall& call) {
-  std::array<uint8_t, devices::com::Port::kQueueBytes + 1> room; // one more than the queue takes
+  std::array<uint8_t, devices::com::Port::kQueueBytes + 1> room{}; // one more than the queue takes
   call.set(0, port.send(call.bytes(1, room)) ? 0 : 1);
 }
 

@@ -8,7 +8,6 @@
 namespace rung::host_devices {
 
 using device_requests::CanPlaces;
-using devices::CanController;
 
 namespace {
 
@@ -67,7 +66,7 @@ void CanService::powerOn() noexcept {
 // Of ERRLI_PnOUT the program resets bits, and the units set them meanwhile (man. l.3526-3531).
 void CanService::take(const rt::Memory& memory, const CanPlaces& places) noexcept {
   if (!exists()) return;
-  std::array<uint8_t, devices::kOutputPorts> seen;
+  std::array<uint8_t, devices::kOutputPorts> seen{};
   places.read(memory, unitOrders_, driveOrders_, seen);
   for (uint32_t i = 0; i < seen.size(); ++i) units_.errors[i] &= static_cast<uint8_t>(~(shownErrors_[i] & ~seen[i]));
   shownErrors_ = seen;

@@ -30,8 +30,8 @@ public:
 private:
   struct Pin {
     Value value;
-    mapping::PinType type;
-    bool isInput;
+    mapping::PinType type{};
+    bool isInput = false;
     bool isSet = false;
   };
   std::vector<Pin> pins_;

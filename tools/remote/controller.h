@@ -61,9 +61,9 @@ private:
     uint64_t count = 0;
   };
   struct Command {
-    const char* name;
+    const char* name = nullptr;
     std::optional<mapping::Remote> permission; // that the mapping file must give
-    nlohmann::json (Controller::*run)(const Peer&, const nlohmann::json&);
+    nlohmann::json (Controller::*run)(const Peer&, const nlohmann::json&) = nullptr;
   };
   static const Command kCommands[];
 

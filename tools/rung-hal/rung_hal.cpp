@@ -180,19 +180,21 @@ Image imageOf(const Request& request) {
 
 // A TECHNOL program has the devices of its map around it, and pins for its axes and analogue outputs; none: the control
 // alone.
-plc::Box::NewInstance withDevices(PlcInstance& c, mapping::File& map, std::vector<std::string>& errors) {
-  if (std::string_view(c.image->program().dialect) != "technol") return {};
+plc::Box::NewInstance withDevices(PlcInstance& c, const Image& image, mapping::File& map,
+                                  std::vector<std::string>& errors) {
+  if (std::string_view(image.program().dialect) != "technol") return {};
   c.devices = std::make_unique<host_devices::HostDevices>();
   c.devices->set(map, errors);
   c.devices->addAxisPins(map, errors);
-  host_devices::addAnalogPins(map, c.image->program());
+  host_devices::addAnalogPins(map, image.program());
   return [&c](const Image& of, const rung_instance_options& with) { return c.devices->instance(of, with); };
 }
 
 // False: what is wrong has been reported.
 bool loadProgram(PlcInstance& c, const Request& request) {
+  const Image* image = nullptr;
   try {
-    c.image.emplace(imageOf(request));
+    image = &c.image.emplace(imageOf(request));
   } catch (const std::exception& error) {
     complainLines(error.what());
     return false;
@@ -201,17 +203,17 @@ bool loadProgram(PlcInstance& c, const Request& request) {
   std::vector<std::string> warnings;
   mapping::File mapping = mapping::loadMap(request.map, errors);
   mapping::refuseConnections(mapping, "LinuxCNC, where HAL connects the pins", errors);
-  const plc::Box::NewInstance newInstance = withDevices(c, mapping, errors);
+  const plc::Box::NewInstance newInstance = withDevices(c, *image, mapping, errors);
   // Mistakes of the text and of names at once; a box is only made for a faultless map.
   if (!mapping.paths.empty())
-    c.box = plc::Box::make(*c.image, std::move(mapping), errors, request.retain != nullptr ? request.retain : "",
+    c.box = plc::Box::make(*image, std::move(mapping), errors, request.retain != nullptr ? request.retain : "",
                            warnings, newInstance);
   if (c.devices != nullptr) std::ranges::move(c.devices->warnings(), std::back_inserter(warnings));
   for (const std::string& warning : warnings) complain("%s: %s\n", kModule, warning.c_str());
   for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
   if (c.box == nullptr) return false;
   const auto logged = [&c](const std::string& text) { rtapi_print("%s: %s\n", c.prefix.c_str(), text.c_str()); };
-  c.controller = std::make_unique<remote::Controller>(c.prefix, *c.box, *c.image, logged);
+  c.controller = std::make_unique<remote::Controller>(c.prefix, *c.box, *image, logged);
   return true;
 }
 

@@ -7,8 +7,8 @@
 namespace rung::wcet {
 
 struct HostFunction {
-  ir::OpCode operation; // that calls it; its name is that of the function
-  double ns = 0;        // of a call
+  ir::OpCode operation{}; // that calls it; its name is that of the function
+  double ns = 0;          // of a call
 };
 
 // Of the runtime's queues, empty and full: the dearest of many calls, each with the fastest of its times. What a

@@ -59,7 +59,7 @@ uint64_t TaskCost::outsideOfCircles(std::span<const uint64_t> costs) const {
 // At most, of a routine that no circle calls; `known`: of others. Calls are nested no deeper than the stack of
 // rung_ctx.
 uint64_t TaskCost::runsOf(ir::RoutineId routine, std::vector<std::optional<uint64_t>>& known) const {
-  if (known[routine.index]) return *known[routine.index];
+  if (const std::optional<uint64_t>& runs = known[routine.index]) return *runs;
   uint64_t runs = routine == cut_.module().tasks[task_.index].entry ? 1 : 0;
   for (uint32_t caller = 0; caller < uses_.size(); ++caller)
     if (uses_[caller] == Use::Once)

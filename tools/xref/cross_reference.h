@@ -51,7 +51,7 @@ private:
   struct Use {
     Access access;
     ir::BitRange reach; // with an index
-    ir::Type type;
+    ir::Type type = ir::Type::None;
   };
   void addPlaces(std::vector<host::Ref>& places) const;
 

@@ -9,7 +9,6 @@ namespace {
 
 using namespace rung::devices;
 using namespace rung::devices::inouts;
-using rung::sim::technol::CanUnitEvent;
 using rung::test::CanRig;
 
 struct Units : testing::Test, CanRig {

@@ -17,7 +17,7 @@ struct EthercatNet {
   using Config = std::initializer_list<std::pair<const char*, const char*>>;
 
   // Powered on. The configuration must be right.
-  explicit EthercatNet(Config keys = {}) {
+  EthercatNet(Config keys = {}) {
     for (const auto& [key, value] : keys) problems += net.configure(key, value);
     net.powerOn();
   }

@@ -48,8 +48,10 @@ Result<std::unique_ptr<Peer>> Peer::load(const std::string& path, const Work& wo
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // stays loaded: profilers look names up at the end
   if (library == nullptr) return failure(dlerror());
   void* found[3];
-  for (size_t i = 0; const char* name : {"peer_begin", "peer_scan", "peer_places"})
-    if ((found[i++] = dlsym(library, name)) == nullptr) return failure(dlerror());
+  for (size_t i = 0; const char* name : {"peer_begin", "peer_scan", "peer_places"}) {
+    found[i] = dlsym(library, name);
+    if (found[i++] == nullptr) return failure(dlerror());
+  }
   return std::unique_ptr<Peer>(new Peer(reinterpret_cast<Begin>(found[0]), reinterpret_cast<Scan>(found[1]),
                                         static_cast<void* const*>(found[2]), work, msAScan));
 }

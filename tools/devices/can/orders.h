@@ -19,7 +19,7 @@ struct CanOrder {
 
 // The handles of orders that match a packet, lowest first.
 struct CanMatches {
-  std::array<uint32_t, kMostCanOrders> handles;
+  std::array<uint32_t, kMostCanOrders> handles{};
   uint32_t count = 0;
 
   std::span<const uint32_t> all() const { return {handles.data(), count}; }

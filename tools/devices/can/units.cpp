@@ -79,7 +79,8 @@ void CanUnits::synchronize(const UnitOrders& orders, CanPort& port) {
 void CanUnits::show(const CanUnit& unit, UnitStates& states) {
   const Inouts& data = unit.data();
   const uint32_t number = unit.board() - 1;
-  if (unit.group() == kInOut08) std::copy_n(&data.at(inouts::kIn), kUnitInputs, &states.in[kUnitInputs * number]);
+  if (unit.group() == kInOut08)
+    std::copy_n(&data.at(inouts::kIn), kUnitInputs, &states.in[size_t{kUnitInputs} * number]);
   if (unit.group() == kHandwheel) std::copy_n(&data.at(inouts::kIn), 2, states.keys[number].begin());
   GroupCodes& codes = states.groups[unit.group() - 1];
   const auto error = static_cast<uint8_t>(data.get(inouts::kError));

@@ -118,8 +118,8 @@ public:
 
   // Those at which a simulated device may work.
   struct PointCell {
-    ModulePoint point;
-    uint32_t cell;
+    ModulePoint point{};
+    uint32_t cell = 0;
   };
   std::span<const PointCell> points() const { return points_; }
 

@@ -115,7 +115,7 @@ public:
     return cell ? cell : exchange_.cells().read(name);
   }
   std::optional<std::string> writeCell(std::string_view name, const NcCell& value) override {
-    const auto problem = devices_.writeCell(name, value);
+    auto problem = devices_.writeCell(name, value);
     if (problem || !exchange_.cells().write(name, value)) return problem;
     return std::string();
   }

@@ -8,7 +8,6 @@
 
 namespace rung::frontend::technol {
 
-using nc::ExchangeKind;
 using nc::ExchangeType;
 using Form = Operand::Form;
 

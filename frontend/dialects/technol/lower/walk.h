@@ -6,7 +6,7 @@
 namespace rung::frontend::technol {
 
 struct LoweredModule {
-  ModuleKind kind;
+  ModuleKind kind{};
   ir::RoutineId routine;
   uint64_t weight = 0;
 };

@@ -138,9 +138,12 @@ std::vector<ShownMessage> GskControl::messages(const host::Instance& instance) c
 
 bool GskControl::shows(const host::Instance& instance, std::span<const ShownMessage> these) const noexcept {
   size_t count = 0;
-  return forShown(instance.block().data(), messagePieces_,
-                  [&](uint32_t number) { return count < these.size() && these[count++].number == number; }) &&
-         count == these.size();
+  const bool same = forShown(instance.block().data(), messagePieces_, [&](uint32_t number) {
+    if (count == these.size() || these[count].number != number) return false;
+    ++count;
+    return true;
+  });
+  return same && count == these.size();
 }
 
 namespace {

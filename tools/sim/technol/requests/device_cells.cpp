@@ -121,7 +121,7 @@ std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
 std::optional<NcCell> SimulatedDevices::readModule(std::string_view name) const {
   const std::string identifier = nc::technol::canonical(nc::memoryText(name));
   const nc::technol::Reference reference = nc::technol::withoutBit(identifier);
-  const auto whole = readElement(reference.base);
+  auto whole = readElement(reference.base);
   if (!whole || !reference.bit) return whole;
   const bool hasBit = !whole->isReal && *reference.bit < whole->width;
   return hasBit ? std::optional(NcCell{.width = 1, .bits = whole->bits >> *reference.bit & 1}) : std::nullopt;
@@ -133,9 +133,9 @@ std::optional<NcCell> SimulatedDevices::readElement(std::string_view identifier)
     return NcCell{.width = 8 * ethercat_.image().bytesOf(entry), .bits = ethercat_.image().read(entry)};
   const auto element = givenElement(identifier);
   if (!element) return std::nullopt;
-  return NcCell{.isReal = element->type == nc::ExchangeType::Real,
-                .width = widthOf(element->type),
-                .bits = *givenAt(element->point, axisOutputs_, axes_.count(), servoCells_)};
+  const auto bits = givenAt(element->point, axisOutputs_, axes_.count(), servoCells_);
+  if (!bits) return std::nullopt;
+  return NcCell{.isReal = element->type == nc::ExchangeType::Real, .width = widthOf(element->type), .bits = *bits};
 }
 
 uint32_t SimulatedDevices::inputOfNet(std::string_view identifier) const {

@@ -39,11 +39,11 @@ std::optional<std::string> SimulatedDevices::configure(std::string_view key, std
     return files_.setTable(*table, path);
   }
   if (text::equalsIgnoringCase(key, "axes") || devices::isAxisKey(key)) return axes_.configure(key, value);
-  if (const auto wired = inputs_.configure(key, value, axes_)) return *wired;
+  if (auto wired = inputs_.configure(key, value, axes_)) return wired;
   if (ComPorts::owns(key)) return com_.configure(key, value);
   if (EtherCat::owns(key)) return ethercat_.configure(key, value);
   if (EthercatServos::owns(key)) return servos_.configure(key, value);
-  if (const auto keyboard = keyboards_.configure(key, path)) return *keyboard;
+  if (auto keyboard = keyboards_.configure(key, path)) return keyboard;
   return can_.configure(key, value);
 }
 

@@ -12,8 +12,8 @@ struct LlvmFunctions {
   decltype(&emitLlvmIr) irText;
   decltype(&emitAssembly) assembly;
   decltype(&buildLlvmSharedObject) sharedObject;
-  decltype(&withSection) withSection;
-  decltype(&sectionOf) sectionOf;
+  decltype(&codegen::withSection) withSection;
+  decltype(&codegen::sectionOf) sectionOf;
   decltype(&makeJitCode) jitCode;
   decltype(&boundInstructions) instructionBound;
 };

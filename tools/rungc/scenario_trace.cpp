@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "tools/rungc/commands.h"
+
 namespace rung::rungc {
 
 void ScenarioTrace::addTo(Command command) {

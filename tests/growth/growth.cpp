@@ -10,7 +10,9 @@
 #include "codegen/jit/jit_engine.h"
 #include "ir/core/builder.h"
 #include "ir/passes/pipeline.h"
+#include "ir/support/source.h"
 #include "ir/text/text.h"
+#include "ir/uses/uses.h"
 #include "tests/unit/ladder/ladder_testing.h"
 #include "tools/compiler/compile.h"
 
@@ -123,6 +125,27 @@ void optimiseRegisters(uint32_t n) {
   optimise(module);
 }
 
+// One rung that uses as many places, several times.
+void usesOfARung(uint32_t n) {
+  Module module = emptyModule(1, 0);
+  RungBuilder b(module, module.routines[0].rungs[0]);
+  for (uint32_t i = 0; i < 8 * n; ++i)
+    b.store({SpaceId{0}, i % 5000 + 8, 0}, b.load(Type::Bit, {SpaceId{0}, i / 8, i % 8}));
+  if (Uses(module).of(0).size() < 8 * n) std::abort();
+}
+
+void linesOfPositions(uint32_t n) {
+  constexpr uint32_t kLines = 8; // as many times
+  const std::string line = "LD X0.0 ; a comment\n";
+  std::string text;
+  for (uint32_t i = 0; i < kLines * n; ++i) text += line;
+  SourceManager sources;
+  const FileId file = sources.addBuffer("a.pmc", std::move(text));
+  uint64_t sum = 0;
+  for (uint32_t i = 0; i < kLines * n; ++i) sum += sources.lineCol(sources.position(file, i * line.size())).line;
+  if (sum != uint64_t{kLines * n} * (kLines * n + 1) / 2) std::abort();
+}
+
 void printAndParse(uint32_t n) {
   Module module = manyRungs(n);
   for (uint32_t i = 0; i < n; ++i)
@@ -219,6 +242,8 @@ constexpr std::pair<std::string_view, Work> kCases[] = {
     {"optimise-rungs", optimiseRungs},
     {"optimise-large-rung", optimiseLargeRung},
     {"optimise-registers", optimiseRegisters},
+    {"uses-of-a-rung", usesOfARung},
+    {"lines-of-positions", linesOfPositions},
     {"print-and-parse", printAndParse},
     {"nct-rungs", nctRungs},
     {"nct-contacts", nctContacts},

@@ -24,6 +24,15 @@ TEST(ConfigKey, DurationsHaveAUnit) {
     EXPECT_EQ(durationUs(wrong), -1) << wrong;
 }
 
+TEST(ConfigKey, LimitsAreRightValues) {
+  const ConfigKey whole{.key = "k", .form = ConfigForm::Whole, .least = 3, .most = 5};
+  const ConfigKey time{.key = "k", .form = ConfigForm::Duration, .least = 3000, .most = 5000};
+  for (const char* right : {"3", "5"}) EXPECT_EQ(wrongValue(whole, "k", right), "");
+  for (const char* right : {"3ms", "5ms"}) EXPECT_EQ(wrongValue(time, "k", right), "");
+  for (const char* wrong : {"2", "6"}) EXPECT_NE(wrongValue(whole, "k", wrong), "");
+  for (const char* wrong : {"2999us", "5001us"}) EXPECT_NE(wrongValue(time, "k", wrong), "");
+}
+
 TEST(ConfigKey, NoDurationOverflows) {
   EXPECT_EQ(durationUs("4294967295s"), 4'294'967'295'000'000);
   EXPECT_EQ(durationUs("1000000000000s"), 1'000'000'000'000'000'000);

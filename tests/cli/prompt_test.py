@@ -324,6 +324,13 @@ class Piped(Folder):
         self.assertIn("expect_fault dead-loop", self.read("saved.scn"))
         self.passes("saved.scn")
 
+    def test_what_differs_from_the_project_is_saved(self):
+        self.assertEqual(rungc("new", "nct", "p", cwd=self.folder).returncode, OK)
+        self.assertIn('timeslice = "2ms"', self.read("p/rung.toml"))
+        for value, saved in (("5ms", ["config timeslice 5ms"]), ("2ms", [])):
+            self.run_it("--project", "p", "--config", "timeslice=" + value, "-i", stdin="scan\nsave p/saved.scn\n")
+            self.assertEqual([line for line in self.read("p/saved.scn").splitlines() if line.startswith("config")], saved)
+
     def test_one_standard_input(self):
         done = self.run_it("-", "--dialect", "nct", "-i", stdin=LAMP)
         self.assertEqual(done.returncode, USAGE)

@@ -35,6 +35,15 @@ rung "computed"
 rung
 |--{END}
 """
+GIVEN = """dialect nct
+module MAIN
+
+rung
+|--[TN_TS1]--(7003.00)
+
+rung
+|--{END}
+"""
 GSK = """        LD X0.0
         FUNC MOVN
         PRM 4
@@ -108,6 +117,9 @@ class Xref(unittest.TestCase):
         output, = json.loads(self.xref("--format", "json", self.program("p.pmc", GSK), "--place", "Y0.0"))
         self.assertTrue(output["control_reads"])
         self.assertNotIn("odd", output)
+        given, = json.loads(self.xref("--format", "json", self.program("given.lad", GIVEN), "--place", "TN_TS1"))
+        self.assertTrue(given["control_writes"])
+        self.assertNotIn("control_reads", given)
 
     def test_odd_ones(self):
         names = self.entries(self.program("p.lad", NCT), "--odd")

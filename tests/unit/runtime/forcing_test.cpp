@@ -125,6 +125,7 @@ TEST_F(Forcing, AnInputAtItsLatch) {
     EXPECT_TRUE(rung::forcedCells(plc_).empty()) << "prepared, not in effect";
     ASSERT_EQ(put(open), RUNG_OK);
     EXPECT_EQ(value("DOOR"), 1);
+    EXPECT_EQ(value("LATCHED"), 1) << "before it is copied";
     plc_.write(door, 0);
     EXPECT_EQ(value("DOOR"), 1) << "for every reader";
     plc_.scan();

@@ -104,10 +104,11 @@ def main():
     if options.check:
         lines, failed = verdict(counts, json.loads(TABLE.read_text(encoding="utf-8")), environment(options.tools),
                                 bool(os.environ.get("CI")))
-        if excess := services.excess(of_services):
-            raise Failure(excess)
+        problems = [services.excess(of_services)]
         if failed:
-            raise Failure("other instructions than before; if that is meant: ./dev bench --count --update\n" + "\n".join(lines))
+            problems.append("other instructions than before; if that is meant: ./dev bench --count --update\n" + "\n".join(lines))
+        if any(problems):
+            raise Failure("\n".join(filter(None, problems)))
         print("\n".join(lines))
 
 

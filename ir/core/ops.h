@@ -1,5 +1,5 @@
-// The names of operations. Who includes this is compiled again for every new operation; who only hands codes on includes
-// op_code.h, who asks what an operation is, op_info.h.
+// The names of operations. Who includes this is compiled again for every new operation; who only hands codes on
+// includes op_code.h, who asks what an operation is, op_info.h.
 #pragma once
 #include <cstdint>
 

@@ -34,7 +34,7 @@ private:
   };
   // The last write through windows that lie within these bytes.
   struct WindowWrites {
-    uint32_t time;
+    uint32_t time = 0;
     uint64_t begin = 0;
     uint64_t end = 0;
   };

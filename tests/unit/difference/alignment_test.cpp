@@ -28,7 +28,7 @@ TEST(Alignment, PairsWhatIsOnceOnEachSide) {
   EXPECT_THAT(aligned("xuvy", "zvuw"), testing::SizeIs(1)) << "one of them has moved";
 }
 
-// Sections before, between and behind such pairs are sequences of their own: their beginnings are paired.
+// The sections before, between and after such pairs are aligned separately, each from its beginning.
 TEST(Alignment, DividesAtPairs) {
   EXPECT_THAT(aligned("xuddvy", "zudddvw"), ElementsAre(Pair(1, 1), Pair(2, 2), Pair(3, 3), Pair(4, 5)));
   EXPECT_THAT(aligned("ddxuy", "dddzuw"), ElementsAre(Pair(0, 0), Pair(1, 1), Pair(3, 4)));

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -83,6 +84,7 @@ struct PlcInstance {
   StatusPins* status = nullptr;    // in HAL's memory
   plc::PinCell* cells = nullptr;   // in HAL's memory
   std::atomic<uint32_t> inside{0}; // calls of its functions under way
+  std::atomic<uint32_t> calls{0};  // that are over
   // The threads that HAL calls its functions in, 0: it has not yet. A program is one thread's: where they differ, it is
   // apart for good, and does not run.
   std::array<std::atomic<pthread_t>, 2> callers{};
@@ -347,6 +349,7 @@ void call(PlcInstance& c, Function function, long periodNs) {
       runStep(c, function, periodNs);
     }
   }
+  c.calls.fetch_add(1);
   c.inside.fetch_sub(1);
 }
 
@@ -470,7 +473,29 @@ void closeProgram(PlcInstance& c) {
   if (!error.empty()) complain("%s: %s\n", kModule, error.c_str());
 }
 
+// HAL's thread notes down a function's time after the call, and crashes where the function has been taken out by then.
+// It is past that when it calls again; and then it is far from the next call for a while. Threads may have stopped.
+void waitForCall(const PlcInstance& c) {
+  constexpr std::chrono::microseconds kLook(20);
+  constexpr int64_t kMostPeriods = 20;
+  const uint32_t before = c.calls.load();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::nanoseconds(kMostPeriods * c.periodNs.load());
+  while (c.calls.load() == before && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kLook);
+}
+
+// The thread that calls most often at last: the others are far from their calls for longer.
+void waitBetweenCalls(const Component& c) {
+  std::vector<const PlcInstance*> called;
+  for (const auto& instance : c.instances)
+    if (instance->periodNs.load() != 0) called.push_back(instance.get());
+  std::ranges::sort(called, std::greater(), [](const PlcInstance* instance) { return instance->periodNs.load(); });
+  for (const PlcInstance* instance : called) waitForCall(*instance);
+  constexpr int64_t kPart = 8; // of a period: the call has returned by then
+  if (!called.empty()) std::this_thread::sleep_for(std::chrono::nanoseconds(called.back()->periodNs.load() / kPart));
+}
+
 void leaveHal(const Component& c) {
+  waitBetweenCalls(c);
   hal_exit(componentId);
   int64_t longest = 0;
   for (const auto& instance : c.instances) longest = std::max(longest, instance->periodNs.load());

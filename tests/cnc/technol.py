@@ -6,7 +6,7 @@ import hal
 import linuxcnc
 
 import drive
-from drive import (at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, passes, pin, pins,
+from drive import (again_until, at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, passes, pin, pins,
                    program_time, progress, rungctl, state, wait)
 from panel import connect, press, put
 
@@ -108,10 +108,10 @@ def by_program():
     for name in ("REQ_EXT_CONT_AUTMAN", "AUTMAN_REQ"):
         rungctl("set", name, "false")
     mode("mdi", linuxcnc.MODE_MDI)
-    rungctl("set", "AUTMAN_SELECT", "true")
-    wait("manual mode again", lambda: state("task_mode") == linuxcnc.MODE_MANUAL)
+    again_until("manual mode again", lambda: rungctl("set", "AUTMAN_SELECT", "true"),
+                lambda: state("task_mode") == linuxcnc.MODE_MANUAL)
     pins(manual_chosen=False)
-    passes(6)  # in which the key is up for LinuxCNC, too
+    wait("LinuxCNC's key is up", lambda: not hal.get_value("ask-manual.out"))
     mode("mdi", linuxcnc.MODE_MDI)
     mdi("G0 X0")
 

@@ -117,7 +117,7 @@ check_coverage() { # which lines the tests run; a source file that none of them 
 
 check_reads() {
   build_tests release build
-  tools/dev/reads.py build
+  python3 tools/dev/reads.py build
 }
 
 check_fuzz() { RUNG_MUTATIONS=30000 run_tests -R '^fuzz\.'; }

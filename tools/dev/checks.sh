@@ -109,8 +109,9 @@ check_tsan() { # data races: runtime, simulation, the component's box, programs 
 }
 
 check_coverage() { # which lines the tests run; a source file that none of them runs is a failure
-  build_preset coverage build-coverage
-  rm -rf build-coverage/profile
+  # Tables and manual pages are made by programs of ours while others are built.
+  LLVM_PROFILE_FILE="$PWD/build-coverage/profile/build/%4m.profraw" build_preset coverage build-coverage
+  rm -f build-coverage/profile/*.profraw
   LLVM_PROFILE_FILE="$PWD/build-coverage/profile/%4m.profraw" test_in build-coverage
   tools/coverage-report build-coverage
 }

@@ -29,8 +29,8 @@ def matches(path, patterns):
 
 def named_paths(text, exists):
     """Files and folders of the repository that a text names in its literals; the folder of a file, as files include their
-    neighbours. exists(path) -> "file", "folder" or None. A folder at the top is meant where it stands alone; within a
-    sentence, "tools" are just tools, but "examples" may be a word of a command."""
+    neighbours, but a page alone. exists(path) -> "file", "folder" or None. A folder at the top is meant where it stands
+    alone; within a sentence, "tools" are just tools, but "examples" may be a word of a command."""
     found = set()
     for one, other in LITERAL.findall(INCLUDE.sub("", text)):
         literal = one or other
@@ -44,7 +44,8 @@ def named_paths(text, exists):
             while exists(path) is None and "/" in path:  # the rest is a pattern, or made at run time
                 path = os.path.dirname(path)
             if exists(path) is not None:
-                found.add(os.path.dirname(path) if exists(path) == "file" else path)
+                alone = path.endswith(".md") or exists(path) == "folder"  # a page includes nothing
+                found.add(path if alone else os.path.dirname(path))
     return found
 
 
@@ -107,9 +108,10 @@ class Reader:
 
     @functools.cache
     def paths(self, entry):
-        """Files and folders; not what `READS .` means. The own folder is not meant where a part of it is stated."""
+        """Files and folders; not what `READS .` means. The own folder is not meant where a part of it is stated; that of
+        families holds many, and each reads the folders of its sources."""
         found = {path for path in entry.reads if path != "."}
-        if not any(path.startswith(entry.folder + "/") for path in found):
+        if not entry.family and not any(path.startswith(entry.folder + "/") for path in found):
             found.add(entry.folder)
         found |= {os.path.dirname(path) for path in found if self.exists(path) == "file"}  # files include their neighbours
         for script in self.scripts(entry):

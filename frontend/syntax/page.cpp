@@ -46,7 +46,7 @@ void Page::aside(std::string text, std::string_view comment) {
   lines_.back().aside = true;
 }
 
-void Page::comment(std::string text) {
+void Page::comment(std::string_view text) {
   lines_.push_back({.cells = {std::string(withoutTrailingSpace(text))}, .aside = true});
 }
 

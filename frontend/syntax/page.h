@@ -33,7 +33,7 @@ public:
   /// A line, as above, that does not end the table that it is in.
   void aside(std::string text, std::string_view comment = {});
   /// A comment on a line of its own, with the blanks before it.
-  void comment(std::string text);
+  void comment(std::string_view text);
   void blank();
 
   /// The characters, or bytes, of a text.

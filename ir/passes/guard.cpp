@@ -57,11 +57,11 @@ private:
     uint32_t most = before + kLeastGain - 1;
     for (const uint64_t limit : kLimits) {
       if (most >= all) return;
-      CellRanges way = below(limit);
+      const CellRanges way = below(limit);
       const uint32_t now = known(way);
       if (now <= most) continue;
       most = now;
-      ways_.assign(1, std::move(way));
+      ways_.assign(1, way);
     }
   }
 

@@ -119,7 +119,7 @@ bool isEmpty(const uint8_t* line) noexcept {
 // The bytes of `Line` at once, so that the compiler has them in wide registers.
 template <class Line>
 void mergeLine(uint8_t* to, const uint8_t* from, uint8_t* mask) noexcept {
-  Line bits, old, fresh;
+  Line bits{}, old{}, fresh{};
   std::memcpy(&bits, mask, sizeof bits);
   std::memcpy(&old, to, sizeof old);
   std::memcpy(&fresh, from, sizeof fresh);
@@ -372,6 +372,7 @@ namespace {
 class Contents {
 public:
   // At most RUNG_MOST_CHANGES.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): no more of it than words
   Contents(const uint8_t* memory, std::span<const uint32_t> words) noexcept : memory_(memory), words_(words) {
     for (size_t i = 0; i < words_.size(); ++i) before_[i] = wordAt(words_[i]);
   }

@@ -99,7 +99,7 @@ std::vector<std::span<const uint8_t>> tablesOf(const rung_program& program) {
 }
 
 struct Sought {
-  uintptr_t address;
+  uintptr_t address = 0;
   uintptr_t end = 0; // of the segment that has it; 0: none
 };
 

@@ -41,7 +41,9 @@ int32_t checkFunction(rung_instance& instance, uint32_t channel, int32_t kind, u
   const nc::Functions* functions = functionsOf(instance, channel);
   if (functions == nullptr) return failChannel(channel);
   if (functions->carries(static_cast<nc::FunctionKind>(kind), code)) return RUNG_OK;
-  return fail(RUNG_NOT_FOUND, "the dialect has no signals for %s%u", nc::kFunctionKinds[kind].data(), code);
+  const std::string_view name = nc::kFunctionKinds[kind];
+  return fail(RUNG_NOT_FOUND, "the dialect has no signals for %.*s%u", static_cast<int>(name.size()), name.data(),
+              code);
 }
 
 } // namespace

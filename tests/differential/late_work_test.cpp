@@ -14,7 +14,6 @@ namespace rung {
 namespace {
 
 using compiler::EngineKind;
-using compiler::EngineOptions;
 using namespace ir;
 
 constexpr SpaceId kWords{0};

@@ -131,7 +131,7 @@ void usesOfARung(uint32_t n) {
   RungBuilder b(module, module.routines[0].rungs[0]);
   for (uint32_t i = 0; i < 8 * n; ++i)
     b.store({SpaceId{0}, i % 5000 + 8, 0}, b.load(Type::Bit, {SpaceId{0}, i / 8, i % 8}));
-  if (Uses(module).of(0).size() < 8 * n) std::abort();
+  if (Uses(module).of(0).size() < size_t{8} * n) std::abort();
 }
 
 void linesOfPositions(uint32_t n) {
@@ -143,7 +143,7 @@ void linesOfPositions(uint32_t n) {
   const FileId file = sources.addBuffer("a.pmc", std::move(text));
   uint64_t sum = 0;
   for (uint32_t i = 0; i < kLines * n; ++i) sum += sources.lineCol(sources.position(file, i * line.size())).line;
-  if (sum != uint64_t{kLines * n} * (kLines * n + 1) / 2) std::abort();
+  if (sum != uint64_t{kLines} * n * (uint64_t{kLines} * n + 1) / 2) std::abort();
 }
 
 void printAndParse(uint32_t n) {

@@ -18,7 +18,7 @@ uint32_t channelOf(const DeviceCall& call) { return static_cast<uint32_t>(call.a
 
 // Bytes of the items of INOUTS, by their places.
 std::array<uint8_t, devices::inouts::kBytes> itemWidths() {
-  std::array<uint8_t, devices::inouts::kBytes> widths;
+  std::array<uint8_t, devices::inouts::kBytes> widths{};
   widths.fill(1);
   for (const nc::Signal& signal : nc::technolSignals())
     if (std::string_view(signal.area) == "INOUTS" && signal.byteOffset < widths.size())

@@ -15,7 +15,6 @@ namespace rung::difference {
 namespace {
 
 using ir::Module;
-using ir::Rung;
 using ir::Symbol;
 
 using ByRoutine = std::map<std::string, std::vector<DrawnRung>>;

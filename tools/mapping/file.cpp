@@ -611,7 +611,7 @@ std::string readFromDisk(const std::string& path) {
   return text;
 }
 
-File parseMap(std::string_view text, std::string path, std::vector<std::string>& errors, const ReadFile& read) {
+File parseMap(std::string_view text, const std::string& path, std::vector<std::string>& errors, const ReadFile& read) {
   File map;
   Reader reader(map, read);
   reader.read(text, path);

@@ -208,7 +208,7 @@ std::string readFromDisk(const std::string& path);
 // Every mistake is one entry of `errors`, PATH:LINE:COLUMN with what was found, what was expected and how to fix it, in
 // the order of the files; the entries without mistakes are in the result. Where a text is not TOML, nothing is in it,
 // and there is one error, the first of its syntax. Included files are read by `read`.
-File parseMap(std::string_view text, std::string path, std::vector<std::string>& errors,
+File parseMap(std::string_view text, const std::string& path, std::vector<std::string>& errors,
               const ReadFile& read = readFromDisk);
 // The same for a file that is read, too.
 File loadMap(const std::string& path, std::vector<std::string>& errors, const ReadFile& read = readFromDisk);

@@ -33,7 +33,6 @@ volatile int gStop = 0; // of SIGINT and SIGTERM
 
 // A number, true or false; anything else stays a text, which the host refuses with what it expected.
 json valueOf(const std::string& text) {
-  std::string digits = text;
   if (text.starts_with("0x") || text.starts_with("0X")) { // JSON has none
     char* end = nullptr;
     const unsigned long long number = std::strtoull(text.c_str(), &end, 16);
@@ -295,6 +294,7 @@ private:
   int& status_;
 };
 
+// NOLINTNEXTLINE(readability-function-size): a command after the other
 void addAll(Commands& commands) {
   const auto none = [](cli::Command&, Words&) {};
   const auto names = [](cli::Command& command, Words& words) {

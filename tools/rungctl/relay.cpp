@@ -14,7 +14,7 @@ namespace {
 
 // False: there is no more.
 bool readMore(int in, std::string& text) {
-  std::array<char, 4096> buffer;
+  std::array<char, 4096> buffer{};
   const ssize_t count = read(in, buffer.data(), buffer.size());
   if (count > 0) text.append(buffer.data(), static_cast<size_t>(count));
   return count > 0;

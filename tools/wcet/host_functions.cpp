@@ -29,7 +29,7 @@ void call(ir::OpCode operation, rung_ctx& ctx, uint32_t number) {
 }
 
 double nsOf(ir::OpCode operation, rung_ctx& ctx, rt::HostPort& port) {
-  std::array<int64_t, kBatches> fastest;
+  std::array<int64_t, kBatches> fastest{};
   fastest.fill(std::numeric_limits<int64_t>::max());
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     port.messages.drop();

@@ -25,7 +25,7 @@ using Random = std::mt19937_64;
 
 // The program as the interpreter runs it, and the same in tiers.
 struct Both {
-  explicit Both(const ir::Module& module, codegen::JitOptions options = {}, Pace pace = Pace::Period)
+  explicit Both(const ir::Module& module, const codegen::JitOptions& options = {}, Pace pace = Pace::Period)
       : compiled(testing::compiledFromBuilt(module, {.cut = {.maxChunkRungs = 4}})), reference(*compiled.layout, 0),
         expected(reference), engine(TieredEngine::make(compiled, options, ir::Counting::Ticks, pace).value()),
         tested(*engine) {}

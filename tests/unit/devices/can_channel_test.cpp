@@ -111,7 +111,11 @@ TEST_F(Channel, OffTheBusOrdersAreTakenAndPacketsComeNoMoreThanTheBusGives) {
 TEST(CanController, PacketsWaitWhereThePortIsFull) {
   struct Narrow final : CanPort {
     BusState state() const override { return BusState::Active; }
-    bool transmit(const CanPacket&) override { return room > 0 && room-- > 0; }
+    bool transmit(const CanPacket&) override {
+      if (room == 0) return false;
+      --room;
+      return true;
+    }
     bool receive(CanPacket&) override { return false; }
     int room = 2;
   } port;

@@ -14,7 +14,6 @@
 namespace {
 
 using rung::test::DeviceBench;
-using testing::Contains;
 
 class Bus : public DeviceBench, public testing::Test {
 protected:

@@ -465,7 +465,7 @@ TEST_F(TechnolBox, AnEndThatDoesNotComeIsNotWaitedFor) {
   ASSERT_THAT(w.errors, IsEmpty());
   w.run(40);
   EXPECT_FALSE(w.box->ends());
-  w.run(499 * 20);
+  w.run(499L * 20);
   EXPECT_FALSE(w.box->ends());
   w.run(20);
   EXPECT_TRUE(w.box->ends());

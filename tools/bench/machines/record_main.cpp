@@ -18,7 +18,6 @@ std::string recordingOf(const std::string& path) {
   std::unique_ptr<bench::Recorder> recorder;
   scenario::RunOptions options;
   options.engines = {compiler::EngineKind::Interp};
-  std::string text;
   options.started = [&](scenario::Session& session, const compiler::Compiled& program) {
     recorder = std::make_unique<bench::Recorder>(session, program);
     return std::string();

@@ -4,7 +4,6 @@
 namespace rung::nct {
 
 using ir::RungBuilder;
-using ir::Type;
 using ir::ValueId;
 
 namespace {

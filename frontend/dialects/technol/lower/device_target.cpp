@@ -85,7 +85,7 @@ void DeviceTarget::addWord(DeviceRequest& request, std::string name) const {
   request.add(std::move(name), l_->b().zextOrTrunc(Type::I64, loadByte(*l_, area_, l_->b().i32(0), Type::I16)));
 }
 
-void DeviceTarget::addTo(DeviceRequest& request, std::string name, DataForm form, ValueId count) const {
+void DeviceTarget::addTo(DeviceRequest& request, const std::string& name, DataForm form, ValueId count) const {
   ir::RungBuilder& b = l_->b();
   switch (form) {
   case DataForm::None: return;

@@ -24,7 +24,7 @@ public:
   void require(DataForm form, ir::ValueId guard) const;
 
   // As an argument of this name; `count` of bytes, i32.
-  void addTo(DeviceRequest& request, std::string name, DataForm form, ir::ValueId count) const;
+  void addTo(DeviceRequest& request, const std::string& name, DataForm form, ir::ValueId count) const;
   // The first word there as an argument.
   void addWord(DeviceRequest& request, std::string name) const;
   // Becomes the result of this name.

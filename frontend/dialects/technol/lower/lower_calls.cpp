@@ -4,7 +4,6 @@
 
 namespace rung::frontend::technol {
 
-using ir::Type;
 using ir::ValueId;
 
 void lowerCall(StatementContext& l, std::span<const Operand> o, int) { l.callProcedure(o[0].index); }

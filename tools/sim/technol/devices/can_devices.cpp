@@ -41,7 +41,7 @@ void CanDevices::openForScenario() {
 void CanDevices::tick(const CanInputs& in, CanOutputs& out) {
   for (SimulatedUnit& unit : buses_[kUnitChannel - 1].units())
     if (unit.group() == kInOut08)
-      std::copy_n(&in.terminals[kUnitInputs * (unit.board() - 1)], kUnitInputs, unit.wires().in.begin());
+      std::copy_n(&in.terminals[size_t{kUnitInputs} * (unit.board() - 1)], kUnitInputs, unit.wires().in.begin());
   control_.transmit(in.units, out.units, in.drives, out.drives);
   for (SimulatedCanBus& bus : buses_) bus.tick();
   control_.receive();

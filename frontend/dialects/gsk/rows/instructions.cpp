@@ -54,7 +54,7 @@ constexpr bool rowsAreInOrder() {
   }
   return true;
 }
-static_assert(rowsAreInOrder(), "functions stand in the order of their numbers, from rows_timing.h to rows_nc.h");
+static_assert(rowsAreInOrder(), "functions are in the order of their numbers, from rows_timing.h to rows_nc.h");
 
 // Of each row what `pointTo` gives.
 template <class T, class PointTo>

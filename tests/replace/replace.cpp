@@ -6,9 +6,10 @@
 //
 // FOLDER has what rung_replace_programs has built. Prints what the replacements have cost the scan thread in processor
 // time: the call alone, and the pause, which is the call with the first pass of the new program, less a usual pass of
-// that program; the same quantile of both is compared. Processor time is not free of what else the machine does: that
-// empties caches. So with --bounds there are kTries runs at most, of which one has to keep the bounds. 1: it was none,
-// or the state was wrong in one.
+// that program; the same quantile of both is compared. With --bounds the pause may not be longer than a usual pass, in
+// the median and in 99 %: a ratio, which a slower machine has, too. Processor time is not free of what else the machine
+// does: that empties caches. So there are kTries runs at most, of which one has to keep the bounds. 1: it was none, or
+// the state was wrong in one.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -32,7 +33,6 @@ namespace rung::test {
 namespace {
 
 constexpr int64_t kTickNs = 1'000'000;
-constexpr double kMedianUs = 20, kPercentileUs = 50;
 constexpr int kTries = 3;
 
 int64_t nsOf(clockid_t clock) {
@@ -243,13 +243,20 @@ double pauseUs(const Figures& figures, double share) {
   return pause.us(share);
 }
 
+// Of the program with the shortest one.
+double usualUs(const Figures& figures, double share) {
+  double shortest = figures.usual[0].us(share);
+  for (uint32_t i = 1; i < kPrograms; ++i) shortest = std::min(shortest, figures.usual[i].us(share));
+  return shortest;
+}
+
 bool withinBounds(const Figures& figures) {
   for (uint32_t i = 0; i < kPrograms; ++i)
     figures.usual[i].print(("a usual pass of " + std::string(kNames[i])).c_str());
   figures.call.print("the call");
   const double median = pauseUs(figures, 0.5), percentile = pauseUs(figures, 0.99);
   std::printf("%-28s median %6.1f us, 99 %% %6.1f us\n", "the pause", median, percentile);
-  return median <= kMedianUs && percentile <= kPercentileUs;
+  return median <= usualUs(figures, 0.5) && percentile <= usualUs(figures, 0.99);
 }
 
 int main(const std::string& folder, uint32_t count, bool bounds) {
@@ -259,7 +266,7 @@ int main(const std::string& folder, uint32_t count, bool bounds) {
     Figures figures;
     if (!run(images, count, figures)) return 1;
     if (withinBounds(figures) || !bounds) return 0;
-    std::printf("the bounds are %.0f us in the median and %.0f us in 99 %%\n", kMedianUs, kPercentileUs);
+    std::printf("the pause is longer than a usual pass, in the median or in 99 %%\n");
   }
   return 1;
 }

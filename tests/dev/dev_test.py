@@ -198,6 +198,9 @@ class Affected(unittest.TestCase):
                      "CMakePresets.json"):
             self.assertIn("decides how everything", self.choose("ir/base.cpp", path))
         self.assertIn("nothing says", self.choose("odd.xyz"))
+        (self.root / "tests/data/one/new_test.cpp").write_text("TEST(New, Case) {}\n")
+        self.assertIn("nothing is built from", self.choose("tests/data/one/new_test.cpp"))
+        self.assertEqual(self.choose("tests/data/one/gone_test.cpp"), {"user.data", "tree"})
         self.assertIn("nothing known is built", self.choose("ir/new.h"))
         self.assertIn("nothing known is built", self.choose("tools/reads/new.cpp"))
         self.assertIn("nothing says", self.choose("examples/lathe/lathe.lad"))
@@ -207,11 +210,11 @@ class Affected(unittest.TestCase):
 
     def test_named_paths(self):
         exists = {"examples/mill": "folder", "examples/mill/mill.pmc": "file", "tests": "folder", "tools": "folder",
-                  "examples": "folder", "docs": "folder", "README.md": "file"}.get
+                  "examples": "folder", "docs": "folder", "README.md": "file", "docs/a.md": "file"}.get
         for text, paths in (('"examples/mill/mill.pmc"', {"examples/mill"}), ("'examples/mill'", {"examples/mill"}),
                             ('"examples/" + name', {"examples"}), ('f"examples/{name}/x"', {"examples"}),
                             ('root / "tests"', {"tests"}), ('"the tools are"', set()), ('"check examples"', {"examples"}),
-                            ('"my/tools/x"', set()), ('#include "tools/x.h"', set()), ('"docs/gone.md"', {"docs"}), ('Path(ROOT, "README.md")', {"README.md"}), ('"OTHER.md"', set())):
+                            ('"my/tools/x"', set()), ('#include "tools/x.h"', set()), ('"docs/gone.md"', {"docs"}), ('"docs/a.md"', {"docs/a.md"}), ('Path(ROOT, "README.md")', {"README.md"}), ('"OTHER.md"', set())):
             self.assertEqual(affected.named_paths(text, exists), paths, text)
 
     def test_expression(self):
@@ -224,7 +227,7 @@ source "$1/tools/dev/checks.sh"
 die() { echo "dev: $*" >&2; exit 3; }
 setup() { :; }
 check_parts() { printf '%s\\n' 'good|1|-' 'bad|1|-' 'more|?|-' 'named|-|-'; }
-check_good() { echo good runs; }
+check_good() { echo good runs; [ -z "${EDITS:-}" ] || touch "$EDITS"; }
 check_bad() { false; echo "goes on after a mistake"; }
 check_more() { echo more runs >&2; }
 check_named() { :; }
@@ -283,6 +286,14 @@ class Checks(unittest.TestCase):
         self.assertEqual(self.ran("--resume"), ["bad"])
         self.assertEqual(self.ran("--table"), [])
         self.assertIn("passed", self.check("--table")[1])
+
+    def test_an_edit_while_a_part_runs(self):
+        self.check("good", EDITS="new")
+        (self.folder / "new").unlink()
+        self.assertEqual(self.ran("--resume", "good"), ["good"], "what ran is not the commit")
+
+    def test_a_name_is_no_expression(self):
+        self.assertIn("'go.d' is not a check", self.check("go.d")[2])
 
     def test_the_limit(self):
         status, output, _ = self.check("good", MINUTES="-1")

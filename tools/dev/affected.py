@@ -151,6 +151,8 @@ def choose(changed, entries, graph, node_of, reader):
         built = graph.knows(node_of(file))
         if not built and file.startswith(PRODUCT) and file.endswith(INCLUDED + COMPILED):
             return f"nothing known is built from {file}"
+        if not built and file.endswith("_test.cpp") and reader.text(file):
+            return f"nothing is built from {file}"
         if not built and not readers and not matches(file, HARMLESS):
             return f"nothing says which tests {file} concerns"
         for entry in readers:

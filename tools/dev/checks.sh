@@ -19,10 +19,11 @@ check() { # [--table] [--resume] [NAME...]: the parts in this order; one that fa
   done
   [ ${#names[@]} -gt 0 ] || mapfile -t names < <(check_parts | awk -F'|' '$2 != "-" {print $1}')
   for name in "${names[@]}"; do
-    check_parts | grep -q "^$name|" || die "'$name' is not a check; ./dev help lists them"
+    check_parts | awk -F'|' -v name="$name" '$1 == name {found = 1} END {exit !found}' || die "'$name' is not a check; ./dev help lists them"
   done
   setup --check
   mkdir -p out
+  trap 'echo "check: interrupted" >&2; exit 130' INT # a part that ends by itself then is not the end of all
   for name in "${names[@]}"; do
     if [ $resume = yes ] && has_passed "$name"; then echo "-- check $name has passed on this commit"; continue; fi
     run_part "$name"
@@ -60,6 +61,7 @@ run_part() { # NAME
   (set -e; "check_$name") 2>&1 | tee "out/check-$name.log"
   status=${PIPESTATUS[0]}
   set -e
+  [ "$(tree)" = "$commit" ] || commit=${commit%+}+ # what has run is not what the commit says
   if [ "$status" != 0 ]; then result=failed
   elif [ $SECONDS -gt $((minutes_allowed * 60)) ]; then result="over $minutes_allowed min"; fi
   [ "$result" = passed ] || failed+=("$name")

@@ -91,7 +91,7 @@ def details(build, arguments):
     command = ["ctest", "--test-dir", build, "--show-only=json-v1", *arguments]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0 or not done.stdout.startswith("{"):
-        sys.exit(f"dev: {' '.join(command)} failed\n{done.stdout}{done.stderr}")
+        sys.exit(f"dev: {' '.join(command)} failed\n{done.stderr}")
     return json.loads(done.stdout)["tests"]
 
 

@@ -8,6 +8,7 @@ tests.py changed BUILD [COMMIT]      prints an expression for ctest -R: the test
 """
 import functools
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -70,6 +71,11 @@ def changed(build, commit):
     say = functools.partial(print, file=sys.stderr)
     say(f"{len(paths)} files have changed since {git('describe', '--always', commit).strip()}")
     if not paths:
+        return
+    configured = re.search(r"^CMAKE_HOME_DIRECTORY:INTERNAL=(.*)$", (Path(build) / "CMakeCache.txt").read_text(), re.MULTILINE)
+    if configured and Path(configured[1]) != ROOT:
+        say(f"all tests: the build was configured in {configured[1]}, which is another name of {ROOT}")
+        print("all")
         return
     graph = ninja_graph.load(build)
     entries = test_list.entries_of(build)

@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 
 constexpr uint32_t kScans = 4;
 constexpr const char* kCompile = "aarch64-linux-gnu-gcc -std=c11 -O1 -Irtlib/abi -Itests/unit/llvm "
-                                 "tests/unit/llvm/mini_host.c tests/unit/llvm/mini_host_main.c -ldl -o {}";
-constexpr const char* kRun = "qemu-aarch64-static -L /usr/aarch64-linux-gnu {} {} {} > {}";
+                                 "tests/unit/llvm/mini_host.c tests/unit/llvm/mini_host_main.c -ldl -o '{}'";
+constexpr const char* kRun = "qemu-aarch64-static -L /usr/aarch64-linux-gnu '{}' '{}' {} > '{}'";
 
 bool works(const std::string& command) { return std::system((command + " > /dev/null 2>&1").c_str()) == 0; }
 

@@ -56,8 +56,8 @@ TEST(TargetStruct, AsInCOnEveryTarget) {
     text += fmt::format(fmt::runtime(kContext), pointerBytes(target));
     EXPECT_GT(done.size(), 8u);
     std::ofstream(file) << text;
-    const std::string command =
-        fmt::format("clang-19 --target={} -std=c11 -ffreestanding -fsyntax-only -Irtlib/abi {}", target, file.string());
+    const std::string command = fmt::format(
+        "clang-19 --target={} -std=c11 -ffreestanding -fsyntax-only -Irtlib/abi '{}'", target, file.string());
     EXPECT_EQ(std::system(command.c_str()), 0) << target;
   }
   fs::remove(file);

@@ -199,7 +199,7 @@ class Affected(unittest.TestCase):
             self.assertIn("decides how everything", self.choose("ir/base.cpp", path))
         self.assertIn("nothing says", self.choose("odd.xyz"))
         (self.root / "tests/data/one/new_test.cpp").write_text("TEST(New, Case) {}\n")
-        self.assertIn("nothing is built from", self.choose("tests/data/one/new_test.cpp"))
+        self.assertIn("nothing known is built", self.choose("tests/data/one/new_test.cpp"))
         self.assertEqual(self.choose("tests/data/one/gone_test.cpp"), {"user.data", "tree"})
         self.assertIn("nothing known is built", self.choose("ir/new.h"))
         self.assertIn("nothing known is built", self.choose("tools/reads/new.cpp"))
@@ -317,6 +317,18 @@ add_custom_target(thing)
 add_subdirectory(below)
 rung_write_test_needs()
 """
+
+
+class Words(unittest.TestCase):
+    def refused(self, *words):
+        done = subprocess.run([ROOT / "dev", "test", *words], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (3, ""))
+        return done.stderr
+
+    def test_what_ctest_would_pass_over(self):
+        self.assertIn("'gsk' is not an option; tests are selected by -R gsk", self.refused("gsk"))
+        self.assertIn("chooses by itself", self.refused("--changed", "-R", "x"))
+        self.assertIn("chooses by itself", self.refused("--changed", "HEAD", "-LE", "cnc", "--tests-regex", "x"))
 
 
 class Configuring(unittest.TestCase):

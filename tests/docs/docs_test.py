@@ -66,7 +66,7 @@ class Docs(unittest.TestCase):
             width = {"bit": "", "byte": "1", "word": "2", "dword": "4"}[row["type"]]
             only = {"both": "", "mc": " (GSK25iMc only)", "tc": " (GSK25iTc only)"}[row["mc_or_tc"]]
             wanted.append((place, width, row["symbol"], row["meaning"].replace("|", "\\|") + only, row["manual_line"].split(";")[0]))
-        self.assertNotEqual(wanted, [])
+        self.assertIn(f"\n{len(wanted)} names that need no declaration", page)
         self.assertEqual(sorted(found), sorted(wanted))
 
     def test_configuration_keys_are_told(self):

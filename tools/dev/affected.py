@@ -44,8 +44,8 @@ def named_paths(text, exists):
             while exists(path) is None and "/" in path:  # the rest is a pattern, or made at run time
                 path = os.path.dirname(path)
             if exists(path) is not None:
-                alone = path.endswith(".md") or exists(path) == "folder"  # a page includes nothing
-                found.add(path if alone else os.path.dirname(path))
+                includes = exists(path) == "file" and not path.endswith(".md")
+                found.add(os.path.dirname(path) if includes else path)
     return found
 
 
@@ -149,10 +149,10 @@ def choose(changed, entries, graph, node_of, reader):
     for file in changed:
         readers = [entry for entry in entries if reader.reads(entry, file)]
         built = graph.knows(node_of(file))
-        if not built and file.startswith(PRODUCT) and file.endswith(INCLUDED + COMPILED):
+        of_product = file.startswith(PRODUCT) and file.endswith(INCLUDED + COMPILED)
+        is_test = file.endswith("_test.cpp") and reader.text(file)  # one that is gone affects nothing
+        if not built and (of_product or is_test):
             return f"nothing known is built from {file}"
-        if not built and file.endswith("_test.cpp") and reader.text(file):
-            return f"nothing is built from {file}"
         if not built and not readers and not matches(file, HARMLESS):
             return f"nothing says which tests {file} concerns"
         for entry in readers:

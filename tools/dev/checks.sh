@@ -19,7 +19,7 @@ check() { # [--table] [--resume] [NAME...]: the parts in this order; one that fa
   done
   [ ${#names[@]} -gt 0 ] || mapfile -t names < <(check_parts | awk -F'|' '$2 != "-" {print $1}')
   for name in "${names[@]}"; do
-    check_parts | awk -F'|' -v name="$name" '$1 == name {found = 1} END {exit !found}' || die "'$name' is not a check; ./dev help lists them"
+    check_parts | cut -d'|' -f1 | grep -qxF -- "$name" || die "'$name' is not a check; ./dev help lists them"
   done
   setup --check
   mkdir -p out

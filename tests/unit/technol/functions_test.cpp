@@ -12,7 +12,7 @@ namespace {
 using ::testing::Optional;
 
 constexpr FunctionKind M = FunctionKind::M, S = FunctionKind::S, T = FunctionKind::T, B = FunctionKind::B,
-                       H = FunctionKind::H, Key = FunctionKind::Key;
+                       H = FunctionKind::H;
 
 // MODULE_BLOCK_INIT counts in INITS and waits for GO, or for the central annulment; MODULE_BLOCK_DONE counts in DONES
 // and waits for GO2.
@@ -251,8 +251,8 @@ TEST_F(TechnolHandshake, AnHFunction) {
 TEST_F(TechnolHandshake, AKeyIsPressedAndReleased) {
   set("START_DISABLE", 1);
   functions().start(M, 3);
-  EXPECT_THAT(functions().start(Key, 0xFFFFFFFF), Optional(1u));
-  EXPECT_EQ(functions().start(Key, 7), std::nullopt);
+  EXPECT_THAT(functions().start(FunctionKind::Key, 0xFFFFFFFF), Optional(1u));
+  EXPECT_EQ(functions().start(FunctionKind::Key, 7), std::nullopt);
   EXPECT_TRUE(functions().busy(1));
   scan();
   EXPECT_EQ(get("COMMAND"), 0xFFFFFFFFu);
@@ -262,7 +262,7 @@ TEST_F(TechnolHandshake, AKeyIsPressedAndReleased) {
   EXPECT_EQ(get("PRESSED"), 0u);
   EXPECT_FALSE(functions().busy(1));
   EXPECT_TRUE(functions().busy(0));
-  functions().start(Key, 7);
+  functions().start(FunctionKind::Key, 7);
   control_.powerOn(*instance_, PowerOn::Cold);
   EXPECT_FALSE(functions().busy(1));
 }
@@ -277,7 +277,7 @@ TEST_F(TechnolHandshake, WhatTheCellsDoNotHold) {
   EXPECT_FALSE(functions().carries(B, 0));
   EXPECT_TRUE(functions().carries(H, 99));
   EXPECT_FALSE(functions().carries(H, 100));
-  EXPECT_TRUE(functions().carries(Key, 0xFFFFFFFF));
+  EXPECT_TRUE(functions().carries(FunctionKind::Key, 0xFFFFFFFF));
 }
 
 // Central annulment in each phase: the block goes no further, a block of the mode CA follows (l.5180-5183, 6748-6761).

@@ -10,7 +10,7 @@
 #include "rtlib/core/ring.h"
 #include "tools/devices/can/port.h"
 
-struct can_frame;
+struct can_frame; // NOLINT(readability-identifier-naming): of the kernel
 
 namespace rung::devices {
 

@@ -168,6 +168,27 @@ include("@PROJECT_SOURCE_DIR@/cmake/suites.cmake")
   rung_test_family(${name} ${target} LABEL ${arg_LABEL} READS ${arg_READS})
 endfunction()
 
+# rung_add_version(NAME HEADER file NAMESPACE name FUNCTION name COMMENT text [FILES file...] [FOLDERS folder...]): library
+# rung_NAME with the function that the header declares, which gives a hash of the files and of the sources in the folders
+# of the project: another one for other sources.
+function(rung_add_version name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER;NAMESPACE;FUNCTION;COMMENT" "FILES;FOLDERS")
+  foreach(folder IN LISTS arg_FOLDERS)
+    set(here "${PROJECT_SOURCE_DIR}/${folder}")
+    file(GLOB found CONFIGURE_DEPENDS "${here}/*.cpp" "${here}/*.h" "${here}/*.hpp" "${here}/*.def")
+    list(APPEND arg_FILES ${found})
+  endforeach()
+  list(JOIN arg_FILES "," files)
+  set(version "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp")
+  set(script "${PROJECT_SOURCE_DIR}/cmake/embed_version.cmake")
+  add_custom_command(OUTPUT "${version}"
+    COMMAND "${CMAKE_COMMAND}" "-DOUT=${version}" "-DHEADER=${arg_HEADER}" "-DNAMESPACE=${arg_NAMESPACE}"
+      "-DFUNCTION=${arg_FUNCTION}" "-DFILES=${files}" -P "${script}"
+    DEPENDS ${arg_FILES} "${script}"
+    COMMENT "${arg_COMMENT}" VERBATIM)
+  rung_add_library(rung_${name} SOURCES "${version}")
+endfunction()
+
 # rung_add_fuzzer(NAME SOURCES file... LIBS target...): libFuzzer program build/bin/fuzz/rung_fuzz_NAME.
 function(rung_add_fuzzer name)
   if(NOT RUNG_FUZZ)

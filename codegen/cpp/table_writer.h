@@ -6,7 +6,7 @@
 
 namespace rung::codegen {
 
-// Appends the constants and, last, the exported `rung_program_v1`. `chunkTable` names the array of chunk functions.
+// Appends the constants and, last, the exported `rung_program_table`. `chunkTable` names the array of chunk functions.
 void writeTables(const rung_program& program, std::string_view chunkTable, std::string& out);
 
 // A C++ string literal of the text, in ASCII.

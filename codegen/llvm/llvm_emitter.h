@@ -30,7 +30,7 @@ Result<std::string> emitLlvmIr(const ir::Layout& layout, uint64_t codeHash, cons
 Result<std::string> emitAssembly(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
 Result<std::string> emitObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
 
-// The bytes of a `.so` that exports rung_program_v1 and needs no library (armv7: the host has libgcc's helpers for
+// The bytes of a `.so` that exports rung_program_table and needs no library (armv7: the host has libgcc's helpers for
 // division and remainder of 32 and 64 bits and for i64 to and from f64).
 Result<std::string> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
 

@@ -15,7 +15,7 @@ struct ModulePart {
   uint32_t firstChunk = 0;
   uint32_t chunkCount = 0;
   // The module exports a table of its chunks' functions as kPieceTable, and beside it a PieceIdentity. Else it is the
-  // whole program and exports rung_program_v1.
+  // whole program and exports rung_program_table.
   bool isPiece = false;
   CacheKey key{}; // of a piece
   // For debug information: all pieces need the same ones. Null: they are found for the module.

@@ -11,12 +11,23 @@ namespace {
 
 constexpr uint32_t kMostInstructions = 512;
 
+// Of a place in a memory block that an argument points to.
+llvm::GetElementPtrInst* addressOf(llvm::Value& value) {
+  auto* address = llvm::dyn_cast<llvm::GetElementPtrInst>(&value);
+  const bool isPlace =
+      address != nullptr && address->hasAllConstantIndices() && llvm::isa<llvm::Argument>(address->getPointerOperand());
+  return isPlace ? address : nullptr;
+}
+
 // Where the block is to be cut; its end: nowhere. Room on the stack comes first, and stays in the first block.
+// Addresses do not count: they are part of the instructions that use them, and each block has its own.
 llvm::BasicBlock::iterator cutOf(llvm::BasicBlock& block) {
   uint32_t count = 0;
-  for (auto i = block.begin(); i != block.end(); ++i, ++count) {
-    if (llvm::isa<llvm::PHINode>(*i) || llvm::isa<llvm::AllocaInst>(*i) || i->isTerminator()) continue;
-    if (count >= kMostInstructions) return i;
+  for (auto i = block.begin(); i != block.end(); ++i) {
+    if (addressOf(*i) != nullptr) continue;
+    const bool mayBegin = !llvm::isa<llvm::PHINode>(*i) && !llvm::isa<llvm::AllocaInst>(*i) && !i->isTerminator();
+    if (mayBegin && count >= kMostInstructions) return i;
+    ++count;
   }
   return block.end();
 }
@@ -28,9 +39,8 @@ void takeAddresses(llvm::BasicBlock& block) {
   for (llvm::Instruction& instruction : block) {
     if (llvm::isa<llvm::PHINode>(instruction)) continue;
     for (llvm::Use& operand : instruction.operands()) {
-      auto* address = llvm::dyn_cast<llvm::GetElementPtrInst>(operand.get());
+      llvm::GetElementPtrInst* address = addressOf(*operand);
       if (address == nullptr || address->getParent() == &block) continue;
-      if (!address->hasAllConstantIndices() || !llvm::isa<llvm::Argument>(address->getPointerOperand())) continue;
       llvm::Instruction*& here = own[address];
       if (here == nullptr) {
         here = address->clone();

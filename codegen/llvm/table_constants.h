@@ -9,7 +9,8 @@ class Module;
 
 namespace rung::codegen {
 
-// Adds the exported constant rung_program_v1 and all that it points to. `chunkTable` is the array of chunk functions.
+// Adds the exported constant rung_program_table and all that it points to. `chunkTable` is the array of chunk
+// functions.
 void addProgramTables(llvm::Module& module, const rung_program& program, llvm::Constant* chunkTable);
 
 } // namespace rung::codegen

@@ -66,7 +66,7 @@ ir::SpaceId constantBytes(ir::Module& module, const std::string& name, std::stri
 }
 
 std::string Numbering::numbered(std::string key) {
-  if (const uint32_t number = alike_[key]++; number != 0) key += "#" + std::to_string(number);
+  if (const uint32_t number = alike_[key]++; number != 0) key += "~" + std::to_string(number);
   return key;
 }
 

@@ -27,7 +27,7 @@ ir::FaultId fault(ir::Module& module, std::string_view text);
 // finds its own.
 ir::SpaceId constantBytes(ir::Module& module, const std::string& name, std::string_view bytes);
 
-// Keys of what is otherwise alike: the second has "#1" after it.
+// Keys of what is otherwise alike: the second has "~1" after it (rung_slot in rung/program.h).
 class Numbering {
 public:
   std::string numbered(std::string key);

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "rtlib/text/blanks.h"
+#include "rtlib/text/letters.h"
+
 namespace rung::network {
 namespace {
 
@@ -45,10 +48,16 @@ std::string commandText(const Language& language, const Network& network) {
   return text;
 }
 
-std::string identityOf(const Language& language, const Function& function) {
+std::string identityOf(const Language& language, const SourceManager& sources, const Function& function) {
+  // By its name, where it has one: that may be given another address.
+  const auto written = [&](const Param& param) {
+    const std::string_view word = text::trimmed(sources.text(param.range));
+    return !param.isAddress || word.empty() || splitAddress(language, word) ? textOf(language, param)
+                                                                            : text::upper(word);
+  };
   std::string text(function.row->info.mnemonic);
   for (const Param& param : function.params) {
-    (text += ' ') += textOf(language, param);
+    (text += ' ') += written(param);
     if (function.row->numbers != Row::Numbers::Free) break;
   }
   return text;

@@ -125,6 +125,6 @@ struct Program {
 std::string commandText(const Language& language, const Network& network);
 // What an instruction is known by while its network changes around it: mnemonic and parameters; of a timer, a counter
 // or an edge its number alone.
-std::string identityOf(const Language& language, const Function& function);
+std::string identityOf(const Language& language, const SourceManager& sources, const Function& function);
 
 } // namespace rung::network

@@ -174,7 +174,36 @@ private:
 
 Cut::Cut(const Module& module, const CutOptions& options) : module_(&module) { Cutter(*this, options).run(); }
 
+namespace {
+
+bool mayGoOn(const Transfer& transfer) {
+  return transfer.kind == TransferKind::Next || transfer.kind == TransferKind::Call || transfer.cond.valid();
+}
+bool mayJumpTo(const Transfer& transfer, uint32_t rung) {
+  return (transfer.kind == TransferKind::Goto && transfer.target == rung) ||
+         std::ranges::find(transfer.targets, rung) != transfer.targets.end();
+}
+
+// Whether control leaves a rung only by exits that another form of it has.
+bool hasExitsOf(const Transfer& code, const Transfer& shape, uint32_t next) {
+  const auto shapeGoesTo = [&](uint32_t rung) { return mayJumpTo(shape, rung) || (rung == next && mayGoOn(shape)); };
+  if (leavesRoutine(code.kind) && (code.kind != shape.kind || code.callee != shape.callee)) return false;
+  if (mayGoOn(code) && !shapeGoesTo(next)) return false;
+  if (code.kind == TransferKind::Goto && !shapeGoesTo(code.target)) return false;
+  return std::ranges::all_of(code.targets, shapeGoesTo);
+}
+
+} // namespace
+
 Cut Cut::over(const Module& module) const {
+  RUNG_CHECK(module.routines.size() == module_->routines.size(), "another form of a module has its routines");
+  for (size_t r = 0; r < module.routines.size(); ++r) {
+    const std::vector<Rung>& code = module.routines[r].rungs;
+    const std::vector<Rung>& shape = module_->routines[r].rungs;
+    RUNG_CHECK(code.size() == shape.size(), "another form of a routine has its rungs");
+    for (uint32_t i = 0; i < code.size(); ++i)
+      RUNG_CHECK(hasExitsOf(code[i].transfer, shape[i].transfer, i + 1), "a rung has an exit that its shape has not");
+  }
   Cut other = *this;
   other.module_ = &module;
   return other;

@@ -1,5 +1,5 @@
-// How control is cut into chunks, the pieces that engines compile and the runner enters. Decided once from a final
-// module; where a byte lies is another matter (ir/layout).
+// How control is cut into chunks, the pieces that engines compile and the runner enters. Decided once from a
+// program's shape (ir/layout/layout.h); where a byte lies is another matter (ir/layout).
 //
 // A chunk is a run of at most `maxChunkRungs` rungs (and about `maxChunkOps` operations) of one routine, entered only
 // at its head. Of a program that leaves out what rests (Module::activity), chunks are smaller, and rungs that may rest
@@ -41,10 +41,10 @@ struct Destination {
 
 class Cut {
 public:
-  // `module` has passed the verifier in mode Final and outlives the cut.
+  // `module`, a shape, has passed the verifier and outlives the cut.
   Cut(const Module& module, const CutOptions& options);
 
-  // The same chunks of another form of the module, whose rungs have the same ways out, or fewer.
+  // The same chunks of another form of the module, whose rungs have the same exits, or fewer: that is checked.
   Cut over(const Module& module) const;
 
   const Module& module() const { return *module_; }

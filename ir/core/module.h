@@ -71,7 +71,8 @@ struct Rung {
   std::string sourceText; // the lines as written, for readers of generated code; may be empty
   Location begin;
   uint32_t lastLine = 0;
-  uint64_t key = 0;    // stable while the rung's text is unchanged
+  uint64_t key = 0;    // stable while the rung's text is unchanged (rungKey in rung/types.hpp)
+  uint32_t copy = 0;   // rungs before it in its routine with the same text: in the key
   uint32_t weight = 1; // steps, as the dialect counts them
   std::vector<Op> ops;
   std::vector<ValueId> args; // operands of all ops

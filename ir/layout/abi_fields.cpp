@@ -27,7 +27,8 @@ constexpr StructInfo kSpace{"rung_space", sizeof(rung_space), kSpaceFields};
 constexpr FieldInfo kSymbolFields[] = {
     RUNG_FIELD(rung_symbol, name, Text), RUNG_FIELD(rung_symbol, comment, Text), RUNG_FIELD(rung_symbol, space, U32),
     RUNG_FIELD(rung_symbol, byte, U32),  RUNG_FIELD(rung_symbol, bit, U32),      RUNG_FIELD(rung_symbol, type, U32),
-    RUNG_FIELD(rung_symbol, count, U32), RUNG_FIELD(rung_symbol, flags, U32),    RUNG_FIELD(rung_symbol, value, I64)};
+    RUNG_FIELD(rung_symbol, count, U32), RUNG_FIELD(rung_symbol, flags, U32),    RUNG_FIELD(rung_symbol, value, I64),
+    RUNG_FIELD(rung_symbol, reach, U32), RUNG_FIELD(rung_symbol, rung, U32)};
 constexpr StructInfo kSymbol{"rung_symbol", sizeof(rung_symbol), kSymbolFields};
 
 constexpr FieldInfo kSlotFields[] = {RUNG_FIELD(rung_slot, key, Text), RUNG_FIELD(rung_slot, offset, U32),
@@ -78,7 +79,7 @@ constexpr FieldInfo kRungFields[] = {
     RUNG_FIELD(rung_rung_info, title, Text),     RUNG_FIELD(rung_rung_info, file, U32),
     RUNG_FIELD(rung_rung_info, first_line, U32), RUNG_FIELD(rung_rung_info, last_line, U32),
     RUNG_FIELD(rung_rung_info, routine, U32),    RUNG_FIELD(rung_rung_info, key, U64),
-    RUNG_FIELD(rung_rung_info, number, U32),     RUNG_FIELD(rung_rung_info, reserved, U32)};
+    RUNG_FIELD(rung_rung_info, number, U32),     RUNG_FIELD(rung_rung_info, copy, U32)};
 constexpr StructInfo kRung{"rung_rung_info", sizeof(rung_rung_info), kRungFields};
 
 constexpr FieldInfo kTaskFields[] = {

@@ -157,13 +157,14 @@ std::vector<uint32_t> wordsOver(const std::vector<rung_span>& spans, uint32_t me
 
 std::vector<uint32_t> changedWords(const MemoryLayout& layout, TaskId id) {
   const Module& module = layout.module();
-  if (module.instrumented || !runsAgain(module, id)) return {};
+  if (!runsAgain(module, id)) return {};
   std::vector<rung_span> spans;
   for (const RoutineId routine : routinesFrom(module, module.tasks[id.index].entry))
     for (const Rung& rung : module.at(routine).rungs)
       for (const Op& op : rung.ops) {
         if (does(op, kHost)) return {};
-        if (does(op, kWrites)) addTouched(layout, op, spans);
+        const bool isTransient = opInfo(op.code).attr == Attr::Slot && module.slots[op.ref].transient;
+        if (does(op, kWrites) && !isTransient) addTouched(layout, op, spans);
       }
   std::vector<uint32_t> words = wordsOver(joined(std::move(spans)), layout.size());
   return words.size() <= RUNG_MOST_CHANGES ? words : std::vector<uint32_t>{};

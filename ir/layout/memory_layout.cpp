@@ -120,12 +120,6 @@ MemoryLayout::MemoryLayout(const Module& module, bool expandBits) : module_(&mod
   MemoryPlacer(*this).run(expandBits);
 }
 
-MemoryLayout MemoryLayout::over(const Module& module) const {
-  MemoryLayout other = *this;
-  other.module_ = &module;
-  return other;
-}
-
 BitLocation MemoryLayout::bit(SpaceId space, uint64_t bitOffset) const {
   const uint32_t byte = static_cast<uint32_t>(bitOffset / 8);
   const uint32_t bit = static_cast<uint32_t>(bitOffset % 8);

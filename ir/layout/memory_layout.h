@@ -1,5 +1,5 @@
-// Where every byte of a program's memory lies. Computed once from a final module and obeyed by every engine and by the
-// host; nothing else decides how a space is represented. How control is cut has no part in it (ir/chunks).
+// Where every byte of a program's memory lies. Computed once from a program's shape and obeyed by every engine and by
+// the host; nothing else decides how a space is represented. How control is cut has no part in it (ir/chunks).
 //
 // Representation. A logical byte of a space is *expanded* (a byte a bit, see RUNG_REPR_BYTE_PER_BIT) when every access
 // to it in the whole program is a fixed bit access, no non-bit symbol names it, it has no initial value, and the space
@@ -27,11 +27,9 @@ struct SpaceLayout {
 
 class MemoryLayout {
 public:
-  // `module` has passed the verifier in mode Final and outlives the layout. `expandBits` false: everything is packed.
+  // `module`, a shape (layout.h), has passed the verifier and outlives the layout. `expandBits` false: everything is
+  // packed.
   MemoryLayout(const Module& module, bool expandBits);
-
-  // The same memory for another form of the module.
-  MemoryLayout over(const Module& module) const;
 
   const Module& module() const { return *module_; }
   uint32_t size() const { return size_; }

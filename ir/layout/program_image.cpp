@@ -6,11 +6,13 @@
 #include <string_view>
 
 #include "ir/chunks/heaviest.h"
+#include "ir/core/op_info.h"
 #include "ir/core/ops.h"
 #include "ir/layout/accesses.h"
 #include "ir/layout/timers.h"
 #include "ir/support/check.h"
 #include "ir/support/version.h"
+#include "rung/types.hpp"
 
 namespace rung::ir {
 
@@ -63,10 +65,41 @@ private:
     }
   }
 
-  void addSymbols() {
+  // How far operations reach from a byte of a space, in bytes, and the first rung that has one there.
+  struct Reached {
+    uint32_t bytes = 0;
+    uint32_t rung = RUNG_NONE;
+  };
+  using Places = std::map<std::pair<uint32_t, uint32_t>, Reached>; // by space and byte
+
+  Places reachedPlaces() const {
+    Places places;
     for (const Symbol& s : module_.symbols)
-      image_.symbols_.push_back(
-          {text(s.name), text(s.comment), s.space.index, s.byte, s.bit, s.type, s.count, s.flags, s.value});
+      if (s.space.valid()) places[{s.space.index, s.byte}];
+    for (uint32_t r = 0; r < module_.routines.size(); ++r)
+      for (uint32_t i = 0; i < module_.routines[r].rungs.size(); ++i)
+        for (const Op& op : module_.routines[r].rungs[i].ops) {
+          const Attr attr = opInfo(op.code).attr;
+          if (attr != Attr::Place && attr != Attr::Window) continue;
+          const auto place = places.find({op.ref, static_cast<uint32_t>(op.imm / 8)});
+          if (place == places.end()) continue;
+          place->second.rung = std::min(place->second.rung, layout_.cut().rungNumber(RoutineId{r}, i));
+          if (attr == Attr::Place) place->second.bytes = std::max(place->second.bytes, byteWidth(op.type));
+        }
+    return places;
+  }
+
+  void addSymbols() {
+    const Places places = reachedPlaces();
+    for (const Symbol& s : module_.symbols) {
+      const bool hasPlace = s.space.valid();
+      const Reached reached = hasPlace ? places.at({s.space.index, s.byte}) : Reached{};
+      const uint32_t own = (s.bit + elementBits(s.type) * s.count + 7) / 8;
+      const uint32_t reach = s.bit != 0 || s.type == RUNG_TYPE_BIT ? own : std::max(own, reached.bytes);
+      image_.symbols_.push_back({text(s.name), text(s.comment), s.space.index, s.byte, s.bit, s.type, s.count, s.flags,
+                                 s.value, hasPlace ? reach : 0,
+                                 (s.flags & RUNG_SYMBOL_HIDDEN) != 0 ? reached.rung : RUNG_NONE});
+    }
     std::sort(image_.symbols_.begin(), image_.symbols_.end(), [](const rung_symbol& a, const rung_symbol& b) {
       const int order = std::string_view(a.name).compare(b.name);
       return order != 0 ? order < 0 : a.byte < b.byte;
@@ -213,13 +246,14 @@ private:
       // A short program gives fewer borders than parts: the parts after the last border are empty.
       image_.partEnds_.insert(image_.partEnds_.end(), task.parts - ends.size(), RUNG_PC_DONE);
       out.part_count = task.parts;
-      const HeaviestRun heaviest = heaviestRun(layout_.cut(), TaskId{i});
+      const HeaviestRun heaviest = heaviestRun(layout_.shape(), TaskId{i});
       out.heaviest = heaviest.weight;
       out.circles = heaviest.circles ? 1 : 0;
       out.straight_chunk = heaviest.straight.chunk;
       out.straight_weight = heaviest.straight.weight;
       append(readBytes(layout_.memory(), TaskId{i}), image_.reads_, out.read_first, out.read_count);
-      append(changedWords(layout_.memory(), TaskId{i}), image_.changes_, out.change_first, out.change_count);
+      if (!module_.instrumented) // what is measured changes its counters, too
+        append(changedWords(layout_.memory(), TaskId{i}), image_.changes_, out.change_first, out.change_count);
       image_.tasks_.push_back(out);
     }
   }
@@ -273,7 +307,7 @@ private:
                                  RUNG_NONE,
                                  rung.key,
                                  rung.number,
-                                 0};
+                                 rung.copy};
       }
     }
     nameRoutines(homes);
@@ -297,7 +331,9 @@ private:
     for (const std::string& s : module_.files) image_.files_.push_back(text(s));
     for (const std::string& s : module_.faults) image_.faults_.push_back(text(s));
     for (const std::string& s : module_.services) image_.services_.push_back(text(s));
-    for (const MessageText& m : module_.messages) {
+    std::vector<MessageText> messages = module_.messages;
+    std::ranges::stable_sort(messages, {}, &MessageText::number);
+    for (const MessageText& m : messages) {
       image_.texts_.push_back(text(std::to_string(m.number)));
       image_.texts_.push_back(text(m.text));
     }

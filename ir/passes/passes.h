@@ -13,6 +13,7 @@ void orderOperations(Module& module, Marks* marks = nullptr);
 void readSourcesOfLatches(Module& module); // what a task copies when it begins is read where it comes from
 
 void inlineRoutines(Module& module);  // a routine with one caller takes the place of the call
+void keepCarried(Module& module);     // registers that a run, or a part of one, leaves for another are none any more
 void instrumentRungs(Module& module); // measures each rung
 
 // These go over rungs that are not settled.

@@ -35,10 +35,12 @@ private:
 
 } // namespace
 
-void runPasses(Module& module, const PassOptions& options) {
+void runPasses(Module& module, const PassOptions& options, Module* shape) {
   Pipeline pipeline(module, options.verifyEach);
+  if (options.optimise) pipeline.run(inlineRoutines);
+  pipeline.run(keepCarried);
+  if (shape != nullptr) *shape = module;
   if (options.optimise) {
-    pipeline.run(inlineRoutines);
     Settled settled(module);
     pipeline.run(foldConstants, settled);
     pipeline.run(reuseValues, settled);

@@ -13,7 +13,9 @@ struct PassOptions {
   bool verifyEach = false; // run the verifier after each pass; an error stops the process
 };
 
-// `module` has passed the verifier (mode Built).
-void runPasses(Module& module, const PassOptions& options);
+// `module` has passed the verifier (mode Built). `shape` (or null) gets the module as it is when all is decided that
+// memory, chunks and tables follow from: its routines and rungs, their exits, and what they may access. What is done
+// afterwards can only take away from that.
+void runPasses(Module& module, const PassOptions& options, Module* shape = nullptr);
 
 } // namespace rung::ir

@@ -5,6 +5,12 @@
 // So is one that is needed where a part of a task may end, when another task stores it too. Each slot is followed
 // backward from its loads only as far as it is needed, so slots that live shortly cost little; should all of them
 // together take more than some walks over the whole program, the rest is left alone.
+//
+// Whether a slot is needed is seen in what the optimiser has left; but forces put code in place that is made of other
+// values, and may do so, and end, between two runs or two parts of one. What one leaves for another is not transient
+// therefore, so that both codes store it (keepCarried, before anything is known of values).
+#include <algorithm>
+
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
 #include "ir/passes/passes.h"
@@ -91,10 +97,13 @@ private:
   std::vector<size_t> open_;          // how many they were at the beginning of each open region
 };
 
-// Follows each slot from the rungs that need it back to those that store it.
+// Follows each slot from the rungs that need it back to those that store it, and leaves alone those with a need where
+// others than the rungs before may have stored it.
 class SlotFlow {
 public:
-  SlotFlow(const Module& module, std::vector<Access>& accesses) : module_(module), graph_(module), accesses_(accesses) {
+  enum class Others : uint8_t { Tasks, RunsAndParts };
+  SlotFlow(const Module& module, std::vector<Access>& accesses, Others others)
+      : module_(module), graph_(module), accesses_(accesses), others_(others) {
     needed_.assign(graph_.nodeCount(), 0);
     neededAfter_.assign(graph_.nodeCount(), 0);
     killed_.assign(graph_.nodeCount(), 0);
@@ -102,8 +111,7 @@ public:
     pauses_.assign(graph_.nodeCount(), false);
     for (const Task& task : module.tasks) {
       begins_[graph_.nodeOf(task.entry, 0)] = true;
-      if (task.parts == 1) continue;
-      for (uint32_t i = 1; i < module.at(task.entry).rungs.size(); ++i) pauses_[graph_.nodeOf(task.entry, i)] = true;
+      findPauses(task);
     }
     work_ = kMaxWalks * (graph_.nodeCount() + accesses.size());
     findSharedSlots();
@@ -121,6 +129,18 @@ public:
   }
 
 private:
+  // A part ends before the first rung beyond its border that control comes to.
+  void findPauses(const Task& task) {
+    const auto rungs = static_cast<uint32_t>(module_.at(task.entry).rungs.size());
+    const uint32_t first = rungs == 0 ? 0 : graph_.nodeOf(task.entry, 0);
+    for (const uint32_t border : task.borders)
+      for (uint32_t i = border; i < rungs; ++i)
+        if (i == border || std::ranges::any_of(graph_.predecessors(first + i), [&](uint32_t before) {
+              return before >= first && before < first + border;
+            }))
+          pauses_[first + i] = true;
+  }
+
   // Marks of a slot are its number plus one.
   void follow(uint32_t slot, std::span<const uint32_t> accesses) {
     const uint32_t mark = slot + 1;
@@ -151,7 +171,8 @@ private:
     if (needed_[node] == slot + 1) return;
     needed_[node] = slot + 1;
     open_.push_back(node);
-    if (begins_[node] || (pauses_[node] && shared_[slot])) leaveAlone_ = true;
+    const bool isOthers = others_ == Others::RunsAndParts || shared_[slot];
+    if (begins_[node] || (pauses_[node] && isOthers)) leaveAlone_ = true;
   }
 
   // Slots that the routines of several tasks store.
@@ -178,6 +199,7 @@ private:
   const Module& module_;
   RungGraph graph_;
   std::vector<Access>& accesses_;
+  const Others others_;
   std::vector<uint32_t> needed_;      // by node: mark of the slot that is needed at its beginning
   std::vector<uint32_t> neededAfter_; // by node: at its end
   std::vector<uint32_t> killed_;      // by node: certainly stored there
@@ -253,10 +275,18 @@ private:
 
 } // namespace
 
+void keepCarried(Module& module) {
+  AccessList accesses(module);
+  if (accesses.all().empty()) return;
+  SlotFlow(module, accesses.all(), SlotFlow::Others::RunsAndParts).run();
+  for (const Access& access : accesses.all())
+    if (access.leftAlone) module.slots[access.slot].transient = false;
+}
+
 void removeTransientStores(Module& module, Settled& settled) {
   AccessList accesses(module);
   if (accesses.all().empty()) return;
-  SlotFlow(module, accesses.all()).run();
+  SlotFlow(module, accesses.all(), SlotFlow::Others::Tasks).run();
   StoreRemover remover(module);
   uint32_t node = 0;
   settled.eachOpen(module, kNothingSettled, [&](Rung& rung, uint32_t, uint8_t before) -> uint8_t {

@@ -92,9 +92,9 @@ private:
     all(name, rungs);
   }
   void add(const Rung& rung) {
-    const auto& [number, title, sourceText, begin, lastLine, key, weight, ops, args, values, notes, transfer,
+    const auto& [number, title, sourceText, begin, lastLine, key, copy, weight, ops, args, values, notes, transfer,
                  transferLine, origin] = rung;
-    all(number, title, sourceText, begin, lastLine, key, weight, ops, args, values, notes, transfer, transferLine,
+    all(number, title, sourceText, begin, lastLine, key, copy, weight, ops, args, values, notes, transfer, transferLine,
         origin);
   }
   void add(const Location& location) {

@@ -218,6 +218,7 @@ private:
     scanner_.expect('(');
     rung.key = scanner_.u64();
     scanner_.expect(')');
+    if (scanner_.acceptWord("copy")) rung.copy = scanner_.u32();
     rung.weight = field("weight");
     scanner_.expect('{');
     scanner_.endLine();

@@ -385,8 +385,10 @@ void Printer::printRung(const Rung& rung, uint32_t number, const Remark& remark)
   const std::string from =
       origin.index == RUNG_NONE ? "" : fmt::format("from {} {} ", nameText(origin.routine), origin.index);
   const std::string drawn = rung.number == 0 ? "" : fmt::format("drawn {} ", rung.number);
-  put("  rung {} {}{}{} loc({}:{}:{}-{}) key(0x{:016X}) weight {} {{\n", number, from, drawn, inQuotes(rung.title),
-      files_.text(rung.begin.file.index), rung.begin.line, rung.begin.column, rung.lastLine, rung.key, rung.weight);
+  const std::string copy = rung.copy == 0 ? "" : fmt::format("copy {} ", rung.copy);
+  put("  rung {} {}{}{} loc({}:{}:{}-{}) key(0x{:016X}) {}weight {} {{\n", number, from, drawn, inQuotes(rung.title),
+      files_.text(rung.begin.file.index), rung.begin.line, rung.begin.column, rung.lastLine, rung.key, copy,
+      rung.weight);
   std::string_view source = rung.sourceText;
   for (bool more = !source.empty(); more;) {
     const size_t end = source.find('\n');

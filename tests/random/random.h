@@ -17,7 +17,12 @@ struct RandomOptions {
   bool jumps = true;   // goto, switch, call, ret, end
   bool host = true;    // messages and services
   bool traps = true;   // rare
+  bool known = false;  // rungs store 0 into known cells, load it again, and decide by it: with such a cell forced to 1
+                      // what nothing would ever do comes back
 };
+
+inline constexpr SpaceId kKnownSpace{2};
+inline constexpr uint32_t kKnownCells = 8; // bits of its first byte
 
 // The same seed and options give the same module on every machine.
 Module randomModule(uint64_t seed, const RandomOptions& options = {});

@@ -141,7 +141,8 @@ private:
   }
 
   void addTransfer(RandomRung& filler, RungBuilder& builder, uint32_t routine, uint32_t at, uint32_t count) {
-    const ValueId cond = random_.chance(80) ? filler.value(Type::Bit) : ValueId{};
+    const bool isKnown = options_.known && random_.chance(50);
+    const ValueId cond = isKnown ? filler.known() : random_.chance(80) ? filler.value(Type::Bit) : ValueId{};
     const uint32_t ahead = random_.between(at, count - 1);
     switch (random_.below(6)) {
     case 0:

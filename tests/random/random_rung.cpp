@@ -17,6 +17,7 @@ constexpr uint32_t kFirstHidden =
 
 void RandomRung::fill() {
   for (uint32_t n = random_.between(1, options_.ops); n > 0; --n) addOp(0);
+  if (options_.known && random_.chance(50)) addKnownIf();
   // What was computed shows in memory.
   for (uint32_t n = random_.between(1, 4); n > 0 && !visible_.empty(); --n) {
     const ValueId id = random_.pick(visible_);
@@ -256,6 +257,21 @@ void RandomRung::addIf(uint32_t depth) {
   } else {
     builder_.endIf();
   }
+}
+
+ValueId RandomRung::known() {
+  const Place cell{.space = kKnownSpace, .byte = 0, .bit = random_.below(kKnownCells)};
+  const ValueId any = value(Type::Bit);
+  builder_.store(cell, builder_.and_(any, builder_.not_(any)));
+  return builder_.load(Type::Bit, cell);
+}
+
+void RandomRung::addKnownIf() {
+  const size_t outside = visible_.size();
+  builder_.if_(known());
+  for (uint32_t n = random_.between(1, 6); n > 0; --n) addAccess();
+  visible_.resize(outside);
+  builder_.endIf();
 }
 
 void RandomRung::addLoop(uint32_t depth) {

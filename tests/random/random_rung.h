@@ -18,6 +18,8 @@ public:
   void fill();
   // A value of the type that is visible here: an earlier one, a constant, or a load.
   ValueId value(Type type);
+  // A bit that is always 0 unless a known cell is forced: it has been stored there and loaded again.
+  ValueId known();
 
 private:
   void addOp(uint32_t depth);
@@ -28,6 +30,7 @@ private:
   void addHost();
   void addRegion(uint32_t depth);
   void addIf(uint32_t depth);
+  void addKnownIf();
   void addLoop(uint32_t depth);
 
   Type someType(TypeSet set);

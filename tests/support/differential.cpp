@@ -57,12 +57,14 @@ compiler::Compiled compiledFrom(ir::Module module, const ir::LayoutOptions& opti
 }
 
 compiler::Compiled compiledFromBuilt(const ir::Module& built, const ir::LayoutOptions& options, bool optimise) {
-  ir::Module module = built;
-  const ir::PassOptions passes{.optimise = optimise};
-  ir::runPasses(module, passes);
-  compiler::Compiled out = compiledFrom(std::move(module), options);
+  compiler::Compiled out;
   out.built = std::make_unique<ir::Module>(built);
-  out.passes = passes;
+  out.passes = {.optimise = optimise};
+  out.module = std::make_unique<ir::Module>(built);
+  out.shape = std::make_unique<ir::Module>();
+  ir::runPasses(*out.module, out.passes, out.shape.get());
+  out.layout = std::make_unique<ir::Layout>(ir::Layout(*out.shape, options).over(*out.module));
+  out.codeHash = ir::hashOf(*out.module);
   return out;
 }
 

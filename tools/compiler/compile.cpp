@@ -95,11 +95,12 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   out.passes.optimise = request.optimise && !request.marks;
   out.passes.instrument = request.instrument;
   ended("uses");
-  ir::runPasses(*out.module, out.passes);
+  out.shape = std::make_unique<ir::Module>();
+  ir::runPasses(*out.module, out.passes, out.shape.get());
   ended("passes");
   checkModule(*out.module, ir::Mode::Final);
   ended("verifier");
-  out.layout = std::make_unique<ir::Layout>(*out.module, request.layout);
+  out.layout = std::make_unique<ir::Layout>(ir::Layout(*out.shape, request.layout).over(*out.module));
   ended("layout");
   out.codeHash = ir::hashOf(*out.module);
   ended("hash");

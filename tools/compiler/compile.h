@@ -44,13 +44,14 @@ struct Compiled {
   std::vector<FileId> files;
   const frontend::Dialect* dialect = nullptr;
   std::unique_ptr<ir::Module> built;  // as the dialect made it, where that was asked for
+  std::unique_ptr<ir::Module> shape;  // what the layout follows from (ir::runPasses)
   std::unique_ptr<ir::Module> module; // final, optimised
   ir::PassOptions passes;             // between the two
   ir::OddsResult odds;                // of the branches of the request
-  std::unique_ptr<ir::Layout> layout;
-  ir::Marks marks;                  // where they were asked for
-  frontend::CompileOptions options; // of the request
-  std::unique_ptr<ir::Uses> uses;   // of the module as the dialect made it
+  std::unique_ptr<ir::Layout> layout; // of the shape, over the module
+  ir::Marks marks;                    // where they were asked for
+  frontend::CompileOptions options;   // of the request
+  std::unique_ptr<ir::Uses> uses;     // of the module as the dialect made it
   // Where it was asked for: for its analysis alone, as it has been built.
   std::unique_ptr<const frontend::CheckedProgram> source;
   uint64_t codeHash = 0; // ir::hashOf the module

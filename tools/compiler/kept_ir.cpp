@@ -82,8 +82,9 @@ Result<Compiled> irOf(std::string_view object, const Hashes& program) {
   if (!ir::verify(*parsed.module, ir::Mode::Built).empty()) return failure("its IR is not valid");
   out.built = std::make_unique<ir::Module>(std::move(*parsed.module));
   out.module = std::make_unique<ir::Module>(*out.built);
-  ir::runPasses(*out.module, out.passes);
-  out.layout = std::make_unique<ir::Layout>(*out.module, ir::LayoutOptions{});
+  out.shape = std::make_unique<ir::Module>();
+  ir::runPasses(*out.module, out.passes, out.shape.get());
+  out.layout = std::make_unique<ir::Layout>(ir::Layout(*out.shape, {}).over(*out.module));
   out.codeHash = ir::hashOf(*out.module);
   if (Hashes{out.codeHash, out.layout->memory().hash()} != program)
     return failure("this compiler makes another program of its IR; compile it again");

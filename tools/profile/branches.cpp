@@ -8,6 +8,7 @@
 
 #include "ir/core/ops.h"
 #include "rtlib/text/number.h"
+#include "rtlib/text/regular_file.h"
 
 namespace rung::profile {
 namespace {
@@ -106,10 +107,11 @@ ir::BranchCounts countsOf(const nlohmann::json& file) {
 } // namespace
 
 Result<ir::BranchCounts> branchesIn(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return failure(fmt::format("cannot read '{}'", path));
+  std::string contents;
+  const std::string problem = text::readRegular(path, text::kMostSource, contents);
+  if (!problem.empty()) return failure(fmt::format("cannot read '{}': {}", path, problem));
   try {
-    return countsOf(nlohmann::json::parse(in));
+    return countsOf(nlohmann::json::parse(contents));
   } catch (const std::exception& error) {
     return failure(fmt::format("{}: {}", path, error.what()));
   }

@@ -63,6 +63,8 @@ struct Program {
   uint32_t exchangedBytes = 0;
   bool exchangesFast = false; // FAST or FASTEST is asked for
   std::vector<ir::Init> inits;
+  uint32_t included = 0; // files by T_INCLUDE
+  uint32_t expanded = 0; // lines of macros
   Encoding encoding = Encoding::Detect;
   std::string axisNames;                 // of axes 1 and up, separated by blanks; empty: those of the rows
   std::string systemFolder;              // of included files named without a path; may be empty

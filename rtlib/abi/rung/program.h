@@ -5,7 +5,7 @@
  * the tables say, and one `rung_ctx`. Generated code has no globals, so instances and generations can coexist.
  *
  * Rules for changes: fields are added at the end only; `size` says what is there; every offset is asserted by a test.
- * A `.so` exports exactly one symbol, the data object `rung_program_v1`.
+ * A `.so` exports exactly one symbol, the data object `rung_program_table`.
  */
 #ifndef RUNG_PROGRAM_H
 #define RUNG_PROGRAM_H
@@ -16,8 +16,8 @@
 extern "C" {
 #endif
 
-#define RUNG_ABI_VERSION 5u
-#define RUNG_PROGRAM_SYMBOL "rung_program_v1"
+#define RUNG_ABI_VERSION 6u
+#define RUNG_PROGRAM_SYMBOL "rung_program_table"
 /* Of a constant that says which layout of a host's struct the program was compiled for: then comes the struct's name.
  * Its value is the hash, its comment the text of rung_layout (rung/runtime.h). */
 #define RUNG_LAYOUT_SYMBOL "struct "
@@ -95,11 +95,15 @@ typedef struct rung_symbol {
   uint32_t count; /* elements of an array, or bytes of a text; 1 otherwise */
   uint32_t flags; /* enum rung_symbol_flags */
   int64_t value;  /* of a constant */
+  uint32_t
+      reach;     /* bytes from `byte` on that instructions read or write as one cell, by this place; at least its own */
+  uint32_t rung; /* of a hidden name: the first that uses it; RUNG_NONE: none does */
 } rung_symbol;
 
 /* State that the compiler made: the last value of an edge, what a timer has counted. Sorted by strcmp of `key`, which
- * stays the same as long as the instruction does, whatever changes around it. What means nothing between two scans has
- * no entry. Slots share no byte with a range of a space. */
+ * stays the same as long as the instruction does. Of instructions that are alike in their routine the second has "~1"
+ * there, and so on: such keys are the same instructions' in two programs only in rungs that are the same. What means
+ * nothing between two scans has no entry. Slots share no byte with a range of a space. */
 typedef struct rung_slot {
   const char* key;
   uint32_t offset; /* in the memory block */
@@ -210,7 +214,7 @@ typedef struct rung_rung_info {
   uint32_t routine; /* in `routines` */
   uint64_t key;     /* stable while the rung's text is unchanged */
   uint32_t number;  /* as drawn: from 1, over all files in their order; 0: made by the compiler */
-  uint32_t reserved;
+  uint32_t copy;    /* how many rungs before it in its routine have the same text: in the key (rung/types.hpp) */
 } rung_rung_info;
 
 /* A part of the program that the host can start: `begin` copies, chunks from `entry` until RUNG_PC_DONE, `end` copies.
@@ -383,7 +387,7 @@ typedef struct rung_program {
   const rung_step* slices; /* `scan` on a real clock, where that has another order; else none. It takes the same time */
   const char* const* faults;
   const char* const* services;
-  const char* const* texts; /* message texts: pairs of number (decimal) and text */
+  const char* const* texts; /* message texts: pairs of number (decimal) and text, by ascending numbers */
 
   const rung_chunk_fn* chunk_fns; /* by chunk */
   const rung_written* writes;     /* all of spaces that chunks may write, ascending; none overlaps the next */

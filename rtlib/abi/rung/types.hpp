@@ -1,4 +1,4 @@
-// What the types of cells in the program tables (rung_type) mean. C++; the tables themselves are C.
+// What types of cells (rung_type) and keys in the program tables mean. C++; the tables themselves are C.
 #ifndef RUNG_TYPES_HPP
 #define RUNG_TYPES_HPP
 
@@ -21,6 +21,14 @@ constexpr uint32_t elementBits(uint32_t type) {
   default: return 0;
   }
 }
+
+// The key of a rung: of its text and its routine's name, and of how many rungs before it there have the same text.
+constexpr uint64_t rungKey(uint64_t text, uint32_t copy) {
+  constexpr uint64_t kStep = 0x9E37'79B9'7F4A'7C15;
+  return text + kStep * copy;
+}
+// Back to the text.
+constexpr uint64_t textOfKey(uint64_t key, uint32_t copy) { return key - rungKey(0, copy); }
 
 } // namespace rung
 #endif

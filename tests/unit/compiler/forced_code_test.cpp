@@ -46,8 +46,8 @@ void expectHeld(const host::Instance& instance, const host::Forcing& forcing) {
 
 // A program that runs with forced cells.
 struct Running {
-  Running(const ir::Module& module, EngineKind kind, bool optimise)
-      : compiled(testing::compiledFromBuilt(module, {}, optimise)), engine(makeEngine(kind, compiled, {}).value()),
+  Running(const ir::Module& module, EngineKind kind, bool optimise, const ir::LayoutOptions& layout = {})
+      : compiled(testing::compiledFromBuilt(module, layout, optimise)), engine(makeEngine(kind, compiled, {}).value()),
         kind(kind), instance(*engine) {}
 
   void force(std::span<const host::ForcedCell> cells) {
@@ -78,6 +78,40 @@ void changeInputs(host::Instance& instance, uint64_t seed, int scan) {
 
 class ForcedCodeOf : public ::testing::TestWithParam<EngineKind> {};
 
+// A program with forced cells from the second scan on, beside the interpreter's without the optimiser.
+void compareForced(const ir::Module& module, EngineKind kind, std::span<const host::ForcedCell> cells, uint64_t seed,
+                   const ir::LayoutOptions& layout, uint32_t& forcedAtEnd) {
+  ir::Module other = module; // so that the layouts differ, and spaces are compared instead of bytes of memory
+  other.slots.push_back({.type = ir::Type::I64, .key = "of the reference alone"});
+  other.activity = false;
+  Running reference(other, EngineKind::Interp, false);
+  Running tested(module, kind, true, layout);
+  for (int scan = 0; scan < kScans; ++scan) {
+    if (scan == 1) {
+      reference.force(cells);
+      tested.force(cells);
+    }
+    for (Running* running : {&reference, &tested}) {
+      changeInputs(running->instance, seed, scan);
+      running->instance.scan();
+      if (running->instance.forced()) expectHeld(running->instance, *running->forcing);
+      EXPECT_EQ(running->instance.forced(), scan >= 1 && !running->instance.faulted());
+    }
+    const auto found = host::firstDifference(reference.instance, tested.instance, nc::describe);
+    ASSERT_FALSE(found) << "scan " << scan << ": " << *found;
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+  forcedAtEnd += tested.instance.forced() ? 1 : 0;
+}
+
+// Of the cells, as they are asked for; its program is gone then.
+bool canBeForced(const ir::Module& module, std::span<const host::ForcedCell> cells, uint32_t& withCode) {
+  const Running reference(module, EngineKind::Interp, false);
+  const host::Forcing asked(reference.instance.program(), nullptr, cells);
+  withCode += asked.needsCode() ? 1 : 0;
+  return asked.problem().empty() && !cells.empty();
+}
+
 TEST_P(ForcedCodeOf, RandomPrograms) {
   const uint64_t seeds = GetParam() == EngineKind::Interp ? 300 : testing::howMany(20, 60);
   uint32_t withCode = 0;
@@ -85,34 +119,38 @@ TEST_P(ForcedCodeOf, RandomPrograms) {
   for (uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE(seed);
     const ir::Module module = ir::randomModule(seed, {.traps = seed % 4 == 0});
-    ir::Module other = module; // so that the layouts differ, and spaces are compared instead of bytes of memory
-    other.slots.push_back({.type = ir::Type::I64, .key = "of the reference alone"});
-    Running reference(other, EngineKind::Interp, false);
-    Running tested(module, GetParam(), true);
     Random random(seed);
-    const std::vector<host::ForcedCell> cells = randomCells(random, reference.instance.program());
-    const host::Forcing asked(reference.instance.program(), nullptr, cells);
-    if (!asked.problem().empty() || cells.empty()) continue;
-    withCode += asked.needsCode() ? 1 : 0;
-    for (int scan = 0; scan < kScans; ++scan) {
-      if (scan == 1) {
-        reference.force(cells);
-        tested.force(cells);
-      }
-      for (Running* running : {&reference, &tested}) {
-        changeInputs(running->instance, seed, scan);
-        running->instance.scan();
-        if (running->instance.forced()) expectHeld(running->instance, *running->forcing);
-        EXPECT_EQ(running->instance.forced(), scan >= 1 && !running->instance.faulted());
-      }
-      const auto found = host::firstDifference(reference.instance, tested.instance, nc::describe);
-      ASSERT_FALSE(found) << "scan " << scan << ": " << *found;
-      if (HasFatalFailure()) return;
-    }
-    forcedAtEnd += tested.instance.forced() ? 1 : 0;
+    const std::vector<host::ForcedCell> cells =
+        randomCells(random, Running(module, EngineKind::Interp, false).instance.program());
+    if (!canBeForced(module, cells, withCode)) continue;
+    compareForced(module, GetParam(), cells, seed, {}, forcedAtEnd);
+    if (HasFatalFailure()) return;
   }
   EXPECT_GT(withCode, seeds / 4);
   EXPECT_GT(forcedAtEnd, seeds / 4);
+}
+
+// What the optimiser knows of a cell is not so any more where the cell is forced: what it had left out comes back, with
+// its ways out of the rung and its accesses. Several chunks, and of every second program those that rest.
+TEST_P(ForcedCodeOf, KnownCells) {
+  const uint64_t seeds = GetParam() == EngineKind::Interp ? 300 : testing::howMany(25, 300);
+  uint32_t withCode = 0;
+  uint32_t forcedAtEnd = 0;
+  for (uint64_t seed = 0; seed < seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    ir::Module module = ir::randomModule(seed, {.rungs = 12, .ops = 8, .traps = false, .known = true});
+    module.activity = seed % 2 != 0;
+    Random random(seed);
+    std::vector<host::ForcedCell> cells;
+    for (uint32_t bit = 0; bit < ir::kKnownCells; ++bit)
+      if (random() % 2 != 0)
+        cells.push_back({.ref = host::bitRef(ir::kKnownSpace.index, 0, bit), .bits = random() % 4 != 0 ? 1u : 0u});
+    if (!canBeForced(module, cells, withCode)) continue;
+    compareForced(module, GetParam(), cells, seed, {.cut = {.maxChunkRungs = 3}}, forcedAtEnd);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(withCode, seeds / 2);
+  EXPECT_GT(forcedAtEnd, seeds / 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, ForcedCodeOf, ::testing::Values(EngineKind::Interp, EngineKind::Jit),

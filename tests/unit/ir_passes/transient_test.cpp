@@ -20,18 +20,17 @@ std::vector<bool> stores(Module& module, RoutineId routine = RoutineId{0}) {
   return out;
 }
 std::vector<bool> storesAfter(const std::vector<RoutineText>& routines, const std::vector<std::string>& entries,
-                              uint32_t parts = 1) {
-  Module module = moduleOf(routines, entries, parts);
+                              std::vector<uint32_t> borders = {}) {
+  Module module = moduleOf(routines, entries, static_cast<uint32_t>(borders.size()) + 1);
   if (module.routines.empty()) return {};
+  module.tasks.front().borders = std::move(borders);
   removeTransientStores(module);
   const std::vector<VerifyError> errors = verify(module, Mode::Final);
   EXPECT_TRUE(errors.empty()) << render(module, errors);
   return stores(module);
 }
 // One routine and task.
-std::vector<bool> storesAfter(const std::vector<RungText>& rungs, uint32_t parts = 1) {
-  return storesAfter({{"R", rungs}}, {"R"}, parts);
-}
+std::vector<bool> storesAfter(const std::vector<RungText>& rungs) { return storesAfter({{"R", rungs}}, {"R"}); }
 
 using Bools = std::vector<bool>;
 
@@ -179,15 +178,38 @@ TEST(Transient, EachTaskForItself) {
 
 TEST(Transient, AnotherTaskBetweenTwoParts) {
   const std::vector<RoutineText> routines = {{"R", {{kStore}, {}, {kLoad}, {kStore}}}, {"Q", {{kStore}}}};
-  EXPECT_EQ(storesAfter(routines, {"R", "Q"}, 1), (Bools{true, false, false, false}));
+  EXPECT_EQ(storesAfter(routines, {"R", "Q"}), (Bools{true, false, false, false}));
   // Q may run in the midst of R, and then R reads what Q stored.
-  EXPECT_EQ(storesAfter(routines, {"R", "Q"}, 2), (Bools{true, false, false, true}));
+  EXPECT_EQ(storesAfter(routines, {"R", "Q"}, {2}), (Bools{true, false, false, true}));
   Module module = moduleOf(routines, {"R", "Q"}, 2);
+  module.tasks.front().borders = {2};
   removeTransientStores(module);
   EXPECT_EQ(stores(module, RoutineId{1}), (Bools{true}));
   // Nothing else stores it.
-  EXPECT_EQ(storesAfter({{"R", {{kStore}, {}, {kLoad}, {kStore}}}, {"Q", {{}}}}, {"R", "Q"}, 2),
+  EXPECT_EQ(storesAfter({{"R", {{kStore}, {}, {kLoad}, {kStore}}}, {"Q", {{}}}}, {"R", "Q"}, {2}),
             (Bools{true, false, false, false}));
+}
+
+// ---- what is carried
+// ---------------------------------------------------------------------------------------------------
+
+bool isCarried(const std::vector<RungText>& rungs, std::vector<uint32_t> borders = {}) {
+  Module module = moduleOf({{"R", rungs}}, {"R"}, static_cast<uint32_t>(borders.size()) + 1);
+  if (module.routines.empty()) return false;
+  module.tasks.front().borders = std::move(borders);
+  keepCarried(module);
+  return !module.slots[1].transient;
+}
+
+TEST(Transient, WhatARunLeavesForAnotherIsCarried) {
+  EXPECT_FALSE(isCarried({{kStore}, {kLoad}}));
+  EXPECT_TRUE(isCarried({{kLoad}, {kStore}}));
+}
+
+TEST(Transient, WhatAPartLeavesForAnotherIsCarried) {
+  EXPECT_TRUE(isCarried({{kStore}, {kLoad}}, {1}));
+  EXPECT_FALSE(isCarried({{kStore}, {kStore}, {kLoad}}, {1}));
+  EXPECT_TRUE(isCarried({{kStore + "%1:bit = load B[0.0]\n", "} goto 2 if %1"}, {kStore}, {kLoad}}, {2}));
 }
 
 } // namespace

@@ -104,7 +104,7 @@ TEST(LlvmEmitter, OnlyTheProgramIsExported) {
   const Layout layout(module, {});
   const Result<std::string> ir = emitLlvmIr(layout, 42, {.level = LlvmLevel::Fast});
   ASSERT_TRUE(ir.ok()) << ir.error();
-  EXPECT_THAT(ir.value(), HasSubstr("\n@rung_program_v1 = constant %rung_program"));
+  EXPECT_THAT(ir.value(), HasSubstr("\n@rung_program_table = constant %rung_program"));
   EXPECT_THAT(ir.value(), HasSubstr("define internal double @rung_sem_fdiv_f64("));
   EXPECT_THAT(ir.value(), HasSubstr("call double @rung_sem_fdiv_f64("));
   EXPECT_THAT(ir.value(), Not(HasSubstr("\ndefine i32")));

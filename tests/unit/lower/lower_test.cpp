@@ -28,8 +28,8 @@ TEST(ModuleItems, TheSecondOfWhatIsAlikeHasANumber) {
   Numbering keys;
   EXPECT_EQ(keys.numbered("a"), "a");
   EXPECT_EQ(keys.numbered("b"), "b");
-  EXPECT_EQ(keys.numbered("a"), "a#1");
-  EXPECT_EQ(keys.numbered("a"), "a#2");
+  EXPECT_EQ(keys.numbered("a"), "a~1");
+  EXPECT_EQ(keys.numbered("a"), "a~2");
 }
 
 class OperationsTest : public ::testing::Test {

@@ -9,6 +9,7 @@
 #include "ir/support/diag/gsk.h"
 #include "ir/support/hash.h"
 #include "rtlib/nc/faults.h"
+#include "rung/types.hpp"
 
 namespace rung::gsk {
 namespace {
@@ -116,14 +117,16 @@ void ModuleLowering::makeKeys() {
   for (const network::Unit& unit : program_.units) {
     std::unordered_map<uint64_t, uint32_t> seen;
     frontend::Numbering alike;
-    std::vector<uint64_t>& keys = keys_.emplace_back();
+    std::vector<Key>& keys = keys_.emplace_back();
     std::vector<std::string>& prefixes = slotPrefixes_.emplace_back();
     for (const network::Network& network : unit.networks) {
       const uint64_t text = hashBytes(commandText(kLanguage, network), hashBytes(nameOf(kLanguage, unit)));
-      keys.push_back(hashBytes(fmt::format("#{}", seen[text]++), text));
+      const uint32_t copy = seen[text]++;
+      keys.push_back({rungKey(text, copy), copy});
       std::string& prefix = prefixes.emplace_back();
       if (network.function.row == nullptr) continue;
-      prefix = fmt::format("{}/{}/", nameOf(kLanguage, unit), alike.numbered(identityOf(kLanguage, network.function)));
+      prefix = fmt::format("{}/{}/", nameOf(kLanguage, unit),
+                           alike.numbered(identityOf(kLanguage, context_.sources, network.function)));
     }
   }
 }
@@ -190,7 +193,7 @@ void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
 void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const network::Unit& unit) {
   ir::Rung& rung = routine.rungs[0];
   const network::Network& first = unit.networks.front();
-  describe(rung, first, hashBytes("@clock", hashBytes(nameOf(kLanguage, unit))));
+  describe(rung, first, {hashBytes("@clock", hashBytes(nameOf(kLanguage, unit))), 0});
   rung.number = 0;
   rung.title = level.hasClock ? "scan time" : "number of the scan";
   rung.sourceText.clear();

@@ -84,7 +84,11 @@ private:
   void planClock(LevelState& level);
   void addClock(ir::Routine& routine, LevelState& level, const network::Unit& unit);
   void lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t network);
-  void describe(ir::Rung& rung, const network::Network& network, uint64_t key) const;
+  struct Key {
+    uint64_t key = 0;
+    uint32_t copy = 0;
+  };
+  void describe(ir::Rung& rung, const network::Network& network, Key key) const;
   std::vector<ir::ValueId> lowerLogic(LevelState& level, ir::RungBuilder& b, const network::Network& network,
                                       const RungMarks& marks);
   ir::ValueId lowerFunction(RoutineContext& routine, ir::RungBuilder& b, uint32_t network,
@@ -107,7 +111,7 @@ private:
   std::unordered_map<uint32_t, ir::FileIndex> fileIndex_;
   std::unordered_map<std::string, ir::SlotId> slots_;
   ir::SpaceId positions_;
-  std::vector<std::vector<uint64_t>> keys_;                       // by unit and network
+  std::vector<std::vector<Key>> keys_;                            // by unit and network
   std::vector<std::vector<std::string>> slotPrefixes_;            // by unit and network; of networks with a function
   std::unordered_map<const network::Network*, uint32_t> numbers_; // as drawn; of the ends of units there is none
   LevelState levels_[2];

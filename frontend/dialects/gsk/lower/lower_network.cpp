@@ -5,6 +5,7 @@
 
 #include "frontend/dialects/gsk/lower/lower_module.h"
 #include "ir/support/check.h"
+#include "rung/types.hpp"
 
 namespace rung::gsk {
 namespace {
@@ -29,7 +30,7 @@ std::string linesOf(const SourceManager& sources, const network::Network& networ
 
 } // namespace
 
-void ModuleLowering::describe(ir::Rung& rung, const network::Network& network, uint64_t key) const {
+void ModuleLowering::describe(ir::Rung& rung, const network::Network& network, Key key) const {
   const auto number = numbers_.find(&network);
   rung.number = number == numbers_.end() ? 0 : number->second;
   rung.title = network.title;
@@ -37,7 +38,8 @@ void ModuleLowering::describe(ir::Rung& rung, const network::Network& network, u
   rung.begin = {fileIndex_.at(network.file.index), network.firstLine,
                 context_.sources.lineCol(network.range.begin).column};
   rung.lastLine = network.lastLine;
-  rung.key = key;
+  rung.key = key.key;
+  rung.copy = key.copy;
   rung.weight = std::max(network.steps, 1u);
 }
 
@@ -140,7 +142,8 @@ void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t 
   rung.title = call.title;
   rung.begin = call.begin;
   rung.lastLine = call.lastLine;
-  rung.key = ~call.key;
+  rung.key = rungKey(~textOfKey(call.key, call.copy), call.copy);
+  rung.copy = call.copy;
   ir::RungBuilder b(*module_, rung);
   b.note("return of the call");
   const ir::ValueId target = b.slotLoad(leaveTarget());

@@ -10,6 +10,7 @@
 #include "frontend/dialects/nct/lower/lowering.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
+#include "rung/types.hpp"
 
 namespace rung::nct {
 namespace {
@@ -78,7 +79,7 @@ private:
   void markInputs(const TypedRung& typed, const ladder::Element& element);
   void markOutput(const ladder::Element& element, ValueId condition, ValueId output);
   void leave(ir::RungBuilder& b, const Leave& leave);
-  void addHelpers(const std::vector<ir::SlotId>& conditions, const TypedRung& typed, uint64_t key);
+  void addHelpers(const std::vector<ir::SlotId>& conditions, const TypedRung& typed, uint64_t text, uint32_t copy);
 
   LoweringContext& context_;
   const TypedModule& source_;
@@ -107,8 +108,8 @@ void BodyLowering::describe(ir::Rung& rung, const TypedRung& typed) {
   rung.lastLine = drawing.lastLine;
   rung.weight = std::max<uint32_t>(1, static_cast<uint32_t>(typed.elements.size()));
   const uint64_t text = hashBytes(rung.sourceText, hashBytes(routine_.name));
-  const uint32_t copy = context_.sameText[text]++;
-  rung.key = copy == 0 ? text : hashBytes(fmt::format("{}", copy), text);
+  rung.copy = context_.sameText[text]++;
+  rung.key = rungKey(text, rung.copy);
 }
 
 void BodyLowering::mark(ir::MarkKind kind, ValueId value, const ladder::Element& element, std::string_view more) {
@@ -171,7 +172,8 @@ void BodyLowering::lowerElement(ir::RungBuilder& b, Memory& memory, const TypedR
 void BodyLowering::lowerRung(const TypedRung& typed) {
   ir::Rung& rung = routine_.rungs.emplace_back();
   describe(rung, typed);
-  const uint64_t key = rung.key;
+  const uint64_t text = textOfKey(rung.key, rung.copy);
+  const uint32_t copy = rung.copy;
   ir::RungBuilder b(context_.module, rung);
   Memory memory(b, context_.config, context_.spaces, context_.written);
   power_.assign(typed.rung->nets.size(), ValueId{});
@@ -186,17 +188,19 @@ void BodyLowering::lowerRung(const TypedRung& typed) {
     b.slotStore(conditions.back(), leaves_[i].cond);
   }
   leave(b, leaves_[0]);
-  addHelpers(conditions, typed, key);
+  addHelpers(conditions, typed, text, copy);
 }
 
-void BodyLowering::addHelpers(const std::vector<ir::SlotId>& conditions, const TypedRung& typed, uint64_t key) {
+void BodyLowering::addHelpers(const std::vector<ir::SlotId>& conditions, const TypedRung& typed, uint64_t text,
+                              uint32_t copy) {
   for (size_t i = 0; i < conditions.size(); ++i) {
     ir::Rung& helper = routine_.rungs.emplace_back();
     helper.number = typed.number;
     helper.title = typed.rung->comment;
     helper.begin = {.file = context_.files.at(typed.file->file.index), .line = typed.rung->firstLine, .column = 1};
     helper.lastLine = typed.rung->lastLine;
-    helper.key = hashBytes(fmt::format("leave{}", i + 1), key);
+    helper.key = rungKey(hashBytes(fmt::format("leave{}", i + 1), text), copy);
+    helper.copy = copy;
     ir::RungBuilder b(context_.module, helper);
     Leave then = leaves_[i + 1];
     then.cond = b.slotLoad(conditions[i]);

@@ -5,12 +5,15 @@
 #include "frontend/dialects/technol/check/operand_parser.h"
 #include "frontend/dialects/technol/read/encoding.h"
 #include "ir/support/diag/operand.h"
+#include "ir/support/diag/source.h"
 #include "ir/support/diag/technol.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
 namespace {
+
+constexpr int kMostBrackets = 100; // one inside the other
 
 // Index of the last point outside brackets, or npos.
 size_t lastPoint(std::span<const Token> tokens) {
@@ -51,6 +54,10 @@ bool OperandParser::address(std::span<const Token> tokens, Address& out) {
     for (int depth = 0; end < tokens.size(); ++end) {
       if (tokens[end].is('(') || tokens[end].is('[')) ++depth;
       if (tokens[end].is(')') || tokens[end].is(']')) --depth;
+      if (depth > kMostBrackets) {
+        program_.diagnostics.report(diag::TooDeep, tokens[end].range()) << "brackets" << kMostBrackets;
+        return false;
+      }
       if (depth == 0 && (tokens[end].is('+') || tokens[end].is('-'))) break;
     }
     if (end == i) return syntax("an address", tokens.subspan(i));

@@ -78,7 +78,7 @@ void addSpaces(const Program& program, ir::Module& module) {
   add("MECH", kMechanismSpace, RUNG_SPACE_ALLOCATED);
   add("@REG", kRegisterSpace, RUNG_SPACE_HIDDEN);
   add("BLK", kBlockSpace, RUNG_SPACE_INPUT);
-  add("IO", kExchangeSpace, RUNG_SPACE_ALLOCATED);
+  add("IO", kExchangeSpace, RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_ALLOCATED);
   module.inits = program.inits;
   addPowerOnPresets(module);
   // Saved at a regular shutdown, loaded at the start (man. l.7549).

@@ -7,6 +7,7 @@
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
 #include "rtlib/text/blanks.h"
+#include "rung/types.hpp"
 
 namespace rung::frontend::technol {
 namespace {
@@ -77,7 +78,9 @@ void RoutineBuilder::describe() {
     if (!rung_.sourceText.empty()) rung_.sourceText += '\n';
     rung_.sourceText += text::trimmed(text);
   }
-  rung_.key = hashBytes(rung_.sourceText);
+  const uint64_t text = hashBytes(rung_.sourceText, hashBytes(module_.routines[routine_.index].name));
+  rung_.copy = sameText_[text]++;
+  rung_.key = rungKey(text, rung_.copy);
 }
 
 void RoutineBuilder::close() {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "frontend/dialects/technol/lower/registers.h"
@@ -80,6 +81,7 @@ private:
   std::vector<uint32_t> labels_; // the rung of each
   std::vector<Fixup> fixups_;
   bool endIsLabelled_ = false;
+  std::unordered_map<uint64_t, uint32_t> sameText_; // rungs of each text so far
   uint64_t weight_ = 0;
 };
 

@@ -11,6 +11,7 @@
 
 #include "ir/support/check.h"
 #include "ir/support/utf8.h"
+#include "rtlib/text/regular_file.h"
 
 namespace rung {
 
@@ -65,19 +66,13 @@ std::string_view SourceManager::File::line(size_t lineIndex) const {
 
 namespace {
 
-/// Reads until the end, whatever the size says: pipes have none.
+constexpr size_t kMostText = size_t{256} << 20; // of all sources
+
 Result<std::string> readAll(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return failure("is a directory");
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) return failure(std::strerror(errno));
-  std::string text;
-  char buffer[1 << 16];
-  while (const size_t count = std::fread(buffer, 1, sizeof buffer, file)) text.append(buffer, count);
-  const bool good = std::ferror(file) == 0;
-  std::fclose(file);
-  if (!good) return failure("read error");
-  return text;
+  std::string contents;
+  if (std::string problem = text::readRegular(path, text::kMostSource, contents); !problem.empty())
+    return failure(std::move(problem));
+  return contents;
 }
 
 Result<std::string> textOf(const std::map<std::string, std::string>& texts, const std::string& path) {
@@ -97,7 +92,7 @@ SourceManager& SourceManager::operator=(SourceManager&&) noexcept = default;
 Result<FileId> SourceManager::addFile(const std::string& path) {
   Result<std::string> text = texts_ ? textOf(*texts_, path) : readAll(path);
   if (!text) return text.failure();
-  if (text.value().size() >= std::numeric_limits<uint32_t>::max() - nextBase_) return failure("too much source text");
+  if (text.value().size() + nextBase_ > kMostText) return failure("the program has more than 256 MB of sources");
   return addBuffer(path, std::move(text).value());
 }
 

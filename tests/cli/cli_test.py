@@ -617,7 +617,7 @@ class Products(Cli):
 
     def test_emit(self):
         source = self.file("lamp.lad", LAMP)
-        for what, mark in (("cpp", "rung_program_v1"), ("ir", "rung"), ("llvm", "define"), ("asm", ".text"), ("layout", "space")):
+        for what, mark in (("cpp", "rung_program_table"), ("ir", "rung"), ("llvm", "define"), ("asm", ".text"), ("layout", "space")):
             done = rungc("emit", what, source)
             self.assertEqual(done.returncode, OK, done.stderr)
             self.assertIn(mark, done.stdout.decode())
@@ -735,7 +735,7 @@ class Seals(Cli):
     def test_what_is_not_sealed(self):
         self.bad(WRONG, "it is not an ELF file; expected a shared object (.so)", "seal", self.file("text.so", "not an object"))
         self.bad(WRONG, "but not a shared object", "seal", self.object_of_another_kind())
-        self.bad(WRONG, "it exports no symbol rung_program_v1", "seal", str(next(Path("/lib").glob("*-linux-gnu*/libm.so.6"))))
+        self.bad(WRONG, "it exports no symbol rung_program_table", "seal", str(next(Path("/lib").glob("*-linux-gnu*/libm.so.6"))))
         self.bad(ENVIRONMENT, "cannot read /nowhere.so: No such file", "seal", "/nowhere.so")
         self.bad(USAGE, "FILE", "seal")
         # The others are sealed all the same.

@@ -245,7 +245,7 @@ class Nct(Coverage):
         self.assertEqual(done.returncode, ENVIRONMENT)
         self.assertIn("'on.scn' is not a report of --coverage-json", done.stderr)
         done = run("test", "on.scn", "--coverage-merge", "none.json", cwd=self.folder)
-        self.assertEqual((done.returncode, done.stderr), (ENVIRONMENT, "rungc: cannot read 'none.json'\n"))
+        self.assertEqual((done.returncode, done.stderr), (ENVIRONMENT, "rungc: cannot read 'none.json': No such file or directory\n"))
         done = run("test", "on.scn", "--coverage-json", "no/folder.json", cwd=self.folder)
         self.assertEqual(done.returncode, ENVIRONMENT)
 

@@ -61,7 +61,7 @@ class Discovery(Cli):
             out, err = self.rungc("check", cwd=cwd)
             self.assertRegex(out, r"rung\.toml \(1 file\): \d+ rungs?, no warnings")
             self.assertEqual(err, "")
-            self.assertIn("rung_program_v1", self.rungc("emit", "cpp", cwd=cwd)[0])
+            self.assertIn("rung_program_table", self.rungc("emit", "cpp", cwd=cwd)[0])
             self.rungc("view", "-o", "lamp.svg", cwd=cwd)
             self.assertIn("1 scan,", self.rungc("run", cwd=cwd)[0])
             self.rungc("build", cwd=cwd)

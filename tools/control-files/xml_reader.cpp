@@ -14,6 +14,7 @@
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
+#include "rtlib/text/regular_file.h"
 
 namespace rung::control_files {
 
@@ -78,14 +79,8 @@ std::string inOneLine(std::string_view text) {
 }
 
 std::string textOfFile(const std::string& path, std::string& text) {
-  std::error_code none;
-  if (std::filesystem::is_directory(path, none)) return path + ": this is a folder, expected a file";
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return path + ": cannot be read: " + std::strerror(errno);
-  std::ostringstream all;
-  all << file.rdbuf();
-  text = std::move(all).str();
-  return {};
+  const std::string problem = text::readRegular(path, text::kMostSource, text);
+  return problem.empty() ? std::string() : path + ": cannot be read: " + problem;
 }
 
 // ---- the parser -----------------------------------------------------------------------------------------------------

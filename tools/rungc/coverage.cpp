@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "rtlib/text/regular_file.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/coverage_overlay.h"
 #include "tools/view/drawn_program.h"
@@ -19,11 +20,10 @@ namespace rung::rungc {
 namespace {
 
 Result<coverage::Report> readReport(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return failure(fmt::format("cannot read '{}'", path));
-  std::ostringstream text;
-  text << in.rdbuf();
-  Result<coverage::Report> report = coverage::fromJson(text.str());
+  std::string contents;
+  const std::string problem = text::readRegular(path, text::kMostSource, contents);
+  if (!problem.empty()) return failure(fmt::format("cannot read '{}': {}", path, problem));
+  Result<coverage::Report> report = coverage::fromJson(contents);
   if (!report.ok()) return failure(fmt::format("'{}' is not a report of --coverage-json: {}", path, report.error()));
   return report;
 }

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 
+#include "rtlib/text/regular_file.h"
 #include "tools/console/working.h"
 #include "tools/profile/branches.h"
 #include "tools/profile/text.h"
@@ -56,10 +57,10 @@ int sortNames(const ProfileOptions& options, profile::Request& request) {
 }
 
 Result<profile::Baseline> openBaseline(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return failure(fmt::format("cannot read '{}'", path));
-  const std::string text(std::istreambuf_iterator<char>(in), {});
-  Result<profile::Baseline> baseline = profile::readBaseline(text);
+  std::string contents;
+  const std::string problem = text::readRegular(path, text::kMostSource, contents);
+  if (!problem.empty()) return failure(fmt::format("cannot read '{}': {}", path, problem));
+  Result<profile::Baseline> baseline = profile::readBaseline(contents);
   return baseline.ok() ? std::move(baseline) : failure(fmt::format("{}: {}", path, baseline.error()));
 }
 

@@ -12,6 +12,7 @@
 #include "rtlib/host/file.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/trust.h"
+#include "rtlib/text/regular_file.h"
 #include "rung/program.h"
 #include "tools/rungc/commands.h"
 
@@ -26,18 +27,21 @@ struct SealOptions {
   bool quiet = false;
 };
 
-Result<std::string> contentsOf(const host::File& file, const std::string& path) {
+Result<std::string> contentsOf(const host::File& file, const std::string& path, const std::string& problem) {
   std::string bytes;
-  const std::string wrong = file.ok() ? host::readAll(file.fd(), kMostBytes, bytes) : std::strerror(errno);
+  const std::string wrong = file.ok() ? host::readAll(file.fd(), kMostBytes, bytes) : problem;
   return wrong.empty() ? Result<std::string>(std::move(bytes))
                        : failure(fmt::format("cannot read {}: {}", path, wrong));
 }
 
-host::File opened(const std::string& path) { return host::File(::open(path.c_str(), O_RDONLY | O_CLOEXEC)); }
+host::File opened(const std::string& path, std::string& problem) {
+  return host::File(text::openRegular(path, problem));
+}
 
 Result<host::SecretKey> readKey(const std::string& path) {
-  const host::File file = opened(path);
-  const Result<std::string> text = contentsOf(file, path);
+  std::string problem;
+  const host::File file = opened(path, problem);
+  const Result<std::string> text = contentsOf(file, path, problem);
   if (!text.ok()) return text.failure();
   const auto facts = host::factsOf(file.fd());
   if (facts && (facts->mode & 077) != 0)
@@ -62,7 +66,9 @@ std::string wrongProgram(std::string_view bytes) {
 }
 
 int sealFile(const std::string& path, const host::SecretKey* key, bool quiet) {
-  const Result<std::string> bytes = contentsOf(opened(path), path);
+  std::string problem;
+  const host::File file = opened(path, problem);
+  const Result<std::string> bytes = contentsOf(file, path, problem);
   if (!bytes.ok()) return environmentError(bytes.error());
   if (const std::string wrong = wrongProgram(bytes.value()); !wrong.empty()) {
     fmt::print(stderr, "rungc: {}: {}\n", path, wrong);

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "frontend/dialects/dialect.h"
+#include "rtlib/text/regular_file.h"
 #include "tools/scenario/in_project.h"
 #include "tools/scenario/scenario.h"
 #include "tools/scenario/statements.h"
@@ -28,12 +29,10 @@ bool isProgramFile(const fs::path& path) {
 // The text of a file that should be a scenario.
 Result<std::string> readText(const std::string& path) {
   if (std::string problem = notAScenario(path); !problem.empty()) return failure(std::move(problem));
-  std::ifstream in(path, std::ios::binary);
-  std::error_code none;
-  if (!in || fs::is_directory(path, none)) return failure(fmt::format("cannot read '{}'", path));
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  std::string contents;
+  const std::string problem = text::readRegular(path, text::kMostSource, contents);
+  if (!problem.empty()) return failure(fmt::format("cannot read '{}': {}", path, problem));
+  return contents;
 }
 
 bool advances(Kind kind) { return kind == Kind::Scan || kind == Kind::Fast || kind == Kind::Slot || kind == Kind::Run; }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <optional>
 
+#include "rtlib/host/plugin.h"
 #include "rtlib/host/trust.h"
 
 namespace rung::sources {
@@ -32,7 +33,12 @@ std::string compilerProgram(std::string& problem) {
   if (host::isPrivileged(ids)) {
     problem = host::rootsFileProblem(path);
   } else {
-    if (const char* named = secure_getenv("RUNG_COMPILE"); named != nullptr && *named == '/') path = named;
+    const char* named = secure_getenv("RUNG_COMPILE");
+    const std::string beside = host::folderOfProgram() + "/rung-compile";
+    if (named != nullptr && *named == '/')
+      path = named;
+    else if (access(beside.c_str(), F_OK) == 0)
+      path = beside;
     problem = fileProblem(path, ids);
   }
   if (problem.empty()) return path;

@@ -5,8 +5,8 @@
 namespace rung::sources {
 
 // Its path. An unprivileged process (rtlib/host/trust.h) takes the one of the environment variable RUNG_COMPILE, if
-// that is set: a build that is not installed has it elsewhere. Empty, and `problem` says why: it is not there, or
-// others than root, or the process's own user, could have changed it.
+// that is set, or else one beside its own program: a build that is not installed has it there. Empty, and `problem`
+// says why: it is not there, or others than root, or the process's own user, could have changed it.
 std::string compilerProgram(std::string& problem);
 
 } // namespace rung::sources

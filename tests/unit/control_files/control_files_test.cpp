@@ -196,7 +196,7 @@ TEST(ControlFiles, FilesThatCannotBeRead) {
   const std::filesystem::path folder = testing::TempDir();
   EXPECT_THAT(readControlFile(Kind::Messages, (folder / "there-is-no-such-file").string(), files),
               HasSubstr("there-is-no-such-file: cannot be read: No such file"));
-  EXPECT_THAT(readControlFile(Kind::Messages, folder.string(), files), HasSubstr("this is a folder"));
+  EXPECT_THAT(readControlFile(Kind::Messages, folder.string(), files), HasSubstr("cannot be read: it is a folder"));
   const std::string path = (folder / "technol_control_files_test.PlcConstants").string();
   std::ofstream(path) << "<PlcConstants><Constant ID='A' Value='1'/></PlcConstants>";
   EXPECT_EQ(readControlFile(Kind::Constants, path, files), "");

@@ -111,7 +111,7 @@ TEST(PlcTableFiles, FilesThatAreNot) {
   const std::string folder = std::filesystem::temp_directory_path().string();
   TableDefinition found;
   TableData contents;
-  EXPECT_EQ(readTableDefinition(folder, found), folder + ": this is a folder, expected a file");
+  EXPECT_EQ(readTableDefinition(folder, found), folder + ": cannot be read: it is a folder");
   EXPECT_THAT(readTableData(folder + "/there-is-no-such-file", contents), HasSubstr("cannot be read"));
 }
 

@@ -109,7 +109,7 @@ TEST(Source, ReadsFiles) {
 TEST(Source, SaysWhyAFileCannotBeRead) {
   SourceManager sources;
   EXPECT_EQ(sources.addFile("no/such/file").error(), "No such file or directory");
-  EXPECT_EQ(sources.addFile(testing::TempDir()).error(), "is a directory");
+  EXPECT_EQ(sources.addFile(testing::TempDir()).error(), "it is a folder");
 }
 
 } // namespace

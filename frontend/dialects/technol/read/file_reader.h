@@ -24,7 +24,8 @@ private:
   void readLines(FileId id, uint32_t depth);
   struct IncludedFile {
     std::string path;
-    std::optional<FileId> id;
+    std::optional<FileId> id = std::nullopt;
+    std::vector<std::string> problems; // where it was not found
   };
   bool includes(const SourceLine& line, uint32_t depth);
   IncludedFile findIncluded(std::string_view name, bool quoted, SourcePos at);

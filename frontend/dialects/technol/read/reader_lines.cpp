@@ -13,9 +13,11 @@
 namespace rung::frontend::technol {
 namespace {
 
-constexpr size_t kMaxStatement = 4096; // tokens that commas may join
-constexpr uint32_t kMaxIncludes = 32;  // one inside the other
-constexpr uint32_t kMaxExpansion = 32; // macros one inside the other
+constexpr size_t kMaxStatement = 4096;      // tokens that commas may join
+constexpr uint32_t kMaxIncludes = 32;       // one inside the other
+constexpr uint32_t kMaxExpansion = 32;      // macros one inside the other
+constexpr uint32_t kMostIncludes = 5'000;   // of a program
+constexpr uint32_t kMostExpanded = 200'000; // lines of macros in a program
 
 std::string folderOf(std::string_view path) {
   const size_t slash = path.rfind('/');
@@ -168,7 +170,14 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
     return true;
   }
   if (!file.id) {
-    program_.diagnostics.report(diag::IncludeNotFound, at) << name;
+    auto report = program_.diagnostics.report(diag::IncludeNotFound, at);
+    report << name;
+    for (const std::string& problem : file.problems) report.note(problem);
+    return true;
+  }
+  if (++program_.included > kMostIncludes) {
+    if (program_.included == kMostIncludes + 1)
+      program_.diagnostics.report(diag::TooLarge, at) << "T_INCLUDE" << kMostIncludes;
     return true;
   }
   including_.push_back(file.path);
@@ -197,14 +206,17 @@ FileReader::IncludedFile FileReader::findIncluded(std::string_view name, bool qu
     if (beside != paths[0]) paths.push_back(beside);
     for (const std::string& folder : program_.includePaths) paths.push_back(folder + "/" + path);
   }
+  IncludedFile none{.path = paths[0]};
   for (const bool anyCase : {false, true})
     for (const std::string& candidate : paths) {
       const std::string real = anyCase ? inAnyCase(program_.sources, candidate, path) : candidate;
-      if (std::find(including_.begin(), including_.end(), real) != including_.end()) return {real, std::nullopt};
-      if (Result<FileId> file = real.empty() ? Result<FileId>(failure("")) : program_.sources.addFile(real); file)
-        return {real, file.value()};
+      if (std::find(including_.begin(), including_.end(), real) != including_.end()) return {.path = real};
+      if (real.empty()) continue;
+      const Result<FileId> file = program_.sources.addFile(real);
+      if (file) return {real, file.value()};
+      if (!anyCase) none.problems.push_back(real + ": " + file.error());
     }
-  return {paths[0], std::nullopt};
+  return none;
 }
 
 // Included files hold constants, data and macros; what runs is in macros (man. l.20320).
@@ -268,6 +280,17 @@ void FileReader::useMacro(const Macro& macro, uint32_t first, uint32_t count, ui
   const std::vector<Token> operands(program_.tokens.begin() + first + 1, program_.tokens.begin() + first + count);
   std::vector<Macro::Line> lines;
   if (!macros_.expand(macro, operands, head.range(), lines)) return;
+  const bool wasFull = program_.expanded > kMostExpanded;
+  program_.expanded += static_cast<uint32_t>(lines.size());
+  if (program_.expanded > kMostExpanded) {
+    if (!wasFull) program_.diagnostics.report(diag::TooLarge, head.range()) << "lines of macros" << kMostExpanded;
+    program_.expanded = kMostExpanded + 1;
+    return;
+  }
+  if (std::ranges::any_of(lines, [](const Macro::Line& made) { return made.tokens.size() > kMaxStatement; })) {
+    program_.diagnostics.report(diag::TooLarge, head.range()) << "words in a line of a macro" << kMaxStatement;
+    return;
+  }
   const MacroStack stack = macro.stack;
   if (stack != MacroStack::Normal) mark(Role::MacroBegin, stack, head, line);
   expanding_.push_back(key);

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Sources and other files that are no files, are too deep or grow without end: an error, soon. hostile_test.py RUNGC"""
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from patience import patience
+from root import go_to_root
+
+RUNGC = None
+OK, WRONG, USAGE, ENVIRONMENT = 0, 1, 2, 3
+MOST_MEMORY = 4 << 30
+HEAD = """DATA
+BITS: DFM A,B,,,,,,
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_BLOCK_INIT
+MODULE_BLOCK_INIT_END
+MODULE_BLOCK_DONE
+MODULE_BLOCK_DONE_END
+MODULE_INIT
+MODULE_INIT_END
+MODULE_CLEAR
+MODULE_CLEAR_END
+MODULE_HALT
+MODULE_HALT_END
+"""
+
+
+class Hostile(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.home = Path(folder.name)
+
+    def file(self, name, text):
+        (self.home / name).write_text(text)
+        return self.home / name
+
+    def technol(self, name, body, before=""):
+        return self.file(name, f"{before}{HEAD}MODULE_MAIN\n{body}MODULE_MAIN_END\nSTOP\n")
+
+    def rungc(self, *words):
+        # Instrumented programs reserve more than that.
+        limit = None if os.environ.get("ASAN_OPTIONS") else lambda: resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY,) * 2)
+        done = subprocess.run([RUNGC, *map(str, words)], capture_output=True, text=True, preexec_fn=limit, timeout=patience(60),
+                              stdin=subprocess.DEVNULL)
+        return done.returncode, done.stdout + done.stderr
+
+    def expect_error(self, words, status, text):
+        found, said = self.rungc(*words)
+        self.assertEqual(found, status, said[:2000])
+        self.assertIn(text, said[:20000])
+
+    # ---- what is no file
+
+    def no_files(self):
+        pipe = self.home / "pipe"
+        os.mkfifo(pipe)
+        yield "/dev/zero", "it is not a regular file"
+        yield pipe, "it is not a regular file"
+        huge = self.home / "huge"
+        with open(huge, "w") as file:
+            file.truncate(1 << 36)
+        yield huge, "it has more than "
+
+    def test_what_is_no_file_is_read_nowhere(self):
+        program = self.technol("good.plc", " LDR A\n WR B\n")
+        for path, text in self.no_files():
+            for words in (["check", path], ["build", path, "-o", self.home / "x.so"], ["run", path], ["test", path],
+                          ["format", path], ["diff", path, program], ["diff", program, path], ["xref", path],
+                          ["view", path, "-o", self.home / "x.html"], ["map", program, "--check", path]):
+                with self.subTest(words=words):
+                    self.expect_error(words, ENVIRONMENT, text)
+            if path != self.home / "huge":
+                self.expect_error(["seal", path], ENVIRONMENT, text)
+            included = self.technol("includes.plc", " LDR A\n WR B\n", f"T_INCLUDE {path}\n")
+            self.expect_error(["check", included], WRONG, text)
+            self.expect_error(["check", program, "--config", f"plc_errors={path}"], WRONG, "")
+
+    # ---- depth
+
+    def test_brackets(self):
+        for depth in (1000, 50_000, 200_000):
+            program = self.technol("deep.plc", f" LDR {'(' * depth}A{')' * depth}\n WR B\n")
+            self.expect_error(["check", program], WRONG, "brackets nested more than 100 deep [too-deep]")
+
+    # ---- growth
+
+    def test_macros_of_macros(self):
+        macros = "".join(f"DEF_T_MACRO M{i}\n" + f" M{i + 1}\n" * 10 + "END_T_MACRO\n" for i in range(9))
+        macros += "DEF_T_MACRO M9\n LDR A\n WR B\nEND_T_MACRO\n"
+        self.expect_error(["check", self.technol("grows.plc", " M0\n", macros)], WRONG, "too many lines of macros: at most ")
+
+    def test_files_that_include_others_twice(self):
+        for i in range(30):
+            self.file(f"x{i}.inc", f"T_INCLUDE x{i + 1}.inc\n" * 2)
+        self.file("x30.inc", "; nothing\n")
+        self.expect_error(["check", self.technol("includes.plc", " LDR A\n WR B\n", "T_INCLUDE x0.inc\n")], WRONG, "[too-")
+
+
+if __name__ == "__main__":
+    go_to_root()
+    RUNGC = sys.argv.pop(1)
+    unittest.main()

@@ -5,10 +5,12 @@
 #include <concepts>
 #include <cstring>
 #include <initializer_list>
+#include <span>
 #include <vector>
 
 #include "rtlib/core/activity.h"
 #include "rtlib/core/memory.h"
+#include "rtlib/host/mapped_file.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/text/number.h"
 #include "rung/types.hpp"
@@ -18,6 +20,10 @@ namespace rung::host {
 namespace {
 
 constexpr uint32_t kMaxAlign = 4096;
+constexpr uint32_t kMostMemory = 64u << 20; // bytes
+constexpr uint32_t kMostTimes = 1000;       // that a step of the schedule runs its task
+constexpr uint64_t kMostRuns = 100'000;     // of tasks in a pass
+constexpr uint64_t kLongestPassUs = 3'600'000'000;
 constexpr uint32_t kSpaceFlags = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED;
 constexpr uint32_t kSymbolFlags = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST;
 
@@ -43,7 +49,7 @@ bool overlap(uint32_t a, uint32_t b, uint32_t size) { return a < uint64_t{b} + s
 
 class Checker {
 public:
-  explicit Checker(const rung_program& program) : p_(program) {}
+  Checker(const rung_program& program, const MappedFile* file) : p_(program), file_(file) {}
 
   std::string run() {
     for (void (Checker::*check)() :
@@ -80,12 +86,24 @@ private:
       failAt(table, number, "lies outside the memory block of ", p_.memory_size, " bytes");
   }
   void named(const char* table, uint32_t number, const char* name) {
-    if (name == nullptr) failAt(table, number, "has no name");
+    if (name == nullptr) return failAt(table, number, "has no name");
+    readable(table, number, name);
+  }
+  // A text that is not null.
+  void readable(const char* table, uint32_t number, const char* text) {
+    if (file_ != nullptr && !file_->holdsText(text)) failAt(table, number, "has a text that is not in the file");
+  }
+  // Entries that are not in the table of the program itself.
+  template <class T>
+  void held(const char* table, uint32_t number, const T* entries, uint64_t count) {
+    if (file_ != nullptr && !file_->holds(entries, count * sizeof(T)))
+      failAt(table, number, "has entries that are not in the file");
   }
 
   // ---- head --------------------------------------------------------------------------------------------------------
 
   void checkHead() {
+    if (file_ != nullptr && !file_->holds(&p_, sizeof p_)) return fail("the program's description is not whole");
     if (p_.abi_version != RUNG_ABI_VERSION)
       return fail("the program has ABI version ", p_.abi_version, ", this runtime has ", RUNG_ABI_VERSION);
     if (p_.size < sizeof(rung_program))
@@ -93,6 +111,11 @@ private:
                   static_cast<uint32_t>(sizeof(rung_program)));
     if (p_.name == nullptr || p_.dialect == nullptr || p_.compiler == nullptr)
       return fail("the program's name, dialect or compiler is missing");
+    for (const char* text : {p_.name, p_.dialect, p_.compiler})
+      if (file_ != nullptr && !file_->holdsText(text))
+        return fail("the program's name, dialect or compiler is not in the file");
+    if (p_.memory_size > kMostMemory)
+      fail("the memory block has ", p_.memory_size, " bytes, expected at most ", kMostMemory);
     if (p_.memory_align == 0 || (p_.memory_align & (p_.memory_align - 1)) != 0 || p_.memory_align > kMaxAlign)
       fail("the memory block has alignment ", p_.memory_align, ", expected a power of two up to ", kMaxAlign);
     if (p_.instrumented > 1) fail("`instrumented` is ", p_.instrumented, ", expected 0 or 1");
@@ -100,8 +123,12 @@ private:
     if (p_.chunk_count != 0 && p_.chunk_fns == nullptr) fail("the program has no code");
   }
 
-  void present(const char* what, uint32_t count, const void* table) {
-    if (count != 0 && table == nullptr) fail("the table of ", what, " is missing, it has ", count, " entries");
+  template <class T>
+  void present(const char* what, uint32_t count, const T* table) {
+    if (count == 0) return;
+    if (table == nullptr) return fail("the table of ", what, " is missing, it has ", count, " entries");
+    if (file_ != nullptr && !file_->holds(table, uint64_t{count} * sizeof(T)))
+      fail("the table of ", what, " is not in the file, it has ", count, " entries");
   }
 
   void checkPresence() {
@@ -114,6 +141,7 @@ private:
     present("safe spans", p_.safe_count, p_.safe_spans);
     present("copies", p_.copy_count, p_.copies);
     present("chunks", p_.chunk_count, p_.chunks);
+    present("code", p_.chunk_count, p_.chunk_fns);
     present("rungs", p_.rung_count, p_.rungs);
     present("routines", p_.routine_count, p_.routines);
     present("files", p_.file_count, p_.files);
@@ -159,6 +187,8 @@ private:
     if (s.byte_count % s.unit_bytes != 0) failAt("space", number, "has ", s.byte_count, " bytes, part of a unit");
     if ((s.flags & ~kSpaceFlags) != 0) failAt("space", number, "has unknown flags ", s.flags);
     if (s.range_count != 0 && s.ranges == nullptr) return failAt("space", number, "has no table of ranges");
+    held("space", number, s.ranges, s.range_count);
+    if (!error_.empty()) return;
     uint64_t next = 0;
     for (uint32_t r = 0; r < s.range_count && error_.empty(); ++r) {
       const rung_range& range = s.ranges[r];
@@ -190,7 +220,8 @@ private:
     for (uint32_t i = 0; i < p_.symbol_count && error_.empty(); ++i) {
       const rung_symbol& s = p_.symbols[i];
       named("symbol", i, s.name);
-      if (s.comment == nullptr) failAt("symbol", i, "has no comment, not even \"\"");
+      if (s.comment == nullptr) return failAt("symbol", i, "has no comment, not even \"\"");
+      readable("symbol", i, s.comment);
       if (!error_.empty()) return;
       if (i > 0 && std::strcmp(p_.symbols[i - 1].name, s.name) > 0) failAt("symbol", i, "is not sorted by its name");
       checkSymbol(i, s);
@@ -240,8 +271,11 @@ private:
         failAt("continuation", i, "is not sorted by its key");
       inBlock("continuation", i, c.offset, 4);
       if (c.point_count == 0 || c.points == nullptr) return failAt("continuation", i, "has no points");
-      for (uint32_t k = 0; k < c.point_count; ++k)
+      held("continuation", i, c.points, c.point_count);
+      for (uint32_t k = 0; error_.empty() && k < c.point_count; ++k) {
         if (c.points[k] == nullptr) return failAt("continuation", i, "has a point without a key");
+        readable("continuation", i, c.points[k]);
+      }
     }
   }
 
@@ -280,7 +314,8 @@ private:
   void checkInit(uint32_t number) {
     const rung_init& init = p_.inits[number];
     inBlock("initial contents", number, init.offset, init.size);
-    if (init.data == nullptr) failAt("initial contents", number, "has no data");
+    if (init.data == nullptr) return failAt("initial contents", number, "has no data");
+    held("initial contents", number, init.data, init.size);
     if (!error_.empty()) return;
     const uint32_t end = init.offset + init.size;
     auto stretch = firstAfter(init.offset);
@@ -338,11 +373,14 @@ private:
       if (c.rung_count > p_.rung_count) failAt("chunk", i, "has ", c.rung_count, " rungs, there are ", p_.rung_count);
       if (c.rung_count == 0) failAt("chunk", i, "has no rungs");
       if (c.weight == 0) failAt("chunk", i, "has weight 0, expected at least 1");
-      if (p_.chunk_fns[i] == nullptr) failAt("chunk", i, "has no code");
+      if (p_.chunk_fns[i] == nullptr) return failAt("chunk", i, "has no code");
+      if (file_ != nullptr && !file_->holdsCode(reinterpret_cast<const void*>(p_.chunk_fns[i])))
+        return failAt("chunk", i, "has code that is not in the file");
     }
-    for (uint32_t i = 0; i < p_.rung_count; ++i) {
+    for (uint32_t i = 0; error_.empty() && i < p_.rung_count; ++i) {
       const rung_rung_info& r = p_.rungs[i];
-      if (r.title == nullptr) failAt("rung", i, "has no title, not even \"\"");
+      if (r.title == nullptr) return failAt("rung", i, "has no title, not even \"\"");
+      readable("rung", i, r.title);
       if (r.file != RUNG_NONE) index("rung", i, "file", r.file, p_.file_count);
       if (r.first_line > r.last_line) failAt("rung", i, "ends before it begins, in line ", r.last_line);
       index("rung", i, "routine", r.routine, p_.routine_count);
@@ -445,10 +483,24 @@ private:
     const uint64_t scan = advanceUs({p_.scan, p_.scan_count});
     const uint64_t slices = advanceUs({p_.slices, p_.slice_count});
     if (p_.slice_count != 0 && slices != scan) fail("the slices take ", slices, " us, a scan ", scan);
+    checkTimes("scan", {p_.scan, p_.scan_count});
+    checkTimes("fast", {p_.fast, p_.fast_count});
+    checkTimes("slice", {p_.slices, p_.slice_count});
+    if (error_.empty() && scanPeriodUs(p_) > kLongestPassUs)
+      fail("a scan takes ", scanPeriodUs(p_), " us, expected an hour at most");
     if (scanPeriodUs(p_) == 0)
       fail("the scan list takes no time: it has no step that advances the clock, and the main task has no period");
   }
+  // What one pass runs.
+  void checkTimes(const char* list, std::span<const rung_step> steps) {
+    uint64_t runs = 0;
+    for (const rung_step& step : steps)
+      if (step.op == RUNG_STEP_RUN || step.op == RUNG_STEP_PART) runs += std::max(step.arg, 1u);
+    if (runs > kMostRuns) fail("the ", list, " list runs tasks ", runs, " times, expected at most ", kMostRuns);
+  }
   void checkStep(const char* table, uint32_t number, const rung_step& step) {
+    if (step.op == RUNG_STEP_RUN && step.arg > kMostTimes)
+      failAt(table, number, "runs its task ", step.arg, " times, expected at most ", kMostTimes);
     if (step.op > RUNG_STEP_SLOT) failAt(table, number, "has the unknown operation ", step.op);
     if (step.op == RUNG_STEP_RUN || step.op == RUNG_STEP_PART) index(table, number, "task", step.task, p_.task_count);
   }
@@ -466,17 +518,21 @@ private:
       if (!text::numberIn<uint32_t>(p_.texts[i])) failAt("text", i, "is not the number of a message: ", p_.texts[i]);
   }
   void checkList(const char* table, uint32_t count, const char* const* list) {
-    for (uint32_t i = 0; i < count; ++i)
-      if (list[i] == nullptr) failAt(table, i, "is missing");
+    for (uint32_t i = 0; error_.empty() && i < count; ++i)
+      if (list[i] == nullptr)
+        failAt(table, i, "is missing");
+      else
+        readable(table, i, list[i]);
   }
 
   const rung_program& p_;
+  const MappedFile* file_;         // that holds the tables; null: it is not known
   std::vector<Stretch> stretches_; // by offset
   std::string error_;
 };
 
 } // namespace
 
-std::string checkProgram(const rung_program& program) { return Checker(program).run(); }
+std::string checkProgram(const rung_program& program, const MappedFile* file) { return Checker(program, file).run(); }
 
 } // namespace rung::host

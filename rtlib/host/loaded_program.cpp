@@ -37,11 +37,14 @@ void LoadedProgram::FreeBlock::operator()(uint8_t* bytes) const {
 }
 
 LoadedProgram::LoadedProgram(const Runnable& runnable, uint32_t leastBytes)
-    : program(&runnable.program), engine(runnable.engine), blockBytes(bytesFor(runnable, leastBytes)),
-      block(blockFor(runnable, blockBytes)), profile(program->instrumented != 0 ? program->rung_count : 0),
-      parts(program->task_count), steps(program->scan_count), retained(retainedBytes(*program)), overwritten(*program),
-      activityMemory(*program), activity(activityMemory.make()), copyLists(*program, runnable.memory != nullptr),
-      neededCopies(copyLists.views()) {
+    : program(&runnable.program), engine(runnable.engine),
+      services(runnable.services != nullptr ? runnable.services : program->services),
+      blockBytes(bytesFor(runnable, leastBytes)), block(blockFor(runnable, blockBytes)),
+      profile(program->instrumented != 0 ? program->rung_count : 0), parts(program->task_count),
+      steps(program->scan_count), retained(retainedBytes(*program)), overwritten(*program), activityMemory(*program),
+      activity(activityMemory.make()),
+      copyLists(std::make_shared<const CopyLists>(*program, runnable.memory != nullptr)),
+      neededCopies(copyLists->views()) {
   clear();
 }
 

@@ -16,6 +16,8 @@ struct Runnable {
   const rung_program& program;
   void* engine = nullptr;    // what the chunks find in rung_ctx::engine
   uint8_t* memory = nullptr; // the memory block, of rt::Memory::kLeastBlock bytes at least; null: of the instance's own
+  // Names for its services, which outlive the instance's queue of requests; null: the program's own.
+  const char* const* services = nullptr;
 };
 
 // A program with all the memory that one instance of it needs; its memory block holds the initial contents.
@@ -32,7 +34,8 @@ struct LoadedProgram {
   };
   const rung_program* program;
   void* engine;
-  uint32_t blockBytes; // the block has so many, of which the program needs its memory_size
+  const char* const* services; // names
+  uint32_t blockBytes;         // the block has so many, of which the program needs its memory_size
   std::unique_ptr<uint8_t, FreeBlock> block;
   std::vector<rung_prof> profile;   // one a rung; empty when the program is not instrumented
   std::vector<rt::PartState> parts; // one a task
@@ -40,8 +43,9 @@ struct LoadedProgram {
   std::vector<uint8_t> retained;    // room for a warm start
   Overwritten overwritten;
   ActivityMemory activityMemory;
-  rt::Activity activity;         // over that
-  CopyLists copyLists;           // whole in a block of somebody else, who may look at all of it
+  rt::Activity activity; // over that
+  // Whole in a block of somebody else, who may look at all of it.
+  std::shared_ptr<const CopyLists> copyLists;
   rt::NeededCopies neededCopies; // in these
 };
 

@@ -7,14 +7,16 @@
 #include <climits>
 
 namespace rung::host {
-namespace {
 
 std::string folderOfProgram() {
   char self[PATH_MAX];
   const ssize_t size = readlink("/proc/self/exe", self, sizeof self);
-  const std::string program(self, size > 0 ? static_cast<size_t>(size) : 0);
+  if (size <= 0) return {};
+  const std::string program(self, static_cast<size_t>(size));
   return program.substr(0, program.rfind('/'));
 }
+
+namespace {
 
 // Programs lie in bin, some in a folder below it.
 std::string pathOf(const std::string& name) {

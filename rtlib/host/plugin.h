@@ -6,6 +6,9 @@
 
 namespace rung::host {
 
+// Where the program lies that this process runs; "" where the system does not say.
+std::string folderOfProgram();
+
 class Plugin {
 public:
   /// `name`: of the file. It is used only if its function `rung_plugin_build` gives `build`, a text for whatever has to

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "rtlib/core/runner.h"
 #include "rtlib/text/number.h"
 
 namespace rung::host {
@@ -53,9 +54,18 @@ std::string_view serviceName(const rung_program& program, uint32_t service) {
 }
 
 std::string_view messageText(const rung_program& program, uint32_t number) {
-  for (uint32_t i = 0; i + 1 < program.text_count; i += 2)
-    if (text::numberIn<uint32_t>(program.texts[i]) == number) return program.texts[i + 1];
-  return {};
+  const auto numberOf = [&](uint32_t pair) { return text::numberIn<uint32_t>(program.texts[2 * pair]).value_or(0); };
+  uint32_t first = 0;
+  uint32_t end = program.text_count / 2;
+  while (first < end) {
+    const uint32_t middle = first + (end - first) / 2;
+    if (numberOf(middle) < number)
+      first = middle + 1;
+    else
+      end = middle;
+  }
+  return first < program.text_count / 2 && numberOf(first) == number ? program.texts[2 * first + 1]
+                                                                     : std::string_view();
 }
 
 uint64_t advanceUs(std::span<const rung_step> steps) {
@@ -82,6 +92,7 @@ std::string rungText(const rung_program& program, uint32_t rung, uint32_t line) 
 
 std::string faultText(const rung_program& program, const rung_fault& fault) {
   if (fault.code == RUNG_NONE) return {};
+  if (fault.code == rt::kOverrunFault) return std::string(kOverrunText);
   std::string reason = fault.code < program.fault_count ? program.faults[fault.code] : "undescribed fault";
   if (fault.task == RUNG_NONE) return reason; // the host stopped it
   return reason + " (" + rungText(program, fault.rung, fault.line) + ")";

@@ -11,9 +11,13 @@
 
 namespace rung::host {
 
+class MappedFile;
+
 // What is wrong with the tables, and in which entry; "" when nothing is. Takes time in proportion to the tables, and
 // allocates. What code does is not checked: a program can still write anywhere.
-std::string checkProgram(const rung_program& program);
+//
+// `file`: where its tables, texts and code have to be; null: the caller vouches for that.
+std::string checkProgram(const rung_program& program, const MappedFile* file = nullptr);
 
 // Indices by name; RUNG_NONE when there is none.
 uint32_t findSpace(const rung_program& program, std::string_view name);
@@ -42,6 +46,7 @@ uint64_t scanPeriodUs(const rung_program& program);
 
 // `rung 3 "title", main.pmc:12`, of what is not drawn `LEVEL1, main.pmc:12`; line 0 means the rung's first line.
 std::string rungText(const rung_program& program, uint32_t rung, uint32_t line = 0);
+inline constexpr std::string_view kOverrunText = "overrun: this machine is too slow for the program";
 // `dead-loop (rung 3 "title", main.pmc:12)`; "" when there is no fault.
 std::string faultText(const rung_program& program, const rung_fault& fault);
 

@@ -10,6 +10,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "rtlib/host/mapped_file.h"
 #include "rtlib/host/program_info.h"
 
 namespace rung::host {
@@ -178,8 +179,10 @@ std::unique_ptr<SoEngine> SoEngine::load(const std::string& path, File file, std
   error.clear();
   if (program == nullptr) {
     error = path + " is not a compiled PLC program: it has no symbol " RUNG_PROGRAM_SYMBOL;
-  } else if (const std::string wrong = checkProgram(*program); !wrong.empty()) {
-    error = path + " cannot be run: " + wrong + "; compile it again";
+  } else {
+    const MappedFile mapped(library);
+    if (const std::string wrong = checkProgram(*program, &mapped); !wrong.empty())
+      error = path + " cannot be run: " + wrong + "; compile it again";
   }
   if (!error.empty()) {
     dlclose(library);

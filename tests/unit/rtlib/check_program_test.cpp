@@ -59,14 +59,15 @@ class CheckProgram : public testing::TestWithParam<Case> {};
 
 // Each alone lies in the block, and together they have more bytes than a size can say.
 TEST(CheckProgram, RetainedSpansTogether) {
+  constexpr uint32_t kBytes = 64u << 20;
   TestProgram test;
-  test.memorySize = 0x80000000;
-  test.addPacked("K", 1, 0x80000000, 0);
+  test.memorySize = kBytes;
+  test.addPacked("K", 1, kBytes, 0);
   test.addChunk([](uint8_t*, rung_ctx*, uint32_t) { return RUNG_PC_DONE; });
   test.addTask("MAIN", 0);
-  test.retains = {{0, 0x80000000}};
+  test.retains = {{0, kBytes}};
   EXPECT_EQ(checkProgram(test.link()), "");
-  test.retains.push_back({0, 0x80000000});
+  test.retains.resize(64, {0, kBytes});
   EXPECT_EQ(lacking(checkProgram(test.link()), {"more than 4 GB together"}), "");
 }
 

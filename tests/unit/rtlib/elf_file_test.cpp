@@ -25,7 +25,7 @@ std::string contentsOf(const char* path) {
 TEST(ElfFile, SaysWhatASharedObjectExportsAndLoads) {
   const ElfObject good = readElf(contentsOf(RUNG_TEST_SO_GOOD));
   EXPECT_EQ(good.problem, "");
-  EXPECT_THAT(good.exported, Contains("rung_program_v1"));
+  EXPECT_THAT(good.exported, Contains("rung_program_table"));
   EXPECT_THAT(good.searched, IsEmpty());
   EXPECT_EQ(good.machine, machineHere());
   EXPECT_THAT(readElf(contentsOf(RUNG_TEST_SO_EMPTY)).exported, Contains("rung_test_nothing"));

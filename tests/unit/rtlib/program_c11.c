@@ -32,7 +32,9 @@ AT(rung_symbol, type, 28);
 AT(rung_symbol, count, 32);
 AT(rung_symbol, flags, 36);
 AT(rung_symbol, value, 40);
-SIZE(rung_symbol, 48);
+AT(rung_symbol, reach, 48);
+AT(rung_symbol, rung, 52);
+SIZE(rung_symbol, 56);
 
 AT(rung_span, offset, 0);
 AT(rung_span, size, 4);
@@ -107,7 +109,7 @@ AT(rung_rung_info, last_line, 16);
 AT(rung_rung_info, routine, 20);
 AT(rung_rung_info, key, 24);
 AT(rung_rung_info, number, 32);
-AT(rung_rung_info, reserved, 36);
+AT(rung_rung_info, copy, 36);
 SIZE(rung_rung_info, 40);
 
 AT(rung_task, name, 0);

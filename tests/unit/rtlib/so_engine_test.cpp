@@ -145,7 +145,7 @@ TEST_F(SoEngineTest, RefusesAnotherVersion) {
 
 TEST_F(SoEngineTest, RefusesALibraryWithoutProgram) {
   EXPECT_EQ(open(put(RUNG_TEST_SO_EMPTY)), nullptr);
-  EXPECT_THAT(error_, HasSubstr("no symbol rung_program_v1"));
+  EXPECT_THAT(error_, HasSubstr("no symbol rung_program_table"));
 }
 
 TEST_F(SoEngineTest, SaysWhyAFileCannotBeLoaded) {

@@ -28,8 +28,8 @@ static const rung_task tasks[] = {{"MAIN", 0, 8000, 10, 0, 0, 0, 0, 0, 0, 1}};
 static const rung_step scan[] = {{RUNG_STEP_ADVANCE, RUNG_NONE, 8000}, {RUNG_STEP_RUN, 0, 1}};
 static const rung_chunk_fn functions[] = {count};
 
-extern const rung_program rung_program_v1;
-const rung_program rung_program_v1 = {
+extern const rung_program rung_program_table;
+const rung_program rung_program_table = {
     .size = sizeof(rung_program),
     .abi_version = RUNG_TEST_VERSION,
     .name = "good",

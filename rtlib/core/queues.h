@@ -4,6 +4,7 @@
 // The program's side of both classes belongs to the scan thread, the host's side to one other thread (or the same one).
 // A completed request becomes visible to the program at `deliver`, between two scans; a responder answers at once.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "rtlib/core/ring.h"
@@ -16,10 +17,15 @@ using MessageQueue = FixedRing<rung_message, kMessageCapacity>;
 
 struct ServiceRequest {
   uint32_t ticket = 0;
-  uint32_t service = 0; // in rung_program::services
+  uint32_t service = 0;  // in rung_program::services
+  const char* name = ""; // of it there, for whoever takes the request when another program runs; see setServices
   uint32_t argCount = 0;
   int64_t args[RUNG_MAX_SERVICE_ARGS] = {};
-  bool operator==(const ServiceRequest&) const = default;
+  // The name follows from the service.
+  bool operator==(const ServiceRequest& other) const {
+    return ticket == other.ticket && service == other.service && argCount == other.argCount &&
+           std::equal(args, args + RUNG_MAX_SERVICE_ARGS, other.args);
+  }
 };
 
 struct ServiceReply {
@@ -54,6 +60,11 @@ public:
   static constexpr uint32_t kRecords = 256;
 
   void setResponder(ServiceResponder responder) noexcept { responder_ = responder; }
+  // Names of services, by their numbers; they outlive the queue. Scan thread.
+  void setServices(const char* const* names, uint32_t count) noexcept {
+    names_ = names;
+    nameCount_ = count;
+  }
 
   // Program. `request` gives 0 when kMaxPending requests are unanswered, or after a restart as long as requests from
   // before it fill the queue; `poll` and `result` take constant time.
@@ -95,6 +106,8 @@ private:
   std::atomic<uint32_t> stray_{0};
   std::atomic<uint32_t> lostBefore_{0}; // replies that were lost before the last restart
   ServiceResponder responder_;
+  const char* const* names_ = nullptr;
+  uint32_t nameCount_ = 0;
   FixedRing<ServiceRequest, kMaxPending> requests_;
   FixedRing<ServiceReply, kMaxPending> replies_;
 };

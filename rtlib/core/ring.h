@@ -6,6 +6,7 @@
 // looks. Until then they keep their room.
 #pragma once
 #include <atomic>
+#include <cassert>
 #include <cstdint>
 #include <type_traits>
 
@@ -17,7 +18,9 @@ class Ring {
 
 public:
   // `storage` holds `capacity` elements, a power of two, and outlives the ring.
-  Ring(T* storage, uint32_t capacity) noexcept : storage_(storage), mask_(capacity - 1) {}
+  Ring(T* storage, uint32_t capacity) noexcept : storage_(storage), mask_(capacity - 1) {
+    assert(capacity != 0 && (capacity & mask_) == 0);
+  }
   Ring(const Ring&) = delete;
   Ring& operator=(const Ring&) = delete;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cstring>
 
 #include "rtlib/core/float_environment.h"
@@ -18,6 +19,7 @@ Runner::Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, Part
 
 void Runner::setProgram(const rung_program& program, uint8_t* memory, PartState* parts, void* engine,
                         rung_step* room) noexcept {
+  assert(!inTask_);
   program_ = &program;
   memory_ = memory;
   parts_ = parts;
@@ -40,6 +42,7 @@ void Runner::beginProgram() noexcept {
 }
 
 void Runner::reset() noexcept {
+  assert(!inTask_);
   beginProgram();
   ctx_->fault = {RUNG_NONE, RUNG_NONE, 0, RUNG_NONE};
   faulted_ = false;
@@ -49,6 +52,7 @@ void Runner::reset() noexcept {
 // ---- forces ------------------------------------------------------------------------------------------------------
 
 void Runner::force(const Code& code, std::span<const ForcedBits> bits) noexcept {
+  assert(!inTask_);
   if (faulted_) return;
   useCode(code);
   forced_ = bits;

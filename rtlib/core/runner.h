@@ -22,6 +22,8 @@ namespace rung::rt {
 
 // rung_fault::code when a chunk reported a fault without naming it, or returned a chunk that does not exist.
 inline constexpr uint32_t kUndescribedFault = 0xFFFFFFFEu;
+// The host's, of a machine that is too slow for the program: see host::Pace.
+inline constexpr uint32_t kOverrunFault = 0xFFFFFFFDu;
 
 // Where the run of a cut task is.
 struct PartState {

@@ -74,4 +74,41 @@ DiskLock lockDiskFile(const std::string& path) {
   return lock;
 }
 
+namespace {
+
+class SystemDisk final : public Disk {
+public:
+  bool read(const std::string& path, size_t most, std::string& bytes, std::string& problem) override {
+    const File file = openDiskFile(path, O_RDONLY);
+    if (!file.ok() && errno == ENOENT) return false;
+    problem = file.ok() ? readAll(file.fd(), most, bytes) : fileProblem(errno);
+    return true;
+  }
+  bool replace(const std::string& path, std::span<const uint8_t> bytes, std::string& error) override {
+    return replaceDiskFile(path, bytes, error);
+  }
+  std::unique_ptr<Lock> lock(const std::string& path, bool& made, std::string& error) override {
+    DiskLock lock = lockDiskFile(path);
+    made = lock.made;
+    error = std::move(lock.error);
+    return lock.file.ok() ? std::make_unique<Held>(std::move(lock.file)) : nullptr;
+  }
+
+private:
+  class Held final : public Lock {
+  public:
+    explicit Held(File file) : file_(std::move(file)) {}
+
+  private:
+    File file_;
+  };
+};
+
+} // namespace
+
+Disk& systemDisk() noexcept {
+  static SystemDisk disk;
+  return disk;
+}
+
 } // namespace rung::host

@@ -17,6 +17,7 @@ Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
   setRunnerHooks();
   runner_.setActivity(&loaded_.activity);
   port_->services.setResponder({&respondHook, this});
+  port_->services.setServices(loaded_.services, program().service_count);
   coldStart();
 }
 
@@ -162,7 +163,8 @@ namespace {
 // The same fault in the tables of another program. What that does not have is left open.
 rung_fault translated(const rung_fault& fault, const rung_program& from, const rung_program& to) {
   if (fault.code == RUNG_NONE) return fault;
-  rung_fault out = {rt::kUndescribedFault, RUNG_NONE, fault.line, RUNG_NONE};
+  const bool isHosts = fault.code == rt::kOverrunFault;
+  rung_fault out = {isHosts ? fault.code : rt::kUndescribedFault, RUNG_NONE, fault.line, RUNG_NONE};
   for (uint32_t i = 0; fault.code < from.fault_count && i < to.fault_count; ++i)
     if (std::strcmp(from.faults[fault.code], to.faults[i]) == 0) out.code = i;
   for (uint32_t i = 0; fault.rung < from.rung_count && i < to.rung_count; ++i)
@@ -182,17 +184,20 @@ bool Instance::servicesAgree(const rung_program& next) const {
   return true;
 }
 
-ReplaceResult Instance::replace(Replacement& replacement) {
+ReplaceResult Instance::replace(Replacement& replacement, OwnContents own) {
   const rung_program& former = program();
-  if (&replacement.there_.from() != &former) return ReplaceResult::OtherProgram;
-  if (!atListStart() && !faulted()) return ReplaceResult::WithinPass;
-  if (!servicesAgree(replacement.next())) return ReplaceResult::RequestsWait;
-  if (replacement.there_.waiting(loaded_.block.get()) != nullptr) return ReplaceResult::MechanismWaits;
+  if (&replacement.transfer().from() != &former) return ReplaceResult::OtherProgram;
+  if (!faulted()) { // after a fault the next that comes is a power-on, for which nothing waits
+    if (!atListStart()) return ReplaceResult::WithinPass;
+    if (!servicesAgree(replacement.next())) return ReplaceResult::RequestsWait;
+    if (replacement.transfer().waiting(loaded_.block.get()) != nullptr) return ReplaceResult::MechanismWaits;
+  }
   bringInLeftOut(); // the next program may look at it
-  replacement.exchange(loaded_);
+  replacement.exchange(loaded_, own);
   runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data(), loaded_.engine, loaded_.steps.data());
   ctx_->fault = translated(ctx_->fault, former, program());
   ctx_->prof = loaded_.counters();
+  port_->services.setServices(loaded_.services, program().service_count);
   clearProfile();
   ++generation_;
   if (hooks_ != nullptr) hooks_->onReplace(*this);
@@ -244,5 +249,7 @@ bool Instance::halt(std::string_view fault) {
     if (fault == program().faults[i]) return runner_.halt(i);
   return false;
 }
+
+bool Instance::haltOverrun() { return runner_.halt(rt::kOverrunFault); }
 
 } // namespace rung::host

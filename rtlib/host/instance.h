@@ -79,6 +79,7 @@ public:
   void setNeededCopiesOnly(bool only) noexcept;
   bool neededCopiesOnly() const noexcept { return neededCopiesOnly_; }
   const rt::NeededCopies& neededCopies() const noexcept { return loaded_.neededCopies; }
+  const std::shared_ptr<const CopyLists>& copyLists() const noexcept { return loaded_.copyLists; }
 
   // Memory as the program's tables say, queues empty, no fault, schedule at its beginning; clock and profile continue.
   // The host's side of the queues may be active meanwhile.
@@ -88,9 +89,10 @@ public:
 
   // Another program takes over, with the state that it has in common with this one (Replacement::transfer). Clock,
   // queues and tickets continue, profile counters start at 0, and a program that had stopped on a fault stays stopped,
-  // as the new one. The replacement then holds the former program as it was: given again, it puts that back. If the
-  // result is not Replaced, nothing has happened. Allocates nothing, but for what onReplace does.
-  ReplaceResult replace(Replacement& replacement);
+  // as the new one. The replacement then holds the former program: given again, it puts that back, and cells that only
+  // that one has begin as `own` says. If the result is not Replaced, nothing has happened. Allocates nothing, but for
+  // what onReplace does.
+  ReplaceResult replace(Replacement& replacement, OwnContents own = OwnContents::Initial);
   // How many programs have taken over: what was looked up under another number is to be looked up again.
   uint32_t generation() const { return generation_; }
 
@@ -106,6 +108,8 @@ public:
   bool runTask(std::string_view name);
   // Stops the program with one of its own faults. False: it has no such fault, or is stopped already.
   bool halt(std::string_view fault);
+  // The machine is too slow for it. False: it is stopped already.
+  bool haltOverrun();
   // For a real clock; see rt::Runner.
   void setTimeLimit(rt::TimeLimit limit) { runner_.setTimeLimit(limit); }
   uint32_t sliceDelayUs() const { return runner_.sliceDelayUs(); }
@@ -121,6 +125,7 @@ public:
   }
   void endForces() { runner_.endForces(); }
   bool forced() const { return !runner_.forced().empty(); }
+  std::span<const rt::ForcedBits> forcedBits() const { return runner_.forced(); } // of the block
   void hold() { runner_.hold(); }
 
   bool atListStart() const { return runner_.atListStart(); }

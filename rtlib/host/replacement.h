@@ -1,8 +1,10 @@
 // Another program for an instance that runs: made and looked at outside real time, put in its place between two scans
 // (Instance::replace).
 #pragma once
+#include <array>
+#include <atomic>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "rtlib/host/loaded_program.h"
@@ -18,38 +20,52 @@ enum class ReplaceResult : uint8_t {
   MechanismWaits, // at an instruction that the new program does not have: later
 };
 
+// What the cells that only one of two programs has contain when it takes over again.
+enum class OwnContents : uint8_t {
+  Initial, // those that it begins with
+  AsLeft,  // those of its last scan
+};
+
 class Replacement {
 public:
   // `next` is of `running`'s dialect; both outlive this object and the instance's use of them.
   Replacement(const rung_program& running, const Runnable& next);
 
   const rung_program& next() const { return *loaded_.program; }
-  const rt::NeededCopies& neededCopies() const { return loaded_.neededCopies; } // of the next one
-  // What becomes of the state.
-  const StateTransfer& transfer() const { return there_; }
+  const std::shared_ptr<const CopyLists>& copyLists() const { return loaded_.copyLists; } // of the next one
+  // What becomes of the state when the program that this holds takes over. Any thread.
+  const StateTransfer& transfer() const noexcept { return way().transfer; }
   // That taking over copies: its time is in proportion to them. It copies all of the state where the block of the
-  // running program has no room for the next one.
-  uint64_t bytes() const { return shared_ ? shared_->there.bytes() + shared_->swappedBytes : there_.bytes(); }
+  // running program has no room for the next one. Any thread.
+  uint64_t bytes() const noexcept {
+    return sharesBlock_ ? way().inSharedBlock.bytes() + 2 * swappedBytes_ : way().transfer.bytes();
+  }
 
 private:
   friend class Instance;
+  // From one of the two programs to the other.
+  struct Way {
+    Way(const rung_program& from, const rung_program& to) : transfer(from, to), inSharedBlock(transfer) {}
+    StateTransfer transfer;
+    StateTransfer inSharedBlock;   // without what stays
+    std::vector<uint8_t> contents; // that the program begins with, where blocks are swapped
+  };
+  const Way& way() const noexcept { return ways_[wayBack_.load(std::memory_order_acquire) ? 1 : 0]; }
   // Where most of the state stays where it is, the next program takes the block over in which the running one lies.
   // What else is to be there is put into the other block, and swapped with it.
-  struct SharedBlock {
-    StateTransfer there; // without what stays
-    StateTransfer back;
-    std::vector<rung_span> swaps;
-    uint64_t swappedBytes; // of both blocks
-  };
   void planSharedBlock(const rung_program& running);
   bool mayShare(const LoadedProgram& running) const noexcept;
+  void beginAnew(bool shares) noexcept;
   // The state goes over. `running` is the next program then, and this holds what it was.
-  void exchange(LoadedProgram& running) noexcept;
+  void exchange(LoadedProgram& running, OwnContents own) noexcept;
 
   LoadedProgram loaded_;
-  StateTransfer there_;
-  StateTransfer back_;
-  std::optional<SharedBlock> shared_; // nothing where that would take longer
+  std::array<Way, 2> ways_; // there and back
+  std::atomic<bool> wayBack_{false};
+  bool hasRun_ = false;      // the program that this holds
+  bool sharesBlock_ = false; // where that takes less time
+  std::vector<rung_span> swaps_;
+  uint64_t swappedBytes_ = 0; // of one block
 };
 
 } // namespace rung::host

@@ -50,16 +50,12 @@ struct Found {
   std::string wrong;
 };
 
-Found look(const std::string& path) {
+Found look(Disk& disk, const std::string& path) {
   Found found;
-  const File disk = openDiskFile(path, O_RDONLY);
-  if (!disk.ok()) {
-    if (errno != ENOENT) found.wrong = path + ": " + fileProblem(errno);
-    return found;
-  }
-  std::string bytes;
-  if (const std::string wrong = readAll(disk.fd(), kMostBytes, bytes); !wrong.empty()) {
-    found.wrong = path + ": " + wrong;
+  std::string bytes, problem;
+  if (!disk.read(path, kMostBytes, bytes, problem)) return found;
+  if (!problem.empty()) {
+    found.wrong = path + ": " + problem;
     return found;
   }
   const std::span file(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
@@ -86,27 +82,29 @@ Found look(const std::string& path) {
 
 } // namespace
 
-RetainStore::RetainStore(std::string base, RetainLayout layout, uint32_t size)
-    : base_(std::move(base)), layout_(std::move(layout)), size_(size) {}
+RetainStore::RetainStore(std::string base, RetainLayout layout, uint32_t size, Disk& disk)
+    : base_(std::move(base)), layout_(std::move(layout)), size_(size), disk_(&disk) {}
 
 bool RetainStore::lock(std::string& error) {
-  if (lock_.ok()) return true;
-  DiskLock lock = lockDiskFile(base_ + ".lock");
-  if (!lock.file.ok()) {
-    error = !lock.error.empty() ? lock.error
-                                : base_ + " is in use by another process, which holds " + base_ +
-                                      ".lock: stop that one, or give each program a file of its own";
+  if (lock_ != nullptr) return true;
+  bool made = false;
+  std::string problem;
+  std::unique_ptr<Disk::Lock> lock = disk_->lock(base_ + ".lock", made, problem);
+  if (lock == nullptr) {
+    error = !problem.empty() ? problem
+                             : base_ + " is in use by another process, which holds " + base_ +
+                                   ".lock: stop that one, or give each program a file of its own";
     return false;
   }
-  lock_ = std::move(lock.file);
-  usedBefore_ = !lock.made;
+  lock_ = std::move(lock);
+  usedBefore_ = !made;
   looked_ = false; // another process may have saved until now
   return true;
 }
 
 RetainImage RetainStore::load() {
-  Found a = look(base_ + ".a");
-  Found b = look(base_ + ".b");
+  Found a = look(*disk_, base_ + ".a");
+  Found b = look(*disk_, base_ + ".b");
   RetainImage image;
   image.report = a.wrong + (a.wrong.empty() || b.wrong.empty() ? "" : "; ") + b.wrong;
   looked_ = true;
@@ -151,7 +149,7 @@ bool RetainStore::save(std::span<const uint8_t> bytes, const RetainLayout& layou
   std::copy_n(bytes.data(), bytes.size(), file.data() + kHeaderSize);
   std::copy_n(layout.description.data(), layout.description.size(), file.data() + kHeaderSize + bytes.size());
   put(file, kCrcAt, checksum(file), 4);
-  if (!replaceDiskFile(base_ + (newestIsB_ ? ".a" : ".b"), file, error)) return false;
+  if (!disk_->replace(base_ + (newestIsB_ ? ".a" : ".b"), file, error)) return false;
   ++generation_;
   newestIsB_ = !newestIsB_;
   return true;
@@ -171,6 +169,7 @@ RetainLane::RetainLane(const RetainMap& map)
 void RetainLane::enter(int64_t saver) noexcept {
   if (saver_ == saver) return;
   saver_ = saver;
+  newest_ = 0;
   for (Offer& offer : offers_) offer.ticket = 0;
 }
 
@@ -179,16 +178,19 @@ RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, std::unique_ptr<R
     : target_(std::move(target)), begun_(monotonicNs()), lane_(std::move(lane)), current_(lane_.get()),
       period_(period) {
   lane_->enter(begun_);
-  thread_ = std::thread([this] { work(); });
+  if (period.count() != 0) thread_ = std::thread([this] { work(); });
 }
 
 RetainSaver::~RetainSaver() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
+  if (thread_.joinable()) {
+    {
+      const std::lock_guard lock(mutex_);
+      stop_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
   }
-  wake_.notify_one();
-  thread_.join();
+  look();
 }
 
 std::string RetainSaver::problem() const {
@@ -196,66 +198,82 @@ std::string RetainSaver::problem() const {
   return {text.data(), problem(text)};
 }
 
-bool RetainSaver::flush() {
-  std::unique_lock lock(mutex_);
-  const uint64_t asked = ++flushAsked_;
-  wake_.notify_one();
-  flushed_.wait(lock, [&] { return flushDone_ >= asked; });
-  return !failing();
-}
-
-// A failed save may have replaced the file all the same: what is on disk is not known then.
-bool RetainSaver::save(const RetainLane& lane, const RetainLane::Offer& offer, std::string& error) try {
-  image_.assign(lane.imageSize_, 0);
-  lane.pack_(offer.raw, image_);
-  if (onDiskKnown_ && onDiskLayout_ == lane.layout_.hash && image_ == onDisk_) return true;
-  onDiskKnown_ = false;
-  if (!target_->save(image_, lane.layout_, error)) return false;
-  onDisk_ = image_;
-  onDiskLayout_ = lane.layout_.hash;
-  onDiskKnown_ = true;
-  saved_.fetch_add(1, std::memory_order_relaxed);
-  return true;
-} catch (const std::exception& thrown) { // out of memory
-  error = thrown.what();
-  return false;
-}
-
-void RetainSaver::saveOffered() noexcept {
-  const std::lock_guard lock(inLane_);
-  RetainLane& lane = *current_.load(std::memory_order_acquire);
+void RetainSaver::take(RetainLane& lane) {
   if ((lane.shared_.load(std::memory_order_acquire) & RetainLane::kFresh) != 0)
     lane.front_ = lane.shared_.exchange(lane.front_, std::memory_order_acq_rel) & ~RetainLane::kFresh;
   const RetainLane::Offer& offer = lane.offers_[lane.front_];
-  if (offer.ticket <= stored()) return;
-  std::string error;
-  const bool good = save(lane, offer, error);
-  if (good) {
-    stored_.store(offer.ticket, std::memory_order_release);
-  } else {
-    problem_.set(error);
-    failed_.fetch_add(1, std::memory_order_relaxed);
+  if (offer.ticket <= pending_.ticket) return;
+  if (pending_.layout.hash != lane.layout_.hash) pending_.layout = lane.layout_;
+  pending_.bytes.assign(lane.imageSize_, 0);
+  lane.pack_(offer.raw, pending_.bytes);
+  pending_.ticket = offer.ticket;
+}
+
+// The present lane is asked for first: another program may take over meanwhile, and then it is the former one.
+void RetainSaver::takeOffered() {
+  RetainLane& current = *current_.load(std::memory_order_acquire);
+  RetainLane* former = former_.load(std::memory_order_acquire);
+  if (former != nullptr) take(*former);
+  take(current);
+}
+
+// A failed save may have replaced the file all the same: what is on disk is not known then.
+bool RetainSaver::save(std::string& error) {
+  if (onDiskKnown_ && onDiskLayout_ == pending_.layout.hash && pending_.bytes == onDisk_) return true;
+  onDiskKnown_ = false;
+  if (!target_->save(pending_.bytes, pending_.layout, error)) return false;
+  onDisk_ = pending_.bytes;
+  onDiskLayout_ = pending_.layout.hash;
+  onDiskKnown_ = true;
+  saved_.fetch_add(1, std::memory_order_relaxed);
+  return true;
+}
+
+void RetainSaver::look() noexcept {
+  const std::lock_guard lock(looking_);
+  if (abandoned_) return;
+  bool good = false;
+  try {
+    takeOffered();
+    if (pending_.ticket <= stored()) return;
+    std::string error;
+    good = save(error);
+    if (!good) problem_.set(error);
+  } catch (const std::exception& thrown) { // out of memory
+    problem_.set(thrown.what());
   }
+  if (good)
+    stored_.store(pending_.ticket, std::memory_order_release);
+  else
+    failed_.fetch_add(1, std::memory_order_relaxed);
   failing_.store(!good, std::memory_order_release);
+}
+
+void RetainSaver::settle() noexcept {
+  const std::lock_guard lock(looking_);
+  RetainLane* former = former_.load(std::memory_order_acquire);
+  try {
+    takeOffered();
+  } catch (const std::exception& thrown) { // out of memory: what was offered last is lost
+    problem_.set(thrown.what());
+    failing_.store(true, std::memory_order_release);
+  }
+  former_.compare_exchange_strong(former, nullptr); // another may have become it meanwhile
+}
+
+void RetainSaver::abandon() noexcept {
+  const std::lock_guard lock(looking_);
+  abandoned_ = true;
 }
 
 void RetainSaver::work() {
   becomeHelper();
   for (bool stop = false; !stop;) {
-    uint64_t asked = 0;
     {
       std::unique_lock lock(mutex_);
-      wake_.wait_for(lock, failing() ? period_ * kRetryPeriods : period_,
-                     [this] { return stop_ || flushAsked_ > flushDone_; });
-      asked = flushAsked_;
-      stop = stop_;
+      stop = wake_.wait_for(lock, failing() ? period_ * kRetryPeriods : period_, [this] { return stop_; });
     }
-    saveOffered();
-    {
-      const std::lock_guard lock(mutex_);
-      flushDone_ = asked;
-    }
-    flushed_.notify_all();
+    look();
   }
 }
 

@@ -41,8 +41,8 @@ public:
 
 class RetainStore final : public RetainTarget {
 public:
-  // `base` is a path without ending; bytes saved under another layout or size are not `found`.
-  RetainStore(std::string base, RetainLayout layout, uint32_t size);
+  // `base` is a path without ending; bytes saved under another layout or size are not `found`. The disk outlives it.
+  RetainStore(std::string base, RetainLayout layout, uint32_t size, Disk& disk = systemDisk());
 
   // From now until this store ends no other one saves here, in no process. Whoever loads in order to save later locks
   // first; `save` does it too. False: `error` says why.
@@ -55,7 +55,8 @@ private:
   std::string base_;
   RetainLayout layout_;
   uint32_t size_;
-  File lock_;
+  Disk* disk_;
+  std::unique_ptr<Disk::Lock> lock_;
   bool usedBefore_ = false; // the lock was there: so were images
   uint64_t generation_ = 0; // of the newest good file
   bool newestIsB_ = true;
@@ -88,18 +89,20 @@ private:
   Pack pack_;
   // One belongs to the scan thread, one to the saver, and the third is what they exchange.
   std::array<Offer, 3> offers_;
-  uint32_t back_ = 0;  // the scan thread's
-  uint32_t front_ = 1; // the saver's
+  uint64_t newest_ = 0; // ticket of the last offer; the scan thread's
+  uint32_t back_ = 0;   // so is this
+  uint32_t front_ = 1;  // the saver's
   std::atomic<uint32_t> shared_{2};
   int64_t saver_ = 0; // RetainSaver::begun_
 };
 
 // Takes images from the scan thread and saves them on its own. `offer` copies and returns at once, whatever the saver
-// is doing; of several images the newest is saved. An image like the last one is not written again. One that could not
-// be saved is tried again until it is, or a newer one comes.
+// is doing; of several images the newest is saved, of whichever program it is. An image like the last one is not
+// written again. One that could not be saved is kept, and tried again until it is on disk or a newer one comes.
 class RetainSaver {
 public:
-  // Looks for images once a `period`, because waking it would cost the scan thread a system call.
+  // Looks for images once a `period`, because waking it would cost the scan thread a system call. 0: it has no thread,
+  // and looks where that is asked for.
   RetainSaver(std::unique_ptr<RetainTarget> target, std::unique_ptr<RetainLane> lane, std::chrono::milliseconds period);
   ~RetainSaver(); // tries to save what was offered last
   RetainSaver(const RetainSaver&) = delete;
@@ -111,7 +114,7 @@ public:
   uint64_t offerFrom(Copy copy) noexcept {
     RetainLane::Offer& offer = lane_->offers_[lane_->back_];
     copy(std::span<uint8_t>(offer.raw));
-    offer.ticket = ++lastTicket_;
+    offer.ticket = lane_->newest_ = ++lastTicket_;
     lane_->back_ =
         lane_->shared_.exchange(lane_->back_ | RetainLane::kFresh, std::memory_order_acq_rel) & ~RetainLane::kFresh;
     return lastTicket_;
@@ -121,10 +124,15 @@ public:
   }
   // The saver has seen what was offered last: a copy is worth its time again.
   bool taken() const noexcept { return (lane_->shared_.load(std::memory_order_acquire) & RetainLane::kFresh) == 0; }
-  // Another program has taken over: what is offered from now on goes through its lane. What was offered last of the
-  // former one may never be saved. `lane` gets the former lane; it must not end before `settle` has returned.
+  // Another program has taken over: what is offered from now on goes through its lane. What was offered last, of
+  // whichever program of before, is saved all the same, until there is something newer. `lane` gets the former lane; it
+  // must not end before `settle` has returned.
   void swapLane(std::unique_ptr<RetainLane>& lane) noexcept {
     lane->enter(begun_);
+    if (lane_->newest_ > formerNewest_) {
+      formerNewest_ = lane_->newest_;
+      former_.store(lane_.get(), std::memory_order_release);
+    }
     lane_.swap(lane);
     current_.store(lane_.get(), std::memory_order_release);
   }
@@ -137,28 +145,42 @@ public:
   // Why the last failed try failed; the number of characters, 0 while it changes.
   size_t problem(std::span<char> to) const noexcept { return problem_.read(to); }
 
-  // Not in a scan: the saver uses no lane of before any more.
-  void settle() { const std::lock_guard lock(inLane_); }
-  // Not in a scan: waits until what was offered last is on disk, or was tried once more and could not be saved; then
-  // false.
-  bool flush();
+  // Not in a scan, any thread. Saves what was offered last, where that is not on disk.
+  void look() noexcept;
+  // The saver has all that it needs of the lane of before, and uses it no more.
+  void settle() noexcept;
+  // As `look`. True: what was offered last is on disk.
+  bool flush() noexcept {
+    look();
+    return !failing();
+  }
+  // The power is gone: nothing more is saved.
+  void abandon() noexcept;
   std::string problem() const;
 
 private:
+  struct Image { // that is to be on disk
+    uint64_t ticket = 0;
+    RetainLayout layout{0};
+    std::vector<uint8_t> bytes;
+  };
   void work();
-  void saveOffered() noexcept;
-  bool save(const RetainLane& lane, const RetainLane::Offer& offer, std::string& error);
+  void takeOffered();
+  void take(RetainLane& lane);
+  bool save(std::string& error);
 
   std::unique_ptr<RetainTarget> target_;
-  int64_t begun_;                    // in ns: no other saver of the process has the same
-  std::unique_ptr<RetainLane> lane_; // the scan thread's
-  std::atomic<RetainLane*> current_; // the same, for the saver
-  std::mutex inLane_;                // held while the saver uses a lane
-  uint64_t lastTicket_ = 0;
-  std::vector<uint8_t> image_;  // of the saver's
+  int64_t begun_;                            // in ns: no other saver of the process has the same
+  std::unique_ptr<RetainLane> lane_;         // the scan thread's
+  std::atomic<RetainLane*> former_{nullptr}; // for the saver: one of before with the newest offer, and the present one
+  std::atomic<RetainLane*> current_;
+  uint64_t lastTicket_ = 0, formerNewest_ = 0; // the scan thread's
+  std::mutex looking_;                         // held while somebody looks
+  Image pending_;
   std::vector<uint8_t> onDisk_; // where it is known
   uint64_t onDiskLayout_ = 0;
   bool onDiskKnown_ = false;
+  bool abandoned_ = false; // under looking_
   std::atomic<uint64_t> stored_{0};
   std::atomic<uint64_t> saved_{0};
   std::atomic<uint64_t> failed_{0};
@@ -167,10 +189,7 @@ private:
   std::chrono::milliseconds period_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::condition_variable flushed_;
-  bool stop_ = false;       // under mutex_
-  uint64_t flushAsked_ = 0; // under mutex_
-  uint64_t flushDone_ = 0;  // under mutex_
+  bool stop_ = false; // under mutex_
   std::thread thread_;
 };
 

@@ -3,7 +3,7 @@
 //
 // A description is a text, compressed; its length as a text comes first, in four bytes, low byte first. Of each line
 // the first word says what it is, its fields are separated by tabs:
-//   dialect NAME · space NAME FLAGS BYTES · kept SPACE FIRST COUNT · cell NAME SPACE BYTE BIT TYPE COUNT
+//   dialect NAME · space NAME FLAGS BYTES · kept SPACE FIRST COUNT · cell NAME SPACE BYTE BIT TYPE COUNT REACH
 // Spaces are numbered in their order; BYTES is up to the last one that is kept. An image has the bytes of one `kept`
 // after those of the one before. Cells are all that are kept as a whole, in the order of their names.
 #pragma once

@@ -12,13 +12,14 @@ std::chrono::milliseconds periodOf(RetainWhen when) {
 
 } // namespace
 
-RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when, RetainTake take)
-    : RetainedMemory(program, file, when, take, periodOf(when)) {}
+RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when, RetainTake take,
+                               const Outside& outside)
+    : RetainedMemory(program, file, when, take, outside.savePeriod.value_or(periodOf(when)), *outside.disk) {}
 
 RetainedMemory::RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when, RetainTake take,
-                               std::chrono::milliseconds period)
-    : map_(program), when_(when), take_(take), store_(std::make_unique<RetainStore>(file, map_.layout(), map_.size())),
-      period_(period) {}
+                               std::chrono::milliseconds period, Disk& disk)
+    : map_(program), when_(when), take_(take),
+      store_(std::make_unique<RetainStore>(file, map_.layout(), map_.size(), disk)), period_(period) {}
 
 bool RetainedMemory::load(Instance& instance, std::string& report, std::string& error) {
   if (!store_->lock(error)) return false;

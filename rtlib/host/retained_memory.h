@@ -6,6 +6,7 @@
 #pragma once
 #include <memory>
 
+#include "rtlib/host/outside.h"
 #include "rtlib/host/retain.h"
 #include "rtlib/host/retained_take.h"
 
@@ -21,10 +22,10 @@ public:
   // `take`: null where a machine's program never changes. Then an image of another one is not taken, and the host is
   // smaller.
   RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when = RetainWhen::Always,
-                 RetainTake take = &takeRetainedOf);
+                 RetainTake take = &takeRetainedOf, const Outside& outside = {});
   // The saver looks once a `period` whether there is something to write.
   RetainedMemory(const rung_program& program, const std::string& file, RetainWhen when, RetainTake take,
-                 std::chrono::milliseconds period);
+                 std::chrono::milliseconds period, Disk& disk = systemDisk());
 
   // Before the program's warm start; false: nothing could be taken, and it starts cold. `report` is a message for the
   // user, "" when this is the first start. From then on no other process can use the files. The first image is written
@@ -53,6 +54,8 @@ public:
 
   // Not in a scan: waits until what was offered is on disk or was tried; false: it is not, and `problem` says why.
   bool flush() { return saver_->flush(); }
+  void look() noexcept { saver_->look(); }
+  void abandon() noexcept { saver_->abandon(); }
   std::string problem() const { return saver_->problem(); }
 
   // After the last scan: the image of now, of the last whole scan after a fault, is on disk when it returns; "" or why

@@ -56,6 +56,7 @@ struct Cells {
     uint32_t bit = 0;
     uint32_t type = 0;
     uint32_t count = 0;
+    uint32_t reach = 0;
   };
 
   bool readText(std::string_view text);
@@ -100,7 +101,8 @@ bool Cells::readText(std::string_view text) {
                        .byte = fields.number(),
                        .bit = fields.number(),
                        .type = fields.number(),
-                       .count = fields.number()});
+                       .count = fields.number(),
+                       .reach = fields.number()});
     else
       return false;
     if (!fields.good()) return false;
@@ -141,7 +143,8 @@ public:
       spaces_.push_back({space.name.c_str(), 1, space.bytes, space.flags, 1, &ranges_[i]});
     }
     for (const Cells::Cell& cell : cells.cells)
-      symbols_.push_back({cell.name.c_str(), "", cell.space, cell.byte, cell.bit, cell.type, cell.count, 0, 0});
+      symbols_.push_back(
+          {cell.name.c_str(), "", cell.space, cell.byte, cell.bit, cell.type, cell.count, 0, 0, cell.reach, RUNG_NONE});
     block_.resize(offset);
     program_.size = sizeof program_;
     program_.dialect = cells.dialect.c_str();

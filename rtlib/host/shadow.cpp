@@ -53,9 +53,11 @@ Shadow::Shadow(const rung_program& live, const Runnable& next, DescribePlace des
   for (Record& record : records_) {
     record.before.resize(live.memory_size);
     record.after.resize(live.memory_size);
+    record.forced.resize(live.memory_size);
   }
   former_.assign(next_.block.get(), next_.block.get() + next.program.memory_size);
   present_ = former_;
+  forced_.resize(former_.size());
   for (uint32_t t = 0; t < live.task_count; ++t) tasks_.push_back(findTask(next.program, live.tasks[t].name));
   inParts_.resize(live.task_count);
   for (const auto& steps : {stepsOf(live.scan, live.scan_count), stepsOf(live.slices, live.slice_count)})
@@ -108,9 +110,36 @@ void Shadow::findOutputs() {
     const uint32_t live = findSpace(live_, next.spaces[s].name);
     if (!isOutput(spaces[s]) || live == RUNG_NONE) continue;
     for (uint32_t byte = 0; byte < std::min(spaces[s].byte_count, live_.spaces[live].byte_count); ++byte)
-      for (uint32_t bit = 0; bit < 8 && !named.contains({s, byte}); ++bit)
-        outputs_.push_back({.live = bitRef(live, byte, bit), .next = bitRef(s, byte, bit), .name = {}});
+      if (!named.contains({s, byte}))
+        outputs_.push_back({.live = intRef(live, byte, 8), .next = intRef(s, byte, 8), .name = {}});
   }
+  indexOutputs();
+}
+
+// What the transfer of state brings into the new program's block as a whole is compared there.
+void Shadow::indexOutputs() {
+  const rung_program& next = *next_.program;
+  const rt::Memory memory(next, nullptr);
+  const std::vector<bool> written = transfer_.written(next.memory_size);
+  mask_.resize((next.memory_size + sizeof(uint64_t) - 1) / sizeof(uint64_t));
+  std::vector<OutputByte> bytes;
+  for (uint32_t i = 0; i < outputs_.size(); ++i) {
+    const Ref& ref = outputs_[i].next;
+    bytes.clear();
+    for (uint32_t b = 0; b < std::max(1u, ref.width / 8u); ++b) {
+      const rung_range& range = *memory.rangeOf(ref.space, ref.byte + b);
+      const uint32_t scale = range.repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1;
+      const uint32_t first = range.offset + scale * (ref.byte + b - range.first_byte);
+      for (uint32_t k = 0; k < scale; ++k) bytes.push_back({first + k, i});
+    }
+    if (!std::ranges::all_of(bytes, [&](const OutputByte& byte) { return written[byte.offset]; })) {
+      others_.push_back(i);
+      continue;
+    }
+    for (const OutputByte& byte : bytes) reinterpret_cast<uint8_t*>(mask_.data())[byte.offset] = 0xFF;
+    outputBytes_.insert(outputBytes_.end(), bytes.begin(), bytes.end());
+  }
+  std::ranges::sort(outputBytes_, {}, &OutputByte::offset);
 }
 
 // ---- the thread that scans ------------------------------------------------------------------------------------------
@@ -164,7 +193,15 @@ void Shadow::begins(const Instance& live, uint32_t task) {
     current_->answers[current_->answerCount++] = record;
     open_[i] = open_[--openCount_];
   }
+  noteForced(live);
   std::memcpy(current_->before.data(), live.block().data(), live_.memory_size);
+}
+
+void Shadow::noteForced(const Instance& live) noexcept {
+  std::vector<uint8_t>& forced = current_->forced;
+  if (current_->hasForced) std::memset(forced.data(), 0, forced.size());
+  current_->hasForced = live.forced();
+  for (const rt::ForcedBits& bits : live.forcedBits()) forced[bits.offset] = bits.mask;
 }
 
 void Shadow::requested(const rt::ServiceRequest& request) noexcept {
@@ -204,9 +241,11 @@ bool Shadow::work() {
   if (done == recorded_.load(std::memory_order_acquire)) return false;
   Record& record = records_[done % records_.size()];
   takeChanges(record);
+  holdForced(record, present_);
   runTask(record);
-  if (!runner_.faulted()) compare(record);
   transfer_.run(record.after.data(), former_.data());
+  holdForced(record, former_);
+  if (!runner_.faulted()) compare(record);
   ++runs_;
   done_.store(done + 1, std::memory_order_release);
   return true;
@@ -224,6 +263,16 @@ void Shadow::takeChanges(const Record& record) {
     known_[record.answers[i].ticket % rt::ServiceQueue::kRecords] = record.answers[i];
 }
 
+// `values`: of the running program, as the new program's.
+void Shadow::holdForced(const Record& record, const std::vector<uint8_t>& values) {
+  if (!record.hasForced) return;
+  std::ranges::fill(forced_, uint8_t{0});
+  transfer_.run(record.forced.data(), forced_.data());
+  uint8_t* block = next_.block.get();
+  for (size_t i = 0; i < forced_.size(); ++i)
+    block[i] = static_cast<uint8_t>((block[i] & ~forced_[i]) | (values[i] & forced_[i]));
+}
+
 void Shadow::runTask(Record& record) {
   running_ = &record;
   runner_.advance(record.nowUs - runner_.nowUs());
@@ -235,15 +284,43 @@ void Shadow::runTask(Record& record) {
   running_ = nullptr;
 }
 
+// What the running program has left is in `former_`, as the new program has it.
 void Shadow::compare(const Record& record) {
+  different_.clear();
+  const uint8_t* block = next_.block.get();
+  for (size_t word = 0; word < mask_.size(); ++word) {
+    if (mask_[word] == 0) continue;
+    const size_t at = word * sizeof(uint64_t);
+    const size_t bytes = std::min(sizeof(uint64_t), former_.size() - at);
+    uint64_t a = 0, b = 0;
+    std::memcpy(&a, former_.data() + at, bytes);
+    std::memcpy(&b, block + at, bytes);
+    if (((a ^ b) & mask_[word]) == 0) continue;
+    auto output = std::ranges::lower_bound(outputBytes_, at, {}, &OutputByte::offset);
+    for (; output != outputBytes_.end() && output->offset < at + bytes; ++output) different_.push_back(output->output);
+  }
+  std::ranges::sort(different_);
+  const auto twice = std::ranges::unique(different_);
+  different_.erase(twice.begin(), twice.end());
+  for (const uint32_t output : different_) compareOutput(record, outputs_[output]);
+  for (const uint32_t output : others_) compareOutput(record, outputs_[output]);
+}
+
+void Shadow::compareOutput(const Record& record, const Output& output) {
   // Memory looks at blocks that it does not change here.
-  const rt::Memory live(live_, const_cast<uint8_t*>(record.after.data()));
-  const rt::Memory next(*next_.program, next_.block.get());
-  for (const Output& output : outputs_) {
-    const uint64_t a = readRaw(live, output.live);
-    const uint64_t b = readRaw(next, output.next);
+  const uint64_t live = readRaw(rt::Memory(live_, const_cast<uint8_t*>(record.after.data())), output.live);
+  const uint64_t next = readRaw(rt::Memory(*next_.program, next_.block.get()), output.next);
+  if (live == next) return;
+  if (!output.name.empty()) return note(output.name, false, record, output.next, live, next);
+  compareBits(record, output, live, next);
+}
+
+void Shadow::compareBits(const Record& record, const Output& output, uint64_t live, uint64_t next) {
+  for (uint32_t bit = 0; bit < 8; ++bit) {
+    const uint64_t a = live >> bit & 1, b = next >> bit & 1;
     if (a == b) continue;
-    note(output.name.empty() ? describe_(*next_.program, output.next) : output.name, false, record, output.next, a, b);
+    const Ref ref = bitRef(output.next.space, output.next.byte, bit);
+    note(describe_(*next_.program, ref), false, record, ref, a, b);
   }
 }
 

@@ -9,7 +9,8 @@
 // program has made as well, in the same run, has that one's answers; any other stays unanswered, and is reported.
 //
 // What the machine, the NC and the host have written shows as what changed in memory between two runs; the shadow gets
-// it at the same place in time, by name and address as a replacement would. So the schedules must be the same.
+// it at the same place in time, by name and address as a replacement would. So the schedules must be the same. What a
+// person forces in the running program has its value in the shadow, too, before and after each run.
 #pragma once
 #include <array>
 #include <atomic>
@@ -91,6 +92,8 @@ private:
     uint32_t task = 0;
     int64_t nowUs = 0;
     std::vector<uint8_t> before, after; // memory blocks of the running program
+    std::vector<uint8_t> forced;        // bits of it that a person holds; all 0 where `hasForced` is false
+    bool hasForced = false;
     std::array<Request, kMostRequests> requests;
     uint32_t requestCount = 0;
     uint32_t refused = 0;                                                 // requests, beside those
@@ -98,18 +101,28 @@ private:
     uint32_t answerCount = 0;
     std::array<rt::ServiceRecord, kMostRequests> atOnce; // of the requests, after the run
   };
-  // A cell that both programs have.
+  // A cell that both programs have; without a name a byte, whose bits are compared.
   struct Output {
     Ref live, next;
-    std::string name; // "": by `describe`
+    std::string name;
+  };
+  // A byte of the new program's block, and an output that lies there.
+  struct OutputByte {
+    uint32_t offset = 0;
+    uint32_t output = 0;
   };
 
   std::string compareSchedules() const;
   void findOutputs();
   void finish(ShadowState state) noexcept;
+  void noteForced(const Instance& live) noexcept;
   void takeChanges(const Record& record);
+  void holdForced(const Record& record, const std::vector<uint8_t>& values);
   void runTask(Record& record);
+  void indexOutputs();
   void compare(const Record& record);
+  void compareOutput(const Record& record, const Output& output);
+  void compareBits(const Record& record, const Output& output, uint64_t live, uint64_t next);
   void note(const std::string& name, bool service, const Record& record, const Ref& ref, uint64_t live, uint64_t next);
 
   static Shadow& of(rung_ctx* ctx) { return *static_cast<Shadow*>(ctx->host_data); }
@@ -129,6 +142,11 @@ private:
   std::vector<bool> inParts_;      // by those of the running one
   std::vector<uint32_t> services_; // of the running program, by those of the new one
   std::vector<Output> outputs_;
+  // Most outputs of the running program can be compared where they come to lie in the new one's block: all at once.
+  std::vector<uint64_t> mask_;          // of that block: bytes of such outputs
+  std::vector<OutputByte> outputBytes_; // of these, ascending
+  std::vector<uint32_t> others_;        // outputs that are compared one by one
+  std::vector<uint32_t> different_;     // of a run
 
   // ---- both threads ----
   std::atomic<ShadowState> recording_{ShadowState::Prepared};
@@ -152,6 +170,7 @@ private:
   bool asksAlone_ = false; // has made a request that the running program has not made
   Record* running_ = nullptr;
   std::vector<uint8_t> former_, present_; // the running program's memory, as the new program's
+  std::vector<uint8_t> forced_;           // the same of the bits that are forced
   uint64_t runs_ = 0;
   std::map<std::string, ShadowDifference> differences_;
 };

@@ -58,6 +58,13 @@ void StateTransfer::countBytes() {
   for (const Move& move : moves_) bytes_ += bytesOf(move);
 }
 
+std::vector<bool> StateTransfer::written(uint32_t bytes) const {
+  std::vector<bool> written(bytes);
+  for (const Move& move : moves_)
+    if (move.kind != MoveKind::Bit) std::fill_n(written.begin() + move.to, bytesOf(move), true);
+  return written;
+}
+
 // A later move of the same bytes counts.
 std::vector<bool> StateTransfer::staying(uint32_t bytes) const {
   std::vector<bool> staying(bytes);

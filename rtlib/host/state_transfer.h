@@ -1,12 +1,14 @@
 // How the state of a running program goes over to another program of its dialect that takes its place. Cells of spaces
-// keep their contents by address; a cell with a name keeps them where the name has gone; what the compiler made (edges,
-// times) is found by its key. What the new program has and the old one had not starts with its initial contents. So
-// does what has no name in a space whose addresses the compiler gives out (RUNG_SPACE_ALLOCATED).
+// keep their contents by address; a cell with a name keeps them where the name has gone; what the compiler made for an
+// instruction (edges, times) goes where its rung has gone (rung_alignment.h). What the new program has and the old one
+// had not starts with its initial contents. So does what has no name in a space whose addresses the compiler gives out
+// (RUNG_SPACE_ALLOCATED).
 //
 // A plan is made outside real time and reports what it will do. Running it copies bytes, and nothing else: its time is
 // in proportion to the bytes of state.
 //
-// A name whose cell was elsewhere takes its contents along, but for inputs, which the machine or the NC writes. Its
+// A name whose cell was elsewhere takes its contents along, with all bytes that instructions reach through it
+// (rung_symbol::reach), but for inputs, which the machine or the NC writes. Its
 // former place starts anew, unless another name stays there. A name that is new starts anew where other names were
 // before; where none was, or one of the same extent that is gone (it was renamed), it keeps what is there.
 //
@@ -25,6 +27,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rtlib/host/rung_alignment.h"
 #include "rung/program.h"
 
 namespace rung::host {
@@ -36,15 +39,23 @@ enum class ChangeKind : uint8_t {
   Renamed,  // a cell that had another name: keeps its contents
   Retyped,  // of another type now: its contents are lost, it starts with its initial contents
   Released, // an output that the old program wrote and the new one does not: starts with its initial contents
+  Cut,      // a cell that is elsewhere now, where there is no room for all that instructions reached through its name
 };
 
-inline constexpr std::string_view kChangeKinds[] = {"new", "removed", "moved", "renamed", "retyped", "released"};
+inline constexpr std::string_view kChangeKinds[] = {"new", "removed", "moved", "renamed", "retyped", "released", "cut"};
 
 struct StateChange {
   ChangeKind kind = ChangeKind::New;
   bool slot = false;      // made by the compiler; else a cell with a name
   std::string name;       // in the new program; of what is removed, in the old one
   std::string formerName; // Renamed
+};
+
+// A rung as drawn that is not the same in both programs.
+struct RungChange {
+  RungKind kind = RungKind::Changed; // of one that both have
+  uint32_t before = RUNG_NONE;       // in the former program's table; RUNG_NONE: it is new
+  uint32_t after = RUNG_NONE;        // in the new one's; RUNG_NONE: it was removed
 };
 
 class StateTransfer {
@@ -57,6 +68,8 @@ public:
 
   // Cells in the order of their names, then slots; what keeps its contents and its place is not among them.
   std::span<const StateChange> changes() const { return changes_; }
+  // In the order of the new program, then those that were removed.
+  std::span<const RungChange> rungs() const { return rungs_; }
   uint32_t keptCells() const { return keptCells_; } // names that stay where they are
   uint32_t keptSlots() const { return keptSlots_; }
 
@@ -68,6 +81,8 @@ public:
   // What `run` writes.
   uint64_t bytes() const { return bytes_; }
 
+  // Of the first `bytes` of the new program's block: which `run` writes as a whole.
+  std::vector<bool> written(uint32_t bytes) const;
   // Of the first `bytes` of a block: which keep their contents where they are.
   std::vector<bool> staying(uint32_t bytes) const;
   // The same but for what stays at these: for two programs in one block.
@@ -120,6 +135,7 @@ private:
   std::vector<uint32_t> numbers_; // of points in the new program; RUNG_NONE: it has none like it
   std::vector<Move> moves_;
   std::vector<StateChange> changes_;
+  std::vector<RungChange> rungs_;
   uint32_t keptCells_ = 0;
   uint32_t keptSlots_ = 0;
   uint64_t bytes_ = 0;

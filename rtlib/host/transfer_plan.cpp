@@ -10,8 +10,10 @@
 
 #include "rtlib/core/memory.h"
 #include "rtlib/host/copied_bytes.h"
+#include "rtlib/host/instruction_state.h"
 #include "rtlib/host/overwritten.h"
 #include "rtlib/host/program_info.h"
+#include "rtlib/host/rung_alignment.h"
 #include "rung/types.hpp"
 
 namespace rung::host {
@@ -100,11 +102,13 @@ class TransferPlanner {
 public:
   TransferPlanner(StateTransfer& plan, const rung_program& from, const rung_program& to)
       : plan_(plan), from_(from), to_(to), old_(from), new_(to), overwritten_(to), source_(new_.count(), kInitial),
-        stays_(new_.count(), false) {
+        stays_(new_.count(), false), isNamed_(new_.count(), false) {
     for (uint32_t s = 0; s < from.space_count; ++s) sameSpaces_.push_back(findSpace(to, from.spaces[s].name));
   }
 
   void run() {
+    rungs_ = alignRungs(rungMarks(from_), rungMarks(to_));
+    matchHidden();
     keepAddresses();
     matchNames();
     findGone();
@@ -120,6 +124,7 @@ public:
     addSlots();
     addContinuations();
     plan_.countBytes();
+    findRungs();
   }
 
 private:
@@ -134,6 +139,12 @@ private:
   };
 
   static uint32_t extent(const rung_symbol& symbol) { return elementBits(symbol.type) * symbol.count; }
+  // Bits that instructions reach through the name, in its space.
+  static uint32_t reach(const rung_program& program, const rung_symbol& symbol) {
+    if (symbol.type == RUNG_TYPE_BIT) return extent(symbol);
+    const uint64_t room = 8 * (uint64_t{program.spaces[symbol.space].byte_count} - symbol.byte);
+    return static_cast<uint32_t>(std::min(room, std::max(uint64_t{extent(symbol)}, uint64_t{8} * symbol.reach)));
+  }
 
   bool samePlace(const rung_symbol& former, const rung_symbol& symbol) const {
     return sameSpaces_[former.space] == symbol.space && former.byte == symbol.byte && former.bit == symbol.bit;
@@ -152,17 +163,57 @@ private:
   }
 
   void matchNames() {
+    for (uint32_t i = 0; i < to_.symbol_count; ++i)
+      for (uint32_t b = 0; hasPlace(to_.symbols[i]) && b < extent(to_.symbols[i]); ++b)
+        isNamed_[new_.first(to_.symbols[i]) + b] = true;
     for (uint32_t i = 0; i < to_.symbol_count; ++i) {
       const rung_symbol& symbol = to_.symbols[i];
       if (!hasPlace(symbol)) continue;
-      const rung_symbol* former = findSymbol(from_, symbol.name);
+      const rung_symbol* former = formerOf(symbol);
       if (former != nullptr && !hasPlace(*former)) former = nullptr;
       matches_.push_back({&symbol, former});
       if (former == nullptr || !sameCell(*former, symbol)) continue;
       ++plan_.keptCells_;
-      keep(symbol, *former);
+      (void)keep(symbol, *former);
       for (uint32_t b = 0; b < extent(symbol); ++b) stays_[new_.first(symbol) + b] = true;
     }
+  }
+
+  // What instructions keep in names of their own goes where their rungs go, not by these names.
+  void matchHidden() {
+    std::vector<const rung_symbol*> former, now;
+    const std::vector<InstructionState> before = hiddenOf(from_, former);
+    const std::vector<InstructionState> after = hiddenOf(to_, now);
+    const std::vector<uint32_t> matched = matchState(before, after, rungs_);
+    for (const rung_symbol* symbol : former) hiddenThere_[symbol] = false;
+    for (size_t i = 0; i < now.size(); ++i) {
+      const rung_symbol* of = matched[i] == RUNG_NONE ? nullptr : former[matched[i]];
+      hiddenFormer_[now[i]] = of;
+      if (of == nullptr) continue;
+      hiddenThere_[of] = true;
+      newKeys_[of->name] = now[i]->name;
+    }
+  }
+  static std::vector<InstructionState> hiddenOf(const rung_program& program, std::vector<const rung_symbol*>& symbols) {
+    std::vector<InstructionState> states;
+    for (uint32_t i = 0; i < program.symbol_count; ++i) {
+      const rung_symbol& symbol = program.symbols[i];
+      if ((symbol.flags & RUNG_SYMBOL_HIDDEN) == 0 || !hasPlace(symbol)) continue;
+      symbols.push_back(&symbol);
+      states.push_back({symbol.name, symbol.rung});
+    }
+    return states;
+  }
+
+  const rung_symbol* formerOf(const rung_symbol& symbol) const {
+    const auto hidden = hiddenFormer_.find(&symbol);
+    return hidden != hiddenFormer_.end() ? hidden->second : findSymbol(from_, symbol.name);
+  }
+  // The new program has it, too.
+  bool isThere(const rung_symbol& former) const {
+    if (const auto hidden = hiddenThere_.find(&former); hidden != hiddenThere_.end()) return hidden->second;
+    const rung_symbol* symbol = findSymbol(to_, former.name);
+    return symbol != nullptr && hasPlace(*symbol);
   }
 
   // Names that the new program does not have; its addresses, where it has the space.
@@ -172,8 +223,7 @@ private:
       const rung_symbol& former = from_.symbols[i];
       if (!hasPlace(former)) continue;
       for (uint32_t b = 0; b < extent(former); ++b) named_[old_.first(former) + b] = true;
-      const rung_symbol* symbol = findSymbol(to_, former.name);
-      if (symbol != nullptr && hasPlace(*symbol)) continue;
+      if (isThere(former)) continue;
       gone_.emplace(Cell{sameSpaces_[former.space], former.byte, former.bit, former.type, former.count}, former.name);
     }
   }
@@ -185,7 +235,7 @@ private:
       const uint32_t space = sameSpaces_[match.former->space];
       if (space == RUNG_NONE || isInput(space, *match.former)) continue;
       const uint32_t begin = 8 * match.former->byte + match.former->bit;
-      const uint32_t end = std::min(begin + extent(*match.former), 8 * to_.spaces[space].byte_count);
+      const uint32_t end = std::min(begin + reach(from_, *match.former), 8 * to_.spaces[space].byte_count);
       for (uint32_t b = begin; b < end; ++b) start(new_.first(space) + b);
     }
   }
@@ -214,15 +264,24 @@ private:
     if (sameCell(former, symbol) || isInput(symbol)) return;
     start(symbol);
     if (former.type != symbol.type) return report(ChangeKind::Retyped, symbol);
-    report(ChangeKind::Moved, symbol);
-    keep(symbol, former);
+    report(keep(symbol, former) ? ChangeKind::Moved : ChangeKind::Cut, symbol);
   }
 
-  // As far as it fits, and where no name has stayed.
-  void keep(const rung_symbol& symbol, const rung_symbol& former) {
-    const uint32_t bits = std::min(extent(former), extent(symbol));
-    for (uint32_t b = 0; b < bits; ++b)
-      if (const uint32_t to = new_.first(symbol) + b; !stays_[to]) source_[to] = old_.first(former) + b;
+  // Of an array as far as it fits; of a cell all that instructions of the old program reach through its name. Where a
+  // name has stayed that has its place. False: some of the latter is lost.
+  bool keep(const rung_symbol& symbol, const rung_symbol& former) {
+    const bool wide = symbol.count == 1 && former.count == 1 && !isAllocated(to_.spaces[symbol.space]);
+    const uint32_t wanted = wide ? reach(from_, former) : extent(former);
+    const uint32_t room = wide ? 8 * (to_.spaces[symbol.space].byte_count - symbol.byte) : extent(symbol);
+    bool whole = !wide || wanted <= room;
+    for (uint32_t b = 0; b < std::min(wanted, room); ++b) {
+      const uint32_t to = new_.first(symbol) + b;
+      const bool isOwn = b < extent(symbol);
+      const bool isFree = isOwn ? !stays_[to] : !isNamed_[to];
+      if (isFree) source_[to] = old_.first(former) + b;
+      whole = whole && (isFree || isOwn);
+    }
+    return whole;
   }
 
   void placeNew(const rung_symbol& symbol) {
@@ -357,26 +416,54 @@ private:
   }
 
   void addSlots() {
+    const std::vector<uint32_t> former = matchState(slotsOf(from_), slotsOf(to_), rungs_);
+    std::vector<bool> isThere(from_.slot_count, false);
     std::vector<StateTransfer::Move> found;
-    uint32_t o = 0;
     for (uint32_t n = 0; n < to_.slot_count; ++n) {
       const rung_slot& slot = to_.slots[n];
-      for (; o < from_.slot_count && std::strcmp(from_.slots[o].key, slot.key) < 0; ++o) remove(from_.slots[o]);
-      if (o == from_.slot_count || std::strcmp(from_.slots[o].key, slot.key) != 0) {
+      if (former[n] == RUNG_NONE) {
         report(ChangeKind::New, slot);
         continue;
       }
-      const rung_slot& former = from_.slots[o++];
-      if (former.type != slot.type) {
+      const rung_slot& before = from_.slots[former[n]];
+      isThere[former[n]] = true;
+      newKeys_[before.key] = slot.key;
+      if (before.type != slot.type) {
         report(ChangeKind::Retyped, slot);
         continue;
       }
       ++plan_.keptSlots_;
-      found.push_back({.from = former.offset, .to = slot.offset, .count = bytesOf(slot)});
+      found.push_back({.from = before.offset, .to = slot.offset, .count = bytesOf(slot)});
     }
-    for (; o < from_.slot_count; ++o) remove(from_.slots[o]);
+    for (uint32_t o = 0; o < from_.slot_count; ++o)
+      if (!isThere[o]) remove(from_.slots[o]);
     std::ranges::sort(found, {}, &StateTransfer::Move::to);
     for (const StateTransfer::Move& move : found) add(move);
+  }
+
+  static std::vector<InstructionState> slotsOf(const rung_program& program) {
+    std::vector<InstructionState> states;
+    for (uint32_t i = 0; i < program.slot_count; ++i) states.push_back({program.slots[i].key, program.slots[i].rung});
+    return states;
+  }
+
+  // Each as drawn counts once, by its first piece.
+  void findRungs() {
+    std::vector<bool> isThere(from_.rung_count, false);
+    for (const RungPair& pair : rungs_) isThere[pair.before] = true;
+    auto pair = rungs_.begin();
+    for (uint32_t a = 0; a < to_.rung_count; ++a) {
+      const bool known = pair != rungs_.end() && pair->after == a;
+      if (isFirstPiece(to_, a) && (!known || pair->kind != RungKind::Same))
+        plan_.rungs_.push_back({known ? pair->kind : RungKind::Changed, known ? pair->before : RUNG_NONE, a});
+      if (known) ++pair;
+    }
+    for (uint32_t b = 0; b < from_.rung_count; ++b)
+      if (!isThere[b] && isFirstPiece(from_, b)) plan_.rungs_.push_back({.before = b});
+  }
+  static bool isFirstPiece(const rung_program& program, uint32_t rung) {
+    const uint32_t number = program.rungs[rung].number;
+    return number != 0 && (rung == 0 || program.rungs[rung - 1].number != number);
   }
 
   static uint32_t bytesOf(const rung_slot& slot) { return std::max(1u, elementBits(slot.type) / 8); }
@@ -399,8 +486,10 @@ private:
     for (uint32_t i = 0; i < from_.continuation_count; ++i) {
       const rung_continuation& former = from_.continuations[i];
       const rung_continuation* end = to_.continuations + to_.continuation_count;
-      const rung_continuation* now = std::find_if(
-          to_.continuations, end, [&](const rung_continuation& c) { return std::strcmp(c.key, former.key) == 0; });
+      const auto key = newKeys_.find(former.key);
+      const std::string_view wanted = key == newKeys_.end() ? former.key : key->second;
+      const rung_continuation* now =
+          std::find_if(to_.continuations, end, [&](const rung_continuation& c) { return wanted == c.key; });
       plan_.points_.push_back({.key = former.key,
                                .from = former.offset,
                                .to = now == end ? RUNG_NONE : now->offset,
@@ -431,9 +520,14 @@ private:
   std::vector<uint32_t> sameSpaces_; // by space of the old program: that of the new one with its name; or RUNG_NONE
   std::vector<uint32_t> source_;     // by bit of the new program: the bit of the old one, or kInitial
   std::vector<bool> stays_;          // by bit of the new program: it has a name that has stayed
+  std::vector<bool> isNamed_;        // by bit of the new program: a name's cell has it
   std::vector<bool> named_;          // by bit of the old program: it had a name
   std::vector<Match> matches_;
   std::multimap<Cell, std::string> gone_; // names that the new program does not have, by their cell in it
+  std::vector<RungPair> rungs_;
+  std::map<const rung_symbol*, const rung_symbol*> hiddenFormer_; // by symbol of the new program; null: it is new
+  std::map<const rung_symbol*, bool> hiddenThere_;                // by symbol of the old one: the new one has it
+  std::map<std::string_view, std::string_view> newKeys_;          // of instructions' state, by the old ones
 };
 
 StateTransfer::StateTransfer(const rung_program& from, const rung_program& to) : from_(&from) {

@@ -2,13 +2,11 @@
 #include "tools/difference/difference.h"
 
 #include <algorithm>
-#include <deque>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
-#include <set>
-#include <unordered_map>
 
-#include "tools/difference/alignment.h"
+#include "rtlib/host/rung_alignment.h"
 #include "tools/difference/meaning.h"
 
 namespace rung::difference {
@@ -17,96 +15,41 @@ namespace {
 using ir::Module;
 using ir::Symbol;
 
-using ByRoutine = std::map<std::string, std::vector<DrawnRung>>;
-
-ByRoutine byRoutine(const std::vector<DrawnRung>& rungs) {
-  ByRoutine routines;
-  for (const DrawnRung& rung : rungs) routines[rung.routine->name].push_back(rung);
-  return routines;
+std::vector<host::RungMark> marksOf(const std::vector<DrawnRung>& rungs) {
+  std::vector<host::RungMark> marks;
+  for (const DrawnRung& rung : rungs) marks.push_back({rung.routine->name, rung.meaning, rung.rung->title});
+  return marks;
 }
 
-std::vector<uint64_t> meaningsOf(const std::vector<DrawnRung>& rungs) {
-  std::vector<uint64_t> meanings;
-  for (const DrawnRung& rung : rungs) meanings.push_back(rung.meaning);
-  return meanings;
+ChangeKind kindOf(host::RungKind kind) {
+  return kind == host::RungKind::Moved ? ChangeKind::Moved : ChangeKind::Changed;
 }
 
-class RungComparison {
-public:
-  explicit RungComparison(Difference& out) : out_(out) {}
-
-  void routine(const std::vector<DrawnRung>& before, const std::vector<DrawnRung>& after) {
-    auto pairs = align(meaningsOf(before), meaningsOf(after));
-    out_.same += pairs.size();
-    pairs.emplace_back(before.size(), after.size());
-    uint32_t b = 0;
-    uint32_t a = 0;
-    for (const auto& [nextBefore, nextAfter] : pairs) {
-      between({before.begin() + b, before.begin() + nextBefore}, {after.begin() + a, after.begin() + nextAfter});
-      b = nextBefore + 1;
-      a = nextAfter + 1;
+// Those that are gone come after what they followed.
+void compareRungs(const std::vector<DrawnRung>& before, const std::vector<DrawnRung>& after, Difference& out) {
+  const std::vector<host::RungPair> pairs = host::alignRungs(marksOf(before), marksOf(after));
+  std::vector<bool> isThere(before.size(), false);
+  for (const host::RungPair& pair : pairs) isThere[pair.before] = true;
+  size_t b = 0;
+  const auto removedUpTo = [&](size_t end) {
+    for (; b < end; ++b)
+      if (!isThere[b]) out.rungs.push_back({ChangeKind::Removed, before[b].rung, nullptr});
+  };
+  auto pair = pairs.begin();
+  for (uint32_t a = 0; a < after.size(); ++a) {
+    if (pair == pairs.end() || pair->after != a) {
+      out.rungs.push_back({ChangeKind::Added, nullptr, after[a].rung});
+      continue;
     }
+    if (pair->kind != host::RungKind::Moved) removedUpTo(pair->before);
+    if (pair->kind == host::RungKind::Same)
+      ++out.same;
+    else
+      out.rungs.push_back({kindOf(pair->kind), before[pair->before].rung, after[a].rung});
+    ++pair;
   }
-
-  // A rung that is gone here and new there has moved, or where only its title is the same it has changed, too.
-  void findMoves() {
-    std::set<size_t> gone;
-    // Of each key, "" for none, the first that is gone is the first that is new.
-    const auto join = [&](ChangeKind kind, auto key) {
-      std::unordered_map<std::string, std::deque<size_t>> removed;
-      for (size_t i = 0; i < changes_.size(); ++i)
-        if (changes_[i].kind == ChangeKind::Removed && !gone.contains(i)) removed[key(i)].push_back(i);
-      for (size_t i = 0; i < changes_.size(); ++i) {
-        if (changes_[i].kind != ChangeKind::Added || key(i).empty()) continue;
-        const auto from = removed.find(key(i));
-        if (from == removed.end() || from->second.empty()) continue;
-        changes_[i] = {kind, changes_[from->second.front()].before, changes_[i].after};
-        gone.insert(from->second.front());
-        from->second.pop_front();
-      }
-    };
-    join(ChangeKind::Moved, [&](size_t i) { return std::to_string(meanings_[i]); });
-    join(ChangeKind::Changed, [&](size_t i) {
-      return changes_[i].before != nullptr ? changes_[i].before->title : changes_[i].after->title;
-    });
-    for (size_t i = 0; i < changes_.size(); ++i)
-      if (!gone.contains(i)) out_.rungs.push_back(changes_[i]);
-  }
-
-private:
-  using Rungs = std::vector<DrawnRung>;
-
-  // No two of these are the same: those of one title are one rung that has changed; without titles, as many as there
-  // are on both sides go together in their order.
-  void between(Rungs before, const Rungs& after) {
-    const bool asMany = before.size() == after.size();
-    for (size_t i = 0; i < after.size(); ++i) {
-      const std::string& title = after[i].rung->title;
-      auto with = before.end();
-      if (!title.empty())
-        with = std::ranges::find_if(before, [&](const DrawnRung& r) { return r.rung && r.rung->title == title; });
-      if (with == before.end() && asMany && before[i].rung != nullptr && before[i].rung->title.empty())
-        with = before.begin() + static_cast<ptrdiff_t>(i);
-      if (with == before.end()) {
-        add({ChangeKind::Added, nullptr, after[i].rung}, after[i].meaning);
-        continue;
-      }
-      add({ChangeKind::Changed, with->rung, after[i].rung}, 0);
-      with->rung = nullptr;
-    }
-    for (const DrawnRung& rung : before)
-      if (rung.rung != nullptr) add({ChangeKind::Removed, rung.rung, nullptr}, rung.meaning);
-  }
-
-  void add(const RungChange& change, uint64_t meaning) {
-    changes_.push_back(change);
-    meanings_.push_back(meaning);
-  }
-
-  Difference& out_;
-  std::vector<RungChange> changes_;
-  std::vector<uint64_t> meanings_; // of what is added or removed
-};
+  removedUpTo(before.size());
+}
 
 // ---- names and messages --------------------------------------------------------------------------------------------
 
@@ -167,18 +110,7 @@ std::string_view nameOf(ChangeKind kind) {
 
 Difference compare(const Module& before, const Module& after) {
   Difference difference;
-  RungComparison rungs(difference);
-  const std::vector<DrawnRung> drawn = drawnRungs(after);
-  ByRoutine old = byRoutine(drawnRungs(before));
-  const ByRoutine fresh = byRoutine(drawn);
-  std::set<std::string> done;
-  for (const DrawnRung& rung : drawn) { // routines in the order of the new program
-    const std::string& name = rung.routine->name;
-    if (done.insert(name).second) rungs.routine(old[name], fresh.at(name));
-  }
-  for (const auto& [name, gone] : old)
-    if (!fresh.contains(name)) rungs.routine(gone, {});
-  rungs.findMoves();
+  compareRungs(drawnRungs(before), drawnRungs(after), difference);
   difference.names = changesOf(namesOf(before), namesOf(after));
   difference.messages = changesOf(messagesOf(before), messagesOf(after));
   return difference;

@@ -12,7 +12,7 @@ class Retention {
 public:
   // Control and instance outlive this. FILE of FILE.a and FILE.b. `take`: as RetainedMemory has it.
   Retention(Control& control, host::Instance& instance, const std::string& file,
-            host::RetainTake take = &host::takeRetainedOf);
+            host::RetainTake take = &host::takeRetainedOf, const host::Outside& outside = {});
 
   // Before the power-on: how the program is switched on. Nothing, and `error` says why: the files cannot be used.
   // `report`: what the operator should know of them, or "".
@@ -31,6 +31,9 @@ public:
   void settle() { memory_.settle(); }
   // Not in a scan: waits for what was offered.
   bool flush() { return memory_.flush(); }
+  // As RetainSaver has them.
+  void look() noexcept { memory_.look(); }
+  void abandon() noexcept { memory_.abandon(); }
 
 private:
   Control* control_;

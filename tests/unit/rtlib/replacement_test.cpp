@@ -84,10 +84,21 @@ TEST_F(ReplacementTest, TheFormerProgramCanBePutBack) {
   ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
   EXPECT_EQ(&instance.program(), &one.program);
   EXPECT_EQ(read(instance, "COUNT"), 3u);
-  EXPECT_EQ(read(instance, "SUM"), 1u) << "as it was when it was replaced";
+  EXPECT_EQ(read(instance, "SUM"), 1u) << "its address has had no name meanwhile";
   ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
   EXPECT_EQ(read(instance, "DIFFERENCE"), 255u);
   EXPECT_EQ(instance.generation(), 3u);
+}
+
+TEST_F(ReplacementTest, TheFormerProgramCanContinueWithWhatItAloneHas) {
+  Instance instance(one.program);
+  instance.scan();
+  Replacement replacement(one.program, {two.program});
+  ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
+  instance.scan();
+  ASSERT_EQ(instance.replace(replacement, OwnContents::AsLeft), ReplaceResult::Replaced);
+  EXPECT_EQ(read(instance, "COUNT"), 3u);
+  EXPECT_EQ(read(instance, "SUM"), 1u);
 }
 
 TEST_F(ReplacementTest, NotWithinAPass) {
@@ -157,6 +168,18 @@ TEST_F(ReplacementTest, AMechanismThatWaitsElsewhereIsWaitedFor) {
   EXPECT_EQ(instance.block()[12], 1) << "it still turns";
 }
 
+TEST_F(ReplacementTest, AfterAFaultNothingIsWaitedFor) {
+  one.addContinuation("MECH.CONT", 8, {"beginning", "clamp", "turn"});
+  two.addContinuation("MECH.CONT", 12, {"beginning", "turn"});
+  one.link();
+  two.link();
+  Instance instance(one.program);
+  instance.block()[8] = 1;
+  ASSERT_TRUE(instance.halt("dead-loop"));
+  Replacement replacement(one.program, {two.program});
+  EXPECT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
+}
+
 class Hooks : public ScheduleHooks {
 public:
   void onReplace(Instance& instance) override { programs.push_back(&instance.program()); }
@@ -203,7 +226,7 @@ protected:
     ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
     block = instance.block().data();
     EXPECT_EQ(block[0], 3);
-    EXPECT_EQ(block[kMemory], 22) << "as it was when its program was replaced";
+    EXPECT_EQ(block[kMemory], 0) << "new, as on the first way";
     EXPECT_EQ(block[kMemory + 8], 12);
   }
   void link(uint32_t sizeOfTwo) {

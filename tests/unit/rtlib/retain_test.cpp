@@ -534,30 +534,17 @@ TEST_F(SaverTest, WhatIsOfferedGoesThroughTheLaneOfTheProgram) {
   offer(*s, 2);
   s->swapLane(other);
   EXPECT_TRUE(s->flush()) << "nothing was offered by the new program";
-  EXPECT_EQ(s->saved(), 1u);
+  EXPECT_EQ(load().bytes, (Bytes{2, 0, 0})) << "what the former one offered last is the newest";
   offerOther(3);
   EXPECT_TRUE(s->flush());
   EXPECT_EQ(store(kLayout + 1, 1).load().bytes, (Bytes{3}));
   s->swapLane(other);
   EXPECT_TRUE(s->flush());
-  EXPECT_EQ(s->saved(), 2u) << "what the former program offered last is older";
+  EXPECT_EQ(s->saved(), 3u) << "what the former program offered last is older";
   offer(*s, 4);
   EXPECT_TRUE(s->flush());
   EXPECT_EQ(load().bytes, (Bytes{4, 0, 0}));
   s->settle();
-}
-
-TEST_F(SaverTest, ALaneOfASaverBeforeHoldsNothingNew) {
-  std::unique_ptr<RetainLane> former = lane();
-  {
-    std::unique_ptr<RetainSaver> s = saver(3600 * 1000);
-    for (uint32_t i = 0; i < 100; ++i) offer(*s, 9);
-    s->swapLane(former);
-  }
-  std::unique_ptr<RetainSaver> s = saver(3600 * 1000);
-  s->swapLane(former);
-  EXPECT_TRUE(s->flush());
-  EXPECT_EQ(s->saved(), 0u);
 }
 
 // Fails, although what it was given is on disk then.
@@ -574,6 +561,45 @@ private:
   std::vector<Bytes>* written_;
   bool* fails_;
 };
+
+TEST_F(SaverTest, WhatWasOfferedLastIsSavedWithoutItsLane) {
+  bool fails = true;
+  std::vector<Bytes> written;
+  RetainSaver s(std::make_unique<FailsAfterWriting>(written, fails), lane(), std::chrono::milliseconds(0));
+  offer(s, 1);
+  std::unique_ptr<RetainLane> other = lane();
+  s.swapLane(other);
+  s.settle();
+  other.reset();
+  EXPECT_FALSE(s.flush());
+  fails = false;
+  EXPECT_TRUE(s.flush());
+  EXPECT_EQ(written.back(), (Bytes{1, 0, 0}));
+}
+
+TEST_F(SaverTest, WithoutPowerNothingIsSaved) {
+  bool fails = false;
+  std::vector<Bytes> written;
+  {
+    RetainSaver s(std::make_unique<FailsAfterWriting>(written, fails), lane(), std::chrono::milliseconds(0));
+    offer(s, 1);
+    s.abandon();
+  }
+  EXPECT_TRUE(written.empty());
+}
+
+TEST_F(SaverTest, ALaneOfASaverBeforeHoldsNothingNew) {
+  std::unique_ptr<RetainLane> former = lane();
+  {
+    std::unique_ptr<RetainSaver> s = saver(3600 * 1000);
+    for (uint32_t i = 0; i < 100; ++i) offer(*s, 9);
+    s->swapLane(former);
+  }
+  std::unique_ptr<RetainSaver> s = saver(3600 * 1000);
+  s->swapLane(former);
+  EXPECT_TRUE(s->flush());
+  EXPECT_EQ(s->saved(), 0u);
+}
 
 TEST_F(SaverTest, AfterAFailureTheOldImageIsWrittenAgain) {
   std::vector<Bytes> written;

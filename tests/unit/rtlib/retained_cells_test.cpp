@@ -139,13 +139,13 @@ TEST(RetainedCells, DescriptionsThatDoNotHold) {
   };
   const std::string good = "dialect\ttest\nspace\tD\t0\t6\nkept\t0\t4\t2\n";
   EXPECT_EQ(taken(good), 16u);
-  EXPECT_EQ(taken(good + "cell\tA\t0\t4\t0\t3\t1\n"), 16u);
+  EXPECT_EQ(taken(good + "cell\tA\t0\t4\t0\t3\t1\t2\n"), 16u);
   for (const char* bad :
        {"else\n", "kept\t1\t0\t0\n", "kept\t0\t6\t1\n", "kept\t0\t4294967295\t2\n", "kept\t0\t4\n", "kept\t0\tx\t0\n",
-        "kept\t0\t0\t0\t0\n", "space\tE\t0\t4294967295\n", "cell\tA\t0\t0\t0\t2\t1\n", "cell\tA\t0\t5\t0\t3\t1\n",
-        "cell\tA\t0\t4\t0\t9\t1\n", "cell\tA\t0\t4\t0\t2\t0\n", "cell\tA\t0\t4\t8\t1\t1\n", "cell\tA\t0\t4\t1\t2\t1\n",
-        "cell\tA\t7\t4\t0\t2\t1\n", "cell\tA\t0\t4\t0\t2\t4294967295\n",
-        "cell\tB\t0\t4\t0\t2\t1\ncell\tA\t0\t4\t0\t2\t1\n"})
+        "kept\t0\t0\t0\t0\n", "space\tE\t0\t4294967295\n", "cell\tA\t0\t0\t0\t2\t1\t2\n", "cell\tA\t0\t5\t0\t3\t1\t2\n",
+        "cell\tA\t0\t4\t0\t9\t1\t2\n", "cell\tA\t0\t4\t0\t2\t0\t2\n", "cell\tA\t0\t4\t8\t1\t1\t2\n",
+        "cell\tA\t0\t4\t1\t2\t1\t2\n", "cell\tA\t7\t4\t0\t2\t1\t2\n", "cell\tA\t0\t4\t0\t2\t4294967295\t2\n",
+        "cell\tB\t0\t4\t0\t2\t1\t2\ncell\tA\t0\t4\t0\t2\t1\t2\n"})
     EXPECT_EQ(taken(good + bad), 0u) << bad;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rtlib/host/forcing.h"
 #include "rtlib/host/instance.h"
 #include "tests/unit/rtlib/test_program.h"
 
@@ -110,6 +111,24 @@ TEST(Shadow, ReportsWhereItDoesOtherwise) {
   EXPECT_EQ(found[0].runs, 3u);
   EXPECT_EQ(found[0].firstUs, 48000);
   EXPECT_EQ(pair.instance->memory().readByte(1, 0), 7u) << "nothing of it gets out";
+}
+
+TEST(Shadow, KnowsWhatIsForced) {
+  Pair pair(&copyInput, &addToInput);
+  const ForcedCell out{.ref = intRef(1, 0, 8), .bits = 9};
+  Forcing forcing(pair.one.program, nullptr, {&out, 1});
+  ASSERT_EQ(forcing.problem(), "");
+  const rung_chunk_fn heldMain[] = {[](uint8_t*, rung_ctx* ctx, uint32_t) { return rung::test::popChunk(ctx); }};
+  forcing.setCode({heldMain, nullptr});
+  ASSERT_EQ(pair.shadow->begin(*pair.instance), ReplaceResult::Replaced);
+  pair.scan(1);
+  ASSERT_TRUE(pair.instance->force(forcing));
+  for (uint8_t x = 2; x < 8; ++x) pair.scan(x);
+  EXPECT_EQ(pair.instance->memory().readByte(1, 0), 9u);
+  EXPECT_TRUE(pair.shadow->differences().empty()) << "the new program's output is forced, too";
+  pair.instance->endForces();
+  pair.scan(6);
+  EXPECT_EQ(pair.shadow->differences().size(), 1u) << "no longer";
 }
 
 TEST(Shadow, ReportsOutputsWithoutAName) {

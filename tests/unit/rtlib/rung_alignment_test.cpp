@@ -1,9 +1,9 @@
 // Sequences side by side.
-#include "tools/difference/alignment.h"
+#include "rtlib/host/rung_alignment.h"
 
 #include <gmock/gmock.h>
 
-namespace rung::difference {
+namespace rung::host {
 namespace {
 
 using testing::ElementsAre;
@@ -36,4 +36,4 @@ TEST(Alignment, DividesAtPairs) {
 }
 
 } // namespace
-} // namespace rung::difference
+} // namespace rung::host

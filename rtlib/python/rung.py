@@ -33,11 +33,12 @@ from ctypes import (CFUNCTYPE, POINTER, byref, c_char, c_char_p, c_double, c_int
                     c_uint64, c_void_p)
 from keyword import iskeyword
 
-__all__ = ["Access", "Answer", "Cell", "CellInfo", "Change", "ChangeKind", "Difference", "Direction", "Error",
-           "Fault", "Force", "Forces", "FunctionKind", "Image", "Instance", "LogLevel", "Message", "MessageOp", "Power",
-           "Profile", "Replacement", "Report", "Request", "Sample", "Shadow", "ShadowReport", "ShadowState", "State",
-           "StateFlags", "Status", "Symbol", "SymbolFlags", "Trace", "Type", "Watch", "version",
-           "COLD", "WARM", "READ", "WRITE", "REAL", "TO_PROGRAM", "FROM_PROGRAM", "BOUND_REAL", "M", "S", "T", "B", "QUEUE"]
+__all__ = ["Access", "Answer", "Cell", "CellInfo", "Change", "ChangeKind", "Difference", "Direction", "Error", "Fault",
+           "Force", "Forces", "FunctionKind", "Image", "Instance", "LogLevel", "Message", "MessageOp", "Power",
+           "Profile", "Program", "Replacement", "Report", "Request", "RungChange", "RungChangeKind", "Sample", "Shadow",
+           "ShadowReport", "ShadowState", "State", "StateFlags", "Status", "Symbol", "SymbolFlags", "Trace", "Type",
+           "Watch", "version", "COLD", "WARM", "READ", "WRITE", "REAL", "TO_PROGRAM", "FROM_PROGRAM", "BOUND_REAL", "M",
+           "S", "T", "B", "H", "KEY", "QUEUE"]
 
 _MAJOR, _MINOR = 0, 1  # of the header that this module was written for
 _NONE = 0xFFFFFFFF  # RUNG_NONE
@@ -122,6 +123,9 @@ class Type(enum.IntEnum):
     TEXT = 7
 
 
+_BITS = {Type.BIT: 1, Type.I8: 8, Type.I16: 16, Type.I32: 32}  # of the narrower ones
+
+
 class SymbolFlags(enum.IntFlag):
     """Of Symbol.flags."""
     READONLY = 1
@@ -145,6 +149,15 @@ class ChangeKind(enum.IntEnum):
     RENAMED = 3
     RETYPED = 4
     RELEASED = 5
+    CUT = 6
+
+
+class RungChangeKind(enum.IntEnum):
+    """What becomes of a rung when another program takes over."""
+    NEW = 0
+    REMOVED = 1
+    CHANGED = 2
+    MOVED = 3
 
 
 class ShadowState(enum.IntEnum):
@@ -238,15 +251,21 @@ _FaultFunction = CFUNCTYPE(None, c_void_p, c_void_p)
 
 class rung_instance_options(_Struct):
     _fields_ = [("size", c_uint32), ("flags", c_uint32), ("memory", c_void_p), ("memory_bytes", c_size_t),
-                ("user", c_void_p), ("log", _LogFunction), ("request", _RequestFunction), ("fault", _FaultFunction)]
+                ("user", c_void_p), ("log", _LogFunction), ("request", _RequestFunction), ("fault", _FaultFunction),
+                ("catch_up", c_uint32), ("most_overruns", c_uint32)]
 
 
 class rung_state(_Struct):
     _fields_ = [("size", c_uint32), ("flags", c_uint32), ("generation", c_uint32), ("due_us", c_uint32),
                 ("now_us", c_int64), ("wait_ns", c_int64), ("passes", c_uint64), ("missed", c_uint64),
                 ("last_ns", c_int64), ("worst_ns", c_int64), ("lost_messages", c_uint32),
-                ("refused_requests", c_uint32), ("stray_replies", c_uint32), ("reserved", c_uint32),
+                ("refused_requests", c_uint32), ("stray_replies", c_uint32), ("program", c_uint32),
                 ("saves", c_uint64), ("failed_saves", c_uint64)]
+
+
+class rung_program_info(_Struct):
+    _fields_ = [("size", c_uint32), ("number", c_uint32), ("faulted", c_uint32), ("reserved", c_uint32),
+                ("name", c_char * 128), ("faulted_name", c_char * 128)]
 
 
 class rung_fault_info(_Struct):
@@ -310,12 +329,17 @@ class rung_sample(_Struct):
 class rung_replacement_info(_Struct):
     _fields_ = [("size", c_uint32), ("kept_cells", c_uint32), ("kept_states", c_uint32), ("changes", c_uint32),
                 ("bytes", c_uint64), ("steps", c_uint64), ("slice_ns", c_uint64), ("period_ns", c_uint64),
-                ("bound", c_char_p)]
+                ("bound", c_char_p), ("program", c_uint32), ("next", c_uint32)]
 
 
 class rung_change(_Struct):
     _fields_ = [("size", c_uint32), ("kind", c_uint32), ("is_state", c_uint32), ("reserved", c_uint32),
                 ("name", c_char_p), ("former", c_char_p)]
+
+
+class rung_rung_change(_Struct):
+    _fields_ = [("size", c_uint32), ("kind", c_uint32), ("rung", c_uint32), ("line", c_uint32), ("file", c_char_p),
+                ("title", c_char_p)]
 
 
 class rung_shadow_info(_Struct):
@@ -390,6 +414,7 @@ def _member_of(kind):
 
 
 State = _record("State", rung_state, "Of Instance.state.", flags=StateFlags)
+Program = _record("Program", rung_program_info, "Of Instance.program: who runs. faulted 0: no fault has put it back.")
 Fault = _record("Fault", rung_fault_info, "Of Instance.fault. rung 0: none, line 0: unknown.")
 CellInfo = _record("CellInfo", rung_cell_info, "Of Cell.info. space None: a constant.",
                    type=_member_of(Type), access=_member_of(Access), space=_space)
@@ -407,6 +432,7 @@ Difference = _record("Difference", rung_difference, "Of Shadow.differences. type
 Force = _record("Force", rung_force_info, "Of Instance.forced: a cell that is held at a value. value: a float or an int.",
                 type=_member_of(Type))
 Change = _record("Change", rung_change, "Of Replacement.changes.", kind=_member_of(ChangeKind), is_state=bool)
+RungChange = _record("RungChange", rung_rung_change, "Of Replacement.rungs.", kind=_member_of(RungChangeKind))
 
 Request = namedtuple("Request", "ticket service args", module=__name__)
 Request.__doc__ = "A service that the program asks for: its number, name, and arguments as integers."
@@ -524,12 +550,16 @@ _FUNCTIONS = {
     "rung_instance_scan": (c_int32, _Handle),
     "rung_instance_slot": (c_int32, _Handle),
     "rung_instance_fast": (c_int32, _Handle),
+    "rung_instance_sample": (c_int32, _Handle),
     "rung_instance_limit": (c_int32, _Handle, _I64),
     "rung_instance_touch": (c_int32, _Handle, _I64),
     "rung_instance_state": (c_int32, _Handle, POINTER(rung_state)),
+    "rung_instance_program": (c_int32, _Handle, POINTER(rung_program_info)),
     "rung_instance_fault": (c_int32, _Handle, POINTER(rung_fault_info)),
     "rung_instance_find": (c_int32, _Handle, _Text, _I32, _Cells),
     "rung_instance_cell": (c_int32, _Handle, _U32, POINTER(rung_cell_info)),
+    "rung_instance_describe": (c_int32, _Handle, _Handle, _Text, _I32, POINTER(rung_cell_info), POINTER(c_int64)),
+    "rung_instance_release": (c_int32, _Handle, _U32),
     "rung_instance_read": (c_int32, _Handle, _U32, _U32, _U32, _Values),
     "rung_instance_write": (c_int32, _Handle, _U32, _U32, _U32, _Values),
     "rung_instance_read_all": (c_int32, _Handle, _Cells, _U32, _Values),
@@ -551,6 +581,7 @@ _FUNCTIONS = {
     "rung_instance_group_function": (c_int32, _Handle, _U32, _U32, _U32),
     "rung_instance_high_speed_functions": (c_int32, _Handle, _U32),
     "rung_instance_axis_group": (c_int32, _Handle, _U32, _U32),
+    "rung_instance_serving": (c_int32, _Handle, _I32),
     "rung_instance_abort_functions": (c_int32, _Handle, _U32),
     "rung_instance_keep": (c_int32, _Handle, _Path),
     "rung_instance_flush": (c_int32, _Handle),
@@ -570,6 +601,7 @@ _FUNCTIONS = {
     "rung_replacement_report": (c_int32, _Handle, POINTER(rung_replacement_info)),
     "rung_replacement_allow_late": (c_int32, _Handle),
     "rung_replacement_change": (c_int32, _Handle, _U32, POINTER(rung_change)),
+    "rung_replacement_rung": (c_int32, _Handle, _U32, POINTER(rung_rung_change)),
     "rung_instance_replace": (c_int32, _Handle, _Handle),
     "rung_shadow_new": (c_int32, _Handle, _Handle, _U32, _U32, _New),
     "rung_shadow_free": (c_int32, _Handle),
@@ -787,24 +819,30 @@ class Cell:
 
     def write(self, value, first=0):
         """Writes the `first`-th element, from 0; several from there on, where `value` is a list or anything else that
-        iterates. Of an integer for a narrower cell the lowest bits are written. A text is a str, cut off where the cell
-        does not hold it. Error: BAD_ARGUMENT, there are not so many elements, or more than 64 bits; WRONG_TYPE, another
-        kind of value, or a cell that was found for reading."""
+        iterates. An integer is one of the cell's width, with or without a sign. A text is a str, cut off where the cell
+        does not hold it. Error: BAD_ARGUMENT, there are not so many elements, or an integer needs more bits than the
+        cell has; WRONG_TYPE, another kind of value, or a cell that was found for reading."""
         if self._type == Type.TEXT:
             self._write_text(value, first)
             return
         several = isinstance(value, Iterable) and not isinstance(value, (str, bytes))
-        values = [self._given(element) for element in (value if several else [value])]
+        bits = self._bits()
+        values = [self._given(element, bits) for element in (value if several else [value])]
         _call(_library.rung_instance_write, self._handle, self._number, first, len(values), _values(values))
 
     def _shown(self, value):
         return value.real if self._type == Type.F64 else value.integer
 
-    def _given(self, value):
+    def _bits(self):
+        """Of an element, in the program that runs now."""
+        return _BITS.get(self._look().type, 64)
+
+    def _given(self, value, bits=None):
+        bits = self._bits() if bits is None else bits
         try:
             if self._type == Type.F64:
                 return rung_value(real=_real(value))
-            return rung_value(integer=_integer(value, -1 << 63, (1 << 64) - 1))
+            return rung_value(integer=_integer(value, -(1 << bits - 1) if bits > 1 else 0, (1 << bits) - 1))
         except Error as wrong:
             raise Error(wrong.status, f"{self.name}: {wrong}") from None
 
@@ -837,7 +875,7 @@ class Instance(_Closing):
     """
 
     def __init__(self, image, *, request=None, fault=None, log=None, measure=False, queue_requests=False,
-                 save_at_once=False):
+                 save_at_once=False, catch_up=0, most_overruns=0):
         """One program that runs, not switched on yet.
 
         request(plc, request): the program asks for a service, a Request, within a scan. Gives an Answer, or QUEUE: it
@@ -849,13 +887,17 @@ class Instance(_Closing):
         queue_requests: without `request`, all requests wait for next_request.
         save_at_once: what the program asks to be saved is on disk when a call returns; for a program that runs faster
             than its clock.
+        catch_up, most_overruns: how many passes a run_due makes up for, and after how many late ones in a row the fault
+            `overrun` comes; 0: one, and 500.
 
         Error: OUT_OF_MEMORY.
         """
         me = weakref.ref(self)  # its callbacks do not keep it alive
         options = rung_instance_options(flags=bool(measure) * _InstanceFlags.MEASURE
                                         | bool(queue_requests) * _InstanceFlags.QUEUE_REQUESTS
-                                        | bool(save_at_once) * _InstanceFlags.SAVE_AT_ONCE)
+                                        | bool(save_at_once) * _InstanceFlags.SAVE_AT_ONCE,
+                                        catch_up=_integer(catch_up, 0, _NONE),
+                                        most_overruns=_integer(most_overruns, 0, _NONE))
         if log is not None:
             options.log = _callback(_LogFunction, lambda _, level, text: log(_member(LogLevel, level), _decoded(text)))
         if request is not None:
@@ -910,7 +952,7 @@ class Instance(_Closing):
 
     def run_due(self, ns):
         """Runs what is due once the host's clock has advanced by so many nanoseconds, 0 to one hour. What is late is
-        caught up, up to ten passes. Error: WRONG_STATE, the program is off, or its schedule has no period."""
+        caught up, as many of them as `catch_up` says; the others are left out (`missed`). Error: WRONG_STATE, the program is off, or its schedule has no period."""
         return self._ran(_library.rung_instance_run_due, ns)
 
     def run_due_fast(self, ns):
@@ -946,6 +988,12 @@ class Instance(_Closing):
         _call(_library.rung_instance_state, self, byref(state))
         return state.shown()
 
+    def program(self):
+        """The Program that runs, and the one whose fault has put that back."""
+        program = rung_program_info()
+        _call(_library.rung_instance_program, self, byref(program))
+        return program.shown()
+
     def fault(self):
         """The Fault that has stopped the program; None: there is none."""
         fault = rung_fault_info()
@@ -961,6 +1009,20 @@ class Instance(_Closing):
         if (name, access) not in self._cells:
             self._cells[name, access] = Cell(self._handle, name, access)
         return self._cells[name, access]
+
+    def describe(self, name, access=READ, replacement=None):
+        """What a name is, a CellInfo, without a cell for it: in the program that runs or, with a Replacement, in that
+        one's new program. Errors as of cell."""
+        info, constant = rung_cell_info(), ctypes.c_int64()
+        _call(_library.rung_instance_describe, self, _Handle() if replacement is None else replacement, name, access,
+              byref(info), byref(constant))
+        return info.shown()
+
+    def release(self, name, access=READ):
+        """The cell of a name is not used any more, nor is a Cell of it; asked for again, it is looked up anew."""
+        cell = self._cells.pop((name, access), None)
+        if cell is not None:
+            _call(_library.rung_instance_release, self, cell._number)
 
     def __getitem__(self, name):
         """The value of a name, as Cell.read gives it; of an array a list. Errors as of cell."""
@@ -1132,9 +1194,10 @@ class Instance(_Closing):
     # -- another program --
 
     def replace(self, replacement):
-        """The program of a Replacement takes over, with its state. The replacement then holds the former program as it
-        was: given again, it puts that back. False: not at this moment, try again after the next slice. Error:
-        WRONG_STATE, it was made for another program than the one that runs; BAD_ARGUMENT, for another instance."""
+        """The program of a Replacement takes over, with its state. The replacement then holds the former program: given
+        again, it puts that back. False: not at this moment, try again after the next slice. Error: WRONG_STATE, it was
+        made for another program than the one that runs, or a fault of its program has put the former one back;
+        BAD_ARGUMENT, for another instance."""
         return _call(_library.rung_instance_replace, self, replacement) != Status.LATER
 
     def shadow(self, shadow):
@@ -1259,6 +1322,11 @@ class Replacement(_Part):
     def changes(self):
         """What replace would change now: a list of Change, cells before states, each in the order of their names."""
         return [change.shown() for change in _each(self, _library.rung_replacement_change, rung_change)]
+
+    def rungs(self):
+        """Which rungs are not the same then: a list of RungChange, in the order of the new program, then those that were
+        removed."""
+        return [change.shown() for change in _each(self, _library.rung_replacement_rung, rung_rung_change)]
 
 
 class Shadow(_Part):

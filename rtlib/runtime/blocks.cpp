@@ -184,7 +184,7 @@ int32_t checkPlace(const rung_instance& instance, const HostBlock& block) {
 }
 
 void addBlocks(rung_instance& instance, const std::vector<HostBlock>& given) {
-  instance.blocks.add(*instance.around, given);
+  instance.generations.blocks.add(*instance.around, given);
   if (std::ranges::any_of(given, &HostBlock::input)) instance.running.setLatching(true);
 }
 

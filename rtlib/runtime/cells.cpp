@@ -50,6 +50,7 @@ LocatedCell locateCell(const Surroundings& around, const rung_program& program, 
   if (!cell.writes) return cell;
   if (ref->kind == host::RefKind::Constant) cell.state = CellState::Constant;
   if (host::Overwritten(program).source(*ref)) cell.state = CellState::Overwritten;
+  if (around.control().writesItself(program, *ref)) cell.state = CellState::Controls;
   return cell;
 }
 
@@ -70,13 +71,31 @@ bool isLeftOut(const rung_program& program, const rt::NeededCopies& copies, cons
 
 } // namespace
 
-void CellTable::add(const LocatedCell& cell) {
+void CellTable::set(rung_cell number, const LocatedCell& cell) {
   if (cell.state == CellState::Good && isLeftOut(*program_, copies_, cell.ref)) seesLeftOut_ = true;
-  const uint32_t number = count_.load(std::memory_order_relaxed);
   std::unique_ptr<Block>& block = blocks_[number / kBlock];
   if (block == nullptr) block = std::make_unique<Block>();
   (*block)[number % kBlock] = cell;
+}
+
+void CellTable::add(const LocatedCell& cell) {
+  const uint32_t number = count_.load(std::memory_order_relaxed);
+  set(number, cell);
   count_.store(number + 1, std::memory_order_release);
+}
+
+// False: all are used.
+bool CellNames::takeNumber(rung_cell& cell) {
+  if (!free_.empty()) {
+    cell = free_.back();
+    free_.pop_back();
+    return true;
+  }
+  if (entries_.size() == CellTable::kMostCells) return false;
+  cell = static_cast<rung_cell>(entries_.size());
+  entries_.emplace_back();
+  for (CellTable* table : tables_) table->add({});
+  return true;
 }
 
 bool CellNames::find(const Surroundings& around, const rung_program& program, const CellName& name, CellState& state,
@@ -84,40 +103,56 @@ bool CellNames::find(const Surroundings& around, const rung_program& program, co
   const std::lock_guard lock(mutex_);
   if (const auto known = numbers_.find(name); known != numbers_.end()) {
     cell = known->second;
-    state = locateCell(around, program, name, &types_[cell]).state;
+    state = locateCell(around, program, name, &entries_[cell].type).state;
+    if (state == CellState::Good) ++entries_[cell].users;
     return true;
   }
   const LocatedCell found = locateCell(around, program, name);
   state = found.state;
   if (state != CellState::Good) return true;
-  if (names_.size() == CellTable::kMostCells) return false;
-  cell = static_cast<rung_cell>(names_.size());
-  names_.push_back(&numbers_.emplace(name, cell).first->first);
-  types_.push_back(found.type);
-  for (CellTable* other : tables_)
-    other->add(&other->program() == &program ? found : locateCell(around, other->program(), name, &found.type));
+  if (!takeNumber(cell)) return false;
+  numbers_.emplace(name, cell);
+  entries_[cell] = {name, found.type, 1};
+  for (CellTable* table : tables_)
+    table->set(cell, &table->program() == &program ? found : locateCell(around, table->program(), name, &found.type));
+  return true;
+}
+
+bool CellNames::hold(rung_cell cell) {
+  const std::lock_guard lock(mutex_);
+  return isUsed(cell) && ++entries_[cell].users != 0;
+}
+
+bool CellNames::release(rung_cell cell) {
+  const std::lock_guard lock(mutex_);
+  if (!isUsed(cell)) return false;
+  if (--entries_[cell].users != 0) return true;
+  numbers_.erase(entries_[cell].name);
+  free_.push_back(cell);
+  for (CellTable* table : tables_) table->set(cell, {.state = CellState::Released});
   return true;
 }
 
 std::optional<LocatedCell> CellNames::locate(const Surroundings& around, const rung_program& program, rung_cell cell) {
   const std::lock_guard lock(mutex_);
-  if (cell >= names_.size()) return std::nullopt;
-  return locateCell(around, program, *names_[cell], &types_[cell]);
+  if (!isUsed(cell)) return std::nullopt;
+  return locateCell(around, program, entries_[cell].name, &entries_[cell].type);
 }
 
 std::optional<rung_type> CellNames::typeOf(rung_cell cell) {
   const std::lock_guard lock(mutex_);
-  return cell < types_.size() ? std::optional(types_[cell]) : std::nullopt;
+  return isUsed(cell) ? std::optional(entries_[cell].type) : std::nullopt;
 }
 
 std::string CellNames::nameOf(rung_cell cell) {
   const std::lock_guard lock(mutex_);
-  return names_[cell]->name;
+  return entries_[cell].name.name;
 }
 
 void CellNames::join(const Surroundings& around, CellTable& table) {
   const std::lock_guard lock(mutex_);
-  for (uint32_t i = 0; i < names_.size(); ++i) table.add(locateCell(around, table.program(), *names_[i], &types_[i]));
+  for (const Entry& entry : entries_)
+    table.add(entry.users != 0 ? locateCell(around, table.program(), entry.name, &entry.type) : LocatedCell{});
   tables_.push_back(&table);
 }
 

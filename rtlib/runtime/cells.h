@@ -25,6 +25,8 @@ enum class CellState : uint8_t {
   Gone,        // the program does not have the name
   Overwritten, // for writing: another place is copied over it
   Constant,    // for writing
+  Controls,    // for writing: the control itself writes it
+  Released,    // nobody has its number
   Retyped,     // it was a real, a text or neither when it was found, and is not any more
 };
 
@@ -63,6 +65,8 @@ public:
     return &(*blocks_[cell / kBlock])[cell % kBlock];
   }
   void add(const LocatedCell& cell);
+  // Of a number that nobody uses.
+  void set(rung_cell number, const LocatedCell& cell);
 
 private:
   static constexpr uint32_t kBlock = 256;
@@ -79,10 +83,13 @@ private:
 // lock.
 class CellNames {
 public:
-  // The cell of this name; it is located in every table. `state` says what is wrong with it in the program, where it is
-  // not entered then. False: there are too many cells.
+  // The cell of this name, which has one more user; it is located in every table. `state` says what is wrong with it in
+  // the program: then it is not entered, and gets no user. False: there are too many cells.
   bool find(const Surroundings& around, const rung_program& program, const CellName& name, CellState& state,
             rung_cell& cell);
+  // It has one more user, or one less. False: no cell has this number.
+  bool hold(rung_cell cell);
+  bool release(rung_cell cell);
   // As it was found; nothing where no cell has this number.
   std::optional<rung_type> typeOf(rung_cell cell);
   std::string nameOf(rung_cell cell); // of a cell that there is
@@ -93,10 +100,18 @@ public:
   void leave(CellTable& table);
 
 private:
+  struct Entry {
+    CellName name;
+    rung_type type = RUNG_TYPE_BIT; // as it was found
+    uint32_t users = 0;             // 0: the number is free
+  };
+  bool isUsed(rung_cell cell) const { return cell < entries_.size() && entries_[cell].users != 0; }
+  bool takeNumber(rung_cell& cell);
+
   std::mutex mutex_;
-  std::map<CellName, rung_cell> numbers_;
-  std::vector<const CellName*> names_; // by number; keys of numbers_
-  std::vector<rung_type> types_;       // by number: as it was found
+  std::map<CellName, rung_cell> numbers_; // of those that are used
+  std::vector<Entry> entries_;            // by number
+  std::vector<rung_cell> free_;
   std::vector<CellTable*> tables_;
 };
 

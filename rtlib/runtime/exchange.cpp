@@ -8,11 +8,10 @@
 
 namespace rung::runtime {
 
-rung_request shown(const rt::ServiceRequest& request, const rung_program& program,
-                   const nc::Control& control) noexcept {
-  rung_request out{.size = sizeof out, .ticket = request.ticket, .service = "", .arg_count = request.argCount};
+rung_request shown(const rt::ServiceRequest& request, const nc::Control& control) noexcept {
+  rung_request out{
+      .size = sizeof out, .ticket = request.ticket, .service = request.name, .arg_count = request.argCount};
   if (request.service == nc::Control::kOwnService) out.service = control.ownService();
-  if (request.service < program.service_count) out.service = program.services[request.service];
   std::memcpy(out.args, request.args, sizeof out.args);
   return out;
 }
@@ -23,6 +22,12 @@ rt::ServiceReply taken(const rung_reply& reply) noexcept {
                        .resultCount = std::min(reply.result_count, RUNG_MAX_SERVICE_ARGS)};
   std::memcpy(out.results, reply.results, sizeof out.results);
   return out;
+}
+
+void say(rung_instance& instance, const rung_message& message) noexcept {
+  Generation& now = instance.now();
+  now.refer();
+  if (!instance.messages.push({message, &now})) now.forget();
 }
 
 namespace {
@@ -55,21 +60,21 @@ using namespace rung::runtime;
 int32_t rung_instance_next_message(rung_instance* instance, rung_message_info* message) {
   rung_instance* handle = instanceOf(instance);
   if (handle == nullptr) return failHandle("an instance");
-  rung_message next;
+  Said next;
   if (message == nullptr || !hasSize(message)) return failSize("rung_message_info");
   if (!handle->messages.pop(next)) return RUNG_EMPTY;
-  const rung_message seen = handle->control->outward(next);
+  const rung_message seen = handle->control->outward(next.message);
   rung_message_info out{.op = seen.op,
                         .number = seen.number,
                         .channel = seen.channel,
                         .index = seen.index,
                         .real = seen.real,
                         .value = {.integer = seen.value}};
-  const rung_program& program = *handle->program.load(std::memory_order_acquire);
   if (seen.op != RUNG_MESSAGE_CLEAR) { // which names no values
     char line[sizeof out.text];        // one character more than fits: whether the last one is whole
-    putText(out.text, {line, handle->control->describe(program, next, line)});
+    putText(out.text, {line, handle->control->describe(next.by->program(), next.message, line)});
   }
+  next.by->forget();
   return giveStruct(message, out);
 }
 
@@ -77,6 +82,8 @@ int32_t rung_instance_define_message(rung_instance* instance, uint32_t number, u
   const Call call(instance);
   if (!call.ok()) return call.status();
   if (text == nullptr) return fail(RUNG_BAD_ARGUMENT, "the text of message %u is null", number);
+  constexpr uint32_t kFlags = RUNG_MESSAGE_LASTS | RUNG_MESSAGE_LOGGED_ONLY;
+  if ((flags & ~kFlags) != 0) return fail(RUNG_BAD_ARGUMENT, "the flags %u of message %u are unknown", flags, number);
   if (call->wasOn) return fail(RUNG_WRONG_STATE, "what messages are is said before the first power-on");
   return contained([&] {
     const bool taken = call->control->define({.number = number,
@@ -112,7 +119,7 @@ int32_t rung_instance_next_request(rung_instance* instance, rung_request* reques
   if (request == nullptr || !hasSize(request)) return failSize("rung_request");
   rt::ServiceRequest next;
   if (!handle->running.services().take(next)) return RUNG_EMPTY;
-  return giveStruct(request, shown(next, *handle->program.load(std::memory_order_acquire), *handle->control));
+  return giveStruct(request, shown(next, *handle->control));
 }
 
 int32_t rung_instance_answer(rung_instance* instance, const rung_reply* reply) {
@@ -185,4 +192,11 @@ int32_t rung_instance_high_speed_functions(rung_instance* instance, uint32_t cha
   nc::Functions* functions = functionsOf(*call, channel);
   if (functions == nullptr) return failChannel(channel);
   return functions->useHighSpeed() ? RUNG_OK : fail(RUNG_NOT_FOUND, "the dialect has no high-speed handshake");
+}
+
+int32_t rung_instance_serving(rung_instance* instance, int32_t is_served) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  call->control->setServed(is_served != 0);
+  return RUNG_OK;
 }

@@ -38,15 +38,15 @@ struct MadeCode {
 } // namespace
 
 struct rung_forces {
-  rung_forces(rung_instance& of, std::shared_ptr<const Image> program, std::vector<Force> cells,
+  rung_forces(rung_instance& of, std::shared_ptr<Generation> program, std::vector<Force> cells,
               std::span<const host::ForcedCell> places)
-      : instance(of), image(std::move(program)), forces(std::move(cells)),
-        forcing(image->program, image->engine, places) {}
+      : instance(of), generation(std::move(program)), forces(std::move(cells)),
+        forcing(generation->program(), generation->image->engine, places) {}
 
   uint32_t mark = kForcesMark;
   rung_instance& instance;
-  std::shared_ptr<const Image> image;
-  std::vector<Force> forces; // by name
+  std::shared_ptr<Generation> generation; // that they are for
+  std::vector<Force> forces;              // by name
   host::Forcing forcing;
   MadeCode code;
   std::atomic<bool> inEffect{false};
@@ -93,14 +93,14 @@ int32_t locate(const rung_instance& instance, const rung_program& program, const
 }
 
 int32_t makeCode(rung_forces& forces) {
-  const Image& image = *forces.image;
+  const Image& image = *forces.generation->image;
   const rung_code_maker* maker = image.maker.load();
   if (maker == nullptr)
     return fail(RUNG_REFUSED,
                 "the program %s writes a cell that is to be forced: that needs a compiler for its image "
                 "(rung_compiler_serve)",
                 image.program.name);
-  const rung_image handle{.image = forces.image};
+  const rung_image handle{.image = forces.generation->image};
   std::array<char, 512> problem{};
   const std::vector<rung_forced_byte>& bytes = forces.forcing.bytes();
   const int32_t status =
@@ -111,17 +111,17 @@ int32_t makeCode(rung_forces& forces) {
   return RUNG_OK;
 }
 
-int32_t prepare(rung_instance& instance, std::shared_ptr<const Image> image, std::span<const rung_forced_cell> cells,
-                rung_forces*& result) {
+int32_t prepare(rung_instance& instance, std::shared_ptr<Generation> generation,
+                std::span<const rung_forced_cell> cells, rung_forces*& result) {
   std::vector<Force> forces(cells.size());
   std::vector<host::ForcedCell> places;
   for (size_t i = 0; i < cells.size(); ++i) {
     if (cells[i].name == nullptr) return fail(RUNG_BAD_ARGUMENT, "cell %zu has no name", i);
-    if (const int32_t status = locate(instance, image->program, cells[i], forces[i], places); status != RUNG_OK)
+    if (const int32_t status = locate(instance, generation->program(), cells[i], forces[i], places); status != RUNG_OK)
       return status;
   }
   std::ranges::sort(forces, {}, &Force::name);
-  auto made = std::make_unique<rung_forces>(instance, std::move(image), std::move(forces), places);
+  auto made = std::make_unique<rung_forces>(instance, std::move(generation), std::move(forces), places);
   if (!made->forcing.problem().empty()) return fail(RUNG_BAD_ARGUMENT, "%s", made->forcing.problem().c_str());
   if (made->forcing.needsCode())
     if (const int32_t status = makeCode(*made); status != RUNG_OK) return status;
@@ -154,24 +154,28 @@ int32_t rung_forces_new(rung_instance* instance, rung_replacement* replacement, 
   if (cells == nullptr || count == 0)
     return fail(RUNG_BAD_ARGUMENT, "a set of forces needs a cell at least; null ends the forces in effect");
   return contained([&] {
-    std::shared_ptr<const Image> image = runningImage(*handle);
-    if (replacement != nullptr) {
-      if (const int32_t status = imageOf(*handle, replacement, image); status != RUNG_OK) return status;
-    }
-    if (image == nullptr) return failRunningImage();
-    return prepare(*handle, std::move(image), {cells, count}, *forces);
+    std::shared_ptr<Generation> generation;
+    if (replacement == nullptr) generation = handle->generations.running();
+    if (replacement != nullptr)
+      if (const int32_t status = nextOf(*handle, replacement, generation); status != RUNG_OK) return status;
+    return prepare(*handle, std::move(generation), {cells, count}, *forces);
   });
 }
 
 int32_t rung_forces_free(rung_forces* forces) {
-  const rung_forces* handle = checked(forces, kForcesMark);
-  if (handle != nullptr && handle->inEffect.load(std::memory_order_acquire)) {
-    const Call call(&handle->instance);
+  if (forces == nullptr) return RUNG_OK;
+  rung_forces* handle = checked(forces, kForcesMark);
+  if (handle == nullptr) return failHandle("a set of forces");
+  rung_instance& instance = handle->instance;
+  if (handle->inEffect.load(std::memory_order_acquire)) {
+    const Call call(&instance);
     if (!call.ok()) return call.status();
     call->running.endForces();
     settleForces(*call);
   }
-  return endHandle(forces, kForcesMark, "a set of forces");
+  release(handle);
+  instance.generations.letGo();
+  return RUNG_OK;
 }
 
 int32_t rung_instance_force(rung_instance* instance, rung_forces* forces) {
@@ -186,7 +190,7 @@ int32_t rung_instance_force(rung_instance* instance, rung_forces* forces) {
   rung_forces* handle = checked(forces, kForcesMark);
   if (handle == nullptr) return failHandle("a set of forces");
   if (&handle->instance != &*call) return fail(RUNG_BAD_ARGUMENT, "the forces were made for another instance");
-  if (&handle->image->program != &running.program())
+  if (handle->generation.get() != &call->now())
     return fail(RUNG_WRONG_STATE, "the forces were made for another program than the one that runs");
   if (running.stopped()) return fail(RUNG_WRONG_STATE, "a stopped program has no forces");
   if (running.faulted()) return RUNG_FAULTED;

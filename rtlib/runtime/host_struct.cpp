@@ -216,7 +216,7 @@ int32_t addRow(rung_instance& instance, const rung_member& m, uint8_t* base, Row
   const rung_variable named{
       .name = m.name, .address = bound.address, .type = m.type, .direction = m.direction, .scale = 0};
   if (const int32_t status = findVariable(instance, named, input, bound.cell); status != RUNG_OK) return status;
-  bound.truth = input && instance.cells->at(bound.cell)->type == RUNG_TYPE_BIT;
+  bound.truth = input && instance.now().cells.at(bound.cell)->type == RUNG_TYPE_BIT;
   (input ? rows.inputs : rows.outputs).push_back(bound);
   return RUNG_OK;
 }

@@ -30,20 +30,6 @@ Image::~Image() {
   if (release != nullptr) release(owner);
 }
 
-void KnownImages::add(const std::shared_ptr<const Image>& image) {
-  const std::lock_guard lock(mutex_);
-  std::erase_if(images_, [](const std::weak_ptr<const Image>& known) { return known.expired(); });
-  images_.push_back(image);
-}
-
-std::shared_ptr<const Image> KnownImages::find(const rung_program& program) {
-  const std::lock_guard lock(mutex_);
-  for (const std::weak_ptr<const Image>& known : images_)
-    if (std::shared_ptr<const Image> image = known.lock(); image != nullptr && &image->program == &program)
-      return image;
-  return nullptr;
-}
-
 } // namespace rung::runtime
 
 using namespace rung;
@@ -55,6 +41,8 @@ int32_t rung_image_open(const char* path, const rung_image_options* options, run
   return contained([&] {
     rung_image_options given{};
     if (!takeStruct(options, given)) return failSize("rung_image_options");
+    if (given.allow_unsealed > 1)
+      return fail(RUNG_BAD_ARGUMENT, "`allow_unsealed` is %u, not 0 or 1", given.allow_unsealed);
     host::SoOptions how;
     how.mayLackSeal = given.allow_unsealed != 0;
     if (given.keys_folder != nullptr) how.keysFolder = given.keys_folder;

@@ -2,7 +2,6 @@
 #pragma once
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "rtlib/host/footprint.h"
@@ -28,18 +27,6 @@ struct Image {
   host::Footprint footprint;
   // Entered once, by any thread; null: no compiler serves the image.
   mutable std::atomic<const rung_code_maker*> maker{nullptr};
-};
-
-// The images whose programs an instance has run or may run, by these programs. For any thread, but not in real time.
-class KnownImages {
-public:
-  void add(const std::shared_ptr<const Image>& image);
-  // Null: it is none of these, or it is not used any more.
-  std::shared_ptr<const Image> find(const rung_program& program);
-
-private:
-  std::mutex mutex_;
-  std::vector<std::weak_ptr<const Image>> images_;
 };
 
 } // namespace rung::runtime

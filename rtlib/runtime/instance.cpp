@@ -42,12 +42,6 @@ bool isInCallback(const rung_instance& instance) noexcept {
 
 int32_t failCallback() noexcept { return fail(RUNG_WRONG_STATE, "a callback of the instance may only read it"); }
 
-std::shared_ptr<const Image> runningImage(rung_instance& instance) {
-  return instance.images.find(*instance.program.load(std::memory_order_acquire));
-}
-
-int32_t failRunningImage() noexcept { return fail(RUNG_WRONG_STATE, "another program is taking over at this moment"); }
-
 // ---- the schedule ------------------------------------------------------------------------------------------------
 
 // What the control shows, it has heard of: messages of the time before come first.
@@ -61,7 +55,7 @@ uint32_t Hooks::works() const { return instance_.around->works(); }
 void Hooks::onFault(host::Instance& running) { instance_.around->onFault(running); }
 
 void Hooks::onLatch(host::Instance& running, uint32_t task) {
-  instance_.blockPlan->latch(running.block().data(), task);
+  instance_.now().blockPlan.latch(running.block().data(), task);
 }
 
 bool Hooks::respond(host::Instance& running, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
@@ -69,7 +63,7 @@ bool Hooks::respond(host::Instance& running, const rt::ServiceRequest& request, 
   const rung_instance_options& options = instance_.options;
   int32_t answer = (options.flags & RUNG_QUEUE_REQUESTS) != 0 ? RUNG_QUEUE : RUNG_REFUSE;
   if (options.request != nullptr) {
-    const rung_request asked = shown(request, running.program(), *instance_.control);
+    const rung_request asked = shown(request, *instance_.control);
     rung_reply given{.size = sizeof given, .ticket = request.ticket};
     answer = options.request(options.user, &instance_, &asked, &given);
     if (answer == RUNG_ANSWER) reply = taken(given);
@@ -89,18 +83,21 @@ void log(const rung_instance& instance, rung_log_level level, const std::string&
 }
 
 // What is on disk of the time before comes first: after a fault that is the last whole scan.
+// Where that cannot be written, the program stays off, and what is to be written stays for the next try.
 int32_t takeKept(rung_instance& instance, nc::PowerOn& kind) {
-  std::string unsaved, report, error;
+  std::string report, error;
   std::optional<nc::PowerOn> found;
   {
     const std::lock_guard lock(instance.retentionChanges);
-    if (instance.retention) unsaved = instance.retention->finish();
+    if (instance.retention)
+      if (const std::string unsaved = instance.retention->finish(); !unsaved.empty())
+        return fail(RUNG_FAILED, "%s", unsaved.c_str());
     instance.retention.reset();
-    instance.retention = std::make_unique<nc::Retention>(*instance.control, instance.running, instance.keptFile);
+    instance.retention = std::make_unique<nc::Retention>(*instance.control, instance.running, instance.keptFile,
+                                                         &host::takeRetainedOf, instance.outside);
     found = instance.retention->load(report, error);
     if (!found) instance.retention.reset();
   }
-  log(instance, RUNG_LOG_ERROR, unsaved);
   log(instance, RUNG_LOG_WARNING, report);
   if (!found) return fail(RUNG_FAILED, "%s", error.c_str());
   if (kind == nc::PowerOn::Warm) kind = *found;
@@ -128,7 +125,7 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   instance.on = instance.wasOn = true;
   instance.ending = false;
   instance.faultReported = false;
-  instance.faultImage.reset();
+  if (Generation* faulted = instance.faulted.exchange(nullptr); faulted != nullptr) faulted->forget();
   reportFault(instance);
   return statusOf(instance);
 }
@@ -164,19 +161,27 @@ int32_t powerOff(rung_instance& instance) {
 using namespace rung;
 using namespace rung::runtime;
 
+namespace {
+
+host::PaceOptions paceOf(const rung_instance_options& given) noexcept {
+  host::PaceOptions options;
+  if (given.catch_up != 0) options.catchUp = given.catch_up;
+  if (given.most_overruns != 0) options.mostOverruns = given.most_overruns == RUNG_NONE ? 0 : given.most_overruns;
+  return options;
+}
+
+} // namespace
+
 rung_instance::rung_instance(std::shared_ptr<const Image> from, const rung_instance_options& given,
                              std::unique_ptr<Surroundings> surroundings, bool alone)
-    : options(given), image(std::move(from)), program(&image->program), around(std::move(surroundings)),
-      control(&around->control()), controlAlone(alone), hooks(*this),
-      running({image->program, image->engine, static_cast<uint8_t*>(given.memory)}, &hooks), pace(running),
-      cells(std::make_unique<CellTable>(image->program, running.neededCopies())),
-      blockPlan(std::make_unique<BlockPlan>(image->program, running.neededCopies())) {
+    : options(given), dialect(from->program.dialect), around(std::move(surroundings)), control(&around->control()),
+      controlAlone(alone), hooks(*this),
+      running({from->program, from->engine, static_cast<uint8_t*>(given.memory), serviceNames.of(from->program)},
+              &hooks),
+      pace(running, paceOf(given)) {
+  generations.enter(*generations.add(*around, std::move(from), running.copyLists()));
   control->onReplace(running); // a replacement before the first power-on gets places in exchange
-  images.add(image);
-  names.join(*around, *cells);
-  blocks.join(*around, *blockPlan);
   beginLeavingOut();
-  if (image->program.instrumented != 0) clock = profile::calibratedClock();
 }
 
 rung_instance::~rung_instance() = default;
@@ -190,6 +195,9 @@ int32_t newInstance(rung_image* image, const rung_instance_options* options, std
   if (instance == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the instance is null");
   rung_instance_options given{};
   if (!takeStruct(options, given)) return failSize("rung_instance_options");
+  constexpr uint32_t kFlags = RUNG_MEASURE | RUNG_QUEUE_REQUESTS | RUNG_SAVE_AT_ONCE;
+  if ((given.flags & ~kFlags) != 0)
+    return fail(RUNG_BAD_ARGUMENT, "the flags %u are not all those of enum rung_instance_flags", given.flags);
   if (const int32_t status = checkMemory(handle->image->program, given.memory, given.memory_bytes); status != RUNG_OK)
     return status;
   return contained([&] {
@@ -248,12 +256,15 @@ int32_t rung_instance_keep(rung_instance* instance, const char* path) {
 }
 
 int32_t rung_instance_unsaved(const rung_instance* instance, char* text, size_t bytes) {
-  const Call call(instance, When::Always);
-  if (!call.ok()) return call.status();
+  rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
   if (text == nullptr || bytes == 0) return fail(RUNG_BAD_ARGUMENT, "the place for the text is null or has no bytes");
-  if (!call->retention || !call->retention->memory().failing()) return RUNG_EMPTY;
-  text[call->retention->memory().problem({text, bytes - 1})] = 0;
-  return RUNG_OK;
+  return contained([&] {
+    const std::lock_guard lock(handle->retentionChanges);
+    if (!handle->retention || !handle->retention->memory().failing()) return int32_t{RUNG_EMPTY};
+    text[handle->retention->memory().problem({text, bytes - 1})] = 0;
+    return int32_t{RUNG_OK};
+  });
 }
 
 int32_t rung_instance_flush(rung_instance* instance) {

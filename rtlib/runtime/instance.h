@@ -12,16 +12,20 @@
 #include "rtlib/host/pace.h"
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/retention.h"
-#include "rtlib/profile/clock.h"
-#include "rtlib/runtime/blocks.h"
-#include "rtlib/runtime/cells.h"
+#include "rtlib/runtime/generation.h"
 #include "rtlib/runtime/host_struct.h"
-#include "rtlib/runtime/image.h"
 #include "rtlib/runtime/scan_use.h"
+#include "rtlib/runtime/service_names.h"
 #include "rtlib/runtime/surroundings.h"
 #include "rtlib/runtime/watch.h"
 
 namespace rung::runtime {
+
+// A message that waits to be taken, and whose it is: that has its texts, and is referred to until then.
+struct Said {
+  rung_message message{};
+  Generation* by = nullptr;
+};
 
 struct BoundVariable {
   rung_cell cell = 0;
@@ -62,31 +66,28 @@ struct rung_instance {
   void bringInWhatIsSeen() noexcept {
     if (running.neededCopiesOnly() && seesLeftOut()) running.setNeededCopiesOnly(false);
   }
-  bool seesLeftOut() const noexcept { return cells->seesLeftOut() || blockPlan->seesLeftOut(); }
+  bool seesLeftOut() const noexcept { return now().cells.seesLeftOut() || now().blockPlan.seesLeftOut(); }
+  rung::runtime::Generation& now() const noexcept { return generations.now(); } // the program that runs
 
   uint32_t mark = rung::runtime::kInstanceMark;
   // The thread that is inside a call; 0: none.
   mutable std::atomic<uintptr_t> inside{0};
 
   rung_instance_options options;
-  std::shared_ptr<const rung::runtime::Image> image;
-  std::atomic<const rung_program*> program; // of `image`, for other threads
-  rung::runtime::KnownImages images;        // `image` among them, for other threads, too
+  std::string dialect; // of all its programs
   std::unique_ptr<rung::runtime::Surroundings> around;
   rung::nc::Control* control; // in `around`
   bool controlAlone;          // there
+  rung::runtime::ServiceNames serviceNames;
   rung::runtime::Hooks hooks;
   rung::host::Instance running;
   rung::host::Pace pace;
-  rung::profile::Clock clock; // of a program that counts and times its rungs
-  rung::runtime::CellNames names;
-  std::unique_ptr<rung::runtime::CellTable> cells;
+  rung::runtime::Generations generations;
   std::vector<rung::runtime::BoundVariable> inputs, outputs;
-  rung::runtime::HostBlocks blocks;
   rung::runtime::HostStructs structs;
-  std::unique_ptr<rung::runtime::BlockPlan> blockPlan; // of the program that runs
   rung::runtime::Watches watches;
-  rung::rt::FixedRing<rung_message, rung::rt::kMessageCapacity> messages;
+  rung::rt::FixedRing<rung::runtime::Said, rung::rt::kMessageCapacity> messages;
+  rung::host::Outside outside;
   std::string keptFile;                           // "": nothing is kept
   std::unique_ptr<rung::nc::Retention> retention; // from the first power-on, where something is kept
   std::mutex retentionChanges;                    // held while that is made anew
@@ -94,10 +95,12 @@ struct rung_instance {
   // The replacement that holds the program before this one: a fault puts that back.
   std::atomic<rung_replacement*> former{nullptr};
   rung::runtime::ScanUse puttingBack;
-  std::shared_ptr<const rung::runtime::Image> faultImage; // of the program that has faulted, where it runs no longer
-  rung_fault fault{};                                     // of that program
-  rung_forces* forces = nullptr;                          // in effect
-  std::atomic<rung_shadow*> shadow{nullptr};              // that has begun
+  // The program that a fault has stopped, where another one has taken its place since, and that fault; it is referred
+  // to until the next power-on.
+  std::atomic<rung::runtime::Generation*> faulted{nullptr};
+  rung_fault fault{};
+  rung_forces* forces = nullptr;             // in effect
+  std::atomic<rung_shadow*> shadow{nullptr}; // that has begun
   bool on = false;
   bool faultReported = false; // to the host's callback
   bool wasOn = false;         // its memory holds something to be retained
@@ -144,8 +147,5 @@ rung_instance* instanceOf(const rung_instance* handle) noexcept;
 // This thread is inside a call for the instance.
 bool isInCallback(const rung_instance& instance) noexcept;
 int32_t failCallback() noexcept;
-// The image of the program that runs, for any thread; null while another program is taking over.
-std::shared_ptr<const Image> runningImage(rung_instance& instance);
-int32_t failRunningImage() noexcept;
 
 } // namespace rung::runtime

@@ -12,7 +12,7 @@ rung_profile profileOf(const rung_instance& instance, uint32_t index) noexcept {
   const rung_program& program = instance.running.program();
   const rung_rung_info& rung = program.rungs[index];
   const rung_prof& counters = instance.running.profile()[index];
-  const profile::Clock& clock = instance.clock;
+  const profile::Clock& clock = instance.now().clock;
   const double ticks = static_cast<double>(counters.total) - static_cast<double>(counters.count) * clock.costTicks;
   const double longest = counters.count == 0 ? 0 : static_cast<double>(counters.max) - clock.costTicks;
   return {.rung = rung.number,

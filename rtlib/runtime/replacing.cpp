@@ -15,52 +15,38 @@ using namespace rung;
 using namespace rung::runtime;
 
 struct rung_replacement {
-  rung_replacement(rung_instance& of, std::shared_ptr<const Image> next, uint8_t* memory)
-      : instance(of), image(std::move(next)),
-        replacement(*of.program.load(std::memory_order_acquire), {image->program, image->engine, memory}),
+  rung_replacement(rung_instance& of, const std::shared_ptr<const Image>& image, uint8_t* memory)
+      : instance(of), former(of.generations.running()),
+        replacement(former->program(), {image->program, image->engine, memory, of.serviceNames.of(image->program)}),
         places(of.control->locate(image->program)), placesAround(of.around->locate(image->program)),
-        cells(std::make_unique<CellTable>(image->program, replacement.neededCopies())),
-        blockPlan(std::make_unique<BlockPlan>(image->program, replacement.neededCopies())),
         lane(std::make_unique<host::RetainLane>(host::RetainMap(image->program))) {
-    if (image->program.instrumented != 0) clock = profile::calibratedClock();
     bound = host::measureBound({image->program, image->engine});
     boundText = host::boundText(bound, image->program);
-    join();
+    next = of.generations.add(*of.around, image, replacement.copyLists());
   }
   ~rung_replacement() {
     rung_replacement* self = this;
     instance.former.compare_exchange_strong(self, nullptr);
     instance.puttingBack.wait();
-    instance.names.leave(*cells);
-    instance.blocks.leave(*blockPlan);
     const std::lock_guard lock(instance.retentionChanges);
     if (instance.retention) instance.retention->settle();
   }
 
-  // At last: what has joined is looked at by others until it leaves.
-  void join() {
-    instance.images.add(image);
-    instance.names.join(*instance.around, *cells);
-    try {
-      instance.blocks.join(*instance.around, *blockPlan);
-    } catch (...) {
-      instance.names.leave(*cells);
-      throw;
-    }
-  }
+  const rung_program& program(bool theFormer) const noexcept { return (theFormer ? former : next)->program(); }
+  // The one of its two programs that it holds, where the other one runs.
+  Generation& held() const noexcept { return holdsFormer ? *former : *next; }
 
   uint32_t mark = kReplacementMark;
   rung_instance& instance;
-  std::shared_ptr<const Image> image;
+  std::shared_ptr<Generation> former, next;
   host::Replacement replacement;
+  // Of the program that it holds.
   std::unique_ptr<nc::Places> places;       // of the control
   std::unique_ptr<nc::Places> placesAround; // of the surroundings
-  std::unique_ptr<CellTable> cells;
-  std::unique_ptr<BlockPlan> blockPlan;
-  std::unique_ptr<host::RetainLane> lane; // what is kept of the program
-  bool holdsFormer = false;               // the program that it was made to replace
-  profile::Clock clock;
-  host::ScanBound bound; // of the new program
+  std::unique_ptr<host::RetainLane> lane;   // what is kept
+  std::atomic<bool> holdsFormer{false};     // `next` runs
+  std::atomic<bool> spent{false};           // a fault of `next` has put `former` back
+  host::ScanBound bound;                    // of `next`
   std::string boundText;
   std::atomic<bool> mayBeLate{false};
 };
@@ -68,22 +54,42 @@ struct rung_replacement {
 namespace rung::runtime {
 namespace {
 
+rung_rung_change rungChangeOf(const rung_replacement& replacement, const host::RungChange& change) noexcept {
+  const bool removed = change.after == RUNG_NONE;
+  const rung_program& program = replacement.program(removed != replacement.holdsFormer);
+  const rung_rung_info& rung = program.rungs[removed ? change.before : change.after];
+  uint32_t kind = change.kind == host::RungKind::Moved ? RUNG_RUNG_MOVED : RUNG_RUNG_CHANGED;
+  if (change.before == RUNG_NONE) kind = RUNG_RUNG_NEW;
+  if (removed) kind = RUNG_RUNG_REMOVED;
+  return {.kind = kind,
+          .rung = rung.number,
+          .line = rung.first_line,
+          .file = rung.file < program.file_count ? program.files[rung.file] : "",
+          .title = rung.title};
+}
+
 int32_t failOther() noexcept { return fail(RUNG_BAD_ARGUMENT, "the replacement was made for another instance"); }
 
-host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacement) noexcept {
-  const host::ReplaceResult result = instance.running.replace(replacement.replacement);
+// A fault stays that of the program that ran.
+void keepFault(rung_instance& instance, Generation& ran, const rung_fault& fault) noexcept {
+  if (!instance.running.faulted() || instance.faulted != nullptr) return;
+  instance.fault = fault;
+  ran.refer();
+  instance.faulted = &ran;
+}
+
+host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacement, host::OwnContents own) noexcept {
+  const rung_fault fault = instance.running.fault();
+  const host::ReplaceResult result = instance.running.replace(replacement.replacement, own);
   if (result != host::ReplaceResult::Replaced) return result;
+  keepFault(instance, instance.now(), fault);
   instance.control->exchangePlaces(instance.running, replacement.places);
   instance.around->exchangePlaces(replacement.placesAround);
-  instance.around->programChanged(instance.running, instance.image->program);
-  std::swap(instance.image, replacement.image);
-  std::swap(instance.cells, replacement.cells);
-  std::swap(instance.blockPlan, replacement.blockPlan);
+  instance.around->programChanged(instance.running, instance.now().program());
+  instance.generations.enter(replacement.held());
   instance.beginLeavingOut();
-  std::swap(instance.clock, replacement.clock);
   settleForces(instance);
   if (instance.retention) instance.retention->programChanged(replacement.lane);
-  instance.program.store(&instance.image->program, std::memory_order_release);
   instance.pace.programChanged();
   replacement.holdsFormer = !replacement.holdsFormer;
   instance.former.store(replacement.holdsFormer ? &replacement : nullptr);
@@ -92,12 +98,11 @@ host::ReplaceResult exchange(rung_instance& instance, rung_replacement& replacem
 
 } // namespace
 
-int32_t imageOf(const rung_instance& instance, const rung_replacement* replacement,
-                std::shared_ptr<const Image>& image) {
+int32_t nextOf(const rung_instance& instance, const rung_replacement* replacement, std::shared_ptr<Generation>& next) {
   const rung_replacement* handle = checked(replacement, kReplacementMark);
   if (handle == nullptr) return failHandle("a replacement");
   if (&handle->instance != &instance) return failOther();
-  image = handle->image;
+  next = handle->holdsFormer ? handle->former : handle->next;
   return RUNG_OK;
 }
 
@@ -112,18 +117,16 @@ int32_t failLater(const rung_instance& instance, host::ReplaceResult result,
 }
 
 int32_t checkDialect(const rung_instance& instance, const rung_program& program) noexcept {
-  const char* dialect = instance.program.load(std::memory_order_acquire)->dialect; // that of all its programs
-  if (std::strcmp(dialect, program.dialect) == 0) return RUNG_OK;
+  if (instance.dialect == program.dialect) return RUNG_OK;
   return fail(RUNG_REFUSED, "%s is a program of %s, the one that runs is of %s", program.name, program.dialect,
-              dialect);
+              instance.dialect.c_str());
 }
 
 void putFormerBack(rung_instance& instance) noexcept {
   instance.puttingBack.enter();
-  if (rung_replacement* former = instance.former.exchange(nullptr); former != nullptr) {
-    std::shared_ptr<const Image> faulty = instance.image;
-    instance.fault = instance.running.fault();
-    if (exchange(instance, *former) == host::ReplaceResult::Replaced) instance.faultImage.swap(faulty);
+  if (rung_replacement* replacement = instance.former.exchange(nullptr); replacement != nullptr) {
+    if (exchange(instance, *replacement, host::OwnContents::AsLeft) == host::ReplaceResult::Replaced)
+      replacement->spent = true;
   }
   instance.puttingBack.leave();
 }
@@ -148,7 +151,13 @@ int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* m
 }
 
 int32_t rung_replacement_free(rung_replacement* replacement) {
-  return endHandle(replacement, kReplacementMark, "a replacement");
+  if (replacement == nullptr) return RUNG_OK;
+  rung_replacement* handle = checked(replacement, kReplacementMark);
+  if (handle == nullptr) return failHandle("a replacement");
+  rung_instance& instance = handle->instance;
+  release(handle);
+  instance.generations.letGo();
+  return RUNG_OK;
 }
 
 int32_t rung_replacement_report(const rung_replacement* replacement, rung_replacement_info* info) {
@@ -162,7 +171,9 @@ int32_t rung_replacement_report(const rung_replacement* replacement, rung_replac
                                                 .steps = handle->bound.weight,
                                                 .slice_ns = static_cast<uint64_t>(handle->bound.ns),
                                                 .period_ns = static_cast<uint64_t>(handle->bound.periodNs),
-                                                .bound = handle->boundText.c_str()});
+                                                .bound = handle->boundText.c_str(),
+                                                .program = handle->next->number,
+                                                .next = handle->spent ? 0 : handle->held().number});
 }
 
 int32_t rung_replacement_allow_late(rung_replacement* replacement) {
@@ -184,15 +195,26 @@ int32_t rung_replacement_change(const rung_replacement* replacement, uint32_t in
                                         .former = c.formerName.c_str()});
 }
 
+int32_t rung_replacement_rung(const rung_replacement* replacement, uint32_t index, rung_rung_change* change) {
+  const rung_replacement* handle = checked(replacement, kReplacementMark);
+  if (handle == nullptr) return failHandle("a replacement");
+  const std::span<const host::RungChange> changes = handle->replacement.transfer().rungs();
+  if (index >= changes.size()) return RUNG_EMPTY;
+  return giveStruct(change, rungChangeOf(*handle, changes[index]));
+}
+
 int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replacement) {
   const Call call(instance);
   if (!call.ok()) return call.status();
   rung_replacement* handle = checked(replacement, kReplacementMark);
   if (handle == nullptr) return failHandle("a replacement");
   if (&handle->instance != &*call) return failOther();
+  if (handle->spent)
+    return fail(RUNG_WRONG_STATE, "a fault of the program %s has put the former program back already",
+                handle->next->program().name);
   if (!handle->holdsFormer && !handle->bound.fits() && !handle->mayBeLate)
     return fail(RUNG_REFUSED, "a slice of the new program may last %s", handle->boundText.c_str());
-  const host::ReplaceResult result = exchange(*call, *handle);
+  const host::ReplaceResult result = exchange(*call, *handle, host::OwnContents::Initial);
   if (result == host::ReplaceResult::Replaced) return RUNG_OK;
   if (result == host::ReplaceResult::OtherProgram)
     return fail(RUNG_WRONG_STATE, "the replacement was made for another program than the one that runs");

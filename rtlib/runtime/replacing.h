@@ -7,8 +7,7 @@
 namespace rung::runtime {
 
 // The program that would take over with it. A status, and a sentence where it is an error.
-int32_t imageOf(const rung_instance& instance, const rung_replacement* replacement,
-                std::shared_ptr<const Image>& image);
+int32_t nextOf(const rung_instance& instance, const rung_replacement* replacement, std::shared_ptr<Generation>& next);
 
 // Whether a program can take over from those of the instance, or run beside them: it is of their dialect.
 int32_t checkDialect(const rung_instance& instance, const rung_program& program) noexcept;

@@ -31,7 +31,7 @@ void endSlice(rung_instance& instance) noexcept {
 
 void takeChanges(rung_instance& instance) noexcept {
   rung_message message{};
-  while (instance.control->nextChange(instance.running, message)) (void)instance.messages.push(message);
+  while (instance.control->nextChange(instance.running, message)) say(instance, message);
 }
 
 void sampleWatches(rung_instance& instance) noexcept {
@@ -55,7 +55,7 @@ void beforePart(rung_instance& instance) noexcept {
   if (instance.running.withinSlice()) return;
   instance.structs.takeAll();
   readInputs(instance);
-  instance.blockPlan->readRest(instance.running.block().data());
+  instance.now().blockPlan.readRest(instance.running.block().data());
   instance.around->beforePart(instance.running);
 }
 
@@ -73,7 +73,7 @@ void afterPart(rung_instance& instance) noexcept {
     return;
   }
   writeOutputs(instance);
-  instance.blockPlan->write(running.block().data());
+  instance.now().blockPlan.write(running.block().data());
   if (running.atListStart()) endPass(instance);
   if (sliceEnds) stepFunctions(instance);
 }
@@ -143,6 +143,7 @@ int32_t rung_instance_fast(rung_instance* instance) {
 int32_t rung_instance_run_due(rung_instance* instance, int64_t elapsed_ns) {
   return runElapsed(instance, elapsed_ns, [](rung_instance& due) {
     while (!due.running.faulted() && due.pace.take()) runPart(due, [&] { due.running.slice(); });
+    if (due.pace.overloaded() && !due.running.faulted()) runPart(due, [&] { due.running.haltOverrun(); });
   });
 }
 
@@ -150,6 +151,14 @@ int32_t rung_instance_run_due_fast(rung_instance* instance, int64_t elapsed_ns) 
   return runElapsed(instance, elapsed_ns, [](rung_instance& due) {
     if (due.running.fastAhead() && due.pace.take()) runPart(due, [&] { due.running.sliceToFast(); });
   });
+}
+
+int32_t rung_instance_sample(rung_instance* instance) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  call->bringInWhatIsSeen();
+  call->watches.sampleNew(*call);
+  return RUNG_OK;
 }
 
 int32_t rung_instance_limit(rung_instance* instance, int64_t ns) {
@@ -163,7 +172,7 @@ int32_t rung_instance_limit(rung_instance* instance, int64_t ns) {
 
 int32_t rung_instance_touch(const rung_instance* instance, int64_t until_ns) {
   const Call call(instance);
-  if (call.ok()) call->image->footprint.touch(call->running.block().data(), until_ns);
+  if (call.ok()) call->now().image->footprint.touch(call->running.block().data(), until_ns);
   return call.status();
 }
 
@@ -212,8 +221,24 @@ int32_t rung_instance_state(const rung_instance* instance, rung_state* state) {
                                       .lost_messages = running.messages().lost() + call->messages.lost(),
                                       .refused_requests = running.services().refused(),
                                       .stray_replies = running.services().stray(),
+                                      .program = call->now().number,
                                       .saves = kept != nullptr ? kept->saved() : 0,
                                       .failed_saves = kept != nullptr ? kept->failed() : 0});
+}
+
+int32_t rung_instance_program(const rung_instance* instance, rung_program_info* program) {
+  const rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
+  rung_program_info out{};
+  handle->generations.look([&](const Generation& running) {
+    out.number = running.number;
+    putText(out.name, running.program().name);
+    const Generation* faulted = handle->faulted.load(std::memory_order_acquire);
+    if (faulted == nullptr || faulted == &running) return;
+    out.faulted = faulted->number;
+    putText(out.faulted_name, faulted->program().name);
+  });
+  return giveStruct(program, out);
 }
 
 int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info) {
@@ -221,11 +246,12 @@ int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info
   if (!call.ok()) return call.status();
   if (!call->running.faulted()) return RUNG_EMPTY;
   return contained([&] {
-    const bool isFormers = call->faultImage != nullptr;
-    const rung_program& program = isFormers ? call->faultImage->program : call->running.program();
-    const rung_fault& fault = isFormers ? call->fault : call->running.fault();
+    const Generation* faulted = call->faulted;
+    const rung_program& program = faulted != nullptr ? faulted->program() : call->running.program();
+    const rung_fault& fault = faulted != nullptr ? call->fault : call->running.fault();
     rung_fault_info out{.line = fault.line, .code = "", .file = "", .task = ""};
     if (fault.code < program.fault_count) out.code = program.faults[fault.code];
+    if (fault.code == rt::kOverrunFault) out.code = "overrun";
     if (fault.task < program.task_count) out.task = program.tasks[fault.task].name;
     if (fault.rung < program.rung_count) {
       const rung_rung_info& rung = program.rungs[fault.rung];

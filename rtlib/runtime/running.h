@@ -35,7 +35,9 @@ inline int32_t statusOf(const rung_instance& instance) noexcept {
 // Whether a program can have this memory block; null: the library allocates one.
 int32_t checkMemory(const rung_program& program, const void* memory, size_t bytes) noexcept;
 
-rung_request shown(const rt::ServiceRequest& request, const rung_program& program, const nc::Control& control) noexcept;
+rung_request shown(const rt::ServiceRequest& request, const nc::Control& control) noexcept;
+// For whoever takes the messages; one that finds no room is lost, and counted.
+void say(rung_instance& instance, const rung_message& message) noexcept;
 rt::ServiceReply taken(const rung_reply& reply) noexcept;
 
 } // namespace rung::runtime

@@ -16,14 +16,13 @@ using namespace rung;
 using namespace rung::runtime;
 
 struct rung_shadow {
-  rung_shadow(rung_instance& of, std::shared_ptr<const Image> running, std::shared_ptr<const Image> next,
-              uint32_t passes, uint32_t room)
-      : instance(of), live(std::move(running)), image(std::move(next)),
-        shadow(live->program, {image->program, image->engine}, &nc::describe, passes, room) {}
+  rung_shadow(rung_instance& of, std::shared_ptr<const Image> next, uint32_t passes, uint32_t room)
+      : instance(of), live(of.generations.running()), image(std::move(next)),
+        shadow(live->program(), {image->program, image->engine}, &nc::describe, passes, room) {}
 
   uint32_t mark = kShadowMark;
   rung_instance& instance;
-  std::shared_ptr<const Image> live;
+  std::shared_ptr<Generation> live;
   std::shared_ptr<const Image> image;
   host::Shadow shadow;
   // Of the last report.
@@ -76,9 +75,8 @@ int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t pas
                 RUNG_MOST_SHADOW_PASSES, RUNG_MOST_SHADOW_ROOM, passes, room);
   if (const int32_t status = checkDialect(*handle, next->image->program); status != RUNG_OK) return status;
   if (const int32_t status = handle->structs.check(next->image->program); status != RUNG_OK) return status;
-  const rung_program& running = *handle->program.load(std::memory_order_acquire);
   return contained([&] {
-    auto made = std::make_unique<rung_shadow>(*handle, handle->images.find(running), next->image, passes, room);
+    auto made = std::make_unique<rung_shadow>(*handle, next->image, passes, room);
     if (!made->shadow.problem().empty())
       return fail(RUNG_REFUSED, "the programs cannot run side by side: %s", made->shadow.problem().c_str());
     *shadow = made.release();
@@ -90,12 +88,14 @@ int32_t rung_shadow_free(rung_shadow* shadow) {
   if (shadow == nullptr) return RUNG_OK;
   rung_shadow* handle = checked(shadow, kShadowMark);
   if (handle == nullptr) return failHandle("a shadow");
-  if (handle->instance.shadow.load(std::memory_order_acquire) == handle) {
-    const Call call(&handle->instance);
+  rung_instance& instance = handle->instance;
+  if (instance.shadow.load(std::memory_order_acquire) == handle) {
+    const Call call(&instance);
     if (!call.ok()) return call.status();
     endShadow(*call);
   }
   release(handle);
+  instance.generations.letGo();
   return RUNG_OK;
 }
 

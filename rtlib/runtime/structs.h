@@ -11,21 +11,30 @@
 namespace rung::runtime {
 
 inline int32_t failSize(const char* name) noexcept {
-  return fail(RUNG_BAD_ARGUMENT, "%s is null, or its field `size` is not set to the size of the struct", name);
+  return fail(
+      RUNG_BAD_ARGUMENT,
+      "%s is null, its field `size` is not set to the size of the struct, or a field is set that this library does "
+      "not know",
+      name);
 }
 
-// A host knows no field, or knows them up to one of them.
+// A host knows no field, or knows them up to one of them: the size of a struct of any version is a multiple of its
+// alignment, so no field is cut.
 template <class Struct>
 bool hasSize(const Struct* host) noexcept {
   constexpr uint32_t kMost = 1 << 16;
-  return host->size >= 2 * sizeof(uint32_t) && host->size <= kMost;
+  return host->size >= 2 * sizeof(uint32_t) && host->size <= kMost && host->size % alignof(Struct) == 0;
 }
 
-// What the host gives; null: as `to` has it. False: its size cannot be right.
+// What the host gives; null: as `to` has it. False: its size cannot be right, or it asks for something that this
+// library does not know.
 template <class Struct>
 bool takeStruct(const Struct* host, Struct& to) noexcept {
   if (host == nullptr) return true;
   if (!hasSize(host)) return false;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(host);
+  for (size_t i = sizeof to; i < host->size; ++i)
+    if (bytes[i] != 0) return false;
   std::memcpy(&to, host, std::min<size_t>(host->size, sizeof to));
   return true;
 }

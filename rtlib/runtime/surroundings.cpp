@@ -2,6 +2,7 @@
 #include "rtlib/runtime/surroundings.h"
 
 #include "rtlib/runtime/instance.h"
+#include "rtlib/runtime/running.h"
 
 namespace rung::runtime {
 namespace {
@@ -24,11 +25,21 @@ std::unique_ptr<Surroundings> controlAlone(std::string_view dialect) { return st
 
 host::Instance& insideOf(rung_instance& instance) noexcept { return instance.running; }
 
+void setOutside(rung_instance& instance, const host::Outside& outside) { instance.outside = outside; }
+
+void lookForSaving(rung_instance& instance) noexcept {
+  if (instance.retention) instance.retention->look();
+}
+
+void cutPower(rung_instance& instance) noexcept {
+  if (instance.retention) instance.retention->abandon();
+}
+
 void takeMessages(rung_instance& instance) noexcept {
   rung_message message;
   for (uint32_t i = 0; i < rt::kMessageCapacity && instance.running.messages().pop(message); ++i) {
     instance.around->accept(instance.running, message);
-    (void)instance.messages.push(message);
+    say(instance, message);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "rtlib/host/instance.h"
+#include "rtlib/host/outside.h"
 #include "rtlib/nc/control/control.h"
 #include "rung/runtime.h"
 
@@ -60,6 +61,12 @@ int32_t newInstance(rung_image* image, const rung_instance_options* options, std
 // The program as its surroundings see it, as long as the handle is alive. Running, power, replacing and forcing are the
 // library's alone.
 host::Instance& insideOf(rung_instance& instance) noexcept;
+
+// Before the instance is switched on first: where it keeps its retained memory, and whether a thread writes that.
+void setOutside(rung_instance& instance, const host::Outside& outside);
+// Where no thread does: writes what is to be written, or the power is gone and nothing is written any more.
+void lookForSaving(rung_instance& instance) noexcept;
+void cutPower(rung_instance& instance) noexcept;
 
 // What surroundings do of their own between two calls of the host may send messages: they are taken.
 void takeMessages(rung_instance& instance) noexcept;

@@ -13,11 +13,11 @@ using namespace rung::runtime;
 
 namespace {
 
-host::VcdName describe(rung_instance& instance, rung_cell cell) {
-  const LocatedCell& located = *instance.cells->at(cell);
+host::VcdName describe(rung_instance& instance, const Generation& program, rung_cell cell) {
+  const LocatedCell& located = *program.cells.at(cell);
   const bool inMemory = located.state == CellState::Good && located.ref.kind != host::RefKind::Constant;
-  host::VcdName name{.name = instance.names.nameOf(cell)};
-  name.scope = inMemory ? instance.cells->program().spaces[located.ref.space].name : "constants";
+  host::VcdName name{.name = instance.generations.names.nameOf(cell)};
+  name.scope = inMemory ? program.program().spaces[located.ref.space].name : "constants";
   if (located.type == RUNG_TYPE_F64) name.kind = host::VcdKind::Real;
   name.width = inMemory ? located.ref.width : 64;
   return name;
@@ -27,15 +27,16 @@ host::VcdName describe(rung_instance& instance, rung_cell cell) {
 
 struct rung_trace {
   rung_trace(rung_watch& of, const char* path) : watch(of), out(path, std::ios::binary), vcd(out) {
-    for (const rung_cell cell : watch.cells) names.push_back(describe(watch.instance, cell));
+    const std::shared_ptr<const Generation> program = watch.instance.generations.running();
+    for (const rung_cell cell : watch.cells) names.push_back(describe(watch.instance, *program, cell));
     values.resize(names.size());
     shown.resize(names.size());
-    vcd.begin(watch.instance.cells->program().name, names);
+    vcd.begin(program->program().name, names);
   }
 
   bool writeNext() {
     rung_sample sample{};
-    if (!watch.next(values.data(), sample)) return false;
+    if (watch.next(values.data(), sample) != RUNG_OK) return false;
     if (sample.lost != lost) vcd.comment(std::to_string(sample.lost - lost) + " passes are missing here");
     lost = sample.lost;
     for (size_t i = 0; i < values.size(); ++i) {

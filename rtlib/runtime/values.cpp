@@ -4,6 +4,7 @@
 #include "rtlib/host/overwritten.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/runtime/error.h"
+#include "rtlib/runtime/replacing.h"
 #include "rtlib/runtime/structs.h"
 
 namespace rung::runtime {
@@ -22,8 +23,10 @@ int32_t failState(CellState state) noexcept {
   case CellState::Overwritten:
     return fail(RUNG_OVERWRITTEN,
                 "the program that runs now would never see the value: another place is copied over it");
+  case CellState::Controls: return fail(RUNG_OVERWRITTEN, "the control itself writes this cell: it can be read");
   case CellState::Retyped: return fail(RUNG_WRONG_TYPE, "the cell has another type in the program that runs now");
   case CellState::Constant: return fail(RUNG_WRONG_TYPE, "the cell is a constant in the program that runs now");
+  case CellState::Released:
   case CellState::Good: break;
   }
   return RUNG_OK;
@@ -33,6 +36,7 @@ int32_t failState(CellState state) noexcept {
 int32_t failName(const rung_instance& instance, const rung_program& program, const char* name, CellState state) {
   if (state == CellState::Retyped) return fail(RUNG_WRONG_TYPE, "%s has no room for a real", name);
   if (state == CellState::Constant) return fail(RUNG_WRONG_TYPE, "%s is a constant: it cannot be written", name);
+  if (state == CellState::Controls) return fail(RUNG_OVERWRITTEN, "the control itself writes %s: it can be read", name);
   if (state != CellState::Overwritten) return runtime::failName(program, name);
   const std::optional<host::Ref> place = instance.around->writePlace(program, name);
   const std::optional<host::Ref> source = place ? host::Overwritten(program).source(*place) : std::nullopt;
@@ -40,12 +44,17 @@ int32_t failName(const rung_instance& instance, const rung_program& program, con
               source ? nc::describe(program, *source).c_str() : "another place");
 }
 
+int32_t checkAccess(int32_t access) noexcept {
+  if (access >= 0 && access <= (RUNG_WRITE | RUNG_REAL)) return RUNG_OK;
+  return fail(RUNG_BAD_ARGUMENT, "a cell is found for RUNG_READ or RUNG_WRITE, and RUNG_REAL, not %d", access);
+}
+
 int32_t failCell(rung_cell cell) noexcept { return fail(RUNG_BAD_ARGUMENT, "%u is not a cell of this instance", cell); }
 
 // The cell as it can be used now; null: `status` says what is wrong.
 const LocatedCell* usable(const rung_instance& instance, rung_cell cell, bool writes, int32_t& status) noexcept {
-  const LocatedCell* found = instance.cells->at(cell);
-  if (found == nullptr)
+  const LocatedCell* found = instance.now().cells.at(cell);
+  if (found == nullptr || found->state == CellState::Released)
     status = failCell(cell);
   else if (found->state != CellState::Good)
     status = failState(found->state);
@@ -94,7 +103,7 @@ const LocatedCell* elementsOf(const rung_instance& instance, rung_cell cell, boo
 int32_t findCell(rung_instance& instance, const rung_program& program, const char* name, int32_t access,
                  rung_cell& cell) {
   CellState state = CellState::Good;
-  if (!instance.names.find(*instance.around, program, {name, access}, state, cell))
+  if (!instance.generations.names.find(*instance.around, program, {name, access}, state, cell))
     return fail(RUNG_OUT_OF_MEMORY, "an instance has no more than %u cells", CellTable::kMostCells);
   return state == CellState::Good ? int32_t{RUNG_OK} : failName(instance, program, name, state);
 }
@@ -110,32 +119,64 @@ int32_t rung_instance_find(rung_instance* instance, const char* name, int32_t ac
   if (isInCallback(*handle)) return failCallback();
   if (name == nullptr || cell == nullptr)
     return fail(RUNG_BAD_ARGUMENT, "the name or the pointer that receives the cell is null");
-  if (access < 0 || access > (RUNG_WRITE | RUNG_REAL))
-    return fail(RUNG_BAD_ARGUMENT, "a cell is found for RUNG_READ or RUNG_WRITE, and RUNG_REAL, not %d", access);
+  if (const int32_t status = checkAccess(access); status != RUNG_OK) return status;
   return contained([&] {
-    const std::shared_ptr<const Image> image = runningImage(*handle);
-    return image == nullptr ? failRunningImage() : findCell(*handle, image->program, name, access, *cell);
+    const std::shared_ptr<const Generation> running = handle->generations.running();
+    return findCell(*handle, running->program(), name, access, *cell);
   });
+}
+
+namespace {
+
+rung_cell_info infoOf(const rung_program& program, const LocatedCell& cell) {
+  rung_cell_info out{.type = cell.type,
+                     .count = cell.ref.count,
+                     .access = cell.writes ? uint32_t{RUNG_WRITE} : uint32_t{RUNG_READ},
+                     .space = cell.ref.space,
+                     .byte = cell.ref.byte,
+                     .bit = cell.ref.bit};
+  if (cell.ref.kind != host::RefKind::Constant) putText(out.address, nc::cellAddress(program, cell.ref));
+  return out;
+}
+
+} // namespace
+
+int32_t rung_instance_describe(const rung_instance* instance, const rung_replacement* replacement, const char* name,
+                               int32_t access, rung_cell_info* info, int64_t* value) {
+  rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
+  if (name == nullptr || value == nullptr)
+    return fail(RUNG_BAD_ARGUMENT, "the name or the pointer that receives the value is null");
+  if (const int32_t status = checkAccess(access); status != RUNG_OK) return status;
+  return contained([&] {
+    std::shared_ptr<Generation> in;
+    if (replacement == nullptr)
+      in = handle->generations.running();
+    else if (const int32_t status = nextOf(*handle, replacement, in); status != RUNG_OK)
+      return status;
+    const LocatedCell found = locateCell(*handle->around, in->program(), {name, access});
+    if (found.state != CellState::Good) return failName(*handle, in->program(), name, found.state);
+    *value = found.ref.kind == host::RefKind::Constant ? static_cast<int64_t>(found.ref.constant) : 0;
+    return giveStruct(info, infoOf(in->program(), found));
+  });
+}
+
+int32_t rung_instance_release(rung_instance* instance, rung_cell cell) {
+  rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
+  return contained([&] { return handle->generations.names.release(cell) ? int32_t{RUNG_OK} : failCell(cell); });
 }
 
 int32_t rung_instance_cell(const rung_instance* instance, rung_cell cell, rung_cell_info* info) {
   rung_instance* handle = instanceOf(instance);
   if (handle == nullptr) return failHandle("an instance");
   return contained([&] {
-    const std::shared_ptr<const Image> image = runningImage(*handle);
-    if (image == nullptr) return failRunningImage();
-    const std::optional<LocatedCell> found = handle->names.locate(*handle->around, image->program, cell);
+    const std::shared_ptr<const Generation> running = handle->generations.running();
+    const std::optional<LocatedCell> found =
+        handle->generations.names.locate(*handle->around, running->program(), cell);
     if (!found) return failCell(cell);
     if (found->state != CellState::Good) return failState(found->state);
-    const bool constant = found->ref.kind == host::RefKind::Constant;
-    rung_cell_info out{.type = found->type,
-                       .count = found->ref.count,
-                       .access = found->writes ? uint32_t{RUNG_WRITE} : uint32_t{RUNG_READ},
-                       .space = found->ref.space,
-                       .byte = found->ref.byte,
-                       .bit = found->ref.bit};
-    if (!constant) putText(out.address, nc::cellAddress(image->program, found->ref));
-    return giveStruct(info, out);
+    return giveStruct(info, infoOf(running->program(), *found));
   });
 }
 
@@ -191,7 +232,7 @@ int32_t rung_instance_write_all(rung_instance* instance, const rung_cell* cells,
   for (uint32_t i = 0; i < count; ++i)
     if (numberCell(*call, cells[i], true, status) == nullptr) return status;
   const rt::Memory memory = call->running.memory();
-  for (uint32_t i = 0; i < count; ++i) writeAt(memory, call->cells->at(cells[i])->place, values[i]);
+  for (uint32_t i = 0; i < count; ++i) writeAt(memory, call->now().cells.at(cells[i])->place, values[i]);
   call->running.hold();
   return RUNG_OK;
 }

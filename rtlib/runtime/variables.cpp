@@ -103,7 +103,7 @@ void setReal(const BoundVariable& v, double value) noexcept {
 void readInputs(rung_instance& instance) noexcept {
   const rt::Memory memory = instance.running.memory();
   for (const BoundVariable& v : instance.inputs) {
-    const LocatedCell& cell = *instance.cells->at(v.cell);
+    const LocatedCell& cell = *instance.now().cells.at(v.cell);
     if (cell.state != CellState::Good) continue;
     if (isReal(v.type))
       memory.writeReal(cell.place, realOf(v));
@@ -119,7 +119,7 @@ void readInputs(rung_instance& instance) noexcept {
 void writeOutputs(rung_instance& instance) noexcept {
   const rt::Memory memory = instance.running.memory();
   for (const BoundVariable& v : instance.outputs) {
-    const LocatedCell& cell = *instance.cells->at(v.cell);
+    const LocatedCell& cell = *instance.now().cells.at(v.cell);
     if (cell.state == CellState::Gone || cell.state == CellState::Retyped) {
       setInteger(v, 0);
       continue;
@@ -139,7 +139,7 @@ void writeOutputs(rung_instance& instance) noexcept {
 
 void clearOutputs(rung_instance& instance) noexcept {
   for (const BoundVariable& v : instance.outputs) setInteger(v, 0);
-  instance.blockPlan->clear();
+  instance.now().blockPlan.clear();
 }
 
 namespace {
@@ -175,7 +175,7 @@ uint32_t widthOf(rung_host_type type) noexcept { return kWidths[type]; }
 
 int32_t findVariable(rung_instance& instance, const rung_variable& variable, bool input, rung_cell& cell) {
   if (const int32_t status = findPlace(instance, variable, input, cell); status != RUNG_OK) return status;
-  if (instance.cells->at(cell)->type != RUNG_TYPE_TEXT) return RUNG_OK;
+  if (instance.now().cells.at(cell)->type != RUNG_TYPE_TEXT) return RUNG_OK;
   return fail(RUNG_WRONG_TYPE, "%s is a text: no variable can be bound to it", variable.name);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "rtlib/runtime/error.h"
 #include "rtlib/runtime/instance.h"
 #include "rtlib/runtime/structs.h"
 #include "rtlib/runtime/values.h"
@@ -15,7 +16,7 @@ rung_value valueOfWord(uint64_t word) noexcept { return std::bit_cast<rung_value
 
 // 0 where the program no longer has the cell.
 uint64_t wordOf(const rung_instance& instance, const rt::Memory& memory, rung_cell number) noexcept {
-  const LocatedCell& cell = *instance.cells->at(number);
+  const LocatedCell& cell = *instance.now().cells.at(number);
   return cell.state == CellState::Good ? std::bit_cast<uint64_t>(firstValue(memory, cell)) : 0;
 }
 
@@ -46,12 +47,13 @@ void Watches::remove(rung_watch& watch) {
   sampling_.wait();
 }
 
-void Watches::sampleAll(const rung_instance& instance) noexcept {
-  const SampleHead head{instance.running.generation(), instance.passes,
+void Watches::sampleEach(const rung_instance& instance, bool onlyNew) noexcept {
+  const uint64_t broken = instance.running.faulted() ? 1 : 0; // the pass that the fault has ended
+  const SampleHead head{instance.running.generation(), instance.passes + broken,
                         static_cast<uint64_t>(instance.running.nowUs())};
   sampling_.enter();
   for (const std::atomic<rung_watch*>& place : watches_)
-    if (rung_watch* watch = place.load(); watch != nullptr) watch->take(instance, head);
+    if (rung_watch* watch = place.load(); watch != nullptr && (!onlyNew || watch->isNew())) watch->take(instance, head);
   sampling_.leave();
 }
 
@@ -61,9 +63,14 @@ using namespace rung::runtime;
 
 rung_watch::rung_watch(rung_instance& of, std::vector<rung_cell> watched, uint32_t depth)
     : instance(of), cells(std::move(watched)), scratch_(words()), newest_(words()), depth_(depth),
-      ring_(depth * words()) {}
+      ring_(depth * words()) {
+  for (const rung_cell cell : cells) instance.generations.names.hold(cell);
+}
 
-rung_watch::~rung_watch() { instance.watches.remove(*this); }
+rung_watch::~rung_watch() {
+  instance.watches.remove(*this);
+  for (const rung_cell cell : cells) instance.generations.names.release(cell);
+}
 
 void rung_watch::take(const rung_instance& from, const SampleHead& head) noexcept {
   scratch_[0] = head.generation;
@@ -72,12 +79,7 @@ void rung_watch::take(const rung_instance& from, const SampleHead& head) noexcep
   const rung::rt::Memory memory = from.running.memory();
   for (size_t i = 0; i < cells.size(); ++i) scratch_[kHeadWords + i] = wordOf(from, memory, cells[i]);
 
-  const uint32_t sequence = sequence_.load(std::memory_order_relaxed);
-  sequence_.store(sequence + 1, std::memory_order_relaxed);
-  std::atomic_thread_fence(std::memory_order_release);
-  for (size_t i = 0; i < words(); ++i) newest_[i].store(scratch_[i], std::memory_order_relaxed);
-  sequence_.store(sequence + 2, std::memory_order_release);
-
+  newest_.publish(scratch_);
   if (depth_ == 0) return;
   const uint64_t written = written_.load(std::memory_order_relaxed);
   if (written - taken_.load(std::memory_order_acquire) == depth_) {
@@ -88,33 +90,31 @@ void rung_watch::take(const rung_instance& from, const SampleHead& head) noexcep
   written_.store(written + 1, std::memory_order_release);
 }
 
-// Again while the scan thread writes: a pass takes longer than reading does.
-bool rung_watch::newest(rung_value* values, rung_sample& sample) const noexcept {
-  for (;;) {
-    const uint32_t before = sequence_.load(std::memory_order_acquire);
-    if (before == 0) return false;
-    if (before % 2 != 0) continue;
-    uint64_t head[kHeadWords];
-    for (size_t i = 0; i < kHeadWords; ++i) head[i] = newest_[i].load(std::memory_order_relaxed);
-    for (size_t i = 0; i < cells.size(); ++i)
-      values[i] = valueOfWord(newest_[kHeadWords + i].load(std::memory_order_relaxed));
-    std::atomic_thread_fence(std::memory_order_acquire);
-    if (sequence_.load(std::memory_order_relaxed) != before) continue;
-    show(head, sample);
-    sample.lost = lost_.load(std::memory_order_relaxed);
-    return true;
-  }
+int32_t rung_watch::newest(rung_value* values, rung_sample& sample) const noexcept {
+  uint64_t head[kHeadWords];
+  const rung::host::Looked looked = newest_.read([&](size_t i, uint64_t word) {
+    if (i < kHeadWords)
+      head[i] = word;
+    else
+      values[i - kHeadWords] = valueOfWord(word);
+  });
+  if (looked == rung::host::Looked::Empty) return RUNG_EMPTY;
+  if (looked == rung::host::Looked::Interrupted)
+    return fail(RUNG_LATER, "the thread was interrupted again and again while it read; try again");
+  show(head, sample);
+  sample.lost = lost_.load(std::memory_order_relaxed);
+  return RUNG_OK;
 }
 
-bool rung_watch::next(rung_value* values, rung_sample& sample) noexcept {
+int32_t rung_watch::next(rung_value* values, rung_sample& sample) noexcept {
   const uint64_t taken = taken_.load(std::memory_order_relaxed);
-  if (written_.load(std::memory_order_acquire) == taken) return false;
+  if (written_.load(std::memory_order_acquire) == taken) return RUNG_EMPTY;
   const uint64_t* words = ring_.data() + taken % depth_ * this->words();
   show(words, sample);
   for (size_t i = 0; i < cells.size(); ++i) values[i] = valueOfWord(words[kHeadWords + i]);
   sample.lost = lost_.load(std::memory_order_relaxed);
   taken_.store(taken + 1, std::memory_order_release);
-  return true;
+  return RUNG_OK;
 }
 
 namespace {
@@ -130,7 +130,8 @@ int32_t giveSample(const rung_watch* handle, rung_value* values, rung_sample* sa
   if (values == nullptr || sample == nullptr || !hasSize(sample))
     return fail(RUNG_BAD_ARGUMENT, "a sample needs a place for its values, and the size of its struct");
   rung_sample out{};
-  return take(*watch, out) ? giveStruct(sample, out) : int32_t{RUNG_EMPTY};
+  const int32_t status = take(*watch, out);
+  return status == RUNG_OK ? giveStruct(sample, out) : status;
 }
 
 } // namespace
@@ -143,7 +144,7 @@ int32_t rung_watch_new(rung_instance* instance, const rung_cell* cells, uint32_t
     return fail(RUNG_BAD_ARGUMENT, "a watch needs a cell at least, and a place for itself");
   if (depth > kDeepest) return fail(RUNG_BAD_ARGUMENT, "a watch keeps at most %u passes, not %u", kDeepest, depth);
   for (uint32_t i = 0; i < count; ++i) {
-    const std::optional<rung_type> type = handle->names.typeOf(cells[i]);
+    const std::optional<rung_type> type = handle->generations.names.typeOf(cells[i]);
     if (!type) return fail(RUNG_BAD_ARGUMENT, "%u is not a cell of this instance", cells[i]);
     if (*type == RUNG_TYPE_TEXT) return fail(RUNG_WRONG_TYPE, "cell %u is a text: texts cannot be watched", cells[i]);
   }

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "rtlib/host/latest.h"
 #include "rtlib/runtime/handles.h"
 #include "rtlib/runtime/scan_use.h"
 
@@ -27,11 +28,15 @@ public:
 
   // Scan thread, at the end of a pass.
   void sample(const rung_instance& instance) noexcept {
-    if (count_.load(std::memory_order_relaxed) != 0) sampleAll(instance);
+    if (count_.load(std::memory_order_relaxed) != 0) sampleEach(instance, false);
+  }
+  // Those that have no sample yet.
+  void sampleNew(const rung_instance& instance) noexcept {
+    if (count_.load(std::memory_order_relaxed) != 0) sampleEach(instance, true);
   }
 
 private:
-  void sampleAll(const rung_instance& instance) noexcept;
+  void sampleEach(const rung_instance& instance, bool onlyNew) noexcept;
 
   std::mutex changes_;
   std::atomic<uint32_t> count_{0};
@@ -47,11 +52,12 @@ struct rung_watch {
 
   // Scan thread.
   void take(const rung_instance& from, const rung::runtime::SampleHead& head) noexcept;
-  // Any thread; false: no sample yet, or none that waits.
-  bool newest(rung_value* values, rung_sample& sample) const noexcept;
-  bool next(rung_value* values, rung_sample& sample) noexcept;
+  // Any thread. RUNG_EMPTY: no sample yet, or none that waits; RUNG_LATER: interrupted again and again.
+  int32_t newest(rung_value* values, rung_sample& sample) const noexcept;
+  int32_t next(rung_value* values, rung_sample& sample) noexcept;
 
   bool keepsPasses() const noexcept { return depth_ != 0; }
+  bool isNew() const noexcept { return newest_.empty(); }
 
   uint32_t mark = rung::runtime::kWatchMark;
   rung_instance& instance;
@@ -62,9 +68,7 @@ private:
   size_t words() const noexcept { return kHeadWords + cells.size(); }
 
   std::vector<uint64_t> scratch_; // the scan thread's: head and values of this pass
-  // The newest sample. Odd while it is written.
-  std::atomic<uint32_t> sequence_{0};
-  std::vector<std::atomic<uint64_t>> newest_;
+  rung::host::Latest newest_;
   // Samples that wait, of one writer and one reader.
   uint32_t depth_;
   std::vector<uint64_t> ring_;

@@ -60,7 +60,7 @@ def values_source():
     lines = [f'#include "{header}"' for header in HEADERS]
     lines += [f"enum {name} enum_{name};" for name in enumerations]
     lines += ["enum constants {", *[f"  value_of_{name} = {name}," for name in constants], "} constants;"]
-    return "\n".join([*lines, "const rung_program rung_program_v1;"]) + "\n"
+    return "\n".join([*lines, "const rung_program rung_program_table;"]) + "\n"
 
 
 def link(name, source, folder, script=None):

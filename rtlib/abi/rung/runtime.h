@@ -52,8 +52,9 @@ enum rung_status {
   RUNG_WRONG_STATE = -4,  /* not before the power-on, not in a callback, not a second time, ... */
   RUNG_NOT_FOUND = -5,    /* no such name, or the program that runs now does not have it any more */
   RUNG_WRONG_TYPE = -6,   /* a text for a number, a cell found for reading that is written, ... */
-  RUNG_OVERWRITTEN = -7,  /* the program would never see the value: another place is copied over the cell */
-  RUNG_REFUSED = -8,      /* the file is damaged, may not be trusted, or is not a program of this version */
+  RUNG_OVERWRITTEN = -7, /* the program would never see the value: another place is copied over the cell, or the control
+                            itself writes it */
+  RUNG_REFUSED = -8,     /* the file is damaged, may not be trusted, or is not a program of this version */
   RUNG_OUT_OF_MEMORY = -9,
   RUNG_FAILED = -10, /* the system: a file that cannot be written, a thread that cannot be started */
 };
@@ -119,7 +120,7 @@ enum rung_answer {
 typedef struct rung_request {
   uint32_t size;
   uint32_t ticket;
-  const char* service; /* as rung_program::services has it: name, arguments, results; valid as long as the image */
+  const char* service; /* as rung_program::services has it: name, arguments, results; valid as long as the instance */
   uint32_t arg_count;
   uint32_t reserved;
   int64_t args[RUNG_MAX_SERVICE_ARGS];
@@ -157,6 +158,11 @@ typedef struct rung_instance_options {
   /* A fault has stopped the program, within a scan or the power-on: what its dialect clears is 0, and so are the bound
    * variables that the program writes. */
   void (*fault)(void* user, rung_instance* instance);
+  /* Of rung_instance_run_due. How many passes run in one call where time was lost; 0: one, the pass that is due. */
+  uint32_t catch_up;
+  /* After so many passes in a row that begin where others were left out the machine is too slow for the program: the
+   * fault "overrun". 0: 500; RUNG_NONE: never. */
+  uint32_t most_overruns;
 } rung_instance_options;
 
 /* One program that runs, not switched on yet. `options` may be null. RUNG_OUT_OF_MEMORY. */
@@ -197,8 +203,8 @@ RUNG_API int32_t rung_instance_start(rung_instance* instance);
 /* ---- running --------------------------------------------------------------------------------------------------- */
 
 /* The clock of the host has advanced by `elapsed_ns` (0 to one hour): what is due of the schedule runs now, slice by
- * slice. What is late is caught up, up to ten passes; of more, whole passes are left out, and timers stay right.
- * RUNG_FAULTED. [rt] */
+ * slice. Where passes are late, `catch_up` of rung_instance_options run; the others are left out, and timers stay
+ * right. RUNG_FAULTED. [rt] */
 RUNG_API int32_t rung_instance_run_due(rung_instance* instance, int64_t elapsed_ns);
 
 /* The same for a host that runs the fast task (INT0, Level 1, MODULE_FAST) in a place of its own: a slice that is due
@@ -214,6 +220,10 @@ RUNG_API int32_t rung_instance_slice(rung_instance* instance);
 RUNG_API int32_t rung_instance_scan(rung_instance* instance);
 RUNG_API int32_t rung_instance_slot(rung_instance* instance);
 RUNG_API int32_t rung_instance_fast(rung_instance* instance);
+
+/* Watches that have no sample yet get one of this moment: for hosts that do not run a program which a fault has
+ * stopped. [rt] */
+RUNG_API int32_t rung_instance_sample(rung_instance* instance);
 
 /* How long a slice of the program may run before that counts as a fault, in nanoseconds, also where a call runs several
  * slices; 0: the budgets of its tasks alone count. [rt] */
@@ -247,13 +257,27 @@ typedef struct rung_state {
   uint32_t lost_messages;    /* nobody took them in time */
   uint32_t refused_requests; /* of services: too many were unanswered */
   uint32_t stray_replies;    /* to tickets that nothing waited for */
-  uint32_t reserved;
-  uint64_t saves;        /* images of retained memory that were written */
-  uint64_t failed_saves; /* tries that went wrong */
+  uint32_t program;          /* the number of the one that runs (rung_instance_program) */
+  uint64_t saves;            /* images of retained memory that were written */
+  uint64_t failed_saves;     /* tries that went wrong */
 } rung_state;
 
 /* [rt] */
 RUNG_API int32_t rung_instance_state(const rung_instance* instance, rung_state* state);
+
+/* An instance has one program, and for each replacement another. Each has a number, from 1: that of rung_instance_new,
+ * and on in the order in which replacements were made. */
+typedef struct rung_program_info {
+  uint32_t size;
+  uint32_t number;  /* of the program that runs */
+  uint32_t faulted; /* of another one that a fault has stopped, until the next power-on; 0: there is none */
+  uint32_t reserved;
+  char name[128]; /* of both, cut off where they are longer; "" where there is none */
+  char faulted_name[128];
+} rung_program_info;
+
+/* Who runs at this moment. [any] */
+RUNG_API int32_t rung_instance_program(const rung_instance* instance, rung_program_info* program);
 
 typedef struct rung_fault_info {
   uint32_t size;
@@ -271,8 +295,8 @@ RUNG_API int32_t rung_instance_fault(const rung_instance* instance, rung_fault_i
 
 /* ---- names and values ------------------------------------------------------------------------------------------ */
 
-/* A cell that was found by its name. It stays good for the life of the instance: when another program takes over, it is
- * the cell of that name there. */
+/* A cell that was found by its name. It stays good until it is released, or for the life of the instance: when another
+ * program takes over, it is the cell of that name there. An instance has room for 65536. */
 typedef uint32_t rung_cell;
 
 enum rung_access {
@@ -283,8 +307,8 @@ enum rung_access {
 
 /* Finds a cell by a name of the program, an address of the dialect or a signal of the NC's interface, with index, bit
  * or width as the dialect writes them. The same name gives the same cell. RUNG_NOT_FOUND; RUNG_OVERWRITTEN for
- * RUNG_WRITE: the sentence says where to write; RUNG_WRONG_TYPE: a constant, for RUNG_WRITE, or no room for RUNG_REAL;
- * RUNG_WRONG_STATE: another program is taking over at this moment. `access`: enum rung_access, added up. Any thread. */
+ * RUNG_WRITE: the sentence says where to write; RUNG_WRONG_TYPE: a constant, for RUNG_WRITE, or no room for RUNG_REAL.
+ * `access`: enum rung_access, added up. Any thread. */
 RUNG_API int32_t rung_instance_find(rung_instance* instance, const char* name, int32_t access, rung_cell* cell);
 
 typedef struct rung_cell_info {
@@ -301,6 +325,17 @@ typedef struct rung_cell_info {
 
 /* In the program that runs now. Errors as of rung_instance_find. Any thread. */
 RUNG_API int32_t rung_instance_cell(const rung_instance* instance, rung_cell cell, rung_cell_info* info);
+
+typedef struct rung_replacement rung_replacement; /* below */
+
+/* What a name is, without a cell for it: in the program that runs or, with a replacement, in the one that would take
+ * over with it. Errors as of rung_instance_find. `value`: of a constant. Any thread. */
+RUNG_API int32_t rung_instance_describe(const rung_instance* instance, const rung_replacement* replacement,
+                                        const char* name, int32_t access, rung_cell_info* info, int64_t* value);
+
+/* A cell that was found is not used any more; one that was found several times is released as often. Those that are
+ * bound, and those of watches, stay. Any thread. */
+RUNG_API int32_t rung_instance_release(rung_instance* instance, rung_cell cell);
 
 /* The value of an element. Cells of a real have a double; all others an integer, extended by its sign: cast it to an
  * unsigned type of the cell's width to read it without one. A bit is 0 or 1; of a value for a narrower cell the lowest
@@ -512,6 +547,11 @@ RUNG_API int32_t rung_instance_group_function(rung_instance* instance, uint32_t 
  * other. RUNG_NOT_FOUND: the dialect has no such handshake. */
 RUNG_API int32_t rung_instance_high_speed_functions(rung_instance* instance, uint32_t channel);
 
+/* Whether somebody carries out what is asked of the CNC; so it is until something else is said. While nobody does, no
+ * signal says that an axis of the program is at rest; one that was under way is an alarm of its dialect, and is stopped
+ * when somebody is there again. [rt] */
+RUNG_API int32_t rung_instance_serving(rung_instance* instance, int32_t is_served);
+
 /* ---- axes of the program --------------------------------------------------------------------------------------- */
 
 /* The program commands an axis by the signals of a group, both from 0, and the host moves it:
@@ -532,7 +572,7 @@ RUNG_API int32_t rung_instance_keep(rung_instance* instance, const char* path);
 RUNG_API int32_t rung_instance_flush(rung_instance* instance);
 
 /* Why the last try to write retained memory failed, ended by 0 and cut off where `bytes` does not hold it. RUNG_EMPTY:
- * it did not (see RUNG_STATE_UNSAVED). [rt] */
+ * it did not (see RUNG_STATE_UNSAVED). [any] */
 RUNG_API int32_t rung_instance_unsaved(const rung_instance* instance, char* text, size_t bytes);
 
 /* ---- profile ---------------------------------------------------------------------------------------------------- */
@@ -570,7 +610,7 @@ typedef struct rung_watch rung_watch;
 typedef struct rung_sample {
   uint32_t size;
   uint32_t generation; /* see rung_state */
-  uint64_t pass;       /* of the schedule, since the power-on */
+  uint64_t pass;       /* of the schedule, since the power-on, from 1; also the one that a fault has ended */
   int64_t now_us;      /* the program's clock */
   uint64_t lost;       /* passes since the power-on of the watch that rung_watch_next could not keep */
 } rung_sample;
@@ -584,7 +624,8 @@ RUNG_API int32_t rung_watch_new(rung_instance* instance, const rung_cell* cells,
 RUNG_API int32_t rung_watch_free(rung_watch* watch);
 
 /* The values of the last pass that is over, or of the moment of a fault. RUNG_EMPTY: none has ended since the watch
- * began. A cell that the program no longer has is 0. Any thread, and several at a time. [rt] */
+ * began; RUNG_LATER: the calling thread was interrupted for several passes while it read, several times. A cell that
+ * the program no longer has is 0. Any thread, and several at a time; it waits for nobody. [rt] */
 RUNG_API int32_t rung_watch_newest(const rung_watch* watch, rung_value* values, rung_sample* sample);
 
 /* The values of every pass, one after the other. RUNG_EMPTY: none waits. Any thread, one at a time. [rt] */
@@ -594,8 +635,7 @@ RUNG_API int32_t rung_watch_next(rung_watch* watch, rung_value* values, rung_sam
  * rung_watch_next. */
 typedef struct rung_trace rung_trace;
 
-/* Begins a file. RUNG_FAILED: it cannot be written; RUNG_BAD_ARGUMENT: the watch keeps no passes. Any thread, while no
- * other program takes over. */
+/* Begins a file. RUNG_FAILED: it cannot be written; RUNG_BAD_ARGUMENT: the watch keeps no passes. Any thread. */
 RUNG_API int32_t rung_trace_new(rung_watch* watch, const char* path, rung_trace** trace);
 /* Writes all passes that wait; where some were lost, a remark says so. RUNG_EMPTY: none waited; RUNG_FAILED. The thread
  * that takes the watch's passes. */
@@ -605,12 +645,11 @@ RUNG_API int32_t rung_trace_free(rung_trace* trace);
 
 /* ---- another program while it runs ------------------------------------------------------------------------------ */
 
-typedef struct rung_replacement rung_replacement;
-
 /* Prepares another program of the same dialect to take over from the one that runs, and finds out what becomes of its
- * state. `memory`: as in rung_instance_options, of the new program; null: the library's. The instance may be scanned by
- * its thread meanwhile, but must neither be given another program nor be freed. Measures what the new program costs on
- * this machine, with what its code does to memory of its own. RUNG_REFUSED: of another dialect. */
+ * state. `memory`: as in rung_instance_options, of the new program; null: the library's. Any thread: the instance may
+ * be scanned by its own meanwhile, but must not be freed; where another program takes over meanwhile, the replacement
+ * is for the former one. Measures what the new program costs on this machine, with what its code does to memory of its
+ * own. RUNG_REFUSED: of another dialect. */
 RUNG_API int32_t rung_replacement_new(rung_instance* instance, rung_image* image, void* memory, size_t memory_bytes,
                                       rung_replacement** replacement);
 /* Null is allowed. Any thread, but not while rung_instance_replace has it. */
@@ -626,8 +665,12 @@ typedef struct rung_replacement_info {
   uint64_t slice_ns;    /* that this slice may last here: its steps times the most that one was found to cost */
   uint64_t period_ns;   /* the time it has, up to the next slice; 0: the schedule takes no time */
   const char* bound;    /* these figures for people, with the dearest rung; valid as long as the replacement */
+  uint32_t program;     /* the number of the new program (rung_instance_program) */
+  uint32_t next;        /* the number of the one that takes over with the next rung_instance_replace; 0: none does, as a
+                           fault of the new program has put the former one back */
 } rung_replacement_info;
 
+/* Of what the next rung_instance_replace does. Any thread. */
 RUNG_API int32_t rung_replacement_report(const rung_replacement* replacement, rung_replacement_info* info);
 
 /* Lets the new program take over although a slice of it may last longer than its period. Any thread. */
@@ -640,6 +683,7 @@ enum rung_change_kind {
   RUNG_CHANGE_RENAMED = 3,  /* a cell that had another name; keeps its contents */
   RUNG_CHANGE_RETYPED = 4,  /* of another type now: starts with its initial contents */
   RUNG_CHANGE_RELEASED = 5, /* an output that the new program does not write: starts anew */
+  RUNG_CHANGE_CUT = 6,      /* is elsewhere now; instructions reached more of it than there is room for: that is lost */
 };
 
 typedef struct rung_change {
@@ -654,10 +698,32 @@ typedef struct rung_change {
 /* The index-th change, cells before states, each in the order of their names. RUNG_EMPTY: there are not so many. */
 RUNG_API int32_t rung_replacement_change(const rung_replacement* replacement, uint32_t index, rung_change* change);
 
+enum rung_rung_change_kind {
+  RUNG_RUNG_NEW = 0,
+  RUNG_RUNG_REMOVED = 1,
+  RUNG_RUNG_CHANGED = 2, /* keeps the state of the instructions that it still has */
+  RUNG_RUNG_MOVED = 3,   /* among others, or to another routine; keeps its state */
+};
+
+typedef struct rung_rung_change {
+  uint32_t size;
+  uint32_t kind; /* enum rung_rung_change_kind */
+  uint32_t rung; /* as drawn, in the new program; of one that was removed, in the former one. So are the next three */
+  uint32_t line;
+  const char* file; /* valid as long as the replacement; so is `title` */
+  const char* title;
+} rung_rung_change;
+
+/* The index-th rung that is not the same in both programs: in the order of the new one, then those that were removed.
+ * RUNG_EMPTY: there are not so many. Any thread. */
+RUNG_API int32_t rung_replacement_rung(const rung_replacement* replacement, uint32_t index, rung_rung_change* change);
+
 /* The program of the replacement takes over, with its state; the clock, queues and bound variables continue. The
- * replacement then holds the former program as it was, and reports the way back: given again, it puts that back. So
- * does, as long as the replacement exists, a fault of the new program: the former one then waits for the next power-on,
- * and rung_instance_fault still says what happened; where RUNG_LATER would be given, the new program stays.
+ * replacement then holds the former program, and reports the way back: given again, it puts that back, and what is
+ * reported as new begins with its initial contents. So does, as long as the replacement exists, a fault of the new
+ * program, but that leaves such cells as they were when it took over: the former program then waits for the next
+ * power-on, rung_instance_fault still says what happened, and the new one does not come again (RUNG_WRONG_STATE) unless
+ * it is prepared anew. Where RUNG_LATER would be given at a fault, the new program stays.
  * RUNG_REFUSED: a slice of the new program may last longer than its period, and the sentence has the figures (see
  * rung_replacement_allow_late). Of jumps that may go in circles each counts once: rung_instance_limit ends them in
  * time. RUNG_LATER: within a pass of the schedule, or a mechanism or a service request waits that the new program does
@@ -684,8 +750,8 @@ enum rung_shadow_state {
 #define RUNG_MOST_SHADOW_ROOM 4096u
 
 /* Prepares a shadow for `passes` passes of the schedule, with room for `room` runs of tasks that wait for
- * rung_shadow_work: its time. Each takes the instance's memory block twice. The instance may be scanned by its thread
- * meanwhile, but must neither be given another program nor be freed. RUNG_REFUSED: of another dialect or schedule. */
+ * rung_shadow_work: its time. Each takes the instance's memory block twice. Any thread: the instance may be scanned by
+ * its own meanwhile, but must not be freed. RUNG_REFUSED: of another dialect or schedule. */
 RUNG_API int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t passes, uint32_t room,
                                  rung_shadow** shadow);
 /* Ends it, too, in the thread of the instance; one that has ended (rung_instance_shadow with null) may be freed by any.
@@ -743,8 +809,8 @@ typedef struct rung_forced_cell {
 
 /* Prepares a set of forces: for the program that runs, or, with a replacement, for that of the replacement. Where
  * chunks of the program write a cell, they are compiled anew, by the compiler that made the image or serves it
- * (rung/compiler.h). The instance may be scanned by its thread meanwhile, but must neither be given another program nor
- * be freed. RUNG_NOT_FOUND; RUNG_WRONG_TYPE: a text, a constant, or no room for RUNG_REAL; RUNG_BAD_ARGUMENT: two
+ * (rung/compiler.h). Any thread: the instance may be scanned by its own meanwhile, but must not be freed.
+ * RUNG_NOT_FOUND; RUNG_WRONG_TYPE: a text, a constant, or no room for RUNG_REAL; RUNG_BAD_ARGUMENT: two
  * cells want different values in one place, or an unknown `access`; RUNG_REFUSED: the program writes a cell, and no
  * compiler serves its image; RUNG_LATER: the code is still being compiled; call again later with the same
  * cells. Those of rung/compiler.h never give that. */

@@ -41,10 +41,9 @@ Struct sized() {
 // What a name is for this access (enum rung_access, added up). Nothing: it cannot be found, and rung_error_text says
 // why.
 inline std::optional<rung_cell_info> cellInfo(rung_instance* instance, const std::string& name, int32_t access) {
-  rung_cell cell = 0;
   auto info = sized<rung_cell_info>();
-  const bool isThere = rung_instance_find(instance, name.c_str(), access, &cell) == RUNG_OK &&
-                       rung_instance_cell(instance, cell, &info) == RUNG_OK;
+  int64_t value = 0;
+  const bool isThere = rung_instance_describe(instance, nullptr, name.c_str(), access, &info, &value) == RUNG_OK;
   return isThere ? std::optional(info) : std::nullopt;
 }
 
@@ -118,6 +117,11 @@ public:
   rung_state state() const {
     auto out = sized<rung_state>();
     check(rung_instance_state(handle(), &out));
+    return out;
+  }
+  rung_program_info program() const {
+    auto out = sized<rung_program_info>();
+    check(rung_instance_program(handle(), &out));
     return out;
   }
   std::optional<rung_fault_info> fault() const {
@@ -246,6 +250,12 @@ public:
     std::vector<rung_change> all;
     auto change = sized<rung_change>();
     for (uint32_t i = 0; check(rung_replacement_change(handle(), i, &change)) == RUNG_OK; ++i) all.push_back(change);
+    return all;
+  }
+  std::vector<rung_rung_change> rungs() const {
+    std::vector<rung_rung_change> all;
+    auto change = sized<rung_rung_change>();
+    for (uint32_t i = 0; check(rung_replacement_rung(handle(), i, &change)) == RUNG_OK; ++i) all.push_back(change);
     return all;
   }
 

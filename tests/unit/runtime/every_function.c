@@ -31,8 +31,10 @@ static void instances(rung_instance* plc) {
   rung_request request = {.size = sizeof request};
   rung_reply reply = {.size = sizeof reply};
   rung_profile profile = {.size = sizeof profile};
+  rung_program_info program = {.size = sizeof program};
   rung_cell_info info = {.size = sizeof info};
   rung_cell cell = 0;
+  int64_t constant = 0;
   rung_value value = {0};
   uint32_t line = 0;
   char text[8];
@@ -47,11 +49,14 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_slot(plc));
   BAD_HANDLE(rung_instance_fast(plc));
   BAD_HANDLE(rung_instance_limit(plc, 0));
+  BAD_HANDLE(rung_instance_sample(plc));
   BAD_HANDLE(rung_instance_touch(plc, 0));
   BAD_HANDLE(rung_instance_state(plc, &state));
   BAD_HANDLE(rung_instance_fault(plc, &fault));
   BAD_HANDLE(rung_instance_find(plc, "X", RUNG_READ, &cell));
   BAD_HANDLE(rung_instance_cell(plc, cell, &info));
+  BAD_HANDLE(rung_instance_describe(plc, NULL, "X", RUNG_READ, &info, &constant));
+  BAD_HANDLE(rung_instance_release(plc, cell));
   BAD_HANDLE(rung_instance_read(plc, cell, 0, 1, &value));
   BAD_HANDLE(rung_instance_write(plc, cell, 0, 1, &value));
   BAD_HANDLE(rung_instance_read_all(plc, &cell, 1, &value));
@@ -75,6 +80,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_high_speed_functions(plc, 0));
   BAD_HANDLE(rung_instance_begin_power_off(plc));
   BAD_HANDLE(rung_instance_axis_group(plc, 0, 0));
+  BAD_HANDLE(rung_instance_serving(plc, 1));
   BAD_HANDLE(rung_instance_keep(plc, "file"));
   BAD_HANDLE(rung_instance_flush(plc));
   BAD_HANDLE(rung_instance_unsaved(plc, text, sizeof text));
@@ -82,6 +88,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_worst_rung(plc, &profile));
   BAD_HANDLE(rung_instance_clear_profile(plc));
   BAD_HANDLE(rung_instance_replace(plc, NULL));
+  BAD_HANDLE(rung_instance_program(plc, &program));
 }
 
 static void watches(rung_watch* watch) {
@@ -96,9 +103,11 @@ static void watches(rung_watch* watch) {
 static void replacements(rung_replacement* replacement) {
   rung_replacement_info report = {.size = sizeof report};
   rung_change change = {.size = sizeof change};
+  rung_rung_change rung = {.size = sizeof rung};
   BAD_HANDLE(rung_replacement_report(replacement, &report));
   BAD_HANDLE(rung_replacement_change(replacement, 0, &change));
   BAD_HANDLE(rung_replacement_allow_late(replacement));
+  BAD_HANDLE(rung_replacement_rung(replacement, 0, &rung));
 }
 
 static void shadows(rung_instance* plc, rung_image* image, rung_shadow* shadow) {

@@ -127,7 +127,9 @@ private:
     case 14: return rung_instance_fast(plc);
     case 15: return chance(50) ? rung_instance_touch(plc, time()) : rung_instance_limit(plc, chance(90) ? 0 : time());
     case 16: return withStruct<rung_state>([&](rung_state* s) { return rung_instance_state(plc, s); });
-    case 17: return withStruct<rung_fault_info>([&](rung_fault_info* s) { return rung_instance_fault(plc, s); });
+    case 17:
+      withStruct<rung_program_info>([&](rung_program_info* s) { return rung_instance_program(plc, s); });
+      return withStruct<rung_fault_info>([&](rung_fault_info* s) { return rung_instance_fault(plc, s); });
     case 18:
     case 19: return rung_instance_find(plc, name(), static_cast<int32_t>(below(3)), place(cells[0]));
     case 20: return withStruct<rung_cell_info>([&](rung_cell_info* s) { return rung_instance_cell(plc, cells[0], s); });
@@ -199,6 +201,8 @@ private:
     if (made != nullptr) replacements_.push_back(made);
     withStruct<rung_replacement_info>(
         [&](rung_replacement_info* s) { return rung_replacement_report(one(replacements_), s); });
+    withStruct<rung_rung_change>(
+        [&](rung_rung_change* s) { return rung_replacement_rung(one(replacements_), number(), s); });
     withStruct<rung_change>([&](rung_change* s) { return rung_replacement_change(one(replacements_), number(), s); });
     if (chance(20)) rung_replacement_allow_late(one(replacements_));
     if (replacements_.size() > 6) {

@@ -144,8 +144,8 @@ TEST_F(Runtime, RunsByTheClockOfItsHost) {
   EXPECT_EQ(plc.read<int>(count), 2);
   EXPECT_EQ(plc.state().passes, 2u);
   EXPECT_EQ(plc.state().now_us, 16000);
-  EXPECT_EQ(plc.runDue(240'000'000), RUNG_OK) << "ten passes are caught up";
-  EXPECT_EQ(plc.state().missed, 20u - 1u);
+  EXPECT_EQ(plc.runDue(240'000'000), RUNG_OK) << "one pass, and the time of all";
+  EXPECT_EQ(plc.state().missed, 30u - 1u);
   EXPECT_EQ(plc.state().now_us, 16000 + 240000) << "timers stay right";
   EXPECT_EQ(plc.runDue(-1), RUNG_BAD_ARGUMENT);
 }
@@ -227,6 +227,32 @@ TEST_F(Runtime, NamesAndValues) {
   const rung_cell_info info = plc.describe(plc.find("DOOR", rung::Access::Write));
   EXPECT_EQ(info.type, uint32_t{RUNG_TYPE_BIT});
   EXPECT_STREQ(info.address, "INPUT+0.3");
+}
+
+TEST_F(Runtime, CellsThatAreReleasedTakeNoRoom) {
+  rung::Instance plc = started();
+  const rung_cell count = plc.find("COUNT");
+  EXPECT_EQ(plc.find("COUNT"), count);
+  EXPECT_EQ(rung_instance_release(plc.handle(), count), RUNG_OK);
+  EXPECT_EQ(plc.read<int>(count), 0) << "it was found twice";
+  EXPECT_EQ(rung_instance_release(plc.handle(), count), RUNG_OK);
+  EXPECT_EQ(rung_instance_release(plc.handle(), count), RUNG_BAD_ARGUMENT);
+  EXPECT_EQ(statusOf([&] { plc.read<int>(count); }), RUNG_BAD_ARGUMENT);
+  EXPECT_EQ(plc.find("DOOR"), count) << "its number is free";
+  const rung_cell last = plc.find("SPEED");
+  for (int i = 0; i < 100'000; ++i) {
+    const rung_cell words = plc.find("WORDS");
+    ASSERT_EQ(words, last + 1);
+    ASSERT_EQ(rung_instance_release(plc.handle(), words), RUNG_OK);
+  }
+}
+
+TEST_F(Runtime, CellsOfOthersStay) {
+  rung::Instance plc = started();
+  const rung_cell count = plc.find("COUNT");
+  const rung::Watch watch(plc, {{count}});
+  EXPECT_EQ(rung_instance_release(plc.handle(), count), RUNG_OK);
+  EXPECT_EQ(plc.read<int>(count), 0) << "the watch has it";
 }
 
 TEST_F(Runtime, WhatALatchOverwritesIsNotWritten) {
@@ -716,6 +742,20 @@ TEST_F(Runtime, SizesOfStructs) {
   EXPECT_EQ(rung_instance_state(plc.handle(), reinterpret_cast<rung_state*>(&older)), RUNG_OK);
   EXPECT_EQ(older.flags & RUNG_STATE_ON, uint32_t{RUNG_STATE_ON});
   EXPECT_EQ(older.behind, 0x1234u) << "what the host does not know";
+}
+
+// Half of a pointer is none.
+TEST_F(Runtime, ASizeThatCutsAPointer) {
+  auto options = rung::sized<rung_instance_options>();
+  options.log = [](void*, int32_t, const char*) {};
+  constexpr size_t kLog = offsetof(rung_instance_options, log);
+  for (size_t size = kLog; size <= kLog + sizeof options.log; ++size) {
+    options.size = static_cast<uint32_t>(size);
+    rung_instance* made = nullptr;
+    const bool isWhole = size == kLog || size == kLog + sizeof options.log;
+    EXPECT_EQ(rung_instance_new(image_->handle(), &options, &made), isWhole ? RUNG_OK : RUNG_BAD_ARGUMENT) << size;
+    EXPECT_EQ(rung_instance_free(made), RUNG_OK);
+  }
 }
 
 TEST_F(Runtime, OneThreadAtATime) {

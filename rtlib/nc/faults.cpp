@@ -4,6 +4,11 @@
 namespace rung::nc {
 namespace {
 
+// The host's, of every dialect.
+constexpr Fault kOverrun = {"overrun", "Many passes in a row, 500 unless the host says otherwise, began late "
+                                       "by a pass or more. A shorter program, a longer "
+                                       "period, or a look at what takes the time of the thread away."};
+
 constexpr Fault kGsk[] = {
     {kGskDeadLoop,
      "One run of Level 1 or of a part of Level 2 does not end: a jump leads backwards and its condition "
@@ -12,14 +17,16 @@ constexpr Fault kGsk[] = {
      "around it. A loop that has to wait for the machine must be spread over several cycles: leave the program and "
      "test again "
      "in "
-     "the next one."}};
+     "the next one."},
+    kOverrun};
 
 constexpr Fault kNct[] = {
     {kNctTimeout,
      "MAIN or INT0 does not end in one run (man. l.540): a jump leads backwards and its condition never "
      "changes, or subroutines call far too much. The rung in brackets is the one where the budget of steps was used "
      "up. "
-     "Inputs are constant during a run: a loop that waits for one never ends."}};
+     "Inputs are constant during a run: a loop that waits for one never ends."},
+    kOverrun};
 
 constexpr Fault kTechnol[] = {
     {kTechnolDivision,
@@ -38,7 +45,8 @@ constexpr Fault kTechnol[] = {
      "An EDEF was executed with more and more different bits. Bits are tied once; name fixed bits in the instruction."},
     {kTechnolWatchdog,
      "A module or an event procedure does not end: a jump leads backwards and its condition never changes. "
-     "Waiting belongs in a mechanism (EX, TEX0, TIM), which continues in the next cycle."}};
+     "Waiting belongs in a mechanism (EX, TEX0, TIM), which continues in the next cycle."},
+    kOverrun};
 
 } // namespace
 

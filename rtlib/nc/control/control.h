@@ -74,6 +74,12 @@ public:
     return readPlace(program, name);
   }
 
+  // Whether the control itself writes there, again and again or once for all, so that no other's value lasts:
+  // constants, clocks. `place`: of writePlace.
+  virtual bool writesItself(const rung_program& program, const host::Ref& place) const {
+    return (void)program, (void)place, false;
+  }
+
   // What the machine's configuration says of a message, before the first power-on. False: the dialect has texts of
   // messages in the program alone.
   virtual bool define(const DefinedMessage& message) { return (void)message, false; }
@@ -115,6 +121,8 @@ public:
   // The program commands this axis by the signals of a group, from now on, and the host's CNC moves it; both count from
   // 0. False: the dialect has no such axis or group.
   virtual bool setAxisGroup(uint32_t axis, uint32_t group) { return (void)axis, (void)group, false; }
+  // Whether somebody carries out what is asked of the CNC; so it is until something else is said.
+  virtual void setServed(bool served) { (void)served; }
   // The service of requests that the control itself makes for the program, outside of its tasks: its number, which no
   // program has, and its text as rung_program::services has it.
   static constexpr uint32_t kOwnService = 0x8000'0000;

@@ -142,7 +142,7 @@ TEST(Reference, SwitchWithoutReversal) { // 11
 TEST(Reference, WithoutMotion) { // 13, 14
   ReferenceMachine simulated{{"axis.1.RefMethod", "13"}, {"axis.1.MachineNullPoint", "9"}};
   simulated.axes.setPhysical(1, 4);
-  EXPECT_EQ(simulated.run(), 1);
+  EXPECT_EQ(simulated.run(), 1); // without REFPI (l.6757)
   EXPECT_EQ(simulated.axes.measured(1), 9);
   EXPECT_EQ(simulated.axes.physical(1), 4);
   ReferenceMachine absolute{{"axis.1.RefMethod", "14"}, {"axis.1.MachineNullPoint", "9"}};
@@ -189,7 +189,7 @@ TEST(Reference, StopEndsIt) {
     else
       machine.axes.reference("single", 1);
     machine.tick(300);
-    EXPECT_EQ(machine.out.reference, !byProgram);
+    EXPECT_TRUE(machine.out.reference);
     machine.requests.stopReq = true;
     machine.tick(1);
     EXPECT_FALSE(machine.out.reference);
@@ -206,13 +206,14 @@ TEST(Reference, ProgramStartsIt) { // l.11744
   machine.requests.homingStartReq = 3;
   machine.scan();
   EXPECT_EQ(machine.out.motion, 3); // together
-  EXPECT_FALSE(machine.out.reference);
+  EXPECT_TRUE(machine.out.reference);
   machine.ticks(2000);
   EXPECT_EQ(machine.requests.homing, 1);
   EXPECT_EQ(machine.requests.homingStartReq, 2);
   machine.ticks(20'000);
   EXPECT_EQ(machine.requests.homing, 3);
   EXPECT_EQ(machine.requests.homingStartReq, 0);
+  EXPECT_FALSE(machine.out.reference);
 }
 
 TEST(Reference, ProgramSetsTheZeroPoint) { // l.6643, l.11779

@@ -30,13 +30,22 @@ void GskAskedAxes::powerOn() {
   groups_ = {};
   for (Axis& axis : axes_) axis = {.group = axis.group};
   unknown_ = given_;
+  lost_ = 0;
 }
 
-void GskAskedAxes::step(const gsk::SignalsIo& io, rt::ServiceQueue& services) {
+// Who comes back finds the axes stopped, and gets the order to leave them so.
+void GskAskedAxes::step(const gsk::SignalsIo& io, rt::ServiceQueue& services, bool served) {
   io_ = &io;
   services_ = &services;
-  stop(unknown_, false);
-  unknown_ = 0;
+  isServed_ = served;
+  if (!served) {
+    unknown_ = given_;
+    for (uint32_t i = 0; i < GskAxisGroups::kAxes; ++i)
+      if (axes_[i].ordered) lost_ = static_cast<uint8_t>(lost_ | 1u << i);
+  } else if (unknown_ != 0) {
+    stop(unknown_, false);
+    unknown_ = lost_ = 0;
+  }
   groups_.step(io, *this, served_, !io.g(8, 4));
 }
 
@@ -50,6 +59,7 @@ bool GskAskedAxes::order(uint8_t axes, const GskAxisGroups::Command& command) {
   bool asked = true;
   forAxes(axes, [&](uint32_t i) {
     axes_[i].motion = ask(i, command.code, command.data1, command.data2);
+    axes_[i].ordered = true;
     asked = asked && axes_[i].motion != 0;
   });
   return asked;
@@ -61,14 +71,19 @@ bool GskAskedAxes::begin(uint8_t axes, const GskAxisGroups::Command& command) {
   return order(axes, command);
 }
 
-GskAxisGroups::Progress GskAskedAxes::move(uint8_t axes, const GskAxisGroups::Command&) {
+GskAxisGroups::Progress GskAskedAxes::move(uint8_t axes, const GskAxisGroups::Command& command) {
   using enum GskAxisGroups::Progress;
   GskAxisGroups::Progress progress = Over;
+  const gsk::AxisCommand* known = gsk::findAxisCommand(command.code);
+  const bool endless = known != nullptr && known->buffering == gsk::AxisBuffering::Immediate;
   forAxes(axes, [&](uint32_t i) {
-    axes_[i].paused = false;
-    const uint32_t state = services_->poll(axes_[i].motion);
+    Axis& axis = axes_[i];
+    axis.paused = false;
+    const uint32_t state = services_->poll(axis.motion);
     if (state == RUNG_SERVICE_PENDING && progress == Over) progress = UnderWay;
     if (state != RUNG_SERVICE_PENDING && state != RUNG_SERVICE_DONE) progress = Failed;
+    const bool begun = endless && state == RUNG_SERVICE_DONE; // an endless motion is answered when it has begun
+    axis.ordered = axis.ordered && (state == RUNG_SERVICE_PENDING || begun);
   });
   return progress;
 }
@@ -81,7 +96,7 @@ void GskAskedAxes::pause(uint8_t axes) {
 void GskAskedAxes::stop(uint8_t axes, bool) {
   forAxes(axes, [&](uint32_t i) {
     Axis& axis = axes_[i];
-    if ((unknown_ >> i & 1) == 0 && !isPending(axis.motion)) return;
+    if ((unknown_ >> i & 1) == 0 && !axis.ordered) return;
     axis = {.group = axis.group, .stop = ask(i, gsk::kAxisStop, 0, 0)};
   });
 }
@@ -91,6 +106,8 @@ GskAxisGroups::Motion GskAskedAxes::look(uint8_t axes) const {
   forAxes(axes, [&](uint32_t i) {
     const Axis& axis = axes_[i];
     const uint32_t status = io_->fDword(gsk::axisGroups()[axis.group.value_or(0)].status);
+    motion.unknown = motion.unknown || !isServed_;
+    motion.lost = motion.lost || (lost_ >> i & 1) != 0;
     motion.stopping = motion.stopping || isPending(axis.stop);
     motion.moving = motion.moving || motion.stopping || (isPending(axis.motion) && !axis.paused);
     motion.overPositive = motion.overPositive || (status >> gsk::kEotpBit & 1) != 0;

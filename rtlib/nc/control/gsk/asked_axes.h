@@ -15,8 +15,8 @@ public:
   bool any() const { return served_ != 0; }
   // Whatever the axes do is nothing that the program has ordered.
   void powerOn();
-  // A slot, before the program.
-  void step(const gsk::SignalsIo& io, rt::ServiceQueue& services);
+  // A slot, before the program. `served`: somebody carries commands out.
+  void step(const gsk::SignalsIo& io, rt::ServiceQueue& services, bool served);
 
   std::optional<uint32_t> groupOf(uint32_t axis) const override { return axes_[axis].group; }
   bool begin(uint8_t axes, const GskAxisGroups::Command& command) override;
@@ -31,6 +31,7 @@ private:
     std::optional<uint32_t> group;
     uint32_t motion = 0, stop = 0; // tickets
     bool paused = false;
+    bool ordered = false; // and not over yet
   };
   bool order(uint8_t axes, const GskAxisGroups::Command& command);
   uint32_t ask(uint32_t axis, int64_t command, int64_t data1, int64_t data2);
@@ -38,9 +39,11 @@ private:
 
   GskAxisGroups groups_;
   std::array<Axis, GskAxisGroups::kAxes> axes_;
-  uint8_t served_ = 0;                 // groups that have an axis
-  uint8_t given_ = 0;                  // axes that have a group
-  uint8_t unknown_ = 0;                // axes that may move from before the power-on
+  uint8_t served_ = 0;  // groups that have an axis
+  uint8_t given_ = 0;   // axes that have a group
+  uint8_t unknown_ = 0; // axes that may move from before the power-on, or while nobody was there
+  uint8_t lost_ = 0;    // of these, those that the program had moved
+  bool isServed_ = true;
   const gsk::SignalsIo* io_ = nullptr; // of the slot; so is the next
   rt::ServiceQueue* services_ = nullptr;
 };

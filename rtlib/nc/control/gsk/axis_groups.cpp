@@ -11,6 +11,9 @@ using namespace gsk;
 constexpr uint32_t kSelection = 136; // EAX1-EAX8
 
 bool isAuxiliary(uint8_t code) { return code == kAxisAux1 || code == kAxisAux2 || code == kAxisAux3; }
+bool moves(const std::optional<GskAxisGroups::Command>& block) {
+  return block && !isAuxiliary(block->code) && block->code != kAxisDwell;
+}
 uint8_t strobeOf(uint8_t code) { return code == kAxisAux1 ? kEmfBit : code == kAxisAux2 ? kEmf2Bit : kEmf3Bit; }
 
 } // namespace
@@ -174,9 +177,11 @@ bool GskAxisGroups::runAuxiliary(const Step& step, const Command& command) {
 }
 
 void GskAxisGroups::writeGroup(const Step& step) {
-  const Group& group = step.group;
+  Group& group = step.group;
   const Motion motion = step.mover.look(group.axes);
-  const bool atRest = group.axes != 0 && !motion.moving;
+  const bool atRest = group.axes != 0 && !motion.moving && !motion.unknown;
+  const bool hasMotion = moves(group.executing) || moves(group.waiting) || moves(group.input);
+  group.alarm = group.alarm || motion.lost || (motion.unknown && hasMotion);    // none of them begins later by itself
   const bool alarm = group.alarm || motion.overPositive || motion.overNegative; // l.8122
   step.io.setFByte(step.place.status,
                    static_cast<uint8_t>(group.ebsy << kEbsyBit | motion.overNegative << kEotnBit |
@@ -202,7 +207,8 @@ void GskAxisGroups::writeCommon(const SignalsIo& io, const Mover& mover) {
     const bool paused = group.pausing && group.executing && !isAuxiliary(group.executing->code);
     for (uint32_t i = 0; i < kAxes; ++i) {
       const auto axis = static_cast<uint8_t>(group.axes & 1 << i);
-      if (axis != 0 && !mover.look(axis).moving && !paused)
+      const Motion motion = mover.look(axis);
+      if (axis != 0 && !motion.moving && !motion.unknown && !paused)
         distributed = static_cast<uint8_t>(distributed | axis); // l.8198
     }
   }

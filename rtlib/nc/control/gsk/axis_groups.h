@@ -26,6 +26,8 @@ public:
   struct Motion {
     bool moving = false;
     bool stopping = false; // by `stop`: nothing can begin
+    bool unknown = false;  // nobody says what the axis does: it is not at rest
+    bool lost = false;     // it was under way then
     bool overPositive = false, overNegative = false;
   };
 

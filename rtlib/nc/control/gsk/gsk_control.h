@@ -38,8 +38,9 @@ public:
   GskFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
   // Axes that no group was given for are left alone, with the signals of their groups.
   bool setAxisGroup(uint32_t axis, uint32_t group) override { return axes_.setGroup(axis, group); }
+  void setServed(bool served) override { served_ = served; }
   void beforeSlice(host::Instance& instance) override {
-    if (axes_.any() && io_) axes_.step(*io_, instance.services());
+    if (axes_.any() && io_) axes_.step(*io_, instance.services(), served_);
   }
   const char* ownService() const override { return gsk::kAxisRequest; }
   // The areas of the program that runs now; null before there is one.
@@ -56,6 +57,7 @@ private:
 
   GskFunctions functions_;
   GskAskedAxes axes_;
+  bool served_ = true;
   std::optional<gsk::SignalsIo> io_; // of the program that runs now
   uint32_t messageArea_ = RUNG_NONE;
   uint32_t messageBytes_ = 0;

@@ -100,6 +100,17 @@ std::optional<host::Ref> NctControl::writePlace(const rung_program& program, std
   return place ? std::optional(nctTimeSlicePlace(program, *place)) : std::nullopt;
 }
 
+// What a program takes for granted (man. 7.12, l.7892-7901); N_NCREADY and N_NVRAMOK a host may know better.
+bool NctControl::writesItself(const rung_program& program, const host::Ref& place) const {
+  constexpr std::string_view kOwn[] = {"N_ON", "N_OFF", "N_FIRSTCC", "N_P2MS", "N_P2T", "N_P100MS", "N_P1S", "N_P1M"};
+  const auto first = [](const host::Ref& ref) { return uint64_t{8} * ref.byte + ref.bit; };
+  return std::ranges::any_of(kOwn, [&](std::string_view name) {
+    const std::optional<host::Ref> own = writePlace(program, name);
+    return own && own->space == place.space && first(place) <= first(*own) &&
+           first(*own) < first(place) + uint64_t{place.width} * place.count;
+  });
+}
+
 size_t NctControl::describe(const rung_program& program, const rung_message& message,
                             std::span<char> out) const noexcept {
   return nct::logLine(program, message, out);

@@ -42,6 +42,8 @@ public:
     return channel < functions_.size() ? &functions_[channel] : nullptr;
   }
 
+  bool writesItself(const rung_program& program, const host::Ref& place) const override;
+
   void reportRetainedLost() override { retainedLost_ = true; }
 
 protected:

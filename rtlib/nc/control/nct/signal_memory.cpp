@@ -2,7 +2,8 @@
 #include "rtlib/nc/control/nct/signal_memory.h"
 
 #include <bit>
-#include <cstdlib>
+#include <stdexcept>
+#include <string>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/nct/signals.h"
@@ -11,7 +12,7 @@ namespace rung::nc::nct {
 
 SignalPlace::SignalPlace(std::string_view name) {
   const Signal* found = findSignal(nctSignals(), name);
-  if (found == nullptr) std::abort();
+  if (found == nullptr) throw std::logic_error("NCT has no signal " + std::string(name));
   byte_ = found->byteOffset;
   stride_ = found->strideBytes;
   count_ = found->count;
@@ -21,7 +22,7 @@ SignalPlace::SignalPlace(std::string_view name) {
 uint32_t BitSignal::masks(std::span<const BitSignal> signals) {
   uint32_t bits = 0;
   for (const BitSignal& signal : signals) {
-    if (signal.byte_ != signals.front().byte_) std::abort();
+    if (signal.byte_ != signals.front().byte_) throw std::logic_error("the signals are not in one byte");
     bits |= signal.mask();
   }
   return bits;

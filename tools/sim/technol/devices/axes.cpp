@@ -77,7 +77,7 @@ void Axes::show(AxisOutputs& out) const {
     out.position[i] = axis.measured();
     out.place(i, axis.measured());
   }
-  out.reference = reference_.ownUnderWay();
+  out.reference = reference_.underWay(existing());
   manual_.show(existing(), out);
 }
 

@@ -16,10 +16,7 @@ void forBits(AxisMask mask, size_t count, auto act) {
 
 AxisMask Reference::take(ReferenceKind kind) { return std::exchange(ordered_[static_cast<uint32_t>(kind)], {}); }
 
-void Reference::drop(Axis& axis, uint32_t index) {
-  travels_[index].end(axis, axis.attributes.accelerationRT);
-  clearBit(own_, index);
-}
+void Reference::drop(Axis& axis, uint32_t index) { travels_[index].end(axis, axis.attributes.accelerationRT); }
 
 bool Reference::begin(Axis& axis, uint32_t index, AxisRequests& requests, Complaints& complaints) {
   std::string_view reason;
@@ -45,8 +42,8 @@ void Reference::takeSingles(std::span<Axis> axes, AxisRequests& requests, Compla
     const bool byProgram = axes[i].attributes.method() == 1 || axes[i].attributes.refViaPlc != 0;
     if (byProgram)
       setBit(asked, i);
-    else if (begin(axes[i], i, requests, complaints))
-      setBit(own_, i);
+    else
+      begin(axes[i], i, requests, complaints);
   });
   if (asked == 0) return;
   requests.homingSingle = true;
@@ -92,7 +89,6 @@ void Reference::stopAll(std::span<Axis> axes, AxisRequests& requests, Stop stop)
     travels_[i].end(axes[i], stop == Stop::Emergency ? own.accelerationEmergency : own.accelerationRT);
     clearBit(requests.homingStartReq, i);
   }
-  own_ = 0;
 }
 
 void Reference::drive(std::span<Axis> axes, const AxisInputs& in, AxisRequests& requests, Stop stop,
@@ -108,8 +104,13 @@ void Reference::look(std::span<Axis> axes, AxisRequests& requests) {
     if (!travels_[i].look(axes[i])) continue;
     setBit(requests.homing, i);
     clearBit(requests.homingStartReq, i);
-    clearBit(own_, i);
   }
+}
+
+bool Reference::underWay(std::span<const Axis> axes) const {
+  for (uint32_t i = 0; i < axes.size(); ++i)
+    if (travels_[i].active() && isActualTravel(axes[i].attributes.method())) return true;
+  return false;
 }
 
 } // namespace rung::sim::technol

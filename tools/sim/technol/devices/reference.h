@@ -21,8 +21,8 @@ public:
   // A millisecond: before the axes move, and after.
   void drive(std::span<Axis> axes, const AxisInputs& in, AxisRequests& requests, Stop stop, Complaints& complaints);
   void look(std::span<Axis> axes, AxisRequests& requests);
-  // REFPI: one of the system's own references is under way.
-  bool ownUnderWay() const { return own_ != 0; }
+  // REFPI: an axis is on its way to a reference, whoever has asked for it.
+  bool underWay(std::span<const Axis> axes) const;
 
 private:
   static void setBits(AxisMask& mask, AxisMask bits) { mask = static_cast<AxisMask>(mask | bits); }
@@ -35,7 +35,6 @@ private:
 
   std::array<ReferenceTravel, kMaxAxes> travels_ = {};
   std::array<AxisMask, 6> ordered_ = {}; // by ReferenceKind
-  AxisMask own_ = 0;                     // travels that the operator has ordered, without the program
 };
 
 } // namespace rung::sim::technol

@@ -17,6 +17,8 @@ bool seenSwitch(uint32_t method, uint32_t index, const AxisInputs& in) {
 
 } // namespace
 
+bool isActualTravel(uint32_t method) { return method != kSimulated && method != kAbsolute; }
+
 void ReferenceTravel::begin(Axis& axis) {
   *this = {};
   phase_ = Phase::Seek;

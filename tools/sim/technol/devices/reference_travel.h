@@ -6,6 +6,10 @@
 
 namespace rung::sim::technol {
 
+// Of a RefMethod: the axis goes to a switch or a mark, with REFPI on (l.6757, l.11798-11887). The others set the zero
+// point without a travel.
+bool isActualTravel(uint32_t method);
+
 class ReferenceTravel {
 public:
   bool active() const { return phase_ != Phase::None; }

@@ -39,7 +39,9 @@ class Map(unittest.TestCase):
                 self.assertIn("\n[out]\n", text)
                 done = self.map(f"examples/{name}", "--check", made)
                 self.assertRegex(done.stdout, r"^\S+: \d+ pins, no mistakes\n$")
-                self.expect(done, OK, done.stdout)
+                self.assertEqual(done.returncode, OK)
+                for line in done.stderr.splitlines():
+                    self.assertIn("a number that does not fit loses its upper bits", line)
                 self.expect(self.map(f"examples/{name}", "--template"), OK, text)
 
     def test_signals_have_the_direction_of_the_nc_interface(self):
@@ -68,6 +70,35 @@ class Map(unittest.TestCase):
         done = self.map(program, "--template")
         self.assertEqual((done.returncode, done.stdout), (USAGE, ""))
         self.assertIn("a shared object does not say what its rungs use; name the sources", done.stderr)
+
+    def test_what_a_template_leaves_out(self):
+        """Constants and clocks of the control, relays that rungs write as bytes, names that rung_hal has itself."""
+        program = self.path("p.lad")
+        program.write_text("dialect nct\nsymbol reset 5100.00\nsymbol lamp 5100.01\nmodule MAIN\nrung\n|--[N_ON]--[/N_P1S]--[reset]--(lamp)\nrung\n|--{END}\n")
+        text = self.map(program, "--template").stdout
+        for name in ("N_ON", "N_P1S"):
+            self.assertNotIn(name, text)
+        self.assertIn('reset-2 = { type = "bit", name = "reset" }', text)
+        relays = self.path("p.pmc")
+        relays.write_text("dialect gsk\nFUNC END1\nLD X0.0\nFUNC MOVB\nPRM X1\nPRM R10\nLD R10.3\nOUT Y0.0\nFUNC END2\n")
+        text = self.map(relays, "--template").stdout
+        self.assertNotIn('name = "R10.3"', text.split("[out]")[0])
+
+    def test_what_is_no_input(self):
+        program = self.path("p.pmc")
+        program.write_text("dialect gsk\nsymbol RELAY R5.0\nFUNC END1\nLD X0.0\nOUT RELAY\nLD RELAY\nOUT Y0.0\nFUNC END2\n")
+        wrong = self.path("p.map")
+        wrong.write_text('[in]\nrelay = { type = "bit", name = "RELAY" }\na = { type = "bit", name = "X0.0" }\nb = { type = "u32", name = "X0" }\n'
+                         'fault = { type = "bit", name = "X3.0" }\n' + "l" * 43 + ' = { type = "bit", name = "X3.1" }\n'
+                         'number = { type = "s32", name = "D10:2" }\n')
+        done = self.map(program, "--check", wrong)
+        self.assertEqual((done.returncode, done.stdout), (WRONG, ""))
+        for text in ("4:28: in.b.name: found X0, where in.a.name writes, too, expected bits that no other pin writes",
+                     "in.relay: found RELAY, which rungs write, expected a name that none writes; move the pin to [out], or to [io]",
+                     "in.fault: found a pin that rung_hal makes for every program, expected another name; write for example fault-plc",
+                     "43 characters, expected 42 at most, what HAL takes; shorten the name",
+                     "in.number.name: type s32 has 32 bits, D10:2 has 16: a number that does not fit loses its upper bits"):
+            self.assertIn(text, done.stderr)
 
     def test_every_mistake(self):
         self.path("part.map").write_text('in.c = { type = "bit", name = "NOWHERE" }\n')

@@ -1,6 +1,7 @@
 // See template.h.
 #include "tools/map-template/template.h"
 
+#include <algorithm>
 #include <cstring>
 #include <iterator>
 #include <optional>
@@ -9,10 +10,10 @@
 #include <vector>
 
 #include "ir/support/ascii.h"
-#include "rtlib/nc/signals.h"
 #include "rtlib/text/letters.h"
 #include "rung/runtime.hpp"
-#include "rung/types.hpp"
+#include "tools/map-template/sides.h"
+#include "tools/mapping/component_pins.h"
 #include "tools/mapping/file.h"
 
 namespace rung::map_template {
@@ -21,7 +22,7 @@ using mapping::PinType;
 
 namespace {
 
-constexpr size_t kLongestPin = 38; // HAL's names have 47 characters, with the prefix
+constexpr size_t kLongestPin = mapping::kLongestPinName - std::string_view("-99").size(); // with a number, too
 
 struct Row {
   std::string pin;
@@ -60,33 +61,28 @@ std::string inToml(std::string_view text) {
   return made + '"';
 }
 
-uint64_t firstBit(const rung_cell_info& info) { return uint64_t{8} * info.byte + info.bit; }
-
 class Template {
 public:
-  Template(rung_instance* instance, const rung_program& program) : instance_(instance), program_(program) {
-    if (const nc::SignalTable* signals = nc::signalsOf(program.dialect))
-      for (const nc::Signal& signal : *signals) addSignal(signal);
-  }
+  Template(rung_instance* instance, const rung_program& program)
+      : instance_(instance), program_(program), sides_(instance, program) {}
 
   void add(const UsedName& used) {
-    const bool writable = cellInfo(instance_, used.name, RUNG_WRITE).has_value();
+    const std::optional<rung_cell_info> written = cellInfo(instance_, used.name, RUNG_WRITE); // where a pin writes
     const std::optional<rung_cell_info> found = cellInfo(instance_, used.name, RUNG_READ);
-    if (!found) return;
+    if (!found || !names_.insert(used.name).second) return;
     const rung_cell_info& info = *found;
     if (info.space == RUNG_NONE || info.type == RUNG_TYPE_TEXT || info.count != 1) return;
-    const uint32_t flags = sidesOf(info);
-    constexpr uint32_t kBoth = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT;
-    const bool input = (flags & kBoth) == RUNG_SPACE_INPUT || ((flags & kBoth) != RUNG_SPACE_OUTPUT && !used.written);
-    const bool output = (flags & kBoth) == RUNG_SPACE_OUTPUT || (!input && !used.read);
-    if (input && !writable) return;
-    Row row{uniquePin(used.name), pinTypeOf(info.type), used.name, commentOf(used.name)};
+    const uint32_t sides = sides_.of(info);
+    const bool input = sides == RUNG_SPACE_INPUT || (sides != RUNG_SPACE_OUTPUT && !used.written);
+    const bool output = sides == RUNG_SPACE_OUTPUT || (!input && !used.read);
+    if (input && !written) return;
+    const Row row{uniquePin(used.name), pinTypeOf(info.type), used.name, commentOf(used.name)};
     if (input)
-      inputs_.push_back(std::move(row));
+      addInput(row, bitsOf(*written));
     else if (output)
-      outputs_.push_back(std::move(row));
-    else if ((flags & RUNG_SPACE_OUTPUT) != 0)
-      others_.push_back(std::move(row));
+      outputs_.push_back(row);
+    else if ((sides & RUNG_SPACE_OUTPUT) != 0)
+      others_.push_back(row);
   }
 
   std::string text() const {
@@ -96,42 +92,25 @@ public:
         "# Remove what the machine does not connect, and give the pins names of your own. Signals that a\n"
         "# [[send]] table drives are for it alone.\n\n";
     text += table("in", inputs_, "");
+    if (!parts_.empty()) text += "# Pins above bring these, or parts of them:\n" + rows(parts_, "# ") + '\n';
     text += table("out", outputs_, "");
     if (!others_.empty()) text += "# Rungs write these, and read them, too:\n" + rows(others_, "# ") + '\n';
     return text + functions();
   }
 
 private:
-  // Bits of a space that the table of the NC's signals has.
-  struct SignalPlace {
-    uint32_t space;
-    uint64_t first;
-    uint64_t end;
-    uint32_t side; // enum rung_space_flags
-  };
-
-  void addSignal(const nc::Signal& signal) {
-    if (signal.direction == nc::Direction::InOut) return;
-    const std::optional<rung_cell_info> found = cellInfo(instance_, signal.symbol, RUNG_READ);
-    if (!found) return;
-    const rung_cell_info& info = *found;
-    const uint64_t first = firstBit(info);
-    signals_.push_back({info.space, first, first + uint64_t{elementBits(info.type)} * info.count,
-                        signal.direction == nc::Direction::In ? RUNG_SPACE_INPUT : RUNG_SPACE_OUTPUT});
-  }
-
-  // Whose the cell is: a signal's direction says more than the memory that it lies in.
-  uint32_t sidesOf(const rung_cell_info& info) const {
-    const uint64_t first = firstBit(info);
-    for (const SignalPlace& place : signals_)
-      if (place.space == info.space && place.first <= first && first < place.end) return place.side;
-    return program_.spaces[info.space].flags;
+  // Each bit is one pin's.
+  void addInput(const Row& row, const Bits& bits) {
+    const bool isTaken = std::ranges::any_of(taken_, [&](const Bits& other) { return other.meets(bits); });
+    (isTaken ? parts_ : inputs_).push_back(row);
+    if (!isTaken) taken_.push_back(bits);
   }
 
   std::string uniquePin(const std::string& name) {
     const std::string base = pinNameOf(name);
     std::string pin = base;
-    for (int number = 2; !pins_.insert(pin).second; ++number) pin = base + "-" + std::to_string(number);
+    for (int number = 2; mapping::isOwnPin(pin) || !pins_.insert(pin).second; ++number)
+      pin = base + "-" + std::to_string(number);
     return pin;
   }
 
@@ -170,9 +149,10 @@ private:
 
   rung_instance* instance_;
   const rung_program& program_;
-  std::set<std::string> pins_;
-  std::vector<SignalPlace> signals_;
-  std::vector<Row> inputs_, outputs_, others_;
+  Sides sides_;
+  std::set<std::string> names_, pins_;
+  std::vector<Bits> taken_; // by inputs
+  std::vector<Row> inputs_, parts_, outputs_, others_;
 };
 
 } // namespace

@@ -11,7 +11,7 @@ namespace rung::map_template {
 struct UsedName {
   std::string name;
   bool read = false;
-  bool written = false;
+  bool written = false; // it, or a part of it
 };
 
 // A mapping file without mistakes. Input is what belongs to the machine or the NC, or what no rung writes; output what

@@ -1,11 +1,13 @@
 // Look-up and checks of the names in a mapping file.
 #include "tools/mapping/binding.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
 #include <ranges>
 #include <span>
+#include <utility>
 
 #include "ir/support/similar.h"
 #include "rtlib/text/number.h"
@@ -16,6 +18,8 @@ namespace rung::mapping {
 namespace {
 
 constexpr std::string_view kPositions = "NC.MPOS.";
+constexpr uint64_t kRealBits = 64;
+constexpr uint32_t kIntegerBits = 32;     // of pins
 constexpr uint32_t kMostSuggestions = 10; // each takes a time in proportion to the symbols of the program
 
 enum class Use : uint8_t { Input, Output, Constant }; // HAL writes the first and the last
@@ -48,6 +52,8 @@ struct Place {
   uint32_t type = RUNG_TYPE_BIT; // enum rung_type
   uint32_t space = RUNG_NONE;    // RUNG_NONE: a constant, whose value this is
   int64_t constant = 0;
+  uint64_t first = 0; // bit of the space
+  uint32_t count = 1; // of elements
 
   bool isReal() const { return type == RUNG_TYPE_F64; }
   uint32_t width() const { return elementBits(type); }
@@ -106,19 +112,64 @@ Mistake mistakeOf(Misfit misfit, const Place& place, const Entry& entry) {
 
 class Binder {
 public:
-  Binder(const File& map, rung_instance* instance, const rung_program& program, std::vector<std::string>& errors)
-      : map_(map), instance_(instance), program_(program), errors_(errors) {}
+  Binder(const File& map, rung_instance* instance, const rung_replacement* replacement, const rung_program& program,
+         std::vector<std::string>& errors)
+      : map_(map), instance_(instance), replacement_(replacement), program_(program), errors_(errors) {}
 
   Binding run() {
     Binding binding;
     for (const Link& link : map_.links) addLink(binding.links, link);
     for (const Constant& constant : map_.constants) addConstant(binding.constants, constant);
     for (const Protected& cell : map_.never) checkProtected(cell);
-    checkFunctions();
+    checkShared();
+    if (replacement_ == nullptr) checkFunctions();
+    binding.warnings = std::move(warnings_);
     return binding;
   }
 
 private:
+  // ---- who writes what
+
+  // Bits that an entry writes.
+  struct Written {
+    uint32_t space;
+    uint64_t first, end;
+    Position at;
+    std::string where, name;
+  };
+
+  void addWritten(const Entry& entry, const Place& place) {
+    if (entry.use == Use::Output) return;
+    const uint64_t bits = entry.bits != 0 ? entry.bits : inWords(entry) ? kRealBits : place.width();
+    written_.push_back({place.space, place.first, place.first + bits, entry.at, entry.where, entry.name});
+  }
+
+  void warnOfNarrow(const Entry& entry, const Place& place) {
+    const bool isInteger = entry.type == PinType::S32 || entry.type == PinType::U32;
+    if (entry.use == Use::Output || !isInteger || entry.bits != 0 || place.width() >= kIntegerBits) return;
+    warnings_.push_back(map_.message(entry.at, entry.where + ": type " + std::string(pinTypeName(entry.type)) +
+                                                   " has " + std::to_string(kIntegerBits) + " bits, " + entry.name +
+                                                   " has " + std::to_string(place.width()) +
+                                                   ": a number that does not fit loses its upper bits"));
+  }
+
+  // Each bit is one pin's: of two the one whose turn comes later would have its value there.
+  void checkShared() {
+    std::ranges::stable_sort(written_, {}, [](const Written& w) { return std::pair(w.space, w.first); });
+    const Written* reaches = nullptr; // farthest, of those before
+    for (const Written& next : written_) {
+      if (reaches != nullptr && reaches->space == next.space && next.first < reaches->end) {
+        const bool isLater = std::pair(next.at.line, next.at.column) >= std::pair(reaches->at.line, reaches->at.column);
+        const Written& later = isLater ? next : *reaches;
+        const Written& former = isLater ? *reaches : next;
+        fail(later.at, later.where,
+             {later.name + ", where " + former.where + " writes, too", "bits that no other pin writes",
+              "remove one of the two"});
+      }
+      if (reaches == nullptr || reaches->space != next.space || next.end > reaches->end) reaches = &next;
+    }
+  }
+
   // ---- functions
 
   void checkFunctions() {
@@ -198,6 +249,8 @@ private:
     entry.value = link.value.value_or(0);
     const std::optional<Place> place = find(entry);
     if (!place || (link.value && link.scale == 1 && !fits(entry, *place))) return;
+    addWritten(entry, *place);
+    warnOfNarrow(entry, *place);
     links.push_back(
         {link.pin, entry.type, pin.direction, link.name, link.scale, inWords(entry), link.bits, link.value});
   }
@@ -211,7 +264,8 @@ private:
   void addConstant(std::vector<ConstLink>& links, const Constant& constant) {
     Entry entry{"const." + constant.name, constant.name, constant.at, Use::Constant, constant.type, constant.value};
     const std::optional<Place> place = find(entry);
-    if (place && fits(entry, *place)) links.push_back({entry.type, constant.name, constant.value, inWords(entry)});
+    if (!place || !fits(entry, *place)) return;
+    links.push_back({entry.type, constant.name, constant.value, inWords(entry)});
   }
 
   void checkProtected(const Protected& cell) {
@@ -250,10 +304,8 @@ private:
   // A real number where the program has room for one.
   bool inWords(const Entry& entry) const {
     if (entry.type != PinType::Float || isPosition(entry.name)) return false;
-    rung_cell cell = 0;
-    const auto isThere = [&](int32_t access) {
-      return rung_instance_find(instance_, entry.name.c_str(), access | RUNG_REAL, &cell) == RUNG_OK;
-    };
+    Place place;
+    const auto isThere = [&](int32_t access) { return describe(entry.name, access | RUNG_REAL, place) == RUNG_OK; };
     return isThere(RUNG_WRITE) || (entry.use == Use::Output && isThere(RUNG_READ));
   }
 
@@ -290,16 +342,21 @@ private:
   // As the NC and the machine see it. Nothing: there is no such name, or `status` is RUNG_OVERWRITTEN for what HAL
   // would write.
   std::optional<Place> placeOf(const std::string& name, Use use, int32_t& status) const {
-    rung_cell cell = 0;
-    status = rung_instance_find(instance_, name.c_str(), RUNG_WRITE, &cell);
+    Place place;
+    status = describe(name, RUNG_WRITE, place);
     if (status == RUNG_WRONG_TYPE || (status == RUNG_OVERWRITTEN && use == Use::Output))
-      status = rung_instance_find(instance_, name.c_str(), RUNG_READ, &cell);
+      status = describe(name, RUNG_READ, place);
+    return status == RUNG_OK ? std::optional(place) : std::nullopt;
+  }
+
+  int32_t describe(const std::string& name, int32_t access, Place& place) const {
     rung_cell_info info{};
     info.size = sizeof info;
-    if (status != RUNG_OK || rung_instance_cell(instance_, cell, &info) != RUNG_OK) return std::nullopt;
-    rung_value value{};
-    if (info.space == RUNG_NONE) rung_instance_read(instance_, cell, 0, 1, &value);
-    return Place{info.type, info.space, value.integer};
+    int64_t constant = 0;
+    const int32_t status = rung_instance_describe(instance_, replacement_, name.c_str(), access, &info, &constant);
+    if (status == RUNG_OK)
+      place = {info.type, info.space, constant, uint64_t{8} * info.byte + info.bit, std::max(info.count, 1u)};
+    return status;
   }
 
   // The positions of the program's axes, which it has where it reads them.
@@ -353,9 +410,12 @@ private:
 
   const File& map_;
   rung_instance* instance_;
+  const rung_replacement* replacement_; // null: the program that runs
   const rung_program& program_;
   std::vector<std::string>& errors_;
   uint32_t suggestions_ = 0;
+  std::vector<Written> written_;
+  std::vector<std::string> warnings_;
 };
 
 } // namespace
@@ -367,7 +427,12 @@ Binding bindMap(const File& map, rung_instance* instance, const rung_program& pr
         map.message(map.devices.front().at, "devices: found a device of this machine, expected none for a program of " +
                                                 std::string(program.dialect) +
                                                 ", which has no services of devices; remove the table [devices]"));
-  return Binder(map, instance, program, errors).run();
+  return Binder(map, instance, nullptr, program, errors).run();
+}
+
+Binding bindMap(const File& map, rung_instance* instance, const rung_replacement* replacement,
+                const rung_program& program, std::vector<std::string>& errors) {
+  return Binder(map, instance, replacement, program, errors).run();
 }
 
 } // namespace rung::mapping

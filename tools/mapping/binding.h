@@ -31,11 +31,17 @@ struct ConstLink {
 struct Binding {
   std::vector<PinLink> links;
   std::vector<ConstLink> constants;
+  std::vector<std::string> warnings; // as `errors`: pins of integers that their cell is too narrow for
 };
 
 // Every name that does not exist or does not suit its entry is one text in `errors`, "PATH:LINE:COLUMN: what is wrong";
 // so are functions that the control does not hand over. `program`: the tables of the instance's image.
 Binding bindMap(const File& map, rung_instance* instance, const rung_program& program,
                 std::vector<std::string>& errors);
+
+// The same for the new program of a replacement, whose tables `program` is: without what concerns the control, which
+// stays.
+Binding bindMap(const File& map, rung_instance* instance, const rung_replacement* replacement,
+                const rung_program& program, std::vector<std::string>& errors);
 
 } // namespace rung::mapping

@@ -15,6 +15,7 @@
 #include <toml++/toml.h>
 
 #include "rtlib/text/number.h"
+#include "rtlib/text/regular_file.h"
 #include "tools/mapping/connections.h"
 #include "tools/mapping/devices.h"
 #include "tools/mapping/reading.h"
@@ -586,29 +587,10 @@ std::string File::message(Position at, std::string_view what) const {
 }
 
 std::string readFromDisk(const std::string& path) {
-  const auto refuse = [&](const std::string& why) { throw std::runtime_error("cannot read " + path + ": " + why); };
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); // a pipe would be waited for
-  if (file < 0) refuse(std::strerror(errno));
-  std::string text;
-  struct stat about{};
-  bool good = fstat(file, &about) == 0;
-  const bool regular = good && S_ISREG(about.st_mode);
-  text.resize(kMostBytes + 1);
-  size_t size = 0;
-  while (good && regular && size < text.size()) {
-    const ssize_t got = ::read(file, text.data() + size, text.size() - size);
-    if (got < 0 && errno == EINTR) continue;
-    good = got >= 0;
-    if (got <= 0) break;
-    size += static_cast<size_t>(got);
-  }
-  const int problem = errno;
-  close(file);
-  if (!good) refuse(std::strerror(problem));
-  if (!regular) refuse("it is not a regular file");
-  if (size > kMostBytes) refuse("it has more than 1 MB");
-  text.resize(size);
-  return text;
+  std::string contents;
+  const std::string problem = text::readRegular(path, kMostBytes, contents);
+  if (!problem.empty()) throw std::runtime_error("cannot read " + path + ": " + problem);
+  return contents;
 }
 
 File parseMap(std::string_view text, const std::string& path, std::vector<std::string>& errors, const ReadFile& read) {

@@ -2,7 +2,9 @@
 #include "tools/xref/used_places.h"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
+#include <utility>
 
 #include "tools/xref/place_names.h"
 
@@ -28,6 +30,32 @@ std::vector<UsedPlace> usedPlaces(const rung_program& program, const ir::Uses& u
     places.back().written |= place.written;
   }
   return places;
+}
+
+PlaceSet::PlaceSet(std::vector<ir::BitRange> places) {
+  const auto order = [](const ir::BitRange& bits) { return std::pair(bits.space.index, bits.first); };
+  std::ranges::sort(places, {}, order);
+  for (const ir::BitRange& bits : places) {
+    const bool touches = !places_.empty() && places_.back().space == bits.space &&
+                         bits.first <= places_.back().first + places_.back().count;
+    if (!touches) places_.push_back(bits);
+    ir::BitRange& last = places_.back();
+    last.count = std::max(last.count, bits.first + bits.count - last.first);
+  }
+}
+
+bool PlaceSet::meets(const ir::BitRange& place) const {
+  const auto order = [](const ir::BitRange& bits) { return std::pair(bits.space.index, bits.first); };
+  const auto after =
+      std::ranges::lower_bound(places_, std::pair(place.space.index, place.first + place.count), {}, order);
+  return after != places_.begin() && ir::overlap(*std::prev(after), place);
+}
+
+PlaceSet writtenPlaces(const std::vector<UsedPlace>& places) {
+  std::vector<ir::BitRange> written;
+  for (const UsedPlace& place : places)
+    if (place.written) written.push_back(place.use.place);
+  return PlaceSet(std::move(written));
 }
 
 } // namespace rung::xref

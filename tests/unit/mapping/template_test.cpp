@@ -38,11 +38,10 @@ TEST(Template, WhatTheMachineAndTheNcHave) {
                             "[in]\n"
                             "x0-0 = { type = \"bit\", name = \"X0.0\" }\n"
                             "x10 = { type = \"u32\", name = \"X10\" }\n"
-                            "x0-0-2 = { type = \"bit\", name = \"X0.0\" }\n"
                             "\n[out]\n"
                             "sym = { type = \"bit\", name = \"SYM\" }\n"
                             "d8-4 = { type = \"s32\", name = \"D8:4\" }\n"
-                            "\n# M, S and T functions: an edge of a pin hands one to the program.\n";
+                            "\n# M, S and T functions: an edge of a pin hands one to the program.\n#\n";
   EXPECT_EQ(text.substr(0, begin.size()), begin);
 }
 

@@ -447,6 +447,18 @@ class ClientOfDevice(ClientSide):
         cable.pulled.clear()
         self.sees((0, True), "D8:2", "X0.7")
 
+    def test_another_unit_answers(self):
+        device = Device()
+        self.addCleanup(device.kill)
+        cable = Cable(device.port, lambda data: data[:6] + b"\x04" + data[7:])
+        self.addCleanup(cable.close)
+        self.begin_with(cable.port)
+        self.set(self.panel(device.port), 3)
+        self.assertTrue(wait_until(lambda: self.connection()["problem"].endswith(": Response not from requested slave")), self.connection())
+        self.assertEqual(self.host.get("D8:2", "X0.7"), (-5, False))
+        cable.answer = lambda data: data
+        self.sees((3, True), "D8:2", "X0.7")
+
     def test_a_device_without_a_register(self):
         device = Device()
         self.addCleanup(device.kill)
@@ -605,6 +617,29 @@ class Memory(WithHost):
         self.peer.close()
         self.assertTrue(wait_until(lambda: self.connection()["problem"] != ""), "it is noticed")
         self.sees((-5, False), "D8:2", "X0.7")
+        self.is_made_anew()
+
+    def is_made_anew(self):
+        """Another peer finds it as at the beginning, and the host says why it was silent."""
+        self.assertTrue(wait_until(lambda: "it was made anew" in self.connection()["problem"]), self.connection())
+        peer = Peer(self.path)
+        self.addCleanup(peer.close)
+        self.assertTrue(wait_until(lambda: peer.write(True, True, 59, 1) or self.host.get("D8:2") == 59))
+        self.assertEqual(self.connection()["problem"], "")
+
+    def test_memory_that_is_removed(self):
+        self.begin_with_peer()
+        self.assertTrue(wait_until(lambda: self.peer.write(True, True, 58, 1) or self.host.get("D8:2") == 58))
+        self.path.unlink()
+        self.is_made_anew()
+        self.host.end()
+        self.assertFalse(self.path.exists())
+        self.host = Host(BIN, PINS)  # for the end of the test
+
+    def test_a_head_that_is_written_over(self):
+        self.begin_with_peer()
+        struct.pack_into("6I", self.peer.map, 0, 1, 2, 3, 4, 5, 6)
+        self.is_made_anew()
 
     def test_what_a_killed_host_leaves_is_taken_over(self):
         self.begin_with_peer()
@@ -759,6 +794,7 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
             {"PlcConfig": folder / "Channel0.ChannelConfig", "PlcConstants": folder / "centre.PlcConstants"}, f'PlcErrors = "{folder}/Plc0.PlcErrors"\n')
         for name, value in (("P1IN", 0xD5), ("P2IN", 0x7F), ("P3IN", 0x40), ("P4IN", 0x65), ("P5IN", 0x54), ("P6IN", 0xAD), ("P8IN", 0x02), ("HOMING", 0x0F)):
             self.host.ctl("set", name, str(value))
+        self.assertIn("part of P1IN is written before every slice, so setting it has no effect there: P1IN.1 by pin main_in, ", self.host.ctl("set", "P1IN", str(0xD5))["note"])
         self.sees(True, "STARTED")
         self.assertIn("message PLC00013 0 0 0 0 The backup memory was empty: check the tool table", self.host.logged())
         self.host.ctl("event", "CONFIRM")

@@ -98,10 +98,12 @@ class Host:
 
 
 class Cable:
-    """What is between two sides: passes bytes on until it is pulled; then they are lost, and nobody learns of it."""
+    """What is between two sides: passes bytes on until it is pulled; then they are lost, and nobody learns of it.
+    `answer`: what becomes of what the far side says."""
 
-    def __init__(self, port):
+    def __init__(self, port, answer=lambda data: data):
         self.target = port
+        self.answer = answer
         self.pulled = threading.Event()
         self.listening = socket.create_server(("127.0.0.1", 0))
         self.port = self.listening.getsockname()[1]
@@ -116,14 +118,14 @@ class Cable:
             except OSError:
                 return
             self.open += [near, far]
-            for source, target in ((near, far), (far, near)):
-                threading.Thread(target=self.carry, args=(source, target), daemon=True).start()
+            for source, target, change in ((near, far, lambda data: data), (far, near, self.answer)):
+                threading.Thread(target=self.carry, args=(source, target, change), daemon=True).start()
 
-    def carry(self, source, target):
+    def carry(self, source, target, change):
         try:
             while data := source.recv(4096):
                 if not self.pulled.is_set():
-                    target.sendall(data)
+                    target.sendall(change(data))
         except OSError:
             pass
         if not self.pulled.is_set():

@@ -2,9 +2,11 @@
 #include "tools/connections/modbus_client.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <new>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 #include "rtlib/host/realtime.h"
@@ -18,6 +20,7 @@ using mapping::Area;
 constexpr int64_t kLongestWaitNs = 1'000'000'000; // for an answer
 constexpr int64_t kRetryNs = 100'000'000;         // until the next attempt to connect, at least
 constexpr int64_t kLookNs = 20'000'000;           // between two looks whether to end
+constexpr size_t kPlaceBytes = 5;                 // of a request: function, place and number
 
 bool isRegister(Area area) { return area == Area::HoldingRegister || area == Area::InputRegister; }
 uint32_t lengthOf(const ExchangedPin& pin) { return isRegister(pin.place.area) ? registersOf(pin.place.format) : 1; }
@@ -53,6 +56,7 @@ ModbusClient::ModbusClient(const mapping::Connection& connection, Exchange& exch
       bits_(MODBUS_MAX_READ_BITS), registers_(MODBUS_MAX_READ_REGISTERS), inputs_(exchange.inputs().size()) {
   if (context_ == nullptr) throw std::bad_alloc();
   modbus_set_slave(context_.get(), connection.unit);
+  unit_ = static_cast<uint8_t>(connection.unit);
   const auto us = static_cast<uint32_t>(std::min(connection.timeoutNs, kLongestWaitNs) / 1000);
   modbus_set_response_timeout(context_.get(), us / 1'000'000, us % 1'000'000);
 }
@@ -117,10 +121,53 @@ bool ModbusClient::writeBlock(const Block& block, const std::vector<double>& val
     else
       bits_[at] = values[i] != 0 ? 1 : 0;
   }
-  const int first = static_cast<int>(block.first), count = static_cast<int>(block.count);
-  const int done = isRegister(block.area) ? modbus_write_registers(context_.get(), first, count, registers_.data())
-                                          : modbus_write_bits(context_.get(), first, count, bits_.data());
-  return done == count || fail(std::string("cannot write ") + nameOf(block.area) + std::to_string(block.first));
+  const bool words = isRegister(block.area);
+  std::vector<uint8_t> data(words ? 2 * block.count : (block.count + 7) / 8);
+  for (size_t i = 0; i < block.count; ++i)
+    if (words)
+      MODBUS_SET_INT16_TO_INT8(data, 2 * i, registers_[i]);
+    else
+      data[i / 8] = static_cast<uint8_t>(data[i / 8] | bits_[i] << i % 8);
+  begin(words ? MODBUS_FC_WRITE_MULTIPLE_REGISTERS : MODBUS_FC_WRITE_MULTIPLE_COILS, block);
+  request_.push_back(static_cast<uint8_t>(data.size()));
+  request_.insert(request_.end(), data.begin(), data.end());
+  // The answer repeats function, place and number.
+  const bool good = ask() && std::ranges::equal(answer_, std::span(request_).subspan(1, kPlaceBytes));
+  return good || fail(std::string("cannot write ") + nameOf(block.area) + std::to_string(block.first));
+}
+
+// Unit, function, place and number, as all requests begin.
+void ModbusClient::begin(uint8_t function, const Block& block) {
+  request_ = {unit_,
+              function,
+              static_cast<uint8_t>(block.first >> 8),
+              static_cast<uint8_t>(block.first),
+              static_cast<uint8_t>(block.count >> 8),
+              static_cast<uint8_t>(block.count)};
+}
+
+// The library's own requests do not look at the unit that answers. False, with errno: no answer, or none to this
+// request; then it is not known what the next one would belong to.
+bool ModbusClient::ask() {
+  modbus_t* device = context_.get();
+  answer_.clear();
+  errno = EMBBADDATA;
+  if (modbus_send_raw_request(device, request_.data(), static_cast<int>(request_.size())) < 0) return false;
+  std::array<uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> message{};
+  const int length = modbus_receive_confirmation(device, message.data());
+  if (length < 0) return false;
+  errno = EMBBADDATA;
+  constexpr size_t kUnitAt = 6, kFunctionAt = 7;
+  const std::span<const uint8_t> given(message.data(), static_cast<size_t>(length));
+  if (given.size() < kFunctionAt + 2) return false;
+  if (given[0] != 0 || given[1] != 0) return false; // the transaction, which such a request has
+  errno = EMBBADSLAVE;
+  if (given[kUnitAt] != unit_) return false;
+  errno = EMBBADDATA;
+  if (given[kFunctionAt] == (request_[1] | 0x80)) return errno = MODBUS_ENOBASE + given[kFunctionAt + 1], false;
+  if (given[kFunctionAt] != request_[1]) return false;
+  answer_.assign(given.begin() + kFunctionAt, given.end());
+  return true;
 }
 
 bool ModbusClient::read() {
@@ -128,17 +175,20 @@ bool ModbusClient::read() {
 }
 
 bool ModbusClient::readBlock(const Block& block) {
-  modbus_t* device = context_.get();
-  const int first = static_cast<int>(block.first), count = static_cast<int>(block.count);
-  int done = -1;
-  switch (block.area) {
-  case Area::Coil: done = modbus_read_bits(device, first, count, bits_.data()); break;
-  case Area::DiscreteInput: done = modbus_read_input_bits(device, first, count, bits_.data()); break;
-  case Area::HoldingRegister: done = modbus_read_registers(device, first, count, registers_.data()); break;
-  case Area::InputRegister: done = modbus_read_input_registers(device, first, count, registers_.data()); break;
-  case Area::Memory: break;
-  }
-  return done == count || fail(std::string("cannot read ") + nameOf(block.area) + std::to_string(block.first));
+  constexpr uint8_t kFunctions[] = {MODBUS_FC_READ_COILS, MODBUS_FC_READ_DISCRETE_INPUTS,
+                                    MODBUS_FC_READ_HOLDING_REGISTERS, MODBUS_FC_READ_INPUT_REGISTERS}; // by Area
+  const bool words = isRegister(block.area);
+  begin(kFunctions[static_cast<size_t>(block.area)], block);
+  constexpr size_t kDataAt = 2; // after the function and the number of bytes
+  const size_t bytes = words ? 2 * size_t{block.count} : (block.count + 7) / 8;
+  if (!ask() || answer_.size() != kDataAt + bytes || answer_[1] != bytes)
+    return fail(std::string("cannot read ") + nameOf(block.area) + std::to_string(block.first));
+  for (size_t i = 0; i < block.count; ++i)
+    if (words)
+      registers_[i] = static_cast<uint16_t>(MODBUS_GET_INT16_FROM_INT8(answer_, kDataAt + 2 * i));
+    else
+      bits_[i] = answer_[kDataAt + i / 8] >> i % 8 & 1;
+  return true;
 }
 
 bool ModbusClient::takeBlock(const Block& block) {

@@ -39,12 +39,17 @@ private:
   bool read();
   bool readBlock(const Block& block);
   bool takeBlock(const Block& block);
+  void begin(uint8_t function, const Block& block);
+  bool ask();
   bool fail(const std::string& what);
 
   Exchange& exchange_;
   int64_t periodNs_;
   std::unique_ptr<modbus_t, Free> context_;
   std::vector<Block> reads_, writes_;
+  uint8_t unit_ = 0;
+  std::vector<uint8_t> request_;    // without what TCP puts before it
+  std::vector<uint8_t> answer_;     // from the function on
   std::vector<uint8_t> bits_;       // of a block
   std::vector<uint16_t> registers_; // of a block
   std::vector<double> inputs_;

@@ -20,7 +20,8 @@
 namespace rung::connections {
 namespace {
 
-constexpr int64_t kLookNs = 20'000'000; // between two looks whether to end
+constexpr int64_t kLookNs = 20'000'000;  // between two looks whether to end
+constexpr int64_t kKeepNs = 500'000'000; // between two looks whether the file is as it was
 constexpr mode_t kMode = 0600;
 constexpr mode_t kAllModes = 07777;
 constexpr size_t kAlignment = 8;
@@ -39,14 +40,14 @@ SharedMemory::SharedMemory(const mapping::Connection& connection, Exchange& exch
       periodNs_(connection.periodNs), outputs_(sizeOf(exchange.outputs())), inputs_(sizeOf(exchange.inputs())),
       values_(exchange.inputs().size()) {
   open();
-  checkOwner();
-  if (flock(file_.number(), LOCK_EX | LOCK_NB) != 0) {
-    refuse("another process uses /dev/shm" + name_ + "; end it, or give this one another name");
-  }
   layOut();
 }
 
-SharedMemory::~SharedMemory() { shm_unlink(name_.c_str()); }
+SharedMemory::~SharedMemory() {
+  struct stat about{};
+  const bool isOurs = fstat(file_.number(), &about) == 0 && about.st_nlink != 0;
+  if (isOurs) shm_unlink(name_.c_str()); // else another may have the name
+}
 
 void SharedMemory::refuse(const std::string& found) const { throw std::runtime_error(title_ + ": " + found); }
 
@@ -54,6 +55,9 @@ void SharedMemory::refuse(const std::string& found) const { throw std::runtime_e
 void SharedMemory::open() {
   file_ = Socket(shm_open(name_.c_str(), O_RDWR | O_CREAT, kMode));
   if (file_.number() < 0) refuse("cannot open /dev/shm" + name_ + ": " + std::strerror(errno));
+  checkOwner();
+  if (flock(file_.number(), LOCK_EX | LOCK_NB) != 0)
+    refuse("another process uses /dev/shm" + name_ + "; end it, or give this one another name");
 }
 
 void SharedMemory::checkOwner() {
@@ -94,9 +98,31 @@ bool SharedMemory::put(const void* from, size_t size, uint32_t at) const {
   return pwrite(file_.number(), from, size, at) == static_cast<ssize_t>(size);
 }
 
+// Where another program has removed the file, or written over its head, whoever opens it does not find this side any
+// more.
+void SharedMemory::keep() noexcept try {
+  constexpr size_t kConstant = offsetof(Header, outputsSequence);
+  struct stat about{};
+  const bool isThere = fstat(file_.number(), &about) == 0 && about.st_nlink == 1;
+  Header found;
+  if (isThere && about.st_size == header_.inputsAt + header_.inputsSize && get(&found, kConstant, 0) &&
+      std::memcmp(&found, &header_, kConstant) == 0)
+    return;
+  if (!isThere) open();
+  layOut();
+  setProblem(isThere ? "another program had written over its head or shortened it; it was made anew"
+                     : "another program had removed it; it was made anew");
+} catch (const std::exception& problem) {
+  setProblem(problem.what());
+}
+
 void SharedMemory::run(const std::atomic<bool>& ending) noexcept {
-  while (!ending) {
+  for (int64_t kept = 0; !ending;) {
     const int64_t now = host::monotonicNs();
+    if (now - kept >= kKeepNs) {
+      keep();
+      kept = now;
+    }
     writeOutputs();
     readInputs(now);
     for (int64_t end = now + periodNs_, look = now; look < end && !ending; look = host::monotonicNs())

@@ -39,6 +39,7 @@ private:
   void open();
   void checkOwner();
   void layOut();
+  void keep() noexcept;
   bool reserve(int64_t size) const;
   void writeOutputs();
   void readInputs(int64_t now);

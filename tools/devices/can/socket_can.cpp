@@ -96,7 +96,10 @@ void SocketCan::close() {
 }
 
 // Off the bus nothing is kept for later: an old order to a machine is not repeated when the bus comes back.
-bool SocketCan::transmit(const CanPacket& packet) { return state() == BusState::Active && toBus_.push(onBus(packet)); }
+bool SocketCan::transmit(const CanPacket& packet) {
+  const uint32_t loss = losses_.load(std::memory_order_acquire); // before the state: one of now, if that is active
+  return state() == BusState::Active && toBus_.push({onBus(packet), loss});
+}
 
 SocketCan::Counts SocketCan::counts() const { return {sent_, received_, fromBus_.lost(), full_, errors_, timeouts_}; }
 
@@ -131,18 +134,18 @@ bool SocketCan::reopen() {
 
 void SocketCan::lose() {
   state_.store(BusState::Down, std::memory_order_release);
+  losses_.fetch_add(1, std::memory_order_acq_rel); // what is in the ring, or is being put there, is old
   ::close(descriptor_);
   descriptor_ = -1;
   hasPending_ = false;
-  for (CanPacket old; toBus_.pop(old);) {
-  }
 }
 
 // False: the descriptor is of no more use. Without room in the interface the packet waits for the next turn.
 bool SocketCan::moveOut() {
   while (hasPending_ || toBus_.pop(pending_)) {
-    hasPending_ = true;
-    const can_frame frame = frameOf(pending_);
+    hasPending_ = pending_.loss == losses_.load(std::memory_order_relaxed);
+    if (!hasPending_) continue;
+    const can_frame frame = frameOf(pending_.packet);
     if (send(descriptor_, &frame, sizeof frame, MSG_NOSIGNAL | MSG_DONTWAIT) < 0) {
       if (isFull(errno)) full_.fetch_add(1, std::memory_order_relaxed);
       return isFull(errno) || errno == EINTR;
@@ -178,7 +181,7 @@ void SocketCan::takeError(uint32_t classes) {
   if ((classes & CAN_ERR_BUSOFF) != 0) {
     state_.store(BusState::BusOff, std::memory_order_release);
     hasPending_ = false;
-    for (CanPacket old; toBus_.pop(old);) {
+    for (Order old; toBus_.pop(old);) {
     }
   }
   if ((classes & CAN_ERR_RESTARTED) != 0) state_.store(BusState::Active, std::memory_order_release);

@@ -56,13 +56,18 @@ private:
   std::string interface_; // "": an adopted descriptor
   int descriptor_ = -1;   // of the thread, from the start to the end of it
   bool hasPending_ = false;
-  CanPacket pending_; // taken from the ring, and refused by the interface so far
+  struct Order {
+    CanPacket packet;
+    uint32_t loss = 0; // how often the bus had been lost before it
+  };
+  Order pending_; // taken from the ring, and refused by the interface so far
   std::thread thread_;
 
   std::atomic<bool> stop_ = false;
   std::atomic<BusState> state_ = BusState::Inactive;
   std::atomic<uint64_t> sent_ = 0, received_ = 0, full_ = 0, errors_ = 0, timeouts_ = 0;
-  rt::FixedRing<CanPacket, kToBus> toBus_;
+  std::atomic<uint32_t> losses_ = 0;
+  rt::FixedRing<Order, kToBus> toBus_;
   rt::FixedRing<CanPacket, kFromBus> fromBus_;
 };
 

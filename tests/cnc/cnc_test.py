@@ -7,6 +7,7 @@ Exit status 77: cannot be tried here, and why.
 import argparse
 import os
 import pty
+import re
 import shutil
 import subprocess
 import sys
@@ -17,6 +18,7 @@ HERE = Path(__file__).resolve().parent
 MODULES = Path("/usr/lib/linuxcnc/modules")  # LinuxCNC loads from nowhere else
 SKIPPED = 77
 TIMEOUT = 270  # seconds that a session takes at most, on a machine without other work
+TIME = r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d"  # at the beginning of what the component writes
 PATIENCE = HERE.parent / "support" / "patience.py"  # what waits, in a session as outside
 sys.path.insert(0, str(PATIENCE.parent))
 from patience import patience  # noqa: E402  pylint: disable=wrong-import-position
@@ -210,7 +212,7 @@ def axes(bench, options):
     prepare_extra_joint(bench, options, "axes.plc", PROGRAM_AXIS.replace("HOME = 0\n", "HOME = 7\nHOME_OFFSET = 7\n"))
     output = start_machine(bench)
     for reason in ("POS_INIT is refused: the axis has no reference", "the positioning unit has lost the axis: its drive"):
-        expect(f"rung: axis 4: {reason}" in output, f"no message: {reason}")
+        expect(re.search(rf"^rung: {TIME} axis 4: {re.escape(reason)}", output, re.MULTILINE), f"no message: {reason}")
 
 
 LOAD = """
@@ -272,9 +274,9 @@ def fault(bench, _options):
     loop = range(lines.index("FUNC LBL") + 1, lines.index("PRM  L1", lines.index("FUNC JMPB")) + 2)
     expect(int(values["fault-line"][1], 0) in loop, values)
     expect(int(values["scans"][0], 0) > 0, values)
-    expect("box: the program has stopped: dead-loop (rung 3, " in done.stdout, "no message")
+    expect(re.search(rf"^box: {TIME} the program has stopped: dead-loop \(rung 3, ", done.stdout, re.MULTILINE), "no message")
     expect("stuck.pmc:" in done.stdout, "no source file in the message")
-    expect("box: the program has been restarted" in done.stdout, "no message of the restart")
+    expect(re.search(rf"^box: {TIME} the program has been restarted$", done.stdout, re.MULTILINE), "no message of the restart")
 
 
 # TECHNOL: while GO is on, a byte to the serial port and half of the full voltage at the analogue output 6.

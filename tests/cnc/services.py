@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 """Runs inside LinuxCNC in place of its display: has the PLC program move its axis, and read and write data of LinuxCNC."""
 import os
+import signal
+import subprocess
 import time
+from pathlib import Path
 
 import hal
 import linuxcnc
@@ -112,6 +115,37 @@ def refused():
     at_rest()
 
 
+def process(name):
+    """Of the program of this session that has the name."""
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (folder / "cmdline").read_bytes().split(b"\0")
+        except OSError:
+            continue
+        if any(word.decode(errors="replace").endswith("/" + name) or word == name.encode() for word in words[:2]):
+            return int(folder.name)
+    raise AssertionError(f"no process {name}")
+
+
+def nobody_serves():
+    """The axis stops, nothing says that it stands where it should, and it does not go on by itself later."""
+    order(CONTINUOUS, 300, 1)
+    wait("motion", lambda: table() < 1.5)
+    services = process("rung-services")
+    os.kill(services, signal.SIGSTOP)
+    pins(serving=False)
+    here = drive.at_rest(table)
+    check(not pin("in-place") and not pin("distributed"), "an axis that nobody serves is said to stand")
+    os.kill(services, signal.SIGCONT)
+    pins(serving=True)
+    passes(50)
+    check(near(table(), here), "the axis goes on by itself")
+    clear()
+    order(REFERENCE_1, 6000)
+    wait("the reference point", lambda: near(table(), 0))
+    at_rest()
+
+
 def write(function, number, attribute, data):
     """The end code."""
     put(write_function=function, write_length=4, write_number=number, write_attribute=attribute, write_data=data)
@@ -177,7 +211,54 @@ def at_once():
     same(read(17, 0, 1), (0, 0), "the position")
 
 
-STEPS = (distances, held, continuous, auxiliary, refused, written, at_once)
+NETS = "net target {0}.target\nnet wanted {0}.speed\nnet position {0}.position\nnet active {0}.moving\n"
+
+
+def end_services(signal_number):
+    """In the middle of a motion; where the axis has come to rest."""
+    order(CONTINUOUS, 300, 0)
+    wait("motion", lambda: table() > 0.5)
+    os.kill(process("rung-services"), signal_number)
+    pins(serving=False)
+    return drive.at_rest(table)
+
+
+def start_services(*words):
+    subprocess.Popen(["rung-services", "--host", "rung", "--axis", "4", *words])
+
+
+def it_serves_again(here):
+    pins(serving=True)
+    passes(50)
+    check(near(table(), here), f"the axis has moved by itself, from {here} to {table()}")
+    clear()
+    order(REFERENCE_1, 6000)
+    wait("the reference point", lambda: near(table(), 0))
+    at_rest()
+
+
+def started_again():
+    """Without its lines nothing is served, whatever the signal has kept; with them the axis stays where it is."""
+    here = end_services(signal.SIGTERM)
+    start_services()
+    passes(150)
+    check(not pin("serving") and near(table(), here), "a target that nobody has set moves the axis")
+    for line in NETS.format("rung-services.axis-4").splitlines():
+        subprocess.run(["halcmd", *line.split()], check=True)
+    it_serves_again(here)
+
+
+def killed():
+    """Its pins remain: the next one has others."""
+    here = end_services(signal.SIGKILL)
+    taken = subprocess.run(["rung-services", "--host", "rung", "--axis", "4"], capture_output=True, text=True, check=False)
+    check(taken.returncode == 1 and "HAL has a component rung-services already" in taken.stderr, taken.stderr)
+    Path("again.hal").write_text("".join(f"unlinkp rung-services.axis-4.{pin}\n" for pin in ("target", "speed")) + NETS.format("again.axis-4"))
+    start_services("--name", "again", "--hal", "again.hal")
+    it_serves_again(here)
+
+
+STEPS = (distances, held, continuous, auxiliary, refused, nobody_serves, started_again, killed, written, at_once)
 
 
 def session():

@@ -307,6 +307,16 @@ class Places(unittest.TestCase):
             dynamic = run("readelf", "-d", path).stdout
             self.assertNotRegex(dynamic, r"\((RPATH|RUNPATH)\)", path)
 
+    def test_no_library_is_loaded_from_the_working_folder(self):
+        """What an empty entry of a RUNPATH means; in the build tree as well."""
+        files = [path for folder in ("bin", "lib") for path in (BUILD / folder).rglob("*")
+                 if path.is_file() and not path.is_symlink() and is_elf(path)]
+        self.assertGreaterEqual(len(files), 10)
+        for path in files:
+            dynamic = run("readelf", "-d", path, hidden=False).stdout
+            for entries in re.findall(r"\((?:RPATH|RUNPATH)\).*\[(.*)\]", dynamic):
+                self.assertNotIn("", entries.split(":"), path)
+
 
 if __name__ == "__main__":
     if len(sys.argv) < 4:

@@ -201,7 +201,7 @@ TEST_F(Component, AFaultIsReportedAndResetRestarts) {
   EXPECT_TRUE(bit("fault"));
   EXPECT_FALSE(bit("lamp"));
   ASSERT_TRUE(scanUntil([&] { return number("fault-line") == 10; })); // the service says it
-  EXPECT_THAT(hal.lines(), ElementsAre(HasSubstr("rung: the program has stopped: ")));
+  EXPECT_THAT(hal.lines(), ElementsAre(HasSubstr(" the program has stopped: ")));
   EXPECT_THAT(hal.lines()[0], HasSubstr("dead-loop (rung 3, tests/cnc/stuck.pmc:10)"));
   bit("stick") = false;
   scan(100);
@@ -210,7 +210,8 @@ TEST_F(Component, AFaultIsReportedAndResetRestarts) {
   ASSERT_TRUE(scanUntil([&] { return !bit("fault"); }));
   scan(8);
   EXPECT_TRUE(bit("lamp"));
-  EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung: the program has been restarted")));
+  EXPECT_THAT(hal.lines(), Contains(HasSubstr(" the program has been restarted")));
+  EXPECT_EQ(hal.errors(), 0u);
   hal.unload();
   expectNothingLeft();
 }
@@ -231,8 +232,9 @@ TEST_F(Component, MessagesArePrintedByTheService) {
   bit("show") = true;
   scan(60);
   EXPECT_TRUE(scanUntil([&] { return !hal.lines().empty(); }));
-  EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung: message ")));
+  EXPECT_THAT(hal.lines(), Contains(HasSubstr(" message ")));
   EXPECT_THAT(hal.lines(), Contains(HasSubstr("99")));
+  EXPECT_EQ(hal.errors(), 0u) << "rung-operator shows them, as many as LinuxCNC takes";
   EXPECT_TRUE(bit("lamp"));
   hal.unload();
   EXPECT_THAT(hal.bitsAtExit(), ElementsAre("rung.show"));
@@ -307,8 +309,7 @@ TEST_F(AxisAtPins, AFaultOfTheDriveIsAnError) {
   EXPECT_NEAR(command() - place, 100. * 100 / 2 / 4000, 1e-6);
   EXPECT_TRUE(bit("error"));
   ASSERT_TRUE(scanUntil([&] { return !hal.lines().empty(); }));
-  EXPECT_THAT(hal.lines(),
-              Contains(HasSubstr("rung: axis 4: the positioning unit has lost the axis: its drive has a")));
+  EXPECT_THAT(hal.lines(), Contains(HasSubstr(" axis 4: the positioning unit has lost the axis: its drive has a")));
   hal.unload();
 }
 
@@ -327,7 +328,7 @@ TEST_F(AxisAtPins, AFaultOfTheProgramBrakesIt) {
   ASSERT_TRUE(scanUntil([&] { return !bit("fault"); }));
   EXPECT_NEAR(command() - place, 10, 2); // of the ramp some steps were before
   hal.unload();
-  EXPECT_THAT(hal.lines(), Contains(HasSubstr("rung: the program has been restarted")));
+  EXPECT_THAT(hal.lines(), Contains(HasSubstr(" the program has been restarted")));
 }
 
 TEST_F(AxisAtPins, PoweredOffItHasComeToRest) {

@@ -264,7 +264,8 @@ void rtapi_print(const char* format, ...) {
   va_end(arguments);
 }
 
-void rtapi_print_msg(msg_level_t, const char* format, ...) {
+void rtapi_print_msg(msg_level_t level, const char* format, ...) {
+  if (level == RTAPI_MSG_ERR) FakeHal::the().countError();
   va_list arguments;
   va_start(arguments, format);
   FakeHal::the().print(format, arguments);

@@ -51,6 +51,8 @@ public:
 
   // What the component has printed.
   std::vector<std::string> lines() const;
+  // How many of these as errors, which LinuxCNC shows to its operator.
+  size_t errors() const { return errorCount_.load(); }
   // The number of calls so far of HAL's functions that can fail, hal_exit not counted; the given one fails (from 1).
   int asked() const { return asked_; }
   void failAt(int call) { failAt_ = asked_ + call; }
@@ -66,6 +68,7 @@ public:
   int addValue(const std::string& name, void* place, bool isBit);
   int addFunction(const std::string& name, Function function);
   void print(const char* format, va_list arguments);
+  void countError() { ++errorCount_; }
 
 private:
   void setArgument(void* place, const std::string& text);
@@ -79,6 +82,7 @@ private:
   std::map<std::string, bool> isBit_;
   std::map<std::string, Function> functions_;
   std::vector<std::string> bitsAtExit_;
+  std::atomic<size_t> errorCount_{0};
   std::array<std::array<char, kLineBytes>, kLines> lines_{}; // printing must not allocate
   std::atomic<size_t> lineCount_{0};
   std::thread thread_;

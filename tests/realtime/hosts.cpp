@@ -140,7 +140,8 @@ Outcome runInBox(const rung_program& program, mapping::File map, const std::stri
   Outcome outcome;
   std::vector<std::string> errors;
   std::vector<std::string> reports;
-  const std::unique_ptr<plc::Box> box = plc::Box::make(test::adopted(program), std::move(map), errors, retain, reports);
+  const std::unique_ptr<plc::Box> box =
+      plc::Box::make(test::adopted(program), std::move(map), {.retain = retain}, errors, reports);
   for (const std::string& error : errors) outcome.problem += error + "\n";
   if (!box) return outcome;
   Pins pins(box->pins());
@@ -172,8 +173,8 @@ Outcome runInBox(const rung_program& program, mapping::File map, const std::stri
 Outcome runFastApart(const rung_program& program, const mapping::File& map) {
   Outcome outcome;
   std::vector<std::string> reports;
-  const std::unique_ptr<plc::Box> whole = plc::Box::make(test::adopted(program), map, reports, {}, reports);
-  const std::unique_ptr<plc::Box> apart = plc::Box::make(test::adopted(program), map, reports, {}, reports);
+  const std::unique_ptr<plc::Box> whole = plc::Box::make(test::adopted(program), map, {}, reports, reports);
+  const std::unique_ptr<plc::Box> apart = plc::Box::make(test::adopted(program), map, {}, reports, reports);
   Pins wholePins(whole->pins());
   Pins apartPins(apart->pins());
   whole->connect(wholePins.cells());

@@ -2,7 +2,9 @@
 #include "tests/realtime/places.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <set>
 
 #include "rtlib/nc/signals.h"
 
@@ -40,9 +42,13 @@ void thin(std::vector<std::string>& names) {
 
 Names namesOf(const host::Instance& instance, const nc::Control& control) {
   Names names;
+  std::set<std::array<uint32_t, 3>> taken; // by inputs
   for (const std::string& name : candidates(instance.program())) {
-    const uint32_t flags = spaceFlags(instance, control.writePlace(instance.program(), name));
-    if ((flags & RUNG_SPACE_INPUT) != 0) names.inputs.push_back(name);
+    const std::optional<host::Ref> place = control.writePlace(instance.program(), name);
+    const uint32_t flags = spaceFlags(instance, place);
+    if ((flags & RUNG_SPACE_INPUT) != 0 && !control.writesItself(instance.program(), *place) &&
+        taken.insert({place->space, place->byte, place->bit}).second) // each bit is one pin's
+      names.inputs.push_back(name);
     if ((flags & RUNG_SPACE_OUTPUT) != 0) names.outputs.push_back(name);
   }
   thin(names.inputs);

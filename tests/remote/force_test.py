@@ -95,7 +95,7 @@ class Forces(Forcing):
         self.wait(lambda: self.get("Y0.0"))
         self.ctl("set", "X0.1", "1")
         self.wait(lambda: "stopped by a fault: dead-loop (rung " in self.ctl("status"))
-        self.assertIn("the program has stopped", self.ctl("force", "Y0.0", "true", status=WRONG))
+        self.assertIn("a fault has stopped the program", self.ctl("force", "Y0.0", "true", status=WRONG))
         self.ctl("set", "X0.1", "0")
         self.ctl("reset")
         self.wait(lambda: "\nrunning: " in self.ctl("status"))

@@ -195,7 +195,8 @@ class Commands(Host):
         text = self.ctl("reload", self.program)
         self.assertRegex(text, r"kept: \d+ names, \d+ states of edges, timers and counters\nthe new program runs\n$")
         self.assertEqual(self.get("D8:2"), 7)
-        self.assertEqual(self.ctl("rollback"), "the former program runs\n")
+        text = self.ctl("rollback")
+        self.assertRegex(text, r"^kept: \d+ names, \d+ states of edges, timers and counters\nthe former program runs\n$")
         self.assertEqual(self.get("D8:2"), 7)
         self.assertEqual(self.ctl("reload", self.home / "none.so", status=ENVIRONMENT),
                          f"rungctl: there is no file {self.home}/none.so\n")
@@ -203,6 +204,96 @@ class Commands(Host):
         junk.write_text("not a program")
         self.assertIn("junk.so", self.ctl("reload", junk, status=WRONG))
         self.assertIn("running: ", self.ctl("status"))
+
+    def test_a_fault_after_a_reload_puts_the_former_program_back(self):
+        other = self.home / "other.pmc"
+        other.write_text(PROGRAM.replace("LD   X0.1", "LD   X0.4"))
+        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
+        self.ctl("reload", self.home / "other.so")
+        self.assertIn("program other,", self.ctl("status"))
+        self.ctl("set", "X0.4", "1")
+        self.wait(lambda: "stopped by a fault of other, which ran then: dead-loop (rung " in self.ctl("status"))
+        self.assertIn("program stuck,", self.ctl("status"))
+        self.wait(lambda: "the program other has stopped: dead-loop" in self.ctl("messages"))
+        self.assertIn("; then stuck runs\n", self.ctl("messages"))
+        self.assertIn("a fault of the program other has put the former program back already", self.ctl("rollback", status=WRONG))
+        self.ctl("reset")
+        self.wait(lambda: "\nrunning: " in self.ctl("status"))
+        self.assertIn("program stuck,", self.ctl("status"))
+        self.assertIn("a fault of the program other", self.ctl("rollback", status=WRONG))
+        self.assertIn("program stuck,", self.ctl("status"))
+
+    def test_a_program_that_faults_at_once(self):
+        other = self.home / "other.pmc"
+        other.write_text(PROGRAM.replace("LD   X0.1", "LDI  X0.4"))
+        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
+        for _ in range(5):
+            self.assertIn("the new program has stopped at once, and the former one is back", self.ctl("reload", self.home / "other.so"))
+            self.ctl("reset")
+            self.wait(lambda: "\nrunning: " in self.ctl("status"))
+
+    def test_a_reload_of_a_program_that_the_operator_has_stopped(self):
+        self.ctl("stop")
+        self.assertTrue(self.ctl("reload", self.program).endswith("the new program is stopped\n"))
+        self.assertTrue(self.ctl("rollback").endswith("the former program is stopped\n"))
+        self.assertIn("is stopped by the operator: nothing of it could be compared", self.ctl("reload", self.program, "--shadow", "3", status=WRONG))
+
+    def shadowed(self):
+        made, lines = self.connect()
+        lines.readline()
+        made.sendall(json.dumps({"do": "shadow", "program": str(self.program), "passes": 100000}).encode() + b"\n")
+        self.assertTrue(json.loads(lines.readline())["ok"])
+
+        def ask(**request):
+            made.sendall(json.dumps(request).encode() + b"\n")
+            return json.loads(lines.readline())
+
+        return made, ask
+
+    def test_a_shadow_is_its_clients(self):
+        made, ask = self.shadowed()
+        self.assertIn(ask(do="compared")["state"], ("prepared", "running"))
+        self.assertIn("another client has a program run beside this one", self.ctl("reload", self.program, "--shadow", "3", status=WRONG))
+        other, lines = self.connect()
+        lines.readline()
+        other.sendall(b'{"do":"compared"}\n')
+        self.assertIn("no program runs beside this one", lines.readline())
+        self.ctl("stop")
+        self.assertEqual(ask(do="compared")["state"], "stopped")
+        self.ctl("start")
+        made, ask = self.shadowed()
+        made.shutdown(socket.SHUT_RDWR)  # it ends with its client
+        self.wait(lambda: subprocess.run([BIN / "rungctl", "reload", self.program, "--shadow", "3"], capture_output=True, timeout=patience(),
+                                         env=self.environment, check=False).returncode == OK)
+
+    def test_an_interrupt_ends_a_comparison(self):
+        other = self.home / "other.pmc"
+        other.write_text(PROGRAM.replace("LD   X0.1", "LD   X0.4"))
+        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
+        reloads = subprocess.Popen([BIN / "rungctl", "reload", self.home / "other.so", "--shadow", "100000", "--yes"], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True, env=self.environment)
+        self.wait(lambda: ": shadow " in self.logged())
+        reloads.send_signal(signal.SIGINT)
+        self.assertIn("interrupted; nothing has changed", reloads.communicate(timeout=patience())[1])
+        self.assertEqual(reloads.returncode, WRONG)
+        self.assertIn("program stuck,", self.ctl("status"))
+
+    def test_a_reload_of_a_stopped_program_waits_for_a_reset(self):
+        self.ctl("set", "X0.1", "1")
+        self.wait(lambda: "stopped by a fault: dead-loop (rung " in self.ctl("status"))
+        other = self.home / "other.pmc"
+        other.write_text(PROGRAM.replace("LD   X0.1", "LD   X0.4"))
+        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
+        self.assertTrue(self.ctl("reload", self.home / "other.so", "--yes").endswith("the new program waits for a reset\n"))
+        self.assertIn("program other, dialect gsk\nstopped by a fault of stuck, which ran then: dead-loop (rung 2, ", self.ctl("status"))
+        self.assertTrue(self.ctl("rollback").endswith("the former program waits for a reset\n"))
+
+    def test_a_reload_names_the_forces_that_it_ends(self):
+        self.ctl("force", "X0.3", "1")
+        self.ctl("force", "D8:2", "7")
+        self.assertIn("2 forces ended: D8:2, X0.3\n", self.ctl("reload", self.program))
+        self.assertIn("which ends the forces of D8:2, X0.3\n", self.logged())
+        self.assertNotIn("ended", self.ctl("reload", self.program))
 
     def test_a_shadow_before_a_reload(self):
         other = self.home / "other.pmc"
@@ -248,6 +339,58 @@ class Commands(Host):
         out = self.home / "short.vcd"
         self.assertEqual(self.trace(out, "X0.3", "--for", "0.5").wait(patience()), OK)
         self.assertIn("\n0!\n", out.read_text())
+
+    def test_the_log_names_forces_that_end(self):
+        self.ctl("force", "D8:2", "7")
+        self.ctl("stop")
+        self.assertIn("stop, which ends the forces of D8:2\n", self.logged())
+        self.ctl("start")
+        self.ctl("force", "X0.3", "1")
+        self.ctl("set", "X0.1", "true")
+        self.wait(lambda: "the forces of X0.3 have ended\n" in self.logged())
+        self.assertIn("a fault has stopped the program: a reset restarts it", self.ctl("force", "X0.3", "1", status=WRONG))
+
+    def test_a_set_without_effect_is_refused(self):
+        self.assertIn("X0.0 is written before every slice by pin run: setting it has no effect",
+                      self.ctl("set", "X0.0", "1", status=WRONG))
+        self.ctl("force", "D8:2", "7")
+        self.assertIn("D8:2 is forced to 7: it stays so", self.ctl("set", "D8:2", "9", status=WRONG))
+        self.assertIn("D8 is forced as D8:2 to 7: it stays so", self.ctl("set", "D8", "9", status=WRONG))
+        self.assertEqual(self.get("D8:2"), 7)
+        self.assertIn("D6:4 has D8:2, which is forced to 7: it stays so", self.ctl("set", "D6:4", "9", status=WRONG))
+        self.assertNotIn(": set ", self.logged())
+
+    def test_values_after_a_fault_are_those_of_the_fault(self):
+        self.ctl("set", "D8:2", "5")
+        self.ctl("set", "X0.1", "true")
+        self.wait(lambda: "stopped by a fault: dead-loop" in self.ctl("status"))
+        self.assertEqual(self.ctl("get", "X0.1", "D8:2"), "X0.1 = true\nD8:2 = 5\n")
+        made, lines = self.connect()
+        lines.readline()
+        made.sendall(b'{"do":"watch","names":["X0.1","D8:2"]}\n')
+        self.assertEqual([json.loads(lines.readline()).get("values") for _ in range(2)], [None, [True, 5]])
+        for words in (("force", "D8:2", "1"), ("stop",), ("start",)):
+            self.assertIn("stopped", self.ctl(*words, status=WRONG))
+
+    def test_a_watched_name_that_is_gone(self):
+        watching = subprocess.Popen([BIN / "rungctl", "watch", "GUARD", "Y0.0"], env=self.environment, text=True,
+                                    stdout=subprocess.PIPE)
+        self.addCleanup(watching.stdout.close)
+        self.addCleanup(watching.wait)
+        self.addCleanup(watching.kill)
+        self.assertRegex(watching.stdout.readline(), r"^\d+\.\d{3} GUARD = false\n$")
+        other = self.home / "other.pmc"
+        other.write_text(PROGRAM.replace("symbol GUARD X0.2\n", ""))
+        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
+        self.ctl("reload", self.home / "other.so", "--yes")
+        self.assertIn(" Y0.0 = false\n", watching.stdout.readline())
+        self.assertRegex(watching.stdout.readline(), r"^\d+\.\d{3} GUARD is gone\n$")
+        self.assertIn("GUARD is not a name of the program other", self.ctl("get", "GUARD", status=WRONG))
+
+    def test_a_trace_of_a_program_that_does_not_run_ends_too(self):
+        self.ctl("set", "X0.1", "true")
+        self.wait(lambda: "stopped by a fault" in self.ctl("status"))
+        self.assertIn(": 1 pass\n", self.ctl("trace", "X0.3", "-o", self.home / "none.vcd", "--for", "0.3"))
 
     def test_an_interrupted_trace_has_all_that_came_before(self):
         out = self.home / "late.vcd"
@@ -378,6 +521,146 @@ class Protected(Host):
         self.ctl("set", "X0.2", "0")
 
 
+class Named(Host):
+    """A reload looks at the mapping file as loading does."""
+    program_text = PROGRAM.replace("symbol GUARD X0.2", "symbol GUARD X0.2\nsymbol GO X0.0\nsymbol LAMP Y0.0")
+    map = MAP.replace('"X0.0"', '"GO"').replace('"Y0.0"', '"LAMP"').replace('"X0.2"', '"GUARD"')
+
+    def program_with(self, before, after):
+        self.assertIn(before, self.program_text)
+        other = self.home / "other.pmc"
+        other.write_text(self.program_text.replace(before, after))
+        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
+        return self.home / "other.so"
+
+    def test_what_does_not_fit_is_refused(self):
+        for before, after, text in (
+                ("symbol GO X0.0", "symbol RUN X0.0", "plc.map:2:30: in.run.name: found an unknown name GO"),
+                ("symbol LAMP Y0.0", "symbol LIGHT Y0.0", "plc.map:4:31: out.lamp.name: found an unknown name LAMP"),
+                ("symbol GUARD X0.2\n", "", "plc.map:7:10: rungctl.never: found an unknown name GUARD"),
+                ("symbol GO X0.0", "symbol GO Y0.5", "in.run.name: found GO, an output of the program")):
+            with self.subTest(after=after):
+                answer = self.ctl("reload", self.program_with(before, after), "--yes", status=WRONG)
+                self.assertIn("the mapping file does not fit the new program: ", answer)
+                self.assertIn(text, answer)
+                self.assertIn("program stuck,", self.ctl("status"))
+
+    def test_a_pin_whose_cell_moves(self):
+        moved = self.program_with("symbol GO X0.0", "symbol GO X0.5")
+        self.assertIn("pins lose or change their cells: pin run: GO moves from X0.0 to X0.5; nothing has changed; "
+                      "with --yes it is done all the same", self.ctl("reload", moved, status=WRONG))
+        self.assertIn("program stuck,", self.ctl("status"))
+        self.assertIn("pin run: GO moves from X0.0 to X0.5\n", self.ctl("reload", moved, "--yes"))
+        self.assertIn("X0.5 is written before every slice by pin run", self.ctl("set", "X0.5", "1", status=WRONG))
+        self.assertEqual(self.get("X0.0"), False)
+        self.ctl("set", "X0.0", "1")
+        self.assertEqual(self.get("X0.0"), True)
+        self.assertIn("pin run: GO moves from X0.5 to X0.0\n", self.ctl("rollback"))
+
+
+class WayBack(Host):
+    """What the program that runs does not have starts with its initial contents when the former one is back."""
+    source_name = "stuck.plc"
+    program_text = """DATA
+INB: DFM GO,STOPP,,,,,,
+OUTM: DFM MOTOR,,,,,,,
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_MAIN
+LDR GO
+FL1 1,MOTOR
+LDR STOPP
+FL1 0,MOTOR
+MODULE_MAIN_END
+MODULE_BLOCK_INIT
+MODULE_BLOCK_INIT_END
+MODULE_BLOCK_DONE
+MODULE_BLOCK_DONE_END
+MODULE_INIT
+MODULE_INIT_END
+MODULE_CLEAR
+MODULE_CLEAR_END
+MODULE_HALT
+MODULE_HALT_END
+STOP
+"""
+    map = '[rungctl]\nallow = ["set", "reload"]\n'
+
+    def test_a_latch_that_was_left_on(self):
+        other = self.home / "other.plc"
+        other.write_text(self.program_text.replace("DFM MOTOR", "DFM LAMP").replace("FL1 1,MOTOR", "WR LAMP").replace("FL1 0,MOTOR", ""))
+        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
+        self.ctl("set", "GO", "1")
+        self.wait(lambda: self.get("MOTOR"))
+        self.ctl("set", "GO", "0")
+        self.assertIn("removed MOTOR", self.ctl("reload", self.home / "other.so", "--yes"))
+        self.ctl("set", "STOPP", "1")
+        self.pass_by(2)
+        self.ctl("set", "STOPP", "0")
+        self.assertIn("removed LAMP\n", self.ctl("rollback"))
+        self.assertFalse(self.get("MOTOR"))
+
+
+class Ends(Host):
+    """The regular end of a host, whatever ends it, and what a service manager hears."""
+
+    def start(self):
+        self.heard = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self.addCleanup(self.heard.close)
+        self.heard.settimeout(patience())
+        self.heard.bind("\0" + str(self.home / "notify"))
+        self.environment |= {"NOTIFY_SOCKET": "@" + str(self.home / "notify"), "WATCHDOG_USEC": "200000"}
+        self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc",
+                                      "--retain", self.home / "kept"],
+                                     stderr=self.log, env=self.environment, start_new_session=True)
+
+    def end(self):
+        self.host.kill()
+        self.host.wait(patience())
+
+    def test_a_terminal_that_is_closed(self):
+        self.host.send_signal(signal.SIGHUP)
+        self.assertEqual(self.host.wait(patience()), OK)
+        self.assertTrue((self.home / "kept.a").exists() or (self.home / "kept.b").exists())
+        self.assertIn("steps, ", self.logged())
+
+    def test_a_service_manager_hears_of_it(self):
+        self.assertIn(b"READY=1", self.heard.recv(200))
+        self.assertEqual({self.heard.recv(200) for _ in range(3)}, {b"WATCHDOG=1"})
+        self.host.terminate()
+        while b"STOPPING=1" not in self.heard.recv(200):
+            pass
+        self.assertEqual(self.host.wait(patience()), OK)
+
+
+class NobodyReads(Host):
+    """What rung-run prints goes to a pipe whose reader has gone."""
+
+    def start(self):
+        reads, writes = os.pipe()
+        self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc"],
+                                     stderr=writes, env=self.environment, start_new_session=True)
+        os.close(writes)
+        self.addCleanup(os.close, reads)
+        self.reads = reads
+
+    def setUp(self):
+        self.environment = {**os.environ, "RUNG_SOCKETS": str(self.home / "sockets")}
+        (self.home / "plc.map").write_text(self.map)
+        self.start()
+        self.socket = self.home / "sockets/plc.sock"
+        self.assertTrue(wait_until(self.socket.exists))
+
+    def test_it_runs_on_and_ends(self):
+        os.read(self.reads, 1)
+        os.dup2(os.open("/dev/null", os.O_RDONLY), self.reads)
+        self.ctl("set", "X0.1", "true") # a line of its log, or more
+        self.assertGreater(self.passes(), 0)
+        self.host.terminate()
+        self.assertEqual(self.host.wait(patience()), OK)
+
+
 class Protocol(Host):
     def ask(self, connection, text):
         made, lines = connection
@@ -409,6 +692,18 @@ class Protocol(Host):
         answer = self.ask(connection, '{"do":"status","id":[1,"a"]}')
         self.assertEqual((answer["ok"], answer["id"]), (True, [1, "a"]))
         self.assertTrue(self.ask(connection, "[" * 30000)["error"])
+
+    def test_a_name_has_no_control_characters(self):
+        connection = self.connect()
+        connection[1].readline()
+        for name in ("D8:2\0x", "D8:2\n", "D8:2\x1b[2J", "D8:2\x7f"):
+            for request in ({"do": "set", "name": name, "value": 1}, {"do": "force", "name": name, "value": 1},
+                            {"do": "get", "names": [name]}, {"do": "reload", "program": "/" + name}):
+                answer = self.ask(connection, json.dumps(request))
+                self.assertFalse(answer["ok"])
+                self.assertIn("found a control character in ", answer["error"])
+        self.assertEqual(self.get("D8:2"), 0)
+        self.assertNotIn("\x1b", self.logged())
 
     def test_mutated_requests_do_no_harm(self):
         """From a seed: bytes and words of good requests in other places."""
@@ -511,7 +806,7 @@ class WithoutAHost(unittest.TestCase):
     def test_no_host(self):
         with tempfile.TemporaryDirectory() as folder:
             done = self.run_ctl(folder, "status")
-            self.assertEqual((done.returncode, done.stderr), (WRONG, f"rungctl: no host is running: {folder} has no socket\n"))
+            self.assertEqual((done.returncode, done.stderr), (WRONG, f"rungctl: no host is running: no socket is in {folder}\n"))
             done = self.run_ctl(folder, "status", "--host", "mill")
             self.assertIn(f"cannot reach a host at {folder}/mill.sock: No such file or directory", done.stderr)
             self.assertEqual(self.run_ctl(folder, "hosts").stdout, "no host is running\n")
@@ -530,6 +825,30 @@ class WithoutAHost(unittest.TestCase):
                 host.kill()
                 host.wait()
                 host.stderr.close()
+
+    def test_the_folder_of_the_user_may_come_later(self):
+        """As when somebody logs in after a service has begun."""
+        alone = ["unshare", "--map-root-user", "--mount", "sh", "-euc"]
+        if subprocess.run([*alone, "true"], capture_output=True, check=False).returncode != 0:
+            self.skipTest("needs namespaces, for folders of its own")
+        with tempfile.TemporaryDirectory() as folder:
+            home = Path(folder)
+            build(home)
+            (home / "m.map").write_text("")
+            script = """
+mount -t tmpfs none /run
+"$2/rung-run" "$1/stuck.so" "$1/m.map" --name "$3" 2> "$1/log" &
+until grep -q "listening at /tmp/rung-0/" "$1/log"; do sleep 0.02; done
+mkdir -p /run/user/0
+"$2/rungctl" status --host "$3"
+"$2/rungctl" hosts
+kill $!
+wait
+"""
+            done = subprocess.run([*alone, script, "sh", home, BIN, f"later-{os.getpid()}"], env={**os.environ, "RUNG_SOCKETS": ""}, capture_output=True, text=True,
+                                  timeout=patience())
+            self.assertIn("running: ", done.stdout, done.stderr)
+            self.assertIn(f"\nlater-{os.getpid()}\n", done.stdout)
 
     def test_a_stranger_in_the_place_of_a_host(self):
         if os.geteuid() != 0:
@@ -565,6 +884,7 @@ class WithoutAHost(unittest.TestCase):
             self.assertEqual((status, text.count("wrong.map:")), (WRONG, 2), text)
             self.assertEqual(run(home / "none.so", home / "wrong.map")[0], ENVIRONMENT)
             status, text = run(program, home / "none.map")
+            self.assertEqual(status, ENVIRONMENT)
             self.assertIn("cannot read", text)
             self.assertEqual(run(program)[0], USAGE)
             (home / "m.map").write_text("")

@@ -2,6 +2,7 @@
 """What a program asks of its CNC, answered through the host's socket: services_test.py BIN CLASS"""
 import json
 import random
+import socket
 import subprocess
 import sys
 import unittest
@@ -82,6 +83,11 @@ PRM  1
 PRM  D0
 PRM  R10
 OUT  R11.0
+FUNC LBL
+PRM  L1
+LD   X0.7
+FUNC JMPB
+PRM  L1
 FUNC END2
 """
 BLOCKS = {"D0:2": 9, "D4:2": 4, "D6:2": 500, "D20:2": 31, "D24:2": 4, "D40:2": 17, "D44:2": 4, "D48:2": 2}
@@ -246,7 +252,7 @@ class Services(Provider):
         serving = subprocess.Popen([remote_test.BIN / "rungctl", "serve"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
                                    env=self.environment)
         self.addCleanup(serving.stdout.close)
-        self.assertEqual(json.loads(serving.stdout.readline()), {"ok": True})
+        self.assertEqual(json.loads(serving.stdout.readline()), {"again": False, "ok": True})
         self.ctl("set", "X0.0", "1")
         asked = json.loads(serving.stdout.readline())
         serving.stdin.write(json.dumps({"do": "served", "ticket": asked["ticket"], "outcome": "done", "value": 4}) + "\n")
@@ -308,12 +314,15 @@ class NctServices(Provider):
 
 class GskAxes(Provider):
     """PLC axis control: the control takes blocks by EBUF and EBSY, and asks for one motion after the other."""
-    map = Provider.map + '[axis-groups]\n4 = "A"\n[const]\n"X0.0" = true\nZRF4 = true\n'
+    map = Provider.map.replace('"serve"', '"serve", "reset"') + '[axis-groups]\n4 = "A"\n[const]\n"X0.0" = true\nZRF4 = true\n'
     program_text = GROUP
 
-    def setUp(self):
-        super().setUp()
-        self.wait(lambda: self.get("EADEN4"))  # nobody has answered the stop of the power-on
+    def provider(self):
+        """Who comes gets the order to leave the axes at rest: nobody has said what they do."""
+        provider = super().provider()
+        self.over(provider, self.asked(provider, way="stop", value=0.0, speed=0.0))
+        self.wait(lambda: self.get("EADEN4"))
+        return provider
 
     def order(self, code, data_1, data_2):
         for name, value in {"D1": code, "D2:2": data_1, "D4:4": data_2, "X0.1": True}.items():
@@ -341,6 +350,7 @@ class GskAxes(Provider):
         self.order(0, 6000, 10000)
         self.wait(lambda: self.get("EIALA"))
         self.clear()
+        self.assertFalse(self.get("EADEN4"))  # nobody says that the axis is at rest
 
     def test_blocks_wait_for_each_other(self):
         provider = self.provider()
@@ -383,6 +393,45 @@ class GskAxes(Provider):
         self.order(1, 100, 100)
         self.over(provider, self.asked(provider, way="by", value=0.01, speed=100.0), outcome="no-axis")
         self.wait(lambda: self.get("EIALA"))
+
+    def test_who_was_silent_begins_anew(self):
+        provider = self.provider()
+        self.order(6, 200, 1)
+        jog = self.asked(provider, way="jog", value=-1.0, speed=200.0)
+        self.assertTrue(self.ask(provider, do="serve", alive_ms=200)["ok"])
+        self.assertEqual(self.event(provider), {"event": "unserved"})
+        self.wait(lambda: self.get("EIALA") and not self.get("EINPA"))
+        for request in ({"do": "live"}, {"do": "served", "ticket": jog, "outcome": "done"}):
+            self.assertIn("does not serve the program", self.ask(provider, **request)["error"])
+        self.assertTrue(self.ask(provider, do="serve")["ok"])
+        self.over(provider, self.asked(provider, way="stop", value=0.0, speed=0.0))
+        self.clear()
+        self.wait(lambda: self.get("EINPA"))
+
+    def test_a_block_behind_a_dwell_is_lost_too(self):
+        provider = self.provider()
+        self.order(4, 0, 60000)
+        self.order(1, 100, 100)
+        self.assertFalse(self.get("EIALA"))
+        provider[0].shutdown(socket.SHUT_RDWR)
+        self.wait(lambda: self.get("EIALA"))
+        self.assertIn("nobody serves the program any more: the connection has ended", self.ctl("messages"))
+        provider = self.provider()
+        self.assertIn("the program is served again", self.ctl("messages"))
+        self.assertTrue(self.get("EIALA"))
+        self.clear()
+
+    def test_who_serves_learns_of_a_restart(self):
+        provider = self.provider()
+        self.order(6, 200, 1)
+        self.asked(provider, way="jog", value=-1.0, speed=200.0)
+        self.ctl("set", "X0.7", "true")
+        self.wait(lambda: "stopped by a fault: dead-loop" in self.ctl("status"))
+        self.ctl("set", "X0.7", "false")
+        self.ctl("reset")
+        self.assertEqual(self.event(provider), {"event": "unserved"})
+        self.assertEqual(self.ask(provider, do="serve"), {"again": False, "ok": True})
+        self.over(provider, self.asked(provider, way="stop", value=0.0, speed=0.0))
 
     def test_motions_take_their_time(self):
         provider = self.provider()

@@ -308,7 +308,7 @@ expect Machine.Status "READY"
 
     def test_rung_removed(self):
         lines = "        EDGE_H K_RESET\n        JL0  CHIPS_END\n        FL   0,CHIP_JAM\n        LOD  0\n        STO  CHIP_TRIPS\n"
-        self.case([Edit("fluids.plc", lines, "")], ["removed state \"MODULE_MAIN.EDGE_H K_RESET#1\""])
+        self.case([Edit("fluids.plc", lines, "")], ["removed state \"MODULE_MAIN.EDGE_H K_RESET~1\""])
 
     def test_symbol_renamed(self):
         """Contents go by names alone."""

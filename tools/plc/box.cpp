@@ -41,11 +41,15 @@ int32_t readProfile(const rung_instance* plc, Order& order) noexcept {
 
 } // namespace
 
-Box::Box(const Image& image, mapping::File map, const std::string& retain, const NewInstance& newInstance)
-    : map_(std::move(map)), options_{.size = sizeof options_, .user = this, .log = &Box::log, .request = &Box::request},
-      plc_(newInstance ? newInstance(image, options_) : Instance(image, &options_)), kept_(!retain.empty()),
-      pins_(map_.pins) {
-  if (kept_) check(rung_instance_keep(plc_.handle(), retain.c_str()));
+Box::Box(const Image& image, mapping::File map, const Options& options)
+    : map_(std::move(map)), options_{.size = sizeof options_,
+                                     .user = this,
+                                     .log = &Box::log,
+                                     .request = &Box::request,
+                                     .catch_up = options.catchUp},
+      plc_(options.newInstance ? options.newInstance(image, options_) : Instance(image, &options_)),
+      kept_(!options.retain.empty()), reset_(options.reset), pins_(map_.pins), clock_(*options.clock) {
+  if (kept_) check(rung_instance_keep(plc_.handle(), options.retain.c_str()));
 }
 
 // No exception may go through the library, which is one of C.
@@ -59,23 +63,21 @@ int32_t Box::request(void* box, rung_instance*, const rung_request* request, run
   return services::atOnce(*request, static_cast<Box*>(box)->live_, *reply);
 }
 
-std::unique_ptr<Box> Box::make(const Image& image, mapping::File map, std::vector<std::string>& errors,
-                               const std::string& retain, std::vector<std::string>& warnings,
-                               const NewInstance& newInstance) try {
-  std::unique_ptr<Box> box(new Box(image, std::move(map), retain, newInstance));
+std::unique_ptr<Box> Box::make(const Image& image, mapping::File map, const Options& options,
+                               std::vector<std::string>& errors, std::vector<std::string>& warnings) {
+  std::unique_ptr<Box> box(new Box(image, std::move(map), options));
   box->binding_ = mapping::bindMap(box->map_, box->plc_.handle(), *rung_image_program(image.handle()), errors);
   mapping::defineMessages(box->map_, box->plc_.handle(), errors);
   if (!errors.empty()) return nullptr;
   box->bindValues();
   box->functions_ = std::make_unique<FunctionQueue>(box->map_, box->plc_.handle());
-  const bool started = box->start(errors);
+  std::string problem;
+  const int32_t status = box->start(problem);
   warnings = std::move(box->logged_);
   for (const mapping::Pin& pin : box->map_.pins)
     if (pin.holds) warnings.push_back("pin " + pin.name + " holds its last value where the program does not run");
-  return started ? std::move(box) : nullptr;
-} catch (const Error& error) {
-  errors.emplace_back(error.what());
-  return nullptr;
+  if (status < RUNG_OK) throw Error(status, problem.c_str());
+  return box;
 }
 
 // Constants in every slice, too: neither a restart nor the control can undo them.
@@ -87,6 +89,8 @@ void Box::bindValues() {
     if (mapping::toProgram(link.direction)) {
       bind(link, values_[i], RUNG_TO_PROGRAM, link.scale);
       toProgram_.push_back(i);
+      if (link.direction == mapping::Direction::In || link.direction == mapping::Direction::Parameter)
+        feeds_.push_back({link.name, "pin " + map_.pins[link.pin].name});
     }
     if (mapping::fromProgram(link.direction)) {
       bind(link, values_[i], RUNG_FROM_PROGRAM, link.scale);
@@ -97,6 +101,7 @@ void Box::bindValues() {
     const mapping::ConstLink& link = binding_.constants[i];
     constants_[i] = constant(link.type, link.value);
     bind(link, constants_[i], RUNG_TO_PROGRAM, 1);
+    feeds_.push_back({link.name, "a constant of the mapping file"});
   }
 }
 
@@ -111,13 +116,14 @@ void Box::bind(const Link& link, Value& value, rung_direction direction, double 
 }
 
 // A fault at the power-on shows in the first step.
-bool Box::start(std::vector<std::string>& reports) {
+int32_t Box::start(std::string& problem) {
+  hasRun_ = false;
   const int32_t status = rung_instance_power_on(plc_.handle(), kept_ ? RUNG_WARM : RUNG_COLD);
-  if (status < RUNG_OK) reports.emplace_back(rung_error_text());
+  if (status < RUNG_OK) problem = rung_error_text();
   const bool first = !pins_.connected();
   for (const size_t link : toProgram_) beginWith(link, first);
   if (!first) pins_.write();
-  return status >= RUNG_OK;
+  return status;
 }
 
 // What both sides write begins with the program's value; a parameter keeps a person's.
@@ -156,25 +162,112 @@ void Box::connect(const PinCell* cells, const PinAccess& access) noexcept {
   pins_.write();
 }
 
-bool Box::serve(std::vector<std::string>& reports) {
-  const State state = state_.load(std::memory_order_acquire);
-  if (state == State::Running) return false;
-  bool isNew = false;
-  if (const std::optional<rung_fault_info> info = reported_ ? std::nullopt : fault()) { // or the scan thread has it
-    isNew = reported_ = true;
-    faultLine_.store(info->line, std::memory_order_relaxed);
-    reports.push_back("the program has stopped: " + std::string(info->text) +
-                      "; output pins have their safe values until pin reset rises");
-  }
-  if (state == State::Stopped) return isNew;
+std::string Box::stopText(const rung_fault_info& fault) const {
+  rung_program_info program{};
+  program.size = sizeof program;
+  rung_instance_program(plc_.handle(), &program);
+  const bool isOthers = program.faulted != 0;
+  std::string text = isOthers ? "the program " + std::string(program.faulted_name) : "the program";
+  text += " has stopped: " + std::string(fault.text) + "; output pins have their safe values until " + reset_;
+  if (isOthers) text += "; then " + std::string(program.name) + " runs";
+  return text;
+}
+
+// Once for each.
+void Box::reportFault() {
+  const std::optional<rung_fault_info> info = reported_ ? std::nullopt : fault(); // or the scan thread has it
+  if (!info) return;
+  reported_ = true;
+  faultLine_.store(info->line, std::memory_order_relaxed);
+  reports_.push_back(stopText(*info));
+}
+
+void Box::restart() {
+  if (state_.load(std::memory_order_acquire) != State::Restarting) return;
+  reportFault();
   functions_->restart();
-  const bool started = start(reports);
-  std::ranges::move(logged_, std::back_inserter(reports));
+  live_.served.store(false, std::memory_order_release); // who serves has orders of the program that has stopped
+  std::string problem;
+  const bool started = start(problem) >= RUNG_OK;
+  if (!started) reports_.push_back(problem);
+  restartProblem_ = started ? "" : problem;
+  std::ranges::move(logged_, std::back_inserter(reports_));
   logged_.clear();
-  reports.emplace_back(started ? "the program has been restarted" : "the program cannot be restarted");
+  if (started) ++restarts_;
+  reports_.emplace_back(started ? "the program has been restarted" : "the program cannot be restarted");
   reported_ = !started;
   state_.store(started ? State::Running : State::Stopped, std::memory_order_release);
-  return true;
+}
+
+// When it begins to fail, why it fails for another reason, and when it is good again.
+void Box::reportSaving() {
+  char text[512] = "";
+  if (rung_instance_unsaved(plc_.handle(), text, sizeof text) != RUNG_OK) text[0] = '\0';
+  if (unsaved_ == text) return;
+  unsaved_ = text;
+  reports_.push_back(unsaved_.empty() ? "the retained memory is written again"
+                                      : "the retained memory is not written: " + unsaved_);
+}
+
+bool Box::serve(std::vector<std::string>& reports) {
+  const host::Alone::In service(serves_);
+  restart();
+  if (state_.load(std::memory_order_acquire) == State::Stopped) reportFault();
+  if (kept_) reportSaving();
+  std::ranges::move(reports_, std::back_inserter(reports));
+  return !std::exchange(reports_, {}).empty();
+}
+
+Answer Box::order(Order& order, std::chrono::milliseconds time) {
+  const host::Alone::In service(serves_);
+  if (ended()) return {RUNG_WRONG_STATE, "the program has been switched off"};
+  const Answer answer = orders_.give(order, time, clock_, [this] { restart(); });
+  if (order.kind != Order::Kind::Restart || !answer.ok()) return answer;
+  restart();
+  if (restartProblem_.empty()) return answer;
+  return {RUNG_FAILED, "the program cannot be restarted: " + restartProblem_};
+}
+
+namespace {
+
+// Where a name is in one program or the other; nothing: it is gone.
+std::optional<rung_cell_info> placeOf(rung_instance* plc, const rung_replacement* in, const mapping::PinLink& link) {
+  rung_cell_info info{};
+  info.size = sizeof info;
+  int64_t value = 0;
+  const int32_t access = mapping::toProgram(link.direction) ? RUNG_WRITE : RUNG_READ;
+  if (rung_instance_describe(plc, in, link.name.c_str(), access, &info, &value) != RUNG_OK) return std::nullopt;
+  return info;
+}
+
+bool isSamePlace(const rung_cell_info& a, const rung_cell_info& b) {
+  return a.space == b.space && a.byte == b.byte && a.bit == b.bit && a.type == b.type;
+}
+
+} // namespace
+
+Box::Losses Box::lossesBy(const rung_replacement* replacement, const rung_program& next) const {
+  Losses losses = lossesBy(replacement);
+  mapping::bindMap(map_, plc_.handle(), replacement, next, losses.mistakes);
+  return losses;
+}
+
+Box::Losses Box::lossesBy(const rung_replacement* replacement) const {
+  Losses losses;
+  for (size_t i = 0; i < binding_.links.size(); ++i) {
+    const mapping::PinLink& link = binding_.links[i];
+    const std::optional<rung_cell_info> now = placeOf(plc_.handle(), nullptr, link);
+    const std::optional<rung_cell_info> later = placeOf(plc_.handle(), replacement, link);
+    if (!now || (later && isSamePlace(*now, *later))) continue;
+    losses.moved.push_back("pin " + map_.pins[link.pin].name + ": " + link.name +
+                           (later ? " moves from " + std::string(now->address) + " to " + later->address
+                                  : ", at " + std::string(now->address) + ", is gone"));
+    rung_cell cell = 0;
+    if (mapping::toProgram(link.direction) &&
+        rung_instance_find(plc_.handle(), link.name.c_str(), RUNG_WRITE, &cell) == RUNG_OK)
+      losses.dead.push_back(cell); // bound, and so never released
+  }
+  return losses;
 }
 
 std::string Box::close() {
@@ -186,13 +279,17 @@ std::string Box::close() {
 }
 
 bool Box::ends() noexcept {
+  ending_ = true;
+  if (restarting()) return false;
   if (rung_instance_begin_power_off(plc_.handle()) == RUNG_LATER) return false;
+  ended_.store(true, std::memory_order_release);
   // What the control runs first may have faulted: `serve` reports that as any other fault.
   if (running() && (state().flags & RUNG_STATE_FAULTED) != 0) state_.store(State::Stopped, std::memory_order_release);
   return true;
 }
 
 StepResult Box::step(int64_t ns, bool reset) noexcept {
+  const host::Alone::In scan(scans_);
   if (!beginStep(ns, reset)) return StepResult::Waiting;
   const StepResult result = run(ns, &rung_instance_run_due);
   sliceBegun_ = false;
@@ -200,6 +297,7 @@ StepResult Box::step(int64_t ns, bool reset) noexcept {
 }
 
 StepResult Box::stepFast(int64_t ns, bool reset) noexcept {
+  const host::Alone::In scan(scans_);
   if (!beginStep(ns, reset)) return StepResult::Waiting;
   const StepResult result = run(ns, &rung_instance_run_due_fast);
   sliceBegun_ = result == StepResult::Ran;
@@ -208,13 +306,16 @@ StepResult Box::stepFast(int64_t ns, bool reset) noexcept {
 
 // False: the program does not run.
 bool Box::beginStep(int64_t ns, bool reset) noexcept {
-  const bool resets = reset && restartable_;
+  const bool resets = reset && restartable_ && !ending_;
   const bool asked = resets && !wasReset_;
   wasReset_ = resets;
   orders_.take([this](Order& order) { return obey(order); });
   const State state = state_.load(std::memory_order_acquire);
   if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
+  if (state == State::Stopped) rung_instance_sample(plc_.handle());
   if (state != State::Running) return false;
+  if (!map_.axisGroups.empty())
+    rung_instance_serving(plc_.handle(), live_.served.load(std::memory_order_acquire) ? 1 : 0);
   pins_.read();
   functions_->sample(pins_, ns);
   return true;
@@ -234,7 +335,8 @@ StepResult Box::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcep
     return StepResult::Failed;
   }
   const bool wasDue = before.wait_ns <= ns;
-  if (wasDue) writePins();
+  hasRun_ = hasRun_ || (wasDue && (before.flags & RUNG_STATE_STOPPED) == 0);
+  if (wasDue && hasRun_) writePins(); // one that was stopped before its first slice has not written any
   pins_.write();
   return wasDue ? StepResult::Ran : StepResult::Waiting;
 }
@@ -288,17 +390,36 @@ bool Box::nextRequest(services::Request& request) const {
   return true;
 }
 
-int32_t Box::obey(Order& order) noexcept {
+OrderSlot::Outcome Box::obey(Order& order) noexcept {
+  using Kind = Order::Kind;
   const State now = state_.load(std::memory_order_acquire);
-  if (order.kind == Order::Kind::Restart && now == State::Stopped) {
-    if (!restartable_) return RUNG_LATER;
+  if (now == State::Restarting) return {RUNG_LATER, "the program is being restarted"};
+  if (order.kind == Kind::Restart) {
+    if (ending_) return {RUNG_WRONG_STATE, "the program is being switched off"};
+    if (now == State::Running)
+      return {RUNG_WRONG_STATE, "the program runs; a reset restarts one that a fault has stopped"};
+    if (!restartable_) return {RUNG_LATER, "axes of the program still move"};
     state_.store(State::Restarting, std::memory_order_release);
-    return RUNG_OK;
+    return {};
   }
-  if (now == State::Restarting) return RUNG_LATER; // the instance is another thread's
-  if (order.kind == Order::Kind::Restart) return RUNG_EMPTY;
+  if (now == State::Stopped && (order.kind == Kind::Stop || order.kind == Kind::Start))
+    return {RUNG_WRONG_STATE, "a fault has stopped the program: a reset restarts it"};
   const int32_t status = obeyRunning(order);
-  return status == RUNG_WRONG_THREAD ? int32_t{RUNG_LATER} : status; // of a stopped program: who serves it
+  if (status == RUNG_OK || status == RUNG_EMPTY) return {status};
+  const bool isOff = now == State::Stopped && (state().flags & RUNG_STATE_ON) == 0; // a restart has failed
+  if (status == RUNG_FAULTED || isOff) return {status, "a fault has stopped the program: a reset restarts it"};
+  return {status == RUNG_WRONG_THREAD ? int32_t{RUNG_LATER} : status, rung_error_text()}; // who serves it has it
+}
+
+// An input that nobody feeds any more keeps nothing that permits something. Where the new program cannot take over now,
+// its pin feeds it again before the next slice.
+int32_t Box::replace(Order& order) noexcept {
+  const rung_value none{};
+  if (order.dead != nullptr)
+    for (const rung_cell cell : *order.dead) rung_instance_write(plc_.handle(), cell, 0, 1, &none);
+  const int32_t status = rung_instance_replace(plc_.handle(), order.replacement);
+  order.state = state();
+  return status;
 }
 
 int32_t Box::obeyRunning(Order& order) noexcept {
@@ -313,7 +434,7 @@ int32_t Box::obeyRunning(Order& order) noexcept {
     order.force.size = sizeof order.force;
     return rung_instance_forced(plc, order.index, &order.force);
   case Order::Kind::Force: return rung_instance_force(plc, order.forces);
-  case Order::Kind::Replace: return rung_instance_replace(plc, order.replacement);
+  case Order::Kind::Replace: return replace(order);
   case Order::Kind::Shadow: return rung_instance_shadow(plc, order.shadow);
   case Order::Kind::Stop: return rung_instance_stop(plc);
   case Order::Kind::Start: return rung_instance_start(plc);

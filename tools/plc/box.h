@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "rtlib/host/alone.h"
+#include "rtlib/host/clock.h"
 #include "rung/runtime.hpp"
 #include "tools/mapping/binding.h"
 #include "tools/mapping/file.h"
@@ -30,16 +32,24 @@ enum class StepResult : uint8_t {
 
 class Box {
 public:
-  // Null, and `errors` say why, when the map does not fit the program. The start is cold, or with the memory that
-  // `retain` (FILE of FILE.a and FILE.b) keeps. `warnings`: what the operator should know of the retained memory.
-  // `newInstance`: of a program that is not in a control alone.
   using NewInstance = std::function<Instance(const Image& image, const rung_instance_options& options)>;
-  static std::unique_ptr<Box> make(const Image& image, mapping::File map, std::vector<std::string>& errors,
-                                   const std::string& retain, std::vector<std::string>& warnings,
-                                   const NewInstance& newInstance = {});
+  struct Options {
+    std::string retain;                        // FILE of FILE.a and FILE.b; "": it starts cold
+    NewInstance newInstance = {};              // of a program that is not in a control alone
+    host::Clock* clock = &host::systemClock(); // for all but steps; outlives the box
+    uint32_t catchUp = 0;                      // as in rung_instance_options
+    const char* reset = "pin reset rises";     // what restarts a program that has stopped, for people
+  };
+  // Null, and `errors` say why, when the map does not fit the program. Throws rung::Error where it does, but the
+  // program cannot be switched on: another process has its retained memory. `warnings`, then, too: what the operator
+  // should know of the retained memory.
+  static std::unique_ptr<Box> make(const Image& image, mapping::File map, const Options& options,
+                                   std::vector<std::string>& errors, std::vector<std::string>& warnings);
   // A regular end, for the thread of the steps between two of them: begins it, and is asked again after each step.
-  // True: the program needs no more of them, and has had them with fresh inputs.
+  // True: the program needs no more of them, and has had them with fresh inputs. Nothing is restarted any more; a
+  // restart that `serve` has begun is waited for.
   bool ends() noexcept;
+  bool ended() const noexcept { return ended_.load(std::memory_order_acquire); } // any thread
   // After the last step, or where none can come any more: the program's last scans run where they have not, output pins
   // have their safe values then, and what is retained is on disk; "" or why not.
   std::string close();
@@ -69,8 +79,9 @@ public:
   }
   // Whether a restart after a fault may begin, before a step: it waits while the host still moves something.
   void setRestartable(bool is) noexcept { restartable_ = is; }
-  // Any thread but the scan's, which does it in its next step (see orders.h).
-  Answer order(Order& order, std::chrono::milliseconds time = kPatience) { return orders_.give(order, time); }
+  // The thread of `serve`; the scan thread does it in its next step (see orders.h). While it waits, a restart that the
+  // scan thread asks for is done.
+  Answer order(Order& order, std::chrono::milliseconds time = kPatience);
   static constexpr std::chrono::milliseconds kPatience{1000};
   // One thread at a time, any. False: the program has shown nothing since.
   bool nextMessage(rung_message_info& message) const noexcept;
@@ -81,6 +92,24 @@ public:
   void answer(const rung_reply& reply) const noexcept { rung_instance_answer(plc_.handle(), &reply); }
   rung_instance* instance() const noexcept { return plc_.handle(); }
   const mapping::File& map() const noexcept { return map_; }
+  host::Clock& clock() const noexcept { return clock_; }
+  // What is written into the program before every slice.
+  struct Feed {
+    std::string name; // of the cell
+    std::string by;   // "pin door" or "a constant"
+  };
+  const std::vector<Feed>& feeds() const noexcept { return feeds_; }
+
+  // What the map loses when the new program of a replacement takes over; not for the scan thread.
+  struct Losses {
+    std::vector<std::string> mistakes; // as at the start: the program does not take over
+    std::vector<std::string>
+        moved; // pins whose cells are elsewhere then, or gone: where that is not meant it does not either
+    std::vector<rung_cell> dead; // inputs that no pin feeds any more
+  };
+  Losses lossesBy(const rung_replacement* replacement, const rung_program& next) const;
+  // Of one that ran, with this map, already: it makes no mistakes.
+  Losses lossesBy(const rung_replacement* replacement) const;
 
   // Not the scan thread, again and again: what a step must not do itself, a fault in words, and the restart after it.
   // True: there was something of that, and `reports` says what the operator should know of it.
@@ -97,9 +126,13 @@ public:
   rung_state state() const noexcept;
   bool failsToSave() const noexcept { return (state().flags & RUNG_STATE_UNSAVED) != 0; }
   const FunctionQueue& functions() const { return *functions_; }
+  // How often `serve` has switched the program on again; its thread.
+  uint32_t restarts() const noexcept { return restarts_; }
+  // Why the last restart has failed; "" where it has not.
+  const std::string& restartProblem() const noexcept { return restartProblem_; }
 
 private:
-  Box(const Image& image, mapping::File map, const std::string& retain, const NewInstance& newInstance);
+  Box(const Image& image, mapping::File map, const Options& options);
 
   // Stopped: by a fault. Restarting: the instance belongs to `serve`.
   enum class State : uint8_t { Running, Stopped, Restarting };
@@ -110,13 +143,18 @@ private:
   void beginWith(size_t link, bool first) noexcept;
   Value valueInProgram(const mapping::PinLink& link) noexcept;
   void setPins(const mapping::PinLink& link, const Value& value) noexcept;
-  bool start(std::vector<std::string>& reports);
+  int32_t start(std::string& problem); // the status, and why it is none
+  std::string stopText(const rung_fault_info& fault) const;
+  void reportFault();
+  void reportSaving();
+  void restart();
   bool beginStep(int64_t ns, bool reset) noexcept;
   StepResult run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcept;
   void readPins() noexcept;
   void writePins() noexcept;
-  int32_t obey(Order& order) noexcept;
+  OrderSlot::Outcome obey(Order& order) noexcept;
   int32_t obeyRunning(Order& order) noexcept;
+  int32_t replace(Order& order) noexcept;
   static void log(void* box, int32_t level, const char* text);
   static int32_t request(void* box, rung_instance* instance, const rung_request* request, rung_reply* reply);
 
@@ -126,17 +164,30 @@ private:
   rung_instance_options options_;
   Instance plc_;
   bool kept_; // there is a file for retained memory
+  const char* const reset_;
   mapping::Binding binding_;
   std::vector<Value> values_, constants_;       // bound to the program; by binding_
   std::vector<size_t> toProgram_, fromProgram_; // links
-  std::unique_ptr<FunctionQueue> functions_;    // once the map is bound
+  std::vector<Feed> feeds_;
+  std::unique_ptr<FunctionQueue> functions_; // once the map is bound
   Pins pins_;
   OrderSlot orders_;
+  host::Clock& clock_;
   bool wasReset_ = false;
   bool restartable_ = true;
+  bool ending_ = false; // `ends` was asked
+  std::atomic<bool> ended_ = false;
+  bool hasRun_ = false;     // a slice, since it was switched on: outputs are the program's
   bool sliceBegun_ = false; // by `stepFast`
-  bool reported_ = false;   // the fault that has stopped it: by `serve`
+  // The thread of `serve`.
+  bool reported_ = false; // the fault that has stopped it
+  std::string unsaved_;   // why retained memory was not saved, as it was reported; ""
+  std::vector<std::string> reports_;
+  uint32_t restarts_ = 0;
+  std::string restartProblem_;
   std::atomic<uint32_t> faultLine_{0};
+  host::Alone scans_;  // the thread of the steps
+  host::Alone serves_; // the thread of `serve` and `order`
   std::atomic<State> state_{State::Running};
 };
 

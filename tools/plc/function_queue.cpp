@@ -6,7 +6,7 @@
 namespace rung::plc {
 
 FunctionQueue::FunctionQueue(const mapping::File& map, rung_instance* instance)
-    : instance_(instance), sends_(map.sends), wasTriggered_(sends_.size()), aborts_(map.aborts),
+    : instance_(instance), sends_(map.sends), wasTriggered_(sends_.size()), owed_(sends_.size()), aborts_(map.aborts),
       wasAborted_(aborts_.size()), timeoutNs_(map.timeoutNs), calls_(kRoom) {
   for (const mapping::Send& send : sends_) channels_ = std::max(channels_, send.channel + 1);
   restart();
@@ -15,6 +15,7 @@ FunctionQueue::FunctionQueue(const mapping::File& map, rung_instance* instance)
 void FunctionQueue::restart() noexcept {
   count_ = 0;
   late_ = false;
+  std::fill(owed_.begin(), owed_.end(), false);
   for (size_t i = 0; i < sends_.size(); ++i) wasTriggered_[i] = !sends_[i].edge.rising;
   for (size_t i = 0; i < aborts_.size(); ++i) wasAborted_[i] = !aborts_[i].rising;
 }
@@ -34,19 +35,26 @@ void FunctionQueue::sample(Pins& pins, int64_t ns) noexcept {
   for (uint32_t i = 0; i < sends_.size(); ++i) {
     const mapping::Send& send = sends_[i];
     const bool now = triggered(send.edge, pins);
-    const int32_t code = send.codePin ? pins[*send.codePin].s32 : send.code;
     if (!now) withdraw(i, pins);
-    if (now && !wasTriggered_[i]) queue({.send = i, .code = static_cast<uint32_t>(code)});
+    owed_[i] = now && (wasTriggered_[i] ? owed_[i] : !queue(callOf(i, pins)));
     wasTriggered_[i] = now;
   }
 }
 
-void FunctionQueue::queue(Call call) noexcept {
+FunctionQueue::Call FunctionQueue::callOf(uint32_t send, const Pins& pins) const noexcept {
+  const auto& codePin = sends_[send].codePin;
+  return {.send = send, .code = static_cast<uint32_t>(codePin ? pins[*codePin].s32 : sends_[send].code)};
+}
+
+bool FunctionQueue::queue(Call call) noexcept {
   const mapping::Send& send = sends_[call.send];
-  if (count_ == kRoom || rung_instance_carries_function(instance_, send.channel, send.kind, call.code) != RUNG_OK)
-    ++lost_;
-  else
+  const bool isCarried = rung_instance_carries_function(instance_, send.channel, send.kind, call.code) == RUNG_OK;
+  const bool hasRoom = count_ < kRoom;
+  if (hasRoom && isCarried)
     calls_[count_++] = call;
+  else
+    ++lost_;
+  return hasRoom || !isCarried;
 }
 
 // The function itself is carried out all the same.
@@ -58,6 +66,7 @@ void FunctionQueue::withdraw(uint32_t send, Pins& pins) noexcept {
 
 void FunctionQueue::abort() noexcept {
   count_ = 0;
+  std::fill(owed_.begin(), owed_.end(), false);
   late_ = false;
   for (uint32_t channel = 0; channel < channels_; ++channel) rung_instance_abort_functions(instance_, channel);
 }
@@ -67,6 +76,8 @@ void FunctionQueue::advance(Pins& pins) noexcept {
   const auto first = calls_.begin();
   const auto kept = std::remove_if(first, first + count_, [&](const Call& call) { return finish(call, pins); });
   count_ = static_cast<uint32_t>(kept - first);
+  for (uint32_t i = 0; i < sends_.size() && count_ < kRoom; ++i)
+    if (owed_[i]) owed_[i] = !queue(callOf(i, pins));
   for (uint32_t i = 0; i < count_; ++i) start(i);
 }
 

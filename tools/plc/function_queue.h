@@ -35,7 +35,9 @@ public:
   bool busy() const noexcept { return count_ != 0; }
   // One has not been finished within the map's time since it was queued.
   bool late() const noexcept { return late_; }
-  // Functions that found the queue full, and those whose code the dialect's signals do not hold.
+  // Functions that found the queue full, and those whose code the dialect's signals do not hold. Where the level that
+  // caused one is still there when the queue has room, it is handed over then: what a pair of functions makes of a
+  // level ends as the level does.
   uint32_t lost() const noexcept { return lost_; }
 
 private:
@@ -50,7 +52,8 @@ private:
   bool triggered(const mapping::Edge& edge, const Pins& pins) const noexcept {
     return pins[edge.pin].bit == edge.rising;
   }
-  void queue(Call call) noexcept;
+  Call callOf(uint32_t send, const Pins& pins) const noexcept;
+  bool queue(Call call) noexcept; // false: it found the queue full
   void withdraw(uint32_t send, Pins& pins) noexcept;
   void abort() noexcept;
   bool finish(const Call& call, Pins& pins) const noexcept;
@@ -59,6 +62,7 @@ private:
   rung_instance* instance_;
   std::vector<mapping::Send> sends_;
   std::vector<bool> wasTriggered_; // by sends_
+  std::vector<bool> owed_;         // by sends_: it found the queue full, and its cause is still there
   std::vector<mapping::Edge> aborts_;
   std::vector<bool> wasAborted_; // by aborts_
   uint32_t channels_ = 0;        // that sends are for: those below this number

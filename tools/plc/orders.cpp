@@ -1,15 +1,16 @@
 // See orders.h.
 #include "tools/plc/orders.h"
 
+#include <cassert>
 #include <cstring>
 #include <thread>
 
 namespace rung::plc {
 
-void OrderSlot::keepProblem() noexcept {
-  const char* text = rung_error_text();
-  const size_t length = strnlen(text, sizeof problem_ - 1);
-  std::memcpy(problem_, text, length);
+void OrderSlot::keep(const Outcome& outcome) noexcept {
+  status_ = outcome.status;
+  const size_t length = strnlen(outcome.problem, sizeof problem_ - 1);
+  std::memcpy(problem_, outcome.problem, length);
   problem_[length] = '\0';
 }
 
@@ -23,20 +24,16 @@ bool OrderSlot::withdraw() noexcept {
   return true;
 }
 
-Answer OrderSlot::give(Order& order, std::chrono::milliseconds time) {
-  constexpr std::chrono::microseconds kLook(200);
-  const std::lock_guard lock(giving_);
+void OrderSlot::post(const Order& order) {
+  assert(state_.load(std::memory_order_relaxed) == kFree);
   order_ = order;
   status_ = RUNG_OK;
   problem_[0] = '\0';
   state_.store(kPosted, std::memory_order_release);
-  const auto end = std::chrono::steady_clock::now() + time;
-  bool done = false;
-  while (!done && std::chrono::steady_clock::now() < end) {
-    std::this_thread::sleep_for(kLook);
-    done = state_.load(std::memory_order_acquire) == kDone;
-  }
-  if (!done && withdraw()) {
+}
+
+Answer OrderSlot::take(Order& order) {
+  if (!isDone() && withdraw()) {
     if (status_ == RUNG_LATER) return {RUNG_LATER, problem_};
     return {RUNG_FAILED, "the thread that scans the program does not run"};
   }

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <vector>
 
+#include "rtlib/host/clock.h"
 #include "rung/runtime.h"
 
 namespace rung::plc {
@@ -17,7 +19,7 @@ struct Order {
     Write,   // `value` into `cell`; `former` is what was there
     Forced,  // the force in effect number `index`
     Force,   // `forces` are in effect from now on; null: none
-    Replace, // by the program of `replacement`
+    Replace, // by the program of `replacement`; the instance's state then
     Shadow,  // `shadow` begins; null: it ends
     Stop,
     Start,
@@ -34,6 +36,8 @@ struct Order {
   uint32_t count = 0;
   rung_forces* forces = nullptr;
   rung_replacement* replacement = nullptr;
+  const std::vector<rung_cell>* dead =
+      nullptr; // with that: inputs of the running program that become 0; of whoever gives the order
   rung_shadow* shadow = nullptr;
   void (*act)(void* actor) = nullptr;
   void* actor = nullptr;
@@ -47,30 +51,48 @@ struct Order {
 // What became of an order.
 struct Answer {
   int32_t status = RUNG_OK; // enum rung_status; RUNG_FAILED also where nobody scans
-  std::string problem;      // a sentence where it is an error, or RUNG_LATER
+  std::string problem;      // a sentence, unless it is done
   bool ok() const { return status == RUNG_OK || status == RUNG_EMPTY; }
 };
 
 class OrderSlot {
 public:
-  // For all threads but the scan's, which may wait here for each other. Results are in `order`. What the scan thread
-  // cannot do now it tries again, until the time is over: then the order is withdrawn, and has done nothing.
-  Answer give(Order& order, std::chrono::milliseconds time);
+  // The status of an order, and the sentence that goes with it, where it is not done.
+  struct Outcome {
+    int32_t status = RUNG_OK;
+    const char* problem = ""; // until the order is answered
+  };
 
-  // The scan thread, between two slices: `obey` does the order and gives a status; after an error, and RUNG_LATER, it
-  // leaves the sentence of rung_error_text.
+  // For all threads but the scan's, which may wait here for each other. Results are in `order`. What the scan thread
+  // cannot do now it tries again, until the time is over: then the order is withdrawn, and has done nothing. Between
+  // two looks, `meanwhile` does what others may wait for.
+  template <class Meanwhile>
+  Answer give(Order& order, std::chrono::nanoseconds time, host::Clock& clock, Meanwhile meanwhile) {
+    constexpr int64_t kLookNs = 200'000;
+    const std::lock_guard lock(giving_);
+    post(order);
+    for (const int64_t end = clock.nowNs() + time.count(); !isDone() && clock.nowNs() < end;) {
+      clock.sleep(kLookNs);
+      meanwhile();
+    }
+    return take(order);
+  }
+
+  // The scan thread, between two slices: `obey` does the order and gives an Outcome.
   template <class Obey>
   void take(Obey obey) noexcept {
     int expected = kPosted;
     if (!state_.compare_exchange_strong(expected, kTaken, std::memory_order_acquire)) return;
-    status_ = obey(order_);
-    if (status_ < RUNG_OK || status_ == RUNG_LATER) keepProblem();
+    keep(obey(order_));
     state_.store(status_ == RUNG_LATER ? kPosted : kDone, std::memory_order_release);
   }
 
 private:
   static constexpr int kFree = 0, kPosted = 1, kTaken = 2, kDone = 3;
-  void keepProblem() noexcept;
+  void post(const Order& order);
+  bool isDone() const noexcept { return state_.load(std::memory_order_acquire) == kDone; }
+  Answer take(Order& order);
+  void keep(const Outcome& outcome) noexcept;
   bool withdraw() noexcept;
 
   std::mutex giving_;

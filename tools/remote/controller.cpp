@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <ctime>
 #include <iterator>
 #include <utility>
 
@@ -28,20 +27,16 @@ constexpr uint32_t kMostShadowPasses = 100'000;
 constexpr uint32_t kShadowRoom = 256;  // runs of tasks that wait to be compared
 constexpr uint32_t kPassesKept = 4096; // of a watch of all passes
 
-std::string timeNow() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  localtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
-  return text;
-}
+bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
+bool hasControls(const std::string& text) { return std::ranges::any_of(text, isControl); }
 
 std::string textOf(const json& request, const char* key) {
   const auto found = request.find(key);
   if (found == request.end() || !found->is_string())
     throw Refused(std::string("found no text \"") + key + "\" in the request, expected one");
-  return found->get<std::string>();
+  std::string text = found->get<std::string>();
+  if (hasControls(text)) throw Refused(std::string("found a control character in \"") + key + "\", expected none");
+  return text;
 }
 
 bool flagOf(const json& request, const char* key) {
@@ -57,7 +52,9 @@ std::vector<std::string> namesOf(const json& request) {
   const bool good = found != request.end() && found->is_array() && !found->empty() && found->size() <= kMostNames &&
                     std::ranges::all_of(*found, &json::is_string);
   if (!good) throw Refused("found no list \"names\" of 1 to 256 texts in the request, expected one");
-  return found->get<std::vector<std::string>>();
+  auto names = found->get<std::vector<std::string>>();
+  if (std::ranges::any_of(names, hasControls)) throw Refused("found a control character in \"names\", expected none");
+  return names;
 }
 
 std::string programOf(const json& request) {
@@ -69,40 +66,83 @@ std::string programOf(const json& request) {
 std::string shown(uint32_t type, rung_value value) { return toJson(type, value).dump(); }
 
 const char* changeName(uint32_t kind) {
-  constexpr const char* kNames[] = {"new",     "removed", "moved",
-                                    "renamed", "retyped", "released"}; // enum rung_change_kind
+  constexpr const char* kNames[] = {"new",     "removed",  "moved", "renamed",
+                                    "retyped", "released", "cut"}; // enum rung_change_kind
+  return kind < std::size(kNames) ? kNames[kind] : "changed";
+}
+
+std::string joined(const std::vector<std::string>& texts, const char* between) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : between) + text;
+  return all;
+}
+
+const char* rungChangeName(uint32_t kind) {
+  constexpr const char* kNames[] = {"new", "removed", "changed", "moved"}; // enum rung_rung_change_kind
   return kind < std::size(kNames) ? kNames[kind] : "changed";
 }
 
 bool loses(uint32_t kind) {
-  return kind == RUNG_CHANGE_REMOVED || kind == RUNG_CHANGE_RETYPED || kind == RUNG_CHANGE_RELEASED;
+  return kind == RUNG_CHANGE_REMOVED || kind == RUNG_CHANGE_RETYPED || kind == RUNG_CHANGE_RELEASED ||
+         kind == RUNG_CHANGE_CUT;
 }
 
 } // namespace
 
+// By name, as long as this exists.
+struct Controller::FoundCells {
+  explicit FoundCells(rung_instance* instance) : of(instance) {}
+  ~FoundCells() {
+    for (const rung_cell cell : cells) rung_instance_release(of, cell);
+  }
+  FoundCells(FoundCells&& other) noexcept : of(other.of), cells(std::exchange(other.cells, {})), infos(other.infos) {}
+  FoundCells& operator=(FoundCells&&) = delete;
+
+  rung_instance* of;
+  std::vector<rung_cell> cells;
+  std::vector<rung_cell_info> infos;
+};
+
 struct Controller::Watching {
   Watching(rung_instance* instance, const FoundCells& found, bool everyPass)
-      : all(everyPass), values(found.cells.size()), sent(found.cells.size()) {
+      : of(instance), cells(found.cells), all(everyPass), gone(found.cells.size()), values(found.cells.size()),
+        sent(found.cells.size()) {
     for (const rung_cell_info& info : found.infos) types.push_back(info.type);
-    check(rung_watch_new(instance, found.cells.data(), static_cast<uint32_t>(found.cells.size()), all ? kPassesKept : 0,
+    check(rung_watch_new(of, found.cells.data(), static_cast<uint32_t>(found.cells.size()), all ? kPassesKept : 0,
                          &watch));
   }
   ~Watching() { rung_watch_free(watch); }
   Watching(const Watching&) = delete;
   Watching& operator=(const Watching&) = delete;
 
-  bool hasChanged() const { return std::memcmp(values.data(), sent.data(), values.size() * sizeof(rung_value)) != 0; }
+  bool hasChanged(const rung_sample& sample) const {
+    return sample.generation != generation ||
+           std::memcmp(values.data(), sent.data(), values.size() * sizeof(rung_value)) != 0;
+  }
+  // Of a cell that the program no longer has: null.
+  json valueOf(size_t i) const { return gone[i] ? json() : toJson(types[i], values[i]); }
   json event(const rung_sample& sample) {
+    if (sample.generation != generation) {
+      generation = sample.generation;
+      for (size_t i = 0; i < cells.size(); ++i) {
+        auto info = sized<rung_cell_info>();
+        gone[i] = rung_instance_cell(of, cells[i], &info) != RUNG_OK;
+      }
+    }
     json list = json::array();
-    for (size_t i = 0; i < values.size(); ++i) list.push_back(toJson(types[i], values[i]));
+    for (size_t i = 0; i < values.size(); ++i) list.push_back(valueOf(i));
     sent = values;
     begun = true;
     return {{"event", "values"}, {"pass", sample.pass}, {"us", sample.now_us}, {"lost", sample.lost}, {"values", list}};
   }
 
+  rung_instance* of;
+  std::vector<rung_cell> cells;
   rung_watch* watch = nullptr;
   std::vector<uint32_t> types;
   bool all;
+  uint32_t generation = 0; // of what is known of the cells
+  std::vector<bool> gone;
   bool begun = false;
   std::vector<rung_value> values, sent;
 };
@@ -155,16 +195,18 @@ const Controller::Command Controller::kCommands[] = {
     {"served", mapping::Remote::Serve, &Controller::served},
 };
 
-Controller::Controller(std::string host, plc::Box& box, const Image& image, std::function<void(const std::string&)> log)
-    : host_(std::move(host)), box_(box), services_(box), program_(image.program().name),
-      dialect_(image.program().dialect), log_(std::move(log)), codeMaker_(sources::ForcedCodeMaker::make()) {
-  codeMaker_->serve(image);
+Controller::Controller(std::string host, plc::Box& box, const Image& image, Log& log,
+                       std::unique_ptr<Programs> programs)
+    : host_(std::move(host)), box_(box), services_(box), dialect_(image.program().dialect), log_(log),
+      programs_(std::move(programs)) {
+  programs_->serveForces(image);
 }
 
-Controller::~Controller() { codeMaker_->abandon(); }
+Controller::~Controller() { programs_->abandon(); }
 
 json Controller::greeting() {
-  return {{"rung", "host"}, {"protocol", kProtocol}, {"host", host_}, {"program", program_}, {"dialect", dialect_}};
+  return {
+      {"rung", "host"}, {"protocol", kProtocol}, {"host", host_}, {"program", running().name}, {"dialect", dialect_}};
 }
 
 json Controller::answer(const Peer& peer, const json& request) {
@@ -179,6 +221,7 @@ json Controller::answer(const Peer& peer, const json& request) {
       throw Refused("\"" + right + "\" is not allowed here; the mapping file allows it: [rungctl] allow = [\"" + right +
                     "\"]");
     }
+    services_.heard(peer);
     answer = (this->*command->run)(peer, request);
     if (answer.is_null()) {
       if (request.contains("id")) pending_->id["id"] = request["id"];
@@ -197,19 +240,34 @@ void Controller::gone(const Peer& peer) {
   std::erase(following_, peer.number);
   desk_.gone(peer);
   services_.gone(peer);
+  if (shadow_ != nullptr && shadowsFor_ == peer.number) {
+    try {
+      endShadow();
+    } catch (const Refused&) { // no step of the scan thread: it ends when it is over
+    }
+  }
   if (pending_ == nullptr || pending_->peer.number != peer.number) return;
-  codeMaker_->abandon();
+  programs_->abandon();
   pending_.reset();
 }
 
 // ---- looking -------------------------------------------------------------------------------------------------------
 
+rung_program_info Controller::running() const {
+  auto info = sized<rung_program_info>();
+  check(rung_instance_program(box_.instance(), &info));
+  return info;
+}
+
 json Controller::status(const Peer&, const json&) {
-  json out = {{"host", host_}, {"program", program_}, {"dialect", dialect_}};
+  const rung_program_info program = running();
+  json out = {{"host", host_}, {"program", program.name}, {"dialect", dialect_}};
+  if (program.faulted != 0) out["fault_of"] = program.faulted_name;
   if (addToStatus_) addToStatus_(out);
   Order order{.kind = Order::Kind::State};
   const plc::Answer answer = box_.order(order);
   out["scanned"] = answer.ok();
+  out["powered_off"] = box_.ended();
   if (!answer.ok()) return out;
   const uint32_t flags = order.state.flags;
   out["passes"] = order.state.passes;
@@ -218,7 +276,9 @@ json Controller::status(const Peer&, const json&) {
   out["stopped"] = (flags & RUNG_STATE_STOPPED) != 0;
   out["unsaved"] = (flags & RUNG_STATE_UNSAVED) != 0;
   out["faulted"] = (flags & RUNG_STATE_FAULTED) != 0;
-  if (const std::optional<rung_fault_info> fault = box_.running() ? std::nullopt : box_.fault()) {
+  if (!box_.restartProblem().empty()) out["restart_problem"] = box_.restartProblem();
+  const bool faulted = (flags & RUNG_STATE_FAULTED) != 0; // a fault of after the order is of another moment
+  if (const std::optional<rung_fault_info> fault = faulted ? box_.fault() : std::nullopt) {
     out["fault"] = fault->text;
     out["file"] = fault->file;
     out["line"] = fault->line;
@@ -229,59 +289,74 @@ json Controller::status(const Peer&, const json&) {
 json Controller::messages(const Peer& peer, const json& request) {
   if (flagOf(request, "follow") && std::ranges::find(following_, peer.number) == following_.end())
     following_.push_back(peer.number);
-  return {{"messages", reports_}};
+  json shown = json::array();
+  for (const auto& [key, text] : shown_) shown.push_back(text);
+  return {{"messages", reports_}, {"shown", shown}};
 }
 
-bool Controller::serveBox(Server* server, const Print& print) {
+void Controller::serveProgram(Sink* sink) {
   std::vector<std::string> reports;
-  const bool served = box_.serve(reports);
-  for (const std::string& text : reports) {
-    print(text);
-    report(text, server);
-  }
-  return served;
+  const bool isStopped = !box_.running(); // a restart is done in this turn
+  box_.serve(reports);
+  if (std::exchange(restarts_, box_.restarts()) != box_.restarts()) shown_.clear();
+  for (const std::string& text : reports) report(text, sink);
+  if (isStopped && !heldNames_.empty())
+    report("the forces of " + joined(std::exchange(heldNames_, {}), ", ") + " have ended", sink);
+  passMessages(sink);
+  log_.tick();
 }
 
-void Controller::passMessages(Server* server, const Print& print) {
+// As many as fit into a turn: who waits for a restart or an answer does not wait for a program that never ends talking.
+void Controller::passMessages(Sink* sink) {
+  constexpr int kMostMessages = 64;
   rung_message_info message{};
-  while (box_.nextMessage(message)) {
-    if (message.op == RUNG_MESSAGE_CLEAR) continue;
-    const std::string text = std::string("message ") + message.text;
-    print(text);
-    report(text, server, message.op == RUNG_MESSAGE_LOG);
+  for (int i = 0; i < kMostMessages && box_.nextMessage(message); ++i) {
+    note(message);
+    if (message.op != RUNG_MESSAGE_CLEAR)
+      report(std::string("message ") + message.text, sink, message.op == RUNG_MESSAGE_LOG);
   }
 }
 
-void Controller::report(const std::string& text, Server* server, bool logged) {
-  reports_.push_back(timeNow() + " " + text);
+// For those who come later.
+void Controller::note(const rung_message_info& message) {
+  constexpr size_t kMostShown = 1000;
+  const MessageKey key{message.number, message.channel, message.index};
+  if (message.op == RUNG_MESSAGE_CLEAR)
+    shown_.erase(key);
+  else if (message.op != RUNG_MESSAGE_LOG && shown_.size() < kMostShown)
+    shown_[key] = std::string("message ") + message.text;
+}
+
+void Controller::report(const std::string& text, Sink* sink, bool logged) {
+  const std::string line = dateText(box_.clock().dateS()) + " " + text;
+  if (log_.line(text)) reports_.push_back(line);
   if (reports_.size() > kMostReports) reports_.pop_front();
-  if (server == nullptr) return;
-  for (const uint32_t peer : following_)
-    server->send(peer, {{"event", "message"}, {"text", reports_.back()}, {"logged", logged}});
+  if (sink == nullptr) return;
+  for (const uint32_t peer : following_) sink->send(peer, {{"event", "message"}, {"text", line}, {"logged", logged}});
 }
 
-Controller::Found Controller::find(const std::string& name, int32_t access) const {
-  Found found;
-  found.info.size = sizeof found.info;
-  check(rung_instance_find(box_.instance(), name.c_str(), access, &found.cell));
-  check(rung_instance_cell(box_.instance(), found.cell, &found.info));
-  if (found.info.type == RUNG_TYPE_TEXT) throw Refused(name + " is a text, expected a bit or a number");
-  return found;
+rung_cell_info Controller::describe(const std::string& name, int32_t access) const {
+  auto info = sized<rung_cell_info>();
+  int64_t value = 0;
+  check(rung_instance_describe(box_.instance(), nullptr, name.c_str(), access, &info, &value));
+  if (info.type == RUNG_TYPE_TEXT) throw Refused(name + " is a text, expected a bit or a number");
+  return info;
 }
 
-Controller::FoundCells Controller::findAll(const std::vector<std::string>& names) const {
-  FoundCells all;
+Controller::FoundCells Controller::find(const std::vector<std::string>& names, int32_t access) const {
+  FoundCells all(box_.instance());
   for (const std::string& name : names) {
-    const Found found = find(name, RUNG_READ);
-    all.cells.push_back(found.cell);
-    all.infos.push_back(found.info);
+    all.infos.push_back(describe(name, access));
+    rung_cell cell = 0;
+    check(rung_instance_find(box_.instance(), name.c_str(), access, &cell));
+    all.cells.push_back(cell);
   }
   return all;
 }
 
 json Controller::watch(const Peer& peer, const json& request) {
   const std::vector<std::string> names = namesOf(request);
-  const FoundCells found = findAll(names);
+  const FoundCells found = find(names, RUNG_READ);
   watching_[peer.number] = std::make_unique<Watching>(box_.instance(), found, flagOf(request, "all"));
   json described = json::array();
   for (size_t i = 0; i < names.size(); ++i)
@@ -293,12 +368,13 @@ json Controller::watch(const Peer& peer, const json& request) {
 // The values at the end of a pass.
 json Controller::get(const Peer&, const json& request) {
   const std::vector<std::string> names = namesOf(request);
-  const FoundCells found = findAll(names);
+  if (box_.ended()) throw Refused("the program has been switched off");
+  const FoundCells found = find(names, RUNG_READ);
   Watching once(box_.instance(), found, false);
   auto sample = sized<rung_sample>();
-  const auto end = std::chrono::steady_clock::now() + plc::Box::kPatience;
+  const int64_t end = box_.clock().nowNs() + std::chrono::nanoseconds(plc::Box::kPatience).count();
   while (rung_watch_newest(once.watch, once.values.data(), &sample) != RUNG_OK) {
-    if (std::chrono::steady_clock::now() >= end) throw Refused("no pass of the program has ended within a second");
+    if (box_.clock().nowNs() >= end) throw Refused("no pass of the program has ended within a second");
     Order look{.kind = Order::Kind::State}; // waits for a step of the scan thread
     box_.order(look);
   }
@@ -307,22 +383,28 @@ json Controller::get(const Peer&, const json& request) {
   return {{"pass", sample.pass}, {"us", sample.now_us}, {"values", values}};
 }
 
-void Controller::sendEvents(Server& server) {
+void Controller::serveClients(Sink& sink) {
+  sendValues(sink);
+  services_.work(sink);
+  for (const std::string& text : services_.takeReports()) report(text, &sink);
+  finishPending(sink);
+  compareShadow();
+}
+
+void Controller::sendValues(Sink& sink) {
   constexpr int kMostPasses = 500; // in a turn
   for (auto& [peer, watching] : watching_) {
     auto sample = sized<rung_sample>();
     if (watching->all) {
       for (int i = 0; i < kMostPasses; ++i) {
         if (rung_watch_next(watching->watch, watching->values.data(), &sample) != RUNG_OK) break;
-        server.send(peer, watching->event(sample));
+        sink.send(peer, watching->event(sample));
       }
     } else if (rung_watch_newest(watching->watch, watching->values.data(), &sample) == RUNG_OK &&
-               (!watching->begun || watching->hasChanged())) {
-      server.send(peer, watching->event(sample));
+               (!watching->begun || watching->hasChanged(sample))) {
+      sink.send(peer, watching->event(sample));
     }
   }
-  services_.work(server);
-  finishPending(server);
 }
 
 json Controller::map(const Peer&, const json&) {
@@ -351,8 +433,8 @@ json Controller::clearProfile(const Peer& peer, const json&) {
 // ---- changing ------------------------------------------------------------------------------------------------------
 
 void Controller::logChange(const Peer& peer, const std::string& text) {
-  log_(timeNow() + " " + peer.name + " (user " + std::to_string(peer.user) + ", process " +
-       std::to_string(peer.process) + "): " + text);
+  log_.always(peer.name + " (user " + std::to_string(peer.user) + ", process " + std::to_string(peer.process) +
+              "): " + text);
 }
 
 // The place that the program reads, and the one that the machine writes.
@@ -371,15 +453,48 @@ std::vector<Controller::Range> Controller::rangesOf(const std::string& name) con
 // By where the names are in the program that runs: a reload may have moved them.
 void Controller::refuseProtected(const std::string& name) const {
   const std::vector<Range> wanted = rangesOf(name);
-  const auto overlaps = [&](const Range& kept) {
-    return std::ranges::any_of(wanted, [&](const Range& range) {
-      return range.space == kept.space && range.first < kept.first + kept.count &&
-             kept.first < range.first + range.count;
-    });
-  };
-  for (const mapping::Protected& cell : box_.map().never)
-    if (std::ranges::any_of(rangesOf(cell.name), overlaps))
+  for (const mapping::Protected& cell : box_.map().never) {
+    const std::vector<Range> kept = rangesOf(cell.name);
+    if (kept.empty()) throw Refused("whether " + name + " is protected is not known: " + cell.name + " is not found");
+    if (shareOf(cell.name, wanted) != Share::None)
       throw Refused(name + " is never set or forced here: the mapping file says so ([rungctl] never)");
+  }
+}
+
+// How much of what is wanted lies in the cell of this name.
+Controller::Share Controller::shareOf(const std::string& name, const std::vector<Range>& wanted) const {
+  const std::vector<Range> held = rangesOf(name);
+  const auto meets = [&](const Range& range) {
+    return std::ranges::any_of(held, [&](const Range& by) { return by.meets(range); });
+  };
+  const auto lies = [&](const Range& range) {
+    return std::ranges::any_of(held, [&](const Range& by) { return by.covers(range); });
+  };
+  if (wanted.empty() || std::ranges::none_of(wanted, meets)) return Share::None;
+  return std::ranges::all_of(wanted, lies) ? Share::All : Share::Part;
+}
+
+// A value that would be gone before the program sees it, or of which a force keeps something. What is to be said of the
+// others: a part of the cell is written by pins, or "".
+std::string Controller::refuseWithoutEffect(const std::string& name) {
+  const std::vector<Range> wanted = rangesOf(name);
+  for (const rung_force_info& force : forcesInEffect())
+    if (const Share share = shareOf(force.name, wanted); share != Share::None)
+      throw Refused(name +
+                    (share == Share::Part ? " has " + std::string(force.name) + ", which is forced to "
+                     : name == force.name ? " is forced to "
+                                          : " is forced as " + std::string(force.name) + " to ") +
+                    shown(force.type, force.value) + ": it stays so");
+  std::string kept;
+  for (const plc::Box::Feed& feed : box_.feeds()) {
+    const Share share = shareOf(feed.name, wanted);
+    if (share == Share::All)
+      throw Refused(name + " is written before every slice by " + feed.by + ": setting it has no effect");
+    if (share == Share::Part) kept += (kept.empty() ? "" : ", ") + feed.name + " by " + feed.by;
+  }
+  return kept.empty()
+             ? ""
+             : "part of " + name + " is written before every slice, so setting it has no effect there: " + kept;
 }
 
 Order Controller::give(Order order, std::chrono::milliseconds time) {
@@ -391,13 +506,16 @@ Order Controller::give(Order order, std::chrono::milliseconds time) {
 json Controller::set(const Peer& peer, const json& request) {
   const std::string name = textOf(request, "name");
   if (!request.contains("value")) throw Refused("found no \"value\" in the request, expected one");
-  const Found found = find(name, RUNG_WRITE);
+  const FoundCells found = find({name}, RUNG_WRITE);
+  const uint32_t type = found.infos.front().type;
   refuseProtected(name);
-  const rung_value value = fromJson(found.info.type, request["value"], name);
-  const Order done = give({.kind = Order::Kind::Write, .cell = found.cell, .value = value});
-  logChange(peer,
-            "set " + name + " from " + shown(found.info.type, done.former) + " to " + shown(found.info.type, value));
-  return {{"name", name}, {"former", toJson(found.info.type, done.former)}, {"value", toJson(found.info.type, value)}};
+  const std::string note = refuseWithoutEffect(name);
+  const rung_value value = fromJson(type, request["value"], name);
+  const Order done = give({.kind = Order::Kind::Write, .cell = found.cells.front(), .value = value});
+  logChange(peer, "set " + name + " from " + shown(type, done.former) + " to " + shown(type, value));
+  json answer = {{"name", name}, {"former", toJson(type, done.former)}, {"value", toJson(type, value)}};
+  if (!note.empty()) answer["note"] = note;
+  return answer;
 }
 
 json Controller::event(const Peer& peer, const json& request) {
@@ -461,6 +579,8 @@ std::optional<Controller::Forces> Controller::prepared(const ForceChange& change
 void Controller::putInEffect(const ForceChange& change, Forces forces) {
   give({.kind = Order::Kind::Force, .forces = forces.get()});
   forces_ = std::move(forces); // the former set has ended
+  heldNames_.clear();
+  for (const HeldCell& cell : change.cells) heldNames_.push_back(cell.name);
   logChange(change.peer, change.text);
 }
 
@@ -477,11 +597,11 @@ json Controller::begin(ForceChange change) {
 // What has happened meanwhile ends forces, too.
 void Controller::refusePending(const std::string& why) {
   if (pending_ == nullptr) return;
-  codeMaker_->abandon();
+  programs_->abandon();
   pending_->refused = why;
 }
 
-void Controller::finishPending(Server& server) {
+void Controller::finishPending(Sink& sink) {
   if (pending_ == nullptr) return;
   if (pending_->refused.empty() && !box_.running())
     refusePending("the program has stopped meanwhile: forces have ended");
@@ -499,16 +619,17 @@ void Controller::finishPending(Server& server) {
   answer.update(pending_->id);
   const uint32_t peer = pending_->peer.number;
   pending_.reset();
-  server.answer(peer, answer);
+  sink.answer(peer, answer);
 }
 
 json Controller::force(const Peer& peer, const json& request) {
   const std::string name = textOf(request, "name");
   if (!request.contains("value")) throw Refused("found no \"value\" in the request, expected one");
-  const Found found = find(name, RUNG_READ);
+  const uint32_t type = describe(name, RUNG_READ).type;
   refuseProtected(name);
   refuseWhilePending();
-  const rung_value value = fromJson(found.info.type, request["value"], name);
+  if (!box_.running()) throw Refused("a fault has stopped the program: a reset restarts it");
+  const rung_value value = fromJson(type, request["value"], name);
   std::vector<HeldCell> before = heldCells();
   std::vector<HeldCell> cells = {{name, peer.name, value}};
   std::ranges::copy_if(before, std::back_inserter(cells), [&](const HeldCell& cell) { return cell.name != name; });
@@ -516,8 +637,8 @@ json Controller::force(const Peer& peer, const json& request) {
   return begin({.peer = peer,
                 .before = std::move(before),
                 .cells = std::move(cells),
-                .text = "force " + name + " to " + shown(found.info.type, value),
-                .answer = {{"name", name}, {"value", toJson(found.info.type, value)}}});
+                .text = "force " + name + " to " + shown(type, value),
+                .answer = {{"name", name}, {"value", toJson(type, value)}}});
 }
 
 json Controller::unforce(const Peer& peer, const json& request) {
@@ -563,56 +684,112 @@ json Controller::compile(const Peer& peer, const json& request) {
 json Controller::compiled(const Peer& peer, const json& request) { return desk_.compiled(peer, request); }
 
 // A file, or what has been compiled for this client.
-Controller::NextProgram Controller::nextProgram(const Peer& peer, const json& request) const {
+Controller::NextProgram Controller::nextProgram(const Peer& peer, const json& request) {
   NextProgram next;
   if (flagOf(request, "compiled")) {
     next.image = &desk_.image(peer);
     next.text = std::string(next.image->program().name) + ", compiled here from sources";
   } else {
     next.text = programOf(request);
-    next.opened.emplace(next.text);
+    next.opened = programs_->open(next.text);
   }
   return next;
 }
 
-json Controller::reload(const Peer& peer, const json& request) {
-  const NextProgram next = nextProgram(peer, request);
-  const Image& image = next.get();
-  codeMaker_->serve(image);
-  rung_replacement* made = nullptr;
-  check(rung_replacement_new(box_.instance(), image.handle(), nullptr, 0, &made));
-  std::unique_ptr<rung_replacement, EndReplacement> replacement(made);
+namespace {
+
+// What becomes of the state when the replacement's program takes over.
+json reportOf(const rung_replacement* replacement, std::string& lost) {
   auto info = sized<rung_replacement_info>();
-  check(rung_replacement_report(made, &info));
+  check(rung_replacement_report(replacement, &info));
   json changes = json::array();
-  std::string lost;
   auto change = sized<rung_change>();
-  for (uint32_t i = 0; i < kMostChanges && rung_replacement_change(made, i, &change) == RUNG_OK; ++i) {
+  for (uint32_t i = 0; i < kMostChanges && rung_replacement_change(replacement, i, &change) == RUNG_OK; ++i) {
     changes.push_back({{"kind", changeName(change.kind)},
                        {"name", change.name},
                        {"former", change.former},
                        {"state", change.is_state != 0}});
     if (loses(change.kind)) lost += (lost.empty() ? "" : ", ") + std::string(change.name);
   }
-  json report = {{"program", next.text},
-                 {"kept_cells", info.kept_cells},
-                 {"kept_states", info.kept_states},
-                 {"changes", changes},
-                 {"bound", info.bound}};
-  if (!lost.empty() && !flagOf(request, "yes")) {
+  json rungs = json::array();
+  auto rung = sized<rung_rung_change>();
+  for (uint32_t i = 0; i < kMostChanges && rung_replacement_rung(replacement, i, &rung) == RUNG_OK; ++i)
+    rungs.push_back({{"kind", rungChangeName(rung.kind)},
+                     {"rung", rung.rung},
+                     {"title", rung.title},
+                     {"file", rung.file},
+                     {"line", rung.line}});
+  return {{"kept_cells", info.kept_cells},
+          {"kept_states", info.kept_states},
+          {"rungs", rungs},
+          {"changes", changes},
+          {"bound", info.bound}};
+}
+
+} // namespace
+
+// For the log.
+std::string Controller::endedForces() {
+  if (heldNames_.empty()) return {};
+  return ", which ends the forces of " + joined(std::exchange(heldNames_, {}), ", ");
+}
+
+// Ends forces; `why`: for those that are being made.
+json Controller::putInPlace(rung_replacement* replacement, const std::vector<rung_cell>& dead, json report,
+                            const char* why) {
+  json ended = json::array();
+  for (const HeldCell& cell : heldCells()) ended.push_back(cell.name);
+  constexpr std::chrono::seconds kTime(3);
+  const Order done = give({.kind = Order::Kind::Replace, .replacement = replacement, .dead = &dead}, kTime);
+  forces_.reset();
+  refusePending(why);
+  report["ended_forces"] = ended;
+  report["waits"] = (done.state.flags & RUNG_STATE_FAULTED) != 0;   // for a reset
+  report["stopped"] = (done.state.flags & RUNG_STATE_STOPPED) != 0; // by the operator, as the program before
+  if (report["waits"] == false && report["stopped"] == false) waitForPass(done.state.passes);
+  auto info = sized<rung_replacement_info>();
+  check(rung_replacement_report(replacement, &info));
+  report["put_back"] = info.next == 0; // by a fault, already
+  return report;
+}
+
+// The first one after so many, or its fault: then it is known whether the new program can run at all.
+void Controller::waitForPass(uint64_t passes) {
+  constexpr int64_t kMostNs = 300'000'000, kLookNs = 1'000'000;
+  constexpr uint32_t kEnd = RUNG_STATE_FAULTED | RUNG_STATE_STOPPED;
+  for (const int64_t end = box_.clock().nowNs() + kMostNs; box_.clock().nowNs() < end; box_.clock().sleep(kLookNs)) {
+    Order look{.kind = Order::Kind::State};
+    if (!box_.order(look).ok() || (look.state.flags & kEnd) != 0 || look.state.passes != passes) return;
+  }
+}
+
+json Controller::reload(const Peer& peer, const json& request) {
+  const NextProgram next = nextProgram(peer, request);
+  const Image& image = next.get();
+  programs_->serveForces(image);
+  rung_replacement* made = nullptr;
+  check(rung_replacement_new(box_.instance(), image.handle(), nullptr, 0, &made));
+  std::unique_ptr<rung_replacement, EndReplacement> replacement(made);
+  const plc::Box::Losses pins = box_.lossesBy(made, image.program());
+  if (!pins.mistakes.empty())
+    throw Refused("the mapping file does not fit the new program: " + joined(pins.mistakes, "; "));
+  std::string lost;
+  json report = reportOf(made, lost);
+  report["program"] = next.text;
+  report["pins"] = pins.moved;
+  if ((!lost.empty() || !pins.moved.empty()) && !flagOf(request, "yes")) {
     report["ok"] = false;
     report["needs"] = "yes";
-    report["error"] = "the new program loses state: " + lost;
+    report["error"] = (pins.moved.empty() ? "" : "pins lose or change their cells: " + joined(pins.moved, "; ")) +
+                      (pins.moved.empty() || lost.empty() ? "" : "; ") +
+                      (lost.empty() ? "" : "the new program loses state: " + lost);
     return report;
   }
   if (flagOf(request, "late")) check(rung_replacement_allow_late(made));
-  constexpr std::chrono::seconds kTime(3);
-  give({.kind = Order::Kind::Replace, .replacement = made}, kTime);
-  forces_.reset(); // they have ended
-  refusePending("another program has taken over meanwhile: forces have ended");
+  report =
+      putInPlace(made, pins.dead, std::move(report), "another program has taken over meanwhile: forces have ended");
   replacement_ = std::move(replacement);
-  former_ = std::exchange(program_, image.program().name);
-  logChange(peer, "reload " + next.text);
+  logChange(peer, "reload " + next.text + endedForces());
   return report;
 }
 
@@ -627,19 +804,31 @@ json Controller::shadow(const Peer& peer, const json& request) {
   const auto passes = request.find("passes");
   if (passes == request.end() || !passes->is_number_unsigned() || *passes == 0 || *passes > kMostShadowPasses)
     throw Refused("found no number \"passes\" from 1 to 100000 in the request, expected one");
+  if (shadow_ != nullptr && shadowsFor_ != peer.number)
+    throw Refused("another client has a program run beside this one; try again when it is done");
+  if (isStopped())
+    throw Refused("the program is stopped by the operator: nothing of it could be compared; start it first");
   const NextProgram next = nextProgram(peer, request);
   endShadow();
   rung_shadow* made = nullptr;
   check(rung_shadow_new(box_.instance(), next.get().handle(), passes->get<uint32_t>(), kShadowRoom, &made));
   shadow_.reset(made);
+  shadowsFor_ = peer.number;
+  compared_ = nullptr;
   constexpr std::chrono::seconds kTime(3);
   give({.kind = Order::Kind::Shadow, .shadow = made}, kTime);
   logChange(peer, "shadow " + next.text + " for " + std::to_string(passes->get<uint32_t>()) + " passes");
   return json::object();
 }
 
-json Controller::compared(const Peer&, const json&) {
-  if (shadow_ == nullptr) throw Refused("no program runs beside this one; \"shadow\" begins one");
+json Controller::compared(const Peer& peer, const json&) {
+  if (shadow_ != nullptr && shadowsFor_ == peer.number) return shadowReport();
+  if (compared_.is_null() || shadowsFor_ != peer.number)
+    throw Refused("no program runs beside this one; \"shadow\" begins one");
+  return compared_;
+}
+
+json Controller::shadowReport() {
   auto info = sized<rung_shadow_info>();
   check(rung_shadow_report(shadow_.get(), &info));
   constexpr const char* kStates[] = {"prepared", "running", "finished",
@@ -660,21 +849,33 @@ json Controller::compared(const Peer&, const json&) {
           {"differences", differences}};
 }
 
-void Controller::work() {
+void Controller::compareShadow() {
   constexpr int kMostRuns = 200;
-  for (int i = 0; shadow_ != nullptr && i < kMostRuns; ++i)
-    if (rung_shadow_work(shadow_.get()) != RUNG_OK) return;
+  if (shadow_ == nullptr) return;
+  for (int i = 0; i < kMostRuns; ++i)
+    if (rung_shadow_work(shadow_.get()) != RUNG_OK) break;
+  json report = shadowReport();
+  if (report["state"] == "prepared" || report["state"] == "running") return;
+  compared_ = std::move(report); // all of it that is still of use
+  endShadow();
+}
+
+bool Controller::isStopped() {
+  Order look{.kind = Order::Kind::State};
+  return box_.order(look).ok() && (look.state.flags & RUNG_STATE_STOPPED) != 0;
 }
 
 json Controller::rollback(const Peer& peer, const json&) {
   if (replacement_ == nullptr) throw Refused("no program has been reloaded, so there is none to go back to");
-  constexpr std::chrono::seconds kTime(3);
-  give({.kind = Order::Kind::Replace, .replacement = replacement_.get()}, kTime);
-  forces_.reset();
-  refusePending("the former program has taken over meanwhile: forces have ended");
-  std::swap(former_, program_);
-  logChange(peer, "rollback to " + program_);
-  return {{"program", program_}};
+  std::string lost;
+  const plc::Box::Losses pins = box_.lossesBy(replacement_.get());
+  json report = reportOf(replacement_.get(), lost);
+  report["pins"] = pins.moved;
+  report = putInPlace(replacement_.get(), pins.dead, std::move(report),
+                      "the former program has taken over meanwhile: forces have ended");
+  report["program"] = running().name;
+  logChange(peer, "rollback to " + report["program"].get<std::string>() + endedForces());
+  return report;
 }
 
 json Controller::simple(Order::Kind kind, const Peer& peer, const char* what) {
@@ -684,18 +885,21 @@ json Controller::simple(Order::Kind kind, const Peer& peer, const char* what) {
 }
 
 json Controller::stop(const Peer& peer, const json&) {
-  json answer = simple(Order::Kind::Stop, peer, "stop");
+  give({.kind = Order::Kind::Stop});
+  if (shadow_ != nullptr) { // nothing more comes that could be compared
+    compared_ = shadowReport();
+    compared_["state"] = "stopped";
+    endShadow();
+  }
+  logChange(peer, "stop" + endedForces());
   refusePending("the program has been stopped meanwhile: forces have ended");
-  return answer;
+  return json::object();
 }
 json Controller::start(const Peer& peer, const json&) { return simple(Order::Kind::Start, peer, "start"); }
 
-json Controller::reset(const Peer& peer, const json&) {
-  if (box_.running()) throw Refused("the program runs; a reset restarts one that a fault has stopped");
-  return simple(Order::Kind::Restart, peer, "reset");
-}
+json Controller::reset(const Peer& peer, const json&) { return simple(Order::Kind::Restart, peer, "reset"); }
 
-json Controller::serve(const Peer& peer, const json&) { return services_.serve(peer); }
+json Controller::serve(const Peer& peer, const json& request) { return services_.serve(peer, request); }
 json Controller::live(const Peer& peer, const json& request) { return services_.live(peer, request); }
 json Controller::served(const Peer& peer, const json& request) { return services_.served(peer, request); }
 

@@ -6,16 +6,18 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include "rung/runtime.hpp"
 #include "tools/plc/box.h"
+#include "tools/remote/log.h"
+#include "tools/remote/programs.h"
 #include "tools/remote/server.h"
 #include "tools/remote/services.h"
 #include "tools/remote/source_desk.h"
-#include "tools/sources/forced_code_maker.h"
 
 namespace rung::remote {
 
@@ -24,8 +26,10 @@ class Controller final : public Handler {
 public:
   static constexpr int kProtocol = 1;
 
-  // `image` is what the box began with. `log` takes a line for every change that somebody has made.
-  Controller(std::string host, plc::Box& box, const Image& image, std::function<void(const std::string&)> log);
+  // `image` is what the box began with. `log`, which outlives this, gets what the program and its host report, and
+  // every change that somebody has made.
+  Controller(std::string host, plc::Box& box, const Image& image, Log& log,
+             std::unique_ptr<Programs> programs = programsOfMachine());
   ~Controller() override; // before the box
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
@@ -42,16 +46,13 @@ public:
   nlohmann::json answer(const Peer& peer, const nlohmann::json& request) override;
   void gone(const Peer& peer) override;
 
-  // What the box needs from time to time and reports then, and what the program has shown: each line goes to `print`,
-  // is kept for those who ask later, and is sent to those who follow. `server` may be null. True: there was a report.
-  using Print = std::function<void(const std::string&)>;
-  bool serveBox(Server* server, const Print& print);
-  void passMessages(Server* server, const Print& print);
-  // Sends what has changed to those who watch, what the program asks to whoever serves it, and the answer to whoever
-  // waits for their force.
-  void sendEvents(Server& server);
-  // Compares what a shadow has recorded, for a part of a turn.
-  void work();
+  // In each turn of the thread, before the requests of clients: what the box needs from time to time and reports then,
+  // and what the program has shown. Each line goes to the log, is kept for those who ask later, and is sent to those
+  // who follow. `sink`: null where there are no clients.
+  void serveProgram(Sink* sink);
+  // After them: sends what has changed to those who watch, what the program asks to whoever serves it, and the answer
+  // to whoever waits for their force; compares what a shadow has recorded, for a part of a turn.
+  void serveClients(Sink& sink);
 
 private:
   struct Watching;
@@ -59,7 +60,14 @@ private:
     uint32_t space = 0;
     uint64_t first = 0;
     uint64_t count = 0;
+    bool meets(const Range& other) const {
+      return space == other.space && first < other.first + other.count && other.first < first + count;
+    }
+    bool covers(const Range& other) const {
+      return space == other.space && first <= other.first && other.first + other.count <= first + count;
+    }
   };
+  enum class Share : uint8_t { None, Part, All };
   struct Command {
     const char* name = nullptr;
     std::optional<mapping::Remote> permission; // that the mapping file must give
@@ -93,18 +101,16 @@ private:
   nlohmann::json live(const Peer& peer, const nlohmann::json& request);
   nlohmann::json served(const Peer& peer, const nlohmann::json& request);
 
-  struct Found {
-    rung_cell cell = 0;
-    rung_cell_info info{};
-  };
-  struct FoundCells {
-    std::vector<rung_cell> cells;
-    std::vector<rung_cell_info> infos;
-  };
-  Found find(const std::string& name, int32_t access) const;
-  FoundCells findAll(const std::vector<std::string>& names) const;
+  struct FoundCells;
+  rung_cell_info describe(const std::string& name, int32_t access) const;
+  FoundCells find(const std::vector<std::string>& names, int32_t access) const;
   std::vector<Range> rangesOf(const std::string& name) const;
   void refuseProtected(const std::string& name) const;
+  std::string refuseWithoutEffect(const std::string& name);
+  std::string endedForces();
+  bool isStopped();
+  void waitForPass(uint64_t passes);
+  Share shareOf(const std::string& name, const std::vector<Range>& wanted) const;
   plc::Order give(plc::Order order, std::chrono::milliseconds time = plc::Box::kPatience);
   struct NextProgram { // that a request names
     std::optional<Image> opened;
@@ -112,12 +118,15 @@ private:
     std::string text; // for people
     const Image& get() const { return opened ? *opened : *image; }
   };
-  NextProgram nextProgram(const Peer& peer, const nlohmann::json& request) const;
+  NextProgram nextProgram(const Peer& peer, const nlohmann::json& request);
   struct HeldCell;
   struct ForceChange;
   std::vector<rung_force_info> forcesInEffect();
   std::vector<HeldCell> heldCells();
   void refuseWhilePending() const;
+  rung_program_info running() const;
+  nlohmann::json putInPlace(rung_replacement* replacement, const std::vector<rung_cell>& dead, nlohmann::json report,
+                            const char* why);
   struct EndForces {
     void operator()(rung_forces* forces) const noexcept { rung_forces_free(forces); }
   };
@@ -126,37 +135,46 @@ private:
   void putInEffect(const ForceChange& change, Forces forces);
   nlohmann::json begin(ForceChange change);
   void refusePending(const std::string& why);
-  void finishPending(Server& server);
+  void passMessages(Sink* sink);
+  void note(const rung_message_info& message);
+  void sendValues(Sink& sink);
+  void compareShadow();
+  void finishPending(Sink& sink);
   void endShadow();
+  nlohmann::json shadowReport();
   // `logged`: for the log alone, not for the operator.
-  void report(const std::string& text, Server* server, bool logged = false);
+  void report(const std::string& text, Sink* sink, bool logged = false);
   nlohmann::json simple(plc::Order::Kind kind, const Peer& peer, const char* what);
   void logChange(const Peer& peer, const std::string& text);
 
   std::string host_;
   plc::Box& box_;
   Services services_;
-  std::string program_; // the name of the one that runs
-  std::string former_;  // of the one that `rollback` puts back
   std::string dialect_;
-  std::function<void(const std::string&)> log_;
+  Log& log_;
   std::function<void(nlohmann::json&)> addToStatus_;
-  Event simulation_; // empty: there is none
+  Event simulation_;                   // empty: there is none
+  std::vector<std::string> heldNames_; // cells that are forced, as far as this thread has heard
   std::deque<std::string> reports_;
-  std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
-  std::vector<uint32_t> following_;                        // messages
+  using MessageKey = std::tuple<uint32_t, int32_t, int32_t>; // number, channel, index
+  std::map<MessageKey, std::string> shown_;                  // messages that are on
+  uint32_t restarts_ = 0;                                    // of the box, when they were noted
+  std::map<uint32_t, std::unique_ptr<Watching>> watching_;   // by peer
+  std::vector<uint32_t> following_;                          // messages
   SourceDesk desk_;
-  std::shared_ptr<sources::ForcedCodeMaker> codeMaker_;
+  std::unique_ptr<Programs> programs_;
   std::unique_ptr<ForceChange> pending_; // for whose code the compiler is at work
   Forces forces_;
   struct EndShadow {
     void operator()(rung_shadow* shadow) const noexcept { rung_shadow_free(shadow); }
   };
   std::unique_ptr<rung_shadow, EndShadow> shadow_;
+  uint32_t shadowsFor_ = 0; // the peer that has begun the last one
+  nlohmann::json compared_; // of the last one, once it is over; null before
   struct EndReplacement {
     void operator()(rung_replacement* replacement) const noexcept { rung_replacement_free(replacement); }
   };
-  std::unique_ptr<rung_replacement, EndReplacement> replacement_; // has put program_ in the place of former_
+  std::unique_ptr<rung_replacement, EndReplacement> replacement_; // the last reload
 };
 
 } // namespace rung::remote

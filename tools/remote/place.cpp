@@ -17,21 +17,52 @@ namespace {
 
 constexpr std::string_view kEnding = ".sock";
 
+constexpr mode_t kHisAlone = 0700;
+
 bool isFolderOf(const std::string& path, uid_t user) {
   struct stat about{};
   return lstat(path.c_str(), &about) == 0 && S_ISDIR(about.st_mode) && about.st_uid == user;
 }
 
+bool isHisAlone(const std::string& path, uid_t user) {
+  struct stat about{};
+  return isFolderOf(path, user) && lstat(path.c_str(), &about) == 0 && (about.st_mode & 0777) == kHisAlone;
+}
+
+bool isThere(const std::string& path) {
+  struct stat about{};
+  return lstat(path.c_str(), &about) == 0;
+}
+
+void addHosts(const std::string& path, std::vector<std::string>& hosts) {
+  const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir(path.c_str()), closedir);
+  if (folder == nullptr && errno != ENOENT)
+    throw std::runtime_error("cannot look for hosts in " + path + ": " + std::strerror(errno) +
+                             "; a host is reached by the user who has started it");
+  if (folder == nullptr) return;
+  while (const dirent* entry = readdir(folder.get())) {
+    const std::string_view name = entry->d_name;
+    if (name.ends_with(kEnding)) hosts.emplace_back(name.substr(0, name.size() - kEnding.size()));
+  }
+}
+
 } // namespace
 
-std::string socketFolder(uid_t user) {
-  if (const char* named = secure_getenv("RUNG_SOCKETS"); named != nullptr && *named == '/') return named;
-  const std::string run = "/run/user/" + std::to_string(user);
-  return isFolderOf(run, user) ? run + "/rung" : "/tmp/rung-" + std::to_string(user);
+std::vector<std::string> socketFolders(uid_t user) {
+  if (const char* named = secure_getenv("RUNG_SOCKETS"); named != nullptr && *named == '/') return {named};
+  const std::string number = std::to_string(user);
+  const std::string early = "/tmp/rung-" + number;
+  if (!isFolderOf("/run/user/" + number, user)) return {early};
+  std::vector<std::string> folders = {"/run/user/" + number + "/rung"};
+  if (isHisAlone(early, user)) folders.push_back(early); // anybody can make a folder there
+  return folders;
 }
 
 std::string socketPath(uid_t user, const std::string& host) {
-  return socketFolder(user) + "/" + host + std::string(kEnding);
+  const std::vector<std::string> folders = socketFolders(user);
+  const std::string name = "/" + host + std::string(kEnding);
+  const auto found = std::ranges::find_if(folders, [&](const std::string& folder) { return isThere(folder + name); });
+  return (found != folders.end() ? *found : folders.front()) + name;
 }
 
 sockaddr_un socketAddress(const std::string& path) {
@@ -51,26 +82,21 @@ bool isHostName(const std::string& name) {
 
 std::vector<std::string> hostsOf(uid_t user) {
   std::vector<std::string> hosts;
-  const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir(socketFolder(user).c_str()), closedir);
-  if (folder == nullptr) return hosts;
-  while (const dirent* entry = readdir(folder.get())) {
-    const std::string_view name = entry->d_name;
-    if (name.ends_with(kEnding)) hosts.emplace_back(name.substr(0, name.size() - kEnding.size()));
-  }
+  for (const std::string& folder : socketFolders(user)) addHosts(folder, hosts);
   std::ranges::sort(hosts);
+  const auto twice = std::ranges::unique(hosts);
+  hosts.erase(twice.begin(), twice.end());
   return hosts;
 }
 
-void prepareFolder(uid_t user) {
-  constexpr mode_t kHisAlone = 0700;
-  const std::string folder = socketFolder(user);
+std::string prepareFolder(uid_t user) {
+  std::string folder = socketFolders(user).front();
   if (mkdir(folder.c_str(), kHisAlone) != 0 && errno != EEXIST)
     throw std::runtime_error("cannot make the folder " + folder + ": " + std::strerror(errno));
-  struct stat about{};
-  if (lstat(folder.c_str(), &about) != 0 || !S_ISDIR(about.st_mode) || about.st_uid != user ||
-      (about.st_mode & 0777) != kHisAlone)
+  if (!isHisAlone(folder, user))
     throw std::runtime_error(folder + " is not a folder that user " + std::to_string(user) +
-                             " alone may use (mode 0700); remove it");
+                             " alone may use: chmod 700 it, or name another one by RUNG_SOCKETS");
+  return folder;
 }
 
 } // namespace rung::remote

@@ -8,19 +8,22 @@
 
 namespace rung::remote {
 
-// The folder of a user's sockets: that of the environment variable RUNG_SOCKETS, which a process with more rights than
-// its user does not look at; else /run/user/NUMBER/rung, or /tmp/rung-NUMBER where the system has no /run/user.
-std::string socketFolder(uid_t user);
+// The folders of a user's sockets; a host takes the first one. That of the environment variable RUNG_SOCKETS alone, which
+// a process with more rights than its user does not look at; else /run/user/NUMBER/rung, where there is /run/user/NUMBER,
+// and /tmp/rung-NUMBER, which hosts have from before that came.
+std::vector<std::string> socketFolders(uid_t user);
+// In the first folder that has it, or in the first one.
 std::string socketPath(uid_t user, const std::string& host);
 // Throws std::runtime_error where the path is too long for a socket.
 sockaddr_un socketAddress(const std::string& path);
 
 // A host's name: letters, digits, '-', '_' and '.', not at the beginning.
 bool isHostName(const std::string& name);
-// Those that have a socket there, sorted; a host that has been killed leaves its own.
+// Those that have a socket there, sorted; a host that has been killed leaves its own. Throws std::runtime_error where
+// a folder is there and cannot be read.
 std::vector<std::string> hostsOf(uid_t user);
 
-// Makes the folder, for its user alone. Throws std::runtime_error where something else has its place.
-void prepareFolder(uid_t user);
+// Makes the folder of a new host, for its user alone. Throws std::runtime_error where something else has its place.
+std::string prepareFolder(uid_t user);
 
 } // namespace rung::remote

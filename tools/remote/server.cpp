@@ -12,6 +12,8 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -46,6 +48,25 @@ std::string nameOf(uid_t user) {
 
 std::string textOf(const json& line) { return line.dump(-1, ' ', false, json::error_handler_t::replace); }
 
+// Stacks of hosts are small, and JSON is written recursively.
+bool isDeep(std::string_view line) {
+  constexpr int kMostLevels = 8;
+  int levels = 0;
+  bool inText = false;
+  for (size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (inText && c == '\\')
+      ++i;
+    else if (c == '"')
+      inText = !inText;
+    else if (!inText && (c == '[' || c == '{') && ++levels > kMostLevels)
+      return true;
+    else if (!inText && (c == ']' || c == '}'))
+      --levels;
+  }
+  return false;
+}
+
 json problemOf(const std::string& text) { return {{"ok", false}, {"error", text}}; }
 
 } // namespace
@@ -53,11 +74,12 @@ json problemOf(const std::string& text) { return {{"ok", false}, {"error", text}
 Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(user), handler_(handler) {
   if (!isHostName(host))
     throw std::runtime_error("found the name \"" + host + "\" of a host, expected letters, digits, '-', '_' and '.'");
-  prepareFolder(user);
+  const std::string folder = prepareFolder(user);
   path_ = socketPath(user, host);
-  const sockaddr_un address = socketAddress(path_);
-  if (isAlive(address))
+  if (isAlive(socketAddress(path_)))
     throw std::runtime_error(path_ + ": another host has the name " + host + "; give this one another");
+  path_ = folder + path_.substr(path_.rfind('/'));
+  const sockaddr_un address = socketAddress(path_);
   unlink(path_.c_str()); // of a host that was killed
   socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (socket_ < 0) refuse(path_);
@@ -75,7 +97,7 @@ Server::~Server() {
 }
 
 void Server::serve(std::chrono::milliseconds wait) {
-  std::vector<pollfd> waiting = {{socket_, POLLIN, 0}};
+  std::vector<pollfd> waiting = {{std::exchange(pauses_, false) ? -1 : socket_, POLLIN, 0}};
   const bool hasRequests = std::ranges::any_of(clients_, &Client::hasRequest);
   if (hasRequests) wait = std::chrono::milliseconds(0);
   for (const Client& client : clients_) {
@@ -99,6 +121,7 @@ void Server::serve(std::chrono::milliseconds wait) {
 
 void Server::accept() {
   const int made = accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  pauses_ = made < 0 && errno != EAGAIN && errno != ECONNABORTED;
   if (made < 0) return;
   Client client{{.number = ++lastPeer_}, Connection(made, Connection::kLongestRequest)};
   ucred who{};
@@ -121,6 +144,7 @@ void Server::read(Client& client) {
   client.connection.receive();
   const std::optional<std::string> line = client.connection.line();
   if (!line) return;
+  if (isDeep(*line)) return client.connection.send(problemOf("found more than 8 levels in the request").dump());
   const json request = json::parse(*line, nullptr, false);
   const json answer = request.is_discarded() ? problemOf("found a line that is not JSON, expected an object")
                                              : handler_.answer(client.peer, request);

@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "tools/remote/connection.h"
+#include "tools/remote/sink.h"
 
 namespace rung::remote {
 
@@ -26,28 +27,26 @@ public:
   virtual ~Handler() = default;
   // What the host says first.
   virtual nlohmann::json greeting() = 0;
-  // The answer to one request, any JSON; null: it comes later, by Server::answer.
+  // The answer to one request, any JSON; null: it comes later, by Sink::answer.
   virtual nlohmann::json answer(const Peer& peer, const nlohmann::json& request) = 0;
   virtual void gone(const Peer& peer) = 0;
 };
 
 // For one thread.
-class Server {
+class Server final : public Sink {
 public:
   static constexpr size_t kMostPeers = 16;
 
   // Listens at the place of this host. Throws std::runtime_error: something is wrong with it, or another host has it.
   Server(const std::string& host, uid_t user, Handler& handler);
-  ~Server(); // nothing is left of the socket
+  ~Server() override; // nothing is left of the socket
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
   // Answers what has come; waits for it no longer than that.
   void serve(std::chrono::milliseconds wait);
-  // To one of those who have asked; to nobody where that one has gone.
-  void send(uint32_t peer, const nlohmann::json& event);
-  // The answer that the handler has not given before. Until then nothing else that the client sends is looked at.
-  void answer(uint32_t peer, const nlohmann::json& answer);
+  void send(uint32_t peer, const nlohmann::json& event) override;
+  void answer(uint32_t peer, const nlohmann::json& answer) override;
   const std::string& path() const { return path_; }
 
 private:
@@ -65,6 +64,7 @@ private:
   uid_t user_;
   Handler& handler_;
   int socket_ = -1;
+  bool pauses_ = false; // the system had no file for another client: for a turn none is asked for
   uint32_t lastPeer_ = 0;
   std::list<Client> clients_;
 };

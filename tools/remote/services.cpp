@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -69,12 +70,20 @@ json eventOf(uint32_t ticket, const services::Operation& o) {
 
 } // namespace
 
-json Services::serve(const Peer& peer) {
+json Services::serve(const Peer& peer, const json& request) {
+  constexpr uint32_t kMostMs = 60'000;
   if (provider_ != 0 && provider_ != peer.number)
     throw Refused("somebody else serves this program already; end that connection first");
+  aliveNs_ = request.contains("alive_ms") ? int64_t{numberOf(request, "alive_ms", kMostMs)} * 1'000'000 : 0;
   provider_ = peer.number;
+  heard(peer);
   box_.live().served.store(true, std::memory_order_release);
-  return json::object();
+  if (isLost_) reports_.emplace_back("the program is served again");
+  return {{"again", std::exchange(isLost_, false)}};
+}
+
+void Services::heard(const Peer& peer) {
+  if (peer.number == provider_) heardNs_ = box_.clock().nowNs();
 }
 
 void Services::checkProvider(const Peer& peer) const {
@@ -109,8 +118,13 @@ json Services::served(const Peer& peer, const json& request) {
 
 // Nobody answers what waits.
 void Services::gone(const Peer& peer) {
-  if (peer.number != provider_) return;
+  if (peer.number == provider_) lose("the connection has ended");
+}
+
+void Services::lose(const std::string& why) {
   provider_ = 0;
+  isLost_ = true;
+  reports_.push_back("nobody serves the program any more: " + why);
   services::Live& live = box_.live();
   live.served.store(false, std::memory_order_release);
   live.known.store(false, std::memory_order_release);
@@ -118,30 +132,45 @@ void Services::gone(const Peer& peer) {
   waiting_.clear();
 }
 
-void Services::work(Server& server) {
+void Services::work(Sink& sink) {
+  if (provider_ != 0) checkService(sink);
   refuseLate();
   services::Request request;
-  while (box_.nextRequest(request)) pass(server, std::exchange(request, {}));
+  while (box_.nextRequest(request)) pass(sink, std::exchange(request, {}));
 }
 
-void Services::pass(Server& server, services::Request request) {
+// A provider that serves no more learns of it before anything moves again.
+void Services::checkService(Sink& sink) {
+  const int64_t silentNs = box_.clock().nowNs() - heardNs_;
+  if (!box_.live().served.load(std::memory_order_acquire)) { // the program was restarted: what waits is not its own
+    sink.send(std::exchange(provider_, 0), {{"event", "unserved"}});
+    box_.live().known.store(false, std::memory_order_release);
+    waiting_.clear();
+  } else if (aliveNs_ != 0 && silentNs > aliveNs_) {
+    sink.send(provider_, {{"event", "unserved"}});
+    lose("the other side was silent for " + std::to_string(silentNs / 1'000'000) + " ms");
+  }
+}
+
+void Services::pass(Sink& sink, services::Request request) {
   rung_reply refusal{};
   const std::optional<services::Operation> operation = services::operationOf(request, refusal);
   if (!operation) {
     box_.answer(refusal);
     return;
   }
-  if (provider_ == 0) return refuse(request); // it has gone since the program asked
+  if (!box_.live().served.load(std::memory_order_relaxed))
+    return refuse(request); // it has gone since the program asked
   const uint32_t ticket = request.given.ticket;
-  using Clock = std::chrono::steady_clock;
-  waiting_[ticket] = {std::move(request), operation->untilOver ? Clock::time_point::max() : Clock::now() + kPatience};
-  server.send(provider_, eventOf(ticket, *operation));
+  const int64_t end = box_.clock().nowNs() + std::chrono::nanoseconds(kPatience).count();
+  waiting_[ticket] = {std::move(request), operation->untilOver ? std::numeric_limits<int64_t>::max() : end};
+  sink.send(provider_, eventOf(ticket, *operation));
 }
 
 void Services::refuseLate() {
-  const auto now = std::chrono::steady_clock::now();
+  const int64_t now = box_.clock().nowNs();
   std::erase_if(waiting_, [&](const auto& entry) {
-    const bool late = entry.second.end <= now;
+    const bool late = entry.second.endNs <= now;
     if (late) refuse(entry.second.request);
     return late;
   });

@@ -22,6 +22,7 @@
 
 #include "tools/host-devices/analog_pins.h"
 #include "tools/host-devices/host_devices.h"
+#include "tools/mapping/component_pins.h"
 #include "tools/plc/box.h"
 #include "tools/remote/controller.h"
 #include "tools/remote/server.h"
@@ -55,23 +56,12 @@ RTAPI_MP_ARRAY_STRING(retain, kMostInstances, "file of the retained memory of ea
 namespace {
 
 using namespace rung;
+using mapping::OwnPin;
 
 constexpr const char* kModule = "rung_hal"; // LinuxCNC wants the file's name here
 constexpr const char* kDefaultPrefix = "rung";
 
-struct StatusPins {
-  plc::PinCell fault;
-  plc::PinCell faultLine;
-  plc::PinCell scans;
-  plc::PinCell missed;
-  plc::PinCell functionsBusy;
-  plc::PinCell functionsTimeout;
-  plc::PinCell functionsLost;
-  plc::PinCell reset;    // of HAL: restarts the program after a fault
-  plc::PinCell powerOff; // of HAL: its regular end begins, while its pins are those of the machine
-  plc::PinCell poweredOff;
-  plc::PinCell maxTime; // parameter: microseconds that the program may run in one call; 0: its budgets alone count
-};
+constexpr size_t kOwnPinCount = std::size(mapping::kOwnPins);
 
 enum Function : size_t { kScan, kFast };
 
@@ -81,10 +71,11 @@ struct PlcInstance {
   std::optional<Image> image;
   std::unique_ptr<host_devices::HostDevices> devices; // of a TECHNOL program; it outlives the box
   std::unique_ptr<plc::Box> box;
-  StatusPins* status = nullptr;    // in HAL's memory
-  plc::PinCell* cells = nullptr;   // in HAL's memory
-  std::atomic<uint32_t> inside{0}; // calls of its functions under way
-  std::atomic<uint32_t> calls{0};  // that are over
+  plc::PinCell* ownCells = nullptr; // in HAL's memory, by OwnPin
+  plc::PinCell* cells = nullptr;    // in HAL's memory
+  bool hasPins = false;             // all of them
+  std::atomic<uint32_t> inside{0};  // calls of its functions under way
+  std::atomic<uint32_t> calls{0};   // that are over
   // The threads that HAL calls its functions in, 0: it has not yet. A program is one thread's: where they differ, it is
   // apart for good, and does not run.
   std::array<std::atomic<pthread_t>, 2> callers{};
@@ -94,6 +85,8 @@ struct PlcInstance {
   bool poweringOff = false; // since pin power-off has come on
   std::atomic<int64_t> periodNs{0};
   const std::atomic<bool>* ending = nullptr; // of the component
+  plc::PinCell& own(OwnPin pin) const { return ownCells[static_cast<size_t>(pin)]; }
+  std::unique_ptr<remote::Log> log;
   std::unique_ptr<remote::Controller> controller;
   std::unique_ptr<remote::Server> server; // for rungctl; null where there is no place for its socket
 };
@@ -207,15 +200,21 @@ bool loadProgram(PlcInstance& c, const Request& request) {
   mapping::refuseConnections(mapping, "LinuxCNC, where HAL connects the pins", errors);
   const plc::Box::NewInstance newInstance = withDevices(c, *image, mapping, errors);
   // Mistakes of the text and of names at once; a box is only made for a faultless map.
-  if (!mapping.paths.empty())
-    c.box = plc::Box::make(*image, std::move(mapping), errors, request.retain != nullptr ? request.retain : "",
-                           warnings, newInstance);
+  try {
+    if (!mapping.paths.empty())
+      c.box = plc::Box::make(*image, std::move(mapping),
+                             {.retain = request.retain != nullptr ? request.retain : "", .newInstance = newInstance},
+                             errors, warnings);
+  } catch (const Error& error) {
+    errors.emplace_back(error.what());
+  }
   if (c.devices != nullptr) std::ranges::move(c.devices->warnings(), std::back_inserter(warnings));
   for (const std::string& warning : warnings) complain("%s: %s\n", kModule, warning.c_str());
   for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
   if (c.box == nullptr) return false;
-  const auto logged = [&c](const std::string& text) { rtapi_print("%s: %s\n", c.prefix.c_str(), text.c_str()); };
-  c.controller = std::make_unique<remote::Controller>(c.prefix, *c.box, *image, logged);
+  c.log = std::make_unique<remote::Log>(
+      c.box->clock(), [&c](const std::string& line) { rtapi_print("%s: %s\n", c.prefix.c_str(), line.c_str()); });
+  c.controller = std::make_unique<remote::Controller>(c.prefix, *c.box, *image, *c.log);
   return true;
 }
 
@@ -249,42 +248,39 @@ bool makeParameter(const PlcInstance& c, const char* parameter, mapping::PinType
   return isMade(hal::newParameter(full, type, cell, componentId), "parameter", full);
 }
 
-// A pin or a parameter of the map.
-bool makeMapped(const PlcInstance& c, const mapping::Pin& pin, plc::PinCell& cell) {
+// A pin or a parameter of the map, or of the component itself.
+template <class Pin>
+bool makeMapped(const PlcInstance& c, const Pin& pin, plc::PinCell& cell) {
   constexpr hal_pin_dir_t kDirections[] = {HAL_IN, HAL_OUT, HAL_IO}; // by mapping::Direction
-  if (pin.direction == mapping::Direction::Parameter) return makeParameter(c, pin.name.c_str(), pin.type, cell);
-  return makePin(c, pin.name.c_str(), pin.type, kDirections[static_cast<size_t>(pin.direction)], cell);
+  const std::string name(pin.name);
+  if (pin.direction == mapping::Direction::Parameter) return makeParameter(c, name.c_str(), pin.type, cell);
+  return makePin(c, name.c_str(), pin.type, kDirections[static_cast<size_t>(pin.direction)], cell);
 }
 
 bool makePins(PlcInstance& c) {
   const std::vector<mapping::Pin>& pins = c.box->pins();
-  c.status = static_cast<StatusPins*>(hal_malloc(sizeof(StatusPins)));
-  if (c.status != nullptr)
-    c.cells = static_cast<plc::PinCell*>(hal_malloc(static_cast<long>((pins.size() + 1) * sizeof(plc::PinCell))));
+  const auto cells = [](size_t count) {
+    return static_cast<plc::PinCell*>(hal_malloc(static_cast<long>(count * sizeof(plc::PinCell))));
+  };
+  c.ownCells = cells(kOwnPinCount);
+  if (c.ownCells != nullptr) c.cells = cells(pins.size() + 1);
   if (c.cells == nullptr) {
     complain("%s: HAL has no memory for the pins\n", kModule);
     return false;
   }
-  using enum mapping::PinType;
-  const auto status = [&c](const char* pin, mapping::PinType type, plc::PinCell& cell) {
-    return makePin(c, pin, type, HAL_OUT, cell);
-  };
-  StatusPins& s = *c.status;
-  bool ok = status("fault", Bit, s.fault) && status("fault-line", U32, s.faultLine) && status("scans", U32, s.scans) &&
-            status("missed", U32, s.missed) && status("functions-busy", Bit, s.functionsBusy) &&
-            status("functions-timeout", Bit, s.functionsTimeout) && status("functions-lost", U32, s.functionsLost) &&
-            makePin(c, "reset", Bit, HAL_IN, s.reset) && makePin(c, "power-off", Bit, HAL_IN, s.powerOff) &&
-            status("powered-off", Bit, s.poweredOff) && makeParameter(c, "max-time", U32, s.maxTime);
+  bool ok = true;
+  for (size_t i = 0; i < kOwnPinCount && ok; ++i) ok = makeMapped(c, mapping::kOwnPins[i], c.ownCells[i]);
   for (size_t i = 0; i < pins.size() && ok; ++i) ok = makeMapped(c, pins[i], c.cells[i]);
   if (!ok) return false;
-  c.box->connect(c.cells, hal::kAccess); // all of them are there
+  c.hasPins = true;
+  c.box->connect(c.cells, hal::kAccess);
   if (c.devices != nullptr) c.devices->connectAxes(c.cells, hal::kAccess);
   return true;
 }
 
 // The call of the scan is given the time since that of the fast task, where HAL has both.
 plc::StepResult runFunction(PlcInstance& c, Function function, long periodNs) {
-  const bool reset = hal::bit(c.status->reset);
+  const bool reset = hal::bit(c.own(OwnPin::Reset));
   const bool hasElapsed = c.fastCalled;
   c.fastCalled = function == kFast;
   if (function == kFast) return c.box->stepFast(periodNs, reset);
@@ -301,28 +297,31 @@ void stepDevices(PlcInstance& c, long periodNs) {
 void runStep(PlcInstance& c, Function function, long periodNs) {
   constexpr int64_t kNsInUs = 1000;
   if (function == kScan) stepDevices(c, periodNs);
-  // While it does not run, the box may belong to the thread that restarts it.
-  if (c.box->running()) c.box->setTimeLimit(int64_t{hal::u32(c.status->maxTime)} * kNsInUs);
+  // While it is restarted, the box belongs to another thread.
+  if (!c.box->restarting()) c.box->setTimeLimit(int64_t{hal::u32(c.own(OwnPin::MaxTime))} * kNsInUs);
   const plc::StepResult result = runFunction(c, function, periodNs);
   const bool runs = c.box->running();
-  hal::setBit(c.status->fault, !runs);
-  hal::setBit(c.status->functionsBusy, runs && c.box->functions().busy());
-  hal::setBit(c.status->functionsTimeout, runs && c.box->functions().late());
-  if (runs) hal::setU32(c.status->functionsLost, c.box->functions().lost());
+  hal::setBit(c.own(OwnPin::Fault), !runs);
+  hal::setBit(c.own(OwnPin::Serving), runs && c.box->live().served.load(std::memory_order_acquire));
+  hal::setBit(c.own(OwnPin::FunctionsBusy), runs && c.box->functions().busy());
+  hal::setBit(c.own(OwnPin::FunctionsTimeout), runs && c.box->functions().late());
+  if (runs) hal::setU32(c.own(OwnPin::FunctionsLost), c.box->functions().lost());
   if (result != plc::StepResult::Ran) return; // after a fault the instance is the service's
   const rung_state state = c.box->state();
-  hal::setU32(c.status->scans, static_cast<uint32_t>(state.passes));
-  hal::setU32(c.status->missed, static_cast<uint32_t>(state.missed));
+  hal::setU32(c.own(OwnPin::Scans), static_cast<uint32_t>(state.passes));
+  hal::setU32(c.own(OwnPin::Missed), static_cast<uint32_t>(state.missed));
 }
 
 // The program has had its regular end: nothing of it runs any more, and its axes come to rest.
 bool isPoweredOff(PlcInstance& c, Function function, long periodNs) {
-  c.poweringOff = c.poweringOff || hal::bit(c.status->powerOff);
+  c.poweringOff = c.poweringOff || hal::bit(c.own(OwnPin::PowerOff));
   if (!c.poweringOff || !c.box->ends()) return false;
   c.box->clearPins();
-  hal::setBit(c.status->functionsBusy, false);
-  hal::setBit(c.status->functionsTimeout, false);
-  if (function == kScan && (c.devices == nullptr || c.devices->rest(periodNs))) hal::setBit(c.status->poweredOff, true);
+  hal::setBit(c.own(OwnPin::Serving), false);
+  hal::setBit(c.own(OwnPin::FunctionsBusy), false);
+  hal::setBit(c.own(OwnPin::FunctionsTimeout), false);
+  if (function == kScan && (c.devices == nullptr || c.devices->rest(periodNs)))
+    hal::setBit(c.own(OwnPin::PoweredOff), true);
   return true;
 }
 
@@ -336,7 +335,7 @@ bool isApart(PlcInstance& c, Function function) {
 
 void stayApart(PlcInstance& c) {
   c.box->clearPins();
-  hal::setBit(c.status->fault, true);
+  hal::setBit(c.own(OwnPin::Fault), true);
 }
 
 void call(PlcInstance& c, Function function, long periodNs) {
@@ -356,11 +355,6 @@ void call(PlcInstance& c, Function function, long periodNs) {
 void scan(void* argument, long periodNs) { call(*static_cast<PlcInstance*>(argument), kScan, periodNs); }
 void fast(void* argument, long periodNs) { call(*static_cast<PlcInstance*>(argument), kFast, periodNs); }
 
-void passMessages(PlcInstance& c) {
-  c.controller->passMessages(
-      c.server.get(), [&c](const std::string& text) { rtapi_print("%s: %s\n", c.prefix.c_str(), text.c_str()); });
-}
-
 void reportApart(PlcInstance& c) {
   if (!c.apart.load() || c.apartReported) return;
   c.apartReported = true;
@@ -371,14 +365,13 @@ void reportApart(PlcInstance& c) {
 
 void reportDevices(PlcInstance& c) {
   if (c.devices == nullptr) return;
-  for (const std::string& line : c.devices->report()) complain("%s: %s\n", c.prefix.c_str(), line.c_str());
+  for (const std::string& line : c.devices->report()) (void)c.log->line(line);
 }
 
 void serveOnce(PlcInstance& c) {
   reportApart(c);
-  const auto print = [&c](const std::string& text) { complain("%s: %s\n", c.prefix.c_str(), text.c_str()); };
-  if (c.controller->serveBox(c.server.get(), print)) hal::setU32(c.status->faultLine, c.box->faultLine());
-  passMessages(c);
+  c.controller->serveProgram(c.server.get());
+  if (c.hasPins) hal::setU32(c.own(OwnPin::FaultLine), c.box->faultLine()); // else loading has failed
   reportDevices(c);
 }
 
@@ -386,8 +379,7 @@ void serveOnce(PlcInstance& c) {
 void serveRemote(const PlcInstance& c, std::chrono::milliseconds wait) {
   if (c.server == nullptr) return std::this_thread::sleep_for(wait);
   c.server->serve(wait);
-  c.controller->sendEvents(*c.server);
-  c.controller->work();
+  c.controller->serveClients(*c.server);
 }
 
 // The program runs without a socket, too.
@@ -469,7 +461,7 @@ void closeProgram(PlcInstance& c) {
   const std::string error = c.box->close();
   if (c.devices != nullptr) c.devices->end();
   reportDevices(c);
-  passMessages(c);
+  guarded([&] { return c.controller->serveProgram(nullptr), 0; }); // what it has said at last
   if (!error.empty()) complain("%s: %s\n", kModule, error.c_str());
 }
 

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,9 +20,11 @@
 #include "tools/host-devices/host_devices.h"
 #include "tools/plc/box.h"
 #include "tools/remote/controller.h"
+#include "tools/remote/log.h"
 #include "tools/rung-run/config_pairs.h"
 #include "tools/rung-run/pins.h"
 #include "tools/rung-run/scan_thread.h"
+#include "tools/rung-run/service_manager.h"
 #include "tools/rung-run/simulation.h"
 #include "tools/rung-run/status.h"
 #include "tools/sources/image.h"
@@ -30,7 +33,7 @@ namespace {
 
 using namespace rung;
 
-volatile std::sig_atomic_t gEnd = 0; // of SIGINT and SIGTERM: the only thing a signal handler may touch
+volatile std::sig_atomic_t gEnd = 0; // of SIGINT, SIGTERM and SIGHUP: the only thing a signal handler may touch
 
 struct Options {
   std::string program;
@@ -39,6 +42,8 @@ struct Options {
   std::string retain;
   unsigned periodUs = 1000;
   unsigned earlyUs = 0;
+  uint32_t catchUp = 1;
+  unsigned maxTimeUs = 0;
   int priority = 0;
   bool lockMemory = false;
   bool unsealed = false;
@@ -49,13 +54,23 @@ struct Options {
   std::string sharedFile;
 };
 
-void print(const std::string& line) { std::cerr << "rung-run: " << line << '\n'; }
+// Nobody may be there to read it: it does not end for that.
+void write(const std::string& line) { std::cerr << "rung-run: " << line << std::endl; }
+// Where no log is made yet.
+// What a compiler says has several lines.
+void print(const std::string& text) {
+  remote::Log log(host::systemClock(), write);
+  for (const auto line : std::views::split(text, '\n'))
+    if (!line.empty()) log.always(std::string(line.begin(), line.end()));
+}
 
+// The program has its regular end, whatever ends the process: a terminal that is closed, too.
 void catchSignals() {
   struct sigaction action{};
   action.sa_handler = [](int) { gEnd = 1; };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  action.sa_handler = SIG_IGN;
+  sigaction(SIGPIPE, &action, nullptr);
 }
 
 // One program with its pins, which rungctl can see: what is between its start and its end.
@@ -63,8 +78,8 @@ class Run {
 public:
   Run(const Options& options, const Image& image, std::unique_ptr<plc::Box> box, rung_run::Simulation* simulation,
       host_devices::HostDevices& devices)
-      : devices_(devices), box_(std::move(box)), pins_(*box_), connections_(box_->map()),
-        controller_(options.name, *box_, image, print), server_(options.name, getuid(), controller_),
+      : devices_(devices), box_(std::move(box)), pins_(*box_), connections_(box_->map()), log_(box_->clock(), write),
+        controller_(options.name, *box_, image, log_), server_(options.name, getuid(), controller_),
         scans_(*box_, pins_, connections_, devices,
                {.periodNs = int64_t{options.periodUs} * 1000,
                 .earlyNs = int64_t{options.earlyUs} * 1000,
@@ -78,47 +93,80 @@ public:
   }
 
   int run() {
-    constexpr std::chrono::milliseconds kTurn(20);
-    for (const std::string& line : connections_.warnings()) print(line);
+    for (const std::string& line : connections_.warnings()) log_.always(line);
     connections_.writeOutputs(pins_.cells()); // their safe values
     connections_.start();
     devices_.start();
-    if (const std::string wrong = scans_.start(); !wrong.empty()) return print(wrong), int{cli::kEnvironment};
-    print("listening at " + server_.path());
-    while (gEnd == 0) {
-      server_.serve(kTurn);
-      controller_.serveBox(&server_, print);
-      controller_.passMessages(&server_, print);
-      connections_.report(print);
-      for (const std::string& line : devices_.report()) print(line);
-      controller_.sendEvents(server_);
-      controller_.work();
-    }
+    if (const std::string wrong = scans_.start(); !wrong.empty()) return log_.always(wrong), int{cli::kEnvironment};
+    log_.always("listening at " + server_.path());
+    manager_.ready();
+    while (gEnd == 0) guarded([&] { turn(); });
     return end();
   }
 
 private:
+  void turn() {
+    constexpr std::chrono::milliseconds kTurn(20);
+    controller_.serveProgram(&server_);
+    server_.serve(kTurn);
+    report();
+    controller_.serveClients(server_);
+    manager_.feed(scans_.steps(), box_->clock().nowNs());
+  }
+
+  void report() {
+    connections_.report([this](const std::string& line) { (void)log_.line(line); });
+    for (const std::string& line : devices_.report()) (void)log_.line(line);
+  }
+
+  // Each step comes, whatever becomes of the one before.
   int end() {
-    scans_.end();
-    controller_.serveBox(&server_, print); // a fault of the last moment
-    const std::string error = box_->close();
-    devices_.end();
-    for (const std::string& line : devices_.report()) print(line);
-    controller_.passMessages(&server_, print);
-    connections_.writeOutputs(pins_.cells()); // their safe values
-    connections_.end();
-    for (const std::string& line : rung_run::report(scans_.figures(), connections_.figures())) print(line);
-    if (!error.empty()) print(error);
+    std::string error = "the program was not switched off";
+    manager_.stopping();
+    guarded([&] { waitForEnd(); });
+    guarded([&] { controller_.serveProgram(&server_); }); // a fault of the last moment
+    guarded([&] { error = box_->close(); });
+    guarded([&] { devices_.end(); });
+    guarded([&] { controller_.serveProgram(&server_); });
+    guarded([&] { report(); });
+    guarded([&] { connections_.writeOutputs(pins_.cells()); }); // their safe values
+    guarded([&] { connections_.end(); });
+    guarded([&] {
+      for (const std::string& line : rung_run::report(scans_.figures(), connections_.figures())) log_.always(line);
+    });
+    if (!error.empty()) log_.always(error);
     return error.empty() ? cli::kOk : cli::kEnvironment;
+  }
+
+  // A restart may be under way, which the steps wait for.
+  void waitForEnd() {
+    constexpr int64_t kLookNs = 1'000'000;
+    for (scans_.beginEnd(); !scans_.hasEnded(); box_->clock().sleep(kLookNs)) {
+      controller_.serveProgram(&server_);
+      manager_.feed(scans_.steps(), box_->clock().nowNs());
+    }
+    scans_.end();
+  }
+
+  // A turn that fails, where memory is short, is not the last one.
+  template <class Action>
+  void guarded(Action action) noexcept {
+    try {
+      action();
+    } catch (const std::exception& problem) {
+      std::fprintf(stderr, "rung-run: %s\n", problem.what());
+    }
   }
 
   host_devices::HostDevices& devices_;
   std::unique_ptr<plc::Box> box_;
   rung_run::Pins pins_;
   connections::Connections connections_;
+  remote::Log log_;
   remote::Controller controller_;
   remote::Server server_;
   rung_run::ScanThread scans_;
+  rung_run::ServiceManager manager_;
 };
 
 Image imageOf(const Options& options) {
@@ -127,7 +175,7 @@ Image imageOf(const Options& options) {
   if (options.program.ends_with(".so")) return Image(options.program, &how);
   std::string warnings;
   Image image = sources::compiledImage(options.program, getuid(), warnings);
-  std::cerr << warnings;
+  if (!warnings.empty()) std::cerr << warnings;
   return image;
 }
 
@@ -177,6 +225,7 @@ bool isTooEarly(const Options& options) {
 
 int run(const Options& options) try {
   if (isTooEarly(options)) return cli::kUsage;
+  catchSignals();
   const Image image = imageOf(options);
   if (!options.simulate && namesDevices(options) && !isOfTechnol(image)) {
     print("--can, --com, --sa-file, and --config without --simulate are for programs of TECHNOL; this one is of " +
@@ -188,14 +237,25 @@ int run(const Options& options) try {
   std::unique_ptr<rung_run::Simulation> simulation;
   host_devices::HostDevices devices;
   const plc::Box::NewInstance newInstance = surroundingsOf(options, image, map, errors, simulation, devices);
+  const bool hasMap = !map.paths.empty();
   std::unique_ptr<plc::Box> box;
-  if (!map.paths.empty()) box = plc::Box::make(image, std::move(map), errors, options.retain, warnings, newInstance);
+  std::string problem; // of the machine
+  try {
+    if (hasMap)
+      box = plc::Box::make(
+          image, std::move(map),
+          {.retain = options.retain, .newInstance = newInstance, .catchUp = options.catchUp, .reset = "rungctl reset"},
+          errors, warnings);
+  } catch (const Error& error) {
+    problem = error.what();
+  }
   if (box != nullptr && simulation != nullptr) std::ranges::move(simulation->problems(), std::back_inserter(warnings));
   std::ranges::move(devices.warnings(), std::back_inserter(warnings));
   for (const std::string& text : warnings) print(text);
   for (const std::string& text : errors) print(text);
-  if (box == nullptr) return cli::kWrong;
-  catchSignals();
+  if (!problem.empty()) print(problem);
+  if (box == nullptr) return hasMap && problem.empty() ? cli::kWrong : cli::kEnvironment;
+  box->setTimeLimit(int64_t{options.maxTimeUs} * 1000);
   return Run(options, image, std::move(box), simulation.get(), devices).run();
 } catch (const std::exception& error) { // the program, the socket
   print(error.what());
@@ -223,6 +283,14 @@ int main(int argc, char** argv) {
               "Microseconds before each look in which the thread is awake and reads what a scan reads; up to a quarter "
               "of the period")
       .showDefault();
+  command.option("--catch-up", options.catchUp, "Passes that run one after the other where the machine was late")
+      .between(1u, 1000u)
+      .showDefault();
+  command
+      .option("--max-time", options.maxTimeUs,
+              "Microseconds that a slice of the program may take, else it has a fault; without it its budgets of steps "
+              "alone count")
+      .between(1u, 3'600'000'000u);
   command.option("--retain", options.retain, "Keep the retained memory in FILE.a and FILE.b");
   command
       .option("--priority", options.priority,
@@ -240,6 +308,11 @@ int main(int argc, char** argv) {
   command.option("--config", options.config,
                  "KEY=VALUE of the devices of TECHNOL, or of the simulated control; may be repeated");
   command.flag("--unsealed", options.unsealed, "Load a program that has no seal");
+  command.onParsed([&command, &options] {
+    if (!command.given("--retain") || !options.retain.empty()) return cli::kOk;
+    print("--retain: found an empty name, expected FILE");
+    return cli::kUsage;
+  });
   int status = cli::kOk;
   cli::addUsage(app, status);
   const std::optional<int> decided = app.run(argc, argv, [](const cli::WrongWords& words) {

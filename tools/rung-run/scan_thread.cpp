@@ -13,7 +13,7 @@ std::string ScanThread::start() {
 }
 
 void ScanThread::end() {
-  ending_ = true;
+  beginEnd();
   if (thread_.joinable()) thread_.join();
 }
 
@@ -29,6 +29,7 @@ void ScanThread::run(std::promise<std::string> begun) {
     const int64_t late = host::monotonicNs() - due;
     if (late > options_.periodNs) due += late / options_.periodNs * options_.periodNs;
   }
+  ended_ = true;
 }
 
 // A step counts from when it is due, however long before that the thread is awake.

@@ -35,8 +35,12 @@ public:
   std::string start();
   // When the program needs no more steps; a few at most, unless it waits for its machine.
   void end();
+  // The same in two: it may be that it waits for the thread that serves the box.
+  void beginEnd() noexcept { ending_ = true; }
+  bool hasEnded() const noexcept { return ended_; }
 
   int64_t periodNs() const noexcept { return options_.periodNs; }
+  uint64_t steps() const noexcept { return times_.steps(); } // so far
   StepFigures figures() const { return times_.figures(); }
 
 private:
@@ -51,6 +55,7 @@ private:
   ScanOptions options_;
   std::thread thread_;
   std::atomic<bool> ending_{false};
+  std::atomic<bool> ended_{false};
   int64_t begunNs_ = 0;
   StepTimes times_;
 };

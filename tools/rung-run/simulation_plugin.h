@@ -2,6 +2,7 @@
 // build, which is checked: what goes between them is C++.
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -38,9 +39,9 @@ using MakeSimulation = Simulation* (*)(const char* dialect);
 inline constexpr const char* kMakeSimulation = "rung_make_simulation";
 inline constexpr const char* kSimulationPlugin = "rung-simulation.so";
 
-// Of whoever includes this; it changes with every version, compiler and interface between host and plug-in.
-inline std::string simulationBuild() {
-  return std::string(RUNG_BUILD) + " " + __VERSION__ + " " + std::to_string(sizeof(rung_instance_options)) + " 2";
-}
+// Another one for other sources of the runtime, of which both have a copy, and of what goes between them.
+std::string_view simulationVersion();
+// Of whoever includes this.
+inline std::string simulationBuild() { return std::string(__VERSION__) + " " + std::string(simulationVersion()); }
 
 } // namespace rung::rung_run

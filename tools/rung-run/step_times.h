@@ -38,6 +38,7 @@ public:
   void add(const Step& step, bool isOverrun) noexcept;
   // Any thread.
   StepFigures figures() const;
+  uint64_t steps() const noexcept { return steps_.load(std::memory_order_relaxed); }
 
 private:
   static constexpr size_t kWorst = 3;

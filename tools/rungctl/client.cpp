@@ -48,11 +48,14 @@ std::string chosen(const std::string& host) {
   if (!host.empty()) return host;
   const std::vector<std::string> hosts = remote::hostsOf(geteuid());
   if (hosts.size() == 1) return hosts.front();
-  const std::string folder = remote::socketFolder(geteuid());
-  if (hosts.empty()) throw std::runtime_error("no host is running: " + folder + " has no socket");
-  std::string names;
-  for (const std::string& name : hosts) names += (names.empty() ? "" : ", ") + name;
-  throw std::runtime_error("several hosts are running; choose one by --host: " + names);
+  const auto list = [](const std::vector<std::string>& words, const char* between) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+    return text;
+  };
+  if (hosts.empty())
+    throw std::runtime_error("no host is running: no socket is in " + list(remote::socketFolders(geteuid()), " or "));
+  throw std::runtime_error("several hosts are running; choose one by --host: " + list(hosts, ", "));
 }
 
 } // namespace

@@ -70,14 +70,24 @@ std::string connectionsOf(const json& answer) {
   return text;
 }
 
+std::string stopOf(const json& answer) {
+  const std::string fault = answer.value("fault", "");
+  const std::string faulty = answer.value("fault_of", "");
+  const std::string problem = answer.value("restart_problem", "");
+  return fmt::format("stopped by a fault{}: {}\n{}", faulty.empty() ? "" : " of " + faulty + ", which ran then", fault,
+                     problem.empty() ? "" : "the last restart has failed: " + problem + "\n");
+}
+
 int status(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "status"}});
   std::string text = fmt::format("host {}, program {}, dialect {}\n", shown(answer["host"]), shown(answer["program"]),
                                  shown(answer["dialect"]));
-  if (!answer.value("scanned", false))
+  if (answer.value("powered_off", false))
+    text += "switched off: the program has had its regular end\n";
+  else if (!answer.value("scanned", false))
     text += "nobody scans it: the host's thread does not run\n";
   else if (answer.value("faulted", false))
-    text += fmt::format("stopped by a fault: {}\n", answer.value("fault", ""));
+    text += stopOf(answer);
   else
     text += fmt::format("{}: {} passes, {} missed, {:.3f} s of its time{}\n",
                         answer.value("stopped", false) ? "stopped by the operator" : "running",
@@ -106,6 +116,12 @@ int get(Client& client, const Words& words) {
   return cli::kOk;
 }
 
+// Of a watched name; one that is not a real has none after a program without that name has taken over.
+std::string changeOf(const json& name, const json& value) {
+  const std::string text = name["name"].get<std::string>();
+  return value.is_null() && name["type"] != "real" ? text + " is gone" : text + " = " + shown(value);
+}
+
 int watch(Client& client, const Words& words) {
   const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", words.all}});
   if (words.common.asJson) print(words, begun, "");
@@ -116,8 +132,8 @@ int watch(Client& client, const Words& words) {
     std::string text;
     for (size_t i = 0; i < words.names.size(); ++i)
       if (i >= last.size() || last[i] != (*event)["values"][i])
-        text += fmt::format("{:.3f} {} = {}\n", static_cast<double>(event->value("us", int64_t{0})) / 1e6,
-                            words.names[i], shown((*event)["values"][i]));
+        text += fmt::format("{:.3f} {}\n", static_cast<double>(event->value("us", int64_t{0})) / 1e6,
+                            changeOf(begun["names"][i], (*event)["values"][i]));
     last = (*event)["values"];
     print(words, *event, text);
   }
@@ -142,22 +158,25 @@ int trace(Client& client, const Words& words) {
   if (!file) return fail("cannot write " + words.file, cli::kEnvironment);
   const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", true}});
   rungctl::Trace trace(file, client.greeting().value("program", ""), begun["names"]);
-  file.flush(); // its head: whoever looks knows that no pass is missed from now on
+  file.flush();                                   // its head: whoever looks knows that no pass is missed from now on
+  constexpr std::chrono::milliseconds kTurn(100); // it ends in time where no pass comes, too
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(words.seconds);
   while (gStop == 0 && (words.seconds == 0 || std::chrono::steady_clock::now() < end))
-    if (const std::optional<json> event = client.event(gStop); event && event->value("event", "") == "values")
+    if (const std::optional<json> event = client.event(kTurn); event && event->value("event", "") == "values")
       trace.add(*event);
   addRest(client, words, trace);
   trace.end();
   if (!file.flush()) return fail("cannot write " + words.file, cli::kEnvironment);
   print(words, {{"ok", true}, {"passes", trace.passes()}},
-        fmt::format("wrote {}: {} passes", words.file, trace.passes()));
+        fmt::format("wrote {}: {} {}", words.file, trace.passes(), trace.passes() == 1 ? "pass" : "passes"));
   return cli::kOk;
 }
 
 int set(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "set"}, {"name", words.name}, {"value", valueOf(words.value)}});
-  print(words, answer, fmt::format("{} = {}, before {}", words.name, shown(answer["value"]), shown(answer["former"])));
+  std::string text = fmt::format("{} = {}, before {}", words.name, shown(answer["value"]), shown(answer["former"]));
+  if (answer.contains("note")) text += "\n" + answer["note"].get<std::string>();
+  print(words, answer, text);
   return cli::kOk;
 }
 
@@ -246,8 +265,11 @@ int profile(Client& client, const Words& words) {
   return cli::kOk;
 }
 
-int serve(Client& client, const Words&) {
-  std::cout << asked(client, {{"do", "serve"}}).dump() << std::endl;
+int serve(Client& client, const Words& words) {
+  json request = {{"do", "serve"}};
+  constexpr double kMsInS = 1000;
+  if (words.seconds > 0) request["alive_ms"] = static_cast<unsigned>(words.seconds * kMsInS);
+  std::cout << asked(client, request).dump() << std::endl;
   rungctl::relay(client.connection(), STDIN_FILENO, std::cout, gStop);
   return cli::kOk;
 }
@@ -262,7 +284,7 @@ int hosts(const Words& words) {
 
 class Commands {
 public:
-  Commands(cli::CommandLine& app, int& status) : app_(app), status_(status) {}
+  Commands(cli::CommandLine& app, int& status) : app_(app), status_(status) { addCommon(app.root(), before_); }
 
   using Run = std::function<int(Client&, const Words&)>;
   // Adds one; `words` gives it its own words.
@@ -271,18 +293,28 @@ public:
     cli::Command command = app_.add(name, description);
     auto taken = std::make_shared<Words>();
     words(command, *taken);
-    command.option("--host", taken->common.host, "The name of the host; without it the only one that is running");
-    command.flag("--json", taken->common.asJson, "The answer as JSON");
-    command.onRun([this, taken, run = std::move(run)] { status_ = begin(*taken, run); });
+    addCommon(command, taken->common);
+    command.onRun([this, taken, run = std::move(run)] {
+      taken->common.asJson = taken->common.asJson || before_.asJson;
+      if (taken->common.host.empty()) taken->common.host = before_.host;
+      status_ = begin(*taken, run);
+    });
   }
   void addHosts() {
     cli::Command command = app_.add("hosts", "List the hosts that are running");
     auto taken = std::make_shared<Words>();
     command.flag("--json", taken->common.asJson, "As JSON");
-    command.onRun([this, taken] { status_ = hosts(*taken); });
+    command.onRun([this, taken] {
+      taken->common.asJson = taken->common.asJson || before_.asJson;
+      status_ = hosts(*taken);
+    });
   }
 
 private:
+  static void addCommon(cli::Command command, Common& common) {
+    command.option("--host", common.host, "The name of the host; without it the only one that is running");
+    command.flag("--json", common.asJson, "The answer as JSON");
+  }
   static int begin(const Words& words, const Run& run) try {
     Client client(words.common.host);
     return run(client, words);
@@ -292,6 +324,7 @@ private:
 
   cli::CommandLine& app_;
   int& status_;
+  Common before_; // the command
 };
 
 // NOLINTNEXTLINE(readability-function-size): a command after the other
@@ -360,9 +393,7 @@ void addAll(Commands& commands) {
         command.flag("--late", words.late, "Also where a slice of it may last longer than its period");
       },
       [](Client& client, const Words& words) { return reload(client, words, gStop); });
-  commands.add("rollback", "Put back the program before the last reload", none, [](Client& client, const Words& words) {
-    return simple(client, words, "rollback", "the former program runs");
-  });
+  commands.add("rollback", "Put back the program before the last reload", none, rollback);
   commands.add("stop", "Stop the program; its outputs stay as they are", none,
                [](Client& client, const Words& words) { return simple(client, words, "stop", "stopped"); });
   commands.add("start", "Let a stopped program run on", none,
@@ -380,8 +411,14 @@ void addAll(Commands& commands) {
         command.flag("--reset", words.reset, "Then count and time anew");
       },
       profile);
-  commands.add("serve", "Answer what the program asks of its CNC: lines of the protocol on standard input and output",
-               none, serve);
+  commands.add(
+      "serve", "Answer what the program asks of its CNC: lines of the protocol on standard input and output",
+      [](cli::Command& command, Words& words) {
+        command
+            .option("--alive", words.seconds, "Seconds of silence after which the host takes this connection for dead")
+            .between(0.1, 60.0);
+      },
+      serve);
 }
 
 } // namespace

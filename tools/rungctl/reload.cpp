@@ -6,10 +6,12 @@
 #include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "tools/remote/base64.h"
 #include "tools/rung-compile/collect.h"
@@ -22,15 +24,39 @@ namespace {
 
 std::string reportOf(const json& answer) {
   std::string text;
+  for (const json& rung : answer.value("rungs", json::array())) {
+    const std::string title = rung.value("title", "");
+    text +=
+        fmt::format("{} rung {}{}, {}:{}\n", shown(rung["kind"]), shown(rung["rung"]),
+                    title.empty() ? "" : " \"" + shown(rung["title"]) + "\"", shown(rung["file"]), shown(rung["line"]));
+  }
   for (const json& change : answer.value("changes", json::array()))
     text += fmt::format("{} {}{}\n", shown(change["kind"]), shown(change["name"]),
                         change.value("former", "").empty() ? "" : ", before " + shown(change["former"]));
-  return text + fmt::format("kept: {} names, {} states of edges, timers and counters\n", answer.value("kept_cells", 0),
-                            answer.value("kept_states", 0));
+  for (const json& pin : answer.value("pins", json::array())) text += shown(pin) + "\n";
+  text += fmt::format("kept: {} names, {} states of edges, timers and counters\n", answer.value("kept_cells", 0),
+                      answer.value("kept_states", 0));
+  const json ended = answer.value("ended_forces", json::array());
+  std::vector<std::string> names;
+  for (const json& name : ended) names.push_back(shown(name));
+  if (!names.empty())
+    text +=
+        fmt::format("{} {} ended: {}\n", names.size(), names.size() == 1 ? "force" : "forces", fmt::join(names, ", "));
+  return text;
 }
 
-// The program runs beside the other one until it has been compared. False: its outputs differ, or it cannot run so.
-bool runsTheSame(Client& client, const Words& words, const volatile int& stop, json request) {
+// What has become of it.
+std::string whetherItRuns(const json& answer, const char* program) {
+  if (answer.value("put_back", false))
+    return "the new program has stopped at once, and the former one is back: see status";
+  const char* does = answer.value("waits", false)     ? "waits for a reset"
+                     : answer.value("stopped", false) ? "is stopped"
+                                                      : "runs";
+  return fmt::format("the {} program {}", program, does);
+}
+
+// The program runs beside the other one until it has been compared. "", or why it does not take over.
+std::string whatSpeaksAgainst(Client& client, const Words& words, const volatile int& stop, json request) {
   request["do"] = "shadow";
   request["passes"] = words.shadow;
   asked(client, request);
@@ -48,7 +74,10 @@ bool runsTheSame(Client& client, const Words& words, const volatile int& stop, j
                 : fmt::format("{}: only the new program asks for it\n", shown(difference["name"]));
   if (!report.value("fault", "").empty()) text += shown(report["fault"]) + "\n";
   print(words, report, text);
-  return report["state"] == "finished" && report["differences"].empty();
+  if (!report["differences"].empty()) return "the new program does not do the same";
+  if (report["state"] == "too-slow") return "this host is too slow to run both programs: not all passes were compared";
+  if (report["state"] != "finished") return "the comparison was not finished";
+  return report["runs"] == 0 ? "no run of a task was compared" : "";
 }
 
 // What is wrong with the sources, as rungc prints it.
@@ -104,12 +133,15 @@ int programOf(Client& client, const Words& words, const volatile int& stop, json
 int reload(Client& client, const Words& words, const volatile int& stop) {
   json request = json::object();
   if (const int status = programOf(client, words, stop, request); status != cli::kOk) return status;
-  if (words.shadow != 0 && !runsTheSame(client, words, stop, request) && !words.yes)
-    return fail("the new program does not do the same; nothing has changed; with --yes it takes over all the same");
+  if (words.shadow != 0) {
+    if (const std::string against = whatSpeaksAgainst(client, words, stop, request); !against.empty() && !words.yes)
+      return fail(against + "; nothing has changed; with --yes it takes over all the same");
+    if (stop != 0) return fail("interrupted; nothing has changed");
+  }
   request.update({{"do", "reload"}, {"yes", words.yes}, {"late", words.late}});
   const json answer = client.ask(request);
   if (answer.value("ok", false)) {
-    print(words, answer, reportOf(answer) + "the new program runs");
+    print(words, answer, reportOf(answer) + whetherItRuns(answer, "new"));
     return cli::kOk;
   }
   if (words.common.asJson) std::cout << answer.dump() << '\n';
@@ -118,6 +150,12 @@ int reload(Client& client, const Words& words, const volatile int& stop) {
     return fail(answer.value("error", "") + "; nothing has changed; with --yes it is done all the same");
   }
   return fail(answer.value("error", "the host refuses"));
+}
+
+int rollback(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "rollback"}});
+  print(words, answer, reportOf(answer) + whetherItRuns(answer, "former"));
+  return cli::kOk;
 }
 
 } // namespace rung::rungctl

@@ -23,11 +23,15 @@ union PinValue {
 
 class Bench {
 public:
-  Bench(const rung_program& program, std::string_view text, const std::string& retain = {}) {
+  Bench(const rung_program& program, std::string_view text, const std::string& retain = {}, uint32_t catchUp = 0) {
     mapping::File map = mapping::parseMap(text, "m.map", errors);
     values.resize(map.pins.size());
     for (PinValue& value : values) cells.push_back({.any = &value});
-    box = Box::make(test::adopted(program), std::move(map), errors, retain, warnings);
+    try {
+      box = Box::make(test::adopted(program), std::move(map), {.retain = retain, .catchUp = catchUp}, errors, warnings);
+    } catch (const Error& error) {
+      errors.emplace_back(error.what());
+    }
     if (box) box->connect(cells.data());
   }
 

@@ -113,14 +113,15 @@ TEST(Box, ASliceRunsWhenItsTimeHasCome) {
   EXPECT_EQ(b.box->state().passes, 10u);
   for (int i = 0; i < 8; ++i) b.box->step(3 * kMs); // 24 ms in steps that do not divide the period
   EXPECT_EQ(b["count"].u32, 13u);
-  b.box->step(20 * kMs); // two at once, and 4 ms are owed
-  EXPECT_EQ(b["count"].u32, 15u);
+  b.box->step(20 * kMs); // two are due and one runs; 4 ms are owed
+  EXPECT_EQ(b["count"].u32, 14u);
+  EXPECT_EQ(b.box->state().missed, 1u);
   b.box->step(4 * kMs);
-  EXPECT_EQ(b["count"].u32, 16u);
+  EXPECT_EQ(b["count"].u32, 15u);
 }
 
 TEST(Box, PassesInAStepAreBounded) {
-  Bench b(mapping::testing::gskProgram(), R"(out.count = { type = "u32", name = "D0:2" })");
+  Bench b(mapping::testing::gskProgram(), R"(out.count = { type = "u32", name = "D0:2" })", {}, 11);
   b.box->step(88 * kMs); // one is due, ten are late
   EXPECT_EQ(b["count"].u32, 11u);
   EXPECT_EQ(b.box->state().missed, 0u);
@@ -933,6 +934,31 @@ TEST(Functions, WhatFindsTheQueueFullIsCounted) {
     b.box->step(kMs / 1000);
   }
   EXPECT_EQ(b.box->functions().lost(), 3u);
+}
+
+// A level that is told by two functions: its last state arrives, whatever was lost on the way.
+TEST(Functions, TheEndOfALevelIsNotLost) {
+  Bench b(mapping::testing::gskProgram(), kFunctions);
+  ASSERT_THAT(b.errors, IsEmpty());
+  b.scans(1);
+  b["change"].bit = true; // takes a place, so that the last one that finds room is the beginning of a level
+  b.box->step(kMs / 1000);
+  for (uint32_t i = 0; i < FunctionQueue::kRoom / 2; ++i)
+    for (const bool on : {true, false}) {
+      b["cw"].bit = on;
+      b.box->step(kMs / 1000);
+    }
+  EXPECT_EQ(b.box->functions().lost(), 1u);
+  uint32_t begun[7] = {};
+  for (int32_t former = 0, i = 0; b.box->functions().busy() && i < 1000; ++i) {
+    b.scans(1);
+    const int32_t now = b["m"].s32;
+    if (now != former && now != 0) ++begun[now];
+    former = now;
+  }
+  EXPECT_EQ(begun[3], FunctionQueue::kRoom / 2);
+  EXPECT_EQ(begun[5], FunctionQueue::kRoom / 2) << "the last one found the queue full, and its cause is still there";
+  EXPECT_EQ(b.box->functions().lost(), 1u);
 }
 
 // ---- real time -----------------------------------------------------------------------------------------------------

@@ -13,6 +13,10 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kLong(10000);
 
+Answer given(OrderSlot& slot, Order& order, milliseconds time) {
+  return slot.give(order, time, host::systemClock(), [] {});
+}
+
 // A scan thread that takes orders again and again.
 class Scanning {
 public:
@@ -35,11 +39,11 @@ TEST(Orders, AreDoneWithTheirResults) {
   OrderSlot slot;
   const Scanning scanning(slot, [](Order& order) {
     order.former.integer = order.value.integer - 1;
-    return int32_t{RUNG_OK};
+    return OrderSlot::Outcome{};
   });
   for (int i = 0; i < 20; ++i) {
     Order order{.kind = Order::Kind::Write, .cell = 7, .value = {.integer = i}};
-    const Answer answer = slot.give(order, kLong);
+    const Answer answer = given(slot, order, kLong);
     EXPECT_TRUE(answer.ok());
     EXPECT_EQ(answer.problem, "");
     EXPECT_EQ(order.former.integer, i - 1);
@@ -49,40 +53,37 @@ TEST(Orders, AreDoneWithTheirResults) {
 TEST(Orders, WithoutAScanAreWithdrawn) {
   OrderSlot slot;
   Order order;
-  const Answer answer = slot.give(order, milliseconds(5));
+  const Answer answer = given(slot, order, milliseconds(5));
   EXPECT_EQ(answer.status, RUNG_FAILED);
   EXPECT_EQ(answer.problem, "the thread that scans the program does not run");
   bool done = false;
-  slot.take([&](Order&) { return done = true, int32_t{RUNG_OK}; });
+  slot.take([&](Order&) { return done = true, OrderSlot::Outcome{}; });
   EXPECT_FALSE(done) << "it was withdrawn";
 }
 
 TEST(Orders, ThatCannotBeDoneNowAreTriedAgain) {
   OrderSlot slot;
   std::atomic<int> tries{0};
-  const Scanning scanning(slot, [&](Order&) { return int32_t{++tries < 100 ? RUNG_LATER : RUNG_OK}; });
+  const Scanning scanning(slot, [&](Order&) { return OrderSlot::Outcome{++tries < 100 ? RUNG_LATER : RUNG_OK}; });
   Order order{.kind = Order::Kind::Replace};
-  EXPECT_TRUE(slot.give(order, kLong).ok());
+  EXPECT_TRUE(given(slot, order, kLong).ok());
   EXPECT_EQ(tries, 100);
 }
 
 TEST(Orders, ThatNeverCanBeDoneSayWhy) {
   OrderSlot slot;
-  const Scanning scanning(slot, [](Order&) {
-    rung_instance_scan(nullptr); // leaves a sentence
-    return int32_t{RUNG_LATER};
-  });
+  const Scanning scanning(slot, [](Order&) { return OrderSlot::Outcome{RUNG_LATER, "the program is within a pass"}; });
   Order order{.kind = Order::Kind::Replace};
-  const Answer answer = slot.give(order, milliseconds(20));
+  const Answer answer = given(slot, order, milliseconds(20));
   EXPECT_EQ(answer.status, RUNG_LATER);
-  EXPECT_EQ(answer.problem, "the handle is not that of an instance: null, of another kind, or freed before");
+  EXPECT_EQ(answer.problem, "the program is within a pass");
 }
 
 TEST(Orders, OfSeveralThreadsWaitForEachOther) {
   OrderSlot slot;
   const Scanning scanning(slot, [](Order& order) {
     order.former = order.value;
-    return int32_t{RUNG_OK};
+    return OrderSlot::Outcome{};
   });
   std::thread others[3];
   std::atomic<int> wrong{0};
@@ -90,7 +91,7 @@ TEST(Orders, OfSeveralThreadsWaitForEachOther) {
     other = std::thread([&, number = &other - others] {
       for (int i = 0; i < 50; ++i) {
         Order order{.kind = Order::Kind::Write, .value = {.integer = number * 1000 + i}};
-        if (!slot.give(order, kLong).ok() || order.former.integer != number * 1000 + i) ++wrong;
+        if (!given(slot, order, kLong).ok() || order.former.integer != number * 1000 + i) ++wrong;
       }
     });
   for (std::thread& other : others) other.join();
@@ -103,10 +104,10 @@ TEST(Orders, AreWithdrawnOrDone) {
   std::atomic<int> done{0};
   int said = 0;
   {
-    const Scanning scanning(slot, [&](Order&) { return ++done, int32_t{RUNG_OK}; });
+    const Scanning scanning(slot, [&](Order&) { return ++done, OrderSlot::Outcome{}; });
     for (int i = 0; i < 300; ++i) {
       Order order;
-      said += slot.give(order, milliseconds(0)).ok() ? 1 : 0;
+      said += given(slot, order, milliseconds(0)).ok() ? 1 : 0;
     }
   }
   EXPECT_EQ(said, done);

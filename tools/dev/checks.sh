@@ -123,7 +123,16 @@ check_reads() {
   python3 tools/dev/reads.py build
 }
 
-check_fuzz() { RUNG_MUTATIONS=30000 run_tests -R '^fuzz\.'; }
+check_fuzz() { # hostile tables with the sanitizers, too
+  RUNG_MUTATIONS=30000 run_tests -R '^fuzz\.'
+  build_preset asan build-asan rung_test_fuzz
+  RUNG_MUTATIONS=2000 ASAN_OPTIONS=use_sigaltstack=0 build-asan/bin/tests/rung_test_fuzz --gtest_filter='*HostileTables*'
+}
+
+check_simulate() { # hosts, each with an order of events of its own
+  build_some rung_host_sim
+  build/bin/tests/rung_host_sim --count 100000
+}
 
 check_long() { RUNG_LONG=1 run_tests -R '^(differential|engines|gsk|reports)\.'; } # tests/support/long_run.h
 

@@ -1,0 +1,130 @@
+// A host without a machine: its program between pins, the thread that scans it, the one that serves it, its clients and
+// its disk, on a clock that passes when one of them waits. Whatever happens, happens in the order of its calls.
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "rtlib/host/clock.h"
+#include "rtlib/host/disk_file.h"
+#include "tests/host-sim/programs.h"
+#include "tools/connections/exchange.h"
+#include "tools/plc/box.h"
+#include "tools/remote/controller.h"
+#include "tools/remote/log.h"
+
+namespace rung::host_sim {
+
+// Files in memory. A write that fails leaves the file that was there.
+class MemoryDisk final : public host::Disk {
+public:
+  bool read(const std::string& path, size_t most, std::string& bytes, std::string& problem) override;
+  bool replace(const std::string& path, std::span<const uint8_t> bytes, std::string& error) override;
+  std::unique_ptr<Lock> lock(const std::string& path, bool& made, std::string& error) override;
+
+  bool full = false;
+  bool torn = false; // the next file does not get there
+
+private:
+  class Held;
+  std::map<std::string, std::string> files_;
+  std::map<std::string, bool> locked_;
+};
+
+// What the clients get.
+class Clients final : public remote::Sink {
+public:
+  void send(uint32_t peer, const nlohmann::json& event) override { events[peer].push_back(event); }
+  void answer(uint32_t peer, const nlohmann::json& answer) override { answers[peer].push_back(answer); }
+  std::map<uint32_t, std::deque<nlohmann::json>> events, answers;
+};
+
+class World final : public host::Clock {
+public:
+  explicit World(const Programs& programs);
+  ~World() override;
+
+  // ---- clock: the scan thread runs while somebody waits
+  int64_t nowNs() noexcept override { return nowNs_; }
+  int64_t dateS() noexcept override { return kBegin + nowNs_ / 1'000'000'000; }
+  void sleep(int64_t ns) override { pass(ns); }
+
+  // ---- what may happen
+  bool isOn() const { return box_ != nullptr; }
+  void switchOn();  // the host starts
+  void switchOff(); // and ends regularly
+  void cutPower();  // it is gone at this moment
+  void pass(int64_t ns);
+  void turn(); // of the thread that serves
+  void lookForSaving();
+  nlohmann::json ask(uint32_t peer, const nlohmann::json& request);
+  void leave(uint32_t peer);
+  void setPin(const std::string& name, bool value);
+  // The other side of the connection: while it is there, FAR comes with each scan.
+  struct Far {
+    bool isThere = false;
+    bool value = false;
+    int64_t heardNs = -1; // never
+    bool lamp = false;    // that it has been told of last
+  } far;
+  static constexpr int64_t kFarTimeoutNs = 101'000'000;
+  bool pin(const std::string& name) const;
+
+  bool scans = true;  // the scan thread runs
+  bool reset = false; // the pin
+  MemoryDisk disk;
+  Clients clients;
+  plc::Box& box() { return *box_; }
+  rung_instance* instance() { return box_->instance(); }
+  // Of the program, whatever its state.
+  int64_t cell(const std::string& name) const;
+  // What has become of the program, in the order in which it has.
+  struct Change {
+    enum class Kind : uint8_t { Replaced, Fault, Restart };
+    Kind kind = Kind::Replaced;
+    uint64_t wholeScans = 0; // before it
+    int64_t scans = 0;       // what SCANS was then
+    uint32_t number = 0;     // of the program that ran
+  };
+  std::vector<Change> changes; // since somebody emptied it
+  uint64_t steps = 0;
+  int64_t lastStepNs = 0;
+  uint64_t wholeScans = 0; // of the program, since the host was switched on first
+  std::vector<std::string> log;
+
+  static constexpr int64_t kPeriodNs = 8'000'000;
+
+private:
+  static constexpr int64_t kBegin = 1'800'000'000; // a date
+  union Value {
+    bool bit;
+    double real = 0;
+  };
+  void step();
+  void writeRequest();
+  void tellFar();
+  void noteChanges(uint64_t scansBefore, int64_t cellBefore);
+  remote::Peer peerOf(uint32_t number) const;
+
+  const Programs& programs_;
+  int64_t nowNs_ = 1'000'000'000;
+  int64_t dueNs_ = 0;
+  std::vector<Value> values_;
+  std::vector<plc::PinCell> cells_;
+  uint32_t number_ = 0; // of the program that ran last
+  uint32_t faulted_ = 0;
+  bool ran_ = false;
+  std::optional<Image> image_;
+  std::unique_ptr<plc::Box> box_;
+  std::unique_ptr<connections::Exchange> exchange_;
+  std::unique_ptr<remote::Log> log_;
+  std::unique_ptr<remote::Controller> controller_;
+};
+
+} // namespace rung::host_sim

@@ -146,6 +146,22 @@ def nobody_serves():
     at_rest()
 
 
+def machine_off():
+    """What was ordered ends as an alarm, and nothing goes on when the machine is on again."""
+    order(CONTINUOUS, 300, 0)
+    wait("motion", lambda: table() > 0.5)
+    command.state(linuxcnc.STATE_OFF)
+    pins(alarm=True)
+    here = drive.at_rest(table)
+    drive.switch_on()
+    passes(50)
+    check(near(table(), here), "the axis goes on by itself")
+    clear()
+    order(REFERENCE_1, 6000)
+    wait("the reference point", lambda: near(table(), 0))
+    at_rest()
+
+
 def write(function, number, attribute, data):
     """The end code."""
     put(write_function=function, write_length=4, write_number=number, write_attribute=attribute, write_data=data)
@@ -258,7 +274,7 @@ def killed():
     it_serves_again(here)
 
 
-STEPS = (distances, held, continuous, auxiliary, refused, nobody_serves, started_again, killed, written, at_once)
+STEPS = (distances, held, continuous, auxiliary, refused, machine_off, nobody_serves, started_again, killed, written, at_once)
 
 
 def session():

@@ -18,7 +18,7 @@ using MessageQueue = FixedRing<rung_message, kMessageCapacity>;
 struct ServiceRequest {
   uint32_t ticket = 0;
   uint32_t service = 0;  // in rung_program::services
-  const char* name = ""; // of it there, for whoever takes the request when another program runs; see setServices
+  const char* name = ""; // its name, for a host that reads the request after a reload; see setServices
   uint32_t argCount = 0;
   int64_t args[RUNG_MAX_SERVICE_ARGS] = {};
   // The name follows from the service.

@@ -10,7 +10,7 @@ namespace rung::host {
 struct Outside {
   Disk* disk = &systemDisk();
   // How often a thread of its own looks whether retained memory is to be written; nothing: as the dialect needs it; 0:
-  // there is no such thread (RetainSaver).
+  // RetainSaver has no thread.
   std::optional<std::chrono::milliseconds> savePeriod;
 };
 

@@ -39,7 +39,7 @@ enum class ChangeKind : uint8_t {
   Renamed,  // a cell that had another name: keeps its contents
   Retyped,  // of another type now: its contents are lost, it starts with its initial contents
   Released, // an output that the old program wrote and the new one does not: starts with its initial contents
-  Cut,      // a cell that is elsewhere now, where there is no room for all that instructions reached through its name
+  Cut,      // a cell that is elsewhere now, with less room there: what instructions reached beyond it is lost
 };
 
 inline constexpr std::string_view kChangeKinds[] = {"new", "removed", "moved", "renamed", "retyped", "released", "cut"};

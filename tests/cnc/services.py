@@ -50,6 +50,14 @@ def clear():
     put(clear=False)
 
 
+def go_back():
+    """With all alarms cleared, to the reference point."""
+    clear()
+    order(REFERENCE_1, 6000)
+    wait("the reference point", lambda: near(table(), 0))
+    at_rest()
+
+
 def distances():
     at_rest()
     order(FEED, 240, 10 * UNITS)  # two and a half seconds
@@ -90,10 +98,7 @@ def continuous():
     check(near(table(), here), "the axis moves after ECLR")
     order(SPEED, 1)  # 360 degrees a minute
     wait("the other direction", lambda: table() > here + 0.5)
-    clear()
-    order(REFERENCE_1, 6000)
-    wait("the reference point", lambda: near(table(), 0))
-    at_rest()
+    go_back()
 
 
 def auxiliary():
@@ -140,10 +145,7 @@ def nobody_serves():
     pins(serving=True)
     passes(50)
     check(near(table(), here), "the axis goes on by itself")
-    clear()
-    order(REFERENCE_1, 6000)
-    wait("the reference point", lambda: near(table(), 0))
-    at_rest()
+    go_back()
 
 
 def machine_off():
@@ -156,10 +158,7 @@ def machine_off():
     drive.switch_on()
     passes(50)
     check(near(table(), here), "the axis goes on by itself")
-    clear()
-    order(REFERENCE_1, 6000)
-    wait("the reference point", lambda: near(table(), 0))
-    at_rest()
+    go_back()
 
 
 def write(function, number, attribute, data):
@@ -247,10 +246,7 @@ def it_serves_again(here):
     pins(serving=True)
     passes(50)
     check(near(table(), here), f"the axis has moved by itself, from {here} to {table()}")
-    clear()
-    order(REFERENCE_1, 6000)
-    wait("the reference point", lambda: near(table(), 0))
-    at_rest()
+    go_back()
 
 
 def started_again():

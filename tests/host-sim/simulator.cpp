@@ -489,7 +489,7 @@ void Model::lookAtConnection() {
   expect(isAlive || !world_.pin("far"), "an input of a lost connection is on");
 }
 
-// What is asked comes to an end, whoever serves.
+// A request ends, whether or not it is served.
 void Model::lookAtRequest() {
   if (!isQuiet_ || faulted_ || stopped_ || !world_.scans || hasFaulted_) return;
   if (!programs_.versions()[runs_].remembers || !world_.pin("ask")) return;

@@ -18,7 +18,7 @@ struct RandomOptions {
   bool host = true;    // messages and services
   bool traps = true;   // rare
   bool known = false;  // rungs store 0 into known cells, load it again, and decide by it: with such a cell forced to 1
-                      // what nothing would ever do comes back
+                       // what nothing would ever do comes back
 };
 
 inline constexpr SpaceId kKnownSpace{2};

@@ -64,6 +64,14 @@ class Host(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
+    def program_with(self, before, after):
+        """The program, and what is otherwise in it."""
+        self.assertIn(before, self.program_text)
+        other = self.home / "other.pmc"
+        other.write_text(self.program_text.replace(before, after))
+        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
+        return self.home / "other.so"
+
     def setUp(self):
         self.environment = {**os.environ, "RUNG_SOCKETS": str(self.home / "sockets")}
         (self.home / "plc.map").write_text(self.map)
@@ -206,10 +214,8 @@ class Commands(Host):
         self.assertIn("running: ", self.ctl("status"))
 
     def test_a_fault_after_a_reload_puts_the_former_program_back(self):
-        other = self.home / "other.pmc"
-        other.write_text(PROGRAM.replace("LD   X0.1", "LD   X0.4"))
-        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
-        self.ctl("reload", self.home / "other.so")
+        other = self.program_with("LD   X0.1", "LD   X0.4")
+        self.ctl("reload", other)
         self.assertIn("program other,", self.ctl("status"))
         self.ctl("set", "X0.4", "1")
         self.wait(lambda: "stopped by a fault of other, which ran then: dead-loop (rung " in self.ctl("status"))
@@ -224,11 +230,9 @@ class Commands(Host):
         self.assertIn("program stuck,", self.ctl("status"))
 
     def test_a_program_that_faults_at_once(self):
-        other = self.home / "other.pmc"
-        other.write_text(PROGRAM.replace("LD   X0.1", "LDI  X0.4"))
-        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
+        other = self.program_with("LD   X0.1", "LDI  X0.4")
         for _ in range(5):
-            self.assertIn("the new program has stopped at once, and the former one is back", self.ctl("reload", self.home / "other.so"))
+            self.assertIn("the new program has stopped at once, and the former one is back", self.ctl("reload", other))
             self.ctl("reset")
             self.wait(lambda: "\nrunning: " in self.ctl("status"))
 
@@ -267,10 +271,8 @@ class Commands(Host):
                                          env=self.environment, check=False).returncode == OK)
 
     def test_an_interrupt_ends_a_comparison(self):
-        other = self.home / "other.pmc"
-        other.write_text(PROGRAM.replace("LD   X0.1", "LD   X0.4"))
-        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
-        reloads = subprocess.Popen([BIN / "rungctl", "reload", self.home / "other.so", "--shadow", "100000", "--yes"], stdout=subprocess.PIPE,
+        other = self.program_with("LD   X0.1", "LD   X0.4")
+        reloads = subprocess.Popen([BIN / "rungctl", "reload", other, "--shadow", "100000", "--yes"], stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True, env=self.environment)
         self.wait(lambda: ": shadow " in self.logged())
         reloads.send_signal(signal.SIGINT)
@@ -281,10 +283,8 @@ class Commands(Host):
     def test_a_reload_of_a_stopped_program_waits_for_a_reset(self):
         self.ctl("set", "X0.1", "1")
         self.wait(lambda: "stopped by a fault: dead-loop (rung " in self.ctl("status"))
-        other = self.home / "other.pmc"
-        other.write_text(PROGRAM.replace("LD   X0.1", "LD   X0.4"))
-        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
-        self.assertTrue(self.ctl("reload", self.home / "other.so", "--yes").endswith("the new program waits for a reset\n"))
+        other = self.program_with("LD   X0.1", "LD   X0.4")
+        self.assertTrue(self.ctl("reload", other, "--yes").endswith("the new program waits for a reset\n"))
         self.assertIn("program other, dialect gsk\nstopped by a fault of stuck, which ran then: dead-loop (rung 2, ", self.ctl("status"))
         self.assertTrue(self.ctl("rollback").endswith("the former program waits for a reset\n"))
 
@@ -296,10 +296,8 @@ class Commands(Host):
         self.assertNotIn("ended", self.ctl("reload", self.program))
 
     def test_a_shadow_before_a_reload(self):
-        other = self.home / "other.pmc"
-        other.write_text(PROGRAM.replace("LD   X0.0", "LDI  X0.0"))
-        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
-        text = self.ctl("reload", self.home / "other.so", "--shadow", "25", status=WRONG)
+        other = self.program_with("LD   X0.0", "LDI  X0.0")
+        text = self.ctl("reload", other, "--shadow", "25", status=WRONG)
         self.assertIn("finished, ", text)
         self.assertIn("Y0.0: false now, true in the new program\n", text)
         self.assertIn("nothing has changed", text)
@@ -307,7 +305,7 @@ class Commands(Host):
         text = self.ctl("reload", self.program, "--shadow", "25")
         self.assertIn(", 0 differences\n", text)
         self.assertTrue(text.endswith("the new program runs\n"))
-        self.ctl("reload", self.home / "other.so", "--shadow", "25", "--yes")
+        self.ctl("reload", other, "--shadow", "25", "--yes")
         self.wait(lambda: self.get("Y0.0"))
         self.ctl("reload", self.program, "--shadow", "0", status=USAGE)
 
@@ -379,10 +377,8 @@ class Commands(Host):
         self.addCleanup(watching.wait)
         self.addCleanup(watching.kill)
         self.assertRegex(watching.stdout.readline(), r"^\d+\.\d{3} GUARD = false\n$")
-        other = self.home / "other.pmc"
-        other.write_text(PROGRAM.replace("symbol GUARD X0.2\n", ""))
-        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
-        self.ctl("reload", self.home / "other.so", "--yes")
+        other = self.program_with("symbol GUARD X0.2\n", "")
+        self.ctl("reload", other, "--yes")
         self.assertIn(" Y0.0 = false\n", watching.stdout.readline())
         self.assertRegex(watching.stdout.readline(), r"^\d+\.\d{3} GUARD is gone\n$")
         self.assertIn("GUARD is not a name of the program other", self.ctl("get", "GUARD", status=WRONG))
@@ -525,13 +521,6 @@ class Named(Host):
     """A reload looks at the mapping file as loading does."""
     program_text = PROGRAM.replace("symbol GUARD X0.2", "symbol GUARD X0.2\nsymbol GO X0.0\nsymbol LAMP Y0.0")
     map = MAP.replace('"X0.0"', '"GO"').replace('"Y0.0"', '"LAMP"').replace('"X0.2"', '"GUARD"')
-
-    def program_with(self, before, after):
-        self.assertIn(before, self.program_text)
-        other = self.home / "other.pmc"
-        other.write_text(self.program_text.replace(before, after))
-        subprocess.run([BIN / "rungc", "build", "-q", other, "-o", self.home / "other.so"], check=True)
-        return self.home / "other.so"
 
     def test_what_does_not_fit_is_refused(self):
         for before, after, text in (

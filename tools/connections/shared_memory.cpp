@@ -98,8 +98,8 @@ bool SharedMemory::put(const void* from, size_t size, uint32_t at) const {
   return pwrite(file_.number(), from, size, at) == static_cast<ssize_t>(size);
 }
 
-// Where another program has removed the file, or written over its head, whoever opens it does not find this side any
-// more.
+// Makes the file anew where another program has removed it, or written over its head: one that opens it now would not
+// find this side.
 void SharedMemory::keep() noexcept try {
   constexpr size_t kConstant = offsetof(Header, outputsSequence);
   struct stat about{};

@@ -95,7 +95,8 @@ struct Controller::FoundCells {
   ~FoundCells() {
     for (const rung_cell cell : cells) rung_instance_release(of, cell);
   }
-  FoundCells(FoundCells&& other) noexcept : of(other.of), cells(std::exchange(other.cells, {})), infos(other.infos) {}
+  FoundCells(FoundCells&& other) noexcept
+      : of(other.of), cells(std::exchange(other.cells, {})), infos(std::move(other.infos)) {}
   FoundCells& operator=(FoundCells&&) = delete;
 
   rung_instance* of;
@@ -744,8 +745,8 @@ json Controller::putInPlace(rung_replacement* replacement, const std::vector<run
   forces_.reset();
   refusePending(why);
   report["ended_forces"] = ended;
-  report["waits"] = (done.state.flags & RUNG_STATE_FAULTED) != 0;   // for a reset
   report["stopped"] = (done.state.flags & RUNG_STATE_STOPPED) != 0; // by the operator, as the program before
+  report["waits"] = (done.state.flags & RUNG_STATE_FAULTED) != 0; // for a reset
   if (report["waits"] == false && report["stopped"] == false) waitForPass(done.state.passes);
   auto info = sized<rung_replacement_info>();
   check(rung_replacement_report(replacement, &info));
@@ -758,8 +759,8 @@ void Controller::waitForPass(uint64_t passes) {
   constexpr int64_t kMostNs = 300'000'000, kLookNs = 1'000'000;
   constexpr uint32_t kEnd = RUNG_STATE_FAULTED | RUNG_STATE_STOPPED;
   for (const int64_t end = box_.clock().nowNs() + kMostNs; box_.clock().nowNs() < end; box_.clock().sleep(kLookNs)) {
-    Order look{.kind = Order::Kind::State};
-    if (!box_.order(look).ok() || (look.state.flags & kEnd) != 0 || look.state.passes != passes) return;
+    const std::optional<rung_state> now = stateNow();
+    if (!now || (now->flags & kEnd) != 0 || now->passes != passes) return;
   }
 }
 
@@ -806,7 +807,7 @@ json Controller::shadow(const Peer& peer, const json& request) {
     throw Refused("found no number \"passes\" from 1 to 100000 in the request, expected one");
   if (shadow_ != nullptr && shadowsFor_ != peer.number)
     throw Refused("another client has a program run beside this one; try again when it is done");
-  if (isStopped())
+  if (const std::optional<rung_state> now = stateNow(); now && (now->flags & RUNG_STATE_STOPPED) != 0)
     throw Refused("the program is stopped by the operator: nothing of it could be compared; start it first");
   const NextProgram next = nextProgram(peer, request);
   endShadow();
@@ -856,13 +857,19 @@ void Controller::compareShadow() {
     if (rung_shadow_work(shadow_.get()) != RUNG_OK) break;
   json report = shadowReport();
   if (report["state"] == "prepared" || report["state"] == "running") return;
-  compared_ = std::move(report); // all of it that is still of use
+  finishShadow(std::move(report));
+}
+
+// All of it that is still of use is the report.
+void Controller::finishShadow(json report) {
+  compared_ = std::move(report);
   endShadow();
 }
 
-bool Controller::isStopped() {
+// Nothing where nobody scans the program.
+std::optional<rung_state> Controller::stateNow() {
   Order look{.kind = Order::Kind::State};
-  return box_.order(look).ok() && (look.state.flags & RUNG_STATE_STOPPED) != 0;
+  return box_.order(look).ok() ? std::optional(look.state) : std::nullopt;
 }
 
 json Controller::rollback(const Peer& peer, const json&) {
@@ -887,9 +894,9 @@ json Controller::simple(Order::Kind kind, const Peer& peer, const char* what) {
 json Controller::stop(const Peer& peer, const json&) {
   give({.kind = Order::Kind::Stop});
   if (shadow_ != nullptr) { // nothing more comes that could be compared
-    compared_ = shadowReport();
-    compared_["state"] = "stopped";
-    endShadow();
+    json report = shadowReport();
+    report["state"] = "stopped";
+    finishShadow(std::move(report));
   }
   logChange(peer, "stop" + endedForces());
   refusePending("the program has been stopped meanwhile: forces have ended");

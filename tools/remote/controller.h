@@ -108,7 +108,8 @@ private:
   void refuseProtected(const std::string& name) const;
   std::string refuseWithoutEffect(const std::string& name);
   std::string endedForces();
-  bool isStopped();
+  std::optional<rung_state> stateNow();
+  void finishShadow(nlohmann::json report);
   void waitForPass(uint64_t passes);
   Share shareOf(const std::string& name, const std::vector<Range>& wanted) const;
   plc::Order give(plc::Order order, std::chrono::milliseconds time = plc::Box::kPatience);

@@ -4,12 +4,14 @@
 #include <dirent.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 namespace rung::remote {
@@ -19,19 +21,11 @@ constexpr std::string_view kEnding = ".sock";
 
 constexpr mode_t kHisAlone = 0700;
 
-bool isFolderOf(const std::string& path, uid_t user) {
+// The mode of a folder of that user; nothing where the path is none.
+std::optional<mode_t> modeOfFolder(const std::string& path, uid_t user) {
   struct stat about{};
-  return lstat(path.c_str(), &about) == 0 && S_ISDIR(about.st_mode) && about.st_uid == user;
-}
-
-bool isHisAlone(const std::string& path, uid_t user) {
-  struct stat about{};
-  return isFolderOf(path, user) && lstat(path.c_str(), &about) == 0 && (about.st_mode & 0777) == kHisAlone;
-}
-
-bool isThere(const std::string& path) {
-  struct stat about{};
-  return lstat(path.c_str(), &about) == 0;
+  if (lstat(path.c_str(), &about) != 0 || !S_ISDIR(about.st_mode) || about.st_uid != user) return std::nullopt;
+  return about.st_mode & 0777;
 }
 
 void addHosts(const std::string& path, std::vector<std::string>& hosts) {
@@ -52,17 +46,21 @@ std::vector<std::string> socketFolders(uid_t user) {
   if (const char* named = secure_getenv("RUNG_SOCKETS"); named != nullptr && *named == '/') return {named};
   const std::string number = std::to_string(user);
   const std::string early = "/tmp/rung-" + number;
-  if (!isFolderOf("/run/user/" + number, user)) return {early};
+  if (!modeOfFolder("/run/user/" + number, user)) return {early};
   std::vector<std::string> folders = {"/run/user/" + number + "/rung"};
-  if (isHisAlone(early, user)) folders.push_back(early); // anybody can make a folder there
+  if (modeOfFolder(early, user) == kHisAlone) folders.push_back(early); // anybody can make a folder there
   return folders;
 }
 
-std::string socketPath(uid_t user, const std::string& host) {
+std::string socketPath(const std::string& folder, const std::string& host) {
+  return folder + "/" + host + std::string(kEnding);
+}
+
+std::string socketOf(uid_t user, const std::string& host) {
   const std::vector<std::string> folders = socketFolders(user);
-  const std::string name = "/" + host + std::string(kEnding);
-  const auto found = std::ranges::find_if(folders, [&](const std::string& folder) { return isThere(folder + name); });
-  return (found != folders.end() ? *found : folders.front()) + name;
+  const auto has = [&](const std::string& folder) { return access(socketPath(folder, host).c_str(), F_OK) == 0; };
+  const auto found = std::ranges::find_if(folders, has);
+  return socketPath(found != folders.end() ? *found : folders.front(), host);
 }
 
 sockaddr_un socketAddress(const std::string& path) {
@@ -93,7 +91,7 @@ std::string prepareFolder(uid_t user) {
   std::string folder = socketFolders(user).front();
   if (mkdir(folder.c_str(), kHisAlone) != 0 && errno != EEXIST)
     throw std::runtime_error("cannot make the folder " + folder + ": " + std::strerror(errno));
-  if (!isHisAlone(folder, user))
+  if (modeOfFolder(folder, user) != kHisAlone)
     throw std::runtime_error(folder + " is not a folder that user " + std::to_string(user) +
                              " alone may use: chmod 700 it, or name another one by RUNG_SOCKETS");
   return folder;

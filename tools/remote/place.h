@@ -8,12 +8,13 @@
 
 namespace rung::remote {
 
-// The folders of a user's sockets; a host takes the first one. That of the environment variable RUNG_SOCKETS alone, which
-// a process with more rights than its user does not look at; else /run/user/NUMBER/rung, where there is /run/user/NUMBER,
-// and /tmp/rung-NUMBER, which hosts have from before that came.
+// The folders of a user's sockets; a host takes the first one. That of the environment variable RUNG_SOCKETS alone,
+// which a process with more rights than its user does not look at; else /run/user/NUMBER/rung, where there is
+// /run/user/NUMBER, and /tmp/rung-NUMBER, which hosts have from before that came.
 std::vector<std::string> socketFolders(uid_t user);
-// In the first folder that has it, or in the first one.
-std::string socketPath(uid_t user, const std::string& host);
+std::string socketPath(const std::string& folder, const std::string& host);
+// Of a host that runs: in the first folder that has it, or in the first one.
+std::string socketOf(uid_t user, const std::string& host);
 // Throws std::runtime_error where the path is too long for a socket.
 sockaddr_un socketAddress(const std::string& path);
 

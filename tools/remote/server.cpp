@@ -74,12 +74,10 @@ json problemOf(const std::string& text) { return {{"ok", false}, {"error", text}
 Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(user), handler_(handler) {
   if (!isHostName(host))
     throw std::runtime_error("found the name \"" + host + "\" of a host, expected letters, digits, '-', '_' and '.'");
-  const std::string folder = prepareFolder(user);
-  path_ = socketPath(user, host);
-  if (isAlive(socketAddress(path_)))
-    throw std::runtime_error(path_ + ": another host has the name " + host + "; give this one another");
-  path_ = folder + path_.substr(path_.rfind('/'));
+  path_ = socketPath(prepareFolder(user), host);
   const sockaddr_un address = socketAddress(path_);
+  if (const std::string another = socketOf(user, host); isAlive(socketAddress(another)))
+    throw std::runtime_error(another + ": another host has the name " + host + "; give this one another");
   unlink(path_.c_str()); // of a host that was killed
   socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (socket_ < 0) refuse(path_);

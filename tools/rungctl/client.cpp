@@ -1,4 +1,7 @@
 // See client.h.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "tools/rungctl/client.h"
 
 #include <poll.h>
@@ -48,21 +51,17 @@ std::string chosen(const std::string& host) {
   if (!host.empty()) return host;
   const std::vector<std::string> hosts = remote::hostsOf(geteuid());
   if (hosts.size() == 1) return hosts.front();
-  const auto list = [](const std::vector<std::string>& words, const char* between) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-    return text;
-  };
   if (hosts.empty())
-    throw std::runtime_error("no host is running: no socket is in " + list(remote::socketFolders(geteuid()), " or "));
-  throw std::runtime_error("several hosts are running; choose one by --host: " + list(hosts, ", "));
+    throw std::runtime_error(
+        fmt::format("no host is running: no socket is in {}", fmt::join(remote::socketFolders(geteuid()), " or ")));
+  throw std::runtime_error(fmt::format("several hosts are running; choose one by --host: {}", fmt::join(hosts, ", ")));
 }
 
 } // namespace
 
 Client::Client(const std::string& host)
     : host_(chosen(host)),
-      connection_(connected(remote::socketPath(geteuid(), host_)), remote::Connection::kLongestAnswer) {
+      connection_(connected(remote::socketOf(geteuid(), host_)), remote::Connection::kLongestAnswer) {
   const std::optional<json> first = next(kAnswer);
   if (!first) throw std::runtime_error("the host " + host_ + " does not answer");
   if (first->contains("error")) throw std::runtime_error((*first)["error"].get<std::string>());

@@ -936,7 +936,7 @@ TEST(Functions, WhatFindsTheQueueFullIsCounted) {
   EXPECT_EQ(b.box->functions().lost(), 3u);
 }
 
-// A level that is told by two functions: its last state arrives, whatever was lost on the way.
+// Two functions for the two levels of a pin: the last level arrives, even where some before it were lost.
 TEST(Functions, TheEndOfALevelIsNotLost) {
   Bench b(mapping::testing::gskProgram(), kFunctions);
   ASSERT_THAT(b.errors, IsEmpty());

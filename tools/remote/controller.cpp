@@ -746,8 +746,8 @@ json Controller::putInPlace(rung_replacement* replacement, const std::vector<run
   refusePending(why);
   report["ended_forces"] = ended;
   report["stopped"] = (done.state.flags & RUNG_STATE_STOPPED) != 0; // by the operator, as the program before
-  report["waits"] = (done.state.flags & RUNG_STATE_FAULTED) != 0; // for a reset
-  if (report["waits"] == false && report["stopped"] == false) waitForPass(done.state.passes);
+  if (box_.running() && (done.state.flags & RUNG_STATE_STOPPED) == 0) waitForPass(done.state.passes);
+  report["waits"] = !box_.running(); // for a reset
   auto info = sized<rung_replacement_info>();
   check(rung_replacement_report(replacement, &info));
   report["put_back"] = info.next == 0; // by a fault, already

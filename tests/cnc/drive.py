@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 import traceback
+from pathlib import Path
 
 import hal
 import linuxcnc
@@ -120,6 +121,31 @@ def progress():
     """How far a part program is; it changes with each single block."""
     polled()
     return status.interp_state, status.current_line, status.motion_line
+
+
+def process(name):
+    """Of the program of this session that has the name."""
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (folder / "cmdline").read_bytes().split(b"\0")
+        except OSError:
+            continue
+        if any(word.decode(errors="replace").endswith("/" + name) or word == name.encode() for word in words[:2]):
+            return int(folder.name)
+    raise AssertionError(f"no process {name}")
+
+
+def services_hang(place, stopped):
+    """While the program's axis moves: it stops, and does not go on by itself when they are back."""
+    services = process("rung-services")
+    os.kill(services, signal.SIGSTOP)
+    pins(serving=False)
+    here = at_rest(place)
+    stopped()
+    os.kill(services, signal.SIGCONT)
+    pins(serving=True)
+    passes(50)
+    check(abs(place() - here) < 0.001, "the axis goes on by itself")
 
 
 def operator(text):

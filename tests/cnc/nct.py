@@ -8,7 +8,7 @@ import linuxcnc
 
 import drive
 from drive import at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, passes, pin, pins, progress, rungctl, set_mode, state, wait
-from panel import connect, panel, press, put
+from panel import connect, panel, press, put, stopped_homing
 
 # What the simulated machine and the panel have as signals: driven by pins of this component.
 SIGNALS = {"estop-chain": (hal.HAL_BIT, True), "door": (hal.HAL_BIT, True), "key-on": (hal.HAL_BIT, False),
@@ -63,7 +63,10 @@ def power():
 
 
 def reference():
-    """The mode of the panel and its jog keys take the axes to their reference points."""
+    """The mode of the panel and its jog keys take the axes to their reference points; an open door stops them."""
+    mode("reference")
+    stopped_homing(0, "x-home", lambda: press("key-x-plus"))
+    pins(hold=False)
     mode("reference")
     press("key-x-plus")
     wait("x is homed", lambda: state("homed")[0] == 1)
@@ -201,12 +204,32 @@ def counted():
 def bar_feeder():
     """M75: the program reads #505, opens the chuck, pushes the bar by an axis of its own, clamps and draws back."""
     mdi("#505 = 40")
-    before = hal.get_value("joint.2.motor-pos-cmd")
+    before = pushed()
     mdi("M75")
-    wait("the bar pusher", lambda: near(hal.get_value("joint.2.motor-pos-cmd"), before + 35))
+    wait("the bar pusher", lambda: near(pushed(), before + 35))
     pins(chuck_1_is_out=False, bar_done=True)
     mdi("M76")
-    wait("the bar pusher at home", lambda: near(hal.get_value("joint.2.motor-pos-cmd"), 0))
+    wait("the bar pusher at home", lambda: near(pushed(), 0))
+
+
+def pushed():
+    return hal.get_value("joint.2.motor-pos-cmd")
+
+
+def bar_lost():
+    """What was lost while the bar was pushed is not done, then and later; RESET gives the block up."""
+    mdi("#505 = 200")
+    command.mdi("M75")
+    begin = pushed()
+    wait("the bar pusher", lambda: pushed() > begin + 5)
+    drive.services_hang(pushed, lambda: check(not pin("bar-done"), "a lost order is said to be done"))
+    check(not pin("bar-done") and rungctl("get", "BF_STEP") == "BF_STEP = 4\n", "a lost order is said to be done later")
+    press("key-reset", lambda: pin("bar-done"))
+    idle()
+    set_mode(linuxcnc.MODE_MDI)
+    mdi("M76")
+    wait("the bar pusher at home", lambda: near(pushed(), 0))
+    mdi("M251")  # the chuck, which let go of the bar
 
 
 def variables():
@@ -297,7 +320,7 @@ def emergency_stop():
     mdi("M5")
 
 
-STEPS = (power, reference, by_hand, functions, bar_feeder, part, counted, signals, variables, remote, alarm, emergency_stop)
+STEPS = (power, reference, by_hand, functions, bar_feeder, bar_lost, part, counted, signals, variables, remote, alarm, emergency_stop)
 
 
 def session():

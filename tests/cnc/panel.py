@@ -3,7 +3,7 @@ import functools
 
 import hal
 
-from drive import again_until, passes, pin, program_state
+from drive import again_until, at_rest, check, passes, pin, program_state, wait
 
 PRESS_US = 80_000  # of the program's time, in which a key is down: LinuxCNC is to see it, too
 PASSES = 4  # of the program in which it is, at least
@@ -21,6 +21,20 @@ def connect(signals):
     for name in signals:
         hal.connect("panel." + name, name)
     driven.update(signals)
+
+
+def stopped_homing(joint, switch, begin):
+    """Begins the homing of a joint whose switch is far away, and opens the door."""
+    was = hal.get_value(f"{switch}.home-pos")
+    hal.set_p(f"{switch}.home-pos", "200")
+    begin()
+    wait("the homing", lambda: hal.get_value(f"joint.{joint}.homing"))
+    put("door", False)
+    wait("the end of the homing", lambda: not hal.get_value(f"joint.{joint}.homing"))
+    stood = at_rest(lambda: hal.get_value(f"joint.{joint}.pos-fb"))
+    check(stood < 150 and not hal.get_value(f"joint.{joint}.homed"), "an open door has not stopped a homing")
+    hal.set_p(f"{switch}.home-pos", str(was))
+    put("door", True)
 
 
 def put(name, value):

@@ -10,7 +10,7 @@ import hal
 import linuxcnc
 
 import drive
-from drive import check, command, done, mdi, passes, pin, pins, set_mode, state, wait
+from drive import check, command, done, mdi, passes, pin, pins, process, set_mode, state, wait
 
 RAPID, FEED, FEED_PER_TURN, DWELL, CONTINUOUS, REFERENCE_1, REFERENCE_2 = 0, 1, 2, 4, 6, 7, 8
 SPEED, AUXILIARY, MACHINE = 16, 18, 32
@@ -120,31 +120,15 @@ def refused():
     at_rest()
 
 
-def process(name):
-    """Of the program of this session that has the name."""
-    for folder in Path("/proc").glob("[0-9]*"):
-        try:
-            words = (folder / "cmdline").read_bytes().split(b"\0")
-        except OSError:
-            continue
-        if any(word.decode(errors="replace").endswith("/" + name) or word == name.encode() for word in words[:2]):
-            return int(folder.name)
-    raise AssertionError(f"no process {name}")
-
-
 def nobody_serves():
     """The axis stops, nothing says that it stands where it should, and it does not go on by itself later."""
     order(CONTINUOUS, 300, 1)
     wait("motion", lambda: table() < 1.5)
-    services = process("rung-services")
-    os.kill(services, signal.SIGSTOP)
-    pins(serving=False)
-    here = drive.at_rest(table)
-    check(not pin("in-place") and not pin("distributed"), "an axis that nobody serves is said to stand")
-    os.kill(services, signal.SIGCONT)
-    pins(serving=True)
-    passes(50)
-    check(near(table(), here), "the axis goes on by itself")
+
+    def stopped():
+        check(not pin("in-place") and not pin("distributed"), "an axis that nobody serves is said to stand")
+
+    drive.services_hang(table, stopped)
     go_back()
 
 

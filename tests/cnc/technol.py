@@ -8,7 +8,7 @@ import linuxcnc
 import drive
 from drive import (again_until, at_rest, change_in_motion, check, command, done, end_motion, errors, idle, is_state, mdi, operator, passes, pin, pins,
                    program_time, progress, rungctl, state, wait)
-from panel import connect, press, put
+from panel import connect, press, put, stopped_homing
 
 # What the simulated machine and the panel have as signals: driven by pins of this component.
 SIGNALS = {"estop-chain": (hal.HAL_BIT, True), "door": (hal.HAL_BIT, True), "key-reset": (hal.HAL_BIT, False),
@@ -19,13 +19,15 @@ SIGNALS = {"estop-chain": (hal.HAL_BIT, True), "door": (hal.HAL_BIT, True), "key
 
 
 def power():
-    """The chain, LinuxCNC's own emergency stop, machine on; reference."""
+    """The chain, LinuxCNC's own emergency stop, machine on; reference, which an open door stops."""
     pins(power=False)
     command.state(linuxcnc.STATE_ESTOP_RESET)
     is_state(linuxcnc.STATE_ESTOP_RESET)
     command.state(linuxcnc.STATE_ON)
     is_state(linuxcnc.STATE_ON)
     pins(main_contactor=True, hydraulics_on=True, drives_ready=True, power=True, hand_enabled=True)
+    stopped_homing(2, "z-switch", lambda: press("panel-home"))
+    pins(hand_enabled=True)
     press("panel-home")
     wait("all are homed", lambda: state("homed")[:4] == (1, 1, 1, 1))
     turned = hal.get_value("joint.3.motor-pos-fb")

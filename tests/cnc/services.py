@@ -145,6 +145,24 @@ def machine_off():
     go_back()
 
 
+def faulted():
+    """The program faults while its axis moves: it stands after the reset, too."""
+    order(CONTINUOUS, 300, 0)
+    wait("motion", lambda: table() > 0.5)
+    put(stick=True)
+    pins(fault=True, enable=False)
+    drive.is_state(linuxcnc.STATE_ESTOP)
+    put(stick=False)
+    put(reset=True)
+    pins(fault=False)
+    put(reset=False)
+    here = drive.at_rest(table)
+    drive.switch_on()
+    passes(50)
+    check(near(table(), here), "the axis goes on by itself")
+    go_back()
+
+
 def write(function, number, attribute, data):
     """The end code."""
     put(write_function=function, write_length=4, write_number=number, write_attribute=attribute, write_data=data)
@@ -254,7 +272,19 @@ def killed():
     it_serves_again(here)
 
 
-STEPS = (distances, held, continuous, auxiliary, refused, machine_off, nobody_serves, started_again, killed, written, at_once)
+def task_killed():
+    """Then LinuxCNC is no more, and what served the program with it; its axis stands."""
+    order(CONTINUOUS, 300, 0)
+    wait("motion", lambda: table() > 0.5)
+    os.kill(process("milltask"), signal.SIGKILL)
+    pins(serving=False)
+    here = drive.at_rest(table)
+    passes(50)
+    check(near(table(), here), "the axis goes on by itself")
+    check(not pin("in-place") and not pin("distributed"), "an axis that nobody serves is said to stand")
+
+
+STEPS = (distances, held, continuous, auxiliary, refused, machine_off, faulted, nobody_serves, started_again, killed, written, at_once, task_killed)
 
 
 def session():

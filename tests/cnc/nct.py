@@ -149,12 +149,16 @@ def functions():
 
 
 def part():
-    """A part program from the panel: start, stop, single block, feed switch, optional stop."""
+    """A part program from the panel: start, a message, stop, single block, feed switch, optional stop."""
     load("M3 S600\nM8\nG1 X-30 F300\nG0 X-5\nM9\nM1\nM5\nM30\n")
     press("key-start", lambda: pin("started"))
     pins(started=True, lamp_start=True)
     wait("x cuts", lambda: position("x") < -7)
     pins(coolant_1=True, cutting=True, cutting_enabled=True, in_position=False)
+    forget_errors()
+    put("filter-ok", False)
+    operator("Filter of the high-pressure coolant is clogged")
+    put("filter-ok", True)
     press("key-stop", lambda: pin("stopped"))
     stood = at_rest(lambda: position("x"))
     press("key-start", lambda: not pin("stopped"))

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/utf8.h"
+#include "rtlib/text/controls.h"
 #include "rtlib/text/utf8.h"
 
 namespace rung {
@@ -101,7 +102,7 @@ private:
   void place(SourceRange range) {
     if (!range.valid()) return;
     const LineCol at = sources_.lineCol(range.begin);
-    paint(kBold, fmt::format("{}:{}:{}: ", at.file, at.line, at.column));
+    paint(kBold, fmt::format("{}:{}:{}: ", text::withoutControls(at.file), at.line, at.column));
   }
 
   /// The first line of the range, underlined as far as the range and the window reach.

@@ -86,6 +86,13 @@ class Hostile(unittest.TestCase):
 
     # ---- depth
 
+    def test_names_do_nothing_to_a_terminal(self):
+        name = "\x1b[2J\nall is well.pmc"
+        shown = "\\x1b[2J\\x0aall is well.pmc"
+        self.file(name, "dialect gsk\nOUT NOWHERE\n")
+        self.expect_error(["check", self.home / name], WRONG, f"{shown}:2:5: error: ")
+        self.expect_error(["check", self.home / ("no" + name)], ENVIRONMENT, "no\\x1b[2J")
+
     def test_brackets(self):
         for depth in (1000, 50_000, 200_000):
             program = self.technol("deep.plc", f" LDR {'(' * depth}A{')' * depth}\n WR B\n")

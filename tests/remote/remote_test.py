@@ -308,6 +308,13 @@ class Commands(Host):
         self.ctl("reload", other, "--shadow", "25", "--yes")
         self.wait(lambda: self.get("Y0.0"))
         self.ctl("reload", self.program, "--shadow", "0", status=USAGE)
+        faulty = self.program_with("LD   X0.1", "LDI  X0.4")
+        text = self.ctl("reload", faulty, "--shadow", "25", "--yes", status=WRONG)
+        self.assertIn("the new program has stopped in the comparison; nothing has changed", text)
+        self.assertIn("running", self.ctl("status"))
+
+    def test_a_compiled_program_beside_sources_is_refused(self):
+        self.assertIn("expected it alone, or sources alone", self.ctl("reload", self.program, "other.pmc", status=USAGE))
 
     def test_watch_shows_changes(self):
         watching = subprocess.Popen([BIN / "rungctl", "watch", "D8:2", "--json"], stdout=subprocess.PIPE, text=True,
@@ -369,6 +376,8 @@ class Commands(Host):
         self.assertEqual([json.loads(lines.readline()).get("values") for _ in range(2)], [None, [True, 5]])
         for words in (("force", "D8:2", "1"), ("stop",), ("start",)):
             self.assertIn("stopped", self.ctl(*words, status=WRONG))
+        self.assertEqual(self.ctl("set", "D8:2", "9"),
+                         "D8:2 = 9, before 5\na fault has stopped the program: the reset begins without this value\n")
 
     def test_a_watched_name_that_is_gone(self):
         watching = subprocess.Popen([BIN / "rungctl", "watch", "GUARD", "Y0.0"], env=self.environment, text=True,

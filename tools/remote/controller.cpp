@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rtlib/text/controls.h"
 #include "rung/types.hpp"
 #include "tools/remote/profile.h"
 #include "tools/remote/values.h"
@@ -27,15 +28,13 @@ constexpr uint32_t kMostShadowPasses = 100'000;
 constexpr uint32_t kShadowRoom = 256;  // runs of tasks that wait to be compared
 constexpr uint32_t kPassesKept = 4096; // of a watch of all passes
 
-bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
-bool hasControls(const std::string& text) { return std::ranges::any_of(text, isControl); }
-
 std::string textOf(const json& request, const char* key) {
   const auto found = request.find(key);
   if (found == request.end() || !found->is_string())
     throw Refused(std::string("found no text \"") + key + "\" in the request, expected one");
   std::string text = found->get<std::string>();
-  if (hasControls(text)) throw Refused(std::string("found a control character in \"") + key + "\", expected none");
+  if (text::hasControls(text))
+    throw Refused(std::string("found a control character in \"") + key + "\", expected none");
   return text;
 }
 
@@ -53,7 +52,8 @@ std::vector<std::string> namesOf(const json& request) {
                     std::ranges::all_of(*found, &json::is_string);
   if (!good) throw Refused("found no list \"names\" of 1 to 256 texts in the request, expected one");
   auto names = found->get<std::vector<std::string>>();
-  if (std::ranges::any_of(names, hasControls)) throw Refused("found a control character in \"names\", expected none");
+  if (std::ranges::any_of(names, [](const std::string& name) { return text::hasControls(name); }))
+    throw Refused("found a control character in \"names\", expected none");
   return names;
 }
 
@@ -510,11 +510,13 @@ json Controller::set(const Peer& peer, const json& request) {
   const FoundCells found = find({name}, RUNG_WRITE);
   const uint32_t type = found.infos.front().type;
   refuseProtected(name);
-  const std::string note = refuseWithoutEffect(name);
+  std::string note = refuseWithoutEffect(name);
   const rung_value value = fromJson(type, request["value"], name);
   const Order done = give({.kind = Order::Kind::Write, .cell = found.cells.front(), .value = value});
   logChange(peer, "set " + name + " from " + shown(type, done.former) + " to " + shown(type, value));
   json answer = {{"name", name}, {"former", toJson(type, done.former)}, {"value", toJson(type, value)}};
+  if (const std::optional<rung_state> now = stateNow(); now && (now->flags & RUNG_STATE_FAULTED) != 0)
+    note = "a fault has stopped the program: the reset begins without this value";
   if (!note.empty()) answer["note"] = note;
   return answer;
 }

@@ -5,6 +5,8 @@
 #include <ctime>
 #include <iterator>
 
+#include "rtlib/text/controls.h"
+
 namespace rung::remote {
 
 std::string dateText(int64_t seconds) {
@@ -16,25 +18,9 @@ std::string dateText(int64_t seconds) {
   return text;
 }
 
-namespace {
-
-// What is quoted makes no lines of its own, and does nothing to a terminal.
-std::string inOneLine(const std::string& text) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte != 0x7F)
-      out += c;
-    else
-      out.append("\\x") += {kDigits[byte >> 4], kDigits[byte & 15]};
-  }
-  return out;
+void Log::write(int64_t seconds, const std::string& line) {
+  write_(dateText(seconds) + " " + text::withoutControls(line));
 }
-
-} // namespace
-
-void Log::write(int64_t seconds, const std::string& text) { write_(dateText(seconds) + " " + inOneLine(text)); }
 
 Log::~Log() {
   for (const Known& known : known_) writeCount(known);

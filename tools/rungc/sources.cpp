@@ -11,6 +11,7 @@
 
 #include "ir/support/diag_render.h"
 #include "rtlib/host/file.h"
+#include "rtlib/text/controls.h"
 #include "tools/compiler/configuration.h"
 #include "tools/console/working.h"
 #include "tools/rungc/commands.h"
@@ -51,13 +52,19 @@ void addActivityOption(Command command, bool& activity) {
                "Leave out rungs that would change nothing: for long programs of which little happens in a scan");
 }
 
+namespace {
+
+void complain(const std::string& message) { fmt::print(stderr, "rungc: {}\n", text::withoutControls(message, "\n\t")); }
+
+} // namespace
+
 int usageError(const std::string& message) {
-  fmt::print(stderr, "rungc: {}\n", message);
+  complain(message);
   return kUsage;
 }
 
 int environmentError(const std::string& message) {
-  fmt::print(stderr, "rungc: {}\n", message);
+  complain(message);
   return kEnvironment;
 }
 

@@ -3,12 +3,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -74,6 +76,8 @@ std::string whatSpeaksAgainst(Client& client, const Words& words, const volatile
                 : fmt::format("{}: only the new program asks for it\n", shown(difference["name"]));
   if (!report.value("fault", "").empty()) text += shown(report["fault"]) + "\n";
   print(words, report, text);
+  if (!report.value("fault", "").empty())
+    throw std::runtime_error("the new program has stopped in the comparison; nothing has changed");
   if (!report["differences"].empty()) return "the new program does not do the same";
   if (report["state"] == "too-slow") return "this host is too slow to run both programs: not all passes were compared";
   if (report["state"] != "finished") return "the comparison was not finished";
@@ -118,7 +122,10 @@ int compileThere(Client& client, const Words& words, const volatile int& stop) {
 
 // The program, as requests name it; with another status than kOk there is none.
 int programOf(Client& client, const Words& words, const volatile int& stop, json& request) {
-  if (words.files.size() == 1 && words.files.front().ends_with(".so")) {
+  const bool compiled = std::ranges::any_of(words.files, [](const std::string& file) { return file.ends_with(".so"); });
+  if (compiled && words.files.size() > 1)
+    return fail("found a compiled program beside other files, expected it alone, or sources alone", cli::kUsage);
+  if (compiled) {
     const std::unique_ptr<char, decltype(&std::free)> path(realpath(words.files.front().c_str(), nullptr), &std::free);
     if (path == nullptr) return fail("there is no file " + words.files.front(), cli::kEnvironment);
     request["program"] = path.get();

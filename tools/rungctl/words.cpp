@@ -4,12 +4,14 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "rtlib/text/controls.h"
+
 namespace rung::rungctl {
 
 using nlohmann::json;
 
-int fail(const std::string& text, int status) {
-  std::cerr << "rungctl: " << text << '\n';
+int fail(const std::string& message, int status) {
+  std::cerr << "rungctl: " << text::withoutControls(message, "\n\t") << '\n';
   return status;
 }
 

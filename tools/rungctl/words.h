@@ -38,7 +38,7 @@ struct Words {
 };
 
 // Says why on standard error; gives the status.
-int fail(const std::string& text, int status = cli::kWrong);
+int fail(const std::string& message, int status = cli::kWrong);
 // The answer, where it is good; throws std::runtime_error with the host's sentence.
 nlohmann::json asked(Client& client, const nlohmann::json& request,
                      std::chrono::milliseconds patience = Client::kAnswer);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdio>
 
+#include "rtlib/text/controls.h"
+
 namespace rung::host {
 namespace {
 
@@ -21,7 +23,7 @@ std::string codeOf(size_t index) {
 // Without blanks, which end a word.
 std::string word(std::string_view text) {
   std::string out(text);
-  std::ranges::replace_if(out, [](char c) { return (c >= 0 && c <= ' ') || c == 127; }, '_');
+  std::ranges::replace_if(out, [](char c) { return c == ' ' || text::isControl(c); }, '_');
   return out.empty() ? "_" : out;
 }
 

@@ -120,8 +120,9 @@ void World::switchOn() {
   for (const std::string& text : warnings) log.push_back("warning: " + text);
   for (const std::string& text : errors) log.push_back("error: " + text);
   if (box_ == nullptr) return;
-  const std::vector<mapping::Pin>& pins = box_->pins();
-  values_.assign(pins.size(), {});
+  pins_.clear();
+  for (const mapping::Pin& pin : box_->pins()) pins_.push_back(pin.name);
+  values_.assign(pins_.size(), {});
   cells_.clear();
   for (Value& value : values_) cells_.push_back({.any = &value});
   box_->connect(cells_.data());
@@ -258,18 +259,14 @@ void World::leave(uint32_t peer) {
   clients.answers.erase(peer);
 }
 
-namespace {
-
-size_t numberOf(const plc::Box& box, const std::string& name) {
-  const auto found = std::ranges::find(box.pins(), name, &mapping::Pin::name);
-  RUNG_CHECK(found != box.pins().end(), "there is such a pin");
-  return static_cast<size_t>(found - box.pins().begin());
+size_t World::numberOf(const std::string& pin) const {
+  const auto found = std::ranges::find(pins_, pin);
+  RUNG_CHECK(found != pins_.end(), "there is such a pin");
+  return static_cast<size_t>(found - pins_.begin());
 }
 
-} // namespace
-
-void World::setPin(const std::string& name, bool value) { values_[numberOf(*box_, name)].bit = value; }
-bool World::pin(const std::string& name) const { return values_[numberOf(*box_, name)].bit; }
+void World::setPin(const std::string& name, bool value) { values_[numberOf(name)].bit = value; }
+bool World::pin(const std::string& name) const { return values_[numberOf(name)].bit; }
 
 int64_t World::cell(const std::string& name) const {
   const host::Instance& inside = runtime::insideOf(*box_->instance());

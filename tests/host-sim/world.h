@@ -74,7 +74,7 @@ public:
     bool lamp = false;    // that it has been told of last
   } far;
   static constexpr int64_t kFarTimeoutNs = 101'000'000;
-  bool pin(const std::string& name) const;
+  bool pin(const std::string& name) const; // of a host that has ended: what it was then
 
   bool scans = true;  // the scan thread runs
   bool reset = false; // the pin
@@ -110,12 +110,14 @@ private:
   void writeRequest();
   void tellFar();
   void noteChanges(uint64_t scansBefore, int64_t cellBefore);
+  size_t numberOf(const std::string& pin) const;
   remote::Peer peerOf(uint32_t number) const;
 
   const Programs& programs_;
   int64_t nowNs_ = 1'000'000'000;
   int64_t dueNs_ = 0;
-  std::vector<Value> values_;
+  std::vector<std::string> pins_; // their names
+  std::vector<Value> values_;     // of each
   std::vector<plc::PinCell> cells_;
   uint32_t number_ = 0; // of the program that ran last
   uint32_t faulted_ = 0;

@@ -69,6 +69,7 @@ private:
   bool waits() { return forces_.contains("WAIT") ? forces_.at("WAIT") != 0 : world_.pin("wait"); }
   void act(const Event& event);
   void comesOn(const std::string& after, bool mayLose);
+  void switchOff();
   void requestReload(const Event& event);
   void requestRollback(const Event& event);
   void requestStop(const Event& event);
@@ -228,6 +229,12 @@ void Model::comesOn(const std::string& after, bool mayLose) {
   had_ = {now};
 }
 
+void Model::switchOff() {
+  world_.switchOff();
+  expect(!world_.lastEnd.ranAgain, "the program was restarted after its power-off");
+  expect(world_.lastEnd.saysSo && world_.lastEnd.tookNs == 0, "a client is not told at once that the program is off");
+}
+
 // ---- requests
 // ----------------------------------------------------------------------------------------------------------
 
@@ -351,7 +358,7 @@ void Model::act(const Event& event) {
   } else if (what == "off" || what == "cut") {
     const bool regular = what == "off";
     const bool isBad = world_.disk.full || world_.disk.torn || !world_.isOn();
-    if (world_.isOn() && regular) world_.switchOff();
+    if (world_.isOn() && regular) switchOff();
     follow(); // its last scans
     if (world_.isOn()) world_.cutPower();
     world_.scans = true;

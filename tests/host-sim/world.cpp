@@ -160,7 +160,13 @@ void World::switchOff() {
     turn();
     step();
   }
+  scans = false; // its thread has ended
+  const uint32_t restarts = box_->restarts();
+  const int64_t begin = nowNs_;
+  const nlohmann::json answer = ask(1, {{"do", "status"}});
   turn();
+  lastEnd = {
+      .ranAgain = box_->restarts() != restarts, .tookNs = nowNs_ - begin, .saysSo = answer.value("powered_off", false)};
   const std::string error = box_->close();
   if (!error.empty()) log.push_back("close: " + error);
   controller_.reset();

@@ -59,7 +59,13 @@ public:
   bool isOn() const { return box_ != nullptr; }
   void switchOn();  // the host starts
   void switchOff(); // and ends regularly
-  void cutPower();  // it is gone at this moment
+  // What the serving thread and a client have made of the last end.
+  struct End {
+    bool ranAgain = false;
+    int64_t tookNs = 0; // until the client had its answer
+    bool saysSo = false;
+  } lastEnd;
+  void cutPower(); // it is gone at this moment
   void pass(int64_t ns);
   void turn(); // of the thread that serves
   void lookForSaving();

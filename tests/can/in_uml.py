@@ -50,7 +50,7 @@ def contents(folder, *names):
     for name in names:
         path = folder / name
         if path.exists():
-            lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+            lines = [line for line in path.read_text(encoding="utf-8", errors="replace").splitlines() if not line.startswith(" [<")]
             print(f"-- {name}", *lines[-40:], sep="\n")
 
 

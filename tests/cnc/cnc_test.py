@@ -279,6 +279,15 @@ def fault(bench, _options):
     expect(re.search(rf"^box: {TIME} the program has been restarted$", done.stdout, re.MULTILINE), "no message of the restart")
 
 
+def killed(bench, _options):
+    """What the log of the program has said is not lost with the process."""
+    bench.program(HERE / "stuck.pmc")
+    bench.copy(HERE / "stuck.map", "program.map")
+    done = bench.halrun(LOAD.format(options="names=box", prefix="box") + "setp box.stick 1\n" + until("box.fault = TRUE") +
+                        said("the program has stopped") + "loadusr -w pkill -KILL rtapi_app\n")
+    expect(re.search(rf"^box: {TIME} the program has stopped: dead-loop", done.stdout, re.MULTILINE), "the log is lost")
+
+
 # TECHNOL: while GO is on, a byte to the serial port and half of the full voltage at the analogue output 6.
 DEVICES = """DATA
         DFM GO
@@ -468,7 +477,7 @@ def sources(bench, options):
 
 
 def main():
-    cases = {case.__name__: case for case in (session, services, axes, fault, devices, sources, instances, unload, retained, mistakes)}
+    cases = {case.__name__: case for case in (session, services, axes, fault, killed, devices, sources, instances, unload, retained, mistakes)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", choices=cases)
     parser.add_argument("--module", default="", help="the component; empty when it was not built")

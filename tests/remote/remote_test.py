@@ -232,7 +232,7 @@ class Commands(Host):
     def test_a_program_that_faults_at_once(self):
         other = self.program_with("LD   X0.1", "LDI  X0.4")
         for _ in range(5):
-            self.assertIn("the new program has stopped at once, and the former one is back", self.ctl("reload", other))
+            self.assertIn("the new program has stopped at once, and the former one is back", self.ctl("reload", other, status=WRONG))
             self.ctl("reset")
             self.wait(lambda: "\nrunning: " in self.ctl("status"))
 
@@ -497,7 +497,7 @@ class Rights(Host):
         for words, right in ((["set", "D8:2", "1"], "set"), (["force", "D8:2", "1"], "force"), (["unforce", "D8:2"], "force"),
                              (["stop"], "stop"), (["start"], "start"), (["reset"], "reset"), (["rollback"], "reload"),
                              (["reload", self.program], "reload")):
-            self.assertIn(f'"{right}" is not allowed here; the mapping file allows it: [rungctl] allow = ["{right}"]',
+            self.assertIn(f'"{right}" is not allowed here; for it the mapping file needs [rungctl] allow = ["{right}"]',
                           self.ctl(*words, status=WRONG))
         self.ctl("status")
         self.assertIn("build it with rungc build --profile", self.ctl("profile", status=WRONG))
@@ -823,9 +823,11 @@ class WithoutAHost(unittest.TestCase):
                 host = subprocess.Popen([BIN / "rung-run", program, home / "m.map"], env=environment,
                                         stderr=subprocess.PIPE, text=True)
                 self.assertIn("listening at", host.stderr.readline())
+                self.assertEqual(self.run_ctl(home / "sockets", "hosts").stdout, "rung\n")
                 host.kill()
                 host.wait()
                 host.stderr.close()
+                self.assertEqual(self.run_ctl(home / "sockets", "hosts").stdout, "no host is running\n")
 
     def test_the_folder_of_the_user_may_come_later(self):
         """As when somebody logs in after a service has begun."""
@@ -889,8 +891,10 @@ wait
             self.assertIn("cannot read", text)
             self.assertEqual(run(program)[0], USAGE)
             (home / "m.map").write_text("")
+            for option in ("--com", "--can", "--config"):
+                self.assertEqual(run(program, home / "m.map", "--simulate", option, "0")[0], USAGE)
             status, text = run(program, home / "m.map", "--name", "../x")
-            self.assertEqual(status, ENVIRONMENT)
+            self.assertEqual(status, USAGE)
             self.assertIn("expected letters, digits, '-', '_' and '.'", text)
 
 

@@ -444,7 +444,7 @@ class GskAxes(Provider):
 
 class ServiceRights(Host):
     def test_the_mapping_file_must_allow_it(self):
-        self.assertIn('"serve" is not allowed here; the mapping file allows it', self.ctl("serve", status=WRONG))
+        self.assertIn('"serve" is not allowed here; for it the mapping file needs', self.ctl("serve", status=WRONG))
 
 
 if __name__ == "__main__":

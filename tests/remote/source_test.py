@@ -127,7 +127,7 @@ class Reload(SourceHost):
         self.assertIn("0 differences\nremoved COUNT\n", text)
         self.assertIn("the new program loses state: COUNT; nothing has changed; with --yes", text)
         self.ctl("reload", self.source(PROGRAM), "--yes")
-        self.assertEqual(self.ctl("reload", self.home / "none.pmc", status=WRONG),
+        self.assertEqual(self.ctl("reload", self.home / "none.pmc", status=ENVIRONMENT),
                          f"cannot read '{self.home}/none.pmc': No such file or directory\nrungctl: nothing has changed\n")
         text = self.ctl("reload", self.source(PROGRAM.replace("LD   X0.0", "LDI  X0.0")), "--shadow", "25", status=WRONG)
         self.assertIn("Y0.0: false now, true in the new program\n", text)

@@ -219,8 +219,8 @@ json Controller::answer(const Peer& peer, const json& request) {
     if (command == std::end(kCommands)) throw Refused("found \"" + wanted + "\", expected a command of this protocol");
     if (command->permission && !box_.map().allowed[static_cast<size_t>(*command->permission)]) {
       const std::string right(mapping::kRemoteNames[static_cast<size_t>(*command->permission)]);
-      throw Refused("\"" + right + "\" is not allowed here; the mapping file allows it: [rungctl] allow = [\"" + right +
-                    "\"]");
+      throw Refused("\"" + right + "\" is not allowed here; for it the mapping file needs [rungctl] allow = [\"" +
+                    right + "\"]");
     }
     services_.heard(peer);
     answer = (this->*command->run)(peer, request);

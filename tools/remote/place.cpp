@@ -36,7 +36,8 @@ void addHosts(const std::string& path, std::vector<std::string>& hosts) {
   if (folder == nullptr) return;
   while (const dirent* entry = readdir(folder.get())) {
     const std::string_view name = entry->d_name;
-    if (name.ends_with(kEnding)) hosts.emplace_back(name.substr(0, name.size() - kEnding.size()));
+    if (name.ends_with(kEnding) && isServed(path + "/" + entry->d_name))
+      hosts.emplace_back(name.substr(0, name.size() - kEnding.size()));
   }
 }
 
@@ -58,7 +59,7 @@ std::string socketPath(const std::string& folder, const std::string& host) {
 
 std::string socketOf(uid_t user, const std::string& host) {
   const std::vector<std::string> folders = socketFolders(user);
-  const auto has = [&](const std::string& folder) { return access(socketPath(folder, host).c_str(), F_OK) == 0; };
+  const auto has = [&](const std::string& folder) { return isServed(socketPath(folder, host)); };
   const auto found = std::ranges::find_if(folders, has);
   return socketPath(found != folders.end() ? *found : folders.front(), host);
 }
@@ -69,6 +70,15 @@ sockaddr_un socketAddress(const std::string& path) {
   if (path.size() >= sizeof address.sun_path) throw std::runtime_error(path + ": the path of a socket is too long");
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
   return address;
+}
+
+bool isServed(const std::string& path) {
+  const sockaddr_un address = socketAddress(path);
+  const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const bool served =
+      connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EAGAIN;
+  close(probe);
+  return served;
 }
 
 bool isHostName(const std::string& name) {

@@ -17,11 +17,12 @@ std::string socketPath(const std::string& folder, const std::string& host);
 std::string socketOf(uid_t user, const std::string& host);
 // Throws std::runtime_error where the path is too long for a socket.
 sockaddr_un socketAddress(const std::string& path);
+// Somebody listens there: a host that was killed has left its socket. Throws as socketAddress.
+bool isServed(const std::string& path);
 
 // A host's name: letters, digits, '-', '_' and '.', not at the beginning.
 bool isHostName(const std::string& name);
-// Those that have a socket there, sorted; a host that has been killed leaves its own. Throws std::runtime_error where
-// a folder is there and cannot be read.
+// Those that run, sorted. Throws std::runtime_error where a folder is there and cannot be read.
 std::vector<std::string> hostsOf(uid_t user);
 
 // Makes the folder of a new host, for its user alone. Throws std::runtime_error where something else has its place.

@@ -29,15 +29,6 @@ using nlohmann::json;
   throw std::runtime_error("cannot listen at " + path + ": " + std::strerror(errno));
 }
 
-// Somebody listens there.
-bool isAlive(const sockaddr_un& address) {
-  const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  const bool alive =
-      connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EAGAIN;
-  close(probe);
-  return alive;
-}
-
 std::string nameOf(uid_t user) {
   std::array<char, 4096> buffer{};
   passwd entry{};
@@ -76,7 +67,7 @@ Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(us
     throw std::runtime_error("found the name \"" + host + "\" of a host, expected letters, digits, '-', '_' and '.'");
   path_ = socketPath(prepareFolder(user), host);
   const sockaddr_un address = socketAddress(path_);
-  if (const std::string another = socketOf(user, host); isAlive(socketAddress(another)))
+  if (const std::string another = socketOf(user, host); isServed(another))
     throw std::runtime_error(another + ": another host has the name " + host + "; give this one another");
   unlink(path_.c_str()); // of a host that was killed
   socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);

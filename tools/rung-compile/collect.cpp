@@ -86,6 +86,7 @@ private:
       if (const uintmax_t bytes = fs::file_size(name, error); !error && bytes > sources::kMostBytes)
         return fail(tooLarge(bytes));
       const Result<FileId> file = sources_.addFile(name);
+      result_.unreadable = !file.ok();
       if (!file.ok()) return fail(fmt::format("cannot read '{}': {}", name, file.error()));
       files.push_back(file.value());
     }

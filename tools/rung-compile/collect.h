@@ -12,6 +12,7 @@ struct Collected {
   std::optional<sources::Sources> sources; // nothing: `report` says why
   std::string report;                      // errors as rungc prints them
   std::string diagnostics;                 // the same as JSON; "" where nothing is wrong in a source
+  bool unreadable = false;                 // a file that is named cannot be read
 };
 
 // `names`: files in their order, or one folder of a project or project file. Files that all belong to a project are

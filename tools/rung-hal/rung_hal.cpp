@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <exception>
 #include <functional>
 #include <iterator>
@@ -510,6 +511,7 @@ void end() {
 } // namespace
 
 int rtapi_app_main() {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0); // a line of the log is in its file at once, however LinuxCNC ends
   const int id = hal_init(kModule);
   if (id < 0) return id; // where one is loaded already, it continues
   componentId = id;

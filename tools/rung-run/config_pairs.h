@@ -6,15 +6,19 @@
 
 namespace rung::rung_run {
 
-// Gives each pair to `set(key, value)`, whose result is "" or what is wrong. Throws std::runtime_error with that, and
-// for a text that is not a pair.
+struct WrongOption : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Gives each pair to `set(key, value)`, whose result is "" or what is wrong. Throws WrongOption with that, and for a
+// text that is not a pair.
 template <class Set>
 void forPairs(const std::vector<std::string>& pairs, const Set& set) {
   for (const std::string& pair : pairs) {
     const size_t equals = pair.find('=');
-    if (equals == std::string::npos) throw std::runtime_error("--config: found " + pair + ", expected KEY=VALUE");
+    if (equals == std::string::npos) throw WrongOption("--config: found " + pair + ", expected KEY=VALUE");
     const std::string wrong = set(pair.substr(0, equals), pair.substr(equals + 1));
-    if (!wrong.empty()) throw std::runtime_error("--config: " + wrong);
+    if (!wrong.empty()) throw WrongOption("--config: " + wrong);
   }
 }
 

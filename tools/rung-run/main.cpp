@@ -21,6 +21,7 @@
 #include "tools/plc/box.h"
 #include "tools/remote/controller.h"
 #include "tools/remote/log.h"
+#include "tools/remote/place.h"
 #include "tools/rung-run/config_pairs.h"
 #include "tools/rung-run/pins.h"
 #include "tools/rung-run/scan_thread.h"
@@ -179,10 +180,9 @@ Image imageOf(const Options& options) {
   return image;
 }
 
-// Throws std::runtime_error: an option is wrong.
 void setDevices(host_devices::HostDevices& devices, const Options& options) {
   const auto check = [](const char* option, const std::string& wrong) {
-    if (!wrong.empty()) throw std::runtime_error(std::string(option) + ": " + wrong);
+    if (!wrong.empty()) throw rung_run::WrongOption(std::string(option) + ": " + wrong);
   };
   rung_run::forPairs(options.config,
                      [&](const std::string& key, const std::string& value) { return devices.configure(key, value); });
@@ -225,6 +225,8 @@ bool isTooEarly(const Options& options) {
 
 int run(const Options& options) try {
   if (isTooEarly(options)) return cli::kUsage;
+  if (!remote::isHostName(options.name))
+    throw rung_run::WrongOption("--name: found " + options.name + ", expected letters, digits, '-', '_' and '.'");
   catchSignals();
   const Image image = imageOf(options);
   if (!options.simulate && namesDevices(options) && !isOfTechnol(image)) {
@@ -257,6 +259,9 @@ int run(const Options& options) try {
   if (box == nullptr) return hasMap && problem.empty() ? cli::kWrong : cli::kEnvironment;
   box->setTimeLimit(int64_t{options.maxTimeUs} * 1000);
   return Run(options, image, std::move(box), simulation.get(), devices).run();
+} catch (const rung_run::WrongOption& wrong) {
+  print(wrong.what());
+  return cli::kUsage;
 } catch (const std::exception& error) { // the program, the socket
   print(error.what());
   return cli::kEnvironment;

@@ -85,7 +85,8 @@ std::string whatSpeaksAgainst(Client& client, const Words& words, const volatile
 }
 
 // What is wrong with the sources, as rungc prints it.
-int failSources(const Words& words, const std::string& report, const std::string& diagnostics) {
+int failSources(const Words& words, const std::string& report, const std::string& diagnostics = "",
+                int status = cli::kWrong) {
   if (words.common.asJson) {
     json answer = {{"ok", false}, {"error", report}};
     if (!diagnostics.empty()) answer["diagnostics"] = json::parse(diagnostics);
@@ -93,7 +94,7 @@ int failSources(const Words& words, const std::string& report, const std::string
   } else if (!report.empty()) {
     std::cerr << report << (report.ends_with('\n') ? "" : "\n");
   }
-  return fail("nothing has changed");
+  return fail("nothing has changed", status);
 }
 
 void sendSources(Client& client, const std::string& packed) {
@@ -105,7 +106,9 @@ void sendSources(Client& client, const std::string& packed) {
 // The host has compiled them, where the status is kOk; else what is wrong has been said.
 int compileThere(Client& client, const Words& words, const volatile int& stop) {
   rung_compile::Collected collected = rung_compile::collect(words.files, isatty(STDERR_FILENO) != 0);
-  if (!collected.sources) return failSources(words, collected.report, collected.diagnostics);
+  if (!collected.sources)
+    return failSources(words, collected.report, collected.diagnostics,
+                       collected.unreadable ? cli::kEnvironment : cli::kWrong);
   collected.sources->profile = words.profile;
   sendSources(client, packed(*collected.sources));
   asked(client, {{"do", "compile"}});
@@ -115,7 +118,7 @@ int compileThere(Client& client, const Words& words, const volatile int& stop) {
     answer = asked(client, {{"do", "compiled"}});
   } while (stop == 0 && answer["state"] == "compiling");
   const std::string report = answer.value("report", "");
-  if (answer["state"] != "compiled") return failSources(words, report, "");
+  if (answer["state"] != "compiled") return failSources(words, report);
   if (!words.common.asJson) std::cerr << report; // warnings
   return cli::kOk;
 }
@@ -149,7 +152,7 @@ int reload(Client& client, const Words& words, const volatile int& stop) {
   const json answer = client.ask(request);
   if (answer.value("ok", false)) {
     print(words, answer, reportOf(answer) + whetherItRuns(answer, "new"));
-    return cli::kOk;
+    return answer.value("put_back", false) ? cli::kWrong : cli::kOk;
   }
   if (words.common.asJson) std::cout << answer.dump() << '\n';
   if (answer.contains("needs")) {

@@ -20,8 +20,10 @@ inline constexpr Keyword kSpaceFlags[] = {{"input", RUNG_SPACE_INPUT},
                                           {"output", RUNG_SPACE_OUTPUT},
                                           {"hidden", RUNG_SPACE_HIDDEN},
                                           {"allocated", RUNG_SPACE_ALLOCATED}};
-inline constexpr Keyword kSymbolFlags[] = {
-    {"readonly", RUNG_SYMBOL_READONLY}, {"hidden", RUNG_SYMBOL_HIDDEN}, {"const", RUNG_SYMBOL_CONST}};
+inline constexpr Keyword kSymbolFlags[] = {{"readonly", RUNG_SYMBOL_READONLY},
+                                           {"hidden", RUNG_SYMBOL_HIDDEN},
+                                           {"const", RUNG_SYMBOL_CONST},
+                                           {"area", RUNG_SYMBOL_AREA}};
 inline constexpr Keyword kSymbolTypes[] = {{"bit", RUNG_TYPE_BIT},  {"i8", RUNG_TYPE_I8},   {"i16", RUNG_TYPE_I16},
                                            {"i32", RUNG_TYPE_I32},  {"i64", RUNG_TYPE_I64}, {"f64", RUNG_TYPE_F64},
                                            {"text", RUNG_TYPE_TEXT}};

@@ -21,7 +21,7 @@ namespace {
 
 constexpr uint64_t kMaxBytes = 1ull << 30;
 constexpr uint32_t kSpaceFlagMask = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED;
-constexpr uint32_t kSymbolFlagMask = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST;
+constexpr uint32_t kSymbolFlagMask = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST | RUNG_SYMBOL_AREA;
 
 template <class Items, class NameOf>
 void checkUnique(ModuleCheck& check, std::string_view kind, const Items& items, NameOf nameOf) {

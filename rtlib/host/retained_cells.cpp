@@ -65,7 +65,7 @@ private:
   }
 
   void addCell(const rung_symbol& s) {
-    if ((s.flags & RUNG_SYMBOL_CONST) == 0 &&
+    if ((s.flags & (RUNG_SYMBOL_CONST | RUNG_SYMBOL_AREA)) == 0 &&
         isKept(runs_, s.space, 8 * uint64_t{s.byte} + s.bit, uint64_t{elementBits(s.type)} * s.count))
       addLine("cell", s.name, {numbers_[s.space], s.byte, s.bit, s.type, s.count, s.reach});
   }

@@ -21,7 +21,8 @@ namespace {
 
 constexpr uint32_t kInitial = RUNG_NONE; // a bit starts with its initial contents
 
-bool hasPlace(const rung_symbol& symbol) { return (symbol.flags & RUNG_SYMBOL_CONST) == 0; }
+// Of its own.
+bool hasPlace(const rung_symbol& symbol) { return (symbol.flags & (RUNG_SYMBOL_CONST | RUNG_SYMBOL_AREA)) == 0; }
 
 // Bits of all spaces of a program, numbered one after the other.
 class BitNumbers {
@@ -267,19 +268,22 @@ private:
     report(keep(symbol, former) ? ChangeKind::Moved : ChangeKind::Cut, symbol);
   }
 
-  // Of an array as far as it fits; of a cell all that instructions of the old program reach through its name. Where a
-  // name has stayed that has its place. False: some of the latter is lost.
+  // Of an array as far as it fits; of a cell all that instructions of the old program reach through its name. What lies
+  // in the place of a name that has stayed belongs to that one: then nothing of a cell is taken along that begins
+  // there, else what does not lie there. False: some of a cell is lost.
   bool keep(const rung_symbol& symbol, const rung_symbol& former) {
     const bool wide = symbol.count == 1 && former.count == 1 && !isAllocated(to_.spaces[symbol.space]);
     const uint32_t wanted = wide ? reach(from_, former) : extent(former);
     const uint32_t room = wide ? 8 * (to_.spaces[symbol.space].byte_count - symbol.byte) : extent(symbol);
     bool whole = !wide || wanted <= room;
+    for (uint32_t b = 0; wide && !sameCell(former, symbol) && b < std::min(wanted, extent(symbol)); ++b)
+      if (stays_[new_.first(symbol) + b]) return false;
     for (uint32_t b = 0; b < std::min(wanted, room); ++b) {
       const uint32_t to = new_.first(symbol) + b;
       const bool isOwn = b < extent(symbol);
       const bool isFree = isOwn ? !stays_[to] : !isNamed_[to];
       if (isFree) source_[to] = old_.first(former) + b;
-      whole = whole && (isFree || isOwn);
+      whole = whole && isFree;
     }
     return whole;
   }

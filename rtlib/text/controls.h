@@ -1,6 +1,6 @@
-// Control characters of ASCII: what is quoted must do nothing to a terminal, and make no lines of its own in a log.
+// Control characters of ASCII, and those of Latin-1 as UTF-8 writes them: what is quoted must do nothing to a terminal,
+// and make no lines of its own in a log.
 #pragma once
-#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -8,19 +8,35 @@ namespace rung::text {
 
 constexpr bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
-constexpr bool hasControls(std::string_view text) { return std::ranges::any_of(text, isControl); }
+// U+0080 to U+009F.
+constexpr bool isLatinControl(std::string_view text, size_t at) {
+  return at + 1 < text.size() && text[at] == '\xC2' && static_cast<unsigned char>(text[at + 1]) >= 0x80 &&
+         static_cast<unsigned char>(text[at + 1]) < 0xA0;
+}
+
+constexpr bool hasControls(std::string_view text) {
+  for (size_t i = 0; i < text.size(); ++i)
+    if (isControl(text[i]) || isLatinControl(text, i)) return true;
+  return false;
+}
 
 // "\x1b" in the place of ESC; the characters `kept`, such as "\n", stay.
 inline std::string withoutControls(std::string_view text, std::string_view kept = "") {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string result;
-  for (const char c : text) {
+  const auto escape = [&](char c) {
     const auto byte = static_cast<unsigned char>(c);
-    if (!isControl(c) || kept.find(c) != std::string_view::npos)
-      result += c;
-    else
-      result.append("\\x") += {kDigits[byte >> 4], kDigits[byte & 15]};
-  }
+    result.append("\\x") += {kDigits[byte >> 4], kDigits[byte & 15]};
+  };
+  for (size_t i = 0; i < text.size(); ++i)
+    if (isLatinControl(text, i)) {
+      escape(text[i]);
+      escape(text[++i]);
+    } else if (isControl(text[i]) && kept.find(text[i]) == std::string_view::npos) {
+      escape(text[i]);
+    } else {
+      result += text[i];
+    }
   return result;
 }
 

@@ -42,6 +42,13 @@ class Diff(unittest.TestCase):
         self.assertEqual(self.diff(HEAD + ONE + TWO + THREE + END, again),
                          (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 4 the same\n"))
 
+    def test_a_twin_above_changes_nothing(self):
+        twin, edge = '\nrung\n|--[@START]--(7002.01)\n', '\nrung\n|--[@START]--(MOTOR)\n'
+        self.assertEqual(self.diff(HEAD + edge + END, HEAD + twin + edge + END)[1].splitlines()[-1],
+                         "rungs: 0 changed, 1 added, 0 removed, 0 moved, 2 the same")
+        self.assertEqual(self.diff(HEAD + twin + edge + END, HEAD + edge + END)[1].splitlines()[-1],
+                         "rungs: 0 changed, 0 added, 1 removed, 0 moved, 2 the same")
+
     def test_changed_added_removed_moved(self):
         status, text = self.diff(HEAD + ONE + TWO + THREE + END,
                                  HEAD + THREE + TWO.replace("[MOTOR]", "[MOTOR]--[START]") + '\nrung "new"\n|--[LAMP]--(7003.00)\n' + END)

@@ -98,6 +98,18 @@ class Hostile(unittest.TestCase):
             program = self.technol("deep.plc", f" LDR {'(' * depth}A{')' * depth}\n WR B\n")
             self.expect_error(["check", program], WRONG, "brackets nested more than 100 deep [too-deep]")
 
+    def test_keys_of_many_parts(self):
+        key = "a." * 100_000 + "b"
+        program = self.technol("good.plc", " LDR A\n WR B\n")
+        for number, text in enumerate((f"[{key}]\nx = 1\n", f"[in]\n{key} = 1\n", f"[in]\nx = {{ {key} = 1 }}\n")):
+            with self.subTest(number):
+                self.expect_error(["map", program, "--check", self.file("deep.map", text)], WRONG, "a key has more than 64 parts")
+                self.expect_error(["check", self.file("rung.toml", text)], WRONG, "a key has more than 64 parts")
+        (self.home / "rung.toml").unlink()
+        good = self.file("good.map", '[in]\na = { type = "bit", name = "A" } # "..." ' + "." * 100 + "\nb = { type = 'bit', name = \"A\\u002e" + "." * 100 + '" }\n')
+        found, said = self.rungc("map", program, "--check", good)
+        self.assertEqual((found, said.count("good.map:")), (WRONG, 1), said)
+
     # ---- growth
 
     def test_macros_of_macros(self):

@@ -232,11 +232,11 @@ class Mistakes(unittest.TestCase):
         self.assertIn(text, log)
 
     def test_options(self):
-        for options, status, text in ((["--can", "3=can0"], ENVIRONMENT, "--can: a CAN channel is 1=INTERFACE or 2=INTERFACE, not '3=can0'"),
-                                      (["--com", "1"], ENVIRONMENT, "--com: a serial port is NUMBER=DEVICE with a number of 0 to 15, not '1'"),
+        for options, status, text in ((["--can", "3=can0"], USAGE, "--can: a CAN channel is 1=INTERFACE or 2=INTERFACE, not '3=can0'"),
+                                      (["--com", "1"], USAGE, "--com: a serial port is NUMBER=DEVICE with a number of 0 to 15, not '1'"),
                                       (["--com", "1=/dev/null", "--config", "COM[1].ComSpeed=12345"], ENVIRONMENT, "COM 1: /dev/null: no serial port has 12345 bit/s"),
-                                      (["--config", "axes=XYZ"], ENVIRONMENT, "--config: 'axes' is not a key of a device"),
-                                      (["--config", "COM"], ENVIRONMENT, "--config: found COM, expected KEY=VALUE"),
+                                      (["--config", "axes=XYZ"], USAGE, "--config: 'axes' is not a key of a device"),
+                                      (["--config", "COM"], USAGE, "--config: found COM, expected KEY=VALUE"),
                                       (["--com", "1=/dev/null", "--simulate"], USAGE, "--simulate")):
             self.refused(options, status, text)
 

@@ -4,6 +4,7 @@ import json
 import os
 import random
 import re
+import resource
 import shutil
 import signal
 import socket
@@ -377,7 +378,7 @@ class Commands(Host):
         for words in (("force", "D8:2", "1"), ("stop",), ("start",)):
             self.assertIn("stopped", self.ctl(*words, status=WRONG))
         self.assertEqual(self.ctl("set", "D8:2", "9"),
-                         "D8:2 = 9, before 5\na fault has stopped the program: the reset begins without this value\n")
+                         "D8:2 = 9, before 5\na fault has stopped the program: the reset keeps what is set now of inputs alone\n")
 
     def test_a_watched_name_that_is_gone(self):
         watching = subprocess.Popen([BIN / "rungctl", "watch", "GUARD", "Y0.0"], env=self.environment, text=True,
@@ -630,6 +631,48 @@ class Ends(Host):
         while b"STOPPING=1" not in self.heard.recv(200):
             pass
         self.assertEqual(self.host.wait(patience()), OK)
+
+
+class WithoutStandardFiles(Host):
+    """What is opened does not take the place of a closed standard file, whatever is printed then."""
+
+    def start(self):
+        self.host = subprocess.Popen(["sh", "-c", 'exec "$0" "$@" <&- >&- 2>&-', BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc"],
+                                     env=self.environment, start_new_session=True)
+
+    def setUp(self):
+        self.environment = {**os.environ, "RUNG_SOCKETS": str(self.home / "sockets")}
+        (self.home / "plc.map").write_text(self.map)
+        self.start()
+        self.addCleanup(self.end)
+        self.socket = self.home / "sockets/plc.sock"
+        self.assertTrue(wait_until(self.socket.exists))
+
+    def test_they_are_nothing(self):
+        self.assertEqual({os.readlink(f"/proc/{self.host.pid}/fd/{file}") for file in range(3)}, {"/dev/null"})
+        self.ctl("set", "D8:2", "5")
+        self.assertEqual(self.get("D8:2"), 5)
+
+
+class SmallFiles(Host):
+    """Files have a limit: what goes beyond it is an error of that file."""
+
+    def start(self):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
+        self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc", "--retain", self.home / "kept"],
+                                     stderr=self.log, env=self.environment, start_new_session=True, preexec_fn=limit)
+
+    def end(self):
+        self.host.terminate()
+        self.assertEqual(self.host.wait(patience()), ENVIRONMENT)  # retained memory is not on disk
+        self.assertFalse(self.socket.exists())
+
+    def test_it_runs_on_and_ends(self):
+        self.wait(lambda: "retained memory is not written: " in self.ctl("messages"))
+        for number in range(100):
+            self.ctl("set", "D8:2", number)
+        self.assertEqual(self.get("D8:2"), 99)
+        self.assertIn("running: ", self.ctl("status"))
 
 
 class NobodyReads(Host):

@@ -7,6 +7,7 @@
 #include <toml++/toml.h>
 
 #include "ir/support/similar.h"
+#include "tools/toml/parse.h"
 
 namespace rung::bind {
 namespace {
@@ -132,7 +133,7 @@ private:
 File parse(std::string_view text, std::vector<Error>& errors) {
   File file;
   try {
-    Reader(file, errors).read(toml::parse(text));
+    Reader(file, errors).read(toml_text::parse(text));
   } catch (const toml::parse_error& error) {
     errors.push_back({positionOf(error.source()), fmt::format("{}; the file must be TOML, and further mistakes are "
                                                               "found once this is",

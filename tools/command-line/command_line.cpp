@@ -1,6 +1,9 @@
 // See command_line.h.
 #include "tools/command-line/command_line.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
@@ -126,8 +129,22 @@ std::vector<OptionText> Command::options() const {
   return texts;
 }
 
+namespace {
+
+// Where one is closed the next file that is opened would be it, and what is printed would go there.
+void openStandardFiles() {
+  for (int file = open("/dev/null", O_RDWR); file >= 0; file = open("/dev/null", O_RDWR))
+    if (file > STDERR_FILENO) {
+      close(file);
+      return;
+    }
+}
+
+} // namespace
+
 CommandLine::CommandLine(ProgramText text)
     : text_(std::move(text)), app_(std::make_unique<CLI::App>(text_.description, text_.name)) {
+  openStandardFiles();
   app_->set_version_flag("--version", version());
   app_->footer("Exit status: " + text_.exitStatus + ".");
 }

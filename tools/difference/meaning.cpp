@@ -45,6 +45,21 @@ private:
 
   bool isAllocated(const Op& op) const { return (module_.spaces[op.ref].flags & RUNG_SPACE_ALLOCATED) != 0; }
 
+  // Which of several that are alike an instruction is ("~1") depends on the others, and says nothing of it.
+  static std::string withoutOrdinals(std::string_view key) {
+    std::string text;
+    for (size_t at = 0; at < key.size();) {
+      const size_t digits = key[at] == '~' ? key.find_first_not_of("0123456789", at + 1) : at;
+      const size_t end = std::min(digits, key.size());
+      const bool isOrdinal = end > at + 1 && (end == key.size() || key[end] == '/');
+      if (isOrdinal)
+        at = end;
+      else
+        text += key[at++];
+    }
+    return text;
+  }
+
   // Without remarks and spaces.
   static void addWords(std::string_view text, std::string& out) {
     bool remark = false;
@@ -67,7 +82,7 @@ private:
     case Attr::Window: // one that is all of what the compiler gives out grows with it
       if (isAllocated(op)) return put(out, " {}", module_.spaces[op.ref].name);
       return put(out, " {} {}", textOf(op, static_cast<uint32_t>(op.imm)), op.count);
-    case Attr::Slot: return put(out, " {}", module_.at(SlotId{op.ref}).key);
+    case Attr::Slot: return put(out, " {}", withoutOrdinals(module_.at(SlotId{op.ref}).key));
     case Attr::Service: return put(out, " {}", module_.services[op.ref]);
     case Attr::Fault: return put(out, " {}", module_.faults[op.ref]);
     case Attr::Literal:
@@ -87,7 +102,7 @@ private:
     const auto next = names->second.upper_bound(bit);
     if (next == names->second.begin()) return fmt::format("+{}", bit);
     const auto& [begin, name] = *std::prev(next);
-    return fmt::format("{}+{}", name, bit - begin);
+    return fmt::format("{}+{}", withoutOrdinals(name), bit - begin);
   }
 
   const Module& module_;

@@ -19,6 +19,7 @@
 #include "tools/mapping/connections.h"
 #include "tools/mapping/devices.h"
 #include "tools/mapping/reading.h"
+#include "tools/toml/parse.h"
 
 namespace rung::mapping {
 namespace {
@@ -344,7 +345,7 @@ void Reader::read(std::string_view text, const std::string& path) {
   setFile(static_cast<uint32_t>(map().paths.size()));
   map().paths.push_back(path);
   try {
-    readKeys(toml::parse(text), "", kFileKeys, map());
+    readKeys(toml_text::parse(text), "", kFileKeys, map());
   } catch (const toml::parse_error& error) {
     fail(positionOf(error.source()),
          std::string(error.description()) + "; the file must be TOML, and further mistakes are found once this is");

@@ -89,8 +89,7 @@ void Box::bindValues() {
     if (mapping::toProgram(link.direction)) {
       bind(link, values_[i], RUNG_TO_PROGRAM, link.scale);
       toProgram_.push_back(i);
-      if (link.direction == mapping::Direction::In || link.direction == mapping::Direction::Parameter)
-        feeds_.push_back({link.name, "pin " + map_.pins[link.pin].name});
+      feeds_.push_back({link.name, "pin " + map_.pins[link.pin].name});
     }
     if (mapping::fromProgram(link.direction)) {
       bind(link, values_[i], RUNG_FROM_PROGRAM, link.scale);
@@ -397,7 +396,9 @@ OrderSlot::Outcome Box::obey(Order& order) noexcept {
   if (order.kind == Kind::Restart) {
     if (ending_) return {RUNG_WRONG_STATE, "the program is being switched off"};
     if (now == State::Running)
-      return {RUNG_WRONG_STATE, "the program runs; a reset restarts one that a fault has stopped"};
+      return {RUNG_WRONG_STATE, (state().flags & RUNG_STATE_STOPPED) != 0
+                                    ? "the operator has stopped the program; a start lets it run on"
+                                    : "the program runs; a reset restarts one that a fault has stopped"};
     if (!restartable_) return {RUNG_LATER, "axes of the program still move"};
     state_.store(State::Restarting, std::memory_order_release);
     return {};

@@ -49,6 +49,7 @@ public:
   // True: the program needs no more of them, and has had them with fresh inputs. Nothing is restarted any more; a
   // restart that `serve` has begun is waited for.
   bool ends() noexcept;
+  bool ending() const noexcept { return ending_; }                               // any thread
   bool ended() const noexcept { return ended_.load(std::memory_order_acquire); } // any thread
   // After the last step, or where none can come any more: the program's last scans run where they have not, output pins
   // have their safe values then, and what is retained is on disk; "" or why not.
@@ -175,7 +176,7 @@ private:
   host::Clock& clock_;
   bool wasReset_ = false;
   bool restartable_ = true;
-  bool ending_ = false; // `ends` was asked
+  std::atomic<bool> ending_{false}; // `ends` was asked
   std::atomic<bool> ended_ = false;
   bool hasRun_ = false;     // a slice, since it was switched on: outputs are the program's
   bool sliceBegun_ = false; // by `stepFast`

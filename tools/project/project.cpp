@@ -13,6 +13,7 @@
 #include "ir/support/diag/source.h"
 #include "ir/support/similar.h"
 #include "ir/support/utf8.h"
+#include "tools/toml/parse.h"
 
 namespace rung::project {
 namespace {
@@ -43,7 +44,7 @@ public:
     project_.file = path;
     project_.folder = fs::path(path).parent_path().string();
     try {
-      readTable(toml::parse(sources_.text(file_), path));
+      readTable(toml_text::parse(sources_.text(file_), path));
     } catch (const toml::parse_error& error) {
       diagnostics_.report(diag::ProjectSyntax, rangeOf(error.source())) << error.description();
     }

@@ -222,6 +222,8 @@ json Controller::answer(const Peer& peer, const json& request) {
       throw Refused("\"" + right + "\" is not allowed here; for it the mapping file needs [rungctl] allow = [\"" +
                     right + "\"]");
     }
+    const bool changes = command->permission && *command->permission != mapping::Remote::Serve;
+    if (changes && box_.ending()) throw Refused("the program is being switched off");
     services_.heard(peer);
     answer = (this->*command->run)(peer, request);
     if (answer.is_null()) {
@@ -516,7 +518,7 @@ json Controller::set(const Peer& peer, const json& request) {
   logChange(peer, "set " + name + " from " + shown(type, done.former) + " to " + shown(type, value));
   json answer = {{"name", name}, {"former", toJson(type, done.former)}, {"value", toJson(type, value)}};
   if (const std::optional<rung_state> now = stateNow(); now && (now->flags & RUNG_STATE_FAULTED) != 0)
-    note = "a fault has stopped the program: the reset begins without this value";
+    note = "a fault has stopped the program: the reset keeps what is set now of inputs alone";
   if (!note.empty()) answer["note"] = note;
   return answer;
 }

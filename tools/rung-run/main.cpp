@@ -65,13 +65,14 @@ void print(const std::string& text) {
     if (!line.empty()) log.always(std::string(line.begin(), line.end()));
 }
 
-// The program has its regular end, whatever ends the process: a terminal that is closed, too.
+// The program has its regular end, whatever ends the process: a terminal that is closed, a limit of processor time,
+// too.
 void catchSignals() {
   struct sigaction action{};
   action.sa_handler = [](int) { gEnd = 1; };
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-  action.sa_handler = SIG_IGN;
-  sigaction(SIGPIPE, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) sigaction(signal, &action, nullptr);
+  action.sa_handler = SIG_IGN; // they are errors of a write, then
+  for (const int signal : {SIGPIPE, SIGXFSZ}) sigaction(signal, &action, nullptr);
 }
 
 // One program with its pins, which rungctl can see: what is between its start and its end.
@@ -141,10 +142,14 @@ private:
 
   // A restart may be under way, which the steps wait for.
   void waitForEnd() {
-    constexpr int64_t kLookNs = 1'000'000;
-    for (scans_.beginEnd(); !scans_.hasEnded(); box_->clock().sleep(kLookNs)) {
-      controller_.serveProgram(&server_);
-      manager_.feed(scans_.steps(), box_->clock().nowNs());
+    constexpr int64_t kSoonNs = 500'000'000;
+    const int64_t begun = box_->clock().nowNs();
+    bool said = false;
+    for (scans_.beginEnd(); !scans_.hasEnded();) {
+      guarded([&] { turn(); });
+      if (said || box_->clock().nowNs() - begun < kSoonNs) continue;
+      guarded([&] { log_.always("the program is being switched off: its last scans run, 500 passes at most"); });
+      said = true;
     }
     scans_.end();
   }

@@ -274,12 +274,14 @@ int serve(Client& client, const Words& words) {
   return cli::kOk;
 }
 
-int hosts(const Words& words) {
+int hosts(const Words& words) try {
   const std::vector<std::string> names = remote::hostsOf(geteuid());
   std::string text;
   for (const std::string& name : names) text += name + "\n";
   print(words, json(names), text.empty() ? "no host is running" : text);
   return cli::kOk;
+} catch (const std::exception& problem) {
+  return fail(problem.what());
 }
 
 class Commands {

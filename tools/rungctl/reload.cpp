@@ -128,6 +128,8 @@ int programOf(Client& client, const Words& words, const volatile int& stop, json
   const bool compiled = std::ranges::any_of(words.files, [](const std::string& file) { return file.ends_with(".so"); });
   if (compiled && words.files.size() > 1)
     return fail("found a compiled program beside other files, expected it alone, or sources alone", cli::kUsage);
+  if (compiled && words.profile)
+    return fail("--profile is for sources; a compiled program counts where it was built with it", cli::kUsage);
   if (compiled) {
     const std::unique_ptr<char, decltype(&std::free)> path(realpath(words.files.front().c_str(), nullptr), &std::free);
     if (path == nullptr) return fail("there is no file " + words.files.front(), cli::kEnvironment);

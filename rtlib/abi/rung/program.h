@@ -82,6 +82,7 @@ enum rung_symbol_flags {
   RUNG_SYMBOL_READONLY = 1, /* the program may not write it */
   RUNG_SYMBOL_HIDDEN = 2,   /* for the host's own use: a register, a mechanism's continuation */
   RUNG_SYMBOL_CONST = 4,    /* not memory: `byte` is unused, `value` is its value */
+  RUNG_SYMBOL_AREA = 8,     /* the control's name of where an area begins: what lies there belongs to other names */
 };
 
 /* A name of the program. Sorted by strcmp of `name`; case-insensitive dialects store upper case. */

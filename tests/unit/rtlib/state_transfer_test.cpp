@@ -60,7 +60,7 @@ protected:
     plan.run(old.block.data(), fresh.block.data());
     std::set<std::string> lines;
     for (const StateChange& change : plan.changes()) {
-      static constexpr const char* kWords[] = {"new", "removed", "moved", "renamed", "retyped", "released"};
+      static constexpr const char* kWords[] = {"new", "removed", "moved", "renamed", "retyped", "released", "cut"};
       lines.insert(kWords[static_cast<int>(change.kind)] + std::string(change.slot ? " slot " : " ") + change.name +
                    (change.formerName.empty() ? "" : " from " + change.formerName));
     }
@@ -117,6 +117,40 @@ TEST_F(Transfer, InAnAreaOfInputsAndOutputsNamesGoAsInMemory) {
   EXPECT_EQ(run(), Lines{"moved TIME"});
   EXPECT_EQ(fresh.read("TIME"), 1200u);
   EXPECT_EQ(fresh.memory().readByte(area, 0), 0) << "its former place starts anew";
+}
+
+TEST_F(Transfer, WhatLiesInThePlaceOfANameThatStaysBelongsToIt) {
+  old.program.addSymbol("WIDE", kD, 0, RUNG_TYPE_I16);
+  old.program.addSymbol("LIST", kD, 4, RUNG_TYPE_I8, 0, 2);
+  for (Running* program : {&old, &fresh}) {
+    program->program.addSymbol("STAYS", kD, 10, RUNG_TYPE_I8);
+    program->program.addSymbol("BIT", kD, 21, RUNG_TYPE_BIT, 7);
+  }
+  fresh.program.addSymbol("WIDE", kD, 10, RUNG_TYPE_I16);
+  fresh.program.addSymbol("LIST", kD, 20, RUNG_TYPE_I8, 0, 2);
+  old.start();
+  fresh.start();
+  old.write("WIDE", 0x1234);
+  old.memory().writeByte(kD, 5, 0xFF);
+  old.write("STAYS", 5);
+  EXPECT_EQ(run(), (Lines{"cut LIST", "cut WIDE"}));
+  EXPECT_EQ(fresh.read("STAYS"), 5u);
+  EXPECT_EQ(fresh.read("WIDE"), 5u) << "no half of it";
+  EXPECT_EQ(fresh.memory().readByte(kD, 21), 0x7F);
+}
+
+TEST_F(Transfer, WhereAnAreaBeginsItsNameKeepsNothing) {
+  old.program.addSymbol("FIRST", kD, 10, RUNG_TYPE_I32);
+  fresh.program.addSymbol("FIRST", kD, 4, RUNG_TYPE_I32);
+  for (Running* program : {&old, &fresh}) {
+    program->program.addSymbol("AREA", kD, 4, RUNG_TYPE_I32);
+    program->program.symbols.back().flags = RUNG_SYMBOL_AREA;
+  }
+  old.start();
+  fresh.start();
+  old.write("FIRST", 111);
+  EXPECT_EQ(run(), Lines{"moved FIRST"});
+  EXPECT_EQ(fresh.read("FIRST"), 111u);
 }
 
 TEST_F(Transfer, AVariableThatIsPutBetweenOthersIsNew) {

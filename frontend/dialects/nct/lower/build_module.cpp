@@ -87,6 +87,7 @@ private:
       added.bit = symbol.bit % 8;
       if (symbol.signal != nullptr && symbol.signal->direction == nc::Direction::In)
         added.flags |= RUNG_SYMBOL_READONLY;
+      if (symbol.isArea) added.flags |= RUNG_SYMBOL_AREA;
       setType(added, symbol);
     }
     frontend::sortSymbols(module_);

@@ -1,6 +1,8 @@
 // Names of a program (see symbols.h).
 #include "frontend/dialects/nct/read/symbols.h"
 
+#include <utility>
+
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "ir/support/ascii.h"
 #include "ir/support/diag/nct.h"
@@ -44,8 +46,11 @@ std::string_view aliasOf(std::string_view name) {
 
 SymbolTable::SymbolTable(const Config& config, frontend::Analysis& analysis, Diagnostics& diagnostics)
     : config_(config), analysis_(analysis), diagnostics_(diagnostics) {
-  table_.enter(word("PLCNVRAM", config.plcNvram));
-  table_.enter(word("PLCRAM", config.plcRam));
+  for (const auto& [name, first] : {std::pair("PLCNVRAM", config.plcNvram), std::pair("PLCRAM", config.plcRam)}) {
+    Symbol area = word(name, first);
+    area.isArea = true;
+    table_.enter(area);
+  }
   uint32_t bit = 0;
   for (std::string_view name : kFlagNames) {
     Symbol flag = word(name, kFlagsWord);

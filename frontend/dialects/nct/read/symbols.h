@@ -34,6 +34,7 @@ struct Symbol {
   Constant constant;
   std::string_view comment;
   const nc::Signal* signal = nullptr; // of the NC
+  bool isArea = false;                // where an area of the NC begins
   const ladder::Declaration* declaration = nullptr;
   bool pending = false;   // its value has not been read yet
   bool resolving = false; // it is being read: meeting it again is a circle

@@ -658,9 +658,8 @@ class SmallFiles(Host):
     """Files have a limit: what goes beyond it is an error of that file."""
 
     def start(self):
-        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
         self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc", "--retain", self.home / "kept"],
-                                     stderr=self.log, env=self.environment, start_new_session=True, preexec_fn=limit)
+                                     stderr=self.log, env=self.environment, start_new_session=True)
 
     def end(self):
         self.host.terminate()
@@ -668,6 +667,8 @@ class SmallFiles(Host):
         self.assertFalse(self.socket.exists())
 
     def test_it_runs_on_and_ends(self):
+        resource.prlimit(self.host.pid, resource.RLIMIT_FSIZE, (100, 100))
+        self.ctl("set", "D8:2", "7")
         self.wait(lambda: "retained memory is not written: " in self.ctl("messages"))
         for number in range(100):
             self.ctl("set", "D8:2", number)

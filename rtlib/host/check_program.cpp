@@ -21,6 +21,7 @@ namespace {
 
 constexpr uint32_t kMaxAlign = 4096;
 constexpr uint32_t kMostMemory = 64u << 20; // bytes
+constexpr uint32_t kMostBudget = 1u << 26;  // steps; a compiler gives a million, or in proportion to the program
 constexpr uint32_t kMostTimes = 1000;       // that a step of the schedule runs its task
 constexpr uint64_t kMostRuns = 100'000;     // of tasks in a pass
 constexpr uint64_t kLongestPassUs = 3'600'000'000;
@@ -442,22 +443,13 @@ private:
         failAt("read span", i, "does not lie above the one before it");
   }
 
-  // Far above what a compiler gives, which is a million, or in proportion to the program.
-  uint32_t mostBudget() const {
-    constexpr uint64_t kMost = 16'000'000, kTimesTheProgram = 64;
-    uint64_t weight = 0;
-    for (uint32_t i = 0; i < p_.chunk_count; ++i) weight += p_.chunks[i].weight;
-    return static_cast<uint32_t>(std::min<uint64_t>(UINT32_MAX, std::max(kMost, kTimesTheProgram * weight)));
-  }
-
   void checkTasks() {
-    const uint32_t most = mostBudget();
     for (uint32_t i = 0; i < p_.task_count; ++i) {
       const rung_task& t = p_.tasks[i];
       named("task", i, t.name);
       index("task", i, "entry", t.entry, p_.chunk_count);
       index("task", i, "budget fault", t.budget_fault, p_.fault_count);
-      if (t.budget > most) failAt("task", i, "has a budget of ", t.budget, " steps, expected at most ", most);
+      if (t.budget > kMostBudget) failAt("task", i, "has too large a budget: ", t.budget);
       piece("task", i, "begin copies", t.begin_first, t.begin_count, p_.copy_count);
       piece("task", i, "end copies", t.end_first, t.end_count, p_.copy_count);
       piece("task", i, "parts", t.part_first, t.part_count, p_.part_end_count);

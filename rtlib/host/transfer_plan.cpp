@@ -276,7 +276,7 @@ private:
     const uint32_t wanted = wide ? reach(from_, former) : extent(former);
     const uint32_t room = wide ? 8 * (to_.spaces[symbol.space].byte_count - symbol.byte) : extent(symbol);
     bool whole = !wide || wanted <= room;
-    for (uint32_t b = 0; wide && !sameCell(former, symbol) && b < std::min(wanted, extent(symbol)); ++b)
+    for (uint32_t b = 0; wide && b < std::min(wanted, extent(symbol)); ++b)
       if (stays_[new_.first(symbol) + b]) return false;
     for (uint32_t b = 0; b < std::min(wanted, room); ++b) {
       const uint32_t to = new_.first(symbol) + b;

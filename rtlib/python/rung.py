@@ -131,6 +131,7 @@ class SymbolFlags(enum.IntFlag):
     READONLY = 1
     HIDDEN = 2
     CONST = 4
+    AREA = 8
 
 
 class MessageOp(enum.IntEnum):

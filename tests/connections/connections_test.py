@@ -847,8 +847,8 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
 
     def test_wrong_configurations_end_it(self):
         for options, status, text in ((["--config", "a=b"], USAGE, "--simulate"),
-                                      (["--simulate", "--config", "dance=1"], ENVIRONMENT, "--config: "),
-                                      (["--simulate", "--config", "param"], ENVIRONMENT, "--config: found param, expected KEY=VALUE")):
+                                      (["--simulate", "--config", "dance=1"], USAGE, "--config: "),
+                                      (["--simulate", "--config", "param"], USAGE, "--config: found param, expected KEY=VALUE")):
             host = Host(BIN, "", options=options)
             log = host.logged()
             self.assertEqual(host.end(), status, log)

@@ -185,8 +185,7 @@ private:
   }
 
   void addTasks() {
-    Task main{
-        .name = "MAIN", .entry = RoutineId{0}, .periodUs = 8000, .budget = 1'000'000'000, .budgetFault = FaultId{0}};
+    Task main{.name = "MAIN", .entry = RoutineId{0}, .periodUs = 8000, .budget = 1 << 26, .budgetFault = FaultId{0}};
     cutTask(module_, main, random_.between(1, 3));
     // The inputs as they were when the run began; and what the program wrote over them, where the mask says so.
     main.begin.push_back({.from = {SpaceId{0}, 0, kSpaceBytes}, .to = SpaceId{6}});
@@ -203,7 +202,7 @@ private:
     module_.tasks.push_back({.name = "FAST",
                              .entry = RoutineId{options_.routines - 1},
                              .periodUs = 1000,
-                             .budget = 1'000'000'000,
+                             .budget = 1 << 26,
                              .budgetFault = FaultId{0}});
     module_.fastTask = TaskId{1};
     module_.fast = {{RUNG_STEP_RUN, TaskId{1}, 1}};

@@ -148,7 +148,7 @@ private:
     for (scans_.beginEnd(); !scans_.hasEnded();) {
       guarded([&] { turn(); });
       if (said || box_->clock().nowNs() - begun < kSoonNs) continue;
-      guarded([&] { log_.always("the program is being switched off: its last scans run, 500 passes at most"); });
+      guarded([&] { log_.always("the program is being switched off: its last scans run"); });
       said = true;
     }
     scans_.end();

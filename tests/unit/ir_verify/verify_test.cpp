@@ -152,7 +152,7 @@ TEST(VerifyModule, Symbols) {
   expectBroken([](Module& m) { m.symbols[1].count = 3; }, Rule::Symbols, "outside its space");
   expectBroken([](Module& m) { m.symbols[1].count = 0; }, Rule::Symbols, "no elements");
   expectBroken([](Module& m) { m.symbols[0].type = 8, m.symbols[0].bit = 0; }, Rule::Symbols, "unknown type");
-  expectBroken([](Module& m) { m.symbols[0].flags = 8; }, Rule::Symbols, "unknown flags");
+  expectBroken([](Module& m) { m.symbols[0].flags = 16; }, Rule::Symbols, "unknown flags");
   for (uint32_t type = RUNG_TYPE_BIT; type <= RUNG_TYPE_TEXT; ++type) {
     Module m = goodModule();
     m.symbols[0] = {.name = "S", .space = kD, .byte = 0, .type = type};

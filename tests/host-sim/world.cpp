@@ -276,7 +276,7 @@ bool World::pin(const std::string& name) const { return values_[numberOf(name)].
 
 int64_t World::cell(const std::string& name) const {
   const host::Instance& inside = runtime::insideOf(*box_->instance());
-  const rung_symbol* symbol = host::findSymbol(inside.program(), name.c_str());
+  const rung_symbol* symbol = host::findSymbol(inside.program(), name);
   if (symbol == nullptr) return -1;
   host::Ref ref = host::refOf(*symbol);
   ref.width = symbol->type == RUNG_TYPE_BIT ? 1 : 32;

@@ -220,7 +220,7 @@ bool Box::serve(std::vector<std::string>& reports) {
 Answer Box::order(Order& order, std::chrono::milliseconds time) {
   const host::Alone::In service(serves_);
   if (ended()) return {RUNG_WRONG_STATE, "the program has been switched off"};
-  const Answer answer = orders_.give(order, time, clock_, [this] { restart(); });
+  Answer answer = orders_.give(order, time, clock_, [this] { restart(); });
   if (order.kind != Order::Kind::Restart || !answer.ok()) return answer;
   restart();
   if (restartProblem_.empty()) return answer;

@@ -246,7 +246,8 @@ void Controller::gone(const Peer& peer) {
   if (shadow_ != nullptr && shadowsFor_ == peer.number) {
     try {
       endShadow();
-    } catch (const Refused&) { // no step of the scan thread: it ends when it is over
+      // Without a step of the scan thread it ends when it is over. NOLINTNEXTLINE(bugprone-empty-catch)
+    } catch (const Refused&) {
     }
   }
   if (pending_ == nullptr || pending_->peer.number != peer.number) return;

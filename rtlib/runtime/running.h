@@ -36,7 +36,7 @@ inline int32_t statusOf(const rung_instance& instance) noexcept {
 int32_t checkMemory(const rung_program& program, const void* memory, size_t bytes) noexcept;
 
 rung_request shown(const rt::ServiceRequest& request, const nc::Control& control) noexcept;
-// Queues a message for the host; where there is no room it is lost, and counted.
+// Queues a message for the host. A message that finds no room is lost, and counted.
 void say(rung_instance& instance, const rung_message& message) noexcept;
 rt::ServiceReply taken(const rung_reply& reply) noexcept;
 

@@ -428,6 +428,7 @@ int32_t Box::obeyRunning(Order& order) noexcept {
   switch (order.kind) {
   case Order::Kind::State: order.state = state(); return RUNG_OK;
   case Order::Kind::Write: {
+    order.state = state();
     const int32_t status = rung_instance_read(plc, order.cell, 0, 1, &order.former);
     return status != RUNG_OK ? status : rung_instance_write(plc, order.cell, 0, 1, &order.value);
   }

@@ -16,7 +16,7 @@ namespace rung::plc {
 struct Order {
   enum class Kind : uint8_t {
     State,   // the instance's state
-    Write,   // `value` into `cell`; `former` is what was there
+    Write,   // `value` into `cell`; `former` is what was there, `state` the instance's state then
     Forced,  // the force in effect number `index`
     Force,   // `forces` are in effect from now on; null: none
     Replace, // by the program of `replacement`; the instance's state then
@@ -36,12 +36,11 @@ struct Order {
   uint32_t count = 0;
   rung_forces* forces = nullptr;
   rung_replacement* replacement = nullptr;
-  const std::vector<rung_cell>* dead =
-      nullptr; // with that: inputs of the running program that become 0; of whoever gives the order
+  const std::vector<rung_cell>* dead = nullptr; // with that: inputs of the running program that become 0; the caller's
   rung_shadow* shadow = nullptr;
   void (*act)(void* actor) = nullptr;
   void* actor = nullptr;
-  rung_profile* profiles = nullptr; // of whoever gives the order
+  rung_profile* profiles = nullptr; // the caller's
   // Results.
   rung_value former{};
   rung_state state{};

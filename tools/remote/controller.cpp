@@ -518,7 +518,7 @@ json Controller::set(const Peer& peer, const json& request) {
   const Order done = give({.kind = Order::Kind::Write, .cell = found.cells.front(), .value = value});
   logChange(peer, "set " + name + " from " + shown(type, done.former) + " to " + shown(type, value));
   json answer = {{"name", name}, {"former", toJson(type, done.former)}, {"value", toJson(type, value)}};
-  if (const std::optional<rung_state> now = stateNow(); now && (now->flags & RUNG_STATE_FAULTED) != 0)
+  if ((done.state.flags & RUNG_STATE_FAULTED) != 0)
     note = "a fault has stopped the program: the reset keeps what is set now of inputs alone";
   if (!note.empty()) answer["note"] = note;
   return answer;

@@ -50,8 +50,8 @@ public:
   // and what the program has shown. Each line goes to the log, is kept for those who ask later, and is sent to those
   // who follow. `sink`: null where there are no clients.
   void serveProgram(Sink* sink);
-  // After them: sends what has changed to those who watch, what the program asks to whoever serves it, and the answer
-  // to whoever waits for their force; compares what a shadow has recorded, for a part of a turn.
+  // After them: sends what has changed to those who watch, the program's questions to the client that serves it, and
+  // the answer to each client whose force is done; compares what a shadow has recorded, for a part of a turn.
   void serveClients(Sink& sink);
 
 private:

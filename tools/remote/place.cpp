@@ -81,11 +81,12 @@ bool isServed(const std::string& path) {
   return served;
 }
 
-bool isHostName(const std::string& name) {
+std::string wrongHostName(const std::string& name) {
   constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
   constexpr size_t kLongest = 60; // a socket's path has 107 characters
-  return !name.empty() && name.size() <= kLongest && name[0] != '.' &&
-         name.find_first_not_of(kAllowed) == std::string::npos;
+  const bool good = !name.empty() && name.size() <= kLongest && name[0] != '.' &&
+                    name.find_first_not_of(kAllowed) == std::string::npos;
+  return good ? "" : "found the name \"" + name + "\" of a host, expected letters, digits, '-', '_' and '.'";
 }
 
 std::vector<std::string> hostsOf(uid_t user) {

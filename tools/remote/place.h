@@ -20,8 +20,8 @@ sockaddr_un socketAddress(const std::string& path);
 // Somebody listens there: a host that was killed has left its socket. Throws as socketAddress.
 bool isServed(const std::string& path);
 
-// A host's name: letters, digits, '-', '_' and '.', not at the beginning.
-bool isHostName(const std::string& name);
+// A host's name: letters, digits, '-', '_' and '.', not at the beginning. "" or what is wrong with it.
+std::string wrongHostName(const std::string& name);
 // Those that run, sorted. Throws std::runtime_error where a folder is there and cannot be read.
 std::vector<std::string> hostsOf(uid_t user);
 

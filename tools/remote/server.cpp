@@ -63,8 +63,7 @@ json problemOf(const std::string& text) { return {{"ok", false}, {"error", text}
 } // namespace
 
 Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(user), handler_(handler) {
-  if (!isHostName(host))
-    throw std::runtime_error("found the name \"" + host + "\" of a host, expected letters, digits, '-', '_' and '.'");
+  if (const std::string wrong = wrongHostName(host); !wrong.empty()) throw std::runtime_error(wrong);
   path_ = socketPath(prepareFolder(user), host);
   const sockaddr_un address = socketAddress(path_);
   if (const std::string another = socketOf(user, host); isServed(another))

@@ -219,26 +219,24 @@ plc::Box::NewInstance surroundingsOf(const Options& options, const Image& image,
 }
 
 // A real-time thread that is awake for most of the time takes its processor away from all others.
-bool isTooEarly(const Options& options) {
+void checkEarly(const Options& options) {
   constexpr unsigned kPart = 4;
   const unsigned most = options.periodUs / kPart;
-  if (options.earlyUs <= most) return false;
-  print(fmt::format("--early: found {}, expected 0 to {}, a quarter of --period {}", options.earlyUs, most,
-                    options.periodUs));
-  return true;
+  if (options.earlyUs > most)
+    throw rung_run::WrongOption(fmt::format("--early: found {}, expected 0 to {}, a quarter of --period {}",
+                                            options.earlyUs, most, options.periodUs));
 }
 
 int run(const Options& options) try {
-  if (isTooEarly(options)) return cli::kUsage;
-  if (!remote::isHostName(options.name))
-    throw rung_run::WrongOption("--name: found " + options.name + ", expected letters, digits, '-', '_' and '.'");
+  checkEarly(options);
+  if (const std::string wrong = remote::wrongHostName(options.name); !wrong.empty())
+    throw rung_run::WrongOption("--name: " + wrong);
   catchSignals();
   const Image image = imageOf(options);
-  if (!options.simulate && namesDevices(options) && !isOfTechnol(image)) {
-    print("--can, --com, --sa-file, and --config without --simulate are for programs of TECHNOL; this one is of " +
-          std::string(image.program().dialect));
-    return cli::kUsage;
-  }
+  if (!options.simulate && namesDevices(options) && !isOfTechnol(image))
+    throw rung_run::WrongOption(
+        "--can, --com, --sa-file, and --config without --simulate are for programs of TECHNOL; this one is of " +
+        std::string(image.program().dialect));
   std::vector<std::string> errors, warnings;
   mapping::File map = mapping::loadMap(options.map, errors);
   std::unique_ptr<rung_run::Simulation> simulation;

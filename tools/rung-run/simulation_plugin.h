@@ -41,7 +41,7 @@ inline constexpr const char* kSimulationPlugin = "rung-simulation.so";
 
 // Another one for other sources of the runtime, of which both have a copy, and of what goes between them.
 std::string_view simulationVersion();
-// Of whoever includes this.
+// Of the file that includes this.
 inline std::string simulationBuild() { return std::string(__VERSION__) + " " + std::string(simulationVersion()); }
 
 } // namespace rung::rung_run

@@ -158,7 +158,7 @@ int trace(Client& client, const Words& words) {
   if (!file) return fail("cannot write " + words.file, cli::kEnvironment);
   const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", true}});
   rungctl::Trace trace(file, client.greeting().value("program", ""), begun["names"]);
-  file.flush();                                   // its head: whoever looks knows that no pass is missed from now on
+  file.flush();                                   // its head shows a reader that no pass is missed from now on
   constexpr std::chrono::milliseconds kTurn(100); // it ends in time where no pass comes, too
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(words.seconds);
   while (gStop == 0 && (words.seconds == 0 || std::chrono::steady_clock::now() < end))

@@ -48,6 +48,7 @@ inline toml::table parse(std::string_view text, std::string_view path = {}) {
     ++place.column;
     if (c == '\n') place = {place.line + 1, 1};
   }
+  static_assert(kMostParts == 64, "as the sentence says");
   throw toml::parse_error("a key has more than 64 parts", place);
 }
 

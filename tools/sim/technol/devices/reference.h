@@ -21,7 +21,7 @@ public:
   // A millisecond: before the axes move, and after.
   void drive(std::span<Axis> axes, const AxisInputs& in, AxisRequests& requests, Stop stop, Complaints& complaints);
   void look(std::span<Axis> axes, AxisRequests& requests);
-  // REFPI: an axis is on its way to a reference, whoever has asked for it.
+  // REFPI: an axis is on its way to a reference, for any caller.
   bool underWay(std::span<const Axis> axes) const;
 
 private:

@@ -4,7 +4,7 @@
 A block ```sh is what a reader types, one command after the other, each page from the root of the repository. All commands
 succeed, but for the last one of a block ```sh exit=N, which ends with N. A block ```text is what the commands of the block
 before it print; wall-clock times and the widths of columns do not count, and a line … is any number of lines. With
-RUNG_UPDATE=1 these blocks and the picture of first-machine.md are written anew.
+RUNG_UPDATE=1 these blocks and the pictures of README.md and first-machine.md are written anew.
 """
 import csv
 import os
@@ -19,6 +19,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience
+from picture import picture
 
 RUNGC = None
 ROOT = Path(__file__).resolve().parents[2]
@@ -39,6 +40,11 @@ WALL_CLOCK = (
     (re.compile(r"(?<=% ) *[\d.]+(?=  [^\d\s])"), "TIME"),
     (re.compile(r"(?<=%)( +[\d.]+){4}(?=  \S+:\d+  )"), " TIMES"),
 )
+# Pictures of the README: rungs of a page that a command writes, by their numbers.
+PICTURES = {
+    "page.svg": (("view", "examples/first-cnc", "-o"), (2, 3, 6)),
+    "coverage.svg": (("test", "examples/first-cnc", "--coverage-html"), (1, 6, 8)),
+}
 UPDATE = os.environ.get("RUNG_UPDATE") == "1"
 
 
@@ -75,6 +81,17 @@ class Docs(unittest.TestCase):
             rows = page.split("\n## Configuration\n")[1].split("\n## ")[0].split("| --- | --- | --- | --- | --- |\n")[1].splitlines()
             read_by = dict(re.match(r"\| `(\S+)` \| .* \| .* \| (compiler|control) \| \S.* \|$", row).groups() for row in rows if row)
             self.assertEqual((read_by[compiler], read_by[control]), ("compiler", "control"))
+
+    def test_pictures_of_the_readme_are_what_the_pages_show(self):
+        with tempfile.TemporaryDirectory() as name:
+            for file, (command, rungs) in PICTURES.items():
+                page = Path(name) / "page.html"
+                subprocess.run([RUNGC, *command, page], cwd=ROOT, capture_output=True, check=True)
+                drawn = picture(page.read_text(), rungs)
+                path = ROOT / "docs" / file
+                if UPDATE:
+                    path.write_text(drawn)
+                self.assertEqual(drawn, path.read_text(), f"{shown(path)} is stale: run tests/update")
 
     def test_links_lead_somewhere(self):
         for page in PAGES:

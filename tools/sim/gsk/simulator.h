@@ -33,7 +33,7 @@ public:
 
   WindowAnswer answer(const WindowRequest& request, const nc::gsk::SignalsIo& io);
 
-  // "MPOS.1" and so on (docs/simulated-nc-gsk.md).
+  // "MPOS.1" and so on (docs/dialects/simulated-nc-gsk.md).
   std::optional<double> quantity(std::string_view name) const;
   double machinePosition(uint32_t axis) const; // 0.001 mm, rounded down; 0 of one that is not there
   std::string setQuantity(std::string_view name, double value);

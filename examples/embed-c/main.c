@@ -1,4 +1,4 @@
-/* A toy CNC: one axis, and a PLC program that moves it. main PROGRAM.so NEXT.so */
+/* A demonstration CNC: one axis, moved by a PLC program. main PROGRAM.so NEXT.so */
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -25,7 +25,7 @@ static bool failed(int32_t status) {
   return status < 0;
 }
 
-/* The machine, a millisecond further on. */
+/* Simulates the machine for a millisecond. */
 static void move(void) {
   if (axis.enable) axis.position += 50;
   axis.start = !axis.enable && axis.position == 0;

@@ -1,4 +1,4 @@
-// A toy CNC: one axis, and a PLC program that moves it. main PROGRAM.so NEXT.so
+// A demonstration CNC: one axis, moved by a PLC program. main PROGRAM.so NEXT.so
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -13,7 +13,7 @@ struct Axis {
   int32_t position = 0; // 0.001 mm
   uint8_t strokes = 0;
 
-  // The machine, a millisecond further on.
+  // Simulates the machine for a millisecond.
   void move() {
     if (enable) position += 50;
     start = !enable && position == 0;

@@ -1,11 +1,11 @@
-/* A PLC program from its source, compiled in the process and changed while it runs. main FILE.lad NEXT.lad */
+/* Compiles a PLC program in the process, runs it, and replaces it while it runs. main FILE.lad NEXT.lad */
 #include <stdbool.h>
 #include <stdio.h>
 
 #include <rung/compiler.h>
 #include <rung/runtime.h>
 
-/* Null: the program has mistakes, which are printed. */
+/* Returns null if the program has errors, which are printed. */
 static rung_image* compile(const char* name) {
   const rung_source source = {.name = name};
   rung_compilation* compilation = NULL;
@@ -24,7 +24,7 @@ static bool failed(int32_t status) {
   return status < 0;
 }
 
-/* The axis goes to `position`; whether the drive is on then. */
+/* Moves the axis to `position`; returns whether the drive is on then. */
 static bool drive_at(rung_instance* plc, int32_t position) {
   rung_cell start, at, enable;
   if (failed(rung_instance_find(plc, "START", RUNG_WRITE, &start)) ||

@@ -1,5 +1,5 @@
-/* A PLC program beside LinuxCNC's motion controller, on whose status it looks. In a machine the status lies in memory
- * that LinuxCNC shares (struct emcmot_struct_t of its sources); here a function fills it. main PROGRAM.so */
+/* A PLC program that reads the status of LinuxCNC's motion controller. On a machine the status is in memory that
+ * LinuxCNC shares (struct emcmot_struct_t of its sources); here a function fills it. main PROGRAM.so */
 #include <stdio.h>
 
 #include "motion_binding.h" /* made by rungc bind of motion.h and motion.bind */
@@ -20,7 +20,7 @@ static bool failed(int32_t result) {
   return result < 0;
 }
 
-/* As the controller does it in each of its periods. */
+/* Writes the status as the controller does in each period. */
 static void control(double z, double speed, int soft_limit) {
   status.head++;
   status.heartbeat++;
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   if (!show(plc, "cutting")) return 1;
   control(-80, 1200, 16);
   if (!show(plc, "beyond a limit")) return 1;
-  status.head++; /* the controller begins to write, and stops there */
+  status.head++; /* the controller begins to write, and hangs */
   status.on_soft_limit = 0;
   if (!show(plc, "in the middle of a change")) return 1;
   status.tail = status.head;

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""A toy CNC: one axis, and a PLC program that moves it, in virtual time. axis.py PROGRAM.so NEXT.so"""
+"""A demonstration CNC: one axis, moved by a PLC program in virtual time. axis.py PROGRAM.so NEXT.so"""
 import sys
 from ctypes import c_bool, c_int32, c_uint8
 
-import rung  # rtlib/python is in PYTHONPATH, and the library where rung.py looks for it
+import rung  # needs rtlib/python in PYTHONPATH, and the library where rung.py looks for it
 
 
 class Axis:
@@ -18,7 +18,7 @@ class Axis:
         plc.bind("STROKES", self.strokes, rung.FROM_PROGRAM)
 
     def move(self):
-        """The machine, a millisecond further on."""
+        """Simulates the machine for a millisecond."""
         if self.enable:
             self.position.value += 50
         self.start.value = not self.enable and self.position.value == 0

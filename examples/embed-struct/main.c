@@ -1,4 +1,4 @@
-/* A toy control whose parts share a struct; the PLC program is one of them. main PROGRAM.so */
+/* A demonstration control whose parts, one of them the PLC program, share a struct. main PROGRAM.so */
 #include <stdio.h>
 
 #include "nc_binding.h" /* made by rungc bind of nc_block.h and nc.bind */
@@ -10,7 +10,7 @@ static bool failed(int32_t status) {
   return status < 0;
 }
 
-/* Another part of the control, a millisecond further on. */
+/* Simulates another part of the control for a millisecond. */
 static void control(void) {
   block.head++;
   block.keys.start = block.axis[0].position == 0;
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     if (failed(rung_instance_run_due(plc, 1000000))) return 1;
     if (ms % 50 == 0) show(ms);
   }
-  block.head++; /* the control begins to write, and is held up */
+  block.head++; /* the control begins to write, and hangs */
   block.buttons[0] = 0x42;
   for (int ms = 0; ms < 40; ++ms)
     if (failed(rung_instance_run_due(plc, 1000000))) return 1;

@@ -1,4 +1,4 @@
-/* What the parts of a toy control exchange with its PLC. */
+/* Data exchanged between a demonstration control and its PLC. */
 #ifndef NC_BLOCK_H
 #define NC_BLOCK_H
 
@@ -13,7 +13,7 @@ struct nc_axis {
 };
 
 typedef struct nc_block {
-  uint8_t head; /* counted up before the control writes; `tail` is set to it afterwards */
+  uint8_t head; /* incremented before the control writes; `tail` is set to it afterwards */
   struct {
     unsigned start : 1, stop : 1;
     unsigned override : 5; /* of the feed, in steps of 10 % */
@@ -22,7 +22,7 @@ typedef struct nc_block {
   struct nc_axis axis[2];
   uint8_t buttons[2];
   uint8_t lamps[2];
-  double feed; /* 1.0 is as programmed */
+  double feed; /* 1.0 is the programmed feed */
   uint8_t tail;
 } nc_block;
 

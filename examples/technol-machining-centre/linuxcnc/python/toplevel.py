@@ -1,2 +1,2 @@
-"""What LinuxCNC's interpreter loads at its start."""
+"""Loaded by LinuxCNC's interpreter at its start."""
 import remap

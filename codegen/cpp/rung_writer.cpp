@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "ir/chunks/long_rungs.h"
 #include "ir/core/eval.h"
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
@@ -101,6 +102,7 @@ void RungWriter::write(const Rung& rung, uint32_t number, std::string_view file)
   rung_ = &rung;
   number_ = number;
   file_ = file;
+  throughMemory_ = valuesThroughMemory(rung);
   endOf_.assign(rung.ops.size(), 0);
   std::vector<size_t> openers;
   for (size_t i = 0; i < rung.ops.size(); ++i) {
@@ -111,6 +113,7 @@ void RungWriter::write(const Rung& rung, uint32_t number, std::string_view file)
     openers.pop_back();
   }
   for (const Op& op : rung.ops) writeOp(op);
+  throughMemory_.clear();
   endLine();
 }
 
@@ -155,7 +158,9 @@ void RungWriter::writeLateStoresOf(uint32_t number) {
 
 void RungWriter::declare(const Op& op, const std::string& expression, std::string_view comment) {
   const Type type = typeOf(*rung_, op.result);
-  statement(fmt::format("const {} {} = {};", cppType(type), v(op.result), expression), comment);
+  const bool through = !throughMemory_.empty() && throughMemory_[op.result.index];
+  statement(fmt::format("const {}{} {} = {};", through ? "volatile " : "", cppType(type), v(op.result), expression),
+            comment);
 }
 
 std::string RungWriter::placeComment(const Op& op) const {

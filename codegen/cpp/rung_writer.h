@@ -78,7 +78,8 @@ private:
     const ir::Op* end; // its EndIf or EndLoop
   };
   std::vector<Region> regions_;
-  std::vector<size_t> endOf_; // per op: index of the end of the region that it opens
+  std::vector<bool> throughMemory_; // by value, of the rung in hand; empty: none
+  std::vector<size_t> endOf_;       // per op: index of the end of the region that it opens
 };
 
 std::string_view cppType(ir::Type type);

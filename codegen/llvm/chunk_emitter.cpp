@@ -49,7 +49,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   ctx_ = function_->getArg(1);
   ctx_->setName("ctx");
   function_->getArg(2)->setName("chunk");
-  messageSpace_ = argsSpace_ = nullptr;
+  messageSpace_ = argsSpace_ = valueSpace_ = nullptr;
   if (debug_ != nullptr) debug_->beginFunction(*function_, name, first.begin.file, first.begin.line);
   builder_.SetInsertPoint(block("entry"));
   builder_.SetCurrentDebugLocation({}); // that of another function would not do
@@ -131,6 +131,7 @@ void ChunkEmitter::emitRung(const Rung& rung, uint32_t number) {
   number_ = number;
   settledLine_ = 0;
   values_.assign(rung.values.size(), nullptr);
+  throughMemory_ = valuesThroughMemory(rung);
   join_.reset();
   for (const Op& op : rung.ops) {
     setLine(op.line);
@@ -158,7 +159,16 @@ void ChunkEmitter::emitOp(const Op& op) {
   case OpCode::ProfLeave: return profLeave();
   default: break; // one result each; result() lists them
   }
-  values_[op.result.index] = result(op);
+  Value* value = result(op);
+  const bool through = !throughMemory_.empty() && throughMemory_[op.result.index];
+  values_[op.result.index] = through ? throughMemory(value) : value;
+}
+
+// See long_rungs.h; volatile, or it would be optimised away.
+ChunkEmitter::Value* ChunkEmitter::throughMemory(Value* value) {
+  Value* place = scratch(valueSpace_, builder_.getInt64Ty());
+  builder_.CreateStore(value, place, true);
+  return builder_.CreateLoad(value->getType(), place, true);
 }
 
 // ---- regions -----------------------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@
 #include "codegen/llvm/piece_numbers.h"
 #include "ir/chunks/cut.h"
 #include "ir/chunks/late_stores.h"
+#include "ir/chunks/long_rungs.h"
 
 namespace rung::codegen {
 
@@ -52,6 +53,7 @@ private:
   bool beginRung(uint32_t rung);
   void emitRung(const ir::Rung& rung, uint32_t number);
   void emitOp(const ir::Op& op);
+  Value* throughMemory(Value* value);
   void emitExit(const ir::Exit& exit);
   void setLine(uint32_t line);
   void showMemory();
@@ -141,6 +143,7 @@ private:
   Value* ctx_ = nullptr;
   Value* messageSpace_ = nullptr;
   Value* argsSpace_ = nullptr;
+  Value* valueSpace_ = nullptr;
   Value* extra_ = nullptr; // where a chunk adds up its extra weight, if it has any
   ir::LateStores late_;
   std::vector<Value*> kept_; // by its groups: where a number is remembered
@@ -150,6 +153,7 @@ private:
   uint32_t settledLine_ = 0; // the line at whose beginning memory was settled last; 0: none
   uint32_t number_ = 0;
   std::vector<Value*> values_;
+  std::vector<bool> throughMemory_; // by value; empty: none
   std::vector<Region> regions_;
   std::optional<Join> join_; // the last one of the rung
 };

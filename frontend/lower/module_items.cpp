@@ -2,7 +2,10 @@
 #include "frontend/lower/module_items.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
+
+#include "ir/support/hash.h"
 
 namespace rung::frontend {
 namespace {
@@ -57,17 +60,19 @@ ir::ServiceId service(ir::Module& module, std::string_view signature) {
 
 ir::FaultId fault(ir::Module& module, std::string_view text) { return once<ir::FaultId>(module.faults, text); }
 
-ir::SpaceId constantBytes(ir::Module& module, const std::string& name, std::string_view bytes) {
-  if (const ir::SpaceId made = ir::findSpace(module, name); made.valid()) return made;
-  const ir::SpaceId space =
-      addSpace(module, {.name = name, .units = static_cast<uint32_t>(bytes.size()), .flags = RUNG_SPACE_HIDDEN});
-  module.inits.push_back({.space = space, .byte = 0, .data = {bytes.begin(), bytes.end()}});
-  return space;
-}
-
 std::string Numbering::numbered(std::string key) {
   if (const uint32_t number = alike_[key]++; number != 0) key += "~" + std::to_string(number);
   return key;
+}
+
+ir::SpaceId ConstantBytes::spaceOf(std::string_view bytes) {
+  const auto [at, isNew] = spaces_.try_emplace(std::string(bytes));
+  if (!isNew) return at->second;
+  at->second = addSpace(module_, {.name = names_.numbered(fmt::format("@T{:016x}.{}", hashBytes(bytes), bytes.size())),
+                                  .units = static_cast<uint32_t>(bytes.size()),
+                                  .flags = RUNG_SPACE_HIDDEN});
+  module_.inits.push_back({.space = at->second, .byte = 0, .data = {bytes.begin(), bytes.end()}});
+  return at->second;
 }
 
 } // namespace rung::frontend

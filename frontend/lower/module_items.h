@@ -23,9 +23,6 @@ void sortSymbols(ir::Module& module);
 // Each is in the module once, however often it is asked for. "NAME arguments -> results", see docs/scenario-format.md.
 ir::ServiceId service(ir::Module& module, std::string_view signature);
 ir::FaultId fault(ir::Module& module, std::string_view text);
-// A hidden space that holds the bytes. The name says what they are, so that a program that is exchanged while it runs
-// finds its own.
-ir::SpaceId constantBytes(ir::Module& module, const std::string& name, std::string_view bytes);
 
 // Keys of what is otherwise alike: the second has "~1" after it (rung_slot in rung/program.h).
 class Numbering {
@@ -34,6 +31,20 @@ public:
 
 private:
   std::unordered_map<std::string, uint32_t> alike_;
+};
+
+// Hidden spaces that hold bytes, each text of bytes once. The name says what they are, so that a program that is
+// exchanged while it runs finds its own.
+class ConstantBytes {
+public:
+  explicit ConstantBytes(ir::Module& module) : module_(module) {}
+
+  ir::SpaceId spaceOf(std::string_view bytes);
+
+private:
+  ir::Module& module_;
+  std::unordered_map<std::string, ir::SpaceId> spaces_; // by their bytes
+  Numbering names_;
 };
 
 } // namespace rung::frontend

@@ -51,7 +51,8 @@ std::string stemOf(std::string_view path) {
 
 ModuleLowering::ModuleLowering(const network::Program& program, network::Context& context,
                                std::span<const FileId> files, const frontend::CompileOptions& options)
-    : program_(program), context_(context), files_(files), options_(options), module_(std::make_unique<ir::Module>()) {}
+    : program_(program), context_(context), files_(files), options_(options), module_(std::make_unique<ir::Module>()),
+      constants_(*module_) {}
 
 std::unique_ptr<ir::Module> ModuleLowering::run() {
   module_->name = files_.empty() ? "" : stemOf(context_.sources.name(files_[0]));
@@ -310,10 +311,6 @@ ir::SlotId ModuleLowering::slot(const std::string& key, ir::Type type, int64_t i
   const auto [at, isNew] = slots_.emplace(key, ir::SlotId{static_cast<uint32_t>(module_->slots.size())});
   if (isNew) module_->slots.push_back({.type = type, .init = init, .transient = transient, .key = key});
   return at->second;
-}
-
-ir::SpaceId ModuleLowering::constantSpace(std::string_view bytes) {
-  return frontend::constantBytes(*module_, fmt::format("@T{:016x}{:04x}", hashBytes(bytes), bytes.size()), bytes);
 }
 
 // The NC writes it before each slot; a program that does not look at positions has none.

@@ -62,7 +62,7 @@ public:
 
   // For FunctionLowering.
   ir::SlotId slot(const std::string& key, ir::Type type, int64_t init, bool transient);
-  ir::SpaceId constantSpace(std::string_view bytes);
+  ir::SpaceId constantSpace(std::string_view bytes) { return constants_.spaceOf(bytes); }
   ir::ServiceId service(std::string_view signature) { return frontend::service(*module_, signature); }
   ir::SpaceId machinePositions();
   std::span<const LevelState, 2> levels() const { return levels_; }
@@ -108,6 +108,7 @@ private:
   std::span<const FileId> files_;
   const frontend::CompileOptions& options_;
   std::unique_ptr<ir::Module> module_;
+  frontend::ConstantBytes constants_;
   std::unordered_map<uint32_t, ir::FileIndex> fileIndex_;
   std::unordered_map<std::string, ir::SlotId> slots_;
   ir::SpaceId positions_;

@@ -1,9 +1,7 @@
 // The module and its open routine (see emitter.h).
 #include "frontend/dialects/technol/lower/emitter.h"
 
-#include <fmt/format.h>
 
-#include "ir/support/hash.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/licences.h"
 
@@ -48,10 +46,6 @@ void Emitter::clearSlots(std::span<const ir::SlotId> slots) {
     if (i % kStoresPerRung == 0) out().cut();
     b().slotStore(slots[i], b().constant(module_.at(slots[i]).type, 0));
   }
-}
-
-ir::SpaceId Emitter::constantBytes(std::string_view bytes) {
-  return frontend::constantBytes(module_, fmt::format("@T{:016x}.{}", hashBytes(bytes), bytes.size()), bytes);
 }
 
 void Emitter::protect(ir::ValueId bad) { b().trap(bad, fault(nc::kTechnolProtection)); }

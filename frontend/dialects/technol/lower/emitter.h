@@ -13,7 +13,7 @@ namespace rung::frontend::technol {
 
 class Emitter {
 public:
-  explicit Emitter(ir::Module& module) : module_(module), registers_(makeRegisterSlots(module)) {}
+  explicit Emitter(ir::Module& module) : module_(module), constants_(module), registers_(makeRegisterSlots(module)) {}
 
   ir::Module& module() { return module_; }
   ir::RungBuilder& b() { return out().b(); }
@@ -34,12 +34,13 @@ public:
   ir::FaultId fault(std::string_view text) { return frontend::fault(module_, text); }
   ir::ServiceId service(std::string_view signature) { return frontend::service(module_, signature); }
   // A hidden space that holds the bytes.
-  ir::SpaceId constantBytes(std::string_view bytes);
+  ir::SpaceId constantBytes(std::string_view bytes) { return constants_.spaceOf(bytes); }
   // Stops the program where `bad` is 1: an access outside the memory.
   void protect(ir::ValueId bad);
 
 private:
   ir::Module& module_;
+  ConstantBytes constants_;
   RegisterSlots registers_;
   std::vector<std::unique_ptr<RoutineBuilder>> open_; // the innermost last
 };

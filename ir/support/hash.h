@@ -22,11 +22,11 @@ constexpr uint64_t hashNumber(uint64_t number, uint64_t seed) {
 
 // Of a text, eight bytes at a time.
 inline uint64_t hashText(std::string_view text, uint64_t seed) {
-  static_assert(std::endian::native == std::endian::little, "else other words, and so another hash");
   seed = hashNumber(text.size(), seed);
   uint64_t word = 0;
   for (; text.size() >= sizeof word; text.remove_prefix(sizeof word)) {
     std::memcpy(&word, text.data(), sizeof word);
+    if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap64(word); // the same hash everywhere
     seed = hashNumber(word, seed);
   }
   word = 0;

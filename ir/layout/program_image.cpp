@@ -181,15 +181,25 @@ private:
     image_.copies_.insert(image_.copies_.end(), joined.begin(), joined.end());
   }
 
-  // None writes what another one reads or writes.
+  // None writes what one reads, or another one writes.
   static bool mayGoInAnyOrder(std::span<const rung_copy> copies) {
-    const auto meet = [](uint32_t a, uint32_t sizeA, uint32_t b, uint32_t sizeB) {
-      return a < b + sizeB && b < a + sizeA;
+    if (!std::ranges::all_of(copies, [](const rung_copy& copy) { return copy.kind == RUNG_COPY_ALL; })) return false;
+    struct Range {
+      uint32_t first;
+      uint32_t end;
+      bool isWritten;
     };
-    for (const rung_copy& a : copies) {
-      if (a.kind != RUNG_COPY_ALL) return false;
-      for (const rung_copy& b : copies)
-        if (&a != &b && (meet(a.to, a.size, b.from, b.size) || meet(a.to, a.size, b.to, b.size))) return false;
+    std::vector<Range> ranges;
+    for (const rung_copy& copy : copies) {
+      ranges.push_back({copy.from, copy.from + copy.size, false});
+      ranges.push_back({copy.to, copy.to + copy.size, true});
+    }
+    std::ranges::sort(ranges, {}, &Range::first);
+    uint32_t end = 0, writtenEnd = 0; // of the ranges so far
+    for (const Range& range : ranges) {
+      if (range.first < (range.isWritten ? end : writtenEnd)) return false;
+      end = std::max(end, range.end);
+      if (range.isWritten) writtenEnd = std::max(writtenEnd, range.end);
     }
     return true;
   }

@@ -19,7 +19,7 @@ bool ModuleCheck::inside(SpaceId space, uint64_t byte, uint64_t size) const {
 
 namespace {
 
-constexpr uint64_t kMaxBytes = 1ull << 30;
+constexpr uint64_t kMaxBytes = 1ull << 28; // 32 bits count their bits (BitRange)
 constexpr uint32_t kSpaceFlagMask = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED;
 constexpr uint32_t kSymbolFlagMask = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST | RUNG_SYMBOL_AREA;
 
@@ -64,7 +64,7 @@ void checkSpaces(ModuleCheck& check) {
     if ((space.flags & ~kSpaceFlagMask) != 0)
       check.fail(Rule::Spaces, fmt::format("space {} has unknown flags", space.name));
   }
-  if (all > kMaxBytes) check.fail(Rule::Spaces, "the spaces are larger than 1 GB together");
+  if (all > kMaxBytes) check.fail(Rule::Spaces, "the spaces are larger than 256 MB together");
 }
 
 void checkSlots(ModuleCheck& check) {

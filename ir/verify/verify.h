@@ -5,7 +5,7 @@
 // Module
 //   Names     Files, spaces, slot keys, routines, tasks, faults, services: not empty, and no two of a kind alike;
 //             message numbers differ; symbols have a name.
-//   Spaces    Units of 1, 2, 4 or 8 bytes; at most 1 GB together; known flags.
+//   Spaces    Units of 1, 2, 4 or 8 bytes; at most 256 MB together; known flags.
 //   Slots     A type, and an initial value that it holds.
 //   Symbols   A known type and flags, inside its space; a constant needs no space.
 //   Spans     Initial values, retained and safe pieces lie inside their spaces.

@@ -20,7 +20,7 @@ MODULES = {
     "rtlib/core": {"rtlib/abi"},
     "rtlib/nc": {"rtlib/abi"},
     "rtlib/host": {"rtlib/abi", "rtlib/core"},
-    "rtlib/nc/names": {"rtlib/abi", "rtlib/core", "rtlib/host"},  # without the signal tables
+    "rtlib/nc/names": {"rtlib/abi", "rtlib/core", "rtlib/nc", "rtlib/host"},
     "rtlib/nc/control": {"rtlib/abi", "rtlib/core", "rtlib/nc", "rtlib/nc/names", "rtlib/host"},
     "rtlib/profile": {"rtlib/abi", "rtlib/core", "rtlib/host"},
     "rtlib/runtime": {"rtlib/abi", "rtlib/core", "rtlib/nc/control", "rtlib/nc/names", "rtlib/host", "rtlib/profile"},

@@ -60,12 +60,14 @@ std::string symbolAt(const rung_program& program, const Ref& place) {
 std::string shownName(const rung_program& program, const Ref& place) {
   const std::string symbol = symbolAt(program, place);
   if (symbol.empty()) return nc::describe(program, place);
-  return nc::hasAddresses(program) ? fmt::format("{} ({})", symbol, nc::address(program, place)) : symbol;
+  const std::string address = nc::address(program, place);
+  return nc::hasAddresses(program) && address != symbol ? fmt::format("{} ({})", symbol, address) : symbol;
 }
 
 std::string shownRange(const rung_program& program, const ir::BitRange& range) {
   const Ref first = host::intRef(range.space.index, range.first / 8, 8);
-  const Ref last = host::intRef(range.space.index, (range.first + range.count - 1) / 8, 8);
+  const uint32_t end = (range.first + range.count - 1) / 8;
+  const Ref last = host::intRef(range.space.index, end - end % program.spaces[range.space.index].unit_bytes, 8);
   return fmt::format("one of {} to {}", nc::describe(program, first), nc::describe(program, last));
 }
 

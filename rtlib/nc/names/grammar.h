@@ -34,6 +34,10 @@ public:
     return address(program, place);
   }
   virtual std::string placeName(const rung_program& program, const host::Ref& place) const;
+
+protected:
+  // The symbol with the fewest bytes that a bit or the first byte of the place is a part of; null when there is none.
+  static const rung_symbol* shortestAt(const rung_program& program, const host::Ref& place);
 };
 
 // One look-up of a name, and what the grammars take names apart with. The program and the fallback outlive it.

@@ -101,6 +101,17 @@ std::string NameGrammar::placeName(const rung_program& program, const Ref& place
   return addressBy(*this, program, place);
 }
 
+const rung_symbol* NameGrammar::shortestAt(const rung_program& program, const Ref& place) {
+  const rung_symbol* shortest = nullptr;
+  for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count)) {
+    if (!liesAt(symbol, place) || !isShown(program, symbol)) continue;
+    const bool isShorter = shortest == nullptr || bytesOf(symbol) < bytesOf(*shortest) ||
+                           (symbol.type == RUNG_TYPE_BIT && shortest->type != RUNG_TYPE_BIT);
+    if (isShorter) shortest = &symbol;
+  }
+  return shortest;
+}
+
 // ---- search ------------------------------------------------------------------------------------------------------
 
 std::optional<Ref> NameSearch::find(std::string_view name) {
@@ -181,13 +192,15 @@ bool hasAddresses(const rung_program& program) { return grammarOf(program).hasAd
 
 std::string describe(const rung_program& program, const Ref& place) {
   constexpr int kMostNames = 3;
+  const std::string text = address(program, place);
   std::string names;
   int found = 0;
   for (uint32_t i = 0; i < program.symbol_count && found < kMostNames; ++i) {
-    if (!liesAt(program.symbols[i], place) || !isShown(program, program.symbols[i])) continue;
-    names += (found++ == 0 ? "" : ", ") + std::string(program.symbols[i].name);
+    const rung_symbol& symbol = program.symbols[i];
+    if (!liesAt(symbol, place) || !isShown(program, symbol) || headOf(text) == symbol.name) continue;
+    names += (found++ == 0 ? "" : ", ") + std::string(symbol.name);
   }
-  return address(program, place) + (found == 0 ? "" : " (" + names + ")");
+  return text + (found == 0 ? "" : " (" + names + ")");
 }
 
 } // namespace rung::nc

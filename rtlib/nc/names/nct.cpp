@@ -1,8 +1,9 @@
-// !NAME, BASE,#n, WORD.bb, and four digits (see nct.h).
+// !NAME, BASE,#n, WORD.bb, signals, and four digits (see nct.h).
 #include "rtlib/nc/names/nct.h"
 
 #include "rtlib/host/overwritten.h"
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/nct/signals.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nc {
@@ -34,7 +35,43 @@ std::optional<Ref> shifted(NameSearch& search, std::optional<Ref> ref, std::stri
   const int64_t byte = int64_t{ref->byte} + 4 * *words;
   if (byte < 0 || byte > 0xFFFFFFF) return std::nullopt;
   ref->byte = static_cast<uint32_t>(byte);
+  ref->count = 1;
   return search.inSpace(ref);
+}
+
+uint32_t bitIn(const Ref& place) { return place.byte % 4 * 8 + place.bit; } // of its word
+
+// What the manual calls a place of the NC area, for which it gives names and no addresses (man. l.6448): the word,
+// which is what is written at the terminals of the 24 V interface, else the bit. Null for a place that has no name, and
+// for the bits of a double.
+const Signal* signalAt(const Ref& place) {
+  const uint32_t word = place.byte / 4 * 4;
+  const bool isBit = place.kind == RefKind::Bit;
+  const Signal* own = nullptr;
+  for (const Signal& signal : nctSignals()) {
+    const uint32_t distance = word - signal.byteOffset; // of a word before it more than any signal has
+    if (distance >= signal.count * signal.strideBytes || distance % signal.strideBytes != 0) continue;
+    if (signal.type == SignalType::Real && isBit) return nullptr;
+    if (signal.type != SignalType::Bit) return &signal;
+    if (isBit && signal.bit == bitIn(place) && own == nullptr) own = &signal;
+  }
+  return own;
+}
+
+std::string bitText(const Ref& place) { return place.kind == RefKind::Bit ? "." + padded(bitIn(place), 2) : ""; }
+
+// Of a byte that is not the first of its word.
+std::string byteText(const Ref& place) {
+  const uint32_t byte = place.byte % 4;
+  return place.kind == RefKind::Bit || byte == 0 ? "" : " byte " + std::to_string(byte);
+}
+
+std::string numberText(const Ref& place) { return padded(place.byte / 4, 4) + bitText(place) + byteText(place); }
+
+std::string signalText(const Signal& signal, const Ref& place) {
+  const uint32_t words = (place.byte - signal.byteOffset) / 4;
+  const std::string index = words == 0 ? "" : ",#" + std::to_string(words);
+  return signal.symbol + (signal.type == SignalType::Bit ? "" : bitText(place)) + index + byteText(place);
 }
 
 class NctNames final : public NameGrammar {
@@ -53,6 +90,7 @@ public:
     if (const size_t dot = name.rfind('.'); dot != std::string_view::npos)
       return name.size() - dot == 3 ? search.bitIn(name.substr(0, dot), name.substr(dot + 1)) : std::nullopt;
     if (name == kFlags) return search.inSpace(host::intRef(search.space(kMemory), 0, 32));
+    if (const std::optional<Ref> signal = nctSignalPlace(search.program(), name)) return search.inSpace(signal);
     const std::optional<uint32_t> word = text::numberIn<uint32_t>(name);
     if (!word || name.size() != 4) return std::nullopt;
     return search.inSpace(host::intRef(search.space(kMemory), 4 * *word, 32));
@@ -61,10 +99,20 @@ public:
   std::string address(const rung_program& program, const Ref& place) const override {
     const std::string_view area = program.spaces[place.space].name;
     if (area != kMemory && area != kTimeSliceMemory) return NameGrammar::address(program, place);
-    const std::string word = (area == kTimeSliceMemory ? "!" : "") + padded(place.byte / 4, 4);
-    const uint32_t byte = place.byte % 4;
-    if (place.kind == RefKind::Bit) return word + "." + padded(byte * 8 + place.bit, 2);
-    return byte == 0 ? word : word + " byte " + std::to_string(byte);
+    const Signal* signal = signalAt(place);
+    return mark(area) + (signal != nullptr ? signalText(*signal, place) : numberText(place));
+  }
+
+  // A signal's name alone is all its elements, and has their length.
+  std::string cellAddress(const rung_program& program, const Ref& place) const override {
+    const std::string_view area = program.spaces[place.space].name;
+    const Signal* signal = area == kMemory || area == kTimeSliceMemory ? signalAt(place) : nullptr;
+    if (signal == nullptr || place.kind == RefKind::Bit) return address(program, place);
+    const uint32_t bits = uint32_t{place.width} * place.count;
+    const uint32_t element = elementBytes(signal->type) * 8;
+    if (bits != element && bits != element * signal->count) return mark(area) + numberText(place);
+    const bool isFirstOfMany = bits == element && signal->count > 1 && place.byte == signal->byteOffset;
+    return address(program, place) + (isFirstOfMany ? ",#0" : "");
   }
 
   std::string placeName(const rung_program& program, const Ref& place) const override {
@@ -73,6 +121,9 @@ public:
     copy.space = host::findSpace(program, kMemory);
     return "!" + NameGrammar::placeName(program, copy);
   }
+
+private:
+  static std::string mark(std::string_view area) { return area == kTimeSliceMemory ? "!" : ""; }
 };
 
 } // namespace
@@ -80,6 +131,17 @@ public:
 Ref nctTimeSlicePlace(const rung_program& program, const Ref& place) {
   if (place.byte < kFirstNcByte || place.space != host::findSpace(program, kMemory)) return place;
   return host::Overwritten(program).source(place).value_or(place);
+}
+
+std::optional<Ref> nctSignalPlace(const rung_program& program, std::string_view name) {
+  const Signal* found = findSignal(nctSignals(), name);
+  const uint32_t memory = host::findSpace(program, kMemory);
+  if (found == nullptr || memory == RUNG_NONE) return std::nullopt;
+  if (found->type == SignalType::Bit) return host::bitRef(memory, found->byteOffset, found->bit);
+  Ref place = found->type == SignalType::Real ? host::realRef(memory, found->byteOffset)
+                                              : host::intRef(memory, found->byteOffset, 32);
+  place.count = found->count;
+  return place;
 }
 
 const NameGrammar& nctNames() {

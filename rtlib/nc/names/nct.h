@@ -1,5 +1,5 @@
 // Names of an NCT program: 0056  0056.17  FLAGS  SYM  SYM.05  SYM,#3  SYM,KCONST  7100,#3  !OUT000.03; the space "M",
-// with ! the space "TS" (the time-slice memory).
+// with ! the space "TS" (the time-slice memory). Words and bits of the NC area are shown by the names of its signals.
 #pragma once
 #include "rtlib/nc/names/grammar.h"
 
@@ -10,5 +10,8 @@ const NameGrammar& nctNames();
 // Where a place of "M" is for the NC: in the time-slice memory where the program has its words twice, else the same
 // place. Words 0000 and 0001 are the program's in both.
 host::Ref nctTimeSlicePlace(const rung_program& program, const host::Ref& place);
+
+// A signal of the NC by its name, in "M": all its elements, the first of them for a bit.
+std::optional<host::Ref> nctSignalPlace(const rung_program& program, std::string_view name);
 
 } // namespace rung::nc

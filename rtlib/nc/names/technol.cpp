@@ -57,6 +57,24 @@ public:
       return NameGrammar::takeApart(search, name);
     return weighted(search.find(name.substr(0, dot)), search.find(name.substr(dot + 1)));
   }
+
+  // There are no addresses: CELL, CELL.3, NAME[2], NAME[2].3, and NAME+4 for what begins within a cell.
+  std::string address(const rung_program& program, const Ref& place) const override {
+    const rung_symbol* symbol = shortestAt(program, place);
+    if (symbol == nullptr) return NameGrammar::address(program, place);
+    const Ref whole = host::refOf(*symbol);
+    const std::string name = symbol->name;
+    const auto element = [&](uint32_t index) {
+      return whole.count > 1 ? name + "[" + std::to_string(index) + "]" : name;
+    };
+    const uint32_t distance = place.byte - whole.byte;
+    if (whole.kind == RefKind::Bit) return element(distance * 8 + place.bit - whole.bit);
+    const uint32_t cell = whole.width / 8;
+    if (place.kind == RefKind::Bit)
+      return element(distance / cell) + "." + std::to_string(distance % cell * 8 + place.bit);
+    const bool isElement = distance % cell == 0 && uint32_t{place.width} * place.count <= whole.width;
+    return isElement ? element(distance / cell) : distance == 0 ? name : name + "+" + std::to_string(distance);
+  }
 };
 
 } // namespace

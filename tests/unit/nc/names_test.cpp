@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rtlib/nc/nct/signals.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
@@ -156,17 +157,58 @@ TEST_F(NctNames, FallbackGetsTheNameWithoutModifierAndBit) {
 }
 
 TEST_F(NctNames, Descriptions) {
-  EXPECT_EQ(describe(test.program, bitRef(m, 242, 1)), "0060.17 (READY)");
-  EXPECT_EQ(describe(test.program, bitRef(ts, 224, 5)), "!0056.05");
-  EXPECT_EQ(describe(test.program, intRef(m, 224, 8)), "0056 (APPLE)");
-  EXPECT_EQ(describe(test.program, intRef(m, 227, 8)), "0056 byte 3 (APPLE)");
+  EXPECT_EQ(describe(test.program, bitRef(m, 24002, 1)), "6000.17 (FAR)");
+  EXPECT_EQ(describe(test.program, bitRef(ts, 4, 5)), "!0001.05");
+  EXPECT_EQ(describe(test.program, intRef(m, 24000, 8)), "6000 (FAR)");
+  EXPECT_EQ(describe(test.program, intRef(m, 24003, 8)), "6000 byte 3 (FAR)");
+  EXPECT_EQ(describe(test.program, intRef(m, 24007, 8)), "6001 byte 3");
+}
+
+// The manual has no addresses for the NC area: what stands at a terminal, and in a source, is a name.
+TEST_F(NctNames, PlacesOfTheNcAreaAreItsSignals) {
+  for (const char* name : {"INP000.11", "OUT000.03", "INP071.31", "MKBTNS0.05", "MKBTNS0.05,#1", "MKFOVER,#3",
+                           "MKFOVER,#0", "AN_PLCA", "AN_PLCA,#2", "SP_SOVER,#4", "N_ACTMSG", "HWMOVE,#0"}) {
+    const std::optional<Ref> place = at(name);
+    ASSERT_TRUE(place) << name;
+    EXPECT_EQ(cellAddress(test.program, *place), name);
+  }
+  EXPECT_EQ(at("MKFOVER")->count, 4u);
+  EXPECT_EQ(at("MKFOVER,#1")->count, 1u);
+  EXPECT_EQ(cellAddress(test.program, *at("MKFOVER")), "MKFOVER"); // all its elements
+  const uint32_t real = at("SP_SOVER")->byte;
+  EXPECT_EQ(at(cellAddress(test.program, intRef(m, real, 32))), intRef(m, real, 32)); // half a double has no name
+  EXPECT_EQ(at(cellAddress(test.program, intRef(m, real + 4, 32))), intRef(m, real + 4, 32));
+}
+
+TEST_F(NctNames, EveryPlaceOfTheNcAreaIsFoundByItsAddress) {
+  const uint32_t end = rung::nc::areaBytes(rung::nc::nctSignals(), "M");
+  for (uint32_t byte = 0; byte < end; byte += 4) {
+    EXPECT_EQ(at(cellAddress(test.program, intRef(m, byte, 32))), intRef(m, byte, 32)) << byte;
+    for (uint32_t bit = 0; bit < 32; ++bit) {
+      const Ref place = bitRef(m, byte, bit);
+      EXPECT_EQ(at(cellAddress(test.program, place)), place) << byte << '.' << bit;
+    }
+  }
+}
+
+TEST_F(NctNames, SymbolsOfTheNcAreaWithTheirSignals) {
+  const Ref top = *at("INP000.11");
+  test.addSymbol("LS_TOP", m, top.byte, RUNG_TYPE_BIT, top.bit);
+  test.addSymbol("INP000", m, at("INP000")->byte, RUNG_TYPE_I32);
+  test.link();
+  EXPECT_EQ(describe(test.program, top), "INP000.11 (LS_TOP)");
+  EXPECT_EQ(describe(test.program, *at("INP000.12")), "INP000.12");
+  Ref copy = top;
+  copy.space = ts;
+  EXPECT_EQ(address(test.program, copy), "!INP000.11");
 }
 
 TEST_F(NctNames, OfPlaces) {
   EXPECT_EQ(placeName(test.program, bitRef(ts, 242, 1)), "!READY");
-  EXPECT_EQ(placeName(test.program, bitRef(ts, 242, 2)), "!0060.18");
+  EXPECT_EQ(placeName(test.program, bitRef(ts, 242, 2)), "!ANINPUTS.18,#14");
   EXPECT_EQ(placeName(test.program, *at("BACK")), "-2");
-  EXPECT_EQ(cellAddress(test.program, intRef(ts, 224, 32)), "!0056");
+  EXPECT_EQ(cellAddress(test.program, intRef(ts, 224, 32)), "!ANINPUTS,#10");
+  EXPECT_EQ(address(test.program, intRef(m, 227, 8)), "ANINPUTS,#10 byte 3");
   EXPECT_TRUE(hasAddresses(test.program));
 }
 
@@ -262,13 +304,18 @@ TEST_F(TechnolNames, FallbackSeesUpperCaseAndTheWholeNameFirst) {
 }
 
 TEST_F(TechnolNames, Descriptions) {
-  EXPECT_EQ(describe(test.program, intRef(data, 5, 8)), "DATA+5 (CELL)");
-  EXPECT_EQ(describe(test.program, bitRef(data, 9, 5)), "DATA+9.5 (WEIGHT)");
+  EXPECT_EQ(describe(test.program, intRef(data, 4, 8)), "CELL");
+  EXPECT_EQ(describe(test.program, intRef(data, 5, 8)), "CELL+1");
+  EXPECT_EQ(describe(test.program, bitRef(data, 5, 2)), "CELL.10");
+  EXPECT_EQ(describe(test.program, bitRef(data, 9, 5)), "WEIGHT");
+  EXPECT_EQ(describe(test.program, bitRef(data, 21, 1)), "TABLE[1].9");
+  EXPECT_EQ(describe(test.program, intRef(data, 24, 32)), "TABLE[2]");
+  EXPECT_EQ(describe(test.program, intRef(data, 110, 8)), "DATA+110"); // no symbol lies there
 }
 
 TEST_F(TechnolNames, OfPlaces) {
   EXPECT_EQ(placeName(test.program, intRef(data, 4, 16)), "CELL");
-  EXPECT_EQ(cellAddress(test.program, intRef(data, 4, 16)), "DATA+4");
+  EXPECT_EQ(cellAddress(test.program, intRef(data, 4, 16)), "CELL");
   EXPECT_FALSE(hasAddresses(test.program));
 }
 

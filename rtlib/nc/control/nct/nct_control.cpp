@@ -116,16 +116,4 @@ size_t NctControl::describe(const rung_program& program, const rung_message& mes
   return nct::logLine(program, message, out);
 }
 
-std::optional<host::Ref> NctControl::signal(const rung_program& program, std::string_view name) const {
-  const Signal* found = findSignal(nctSignals(), name);
-  if (found == nullptr) return std::nullopt;
-  const uint32_t memory = host::findSpace(program, "M");
-  if (memory == RUNG_NONE) return std::nullopt;
-  if (found->type == SignalType::Bit) return host::bitRef(memory, found->byteOffset, found->bit);
-  host::Ref place = found->type == SignalType::Real ? host::realRef(memory, found->byteOffset)
-                                                    : host::intRef(memory, found->byteOffset, 32);
-  place.count = found->count;
-  return place;
-}
-
 } // namespace rung::nc

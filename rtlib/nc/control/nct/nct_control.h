@@ -48,7 +48,6 @@ public:
 
 protected:
   void usePlaces(host::Instance& instance, Places& places) noexcept override;
-  std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:
   // Clock signals with their periods, 50 % duty (man. 7.12, l.7892-7896).

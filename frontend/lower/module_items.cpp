@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+
+#include "ir/support/allowance.h"
 #include "ir/support/hash.h"
 
 namespace rung::frontend {
@@ -52,7 +54,10 @@ void nameCells(ir::Module& module, std::string name, ir::Place place, ir::Type t
                             .flags = RUNG_SYMBOL_HIDDEN});
 }
 
-void sortSymbols(ir::Module& module) { std::ranges::sort(module.symbols, {}, &ir::Symbol::name); }
+void settleSymbols(ir::Module& module) {
+  std::ranges::sort(module.symbols, {}, &ir::Symbol::name);
+  for (ir::Symbol& symbol : module.symbols) symbol.comment = withoutAllowances(symbol.comment);
+}
 
 ir::ServiceId service(ir::Module& module, std::string_view signature) {
   return once<ir::ServiceId>(module.services, signature);

@@ -18,7 +18,8 @@ std::unordered_map<uint32_t, ir::FileIndex> addFiles(ir::Module& module, const S
                                                      std::span<const FileId> files);
 // A hidden symbol: cells that are found by their name in a changed program, or by the host.
 void nameCells(ir::Module& module, std::string name, ir::Place place, ir::Type type, uint32_t count = 1);
-void sortSymbols(ir::Module& module);
+// Once all are there: by name, with comments as readers are to see them.
+void settleSymbols(ir::Module& module);
 
 // Each is in the module once, however often it is asked for. "NAME arguments -> results", see docs/scenario-format.md.
 ir::ServiceId service(ir::Module& module, std::string_view signature);

@@ -68,7 +68,7 @@ struct Sum {
 // The largest first. A module is the part of a routine's name before its dot; rungs of the compiler may be in no file.
 std::vector<Sum> sums(const Report& report, SumBy by);
 
-// As in the text of a fault: rung 7 "title", main.pmc:40.
+// As in the text of a fault: rung 7 "title", main.pmc:40; of a rung of the compiler MAIN, main.pmc:1.
 std::string placeText(const Row& row);
 // Tables of at most `limit` lines; 0: all.
 std::string rungTable(const Report& report, uint32_t limit);

@@ -9,7 +9,7 @@
 namespace rung::profile {
 namespace {
 
-constexpr const char* kAdded = "added by the compiler";
+constexpr const char* kOutside = "outside of the rungs: clock of timers, starts and ends of modules";
 
 __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
   char text[256];
@@ -40,15 +40,15 @@ std::string addedLine(const std::vector<Row>& added) {
     sum.operations += row.operations;
     sum.share += row.share;
   }
-  return format("     - %11" PRIu64 " %12" PRIu64 " %6.1f%% %8s %8s %8s %8s  %zu %s ", sum.executions, sum.operations,
-                sum.share * 100, "-", "-", "-", "-", added.size(), added.size() == 1 ? "rung" : "rungs") +
-         kAdded + "\n";
+  return format("     - %11" PRIu64 " %12" PRIu64 " %6.1f%% %8s %8s %8s %8s  ", sum.executions, sum.operations,
+                sum.share * 100, "-", "-", "-", "-") +
+         kOutside + "\n";
 }
 
 } // namespace
 
 std::string placeText(const Row& row) {
-  std::string text = row.number != 0 ? "rung " + std::to_string(row.number) : kAdded + (" to " + row.routine);
+  std::string text = row.number != 0 ? "rung " + std::to_string(row.number) : row.routine;
   if (!row.title.empty()) text += " \"" + row.title + "\"";
   return row.file.empty() ? text : text + ", " + row.file + ":" + std::to_string(row.line);
 }
@@ -69,7 +69,7 @@ std::string sumTable(const std::vector<Sum>& sums, const char* what, uint32_t li
     const Sum& sum = sums[i];
     text += format("%6" PRIu32 " %-5" PRIu32 " %11" PRIu64 " %12" PRIu64 " %6.1f%% %12.1f  ", sum.ran, sum.rungs,
                    sum.executions, sum.operations, sum.share * 100, sum.time / 1000) +
-            (sum.name.empty() ? kAdded : sum.name) + "\n";
+            (sum.name.empty() ? kOutside : sum.name) + "\n";
   }
   return text + moreText(sums.size(), limit);
 }

@@ -330,7 +330,7 @@ class Prompt(Folder):
     def test_how_long_a_slice_may_last(self):
         done = self.typed("scan\nreplace lamp2.lad\n")
         self.assertRegex(done.stdout, r"a slice may last [0-9.]+ [mun]s: [0-9]+ steps of [0-9.]+ [mun]s at most "
-                         r'\(MAIN "time since the last run", lamp2\.lad:[0-9]')
+                         r"\(MAIN, lamp2\.lad:[0-9]")
 
     def test_the_report_and_watched_names(self):
         self.file("next.lad", LAMP.replace("COUNT  5300", "COUNT  5310").replace("LAMP", "LIGHT"))

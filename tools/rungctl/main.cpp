@@ -239,7 +239,7 @@ int map(Client& client, const Words& words) {
 std::string placeOf(const json& rung) {
   const std::string title = shown(rung["title"]);
   const std::string file = shown(rung["file"]);
-  const std::string place = file.empty() ? "added by the compiler" : fmt::format("{}:{}", file, rung["line"].dump());
+  const std::string place = fmt::format("{}:{}", file, rung["line"].dump());
   return title.empty() ? place : place + "  " + title;
 }
 
@@ -255,6 +255,10 @@ std::string profileText(const json& answer) {
   }
   const size_t ran = answer["ran"].get<size_t>();
   if (ran > answer["rungs"].size()) text += fmt::format("  ... and {} more\n", ran - answer["rungs"].size());
+  if (const double outside = answer["outside_ns"].get<double>(); outside > 0)
+    text += fmt::format(
+        "     - {:>11} {:>6.1f}% {:>10} {:>10}  outside of the rungs: clock of timers, starts and ends of modules\n",
+        "", 100 * outside / whole, "", "");
   return text + fmt::format("{} of {} rungs have run\n", ran, answer["count"].dump());
 }
 

@@ -130,9 +130,11 @@ void Explanation::listed(const std::vector<uint32_t>& rungs) {
 
 // ---- what they read ------------------------------------------------------------------------------------------------
 
-// Earlier rungs whose result this one takes over.
+// Earlier rungs whose result this one takes over. Those of the compiler, such as the one that asks the clock for all
+// timers, are in no drawing, and no mistake of a program is in them.
 void Explanation::registers(uint32_t rung) {
-  const std::vector<uint32_t> from = uses_.registersFrom(rung);
+  std::vector<uint32_t> from = uses_.registersFrom(rung);
+  std::erase_if(from, [&](uint32_t one) { return program_.rungs[one].number == 0; });
   others("it takes over the result of", from);
   if (!from.empty() && from.size() <= kOthers && uses_.calls(from.back()))
     line(8, "and of the routine that is called there");

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/allowance.h"
 #include "ir/support/diag/structure.h"
 #include "tools/xref/place_names.h"
 #include "tools/xref/place_search.h"
@@ -134,7 +135,7 @@ void Checker::reportUnused(const Definition& definition) {
 }
 
 void Checker::report(Diag code, const Definition& definition, SourceRange operand) {
-  if (definition.comment.find(fmt::format("allow({})", diagInfo(code).code)) != std::string_view::npos) return;
+  if (allows(definition.comment, diagInfo(code).code)) return;
   DiagBuilder report = diagnostics_.report(code, definition.range);
   report << definition.name;
   if (operand.valid()) report.note(operand, "here");

@@ -18,6 +18,7 @@
 #include "rtlib/nc/gsk/axis_commands.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/nc/gsk/window_functions.h"
+#include "rtlib/nc/notes.h"
 
 namespace rung::gsk {
 namespace {
@@ -185,7 +186,7 @@ void signals(ReferencePage& page) {
       page.section(fmt::format("{0}{1} to {0}{2}", signal->area, first, first + kBytesOfBlock - 1), "",
                    "address | signal | meaning | manual", 4);
     page.row(textOf(kLanguage, address) + widthText(*signal), fmt::format("`{}`", signal->symbol),
-             signal->meaning + machineText(signal->group), fmt::format("l.{}", signal->manualLine));
+             nc::meaningWithNote(*signal) + machineText(signal->group), fmt::format("l.{}", signal->manualLine));
   }
 }
 

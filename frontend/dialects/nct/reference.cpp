@@ -13,6 +13,7 @@
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "rtlib/nc/nct/service_functions.h"
 #include "rtlib/nc/nct/windows.h"
+#include "rtlib/nc/notes.h"
 
 namespace rung::nct {
 namespace {
@@ -209,7 +210,7 @@ void signals(ReferencePage& page) {
       page.part(fmt::format("Group {}", group), "", "signal | type | direction | index | bit of | meaning | manual");
     page.row(fmt::format("`{}`", signal.symbol), typeText(signal),
              signal.direction == nc::Direction::In ? "input" : "output", indexText(signal), placeText(signal),
-             signal.meaning, fmt::format("l.{}", signal.manualLine));
+             nc::meaningWithNote(signal), fmt::format("l.{}", signal.manualLine));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "frontend/dialects/nct/read/symbols.h"
 #include "frontend/dialects/nct/reference.h"
 #include "rtlib/nc/nct/service_functions.h"
+#include "rtlib/nc/notes.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
@@ -34,7 +35,7 @@ std::string explainSignal(std::string_view name) {
     std::string text = fmt::format("[nct] {}: {}, {}", signal.symbol, typeText(signal),
                                    signal.direction == nc::Direction::In ? "NC to PLC" : "PLC to NC");
     if (placeText(signal) != "-") text += fmt::format(", bit {}", placeText(signal));
-    text += fmt::format("\n  {}\n", signal.meaning);
+    text += fmt::format("\n  {}\n", nc::meaningWithNote(signal));
     if (signal.count > 1) text += fmt::format("  Index: {}.\n", indexText(signal));
     return text + fmt::format("  Group {}. Manual: l.{}.\n", signal.group, signal.manualLine);
   }

@@ -6,6 +6,7 @@
 
 #include "frontend/dialects/technol/read/symbols.h"
 #include "ir/support/diag/technol.h"
+#include "rtlib/nc/notes.h"
 #include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"
@@ -78,7 +79,7 @@ void addReference(ReferencePage& page) {
       page.part(group, "", "symbol | type | access | meaning | manual");
     const std::string use = useText(signal);
     page.row(fmt::format("`{}`", signal.symbol), typeOf(signal), accessText(signal),
-             signal.meaning + (use.empty() ? "" : "; " + use), fmt::format("l.{}", signal.manualLine));
+             nc::meaningWithNote(signal) + (use.empty() ? "" : "; " + use), fmt::format("l.{}", signal.manualLine));
   }
   addWarnings(page, {diag::CntsPrefix, diag::JloAlias, diag::MixedRealInteger, diag::NameTooLong, diag::ReservedWord,
                      diag::SharedName, diag::StringTooLong, diag::TextAfterStop, diag::TmOutsideDftm,
@@ -123,8 +124,8 @@ std::string explainWord(std::string_view name) {
   std::vector<std::string> seen; // weights and members repeat in many groups
   for (const nc::Signal& signal : nc::technolSignals()) {
     if (!names(word, signal)) continue;
-    std::string entry =
-        fmt::format("[technol] {}: {}, {}\n  {}\n", signal.symbol, typeOf(signal), accessText(signal), signal.meaning);
+    std::string entry = fmt::format("[technol] {}: {}, {}\n  {}\n", signal.symbol, typeOf(signal), accessText(signal),
+                                    nc::meaningWithNote(signal));
     if (const std::string use = useText(signal); !use.empty()) entry += fmt::format("  Use: {}.\n", use);
     entry += fmt::format("  Group {}. Manual: l.{}.\n", signal.group, signal.manualLine);
     if (std::find(seen.begin(), seen.end(), entry) != seen.end()) continue;

@@ -12,6 +12,8 @@ namespace rung::nc::gen {
 
 namespace {
 
+constexpr std::string_view kNoteMark = " // ";
+
 const char* typeName(SignalType type) {
   switch (type) {
   case SignalType::Bit: return "Bit";
@@ -69,7 +71,10 @@ Row commonColumns(const Table& table, size_t i) {
   if (direction == kDirections.end()) table.fail(i, "unknown direction");
   Row row;
   row.symbol = table.at(i, "symbol");
-  row.meaning = table.at(i, "meaning");
+  const std::string& meaning = table.at(i, "meaning");
+  const size_t note = std::min(meaning.find(kNoteMark), meaning.size());
+  row.meaning = meaning.substr(0, note);
+  if (note < meaning.size()) row.note = meaning.substr(note + kNoteMark.size());
   row.manualLine = table.number(i, "manual_line");
   row.type = type->second;
   row.direction = direction->second;
@@ -88,7 +93,10 @@ void emit(std::ostream& out, const std::vector<Row>& rows, bool ignoreCase) {
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return keys[a] < keys[b]; });
   out << "}};\nconstexpr std::array<uint16_t, " << rows.size() << "> kByName = {";
   for (size_t i = 0; i < order.size(); ++i) out << (i % 20 == 0 ? "\n    " : " ") << order[i] << ',';
-  out << "\n};\n";
+  out << "\n};\nconstexpr SignalNote kNotes[] = {\n";
+  for (size_t i = 0; i < rows.size(); ++i)
+    if (!rows[i].note.empty()) out << "    {" << i << ", " << literal(rows[i].note) << "},\n";
+  out << "};\n";
 }
 
 } // namespace rung::nc::gen

@@ -12,7 +12,7 @@ namespace rung::nc::gen {
 
 /// A Signal that owns its texts.
 struct Row {
-  std::string symbol, address, area, structure, group, meaning;
+  std::string symbol, address, area, structure, group, meaning, note;
   uint32_t byteOffset = 0, count = 1, strideBytes = 0, manualLine = 0;
   uint32_t bit = 0;
   SignalType type = SignalType::Bit;

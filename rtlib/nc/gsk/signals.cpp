@@ -11,5 +11,6 @@ constexpr SignalTable kTable{kSignals, kByName, kIgnoreCase};
 } // namespace
 
 const SignalTable& gskSignals() { return kTable; }
+std::span<const SignalNote> gskSignalNotes() { return kNotes; }
 
 } // namespace rung::nc

@@ -11,5 +11,6 @@ constexpr SignalTable kTable{kSignals, kByName, kIgnoreCase};
 } // namespace
 
 const SignalTable& nctSignals() { return kTable; }
+std::span<const SignalNote> nctSignalNotes() { return kNotes; }
 
 } // namespace rung::nc

@@ -4,10 +4,13 @@
 // word; element i of a signal with multiplicity is i * strideBytes further.
 #pragma once
 
-#include "rtlib/nc/signal.h"
+#include <span>
+
+#include "rtlib/nc/notes.h"
 
 namespace rung::nc {
 
 const SignalTable& nctSignals();
+std::span<const SignalNote> nctSignalNotes(); // in the order of the rows
 
 } // namespace rung::nc

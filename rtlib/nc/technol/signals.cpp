@@ -11,5 +11,6 @@ constexpr SignalTable kTable{kSignals, kByName, kIgnoreCase};
 } // namespace
 
 const SignalTable& technolSignals() { return kTable; }
+std::span<const SignalNote> technolSignalNotes() { return kNotes; }
 
 } // namespace rung::nc

@@ -9,10 +9,13 @@
 //   "SHARE", "SHARE.STRUCTURE", "RtmVar"  variables shared with the panel by name
 #pragma once
 
-#include "rtlib/nc/signal.h"
+#include <span>
+
+#include "rtlib/nc/notes.h"
 
 namespace rung::nc {
 
 const SignalTable& technolSignals();
+std::span<const SignalNote> technolSignalNotes(); // in the order of the rows
 
 } // namespace rung::nc

@@ -97,6 +97,20 @@ TEST(Signals, NamesAreUniqueInTheirArea) {
   }
 }
 
+TEST(Signals, NotesAreNoPartOfAMeaning) {
+  const Signal& stop = get(gskSignals(), "X_ESP");
+  EXPECT_STREQ(stop.meaning, "emergency stop input, 0 = stop");
+  EXPECT_EQ(noteOf(stop), "manual writes *ESP for both X008.4 and G008.4; symbol made unique here");
+  EXPECT_EQ(meaningWithNote(stop), std::string(stop.meaning) + " (" + std::string(noteOf(stop)) + ")");
+  EXPECT_EQ(noteOf(get(gskSignals(), "KEY_AUTO")), "");
+  EXPECT_EQ(meaningWithNote(get(gskSignals(), "KEY_AUTO")), "panel key: automatic mode");
+  EXPECT_EQ(noteOf(get(technolSignals(), "Pos6Shift_Ax")), "unit printed as mm/min");
+  for (const SignalTable* table : {&gskSignals(), &nctSignals(), &technolSignals()})
+    for (const Signal& s : *table)
+      for (const char* word : {"appendix", "misprint", "made unique", "symbol proposed", " // "})
+        EXPECT_EQ(std::string_view(s.meaning).find(word), std::string_view::npos) << s.symbol << ": " << s.meaning;
+}
+
 TEST(Signals, UnknownNameIsNull) {
   EXPECT_EQ(findSignal(gskSignals(), "NO_SUCH_SIGNAL"), nullptr);
   EXPECT_EQ(findSignal(gskSignals(), ""), nullptr);

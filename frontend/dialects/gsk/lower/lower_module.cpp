@@ -101,7 +101,7 @@ void ModuleLowering::addSymbols() {
                                 .flags = kLanguage.at(symbol.address.area).use == network::AreaUse::Input
                                              ? uint32_t{RUNG_SYMBOL_READONLY}
                                              : 0u});
-  frontend::sortSymbols(*module_);
+  frontend::settleSymbols(*module_);
 }
 
 void ModuleLowering::addPresets() {
@@ -196,7 +196,7 @@ void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const net
   const network::Network& first = unit.networks.front();
   describe(rung, first, {hashBytes("@clock", hashBytes(nameOf(kLanguage, unit))), 0});
   rung.number = 0;
-  rung.title = level.hasClock ? "scan time" : "number of the scan";
+  rung.title.clear();
   rung.sourceText.clear();
   rung.lastLine = rung.begin.line;
   rung.weight = 1;

@@ -9,6 +9,7 @@
 #include "frontend/dialects/gsk/language.h"
 #include "ir/support/diag/gsk.h"
 #include "rtlib/nc/gsk/signals.h"
+#include "rtlib/nc/notes.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::gsk {
@@ -35,7 +36,8 @@ std::string textOf(const nc::Signal& signal) {
   const uint32_t bytes = bytesOf(signal);
   const std::string width = address.isBit ? "" : bytes == 1 ? " (1 byte)" : fmt::format(" ({} bytes)", bytes);
   return fmt::format("[gsk] {}: {}{}, {}\n  {}\n  Manual: l.{}.{}\n", signal.symbol, textOf(kLanguage, address), width,
-                     kLanguage.at(address.area).doc, signal.meaning, signal.manualLine, machineNote(signal.group));
+                     kLanguage.at(address.area).doc, nc::meaningWithNote(signal), signal.manualLine,
+                     machineNote(signal.group));
 }
 
 // A signal that the given machine does not have, where an operand of `length` bytes is that signal or a bit of it; null

@@ -90,7 +90,7 @@ private:
       if (symbol.isArea) added.flags |= RUNG_SYMBOL_AREA;
       setType(added, symbol);
     }
-    frontend::sortSymbols(module_);
+    frontend::settleSymbols(module_);
   }
 
   static void setType(ir::Symbol& added, const Symbol& symbol) {

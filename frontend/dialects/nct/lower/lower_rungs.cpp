@@ -237,7 +237,6 @@ std::vector<RunTime> takeTime(LoweringContext& context, const TypedModule& modul
   if (std::ranges::none_of(std::views::iota(0u, static_cast<uint32_t>(once.size())), asks)) return times;
   ir::Rung& rung = routine.rungs.emplace_back();
   const TypedRung& first = module.rungs.front();
-  rung.title = "time since the last run";
   rung.begin = {.file = context.files.at(first.file->file.index), .line = first.rung->firstLine, .column = 1};
   rung.lastLine = rung.begin.line;
   rung.key = hashBytes("time", hashBytes(routine.name));

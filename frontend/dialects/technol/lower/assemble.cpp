@@ -121,7 +121,7 @@ void addSymbols(const Program& program, ir::Module& module) {
     const HostCellInfo& cell = hostCell(static_cast<HostCell>(i));
     nameCells(module, std::string(cell.name), {.space = kRegisterSpace, .byte = cell.byte}, cell.type, cell.count);
   }
-  sortSymbols(module);
+  settleSymbols(module);
 }
 
 void numberRungs(ir::Module& module) {

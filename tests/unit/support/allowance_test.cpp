@@ -1,0 +1,30 @@
+// `allow(CODE)` in comments.
+#include "ir/support/allowance.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using rung::allows;
+using rung::withoutAllowances;
+
+TEST(Allowance, IsFoundByItsCode) {
+  EXPECT_TRUE(allows("spare input, allow(unused-name)", "unused-name"));
+  EXPECT_FALSE(allows("spare input, allow(unused-name)", "unused"));
+  EXPECT_FALSE(allows("spare input", "unused-name"));
+}
+
+TEST(Allowance, IsNoPartOfTheRemark) {
+  EXPECT_EQ(withoutAllowances("allow(never-read)"), "");
+  EXPECT_EQ(withoutAllowances("spare input, allow(unused-name)"), "spare input");
+  EXPECT_EQ(withoutAllowances("spare input; allow(unused-name) allow(never-read)"), "spare input");
+  EXPECT_EQ(withoutAllowances("allow(unused-name), spare input"), "spare input");
+  EXPECT_EQ(withoutAllowances("spare allow(unused-name) input"), "spare input");
+}
+
+TEST(Allowance, OtherTextsStay) {
+  for (const char* text : {"", "door open, ", "allow (door)", "allow(", "allow()", "allow(two words)", "lamp; off"})
+    EXPECT_EQ(withoutAllowances(text), text);
+}
+
+} // namespace

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <utility>
 
-
 #include "ir/support/allowance.h"
 #include "ir/support/hash.h"
 

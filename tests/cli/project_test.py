@@ -85,6 +85,20 @@ class Discovery(Cli):
         self.assertIn(f"<title>{name}</title>", (self.path / "lamp.svg").read_text())
         self.assertFalse(page.exists())
 
+    def test_the_program_is_called_after_it(self):
+        self.project("name = \"Lamp of hall 3\"\n" + TOML)
+        self.assertIn('module "Lamp of hall 3" ', self.rungc("emit", "ir")[0])
+        self.assertIn('module "lamp" ', self.rungc("emit", "ir", "lamp.lad", "--no-project")[0])
+        self.rungc("test", "--coverage-html", "coverage.html")
+        self.rungc("profile", "lamp.scn", "--repeat", "1", "--html", "heat.html")
+        for page in ("coverage.html", "heat.html"):
+            self.assertIn("<title>Lamp of hall 3</title>", (self.path / page).read_text(), page)
+        self.assertIn("Lamp of hall 3", self.rungc("profile", "lamp.scn", "--repeat", "1")[0])
+        self.write("alone/lamp.lad", LAMP)
+        self.write("alone/lamp.scn", "program lamp.lad\n" + SCENARIO)
+        self.rungc("test", "alone/lamp.scn", "--coverage-html", "alone.html")
+        self.assertIn("<title>lamp.lad</title>", (self.path / "alone.html").read_text())
+
     def test_a_folder_and_project_name_it(self):
         self.project(folder="machine/")
         for args in (["machine"], ["machine/rung.toml"], ["--project", "machine"], ["--project", "machine/rung.toml"]):

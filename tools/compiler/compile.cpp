@@ -70,6 +70,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   out.files.assign(files.begin(), files.end());
   out.dialect = chooseDialect(sources, files, request.dialect, diagnostics);
   if (out.dialect == nullptr) return std::nullopt;
+  out.project = request.name;
   out.options = request.options;
   frontend::CompileOptions options = request.options;
   if (request.marks) options.marks = &out.marks;
@@ -84,7 +85,8 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   for (const LayoutClaim& claim : request.layouts) addClaim(*out.module, claim);
   ir::orderOperations(*out.module, options.marks);
   ir::readSourcesOfLatches(*out.module);
-  out.module->name = std::filesystem::path(sources.name(files[0])).stem().string();
+  out.module->name =
+      request.name.empty() ? std::filesystem::path(sources.name(files[0])).stem().string() : request.name;
   out.module->activity = request.activity;
   ended("lowering");
   checkModule(*out.module, ir::Mode::Built);

@@ -27,6 +27,7 @@ struct LayoutClaim {
 
 struct CompileRequest {
   std::string dialect;              // empty: the files say it
+  std::string name;                 // of the project; empty: the program is called after its first file
   frontend::CompileOptions options; // configuration and strictness
   bool instrument = false;          // count and time rungs
   bool marks = false;               // note contacts and coils; the module stays as it was built
@@ -42,6 +43,7 @@ struct CompileRequest {
 
 struct Compiled {
   std::vector<FileId> files;
+  std::string project; // the name of the request
   const frontend::Dialect* dialect = nullptr;
   std::unique_ptr<ir::Module> built;  // as the dialect made it, where that was asked for
   std::unique_ptr<ir::Module> shape;  // what the layout follows from (ir::runPasses)

@@ -72,6 +72,7 @@ private:
 
   void takeProject(sources::Sources& sources, frontend::CompileOptions& options) {
     sources.dialect = project_->dialect;
+    sources.name = project_->name;
     sources.includePaths = project_->includePaths;
     for (const project::Setting& setting : project_->config) sources.config[setting.key] = setting.value;
     options.config = sources.config;

@@ -17,6 +17,7 @@ namespace {
 compiler::CompileRequest requestOf(const sources::Sources& sources) {
   compiler::CompileRequest request;
   request.dialect = sources.dialect;
+  request.name = sources.name;
   request.options.config = sources.config;
   request.options.includePaths = sources.includePaths;
   request.instrument = sources.profile;

@@ -184,6 +184,7 @@ std::optional<compiler::Compiled> compileSources(SourceManager& sources, const S
                                                  compiler::CompileRequest request, int& status,
                                                  const FurtherCheck& further) {
   request.dialect = options.dialect;
+  if (options.project) request.name = options.project->name;
   request.activity = options.activity || (options.project && options.project->activity);
   const auto files = addSources(sources, options, request.options, status);
   if (!files) return std::nullopt;

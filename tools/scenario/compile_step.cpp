@@ -117,6 +117,7 @@ compiler::CompileRequest requestOf(const Scenario& scenario, const CompileSettin
     if (s.kind == Kind::Period) request.options.config["period_us"] = std::to_string(s.microseconds);
     if (s.kind == Kind::Config) request.options.config[s.name] = s.value.text;
   }
+  request.name = scenario.project;
   request.options.includePaths = scenario.includePaths;
   return request;
 }
@@ -180,6 +181,7 @@ CompileStep compileNext(const Scenario& scenario, const Statement& s, const fron
   }
   compiler::CompileRequest request = requestOf(scenario, settings);
   request.dialect = dialect.name;
+  request.name.clear(); // another program than the project's
   Diagnostics diagnostics;
   compileFiles(sources, *files, request, diagnostics, step);
   if (!step.program)

@@ -63,6 +63,7 @@ bool takeProject(Scenario& scenario) {
     first.back().value.kind = ValueKind::Text;
     first.back().value.text = setting.value;
   }
+  scenario.project = project->name;
   scenario.includePaths = project->includePaths;
   for (Statement& statement : first) {
     statement.file = scenario.path;

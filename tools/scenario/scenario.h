@@ -111,7 +111,8 @@ struct Scenario {
   std::vector<Problem> problems; // a scenario with problems must not run
   // A line that cannot be read may be one without which nothing is known of the program and its start.
   bool startUnknown = false;
-  std::vector<std::string> includePaths; // of the project that it belongs to (in_project.h)
+  std::string project;                   // that it belongs to, by its name (in_project.h); empty: none
+  std::vector<std::string> includePaths; // of the project
 };
 
 Scenario parse(std::string path, std::string_view text);

@@ -11,7 +11,16 @@ namespace {
 constexpr std::string_view kHead = "rung-sources 1\n";
 constexpr unsigned kLengthBytes = 4;
 
-enum Entry : char { Dialect = 'd', File = 'f', Include = 'i', Config = 'c', Profile = 'p', Text = 't', End = 'e' };
+enum Entry : char {
+  Dialect = 'd',
+  Name = 'n',
+  File = 'f',
+  Include = 'i',
+  Config = 'c',
+  Profile = 'p',
+  Text = 't',
+  End = 'e'
+};
 
 void put(std::string& out, Entry entry, std::string_view key, std::string_view value = {}) {
   out += static_cast<char>(entry);
@@ -25,6 +34,7 @@ void put(std::string& out, Entry entry, std::string_view key, std::string_view v
 bool keep(Sources& to, char entry, std::string_view key, std::string_view value) {
   switch (entry) {
   case Entry::Dialect: to.dialect = key; return true;
+  case Entry::Name: to.name = key; return true;
   case Entry::File: to.files.emplace_back(key); return true;
   case Entry::Include: to.includePaths.emplace_back(key); return true;
   case Entry::Config: to.config[std::string(key)] = value; return true;
@@ -48,6 +58,7 @@ std::string problemOf(const Sources& sources) {
 std::string packed(const Sources& sources) {
   std::string out(kHead);
   if (!sources.dialect.empty()) put(out, Entry::Dialect, sources.dialect);
+  if (!sources.name.empty()) put(out, Entry::Name, sources.name);
   for (const std::string& file : sources.files) put(out, Entry::File, file);
   for (const std::string& folder : sources.includePaths) put(out, Entry::Include, folder);
   for (const auto& [key, value] : sources.config) put(out, Entry::Config, key, value);

@@ -15,6 +15,7 @@ inline constexpr size_t kMostFiles = 1000;
 
 struct Sources {
   std::string dialect;                       // empty: the first file says it
+  std::string name;                          // of the project; empty: the program is called after its first file
   std::vector<std::string> files;            // in order; paths are names here, nobody opens them
   std::vector<std::string> includePaths;     // folders
   std::map<std::string, std::string> config; // of the dialect

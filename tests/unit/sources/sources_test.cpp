@@ -9,6 +9,7 @@ namespace {
 
 Sources machine() {
   return {.dialect = "technol",
+          .name = "mill",
           .files = {"b.plc", "a.plc"},
           .includePaths = {"../common", "/shared"},
           .config = {{"period_us", "1000"}, {"encoding", "cp852"}},
@@ -27,6 +28,7 @@ TEST(PackedSources, ComeOutAsTheyWentIn) {
   const std::optional<Sources> out = unpacked(packed(machine()), problem);
   ASSERT_TRUE(out) << problem;
   EXPECT_EQ(out->dialect, "technol");
+  EXPECT_EQ(out->name, "mill");
   EXPECT_EQ(out->files, machine().files);
   EXPECT_EQ(out->includePaths, machine().includePaths);
   EXPECT_EQ(out->config, machine().config);

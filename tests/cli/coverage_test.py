@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """rungc test --coverage: numbers of small programs counted by hand, its options, the examples. coverage_test.py RUNGC"""
+import html
 import json
 import subprocess
 import sys
@@ -217,7 +218,7 @@ class Nct(Coverage):
                      "  conditions that decided        4 of 7       57.1 %  and 2 one way only",
                      '  rung 1 "latch" (lamp.lad:12)',
                      "    [/STOP] (line 13) never open",
-                     '  rung 4 "left out" (lamp.lad:22) never run']:
+                     '  rung 4 "left out" (lamp.lad:22) never ran']:
             self.assertIn(line, done.stdout.splitlines())
 
     def test_a_program_without_gaps(self):
@@ -343,6 +344,9 @@ class Technol(Coverage):
         self.assertEqual((done.returncode, done.stderr), (OK, ""), done.stdout)
         page = self.folder.joinpath("out.html").read_text(encoding="utf-8")
         self.assertIn("line 9 never open", page)
+        for number, line in enumerate(TECHNOL.splitlines(), 1):
+            if line.strip():
+                self.assertIn(f"<i>{number}</i>{html.escape(line, quote=False)}\n", page)
         self.assertIn("contacts open and closed: 2 of 4, 50.0 %", page)
 
 

@@ -3,6 +3,7 @@
 import functools
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -204,6 +205,8 @@ class Profile(unittest.TestCase):
             self.assertIn("share of all operations", html)
             self.assertIn("never ran", html)
             self.assertEqual("<svg" in html, drawn)
+            bars = set(re.findall(r'<s class="s(\d)"', html))
+            self.assertTrue(len(bars) > 1 and bars <= set("12345"), bars)  # in the colours of the legend
         done = rungc("profile", MILL / "parts.scn", "--html", self.folder / "none/heat.html")
         self.assertEqual(done.returncode, 3)
         self.assertIn("cannot write", done.stderr)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """rungc view as a user sees it: pages that stand alone, pictures that are XML, nothing half written. view_test.py RUNGC"""
+import html
 import re
 import subprocess
 import sys
@@ -181,10 +182,38 @@ class View(unittest.TestCase):
         self.assertEqual((done.returncode, self.left_over()), (USAGE, []))
         self.assertIn(b".svg", done.stderr)
 
-    def test_technol_has_no_ladder(self):
-        done = self.view("examples/technol-mill/mill.plc", "examples/technol-mill/changer.plc", "-o", self.html)
+    def test_technol_has_no_ladder_but_a_page(self):
+        mill = ("examples/technol-mill/mill.plc", "examples/technol-mill/changer.plc")
+        done = self.view(*mill, "-o", str(Path(self.folder.name) / "out.svg"))
         self.assertEqual((done.returncode, self.left_over()), (WRONG, []))
         self.assertIn(b"no-drawing", done.stderr)
+        self.assertEqual(self.view(*mill, "--title", "Mill 3", "-o", self.html).returncode, OK)
+        page = Path(self.html).read_text(encoding="utf-8")
+        self.assertIn("<h1>Mill 3</h1>", page)
+        for path in mill:
+            for number, line in enumerate(Path(path).read_text(encoding="utf-8").splitlines(), 1):
+                if line.strip():
+                    self.assertIn(f"<i>{number}</i>{html.escape(line, quote=False)}\n", page, path)
+        rungs = [int(number) for number in re.findall(r'<tr class="Q" id="r(\d+)"', page)]
+        self.assertEqual(rungs, list(range(1, len(rungs) + 1)))
+        self.assertNotIn("<th>Run</th>", page)
+
+    def test_places_have_the_names_that_stand_at_the_terminals(self):
+        source = Path(self.folder.name) / "press.lad"
+        source.write_text("""dialect nct
+module MAIN
+symbol LS_TOP INP000.11  ; ram at top
+symbol Y_UP   OUT000.05  ; allow(never-read)
+rung "up"
+|--[LS_TOP]--[INP000.12]--(Y_UP)
+""", encoding="utf-8")
+        self.assertEqual(self.view(str(source), "-o", self.html).returncode, OK)
+        page = Path(self.html).read_text(encoding="utf-8")
+        for name, address in (("LS_TOP", "INP000.11"), ("Y_UP", "OUT000.05"), ("INP000.12", "")):
+            self.assertIn(f'<th scope="row">{name}</th><td class="v">{address}</td>', page)
+            self.assertIn(f">{address or name}<", page[page.index("<figure"):page.index("</figure>")])
+        self.assertNotRegex(page, r"\b(0030|0732)\.")
+        self.assertNotIn("allow(", page)
 
     def test_the_environment(self):
         self.assertEqual(self.view("nowhere.lad", "-o", self.html).returncode, ENVIRONMENT)

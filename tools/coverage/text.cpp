@@ -44,11 +44,18 @@ std::string outcomeOf(const Rung& rung, const Decision& decision) {
   return text;
 }
 
+// A box that got no power gives nothing: once is enough.
+bool isSaidOfInput(const Rung& rung, const Condition& condition, const std::string& missing) {
+  return std::ranges::any_of(rung.outputs, [&](const Output& output) {
+    return output.line == condition.line && output.column == condition.column && missingOf(output) == missing;
+  });
+}
+
 // What is missing in a rung that ran. Of a condition that never moved, that says enough.
 std::vector<std::string> partsMissing(const Rung& rung) {
   std::vector<std::string> lines;
   for (const Condition& condition : rung.conditions)
-    if (const std::string missing = missingOf(condition); !missing.empty())
+    if (const std::string missing = missingOf(condition); !missing.empty() && !isSaidOfInput(rung, condition, missing))
       lines.push_back(fmt::format("{} (line {}) {}", condition.text, condition.line, missing));
   for (const Output& output : rung.outputs)
     if (const std::string missing = missingOf(output); !missing.empty())
@@ -68,7 +75,7 @@ std::vector<std::string> missingLines(const Program& program) {
   std::vector<std::string> lines;
   for (const Rung& rung : program.rungs) {
     if (rung.runs == 0) {
-      lines.push_back(fmt::format("  {} never run", nameOf(rung)));
+      lines.push_back(fmt::format("  {} never ran", nameOf(rung)));
       continue;
     }
     const std::vector<std::string> parts = partsMissing(rung);

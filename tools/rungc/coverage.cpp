@@ -44,32 +44,23 @@ int checkLeast(const coverage::Totals& totals, double least) {
   return status;
 }
 
-// The rungs of a program that has no drawing, with all lines that their elements are on.
-std::vector<view::TableRow> rowsOf(const coverage::Program& program) {
-  std::vector<view::TableRow> rows;
-  for (const coverage::Rung& rung : program.rungs) {
-    uint32_t last = rung.line;
-    for (const coverage::Condition& condition : rung.conditions) last = std::max(last, condition.line);
-    for (const coverage::Output& output : rung.outputs) last = std::max(last, output.line);
-    rows.push_back({rung.number, rung.routine, rung.title, {rung.file, rung.line, 0}, last});
-  }
-  return rows;
-}
-
 // The page of a program that was compiled so.
-Result<std::string> pageOf(const coverage::Program& program, const frontend::Dialect& dialect,
-                           const frontend::CompileOptions& options) {
+Result<std::string> pageOf(const coverage::Program& program, const Origin& origin) {
   const view::Overlay overlay = overlayOf(program);
+  const frontend::Dialect& dialect = *frontend::findDialect(origin.dialect);
   if (!view::hasDrawing(dialect)) {
-    const std::vector<view::TableRow> rows = rowsOf(program);
-    return view::renderTable(fmt::format("{}", fmt::join(program.files, ", ")), dialect.title, rows, overlay);
+    view::Listing listing = view::listingOf(program.files, dialect.title, origin.rows);
+    if (!origin.project.empty()) listing.title = origin.project;
+    return view::renderTable(listing, overlay);
   }
   SourceManager sources;
   const Result<std::vector<FileId>> files = compiler::addFiles(sources, program.files);
   if (!files.ok()) return files.failure();
   Diagnostics diagnostics;
-  std::optional<view::Program> drawing = view::drawnProgram(sources, files.value(), dialect, options, diagnostics);
+  std::optional<view::Program> drawing =
+      view::drawnProgram(sources, files.value(), dialect, origin.options, diagnostics);
   if (!drawing) return failure(fmt::format("{} has changed while its scenarios ran", program.files[0]));
+  if (!origin.project.empty()) drawing->title = origin.project;
   view::lay(overlay, *drawing);
   return view::renderHtml(*drawing);
 }
@@ -103,7 +94,8 @@ void CoverageRun::observe(scenario::RunOptions& run) {
   run.store = nullptr; // an engine of its own for each scenario: threads count apart
   run.engine.observer = [this](const compiler::Compiled& compiled) {
     const std::lock_guard lock(mutex_);
-    Origin origin{std::string(compiled.dialect->name), compiled.options};
+    Origin origin{std::string(compiled.dialect->name), compiled.project, compiled.options, {}};
+    if (!view::hasDrawing(*compiled.dialect)) origin.rows = view::rowsOf(*compiled.module);
     origin.options.configPlaces.clear(); // they are places in the sources of this compilation
     origins_.try_emplace(compiled.module->files, std::move(origin));
     return collection_.observe(*compiled.module, compiled.marks);
@@ -116,8 +108,7 @@ int CoverageRun::writePages(const coverage::Report& report, const std::string& p
   for (const coverage::Program& program : report.programs) {
     const auto origin = origins_.find(program.files);
     if (origin == origins_.end()) continue;
-    const Result<std::string> page =
-        pageOf(program, *frontend::findDialect(origin->second.dialect), origin->second.options);
+    const Result<std::string> page = pageOf(program, origin->second);
     if (!page.ok()) return environmentError(page.error());
     const std::string out = numbered(path, ++pages);
     if (const int status = writeFile(page.value(), out); status != kOk) return status;

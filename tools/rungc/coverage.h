@@ -8,6 +8,7 @@
 #include "tools/command-line/command_line.h"
 #include "tools/coverage/collector.h"
 #include "tools/scenario/runner.h"
+#include "tools/view/overlay.h"
 
 namespace rung::rungc {
 
@@ -24,6 +25,14 @@ struct CoverageOptions {
 
 void addCoverageOptions(cli::Command command, CoverageOptions& options);
 
+// How a program was compiled: it is drawn from its sources.
+struct Origin {
+  std::string dialect;
+  std::string project; // its name; empty: none
+  frontend::CompileOptions options;
+  std::vector<view::TableRow> rows; // of a dialect without drawings
+};
+
 // Counts what scenarios run, on the interpreter alone.
 class CoverageRun {
 public:
@@ -34,12 +43,6 @@ public:
 
 private:
   int writePages(const coverage::Report& report, const std::string& path) const;
-
-  // How a program was compiled: it is drawn from its sources.
-  struct Origin {
-    std::string dialect;
-    frontend::CompileOptions options;
-  };
 
   coverage::Collection collection_;
   std::mutex mutex_;                                   // of the origins

@@ -53,9 +53,11 @@ Result<std::string> profilePage(const profile::Profile& profile, const profile::
   const compiler::Compiled& compiled = *step.program;
   const view::Overlay overlay = overlayOf(profile);
   const std::vector<std::string>& names = compiled.module->files;
-  if (!view::hasDrawing(*compiled.dialect))
-    return view::renderTable(fmt::format("{}", fmt::join(names, ", ")), compiled.dialect->title,
-                             view::rowsOf(*compiled.module), overlay);
+  if (!view::hasDrawing(*compiled.dialect)) {
+    view::Listing listing = view::listingOf(names, compiled.dialect->title, view::rowsOf(*compiled.module));
+    if (!compiled.project.empty()) listing.title = compiled.project;
+    return view::renderTable(listing, overlay);
+  }
   SourceManager sources;
   const Result<std::vector<FileId>> files = compiler::addFiles(sources, names);
   if (!files.ok()) return failure(files.error());
@@ -63,6 +65,7 @@ Result<std::string> profilePage(const profile::Profile& profile, const profile::
   std::optional<view::Program> drawing =
       view::drawnProgram(sources, files.value(), *compiled.dialect, compiled.options, diagnostics);
   if (!drawing) return failure("the program has changed while its scenarios ran");
+  if (!compiled.project.empty()) drawing->title = compiled.project;
   view::lay(overlay, *drawing);
   return view::renderHtml(*drawing);
 }

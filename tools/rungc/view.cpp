@@ -1,4 +1,4 @@
-// rungc view: draws a ladder program as a page or a picture.
+// rungc view: draws a ladder program as a page or a picture, lists a program that has no ladder as a page.
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -25,15 +25,6 @@ struct ViewOptions {
   std::string link = std::string(view::kSourceLink);
 };
 
-std::optional<view::Program> read(SourceManager& sources, std::span<const FileId> files, const ViewOptions& options,
-                                  const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
-  const frontend::Dialect* dialect = compiler::chooseDialect(sources, files, options.source.dialect, diagnostics);
-  if (dialect == nullptr) return std::nullopt;
-  if (view::hasDrawing(*dialect)) return view::drawnProgram(sources, files, *dialect, compile, diagnostics);
-  diagnostics.report(diag::NoDrawing, sources.range(files[0], 0, 0)) << dialect->title;
-  return std::nullopt;
-}
-
 // Of a project, what the command line does not say.
 void fillIn(ViewOptions& options) {
   if (!options.source.project) return;
@@ -41,18 +32,45 @@ void fillIn(ViewOptions& options) {
   if (options.out.empty()) options.out = project::productOf(*options.source.project, ".html");
 }
 
-int draw(const view::Program& program, const ViewOptions& options) {
-  const console::Working working("drawing");
-  if (!options.out.ends_with(".html")) return writeFile(view::renderSvg(program), options.out);
+bool isPage(const ViewOptions& options) { return options.out.ends_with(".html"); }
+
+view::PageOptions pageOf(const ViewOptions& options) {
   const view::LinkTo links = options.link.empty() ? view::LinkTo() : view::sourceLinks(options.out, options.link);
-  return writeFile(view::renderHtml(program, {options.date, options.revision, links}), options.out);
+  return {options.date, options.revision, links};
+}
+
+std::string drawn(view::Program program, const ViewOptions& options) {
+  if (!options.title.empty()) program.title = options.title;
+  return isPage(options) ? view::renderHtml(program, pageOf(options)) : view::renderSvg(program);
+}
+
+std::string listed(view::Listing listing, const ViewOptions& options) {
+  if (!options.title.empty()) listing.title = options.title;
+  return view::renderTable(listing, {}, pageOf(options));
+}
+
+// The page or picture; nothing where the program has mistakes.
+std::optional<std::string> render(SourceManager& sources, std::span<const FileId> files, const ViewOptions& options,
+                                  const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
+  const frontend::Dialect* dialect = compiler::chooseDialect(sources, files, options.source.dialect, diagnostics);
+  if (dialect == nullptr) return std::nullopt;
+  if (view::hasDrawing(*dialect)) {
+    auto program = view::drawnProgram(sources, files, *dialect, compile, diagnostics);
+    return program ? std::optional(drawn(std::move(*program), options)) : std::nullopt;
+  }
+  if (!isPage(options)) {
+    diagnostics.report(diag::NoDrawing, sources.range(files[0], 0, 0)) << dialect->title;
+    return std::nullopt;
+  }
+  auto listing = view::listedProgram(sources, files, *dialect, compile, diagnostics);
+  return listing ? std::optional(listed(std::move(*listing), options)) : std::nullopt;
 }
 
 int run(ViewOptions options) {
   fillIn(options);
   if (options.out.empty())
     return usageError("view: -o says which file to write, .html or .svg; only a project has a name for it");
-  if (!options.out.ends_with(".html") && !options.out.ends_with(".svg")) {
+  if (!isPage(options) && !options.out.ends_with(".svg")) {
     fmt::print(stderr, "rungc: '{}' is not a name for a drawing; pages end in .html, pictures in .svg\n", options.out);
     return kUsage;
   }
@@ -62,14 +80,12 @@ int run(ViewOptions options) {
   const auto files = addSources(sources, options.source, compile, status);
   if (!files) return status;
   Diagnostics diagnostics;
-  auto program = [&] {
+  const auto text = [&] {
     const console::Working working("drawing");
-    return read(sources, *files, options, compile, diagnostics);
+    return render(sources, *files, options, compile, diagnostics);
   }();
   printDiagnostics(diagnostics, sources, options.source);
-  if (!program) return kWrong;
-  if (!options.title.empty()) program->title = options.title;
-  return sayWrote(draw(*program, options), options.out, options.source);
+  return text ? sayWrote(writeFile(*text, options.out), options.out, options.source) : kWrong;
 }
 
 } // namespace

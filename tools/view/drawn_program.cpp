@@ -41,4 +41,14 @@ std::optional<Program> drawnProgram(SourceManager& sources, std::span<const File
                                .authors = {files.begin(), files.end()}});
 }
 
+std::optional<Listing> listedProgram(SourceManager& sources, std::span<const FileId> files,
+                                     const frontend::Dialect& dialect, const frontend::CompileOptions& options,
+                                     Diagnostics& diagnostics) {
+  const auto module = dialect.compile(sources, files, options, diagnostics);
+  if (module == nullptr) return std::nullopt;
+  std::vector<std::string> names;
+  for (const FileId file : files) names.emplace_back(sources.name(file));
+  return listingOf(names, dialect.title, rowsOf(*module));
+}
+
 } // namespace rung::view

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 
+#include "tools/view/overlay.h"
 #include "tools/view/program.h"
 
 namespace rung::view {
@@ -15,5 +16,10 @@ bool hasDrawing(const frontend::Dialect& dialect);
 std::optional<Program> drawnProgram(SourceManager& sources, std::span<const FileId> files,
                                     const frontend::Dialect& dialect, const frontend::CompileOptions& options,
                                     Diagnostics& diagnostics);
+
+// A program of a dialect without drawings; nothing as above.
+std::optional<Listing> listedProgram(SourceManager& sources, std::span<const FileId> files,
+                                     const frontend::Dialect& dialect, const frontend::CompileOptions& options,
+                                     Diagnostics& diagnostics);
 
 } // namespace rung::view

@@ -82,8 +82,8 @@ void Page::contents() {
   }
   for (size_t i = 0; i < program_.tables.size(); ++i)
     put(out_, "<li class=\"c0\"><a href=\"#t{}\">{}</a></li>\n", i, escaped(program_.tables[i].title));
-  out_ += "</ul><p class=\"C\">Numbers are those of rungs. Below a contact, \u219012 is the rung that writes it."
-          "</p></nav>\n";
+  out_ += "</ul><p class=\"C\">Numbers are those of rungs. Below a contact, \u219012 is the rung that writes it; "
+          "\u219012+2: two more rungs write it.</p></nav>\n";
 }
 
 void Page::place(const Place& place) {
@@ -175,8 +175,8 @@ void Page::table(const NameTable& table, size_t index) {
   put(out_, "<h2 id=\"t{}\">{}</h2>\n", index, escaped(table.title));
   if (!table.texts)
     out_ +=
-        "<p class=\"C\">never: no rung by this name or address; instructions on ranges and with an index reach more."
-        "</p>\n";
+        "<p class=\"C\">\u201cnever\u201d: no rung uses this name or address directly; block and indexed instructions "
+        "may.</p>\n";
   for (size_t first = 0; first < table.rows.size(); first += kTableRows) {
     const auto rows = std::span(table.rows).subspan(first, std::min(kTableRows, table.rows.size() - first));
     put(out_, "<div class=\"T{}\" style=\"contain-intrinsic-size:auto 1100px auto {}px\"><table><thead><tr>",

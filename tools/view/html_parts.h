@@ -65,7 +65,12 @@ text.now{stroke:var(--now);stroke-width:8px}
 .N{border-left:8px double var(--warn)}
 .N .o{color:var(--warn)}
 .o{font-style:normal;font-size:13px;white-space:nowrap}
-.o s{display:inline-block;height:9px;margin-right:6px;background:var(--heat4);border:1px solid var(--ink);print-color-adjust:exact}
+.o s{display:inline-block;height:9px;margin-right:6px;border:1px solid var(--ink);print-color-adjust:exact}
+.o .s1{background:var(--heat1)}
+.o .s2{background:var(--heat2)}
+.o .s3{background:var(--heat3)}
+.o .s4{background:var(--heat4)}
+.o .s5{background:var(--heat5)}
 .lg span{margin-right:24px;white-space:nowrap}
 .sw{display:inline-block;box-sizing:border-box;width:22px;height:14px;padding:0;vertical-align:-2px}
 .sw.qa{border:1px solid var(--good)}
@@ -74,9 +79,13 @@ text.now{stroke:var(--now);stroke-width:8px}
 .sw.H1,.sw.H2,.sw.H3,.sw.H4,.sw.H5{border-left-width:22px}
 .most span{font-weight:bold;margin:0 12px}
 .Y th:nth-child(1){width:6%}
-.Y th:nth-child(2){width:32%}
+.Y th:nth-child(2){width:54%}
 .Y th:nth-child(3){width:18%}
-.Y th:nth-child(4){width:26%}
+.Y th:nth-child(4){width:22%}
+.L th:nth-child(2){width:94%}
+.Y pre{margin:4px 0 0;font:13px/1.4 "DejaVu Sans Mono",Consolas,Menlo,monospace;white-space:pre-wrap;overflow-wrap:anywhere}
+.Y pre i{display:inline-block;width:4em;margin-right:1em;text-align:right;font-style:normal;color:var(--soft);user-select:none}
+.Y .b pre{color:var(--note)}
 .Y .o{white-space:normal}
 @media screen and (max-width:700px){
 body{padding:0 12px 32px}
@@ -118,10 +127,12 @@ function button(text,step,title){var b=doc.createElement('button');b.type='butto
  b.title=title;b.onclick=function(){search();go(step);};return b;}
 bar.append(input,button('Next',1,'Enter'),button('Previous',-1,'Shift and Enter'),note);
 doc.querySelector('h1').after(bar);
+// An address with and without leading zeros, X002.1 and X2.1, is the same.
+function plain(text){return text.toLowerCase().replace(/\b([a-z])0+(?=\d)/g,'$1');}
 function texts(){
  if(!all)all=Array.from(doc.querySelectorAll(
   'figcaption span,figcaption .f,figcaption .o,.R p,main text,main p.C,main h2,main h3,main td,main tbody th'),
-  function(e){return[e,e.textContent.toLowerCase()];});
+  function(e){return[e,plain(e.textContent)];});
  return all;
 }
 function search(){
@@ -130,7 +141,7 @@ function search(){
  if(what===search.what)return;
  search.what=what;
  hits.forEach(function(e){e.classList.remove('hit','now');});
- hits=what?texts().filter(function(t){return t[1].includes(what);}).map(function(t){return t[0];}):[];
+ hits=what?texts().filter(function(t){return t[1].includes(plain(what));}).map(function(t){return t[0];}):[];
  var rung=/^\d+$/.test(what)&&doc.getElementById('r'+what);
  if(rung)hits.unshift(rung.querySelector('figcaption b,th'));
  hits.forEach(function(e){e.classList.add('hit');});

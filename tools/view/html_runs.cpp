@@ -21,10 +21,11 @@ void appendLegend(std::string& out, const RunsOnPage& runs) {
     put(out, " most: {}</span>", escaped(runs.summary->heat));
   }
   const auto never = [](const RunRow& row) { return row.run->state == Run::State::Never; };
-  if (std::any_of(runs.rungs.begin(), runs.rungs.end(), never)) out += "<span><i class=\"sw N\"></i> never ran</span>";
+  if (std::any_of(runs.rungs.begin(), runs.rungs.end(), never))
+    out += "<span><i class=\"sw N\"></i> rung that never ran</span>";
   if (runs.elements)
-    out += "<span><i class=\"sw qa\"></i> all seen</span><span><i class=\"sw qp\"></i> seen in part</span>"
-           "<span><i class=\"sw qn\"></i> never run</span>";
+    out += "<span>contacts, coils and boxes: <i class=\"sw qa\"></i> all seen</span>"
+           "<span><i class=\"sw qp\"></i> seen in part</span><span><i class=\"sw qn\"></i> never ran</span>";
   out += "</p>\n";
 }
 
@@ -85,7 +86,7 @@ void appendRun(std::string& out, const Run& run, double hottest) {
   if (!run.detail.empty()) put(out, " title=\"{}\"", escaped(run.detail));
   out += ">";
   const int bar = run.heat > 0 ? std::max(1, static_cast<int>(run.heat / hottest * kBar)) : 0;
-  if (bar > 0) put(out, "<s style=\"width:{}px\"></s>", bar);
+  if (bar > 0) put(out, "<s class=\"s{}\" style=\"width:{}px\"></s>", heatStep(run, hottest), bar);
   put(out, "{}</i>", escaped(labelOf(run)));
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "ir/support/allowance.h"
 #include "rtlib/nc/names/names.h"
 #include "tools/xref/place_names.h"
 
@@ -68,7 +69,7 @@ Named Names::of(const frontend::Definition& definition) {
     named.address = definition.value;
     named.key = definition.name;
   }
-  named.comment = definition.comment;
+  named.comment = withoutAllowances(definition.comment);
   return named;
 }
 
@@ -78,6 +79,12 @@ std::string_view Names::valueOf(const Word& operand) const {
 }
 
 Named Names::find(const Word& operand) {
+  Named named = lookUp(operand);
+  if (named.address == operand.text) named.address.clear(); // an address says nothing of itself
+  return named;
+}
+
+Named Names::lookUp(const Word& operand) {
   if (const auto declared = declared_.find(operand.range.begin); declared != declared_.end())
     return of(analysis_.definitions()[declared->second]);
   const frontend::OperandUse* use = analysis_.operandAt(operand.range);
@@ -89,10 +96,10 @@ Named Names::find(const Word& operand) {
   Named named = at(*place);
   if (use->base != frontend::kNoDefinition) {
     named.address = named.key + std::string(use->computed);
-    named.comment = analysis_.definitions()[use->base].comment;
+    named.comment = withoutAllowances(analysis_.definitions()[use->base].comment);
   } else if (const auto known = byAddress_.find(named.key); known != byAddress_.end()) {
     named.address = known->second.name;
-    named.comment = known->second.comment;
+    named.comment = withoutAllowances(known->second.comment);
   }
   if (use->computed.empty()) return named;
   named.key += use->computed;

@@ -13,7 +13,7 @@
 namespace rung::view {
 
 struct Named {
-  std::string address; // of a name; of an address the name that is declared for it
+  std::string address; // of a name; of an address the name that is declared for it; never the operand itself
   std::string comment;
   std::string key;                   // the same for all spellings of one place; empty for constants
   std::optional<ir::BitRange> place; // nothing where it is known at run time only, and for constants
@@ -44,6 +44,7 @@ private:
   std::string textOf(const ir::BitRange& place) const;
   const Named& at(const ir::BitRange& place);
   Named of(const frontend::Definition& definition);
+  Named lookUp(const Word& operand);
 
   const frontend::Analysis& analysis_;
   const xref::CrossReference& reference_;

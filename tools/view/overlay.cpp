@@ -6,6 +6,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "frontend/syntax/word_lexer.h"
+
 namespace rung::view {
 namespace {
 
@@ -65,7 +67,7 @@ Seen seenOf(const ElementOverlay& element) {
 
 std::string badgeOf(const ElementOverlay& element) {
   const bool contact = element.kind == ElementOverlay::Kind::Contact;
-  if (!element.off && !element.on) return "never run";
+  if (!element.off && !element.on) return "never ran";
   if (!element.on) return contact ? "never closed" : "never on";
   if (!element.off) return contact ? "never open" : "never off";
   return seenOf(element) == Seen::All ? "" : "never decided";
@@ -107,6 +109,22 @@ std::vector<TableRow> rowsOf(const ir::Module& module) {
   std::vector<TableRow> list;
   for (auto& [at, row] : rows) list.push_back(std::move(row));
   return list;
+}
+
+Listing listingOf(const std::vector<std::string>& files, std::string_view control, std::vector<TableRow> rows) {
+  Listing listing{titleOf(shownFiles(files)), std::string(control), std::move(rows), {}};
+  std::ranges::sort(listing.rows, {}, &TableRow::number); // as they are written, whatever routine comes first
+  SourceManager sources;
+  for (const TableRow& row : listing.rows) {
+    const auto [text, isNew] = listing.texts.try_emplace(row.place.file);
+    if (!isNew) continue;
+    const Result<FileId> file = sources.addFile(row.place.file);
+    if (!file.ok()) continue;
+    LineReader lines(sources, file.value());
+    for (SourceLine line; lines.next(line);) text->second.emplace_back(line.text);
+  }
+  std::erase_if(listing.texts, [](const auto& text) { return text.second.empty(); });
+  return listing;
 }
 
 } // namespace rung::view

@@ -1,8 +1,10 @@
 // What runs of a program say of it, laid over its drawing: which rungs take the time (a profile), what was seen of each
 // element (coverage). A program that has no drawing gets a page with a row for each of its rungs.
 #pragma once
+#include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ir/core/module.h"
@@ -68,8 +70,18 @@ struct TableRow {
 // The numbered rungs of a module in the order in which the source has them.
 std::vector<TableRow> rowsOf(const ir::Module& module);
 
-// A page in the look of renderHtml, with what was not seen of a rung's elements in its row.
-std::string renderTable(std::string_view title, std::string_view control, std::span<const TableRow> rows,
-                        const Overlay& overlay, const PageOptions& options = {});
+// A program without a drawing, as it is read.
+struct Listing {
+  std::string title;
+  std::string control;
+  std::vector<TableRow> rows;
+  std::map<std::string, std::vector<std::string>> texts; // lines, by path; a file that cannot be read is not there
+};
+// `files` are those that the program was made of.
+Listing listingOf(const std::vector<std::string>& files, std::string_view control, std::vector<TableRow> rows);
+
+// A page in the look of renderHtml: the source by rung, with what was not seen of a rung's elements beside it. Nothing
+// is said of runs where the overlay is empty.
+std::string renderTable(const Listing& listing, const Overlay& overlay, const PageOptions& options = {});
 
 } // namespace rung::view

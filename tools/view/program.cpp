@@ -12,6 +12,7 @@
 #include "frontend/dialects/gsk/language.h"
 #include "frontend/ladder/text/drawing.h"
 #include "frontend/network/read/canonical.h"
+#include "ir/support/allowance.h"
 #include "ir/support/check.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
@@ -185,30 +186,10 @@ void Reader::readTexts() {
   }
 }
 
-// One file is the program; several are, as a rule, a folder of their own.
-std::string titleOf(const std::vector<SourceFile>& files) {
-  if (files.size() == 1) return files[0].name;
-  const auto folderOf = [](const std::string& path) { return path.substr(0, path.find_last_of('/') + 1); };
-  const std::string folder = folderOf(files[0].path);
-  const bool same =
-      std::all_of(files.begin(), files.end(), [&](const SourceFile& file) { return folderOf(file.path) == folder; });
-  if (!same || folder.size() < 2) return fmt::format("{} and {} more", files[0].name, files.size() - 1);
-  const size_t begin = folder.find_last_of('/', folder.size() - 2) + 1; // 0 without another '/'
-  return folder.substr(begin, folder.size() - 1 - begin);
-}
-
 void Reader::nameFiles() {
-  std::map<std::string, int> known;
-  const auto baseOf = [&](FileId file) {
-    const std::string_view name = sources_.name(file);
-    return std::string(name.substr(name.find_last_of('/') + 1)); // all of it without a '/'
-  };
-  for (FileId file : input_.authors) ++known[baseOf(file)];
-  for (FileId file : input_.authors) {
-    const std::string path(sources_.name(file));
-    const std::string name = baseOf(file);
-    program_.files.push_back({path, known[name] > 1 ? path : name});
-  }
+  std::vector<std::string> paths;
+  for (FileId file : input_.authors) paths.emplace_back(sources_.name(file));
+  program_.files = shownFiles(paths);
   program_.title = titleOf(program_.files);
 }
 
@@ -269,7 +250,7 @@ void Reader::readDeclaration(const Declaration& declaration) {
                        .output = named.output,
                        .name = std::string(declaration.name.text),
                        .address = named.address,
-                       .comment = std::string(declaration.comment)});
+                       .comment = withoutAllowances(declaration.comment)});
 }
 
 void Reader::readRung(const LadderFile& file, const ladder::Rung& rung, std::string_view remark) {
@@ -553,6 +534,27 @@ Program Reader::run() {
 }
 
 } // namespace
+
+std::vector<SourceFile> shownFiles(const std::vector<std::string>& paths) {
+  const auto baseOf = [](const std::string& path) { return path.substr(path.find_last_of('/') + 1); };
+  std::map<std::string, int> known;
+  for (const std::string& path : paths) ++known[baseOf(path)];
+  std::vector<SourceFile> files;
+  for (const std::string& path : paths) files.push_back({path, known[baseOf(path)] > 1 ? path : baseOf(path)});
+  return files;
+}
+
+// One file is the program; several are, as a rule, a folder of their own.
+std::string titleOf(const std::vector<SourceFile>& files) {
+  if (files.size() == 1) return files[0].name;
+  const auto folderOf = [](const std::string& path) { return path.substr(0, path.find_last_of('/') + 1); };
+  const std::string folder = folderOf(files[0].path);
+  const bool same =
+      std::all_of(files.begin(), files.end(), [&](const SourceFile& file) { return folderOf(file.path) == folder; });
+  if (!same || folder.size() < 2) return fmt::format("{} and {} more", files[0].name, files.size() - 1);
+  const size_t begin = folder.find_last_of('/', folder.size() - 2) + 1; // 0 without another '/'
+  return folder.substr(begin, folder.size() - 1 - begin);
+}
 
 Program readProgram(const SourceManager& sources, const Input& input) { return Reader(sources, input).run(); }
 

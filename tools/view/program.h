@@ -20,6 +20,10 @@ struct SourceFile {
   std::string name; // as it is shown: without its folder where that is enough
 };
 
+std::vector<SourceFile> shownFiles(const std::vector<std::string>& paths);
+// Of a program that has no other title: its file, or the folder of its files. There is one file at least.
+std::string titleOf(const std::vector<SourceFile>& files);
+
 // What is known of a rung from runs of the program.
 struct Run {
   enum class State : uint8_t { Unasked, Ran, Never };

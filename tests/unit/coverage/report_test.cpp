@@ -115,8 +115,22 @@ TEST(Report, TextSaysWhatIsMissing) {
                               "    [B] (line 4) never closed\n"
                               "    {T} (line 4) never on\n"
                               "    {T} (line 4) decided alone while on, never while off: (L)\n"
-                              "  rung 2 \"lamp\" (a.lad:3) never run\n"));
+                              "  rung 2 \"lamp\" (a.lad:3) never ran\n"));
   EXPECT_THAT(text, Not(HasSubstr("[B] (line 4) never decided"))); // it never closed; that says enough
+}
+
+// A box that gets no power gives none.
+TEST(Report, TextSaysOnceThatABoxHasNoPower) {
+  const Output input{.text = "{T}", .line = 4, .column = 9, .coil = false, .off = true};
+  const Condition result{.text = "{T}", .line = 4, .column = 9, .contact = false, .open = true};
+  Rung rung{.number = 1, .file = "a.lad", .line = 4, .runs = 3, .conditions = {result}, .outputs = {input}};
+  EXPECT_THAT(toText(reportOf({rung}), {}),
+              testing::EndsWith("not covered\n  rung 1 (a.lad:4)\n    {T} (line 4) never on\n"));
+  rung.outputs[0].on = true;
+  EXPECT_THAT(toText(reportOf({rung}), {}),
+              testing::EndsWith("not covered\n  rung 1 (a.lad:4)\n    {T} (line 4) never on\n"));
+  rung.conditions[0].closed = true;
+  EXPECT_THAT(toText(reportOf({rung}), {}), Not(HasSubstr("never on")));
 }
 
 TEST(Report, TextIsBounded) {

@@ -53,7 +53,7 @@ void expectRuns(Golden& golden) {
   lay(overlay, drawn->program);
   golden.expect("runs.svg", renderSvg(drawn->program));
   golden.expect("runs.html", renderHtml(drawn->program));
-  golden.expect("table.html", renderTable("A table", "NCT", rowsOf(*drawn->module), overlay));
+  golden.expect("table.html", renderTable({"A table", "NCT", rowsOf(*drawn->module), {}}, overlay));
 }
 
 TEST(ViewGolden, All) {

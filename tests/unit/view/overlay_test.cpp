@@ -1,6 +1,7 @@
 // Runs over drawings: what lands where, in ladder text and in command lists, and what a page says of it.
 #include "tools/view/overlay.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/view/drawn.h"
@@ -40,7 +41,7 @@ TEST(ViewOverlay, ElementsAreFoundByTheirPlaces) {
       {Kind::Coil, {"other.lad", 4, 4}, true, true, true, ""}, {Kind::Coil, {"t.lad", 4, 0}, true, true, true, ""}};
   lay(overlay, drawn->program);
   EXPECT_EQ(badges(drawn->program.figures[0].sheet),
-            "7000.00:never closed;7000.01:never decided;7001.00:;7000.02:never run;");
+            "7000.00:never closed;7000.01:never decided;7001.00:;7000.02:never ran;");
   EXPECT_EQ(badges(drawn->program.figures[1].sheet), "TOND:never off;");
 }
 
@@ -94,18 +95,27 @@ TEST(ViewOverlay, StepsOfHeat) {
 }
 
 TEST(ViewOverlay, ATableForProgramsWithoutADrawing) {
-  const std::vector<TableRow> rows = {{1, "MAIN", "start <up>", {"m.plc", 3, 0}, 6},
-                                      {2, "MAIN", "", {"m.plc", 7, 0}, 9},
-                                      {3, "SPINDLE", "speed", {"s.plc", 3, 0}, 4}};
+  Listing listing{.title = "Mill", .control = "TECHNOL", .rows = {}, .texts = {}};
+  listing.rows = {{1, "MAIN", "start <up>", {"m.plc", 3, 0}, 6},
+                  {2, "MAIN", "", {"m.plc", 7, 0}, 9},
+                  {3, "SPINDLE", "speed", {"s.plc", 3, 0}, 4}};
+  listing.texts["m.plc"] = {"; mill",  "MODULE_MAIN", "\tLDR A", "\tLA B", "",           "\tWR C",
+                            "\tLDR C", "\tWR <D>",    "\tWR E",  "",       "MODULE_END", ""};
   Overlay overlay{.title = "Profile", .summary = {"3 scans"}, .heat = "share of time"};
   overlay.rungs.push_back({1, {}, {Run::State::Ran, 0.9, "90 %", ""}});
   overlay.rungs.push_back({0, {"s.plc", 3, 0}, {Run::State::Never, 0, "", ""}});
   overlay.elements.push_back({Kind::Contact, {"m.plc", 6, 2}, true, false, true, "7 times open"});
   overlay.elements.push_back({Kind::Coil, {"m.plc", 7, 2}, false, true, true, ""});
   overlay.elements.push_back({Kind::Coil, {"m.plc", 8, 2}, true, true, true, ""});
-  const std::string page = renderTable("Mill", "TECHNOL", rows, overlay);
-  EXPECT_EQ(count(page, "<h3>MAIN</h3>"), 1u);
-  EXPECT_EQ(count(page, "<h3>SPINDLE</h3>"), 1u);
+  const std::string page = renderTable(listing, overlay);
+  EXPECT_EQ(count(page, "<h3 id=\"m0\">MAIN</h3>"), 1u);
+  EXPECT_EQ(count(page, "<h3 id=\"m2\">SPINDLE</h3>"), 1u);
+  EXPECT_EQ(count(page, "<a href=\"#m0\">MAIN</a><i>1\u20132</i>"), 1u);
+  EXPECT_EQ(count(page, "<pre><i>1</i>; mill\n<i>2</i>MODULE_MAIN\n</pre>"), 1u); // before the first rung
+  EXPECT_EQ(count(page, "<pre><i>7</i>        LDR C\n<i>8</i>        WR &lt;D&gt;\n<i>9</i>        WR E\n</pre>"), 1u);
+  EXPECT_EQ(count(page, "<pre><i>11</i>MODULE_END\n</pre>"), 1u); // after the last, without the blank lines
+  const std::string body = page.substr(page.find("<main>"));
+  for (int line = 1; line <= 11; ++line) EXPECT_EQ(count(body, fmt::format("<i>{}</i>", line)), line == 10 ? 0u : 1u);
   EXPECT_EQ(count(page, "start &lt;up&gt;"), 2u);
   EXPECT_EQ(count(page, ">m.plc:3<"), 1u);
   EXPECT_EQ(count(page, "class=\"Q H5\" id=\"r1\""), 1u);
@@ -115,6 +125,9 @@ TEST(ViewOverlay, ATableForProgramsWithoutADrawing) {
   EXPECT_EQ(count(page, "line 8"), 0u);
   EXPECT_EQ(count(page, "<section"), count(page, "</section>"));
   EXPECT_EQ(count(page, "<table"), count(page, "</table>"));
+  const std::string listed = renderTable(listing, {}); // without runs
+  EXPECT_EQ(count(listed, "<th>Run</th>") + count(listed, "<section") + count(listed, "class=\"o\""), 0u);
+  EXPECT_EQ(count(listed, "<pre>"), count(page, "<pre>"));
 }
 
 } // namespace

@@ -128,6 +128,25 @@ class Failure(Folder):
         self.assertEqual(lines[first + 3], "      CLOSED (5100.00) = 1, changed in scan 1, 0.010 s")
         self.assertRegex(lines[first + 4], r"^      T_LOCK \(5200\) = 0 .*, changed in scan 101, 1\.010 s$")
 
+    def test_places_are_called_as_on_the_wiring_diagram(self):
+        self.file("press.lad", """dialect nct
+module MAIN
+symbol LS_TOP INP000.11 ; ram at top
+symbol Y_UP   OUT000.05
+symbol T_UP   5200
+rung "up"
+|--[LS_TOP]--[INP000.12]--{TOND T_UP #500 #0}--(Y_UP)
+""")
+        self.file("press.scn", "program press.lad\nset INP000.11 1\nscan\nexpect Y_UP 1\n")
+        done = self.run_tests("press.scn")
+        self.assertEqual(done.returncode, WRONG)
+        self.assertRegex(done.stdout, r"    Y_UP \(OUT000\.05\), unchanged since the start\n"
+                         r'    written by rung 1 "up", press\.lad:6\n'
+                         r"      LS_TOP \(INP000\.11\) = 1, changed in scan 1, [\d.]+ s\n"
+                         r"      INP000\.12 = 0")
+        self.assertNotRegex(done.stdout, r"\b0\d\d\d\.")
+        self.assertNotIn("takes over", done.stdout)  # the clock of all timers is no rung of the program
+
     def test_a_real_needs_a_cell_of_its_width(self):
         """It used to be written over the neighbours of a shorter one."""
         self.file("cells.plc", CELLS)

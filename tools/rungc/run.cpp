@@ -53,6 +53,16 @@ struct RunOptions {
 
 constexpr uint64_t kMostScans = 1'000'000'000'000;
 
+// "500.000 ms", "12.000 s", "5 min 12.000 s", "83 h 20 min 0.000 s"
+std::string longText(int64_t us) {
+  constexpr int64_t kMinute = 60'000'000;
+  if (us < 1'000'000) return fmt::format("{:.3f} ms", static_cast<double>(us) / 1e3);
+  const int64_t minutes = us / kMinute;
+  std::string text = minutes < 60 ? "" : fmt::format("{} h ", minutes / 60);
+  if (minutes > 0) text += fmt::format("{} min ", minutes % 60);
+  return text + fmt::format("{:.3f} s", static_cast<double>(us % kMinute) / 1e6);
+}
+
 console::Signal gSignal = 0; // of SIGINT and SIGTERM: the only thing a signal handler may touch
 
 void catchSignals() {
@@ -308,7 +318,7 @@ private:
   // After every scan.
   bool interrupted() {
     constexpr uint64_t kScansBetween = 1024; // the clock costs as much as a small scan
-    if (session_.scans() % kScansBetween == 0)
+    if (!options_.source.quiet && session_.scans() % kScansBetween == 0)
       progress_.show(fmt::format("{}, running for {}", scenario::scanText(session_.scans(), session_.nowUs()),
                                  shownSeconds(progress_.seconds())));
     return gSignal != 0;
@@ -319,9 +329,8 @@ private:
   int finish(int status) {
     progress_.clear();
     if (!options_.source.quiet)
-      fmt::print(out_, "{} scan{}, {:.3f} ms of the program's time, engine {}\n", session_.scans(),
-                 session_.scans() == 1 ? "" : "s", static_cast<double>(session_.nowUs()) / 1000.0,
-                 first().engine->name());
+      fmt::print(out_, "{} scan{}, {} of the program's time, engine {}\n", session_.scans(),
+                 session_.scans() == 1 ? "" : "s", longText(session_.nowUs()), first().engine->name());
     if (!session_.unexpectedFault().empty()) {
       warn_(console::faultLine(session_.instance()));
       status = kWrong;

@@ -22,8 +22,9 @@ std::vector<uint8_t> initialContents(const rung_program& program, std::span<cons
 
 } // namespace
 
-Replacement::Replacement(const rung_program& running, const Runnable& next)
-    : loaded_(next, running.memory_size), ways_{Way(running, next.program), Way(next.program, running)} {
+Replacement::Replacement(const rung_program& running, const Runnable& next, PlaceName nameOf)
+    : loaded_(next, running.memory_size),
+      ways_{Way(running, next.program, nameOf), Way(next.program, running, nameOf)} {
   if (next.memory == nullptr) planSharedBlock(running);
 }
 

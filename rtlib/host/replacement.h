@@ -29,7 +29,7 @@ enum class OwnContents : uint8_t {
 class Replacement {
 public:
   // `next` is of `running`'s dialect; both outlive this object and the instance's use of them.
-  Replacement(const rung_program& running, const Runnable& next);
+  Replacement(const rung_program& running, const Runnable& next, PlaceName nameOf = plainPlaceName);
 
   const rung_program& next() const { return *loaded_.program; }
   const std::shared_ptr<const CopyLists>& copyLists() const { return loaded_.copyLists; } // of the next one
@@ -45,7 +45,8 @@ private:
   friend class Instance;
   // From one of the two programs to the other.
   struct Way {
-    Way(const rung_program& from, const rung_program& to) : transfer(from, to), inSharedBlock(transfer) {}
+    Way(const rung_program& from, const rung_program& to, PlaceName nameOf)
+        : transfer(from, to, nameOf), inSharedBlock(transfer) {}
     StateTransfer transfer;
     StateTransfer inSharedBlock;   // without what stays
     std::vector<uint8_t> contents; // that the program begins with, where blocks are swapped

@@ -27,6 +27,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rtlib/host/ref.h"
 #include "rtlib/host/rung_alignment.h"
 #include "rung/program.h"
 
@@ -58,11 +59,16 @@ struct RungChange {
   uint32_t after = RUNG_NONE;        // in the new one's; RUNG_NONE: it was removed
 };
 
+// What a user of the program's dialect calls a place of it that has no name of its own.
+using PlaceName = std::string (*)(const rung_program& program, const Ref& place);
+// "Y+3", "Y+3.5".
+std::string plainPlaceName(const rung_program& program, const Ref& place);
+
 class StateTransfer {
 public:
   // Both have passed checkProgram and outlive the plan. Throws std::length_error when the spaces of one have 512 MB or
   // more.
-  StateTransfer(const rung_program& from, const rung_program& to);
+  StateTransfer(const rung_program& from, const rung_program& to, PlaceName nameOf = plainPlaceName);
 
   const rung_program& from() const { return *from_; }
 

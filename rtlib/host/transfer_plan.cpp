@@ -101,9 +101,9 @@ Marks outputBits(const rung_program& program) {
 
 class TransferPlanner {
 public:
-  TransferPlanner(StateTransfer& plan, const rung_program& from, const rung_program& to)
-      : plan_(plan), from_(from), to_(to), old_(from), new_(to), overwritten_(to), source_(new_.count(), kInitial),
-        stays_(new_.count(), false), isNamed_(new_.count(), false) {
+  TransferPlanner(StateTransfer& plan, const rung_program& from, const rung_program& to, PlaceName nameOf)
+      : plan_(plan), from_(from), to_(to), nameOf_(nameOf), old_(from), new_(to), overwritten_(to),
+        source_(new_.count(), kInitial), stays_(new_.count(), false), isNamed_(new_.count(), false) {
     for (uint32_t s = 0; s < from.space_count; ++s) sameSpaces_.push_back(findSpace(to, from.spaces[s].name));
   }
 
@@ -352,16 +352,17 @@ private:
     }
   }
 
-  // "Y+3" or "Y+3.5": a whole byte, or a bit of it.
+  // What an address counts as a whole, or bits of it.
   void reportUnnamed(uint32_t space, Marks& released) {
-    for (uint32_t byte = 0; byte < to_.spaces[space].byte_count; ++byte) {
-      const std::string name = std::string(to_.spaces[space].name) + "+" + std::to_string(byte);
-      uint32_t bits = 0;
-      for (uint32_t b = 0; b < 8; ++b)
-        if (take(new_.first(space) + 8 * byte + b, released)) bits |= 1u << b;
-      if (bits == 255) report(ChangeKind::Released, name);
-      for (uint32_t b = 0; bits != 255 && b < 8; ++b)
-        if ((bits >> b & 1) != 0) report(ChangeKind::Released, name + "." + std::to_string(b));
+    const uint32_t unit = to_.spaces[space].unit_bytes;
+    for (uint32_t byte = 0; byte + unit <= to_.spaces[space].byte_count; byte += unit) {
+      std::vector<uint32_t> bits;
+      for (uint32_t b = 0; b < 8 * unit; ++b)
+        if (take(new_.first(space) + 8 * byte + b, released)) bits.push_back(b);
+      if (bits.size() == size_t{8} * unit)
+        report(ChangeKind::Released, nameOf_(to_, intRef(space, byte, 8 * unit)));
+      else
+        for (const uint32_t b : bits) report(ChangeKind::Released, nameOf_(to_, bitRef(space, byte, b)));
     }
   }
   bool isHidden(uint32_t space) const { return (to_.spaces[space].flags & RUNG_SPACE_HIDDEN) != 0; }
@@ -518,6 +519,7 @@ private:
   StateTransfer& plan_;
   const rung_program& from_;
   const rung_program& to_;
+  const PlaceName nameOf_;
   BitNumbers old_;
   BitNumbers new_;
   Overwritten overwritten_;          // in the new program
@@ -534,8 +536,13 @@ private:
   std::map<std::string_view, std::string_view> newKeys_;          // of instructions' state, by the old ones
 };
 
-StateTransfer::StateTransfer(const rung_program& from, const rung_program& to) : from_(&from) {
-  TransferPlanner(*this, from, to).run();
+StateTransfer::StateTransfer(const rung_program& from, const rung_program& to, PlaceName nameOf) : from_(&from) {
+  TransferPlanner(*this, from, to, nameOf).run();
+}
+
+std::string plainPlaceName(const rung_program& program, const Ref& place) {
+  const std::string byte = std::string(program.spaces[place.space].name) + "+" + std::to_string(place.byte);
+  return place.kind == RefKind::Bit ? byte + "." + std::to_string(place.bit) : byte;
 }
 
 } // namespace rung::host

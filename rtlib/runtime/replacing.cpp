@@ -6,6 +6,7 @@
 
 #include "rtlib/host/replacement.h"
 #include "rtlib/host/scan_bound.h"
+#include "rtlib/nc/names/names.h"
 #include "rtlib/runtime/error.h"
 #include "rtlib/runtime/replacing.h"
 #include "rtlib/runtime/running.h"
@@ -17,7 +18,8 @@ using namespace rung::runtime;
 struct rung_replacement {
   rung_replacement(rung_instance& of, const std::shared_ptr<const Image>& image, uint8_t* memory)
       : instance(of), former(of.generations.running()),
-        replacement(former->program(), {image->program, image->engine, memory, of.serviceNames.of(image->program)}),
+        replacement(former->program(), {image->program, image->engine, memory, of.serviceNames.of(image->program)},
+                    nc::address),
         places(of.control->locate(image->program)), placesAround(of.around->locate(image->program)),
         lane(std::make_unique<host::RetainLane>(host::RetainMap(image->program))) {
     bound = host::measureBound({image->program, image->engine});

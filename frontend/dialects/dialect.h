@@ -11,6 +11,7 @@
 
 #include "frontend/sema/analysis.h"
 #include "frontend/table/instruction.h"
+#include "ir/core/given_numbers.h"
 #include "ir/core/marks.h"
 #include "ir/core/module.h"
 #include "ir/support/diagnostics.h"
@@ -29,6 +30,9 @@ struct CompileOptions {
   bool strict = false;                   // warnings that the inventory calls errors in strict mode are errors
   // Where not null: filled with the contacts and coils of the module's rungs. It outlives the compilation.
   ir::Marks* marks = nullptr;
+  // Where not null, the module is to be compared with that of another version: filled with the numbers that its rungs
+  // are given. No rung is simplified because of what others do, and names that several files have are distinguished.
+  ir::GivenNumbers* given = nullptr;
 
   // Where the value of a key is written; an invalid range when that is not in a file.
   SourceRange placeOf(const std::string& key) const {
@@ -79,6 +83,8 @@ struct Dialect {
   // What a word means that is neither a mnemonic nor a diagnostic, such as a signal's name; "" when nothing. May be
   // null.
   std::string (*explain)(std::string_view word) = nullptr;
+  // What a text of the program is to its author, where it is not a message: "button 3", else "". May be null.
+  std::string (*textName)(uint32_t number) = nullptr;
   // The program's lines as its mechanisms number them, with the numbers of its rungs, of files that were compiled to
   // `module`. May be null.
   std::string (*listing)(const SourceManager& sources, std::span<const FileId> files,

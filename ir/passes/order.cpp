@@ -110,13 +110,16 @@ private:
 
 } // namespace
 
-void orderOperations(Module& module, Marks* marks) {
+void orderOperations(Module& module, Marks* marks, GivenNumbers* given) {
   RungOrder order;
   for (uint32_t r = 0; r < module.routines.size(); ++r)
     for (uint32_t i = 0; i < module.routines[r].rungs.size(); ++i) {
       order.run(module.routines[r].rungs[i]);
-      if (marks == nullptr || !order.changed()) continue;
-      for (Mark& mark : marks->of(RoutineId{r}, i)) mark.value = order.now(mark.value);
+      if (!order.changed()) continue;
+      if (marks != nullptr)
+        for (Mark& mark : marks->of(RoutineId{r}, i)) mark.value = order.now(mark.value);
+      if (given != nullptr)
+        for (GivenNumber& number : given->of(RoutineId{r}, i)) number.value = order.now(number.value);
     }
 }
 

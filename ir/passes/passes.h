@@ -1,15 +1,16 @@
 // The passes one by one, for the pipeline and for tests. Each keeps the module valid; what each does is said in its
 // file.
 #pragma once
+#include "ir/core/given_numbers.h"
 #include "ir/core/marks.h"
 #include "ir/core/module.h"
 #include "ir/passes/settled.h"
 
 namespace rung::ir {
 
-// Not in the pipeline: for a module as its front end built it, before anybody asks what its rungs use. `marks` (or
-// null) go along.
-void orderOperations(Module& module, Marks* marks = nullptr);
+// Not in the pipeline: for a module as its front end built it, before anybody asks what its rungs use. `marks` and
+// `given` (or null) go along.
+void orderOperations(Module& module, Marks* marks = nullptr, GivenNumbers* given = nullptr);
 void readSourcesOfLatches(Module& module); // what a task copies when it begins is read where it comes from
 
 void inlineRoutines(Module& module);  // a routine with one caller takes the place of the call

@@ -75,11 +75,232 @@ rungs: 0 changed, 0 added, 0 removed, 1 moved, 3 the same
     def test_names(self):
         before = HEAD + "symbol OLD 7100\nsymbol MOVED 7101\n" + ONE + END
         after = HEAD + "symbol NEW 7100\nsymbol MOVED 7102\n" + ONE + END
-        self.assertEqual(self.diff(before, after), (OTHERWISE, """changed name MOVED: M7101 32 bits to M7102 32 bits
-added name NEW: M7100 32 bits
-removed name OLD: M7100 32 bits
+        self.assertEqual(self.diff(before, after), (OTHERWISE, """changed name MOVED: 7101 32 bits to 7102 32 bits
+added name NEW: 7100 32 bits
+removed name OLD: 7100 32 bits
 rungs: 0 changed, 0 added, 0 removed, 0 moved, 2 the same
 """))
+
+    NCT_JUMPS = """{HEAD}
+rung
+|--[START]--{{JMP #1}}
+
+rung
+|--[LAMP]--{{SBS #5}}
+
+rung
+|--[START]--(MOTOR)
+
+rung
+|--{{JME #1}}
+
+rung
+|--[MOTOR]--(LAMP)
+
+rung
+|--{{END}}
+
+rung
+|--{{SBN #5}}
+
+rung
+|--[START]--(7003.00)
+
+rung
+|--[LAMP]--(7003.01)
+
+rung
+|--[LAMP]--{{RET}}
+"""
+
+    def nct_jumps(self, *changes):
+        text = self.NCT_JUMPS.format(HEAD=HEAD)
+        changed = text
+        for old, new in changes:
+            self.assertIn(old, changed)
+            changed = changed.replace(old, new)
+        return self.diff(text, changed)
+
+    def test_jumps_go_by_what_they_lead_to(self):
+        same = (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 10 the same\n")
+        self.assertEqual(self.nct_jumps(("|--{JME #1}", "|--{JME #1} ; the target")), same)
+        self.assertEqual(self.nct_jumps(("#1}", "#7}")), same, "a label by another name")
+        self.assertEqual(self.nct_jumps(("#5}", "#6}")), same, "a subroutine by another name")
+        status, text = self.nct_jumps(("rung\n|--{JME #1}\n\nrung\n|--[MOTOR]--(LAMP)\n", "rung\n|--[MOTOR]--(LAMP)\n\nrung\n|--{JME #1}\n"))
+        self.assertEqual(text.splitlines()[-1], "rungs: 0 changed, 0 added, 0 removed, 1 moved, 9 the same", text)
+        status, text = self.nct_jumps(("|--{JME #1}", "|--{JME #1}\n\nrung\n|--[LAMP]--(7003.02)"))
+        self.assertEqual(text.splitlines()[-1], "rungs: 0 changed, 1 added, 0 removed, 0 moved, 10 the same", text)
+
+    def test_another_target(self):
+        before = HEAD + "\nrung\n|--[START]--{JMP #1}\n\nrung\n|--[/START]--{JMP #1}\n\nrung\n|--[LAMP]--{JMP #2}\n\nrung\n|--{JME #1}\n" + ONE + "\nrung\n|--{JME #2}\n" + TWO + END
+        status, text = self.diff(before, before.replace("JMP #1", "JMP #2", 1))
+        self.assertEqual((status, text), (OTHERWISE, """changed rung 1, old.lad:7 to rung 1, new.lad:7
+  - rung
+  - |--[START]--{JMP #1}
+  + rung
+  + |--[START]--{JMP #2}
+  leads to rung 6, new.lad:22, before: to rung 4, old.lad:16
+rungs: 1 changed, 0 added, 0 removed, 0 moved, 7 the same
+"""))
+        _, text = self.diff(before, before.replace("JMP #1", "JMP #2", 1), "--format", "json")
+        self.assertEqual(json.loads(text)["rungs"][0]["leads"], [{"before": "rung 4, old.lad:16", "after": "rung 6, new.lad:22"}])
+
+    def test_gsk_jumps(self):
+        before = ("LD X20.0\nFUNC JMPB\nPRM L1\nLD X20.1\nOUT R10.0\nFUNC LBL\nPRM L1\nLD X20.2\nOUT R10.1\nFUNC END1\n"
+                  "LD X20.3\nFUNC CALL\nPRM P1\nFUNC END2\nFUNC SP\nPRM P1\nLD X20.4\nOUT R10.2\nFUNC SPE\n")
+        for old, new in (("PRM L1\nLD X20.2", "PRM L1 ; target\nLD X20.2"), ("L1", "L9"), ("P1", "P22"), ("X20.4", "X020.4")):
+            status, text = self.diff(before, before.replace(old, new), ending="pmc")
+            self.assertEqual((status, text), (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 6 the same\n"), (old, new))
+        status, text = self.diff(before, before.replace("X20.2", "X20.7"), ending="pmc")
+        self.assertEqual(text.splitlines()[-1], "rungs: 1 changed, 0 added, 0 removed, 0 moved, 5 the same", text)
+
+    TECHNOL = """DATA
+BITS: DFM A,B,C,D,,,,
+TEXT: STR 10,'abc'
+LIST: DS 8
+WORD_1: DS 2
+STEP: DS 1
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_BLOCK_INIT
+MODULE_BLOCK_INIT_END
+MODULE_BLOCK_DONE
+MODULE_BLOCK_DONE_END
+MODULE_MAIN
+        LDR A
+        JL1 FURTHER
+        LOD CNST.0
+        STO STEP
+FURTHER:
+        LDR B
+        WR C
+        STRCPY TEXT,'xyz'
+        LOD CNST.10
+        STO WORD_1
+        LOD WORD.LIST[BX]
+        STO WORD_1
+        MECH_BEGIN ALFA
+        LDR A
+        EX0
+        FL 1,D
+        EX
+        LDR B
+        EX1
+        FL 0,D
+        MECH_END ALFA
+MODULE_MAIN_END
+MODULE_INIT
+MODULE_INIT_END
+MODULE_CLEAR
+MODULE_CLEAR_END
+MODULE_HALT
+MODULE_HALT_END
+STOP
+"""
+
+    def technol(self, *changes):
+        changed = self.TECHNOL
+        for old, new in changes:
+            self.assertIn(old, changed)
+            changed = changed.replace(old, new)
+        return self.diff(self.TECHNOL, changed, "--dialect", "technol", ending="plc")
+
+    def test_technol_lines_and_numbers(self):
+        for change in (("DATA\n", "; one line\nDATA\n"), ("FL 1,D", "FL 1,D ; a remark"), ("FURTHER", "LATER"), ("CNST.10", "CNST.0Ah"),
+                       ("MODULE_MAIN\n", "\n\nMODULE_MAIN\n"), ("CNST.0\n", "CNST.0h\n")):
+            status, text = self.technol(change)
+            self.assertEqual(status, SAME, f"{change}\n{text}")
+            self.assertRegex(text, r"^rungs: 0 changed, 0 added, 0 removed, 0 moved, \d+ the same\n$")
+        for change in (("DATA\n", "DATA\nFIRST: DS 3\n"), ("STEP: DS 1\n", "STEP: DS 1\nLAST: DS 300\n")):
+            status, text = self.technol(change)
+            self.assertRegex(text, r"rungs: 0 changed, 0 added, 0 removed, 0 moved, \d+ the same\n$", change)
+
+    def test_technol_changes(self):
+        for change, rungs in ((("        LDR B\n        WR C\n", "        LDR -B\n        WR C\n"), "1 changed, 0 added"),
+                              (("CNST.10", "CNST.11"), "1 changed, 0 added"), (("WORD.LIST[BX]", "WORD.(LIST[BX]+2)"), "1 changed, 0 added"),
+                              (("'xyz'", "'xyy'"), "1 changed, 0 added"), (("EX0\n", "EX1\n"), "1 changed, 0 added"),
+                              (("        LDR B\n        EX1\n", "        LDR A\n        EX1\n        LDR B\n        EX1\n"), "0 changed, 1 added"),
+                              (("        LDR B\n        WR C\n", "        LDR A\n        WR B\n        LDR B\n        WR C\n"), "0 changed, 1 added")):
+            status, text = self.technol(change)
+            self.assertEqual(status, OTHERWISE, change)
+            self.assertRegex(text, rf"rungs: {rungs}, 0 removed, 0 moved, \d+ the same\n$", f"{change}\n{text}")
+
+    def test_initial_contents(self):
+        self.assertEqual(self.technol(("'abc'", "'abd'"))[1].splitlines()[0], "changed initial value TEXT: 'abc' to 'abd'")
+        status, text = self.technol(("STEP: DS 1\n", "STEP: DS 1\nMORE: STR 5,'new'\n"))
+        self.assertEqual(text.splitlines()[:2], ["added name MORE:  × 6", "added initial value MORE: 'new'"])
+        first, later = "TOOL struc\nN DW ?\nL DD 7\nTOOL ends\nT1 TOOL <5,1000>\nDATA_END\n", "TOOL struc\nN DW ?\nL DD 7\nTOOL ends\nT1 TOOL <5,1001>\nDATA_END\n"
+        head, tail = self.TECHNOL.split("DATA_END\n", 1)
+        status, text = self.diff(head + first + tail, head + later + tail, "--dialect", "technol", ending="plc")
+        self.assertEqual(status, OTHERWISE)
+        self.assertRegex(text, r"^changed initial value T1\S*: ")
+        _, text = self.diff(head + first + tail, head + later + tail, "--dialect", "technol", "--format", "json", ending="plc")
+        self.assertEqual([change["change"] for change in json.loads(text)["contents"]], ["changed"] * len(json.loads(text)["contents"]))
+
+    def project(self, name, config, source="LD X20.0\nFUNC TMR\nPRM 1\nOUT R10.0\nFUNC END1\nFUNC END2\n", messages=None):
+        folder = Path(self.folder.name) / name
+        folder.mkdir()
+        (folder / "v.pmc").write_text(source)
+        if messages is not None:
+            (folder / "v.msg").write_text(messages)
+            config += 'messages = "v.msg"\n'
+        (folder / "rung.toml").write_text(f'dialect = "gsk"\nfiles = ["v.pmc"]\n[config]\n{config}')
+        return folder
+
+    def run_diff(self, *args):
+        done = subprocess.run([RUNGC, "diff", *args], capture_output=True, text=True, timeout=patience(300), check=False)
+        return done.returncode, *(text.replace(self.folder.name + "/", "") for text in (done.stdout, done.stderr))
+
+    def test_configuration(self):
+        a, b = self.project("a", '"tmr.1" = 1000\n'), self.project("b", '"tmr.1" = 2000\n"tmr.2" = 8\n')
+        self.assertEqual(self.run_diff(a, b), (OTHERWISE, """changed configuration tmr.1: 1000 to 2000
+added configuration tmr.2: 8
+rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 the same
+""", ""))
+        self.assertEqual([c["name"] for c in json.loads(self.run_diff(a, b, "--format", "json")[1])["configuration"]], ["tmr.1", "tmr.2"])
+
+    def test_messages(self):
+        a, b = (self.project(name, "", messages=f'1 "{text}"\n2 "oil"\n') for name, text in (("a", "air"), ("b", "no air")))
+        status, text, _ = self.run_diff(a, b)
+        self.assertEqual(status, OTHERWISE)
+        self.assertEqual(text.splitlines()[0].split(": ")[1], "air to no air")
+        before = HEAD + 'message 3 "x"\nbutton 3 "y"\n' + ONE + END
+        self.assertEqual(self.diff(before, before.replace('"x"', '"u"').replace('"y"', '"v"'))[1].splitlines()[:2],
+                         ["changed message 3: x to u", "changed button 3: y to v"])
+
+    def test_a_copy_beside_its_project(self):
+        a = self.project("a", '"tmr.1" = 1000\n', messages='1 "air"\n')
+        copy = self.file("before.pmc", (a / "v.pmc").read_text().replace("X20.0", "X20.1"))
+        said = "rungc: before.pmc is in no project: it is compared in the place of a/v.pmc, with all else of a/rung.toml\n"
+        for new in (a, a / "v.pmc"):
+            status, text, error = self.run_diff(copy, new)
+            self.assertEqual((status, text.splitlines()[-1], error), (OTHERWISE, "rungs: 1 changed, 0 added, 0 removed, 0 moved, 0 the same", said))
+            self.assertNotIn("message", text)
+        status, text, error = self.run_diff("examples/nct-lathe/io.lad", "examples/nct-lathe")
+        self.assertEqual((status, error), (SAME, ""), "a file of the project is the project")
+        lonely = self.file("other.lad", HEAD + ONE + END)
+        self.assertEqual(self.run_diff(lonely, "examples/nct-lathe")[2].split(": ")[-1].strip(), "configuration and messages are not compared")
+
+    def test_levels_and_modules(self):
+        rung = "LD X20.0\nOUT R10.0\n"
+        self.assertEqual(self.diff(rung + "FUNC END1\nFUNC END2\n", "FUNC END1\n" + rung + "FUNC END2\n", ending="pmc")[1].splitlines()[0],
+                         "moved rung 1, old.pmc:1 to rung 1, new.pmc:2, from LEVEL1 to LEVEL2")
+        before = HEAD + ONE + TWO
+        self.assertEqual(self.diff(before, before.replace(TWO, "\nmodule INT0\n" + TWO))[1].splitlines()[0],
+                         'moved rung 2 "lamp", old.lad:10 to rung 2 "lamp", new.lad:12, from MAIN to INT0')
+
+    def test_compiled_program(self):
+        program = Path(self.folder.name) / "p.so"
+        program.write_bytes(b"\x7fELF\x02\x01\x01" + bytes(100))
+        for command in (["diff", program, program], ["check", program], ["xref", program], ["view", program, "-o", "x.svg"], ["format", program], ["emit", "ir", program]):
+            done = subprocess.run([RUNGC, *command], capture_output=True, text=True, check=False)
+            self.assertEqual((done.stdout, done.stderr), ("", f"rungc: '{program}' is a compiled program; its source files are needed here\n"), command)
+            self.assertEqual(done.returncode, 3)
+
+    def test_help(self):
+        done = subprocess.run([RUNGC, "diff", "--help"], capture_output=True, text=True, check=False)
+        self.assertIn("Exit status: 0 no difference, 1 there are differences or a program is wrong", done.stdout)
 
     def test_json(self):
         status, text = self.diff(HEAD + ONE + END, HEAD + ONE.replace("[START]", "[/START]") + END, "--format", "json")

@@ -115,6 +115,17 @@ void Command::textFlag(const std::string& name, const std::string& description, 
   app_->add_flag_callback(name, print, description);
 }
 
+namespace {
+
+constexpr std::string_view kStatusHead = "Exit status: ";
+
+std::string statusFooter(const std::string& text) { return std::string(kStatusHead) + text + "."; }
+
+} // namespace
+
+void Command::exitStatus(const std::string& text) { app_->footer(statusFooter(text)); }
+std::string Command::exitStatus() const { return app_->get_footer().substr(kStatusHead.size()); }
+
 const std::string& Command::name() const { return app_->get_name(); }
 std::string Command::description() const { return app_->get_description(); }
 std::string Command::help() const {
@@ -146,7 +157,7 @@ CommandLine::CommandLine(ProgramText text)
     : text_(std::move(text)), app_(std::make_unique<CLI::App>(text_.description, text_.name)) {
   openStandardFiles();
   app_->set_version_flag("--version", version());
-  app_->footer("Exit status: " + text_.exitStatus + ".");
+  app_->footer(statusFooter(text_.exitStatus));
 }
 CommandLine::~CommandLine() = default;
 

@@ -66,8 +66,12 @@ public:
   // A flag that prints this text in the place of all else.
   void textFlag(const std::string& name, const std::string& description, std::function<std::string()> text);
 
+  // Of a command whose statuses mean something else than those of the program: "0 …, 1 …".
+  void exitStatus(const std::string& text);
+
   const std::string& name() const;
   std::string description() const;
+  std::string exitStatus() const;
   std::string help() const; // what --help prints
   // Options that may be seen, then words, each in the order in which they were added.
   std::vector<OptionText> options() const;

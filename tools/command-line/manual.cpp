@@ -93,7 +93,7 @@ std::string manualPage(const CommandLine& app, Command command) {
           "\n";
   if (chooses) text += commandList(app);
   text += optionList(options);
-  text += ".SH EXIT STATUS\n" + line(app.text().exitStatus + ".");
+  text += ".SH EXIT STATUS\n" + line(command.exitStatus());
   text += ".SH SEE ALSO\n";
   if (!whole) return text + reference(app.text().name + "(1)") + "\n";
   std::vector<std::string> others;

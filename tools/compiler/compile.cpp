@@ -59,6 +59,10 @@ Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<s
     }
     Result<FileId> file = sources.addFile(name);
     if (!file.ok()) return failure(fmt::format("cannot read '{}': {}", name, file.error()));
+    if (sources.text(file.value())
+            .starts_with("\x7f"
+                         "ELF"))
+      return failure(fmt::format("'{}' is a compiled program; its source files are needed here", name));
     files.push_back(file.value());
   }
   return files;
@@ -74,6 +78,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   out.options = request.options;
   frontend::CompileOptions options = request.options;
   if (request.marks) options.marks = &out.marks;
+  if (request.compare) options.given = &out.given;
   const auto ended = [&](std::string_view stage) {
     if (request.ended) request.ended(stage);
   };
@@ -83,7 +88,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   if (out.module == nullptr || diagnostics.hasErrors()) return std::nullopt;
   if (request.keepSource) out.source = std::move(program);
   for (const LayoutClaim& claim : request.layouts) addClaim(*out.module, claim);
-  ir::orderOperations(*out.module, options.marks);
+  ir::orderOperations(*out.module, options.marks, options.given);
   ir::readSourcesOfLatches(*out.module);
   out.module->name =
       request.name.empty() ? std::filesystem::path(sources.name(files[0])).stem().string() : request.name;
@@ -93,8 +98,8 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   ended("verifier");
   out.uses = std::make_unique<ir::Uses>(*out.module);
   if (request.branches != nullptr) out.odds = ir::setOdds(*out.module, *request.branches);
-  if (request.keepBuilt) out.built = std::make_unique<ir::Module>(*out.module);
-  out.passes.optimise = request.optimise && !request.marks;
+  if (request.keepBuilt || request.compare) out.built = std::make_unique<ir::Module>(*out.module);
+  out.passes.optimise = request.optimise && !request.marks && !request.compare;
   out.passes.instrument = request.instrument;
   ended("uses");
   out.shape = std::make_unique<ir::Module>();

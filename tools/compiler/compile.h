@@ -31,6 +31,7 @@ struct CompileRequest {
   frontend::CompileOptions options; // configuration and strictness
   bool instrument = false;          // count and time rungs
   bool marks = false;               // note contacts and coils; the module stays as it was built
+  bool compare = false; // note what is needed to compare the module, as it was built, with that of another version
   bool optimise = true;
   bool activity = false;   // hosts may leave out chunks that would change nothing
   bool keepBuilt = false;  // for those who make its code again (recompiler.h)
@@ -52,6 +53,7 @@ struct Compiled {
   ir::OddsResult odds;                // of the branches of the request
   std::unique_ptr<ir::Layout> layout; // of the shape, over the module
   ir::Marks marks;                    // where they were asked for
+  ir::GivenNumbers given;             // of `built`, for a comparison
   frontend::CompileOptions options;   // of the request
   std::unique_ptr<ir::Uses> uses;     // of the module as the dialect made it
   // Where it was asked for: for its analysis alone, as it has been built.
@@ -60,7 +62,8 @@ struct Compiled {
   size_t warnings = 0;   // that were reported on the way
 };
 
-// Adds the files of a command line; "-" reads standard input. Fails on the first that cannot be read.
+// Adds the files of a command line; "-" reads standard input. Fails on the first that cannot be read,
+// or is a compiled program.
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names);
 
 // The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing says it;

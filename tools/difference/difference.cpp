@@ -1,4 +1,4 @@
-// Rungs, names and messages of two versions (see difference.h).
+// Rungs, names, contents, messages and configuration of two versions (see difference.h).
 #include "tools/difference/difference.h"
 
 #include <algorithm>
@@ -6,8 +6,10 @@
 #include <iterator>
 #include <map>
 
-#include "rtlib/host/rung_alignment.h"
-#include "tools/difference/meaning.h"
+#include "rtlib/nc/names/names.h"
+#include "rtlib/text/letters.h"
+#include "tools/difference/contents.h"
+#include "tools/difference/pairs.h"
 
 namespace rung::difference {
 namespace {
@@ -15,89 +17,145 @@ namespace {
 using ir::Module;
 using ir::Symbol;
 
-std::vector<host::RungMark> marksOf(const std::vector<DrawnRung>& rungs) {
-  std::vector<host::RungMark> marks;
-  for (const DrawnRung& rung : rungs) marks.push_back({rung.routine->name, rung.meaning, rung.rung->title});
-  return marks;
-}
-
 ChangeKind kindOf(host::RungKind kind) {
   return kind == host::RungKind::Moved ? ChangeKind::Moved : ChangeKind::Changed;
 }
 
+ShownRung shown(const DrawnRung& drawn) { return {.rung = drawn.rung, .routine = drawn.routine}; }
+
 // Those that are gone come after what they followed.
-void compareRungs(const std::vector<DrawnRung>& before, const std::vector<DrawnRung>& after, Difference& out) {
-  const std::vector<host::RungPair> pairs = host::alignRungs(marksOf(before), marksOf(after));
+void compareRungs(const PairedRungs& paired, Difference& out) {
+  const std::vector<DrawnRung>&before = paired.before(), &after = paired.after();
   std::vector<bool> isThere(before.size(), false);
-  for (const host::RungPair& pair : pairs) isThere[pair.before] = true;
+  for (const PairedRungs::Pair& pair : paired.pairs()) isThere[pair.before] = true;
   size_t b = 0;
   const auto removedUpTo = [&](size_t end) {
     for (; b < end; ++b)
-      if (!isThere[b]) out.rungs.push_back({ChangeKind::Removed, before[b].rung, nullptr});
+      if (!isThere[b]) out.rungs.push_back({ChangeKind::Removed, shown(before[b]), {}, {}});
   };
-  auto pair = pairs.begin();
+  auto pair = paired.pairs().begin();
   for (uint32_t a = 0; a < after.size(); ++a) {
-    if (pair == pairs.end() || pair->after != a) {
-      out.rungs.push_back({ChangeKind::Added, nullptr, after[a].rung});
+    if (pair == paired.pairs().end() || pair->after != a) {
+      out.rungs.push_back({ChangeKind::Added, {}, shown(after[a]), {}});
       continue;
     }
     if (pair->kind != host::RungKind::Moved) removedUpTo(pair->before);
-    if (pair->kind == host::RungKind::Same)
+    if (pair->kind == host::RungKind::Same && pair->ways.empty())
       ++out.same;
     else
-      out.rungs.push_back({kindOf(pair->kind), before[pair->before].rung, after[a].rung});
+      out.rungs.push_back({pair->ways.empty() ? kindOf(pair->kind) : ChangeKind::Changed, shown(before[pair->before]),
+                           shown(after[a]), pair->ways});
     ++pair;
   }
   removedUpTo(before.size());
 }
 
-// ---- names and messages --------------------------------------------------------------------------------------------
+// ---- names, contents, messages, configuration ---------------------------------------------------------------------
 
 // Of names whose addresses the compiler gives out the type.
-std::string meaningOf(const Module& module, const Symbol& symbol) {
+std::string meaningOf(const rung_program& program, const Symbol& symbol) {
   if (!symbol.space.valid()) return fmt::format("constant {}", symbol.value);
-  const ir::Space& space = module.at(symbol.space);
   constexpr std::string_view kTypes[] = {"", "bit", "byte", "16 bits", "32 bits", "64 bits", "real"};
   const std::string type(symbol.type < std::size(kTypes) ? kTypes[symbol.type] : "");
   const std::string count = symbol.count > 1 ? fmt::format(" × {}", symbol.count) : "";
-  if ((space.flags & RUNG_SPACE_ALLOCATED) != 0) return type + count;
-  return fmt::format("{}{}{}", space.name, symbol.byte / space.unitBytes,
-                     symbol.type == RUNG_TYPE_BIT ? fmt::format(".{}", symbol.byte % space.unitBytes * 8 + symbol.bit)
-                                                  : " " + type) +
-         count;
+  if ((program.spaces[symbol.space.index].flags & RUNG_SPACE_ALLOCATED) != 0) return type + count;
+  const host::Ref place = symbol.type == RUNG_TYPE_BIT ? host::bitRef(symbol.space.index, symbol.byte, symbol.bit)
+                                                       : host::intRef(symbol.space.index, symbol.byte, 8);
+  return nc::address(program, place) + (symbol.type == RUNG_TYPE_BIT ? "" : " " + type) + count;
 }
 
-using Names = std::map<std::string, std::string>;
-using Messages = std::map<uint32_t, std::string>;
+using Texts = std::map<std::string, std::string>;
 
-Names namesOf(const Module& module) {
-  Names names;
-  for (const Symbol& symbol : module.symbols)
-    if ((symbol.flags & RUNG_SYMBOL_HIDDEN) == 0) names.emplace(symbol.name, meaningOf(module, symbol));
+Texts namesOf(const Version& version) {
+  Texts names;
+  for (const Symbol& symbol : version.module.symbols)
+    if ((symbol.flags & RUNG_SYMBOL_HIDDEN) == 0 && !version.controlNames.contains(text::upper(symbol.name)))
+      names.emplace(symbol.name, meaningOf(version.program, symbol));
   return names;
 }
 
-Messages messagesOf(const Module& module) {
-  Messages messages;
+std::map<uint32_t, std::string> messagesOf(const Module& module) {
+  std::map<uint32_t, std::string> messages;
   for (const ir::MessageText& message : module.messages) messages.emplace(message.number, message.text);
   return messages;
 }
 
-template <class Texts>
-std::vector<NameChange> changesOf(const Texts& before, const Texts& after) {
-  Texts all = before;
-  all.insert(after.begin(), after.end());
-  std::vector<NameChange> changes;
-  for (const auto& [name, what] : all) {
-    const auto old = before.find(name);
-    const auto now = after.find(name);
-    if (old == before.end())
-      changes.push_back({ChangeKind::Added, fmt::format("{}", name), "", now->second});
-    else if (now == after.end())
-      changes.push_back({ChangeKind::Removed, fmt::format("{}", name), old->second, ""});
-    else if (old->second != now->second)
-      changes.push_back({ChangeKind::Changed, fmt::format("{}", name), old->second, now->second});
+const std::string& textOf(const std::string& text) { return text; }
+const std::string& textOf(const Setting& setting) { return setting.text; }
+
+// Calls `visit` with key, former and new value of all that differ; null where there is none.
+template <class Values, class Visit>
+void eachChange(const Values& before, const Values& after, Visit visit) {
+  auto b = before.begin();
+  auto a = after.begin();
+  while (b != before.end() || a != after.end()) {
+    const bool gone = a == after.end() || (b != before.end() && b->first < a->first);
+    const bool isNew = !gone && (b == before.end() || a->first < b->first);
+    if (gone)
+      visit(b->first, &b->second, nullptr);
+    else if (isNew)
+      visit(a->first, nullptr, &a->second);
+    else if (!(b->second == a->second))
+      visit(a->first, &b->second, &a->second);
+    if (!isNew) ++b;
+    if (!gone) ++a;
   }
+}
+
+template <class Value>
+NameChange changeOf(std::string name, const Value* before, const Value* after) {
+  const ChangeKind kind = before == nullptr  ? ChangeKind::Added
+                          : after == nullptr ? ChangeKind::Removed
+                                             : ChangeKind::Changed;
+  return {kind, std::move(name), before != nullptr ? textOf(*before) : "", after != nullptr ? textOf(*after) : ""};
+}
+
+std::vector<NameChange> compareNames(const Version& before, const Version& after) {
+  std::vector<NameChange> changes;
+  eachChange(namesOf(before), namesOf(after),
+             [&](const std::string& name, const std::string* old, const std::string* now) {
+               changes.push_back(changeOf(name, old, now));
+             });
+  return changes;
+}
+
+// A variable that only one version has counts by what it begins with.
+std::vector<NameChange> compareContents(const Version& before, const Version& after) {
+  std::vector<NameChange> changes;
+  const Texts names[] = {namesOf(before), namesOf(after)};
+  const auto isNamed = [&](int version, const std::string& cell) {
+    return names[version].contains(cell.substr(0, cell.rfind('['))) || names[version].contains(cell);
+  };
+  eachChange(initialContents(before.program), initialContents(after.program),
+             [&](const auto& cell, const std::string* old, const std::string* now) {
+               const std::string zero = zeroLike(old != nullptr ? *old : *now);
+               if (old == nullptr && isNamed(0, cell.first)) old = &zero;
+               if (now == nullptr && isNamed(1, cell.first)) now = &zero;
+               const std::string& only = old != nullptr ? *old : *now;
+               if ((old != nullptr && now != nullptr) || only != zero)
+                 changes.push_back(changeOf(cell.first, old, now));
+             });
+  return changes;
+}
+
+std::vector<NameChange> compareMessages(const Module& before, const Module& after, const Options& options) {
+  std::vector<NameChange> changes;
+  if (!options.messages) return changes;
+  eachChange(messagesOf(before), messagesOf(after),
+             [&](uint32_t number, const std::string* old, const std::string* now) {
+               const std::string name = options.textName != nullptr ? options.textName(number) : "";
+               changes.push_back(changeOf(name.empty() ? fmt::format("{}", number) : name, old, now));
+             });
+  return changes;
+}
+
+std::vector<NameChange> compareSettings(const Settings& before, const Settings& after) {
+  std::vector<NameChange> changes;
+  eachChange(before, after, [&](const std::string& key, const Setting* old, const Setting* now) {
+    NameChange change = changeOf(key, old, now);
+    if (old != nullptr && now != nullptr && old->meaning == now->meaning) change.after += " with other contents";
+    changes.push_back(std::move(change));
+  });
   return changes;
 }
 
@@ -108,11 +166,13 @@ std::string_view nameOf(ChangeKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-Difference compare(const Module& before, const Module& after) {
+Difference compare(const Version& before, const Version& after, const Options& options) {
   Difference difference;
-  compareRungs(drawnRungs(before), drawnRungs(after), difference);
-  difference.names = changesOf(namesOf(before), namesOf(after));
-  difference.messages = changesOf(messagesOf(before), messagesOf(after));
+  compareRungs(PairedRungs(before, after), difference);
+  difference.names = compareNames(before, after);
+  difference.contents = compareContents(before, after);
+  difference.messages = compareMessages(before.module, after.module, options);
+  difference.settings = compareSettings(before.settings, after.settings);
   return difference;
 }
 

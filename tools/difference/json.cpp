@@ -8,10 +8,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json rungJson(const ir::Module& module, const ir::Rung* rung) {
+Json rungJson(const ir::Module& module, const ShownRung& shown) {
+  const ir::Rung* rung = shown.rung;
   if (rung == nullptr) return nullptr;
   return {{"number", rung->number},
           {"title", rung->title},
+          {"routine", shownName(*shown.routine)},
           {"file", module.files[rung->begin.file.index]},
           {"line", rung->begin.line},
           {"text", rung->sourceText}};
@@ -29,14 +31,20 @@ Json namesJson(const std::vector<NameChange>& changes) {
 
 std::string shownAsJson(const Difference& difference, const ir::Module& before, const ir::Module& after) {
   Json rungs = Json::array();
-  for (const RungChange& change : difference.rungs)
+  for (const RungChange& change : difference.rungs) {
+    Json ways = Json::array();
+    for (const OtherWay& way : change.ways) ways.push_back({{"before", way.before}, {"after", way.after}});
     rungs.push_back({{"change", nameOf(change.kind)},
                      {"before", rungJson(before, change.before)},
-                     {"after", rungJson(after, change.after)}});
+                     {"after", rungJson(after, change.after)},
+                     {"leads", std::move(ways)}});
+  }
   const Json json = {{"rungs", std::move(rungs)},
                      {"same", difference.same},
                      {"names", namesJson(difference.names)},
-                     {"messages", namesJson(difference.messages)}};
+                     {"contents", namesJson(difference.contents)},
+                     {"messages", namesJson(difference.messages)},
+                     {"configuration", namesJson(difference.settings)}};
   return json.dump(2) + "\n";
 }
 

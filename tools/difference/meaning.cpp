@@ -4,85 +4,288 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
 
+#include "ir/core/memory_use.h"
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
 #include "ir/support/hash.h"
 #include "ir/support/put.h"
-#include "rtlib/text/letters.h"
 
 namespace rung::difference {
 namespace {
 
 using namespace ir;
 
-class Meanings {
+// Which of several that are alike an instruction is ("~1") depends on the others, and says nothing of it.
+std::string withoutOrdinals(std::string_view key) {
+  std::string text;
+  for (size_t at = 0; at < key.size();) {
+    const size_t digits = key[at] == '~' ? key.find_first_not_of("0123456789", at + 1) : at;
+    const size_t end = std::min(digits, key.size());
+    const bool isOrdinal = end > at + 1 && (end == key.size() || key[end] == '/');
+    if (isOrdinal)
+      at = end;
+    else
+      text += key[at++];
+  }
+  return text;
+}
+
+// ---- names of places ---------------------------------------------------------------------------------------------
+
+class PlaceTexts {
 public:
-  explicit Meanings(const Module& module) : module_(module) {
+  explicit PlaceTexts(const Module& module) : module_(module) {
     for (const Symbol& symbol : module.symbols)
-      if (symbol.space.valid() && (module.at(symbol.space).flags & RUNG_SPACE_ALLOCATED) != 0)
+      if (symbol.space.valid() && isAllocated(symbol.space))
         names_[symbol.space.index].emplace(symbol.byte * 8 + symbol.bit, symbol.name);
+    for (const Task& task : module.tasks)
+      for (const Copy& copy : task.begin)
+        if (!copy.masked && isHidden(copy.to) && !isHidden(copy.from.space)) latches_.push_back(&copy);
   }
 
-  void add(const Routine& routine, const Rung& rung, std::string& out) const {
-    const bool byText = std::ranges::any_of(
-        rung.ops, [&](const Op& op) { return opInfo(op.code).attr == Attr::Window && isAllocated(op); });
-    for (const Op& op : rung.ops)
-      if (op.code != OpCode::Note && !(byText && op.code == OpCode::Const)) addOp(rung, op, out);
-    if (byText) addWords(rung.sourceText, out);
-    const Transfer& transfer = rung.transfer;
-    put(out, "{} {} {}", static_cast<int>(transfer.kind), transfer.cond.index, transfer.value.index);
-    if (transfer.kind == TransferKind::Call) put(out, " {}", module_.at(transfer.callee).name);
-    if (transfer.kind == TransferKind::Goto) addTarget(routine, transfer.target, out);
-    for (const uint32_t target : transfer.targets) addTarget(routine, target, out);
-    out += '\n';
+  bool isAllocated(SpaceId space) const { return (module_.at(space).flags & RUNG_SPACE_ALLOCATED) != 0; }
+
+  // Where the compiler gives addresses out: the name that begins at the place or before it, and the distance. What a
+  // latch holds is what it is copied from.
+  std::string of(SpaceId space, uint64_t bit) const {
+    for (const Copy* copy : latches_)
+      if (copy->to == space && bit / 8 >= copy->toByte && bit / 8 - copy->toByte < copy->from.size)
+        return of(copy->from.space, bit - 8 * uint64_t{copy->toByte} + 8 * uint64_t{copy->from.byte});
+    const auto names = names_.find(space.index);
+    if (names == names_.end()) return fmt::format("{}+{}", module_.at(space).name, bit);
+    const auto next = names->second.upper_bound(bit);
+    if (next == names->second.begin()) return fmt::format("+{}", bit);
+    const auto& [begin, name] = *std::prev(next);
+    return fmt::format("{}+{}", withoutOrdinals(name), bit - begin);
   }
 
 private:
-  static void addTarget(const Routine& routine, uint32_t target, std::string& out) {
-    if (target < routine.rungs.size()) put(out, " {:x}", routine.rungs[target].key);
+  bool isHidden(SpaceId space) const { return (module_.at(space).flags & RUNG_SPACE_HIDDEN) != 0; }
+
+  const Module& module_;
+  std::map<uint32_t, std::multimap<uint64_t, std::string>> names_; // by allocated space and bit
+  std::vector<const Copy*> latches_;
+};
+
+// ---- rungs of the module and rungs as drawn -----------------------------------------------------------------------
+
+class Drawing {
+public:
+  explicit Drawing(const Module& module) : module_(module) {
+    for (uint32_t r = 0; r < module.routines.size(); ++r)
+      for (uint32_t i = 0; i < module.routines[r].rungs.size(); ++i) add(r, i);
   }
 
-  bool isAllocated(const Op& op) const { return (module_.spaces[op.ref].flags & RUNG_SPACE_ALLOCATED) != 0; }
+  struct Part {
+    uint32_t routine = 0;
+    uint32_t rung = 0;
+  };
+  // In the order of their first parts.
+  const std::vector<std::vector<Part>>& rungs() const { return rungs_; }
 
-  // Which of several that are alike an instruction is ("~1") depends on the others, and says nothing of it.
-  static std::string withoutOrdinals(std::string_view key) {
-    std::string text;
-    for (size_t at = 0; at < key.size();) {
-      const size_t digits = key[at] == '~' ? key.find_first_not_of("0123456789", at + 1) : at;
-      const size_t end = std::min(digits, key.size());
-      const bool isOrdinal = end > at + 1 && (end == key.size() || key[end] == '/');
-      if (isOrdinal)
-        at = end;
-      else
-        text += key[at++];
+  // What is reached where control comes to a rung of the module.
+  Exit exitTo(uint32_t routine, uint32_t target) const {
+    const std::vector<Rung>& rungs = module_.routines[routine].rungs;
+    while (target < rungs.size() && rungs[target].number == 0) ++target;
+    if (target >= rungs.size()) return {.to = Exit::To::End, .index = routine};
+    const uint32_t drawn = drawn_.at(rungs[target].number);
+    uint32_t part = 0; // in its routine: another may have them as well
+    for (const Part& p : rungs_[drawn])
+      if (p.routine == routine && p.rung < target) ++part;
+    return {.to = Exit::To::Rung, .index = drawn, .part = part};
+  }
+
+  // Of a routine that is there once for each level the first.
+  uint32_t homeOf(uint32_t routine) const {
+    for (const Rung& rung : module_.routines[routine].rungs)
+      if (rung.number != 0) return rungs_[drawn_.at(rung.number)][0].routine;
+    return routine;
+  }
+
+private:
+  void add(uint32_t routine, uint32_t rung) {
+    const uint32_t number = module_.routines[routine].rungs[rung].number;
+    if (number == 0) return;
+    const auto [at, isNew] = drawn_.emplace(number, static_cast<uint32_t>(rungs_.size()));
+    if (isNew) rungs_.emplace_back();
+    rungs_[at->second].push_back({routine, rung});
+  }
+
+  const Module& module_;
+  std::vector<std::vector<Part>> rungs_;
+  std::unordered_map<uint32_t, uint32_t> drawn_; // by number
+};
+
+// ---- cells by which control finds its way ------------------------------------------------------------------------
+
+// Where a switch leads by the number in a cell: what is stored there is the number of a way.
+struct Ways {
+  uint32_t routine = 0;
+  const std::vector<uint32_t>* targets = nullptr;
+};
+
+class WayCells {
+public:
+  explicit WayCells(const Module& module) {
+    for (uint32_t r = 0; r < module.routines.size(); ++r)
+      for (const Rung& rung : module.routines[r].rungs)
+        if (const Op* op = cellOf(rung)) cells_.try_emplace(cellKey(*op), Ways{r, &rung.transfer.targets});
+  }
+
+  // The load by which the rung's switch is decided.
+  static const Op* cellOf(const Rung& rung) {
+    if (rung.transfer.kind != TransferKind::Switch) return nullptr;
+    for (const Op& op : rung.ops)
+      if ((op.code == OpCode::SlotLoad || op.code == OpCode::Load) && op.result == rung.transfer.value) return &op;
+    return nullptr;
+  }
+  // Null: nothing goes by what the operation stores.
+  const Ways* storedBy(const Op& op) const {
+    if (op.code != OpCode::SlotStore && op.code != OpCode::Store) return nullptr;
+    const auto at = cells_.find(cellKey(op));
+    return at == cells_.end() ? nullptr : &at->second;
+  }
+
+private:
+  using Key = std::tuple<bool, uint32_t, int64_t>;
+  static Key cellKey(const Op& op) {
+    const bool isSlot = op.code == OpCode::SlotLoad || op.code == OpCode::SlotStore;
+    return {isSlot, op.ref, isSlot ? 0 : op.imm};
+  }
+
+  std::map<Key, Ways> cells_;
+};
+
+// ---- meanings ----------------------------------------------------------------------------------------------------
+
+class Meanings {
+public:
+  Meanings(const Module& module, const GivenNumbers& given)
+      : module_(module), given_(given), drawing_(module), ways_(module), places_(module) {
+    std::vector<uint32_t> user(module.slots.size(), 0);
+    for (const Slot& slot : module.slots) shared_.push_back(slot.transient || slot.key.starts_with('@'));
+    for (const Continuation& continuation : module.continuations)
+      if (continuation.slot.valid()) shared_[continuation.slot.index] = true;
+    for (const Routine& routine : module.routines)
+      for (const Rung& rung : routine.rungs)
+        for (const Op& op : rung.ops)
+          if (opInfo(op.code).attr == Attr::Slot) noteUse(op.ref, rung.number, user);
+  }
+
+  std::vector<DrawnRung> run() {
+    std::vector<DrawnRung> drawn;
+    for (const std::vector<Drawing::Part>& parts : drawing_.rungs()) drawn.push_back(meaningOf(parts));
+    return drawn;
+  }
+
+private:
+  // What the compiler's own rungs do with the state of an instruction follows from that.
+  void noteUse(uint32_t slot, uint32_t rung, std::vector<uint32_t>& user) {
+    if (rung == 0) return;
+    if (user[slot] != 0 && user[slot] != rung) shared_[slot] = true;
+    user[slot] = rung;
+  }
+
+  // A unit that two levels run is there twice: what both have is meant once.
+  DrawnRung meaningOf(const std::vector<Drawing::Part>& parts) {
+    DrawnRung drawn;
+    drawn.routine = &module_.routines[parts[0].routine];
+    drawn.rung = &drawn.routine->rungs[parts[0].rung];
+    std::set<std::string> seen;
+    std::string all;
+    for (size_t i = 0; i < parts.size();) {
+      const uint32_t routine = parts[i].routine;
+      std::string text;
+      std::vector<Exit> exits;
+      own_.clear();
+      ownCells_.clear();
+      for (; i < parts.size() && parts[i].routine == routine; ++i) add(routine, parts[i].rung, text, exits);
+      if (!seen.insert(text).second) continue;
+      all += text;
+      drawn.exits.insert(drawn.exits.end(), exits.begin(), exits.end());
     }
-    return text;
+    drawn.meaning = hashBytes(all);
+    return drawn;
   }
 
-  // Without remarks and spaces.
-  static void addWords(std::string_view text, std::string& out) {
-    bool remark = false;
-    for (const char c : text) {
-      remark = c != '\n' && (remark || c == ';');
-      if (!remark && c != ' ' && c != '\t') out += text::upper(c);
-    }
-  }
-
-  void addOp(const Rung& rung, const Op& op, std::string& out) const {
-    put(out, "{} {}", static_cast<int>(op.code), static_cast<int>(op.type));
-    for (int i = 0; i < op.argCount; ++i) put(out, " %{}", arg(rung, op, i).index);
-    addAttribute(op, out);
+  void add(uint32_t routine, uint32_t number, std::string& out, std::vector<Exit>& exits) {
+    const Rung& rung = module_.routines[routine].rungs[number];
+    routine_ = ir::homeOf(module_.routines[routine], rung);
+    numbers_.clear();
+    for (const GivenNumber& given : given_.of(RoutineId{routine}, number)) numbers_.emplace(given.value.index, &given);
+    findExits(rung);
+    for (const Op& op : rung.ops)
+      if (op.code != OpCode::Note) addOp(rung, op, out, exits);
+    addTransfer(routine, rung, out, exits);
     out += '\n';
   }
 
-  void addAttribute(const Op& op, std::string& out) const {
+  // Constants that a cell of ways gets, also where a choice is made among several.
+  void findExits(const Rung& rung) {
+    waysOf_.clear();
+    std::unordered_map<uint32_t, const Op*> definitions;
+    for (const Op& op : rung.ops)
+      if (op.resultCount == 1) definitions.emplace(op.result.index, &op);
+    for (const Op& op : rung.ops) {
+      const Ways* ways = ways_.storedBy(op);
+      if (ways == nullptr) continue;
+      std::vector<ValueId> open{arg(rung, op, 0)};
+      while (!open.empty()) {
+        const auto at = definitions.find(open.back().index);
+        open.pop_back();
+        if (at == definitions.end()) continue;
+        const Op& source = *at->second;
+        if (source.code == OpCode::Const) waysOf_.emplace(source.result.index, ways);
+        if (source.code == OpCode::Select) open.insert(open.end(), {arg(rung, source, 1), arg(rung, source, 2)});
+      }
+    }
+  }
+
+  void addTransfer(uint32_t routine, const Rung& rung, std::string& out, std::vector<Exit>& exits) const {
+    const Transfer& transfer = rung.transfer;
+    put(out, "{} {}", static_cast<int>(transfer.kind), transfer.cond.index);
+    if (transfer.kind == TransferKind::Call)
+      exits.push_back({.to = Exit::To::Routine, .index = drawing_.homeOf(transfer.callee.index)});
+    if (transfer.kind == TransferKind::Goto) exits.push_back(drawing_.exitTo(routine, transfer.target));
+    // Who stores the number says where it leads.
+    if (transfer.kind != TransferKind::Switch || WayCells::cellOf(rung) != nullptr) return;
+    put(out, " {} of {}", transfer.value.index, transfer.targets.size());
+    for (const uint32_t target : transfer.targets) exits.push_back(drawing_.exitTo(routine, target));
+  }
+
+  void addOp(const Rung& rung, const Op& op, std::string& out, std::vector<Exit>& exits) {
+    put(out, "{} {}", static_cast<int>(op.code), static_cast<int>(op.type));
+    for (int i = 0; i < op.argCount; ++i) put(out, " %{}", arg(rung, op, i).index);
+    if (op.code == OpCode::Const)
+      addNumber(op, out, exits);
+    else
+      addAttribute(op, out);
+    out += '\n';
+  }
+
+  void addNumber(const Op& op, std::string& out, std::vector<Exit>& exits) const {
+    if (const auto at = waysOf_.find(op.result.index); at != waysOf_.end()) {
+      const std::vector<uint32_t>& targets = *at->second->targets;
+      const auto way = static_cast<uint64_t>(op.imm);
+      exits.push_back(drawing_.exitTo(at->second->routine, way < targets.size() ? targets[way] : targets.at(0)));
+      return put(out, " way");
+    }
+    const auto at = numbers_.find(op.result.index);
+    if (at == numbers_.end()) return put(out, " {}", op.imm);
+    const GivenNumber& given = *at->second;
+    if (given.space.valid())
+      put(out, " at {}+{}", places_.of(given.space, given.byte * uint64_t{8} + given.bit), given.distance);
+  }
+
+  void addAttribute(const Op& op, std::string& out) {
     switch (opInfo(op.code).attr) {
-    case Attr::Place: return put(out, " {}", textOf(op, static_cast<uint32_t>(op.imm)));
-    case Attr::Window: // one that is all of what the compiler gives out grows with it
-      if (isAllocated(op)) return put(out, " {}", module_.spaces[op.ref].name);
-      return put(out, " {} {}", textOf(op, static_cast<uint32_t>(op.imm)), op.count);
-    case Attr::Slot: return put(out, " {}", withoutOrdinals(module_.at(SlotId{op.ref}).key));
+    case Attr::Place: return addPlace(SpaceId{op.ref}, static_cast<uint64_t>(op.imm), out);
+    case Attr::Window: return addWindow(op, out);
+    case Attr::Slot: return addSlot(op.ref, out);
     case Attr::Service: return put(out, " {}", module_.services[op.ref]);
     case Attr::Fault: return put(out, " {}", module_.faults[op.ref]);
     case Attr::Literal:
@@ -95,34 +298,58 @@ private:
     }
   }
 
-  // Where the compiler gives addresses out: the name that begins at the place or before it, and the distance.
-  std::string textOf(const Op& op, uint32_t bit) const {
-    const auto names = names_.find(op.ref);
-    if (names == names_.end()) return fmt::format("{}+{}", module_.spaces[op.ref].name, bit);
-    const auto next = names->second.upper_bound(bit);
-    if (next == names->second.begin()) return fmt::format("+{}", bit);
-    const auto& [begin, name] = *std::prev(next);
-    return fmt::format("{}+{}", withoutOrdinals(name), bit - begin);
+  // One that is all of what the compiler gives out grows with it.
+  void addWindow(const Op& op, std::string& out) {
+    const SpaceId id{op.ref};
+    const Space& space = module_.at(id);
+    const uint32_t bytes = space.unitBytes * space.units;
+    const bool isBit = op.code == OpCode::LoadBitAt || op.code == OpCode::StoreBitAt;
+    const uint32_t width = isBit ? 1 : byteWidth(op.type);
+    if (places_.isAllocated(id) && op.imm == 0 && space.unitBytes == 1 && op.count + width - 1 == bytes)
+      return put(out, " {}", space.name);
+    addPlace(id, static_cast<uint64_t>(op.imm), out);
+    put(out, " {}", op.count);
+  }
+
+  // Cells that an instruction has of its own, as it has slots, go by their order.
+  void addPlace(SpaceId space, uint64_t bit, std::string& out) {
+    const std::string text = places_.of(space, bit);
+    const bool own = places_.isAllocated(space) && (module_.at(space).flags & RUNG_SPACE_HIDDEN) != 0;
+    if (own)
+      put(out, " own cell {}", ownCells_.emplace(text, ownCells_.size()).first->second);
+    else
+      put(out, " {}", text);
+  }
+
+  void addSlot(uint32_t slot, std::string& out) {
+    const Slot& info = module_.slots[slot];
+    if (shared_[slot]) {
+      std::string_view key = info.key;
+      if (key.starts_with(routine_)) key.remove_prefix(routine_.size()); // a subroutine by another name is the same
+      return put(out, " {}", withoutOrdinals(key));
+    }
+    const auto number = own_.emplace(slot, own_.size()).first->second;
+    put(out, " own {} {} {}", number, static_cast<int>(info.type), info.init);
   }
 
   const Module& module_;
-  std::map<uint32_t, std::multimap<uint32_t, std::string>> names_; // by allocated space and bit
+  const GivenNumbers& given_;
+  const Drawing drawing_;
+  const WayCells ways_;
+  const PlaceTexts places_;
+  std::vector<bool> shared_; // by slot: several rungs may use it
+  // Of the current rung.
+  std::string_view routine_;
+  std::map<uint32_t, size_t> own_; // its slots by their first uses
+  std::map<std::string, size_t> ownCells_;
+  std::unordered_map<uint32_t, const GivenNumber*> numbers_;
+  std::unordered_map<uint32_t, const Ways*> waysOf_; // constants that are numbers of ways
 };
 
 } // namespace
 
-std::vector<DrawnRung> drawnRungs(const Module& module) {
-  const Meanings meanings(module);
-  std::vector<DrawnRung> drawn;
-  for (const Routine& routine : module.routines)
-    for (size_t i = 0; i < routine.rungs.size();) {
-      std::string text;
-      const Rung& first = routine.rungs[i];
-      do meanings.add(routine, routine.rungs[i++], text);
-      while (i < routine.rungs.size() && routine.rungs[i].number == first.number);
-      if (first.number != 0) drawn.push_back({&routine, &first, hashBytes(text)});
-    }
-  return drawn;
+std::vector<DrawnRung> drawnRungs(const Module& module, const GivenNumbers& given) {
+  return Meanings(module, given).run();
 }
 
 } // namespace rung::difference

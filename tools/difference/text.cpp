@@ -27,31 +27,52 @@ void addLines(const Rung& rung, char mark, std::string& out) {
 }
 
 void addRung(const RungChange& change, const Module& before, const Module& after, std::string& out) {
-  put(out, "{} {}", nameOf(change.kind),
-      change.before != nullptr ? placeOf(before, *change.before) : placeOf(after, *change.after));
-  if (change.before != nullptr && change.after != nullptr) put(out, " to {}", placeOf(after, *change.after));
+  const ShownRung &old = change.before, &now = change.after;
+  put(out, "{} {}", nameOf(change.kind), old.rung != nullptr ? placeOf(before, *old.rung) : placeOf(after, *now.rung));
+  if (old.rung != nullptr && now.rung != nullptr) {
+    put(out, " to {}", placeOf(after, *now.rung));
+    const std::string_view from = shownName(*old.routine), to = shownName(*now.routine);
+    if (change.kind == ChangeKind::Moved && from != to) put(out, ", from {} to {}", from, to);
+  }
   out += '\n';
-  if (change.kind == ChangeKind::Moved) return;
-  if (change.before != nullptr) addLines(*change.before, '-', out);
-  if (change.after != nullptr) addLines(*change.after, '+', out);
+  if (change.kind != ChangeKind::Moved) {
+    if (old.rung != nullptr) addLines(*old.rung, '-', out);
+    if (now.rung != nullptr) addLines(*now.rung, '+', out);
+  }
+  for (const OtherWay& way : change.ways) put(out, "  leads to {}, before: to {}\n", way.after, way.before);
 }
 
 void addNames(const std::vector<NameChange>& changes, std::string_view what, std::string& out) {
   for (const NameChange& change : changes) {
-    put(out, "{} {} {}: {}", nameOf(change.kind), what, change.name,
+    put(out, "{} {}{}: {}", nameOf(change.kind), what, change.name,
         change.kind == ChangeKind::Added ? change.after : change.before);
     if (change.kind == ChangeKind::Changed) put(out, " to {}", change.after);
     out += '\n';
   }
 }
 
+// One that is not a message says itself what it is.
+void addMessages(const std::vector<NameChange>& changes, std::string& out) {
+  for (const NameChange& change : changes) {
+    const bool isMessage = change.name.find_first_not_of("0123456789") == std::string::npos;
+    addNames({change}, isMessage ? "message " : "", out);
+  }
+}
+
 } // namespace
+
+std::string_view shownName(const ir::Routine& routine) {
+  const std::string_view name = routine.name;
+  return name.substr(0, name.find('@', 1)); // of a unit that is there for each level that runs it
+}
 
 std::string shownAsText(const Difference& difference, const Module& before, const Module& after) {
   std::string out;
   for (const RungChange& change : difference.rungs) addRung(change, before, after, out);
-  addNames(difference.names, "name", out);
-  addNames(difference.messages, "message", out);
+  addNames(difference.names, "name ", out);
+  addNames(difference.contents, "initial value ", out);
+  addMessages(difference.messages, out);
+  addNames(difference.settings, "configuration ", out);
   size_t counts[4] = {};
   for (const RungChange& change : difference.rungs) ++counts[static_cast<int>(change.kind)];
   put(out, "rungs: {} changed, {} added, {} removed, {} moved, {} the same\n", counts[2], counts[0], counts[1],

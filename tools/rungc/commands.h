@@ -41,6 +41,8 @@ struct SourceOptions {
 // `json`: what --json means to the command.
 void addSourceOptions(Command command, SourceOptions& options,
                       const std::string& json = "Diagnostics as JSON on standard output");
+// Whether the words name a whole project: its folder or its file.
+bool namesProject(const std::string& name);
 // Finds the project: that of --project, of the only folder or rung.toml among the files, that all the named files
 // belong to, or without files the nearest one from the working directory upwards. What it says goes into the options;
 // those of the command line go before it. Gives the exit status.

@@ -1,11 +1,21 @@
 // rungc diff: what has changed between two versions of a program.
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
+#include "ir/layout/program_image.h"
+#include "ir/support/hash.h"
+#include "rtlib/text/letters.h"
 #include "tools/difference/difference.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct DiffOptions {
   std::string before;
@@ -15,42 +25,158 @@ struct DiffOptions {
 };
 
 // One of the two, with the project that it names or belongs to.
-std::optional<compiler::Compiled> compileSide(SourceManager& sources, const std::string& name,
-                                              const DiffOptions& options, int& status) {
-  SourceOptions source = options.common;
-  source.files = {name};
-  source.quiet = true;
-  status = takeProject(source);
-  if (status != kOk) return std::nullopt;
-  return compileSources(sources, source, {.keepBuilt = true}, status);
+struct Side {
+  std::string name;
+  SourceOptions options;
+  SourceManager sources;
+  std::optional<compiler::Compiled> compiled;
+};
+
+int takeSide(Side& side, const DiffOptions& options) {
+  side.options = options.common;
+  side.options.files = {side.name};
+  side.options.quiet = true;
+  return takeProject(side.options);
 }
 
+// ---- a copy of one file beside the project that it comes from -----------------------------------------------------
+
+// The file of the project that a copy takes the place of: the one that it is compared with, else that of its name.
+std::optional<size_t> placeOf(const std::string& copy, const Side& whole) {
+  const std::vector<std::string>& files = whole.options.project->files;
+  const auto index = [&](auto isIt) -> std::optional<size_t> {
+    const auto at = std::ranges::find_if(files, isIt);
+    return at == files.end() ? std::nullopt : std::optional<size_t>(at - files.begin());
+  };
+  std::error_code error;
+  if (!namesProject(whole.name))
+    return index([&](const std::string& file) { return fs::equivalent(file, whole.name, error); });
+  if (files.size() == 1) return 0;
+  return index([&](const std::string& file) { return fs::path(file).filename() == fs::path(copy).filename(); });
+}
+
+// A file without a project is a version of the one that it is compared with, and the project around it is that one's.
+// False: it is not known which file of the project it is.
+bool completeCopy(Side& copy, const Side& whole) {
+  const std::optional<size_t> place = placeOf(copy.name, whole);
+  const project::Project& project = *whole.options.project;
+  if (!place) {
+    fmt::print(stderr,
+               "rungc: {} is in no project, and {} has no file of this name: configuration and messages are not "
+               "compared\n",
+               copy.name, project.file);
+    return false;
+  }
+  fmt::print(stderr, "rungc: {} is in no project: it is compared in the place of {}, with all else of {}\n", copy.name,
+             project.files[*place], project.file);
+  copy.options = whole.options;
+  copy.options.files = project.files;
+  copy.options.files[*place] = copy.name;
+  copy.options.project->files = copy.options.files;
+  return true;
+}
+
+// Whether configuration and messages of the two can be compared.
+bool completeSides(Side& before, Side& after) {
+  const bool one = before.options.project.has_value() != after.options.project.has_value();
+  if (!one) return true;
+  Side& copy = before.options.project ? after : before;
+  return completeCopy(copy, before.options.project ? before : after);
+}
+
+// ---- configuration -------------------------------------------------------------------------------------------------
+
+uint64_t contentOf(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return 0;
+  std::ifstream file(path, std::ios::binary);
+  return hashBytes(std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
+// Numbers by their values, times in microseconds, files beside the project by their names there. What the control reads
+// from a file counts; what the compiler reads is compared as what it has become.
+difference::Setting settingOf(const nc::ConfigKey* row, const std::string& value, const SourceOptions& options) {
+  difference::Setting setting{.text = value, .meaning = value, .content = 0};
+  if (row == nullptr) return setting;
+  switch (row->form) {
+  case nc::ConfigForm::Whole: setting.meaning = std::to_string(nc::wholeNumber(value)); break;
+  case nc::ConfigForm::Duration: setting.meaning = std::to_string(nc::durationUs(value)); break;
+  case nc::ConfigForm::File:
+    if (options.project) {
+      std::error_code error;
+      const fs::path folder = fs::absolute(options.project->folder, error);
+      setting.text = setting.meaning = fs::path(value).lexically_relative(folder).string();
+    }
+    if (row->reader == nc::ConfigReader::Control) setting.content = contentOf(value);
+    break;
+  case nc::ConfigForm::Choice:
+  case nc::ConfigForm::Number:
+  case nc::ConfigForm::Text: break;
+  }
+  return setting;
+}
+
+// A key that says what holds without it says nothing.
+difference::Settings settingsOf(const Side& side) {
+  difference::Settings settings;
+  for (const auto& [key, value] : side.compiled->options.config) {
+    const nc::ConfigKey* row = nc::findConfigKey(side.compiled->dialect->configKeys, key);
+    difference::Setting setting = settingOf(row, value, side.options);
+    const std::string without = row == nullptr ? "" : std::string(row->otherwise);
+    if (without.empty() || settingOf(row, without, {}).meaning != setting.meaning) settings.emplace(key, setting);
+  }
+  return settings;
+}
+
+// Names without a declaration.
+std::set<std::string> controlNames(const frontend::Analysis& analysis) {
+  std::set<std::string> names;
+  for (const frontend::Definition& definition : analysis.definitions())
+    if (!definition.range.valid()) names.insert(text::upper(definition.name));
+  return names;
+}
+
+// ---- the command ---------------------------------------------------------------------------------------------------
+
 int run(const DiffOptions& options) {
-  SourceManager sources[2];
-  int status = kOk;
-  const auto before = compileSide(sources[0], options.before, options, status);
-  if (!before) return status;
-  const auto after = compileSide(sources[1], options.after, options, status);
-  if (!after) return status;
-  if (before->dialect != after->dialect) return usageError("these are programs of two dialects");
-  const difference::Difference found = difference::compare(*before->built, *after->built);
+  Side before, after;
+  before.name = options.before;
+  after.name = options.after;
+  int status = takeSide(before, options);
+  if (status == kOk) status = takeSide(after, options);
+  if (status != kOk) return status;
+  const bool complete = completeSides(before, after);
+  for (Side* side : {&before, &after}) {
+    side->compiled = compileSources(side->sources, side->options, {.compare = true, .keepSource = true}, status);
+    if (!side->compiled) return status;
+  }
+  if (before.compiled->dialect != after.compiled->dialect) return usageError("these are programs of two dialects");
+  const ir::ProgramImage images[] = {{*before.compiled->layout, 0}, {*after.compiled->layout, 0}};
+  const auto version = [&](const Side& side, const ir::ProgramImage& image) {
+    return difference::Version{*side.compiled->built, side.compiled->given, image.program(),
+                               complete ? settingsOf(side) : difference::Settings{},
+                               controlNames(side.compiled->source->analysis())};
+  };
+  const difference::Options what{.messages = complete, .textName = before.compiled->dialect->textName};
+  const difference::Difference found = difference::compare(version(before, images[0]), version(after, images[1]), what);
   const auto show = options.format == "json" ? difference::shownAsJson : difference::shownAsText;
-  status = writeOutput(show(found, *before->built, *after->built));
+  status = writeOutput(show(found, *before.compiled->built, *after.compiled->built));
   return status != kOk || found.none() ? status : kWrong;
 }
 
 } // namespace
 
 void addDiff(CommandLine& app, int& status) {
-  Command command = app.add("diff", "Say what rungs, names and messages of two versions of a program do otherwise");
+  Command command = app.add("diff", "Compare two versions of a program, by what their rungs do");
   auto options = std::make_shared<DiffOptions>();
   command.option("OLD", options->before, "A source file, or the folder of a project").required();
-  command.option("NEW", options->after, "The same, later; exit status 1: there is a difference").required();
+  command.option("NEW", options->after, "The same, later").required();
   command.option("--dialect", options->common.dialect, "nct, gsk or technol; needed where the files do not name it");
   command.option("--config", options->common.config, "KEY=VALUE of the dialect's configuration; may be repeated")
       .oneValue();
   command.option("--format", options->format, "Of the difference").oneOf({"text", "json"}).showDefault();
   addColorOption(command, options->common.color, "Colours in diagnostics");
+  command.exitStatus("0 no difference, 1 there are differences or a program is wrong, 2 wrong usage, 3 environment");
   command.onRun([options, &status] { status = run(*options); });
 }
 

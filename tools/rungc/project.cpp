@@ -60,8 +60,7 @@ std::optional<project::Project> projectOf(const SourceOptions& options, int& sta
   if (!options.projectFile.empty()) return openProject(options.projectFile, options, status);
   if (options.files.empty()) return openProject("", options, status);
   const std::string& first = options.files[0];
-  if (options.files.size() == 1 && (isFolder(first) || isProjectFile(first)))
-    return openProject(first, options, status);
+  if (options.files.size() == 1 && namesProject(first)) return openProject(first, options, status);
   return projectOfFiles(options, status);
 }
 
@@ -82,6 +81,8 @@ bool isSet(const std::vector<std::string>& config, const std::string& key) {
 }
 
 } // namespace
+
+bool namesProject(const std::string& name) { return isFolder(name) || isProjectFile(name); }
 
 std::optional<project::Project> openProject(const std::string& named, const SourceOptions& options, int& status) {
   if (named.empty()) {
@@ -107,7 +108,7 @@ int takeProject(SourceOptions& options) {
   options.project = projectOf(options, status);
   if (!options.project) return status;
   const project::Project& project = *options.project;
-  const bool isNamed = !options.files.empty() && !isFolder(options.files[0]) && !isProjectFile(options.files[0]);
+  const bool isNamed = !options.files.empty() && !namesProject(options.files[0]);
   if (isNamed && options.projectFile.empty()) sayUse(options, project);
   if (!isNamed || options.projectFile.empty()) options.files = project.files;
   if (options.dialect.empty()) options.dialect = project.dialect;

@@ -29,7 +29,7 @@ class NctProgram : public frontend::CheckedProgram {
 public:
   NctProgram(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
              Diagnostics& diagnostics)
-      : sources_(sources), ids_(files.begin(), files.end()), marks_(options.marks), diagnostics_(diagnostics),
+      : sources_(sources), ids_(files.begin(), files.end()), options_(options), diagnostics_(diagnostics),
         config_(readConfig(options, diagnostics)), symbols_(config_, analysis_, diagnostics),
         reservations_(diagnostics) {}
 
@@ -46,7 +46,7 @@ public:
   const frontend::Analysis& analysis() const override { return analysis_; }
 
   std::unique_ptr<ir::Module> build() override {
-    return buildModule(program_, symbols_, texts_, sources_, ids_, marks_);
+    return buildModule(program_, symbols_, texts_, sources_, ids_, options_);
   }
 
 private:
@@ -162,7 +162,7 @@ private:
 
   SourceManager& sources_;
   const std::vector<FileId> ids_;
-  ir::Marks* const marks_;
+  const CompileOptions options_;
   Diagnostics& diagnostics_;
   const Config config_;
   frontend::Analysis analysis_;
@@ -200,6 +200,10 @@ static bool isBuilt(const frontend::InstructionInfo& info) {
   return false;
 }
 
+static std::string textName(uint32_t number) {
+  return number > kButtonTexts ? fmt::format("button {}", number - kButtonTexts) : "";
+}
+
 const frontend::Dialect kNct = {
     .name = "nct",
     .title = "NCT2xx / NCT3xx PLC",
@@ -213,6 +217,7 @@ const frontend::Dialect kNct = {
     .format = format,
     .reference = addReference,
     .explain = explainWord,
+    .textName = textName,
 };
 
 } // namespace rung::nct

@@ -76,10 +76,10 @@ public:
     module->dialect = "technol";
     for (const FileId file : files_) module->files.emplace_back(program_.sources.name(file));
     technol::addSpaces(program_, *module);
-    technol::Walk walk(program_, typed_, *module, period_, options_.marks);
+    technol::Walk walk(program_, typed_, *module, period_, options_.marks, options_.given);
     const technol::LoweredProgram lowered = walk.run();
     technol::addTasks(program_, lowered, walk.emitter(), period_);
-    technol::addSymbols(program_, *module);
+    technol::addSymbols(program_, *module, options_.given != nullptr);
     technol::numberRungs(*module);
     return module;
   }

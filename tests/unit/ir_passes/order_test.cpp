@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "ir/core/op_info.h"
 #include "ir/passes/passes.h"
@@ -93,6 +94,14 @@ TEST(Order, MarksGoAlong) {
   const Marks& read = marks;
   EXPECT_EQ(read.of(RoutineId{0}, 0)[0].value, ValueId{1});
   EXPECT_EQ(read.of(RoutineId{0}, 0)[1].value, ValueId{2});
+}
+
+TEST(Order, GivenNumbersGoAlong) {
+  Module module = moduleOf("%0:bit = load B[1.0]\n%1:bit = load B[0.0]\n%2:bit = and %1, %0\nstore.bit B[2.0], %2");
+  GivenNumbers given;
+  given.add(RoutineId{0}, 0, {.value = ValueId{0}, .space = {}});
+  orderOperations(module, nullptr, &given);
+  EXPECT_EQ(std::as_const(given).of(RoutineId{0}, 0)[0].value, ValueId{1});
 }
 
 // Another order that is as good: of the operations without effects that lie together, any whose operands are there.

@@ -154,7 +154,8 @@ void ModuleLowering::planRoutines(LevelState& level) {
   }
   const std::vector<network::Network>& own =
       program_.units[level.isLevel2 ? network::kLevel2 : network::kLevel1].networks;
-  level.straight = std::none_of(own.begin(), own.end(), jumps) && (!level.isLevel2 || program_.jumpTargets.empty());
+  level.straight = options_.given == nullptr && std::none_of(own.begin(), own.end(), jumps) &&
+                   (!level.isLevel2 || program_.jumpTargets.empty());
   planClock(level);
 }
 

@@ -19,9 +19,9 @@ constexpr uint32_t kInt0Budget = 100'000;
 class ModuleBuilder {
 public:
   ModuleBuilder(ir::Module& module, const Program& program, SymbolTable& symbols, const SourceManager& sources,
-                ir::Marks* marks)
+                const frontend::CompileOptions& options)
       : module_(module), program_(program), symbols_(symbols), config_(symbols.config()), sources_(sources),
-        marks_(marks) {}
+        options_(options) {}
 
   void run(const Texts& texts, std::span<const FileId> files) {
     module_.name = "program";
@@ -35,7 +35,8 @@ public:
                             .spaces = spaces_,
                             .written = written_,
                             .sources = sources_,
-                            .marks = marks_,
+                            .marks = options_.marks,
+                            .isCompared = options_.given != nullptr,
                             .files = frontend::addFiles(module_, sources_, files)};
     const ir::RoutineId main = lowerModule(context, program_.main);
     const WrittenRange byMain = std::exchange(written_, {});
@@ -217,7 +218,7 @@ private:
   SymbolTable& symbols_;
   const Config& config_;
   const SourceManager& sources_;
-  ir::Marks* const marks_;
+  const frontend::CompileOptions& options_;
   MemorySpaces spaces_;
   ir::SpaceId flags_;
   uint32_t synchronisedEnd_ = 0; // set when the rungs are there
@@ -227,9 +228,10 @@ private:
 } // namespace
 
 std::unique_ptr<ir::Module> buildModule(const Program& program, SymbolTable& symbols, const Texts& texts,
-                                        const SourceManager& sources, std::span<const FileId> files, ir::Marks* marks) {
+                                        const SourceManager& sources, std::span<const FileId> files,
+                                        const frontend::CompileOptions& options) {
   auto module = std::make_unique<ir::Module>();
-  ModuleBuilder(*module, program, symbols, sources, marks).run(texts, files);
+  ModuleBuilder(*module, program, symbols, sources, options).run(texts, files);
   return module;
 }
 

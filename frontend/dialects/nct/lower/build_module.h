@@ -2,8 +2,8 @@
 #pragma once
 #include <memory>
 
+#include "frontend/dialects/dialect.h"
 #include "frontend/dialects/nct/program.h"
-#include "ir/core/marks.h"
 #include "ir/core/module.h"
 
 namespace rung::nct {
@@ -14,6 +14,7 @@ struct Texts {
 };
 
 std::unique_ptr<ir::Module> buildModule(const Program& program, SymbolTable& symbols, const Texts& texts,
-                                        const SourceManager& sources, std::span<const FileId> files, ir::Marks* marks);
+                                        const SourceManager& sources, std::span<const FileId> files,
+                                        const frontend::CompileOptions& options);
 
 } // namespace rung::nct

@@ -231,7 +231,7 @@ bool hasTimer(const TypedRung& rung) {
 // rung that takes it.
 std::vector<RunTime> takeTime(LoweringContext& context, const TypedModule& module, ir::Routine& routine) {
   std::vector<RunTime> times(module.rungs.size());
-  if (!context.config.runsAtWholeMs()) return times;
+  if (!context.config.runsAtWholeMs() || context.isCompared) return times;
   const std::vector<bool> once = evaluatedOncePerRun(module);
   const auto asks = [&](uint32_t i) { return once[i] && hasTimer(module.rungs[i]); };
   if (std::ranges::none_of(std::views::iota(0u, static_cast<uint32_t>(once.size())), asks)) return times;

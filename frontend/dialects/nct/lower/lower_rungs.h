@@ -18,6 +18,7 @@ struct LoweringContext {
   WrittenRange& written;
   const SourceManager& sources;
   ir::Marks* marks = nullptr;                          // null: not asked for
+  bool isCompared = false;                             // with another version
   std::unordered_map<uint32_t, ir::FileIndex> files{}; // by FileId
   std::unordered_map<uint64_t, uint32_t> sameText{};   // rungs with equal texts so far, for their keys
 };

@@ -37,6 +37,7 @@ struct Operand {
   uint32_t size = 0;
   int64_t begin = 0; // of that text or array, in its space
   int64_t end = 0;
+  int64_t base = 0;  // of any place: where the variable begins that its address is counted from
   int64_t value = 0; // of a constant; where indexed, the offset in bytes that BX is added to
   double real = 0;
   uint32_t index = kNone; // label, mechanism, procedure, variable of MAP_* or DEF_*

@@ -215,6 +215,7 @@ bool OperandParser::addMember(const Token& member, Address& out) {
 
 bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out) {
   out.place.space = address.space;
+  out.base = address.begin;
   out.indexed = address.indexed;
   // An index is checked when it is used; only what no index reaches is wrong now.
   const int64_t slack = address.indexed ? 0xFFFF : 0;

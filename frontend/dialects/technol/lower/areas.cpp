@@ -17,7 +17,11 @@ ValueId least(ir::RungBuilder& b, ValueId x, ValueId y) { return b.select(b.ltU(
 } // namespace
 
 Area fixedArea(Memory& m, ir::SpaceId space, uint32_t bytes, uint32_t first) {
-  return {.space = space, .bytes = bytes, .fixed = true, .first = first, .at = m.b().i32(first)};
+  return {.space = space,
+          .bytes = bytes,
+          .fixed = true,
+          .first = first,
+          .at = m.address(Type::I32, first, {.space = space, .byte = first})};
 }
 
 Area areaOf(Memory& m, const Operand& operand) {
@@ -81,7 +85,7 @@ void clearPasses(Memory& m, const Area& area, uint32_t passes, Type type, uint32
 
 // Areas and count are constants: eight bytes a pass.
 void copyFixed(Memory& m, const Area& to, const Area& from, uint32_t count) {
-  const bool backward = to.space == from.space && to.first > from.first;
+  const bool backward = to.space == from.space && to.first > from.first && !m.isCompared();
   const uint32_t chunks = count / kChunk, rest = count % kChunk;
   if (!backward) copyPasses(m, to, from, chunks, Type::I64, 0, false);
   copyPasses(m, to, from, rest, Type::I8, chunks * kChunk, backward);
@@ -139,9 +143,9 @@ void clearRange(Memory& m, ir::SpaceId space, uint32_t first, uint32_t end) {
 
 Length inside(Memory& m, const Area& area, const Length& count) {
   if (area.fixed && count.fixed)
-    return count.most <= area.bytes - area.first ? count : fixedCount(m, area.bytes - area.first);
+    return count.most <= area.bytes - area.first || m.isCompared() ? count : fixedCount(m, area.bytes - area.first);
   ir::RungBuilder& b = m.b();
-  m.protect(b.ltU(b.i32(area.bytes), b.add(area.at, count.value)));
+  m.protect(b.ltU(m.given(Type::I32, area.bytes), b.add(area.at, count.value)));
   return count;
 }
 

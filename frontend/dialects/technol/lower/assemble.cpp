@@ -102,9 +102,16 @@ void addElements(const Program& program, ir::Module& module) {
   }
 }
 
+// A local name of one of several files.
+std::string inFile(const Program& program, const Symbol& symbol, const std::string& name) {
+  std::string_view path = program.sources.name(program.files[symbol.file].id);
+  if (const size_t slash = path.find_last_of('/'); slash != std::string_view::npos) path.remove_prefix(slash + 1);
+  return std::string(path) + ":" + name;
+}
+
 } // namespace
 
-void addSymbols(const Program& program, ir::Module& module) {
+void addSymbols(const Program& program, ir::Module& module, bool isCompared) {
   std::unordered_map<std::string, uint32_t> global, local;
   for (const Symbol& symbol : program.symbols.all())
     if (isVisible(symbol)) ++(symbol.local ? local : global)[madeSymbol(symbol).name];
@@ -113,7 +120,9 @@ void addSymbols(const Program& program, ir::Module& module) {
   for (const Symbol& symbol : program.symbols.all()) {
     if (!isVisible(symbol)) continue;
     ir::Symbol made = madeSymbol(symbol);
-    const bool other = symbol.local && (local[made.name] > 1 || global.contains(made.name));
+    const bool shared = symbol.local && global.contains(made.name);
+    if (isCompared && symbol.local && (symbol.file != 0 || shared)) made.name = inFile(program, symbol, made.name);
+    const bool other = !isCompared && (shared || (symbol.local && local[made.name] > 1));
     if (!other && (symbol.local || global[made.name] == 1)) module.symbols.push_back(std::move(made));
   }
   addElements(program, module);

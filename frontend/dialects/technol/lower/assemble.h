@@ -10,7 +10,8 @@ inline constexpr uint32_t kDefaultPeriodUs = 20'000; // man. l.2507
 // Spaces in the order of symbols.h, memory that starts filled, memory that is kept.
 void addSpaces(const Program& program, ir::Module& module);
 // The program's names and those interface cells that it uses; upper case. Call when lowering is done.
-void addSymbols(const Program& program, ir::Module& module);
+// `isCompared`: local names that other files have as well are there, too, with the names of their files.
+void addSymbols(const Program& program, ir::Module& module, bool isCompared);
 // Numbers the rungs by their first lines, in the order of the files; rungs that begin on one line share a number.
 void numberRungs(ir::Module& module);
 // Tasks are named as their modules without MODULE_, event procedures by their names.

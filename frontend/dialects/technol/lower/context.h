@@ -10,8 +10,8 @@ namespace rung::frontend::technol {
 
 class StatementContext : public Memory {
 public:
-  StatementContext(const Program& program, ir::Module& module, ir::Marks* marks)
-      : Memory(program, module), state(*this), sequences(*this, state), procedures(*this),
+  StatementContext(const Program& program, ir::Module& module, ir::Marks* marks, ir::GivenNumbers* given)
+      : Memory(program, module, given), state(*this), sequences(*this, state), procedures(*this),
         clears(*this, state, sequences), bitMessages(*this, state), marking(*this, marks),
         labels_(program.labels.size(), kNone) {}
 

@@ -33,7 +33,7 @@ void DeviceTarget::keep(ValueId when) {
   if (!access_.indexed) return;
   ir::RungBuilder& b = l_->b();
   const ir::SlotId slot = l_->ownSlot(Type::I32);
-  const ValueId first = b.i32(operand_->begin);
+  const ValueId first = l_->placeIn(*operand_, operand_->begin);
   b.when(when, [&] { b.slotStore(slot, b.sub(access_.index, first)); });
   access_.index = area_.at = b.add(b.slotLoad(slot), first);
 }
@@ -47,8 +47,9 @@ uint32_t DeviceTarget::most() const {
 ValueId DeviceTarget::roomWithEnd() const {
   ir::RungBuilder& b = l_->b();
   if (!access_.indexed) return b.i32(most());
-  const ValueId room = b.sub(b.i32(operand_->end), area_.at);
-  const ValueId inside = b.and_(b.leU(b.i32(operand_->begin), area_.at), b.ltU(area_.at, b.i32(operand_->end)));
+  const ValueId begin = l_->placeIn(*operand_, operand_->begin), end = l_->placeIn(*operand_, operand_->end);
+  const ValueId room = b.sub(end, area_.at);
+  const ValueId inside = b.and_(b.leU(begin, area_.at), b.ltU(area_.at, end));
   return b.select(inside, room, b.i32(0));
 }
 

@@ -48,6 +48,17 @@ void Emitter::clearSlots(std::span<const ir::SlotId> slots) {
   }
 }
 
+ir::ValueId Emitter::given(Type type, int64_t value, ir::GivenNumber number) {
+  number.value = b().constant(type, value);
+  if (given_ != nullptr) given_->add(out().routine(), out().openRung(), number);
+  return number.value;
+}
+
+ir::ValueId Emitter::address(Type type, int64_t value, ir::Place begin, int64_t distance) {
+  return given(type, value,
+               {.value = {}, .space = begin.space, .byte = begin.byte, .distance = distance, .bit = begin.bit});
+}
+
 void Emitter::protect(ir::ValueId bad) { b().trap(bad, fault(nc::kTechnolProtection)); }
 
 } // namespace rung::frontend::technol

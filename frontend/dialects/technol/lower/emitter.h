@@ -8,12 +8,15 @@
 #include "frontend/dialects/technol/lower/host_cells.h"
 #include "frontend/dialects/technol/lower/routine_builder.h"
 #include "frontend/lower/module_items.h"
+#include "ir/core/given_numbers.h"
 
 namespace rung::frontend::technol {
 
 class Emitter {
 public:
-  explicit Emitter(ir::Module& module) : module_(module), constants_(module), registers_(makeRegisterSlots(module)) {}
+  // `given` may be null: the module is not compared with another.
+  Emitter(ir::Module& module, ir::GivenNumbers* given)
+      : module_(module), given_(given), constants_(module), registers_(makeRegisterSlots(module)) {}
 
   ir::Module& module() { return module_; }
   ir::RungBuilder& b() { return out().b(); }
@@ -35,11 +38,19 @@ public:
   ir::ServiceId service(std::string_view signature) { return frontend::service(module_, signature); }
   // A hidden space that holds the bytes.
   ir::SpaceId constantBytes(std::string_view bytes) { return constants_.spaceOf(bytes); }
+  // A constant that is not part of what the program's author wrote: a line, the size of a space.
+  ir::ValueId given(ir::Type type, int64_t value) { return given(type, value, {}); }
+  // One that says where something lies, `distance` bytes after the place where a variable begins.
+  ir::ValueId address(ir::Type type, int64_t value, ir::Place begin, int64_t distance = 0);
+  bool isCompared() const { return given_ != nullptr; }
   // Stops the program where `bad` is 1: an access outside the memory.
   void protect(ir::ValueId bad);
 
 private:
+  ir::ValueId given(ir::Type type, int64_t value, ir::GivenNumber number);
+
   ir::Module& module_;
+  ir::GivenNumbers* const given_;
   ConstantBytes constants_;
   RegisterSlots registers_;
   std::vector<std::unique_ptr<RoutineBuilder>> open_; // the innermost last

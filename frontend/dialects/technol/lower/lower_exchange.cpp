@@ -83,8 +83,8 @@ void lowerDefine(StatementContext& l, std::span<const Operand> o, int) {
   const auto word = [&](int64_t value) { return b.constant(Type::I64, value); };
   const ir::Place at = o[0].place;
   const ValueId head[] = {word(nc::exchangeArgument(variable.kind, variable.type, period, variable.count)),
-                          word(nc::placeArgument(at.space.index, at.byte, at.bit)), word(nc::kNoPlace),
-                          word(nc::kNoPlace)};
+                          l.address(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit), at),
+                          word(nc::kNoPlace), word(nc::kNoPlace)};
   setDefault(l, variable, o[0], given, defineRequest(l, head, o[1]));
 }
 
@@ -95,7 +95,7 @@ void takeElement(StatementContext& l, const Operand& target, uint32_t offset) {
   ir::RungBuilder& b = l.b();
   ir::Place at = target.place;
   at.byte += offset;
-  const ValueId place = b.constant(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit));
+  const ValueId place = l.address(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit), at);
   const ValueId ticket = b.serviceRequest(l.service(nc::kUpdateService), std::array{place});
   b.when(answersYes(b, ticket, 0), [&] { b.store(at, fromBits(b, b.serviceResult(ticket, 1), target.type)); });
 }

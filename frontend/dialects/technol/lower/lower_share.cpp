@@ -20,7 +20,8 @@ ValueId placeOf(StatementContext& l, const Operand& operand, uint32_t bit) {
   const MemoryAccess access = l.reach(operand);
   ir::RungBuilder& b = l.b();
   const ir::Place at = operand.place;
-  if (!access.indexed) return b.constant(Type::I64, nc::placeArgument(at.space.index, at.byte, bit));
+  if (!access.indexed)
+    return l.address(Type::I64, nc::placeArgument(at.space.index, at.byte, bit), {at.space, at.byte, bit});
   const ValueId byte = b.zextOrTrunc(Type::I64, access.index);
   const ValueId shifted = b.shl(byte, b.i32(nc::kPlaceByteShift));
   return b.or_(shifted, b.constant(Type::I64, nc::placeArgument(at.space.index, 0, bit)));

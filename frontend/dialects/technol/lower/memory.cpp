@@ -14,12 +14,12 @@ MemoryAccess Memory::reach(const Operand& operand, ValueId guard) {
   const uint32_t width = operand.type == Type::Bit || operand.type == Type::None ? 1 : ir::byteWidth(operand.type);
   ValueId index = r().bx();
   if (operand.scale != 1) index = builder.mul(index, builder.i32(operand.scale));
-  if (operand.value != 0) index = builder.add(index, builder.i32(operand.value));
+  if (operand.value != 0 || isCompared()) index = builder.add(index, placeIn(operand, operand.value));
   // BX has 16 bits: addresses of a segment of 64 kB wrap around, so that an index may be negative.
   if (bytes <= 0x10000) index = builder.and_(index, builder.i32(0xFFFF));
   access.window = {.space = operand.place.space, .byte = 0, .count = bytes >= width ? bytes - width + 1 : 0};
   access.index = index;
-  ValueId outside = builder.leU(builder.i32(access.window.count), index);
+  ValueId outside = builder.leU(given(Type::I32, access.window.count), index);
   if (guard.valid()) outside = builder.and_(guard, outside);
   protect(outside);
   return access;

@@ -17,7 +17,8 @@ struct MemoryAccess {
 // An emitter that knows the program's memory.
 class Memory : public Emitter {
 public:
-  Memory(const Program& program, ir::Module& module) : Emitter(module), program_(program) {}
+  Memory(const Program& program, ir::Module& module, ir::GivenNumbers* given)
+      : Emitter(module, given), program_(program) {}
 
   const Program& program() const { return program_; }
   uint32_t bytesOf(ir::SpaceId space) const { return program_.bytesOf(space); }
@@ -28,6 +29,13 @@ public:
   void store(const MemoryAccess& access, ir::ValueId value);
   // A bit with its sign.
   ir::ValueId bit(const Operand& operand);
+  // The bytes of a space.
+  ir::ValueId sizeOf(ir::SpaceId space) { return given(ir::Type::I32, bytesOf(space)); }
+  // A place of the space that the operand's variable lies in, as a number.
+  ir::ValueId placeIn(const Operand& operand, int64_t byte) {
+    const ir::Place begin{.space = operand.place.space, .byte = static_cast<uint32_t>(operand.base)};
+    return address(ir::Type::I32, byte, begin, byte - operand.base);
+  }
   // A constant or a cell; `guard` as for reach.
   ir::ValueId value(const Operand& operand, ir::ValueId guard = {});
 

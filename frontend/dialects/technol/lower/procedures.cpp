@@ -23,7 +23,7 @@ uint32_t Procedures::eventOf(uint32_t procedure) {
 void Procedures::call(uint32_t procedure, uint32_t depth, ValueId cond) {
   std::vector<ir::SlotId> kept;
   for (uint32_t level = 0; level < depth; ++level) {
-    kept.push_back(m_.newSlot(Type::Bit, "CALL." + std::to_string(m_.module().slots.size()), true));
+    kept.push_back(m_.newSlot(Type::Bit, "CALL~" + std::to_string(m_.module().slots.size()), true));
     m_.b().slotStore(kept[level], m_.r().stack(level));
   }
   m_.out().call(routines_[procedure], cond);

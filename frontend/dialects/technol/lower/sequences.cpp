@@ -73,8 +73,9 @@ void Sequences::end() {
     m_.b().store(bitOf(sequence.mechanism), m_.b().bit(false));
   storeState(sequence, m_.b().i32(0));
   storeLine(sequence, 0);
-  clear(sequence.cells, sequence.tickets);
-  if (sequence.mechanism == kNone && !sequence.tickets.empty()) clearAtBeginning(sequence);
+  // What is cleared belongs to the instructions above: where versions are compared it is not part of the end.
+  if (!m_.isCompared()) clear(sequence.cells, sequence.tickets);
+  if (sequence.mechanism == kNone && !sequence.tickets.empty() && !m_.isCompared()) clearAtBeginning(sequence);
   m_.out().cut();
   m_.out().setLabels(sequence.dispatch, sequence.states);
   m_.out().bind(sequence.leave);
@@ -152,7 +153,7 @@ ValueId Sequences::loadState(const Sequence& sequence) {
 
 void Sequences::storeLine(const Sequence& sequence, uint32_t line) {
   if (sequence.mechanism == kNone) return;
-  m_.b().store(lineOf(sequence.mechanism), m_.b().constant(Type::I16, std::min<uint32_t>(line, UINT16_MAX)));
+  m_.b().store(lineOf(sequence.mechanism), m_.given(Type::I16, std::min<uint32_t>(line, UINT16_MAX)));
 }
 
 void Sequences::initialise(uint32_t mechanism) {

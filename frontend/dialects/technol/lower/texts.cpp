@@ -26,7 +26,7 @@ Text textOf(Memory& m, const Operand& operand) {
     return text;
   }
   text.most = static_cast<uint32_t>(operand.end - 1 - operand.begin);
-  const ValueId at = b.sub(text.area.at, b.i32(operand.begin));
+  const ValueId at = b.sub(text.area.at, m.placeIn(operand, operand.begin));
   m.protect(b.ltU(b.i32(text.most), at));
   text.room = b.sub(b.i32(text.most), at);
   return text;

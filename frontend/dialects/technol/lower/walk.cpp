@@ -17,8 +17,9 @@ bool isSequential(ModuleKind kind) { return kind == ModuleKind::BlockInit || kin
 
 } // namespace
 
-Walk::Walk(const Program& program, const TypedProgram& typed, ir::Module& module, uint32_t periodUs, ir::Marks* marks)
-    : program_(program), typed_(typed), l_(program, module, marks), start_(l_.newRoutine("@START")),
+Walk::Walk(const Program& program, const TypedProgram& typed, ir::Module& module, uint32_t periodUs, ir::Marks* marks,
+           ir::GivenNumbers* given)
+    : program_(program), typed_(typed), l_(program, module, marks, given), start_(l_.newRoutine("@START")),
       clocks_(l_, l_.state, periodUs) {
   l_.fault(nc::kTechnolRequested); // by the control (man. l.5361)
 }

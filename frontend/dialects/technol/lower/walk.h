@@ -22,8 +22,10 @@ struct LoweredProgram {
 
 class Walk {
 public:
-  // The spaces of `module` exist; `periodUs` is the main task's period; `marks` may be null. The program has no errors.
-  Walk(const Program& program, const TypedProgram& typed, ir::Module& module, uint32_t periodUs, ir::Marks* marks);
+  // The spaces of `module` exist; `periodUs` is the main task's period; `marks` and `given` may be
+  // null. The program has no errors.
+  Walk(const Program& program, const TypedProgram& typed, ir::Module& module, uint32_t periodUs, ir::Marks* marks,
+       ir::GivenNumbers* given);
 
   LoweredProgram run();
   Emitter& emitter() { return l_; }

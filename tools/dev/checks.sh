@@ -136,6 +136,8 @@ check_simulate() { # hosts, each with an order of events of its own
 
 check_long() { RUNG_LONG=1 run_tests -R '^(differential|engines|gsk|reports)\.'; } # tests/support/long_run.h
 
+check_truth() { RUNG_TRUTH=large run_tests -L '^truth$'; }
+
 check_growth() {
   build_some rung_growth
   python3 tests/growth/growth_test.py build/bin/tests/rung_growth 500

@@ -37,7 +37,7 @@ bool checkClosed(const Rung& rung, Diagnostics& diagnostics) {
   bool good = true;
   for (uint32_t net = 1; net < rung.nets.size(); ++net) {
     if (!rung.consumersOf(NetId{net}).empty()) continue;
-    diagnostics.report(diag::MissingClosingElement, rung.nets[net].range) << "a wire";
+    diagnostics.report(diag::MissingClosingElement, rung.nets[net].range) << "this wire";
     good = false;
   }
   return good;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/ascii.h"
+#include "ir/support/saturate.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::network {
@@ -19,7 +20,7 @@ std::optional<int64_t> parseHex(std::string_view text) {
   for (char c : text) {
     const int digit = hexDigit(c);
     if (digit < 0) return std::nullopt;
-    value = std::min(value * 16 + static_cast<uint32_t>(digit), kSaturated);
+    value = std::min(saturatedSum(saturatedProduct(value, 16), static_cast<uint32_t>(digit)), kSaturated);
   }
   return static_cast<int64_t>(value);
 }
@@ -43,7 +44,7 @@ std::optional<uint64_t> parseDigits(std::string_view text) {
   uint64_t value = 0;
   for (char c : text) {
     if (!isDigit(c)) return std::nullopt;
-    value = std::min(value * 10 + static_cast<uint64_t>(c - '0'), kSaturated);
+    value = std::min(saturatedSum(saturatedProduct(value, 10), static_cast<uint32_t>(c - '0')), kSaturated);
   }
   return value;
 }

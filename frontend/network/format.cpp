@@ -80,8 +80,8 @@ void ListFormatter::line(const SourceLine& source) {
 void ListFormatter::statement(std::span<const Word> words, std::string_view comment) {
   if (!checkCharacters(context_.diagnostics, words)) return;
   const auto command = findCommand(context_.language, words[0].text);
-  if (!command) return reportUnknownCommand(context_, words[0]);
-  if (!checkOperands(context_.diagnostics, *command, words)) return;
+  if (!command || isForeign(context_.language, words)) return reportUnknownCommand(context_, words);
+  if (!checkOperands(context_.language, context_.diagnostics, *command, words)) return;
   if (isDeclaration(*command))
     return page_.row(kNames,
                      {number() + text::lower(words[0].text), std::string(words[1].text), std::string(words[2].text)},

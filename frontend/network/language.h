@@ -9,6 +9,7 @@
 
 #include "frontend/ladder/text/ladder_file.h"
 #include "frontend/network/row.h"
+#include "frontend/sema/foreign_word.h"
 #include "rtlib/nc/signal.h"
 
 namespace rung::network {
@@ -69,6 +70,7 @@ struct Language {
   uint32_t stackDepth = 0;                // values in the stack register
   uint32_t maxCallDepth = 0;
   ladder::FindBox findBox = nullptr;
+  std::span<const frontend::ForeignWord> foreign; // commands and functions of other languages
 
   constexpr std::string_view nameOf(Command command) const { return commands[static_cast<size_t>(command)]; }
   constexpr const AreaInfo& at(Area area) const { return areas[static_cast<size_t>(area)]; }

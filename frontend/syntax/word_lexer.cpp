@@ -83,8 +83,10 @@ bool checkEncoding(const SourceManager& sources, FileId file, Diagnostics& diagn
   const std::string_view text = sources.text(file);
   const size_t offset = std::min(findInvalidUtf8(text), text.find('\0'));
   if (offset == std::string_view::npos) return true;
-  diagnostics.report(diag::BadEncoding, sources.range(file, offset, offset + 1))
-      << fmt::format("0x{:02X}", static_cast<unsigned char>(text[offset]));
+  DiagBuilder report = diagnostics.report(diag::BadEncoding, sources.range(file, offset, offset + 1));
+  report << fmt::format("0x{:02X}", static_cast<unsigned char>(text[offset]));
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    report.note("it begins as UTF-16 does: save it as UTF-8, or convert it with `iconv -f UTF-16 -t UTF-8`");
   return false;
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace rung {
 
@@ -16,6 +17,11 @@ public:
   void offer(std::string_view candidate);
   /// Empty when nothing is close.
   std::string_view best() const { return best_; }
+  /// Whether the word can be nothing but a slip of the hand for the best candidate: other case, two neighbouring
+  /// letters exchanged, a letter doubled or halved, a `_` more or less, and no other candidate is as close. ANDD is
+  /// AND, but VALVE_B may be a valve of its own beside VALVE_A, and a tool that puts the latter there changes what a
+  /// machine does.
+  bool certain() const;
 
 private:
   size_t distance(std::string_view candidate) const;
@@ -23,14 +29,26 @@ private:
   std::string word_; // in upper case
   size_t bound_;     // candidates must be closer
   std::string_view best_;
+  bool hasRival_ = false; // as close as the best one
 };
 
-/// The closest of the names of the candidates, which live longer than the result; empty when none is close.
+/// The closest candidate, empty when none is close; and whether it is certain that it was meant.
+struct Likely {
+  std::string_view word;
+  bool certain = false;
+};
+
+/// Of the names of the candidates, which live longer than the result.
 template <class Candidates, class NameOf = std::identity>
-std::string_view mostSimilar(std::string_view word, Candidates&& candidates, NameOf nameOf = {}) {
+Likely likeliest(std::string_view word, Candidates&& candidates, NameOf nameOf = {}) {
   Similar similar(word);
   for (const auto& candidate : candidates) similar.offer(std::invoke(nameOf, candidate));
-  return similar.best();
+  return {similar.best(), similar.certain()};
+}
+
+template <class Candidates, class NameOf = std::identity>
+std::string_view mostSimilar(std::string_view word, Candidates&& candidates, NameOf nameOf = {}) {
+  return likeliest(word, std::forward<Candidates>(candidates), nameOf).word;
 }
 
 /// "; did you mean WORD?" for the end of a message; nothing for an empty word.

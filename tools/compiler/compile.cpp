@@ -11,6 +11,7 @@
 #include "ir/support/check.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
+#include "ir/support/meant.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
 
@@ -31,6 +32,15 @@ void addClaim(ir::Module& module, const LayoutClaim& claim) {
                             .value = claim.hash});
 }
 
+// `word` is in the text of the file.
+void reportUnknownDialect(const SourceManager& sources, FileId file, std::string_view word, Diagnostics& diagnostics) {
+  const auto begin = static_cast<size_t>(word.data() - sources.text(file).data());
+  const SourceRange range = sources.range(file, begin, begin + word.size());
+  DiagBuilder report = diagnostics.report(diag::UnknownDialect, range);
+  report << word;
+  suggest(report, range, likeliest(word, frontend::allDialects(), &frontend::Dialect::name));
+}
+
 } // namespace
 
 const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
@@ -44,8 +54,8 @@ const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<c
   const frontend::Dialect* found = frontend::dialectOf(sources, files[0]);
   if (found != nullptr) return found;
   if (const std::string_view unknown = ladder::peekDialect(sources, files[0]); !unknown.empty())
-    diagnostics.report(diag::UnknownDialect, start) << unknown;
-  else
+    reportUnknownDialect(sources, files[0], unknown, diagnostics);
+  else if (checkEncoding(sources, files[0], diagnostics))
     diagnostics.report(diag::MissingDialect, start);
   return nullptr;
 }

@@ -11,7 +11,7 @@
 #include "frontend/dialects/dialect.h"
 #include "ir/support/diag/project.h"
 #include "ir/support/diag/source.h"
-#include "ir/support/similar.h"
+#include "ir/support/meant.h"
 #include "ir/support/utf8.h"
 #include "tools/toml/parse.h"
 
@@ -76,9 +76,9 @@ private:
     const SourceRange range = rangeOf(key.source());
     DiagBuilder report = diagnostics_.report(diag::UnknownProjectKey, range);
     report << key.str();
-    const std::string_view meant = mostSimilar(key.str(), kKeys);
-    report.meant(range, meant);
-    if (meant.empty())
+    const Likely meant = likeliest(key.str(), kKeys);
+    suggest(report, range, meant);
+    if (meant.word.empty())
       report.note(
           "the keys of a project file are name, dialect, files, include, nc, scenarios, bindings, activity; those "
           "of the dialect's configuration belong in the table [config]");

@@ -2,6 +2,7 @@
 #include "frontend/dialects/gsk/language.h"
 
 #include "frontend/dialects/gsk/areas.h"
+#include "frontend/dialects/gsk/rows/foreign_words.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
 #include "rtlib/nc/gsk/signals.h"
 
@@ -23,6 +24,7 @@ const network::Language kLanguage = {
     .stackDepth = 9,   // ST0-ST8 (P11)
     .maxCallDepth = 8, // P46
     .findBox = findBox,
+    .foreign = kForeignWords,
 };
 
 } // namespace rung::gsk

@@ -17,7 +17,7 @@
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/diag/structure.h"
-#include "ir/support/similar.h"
+#include "ir/support/meant.h"
 #include "rtlib/nc/nct/messages.h"
 
 namespace rung::nct {
@@ -30,7 +30,7 @@ public:
   NctProgram(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
              Diagnostics& diagnostics)
       : sources_(sources), ids_(files.begin(), files.end()), options_(options), diagnostics_(diagnostics),
-        config_(readConfig(options, diagnostics)), symbols_(config_, analysis_, diagnostics),
+        config_(readConfig(options, diagnostics)), symbols_(config_, sources, analysis_, diagnostics),
         reservations_(diagnostics) {}
 
   void check() {
@@ -84,6 +84,8 @@ private:
       checkStructure(*module, sources_, diagnostics_);
       checkMessages(*module, textKinds_, diagnostics_);
     }
+    if (!diagnostics_.hasErrors()) // a mistake may hide a box
+      checkMessageNumbers({&program_.main, &program_.int0}, textKinds_, diagnostics_);
     if (!program_.main.exists && !program_.main.range.valid() && !nameless_) {
       const SourceRange range = files_.empty() ? SourceRange{} : files_[0].dialectRange;
       diagnostics_.report(diag::MissingMain, range);
@@ -122,7 +124,7 @@ private:
       const SourceRange range = join(statement.name.front().range, statement.name.back().range);
       DiagBuilder report = diagnostics_.report(diag::UnknownModule, range);
       report << sources_.text(range) << "MAIN or INT0";
-      report.meant(range, mostSimilar(sources_.text(range), std::array{"MAIN", "INT0"}));
+      suggest(report, range, likeliest(sources_.text(range), std::array{"MAIN", "INT0"}));
       nameless_ = true;
       return reported_;
     }

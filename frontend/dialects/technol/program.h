@@ -64,6 +64,9 @@ struct Program {
   bool exchangesFast = false; // FAST or FASTEST is asked for
   std::vector<ir::Init> inits;
   uint32_t included = 0; // files by T_INCLUDE
+  // Files that were included, by path, as they are read: once, so that a mistake in one has one place. Nothing: no
+  // text.
+  std::unordered_map<std::string, std::optional<FileId>> includes;
   uint32_t expanded = 0; // lines of macros
   Encoding encoding = Encoding::Detect;
   std::string axisNames;                 // of axes 1 and up, separated by blanks; empty: those of the rows

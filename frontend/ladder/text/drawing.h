@@ -78,9 +78,6 @@ void groupPins(Drawing& drawing, FindBox findBox, Diagnostics& diagnostics);
 /// Joins the wires: fills the rung's elements (in the order of the text), pins and nets, also of a bad drawing.
 void wireUp(Drawing& drawing, Rung& rung, Diagnostics& diagnostics);
 
-/// Reports a character that is neither printable ASCII nor part of a text or comment.
-void reportBadCharacter(const SourceLine& line, size_t offset, Diagnostics& diagnostics);
-
 /// Offset of the first character in [begin, end) that is not printable ASCII, or end.
 size_t findUnprintable(std::string_view text, size_t begin, size_t end);
 

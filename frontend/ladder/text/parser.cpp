@@ -6,9 +6,11 @@
 #include <string>
 
 #include "frontend/ladder/text/drawing.h"
+#include "frontend/syntax/bad_character.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
-#include "ir/support/similar.h"
+#include "ir/support/meant.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::ladder {
 namespace {
@@ -118,7 +120,7 @@ void Parser::reportUnknown(const Word& keyword) {
     report.note("a comment begins with ';'");
     return;
   }
-  report.meant(keyword.range, mostSimilar(keyword.text, kKeywords));
+  suggest(report, keyword.range, likeliest(keyword.text, kKeywords));
 }
 
 /// Splits the line; false when its words are not even words.
@@ -129,7 +131,7 @@ bool Parser::checkWords(const SourceLine& source) {
     const size_t begin = word.range.begin.value - source.begin.value;
     const size_t bad = findUnprintable(source.text, begin, begin + word.text.size());
     if (bad == begin + word.text.size()) continue;
-    reportBadCharacter(source, bad, diagnostics_);
+    reportBadCharacter(source.text, bad, source.begin, diagnostics_);
     return false;
   }
   if (!words_.unterminatedQuote) return true;
@@ -276,7 +278,8 @@ std::string_view peekDialect(const SourceManager& sources, FileId file) {
   for (SourceLine line; lines.next(line);) {
     splitWords(line, kRules, words);
     if (words.words.empty()) continue;
-    const bool found = words.words.size() == 2 && words.words[0].text == "dialect" && !words.words[0].quoted;
+    const bool found = words.words.size() == 2 && text::equalsIgnoringCase(words.words[0].text, "dialect") &&
+                       !words.words[0].quoted; // in other letters the parser says how it is written
     return found ? words.words[1].text : std::string_view();
   }
   return {};

@@ -1,13 +1,16 @@
 // One line of a drawing → tokens and elements.
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "frontend/ladder/text/drawing.h"
+#include "frontend/syntax/bad_character.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/utf8.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::ladder {
 namespace {
@@ -15,6 +18,18 @@ namespace {
 constexpr std::string_view kContactForms = "[x], with '/', '@' or '%' before x, which is one operand without blanks";
 constexpr std::string_view kCoilForms = "(x), (/x), (S x) or (R x), where x is one operand without blanks";
 constexpr std::string_view kBoxForms = "{MNEMONIC operands}";
+
+/// Words before the operand of a contact or coil in other ladders, and what is drawn here; `same`: it is that.
+struct ForeignMark {
+  std::string_view word;
+  std::string_view here;
+  bool same = true;
+};
+constexpr ForeignMark kContactMarks[] = {{"NOT", "[/"}, {"!", "[/"}};
+constexpr ForeignMark kCoilMarks[] = {
+    {"SET", "(S "}, {"S", "(S "},   {"RST", "(R "},          {"RESET", "(R "},
+    {"R", "(R "},   {"NOT", "(/"},  {"L", "(S ", false},     {"U", "(R ", false},
+    {"OTL", "(S "}, {"OTU", "(R "}, {"LATCH", "(S ", false}, {"UNLATCH", "(R ", false}};
 
 bool isWire(char c) { return c == '-' || c == '+'; }
 bool isPrintable(char c) { return c > ' ' && c < 0x7F; }
@@ -72,6 +87,7 @@ private:
   }
   bool unclosed(size_t end, char close);
   bool badElement(size_t end, std::string_view forms);
+  bool severalWords(const Element& element, size_t begin, size_t end, std::string_view forms);
   bool badCharacter(size_t offset);
 
   const SourceLine& line_;
@@ -174,8 +190,33 @@ bool LineScanner::badElement(size_t end, std::string_view forms) {
   return false;
 }
 
+/// In the place of one operand; the element keeps its width where it is put right.
+bool LineScanner::severalWords(const Element& element, size_t begin, size_t end, std::string_view forms) {
+  const bool contact = element.kind == ElementKind::Contact;
+  const size_t close = text_.find_first_of("])", end) + 1;
+  const std::string_view words = text_.substr(begin, end - begin);
+  const std::string_view first = words.substr(0, words.find(' '));
+  const std::string_view rest = words.substr(skipBlanks(begin + first.size(), end) - begin);
+  DiagBuilder report = diagnostics_.report(diag::BadElement, line_.range(at_, close));
+  report << forms;
+  const std::span<const ForeignMark> marks = contact ? std::span<const ForeignMark>(kContactMarks) : kCoilMarks;
+  const auto mark =
+      std::ranges::find_if(marks, [&](const ForeignMark& one) { return text::equalsIgnoringCase(one.word, first); });
+  if (mark == marks.end() || element.negated || element.edge != 0 || rest.find(' ') != std::string_view::npos) {
+    if (contact) report.note("contacts in series are drawn one after the other, contacts in parallel in branches");
+    return false;
+  }
+  const size_t wide = close - at_ - 1; // without the closing bracket
+  std::string drawn = fmt::format("{}{}", mark->here, rest);
+  report.note(fmt::format("did you mean {}{}?", drawn, text_[close - 1]));
+  if (!mark->same || drawn.size() > wide) return false;
+  drawn.resize(wide, ' ');
+  report.fix(line_.range(at_, close), drawn + text_[close - 1]);
+  return false;
+}
+
 bool LineScanner::badCharacter(size_t offset) {
-  reportBadCharacter(line_, offset, diagnostics_);
+  reportBadCharacter(line_.text, offset, line_.begin, diagnostics_);
   return false;
 }
 
@@ -196,8 +237,8 @@ bool LineScanner::operand(Element& element, size_t begin, size_t end, std::strin
   const std::string_view word = text_.substr(begin, end - begin);
   const size_t bad = findUnprintable(text_, begin, end);
   if (bad != end && text_[bad] != ' ') return badCharacter(bad);
-  if (word.empty() || word.find(' ') != std::string_view::npos)
-    return badElement(text_.find_first_of("])", end) + 1, forms);
+  if (word.find(' ') != std::string_view::npos) return severalWords(element, begin, end, forms);
+  if (word.empty()) return badElement(text_.find_first_of("])", end) + 1, forms);
   pushOperand(begin, end, false);
   return true;
 }
@@ -275,14 +316,6 @@ bool LineScanner::box(Element& element) {
   return true;
 }
 
-// What word processors put in the place of an ASCII character; null for anything else.
-const char* asciiFor(uint32_t character) {
-  if ((character >= 0x2010 && character <= 0x2015) || character == 0x2212) return "'-'";
-  if (character >= 0x201C && character <= 0x201F) return "'\"'";
-  if (character == 0x00A0 || character == 0x202F) return "a blank";
-  return nullptr;
-}
-
 } // namespace
 
 void Drawing::clear() {
@@ -302,16 +335,6 @@ void scanDrawingLine(const SourceLine& line, Drawing& drawing, Diagnostics& diag
 void addUnreadLine(const SourceLine& line, Drawing& drawing) {
   Diagnostics unheard;
   LineScanner(line, drawing, unheard).skip();
-}
-
-void reportBadCharacter(const SourceLine& line, size_t offset, Diagnostics& diagnostics) {
-  const CodePoint character = decodeUtf8(line.text, offset);
-  const SourceRange range = line.range(offset, offset + character.length);
-  std::string name = fmt::format("U+{:04X}", character.value);
-  if (character.value > 0x20) name += fmt::format(" '{}'", line.text.substr(offset, character.length));
-  DiagBuilder report = diagnostics.report(diag::BadCharacter, range);
-  report << name;
-  if (const char* meant = asciiFor(character.value)) report.note(fmt::format("write {}", meant));
 }
 
 size_t findUnprintable(std::string_view text, size_t begin, size_t end) {

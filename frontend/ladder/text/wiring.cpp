@@ -316,7 +316,7 @@ void Wiring::checkOpenEnds() {
       diagnostics_.report(diag::ElementAfterClosing, range) << "a coil";
     } else {
       DiagBuilder report = diagnostics_.report(diag::MissingClosingElement, range);
-      report << "a wire";
+      report << "this wire";
       if (const auto join = nearestJoin(end))
         report.note(join->place, fmt::format("this '+' is in column {}, the end of the branch in column {}: branches "
                                              "join where one '+' is under the other",

@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "frontend/network/read/list_syntax.h"
 #include "ir/support/ascii.h"
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
-#include "ir/support/similar.h"
+#include "ir/support/meant.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::network {
@@ -82,20 +83,53 @@ Found findAddress(Context& context, const Word& word) {
 
 void suggestName(const Context& context, const UndeclaredName& use, DiagBuilder& report) {
   if (!context.diagnostics.suggests()) return;
-  const std::string_view similar = mostSimilar(use.name, context.names.ofKind(use.kind), &UserName::name);
-  report.meant(use.range, similar);
-  if (!similar.empty() || use.kind != UserName::Kind::Symbol) return;
+  const Likely similar = likeliest(use.name, context.names.ofKind(use.kind), &UserName::name);
+  suggest(report, use.range, similar);
+  if (!similar.word.empty() || use.kind != UserName::Kind::Symbol) return;
   const nc::SignalTable& signals = context.language.signals();
   if (const nc::Signal* signal = nc::findSignal(signals, mostSimilar(use.name, signals, &nc::Signal::symbol)))
     report.note(fmt::format("did you mean {} ({}, {})?", signal->symbol,
                             textOf(context.language, addressOf(context.language, *signal)), signal->meaning));
 }
 
-// Of an instruction: names of other controls (TON, CTU) are like none of these.
-void suggest(const Language& language, SourceRange range, std::string_view similar, DiagBuilder& report) {
-  report.meant(range, similar);
-  if (similar.empty())
+// Of an instruction, perhaps one of another control that is like none of these.
+void suggestInstruction(const Language& language, SourceRange range, const Likely& similar, DiagBuilder& report) {
+  suggest(report, range, similar);
+  if (similar.word.empty())
     report.note(fmt::format("`rungc explain {}` lists the instructions by what they do", language.name));
+}
+
+// An address as IEC 61131 and Siemens write it: I1.5, %QX0.0, MW10. Those of this control are none here.
+bool isOtherAddress(std::string_view text) {
+  if (text.starts_with('%')) text.remove_prefix(1);
+  const size_t letters = std::min(text.find_first_not_of("BDEIMQWXbdeimqwx"), text.size());
+  return letters >= 1 && letters <= 2 && letters < text.size() && isDigit(text[letters]);
+}
+
+std::string areasText(const Language& language) {
+  std::string text;
+  for (const AreaInfo& area : language.areas)
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", area.letter, area.doc);
+  return text;
+}
+
+std::string bothOf(std::span<const Word> words) { return fmt::format("{} {}", words[0].text, words[1].text); }
+
+// A line of another kind of text: a drawing, a comment, a label. False when it is none.
+bool noteSyntax(const Language& language, std::string_view word, DiagBuilder& report) {
+  if (word.starts_with('|') || word.starts_with('+'))
+    report.note(
+        fmt::format("this is a drawing, and the file is read as a command list: a ladder has the extension .lad, "
+                    "and above its drawings the statements `dialect {}`, `module {}` and `rung`",
+                    language.name, language.levels[0]));
+  else if (looksLikeComment(word))
+    report.note("a comment begins with ';'");
+  else if (word.ends_with(':'))
+    report.note(fmt::format("a label is `{} {}` with its number as a parameter; a title is a comment after ';'",
+                            language.nameOf(Command::Function), language.mnemonicOf(Control::Lbl)));
+  else
+    return false;
+  return true;
 }
 
 void explain(const Context& context, const UndeclaredName& use, DiagBuilder& report) {
@@ -106,6 +140,8 @@ void explain(const Context& context, const UndeclaredName& use, DiagBuilder& rep
     report.note(fmt::format("write {}", pointed)).fix(use.range, pointed);
   else
     suggestName(context, use, report);
+  if (use.kind == UserName::Kind::Symbol && isOtherAddress(use.name))
+    report.note("areas of this control: " + areasText(context.language));
 }
 
 // A word that is an address is one also where the table has a signal of that name: T00 to T31.
@@ -127,8 +163,10 @@ frontend::NamedPlace placeOf(const Language& language, const Address& address, u
 
 UserName* Names::declare(Context& context, const Word& name, UserName::Kind kind) {
   if (name.quoted || !isFreeName(context.language, name.text)) {
+    refused_.insert(name.text);
     context.diagnostics.report(diag::BadOperand, name.range)
-        << name.text << "free name: a letter, then letters, digits and _, and no command, address, label or subprogram";
+        << name.text
+        << "a free name: a letter, then letters, digits and _, and no command, address, label or subprogram";
     return nullptr;
   }
   const uint32_t index =
@@ -149,7 +187,7 @@ void Names::addSymbol(Context& context, const Word& name, const Word& value, std
     symbol->address = *signal;
     symbol->bad = false;
   } else {
-    context.diagnostics.report(diag::BadOperand, value.range) << value.text << "bit or byte address or signal";
+    context.diagnostics.report(diag::BadOperand, value.range) << value.text << "a bit or byte address or a signal";
   }
   symbol->definition = context.analysis.define({.name = name.text, .comment = comment, .range = name.range});
   if (!symbol->bad)
@@ -160,7 +198,7 @@ void Names::addConstant(Context& context, const Word& name, const Word& value) {
   UserName* constant = declare(context, name, UserName::Kind::Constant);
   if (constant == nullptr) return;
   const auto number = parseConstant(value.text);
-  if (!number) context.diagnostics.report(diag::BadOperand, value.range) << value.text << "constant";
+  if (!number) context.diagnostics.report(diag::BadOperand, value.range) << value.text << "a constant";
   constant->value = number.value_or(0);
   constant->bad = !number;
   constant->definition = context.analysis.define({.name = name.text, .range = name.range, .value = value.text});
@@ -185,16 +223,32 @@ std::optional<NamedAddress> Names::useSignal(Context& context, const Word& word)
   return NamedAddress{address, at->second};
 }
 
-void reportUnknownCommand(Context& context, const Word& word) {
+bool isForeign(const Language& language, std::span<const Word> words) {
+  return words.size() > 1 && frontend::findForeign(language.foreign, bothOf(words)) != nullptr;
+}
+
+void reportUnknownCommand(Context& context, std::span<const Word> words) {
   const Language& language = context.language;
+  const size_t count = isForeign(language, words) ? 2 : 1;
+  const std::string written = count == 1 ? std::string(words[0].text) : bothOf(words);
+  const Word word{written, join(words[0].range, words[count - 1].range), false};
   DiagBuilder report = context.diagnostics.report(diag::UnknownCommand, word.range);
   report << word.text;
+  if (noteSyntax(language, word.text, report)) return;
+  const auto fits = [&](std::string_view command) {
+    const auto found = findCommand(language, command);
+    return found && operandCount(*found) == words.size() - count;
+  };
+  if (const frontend::ForeignWord* foreign = frontend::findForeign(language.foreign, word.text))
+    return frontend::explainForeign(report, word.range, *foreign, fits(foreign->here));
   if (const Row* row = language.findFunction(word.text)) {
     report.note(
         fmt::format("{0} is a function: write `{1} {0}`", row->info.mnemonic, language.nameOf(Command::Function)));
     return;
   }
-  if (context.diagnostics.suggests()) suggest(language, word.range, mostSimilar(word.text, language.commands), report);
+  if (!context.diagnostics.suggests()) return;
+  const Likely similar = likeliest(word.text, language.commands);
+  suggestInstruction(language, word.range, {similar.word, similar.certain && fits(similar.word)}, report);
 }
 
 void reportUnknownFunction(Context& context, std::string_view name, SourceRange range) {
@@ -203,12 +257,15 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
   if (!context.diagnostics.suggests()) return;
   const auto isFunction = [](const Row* row) { return row->info.number >= 0; };
   const auto mnemonicOf = [](const Row* row) { return row->info.mnemonic; };
-  suggest(context.language, range,
-          mostSimilar(name, context.language.rows | std::views::filter(isFunction), mnemonicOf), report);
+  const frontend::ForeignWord* foreign = frontend::findForeign(context.language.foreign, name);
+  if (foreign != nullptr && !foreign->same) return frontend::explainForeign(report, range, *foreign, false);
+  suggestInstruction(context.language, range,
+                     likeliest(name, context.language.rows | std::views::filter(isFunction), mnemonicOf), report);
 }
 
 void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std::string_view expected) {
-  const UndeclaredName use{{word.text, word.range}, kind, expected};
+  if (context.names.wasRefused(word.text)) return; // its declaration was reported
+  const UndeclaredName use{{word.text, word.range}, kind, std::string(expected)};
   if (isFreeName(context.language, word.text) && !context.names.has(word.text)) return context.undeclared.add(use);
   DiagBuilder report = context.diagnostics.report(diag::BadOperand, word.range);
   report << word.text;
@@ -225,9 +282,10 @@ void countStep(Context& context, SourceRange range) {
   if (++context.steps == most + 1) context.diagnostics.report(diag::ProgramTooLarge, range) << most;
 }
 
-std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint32_t length) {
+std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint32_t length,
+                                        std::string_view expected) {
   const Found found = findAddress(context, word);
-  if (!found.known) unknownOperand(context, word, UserName::Kind::Symbol, "byte address, signal or declared name");
+  if (!found.known) unknownOperand(context, word, UserName::Kind::Symbol, expected);
   if (!found.address) return std::nullopt;
   if (found.address->isBit) {
     context.diagnostics.report(diag::ByteAddressExpected, word.range) << word.text;
@@ -257,7 +315,7 @@ bool checkWritable(Context& context, const Address& address, uint32_t length, So
 std::optional<NamedAddress> bitOperand(Context& context, const Word& word) {
   if (!word.range.valid()) return std::nullopt;
   const Found found = findAddress(context, word);
-  if (!found.known) unknownOperand(context, word, UserName::Kind::Symbol, "bit address, signal or declared name");
+  if (!found.known) unknownOperand(context, word, UserName::Kind::Symbol, "a bit address, a signal or a declared name");
   if (!found.address) return std::nullopt;
   if (!found.address->isBit) {
     reportNoBit(context, word, *found.address);

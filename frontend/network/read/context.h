@@ -5,6 +5,9 @@
 #include <map>
 #include <optional>
 #include <ranges>
+#include <set>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "frontend/network/address.h"
@@ -39,7 +42,7 @@ struct NamedAddress : Address {
 // A use of a name that is not declared, where one of this kind is expected.
 struct UndeclaredName : frontend::UndeclaredUse {
   UserName::Kind kind = UserName::Kind::Symbol;
-  std::string_view expected;
+  std::string expected;
 };
 
 struct Context;
@@ -49,6 +52,8 @@ public:
   void addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment);
   void addConstant(Context& context, const Word& name, const Word& value);
 
+  // Whether a declaration of this name was reported, because it is none.
+  bool wasRefused(std::string_view name) const { return refused_.contains(name); }
   bool has(std::string_view name) const { return table_.find(name) != frontend::kNoName; }
   // What a word means, which the analysis has as a use of it then; null for no name of the program of this kind.
   const UserName* use(frontend::Analysis& analysis, const Word& word, UserName::Kind kind) const;
@@ -64,6 +69,7 @@ private:
   UserName* declare(Context& context, const Word& name, UserName::Kind kind);
 
   frontend::NameTable<UserName> table_;
+  std::set<std::string_view> refused_;
   std::map<const nc::Signal*, uint32_t> signals_; // those that are used: their definitions
 };
 
@@ -90,8 +96,11 @@ void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std
 // read.
 void reportUndeclared(Context& context);
 
-// Reports a word in place of a command, and a function that FUNC or a box names wrongly; with what was meant, perhaps.
-void reportUnknownCommand(Context& context, const Word& word);
+// Whether the first two words of a statement are one command of another language: AND NOT.
+bool isForeign(const Language& language, std::span<const Word> words);
+// Reports the words of a statement that begins with no command, and a function that FUNC or a box names wrongly; with
+// what was meant, perhaps.
+void reportUnknownCommand(Context& context, std::span<const Word> words);
 void reportUnknownFunction(Context& context, std::string_view name, SourceRange range);
 
 // One step of the program memory more (P1); the one that is too much is reported.
@@ -103,7 +112,9 @@ frontend::NamedPlace placeOf(const Language& language, const Address& address, u
 // Operands. Each reports what is wrong, or notes a name that is not declared, and gives nullopt then; a name whose
 // declaration is wrong, or an operand without a place, gives nullopt silently: it was reported.
 std::optional<NamedAddress> bitOperand(Context& context, const Word& word);
-std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint32_t length);
+inline constexpr std::string_view kByteAddress = "a byte address, a signal or a declared name";
+std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint32_t length,
+                                        std::string_view expected = kByteAddress);
 // False, with a report, when the program may not write `length` bytes (a bit: 1) there; warns of the system area.
 bool checkWritable(Context& context, const Address& address, uint32_t length, SourceRange range);
 // The operand of a contact, which reads, or of a coil, which writes; the analysis has it then. Nullopt as above, and

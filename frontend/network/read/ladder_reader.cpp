@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/ladder/text/pin_rules.h"
 #include "frontend/network/read/canonical.h"
 #include "frontend/network/read/condition.h"
 #include "frontend/network/read/network_builder.h"
@@ -86,7 +87,7 @@ bool RungReader::checkKind(const Element& element) {
     return false;
   }
   if (element.kind == ElementKind::Contact && !element.output.valid()) {
-    diagnostics_.report(diag::MissingClosingElement, element.range) << "a contact";
+    diagnostics_.report(diag::MissingClosingElement, element.range) << "this contact";
     return false;
   }
   return true;
@@ -165,17 +166,7 @@ bool RungReader::checkBox() {
 bool RungReader::checkPins() {
   const auto pins = rung_.pinsOf(*box_);
   const auto wanted = row_->info.pins.all();
-  for (size_t i = 1; i < std::max(pins.size(), wanted.size()); ++i) {
-    if (i >= pins.size()) {
-      diagnostics_.report(diag::MissingPin, box_->range) << row_->info.mnemonic << wanted[i].name;
-      return false;
-    }
-    if (i >= wanted.size() || !text::equalsIgnoringCase(pins[i].name, wanted[i].name)) {
-      const std::string_view expected = i >= wanted.size() ? "none" : wanted[i].name;
-      diagnostics_.report(diag::UnknownPin, pins[i].range) << row_->info.mnemonic << pins[i].name << expected;
-      return false;
-    }
-  }
+  if (!ladder::checkPins(row_->info, pins, box_->range, text::equalsIgnoringCase, diagnostics_)) return false;
   if (wanted.empty() && pins[0].input != ladder::kRail && row_->control != Control::Lbl) {
     diagnostics_.report(diag::FirstColumnRequired, box_->range) << row_->info.mnemonic;
     return false;

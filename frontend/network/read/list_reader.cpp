@@ -31,6 +31,7 @@ public:
 private:
   void comment();
   void readStatement(std::span<const Word> words);
+  void unknownCommand(std::span<const Word> words);
   void lostOperand(Command command, const Word& name, Place at);
   void dispatch(Command command, std::span<const Word> words, Place at);
   const Row* functionOf(const Word& word);
@@ -43,6 +44,7 @@ private:
   SourceLine line_;
   LineWords words_;
   TitleRule title_;
+  bool sawDrawing_ = false;
 };
 
 void ListReader::comment() {
@@ -58,15 +60,23 @@ void ListReader::readStatement(std::span<const Word> words) {
   const Place at{join(words.front().range, words.back().range), line_.number};
   const bool readable = checkCharacters(context_.diagnostics, words);
   const auto command = findCommand(context_.language, words[0].text);
-  if (!command) {
-    if (readable) reportUnknownCommand(context_, words[0]);
+  if (!command || isForeign(context_.language, words)) {
+    if (readable) unknownCommand(words);
     return builder_.garbage(at);
   }
   if (*command >= Command::Dialect) builder_.title({});
   if (isDeclaration(*command)) return; // readListSymbols
-  if (!readable || !checkOperands(context_.diagnostics, *command, words)) return lostOperand(*command, words[0], at);
+  if (!readable || !checkOperands(context_.language, context_.diagnostics, *command, words))
+    return lostOperand(*command, words[0], at);
   if (*command == Command::Dialect) return checkDialect(words[1]);
   dispatch(*command, words, at);
+}
+
+// A drawing is reported at its first line.
+void ListReader::unknownCommand(std::span<const Word> words) {
+  const bool drawing = words[0].text.starts_with('|') || words[0].text.starts_with('+');
+  if (!drawing || !sawDrawing_) reportUnknownCommand(context_, words);
+  sawDrawing_ = sawDrawing_ || drawing;
 }
 
 // The command counts with an operand that nothing is said about any more; of FUNC nothing is left.
@@ -117,7 +127,7 @@ void readListSymbols(Context& context, FileId file) {
     const auto command = statement.empty() ? std::nullopt : findCommand(context.language, statement[0].text);
     if (!command || !isDeclaration(*command)) continue;
     if (!isReadable(statement)) continue; // the reader of the list reports it
-    if (!checkOperands(context.diagnostics, *command, statement)) continue;
+    if (!checkOperands(context.language, context.diagnostics, *command, statement)) continue;
     if (*command == Command::Symbol)
       context.names.addSymbol(context, statement[1], statement[2], words.comment);
     else

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "frontend/network/address.h"
+#include "frontend/syntax/bad_character.h"
 #include "ir/support/diag/operand.h"
-#include "ir/support/diag/source.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::network {
@@ -23,12 +23,30 @@ std::string_view wantedOperand(Command command) {
   return "`const NAME VALUE`";
 }
 
-size_t operandCount(Command command) { return isBlock(command) ? 0 : isDeclaration(command) ? 2 : 1; }
-
 // Only these may appear outside comments.
 bool isPlain(char c) { return c >= 0x21 && c <= 0x7E; }
 
+// A word too many; what other languages have there.
+void reportSurplus(const Language& language, Command command, const Word& word, Diagnostics& diagnostics) {
+  DiagBuilder report = diagnostics.report(diag::BadOperand, word.range);
+  report << word.text
+         << fmt::format("a part of this statement: {} takes {}", language.nameOf(command),
+                        isBlock(command) ? "nothing" : wantedOperand(command));
+  if (looksLikeComment(word.text))
+    report.note("a comment begins with ';'");
+  else if (findCommand(language, word.text))
+    report.note("each command has a line of its own");
+}
+
 } // namespace
+
+size_t operandCount(Command command) { return isBlock(command) ? 0 : isDeclaration(command) ? 2 : 1; }
+
+// Of a language whose comments begin otherwise.
+bool looksLikeComment(std::string_view word) {
+  constexpr std::string_view kBegins[] = {"//", "/*", "(*", "#"};
+  return std::ranges::any_of(kBegins, [&](std::string_view begin) { return word.starts_with(begin); });
+}
 
 std::optional<Command> findCommand(const Language& language, std::string_view text) {
   const auto at = std::ranges::find_if(language.commands,
@@ -54,36 +72,23 @@ bool checkCharacters(Diagnostics& diagnostics, std::span<const Word> words) {
   for (const Word& word : words) {
     const auto bad = std::find_if_not(word.text.begin(), word.text.end(), isPlain);
     if (bad == word.text.end()) continue;
-    const auto offset = static_cast<uint32_t>(bad - word.text.begin());
-    size_t length = 1;
-    while (offset + length < word.text.size() &&
-           (static_cast<unsigned char>(word.text[offset + length]) & 0xC0) == 0x80)
-      ++length;
-    const SourcePos begin{word.range.begin.value + offset};
-    const SourceRange range{begin, {begin.value + static_cast<uint32_t>(length)}};
-    if (static_cast<unsigned char>(*bad) < 0x80)
-      diagnostics.report(diag::BadCharacter, range) << fmt::format("0x{:02X}", static_cast<unsigned char>(*bad));
-    else
-      diagnostics.report(diag::BadCharacter, range) << fmt::format("'{}'", word.text.substr(offset, length));
+    reportBadCharacter(word.text, static_cast<size_t>(bad - word.text.begin()), word.range.begin, diagnostics);
     return false;
   }
   return true;
 }
 
-bool checkOperands(Diagnostics& diagnostics, Command command, std::span<const Word> words) {
+bool checkOperands(const Language& language, Diagnostics& diagnostics, Command command, std::span<const Word> words) {
   const size_t wanted = operandCount(command);
   if (words.size() - 1 == wanted) return true;
   if (isDeclaration(command))
     diagnostics.report(diag::BadOperand, words[0].range)
-        << words[0].text << fmt::format("complete statement: {}", wantedOperand(command));
+        << words[0].text << fmt::format("a complete statement: {}", wantedOperand(command));
   else if (words.size() - 1 < wanted)
     diagnostics.report(diag::BadOperand, words[0].range)
-        << words[0].text << fmt::format("complete statement: {} is missing", wantedOperand(command));
+        << words[0].text << fmt::format("a complete statement: {} is missing", wantedOperand(command));
   else
-    diagnostics.report(diag::BadOperand, words[wanted + 1].range)
-        << words[wanted + 1].text
-        << fmt::format("part of this statement: {} takes {}", words[0].text,
-                       wanted == 0 ? "nothing" : wantedOperand(command));
+    reportSurplus(language, command, words[wanted + 1], diagnostics);
   return false;
 }
 

@@ -21,6 +21,10 @@ std::span<const Word> statementOf(const LineWords& line);
 bool isReadable(std::span<const Word> words);
 bool checkCharacters(Diagnostics& diagnostics, std::span<const Word> words);
 // Reports operands that are missing or too many; `words`: the command with them.
-bool checkOperands(Diagnostics& diagnostics, Command command, std::span<const Word> words);
+bool checkOperands(const Language& language, Diagnostics& diagnostics, Command command, std::span<const Word> words);
+// How many a command takes.
+size_t operandCount(Command command);
+// Whether a word begins a comment of other languages.
+bool looksLikeComment(std::string_view word);
 
 } // namespace rung::network

@@ -1,6 +1,8 @@
 // The stack register at compile time (P11) and the borders of networks.
 #include "frontend/network/read/network_builder.h"
 
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "ir/support/diag/gsk.h"
@@ -10,7 +12,12 @@
 namespace rung::network {
 namespace {
 
-std::string values(uint32_t count) { return count == 1 ? "1 value" : fmt::format("{} values", count); }
+constexpr std::string_view kNumbers[] = {"no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"};
+
+// Of blocks: at most as many as the stack holds.
+std::string numberWord(size_t number) {
+  return number < std::size(kNumbers) ? std::string(kNumbers[number]) : fmt::format("{}", number);
+}
 
 } // namespace
 
@@ -32,8 +39,9 @@ void NetworkBuilder::begin(Place at) {
   network_.title = pendingTitle_;
   pendingTitle_ = {};
   state_ = State::Logic;
-  depth_ = 0;
+  open_.clear();
   silent_ = false;
+  strayReported_ = false;
   unknown_ = false;
   parameters_.clear();
   table_.clear();
@@ -48,6 +56,19 @@ void NetworkBuilder::extend(Place at) {
 void NetworkBuilder::stackError(Place at, std::string_view what) {
   network_.bad = true;
   if (!silent_) context_.diagnostics.report(diag::UnbalancedStack, at.range) << what;
+  silent_ = true;
+}
+
+// At an output: what joins the blocks is missing, or the output of the first one.
+void NetworkBuilder::openBlocks(Place at) {
+  network_.bad = true;
+  if (!silent_) {
+    const Language& language = context_.language;
+    DiagBuilder report = context_.diagnostics.report(diag::UnbalancedStack, at.range);
+    report << fmt::format("{} blocks are open here: {} or {} is missing", numberWord(depth()),
+                          language.nameOf(Command::OrBlock), language.nameOf(Command::AndBlock));
+    report.note(open_.back(), "the last one begins here");
+  }
   silent_ = true;
 }
 
@@ -76,7 +97,8 @@ void NetworkBuilder::contactOutOfPlace(Place at) {
 void NetworkBuilder::contact(Logic kind, bool negated, const Word& operand, Place at) {
   if (kind == Logic::Load) {
     if (state_ != State::Logic) begin(at);
-    if (++depth_ > context_.language.stackDepth) {
+    open_.push_back(at.range);
+    if (depth() > context_.language.stackDepth) {
       network_.bad = true;
       if (!silent_) context_.diagnostics.report(diag::StackOverflow, at.range) << context_.language.stackDepth;
       silent_ = true;
@@ -96,11 +118,11 @@ void NetworkBuilder::contact(Logic kind, bool negated, const Word& operand, Plac
 void NetworkBuilder::block(Logic kind, Place at) {
   if (state_ != State::Logic)
     contactOutOfPlace(at);
-  else if (depth_ < 2)
-    stackError(at, fmt::format("{} joins two blocks, but the network has {} here",
-                               context_.language.nameOf(commandOf(kind, false)), values(depth_)));
+  else if (depth() < 2)
+    stackError(at, fmt::format("{} joins two blocks, but only one is open here",
+                               context_.language.nameOf(commandOf(kind, false))));
   else
-    --depth_;
+    open_.pop_back();
   extend(at);
   write(commandOf(kind, false), {}, at);
   network_.logic.push_back({.kind = kind, .line = at.line});
@@ -110,10 +132,11 @@ void NetworkBuilder::coil(Coil kind, const Word& operand, Place at) {
   if (state_ == State::Idle) {
     begin(at);
     stackError(at, fmt::format("there is no value for this output; {}", beginsWith()));
-  } else if (state_ == State::Logic && depth_ != 1) {
-    stackError(at, fmt::format("an output needs exactly one value, but the network has {} here", depth_));
+  } else if (state_ == State::Logic && depth() > 1) {
+    openBlocks(at);
   } else if (state_ == State::Function && !mayHaveCoils()) {
-    stackError(at, fmt::format("{} has no output for this coil", network_.function.row->info.mnemonic));
+    stackError(at, fmt::format("there is no value for this output: {}, and {} has none", beginsWith(),
+                               network_.function.row->info.mnemonic));
   }
   extend(at);
   write(commandOf(kind), operand.text, at);
@@ -129,8 +152,8 @@ void NetworkBuilder::coil(Coil kind, const Word& operand, Place at) {
 void NetworkBuilder::checkConditions(const Row& row, Place at) {
   if (silent_) return;
   const auto wanted = static_cast<uint32_t>(row.info.pins.size());
-  if (depth_ == wanted) return;
-  if (row.ignoresCondition && depth_ == 1) {
+  if (depth() == wanted) return;
+  if (row.ignoresCondition && depth() == 1) {
     context_.diagnostics.report(diag::ConditionIgnored, network_.range) << row.info.mnemonic;
     network_.logic.clear();
     return;
@@ -138,7 +161,7 @@ void NetworkBuilder::checkConditions(const Row& row, Place at) {
   std::string names;
   for (const frontend::PinInfo& pin : row.info.pins.all()) names += fmt::format(" {}", pin.name);
   DiagBuilder report = context_.diagnostics.report(diag::WrongConditionCount, at.range);
-  report << row.info.mnemonic << wanted << depth_;
+  report << row.info.mnemonic << wanted << depth();
   if (!names.empty()) report.note(fmt::format("its conditions in order:{}", names));
   network_.bad = true;
 }
@@ -169,9 +192,16 @@ void NetworkBuilder::parameter(const Word& operand, Place at) {
     parameters_.push_back(operand);
   } else {
     step(at);
-    if (!network_.incomplete)
+    if (!network_.incomplete && !strayReported_)
       context_.diagnostics.report(diag::StrayParameter, at.range) << context_.language.nameOf(Command::Parameter);
+    strayReported_ = true;
+    functionIsLost();
   }
+}
+
+// Where the line of a function is missing nothing can be said about the network.
+void NetworkBuilder::functionIsLost() {
+  if (state_ == State::Logic) network_.bad = network_.incomplete = silent_ = true;
 }
 
 void NetworkBuilder::tableRow(const Word& operand, Place at) {

@@ -47,7 +47,10 @@ private:
   void stackError(Place at, std::string_view what);
   void contactOutOfPlace(Place at);
   void checkConditions(const Row& row, Place at);
+  void openBlocks(Place at);
+  void functionIsLost();
   void completeFunction();
+  uint32_t depth() const { return static_cast<uint32_t>(open_.size()); }
   bool mayHaveCoils() const;
   std::string beginsWith() const;
 
@@ -56,9 +59,10 @@ private:
   Sink sink_;
   Network network_;
   State state_ = State::Idle;
-  uint32_t depth_ = 0;
-  bool silent_ = false;  // the stack of this network is lost; reported
-  bool unknown_ = false; // FUNC of an unknown function
+  std::vector<SourceRange> open_; // blocks that are not joined yet: their first commands
+  bool silent_ = false;           // the stack of this network is lost; reported
+  bool strayReported_ = false;    // parameters without a function, since the network began
+  bool unknown_ = false;          // FUNC of an unknown function
   std::vector<Word> parameters_;
   std::vector<Word> table_;
   std::string_view pendingTitle_;

@@ -48,6 +48,7 @@ private:
   bool checkPlace(const Word& word, const OperandKind& kind);
   bool checkAddress(const OperandInfo& info, const Word& word, Param& param);
   uint32_t lengthOf(const OperandKind& kind) const;
+  std::string expectedBy(const OperandKind* kind, std::string_view expected) const;
 
   Context& context_;
   Function& function_;
@@ -86,22 +87,29 @@ bool ParameterCheck::checkFormat(const Word& word, Param& param) {
 }
 
 bool ParameterCheck::checkNumber(const OperandInfo& info, const Word& word, Param& param) {
-  const auto number = constantWord(context_, word, "number");
+  const auto number = constantWord(context_, word, "a number");
   if (!number) return false;
   param.value = *number;
   if (param.value < info.min || param.value > info.max) {
-    const std::string range =
-        info.min == info.max ? fmt::format("{}", info.min) : fmt::format("{} to {}", info.min, info.max);
-    context_.diagnostics.report(diag::ParameterOutOfRange, word.range)
-        << word.text << range << function_.row->info.mnemonic;
+    DiagBuilder report = context_.diagnostics.report(diag::ParameterOutOfRange, word.range);
+    report << word.text << fmt::format("{} to {}", info.min, info.max) << function_.row->info.mnemonic;
+    if (info.min == info.max) report.note(info.doc);
     return false;
   }
   blockLength_ = static_cast<uint32_t>(param.value);
   return true;
 }
 
+// Where the format says whether a value is a constant or an address: that it does. A table's row has no kind.
+std::string ParameterCheck::expectedBy(const OperandKind* kind, std::string_view expected) const {
+  if (kind == nullptr || !kind->constant || !kind->address) return std::string(expected);
+  const auto format = [&](bool address) { return fmt::format("{}00{}", address ? 1 : 0, function_.length); };
+  return fmt::format("{}, which the format {} asks for; {} asks for {}", expected, format(!constantOperand_),
+                     format(constantOperand_), constantOperand_ ? "an address" : "a constant");
+}
+
 bool ParameterCheck::checkConstant(const Word& word, Param& param) {
-  const auto constant = constantWord(context_, word, "constant");
+  const auto constant = constantWord(context_, word, expectedBy(param.kind, "a constant"));
   if (!constant) return false;
   param.value = *constant;
   if (!lengthKnown_ || fits(param.value, function_.length)) return true;
@@ -128,7 +136,7 @@ bool ParameterCheck::checkNamed(const OperandInfo& info, const Word& word, Param
   const auto number = named ? parseDigits(word.text.substr(1)) : std::nullopt;
   if (!number) {
     context_.diagnostics.report(diag::BadOperand, word.range)
-        << word.text << fmt::format("{} such as {}1", param.kind->name, letter);
+        << word.text << fmt::format("a {} such as {}1", param.kind->name, letter);
     return false;
   }
   param.value = static_cast<int64_t>(*number);
@@ -159,7 +167,7 @@ bool ParameterCheck::checkPlace(const Word& word, const OperandKind& kind) {
 bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Param& param) {
   if (!checkPlace(word, *param.kind)) return false;
   const uint32_t length = lengthOf(*param.kind);
-  const auto address = byteOperand(context_, word, length);
+  const auto address = byteOperand(context_, word, length, expectedBy(param.kind, kByteAddress));
   if (!address) return false;
   param.isAddress = true;
   param.address = *address;

@@ -120,9 +120,9 @@ TEST(RenderText, ColorOnlyOnRequest) {
 TEST(RenderText, SortedByPositionAndSaysWhatIsLeftOut) {
   Fixture f("abc");
   f.diags.setErrorLimit(2);
-  f.diags.report(diag::BadOperand, f.range(2, 3)) << "c" << "number";
-  f.diags.report(diag::BadOperand, f.range(0, 1)) << "a" << "number";
-  f.diags.report(diag::BadOperand, f.range(1, 2)) << "b" << "number";
+  f.diags.report(diag::BadOperand, f.range(2, 3)) << "c" << "a number";
+  f.diags.report(diag::BadOperand, f.range(0, 1)) << "a" << "a number";
+  f.diags.report(diag::BadOperand, f.range(1, 2)) << "b" << "a number";
   const std::string text = f.text();
   EXPECT_LT(text.find("'a' is not a number"), text.find("'c' is not a number"));
   EXPECT_NE(text.find("(1 more diagnostics are not shown)"), std::string::npos);

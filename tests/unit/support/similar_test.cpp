@@ -38,5 +38,36 @@ TEST(Similar, NothingInCommonIsNoLikeness) {
   EXPECT_EQ(best("ANY", {}), "");
 }
 
+bool certain(std::string_view word, std::initializer_list<std::string_view> candidates) {
+  return likeliest(word, candidates).certain;
+}
+
+TEST(Similar, SlipsOfTheHandAreCertain) {
+  EXPECT_TRUE(certain("ready", {"READY"}));
+  EXPECT_TRUE(certain("RAEDY", {"READY"}));
+  EXPECT_TRUE(certain("ANDD", {"AND", "ANI", "OR"}));
+  EXPECT_TRUE(certain("CLOSEDOR", {"CLOSEDOOR"}));
+  EXPECT_TRUE(certain("PUMPRUN", {"PUMP_RUN"}));
+}
+
+TEST(Similar, WhatMayBeANameOfItsOwnIsNot) {
+  EXPECT_FALSE(certain("VALVE_B", {"VALVE_A"}));
+  EXPECT_FALSE(certain("PUMP2", {"PUMP1"}));
+  EXPECT_FALSE(certain("PUMP_RUNS", {"PUMP_RUN"}));
+  EXPECT_FALSE(certain("ANDN", {"AND"}));
+  EXPECT_FALSE(certain("LS_AA", {"LS_A"}));
+  EXPECT_FALSE(certain("LS_BA", {"LS_AB"}));
+  EXPECT_FALSE(certain("LS_12", {"LS_21"}));
+  EXPECT_FALSE(certain("K11", {"K1_1"}));
+  EXPECT_FALSE(certain("ANY", {}));
+}
+
+TEST(Similar, NotOfTwoThatAreAsClose) {
+  EXPECT_FALSE(certain("WRR", {"WR", "RR"}));
+  EXPECT_FALSE(certain("WRR", {"RR", "WR"}));
+  EXPECT_FALSE(certain("ready", {"READY", "Ready"}));
+  EXPECT_TRUE(certain("ready", {"READY", "READ"}));
+}
+
 } // namespace
 } // namespace rung

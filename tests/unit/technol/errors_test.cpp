@@ -86,7 +86,7 @@ constexpr Case kCases[] = {
     {"LoopWithoutEx", "A: DS 2\n", " MECH_BEGIN M\nL: LOD A\n JUM L\n MECH_END M\n MECH_BEGIN N\nK: LOD A\n EX\n JUM K\n MECH_END N\n", "0:9 mech-loop-without-ex", ""},
     {"JumpIntoMechanism", "A: DS 1\n", " JUM L\n MECH_BEGIN M\nL: LOD A\n JUM K\n MECH_END M\nK: LOD A\n", "0:7 jump-crosses-unit, 0:10 jump-crosses-unit", ""},
     {"JumpOutOfTimedBlock", "A: DS 1\n", " DFTM1 E\n LOD A\n JUM E\n JUM K\nE:\nK: LOD A\n", "0:10 jump-crosses-unit", ""},
-    {"TimedBlockWithoutEnd", "A: DS 1\n", "E: LOD A\n DFTM1 E\n LOD A\n DFTM10 F\n LOD A\n", "0:8 undefined-symbol, 0:10 undefined-symbol", ""},
+    {"TimedBlockWithoutEnd", "A: DS 1\n", "E: LOD A\n DFTM1 E\n LOD A\n DFTM10 F\n LOD A\n", "0:8 syntax-error, 0:10 undefined-symbol", ""},
     {"TimedBlockAcrossMechanism", "A: DS 1\n", " MECH_BEGIN M\n DFTM1 E\n EX\n MECH_END M\nE: LOD A\n", "0:8 jump-crosses-unit", ""},
     {"ProcNames", "", " PROC_BEGIN P\n PROC_END Q\n PROC_END P\n", "0:7 proc-name-mismatch, 0:8 proc-name-mismatch", ""},
     {"ProcNotClosed", "", " PROC_BEGIN P\n", "0:7 proc-not-closed", ""},

@@ -73,7 +73,7 @@ void watchSignals(network::Context& context, Machine machine) {
     if (signal == nullptr) return;
     const bool onMill = machine == Machine::Mill;
     diagnostics.report(diag::SignalOfOtherMachine, word.range)
-            .note(fmt::format("man. l.{}: {}", signal->manualLine, signal->meaning))
+            .note(fmt::format("{}: {}", signal->symbol, signal->meaning))
         << signal->symbol << (onMill ? "turning" : "milling") << (onMill ? "mill" : "turn");
   };
 }

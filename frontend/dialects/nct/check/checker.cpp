@@ -7,12 +7,13 @@
 
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "frontend/dialects/nct/rows/operand_kinds.h"
+#include "frontend/ladder/text/fix.h"
+#include "frontend/ladder/text/pin_rules.h"
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/structure.h"
-#include "ir/support/similar.h"
 
 namespace rung::nct {
 namespace {
@@ -42,34 +43,41 @@ std::string_view describe(ConstantKind kind) {
   return "";
 }
 
-// How messages name an element.
-std::string nameOf(const ladder::Element& element, const NctInstruction& row) {
+// How messages name an element; the operand is that of a contact or a coil.
+std::string nameOf(const ladder::Element& element, const NctInstruction& row, std::string_view operand) {
   switch (element.kind) {
   case ElementKind::Contact: return "a contact";
   case ElementKind::Coil:
-    return row.reservation == Reservation::SetReset ? fmt::format("({} )", row.variant == 2 ? 'S' : 'R') : "a coil";
+    return row.reservation == Reservation::SetReset ? fmt::format("({} {})", row.variant == 2 ? 'S' : 'R', operand)
+                                                    : "a coil";
   case ElementKind::Box:
   case ElementKind::Error: return std::string(row.info.mnemonic);
   }
   return {};
 }
 
+bool sameName(std::string_view a, std::string_view b) { return a == b; }
+
 } // namespace
 
 // --- each output once
 // ---------------------------------------------------------------------------------------------------
-void OutputReservations::add(Reservation reservation, const Operand& operand) {
+void OutputReservations::add(const NctInstruction& row, const Operand& operand) {
+  const Reservation reservation = row.reservation;
   const Address& address = operand.address;
   if (reservation == Reservation::None || !address.isFixed()) return;
   const uint64_t key = address.isBit ? address.word * 32 + address.bit : (1ull << 32) + address.word;
   Owner& owner = owners_[key];
   const SourceRange here = operand.source->range;
   if (reservation == Reservation::Once && owner.once.valid()) {
-    diagnostics_.report(diag::DuplicateOutput, here).note(owner.once, "here") << operand.source->text;
+    diagnostics_.report(diag::DuplicateOutput, here).note(owner.once, "here")
+        << operand.source->text
+        << (owner.row->shape == Shape::Coil ? std::string("already has a coil")
+                                            : fmt::format("is already used by {}", owner.row->info.mnemonic));
     return;
   }
   const bool wasMixed = owner.once.valid() && owner.setReset.valid();
-  if (reservation == Reservation::Once) owner.once = here;
+  if (reservation == Reservation::Once) owner.once = here, owner.row = &row;
   if (reservation == Reservation::SetReset && !owner.setReset.valid()) owner.setReset = here;
   if (!wasMixed && owner.once.valid() && owner.setReset.valid())
     diagnostics_.report(diag::MixedOutput, here)
@@ -118,11 +126,24 @@ const NctInstruction* RungChecker::rowOf(const ladder::Element& element, const O
 void RungChecker::reportUnknown(const ladder::Element& element) {
   DiagBuilder report = diagnostics_.report(diag::UnknownInstruction, element.mnemonicRange);
   report << element.mnemonic;
+  if (const frontend::ForeignWord* foreign = frontend::findForeign(foreignWords(), element.mnemonic))
+    return explainForeign(report, element, *foreign);
   if (!diagnostics_.suggests()) return;
   const auto isBox = [](const NctInstruction& row) { return row.shape == Shape::Box; };
   const auto mnemonicOf = [](const NctInstruction& row) { return row.info.mnemonic; };
-  report.meant(element.mnemonicRange,
-               mostSimilar(element.mnemonic, allInstructions() | std::views::filter(isBox), mnemonicOf));
+  ladder::suggest(report, symbols_.sources(), element.mnemonicRange,
+                  likeliest(element.mnemonic, allInstructions() | std::views::filter(isBox), mnemonicOf));
+}
+
+// A box that means the same has as many operands.
+void RungChecker::explainForeign(DiagBuilder& report, const ladder::Element& element,
+                                 const frontend::ForeignWord& foreign) {
+  const NctInstruction* row = foreign.same ? findBox(foreign.here) : nullptr;
+  const bool fits = row != nullptr && row->info.operands.size() == element.operands.count;
+  if (fits)
+    ladder::meant(report, symbols_.sources(), element.mnemonicRange, foreign.here);
+  else
+    frontend::explainForeign(report, element.mnemonicRange, foreign, false);
 }
 
 void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element) {
@@ -162,13 +183,14 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
 // Each of the two speaks of something else, so both may report.
 bool RungChecker::checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
   const bool placed = checkPlacement(rung, element, row);
-  return checkPins(rung, element, row) && placed;
+  return ladder::checkPins(row.info, rung.pinsOf(element), element.range, sameName, diagnostics_) && placed;
 }
 
 bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
   bool ok = true;
   const auto complain = [&](Diag code, SourceRange range) {
-    diagnostics_.report(code, range) << nameOf(element, row);
+    const bool isBox = element.kind == ElementKind::Box;
+    diagnostics_.report(code, range) << nameOf(element, row, isBox ? "" : rung.operandOf(element).text);
     ok = false;
   };
   for (const ladder::Pin& pin : rung.pinsOf(element)) {
@@ -180,24 +202,6 @@ bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element
   const bool connected = element.output.valid();
   if (row.info.output == Output::None && connected) complain(diag::ElementAfterClosing, element.range);
   if (row.info.output == Output::Always && !connected) complain(diag::MissingClosingElement, element.range);
-  return ok;
-}
-
-bool RungChecker::checkPins(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
-  const auto known = row.info.pins.all();
-  const std::span<const ladder::Pin> drawn = rung.pinsOf(element);
-  bool ok = true;
-  for (size_t i = 1; i < drawn.size() || i < known.size(); ++i) {
-    if (i >= drawn.size()) {
-      diagnostics_.report(diag::MissingPin, element.range) << row.info.mnemonic << known[i].name;
-      return false;
-    }
-    if (i < known.size() && drawn[i].name == known[i].name) continue;
-    diagnostics_.report(diag::UnknownPin, drawn[i].range)
-        << row.info.mnemonic << drawn[i].name
-        << (i < known.size() ? known[i].name : std::string_view("no further pin"));
-    ok = false;
-  }
   return ok;
 }
 
@@ -246,7 +250,7 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
     if (diagnostics_.errorCount() != before) return false;
   }
   for (const Operand& operand : operands) warnInt0Only(operand);
-  if (!operands.empty()) reservations_.add(row.reservation, operands[0]);
+  if (!operands.empty()) reservations_.add(row, operands[0]);
   return true;
 }
 
@@ -358,7 +362,7 @@ bool RungChecker::checkModifiers(const NctInstruction& row, const ladder::Elemen
     return false;
   }
   if (operand.edge != 0 && element.kind != ElementKind::Contact) {
-    diagnostics_.report(diag::ModifierNotAllowed, range) << edge << nameOf(element, row);
+    diagnostics_.report(diag::ModifierNotAllowed, range) << edge << nameOf(element, row, operand.source->text);
     return false;
   }
   return true;

@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "frontend/dialects/nct/program.h"
+#include "frontend/sema/foreign_word.h"
 
 namespace rung::nct {
 
@@ -10,12 +11,13 @@ namespace rung::nct {
 class OutputReservations {
 public:
   explicit OutputReservations(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
-  void add(Reservation reservation, const Operand& operand);
+  void add(const NctInstruction& row, const Operand& operand);
 
 private:
   struct Owner {
-    SourceRange once;     // of the coil, timer, …; invalid: none yet
-    SourceRange setReset; // of the first SET or RST
+    SourceRange once;                    // of the coil, timer, …; invalid: none yet
+    const NctInstruction* row = nullptr; // its row
+    SourceRange setReset;                // of the first SET or RST
   };
   Diagnostics& diagnostics_;
   std::unordered_map<uint64_t, Owner> owners_; // by bit, or by word
@@ -30,10 +32,10 @@ public:
 private:
   const NctInstruction* rowOf(const ladder::Element& element, const Operand* first);
   void reportUnknown(const ladder::Element& element);
+  void explainForeign(DiagBuilder& report, const ladder::Element& element, const frontend::ForeignWord& foreign);
   void checkElement(TypedRung& typed, const ladder::Element& element);
   bool checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
-  bool checkPins(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool readOperands(TypedRung& typed, TypedElement& element);
   bool readLabel(TypedElement& element, const Word& word);
   bool checkOperand(const NctInstruction& row, size_t index, const Operand& operand);

@@ -2,6 +2,7 @@
 #include "frontend/dialects/nct/check/message_texts.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -50,11 +51,39 @@ void checkBox(const TextKinds& texts, const NctInstruction& row, const Operand& 
 
 } // namespace
 
-void checkMessages(const TypedModule& module, const TextKinds& texts, Diagnostics& diagnostics) {
+namespace {
+
+// Calls f with the number of each box that shows a message.
+template <class F>
+void forEachBox(const TypedModule& module, F f) {
   for (const TypedRung& rung : module.rungs)
     for (const TypedElement& element : rung.elements)
       if (element.row != nullptr && element.row->info.group == "message" && element.operandCount != 0)
-        checkBox(texts, *element.row, rung.operandsOf(element)[0], diagnostics);
+        f(*element.row, rung.operandsOf(element)[0]);
+}
+
+} // namespace
+
+void checkMessages(const TypedModule& module, const TextKinds& texts, Diagnostics& diagnostics) {
+  forEachBox(module,
+             [&](const NctInstruction& row, const Operand& number) { checkBox(texts, row, number, diagnostics); });
+}
+
+void checkMessageNumbers(std::initializer_list<const TypedModule*> modules, const TextKinds& texts,
+                         Diagnostics& diagnostics) {
+  std::set<uint32_t> shown;
+  bool all = true; // else some number is in memory
+  for (const TypedModule* module : modules)
+    forEachBox(*module, [&](const NctInstruction&, const Operand& operand) {
+      all = all && operand.form == Form::Constant;
+      if (operand.form != Form::Constant) return;
+      const auto number = static_cast<uint32_t>(operand.constant.integer);
+      if (shown.insert(number).second && !texts.empty() && !texts.contains(number))
+        diagnostics.report(diag::MessageWithoutText, operand.source->range) << number;
+    });
+  if (!all) return;
+  for (const auto& [number, text] : texts)
+    if (!shown.contains(number)) diagnostics.report(diag::MessageUnused, text.range) << number;
 }
 
 } // namespace rung::nct

@@ -7,8 +7,9 @@
 #include "ir/support/ascii.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
-#include "ir/support/similar.h"
+#include "ir/support/meant.h"
 #include "rtlib/nc/nct/scope_symbols.h"
+#include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nct {
@@ -39,8 +40,17 @@ struct ConstantReader {
     }
     if (text.starts_with('#') && text.find('.') != std::string_view::npos)
       report.note("'#' begins an integer; a real number is written *" + std::string(text.substr(1)));
+    explainHex(report);
     return std::nullopt;
   }
+  // #1F, #0x1F, #16#1F
+  void explainHex(DiagBuilder& report) const {
+    std::string_view digits = text.substr(text.starts_with('#') ? 1 : 0);
+    if (!rung::text::takePrefixIgnoringCase(digits, "0x")) rung::text::takePrefixIgnoringCase(digits, "16#");
+    if (!digits.empty() && std::ranges::all_of(digits, [](char c) { return hexDigit(c) >= 0; }))
+      report.note("a hexadecimal constant is written #$" + std::string(digits));
+  }
+
   std::optional<Constant> tooLarge(std::string_view range) {
     diagnostics.report(diag::ConstantOutOfRange, rangeOf(word, text)) << text << range;
     return std::nullopt;
@@ -273,6 +283,7 @@ Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagno
     operand.form = Form::Text;
     return operand;
   }
+  if (symbols.wasRefused(word.text)) return operand; // -K1, 1M1: its declaration was reported
   std::string_view text = word.text;
   for (; !text.empty() && std::string_view("@%!").find(text[0]) != std::string_view::npos; text.remove_prefix(1)) {
     if (text[0] == '!')
@@ -319,7 +330,7 @@ Operand parseScopeSymbol(const Word& word, Diagnostics& diagnostics) {
   }
   DiagBuilder report = diagnostics.report(diag::UnknownScopeSymbol, word.range);
   report << word.text;
-  report.meant(word.range, mostSimilar(word.text, symbols, &nc::nct::ScopeSymbol::name));
+  suggest(report, word.range, likeliest(word.text, symbols, &nc::nct::ScopeSymbol::name));
   return operand;
 }
 

@@ -1,9 +1,11 @@
 // Names of a program (see symbols.h).
 #include "frontend/dialects/nct/read/symbols.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "frontend/dialects/nct/read/operand_parser.h"
+#include "frontend/ladder/text/fix.h"
 #include "ir/support/ascii.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
@@ -28,6 +30,16 @@ bool isName(std::string_view text) {
          text.find_first_of(".,:#*@%!/\"") == std::string_view::npos;
 }
 
+// An address as IEC 61131, FANUC and Siemens write it, without its '%': I1, X8, QX0, MW100.
+bool isOtherAddress(std::string_view text) {
+  const size_t letters = std::min(text.find_first_not_of("ABDEIMQWXYabdeimqwxy"), text.size());
+  return letters >= 1 && letters <= 2 && letters < text.size() && isDigit(text[letters]);
+}
+
+constexpr std::string_view kAddresses = "inputs and outputs of the control are bits of INP000, INP001, ... and OUT000, "
+                                        "OUT001, ...: INP000.04; other memory "
+                                        "has word addresses of four digits: 7000.04";
+
 Symbol word(std::string_view name, uint32_t address) {
   Symbol symbol;
   symbol.name = name;
@@ -44,8 +56,9 @@ std::string_view aliasOf(std::string_view name) {
   return name;
 }
 
-SymbolTable::SymbolTable(const Config& config, frontend::Analysis& analysis, Diagnostics& diagnostics)
-    : config_(config), analysis_(analysis), diagnostics_(diagnostics) {
+SymbolTable::SymbolTable(const Config& config, const SourceManager& sources, frontend::Analysis& analysis,
+                         Diagnostics& diagnostics)
+    : config_(config), sources_(sources), analysis_(analysis), diagnostics_(diagnostics) {
   for (const auto& [name, first] : {std::pair("PLCNVRAM", config.plcNvram), std::pair("PLCRAM", config.plcRam)}) {
     Symbol area = word(name, first);
     area.isArea = true;
@@ -122,7 +135,8 @@ void SymbolTable::reportUndeclared() {
 void SymbolTable::explain(DiagBuilder& report, const Undeclared& use) {
   if (!diagnostics_.suggests()) return;
   const std::string_view name = use.name;
-  report.meant(use.range, similarTo(name));
+  ladder::suggest(report, sources_, use.range, similarTo(name));
+  if (isOtherAddress(name)) report.note(kAddresses);
   // (S7001.00) is a coil of the name S7001.
   const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && !use.whole.empty() &&
                      (isDigit(name[1]) || find(name.substr(1)) != nullptr);
@@ -132,19 +146,22 @@ void SymbolTable::explain(DiagBuilder& report, const Undeclared& use) {
 }
 
 // Names of the program come first.
-std::string_view SymbolTable::similarTo(std::string_view name) const {
-  const std::string_view own = mostSimilar(name, table_.all(), &Symbol::name);
-  if (!own.empty()) return own;
+Likely SymbolTable::similarTo(std::string_view name) const {
+  const Likely own = likeliest(name, table_.all(), &Symbol::name);
+  if (!own.word.empty()) return own;
   Similar similar(name);
   for (const nc::Signal& signal : nc::nctSignals()) similar.offer(signal.symbol);
   similar.offer(kFlagsName);
-  return similar.best();
+  return {similar.best(), similar.certain()};
 }
 
 void SymbolTable::declare(const ladder::Declaration& declaration) {
   const std::string_view name = declaration.name.text;
   if (!isName(name)) {
-    diagnostics_.report(diag::BadOperand, declaration.name.range) << name << "name of a symbol";
+    refused_.insert(name);
+    diagnostics_.report(diag::BadOperand, declaration.name.range)
+            .note("a name begins with a letter or _, and has none of the characters . , : # * @ % ! / \"")
+        << name << "a name";
     return;
   }
   indexOf(name); // one of the NC is declared by it
@@ -172,7 +189,8 @@ void SymbolTable::resolveAll() {
 void SymbolTable::resolve(Symbol& symbol) {
   const Word& value = symbol.declaration->value;
   if (symbol.resolving) {
-    diagnostics_.report(diag::BadOperand, value.range) << value.text << "fixed address: the declarations form a cycle";
+    diagnostics_.report(diag::BadOperand, value.range)
+        << value.text << "a fixed address: the declarations form a cycle";
     symbol.pending = false;
     return;
   }
@@ -210,7 +228,9 @@ void SymbolTable::resolveConstant(Symbol& symbol) {
 void SymbolTable::resolveAddress(Symbol& symbol) {
   const Word& value = symbol.declaration->value;
   if (value.text.empty() || std::string_view("#*@%!/+-").find(value.text[0]) != std::string_view::npos) {
-    diagnostics_.report(diag::BadOperand, value.range) << value.text << "address";
+    DiagBuilder report = diagnostics_.report(diag::BadOperand, value.range);
+    report << value.text << "an address";
+    if (isOtherAddress(value.text.substr(1))) report.note(kAddresses);
     return;
   }
   const std::optional<ParsedAddress> parsed = parseAddress(value, value.text, *this, diagnostics_);
@@ -218,7 +238,7 @@ void SymbolTable::resolveAddress(Symbol& symbol) {
   if (!parsed || !symbol.pending) return;
   const Address& address = parsed->address;
   if (!address.isFixed()) {
-    diagnostics_.report(diag::BadOperand, value.range) << value.text << "fixed address";
+    diagnostics_.report(diag::BadOperand, value.range) << value.text << "a fixed address";
     return;
   }
   symbol.kind = address.isBit ? SymbolKind::Bit : SymbolKind::Word;

@@ -2,6 +2,7 @@
 // all modules and files and may be used above their declaration; case matters.
 #pragma once
 #include <deque>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "frontend/sema/analysis.h"
 #include "frontend/sema/names.h"
 #include "frontend/sema/undeclared.h"
+#include "ir/support/similar.h"
 #include "rtlib/nc/nct/signals.h"
 
 namespace rung::nct {
@@ -42,7 +44,8 @@ struct Symbol {
 
 class SymbolTable {
 public:
-  SymbolTable(const Config& config, frontend::Analysis& analysis, Diagnostics& diagnostics);
+  SymbolTable(const Config& config, const SourceManager& sources, frontend::Analysis& analysis,
+              Diagnostics& diagnostics);
 
   // Enters a name; a name that is there already is reported.
   void declare(const ladder::Declaration& declaration);
@@ -64,9 +67,12 @@ public:
   // Says in the analysis what all names are. To be called last.
   void defineAll();
   // All names but those of the NC that nothing mentions, in the order of entering.
+  // Whether a declaration of this name was reported, because it is none.
+  bool wasRefused(std::string_view name) const { return refused_.contains(name); }
   const std::deque<Symbol>& all() const { return table_.all(); }
 
   const Config& config() const { return config_; }
+  const SourceManager& sources() const { return sources_; }
   // An input of the NC lives in this word.
   bool isInputWord(uint32_t word) const { return word < direction_.size() && direction_[word] == kInput; }
   bool isNcWord(uint32_t word) const { return word >= kFirstNcWord && word < config_.plcNvram; }
@@ -83,16 +89,18 @@ private:
   };
   void explain(DiagBuilder& report, const Undeclared& use);
   // The known name that is most like a misspelt one; empty when none is close.
-  std::string_view similarTo(std::string_view name) const;
+  Likely similarTo(std::string_view name) const;
 
   static constexpr uint8_t kInput = 1;
   const Config& config_;
+  const SourceManager& sources_;
   frontend::Analysis& analysis_;
   Diagnostics& diagnostics_;
   frontend::NameTable<Symbol> table_; // in the order of Analysis::definitions
   frontend::UndeclaredNames<Undeclared> undeclared_;
   std::vector<uint8_t> direction_; // by word of the NC area
-  int depth_ = 0;                  // of declarations that refer to each other
+  std::set<std::string_view> refused_;
+  int depth_ = 0; // of declarations that refer to each other
 };
 
 } // namespace rung::nct

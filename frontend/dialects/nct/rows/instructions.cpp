@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "frontend/dialects/nct/rows/foreign_words.h"
 #include "frontend/dialects/nct/rows/rows_control.h"
 #include "frontend/dialects/nct/rows/rows_message.h"
 #include "frontend/dialects/nct/rows/rows_nc.h"
@@ -92,6 +93,8 @@ const NctInstruction& contactRow(bool onBit, bool closed) {
   if (onBit) return kRows[closed ? kClosedBit : kOpenBit];
   return kRows[closed ? kClosedWord : kOpenWord];
 }
+
+std::span<const frontend::ForeignWord> foreignWords() { return kForeignWords; }
 
 const NctInstruction& coilRow(int coilKind) {
   constexpr size_t kByKind[] = {indexOf("coil"), indexOf("negated-coil"), indexOf("SET"), indexOf("RST")};

@@ -6,6 +6,7 @@
 
 #include "frontend/dialects/nct/config.h"
 #include "frontend/dialects/nct/read/operand.h"
+#include "frontend/sema/foreign_word.h"
 #include "frontend/table/instruction.h"
 #include "ir/core/builder.h"
 #include "ir/support/diagnostics.h"
@@ -51,5 +52,7 @@ const frontend::InstructionInfo* findBoxInfo(std::string_view mnemonic);
 // Row of a contact: on a bit or a word, closed or open.
 const NctInstruction& contactRow(bool onBit, bool closed);
 const NctInstruction& coilRow(int coilKind); // ladder::CoilKind as a number
+// Boxes of other controls.
+std::span<const frontend::ForeignWord> foreignWords();
 
 } // namespace rung::nct

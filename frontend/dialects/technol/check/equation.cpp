@@ -1,7 +1,7 @@
 // The equation and its stack (see equation.h).
 #include "frontend/dialects/technol/check/equation.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/technol.h"
@@ -13,18 +13,22 @@ void Equation::loadRlo(SourceRange at, StackUse& use) {
   use.begins = !open_;
   if (!open_) {
     begin_ = at;
-  } else if (depth_ < kStackDepth) {
-    use.pushed = depth_++;
+  } else if (depth() < kStackDepth) {
+    use.pushed = depth();
+    stored_.push_back(at);
   } else if (lost_++ == 0) {
     diagnostics_.report(diag::StackOverflow, at) << kStackDepth;
   }
 }
 
 uint32_t Equation::pop(const Statement& statement) {
-  if (depth_ != 0) return --depth_;
+  if (!stored_.empty()) {
+    stored_.pop_back();
+    return depth();
+  }
   if (lost_ > 0)
     --lost_;
-  else
+  else if (!lostTrack_)
     diagnostics_.report(diag::StackUnderflow, statement.range()) << statement.row->info.mnemonic;
   return kNone;
 }
@@ -37,13 +41,13 @@ StackUse Equation::begin(const Statement& statement) {
     open_ = true;
   }
   if ((statement.row->effects & kJoins) && statement.tokenCount == 0) use.popped = pop(statement);
-  use.depth = depth_;
+  use.depth = depth();
   return use;
 }
 
 // A macro that pushes does so before its statements, as LDR before its load.
 StackUse Equation::beginMacro(const Statement& statement) {
-  macros_.push_back({depth_, open_, diagnostics_.errorCount()});
+  macros_.push_back({stored_, open_, diagnostics_.errorCount()});
   StackUse use;
   if (static_cast<MacroStack>(statement.row->variant) != MacroStack::Push) return use;
   loadRlo(statement.range(), use);
@@ -53,30 +57,38 @@ StackUse Equation::beginMacro(const Statement& statement) {
 
 void Equation::endMacro(const Statement& statement) {
   if (macros_.empty()) return;
-  const auto [depth, open, errors] = macros_.back();
+  const MacroState before = std::move(macros_.back());
   macros_.pop_back();
   switch (static_cast<MacroStack>(statement.row->variant)) {
   case MacroStack::Normal: return;
-  case MacroStack::Begin: depth_ = 0; return;
-  case MacroStack::End: depth_ = depth, open_ = false; return;
-  case MacroStack::Push: depth_ = std::min(depth + (open ? 1 : 0), kStackDepth), open_ = true; return;
+  case MacroStack::Begin: stored_.clear(); return;
+  case MacroStack::End: stored_ = before.stored, open_ = false; return;
+  case MacroStack::Push:
+    stored_ = before.stored;
+    if (before.open && depth() < kStackDepth) stored_.push_back(statement.range());
+    open_ = true;
+    return;
   case MacroStack::Pop:
-    if (depth == 0 && diagnostics_.errorCount() == errors)
+    stored_ = before.stored;
+    open_ = before.open;
+    if (!stored_.empty())
+      stored_.pop_back();
+    else if (diagnostics_.errorCount() == before.errors)
       diagnostics_.report(diag::StackUnderflow, statement.range()) << statement.row->info.mnemonic;
-    depth_ = depth == 0 ? 0 : depth - 1, open_ = open;
     return;
   }
 }
 
 void Equation::checkBalance(SourceRange at, std::string_view where) {
-  if (depth_ != 0)
-    diagnostics_.report(diag::UnbalancedStack, at) << std::to_string(depth_) +
-                                                          (depth_ == 1 ? " value is" : " values are") +
-                                                          " left on the stack at " + std::string(where);
+  if (!stored_.empty() && !lostTrack_)
+    diagnostics_.report(diag::UnbalancedStack, at).note(stored_.back(), "this stored a value that nothing takes")
+        << std::to_string(depth()) + (depth() == 1 ? " value is" : " values are") + " left on the stack at " +
+               std::string(where);
   else if (open_ && !hasUnknown_)
     diagnostics_.report(diag::UnterminatedEquation, begin_).note(at, "it is still open here");
-  depth_ = 0;
+  stored_.clear();
   lost_ = 0;
+  lostTrack_ = false;
 }
 
 void Equation::end(SourceRange at, std::string_view where) {

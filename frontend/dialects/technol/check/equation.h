@@ -16,8 +16,8 @@ public:
   // Before and after the work of a statement.
   StackUse begin(const Statement& statement);
   void finish(const Row& row) { open_ = open_ && !row.info.terminating; }
-  // A statement that nobody knows: it may be the one that ends the equation.
-  void unknown() { hasUnknown_ = true; }
+  // A statement that nobody knows: it may be the one that ends the equation, stores a value or takes one.
+  void unknown() { hasUnknown_ = lostTrack_ = true; }
   // The flags of a macro override what its statements did (man. l.20536).
   StackUse beginMacro(const Statement& statement);
   void endMacro(const Statement& statement);
@@ -28,20 +28,22 @@ public:
 private:
   // Before a macro with an effect of its own.
   struct MacroState {
-    uint32_t depth = 0;
+    std::vector<SourceRange> stored;
     bool open = false;
     size_t errors = 0;
   };
 
   void loadRlo(SourceRange at, StackUse& use);
   uint32_t pop(const Statement& statement);
+  uint32_t depth() const { return static_cast<uint32_t>(stored_.size()); }
 
   Diagnostics& diagnostics_;
   bool open_ = false;
-  bool hasUnknown_ = false;
-  SourceRange begin_; // of the open equation
-  uint32_t depth_ = 0;
-  uint32_t lost_ = 0; // values that the stack did not hold
+  bool hasUnknown_ = false;         // in the open equation
+  bool lostTrack_ = false;          // since the stack was empty for certain
+  SourceRange begin_;               // of the open equation
+  std::vector<SourceRange> stored_; // values on the stack: what stored them
+  uint32_t lost_ = 0;               // values that the stack did not hold
   std::vector<MacroState> macros_;
 };
 

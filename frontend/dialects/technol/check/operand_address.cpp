@@ -85,7 +85,7 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
     const std::optional<Number> number = parseNumber(head.text);
     const bool pointAfter = tokens.size() > 1 && tokens[1].is('.'); // 1. and 5.A
     if (!number || pointAfter) {
-      program_.diagnostics.report(diag::BadNumber, head.range()) << std::string(head.text) + (pointAfter ? "." : "");
+      reportBadNumber(head, std::string(head.text) + (pointAfter ? "." : ""), program_.diagnostics);
       return false;
     }
     out.isReal = out.isReal || number->isReal;
@@ -247,7 +247,7 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
   const size_t point = lastPoint(tokens);
   if (point != std::string_view::npos) {
     if (point + 2 != tokens.size() || tokens[point + 1].kind != TokenKind::Name)
-      return syntax("the name of a bit after the point", tokens.subspan(point));
+      return syntax("the name of a bit after the point", tokens.subspan(point + 1));
     return bitAt(info, tokens.first(point), tokens[point + 1], out);
   }
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return bareBit(info, kind, tokens[0], out);
@@ -260,7 +260,7 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
 bool OperandParser::flag(const Token& number, Operand& out) {
   const std::optional<Number> parsed = parseNumber(number.text);
   if (!parsed) {
-    program_.diagnostics.report(diag::BadNumber, number.range()) << number.text;
+    reportBadNumber(number, number.text, program_.diagnostics);
     return false;
   }
   out.form = Operand::Form::Integer;

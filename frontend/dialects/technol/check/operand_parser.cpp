@@ -31,9 +31,9 @@ const PrefixName* prefixNamed(std::string_view name) {
 }
 
 // Of those that begin with the same letter, or of the others.
-std::string_view similarPrefix(std::string_view name, bool sameLetter) {
+Likely similarPrefix(std::string_view name, bool sameLetter) {
   const auto fits = [&](const PrefixName& p) { return (p.name[0] == text::upper(name[0])) == sameLetter; };
-  return mostSimilar(name, kPrefixes | std::views::filter(fits), &PrefixName::name);
+  return likeliest(name, kPrefixes | std::views::filter(fits), &PrefixName::name);
 }
 
 const PrefixName& prefixOf(uint8_t prefix) {
@@ -86,7 +86,9 @@ std::string spell(const Operand& operand) {
 }
 
 bool reportWrongKind(Diagnostics& diagnostics, const Operand& operand, std::string_view is, std::string_view wanted) {
-  diagnostics.report(diag::WrongOperandKind, operand.range) << spell(operand) << is << wanted;
+  const bool isText = operand.tokens.size() == 1 && operand.tokens[0].kind == TokenKind::Text;
+  diagnostics.report(diag::WrongOperandKind, operand.range)
+      << (isText ? std::string(operand.tokens[0].text) : spell(operand)) << is << wanted; // the message has quotes
   return false;
 }
 
@@ -182,10 +184,10 @@ uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
 bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
   if (tokens.size() < 3 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return false;
   if (program_.symbols.find(tokens[0].text, file_) != kNone) return false;
-  std::string_view meant = similarPrefix(tokens[0].text, true);
-  if (meant.empty()) meant = similarPrefix(tokens[0].text, false);
-  if (!meant.empty()) program_.symbols.noteUndefined(tokens[0], file_, {.meant = meant});
-  return !meant.empty();
+  Likely meant = similarPrefix(tokens[0].text, true);
+  if (meant.word.empty()) meant = similarPrefix(tokens[0].text, false);
+  if (!meant.word.empty()) program_.symbols.noteUndefined(tokens[0], file_, {.meant = meant});
+  return !meant.word.empty();
 }
 
 bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
@@ -352,7 +354,7 @@ bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> token
   if (!unknown) return wrongKind(out, "no " + wanted, "a " + wanted);
   Similar meant(tokens[0].text);
   forEachWord(kind.keywords, [&](std::string_view word, int64_t) { meant.offer(word); });
-  program_.symbols.noteUndefined(tokens[0], file_, {.meant = meant.best()});
+  program_.symbols.noteUndefined(tokens[0], file_, {.meant = {meant.best(), meant.certain()}});
   return false;
 }
 

@@ -25,9 +25,11 @@ private:
   struct IncludedFile {
     std::string path;
     std::optional<FileId> id = std::nullopt;
-    std::vector<std::string> problems; // where it was not found
+    bool again = false;                     // it was included before
+    std::vector<std::string> problems = {}; // where it was not found
   };
   bool includes(const SourceLine& line, uint32_t depth);
+  void readIncluded(const IncludedFile& file, SourceRange at, uint32_t depth);
   IncludedFile findIncluded(std::string_view name, bool quoted, SourcePos at);
   bool macroLine(uint32_t first, uint32_t count, uint32_t line);
   void useMacro(const Macro& macro, uint32_t first, uint32_t count, uint32_t line);

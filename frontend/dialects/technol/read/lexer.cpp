@@ -1,6 +1,10 @@
 // The lexer of TECHNOL (see lexer.h).
 #include "frontend/dialects/technol/read/lexer.h"
 
+#include <algorithm>
+#include <string>
+
+#include "frontend/syntax/bad_character.h"
 #include "ir/support/ascii.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/diag/technol.h"
@@ -46,6 +50,16 @@ size_t wordEnd(std::string_view text, size_t first) {
   return i;
 }
 
+// A comment of another language, a letter of another alphabet.
+void noteForeign(const SourceLine& line, size_t first, size_t last, DiagBuilder& report) {
+  const std::string_view word = line.text.substr(first, last - first);
+  if (word.starts_with("//") || word.starts_with("/*") || word.starts_with('#'))
+    report.note("a comment begins with ';'");
+  const auto* const other = std::ranges::find_if(word, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+  if (other != word.end())
+    noteLookAlike(line.text, first + static_cast<size_t>(other - word.begin()), line.begin, report);
+}
+
 void reportWord(const SourceLine& line, size_t first, size_t last, Diagnostics& diagnostics) {
   const std::string_view word = line.text.substr(first, last - first);
   for (char c : word)
@@ -53,9 +67,12 @@ void reportWord(const SourceLine& line, size_t first, size_t last, Diagnostics& 
       DiagBuilder report = diagnostics.report(diag::BadIdentifier, line.range(first, last));
       report << word;
       if (word.starts_with('"')) report.note("a text is written between apostrophes: 'abc'");
+      noteForeign(line, first, last, report);
       return;
     }
-  diagnostics.report(diag::BadCharacter, line.range(first, last)) << word;
+  DiagBuilder report = diagnostics.report(diag::BadCharacter, line.range(first, last));
+  report << "'" + std::string(word) + "'";
+  noteForeign(line, first, last, report);
 }
 
 } // namespace
@@ -130,6 +147,15 @@ std::optional<Number> parseNumber(std::string_view text) {
   if (last == 'H') return parseRadix(text.substr(0, text.size() - 1), 16);
   if (last == 'B') return parseRadix(text.substr(0, text.size() - 1), 2);
   return parseRadix(text, 10);
+}
+
+void reportBadNumber(const Token& token, std::string_view written, Diagnostics& diagnostics) {
+  DiagBuilder report = diagnostics.report(diag::BadNumber, token.range());
+  report << written;
+  std::string_view digits = token.text;
+  if (written != token.text || !text::takePrefixIgnoringCase(digits, "0x")) return;
+  const std::string here = (digits.empty() || isDigit(digits[0]) ? "" : "0") + std::string(digits) + "h";
+  if (parseNumber(here)) report.meant(token.range(), here);
 }
 
 } // namespace rung::frontend::technol

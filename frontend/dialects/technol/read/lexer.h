@@ -42,5 +42,7 @@ struct Number {
 
 // Decimal, 0F8H, 0101b or a real; nothing when the text is none of them or exceeds 64 bits.
 std::optional<Number> parseNumber(std::string_view text);
+// Of a token, `written` with what belongs to it; how it is written here where it is a number of another language.
+void reportBadNumber(const Token& token, std::string_view written, Diagnostics& diagnostics);
 
 } // namespace rung::frontend::technol

@@ -6,7 +6,7 @@
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/technol.h"
-#include "ir/support/similar.h"
+#include "ir/support/meant.h"
 #include "rtlib/text/letters.h"
 
 #include <algorithm>
@@ -19,6 +19,19 @@ constexpr size_t kMaxFiles = 64; // man. l.2721
 std::string describe(std::span<const Token> tokens) {
   if (tokens.empty()) return "the end of the line";
   return "'" + std::string(tokens[0].text) + "'";
+}
+
+// Whether an instruction takes as many operands as there are; of a macro, which has no row, it is not asked.
+bool takesAsMany(const Row* row, std::span<const Token> operands) {
+  Diagnostics unheard;
+  return row == nullptr || countFits(row->info, splitOperands(operands).size(), {}, unheard);
+}
+
+// NAME INSTRUCTION …: a label without its colon.
+void noteLabel(std::span<const Token> tokens, DiagBuilder& report) {
+  if (tokens.size() > 1 && tokens[1].kind == TokenKind::Name && findRow(tokens[1].text) != nullptr &&
+      reservedWord(tokens[1].text) == Reserved::Yes)
+    report.note("a label ends with a colon: " + std::string(tokens[0].text) + ":");
 }
 
 } // namespace
@@ -85,11 +98,17 @@ bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
 const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
   const Token& token = tokens[0];
+  const ForeignWord* foreign = foreignWord(token.text);
   if (isAssembler(token.text)) {
     DiagBuilder report = program_.diagnostics.report(diag::UnsupportedAssembler, token.range());
     report << token.text;
-    if (const std::string_view other = insteadOf(token.text); !other.empty())
-      report.note("in this language: " + std::string(other));
+    if (foreign != nullptr) explainForeign(report, token.range(), *foreign, false);
+    return nullptr;
+  }
+  if (foreign != nullptr) {
+    DiagBuilder report = program_.diagnostics.report(diag::UnknownInstruction, token.range());
+    report << token.text;
+    explainForeign(report, token.range(), *foreign, takesAsMany(findRow(foreign->here), tokens.subspan(1)));
     return nullptr;
   }
   std::string word(token.text);
@@ -102,9 +121,12 @@ const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
   macros_.offer(similar);
   DiagBuilder report = program_.diagnostics.report(diag::UnknownInstruction, token.range());
   report << token.text;
+  noteLabel(tokens, report);
   if (similar.best().empty()) return nullptr;
-  report.meant(rangeOf(program_.sources, tokens.first(parted ? 2 : 1), token.range()), similar.best());
+  const size_t words = parted ? 2 : 1;
   const Row* row = findRow(similar.best());
+  suggest(report, rangeOf(program_.sources, tokens.first(words), token.range()),
+          {similar.best(), similar.certain() && takesAsMany(row, tokens.subspan(words))});
   if (row == nullptr || !structure_.fits(*row)) return nullptr;
   if (parted) ++first, --count;
   return row;
@@ -401,8 +423,8 @@ void readProgram(Program& program, std::span<const FileId> files) {
 
 std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<const Token> tokens,
                                      SourceRange otherwise, std::vector<NameUse>* names) {
-  const auto fail = [&](Diag code, const Token& token) -> std::optional<int64_t> {
-    program.diagnostics.report(code, token.range()) << token.text;
+  const auto fail = [&](const Token& token) -> std::optional<int64_t> {
+    reportBadNumber(token, token.text, program.diagnostics);
     return std::nullopt;
   };
   if (tokens.empty()) {
@@ -426,11 +448,11 @@ std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<
     int64_t term = 0;
     if (token.kind == TokenKind::Number) {
       const std::optional<Number> number = parseNumber(token.text);
-      if (!number || number->isReal) return fail(diag::BadNumber, token);
+      if (!number || number->isReal) return fail(token);
       term = number->value;
     } else if (token.kind == TokenKind::Text) {
       const std::optional<uint8_t> character = characterByte(token.text);
-      if (!character) return fail(diag::BadNumber, token);
+      if (!character) return fail(token);
       term = *character;
     } else {
       const uint32_t symbol = program.symbols.require(token, file);

@@ -169,7 +169,7 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
     program_.diagnostics.report(diag::IncludeCycle, at) << file.path;
     return true;
   }
-  if (!file.id) {
+  if (!file.id && !file.again) {
     auto report = program_.diagnostics.report(diag::IncludeNotFound, at);
     report << name;
     for (const std::string& problem : file.problems) report.note(problem);
@@ -180,12 +180,22 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
       program_.diagnostics.report(diag::TooLarge, at) << "T_INCLUDE" << kMostIncludes;
     return true;
   }
+  readIncluded(file, at, depth);
+  return true;
+}
+
+// What is wrong with a file is said at its first inclusion; what another one declares again is that one's mistake.
+void FileReader::readIncluded(const IncludedFile& file, SourceRange at, uint32_t depth) {
+  if (!file.again)
+    program_.includes.emplace(file.path, readable(program_.sources, *file.id, program_.encoding, program_.diagnostics));
+  const auto text = program_.includes.at(file.path);
+  if (!text) return;
   including_.push_back(file.path);
   includeReported_ = false;
-  const auto text = readable(program_.sources, *file.id, program_.encoding, program_.diagnostics);
-  if (text) readLines(*text, depth + 1);
+  const SourceRange outer = program_.symbols.readsAgain(file.again ? at : SourceRange{});
+  readLines(*text, depth + 1);
+  program_.symbols.readsAgain(outer);
   including_.pop_back();
-  return true;
 }
 
 // A name without a drive or root lies in the folder of the program, or else of the file that includes it, or else in
@@ -212,8 +222,9 @@ FileReader::IncludedFile FileReader::findIncluded(std::string_view name, bool qu
       const std::string real = anyCase ? inAnyCase(program_.sources, candidate, path) : candidate;
       if (std::find(including_.begin(), including_.end(), real) != including_.end()) return {.path = real};
       if (real.empty()) continue;
+      if (program_.includes.contains(real)) return {.path = real, .again = true};
       const Result<FileId> file = program_.sources.addFile(real);
-      if (file) return {real, file.value()};
+      if (file) return {.path = real, .id = file.value()};
       if (!anyCase) none.problems.push_back(real + ": " + file.error());
     }
   return none;

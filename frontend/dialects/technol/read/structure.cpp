@@ -279,7 +279,9 @@ void Structure::finish(uint32_t statementCount) {
     if (symbol == kNone)
       program_.symbols.noteUndefined(block.label, file_, {});
     else if (!later)
-      program_.diagnostics.report(diag::UndefinedSymbol, block.label.range()) << block.label.text;
+      program_.diagnostics.report(diag::SyntaxError, block.label.range())
+              .note(program_.symbols[symbol].declared, "the label")
+          << "label '" + std::string(block.label.text) + "' below this statement" << "it above";
     else
       program_.diagnostics.report(diag::JumpCrossesUnit, block.label.range())
           << block.label.text << "the unit of this timed block";

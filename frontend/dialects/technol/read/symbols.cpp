@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <ranges>
 
+#include "ir/support/diag/operand.h"
 #include "ir/support/diag/technol.h"
-#include "ir/support/similar.h"
+#include "ir/support/meant.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"
 
@@ -158,6 +159,13 @@ void SymbolTable::checkPredeclared(const Symbol& symbol) {
   if (signal || (constant && !sameConstant)) reportDuplicate(diagnostics_, symbol.name, symbol.declared, {});
 }
 
+// Once for an inclusion, however many names the file has.
+void SymbolTable::reportIncludedAgain(std::string_view name) {
+  if (reportedAgain_.insert(again_.begin).second)
+    diagnostics_.report(diag::DuplicateSymbol, again_).note("the file is included before this, and declares it there")
+        << name;
+}
+
 uint32_t SymbolTable::declare(Symbol symbol) {
   checkName(symbol);
   const uint32_t earlier = inOwnFile(symbol);
@@ -168,6 +176,10 @@ uint32_t SymbolTable::declare(Symbol symbol) {
   const Symbol& first = table_[earlier];
   if (!merge(earlier, symbol)) {
     const bool sameLine = first.declared == symbol.declared;
+    if (sameLine && again_.valid()) {
+      reportIncludedAgain(symbol.name);
+      return table_.add(symbol);
+    }
     reportDuplicate(diagnostics_, symbol.name, symbol.declared, first.declared,
                     sameLine ? "by the macro's first use; T_LOCAL gives each use a name of its own" : kFirstDeclared);
     return table_.add(symbol);
@@ -238,21 +250,21 @@ std::string_view describe(const Symbol& symbol) {
   return describe(symbol.type);
 }
 
-static std::string_view similarMember(std::string_view name, const char* structure) {
+static Likely similarMember(std::string_view name, const char* structure) {
   if (structure == nullptr || *structure == 0) return {};
   const std::string_view type(structure);
   const size_t prefix = (type == "BLK" ? "BLK[]." : std::string(type) + ".").size();
   const auto isMember = [&](const nc::Signal& signal) { return type == signal.area; };
-  return mostSimilar(name, nc::technolSignals() | std::views::filter(isMember),
-                     [&](const nc::Signal& signal) { return std::string_view(signal.symbol).substr(prefix); });
+  return likeliest(name, nc::technolSignals() | std::views::filter(isMember),
+                   [&](const nc::Signal& signal) { return std::string_view(signal.symbol).substr(prefix); });
 }
 
-static std::string_view similarOfControl(std::string_view name) {
+static Likely similarOfControl(std::string_view name) {
   Similar similar(name);
   for (const nc::Signal& signal : nc::technolSignals())
     if (std::string_view(signal.area) == "I" || std::string_view(signal.area) == "W") similar.offer(signal.symbol);
   for (const Predefined& constant : kPredefined) similar.offer(constant.name);
-  return similar.best();
+  return {similar.best(), similar.certain()};
 }
 
 void SymbolTable::noteUndefined(const Token& name, uint32_t file, Hint hint) {
@@ -261,23 +273,23 @@ void SymbolTable::noteUndefined(const Token& name, uint32_t file, Hint hint) {
 
 void SymbolTable::reportUndefined() {
   undefined_.report(diagnostics_, diag::UndefinedSymbol, [&](DiagBuilder& report, const Undefined& first) {
-    const std::string_view meant = similar(first);
-    report.meant(first.range, meant);
-    if (meant.empty() && looksLikeNumber(first.name)) report.note("as a number: 0" + std::string(first.name));
+    const Likely meant = similar(first);
+    suggest(report, first.range, meant);
+    if (meant.word.empty() && looksLikeNumber(first.name)) report.note("as a number: 0" + std::string(first.name));
   });
 }
 
 // The visible name that is most like a misspelt one; "" when none is close. Members of the structure come first, then
 // the program's own names, then those of the control, bits of bytes among them.
-std::string_view SymbolTable::similar(const Undefined& use) const {
-  if (!use.hint.meant.empty()) return use.hint.meant;
+Likely SymbolTable::similar(const Undefined& use) const {
+  if (!use.hint.meant.word.empty()) return use.hint.meant;
   if (!diagnostics_.suggests()) return {};
-  if (const std::string_view member = similarMember(use.name, use.hint.structure); !member.empty()) return member;
+  if (const Likely member = similarMember(use.name, use.hint.structure); !member.word.empty()) return member;
   const auto isVisible = [&](const Symbol& symbol) {
     return !symbol.predeclared && (!symbol.local || symbol.file == use.file);
   };
-  const std::string_view own = mostSimilar(use.name, table_.all() | std::views::filter(isVisible), &Symbol::name);
-  return !own.empty() ? own : similarOfControl(use.name);
+  const Likely own = likeliest(use.name, table_.all() | std::views::filter(isVisible), &Symbol::name);
+  return !own.word.empty() ? own : similarOfControl(use.name);
 }
 
 uint32_t SymbolTable::findWeight(std::string_view name, uint32_t file) {

@@ -3,9 +3,11 @@
 // interface and the predefined constants, which are entered at their first use.
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "frontend/dialects/technol/records.h"
@@ -13,6 +15,7 @@
 #include "frontend/sema/names.h"
 #include "frontend/sema/undeclared.h"
 #include "ir/support/diagnostics.h"
+#include "ir/support/similar.h"
 #include "rtlib/nc/signal.h"
 
 namespace rung::frontend::technol {
@@ -53,11 +56,13 @@ public:
   // kNone where there is none.
   uint32_t find(std::string_view name, uint32_t file);
   // As find, and a use of it; where there is none, the name is noted as undefined.
+  // While a file that was included before is read: where that is done. Gives what was said last.
+  SourceRange readsAgain(SourceRange include) { return std::exchange(again_, include); }
   uint32_t require(const Token& name, uint32_t file);
   // What is known of a name that is not declared.
   struct Hint {
     const char* structure = nullptr; // of the control, where it is looked for as a member
-    std::string_view meant;          // what it may have been; empty: to be looked for
+    Likely meant;                    // what it may have been; without a word: to be looked for
   };
   void noteUndefined(const Token& name, uint32_t file, Hint hint);
   // Reports undefined-symbol, once for each name, at its first use.
@@ -87,8 +92,11 @@ private:
     uint32_t file = 0;
     Hint hint;
   };
-  std::string_view similar(const Undefined& use) const;
+  Likely similar(const Undefined& use) const;
+  void reportIncludedAgain(std::string_view name);
 
+  SourceRange again_;                 // see readsAgain
+  std::set<SourcePos> reportedAgain_; // inclusions
   Diagnostics& diagnostics_;
   NameTable<Symbol, symbolKey> table_;
   std::vector<NameUse> uses_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "frontend/dialects/technol/rows/foreign_words.h"
 #include "frontend/dialects/technol/rows/rows_bit.h"
 #include "frontend/dialects/technol/rows/rows_data.h"
 #include "frontend/dialects/technol/rows/rows_mechanism.h"
@@ -132,53 +133,7 @@ Reserved reservedWord(std::string_view name) {
 
 bool isAssembler(std::string_view name) { return isOneOf(name, kAssembler); }
 
-std::string_view insteadOf(std::string_view assembler) {
-  struct Pair {
-    std::string_view assembler, instead;
-  };
-  constexpr Pair kInstead[] = {
-      {"ADD", "AD"},
-      {"AND", "ANDB"},
-      {"BT", "LDR"},
-      {"CALL", "PROC_CALL"},
-      {"CMP", "EQ, LT, GT, LE, GE"},
-      {"DEC", "DCR"},
-      {"DIV", "DIVB"},
-      {"FADD", "AD REAL."},
-      {"FDIV", "DIVB REAL."},
-      {"FILD", "LOD and REAL"},
-      {"FLD", "LOD REAL."},
-      {"FMUL", "MULB REAL."},
-      {"FST", "STO REAL."},
-      {"FSTP", "STO REAL."},
-      {"FSUB", "SU REAL."},
-      {"IDIV", "DIVB"},
-      {"IMUL", "MULB"},
-      {"INC", "INR"},
-      {"JE", "EQ and JL1"},
-      {"JMP", "JUM"},
-      {"JNE", "EQ and JL0"},
-      {"JNZ", "LDR and JL1"},
-      {"JZ", "LDR and JL0"},
-      {"MOVSB", "MV"},
-      {"MOVSW", "MV"},
-      {"MOVSX", "LOD"},
-      {"MOVZX", "LOD"},
-      {"MUL", "MULB"},
-      {"NEG", "INV"},
-      {"OR", "ORB"},
-      {"RET", "PROC_END"},
-      {"SHL", "RL"},
-      {"SHR", "RR"},
-      {"SUB", "SU"},
-      {"TEST", "LDR"},
-      {"XCHG", "LOD and STO"},
-      {"XOR", "XORB"},
-  };
-  for (const Pair& pair : kInstead)
-    if (text::equalsIgnoringCase(assembler, pair.assembler)) return pair.instead;
-  return {};
-}
+const ForeignWord* foreignWord(std::string_view word) { return findForeign(kForeignWords, word); }
 
 std::string_view moduleName(ModuleKind kind) {
   for (const Row& row : kRows)

@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "frontend/sema/foreign_word.h"
 #include "frontend/table/instruction.h"
 
 namespace rung::frontend::technol {
@@ -79,8 +80,8 @@ const Row* findRow(std::string_view mnemonic);
 enum class Reserved : uint8_t { No, Warn, Yes };
 Reserved reservedWord(std::string_view name);
 bool isAssembler(std::string_view name);
-// The instructions that do what an assembler instruction does: "LOD and STO"; "" where there is no such.
-std::string_view insteadOf(std::string_view assembler);
+// An instruction of another language, and what is written for it here; null when it is none of those that are known.
+const ForeignWord* foreignWord(std::string_view word);
 
 enum class ModuleKind : uint8_t {
   Data,

@@ -1,0 +1,91 @@
+// Words of IEC 61131 instruction lists and of FANUC, Mitsubishi, Omron and Siemens programs, and what GSK has for them
+// (man. Part I §4, §5). Included by language.cpp only.
+#pragma once
+#include "frontend/sema/foreign_word.h"
+
+namespace rung::gsk {
+
+inline constexpr std::string_view kBegins = "LD where a block begins, AND after it";
+inline constexpr std::string_view kBeginsClosed = "LDI where a block begins, ANI after it";
+inline constexpr std::string_view kOnDelay = "the function TMRB, an on-delay timer";
+inline constexpr std::string_view kOffDelay = "an OUTI after the function TMRB with the inverted condition";
+inline constexpr std::string_view kCounter = "the function CTR, a counter by its number";
+inline constexpr std::string_view kRisingEdge = "the function DIFU, a rising edge by its number";
+inline constexpr std::string_view kFallingEdge = "the function DIFD, a falling edge by its number";
+inline constexpr std::string_view kJump = "the function JMPB, which jumps to a label LBL";
+inline constexpr std::string_view kReturn = "the function SPE where the subprogram ends";
+
+inline constexpr frontend::ForeignWord kForeignWords[] = {
+    // the same with the same operand
+    {"=", "OUT", true},
+    {"AND LD", "ANB", true},
+    {"AND NOT", "ANI", true},
+    {"AND.NOT", "ANI", true},
+    {"AND.STK", "ANB", true},
+    {"ANDN", "ANI", true},
+    {"ANDNOT", "ANI", true},
+    {"LD NOT", "LDI", true},
+    {"LDN", "LDI", true},
+    {"LDNOT", "LDI", true},
+    {"OR LD", "ORB", true},
+    {"OR NOT", "ORI", true},
+    {"OR.NOT", "ORI", true},
+    {"OR.STK", "ORB", true},
+    {"ORN", "ORI", true},
+    {"ORNOT", "ORI", true},
+    {"OUT NOT", "OUTI", true},
+    {"OUTN", "OUTI", true},
+    {"R", "RST", true},
+    {"RD", "LD", true},
+    {"RD.NOT", "LDI", true},
+    {"RD.NOT.STK", "LDI", true},
+    {"RD.STK", "LD", true},
+    {"RESET", "RST", true},
+    {"RSET", "RST", true},
+    {"S", "SET", true},
+    {"ST", "OUT", true},
+    {"STN", "OUTI", true},
+    {"WRT", "OUT", true},
+    {"WRT.NOT", "OUTI", true},
+    // said otherwise here
+    {"A", kBegins},
+    {"ADD", "the function ADDB"},
+    {"AN", kBeginsClosed},
+    {"CAL", "the function CALL"},
+    {"CALC", "the function CALL with a condition before it"},
+    {"CJ", kJump},
+    {"CMP", "the function COMPB"},
+    {"COMP", "the function COMPB"},
+    {"CTD", kCounter},
+    {"CTU", kCounter},
+    {"CTUD", kCounter},
+    {"DIV", "the function DIVB"},
+    {"END", "FUNC END1 ends Level 1, FUNC END2 Level 2"},
+    {"F_TRIG", kFallingEdge},
+    {"FN", kFallingEdge},
+    {"FP", kRisingEdge},
+    {"JMP", "the function JMPB jumps to a label LBL; JMP skips what comes before a JMPE"},
+    {"JMPC", "the function JMPB jumps to a label LBL when its condition is on; JMPC leaves a subprogram"},
+    {"MC", "the function COM"},
+    {"MCR", "the function COME"},
+    {"MOV", "the function MOVB, MOVW or MOVN"},
+    {"MUL", "the function MULB"},
+    {"NOP", "nothing: leave the line out"},
+    {"NOT", "LDI, ANI, ORI or OUTI; the function NOT inverts bytes"},
+    {"O", "OR"},
+    {"ON", "ORI"},
+    {"PLF", kFallingEdge},
+    {"PLS", kRisingEdge},
+    {"R_TRIG", kRisingEdge},
+    {"RET", kReturn},
+    {"SRET", kReturn},
+    {"SUB", "FUNC with a function's name; the numbers of functions are this control's own"},
+    {"TOF", kOffDelay},
+    {"TON", kOnDelay},
+    {"TP", "a relay that DIFU sets and TMRB resets"},
+    {"U", kBegins},
+    {"UN", kBeginsClosed},
+    {"XOR", "the function EOR on bytes; on bits LD, ANI, LDI, AND, ORB"},
+};
+
+} // namespace rung::gsk

@@ -1,0 +1,90 @@
+// Words of the 80386's assembler, of IEC 61131 instruction lists and of Siemens and Mitsubishi programs, and what
+// TECHNOL has for them (man. ch. 3). Included by instructions.cpp only.
+#pragma once
+#include "frontend/sema/foreign_word.h"
+
+namespace rung::frontend::technol {
+
+inline constexpr std::string_view kBegins = "LDR where an equation begins, LA after it";
+inline constexpr std::string_view kBeginsInverted = "LDR -X where an equation begins, LA -X after it";
+inline constexpr std::string_view kTimer = "TM in a DFTM block, which counts its periods";
+
+inline constexpr ForeignWord kForeignWords[] = {
+    // the same with the same operand
+    {"CAL", "PROC_CALL", true},
+    {"JMPC", "JL1", true},
+    {"JMPCN", "JL0", true},
+    {"LD", "LDR", true},
+    {"ST", "WR", true},
+    // said otherwise here
+    {"A", kBegins},
+    {"ADD", "AD"},
+    {"AN", kBeginsInverted},
+    {"AND", "LA on bits, ANDB on data"},
+    {"ANDN", "LA -X"},
+    {"ANI", "LA -X"},
+    {"BT", "LDR"},
+    {"CALL", "PROC_CALL"},
+    {"CMP", "EQ, LT, GT, LE, GE"},
+    {"CTD", "CD"},
+    {"CTU", "CU"},
+    {"DEC", "DCR"},
+    {"DIV", "DIVB"},
+    {"F_TRIG", "EDGE_L"},
+    {"FADD", "AD REAL."},
+    {"FDIV", "DIVB REAL."},
+    {"FILD", "LOD and REAL"},
+    {"FLD", "LOD REAL."},
+    {"FMUL", "MULB REAL."},
+    {"FN", "EDGE_L"},
+    {"FP", "EDGE_H"},
+    {"FST", "STO REAL."},
+    {"FSTP", "STO REAL."},
+    {"FSUB", "SU REAL."},
+    {"IDIV", "DIVB"},
+    {"IMUL", "MULB"},
+    {"INC", "INR"},
+    {"JE", "EQ and JL1"},
+    {"JMP", "JUM"},
+    {"JNE", "EQ and JL0"},
+    {"JNZ", "LDR and JL1"},
+    {"JZ", "LDR and JL0"},
+    {"L", "LOD"},
+    {"LDI", "LDR -X"},
+    {"LDN", "LDR -X"},
+    {"MOVSB", "MV"},
+    {"MOVSW", "MV"},
+    {"MOVSX", "LOD"},
+    {"MOVZX", "LOD"},
+    {"MUL", "MULB"},
+    {"NE", "EQ, then CA"},
+    {"NEG", "INV"},
+    {"NOT", "CA on RLO"},
+    {"O", "LO"},
+    {"ON", "LO -X"},
+    {"OR", "LO on bits, ORB on data"},
+    {"ORI", "LO -X"},
+    {"ORN", "LO -X"},
+    {"OUT", "WR"},
+    {"R", "FL1 0,X"},
+    {"R_TRIG", "EDGE_H"},
+    {"RET", "PROC_END"},
+    {"RST", "FL1 0,X"},
+    {"S", "FL1 1,X"},
+    {"SET", "FL1 1,X"},
+    {"SHL", "RL"},
+    {"SHR", "RR"},
+    {"STN", "CA and WR"},
+    {"SUB", "SU"},
+    {"T", "STO"},
+    {"TEST", "LDR"},
+    {"TOF", kTimer},
+    {"TON", kTimer},
+    {"TP", kTimer},
+    {"U", kBegins},
+    {"UN", kBeginsInverted},
+    {"XCHG", "LOD and STO"},
+    {"XOR", "LX on bits, XORB on data"},
+};
+
+} // namespace rung::frontend::technol

@@ -1,0 +1,63 @@
+// Words in drawings (see fix.h).
+#include "frontend/ladder/text/fix.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "frontend/ladder/text/drawing.h"
+
+namespace rung::ladder {
+namespace {
+
+/// The element's text from `at` on to the end of the wire on its right; and how long that wire is.
+struct Rest {
+  std::string_view closing; ///< up to the bracket, with it
+  size_t wire = 0;
+  bool last = false; ///< nothing follows on the line
+};
+
+std::optional<Rest> restOf(std::string_view line, size_t at) {
+  const size_t close = line.find_first_of("])}", at);
+  if (close == std::string_view::npos) return std::nullopt;
+  Rest rest{.closing = line.substr(at, close + 1 - at)};
+  if (rest.closing.find('"') != std::string_view::npos) return std::nullopt; // the bracket may be in a text
+  const size_t end = std::min(line.find_first_not_of('-', close + 1), line.size());
+  rest.wire = end - close - 1;
+  const size_t further = line.find_first_not_of(" \r", end);
+  rest.last = rest.wire == 0 && (further == std::string_view::npos || line[further] == ';');
+  return rest;
+}
+
+bool isDrawing(std::string_view line) {
+  const size_t first = line.find_first_not_of(' ');
+  return first != std::string_view::npos && beginsDrawing(line[first]);
+}
+
+} // namespace
+
+void meant(DiagBuilder& report, const SourceManager& sources, SourceRange range, std::string_view word) {
+  const std::string_view line = sources.lineText(range.begin);
+  const std::string_view old = sources.text(range);
+  if (old.size() == word.size() || !isDrawing(line)) return static_cast<void>(report.meant(range, word));
+  const SourceManager::LineStart start = sources.lineStart(range.begin);
+  const size_t end = sources.offsetOf(range.end) - start.offset;
+  const std::optional<Rest> rest = restOf(line, end);
+  if (rest && rest->last) return static_cast<void>(report.meant(range, word));
+  report.meant({}, word);
+  // A wire is at least one '-' long.
+  if (!rest || rest->wire == 0 || rest->wire + old.size() <= word.size()) return;
+  const size_t wire = rest->wire + old.size() - word.size();
+  const SourceRange whole{range.begin,
+                          sources.position(start.file, start.offset + end + rest->closing.size() + rest->wire)};
+  report.fix(whole, std::string(word) + std::string(rest->closing) + std::string(wire, '-'));
+}
+
+void suggest(DiagBuilder& report, const SourceManager& sources, SourceRange range, const Likely& likely) {
+  if (likely.certain)
+    meant(report, sources, range, likely.word);
+  else
+    report.meant({}, likely.word);
+}
+
+} // namespace rung::ladder

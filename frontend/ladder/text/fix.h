@@ -1,0 +1,18 @@
+// Fixes of words in drawings, whose columns must stay.
+#pragma once
+#include <string_view>
+
+#include "ir/support/diagnostics.h"
+#include "ir/support/similar.h"
+
+namespace rung::ladder {
+
+/// "did you mean WORD?" and the fix that puts it into the place of `range`, as DiagBuilder::meant. In a drawing the
+/// wire on the right of the element becomes longer or shorter, so that what follows keeps its column; where it cannot
+/// there is no fix.
+void meant(DiagBuilder& report, const SourceManager& sources, SourceRange range, std::string_view word);
+
+/// The same of a word that may be misspelt: with a fix only where nothing else can have been meant.
+void suggest(DiagBuilder& report, const SourceManager& sources, SourceRange range, const Likely& likely);
+
+} // namespace rung::ladder

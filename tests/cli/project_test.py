@@ -272,8 +272,9 @@ class Words(Cli):
     def test_functions_of_gsk_are_suggested(self):
         program = self.write("f.pmc", "FUNC END1\nLD X0.0\nFUNC TMRR\nPRM 1\nOUT R0.0\nFUNC END2\n")
         self.assertIn("did you mean TMR", self.rungc("check", program, status=WRONG)[1])
-        program = self.write("f.pmc", "FUNC END1\nLD X0.0\nFUNC TON\nPRM 1\nOUT R0.0\nFUNC END2\n")
-        self.assertIn("`rungc explain gsk` lists the instructions", self.rungc("check", program, status=WRONG)[1])
+        for name, note in (("TON", "in this language: the function TMRB, an on-delay timer"), ("PID", "`rungc explain gsk` lists the instructions")):
+            program = self.write("f.pmc", f"FUNC END1\nLD X0.0\nFUNC {name}\nPRM 1\nOUT R0.0\nFUNC END2\n")
+            self.assertIn(note, self.rungc("check", program, status=WRONG)[1])
 
 
 class Explain(Cli):

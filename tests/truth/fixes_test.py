@@ -26,7 +26,7 @@ COUNT = int(sys.argv.pop(1)) if len(sys.argv) > 1 and sys.argv[1].isdigit() else
 SEED = 20261
 ROUNDS = 12  # of all fixes: a name that many operands have is reported once in each
 
-DIALECTS = {"nct": ".lad", "gsk": ".pmc", "technol": ".plc"}
+DIALECTS = {"nct": [".lad"], "gsk": [".pmc", ".lad"], "technol": [".plc"]}
 PROJECTS = {"nct": ["examples/nct-lathe", "examples/nct-turning-centre"],
             "gsk": ["examples/gsk-mill", "examples/gsk-panel", "examples/first-cnc"],
             "technol": ["examples/technol-magazine", "examples/technol-mill", "examples/technol-machining-centre"]}
@@ -34,7 +34,8 @@ PROJECTS = {"nct": ["examples/nct-lathe", "examples/nct-turning-centre"],
 # What users of other controls write, by dialect: here, there; and whether it means the same.
 FOREIGN = {
     "gsk": [("LDI", "LDN"), ("ANI", "ANDN"), ("ANI", "AND NOT"), ("ORI", "ORN"), ("OUT", "ST"), ("OUTI", "STN"), ("SET", "S"),
-            ("RST", "R"), ("LD", "RD"), ("OUT", "WRT"), ("ANB", "AND.STK"), ("ORB", "OR.STK"), ("OUT", "="), ("ORB", "OR LD")],
+            ("RST", "R"), ("LD", "RD"), ("OUT", "WRT"), ("ANB", "AND.STK"), ("ORB", "OR.STK"), ("OUT", "="), ("ORB", "OR LD"),
+            ("(S ", "(SET "), ("[/", "[NOT ")],
     "nct": [("TOND", "TON"), ("TOFFD", "TOF"), ("CEQ", "EQ"), ("CGT", "GT"), ("SBS", "CALL"), ("JME", "LBL"), ("(S ", "(SET "),
             ("(R ", "(RESET "), ("[/", "[NOT ")],
     "technol": [("LDR", "LD"), ("WR", "ST"), ("PROC_CALL", "CAL"), ("JL1", "JMPC"), ("JL0", "JMPCN")],
@@ -290,10 +291,11 @@ def sources(dialect):
     """Programs that compile by themselves; every example, and scenarios' programs."""
     found = []
     for project in map(Path, PROJECTS[dialect]):
-        for file in sorted(project.rglob("*" + DIALECTS[dialect])):
-            found.append(Source(dialect, project, file))
-    for file in sorted(Path("tests/scenarios", dialect).glob("*" + DIALECTS[dialect])):
-        if not re.search(r"error|limit", file.name) and is_text(file):
+        for file in sorted(project.rglob("*")):
+            if file.suffix in DIALECTS[dialect]:
+                found.append(Source(dialect, project, file))
+    for file in sorted(Path("tests/scenarios", dialect).iterdir()):
+        if file.suffix in DIALECTS[dialect] and not re.search(r"error|limit", file.name) and is_text(file):
             found.append(Source(dialect, file, file))
     return found
 

@@ -6,11 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "frontend/ladder/text/fix.h"
 #include "frontend/network/read/list_syntax.h"
 #include "ir/support/ascii.h"
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
-#include "ir/support/meant.h"
+#include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::network {
@@ -84,7 +85,7 @@ Found findAddress(Context& context, const Word& word) {
 void suggestName(const Context& context, const UndeclaredName& use, DiagBuilder& report) {
   if (!context.diagnostics.suggests()) return;
   const Likely similar = likeliest(use.name, context.names.ofKind(use.kind), &UserName::name);
-  suggest(report, use.range, similar);
+  ladder::suggest(report, context.sources, use.range, similar);
   if (!similar.word.empty() || use.kind != UserName::Kind::Symbol) return;
   const nc::SignalTable& signals = context.language.signals();
   if (const nc::Signal* signal = nc::findSignal(signals, mostSimilar(use.name, signals, &nc::Signal::symbol)))
@@ -93,10 +94,10 @@ void suggestName(const Context& context, const UndeclaredName& use, DiagBuilder&
 }
 
 // Of an instruction, perhaps one of another control that is like none of these.
-void suggestInstruction(const Language& language, SourceRange range, const Likely& similar, DiagBuilder& report) {
-  suggest(report, range, similar);
+void suggestInstruction(const Context& context, SourceRange range, const Likely& similar, DiagBuilder& report) {
+  ladder::suggest(report, context.sources, range, similar);
   if (similar.word.empty())
-    report.note(fmt::format("`rungc explain {}` lists the instructions by what they do", language.name));
+    report.note(fmt::format("`rungc explain {}` lists the instructions by what they do", context.language.name));
 }
 
 // An address as IEC 61131 and Siemens write it: I1.5, %QX0.0, MW10. Those of this control are none here.
@@ -248,7 +249,7 @@ void reportUnknownCommand(Context& context, std::span<const Word> words) {
   }
   if (!context.diagnostics.suggests()) return;
   const Likely similar = likeliest(word.text, language.commands);
-  suggestInstruction(language, word.range, {similar.word, similar.certain && fits(similar.word)}, report);
+  suggestInstruction(context, word.range, {similar.word, similar.certain && fits(similar.word)}, report);
 }
 
 void reportUnknownFunction(Context& context, std::string_view name, SourceRange range) {
@@ -259,7 +260,7 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
   const auto mnemonicOf = [](const Row* row) { return row->info.mnemonic; };
   const frontend::ForeignWord* foreign = frontend::findForeign(context.language.foreign, name);
   if (foreign != nullptr && !foreign->same) return frontend::explainForeign(report, range, *foreign, false);
-  suggestInstruction(context.language, range,
+  suggestInstruction(context, range,
                      likeliest(name, context.language.rows | std::views::filter(isFunction), mnemonicOf), report);
 }
 

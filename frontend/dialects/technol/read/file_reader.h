@@ -43,6 +43,7 @@ private:
   bool splitLabel(uint32_t& first, uint32_t& count);
   uint32_t readLabel(uint32_t& first, uint32_t& count);
   bool instance(uint32_t first, uint32_t count, uint32_t line);
+  bool foreign(std::span<const Token> tokens);
   const Row* unknown(uint32_t& first, uint32_t& count);
   const Row* instruction(uint32_t& first, uint32_t& count);
   void statement(const Row* row, uint32_t first, uint32_t count, uint32_t line);

@@ -93,24 +93,26 @@ bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
   return true;
 }
 
-// With what was meant, or the way to say it in this language. Two words may be one name whose `_` is lost. The row of a
+// An instruction of another language, with what is written for it here. False when it is none of those that are known.
+bool FileReader::foreign(std::span<const Token> tokens) {
+  const Token& token = tokens[0];
+  const ForeignWord* word = foreignWord(token.text);
+  const bool assembler = isAssembler(token.text);
+  if (word == nullptr && !assembler) return false;
+  DiagBuilder report =
+      program_.diagnostics.report(assembler ? diag::UnsupportedAssembler : diag::UnknownInstruction, token.range());
+  report << token.text;
+  if (word != nullptr)
+    explainForeign(report, token.range(), *word, !assembler && takesAsMany(findRow(word->here), tokens.subspan(1)));
+  return true;
+}
+
+// With what was meant. Two words may be one name whose `_` is lost. The row of a
 // statement that opens, closes or declares something is taken where that fits, so that what follows is understood.
 const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
   const Token& token = tokens[0];
-  const ForeignWord* foreign = foreignWord(token.text);
-  if (isAssembler(token.text)) {
-    DiagBuilder report = program_.diagnostics.report(diag::UnsupportedAssembler, token.range());
-    report << token.text;
-    if (foreign != nullptr) explainForeign(report, token.range(), *foreign, false);
-    return nullptr;
-  }
-  if (foreign != nullptr) {
-    DiagBuilder report = program_.diagnostics.report(diag::UnknownInstruction, token.range());
-    report << token.text;
-    explainForeign(report, token.range(), *foreign, takesAsMany(findRow(foreign->here), tokens.subspan(1)));
-    return nullptr;
-  }
+  if (foreign(tokens)) return nullptr;
   std::string word(token.text);
   if (tokens.size() > 1 && tokens[1].kind == TokenKind::Name)
     if (const std::string both = word + (word.ends_with('_') ? "" : "_") + std::string(tokens[1].text); findRow(both))

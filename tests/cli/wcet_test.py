@@ -189,9 +189,21 @@ class Wcet(unittest.TestCase):
         self.assertEqual(level2["way"][0]["rungs"], [[2, 6]])
         self.assertGreater(level2["instructions"], 1000000)
         text = self.text(self.write("a.pmc", LIST))
-        self.assertIn("LEVEL2: at most 1000000 steps, its budget: control may go in circles\n", text)
-        self.assertIn("  in a circle: rungs 3-5, LEVEL2\n"
-                      "  the budget of 1000000 steps ends the run; without a circle the heaviest way has 13\n", text)
+        self.assertIn("LEVEL2: at most 1000000 steps, its budget: the program may loop\n", text)
+        self.assertIn("  loop: rungs 3-5, LEVEL2\n"
+                      "  the budget of 1000000 steps ends the run; with each loop run once the heaviest way has 13\n", text)
+
+    def test_slice_of_a_program_that_loops(self):
+        """Its bound has each loop once, so it says nothing of the longest that a slice may last."""
+        source = self.write("a.pmc", LIST)
+        report = self.tasks(source)[1]
+        self.assertLess(report["slice"]["time_ns"], report["slice"]["period_ns"])
+        self.assertIsNone(report["slice"]["fits"])
+        self.assertRegex(self.slice(source), r"^with its copies, each loop \(rungs 3-5, LEVEL2\) counted once: TIME: \d+ steps of TIME at most .*, "
+                                             r"and the period is TIME; a run that loops may last TIME$")
+        once = self.write("b.pmc", LIST.replace("FUNC JMPB\nPRM  L1\n", "OUT Y10.4\n").replace("FUNC LBL\nPRM  L1\n", ""))
+        self.assertTrue(self.tasks(once)[1]["slice"]["fits"])
+        self.assertNotIn("loop", self.output(once))
 
     def test_assembler_with_two_ways(self):
         tasks, _ = self.tasks(self.write("a.plc", ASSEMBLER))

@@ -50,13 +50,19 @@ Json taskJson(const TaskBound& task, const Bounds& bounds, const rung_program& p
   return json;
 }
 
+// Null where nobody knows: a bound that has each loop once may show that a slice is too long, not that it fits.
+Json fitsJson(const host::ScanBound& slice) {
+  if (slice.circles && slice.fits()) return nullptr;
+  return slice.fits();
+}
+
 } // namespace
 
 std::string jsonOf(const Bounds& bounds, const rung_program& program) {
   Json json = {{"wcet", 1}, {"program", bounds.program}, {"dialect", program.dialect}};
   json["slice"] = {{"steps", bounds.slice.weight},        {"time_ns", bounds.slice.ns},
                    {"period_ns", bounds.slice.periodNs},  {"step_ns", bounds.slice.nsPerWeight},
-                   {"circles", bounds.slice.circles},     {"fits", bounds.slice.fits()},
+                   {"circles", bounds.slice.circles},     {"fits", fitsJson(bounds.slice)},
                    {"looking_ns", bounds.slice.lookingNs}};
   if (!bounds.measured.empty()) json["measured_by"] = bounds.measured;
   json["tasks"] = Json::array();

@@ -1,4 +1,5 @@
 // Bounds as text for a terminal.
+#include <algorithm>
 #include <fmt/format.h>
 #include <map>
 
@@ -65,19 +66,21 @@ std::string wayText(const TaskBound& task, const Bounds& bounds, const rung_prog
   return text;
 }
 
-std::string circlesText(const TaskBound& task, const rung_program& program) {
+std::string loopText(const std::vector<uint32_t>& rungs, const rung_program& program) {
+  return fmt::format("{}, {}", rungsText(rungs, program), program.routines[program.rungs[rungs.front()].routine]);
+}
+
+std::string loopsText(const TaskBound& task, const rung_program& program) {
   std::string text;
-  for (const std::vector<uint32_t>& circle : task.way.circles)
-    text += wrapped(fmt::format("  in a circle: {}, {}", rungsText(circle, program),
-                                program.routines[program.rungs[circle.front()].routine]),
-                    "    ");
+  for (const std::vector<uint32_t>& rungs : task.way.circles)
+    text += wrapped(fmt::format("  loop: {}", loopText(rungs, program)), "    ");
   if (text.empty()) return text;
-  return text + fmt::format("  the budget of {} steps ends the run; without a circle the heaviest way has {}\n",
+  return text + fmt::format("  the budget of {} steps ends the run; with each loop run once the heaviest way has {}\n",
                             task.budget, task.way.cost);
 }
 
 std::string stepsText(const TaskBound& task) {
-  if (!task.way.circles.empty()) return counted(task.budget) + ", its budget: control may go in circles";
+  if (!task.way.circles.empty()) return counted(task.budget) + ", its budget: the program may loop";
   if (task.way.cost > task.budget)
     return fmt::format("{}, its budget: the heaviest way has {}", counted(task.budget), task.way.cost);
   return fmt::format("{} of a budget of {}", counted(task.way.cost), task.budget);
@@ -118,7 +121,24 @@ std::string taskText(const TaskBound& task, const Bounds& bounds, const rung_pro
   std::string text = task.parts > 1 ? fmt::format("{}, a part of {}", task.name, task.parts) : task.name;
   text += fmt::format(": at most {}\n", stepsText(task));
   text += instructionsText(task) + timeText(task);
-  return text + seenText(task) + circlesText(task, program) + wayText(task, bounds, program);
+  return text + seenText(task) + loopsText(task, program) + wayText(task, bounds, program);
+}
+
+// The bound of a slice has each loop once; what the budgets allow is said beside it.
+std::string sliceText(const Bounds& bounds, const rung_program& program) {
+  std::string loops;
+  double most = 0;
+  for (const TaskBound& task : bounds.tasks) {
+    for (const std::vector<uint32_t>& rungs : task.way.circles)
+      loops += (loops.empty() ? "" : "; ") + loopText(rungs, program);
+    if (!task.way.circles.empty()) most = std::max(most, task.ns());
+  }
+  const std::string bound = boundText(bounds.slice, program);
+  if (loops.empty()) return wrapped("longest slice with its copies: " + bound, "  ");
+  return wrapped(
+      fmt::format("longest slice with its copies, each loop ({}) counted once: {}; a run that loops may last {}", loops,
+                  bound, profile::durationText(most)),
+      "  ");
 }
 
 } // namespace
@@ -126,7 +146,7 @@ std::string taskText(const TaskBound& task, const Bounds& bounds, const rung_pro
 std::string textOf(const Bounds& bounds, const rung_program& program) {
   std::string text;
   for (const TaskBound& task : bounds.tasks) text += taskText(task, bounds, program) + "\n";
-  text += wrapped("longest slice with its copies: " + boundText(bounds.slice, program), "  ");
+  text += sliceText(bounds, program);
   if (!bounds.measured.empty()) text += fmt::format("measured: {}\n", bounds.measured);
   return text;
 }

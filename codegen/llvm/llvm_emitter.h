@@ -30,8 +30,8 @@ Result<std::string> emitLlvmIr(const ir::Layout& layout, uint64_t codeHash, cons
 Result<std::string> emitAssembly(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
 Result<std::string> emitObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
 
-// The bytes of a `.so` that exports rung_program_table and needs no library (armv7: the host has libgcc's helpers for
-// division and remainder of 32 and 64 bits and for i64 to and from f64).
+// The bytes of a `.so` that exports rung_program_table and needs no library (32-bit ARM: libgcc_s.so.1, for division
+// and for i64 to and from f64).
 Result<std::string> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
 
 // The same for a process that cannot open files: the linker writes to its standard output, which is a memory file and

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <lld/Common/Driver.h>
 #include <llvm/Support/raw_ostream.h>
+#include <llvm/TargetParser/Host.h>
+#include <llvm/TargetParser/Triple.h>
 
 #include "codegen/llvm/llvm_emitter.h"
 #include "ir/support/temporary_folder.h"
@@ -44,11 +46,11 @@ private:
   int file_;
 };
 
-Result<void> link(const std::string& object, const std::string& out, bool mayNeedHelpers) {
+Result<void> runLinker(const std::vector<std::string>& inputs, const std::string& out) {
   std::vector<const char*> args{"ld.lld", "-shared", "--hash-style=gnu", "--build-id=sha1",
-                                "-znow",  "-zrelro", "--threads=1"}; // for one small object
-  if (!mayNeedHelpers) args.push_back("-zdefs");
-  args.insert(args.end(), {"-o", out.c_str(), object.c_str()});
+                                "-zdefs", "-znow",   "-zrelro",          "--threads=1"}; // for one small object
+  for (const std::string& input : inputs) args.push_back(input.c_str());
+  args.insert(args.end(), {"-o", out.c_str()});
   std::string text;
   llvm::raw_string_ostream report(text);
   // The linker keeps its state in globals.
@@ -62,10 +64,6 @@ Result<void> link(const std::string& object, const std::string& out, bool mayNee
   return {};
 }
 
-} // namespace
-
-namespace {
-
 // What standard output has got.
 Result<std::string> contentsOfOutput() {
   std::string bytes(1 << 16, '\0');
@@ -78,32 +76,65 @@ Result<std::string> contentsOfOutput() {
   return all;
 }
 
+// What the linker makes of `inputs`.
+Result<std::string> linkedByOutput(const std::vector<std::string>& inputs) {
+  if (ftruncate(STDOUT_FILENO, 0) != 0 || lseek(STDOUT_FILENO, 0, SEEK_SET) != 0)
+    return failure(fmt::format("cannot write standard output: {}", std::strerror(errno)));
+  const Result<void> done = runLinker(inputs, "-");
+  return done.ok() ? contentsOfOutput() : done.failure();
+}
+
+Result<std::string> linkedByFile(const std::vector<std::string>& inputs) {
+  const TemporaryFolder folder; // the linker writes to nothing but a file
+  if (!folder.ok()) return failure(fmt::format("cannot make a temporary folder: {}", std::strerror(errno)));
+  const Result<void> done = runLinker(inputs, (folder / "program.so").string());
+  if (!done.ok()) return done.failure();
+  std::optional<std::string> image = folder.contentsOf("program.so");
+  if (!image) return failure("the linker made no shared object");
+  return std::move(*image);
+}
+
+using Linker = Result<std::string>(const std::vector<std::string>& inputs);
+
+// What a linker needs to know of libgcc_s.so.1, which every system of a 32-bit ARM has: the functions for what the
+// processor lacks, 64-bit division and conversions.
+Result<std::string> libraryOfArm(Linker& linked, const MemoryFile& nothing) {
+  std::vector<std::string> inputs{"-marmelf_linux_eabi", "--soname=libgcc_s.so.1"};
+  for (const char* name : {"ldivmod", "uldivmod", "idivmod", "uidivmod", "idiv", "uidiv", "lmul", "llsl", "llsr",
+                           "lasr", "l2d", "ul2d", "d2lz", "d2ulz"})
+    inputs.push_back(fmt::format("--defsym=__aeabi_{}=0", name));
+  inputs.insert(inputs.end(), {"--format=binary", nothing.path()});
+  return linked(inputs);
+}
+
+Result<std::string> build(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options, Linker& linked) {
+  Result<std::string> object = emitObject(layout, codeHash, options);
+  if (!object.ok()) return object.failure();
+  const std::string target = options.target.empty() ? llvm::sys::getProcessTriple() : options.target;
+  std::string library;
+  const MemoryFile file(object.value()), nothing("");
+  if (llvm::Triple(target).isARM() && file.ok() && nothing.ok()) {
+    Result<std::string> made = libraryOfArm(linked, nothing);
+    if (!made.ok()) return made.failure();
+    library = std::move(made).value();
+  }
+  const MemoryFile libraryFile(library);
+  if (!file.ok() || !nothing.ok() || !libraryFile.ok())
+    return failure(fmt::format("cannot hold the object file in memory: {}", std::strerror(errno)));
+  std::vector<std::string> inputs{file.path()};
+  if (!library.empty()) inputs.push_back(libraryFile.path());
+  return linked(inputs);
+}
+
 } // namespace
 
 Result<std::string> buildLlvmSharedObjectByOutput(const ir::Layout& layout, uint64_t codeHash,
                                                   const LlvmOptions& options) {
-  Result<std::string> object = emitObject(layout, codeHash, options);
-  if (!object.ok()) return object.failure();
-  const MemoryFile file(object.value());
-  if (!file.ok() || ftruncate(STDOUT_FILENO, 0) != 0 || lseek(STDOUT_FILENO, 0, SEEK_SET) != 0)
-    return failure(fmt::format("cannot hold the object file in memory: {}", std::strerror(errno)));
-  const Result<void> linked = link(file.path(), "-", options.target.starts_with("arm"));
-  if (!linked.ok()) return linked.failure();
-  return contentsOfOutput();
+  return build(layout, codeHash, options, linkedByOutput);
 }
 
 Result<std::string> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options) {
-  Result<std::string> object = emitObject(layout, codeHash, options);
-  if (!object.ok()) return object.failure();
-  const MemoryFile file(object.value());
-  if (!file.ok()) return failure(fmt::format("cannot hold the object file in memory: {}", std::strerror(errno)));
-  const TemporaryFolder folder; // the linker writes to nothing but a file
-  if (!folder.ok()) return failure(fmt::format("cannot make a temporary folder: {}", std::strerror(errno)));
-  const Result<void> linked = link(file.path(), (folder / "program.so").string(), options.target.starts_with("arm"));
-  if (!linked.ok()) return linked.failure();
-  std::optional<std::string> image = folder.contentsOf("program.so");
-  if (!image) return failure("the linker made no shared object");
-  return std::move(*image);
+  return build(layout, codeHash, options, linkedByFile);
 }
 
 } // namespace rung::codegen

@@ -1,4 +1,4 @@
-// Shared objects for another processor, run in its emulator: each must do, scan by scan, what the interpreter does
+// Shared objects for other processors, run in their emulators: each must do, scan by scan, what the interpreter does
 // here. The host is the same plain C on both sides (mini_host.c).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,33 +25,34 @@ using namespace ir;
 namespace fs = std::filesystem;
 
 constexpr uint32_t kScans = 4;
-constexpr const char* kCompile = "aarch64-linux-gnu-gcc -std=c11 -O1 -Irtlib/abi -Itests/unit/llvm "
+constexpr const char* kCompile = "{}-gcc -std=c11 -O1 -Irtlib/abi -Itests/unit/llvm "
                                  "tests/unit/llvm/mini_host.c tests/unit/llvm/mini_host_main.c -ldl -o '{}'";
-constexpr const char* kRun = "qemu-aarch64-static -L /usr/aarch64-linux-gnu '{}' '{}' {} > '{}'";
+constexpr const char* kRun = "{} -L /usr/{} '{}' '{}' {} > '{}'";
+
+struct Processor {
+  const char* target; // of Rung
+  const char* tools;  // what the names of its compiler and its libraries' folder begin with
+  const char* emulator;
+};
+constexpr Processor kProcessors[] = {
+    {"aarch64-linux-gnu", "aarch64-linux-gnu", "qemu-aarch64-static"},
+    {"armv7-linux-gnueabihf", "arm-linux-gnueabihf", "qemu-arm-static"},
+};
 
 bool works(const std::string& command) { return std::system((command + " > /dev/null 2>&1").c_str()) == 0; }
 
-class Aarch64 : public testing::Test {
+class Cross : public testing::TestWithParam<Processor> {
 protected:
-  static void SetUpTestSuite() {
-    folder_ = new fs::path(fs::path(testing::TempDir()) / fmt::format("rung-cross-{}", getpid()));
-    fs::create_directories(*folder_);
-    toolsThere_ = works("qemu-aarch64-static --version") && works("aarch64-linux-gnu-gcc --version");
-    if (toolsThere_) {
-      ASSERT_EQ(std::system(fmt::format(kCompile, file("mini_host")).c_str()), 0);
-    }
-  }
-  static void TearDownTestSuite() {
-    fs::remove_all(*folder_);
-    delete folder_;
-  }
   void SetUp() override {
-    if (!toolsThere_)
-      GTEST_SKIP()
-          << "qemu-user-static, gcc-aarch64-linux-gnu and libc6-dev-arm64-cross are not installed; ./dev setup does it";
+    const Processor& to = GetParam();
+    if (!works(fmt::format("{} --version", to.emulator)) || !works(fmt::format("{}-gcc --version", to.tools)))
+      GTEST_SKIP() << "qemu-user-static and the compilers of other processors are not installed; ./dev setup does it";
+    fs::create_directories(folder_);
+    ASSERT_EQ(std::system(fmt::format(kCompile, to.tools, file("mini_host")).c_str()), 0);
   }
+  void TearDown() override { fs::remove_all(folder_); }
 
-  static std::string file(const char* name) { return (*folder_ / name).string(); }
+  std::string file(const char* name) const { return (folder_ / name).string(); }
 
   static std::vector<std::string> hereLines(const Layout& layout) {
     InterpEngine engine(layout, 1);
@@ -63,11 +64,14 @@ protected:
     return lines;
   }
 
-  static std::vector<std::string> thereLines(const Layout& layout, const LlvmOptions& options) {
+  std::vector<std::string> thereLines(const Layout& layout, LlvmOptions options) const {
+    options.target = GetParam().target;
     const Result<std::string> built = buildLlvmSharedObject(layout, 1, options);
     if (!built.ok()) return {built.error()};
     if (std::string wrong = host::replaceFile(file("program.so"), built.value()); !wrong.empty()) return {wrong};
-    if (std::system(fmt::format(kRun, file("mini_host"), file("program.so"), kScans, file("out")).c_str()) != 0)
+    const Processor& to = GetParam();
+    if (std::system(fmt::format(kRun, to.emulator, to.tools, file("mini_host"), file("program.so"), kScans, file("out"))
+                        .c_str()) != 0)
       return {"the emulated host failed"};
     std::ifstream in(file("out"));
     std::vector<std::string> lines;
@@ -75,34 +79,34 @@ protected:
     return lines;
   }
 
-  static inline fs::path* folder_ = nullptr;
-  static inline bool toolsThere_ = false;
+private:
+  const fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("rung-cross-{}", getpid());
 };
+INSTANTIATE_TEST_SUITE_P(Processors, Cross, testing::ValuesIn(kProcessors),
+                         [](const auto& info) { return std::string(info.param.target, 5); });
 
-TEST_F(Aarch64, EveryOperation) {
+TEST_P(Cross, EveryOperation) {
   for (const OpInfo& info : allOps()) {
     const Module module = moduleForOp(info.code);
     const Layout layout(module, {});
-    EXPECT_EQ(thereLines(layout, {.level = LlvmLevel::Opt, .target = "aarch64-linux-gnu"}), hereLines(layout))
-        << info.name;
+    EXPECT_EQ(thereLines(layout, {.level = LlvmLevel::Opt}), hereLines(layout)) << info.name;
   }
 }
 
-TEST_F(Aarch64, RandomProgramsFast) {
+TEST_P(Cross, RandomProgramsFast) {
   for (uint64_t seed = 1; seed <= 12; ++seed) {
     const Module module = randomModule(seed);
     const Layout layout(module, {.cut = {.maxChunkRungs = 4}});
-    EXPECT_EQ(thereLines(layout, {.level = LlvmLevel::Fast, .target = "aarch64-linux-gnu"}), hereLines(layout))
-        << "seed " << seed;
+    EXPECT_EQ(thereLines(layout, {.level = LlvmLevel::Fast}), hereLines(layout)) << "seed " << seed;
   }
 }
 
-TEST_F(Aarch64, AWrongProgramShows) {
+TEST_P(Cross, AWrongProgramShows) {
   const Module module = moduleForOp(findOp("add")->code);
   const Layout layout(module, {});
   Module wrong = module;
   sabotage(wrong, findOp("add")->code);
-  EXPECT_NE(thereLines(layout.over(wrong), {.target = "aarch64-linux-gnu"}), hereLines(layout));
+  EXPECT_NE(thereLines(layout.over(wrong), {}), hereLines(layout));
 }
 
 } // namespace

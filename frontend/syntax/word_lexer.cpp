@@ -81,12 +81,20 @@ void splitWords(const SourceLine& line, const WordRules& rules, LineWords& out) 
 
 bool checkEncoding(const SourceManager& sources, FileId file, Diagnostics& diagnostics) {
   const std::string_view text = sources.text(file);
-  const size_t offset = std::min(findInvalidUtf8(text), text.find('\0'));
+  const std::optional<SourceManager::Undecoded>& undecoded = sources.undecoded(file);
+  if (undecoded && !undecoded->known) {
+    const size_t first = undecoded->offset;
+    diagnostics.report(diag::UnknownEncoding, sources.range(file, first, first + undecoded->encoding.size()))
+        << undecoded->encoding;
+    return false;
+  }
+  const size_t offset = undecoded ? undecoded->offset : std::min(findInvalidUtf8(text), text.find('\0'));
   if (offset == std::string_view::npos) return true;
   DiagBuilder report = diagnostics.report(diag::BadEncoding, sources.range(file, offset, offset + 1));
-  report << fmt::format("0x{:02X}", static_cast<unsigned char>(text[offset]));
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-    report.note("it begins as UTF-16 does: save it as UTF-8, or convert it with `iconv -f UTF-16 -t UTF-8`");
+  report << fmt::format("0x{:02X}", static_cast<unsigned char>(text[offset]))
+         << (undecoded ? undecoded->encoding : "UTF-8");
+  if (!undecoded && (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")))
+    report.note("it begins as UTF-16 does: `encoding = \"utf-16\"` in the project file says so");
   return false;
 }
 

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "ir/support/check.h"
+#include "ir/support/encoding.h"
 #include "ir/support/utf8.h"
 #include "rtlib/text/regular_file.h"
 
@@ -25,6 +26,9 @@ struct SourceManager::File {
   uint32_t base = 0;                      ///< position of the first byte
   std::vector<uint32_t> lineStarts;       ///< offsets; never empty
   std::vector<uint32_t> charactersBefore; ///< per kStep bytes; empty for a text in ASCII
+  std::string encoding;                   ///< that the text was in; "": in the one that it still is in
+  std::optional<Undecoded> undecoded;
+  std::string afterEnd; ///< from the end-of-file mark on
 
   void index();
   size_t charactersUpTo(size_t offset) const;
@@ -93,7 +97,32 @@ Result<FileId> SourceManager::addFile(const std::string& path) {
   Result<std::string> text = texts_ ? textOf(*texts_, path) : readAll(path);
   if (!text) return text.failure();
   if (text.value().size() + nextBase_ > kMostText) return failure("the program has more than 256 MB of sources");
-  return addBuffer(path, std::move(text).value());
+  return texts_ ? addBuffer(path, std::move(text).value()) : addBytes(path, std::move(text).value());
+}
+
+FileId SourceManager::addBytes(std::string name, std::string bytes) {
+  constexpr char kEndOfFile = 0x1A;
+  const std::optional<EncodingLine> line = encodingLine(bytes);
+  std::string encoding = line ? line->name : encoding_;
+  std::optional<Undecoded> undecoded;
+  if (!encoding.empty() && !knowsEncoding(encoding)) {
+    undecoded = Undecoded{encoding, false, line ? line->offset : 0};
+  } else if (!encoding.empty()) {
+    Decoded text = decoded(bytes, encoding);
+    if (text.wrong)
+      undecoded = Undecoded{encoding, true, *text.wrong};
+    else
+      bytes = std::move(text.text);
+  }
+  const size_t end = std::min(bytes.find(kEndOfFile), bytes.size());
+  std::string afterEnd = bytes.substr(end);
+  bytes.resize(end);
+  const FileId id = addBuffer(std::move(name), std::move(bytes));
+  File& added = *files_[id.index];
+  added.encoding = std::move(encoding);
+  added.undecoded = std::move(undecoded);
+  added.afterEnd = std::move(afterEnd);
+  return id;
 }
 
 std::vector<std::string> SourceManager::namesIn(const std::string& folder) const {
@@ -131,6 +160,14 @@ const SourceManager::File& SourceManager::file(FileId id) const {
 
 std::string_view SourceManager::name(FileId id) const { return file(id).name; }
 std::string_view SourceManager::text(FileId id) const { return file(id).text; }
+const std::optional<SourceManager::Undecoded>& SourceManager::undecoded(FileId id) const { return file(id).undecoded; }
+bool SourceManager::hasEncoding(FileId id) const { return !file(id).encoding.empty(); }
+
+std::optional<std::string> SourceManager::bytesOf(FileId id, std::string text) const {
+  const File& of = file(id);
+  text += of.afterEnd;
+  return of.encoding.empty() || of.undecoded ? std::optional(std::move(text)) : encoded(text, of.encoding);
+}
 uint32_t SourceManager::lineCount(FileId id) const { return static_cast<uint32_t>(file(id).lineStarts.size()); }
 
 std::string_view SourceManager::lineText(FileId id, uint32_t line) const {

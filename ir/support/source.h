@@ -57,8 +57,15 @@ public:
   SourceManager(SourceManager&&) noexcept;
   SourceManager& operator=(SourceManager&&) noexcept;
 
-  /// Reads a file. Fails when it cannot be read or when the positions are used up (4 GB of text).
+  /// In what files are written that do not say it (encodingLine); "", the beginning: in UTF-8, or the dialect finds
+  /// out.
+  void setEncoding(std::string name) { encoding_ = std::move(name); }
+  /// Reads a file. Its text is UTF-8, whatever it is written in, and ends at a DOS end-of-file mark. Fails when it
+  /// cannot be read or when the positions are used up (4 GB of text).
   Result<FileId> addFile(const std::string& path);
+  /// As a file that has these bytes.
+  FileId addBytes(std::string name, std::string bytes);
+  /// A text in UTF-8.
   FileId addBuffer(std::string name, std::string text);
   /// What is in a folder, "" for the working directory, in no order; nothing where there is no such folder.
   std::vector<std::string> namesIn(const std::string& folder) const;
@@ -66,6 +73,18 @@ public:
   size_t fileCount() const { return files_.size(); }
   std::string_view name(FileId file) const;
   std::string_view text(FileId file) const;
+  /// Of a file that is not written in what it, or setEncoding, says. Its text is the bytes of the file then.
+  struct Undecoded {
+    std::string encoding;
+    bool known = true; ///< false: no encoding has this name, and the file says it at `offset`
+    size_t offset = 0; ///< of the byte that is no part of a character
+  };
+  const std::optional<Undecoded>& undecoded(FileId file) const;
+  /// Whether the file, or setEncoding, says what the file is written in.
+  bool hasEncoding(FileId file) const;
+  /// The bytes of a file that has `text` instead of its own: in its encoding, with its end-of-file mark. Nothing where
+  /// the encoding lacks a character.
+  std::optional<std::string> bytesOf(FileId file, std::string text) const;
   uint32_t lineCount(FileId file) const;
   /// The text of a line (from 1) without its line end, O(1).
   std::string_view lineText(FileId file, uint32_t line) const;
@@ -94,6 +113,7 @@ private:
 
   std::optional<std::map<std::string, std::string>> texts_; // nothing: files of the system
   std::vector<std::unique_ptr<File>> files_;
+  std::string encoding_;
   uint32_t nextBase_ = 1;
 };
 

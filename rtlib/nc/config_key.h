@@ -30,6 +30,13 @@ struct ConfigKey {
   std::string_view doc;
 };
 
+// Of every dialect.
+inline constexpr ConfigKey kEncodingKey = {.key = "encoding",
+                                           .reader = ConfigReader::Compiler,
+                                           .takes = "the name of an encoding, such as gb18030",
+                                           .otherwise = "UTF-8",
+                                           .doc = "of source files that do not name it in their first line"};
+
 std::span<const ConfigKey> gskConfigKeys();
 std::span<const ConfigKey> nctConfigKeys();
 std::span<const ConfigKey> technolConfigKeys();

@@ -117,6 +117,13 @@ class Format(unittest.TestCase):
                 path = self.file("a.plc", (MNEMONIC + end).encode(encoding))
                 self.format(path)
                 self.assertEqual(path.read_bytes(), (MNEMONIC_LAID_OUT + end).encode(encoding))
+        told = "; encoding: gb18030\ndialect gsk\nEND1\n    LD X0.0   ; 急停 |\n  OUT Y0.0\nEND2\n\x1a"
+        path = self.file("c.pmc", told.encode("gb18030"))
+        self.format(path)
+        text = path.read_bytes().decode("gb18030")
+        self.assertIn("; 急停 |\n", text)
+        self.assertTrue(text.startswith("; encoding: gb18030\n") and text.endswith("\n\x1a"), text)
+        self.format(path, "--check")
         self.assertIn("[bad-encoding]", self.format(self.file("b.plc", b"DATA\0\n"), status=WRONG)[1])
         self.assertIn("[bad-encoding]", self.format(self.file("b.pmc", "LD X0.0 ; č".encode("cp1250")), status=WRONG)[1])
 

@@ -62,7 +62,7 @@ private:
 compiler::CompileRequest request(SourceManager& sources, const std::string& path, std::vector<FileId>& files) {
   compiler::CompileRequest request;
   if (!path.ends_with(project::kFileName)) {
-    files = good(compiler::addFiles(sources, {path}));
+    files = good(compiler::addFiles(sources, {path}, {}));
     return request;
   }
   Diagnostics diagnostics;
@@ -72,7 +72,7 @@ compiler::CompileRequest request(SourceManager& sources, const std::string& path
   request.activity = project->activity;
   request.options.includePaths = project->includePaths;
   for (const project::Setting& setting : project->config) request.options.config[setting.key] = setting.value;
-  files = good(compiler::addFiles(sources, project->files));
+  files = good(compiler::addFiles(sources, project->files, request.options.config));
   return request;
 }
 

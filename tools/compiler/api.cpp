@@ -68,7 +68,7 @@ int32_t addSources(const rung_source* sources, uint32_t count, SourceManager& to
     const rung_source& source = sources[i];
     if (source.name == nullptr) return fail(RUNG_BAD_ARGUMENT, "source %u has no name", i);
     if (source.text != nullptr) {
-      files.push_back(to.addBuffer(source.name, std::string(source.text, source.bytes)));
+      files.push_back(to.addBytes(source.name, std::string(source.text, source.bytes)));
       continue;
     }
     const Result<FileId> file = to.addFile(source.name);

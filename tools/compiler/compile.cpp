@@ -11,6 +11,7 @@
 #include "ir/support/check.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
+#include "ir/support/encoding.h"
 #include "ir/support/meant.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
@@ -41,6 +42,14 @@ void reportUnknownDialect(const SourceManager& sources, FileId file, std::string
   suggest(report, range, likeliest(word, frontend::allDialects(), &frontend::Dialect::name));
 }
 
+bool checkEncodingKey(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
+  const std::string key(nc::kEncodingKey.key);
+  const auto encoding = options.config.find(key);
+  if (encoding == options.config.end() || knowsEncoding(encoding->second)) return true;
+  diagnostics.report(diag::UnknownEncoding, options.placeOf(key)) << encoding->second;
+  return false;
+}
+
 } // namespace
 
 const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
@@ -60,11 +69,14 @@ const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<c
   return nullptr;
 }
 
-Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names) {
+Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names,
+                                     const std::map<std::string, std::string>& config) {
+  if (const auto encoding = config.find(std::string(nc::kEncodingKey.key)); encoding != config.end())
+    sources.setEncoding(encoding->second);
   std::vector<FileId> files;
   for (const std::string& name : names) {
     if (name == "-") {
-      files.push_back(sources.addBuffer("<stdin>", std::string(std::istreambuf_iterator<char>(std::cin), {})));
+      files.push_back(sources.addBytes("<stdin>", std::string(std::istreambuf_iterator<char>(std::cin), {})));
       continue;
     }
     Result<FileId> file = sources.addFile(name);
@@ -83,7 +95,7 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   Compiled out;
   out.files.assign(files.begin(), files.end());
   out.dialect = chooseDialect(sources, files, request.dialect, diagnostics);
-  if (out.dialect == nullptr) return std::nullopt;
+  if (out.dialect == nullptr || !checkEncodingKey(request.options, diagnostics)) return std::nullopt;
   out.project = request.name;
   out.options = request.options;
   frontend::CompileOptions options = request.options;

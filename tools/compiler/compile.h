@@ -62,9 +62,11 @@ struct Compiled {
   size_t warnings = 0;   // that were reported on the way
 };
 
-// Adds the files of a command line; "-" reads standard input. Fails on the first that cannot be read,
+// Adds the files of a command line; "-" reads standard input. `config`: of the dialect; its `encoding` is that of files
+// that do not name theirs. Fails on the first that cannot be read,
 // or is a compiled program.
-Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names);
+Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names,
+                                     const std::map<std::string, std::string>& config);
 
 // The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing says it;
 // that is reported.

@@ -11,6 +11,7 @@
 #include "frontend/dialects/dialect.h"
 #include "ir/support/diag/project.h"
 #include "ir/support/diag/source.h"
+#include "ir/support/encoding.h"
 #include "ir/support/meant.h"
 #include "ir/support/utf8.h"
 #include "tools/toml/parse.h"
@@ -20,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kKeys = {"name",      "dialect",  "files",    "include", "nc",
-                                                   "scenarios", "bindings", "activity", "config"};
+constexpr std::array<std::string_view, 10> kKeys = {"name", "dialect",   "files",    "encoding", "include",
+                                                    "nc",   "scenarios", "bindings", "activity", "config"};
 
 std::string_view kindOf(const toml::node& node) {
   switch (node.type()) {
@@ -92,6 +93,7 @@ private:
     readDialect(table.get("dialect"));
     readFiles(table.get("files"));
     if (const toml::node* node = table.get("include")) readInclude(*node);
+    if (const toml::node* node = table.get("encoding")) readEncoding(*node);
     if (const toml::node* node = table.get("nc")) readNc(*node);
     if (const toml::node* node = table.get("scenarios")) readScenarios(*node);
     if (const toml::node* node = table.get("bindings")) readBindings(*node);
@@ -184,6 +186,14 @@ private:
     addSetting("nc", *text, node);
   }
 
+  void readEncoding(const toml::node& node) {
+    constexpr std::string_view kExpected = "the name of an encoding, such as \"gb18030\"";
+    const auto text = textOf("encoding", node, kExpected);
+    if (!text) return;
+    if (!knowsEncoding(*text)) return wrong("encoding", node, kExpected, fmt::format("'{}'", *text));
+    addSetting("encoding", *text, node);
+  }
+
   void readScenarios(const toml::node& node) {
     forTexts("scenarios", node, "[\"*.scn\"]", [&](const std::string& pattern, const toml::node& element) {
       const std::vector<std::string> found = matchPattern(project_.folder, pattern);
@@ -244,8 +254,9 @@ private:
   void readConfig(const toml::node& node) {
     const toml::table* table = node.as_table();
     if (table == nullptr) return wrong("config", node, "a table, [config]", kindOf(node));
-    if (const toml::node* nc = table->get("nc"))
-      wrong("config", *nc, "keys of the dialect; write nc = before the tables", "nc");
+    for (const std::string_view key : {"nc", "encoding"})
+      if (const toml::node* own = table->get(key))
+        wrong("config", *own, fmt::format("keys of the dialect; write {} = before the tables", key), key);
     readSettings(*table, "");
   }
 

@@ -76,6 +76,10 @@ private:
     sources.includePaths = project_->includePaths;
     for (const project::Setting& setting : project_->config) sources.config[setting.key] = setting.value;
     options.config = sources.config;
+    const auto encoding = sources.config.find(std::string(nc::kEncodingKey.key));
+    if (encoding == sources.config.end()) return;
+    sources_.setEncoding(encoding->second);
+    sources.config.erase(encoding); // the texts that are sent are UTF-8
     options.includePaths = sources.includePaths;
   }
 

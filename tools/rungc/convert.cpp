@@ -57,7 +57,9 @@ int run(const ConvertOptions& options) {
   // With --json the diagnostics go to standard output: after a program there they would corrupt it.
   if (!options.source.json || !text || !options.out.empty()) printDiagnostics(diagnostics, sources, options.source);
   if (!text) return kWrong;
-  status = writeOutput(*text, options.out);
+  const auto bytes = sources.bytesOf(files->front(), *text);
+  if (!bytes) return environmentError("the encoding of the first file lacks characters of the others");
+  status = writeOutput(*bytes, options.out);
   const bool toFile = !options.out.empty() && options.out != "-";
   return toFile ? sayWrote(status, options.out, options.source) : status;
 }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <memory>
 
+#include "ir/support/check.h"
 #include "rtlib/host/file.h"
 #include "tools/rungc/commands.h"
 
@@ -29,11 +30,26 @@ bool isIn(const std::string& name, const std::string& folder) {
   return !relative.empty() && *relative.begin() != "..";
 }
 
+std::map<std::string, std::string> configOf(const project::Project& project) {
+  std::map<std::string, std::string> config;
+  for (const project::Setting& setting : project.config) config[setting.key] = setting.value;
+  return config;
+}
+
+// Of the project in whose folder the file is; nothing where there is none that can be read.
+std::map<std::string, std::string> configFor(const std::string& name) {
+  const auto found = project::findUpwards(fs::path(name).parent_path().string());
+  SourceManager sources;
+  Diagnostics diagnostics;
+  const auto project = found ? project::load(sources, *found, diagnostics) : std::nullopt;
+  return project ? configOf(*project) : std::map<std::string, std::string>();
+}
+
 // What the files of a project include from its folder; what lies elsewhere may be other people's.
 std::vector<std::string> includedFiles(const project::Project& project) {
   const frontend::Dialect& dialect = *frontend::findDialect(project.dialect);
   SourceManager sources;
-  const Result<std::vector<FileId>> files = compiler::addFiles(sources, project.files);
+  const Result<std::vector<FileId>> files = compiler::addFiles(sources, project.files, configOf(project));
   if (dialect.included == nullptr || !files.ok()) return {}; // a file that cannot be read is reported later
   std::vector<std::string> names = dialect.included(sources, files.value(), {.includePaths = project.includePaths});
   std::erase_if(names, [&](const std::string& name) { return !isIn(name, project.folder); });
@@ -88,7 +104,7 @@ int replace(const std::string& name, const std::string& text, const SourceOption
 
 int formatFile(const std::string& name, const FormatOptions& options) {
   SourceManager sources;
-  const Result<std::vector<FileId>> files = compiler::addFiles(sources, {name});
+  const Result<std::vector<FileId>> files = compiler::addFiles(sources, {name}, configFor(name));
   if (!files.ok()) return environmentError(files.error());
   const FileId file = files.value()[0];
   int status = kOk;
@@ -97,8 +113,10 @@ int formatFile(const std::string& name, const FormatOptions& options) {
   const bool changes = *text != sources.text(file);
   if (options.check && changes) fmt::print("{}\n", name);
   if (options.check) return changes ? kWrong : kOk;
-  if (options.toOutput || name == "-") return writeOutput(*text);
-  return changes ? replace(name, *text, options.source) : kOk;
+  const auto bytes = sources.bytesOf(file, *text);
+  RUNG_CHECK(bytes, "a formatter adds no characters");
+  if (options.toOutput || name == "-") return writeOutput(*bytes);
+  return changes ? replace(name, *bytes, options.source) : kOk;
 }
 
 // All of them, whatever is wrong with one.

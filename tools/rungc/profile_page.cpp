@@ -59,7 +59,7 @@ Result<std::string> profilePage(const profile::Profile& profile, const profile::
     return view::renderTable(listing, overlay);
   }
   SourceManager sources;
-  const Result<std::vector<FileId>> files = compiler::addFiles(sources, names);
+  const Result<std::vector<FileId>> files = compiler::addFiles(sources, names, compiled.options.config);
   if (!files.ok()) return failure(files.error());
   Diagnostics diagnostics;
   std::optional<view::Program> drawing =

@@ -310,7 +310,7 @@ private:
   std::string dialectProblem(const std::vector<std::string>& files) const {
     if (isSharedObject(files)) return {}; // the session looks at its tables
     SourceManager sources;
-    const Result<std::vector<FileId>> added = compiler::addFiles(sources, files);
+    const Result<std::vector<FileId>> added = compiler::addFiles(sources, files, {});
     if (!added.ok()) return added.error();
     return scenario::dialectProblem(sources, added.value().front(), session_.instance().program().dialect);
   }

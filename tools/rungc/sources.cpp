@@ -166,7 +166,7 @@ std::optional<std::vector<FileId>> addSources(SourceManager& sources, const Sour
   const auto pairs = configPairs(options.config, status);
   if (!pairs) return std::nullopt;
   for (const auto& [key, value] : *pairs) compile.config[key] = value;
-  const Result<std::vector<FileId>> files = compiler::addFiles(sources, options.files);
+  const Result<std::vector<FileId>> files = compiler::addFiles(sources, options.files, compile.config);
   if (!files.ok()) {
     status = environmentError(files.error());
     return std::nullopt;

@@ -124,8 +124,8 @@ compiler::CompileRequest requestOf(const Scenario& scenario, const CompileSettin
 
 // Nothing when one cannot be read.
 std::optional<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names,
-                                            CompileStep& step) {
-  Result<std::vector<FileId>> files = compiler::addFiles(sources, names);
+                                            const compiler::CompileRequest& request, CompileStep& step) {
+  Result<std::vector<FileId>> files = compiler::addFiles(sources, names, request.options.config);
   if (files.ok()) return std::move(files).value();
   step.files = names; // one that is missing may come
   step.environment = files.error();
@@ -147,10 +147,11 @@ CompileStep compileProgram(const Scenario& scenario, const std::vector<std::stri
   const Statement* named = firstOf(scenario, Kind::Program);
   if (programs.empty() && named != nullptr) names = programPaths(*named);
   SourceManager sources;
-  const auto files = addFiles(sources, names, step);
+  const compiler::CompileRequest request = requestOf(scenario, settings);
+  const auto files = addFiles(sources, names, request, step);
   if (!files) return step;
   Diagnostics diagnostics;
-  compileFiles(sources, *files, requestOf(scenario, settings), diagnostics, step);
+  compileFiles(sources, *files, request, diagnostics, step);
   std::vector<Reported> reported = reportedOf(diagnostics, sources);
   checkExpected(scenario, reported, step.problems);
   checkOthers(scenario, reported, sources, step.problems);
@@ -173,13 +174,13 @@ CompileStep compileNext(const Scenario& scenario, const Statement& s, const fron
                         const CompileSettings& settings) {
   CompileStep step;
   SourceManager sources;
-  const auto files = addFiles(sources, programPaths(s), step);
+  compiler::CompileRequest request = requestOf(scenario, settings);
+  const auto files = addFiles(sources, programPaths(s), request, step);
   if (!files) return step;
   if (std::string problem = dialectProblem(sources, files->front(), dialect.name); !problem.empty()) {
     step.problems.push_back(problemAt(s, std::move(problem)));
     return step;
   }
-  compiler::CompileRequest request = requestOf(scenario, settings);
   request.dialect = dialect.name;
   request.name.clear(); // another program than the project's
   Diagnostics diagnostics;

@@ -175,9 +175,9 @@ void Formatter::statement(std::string_view comment) {
 // A text that is not UTF-8 is read as such for the sake of what is reported; it is laid out as it is, as all characters
 // that a line is divided by are the same in all encodings.
 std::optional<std::string> format(SourceManager& sources, FileId file, Diagnostics& diagnostics) {
-  const std::string_view whole = sources.text(file), text = withoutEndMark(whole);
+  const std::string_view text = sources.text(file);
   const size_t before = diagnostics.errorCount();
-  const auto readableFile = readable(sources, file, Encoding::Detect, diagnostics);
+  const auto readableFile = readable(sources, file, diagnostics);
   if (!readableFile) return std::nullopt;
   std::string out = Formatter(sources, *readableFile, diagnostics).run();
   if (diagnostics.errorCount() != before) return std::nullopt;
@@ -186,7 +186,6 @@ std::optional<std::string> format(SourceManager& sources, FileId file, Diagnosti
     out = Formatter(sources, sources.addBuffer(std::string(sources.name(file)), std::string(text)), unheard).run();
     RUNG_CHECK(!unheard.hasErrors(), "words are the same in all encodings");
   }
-  if (text.size() != whole.size()) out += whole[text.size()];
   return out;
 }
 

@@ -6,7 +6,6 @@
 #include <unordered_set>
 #include <vector>
 
-#include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/symbols.h"
 #include "rtlib/nc/technol/exchange.h"
 
@@ -67,8 +66,7 @@ struct Program {
   // Files that were included, by path, as they are read: once, so that a mistake in one has one place. Nothing: no
   // text.
   std::unordered_map<std::string, std::optional<FileId>> includes;
-  uint32_t expanded = 0; // lines of macros
-  Encoding encoding = Encoding::Detect;
+  uint32_t expanded = 0;                 // lines of macros
   std::string axisNames;                 // of axes 1 and up, separated by blanks; empty: those of the rows
   std::string systemFolder;              // of included files named without a path; may be empty
   std::vector<std::string> includePaths; // looked through after the folders of the program and of the including file

@@ -8,7 +8,6 @@
 #include "frontend/dialects/technol/format.h"
 #include "frontend/dialects/technol/listing.h"
 #include "frontend/dialects/technol/lower/assemble.h"
-#include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/reader.h"
 #include "frontend/dialects/technol/reference.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
@@ -31,16 +30,6 @@ uint32_t periodOf(const CompileOptions& options, Diagnostics& diagnostics) {
   return technol::kDefaultPeriodUs;
 }
 
-technol::Encoding encodingOf(const CompileOptions& options, Diagnostics& diagnostics) {
-  const auto found = options.config.find("encoding");
-  if (found == options.config.end()) return technol::Encoding::Detect;
-  const technol::Encoding encoding = technol::encodingNamed(found->second);
-  if (encoding == technol::Encoding::Detect)
-    diagnostics.report(diag::OperandRange, options.placeOf("encoding"))
-        << "encoding " + found->second << nc::takesOf(*nc::findConfigKey(nc::technolConfigKeys(), "encoding"));
-  return encoding;
-}
-
 // "X Y Z A" of "XYZA".
 std::string axisNamesOf(const CompileOptions& options) {
   std::string names;
@@ -61,7 +50,6 @@ public:
       program_.systemFolder = folder->second;
     program_.axisNames = axisNamesOf(options_);
     program_.includePaths = options_.includePaths;
-    program_.encoding = encodingOf(options_, program_.diagnostics);
     technol::readProgram(program_, files_);
     period_ = periodOf(options_, program_.diagnostics);
     typed_ = technol::checkProgram(program_);

@@ -9,6 +9,7 @@ using enum ConfigForm;
 constexpr auto kCompiler = ConfigReader::Compiler;
 
 constexpr ConfigKey kKeys[] = {
+    kEncodingKey,
     {.key = "tmr.<N>",
      .reader = kCompiler,
      .takes = "milliseconds",

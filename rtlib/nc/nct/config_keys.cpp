@@ -9,6 +9,7 @@ using enum ConfigForm;
 constexpr auto kCompiler = ConfigReader::Compiler;
 
 constexpr ConfigKey kKeys[] = {
+    kEncodingKey,
     {.key = "PLCNVRAM",
      .reader = kCompiler,
      .takes = "a word after those of the signals, at most 9999",

@@ -10,11 +10,7 @@ using enum ConfigForm;
 constexpr auto kCompiler = ConfigReader::Compiler;
 
 constexpr ConfigKey kKeys[] = {
-    {.key = "encoding",
-     .reader = kCompiler,
-     .takes = "UTF-8, Windows-1250 or CP852",
-     .otherwise = "found out",
-     .doc = "of the source files"},
+    kEncodingKey,
     {.key = "period_us",
      .reader = kCompiler,
      .form = Whole,

@@ -57,8 +57,9 @@ files = ["main.plc", "more.plc"]
 include = ["common"]
 scenarios = ["*.scn", "tests/*.scn"]
 
-[config]
 encoding = "utf-8"
+
+[config]
 TOOL_LIFE = 90
 GAIN = 1.5
 const.CMD_CHIPS = 102

@@ -25,6 +25,31 @@ TEST(Source, LinesAndColumnsCountFromOne) {
   EXPECT_EQ(sources.lineCount(file), 4u);
 }
 
+TEST(Source, FilesAreUtf8WhateverTheyAreWrittenIn) {
+  SourceManager sources;
+  sources.setEncoding("windows-1250");
+  const FileId told = sources.addBytes("a.plc", "; encoding: gb18030\n; \xBC\xB1\n\x1A\0\xFF");
+  EXPECT_EQ(sources.text(told), "; encoding: gb18030\n; 急\n");
+  EXPECT_EQ(sources.bytesOf(told, "; 急停\n"), "; \xBC\xB1\xCD\xA3\n\x1A");
+  const FileId set = sources.addBytes("b.plc", "m\xEC\xEF");
+  EXPECT_EQ(sources.text(set), "měď");
+  EXPECT_EQ(sources.bytesOf(set, "急"), std::nullopt);
+  const FileId wrong = sources.addBytes("c.plc", "; encoding: gb18030\n\xFF");
+  ASSERT_TRUE(sources.undecoded(wrong));
+  EXPECT_EQ(sources.undecoded(wrong)->offset, 20u);
+  const FileId unknown = sources.addBytes("d.plc", "; encoding: klingon\n\xFF");
+  ASSERT_TRUE(sources.undecoded(unknown));
+  EXPECT_FALSE(sources.undecoded(unknown)->known);
+  EXPECT_FALSE(sources.undecoded(told) || sources.undecoded(set));
+}
+
+TEST(Source, ADosMarkEndsAFile) {
+  SourceManager sources;
+  const FileId file = sources.addBytes("a.lad", "one\n\x1A\x1A rest");
+  EXPECT_EQ(sources.text(file), "one\n");
+  EXPECT_EQ(sources.bytesOf(file, "two\n"), "two\n\x1A\x1A rest");
+}
+
 TEST(Source, EmptyFileHasOnePosition) {
   SourceManager sources;
   const FileId file = sources.addBuffer("empty", "");

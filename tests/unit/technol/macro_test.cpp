@@ -74,15 +74,11 @@ TEST_F(TechnolInclude, IsFoundInAnyCaseAndBesideTheProgramFirst) {
 }
 
 TEST(TechnolOptions, OfUnknownValueAreTold) {
-  for (const auto& [key, value] :
-       {std::pair("encoding", "CP437"), std::pair("period_us", "0"), std::pair("period_us", "2ms")}) {
+  for (const auto& [key, value] : {std::pair("period_us", "0"), std::pair("period_us", "2ms")}) {
     frontend::CompileOptions options;
     options.config[key] = value;
     EXPECT_EQ(compile({programText({})}, options).errors(), (Lines{"-:0 operand-range"})) << key << " " << value;
   }
-  frontend::CompileOptions options;
-  options.config["encoding"] = "windows-1250";
-  EXPECT_TRUE(compile({programText({})}, options).module);
 }
 
 TEST(TechnolMacros, OperandsLocalsAndNegation) {

@@ -416,7 +416,7 @@ void readProgram(Program& program, std::span<const FileId> files) {
     program.symbols.addFile();
   }
   for (uint32_t i = 0; i < files.size(); ++i)
-    if (const auto file = readable(program.sources, files[i], program.encoding, program.diagnostics)) {
+    if (const auto file = readable(program.sources, files[i], program.diagnostics)) {
       program.files[i].id = *file;
       FileReader(program, i).read();
     }

@@ -186,8 +186,7 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
 
 // What is wrong with a file is said at its first inclusion; what another one declares again is that one's mistake.
 void FileReader::readIncluded(const IncludedFile& file, SourceRange at, uint32_t depth) {
-  if (!file.again)
-    program_.includes.emplace(file.path, readable(program_.sources, *file.id, program_.encoding, program_.diagnostics));
+  if (!file.again) program_.includes.emplace(file.path, readable(program_.sources, *file.id, program_.diagnostics));
   const auto text = program_.includes.at(file.path);
   if (!text) return;
   including_.push_back(file.path);

@@ -54,7 +54,7 @@ Result<std::string> pageOf(const coverage::Program& program, const Origin& origi
     return view::renderTable(listing, overlay);
   }
   SourceManager sources;
-  const Result<std::vector<FileId>> files = compiler::addFiles(sources, program.files, options.config);
+  const Result<std::vector<FileId>> files = compiler::addFiles(sources, program.files, origin.options.config);
   if (!files.ok()) return files.failure();
   Diagnostics diagnostics;
   std::optional<view::Program> drawing =

@@ -12,9 +12,7 @@
 #include "rtlib/text/regular_file.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/coverage_overlay.h"
-#include "tools/view/drawn_program.h"
-#include "tools/view/html.h"
-#include "tools/view/overlay.h"
+#include "tools/rungc/page_with.h"
 
 namespace rung::rungc {
 namespace {
@@ -42,27 +40,6 @@ int checkLeast(const coverage::Totals& totals, double least) {
   check("coils on and off", totals.coils);
   check("conditions that decided", totals.decided);
   return status;
-}
-
-// The page of a program that was compiled so.
-Result<std::string> pageOf(const coverage::Program& program, const Origin& origin) {
-  const view::Overlay overlay = overlayOf(program);
-  const frontend::Dialect& dialect = *frontend::findDialect(origin.dialect);
-  if (!view::hasDrawing(dialect)) {
-    view::Listing listing = view::listingOf(program.files, dialect.title, origin.rows);
-    if (!origin.project.empty()) listing.title = origin.project;
-    return view::renderTable(listing, overlay);
-  }
-  SourceManager sources;
-  const Result<std::vector<FileId>> files = compiler::addFiles(sources, program.files, origin.options.config);
-  if (!files.ok()) return files.failure();
-  Diagnostics diagnostics;
-  std::optional<view::Program> drawing =
-      view::drawnProgram(sources, files.value(), dialect, origin.options, diagnostics);
-  if (!drawing) return failure(fmt::format("{} has changed while its scenarios ran", program.files[0]));
-  if (!origin.project.empty()) drawing->title = origin.project;
-  view::lay(overlay, *drawing);
-  return view::renderHtml(*drawing);
 }
 
 // "lathe.html", "lathe-2.html"
@@ -94,8 +71,7 @@ void CoverageRun::observe(scenario::RunOptions& run) {
   run.store = nullptr; // an engine of its own for each scenario: threads count apart
   run.engine.observer = [this](const compiler::Compiled& compiled) {
     const std::lock_guard lock(mutex_);
-    Origin origin{std::string(compiled.dialect->name), compiled.project, compiled.options, {}};
-    if (!view::hasDrawing(*compiled.dialect)) origin.rows = view::rowsOf(*compiled.module);
+    Origin origin{std::string(compiled.dialect->name), compiled.project, compiled.options};
     origin.options.configPlaces.clear(); // they are places in the sources of this compilation
     origins_.try_emplace(compiled.module->files, std::move(origin));
     return collection_.observe(*compiled.module, compiled.marks);
@@ -108,7 +84,9 @@ int CoverageRun::writePages(const coverage::Report& report, const std::string& p
   for (const coverage::Program& program : report.programs) {
     const auto origin = origins_.find(program.files);
     if (origin == origins_.end()) continue;
-    const Result<std::string> page = pageOf(program, origin->second);
+    const auto& [dialect, project, options] = origin->second;
+    const Result<std::string> page =
+        pageWith(overlayOf(program), program.files, *frontend::findDialect(dialect), options, project);
     if (!page.ok()) return environmentError(page.error());
     const std::string out = numbered(path, ++pages);
     if (const int status = writeFile(page.value(), out); status != kOk) return status;

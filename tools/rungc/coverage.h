@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "frontend/dialects/dialect.h"
 #include "tools/command-line/command_line.h"
 #include "tools/coverage/collector.h"
 #include "tools/scenario/runner.h"
-#include "tools/view/overlay.h"
 
 namespace rung::rungc {
 
@@ -30,7 +30,6 @@ struct Origin {
   std::string dialect;
   std::string project; // its name; empty: none
   frontend::CompileOptions options;
-  std::vector<view::TableRow> rows; // of a dialect without drawings
 };
 
 // Counts what scenarios run, on the interpreter alone.

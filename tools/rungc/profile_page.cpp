@@ -5,9 +5,8 @@
 #include <fmt/ranges.h>
 
 #include "tools/profile/text.h"
+#include "tools/rungc/page_with.h"
 #include "tools/scenario/compile_step.h"
-#include "tools/view/drawn_program.h"
-#include "tools/view/html.h"
 #include "tools/view/overlay.h"
 
 namespace rung::rungc {
@@ -51,23 +50,7 @@ Result<std::string> profilePage(const profile::Profile& profile, const profile::
   const scenario::CompileStep step = scenario::compileProgram(request.scenarios[0], request.programs, {});
   if (!step.program) return failure("the program has changed while its scenarios ran");
   const compiler::Compiled& compiled = *step.program;
-  const view::Overlay overlay = overlayOf(profile);
-  const std::vector<std::string>& names = compiled.module->files;
-  if (!view::hasDrawing(*compiled.dialect)) {
-    view::Listing listing = view::listingOf(names, compiled.dialect->title, view::rowsOf(*compiled.module));
-    if (!compiled.project.empty()) listing.title = compiled.project;
-    return view::renderTable(listing, overlay);
-  }
-  SourceManager sources;
-  const Result<std::vector<FileId>> files = compiler::addFiles(sources, names, compiled.options.config);
-  if (!files.ok()) return failure(files.error());
-  Diagnostics diagnostics;
-  std::optional<view::Program> drawing =
-      view::drawnProgram(sources, files.value(), *compiled.dialect, compiled.options, diagnostics);
-  if (!drawing) return failure("the program has changed while its scenarios ran");
-  if (!compiled.project.empty()) drawing->title = compiled.project;
-  view::lay(overlay, *drawing);
-  return view::renderHtml(*drawing);
+  return pageWith(overlayOf(profile), compiled.module->files, *compiled.dialect, compiled.options, compiled.project);
 }
 
 } // namespace rung::rungc

@@ -46,9 +46,7 @@ std::optional<Listing> listedProgram(SourceManager& sources, std::span<const Fil
                                      Diagnostics& diagnostics) {
   const auto module = dialect.compile(sources, files, options, diagnostics);
   if (module == nullptr) return std::nullopt;
-  std::vector<std::string> names;
-  for (const FileId file : files) names.emplace_back(sources.name(file));
-  return listingOf(names, dialect.title, rowsOf(*module));
+  return listingOf(sources, files, dialect.title, rowsOf(*module));
 }
 
 } // namespace rung::view

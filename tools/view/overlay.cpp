@@ -111,16 +111,19 @@ std::vector<TableRow> rowsOf(const ir::Module& module) {
   return list;
 }
 
-Listing listingOf(const std::vector<std::string>& files, std::string_view control, std::vector<TableRow> rows) {
-  Listing listing{titleOf(shownFiles(files)), std::string(control), std::move(rows), {}};
+Listing listingOf(const SourceManager& sources, std::span<const FileId> files, std::string_view control,
+                  std::vector<TableRow> rows) {
+  std::vector<std::string> names;
+  for (const FileId file : files) names.emplace_back(sources.name(file));
+  Listing listing{titleOf(shownFiles(names)), std::string(control), std::move(rows), {}};
   std::ranges::sort(listing.rows, {}, &TableRow::number); // as they are written, whatever routine comes first
-  SourceManager sources;
+  std::map<std::string_view, FileId> readable;            // the last of a name: what a dialect has made of its bytes
+  for (uint32_t i = 0; i < sources.fileCount(); ++i) readable[sources.name(FileId{i})] = FileId{i};
   for (const TableRow& row : listing.rows) {
+    const auto file = readable.find(row.place.file);
     const auto [text, isNew] = listing.texts.try_emplace(row.place.file);
-    if (!isNew) continue;
-    const Result<FileId> file = sources.addFile(row.place.file);
-    if (!file.ok()) continue;
-    LineReader lines(sources, file.value());
+    if (!isNew || file == readable.end()) continue;
+    LineReader lines(sources, file->second);
     for (SourceLine line; lines.next(line);) text->second.emplace_back(line.text);
   }
   std::erase_if(listing.texts, [](const auto& text) { return text.second.empty(); });

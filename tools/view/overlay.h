@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ir/core/module.h"
+#include "ir/support/source.h"
 #include "tools/view/html.h"
 #include "tools/view/program.h"
 
@@ -77,8 +78,9 @@ struct Listing {
   std::vector<TableRow> rows;
   std::map<std::string, std::vector<std::string>> texts; // lines, by path; a file that cannot be read is not there
 };
-// `files` are those that the program was made of.
-Listing listingOf(const std::vector<std::string>& files, std::string_view control, std::vector<TableRow> rows);
+// `files` are those that the program has been made of, from `sources`.
+Listing listingOf(const SourceManager& sources, std::span<const FileId> files, std::string_view control,
+                  std::vector<TableRow> rows);
 
 // A page in the look of renderHtml: the source by rung, with what was not seen of a rung's elements beside it. Nothing
 // is said of runs where the overlay is empty.

@@ -6,9 +6,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <set>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "ir/support/version.h"
@@ -191,8 +193,22 @@ std::optional<int> CommandLine::run(int argc, char** argv, const std::function<i
   const auto rest = argc > 1 ? rests_.find(argv[1]) : rests_.end();
   const int words = rest == rests_.end() ? argc : dashesIn(argc, argv);
   if (words < argc) rest->second->assign(argv + words + 1, argv + argc);
+  std::optional<int> decided;
   try {
-    app_->parse(words, argv);
+    decided = parse(words, argv, wrong);
+  } catch (const std::system_error&) { // of fmt::print
+    if (std::ferror(stdout) == 0) throw;
+  }
+  std::cout.flush();
+  std::fflush(stdout);
+  if (std::cout && std::ferror(stdout) == 0) return decided;
+  std::cerr << text_.name << ": cannot write to standard output\n";
+  return kEnvironment;
+}
+
+std::optional<int> CommandLine::parse(int argc, char** argv, const std::function<int(const WrongWords&)>& wrong) {
+  try {
+    app_->parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::RuntimeError& error) {
     return error.get_exit_code(); // the cause is printed

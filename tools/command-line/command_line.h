@@ -16,6 +16,8 @@ class Option;
 
 namespace rung::cli {
 
+enum ExitStatus { kOk = 0, kWrong = 1, kUsage = 2, kEnvironment = 3 };
+
 // An option or a word of a command, as a handle: a copy is the same one. Each call gives the option back.
 class Option {
 public:
@@ -112,10 +114,13 @@ public:
   void takeRest(Command command, std::vector<std::string>& words);
 
   // Runs the command that is named. The exit status where the command line itself decides it: --help, a wrong project;
-  // `wrong` is called for wrong words and gives it. Nothing where the command has run.
+  // `wrong` is called for wrong words and gives it. Nothing where the command has run, and all that it has printed has
+  // been written: else that is said here, and the status is kEnvironment.
   std::optional<int> run(int argc, char** argv, const std::function<int(const WrongWords&)>& wrong);
 
 private:
+  std::optional<int> parse(int argc, char** argv, const std::function<int(const WrongWords&)>& wrong);
+
   ProgramText text_;
   std::unique_ptr<CLI::App> app_;
   std::map<std::string, std::vector<std::string>*> rests_; // by command

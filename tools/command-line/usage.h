@@ -6,8 +6,6 @@
 
 namespace rung::cli {
 
-enum ExitStatus { kOk = 0, kWrong = 1, kUsage = 2, kEnvironment = 3 };
-
 // What is wrong, for standard error; where there are no words at all, the list of commands.
 std::string wrongUsage(const CommandLine& app, const WrongWords& words);
 

@@ -273,7 +273,11 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
     if constexpr (Looks) activity_->reach(memory, here);
     pc = functionOf(functions, here)(memory, ctx, here);
     if constexpr (Timed)
-      if (isLate()) return takesTooLong();
+      if (isLate()) {
+        const uint32_t stopped = takesTooLong();
+        ctx->fault.code = kMaxTimeFault;
+        return stopped;
+      }
     const uint32_t extra = ctx->extra_weight;
     if (extra != 0) {
       ctx->extra_weight = 0;

@@ -24,6 +24,8 @@ namespace rung::rt {
 inline constexpr uint32_t kUndescribedFault = 0xFFFFFFFEu;
 // The host's, of a machine that is too slow for the program: see host::Pace.
 inline constexpr uint32_t kOverrunFault = 0xFFFFFFFDu;
+// The host's, too: a slice took longer than its limit in time.
+inline constexpr uint32_t kMaxTimeFault = 0xFFFFFFFCu;
 
 // Where the run of a cut task is.
 struct PartState {
@@ -89,7 +91,7 @@ public:
     findPlain();
   }
   const NeededCopies* copies() const noexcept { return copies_; }
-  // What runs longer ends as if its budget were used up.
+  // What runs longer ends with kMaxTimeFault.
   void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
   // Another program takes over, between two passes: its memory, part states and room; the clock continues, a fault
   // stays. From then on the caller keeps the new ones alive, and no longer those of before.

@@ -163,7 +163,7 @@ namespace {
 // The same fault in the tables of another program. What that does not have is left open.
 rung_fault translated(const rung_fault& fault, const rung_program& from, const rung_program& to) {
   if (fault.code == RUNG_NONE) return fault;
-  const bool isHosts = fault.code == rt::kOverrunFault;
+  const bool isHosts = fault.code == rt::kOverrunFault || fault.code == rt::kMaxTimeFault;
   rung_fault out = {isHosts ? fault.code : rt::kUndescribedFault, RUNG_NONE, fault.line, RUNG_NONE};
   for (uint32_t i = 0; fault.code < from.fault_count && i < to.fault_count; ++i)
     if (std::strcmp(from.faults[fault.code], to.faults[i]) == 0) out.code = i;

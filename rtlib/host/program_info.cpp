@@ -90,10 +90,15 @@ std::string rungText(const rung_program& program, uint32_t rung, uint32_t line) 
   return text + ", " + program.files[info.file] + ":" + std::to_string(line != 0 ? line : info.first_line);
 }
 
+namespace {
+constexpr std::string_view kMaxTimeText = "max-time: the slice took longer than the limit of its host";
+} // namespace
+
 std::string faultText(const rung_program& program, const rung_fault& fault) {
   if (fault.code == RUNG_NONE) return {};
   if (fault.code == rt::kOverrunFault) return std::string(kOverrunText);
   std::string reason = fault.code < program.fault_count ? program.faults[fault.code] : "undescribed fault";
+  if (fault.code == rt::kMaxTimeFault) reason = kMaxTimeText;
   if (fault.task == RUNG_NONE) return reason; // the host stopped it
   return reason + " (" + rungText(program, fault.rung, fault.line) + ")";
 }

@@ -5,6 +5,11 @@ namespace rung::nc {
 namespace {
 
 // The host's, of every dialect.
+constexpr Fault kMaxTime = {"max-time",
+                            "A slice took longer than the limit that its host has set (rung_instance_limit, "
+                            "the parameter max-time of LinuxCNC's component, rung-run --max-time). The "
+                            "rung in brackets is where it was noticed. Look at loops around it, at what "
+                            "interrupts the thread, and at what a scan takes without a limit."};
 constexpr Fault kOverrun = {"overrun", "Many passes in a row, 500 unless the host says otherwise, began late "
                                        "by a pass or more. A shorter program, a longer "
                                        "period, or a look at what takes the time of the thread away."};
@@ -18,6 +23,7 @@ constexpr Fault kGsk[] = {
      "test again "
      "in "
      "the next one."},
+    kMaxTime,
     kOverrun};
 
 constexpr Fault kNct[] = {
@@ -26,6 +32,7 @@ constexpr Fault kNct[] = {
      "changes, or subroutines call far too much. The rung in brackets is the one where the budget of steps was used "
      "up. "
      "Inputs are constant during a run: a loop that waits for one never ends."},
+    kMaxTime,
     kOverrun};
 
 constexpr Fault kTechnol[] = {
@@ -46,6 +53,7 @@ constexpr Fault kTechnol[] = {
     {kTechnolWatchdog,
      "A module or an event procedure does not end: a jump leads backwards and its condition never changes. "
      "Waiting belongs in a mechanism (EX, TEX0, TIM), which continues in the next cycle."},
+    kMaxTime,
     kOverrun};
 
 } // namespace

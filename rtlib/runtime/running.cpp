@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/runtime/error.h"
@@ -252,6 +253,7 @@ int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info
     rung_fault_info out{.line = fault.line, .code = "", .file = "", .task = ""};
     if (fault.code < program.fault_count) out.code = program.faults[fault.code];
     if (fault.code == rt::kOverrunFault) out.code = "overrun";
+    if (fault.code == rt::kMaxTimeFault) out.code = "max-time";
     if (fault.task < program.task_count) out.task = program.tasks[fault.task].name;
     if (fault.rung < program.rung_count) {
       const rung_rung_info& rung = program.rungs[fault.rung];
@@ -259,7 +261,8 @@ int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info
       if (rung.file < program.file_count) out.file = program.files[rung.file];
       if (out.line == 0) out.line = rung.first_line;
     }
-    putText(out.text, host::faultText(program, fault));
+    if (info != nullptr && info->size > offsetof(rung_fault_info, text))
+      putText(out.text, host::faultText(program, fault));
     return giveStruct(info, out);
   });
 }

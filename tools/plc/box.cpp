@@ -2,6 +2,7 @@
 #include "tools/plc/box.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <new>
 #include <optional>
 #include <utility>
@@ -89,7 +90,8 @@ void Box::bindValues() {
     if (mapping::toProgram(link.direction)) {
       bind(link, values_[i], RUNG_TO_PROGRAM, link.scale);
       toProgram_.push_back(i);
-      feeds_.push_back({link.name, "pin " + map_.pins[link.pin].name});
+      feeds_.push_back({link.name, "pin " + map_.pins[link.pin].name, {}});
+      for (const uint32_t pin : link.bits) feeds_.back().bits.push_back(map_.pins[pin].name);
     }
     if (mapping::fromProgram(link.direction)) {
       bind(link, values_[i], RUNG_FROM_PROGRAM, link.scale);
@@ -100,7 +102,7 @@ void Box::bindValues() {
     const mapping::ConstLink& link = binding_.constants[i];
     constants_[i] = constant(link.type, link.value);
     bind(link, constants_[i], RUNG_TO_PROGRAM, 1);
-    feeds_.push_back({link.name, "a constant of the mapping file"});
+    feeds_.push_back({link.name, "a constant of the mapping file", {}});
   }
 }
 
@@ -177,7 +179,6 @@ void Box::reportFault() {
   const std::optional<rung_fault_info> info = reported_ ? std::nullopt : fault(); // or the scan thread has it
   if (!info) return;
   reported_ = true;
-  faultLine_.store(info->line, std::memory_order_relaxed);
   reports_.push_back(stopText(*info));
 }
 
@@ -283,7 +284,7 @@ bool Box::ends() noexcept {
   if (rung_instance_begin_power_off(plc_.handle()) == RUNG_LATER) return false;
   ended_.store(true, std::memory_order_release);
   // What the control runs first may have faulted: `serve` reports that as any other fault.
-  if (running() && (state().flags & RUNG_STATE_FAULTED) != 0) state_.store(State::Stopped, std::memory_order_release);
+  if (running() && (state().flags & RUNG_STATE_FAULTED) != 0) stop();
   return true;
 }
 
@@ -330,7 +331,7 @@ StepResult Box::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcep
   const int32_t status = due(plc_.handle(), ns);
   if (status == RUNG_FAULTED) {
     clearPins();
-    state_.store(State::Stopped, std::memory_order_release);
+    stop();
     return StepResult::Failed;
   }
   const bool wasDue = before.wait_ns <= ns;
@@ -338,6 +339,14 @@ StepResult Box::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcep
   if (wasDue && hasRun_) writePins(); // one that was stopped before its first slice has not written any
   pins_.write();
   return wasDue ? StepResult::Ran : StepResult::Waiting;
+}
+
+// By a fault. Its text, which takes memory, is for `serve`: the struct ends before it.
+void Box::stop() noexcept {
+  rung_fault_info info{};
+  info.size = offsetof(rung_fault_info, text);
+  if (rung_instance_fault(plc_.handle(), &info) == RUNG_OK) faultLine_.store(info.line, std::memory_order_relaxed);
+  state_.store(State::Stopped, std::memory_order_release);
 }
 
 rung_state Box::state() const noexcept {
@@ -426,7 +435,10 @@ int32_t Box::replace(Order& order) noexcept {
 int32_t Box::obeyRunning(Order& order) noexcept {
   rung_instance* plc = plc_.handle();
   switch (order.kind) {
-  case Order::Kind::State: order.state = state(); return RUNG_OK;
+  case Order::Kind::State:
+    order.state = state();
+    order.functions = functions_->state();
+    return RUNG_OK;
   case Order::Kind::Write: {
     order.state = state();
     const int32_t status = rung_instance_read(plc, order.cell, 0, 1, &order.former);

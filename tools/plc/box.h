@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,8 @@ public:
   StepResult stepFast(int64_t ns, bool reset = false) noexcept;
   // The program is not run any more: output pins have their safe values.
   void clearPins() noexcept;
+  // The scan thread: as they are at this moment. As many values as there are pins; nothing is read before `connect`.
+  void lookAtPins(std::span<Value> values) const noexcept { pins_.look(values); }
   // How long the program may run in a step before that counts as a fault; 0: its budgets alone count.
   void setTimeLimit(int64_t ns) noexcept {
     constexpr int64_t kHour = 3'600'000'000'000; // more is none
@@ -96,8 +99,9 @@ public:
   host::Clock& clock() const noexcept { return clock_; }
   // What is written into the program before every slice.
   struct Feed {
-    std::string name; // of the cell
-    std::string by;   // "pin door" or "a constant"
+    std::string name;              // of the cell
+    std::string by;                // "pin door" or "a constant of the mapping file"
+    std::vector<std::string> bits; // pins of its bits, from the lowest one on
   };
   const std::vector<Feed>& feeds() const noexcept { return feeds_; }
 
@@ -121,7 +125,7 @@ public:
 
   // While it does not run, for the thread that serves it.
   std::optional<rung_fault_info> fault() const noexcept;
-  // The line of the last fault that `serve` has reported; 0: none.
+  // The line of the last fault; 0: none. Any thread.
   uint32_t faultLine() const noexcept { return faultLine_.load(std::memory_order_relaxed); }
   // Of the instance; while it runs, for the scan thread.
   rung_state state() const noexcept;
@@ -146,6 +150,7 @@ private:
   void setPins(const mapping::PinLink& link, const Value& value) noexcept;
   int32_t start(std::string& problem); // the status, and why it is none
   std::string stopText(const rung_fault_info& fault) const;
+  void stop() noexcept;
   void reportFault();
   void reportSaving();
   void restart();
@@ -186,9 +191,9 @@ private:
   std::vector<std::string> reports_;
   uint32_t restarts_ = 0;
   std::string restartProblem_;
-  std::atomic<uint32_t> faultLine_{0};
   host::Alone scans_;  // the thread of the steps
   host::Alone serves_; // the thread of `serve` and `order`
+  std::atomic<uint32_t> faultLine_{0};
   std::atomic<State> state_{State::Running};
 };
 

@@ -21,6 +21,8 @@
 #include <thread>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "tools/host-devices/analog_pins.h"
 #include "tools/host-devices/host_devices.h"
 #include "tools/mapping/component_pins.h"
@@ -186,6 +188,12 @@ plc::Box::NewInstance withDevices(PlcInstance& c, const Image& image, mapping::F
   return [&c](const Image& of, const rung_instance_options& with) { return c.devices->instance(of, with); };
 }
 
+std::string apartText(const PlcInstance& c) {
+  return c.prefix + ".fast and " + c.prefix +
+         ".scan are in different threads, but work on the memory of one program; " +
+         "add both to one thread (addf), and start again";
+}
+
 // False: what is wrong has been reported.
 bool loadProgram(PlcInstance& c, const Request& request) {
   const Image* image = nullptr;
@@ -216,6 +224,10 @@ bool loadProgram(PlcInstance& c, const Request& request) {
   c.log = std::make_unique<remote::Log>(
       c.box->clock(), [&c](const std::string& line) { rtapi_print("%s: %s\n", c.prefix.c_str(), line.c_str()); });
   c.controller = std::make_unique<remote::Controller>(c.prefix, *c.box, *image, *c.log);
+  if (request.retain != nullptr) c.controller->keepHistory(std::string(request.retain) + ".messages");
+  c.controller->addToStatus([&c](nlohmann::json& status) {
+    if (c.apart.load()) status["not_run"] = apartText(c);
+  });
   return true;
 }
 
@@ -302,6 +314,7 @@ void runStep(PlcInstance& c, Function function, long periodNs) {
   if (!c.box->restarting()) c.box->setTimeLimit(int64_t{hal::u32(c.own(OwnPin::MaxTime))} * kNsInUs);
   const plc::StepResult result = runFunction(c, function, periodNs);
   const bool runs = c.box->running();
+  hal::setU32(c.own(OwnPin::FaultLine), c.box->faultLine()); // before `fault`, for which others wait
   hal::setBit(c.own(OwnPin::Fault), !runs);
   hal::setBit(c.own(OwnPin::Serving), runs && c.box->live().served.load(std::memory_order_acquire));
   hal::setBit(c.own(OwnPin::FunctionsBusy), runs && c.box->functions().busy());
@@ -359,9 +372,7 @@ void fast(void* argument, long periodNs) { call(*static_cast<PlcInstance*>(argum
 void reportApart(PlcInstance& c) {
   if (!c.apart.load() || c.apartReported) return;
   c.apartReported = true;
-  complain("%s: %s.fast and %s.scan are in different threads, but work on the memory of one program: it does not run. "
-           "Add both to one thread (addf), and start again\n",
-           kModule, c.prefix.c_str(), c.prefix.c_str());
+  complain("%s: the program does not run: %s\n", kModule, apartText(c).c_str());
 }
 
 void reportDevices(PlcInstance& c) {
@@ -372,7 +383,6 @@ void reportDevices(PlcInstance& c) {
 void serveOnce(PlcInstance& c) {
   reportApart(c);
   c.controller->serveProgram(c.server.get());
-  if (c.hasPins) hal::setU32(c.own(OwnPin::FaultLine), c.box->faultLine()); // else loading has failed
   reportDevices(c);
 }
 

@@ -72,6 +72,7 @@ TEST_F(RunnerTest, ATimeLimitStopsBetweenChunks) {
   r.setTimeLimit({.ns = 10'000, .nowNs = &tickingNs});
   EXPECT_FALSE(r.runTask(0));
   EXPECT_TRUE(r.faulted());
+  EXPECT_EQ(r.fault().code, kMaxTimeFault) << "it is not the budget that is used up";
   EXPECT_LT(memory[0], 15);
   r.reset();
   memory[0] = 15; // each run has its own time

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "rtlib/host/retained_cells.h"
+#include "rtlib/text/controls.h"
 #include "rtlib/text/number.h"
 #include "rung/types.hpp"
 
@@ -208,7 +209,8 @@ RetainedTaken takeRetained(std::string_view now, std::string_view former, std::s
                            std::span<const uint8_t> initial) {
   const std::optional<Cells> cells = read(now);
   const std::optional<Cells> formerCells = read(former);
-  if (!cells || !formerCells || cells->dialect != formerCells->dialect) return {};
+  if (!cells || !formerCells) return {};
+  if (cells->dialect != formerCells->dialect) return {.otherDialect = formerCells->dialect};
   Tables from(*formerCells);
   Tables to(*cells);
   if (image.size() != from.imageSize() || initial.size() != to.imageSize()) return {};
@@ -217,7 +219,7 @@ RetainedTaken takeRetained(std::string_view now, std::string_view former, std::s
   from.fill(image);
   const StateTransfer transfer(from.program(), to.program());
   transfer.run(from.block(), to.block());
-  return {true, to.image(), {transfer.changes().begin(), transfer.changes().end()}};
+  return {true, to.image(), {transfer.changes().begin(), transfer.changes().end()}, {}};
 }
 
 namespace {
@@ -251,6 +253,9 @@ void takeRetainedOf(const rung_program& program, const RetainMap& map, RetainIma
       takeRetained(map.layout().description, image.description, image.bytes, initialImage(program, map));
   image.found = taken.good;
   image.bytes = std::move(taken.image);
+  if (!taken.otherDialect.empty())
+    image.report += "; that one is of the dialect " + text::withoutControls(taken.otherDialect) + ", this one of " +
+                    program.dialect;
   if (image.found) image.report += "; its cells are taken by name and address" + textOf(taken.changes);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct RetainedTaken {
   bool good = false; // a description is none, the dialect is another, or an image has another size
   std::vector<uint8_t> image;
   std::vector<StateChange> changes;
+  std::string otherDialect; // of `former`, where that is why; else ""
 };
 RetainedTaken takeRetained(std::string_view now, std::string_view former, std::span<const uint8_t> image,
                            std::span<const uint8_t> initial);

@@ -210,7 +210,7 @@ class Retained(Cli):
         self.run_it(self.counter(), "--scans", "5")
         done = self.run_it(self.file("lamp.lad", LAMP))
         self.assertEqual(done.returncode, OK, done.stderr)
-        self.assertIn(b"made by a program with other retained cells; starting cold", done.stderr)
+        self.assertIn(b"made by a program with other retained cells; that one is of the dialect gsk, this one of nct; starting cold", done.stderr)
 
     def test_damaged_images(self):
         program = self.counter()

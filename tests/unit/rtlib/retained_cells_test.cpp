@@ -102,7 +102,9 @@ TEST(RetainedCells, WhatWasNotKeptStartsAnew) {
 TEST(RetainedCells, AnotherDialectAndAnotherSizeAreNotTaken) {
   const RetainLayout now = layoutOf([](TestProgram&) {});
   const RetainLayout other = layoutOf([](TestProgram& t) { t.dialect = "else"; });
-  EXPECT_THAT(takeRetained(now.description, other.description, kImage, kInitial).image, IsEmpty());
+  const RetainedTaken others = takeRetained(now.description, other.description, kImage, kInitial);
+  EXPECT_THAT(others.image, IsEmpty());
+  EXPECT_EQ(others.otherDialect, "else");
   EXPECT_THAT(takeRetained(now.description, now.description, Bytes(15), kInitial).image, IsEmpty());
 }
 

@@ -74,6 +74,7 @@ void Messages::use(host::Instance& instance, Places& places) noexcept {
   widen(list_, places.list);
   widen(cleared_, places.cleared);
   widen(sorted_, places.sorted);
+  endGone(instance);
 }
 
 uint32_t Messages::cell(uint32_t box, uint32_t word) const {
@@ -116,14 +117,25 @@ void Messages::accept(const rung_message& message) {
   if (list_.size() < list_.capacity()) list_.push_back({.code = code, .clearing = false, .message = message});
 }
 
+bool Messages::isWanted(uint32_t code) const noexcept {
+  for (uint32_t box = 0; box < cells(); ++box)
+    if (cell(box, kWantedWord) == code) return true;
+  return false;
+}
+
 // Where the program could not report the end of a message: no box wants it any more.
 void Messages::dropUnwanted() {
-  std::erase_if(list_, [&](const Entry& entry) {
-    for (uint32_t box = 0; box < cells(); ++box)
-      if (cell(box, kWantedWord) == entry.code) return false;
-    return true;
-  });
+  std::erase_if(list_, [&](const Entry& entry) { return !isWanted(entry.code); });
   changed_ = true;
+}
+
+void Messages::endGone(host::Instance& instance) noexcept {
+  for (const Entry& entry : list_) {
+    if (isWanted(entry.code)) continue;
+    rung_message end = entry.message;
+    end.op = RUNG_MESSAGE_CLEAR;
+    (void)instance.messages().push(end); // the list hears of it as of every other
+  }
 }
 
 namespace {

@@ -39,7 +39,8 @@ public:
 
   // The program's memory has been started.
   void powerOn();
-  // Of the program that runs now. Whichever has more room stays here.
+  // Of the program that runs now. Whichever has more room stays here. Messages that no box of it wants are cleared, by
+  // messages of the program: after a power-on there are none.
   void use(host::Instance& instance, Places& places) noexcept;
   // What the program sent.
   void accept(const rung_message& message);
@@ -63,6 +64,8 @@ private:
   uint32_t cell(uint32_t box, uint32_t word) const;
   void setShown(uint32_t box, bool shown);
   bool isShown(uint32_t code) const;
+  bool isWanted(uint32_t code) const noexcept;
+  void endGone(host::Instance& instance) noexcept;
   void remove(uint32_t code);
   void registered(uint32_t code);
   void dropUnwanted();

@@ -31,9 +31,9 @@ struct NctPlaces final : Places {
 
 // N_SIMU stays 0: the software does not run on the manufacturer's simulator (man. l.7927).
 void NctControl::prepare(host::Instance& instance, PowerOn kind) {
+  messages_.powerOn(); // those of the time before have ended: none is cleared
   Control::prepare(instance, kind);
   timeSlices_ = cycles_ = 0;
-  messages_.powerOn();
   for (NctFunctions& channel : functions_) channel.powerOn(instance);
   writeConstants();
   retainedLost_ = false;

@@ -459,6 +459,25 @@ class ClientOfDevice(ClientSide):
         cable.answer = lambda data: data
         self.sees((3, True), "D8:2", "X0.7")
 
+    def test_a_device_that_answers_too_slowly(self):
+        """Each answer in time, but not an exchange; then each answer too late."""
+        device = Device()
+        self.addCleanup(device.kill)
+        cable = Cable(device.port, lambda data: time.sleep(0.4) or data)
+        self.addCleanup(cable.close)
+        self.begin_with(cable.port)
+        slow = "the device answers, but too slowly: an exchange took "
+        self.assertTrue(wait_until(lambda: self.connection()["problem"].startswith(slow)), self.connection())
+        self.assertRegex(self.connection()["problem"], slow + r"\d{4,} ms, longer than its timeout of 1000 ms$")
+        self.assertTrue(wait_until(lambda: ": lost; its inputs have their safe values\n" in self.host.logged() and slow in self.host.logged()), self.host.logged())
+        cable.answer = lambda data: data
+        self.assertTrue(wait_until(lambda: self.connection()["problem"] == ""), self.connection())
+        cable.answer = lambda data: time.sleep(1.5) or data
+        late = ": no answer within 1000 ms; the device answers, but later than that"
+        self.assertTrue(wait_until(lambda: self.connection()["problem"].endswith(late)), self.connection())
+        cable.answer = lambda data: data
+        self.sees(True, "X0.7")
+
     def test_a_device_without_a_register(self):
         device = Device()
         self.addCleanup(device.kill)
@@ -636,6 +655,24 @@ class Memory(WithHost):
         self.assertFalse(self.path.exists())
         self.host = Host(BIN, PINS)  # for the end of the test
 
+    def test_something_else_in_its_place(self):
+        """It says what is there, writes nothing into it, and takes its place again when it has gone."""
+        self.begin_with_peer()
+        victim = Path("/dev/shm") / f"victim-{os.getpid()}"
+        victim.write_text("x" * 100)
+        self.addCleanup(victim.unlink)
+        for make, remove, what in ((self.path.mkdir, self.path.rmdir, ": it is a folder"),
+                                   (lambda: self.path.symlink_to(victim), self.path.unlink, ": it is a symbolic link"),
+                                   (lambda: os.link(victim, self.path), self.path.unlink, " is not a file of its own; remove it, or write another name")):
+            self.path.unlink()
+            make()
+            self.assertTrue(wait_until(lambda: self.connection()["problem"].endswith(f"/dev/shm/rung-{self.name}{what}")), self.connection())
+            self.host.pass_by(100)
+            self.assertTrue(self.connection()["problem"].endswith(what), self.connection())
+            self.assertEqual(victim.read_text(), "x" * 100)
+            remove()
+            self.is_made_anew()
+
     def test_a_head_that_is_written_over(self):
         self.begin_with_peer()
         struct.pack_into("6I", self.peer.map, 0, 1, 2, 3, 4, 5, 6)
@@ -657,7 +694,7 @@ class Memory(WithHost):
         self.addCleanup(victim.unlink)
         self.path.symlink_to(victim)
         try:
-            self.refused(f"cannot open /dev/shm/rung-{self.name}: Too many levels of symbolic links")
+            self.refused(f"cannot open /dev/shm/rung-{self.name}: it is a symbolic link")
             self.assertEqual(victim.read_text(), "x" * 100)
         finally:
             self.path.unlink()
@@ -848,6 +885,8 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
     def test_wrong_configurations_end_it(self):
         for options, status, text in ((["--config", "a=b"], USAGE, "--simulate"),
                                       (["--simulate", "--config", "dance=1"], USAGE, "--config: "),
+                                      (["--simulate", "--config", "messages=a.msg"], USAGE,
+                                       "messages is read by the compiler, not by the control: build the program with rungc build --config messages=a.msg"),
                                       (["--simulate", "--config", "param"], USAGE, "--config: found param, expected KEY=VALUE")):
             host = Host(BIN, "", options=options)
             log = host.logged()

@@ -1,6 +1,9 @@
 // See modbus_client.h. All that may wait here waits on the thread of the connection.
 #include "tools/connections/modbus_client.h"
 
+#include <poll.h>
+#include <sys/socket.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -20,7 +23,8 @@ using mapping::Area;
 constexpr int64_t kLongestWaitNs = 1'000'000'000; // for an answer
 constexpr int64_t kRetryNs = 100'000'000;         // until the next attempt to connect, at least
 constexpr int64_t kLookNs = 20'000'000;           // between two looks whether to end
-constexpr size_t kPlaceBytes = 5;                 // of a request: function, place and number
+constexpr int64_t kNsInMs = 1'000'000;
+constexpr size_t kPlaceBytes = 5; // of a request: function, place and number
 
 bool isRegister(Area area) { return area == Area::HoldingRegister || area == Area::InputRegister; }
 uint32_t lengthOf(const ExchangedPin& pin) { return isRegister(pin.place.area) ? registersOf(pin.place.format) : 1; }
@@ -42,6 +46,8 @@ const char* nameOf(Area area) {
   return "";
 }
 
+std::string inMs(int64_t ns) { return std::to_string(ns / kNsInMs) + " ms"; }
+
 void sleepUntil(int64_t end, const std::atomic<bool>& ending) {
   for (int64_t now = host::monotonicNs(); now < end && !ending; now = host::monotonicNs())
     host::sleepUntil(std::min(end, now + kLookNs));
@@ -53,11 +59,12 @@ ModbusClient::ModbusClient(const mapping::Connection& connection, Exchange& exch
     : exchange_(exchange), periodNs_(connection.periodNs),
       context_(modbus_new_tcp_pi(connection.host.c_str(), std::to_string(connection.port).c_str())),
       reads_(blocksOf(exchange.inputs(), false)), writes_(blocksOf(exchange.outputs(), true)),
-      bits_(MODBUS_MAX_READ_BITS), registers_(MODBUS_MAX_READ_REGISTERS), inputs_(exchange.inputs().size()) {
+      bits_(MODBUS_MAX_READ_BITS), registers_(MODBUS_MAX_READ_REGISTERS), inputs_(exchange.inputs().size()),
+      answerNs_(std::min(connection.timeoutNs, kLongestWaitNs)) {
   if (context_ == nullptr) throw std::bad_alloc();
   modbus_set_slave(context_.get(), connection.unit);
   unit_ = static_cast<uint8_t>(connection.unit);
-  const auto us = static_cast<uint32_t>(std::min(connection.timeoutNs, kLongestWaitNs) / 1000);
+  const auto us = static_cast<uint32_t>(answerNs_ / 1000);
   modbus_set_response_timeout(context_.get(), us / 1'000'000, us % 1'000'000);
 }
 
@@ -79,6 +86,7 @@ std::vector<ModbusClient::Block> ModbusClient::blocksOf(const std::vector<Exchan
 }
 
 void ModbusClient::run(const std::atomic<bool>& ending) noexcept {
+  ending_ = &ending;
   while (!ending) {
     const int64_t begin = host::monotonicNs();
     const bool good = (connected_ || connect()) && turn();
@@ -100,10 +108,17 @@ void ModbusClient::disconnect() {
   connected_ = false;
 }
 
+// Each answer may come in time, and all of them too late.
 bool ModbusClient::turn() {
+  const int64_t begin = host::monotonicNs();
   if (!write() || !read()) return false;
-  setProblem("");
-  exchange_.publish(inputs_, host::monotonicNs());
+  const int64_t now = host::monotonicNs();
+  waited_ = false;
+  setProblem(now - begin <= exchange_.timeoutNs()
+                 ? ""
+                 : "the device answers, but too slowly: an exchange took " + inMs(now - begin) +
+                       ", longer than its timeout of " + inMs(exchange_.timeoutNs()));
+  exchange_.publish(inputs_, now);
   return true;
 }
 
@@ -207,8 +222,25 @@ bool ModbusClient::takeBlock(const Block& block) {
 }
 
 bool ModbusClient::fail(const std::string& what) {
-  setProblem(what + ": " + modbus_strerror(errno));
+  if (errno != ETIMEDOUT || !connected_) {
+    setProblem(what + ": " + modbus_strerror(errno));
+    return false;
+  }
+  const std::string late = what + ": no answer within " + inMs(answerNs_);
+  if (!waited_) setProblem(late + (answersLater() ? "; the device answers, but later than that" : ""));
+  waited_ = true;
   return false;
+}
+
+// Once after a good exchange, as who waits cannot connect anew.
+bool ModbusClient::answersLater() {
+  constexpr int64_t kTimes = 3;
+  pollfd waiting{modbus_get_socket(context_.get()), POLLIN, 0};
+  bool answers = false;
+  for (int64_t left = kTimes * answerNs_; left > 0 && !answers && !*ending_; left -= kLookNs)
+    answers = poll(&waiting, 1, static_cast<int>(kLookNs / kNsInMs)) > 0;
+  char byte = 0;
+  return answers && recv(waiting.fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0; // else it has ended the connection
 }
 
 } // namespace rung::connections

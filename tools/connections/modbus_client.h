@@ -42,6 +42,7 @@ private:
   void begin(uint8_t function, const Block& block);
   bool ask();
   bool fail(const std::string& what);
+  bool answersLater();
 
   Exchange& exchange_;
   int64_t periodNs_;
@@ -54,6 +55,9 @@ private:
   std::vector<uint16_t> registers_; // of a block
   std::vector<double> inputs_;
   bool connected_ = false;
+  int64_t answerNs_;    // within which an answer is waited for
+  bool waited_ = false; // for a late answer, since the last good exchange
+  const std::atomic<bool>* ending_ = nullptr;
 };
 
 } // namespace rung::connections

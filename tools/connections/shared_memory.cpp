@@ -33,6 +33,12 @@ size_t sizeOf(const std::vector<ExchangedPin>& pins) {
   return (end + kAlignment - 1) / kAlignment * kAlignment;
 }
 
+std::string openProblem(int code) {
+  if (code == ELOOP) return "it is a symbolic link";
+  if (code == EISDIR) return "it is a folder";
+  return std::strerror(code);
+}
+
 } // namespace
 
 SharedMemory::SharedMemory(const mapping::Connection& connection, Exchange& exchange)
@@ -51,18 +57,20 @@ SharedMemory::~SharedMemory() {
 
 void SharedMemory::refuse(const std::string& found) const { throw std::runtime_error(title_ + ": " + found); }
 
-// shm_open follows no symbolic links.
+// shm_open follows no symbolic links. What is not ours is not kept open.
 void SharedMemory::open() {
-  file_ = Socket(shm_open(name_.c_str(), O_RDWR | O_CREAT, kMode));
-  if (file_.number() < 0) refuse("cannot open /dev/shm" + name_ + ": " + std::strerror(errno));
-  checkOwner();
-  if (flock(file_.number(), LOCK_EX | LOCK_NB) != 0)
+  file_ = Socket();
+  Socket file(shm_open(name_.c_str(), O_RDWR | O_CREAT, kMode));
+  if (file.number() < 0) refuse("cannot open /dev/shm" + name_ + ": " + openProblem(errno));
+  checkOwner(file.number());
+  if (flock(file.number(), LOCK_EX | LOCK_NB) != 0)
     refuse("another process uses /dev/shm" + name_ + "; end it, or give this one another name");
+  file_ = std::move(file);
 }
 
-void SharedMemory::checkOwner() {
+void SharedMemory::checkOwner(int file) const {
   struct stat about{};
-  if (fstat(file_.number(), &about) != 0 || !S_ISREG(about.st_mode) || about.st_nlink != 1)
+  if (fstat(file, &about) != 0 || !S_ISREG(about.st_mode) || about.st_nlink != 1)
     refuse("/dev/shm" + name_ + " is not a file of its own; remove it, or write another name");
   if (about.st_uid != geteuid())
     refuse("/dev/shm" + name_ + " belongs to user " + std::to_string(about.st_uid) + ", expected " +
@@ -123,12 +131,14 @@ void SharedMemory::run(const std::atomic<bool>& ending) noexcept {
       keep();
       kept = now;
     }
-    writeOutputs();
-    readInputs(now);
+    if (isOpen()) { // else `keep` tries again
+      writeOutputs();
+      readInputs(now);
+    }
     for (int64_t end = now + periodNs_, look = now; look < end && !ending; look = host::monotonicNs())
       host::sleepUntil(std::min(end, look + kLookNs));
   }
-  writeOutputs();
+  if (isOpen()) writeOutputs();
 }
 
 void SharedMemory::writeOutputs() {

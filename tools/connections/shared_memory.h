@@ -37,13 +37,14 @@ public:
 
 private:
   void open();
-  void checkOwner();
+  void checkOwner(int file) const;
   void layOut();
   void keep() noexcept;
   bool reserve(int64_t size) const;
   void writeOutputs();
   void readInputs(int64_t now);
   bool takeInputs();
+  bool isOpen() const { return file_.number() >= 0; }
   bool get(void* to, size_t size, uint32_t at) const;
   bool put(const void* from, size_t size, uint32_t at) const;
   [[noreturn]] void refuse(const std::string& found) const;

@@ -4,6 +4,7 @@
 #include <exception>
 #include <iterator>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rtlib/nc/config_key.h"
 #include "rtlib/runtime/surroundings.h"
 #include "tools/rung-run/simulation_plugin.h"
 #include "tools/sim/simulated_nc.h"
@@ -43,15 +45,27 @@ constexpr Statement kStatements[] = {
     {"plc-clear", [](auto& nc, auto& inside, const Arguments&) { return nc.plcCommand(inside, "clear"); }},
 };
 
+std::span<const nc::ConfigKey> keysOf(std::string_view dialect) {
+  if (dialect == "gsk") return nc::gskConfigKeys();
+  if (dialect == "nct") return nc::nctConfigKeys();
+  return nc::technolConfigKeys();
+}
+
 class SimulatedControl final : public Simulation {
 public:
-  explicit SimulatedControl(const char* dialect) : made_(sim::makeSimulatedNc(dialect)), nc_(*made_) {
+  explicit SimulatedControl(const char* dialect)
+      : keys_(keysOf(dialect)), made_(sim::makeSimulatedNc(dialect)), nc_(*made_) {
     // That of a dialect which also has one that scenarios play; the others know no such key.
     (void)nc_.config("nc", "simulated");
     nc_.setRealTime();
   }
 
-  std::string config(const std::string& key, const std::string& value) override { return nc_.config(key, value); }
+  std::string config(const std::string& key, const std::string& value) override {
+    const nc::ConfigKey* row = nc::findConfigKey(keys_, key);
+    if (row == nullptr || row->reader == nc::ConfigReader::Control) return nc_.config(key, value);
+    return key + " is read by the compiler, not by the control: build the program with rungc build --config " + key +
+           "=" + value + ", or run a project that has it in the table [config]";
+  }
 
   Instance instance(const Image& image, const rung_instance_options& options) override {
     rung_instance_options own = options;
@@ -80,6 +94,7 @@ public:
   }
 
 private:
+  std::span<const nc::ConfigKey> keys_;
   std::unique_ptr<sim::SimulatedNc> made_; // until the instance has it
   sim::SimulatedNc& nc_;
   rung_instance* instance_ = nullptr; // the host's

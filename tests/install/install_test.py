@@ -20,6 +20,7 @@ from patience import patience
 CMAKE = BUILD = SOURCE = None
 FOLDER = None  # temporary
 HOME = PREFIX = None  # in it: the working directory, and what is installed
+SAID = ""  # by the installation
 HIDE = []  # before a command: it does not see source and build
 SUFFIXES_OF_TEXT = {".cmake", ".pc", ".h", ".hpp", ".py", ".xml", ".svg", ".md", ".1", ".5", ".9", ""}
 
@@ -59,7 +60,8 @@ def setUpModule():
     unittest.addModuleCleanup(FOLDER.cleanup)
     HOME, PREFIX = Path(FOLDER.name) / "home", Path(FOLDER.name) / "prefix"
     HOME.mkdir()
-    run(CMAKE, "--install", BUILD, "--prefix", PREFIX, hidden=False)
+    global SAID
+    SAID = run(CMAKE, "--install", BUILD, "--prefix", PREFIX, hidden=False).stdout
     shutil.copytree(PREFIX / "share/doc/rung/examples", HOME / "examples")
     HIDE = hiding()
     for name in ("axis", "axis-2"):
@@ -191,7 +193,7 @@ class Command(unittest.TestCase):
         self.host_answers("examples/gsk-mill")
 
     def host_answers(self, program):
-        environment = {"RUNG_SOCKETS": str(HOME / "sockets"), "RUNG_COMPILE": str(PREFIX / "libexec/rung/rung-compile")}
+        environment = {"RUNG_SOCKETS": str(HOME / "sockets")}
         host = subprocess.Popen([*HIDE, PREFIX / "bin/rung-run", program, "examples/gsk-mill/mill.map", "--name", "mill"], cwd=HOME,
                                 env={"PATH": "/usr/bin:/bin", "HOME": str(HOME)} | environment, stderr=subprocess.PIPE, text=True)
         try:
@@ -286,6 +288,23 @@ class System(unittest.TestCase):
 
 
 class Places(unittest.TestCase):
+    def test_what_is_not_found_by_itself_is_said(self):
+        self.assertIn(f"Python finds the module rung by PYTHONPATH={PREFIX}/lib/python3/dist-packages\n", SAID)
+        if any(PREFIX.glob("lib/linuxcnc/modules/*")):
+            self.assertIn(f"sudo ln -sf {PREFIX}/lib/linuxcnc/modules/rung_hal.so /usr/lib/linuxcnc/modules/\n", SAID)
+
+    def test_below_usr_local_python_finds_it(self):
+        """Debian's own, which may not be the one of this test."""
+        debian = Path("/usr/bin/python3")
+        if not debian.exists() or "/usr/local/lib" not in subprocess.run([debian, "-c", "import sys; print(sys.path)"], capture_output=True, text=True).stdout:
+            self.skipTest("needs Debian's Python")
+        stage = Path(FOLDER.name) / "stage"
+        said = run(CMAKE, "--install", BUILD, "--prefix", "/usr/local", hidden=False, DESTDIR=str(stage)).stdout
+        folder, = {str(path.parent) for path in stage.glob("usr/local/lib/python3*/**/rung.py")}
+        path = subprocess.run([debian, "-c", "import sys; print(*sys.path, sep='\\n')"], capture_output=True, text=True).stdout.splitlines()
+        self.assertIn(folder.removeprefix(str(stage)), path)
+        self.assertNotIn("PYTHONPATH", said)
+
     def test_nothing_names_source_or_build(self):
         folders = [str(folder).encode() for folder in (SOURCE, BUILD)]
         looked = 0

@@ -25,24 +25,26 @@ std::string fileProblem(const std::string& path, const host::ProcessIds& ids) {
   return problem;
 }
 
+// What an unprivileged process takes.
+std::string chosenProgram() {
+  if (const char* named = secure_getenv("RUNG_COMPILE"); named != nullptr && *named == '/') return named;
+  for (const char* place : {"/rung-compile", "/../libexec/rung/rung-compile"}) {
+    std::string near = host::folderOfProgram() + place;
+    if (access(near.c_str(), F_OK) == 0) return near;
+  }
+  return kProgram;
+}
+
 } // namespace
 
 std::string compilerProgram(std::string& problem) {
   const host::ProcessIds ids = host::idsOfThisThread();
-  std::string path = kProgram;
-  if (host::isPrivileged(ids)) {
-    problem = host::rootsFileProblem(path);
-  } else {
-    const char* named = secure_getenv("RUNG_COMPILE");
-    const std::string beside = host::folderOfProgram() + "/rung-compile";
-    if (named != nullptr && *named == '/')
-      path = named;
-    else if (access(beside.c_str(), F_OK) == 0)
-      path = beside;
-    problem = fileProblem(path, ids);
-  }
+  const bool privileged = host::isPrivileged(ids);
+  std::string path = privileged ? kProgram : chosenProgram();
+  problem = privileged ? host::rootsFileProblem(path) : fileProblem(path, ids);
   if (problem.empty()) return path;
-  problem = "sources cannot be compiled here: " + path + ": " + problem + "; the package rung has this program";
+  problem = "sources cannot be compiled here: " + path + ": " + problem + "; the package rung has this program" +
+            (privileged ? "" : ", and the variable RUNG_COMPILE of the host names it elsewhere");
   return {};
 }
 

@@ -5,8 +5,9 @@
 namespace rung::sources {
 
 // Its path. An unprivileged process (rtlib/host/trust.h) takes the one of the environment variable RUNG_COMPILE, if
-// that is set, or else one beside its own program: a build that is not installed has it there. Empty, and `problem`
-// says why: it is not there, or others than root, or the process's own user, could have changed it.
+// that is set, or else one beside its own program, where a build has it, or where an installation below the prefix of
+// that program has it. Empty, and `problem` says why: it is not there, or others than root, or the process's own user,
+// could have changed it.
 std::string compilerProgram(std::string& problem);
 
 } // namespace rung::sources

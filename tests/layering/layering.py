@@ -55,7 +55,7 @@ OURS = ("tools/", "frontend/", "codegen/", "ir/", "rtlib/")
 HOSTS = ("tools/rung-hal", "tools/rung-run", "tools/connections", "tools/remote", "tools/sources", "tools/plc", "tools/mapping", "tools/services")
 IN_A_HOST_TOO = ("tools/rung-hal/", "tools/rung-run/", "tools/connections/", "tools/command-line/", "tools/remote/",
                  "tools/sources/", "tools/plc/", "tools/mapping/", "tools/toml/", "tools/control-files/", "tools/devices/", "tools/services/", "tools/host-devices/host_devices.h",
-                 "tools/host-devices/analog_pins.h", "rtlib/host/alone.h", "rtlib/host/clock.h", "rtlib/host/file.h", "rtlib/host/plugin.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
+                 "tools/host-devices/analog_pins.h", "rtlib/host/alone.h", "rtlib/host/clock.h", "rtlib/host/disk_file.h", "rtlib/host/file.h", "rtlib/host/plugin.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
                  "rtlib/text/", "ir/support/similar.h")  # the last: spelling suggestions
 # Devices know neither a program's memory nor a machine: numbers and structs go in and out. What connects them to a
 # program knows no simulation.

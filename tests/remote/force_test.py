@@ -59,12 +59,12 @@ class Forces(Forcing):
         self.wait(lambda: not self.get("Y0.0"))
         names = {force["name"]: force["value"] for force in json.loads(self.ctl("forced", "--json"))["forced"]}
         self.assertEqual(names, {"X0.0": True, "Y0.0": False})
-        self.assertEqual(self.ctl("unforce", "Y0.0"), "1 ended\n")
+        self.assertEqual(self.ctl("unforce", "Y0.0"), "Y0.0 is no longer forced\n")
         self.wait(lambda: self.get("Y0.0"))
         self.ctl("force", "Y0.0", "false")
-        self.assertEqual(self.ctl("unforce", "X0.0"), "1 ended\n")  # what is left needs code
+        self.assertEqual(self.ctl("unforce", "X0.0"), "X0.0 is no longer forced\n")  # what is left needs code
         self.assertEqual(self.ctl("forced").split(",")[0], "Y0.0 = false")
-        self.assertEqual(self.ctl("unforce", "--all"), "1 ended\n")
+        self.assertEqual(self.ctl("unforce", "--all").count("is no longer forced\n"), 1)
         self.wait(lambda: not self.get("X0.0"))
         self.assertIn("force Y0.0 to true", self.logged())
         self.assertScans()
@@ -138,7 +138,7 @@ class ForcesThatTakeTime(Forcing):
         for words in (("force", "X0.0", "true"), ("unforce", "X0.0")):
             self.assertIn("the code for another force is being made", self.ctl(*words, status=WRONG))
         self.assertEqual(self.ctl("forced"), "nothing is forced\n")
-        self.assertEqual(self.ctl("unforce", "--all"), "0 ended\n")
+        self.assertEqual(self.ctl("unforce", "--all"), "nothing was forced\n")
         self.assertEqual(self.refused(), "all forces have been ended meanwhile")
         self.ctl("force", "X0.0", "true")
 

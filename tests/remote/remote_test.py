@@ -139,7 +139,9 @@ class Host(unittest.TestCase):
 class Commands(Host):
     def test_status(self):
         text = self.ctl("status")
-        self.assertRegex(text, r"^host plc, program stuck, dialect gsk\nrunning: \d+ passes, \d+ missed, [\d.]+ s of its time\nevery 1000 us: \d+ steps, \d+ overruns, ")
+        self.assertRegex(text, r"^host plc, program stuck, dialect gsk\nrunning: \d+ scans, \d+ missed; program time [\d.]+ s\nsince the host started, every 1000 us: \d+ steps, \d+ overruns, ")
+        for words in (["--host", "plc", "status"], ["--json", "status"], ["--json", "--host", "plc", "get", "X0.0"]):  # as of other programs
+            self.ctl(*words)
         answer = json.loads(self.ctl("status", "--json"))
         self.assertEqual((answer["ok"], answer["scanned"], answer["faulted"]), (True, True, False))
         self.assertEqual(self.ctl("hosts"), "plc\n")
@@ -167,11 +169,12 @@ class Commands(Host):
         names = {force["name"]: force["value"] for force in json.loads(self.ctl("forced", "--json"))["forced"]}
         self.assertEqual(names, {"X0.0": True, "D8:2": 9})
         self.assertIn("X0.2 is never set or forced here", self.ctl("force", "X0.2", "1", status=WRONG))
-        self.assertEqual(self.ctl("unforce", "X0.0"), "1 ended\n")
+        self.assertEqual(self.ctl("unforce", "X0.0"), "X0.0 is no longer forced\n")
         self.wait(lambda: not self.get("Y0.0"))
         self.assertIn("X0.0 is not forced", self.ctl("unforce", "X0.0", status=WRONG))
-        self.assertEqual(self.ctl("unforce", "--all"), "1 ended\n")
+        self.assertEqual(self.ctl("unforce", "--all"), "D8:2 is no longer forced\n")
         self.assertEqual(self.ctl("forced"), "nothing is forced\n")
+        self.assertEqual(self.ctl("unforce", "--all"), "nothing was forced\n")
         self.ctl("unforce", status=USAGE)
 
     def test_stop_and_start(self):
@@ -196,6 +199,7 @@ class Commands(Host):
         self.ctl("set", "X0.1", "0")
         self.ctl("reset")
         self.wait(lambda: "\nrunning: " in self.ctl("status"))
+        self.assertRegex(self.ctl("status"), r"\nrunning: \d+ scans, \d+ missed since the last reset; program time ")
         self.assertFalse(self.get("X0.1"))
 
     def test_reload_and_rollback(self):
@@ -207,6 +211,8 @@ class Commands(Host):
         text = self.ctl("rollback")
         self.assertRegex(text, r"^kept: \d+ names, \d+ states of edges, timers and counters\nthe former program runs\n$")
         self.assertEqual(self.get("D8:2"), 7)
+        self.assertTrue(self.ctl("rollback").endswith("\nthe reloaded program runs again\n"))
+        self.assertTrue(self.ctl("rollback").endswith("\nthe former program runs\n"))
         self.assertEqual(self.ctl("reload", self.home / "none.so", status=ENVIRONMENT),
                          f"rungctl: there is no file {self.home}/none.so\n")
         junk = self.home / "junk.so"
@@ -299,12 +305,12 @@ class Commands(Host):
     def test_a_shadow_before_a_reload(self):
         other = self.program_with("LD   X0.0", "LDI  X0.0")
         text = self.ctl("reload", other, "--shadow", "25", status=WRONG)
-        self.assertIn("finished, ", text)
+        self.assertRegex(text, r"^shadow run finished: \d+ task runs compared, outputs that differ: 1\n")
         self.assertIn("Y0.0: false now, true in the new program\n", text)
         self.assertIn("nothing has changed", text)
         self.assertFalse(self.get("Y0.0"))
         text = self.ctl("reload", self.program, "--shadow", "25")
-        self.assertIn(", 0 differences\n", text)
+        self.assertRegex(text, r"^shadow run finished: \d+ task runs compared, no difference\n")
         self.assertTrue(text.endswith("the new program runs\n"))
         self.ctl("reload", other, "--shadow", "25", "--yes")
         self.wait(lambda: self.get("Y0.0"))
@@ -396,7 +402,7 @@ class Commands(Host):
     def test_a_trace_of_a_program_that_does_not_run_ends_too(self):
         self.ctl("set", "X0.1", "true")
         self.wait(lambda: "stopped by a fault" in self.ctl("status"))
-        self.assertIn(": 1 pass\n", self.ctl("trace", "X0.3", "-o", self.home / "none.vcd", "--for", "0.3"))
+        self.assertIn(": 1 scan\n", self.ctl("trace", "X0.3", "-o", self.home / "none.vcd", "--for", "0.3"))
 
     def test_an_interrupted_trace_has_all_that_came_before(self):
         out = self.home / "late.vcd"
@@ -424,7 +430,12 @@ class Commands(Host):
         self.assertEqual(changes, [["0", "0"], ["1", "0"], ["0", "0"], ["1", "0"]], done.stdout[:500] + done.stderr)
 
     def test_map(self):
-        self.assertEqual(self.ctl("map"), f"in    bit   run ({self.home}/plc.map:2)\nout   bit   lamp ({self.home}/plc.map:4)\n")
+        self.assertEqual(self.ctl("map"), f"in    bit   run = false   X0.0 ({self.home}/plc.map:2)\nout   bit   lamp = false  Y0.0 ({self.home}/plc.map:4)\n")
+        self.ctl("stop")
+        self.ctl("set", "Y0.0", "1")
+        self.ctl("start")
+        pins = json.loads(self.ctl("map", "--json"))["pins"]
+        self.assertEqual([(pin["name"], pin["uses"], pin["value"]) for pin in pins], [("run", ["X0.0"], False), ("lamp", ["Y0.0"], False)])
 
     def test_messages_are_followed(self):
         self.ctl("set", "X0.1", "1")
@@ -472,7 +483,7 @@ class Profile(Host):
 
         self.wait(lambda: executions() > 200)
         before = self.passes()
-        self.assertTrue(self.ctl("profile", "--reset").endswith("from now on they are counted anew\n"))
+        self.assertTrue(self.ctl("profile", "--reset").endswith("the counters start again from 0\n"))
         self.assertLessEqual(executions(), self.passes() - before)  # one a pass, and none of the 200
         self.assertIn(": clear the profile", self.logged())
 
@@ -492,6 +503,157 @@ class Alarms(Host):
             self.ctl("unforce", "X0.0")
             self.wait(lambda: not self.get("A0.2"))
         self.assertEqual(self.ctl("messages").count("message"), 2)
+
+
+class Pins(Host):
+    """Cells whose bits are pins, one by one."""
+    program_text = PROGRAM.replace("LD   X0.0\nOUT  Y0.0", "LD   X5.3\nOUT  Y5.1")
+    map = """[in]
+x5 = { type = "bit", name = "X5", bits = 6 }
+level = { type = "float", name = "D16:4", scale = 10 }
+[out]
+y5 = { type = "bit", name = "Y5", bits = 2 }
+[rungctl]
+allow = ["set"]
+"""
+
+    def test_the_pin_that_writes_a_bit_is_named(self):
+        for name, by in (("X5.0", "pin x5-0"), ("X5.4", "pin x5-4"), ("X5", "pins x5-0 to x5-5"), ("X5.7", "pins x5-0 to x5-5")):
+            self.assertIn(f"{name} is written before every slice by {by}: setting it has no effect", self.ctl("set", name, "1", status=WRONG))
+        self.assertIn("\npart of X4:2 is written before every slice, so setting it has no effect there: X5 by pins x5-0 to x5-5\n", self.ctl("set", "X4:2", "1"))
+
+    def test_the_map_shows_names_and_values(self):
+        lines = [line[:line.index(" (")] for line in self.ctl("map").splitlines()]
+        self.assertEqual(lines, [f"in    bit   x5-{bit} = false  bit {bit} of X5" for bit in range(6)] +
+                         ["in    float level = 0.0   D16:4"] + [f"out   bit   y5-{bit} = false  bit {bit} of Y5" for bit in range(2)])
+
+
+class FullDisk(Host):
+    """What rungctl prints goes to a full disk: each command says so."""
+    map = MAP.replace('allow = [', 'allow = ["serve", ')
+    build_options = ("--profile",)
+    commands = {"hosts": [], "status": [], "messages": [], "get": ["X0.0"], "watch": ["X0.0"], "trace": ["X0.0", "-o", "{home}/full.vcd", "--for", "0.1"],
+                "set": ["D8:2", "1"], "event": ["reset"], "force": ["D8:2", "1"], "unforce": ["--all"], "forced": [], "reload": ["{program}"],
+                "rollback": [], "stop": [], "start": [], "reset": [], "map": [], "profile": [], "serve": [], "completion": ["bash"], "help": []}
+
+    def start(self):
+        self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc", "--simulate"],
+                                     stderr=self.log, env=self.environment, start_new_session=True)
+
+    def run_it(self, name, out):
+        words = [word.format(home=self.home, program=self.program) for word in self.commands[name]]
+        return subprocess.run(["timeout", "-s", "INT", "1", BIN / "rungctl", name, *words] if name == "watch" and out == subprocess.PIPE
+                              else [BIN / "rungctl", name, *words],
+                              stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.PIPE, text=True, timeout=patience(), env=self.environment)
+
+    def test_every_command(self):
+        self.ctl("set", "X0.1", "1")
+        self.wait(lambda: "has stopped" in self.ctl("messages"))
+        self.ctl("set", "X0.1", "0")
+        self.assertEqual(sorted(re.findall(r"^  rungctl (\S+) ", self.ctl("help"), re.MULTILINE)), sorted(self.commands), "commands without a line in this test")
+        for name in ("reset", *(name for name in self.commands if name != "reset")):
+            with self.subTest(command=name), open("/dev/full", "w") as full:
+                done = self.run_it(name, full)
+                self.assertEqual((done.returncode, done.stderr), (ENVIRONMENT, "rungctl: cannot write to standard output\n"))
+                if name not in ("reset", "stop", "start"):  # which the program does once
+                    self.assertNotEqual(self.run_it(name, subprocess.PIPE).stdout, "")
+
+
+class History(Host):
+    """Messages that came and went, over starts of the host."""
+    program_text = PROGRAM.replace("OUT  Y0.0", "OUT  A0.2\nLD   X0.4\nOUT  A0.3")
+
+    def setUp(self):
+        for path in self.home.glob("kept*"):
+            path.unlink()
+        super().setUp()
+
+    def start(self):
+        self.host = subprocess.Popen([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc", "--retain", self.home / "kept"],
+                                     stderr=self.log, env=self.environment, start_new_session=True)
+
+    def begin_again(self):
+        listened = self.logged().count("listening at")
+        self.start()
+        self.wait(lambda: self.logged().count("listening at") > listened)
+
+    def entries(self, *words):
+        return json.loads(self.ctl("messages", "--json", *words))["entries"]
+
+    def show(self, name, on):
+        self.ctl("set", name, on)
+        self.pass_by(2)
+
+    def test_came_and_went(self):
+        self.show("X0.4", 1)
+        self.wait(lambda: self.entries())
+        self.assertRegex(self.ctl("messages"), r"^\d{4}-\d\d-\d\d \d\d:\d\d:\d\d - on now    message 4\n$")
+        self.show("X0.4", 0)
+        self.wait(lambda: not self.entries()[0]["on"])
+        entry = self.entries()[0]
+        self.assertEqual((entry["text"], entry["kind"]), ("message 4", "message"))
+        self.assertLessEqual(entry["came"], entry["went"])
+        self.assertRegex(self.ctl("messages"), r"^\d{4}-\d\d-\d\d \d\d:\d\d:\d\d - (\S+ )?\d\d:\d\d:\d\d  message 4\n$")
+        self.assertEqual(self.ctl("messages", "--on"), "")
+        self.show("X0.4", 1)
+        self.wait(lambda: self.ctl("messages", "--on").endswith(" - on now    message 4\n"))
+        self.ctl("set", "X0.1", 1)
+        self.wait(lambda: "has stopped" in self.ctl("messages"))
+        self.assertEqual(self.ctl("messages", "--on").count("\n"), 1)
+        self.ctl("set", "X0.1", 0)
+        self.ctl("set", "X0.4", 0)
+        self.ctl("reset")
+        self.wait(lambda: self.ctl("messages", "--on") == "")
+
+    def test_followers_hear_of_both(self):
+        following = subprocess.Popen([BIN / "rungctl", "messages", "--follow"], stdout=subprocess.PIPE, text=True, env=self.environment)
+        self.addCleanup(following.stdout.close)
+        self.addCleanup(following.wait)
+        self.addCleanup(following.kill)
+        for on in range(50):  # until it follows
+            self.show("X0.4", on % 2)
+        lines = [following.stdout.readline() for _ in range(2)]
+        self.assertRegex(lines[0] + lines[1], r"message 4( has gone)?\n.*message 4( has gone)?\n")
+        self.assertEqual(sum("has gone" in line for line in lines), 1)
+
+    def test_a_regular_end_and_another_start(self):
+        self.show("X0.4", 1)
+        self.wait(lambda: self.entries())
+        self.end()
+        self.begin_again()
+        self.assertEqual(self.entries(), [])
+        entry, = self.entries("--history")
+        self.assertEqual((entry["text"], entry["on"], entry["cut"]), ("message 4", False, True))
+        self.assertLessEqual(entry["came"], entry["went"])
+        self.assertIn("  message 4, still on when the host ended\n", self.ctl("messages", "--history"))
+
+    def test_a_host_that_is_killed(self):
+        self.show("X0.4", 1)
+        path = self.home / "kept.messages"
+        self.wait(lambda: path.exists() and b"message 4" in path.read_bytes())
+        self.host.kill()
+        self.host.wait()
+        with open(path, "ab") as out:
+            out.write(b'{"n":9,"came":17')  # as when the power fails within a line
+        self.begin_again()
+        self.show("X0.4", 1)
+        self.wait(lambda: self.entries())
+        self.assertRegex(self.ctl("messages", "--history"), r"^\S+ \S+ - \?         message 4, still on when the host ended\n"
+                                                            r"\S+ \S+ - on now    message 4\n$")
+
+    def test_a_place_that_cannot_be_written(self):
+        path = self.home / "kept.messages"
+        self.end()
+        path.unlink(missing_ok=True)
+        path.mkdir()
+        self.begin_again()
+        self.show("X0.4", 1)
+        self.wait(lambda: "the history of messages is not kept: cannot read" in self.ctl("messages"))
+        self.assertIn("message 4\n", self.ctl("messages"))
+        self.assertIn("\nrunning: ", self.ctl("status"))
+        self.end()
+        path.rmdir()
+        self.begin_again()
 
 
 class Rights(Host):
@@ -543,7 +705,7 @@ class Named(Host):
                 ("symbol GO X0.0", "symbol GO Y0.5", "in.run.name: found GO, an output of the program")):
             with self.subTest(after=after):
                 answer = self.ctl("reload", self.program_with(before, after), "--yes", status=WRONG)
-                self.assertIn("the mapping file does not fit the new program: ", answer)
+                self.assertRegex(answer, r"^rungctl: the mapping file does not fit the new program:\n(\S+plc.map:\d+:\d+: .*\n)+nothing has changed\n$")
                 self.assertIn(text, answer)
                 self.assertIn("program stuck,", self.ctl("status"))
 
@@ -940,9 +1102,45 @@ wait
             (home / "m.map").write_text("")
             for option in ("--com", "--can", "--config"):
                 self.assertEqual(run(program, home / "m.map", "--simulate", option, "0")[0], USAGE)
-            status, text = run(program, home / "m.map", "--name", "../x")
-            self.assertEqual(status, USAGE)
-            self.assertIn("expected letters, digits, '-', '_' and '.'", text)
+            for name, wrong in (("../x", "expected letters, digits, '-', '_' and '.'"),
+                                ("x" * 200, "found a name of 200 characters for a host, expected at most 60")):
+                status, text = run(program, home / "m.map", "--name", name)
+                self.assertEqual(status, USAGE)
+                self.assertIn(wrong, text)
+
+    def test_retained_memory_in_use(self):
+        with tempfile.TemporaryDirectory() as folder:
+            home = Path(folder)
+            program = build(home)
+            (home / "m.map").write_text("")
+            environment = {**os.environ, "RUNG_SOCKETS": str(home / "sockets")}
+            words = [BIN / "rung-run", program, home / "m.map", "--retain", home / "kept", "--name"]
+            with subprocess.Popen([*words, "one"], env=environment, stderr=subprocess.PIPE, text=True) as first:
+                self.assertIn("listening at", first.stderr.readline())
+                done = subprocess.run([*words, "two"], env=environment, capture_output=True, text=True, timeout=patience())
+                first.kill()
+            self.assertEqual(done.returncode, ENVIRONMENT, done.stderr)
+            self.assertIn("kept", done.stderr)
+
+    def test_a_host_is_connected_with_once(self):
+        """One that it serves beside others is not taken up by looks whether it is there."""
+        with tempfile.TemporaryDirectory() as folder:
+            with socket.socket(socket.AF_UNIX) as host:
+                host.bind(f"{folder}/plc.sock")
+                host.listen()
+                for words in (["status"], ["--host", "plc", "status"]):
+                    asking = subprocess.Popen([BIN / "rungctl", *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                              env={**os.environ, "RUNG_SOCKETS": folder})
+                    client, _ = host.accept()
+                    client.sendall(b'{"rung":"host","protocol":1,"host":"plc"}\n')
+                    self.assertIn(b"status", client.recv(200))
+                    client.sendall(b'{"ok":true,"host":"plc","program":"p","dialect":"gsk"}\n')
+                    self.assertIn("host plc, program p", asking.communicate(timeout=patience())[0])
+                    client.close()
+                    host.settimeout(0)
+                    with self.assertRaises(BlockingIOError):
+                        host.accept()
+                    host.settimeout(patience())
 
 
 if __name__ == "__main__":

@@ -20,11 +20,26 @@ void FunctionQueue::restart() noexcept {
   for (size_t i = 0; i < aborts_.size(); ++i) wasAborted_[i] = !aborts_[i].rising;
 }
 
+FunctionState FunctionQueue::state() const noexcept {
+  FunctionState state{.oldest = {}, .count = count_, .lost = lost_};
+  for (uint32_t i = 0; i < std::min(count_, FunctionState::kMost); ++i) {
+    const Call& call = calls_[i];
+    const mapping::Send& send = sends_[call.send];
+    state.oldest[i] = {.kind = send.kind,
+                       .channel = send.channel,
+                       .code = call.code,
+                       .ageNs = call.ageNs,
+                       .begun = call.line.has_value(),
+                       .late = isLate(call)};
+  }
+  return state;
+}
+
 void FunctionQueue::sample(Pins& pins, int64_t ns) noexcept {
   late_ = false;
   for (uint32_t i = 0; i < count_; ++i) {
     calls_[i].ageNs += ns;
-    late_ = late_ || (timeoutNs_ != 0 && calls_[i].ageNs > timeoutNs_);
+    late_ = late_ || isLate(calls_[i]);
   }
   // First, so that what the same event sends, a spindle's stop, goes to the program at once.
   for (uint32_t i = 0; i < aborts_.size(); ++i) {

@@ -11,6 +11,7 @@
 
 #include "rung/runtime.h"
 #include "tools/mapping/file.h"
+#include "tools/plc/function_state.h"
 #include "tools/plc/pins.h"
 
 namespace rung::plc {
@@ -39,6 +40,7 @@ public:
   // caused one is still there when the queue has room, it is handed over then: what a pair of functions makes of a
   // level ends as the level does.
   uint32_t lost() const noexcept { return lost_; }
+  FunctionState state() const noexcept;
 
 private:
   struct Call {
@@ -53,6 +55,7 @@ private:
     return pins[edge.pin].bit == edge.rising;
   }
   Call callOf(uint32_t send, const Pins& pins) const noexcept;
+  bool isLate(const Call& call) const noexcept { return timeoutNs_ != 0 && call.ageNs > timeoutNs_; }
   bool queue(Call call) noexcept; // false: it found the queue full
   void withdraw(uint32_t send, Pins& pins) noexcept;
   void abort() noexcept;

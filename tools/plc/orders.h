@@ -10,12 +10,13 @@
 
 #include "rtlib/host/clock.h"
 #include "rung/runtime.h"
+#include "tools/plc/function_state.h"
 
 namespace rung::plc {
 
 struct Order {
   enum class Kind : uint8_t {
-    State,   // the instance's state
+    State,   // the instance's state, and that of functions
     Write,   // `value` into `cell`; `former` is what was there, `state` the instance's state then
     Forced,  // the force in effect number `index`
     Force,   // `forces` are in effect from now on; null: none
@@ -44,6 +45,7 @@ struct Order {
   // Results.
   rung_value former{};
   rung_state state{};
+  FunctionState functions;
   rung_force_info force{};
 };
 

@@ -45,6 +45,10 @@ void Pins::read() noexcept {
     if (pins_[i].isInput) pins_[i].value = access_->read(pins_[i].type, cells_[i]);
 }
 
+void Pins::look(std::span<Value> values) const noexcept {
+  for (size_t i = 0; i < pins_.size() && connected(); ++i) values[i] = access_->read(pins_[i].type, cells_[i]);
+}
+
 void Pins::write() noexcept {
   for (size_t i = 0; i < pins_.size(); ++i) {
     Pin& pin = pins_[i];

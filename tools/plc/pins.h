@@ -2,6 +2,7 @@
 // that all that looks at a pin within a step finds the same value. One thread at a time.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tools/plc/pin_cell.h"
@@ -18,6 +19,8 @@ public:
 
   // Those that bring something to the program; they are connected.
   void read() noexcept;
+  // All of them, as they are on the other side.
+  void look(std::span<Value> values) const noexcept;
   // Those that have been set since; they are connected.
   void write() noexcept;
 

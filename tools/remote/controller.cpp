@@ -20,8 +20,8 @@ using plc::Order;
 
 namespace {
 
-constexpr size_t kMostNames = 256;   // of a watch
-constexpr size_t kMostReports = 200; // messages that are kept
+constexpr size_t kMostNames = 256;  // of a watch
+constexpr size_t kMostRecent = 200; // messages of an answer without the history
 constexpr uint32_t kMostForces = 64;
 constexpr size_t kMostChanges = 1000; // that a report lists
 constexpr uint32_t kMostShadowPasses = 100'000;
@@ -203,7 +203,10 @@ Controller::Controller(std::string host, plc::Box& box, const Image& image, Log&
   programs_->serveForces(image);
 }
 
-Controller::~Controller() { programs_->abandon(); }
+Controller::~Controller() {
+  programs_->abandon();
+  history_.end(box_.clock().dateS());
+}
 
 json Controller::greeting() {
   return {
@@ -263,6 +266,24 @@ rung_program_info Controller::running() const {
   return info;
 }
 
+namespace {
+
+json jsonOf(const plc::FunctionState& functions) {
+  json list = json::array();
+  for (uint32_t i = 0; i < std::min(functions.count, plc::FunctionState::kMost); ++i) {
+    const plc::FunctionState::Function& function = functions.oldest[i];
+    list.push_back({{"function", mapping::kFunctionKinds[function.kind]},
+                    {"code", function.code},
+                    {"channel", function.channel + 1},
+                    {"us", function.ageNs / 1000},
+                    {"begun", function.begun},
+                    {"late", function.late}});
+  }
+  return {{"count", functions.count}, {"lost", functions.lost}, {"oldest", list}};
+}
+
+} // namespace
+
 json Controller::status(const Peer&, const json&) {
   const rung_program_info program = running();
   json out = {{"host", host_}, {"program", program.name}, {"dialect", dialect_}};
@@ -276,6 +297,8 @@ json Controller::status(const Peer&, const json&) {
   const uint32_t flags = order.state.flags;
   out["passes"] = order.state.passes;
   out["missed"] = order.state.missed;
+  out["restarts"] = box_.restarts();
+  out["functions"] = jsonOf(order.functions);
   out["us"] = order.state.now_us;
   out["stopped"] = (flags & RUNG_STATE_STOPPED) != 0;
   out["unsaved"] = (flags & RUNG_STATE_UNSAVED) != 0;
@@ -290,53 +313,101 @@ json Controller::status(const Peer&, const json&) {
   return out;
 }
 
+namespace {
+
+json jsonOf(const History& history, const History::Entry& entry) {
+  json out = {{"text", entry.text}, {"came", entry.cameS}, {"on", history.isOn(entry)}};
+  out["kind"] = entry.key ? "message" : "event";
+  if (entry.wentS) out["went"] = *entry.wentS;
+  if (entry.times != 1) out["times"] = entry.times;
+  if (entry.cut) out["cut"] = true;
+  return out;
+}
+
+// The last ones, unless `all` are asked for; what is on is always among them.
+std::vector<History::Entry> wantedOf(const History& history, bool all) {
+  std::vector<History::Entry> wanted;
+  size_t recent = 0;
+  for (const History::Entry& entry : history.shown())
+    if (history.entries().empty() || entry.number < history.entries().front().number) wanted.push_back(entry);
+  for (const History::Entry& entry : history.entries()) recent += history.isNew(entry) ? 1 : 0;
+  for (const History::Entry& entry : history.entries()) {
+    const bool isRecent = history.isNew(entry) && recent-- <= kMostRecent;
+    if (all || isRecent || history.isOn(entry)) wanted.push_back(entry);
+  }
+  return wanted;
+}
+
+std::string lineOf(int64_t seconds, const std::string& text) { return dateText(seconds) + " " + text; }
+
+} // namespace
+
 json Controller::messages(const Peer& peer, const json& request) {
+  const bool all = flagOf(request, "history");
   if (flagOf(request, "follow") && std::ranges::find(following_, peer.number) == following_.end())
     following_.push_back(peer.number);
-  json shown = json::array();
-  for (const auto& [key, text] : shown_) shown.push_back(text);
-  return {{"messages", reports_}, {"shown", shown}};
+  json lines = json::array(), entries = json::array(), shown = json::array();
+  for (const History::Entry& entry : wantedOf(history_, all)) {
+    lines.push_back(lineOf(entry.cameS, entry.text));
+    entries.push_back(jsonOf(history_, entry));
+  }
+  for (const History::Entry& entry : history_.shown()) shown.push_back(entry.text);
+  return {{"messages", lines}, {"entries", entries}, {"shown", shown}};
 }
 
 void Controller::serveProgram(Sink* sink) {
   std::vector<std::string> reports;
   const bool isStopped = !box_.running(); // a restart is done in this turn
   box_.serve(reports);
-  if (std::exchange(restarts_, box_.restarts()) != box_.restarts()) shown_.clear();
+  if (std::exchange(restarts_, box_.restarts()) != box_.restarts()) history_.goAll(box_.clock().dateS());
   for (const std::string& text : reports) report(text, sink);
   if (isStopped && !heldNames_.empty())
     report("the forces of " + joined(std::exchange(heldNames_, {}), ", ") + " have ended", sink);
   passMessages(sink);
+  keepHistory(sink);
   log_.tick();
+}
+
+void Controller::keepHistory(Sink* sink) {
+  const std::string problem = historyFile_ == nullptr ? "" : historyFile_->tick(box_.clock().dateS());
+  if (!problem.empty()) report(problem, sink);
 }
 
 // As many as fit into a turn: who waits for a restart or an answer does not wait for a program that never ends talking.
 void Controller::passMessages(Sink* sink) {
   constexpr int kMostMessages = 64;
   rung_message_info message{};
-  for (int i = 0; i < kMostMessages && box_.nextMessage(message); ++i) {
-    note(message);
-    if (message.op != RUNG_MESSAGE_CLEAR)
-      report(std::string("message ") + message.text, sink, message.op == RUNG_MESSAGE_LOG);
+  for (int i = 0; i < kMostMessages && box_.nextMessage(message); ++i) pass(message, sink);
+}
+
+void Controller::pass(const rung_message_info& message, Sink* sink) {
+  const History::Key key{message.number, message.channel, message.index};
+  const int64_t now = box_.clock().dateS();
+  if (message.op == RUNG_MESSAGE_CLEAR) {
+    if (const std::string text = history_.go(key, now); !text.empty()) tellFollowers(sink, "gone", text, false);
+    return;
   }
+  std::string text = std::string("message ") + message.text;
+  while (text.ends_with(' ')) text.pop_back(); // of a number without a text
+  const bool isNew = log_.line(text);
+  const bool isLogged = message.op == RUNG_MESSAGE_LOG;
+  if (!isLogged)
+    history_.come(key, text, now, !isNew);
+  else if (isNew)
+    history_.happen(text, now);
+  tellFollowers(sink, "message", text, isLogged);
 }
 
-// For those who come later.
-void Controller::note(const rung_message_info& message) {
-  constexpr size_t kMostShown = 1000;
-  const MessageKey key{message.number, message.channel, message.index};
-  if (message.op == RUNG_MESSAGE_CLEAR)
-    shown_.erase(key);
-  else if (message.op != RUNG_MESSAGE_LOG && shown_.size() < kMostShown)
-    shown_[key] = std::string("message ") + message.text;
+void Controller::report(const std::string& text, Sink* sink) {
+  if (log_.line(text)) history_.happen(text, box_.clock().dateS());
+  tellFollowers(sink, "message", text, false);
 }
 
-void Controller::report(const std::string& text, Sink* sink, bool logged) {
-  const std::string line = dateText(box_.clock().dateS()) + " " + text;
-  if (log_.line(text)) reports_.push_back(line);
-  if (reports_.size() > kMostReports) reports_.pop_front();
+// `logged`: for the log alone, not for the operator.
+void Controller::tellFollowers(Sink* sink, const char* event, const std::string& text, bool logged) {
   if (sink == nullptr) return;
-  for (const uint32_t peer : following_) sink->send(peer, {{"event", "message"}, {"text", line}, {"logged", logged}});
+  const std::string line = lineOf(box_.clock().dateS(), text);
+  for (const uint32_t peer : following_) sink->send(peer, {{"event", event}, {"text", line}, {"logged", logged}});
 }
 
 rung_cell_info Controller::describe(const std::string& name, int32_t access) const {
@@ -369,7 +440,17 @@ json Controller::watch(const Peer& peer, const json& request) {
   return {{"names", described}};
 }
 
-// The values at the end of a pass.
+std::string Controller::whyNoScanEnds() {
+  const std::optional<rung_state> now = stateNow();
+  if (!now) return "the thread that scans the program does not run";
+  if (const std::optional<rung_fault_info> fault = box_.running() ? std::nullopt : box_.fault())
+    return std::string("the program has not finished a scan: it is stopped by a fault: ") + fault->text;
+  if ((now->flags & RUNG_STATE_STOPPED) != 0)
+    return "the program has not finished a scan since it was switched on: it is stopped by the operator";
+  return "the program has not finished a scan within a second";
+}
+
+// The values at the end of a scan.
 json Controller::get(const Peer&, const json& request) {
   const std::vector<std::string> names = namesOf(request);
   if (box_.ended()) throw Refused("the program has been switched off");
@@ -378,7 +459,7 @@ json Controller::get(const Peer&, const json& request) {
   auto sample = sized<rung_sample>();
   const int64_t end = box_.clock().nowNs() + std::chrono::nanoseconds(plc::Box::kPatience).count();
   while (rung_watch_newest(once.watch, once.values.data(), &sample) != RUNG_OK) {
-    if (box_.clock().nowNs() >= end) throw Refused("no pass of the program has ended within a second");
+    if (box_.clock().nowNs() >= end) throw Refused(whyNoScanEnds());
     Order look{.kind = Order::Kind::State}; // waits for a step of the scan thread
     box_.order(look);
   }
@@ -411,15 +492,74 @@ void Controller::sendValues(Sink& sink) {
   }
 }
 
+namespace {
+
+// What the program has a pin for, as the mapping file says it: "DOOR", "bit 3 of X0", "M3", "done of M3".
+std::vector<std::string> usesOf(const mapping::File& map, uint32_t pin) {
+  std::vector<std::string> uses;
+  for (const mapping::Link& link : map.links) {
+    const auto bit = std::ranges::find(link.bits, pin);
+    if (bit != link.bits.end())
+      uses.push_back("bit " + std::to_string(bit - link.bits.begin()) + " of " + link.name);
+    else if (link.bits.empty() && link.pin == pin)
+      uses.push_back(link.name);
+  }
+  for (const mapping::Send& send : map.sends) {
+    const std::string kind(mapping::kFunctionKinds[send.kind]);
+    const std::string function = send.codePin ? kind : kind + std::to_string(send.code);
+    if (send.edge.pin == pin) uses.push_back(function);
+    if (send.codePin == pin) uses.push_back("code of " + function);
+    if (send.donePin == pin) uses.push_back("done of " + function);
+  }
+  for (const mapping::Edge& abort : map.aborts)
+    if (abort.pin == pin) uses.emplace_back("abort");
+  for (const mapping::Connection& connection : map.connections)
+    if (connection.statusPin == pin) uses.push_back("status of " + connection.title());
+  return uses;
+}
+
+json jsonOf(mapping::PinType type, const plc::Value& value) {
+  switch (type) {
+  case mapping::PinType::Bit: return value.bit;
+  case mapping::PinType::S32: return value.s32;
+  case mapping::PinType::U32: return value.u32;
+  case mapping::PinType::Float: return toJson(RUNG_TYPE_F64, {.real = value.real});
+  }
+  return nullptr;
+}
+
+} // namespace
+
+// Empty: nobody scans the program.
+std::vector<plc::Value> Controller::pinValues() {
+  struct {
+    const plc::Box& box;
+    std::vector<plc::Value> values;
+  } looking{box_, std::vector<plc::Value>(box_.pins().size())};
+  Order look{.kind = Order::Kind::Act,
+             .act =
+                 [](void* actor) {
+                   auto& what = *static_cast<decltype(looking)*>(actor);
+                   what.box.lookAtPins(what.values);
+                 },
+             .actor = &looking};
+  return box_.order(look).ok() ? looking.values : std::vector<plc::Value>();
+}
+
 json Controller::map(const Peer&, const json&) {
   const mapping::File& map = box_.map();
+  const std::vector<plc::Value> values = pinValues();
   json pins = json::array();
-  for (const mapping::Pin& pin : map.pins)
+  for (uint32_t i = 0; i < map.pins.size(); ++i) {
+    const mapping::Pin& pin = map.pins[i];
     pins.push_back({{"name", pin.name},
                     {"type", mapping::pinTypeName(pin.type)},
                     {"table", mapping::tableName(pin.direction)},
+                    {"uses", usesOf(map, i)},
                     {"file", map.paths[pin.at.file]},
                     {"line", pin.at.line}});
+    if (!values.empty()) pins.back()["value"] = jsonOf(pin.type, values[i]);
+  }
   json allowed = json::array();
   for (size_t i = 0; i < std::size(mapping::kRemoteNames); ++i)
     if (map.allowed[i]) allowed.push_back(mapping::kRemoteNames[i]);
@@ -478,6 +618,20 @@ Controller::Share Controller::shareOf(const std::string& name, const std::vector
   return std::ranges::all_of(wanted, lies) ? Share::All : Share::Part;
 }
 
+// Of the pins for the bits of a cell those that write what is wanted; all of them where none has a bit of it.
+std::string Controller::writerOf(const plc::Box::Feed& feed, const std::vector<Range>& wanted) const {
+  if (feed.bits.empty()) return feed.by;
+  std::vector<std::string> pins;
+  for (const Range& held : rangesOf(feed.name))
+    for (uint64_t bit = 0; bit < feed.bits.size(); ++bit) {
+      const Range place{held.space, held.first + bit, 1};
+      const bool isWanted = std::ranges::any_of(wanted, [&](const Range& range) { return range.meets(place); });
+      if (isWanted && std::ranges::find(pins, feed.bits[bit]) == pins.end()) pins.push_back(feed.bits[bit]);
+    }
+  if (pins.empty()) pins = feed.bits;
+  return pins.size() == 1 ? "pin " + pins.front() : "pins " + pins.front() + " to " + pins.back();
+}
+
 // A value that would be gone before the program sees it, or of which a force keeps something. What is to be said of the
 // others: a part of the cell is written by pins, or "".
 std::string Controller::refuseWithoutEffect(const std::string& name) {
@@ -493,8 +647,9 @@ std::string Controller::refuseWithoutEffect(const std::string& name) {
   for (const plc::Box::Feed& feed : box_.feeds()) {
     const Share share = shareOf(feed.name, wanted);
     if (share == Share::All)
-      throw Refused(name + " is written before every slice by " + feed.by + ": setting it has no effect");
-    if (share == Share::Part) kept += (kept.empty() ? "" : ", ") + feed.name + " by " + feed.by;
+      throw Refused(name + " is written before every slice by " + writerOf(feed, wanted) +
+                    ": setting it has no effect");
+    if (share == Share::Part) kept += (kept.empty() ? "" : ", ") + feed.name + " by " + writerOf(feed, wanted);
   }
   return kept.empty()
              ? ""
@@ -658,10 +813,12 @@ json Controller::unforce(const Peer& peer, const json& request) {
   std::vector<HeldCell> left;
   std::ranges::copy_if(before, std::back_inserter(left),
                        [&](const HeldCell& cell) { return !all && cell.name != name; });
-  const size_t ended = before.size() - left.size();
-  if (!all && ended == 0) throw Refused(name + " is not forced");
-  json answer = {{"ended", ended}};
-  if (ended == 0) return answer;
+  json ended = json::array();
+  for (const HeldCell& cell : before)
+    if (all || cell.name == name) ended.push_back(cell.name);
+  if (!all && ended.empty()) throw Refused(name + " is not forced");
+  json answer = {{"ended", ended.size()}, {"names", ended}};
+  if (ended.empty()) return answer;
   return begin({.peer = peer,
                 .before = std::move(before),
                 .cells = std::move(left),
@@ -778,7 +935,8 @@ json Controller::reload(const Peer& peer, const json& request) {
   std::unique_ptr<rung_replacement, EndReplacement> replacement(made);
   const plc::Box::Losses pins = box_.lossesBy(made, image.program());
   if (!pins.mistakes.empty())
-    throw Refused("the mapping file does not fit the new program: " + joined(pins.mistakes, "; "));
+    throw Refused("the mapping file does not fit the new program:\n" + joined(pins.mistakes, "\n") +
+                  "\nnothing has changed");
   std::string lost;
   json report = reportOf(made, lost);
   report["program"] = next.text;
@@ -882,6 +1040,9 @@ json Controller::rollback(const Peer& peer, const json&) {
   std::string lost;
   const plc::Box::Losses pins = box_.lossesBy(replacement_.get());
   json report = reportOf(replacement_.get(), lost);
+  auto info = sized<rung_replacement_info>();
+  check(rung_replacement_report(replacement_.get(), &info));
+  report["again"] = info.next == info.program; // the reloaded program, which a rollback has taken away
   report["pins"] = pins.moved;
   report = putInPlace(replacement_.get(), pins.dead, std::move(report),
                       "the former program has taken over meanwhile: forces have ended");

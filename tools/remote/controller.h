@@ -1,18 +1,18 @@
 // What rungctl may ask of a program that runs between the pins of a host: docs/control-protocol.md lists it.
 #pragma once
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "rung/runtime.hpp"
 #include "tools/plc/box.h"
+#include "tools/remote/history.h"
+#include "tools/remote/history_file.h"
 #include "tools/remote/log.h"
 #include "tools/remote/programs.h"
 #include "tools/remote/server.h"
@@ -34,6 +34,8 @@ public:
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
 
+  // Messages are kept in this file, too. Before the first turn.
+  void keepHistory(const std::string& path) { historyFile_ = std::make_unique<HistoryFile>(history_, path); }
   // What the host adds to its status. Before the first request.
   void addToStatus(std::function<void(nlohmann::json&)> add) { addToStatus_ = std::move(add); }
 
@@ -107,6 +109,9 @@ private:
   std::vector<Range> rangesOf(const std::string& name) const;
   void refuseProtected(const std::string& name) const;
   std::string refuseWithoutEffect(const std::string& name);
+  std::string writerOf(const plc::Box::Feed& feed, const std::vector<Range>& wanted) const;
+  std::string whyNoScanEnds();
+  std::vector<plc::Value> pinValues();
   std::string endedForces();
   std::optional<rung_state> stateNow();
   void finishShadow(nlohmann::json report);
@@ -137,14 +142,15 @@ private:
   nlohmann::json begin(ForceChange change);
   void refusePending(const std::string& why);
   void passMessages(Sink* sink);
-  void note(const rung_message_info& message);
+  void pass(const rung_message_info& message, Sink* sink);
+  void tellFollowers(Sink* sink, const char* event, const std::string& text, bool logged);
+  void keepHistory(Sink* sink);
   void sendValues(Sink& sink);
   void compareShadow();
   void finishPending(Sink& sink);
   void endShadow();
   nlohmann::json shadowReport();
-  // `logged`: for the log alone, not for the operator.
-  void report(const std::string& text, Sink* sink, bool logged = false);
+  void report(const std::string& text, Sink* sink);
   nlohmann::json simple(plc::Order::Kind kind, const Peer& peer, const char* what);
   void logChange(const Peer& peer, const std::string& text);
 
@@ -156,12 +162,11 @@ private:
   std::function<void(nlohmann::json&)> addToStatus_;
   Event simulation_;                   // empty: there is none
   std::vector<std::string> heldNames_; // cells that are forced, as far as this thread has heard
-  std::deque<std::string> reports_;
-  using MessageKey = std::tuple<uint32_t, int32_t, int32_t>; // number, channel, index
-  std::map<MessageKey, std::string> shown_;                  // messages that are on
-  uint32_t restarts_ = 0;                                    // of the box, when they were noted
-  std::map<uint32_t, std::unique_ptr<Watching>> watching_;   // by peer
-  std::vector<uint32_t> following_;                          // messages
+  History history_;
+  std::unique_ptr<HistoryFile> historyFile_;               // null: it is in memory alone
+  uint32_t restarts_ = 0;                                  // of the box, when messages were noted
+  std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
+  std::vector<uint32_t> following_;                        // messages
   SourceDesk desk_;
   std::unique_ptr<Programs> programs_;
   std::unique_ptr<ForceChange> pending_; // for whose code the compiler is at work

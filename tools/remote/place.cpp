@@ -28,7 +28,7 @@ std::optional<mode_t> modeOfFolder(const std::string& path, uid_t user) {
   return about.st_mode & 0777;
 }
 
-void addHosts(const std::string& path, std::vector<std::string>& hosts) {
+void addPlaces(const std::string& path, std::vector<Place>& places) {
   const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir(path.c_str()), closedir);
   if (folder == nullptr && errno != ENOENT)
     throw std::runtime_error("cannot look for hosts in " + path + ": " + std::strerror(errno) +
@@ -36,8 +36,8 @@ void addHosts(const std::string& path, std::vector<std::string>& hosts) {
   if (folder == nullptr) return;
   while (const dirent* entry = readdir(folder.get())) {
     const std::string_view name = entry->d_name;
-    if (name.ends_with(kEnding) && isServed(path + "/" + entry->d_name))
-      hosts.emplace_back(name.substr(0, name.size() - kEnding.size()));
+    if (name.ends_with(kEnding))
+      places.push_back({std::string(name.substr(0, name.size() - kEnding.size())), path + "/" + entry->d_name});
   }
 }
 
@@ -84,14 +84,23 @@ bool isServed(const std::string& path) {
 std::string wrongHostName(const std::string& name) {
   constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
   constexpr size_t kLongest = 60; // a socket's path has 107 characters
-  const bool good = !name.empty() && name.size() <= kLongest && name[0] != '.' &&
-                    name.find_first_not_of(kAllowed) == std::string::npos;
+  if (name.size() > kLongest)
+    return "found a name of " + std::to_string(name.size()) + " characters for a host, expected at most " +
+           std::to_string(kLongest);
+  const bool good = !name.empty() && name[0] != '.' && name.find_first_not_of(kAllowed) == std::string::npos;
   return good ? "" : "found the name \"" + name + "\" of a host, expected letters, digits, '-', '_' and '.'";
+}
+
+std::vector<Place> placesOf(uid_t user) {
+  std::vector<Place> places;
+  for (const std::string& folder : socketFolders(user)) addPlaces(folder, places);
+  return places;
 }
 
 std::vector<std::string> hostsOf(uid_t user) {
   std::vector<std::string> hosts;
-  for (const std::string& folder : socketFolders(user)) addHosts(folder, hosts);
+  for (const Place& place : placesOf(user))
+    if (isServed(place.path)) hosts.push_back(place.host);
   std::ranges::sort(hosts);
   const auto twice = std::ranges::unique(hosts);
   hosts.erase(twice.begin(), twice.end());

@@ -22,7 +22,14 @@ bool isServed(const std::string& path);
 
 // A host's name: letters, digits, '-', '_' and '.', not at the beginning. "" or what is wrong with it.
 std::string wrongHostName(const std::string& name);
-// Those that run, sorted. Throws std::runtime_error where a folder is there and cannot be read.
+struct Place {
+  std::string host;
+  std::string path; // of its socket
+};
+// The sockets that are there, also of hosts that were killed. Throws std::runtime_error where a folder is there and
+// cannot be read.
+std::vector<Place> placesOf(uid_t user);
+// The hosts that run, sorted. Throws as placesOf.
 std::vector<std::string> hostsOf(uid_t user);
 
 // Makes the folder of a new host, for its user alone. Throws std::runtime_error where something else has its place.

@@ -86,6 +86,7 @@ public:
                {.periodNs = int64_t{options.periodUs} * 1000,
                 .earlyNs = int64_t{options.earlyUs} * 1000,
                 .thread = {.priority = options.priority, .lockMemory = options.lockMemory}}) {
+    if (!options.retain.empty()) controller_.keepHistory(options.retain + ".messages");
     controller_.addToStatus([this](nlohmann::json& status) {
       rung_run::addStatus(status, scans_.periodNs(), scans_.figures(), connections_.figures());
     });
@@ -273,49 +274,57 @@ int run(const Options& options) try {
 } // namespace
 
 int main(int argc, char** argv) {
-  cli::CommandLine app({.name = "rung-run",
-                        .description = "Runs a compiled PLC program with a mapping file on the machine's clock",
-                        .exitStatus = "0 ok, 1 the mapping file is wrong, 2 wrong usage, 3 environment",
-                        .guide = "docs/rung-run.md",
-                        .seeAlso = {"rungctl(1)", "rungc(1)", "rung-map(5)", "rung_hal(9)"}});
+  cli::CommandLine app(
+      {.name = "rung-run",
+       .description = "Run a PLC program on the machine's clock, with the pins of a mapping file",
+       .exitStatus = "0 ok, 1 the mapping file is wrong, 2 wrong usage, 3 a file, the program or the system",
+       .guide = "docs/rung-run.md",
+       .seeAlso = {"rungctl(1)", "rungc(1)", "rung-map(5)", "rung_hal(9)"}});
   Options options;
   cli::Command command = app.root();
-  command.option("PROGRAM", options.program, "The compiled program (.so); or a source file, or a project").required();
-  command.option("MAP", options.map, "The mapping file").required();
-  command.option("--name", options.name, "The name for rungctl").showDefault();
-  command.option("--period", options.periodUs, "Microseconds between two looks at the clock")
+  command
+      .option("PROGRAM", options.program,
+              "Compiled program (.so), source file or project folder; sources are compiled first")
+      .required();
+  command.option("MAP", options.map, "Mapping file").required();
+  command.option("--name", options.name, "Name of this host for rungctl").showDefault();
+  command.option("--period", options.periodUs, "Period of the scan thread in microseconds; the program keeps its own")
       .between(50u, 100000u)
       .showDefault();
   command
       .option("--early", options.earlyUs,
-              "Microseconds before each look in which the thread is awake and reads what a scan reads; up to a quarter "
-              "of the period")
+              "Wake up this many microseconds early and bring the program into the caches; up to a quarter of the "
+              "period")
       .showDefault();
-  command.option("--catch-up", options.catchUp, "Passes that run one after the other where the machine was late")
+  command.option("--catch-up", options.catchUp, "Scans that may run one after another when the thread was late")
       .between(1u, 1000u)
       .showDefault();
   command
-      .option("--max-time", options.maxTimeUs,
-              "Microseconds that a slice of the program may take, else it has a fault; without it its budgets of steps "
-              "alone count")
+      .option(
+          "--max-time", options.maxTimeUs,
+          "Stop the program with a fault when a slice takes longer, in microseconds; without it only its step budget "
+          "is checked")
       .between(1u, 3'600'000'000u);
-  command.option("--retain", options.retain, "Keep the retained memory in FILE.a and FILE.b");
+  command.option("--retain", options.retain,
+                 "Keep the retained memory in FILE.a and FILE.b, and the history of messages in FILE.messages");
   command
-      .option("--priority", options.priority,
-              "Real-time priority, 1 to 99 (SCHED_FIFO); without it the ordinary scheduling")
+      .option("--priority", options.priority, "Real-time priority 1 to 99 (SCHED_FIFO); without it normal scheduling")
       .between(1, 99);
-  command.flag("--lock-memory", options.lockMemory, "Keep all memory in RAM");
+  command.flag("--lock-memory", options.lockMemory, "Lock all memory in RAM");
   const cli::Option simulate =
       command.flag("--simulate", options.simulate, "Simulate the control of the program's dialect");
-  command.option("--can", options.can, "CHANNEL=INTERFACE: CAN channel 1 or 2 of TECHNOL, 2=can0; may be repeated")
+  command
+      .option("--can", options.can, "CHANNEL=INTERFACE: TECHNOL's CAN channel 1 or 2, such as 2=can0; may be repeated")
       .excludes(simulate);
-  command.option("--com", options.com, "PORT=DEVICE: serial port 0 to 15 of TECHNOL, 1=/dev/ttyUSB0; may be repeated")
+  command
+      .option("--com", options.com,
+              "PORT=DEVICE: TECHNOL's serial port 0 to 15, such as 1=/dev/ttyUSB0; may be repeated")
       .excludes(simulate);
-  command.option("--sa-file", options.sharedFile, "File of TECHNOL's shared areas, which other programs map")
+  command.option("--sa-file", options.sharedFile, "File of TECHNOL's shared areas, for other programs to map")
       .excludes(simulate);
   command.option("--config", options.config,
-                 "KEY=VALUE of the devices of TECHNOL, or of the simulated control; may be repeated");
-  command.flag("--unsealed", options.unsealed, "Load a program that has no seal");
+                 "KEY=VALUE: configure TECHNOL's devices, or the simulated control; may be repeated");
+  command.flag("--unsealed", options.unsealed, "Load a program without a seal");
   command.onParsed([&command, &options] {
     if (!command.given("--retain") || !options.retain.empty()) return cli::kOk;
     print("--retain: found an empty name, expected FILE");

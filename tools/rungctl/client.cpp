@@ -8,9 +8,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "tools/remote/controller.h"
 #include "tools/remote/place.h"
@@ -30,38 +33,57 @@ std::string strangerOf(int made) {
   return "belongs to user " + std::to_string(who.uid) + ", and is not used";
 }
 
+// -1 with errno: nobody listens there.
 int connected(const std::string& path) {
   const sockaddr_un address = remote::socketAddress(path);
   const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
-    if (const std::string wrong = strangerOf(made); !wrong.empty()) {
-      close(made);
-      throw std::runtime_error("the host at " + path + " " + wrong);
-    }
-    return made;
+  if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    const int problem = errno;
+    close(made);
+    errno = problem;
+    return -1;
   }
-  const int problem = errno;
-  close(made);
-  throw std::runtime_error("cannot reach a host at " + path + ": " + std::strerror(problem) +
-                           "; is it running, and yours?");
+  if (const std::string wrong = strangerOf(made); !wrong.empty()) {
+    close(made);
+    throw std::runtime_error("the host at " + path + " " + wrong);
+  }
+  return made;
 }
 
-// That of the name, or the only one.
-std::string chosen(const std::string& host) {
-  if (!host.empty()) return host;
-  const std::vector<std::string> hosts = remote::hostsOf(geteuid());
-  if (hosts.size() == 1) return hosts.front();
-  if (hosts.empty())
+Reached reachedBy(std::string host, int made) {
+  return {std::move(host), remote::Connection(made, remote::Connection::kLongestAnswer)};
+}
+
+Reached reach(const std::string& host) {
+  std::string problem;
+  for (const std::string& folder : remote::socketFolders(geteuid())) {
+    const std::string path = remote::socketPath(folder, host);
+    if (const int made = connected(path); made >= 0) return reachedBy(host, made);
+    if (problem.empty()) problem = "cannot reach a host at " + path + ": " + std::strerror(errno);
+  }
+  throw std::runtime_error(problem + "; is it running, and yours?");
+}
+
+// A host is connected with once: to look first whether it is there would make it serve two.
+Reached reachTheOnlyOne() {
+  std::vector<Reached> reached;
+  for (remote::Place& place : remote::placesOf(geteuid()))
+    if (const int made = connected(place.path); made >= 0) reached.push_back(reachedBy(std::move(place.host), made));
+  if (reached.size() == 1) return std::move(reached.front());
+  if (reached.empty())
     throw std::runtime_error(
         fmt::format("no host is running: no socket is in {}", fmt::join(remote::socketFolders(geteuid()), " or ")));
+  std::vector<std::string> hosts;
+  for (Reached& one : reached) hosts.push_back(std::move(one.host));
+  std::ranges::sort(hosts);
   throw std::runtime_error(fmt::format("several hosts are running; choose one by --host: {}", fmt::join(hosts, ", ")));
 }
 
 } // namespace
 
-Client::Client(const std::string& host)
-    : host_(chosen(host)),
-      connection_(connected(remote::socketOf(geteuid(), host_)), remote::Connection::kLongestAnswer) {
+Client::Client(const std::string& host) : Client(host.empty() ? reachTheOnlyOne() : reach(host)) {}
+
+Client::Client(Reached reached) : host_(std::move(reached.host)), connection_(std::move(reached.connection)) {
   const std::optional<json> first = next(kAnswer);
   if (!first) throw std::runtime_error("the host " + host_ + " does not answer");
   if (first->contains("error")) throw std::runtime_error((*first)["error"].get<std::string>());

@@ -11,9 +11,16 @@
 
 namespace rung::rungctl {
 
+// A host, and the connection with it.
+struct Reached {
+  std::string host;
+  remote::Connection connection;
+};
+
 class Client {
 public:
-  // Throws std::runtime_error: there is no host, or not this one, or it speaks another protocol.
+  // The host of this name, or the only one where it is empty. Throws std::runtime_error: there is no host, or not this
+  // one, or it speaks another protocol.
   explicit Client(const std::string& host);
 
   const nlohmann::json& greeting() const { return greeting_; }
@@ -29,6 +36,7 @@ public:
   remote::Connection& connection() { return connection_; }
 
 private:
+  explicit Client(Reached reached);
   std::optional<nlohmann::json> next(std::chrono::milliseconds wait);
 
   std::string host_;

@@ -1,8 +1,10 @@
 // rungctl: looks at and changes a program that runs in a host, by the host's socket (docs/control-protocol.md).
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <functional>
 #include <iostream>
@@ -15,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/command-line/usage.h"
+#include "tools/remote/log.h"
 #include "tools/remote/place.h"
 #include "tools/rungctl/client.h"
 #include "tools/rungctl/relay.h"
@@ -47,15 +50,16 @@ std::string clockOf(const json& answer) {
   if (!answer.contains("clock")) return {};
   const json& clock = answer["clock"];
   const auto figure = [&](const char* key) { return clock.value(key, 0.0); };
-  std::string text =
-      fmt::format("every {:.0f} us: {} steps, {} overruns, from step to step {:.1f} to {:.1f} us\n"
-                  "start late: 99% within {:.1f} us, 99.9% within {:.1f} us, the latest {:.1f} us\n"
-                  "a step took {:.1f} us on average; the longest:",
-                  figure("period_us"), clock.value("steps", uint64_t{0}), clock.value("overruns", uint64_t{0}),
-                  figure("shortest_period_us"), figure("longest_period_us"), figure("late_99_us"),
-                  figure("late_999_us"), figure("latest_us"), figure("mean_us"));
+  std::string text = fmt::format(
+      "since the host started, every {:.0f} us: {} steps, {} overruns, from step to step {:.1f} to {:.1f} us\n"
+      "start late: 99% within {:.1f} us, 99.9% within {:.1f} us, the latest {:.1f} us\n"
+      "a step took {:.1f} us on average; the longest:",
+      figure("period_us"), clock.value("steps", uint64_t{0}), clock.value("overruns", uint64_t{0}),
+      figure("shortest_period_us"), figure("longest_period_us"), figure("late_99_us"), figure("late_999_us"),
+      figure("latest_us"), figure("mean_us"));
   for (const json& step : clock.value("worst", json::array()))
-    text += fmt::format(" {:.1f} us (at {:.3f} s)", step.value("us", 0.0), step.value("at_s", 0.0));
+    text += fmt::format("{} {:.1f} us (at {:.3f} s)", text.ends_with(')') ? "," : "", step.value("us", 0.0),
+                        step.value("at_s", 0.0));
   return text + "\n";
 }
 
@@ -78,33 +82,80 @@ std::string stopOf(const json& answer) {
                      problem.empty() ? "" : "the last restart has failed: " + problem + "\n");
 }
 
+// M, S and T functions on their way to the program: a line each, the oldest first.
+std::string functionsOf(const json& answer) {
+  std::string text;
+  const json functions = answer.value("functions", json::object());
+  const json oldest = functions.value("oldest", json::array());
+  for (const json& one : oldest) {
+    const uint64_t channel = one.value("channel", uint64_t{1});
+    text += fmt::format("{}{}{}: {} for {:.3f} s{}\n", shown(one["function"]), one["code"].dump(),
+                        channel == 1 ? "" : fmt::format(" in channel {}", channel),
+                        one.value("begun", false) ? "not finished by the program" : "waits for its turn",
+                        static_cast<double>(one.value("us", int64_t{0})) / 1e6,
+                        one.value("late", false) ? ", longer than the timeout of the mapping file" : "");
+  }
+  const auto count = functions.value("count", uint64_t{0});
+  if (count > oldest.size()) text += fmt::format("and {} functions more\n", count - oldest.size());
+  const auto lost = functions.value("lost", uint64_t{0});
+  if (lost != 0) text += fmt::format("functions lost since the host started: {}\n", lost);
+  return text;
+}
+
+std::string runningOf(const json& answer) {
+  return fmt::format("{}: {} scans, {} missed{}; program time {:.3f} s{}\n",
+                     answer.value("stopped", false) ? "stopped by the operator" : "running",
+                     answer.value("passes", uint64_t{0}), answer.value("missed", uint64_t{0}),
+                     answer.value("restarts", uint64_t{0}) != 0 ? " since the last reset" : "",
+                     static_cast<double>(answer.value("us", int64_t{0})) / 1e6,
+                     answer.value("unsaved", false) ? "; the retained memory cannot be written" : "");
+}
+
 int status(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "status"}});
   std::string text = fmt::format("host {}, program {}, dialect {}\n", shown(answer["host"]), shown(answer["program"]),
                                  shown(answer["dialect"]));
   if (answer.value("powered_off", false))
     text += "switched off: the program has had its regular end\n";
+  else if (answer.contains("not_run"))
+    text += "it does not run: " + shown(answer["not_run"]) + "\n";
   else if (!answer.value("scanned", false))
-    text += "nobody scans it: the host's thread does not run\n";
+    text += "not scanned: the thread of the host does not run\n";
   else if (answer.value("faulted", false))
     text += stopOf(answer);
   else
-    text += fmt::format("{}: {} passes, {} missed, {:.3f} s of its time{}\n",
-                        answer.value("stopped", false) ? "stopped by the operator" : "running",
-                        answer.value("passes", uint64_t{0}), answer.value("missed", uint64_t{0}),
-                        static_cast<double>(answer.value("us", int64_t{0})) / 1e6,
-                        answer.value("unsaved", false) ? "; the retained memory cannot be written" : "");
-  print(words, answer, text + clockOf(answer) + connectionsOf(answer));
+    text += runningOf(answer);
+  print(words, answer, text + functionsOf(answer) + clockOf(answer) + connectionsOf(answer));
   return cli::kOk;
 }
 
+// "2026-11-29 14:38:04 - 14:38:09  message 3 DOOR IS OPEN"
+std::string entryOf(const json& entry) {
+  constexpr size_t kDate = 11; // "2026-11-29 "
+  const std::string came = remote::dateText(entry.value("came", int64_t{0}));
+  std::string went;
+  if (entry.value("on", false))
+    went = "- on now";
+  else if (entry.contains("went"))
+    went = "- " + remote::dateText(entry["went"].get<int64_t>());
+  else if (entry.value("kind", "") == "message")
+    went = "- ?";
+  if (went.starts_with("- " + came.substr(0, kDate))) went.erase(2, kDate);
+  std::string text = fmt::format("{} {:<10}  {}", came, went, shown(entry["text"]));
+  if (const auto times = entry.value("times", uint64_t{1}); times != 1) text += fmt::format(" ({} times)", times);
+  return text + (entry.value("cut", false) ? ", still on when the host ended\n" : "\n");
+}
+
 int messages(Client& client, const Words& words) {
-  const json answer = asked(client, {{"do", "messages"}, {"follow", words.follow}});
+  const json answer = asked(client, {{"do", "messages"}, {"follow", words.follow}, {"history", words.all}});
   std::string text;
-  for (const json& message : answer["messages"]) text += shown(message) + "\n";
+  for (const json& entry : answer["entries"])
+    if (!words.on || entry.value("on", false)) text += entryOf(entry);
   print(words, answer, text);
-  while (words.follow && gStop == 0)
-    if (const std::optional<json> event = client.event(gStop)) print(words, *event, shown((*event)["text"]));
+  while (words.follow && gStop == 0 && std::cout) {
+    const std::optional<json> event = client.event(gStop);
+    if (event) print(words, *event, shown((*event)["text"]) + (event->value("event", "") == "gone" ? " has gone" : ""));
+  }
   return cli::kOk;
 }
 
@@ -126,7 +177,7 @@ int watch(Client& client, const Words& words) {
   const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", words.all}});
   if (words.common.asJson) print(words, begun, "");
   json last = json::array();
-  while (gStop == 0) {
+  while (gStop == 0 && std::cout) {
     const std::optional<json> event = client.event(gStop);
     if (!event || event->value("event", "") != "values") continue;
     std::string text;
@@ -168,7 +219,7 @@ int trace(Client& client, const Words& words) {
   trace.end();
   if (!file.flush()) return fail("cannot write " + words.file, cli::kEnvironment);
   print(words, {{"ok", true}, {"passes", trace.passes()}},
-        fmt::format("wrote {}: {} {}", words.file, trace.passes(), trace.passes() == 1 ? "pass" : "passes"));
+        fmt::format("wrote {}: {} {}", words.file, trace.passes(), trace.passes() == 1 ? "scan" : "scans"));
   return cli::kOk;
 }
 
@@ -208,7 +259,9 @@ int unforce(Client& client, const Words& words) {
   json request = {{"do", "unforce"}, {"all", words.all}};
   if (!words.all) request["name"] = words.name;
   const json answer = asked(client, request, kForce);
-  print(words, answer, fmt::format("{} ended", answer["ended"].dump()));
+  std::string text;
+  for (const json& name : answer["names"]) text += shown(name) + " is no longer forced\n";
+  print(words, answer, text.empty() ? "nothing was forced" : text);
   return cli::kOk;
 }
 
@@ -226,13 +279,22 @@ int simple(Client& client, const Words& words, const char* command, const char* 
   return cli::kOk;
 }
 
+// A pin, its value, and what it is for.
 int map(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "map"}});
   std::string text;
-  for (const json& pin : answer["pins"])
-    text += fmt::format("{:<5} {:<5} {} ({}:{})\n", shown(pin["table"]), shown(pin["type"]), shown(pin["name"]),
-                        shown(pin["file"]), pin["line"].dump());
-  print(words, answer, text);
+  size_t width = 0;
+  const auto pinOf = [](const json& pin) {
+    return shown(pin["name"]) + (pin.contains("value") ? " = " + shown(pin["value"]) : "");
+  };
+  for (const json& pin : answer["pins"]) width = std::max(width, pinOf(pin).size());
+  for (const json& pin : answer["pins"]) {
+    std::vector<std::string> uses;
+    for (const json& use : pin["uses"]) uses.push_back(shown(use));
+    text += fmt::format("{:<5} {:<5} {:<{}}  {} ({}:{})\n", shown(pin["table"]), shown(pin["type"]), pinOf(pin), width,
+                        fmt::join(uses, ", "), shown(pin["file"]), pin["line"].dump());
+  }
+  print(words, answer, text.empty() ? "the mapping file has no pins" : text);
   return cli::kOk;
 }
 
@@ -265,7 +327,7 @@ std::string profileText(const json& answer) {
 int profile(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "profile"}, {"top", words.top}, {"by", words.by}});
   if (words.reset) asked(client, {{"do", "clear-profile"}});
-  print(words, answer, profileText(answer) + (words.reset ? "from now on they are counted anew\n" : ""));
+  print(words, answer, profileText(answer) + (words.reset ? "the counters start again from 0\n" : ""));
   return cli::kOk;
 }
 
@@ -307,9 +369,9 @@ public:
     });
   }
   void addHosts() {
-    cli::Command command = app_.add("hosts", "List the hosts that are running");
+    cli::Command command = app_.add("hosts", "List running hosts");
     auto taken = std::make_shared<Words>();
-    command.flag("--json", taken->common.asJson, "As JSON");
+    command.flag("--json", taken->common.asJson, "Print the list as JSON");
     command.onRun([this, taken] {
       taken->common.asJson = taken->common.asJson || before_.asJson;
       status_ = hosts(*taken);
@@ -318,8 +380,8 @@ public:
 
 private:
   static void addCommon(cli::Command command, Common& common) {
-    command.option("--host", common.host, "The name of the host; without it the only one that is running");
-    command.flag("--json", common.asJson, "The answer as JSON");
+    command.option("--host", common.host, "Name of the host; can be left out where only one is running");
+    command.flag("--json", common.asJson, "Print the answer as JSON");
   }
   static int begin(const Words& words, const Run& run) try {
     Client client(words.common.host);
@@ -337,91 +399,94 @@ private:
 void addAll(Commands& commands) {
   const auto none = [](cli::Command&, Words&) {};
   const auto names = [](cli::Command& command, Words& words) {
-    command.option("NAME", words.names, "Names or addresses of the program").required();
+    command.option("NAME", words.names, "Variables: names or addresses of the program").required();
   };
   const auto oneValue = [](cli::Command& command, Words& words) {
-    command.option("NAME", words.name, "A name or an address of the program").required();
-    command.option("VALUE", words.value, "true, false or a number").required();
+    command.option("NAME", words.name, "Variable: a name or an address of the program").required();
+    command.option("VALUE", words.value, "true, false or a number; also 0x1F").required();
   };
   commands.addHosts();
-  commands.add("status", "Say what the program does", none, status);
+  commands.add("status", "Show whether the program runs, and its faults and figures", none, status);
   commands.add(
-      "messages", "Show what the program and its host have reported",
+      "messages", "Show messages of the program, when they came and went, and faults and restarts",
       [](cli::Command& command, Words& words) {
-        command.flag("-f,--follow", words.follow, "And what they report from now on");
+        command.flag("-f,--follow", words.follow, "Continue with new ones until Ctrl+C");
+        command.flag("--on", words.on, "Only messages that are on now");
+        command.flag("--history", words.all, "Also those from before the host was started, up to 1000");
       },
       messages);
-  commands.add("get", "Show values at the end of a pass", names, get);
+  commands.add("get", "Show values at the end of a scan", names, get);
   commands.add(
-      "watch", "Show values whenever they change",
+      "watch", "Show values whenever they change, until Ctrl+C",
       [&](cli::Command& command, Words& words) {
         names(command, words);
-        command.flag("--all", words.all, "Look at every pass, not at a few a second");
+        command.flag("--all", words.all, "Every scan, instead of about 50 a second");
       },
       watch);
   commands.add(
-      "trace", "Write the values of every pass to a file for wave viewers",
+      "trace", "Record values of every scan in a VCD file for wave viewers",
       [&](cli::Command& command, Words& words) {
         names(command, words);
-        command.option("-o,--output", words.file, "The file, FILE.vcd").required();
-        command.option("--for", words.seconds, "Seconds; without it until Ctrl+C").between(0.001, 1e6);
+        command.option("-o,--output", words.file, "File to write, FILE.vcd").required();
+        command.option("--for", words.seconds, "Seconds to record; without it until Ctrl+C").between(0.001, 1e6);
       },
       trace);
-  commands.add("set", "Write a value into a cell, once", oneValue, set);
+  commands.add("set", "Write a value to a variable once", oneValue, set);
   commands.add(
-      "event", "Do something at the simulated control of rung-run",
+      "event", "Trigger an event of the control that rung-run simulates",
       [](cli::Command& command, Words& words) {
-        command.option("NAME", words.name, "The event, as in scenarios").required();
-        command.option("KEY=VALUE", words.names, "What belongs to it");
+        command.option("NAME", words.name, "Name of the event, as in scenarios").required();
+        command.option("KEY=VALUE", words.names, "Parameters of the event");
       },
       event);
-  commands.add("force", "Hold a cell at a value", oneValue, force);
+  commands.add("force", "Force a variable to a value", oneValue, force);
   commands.add(
-      "unforce", "Let go of a cell that is forced",
+      "unforce", "Release a forced variable",
       [](cli::Command& command, Words& words) {
-        command.option("NAME", words.name, "The name that is forced");
-        command.flag("--all", words.all, "All of them");
+        command.option("NAME", words.name, "Variable to release, by the name under which it was forced");
+        command.flag("--all", words.all, "Release all forced variables");
       },
       unforce);
-  commands.add("forced", "List the cells that are forced", none, forced);
+  commands.add("forced", "List forced variables", none, forced);
   commands.add(
-      "reload", "Replace the program by another one, between two passes",
+      "reload", "Replace the running program between two scans",
       [](cli::Command& command, Words& words) {
         command
             .option("FILE", words.files,
-                    "The compiled program (.so); or its source files in order, or the folder of a project, which the "
-                    "host compiles")
+                    "Compiled program (.so), or source files in order, or a project folder, which the host compiles")
             .required();
-        command.flag("--profile", words.profile, "Of sources: count and time every rung");
-        command.option("--shadow", words.shadow, "First run it beside the other for so many passes, and compare")
+        command.flag("--profile", words.profile, "With sources: count and time every rung");
+        command
+            .option("--shadow", words.shadow,
+                    "First run it in the shadow of the running program for this many scans, and compare outputs")
             .between(1u, 100000u);
-        command.flag("--yes", words.yes, "Also where state is lost or outputs differ");
-        command.flag("--late", words.late, "Also where a slice of it may last longer than its period");
+        command.flag("--yes", words.yes, "Even if state is lost or outputs differ");
+        command.flag("--late", words.late, "Even if a slice may take longer than its period");
       },
       [](Client& client, const Words& words) { return reload(client, words, gStop); });
-  commands.add("rollback", "Put back the program before the last reload", none, rollback);
+  commands.add("rollback", "Return to the program before the last reload; again: to the reloaded one", none, rollback);
   commands.add("stop", "Stop the program; its outputs stay as they are", none,
                [](Client& client, const Words& words) { return simple(client, words, "stop", "stopped"); });
-  commands.add("start", "Let a stopped program run on", none,
+  commands.add("start", "Continue a stopped program", none,
                [](Client& client, const Words& words) { return simple(client, words, "start", "running"); });
-  commands.add("reset", "Restart a program that a fault has stopped", none,
+  commands.add("reset", "Restart the program after a fault", none,
                [](Client& client, const Words& words) { return simple(client, words, "reset", "restarted"); });
-  commands.add("map", "Show the pins of the mapping file", none, map);
+  commands.add("map", "Show the pins of the mapping file with their values", none, map);
   commands.add(
-      "profile", "Show what the rungs of a program built with --profile cost",
+      "profile", "Show the time of each rung of a program built with --profile",
       [](cli::Command& command, Words& words) {
-        command.option("--by", words.by, "Order: all the time that a rung took, or its longest run")
+        command.option("--by", words.by, "Sort by total time of a rung, or by its longest execution")
             .oneOf({"time", "longest"})
             .showDefault();
-        command.option("--top", words.top, "Rungs in the table").between(1u, 10000u).showDefault();
-        command.flag("--reset", words.reset, "Then count and time anew");
+        command.option("--top", words.top, "Number of rungs to show").between(1u, 10000u).showDefault();
+        command.flag("--reset", words.reset, "Then reset the counters");
       },
       profile);
   commands.add(
-      "serve", "Answer what the program asks of its CNC: lines of the protocol on standard input and output",
+      "serve", "Answer the program's requests to its CNC: protocol lines on standard input and output",
       [](cli::Command& command, Words& words) {
         command
-            .option("--alive", words.seconds, "Seconds of silence after which the host takes this connection for dead")
+            .option("--alive", words.seconds, "Seconds of silence after which the host considers this connection dead")
             .between(0.1, 60.0);
       },
       serve);
@@ -436,8 +501,8 @@ int main(int argc, char** argv) {
   sigaction(SIGTERM, &action, nullptr);
   cli::CommandLine app(
       {.name = "rungctl",
-       .description = "Looks at and changes a PLC program that runs in LinuxCNC or in rung-run",
-       .exitStatus = "0 ok, 1 the host refuses or is not there, 2 wrong usage, 3 a file cannot be written or read",
+       .description = "Monitor and change a PLC program running in LinuxCNC or rung-run",
+       .exitStatus = "0 ok, 1 the host refuses or is not running, 2 wrong usage, 3 a file cannot be read or written",
        .guide = "docs/rungctl.md",
        .seeAlso = {"rung-run(1)", "rung_hal(9)", "rungc(1)"}});
   int status = cli::kOk;

@@ -53,8 +53,14 @@ std::string whetherItRuns(const json& answer, const char* program) {
     return "the new program has stopped at once, and the former one is back: see status";
   const char* does = answer.value("waits", false)     ? "waits for a reset"
                      : answer.value("stopped", false) ? "is stopped"
+                     : answer.value("again", false)   ? "runs again"
                                                       : "runs";
   return fmt::format("the {} program {}", program, does);
+}
+
+std::string stateOf(const json& report) {
+  const std::string state = report["state"];
+  return state == "too-slow" ? "ended, too slow" : state;
 }
 
 // The program runs beside the other one until it has been compared. "", or why it does not take over.
@@ -67,8 +73,10 @@ std::string whatSpeaksAgainst(Client& client, const Words& words, const volatile
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     report = asked(client, {{"do", "compared"}});
   } while (stop == 0 && (report["state"] == "running" || report["state"] == "prepared"));
-  std::string text = fmt::format("beside the program that runs: {}, {} runs of tasks compared, {} differences\n",
-                                 shown(report["state"]), report["runs"].dump(), report["differences"].size());
+  const size_t differences = report["differences"].size();
+  std::string text =
+      fmt::format("shadow run {}: {} task runs compared, {}\n", stateOf(report), report["runs"].dump(),
+                  differences == 0 ? "no difference" : fmt::format("outputs that differ: {}", differences));
   for (const json& difference : report["differences"])
     text += difference.contains("next")
                 ? fmt::format("{}: {} now, {} in the new program\n", shown(difference["name"]),
@@ -166,7 +174,7 @@ int reload(Client& client, const Words& words, const volatile int& stop) {
 
 int rollback(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "rollback"}});
-  print(words, answer, reportOf(answer) + whetherItRuns(answer, "former"));
+  print(words, answer, reportOf(answer) + whetherItRuns(answer, answer.value("again", false) ? "reloaded" : "former"));
   return cli::kOk;
 }
 

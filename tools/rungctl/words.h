@@ -28,6 +28,7 @@ struct Words {
   double seconds = 0;
   bool all = false;
   bool follow = false;
+  bool on = false;
   unsigned shadow = 0; // passes
   bool yes = false;
   bool late = false;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "rtlib/host/retain.h"
 #include "rtlib/nc/technol/signals.h"
@@ -564,6 +565,7 @@ out.count = { type = "u32", name = "D0:2" }
   b["bad"].bit = true;
   EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
   EXPECT_FALSE(b.box->running());
+  EXPECT_EQ(b.box->faultLine(), 42u) << "at once: a host shows it together with the fault";
   EXPECT_FALSE(b["o"].bit);
   std::vector<std::string> reports;
   EXPECT_TRUE(b.box->serve(reports));
@@ -825,8 +827,20 @@ TEST(Functions, OneThatTakesTooLongShows) {
   b["change"].bit = true;
   for (int i = 0; i < 1500; ++i) b.box->step(kMs);
   EXPECT_FALSE(b.box->functions().late());
+  EXPECT_FALSE(b.box->functions().state().oldest[0].late);
+  b["prepare"].bit = true;
   b.box->step(2 * kMs);
   EXPECT_TRUE(b.box->functions().late());
+  const FunctionState state = b.box->functions().state();
+  EXPECT_EQ(state.count, 2u);
+  const FunctionState::Function& first = state.oldest[0];
+  EXPECT_EQ(std::tuple(first.kind, first.code, first.channel), std::tuple(RUNG_FUNCTION_M, 6u, 0u));
+  EXPECT_GE(first.ageNs, 1500 * kMs);
+  EXPECT_TRUE(first.begun);
+  EXPECT_TRUE(first.late);
+  EXPECT_EQ(state.oldest[1].kind, RUNG_FUNCTION_T);
+  EXPECT_FALSE(state.oldest[1].late);
+  b["prepare"].bit = false;
   b["held"].bit = false; // it still ends
   b.scans(4);
   EXPECT_TRUE(b["changed"].bit);

@@ -118,7 +118,7 @@ class Cable:
             except OSError:
                 return
             self.open += [near, far]
-            for source, target, change in ((near, far, lambda data: data), (far, near, self.answer)):
+            for source, target, change in ((near, far, lambda data: data), (far, near, lambda data: self.answer(data))):
                 threading.Thread(target=self.carry, args=(source, target, change), daemon=True).start()
 
     def carry(self, source, target, change):

@@ -35,7 +35,7 @@ size_t sizeOf(const std::vector<ExchangedPin>& pins) {
 
 std::string openProblem(int code) {
   if (code == ELOOP) return "it is a symbolic link";
-  if (code == EISDIR) return "it is a folder";
+  if (code == EINVAL) return "it is a folder"; // as shm_open has it
   return std::strerror(code);
 }
 
@@ -121,7 +121,8 @@ void SharedMemory::keep() noexcept try {
   setProblem(isThere ? "another program had written over its head or shortened it; it was made anew"
                      : "another program had removed it; it was made anew");
 } catch (const std::exception& problem) {
-  setProblem(problem.what());
+  const std::string text = problem.what(), head = title_ + ": ";
+  setProblem(text.starts_with(head) ? text.substr(head.size()) : text);
 }
 
 void SharedMemory::run(const std::atomic<bool>& ending) noexcept {

@@ -99,8 +99,8 @@ class View(unittest.TestCase):
     def test_a_page_has_everything(self):
         page = self.page(*LATHE)
         texts = "\n".join(page.texts)
-        for wanted in ("Module INT0", "acknowledges are 1 at rest", "main.lad:7", "CHUCK_WANT", "4002", "Address of Timer",
-                       "word: not 0 when the chuck is to be clamped", "Turret: one step a cycle", "LIGHT", "io.lad"):
+        for wanted in ("Module INT0", "initially all acknowledges are 1", "main.lad:7", "CHUCK_WANT", "4002", "Address of Timer",
+                       "word: not 0 while the chuck has to be clamped", "Turret: one step per scan", "LIGHT", "io.lad"):
             self.assertIn(wanted, texts)
         rungs = sum(Path(ROOT, name).read_text().count("\nrung") for name in LATHE)
         self.assertEqual([f"r{i + 1}" for i in range(rungs)], [i for i in page.ids if re.fullmatch(r"r\d+", i)])

@@ -329,7 +329,7 @@ class Images(Case):
         symbols = {symbol.name: symbol for symbol in self.image().symbols()}
         self.assertEqual(list(symbols), sorted(symbols))
         self.assertIn("STROKES", symbols)
-        self.assertEqual(symbols["AT_END"].comment, "of COMPARED: the position is greater")
+        self.assertEqual(symbols["AT_END"].comment, "bit of COMPARED: the position is beyond the limit")
         self.assertEqual((symbols["AT_END"].type, symbols["AT_END"].byte, symbols["AT_END"].bit), (rung.Type.BIT, 10, 2))
         symbols = {symbol.name: symbol for symbol in self.image("values").symbols()}
         five = symbols["FIVE"]

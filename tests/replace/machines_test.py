@@ -400,7 +400,7 @@ class ToAndFro(unittest.TestCase):
         self.check("nct-lathe", "turret", Edit("main.lad", "section \"Start-up\"\n", "section \"Start-up\"" + self.mr))
 
     def test_nct_turning_centre(self):
-        order = "section \"Order of a cycle\""
+        order = "section \"Order of a scan\""
         self.check("nct-turning-centre", "lubrication", Edit("main.lad", order, order + self.mr))
 
     @staticmethod

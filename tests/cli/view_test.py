@@ -197,6 +197,10 @@ class View(unittest.TestCase):
         rungs = [int(number) for number in re.findall(r'<tr class="Q" id="r(\d+)"', page)]
         self.assertEqual(rungs, list(range(1, len(rungs) + 1)))
         self.assertNotIn("<th>Run</th>", page)
+        self.assertEqual(self.view("examples/technol-machining-centre", "-o", self.html).returncode, OK)
+        page = Path(self.html).read_text(encoding="utf-8")
+        self.assertIn("centre.inc</h3>", page)  # it declares names, and has no rung
+        self.assertNotIn("rung.toml</h3>", page)
 
     def test_places_have_the_names_that_stand_at_the_terminals(self):
         source = Path(self.folder.name) / "press.lad"

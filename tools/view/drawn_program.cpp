@@ -46,7 +46,9 @@ std::optional<Listing> listedProgram(SourceManager& sources, std::span<const Fil
                                      Diagnostics& diagnostics) {
   const auto module = dialect.compile(sources, files, options, diagnostics);
   if (module == nullptr) return std::nullopt;
-  return listingOf(sources, files, dialect.title, rowsOf(*module));
+  const std::vector<std::string> included =
+      dialect.included == nullptr ? std::vector<std::string>() : dialect.included(sources, files, options);
+  return listingOf(sources, files, dialect.title, rowsOf(*module), included);
 }
 
 } // namespace rung::view

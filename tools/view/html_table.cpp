@@ -44,8 +44,9 @@ private:
   void lines(std::string_view file, uint32_t first, uint32_t last);
   void linesBetween(const std::string& file, uint32_t end);
   void contents();
-  void head(const TableRow& row, size_t index);
+  void head(std::string_view title, size_t index);
   void row(const TableRow& row);
+  void filesWithoutRungs();
 
   const Listing& listing_;
   const Overlay& overlay_;
@@ -137,11 +138,22 @@ void TablePage::contents() {
   out_ += "</ul><p class=\"C\">Numbers are those of rungs.</p></nav>\n";
 }
 
-void TablePage::head(const TableRow& row, size_t index) {
+void TablePage::head(std::string_view title, size_t index) {
   put(out_, "<h3 id=\"m{}\">{}</h3>\n<table class=\"{}\"><thead><tr><th>Rung</th><th>Source</th>", index,
-      escaped(row.routine), hasRuns() ? "Y" : "Y L");
+      escaped(title), hasRuns() ? "Y" : "Y L");
   if (hasRuns()) out_ += "<th>Run</th><th>Not seen</th>";
   out_ += "</tr></thead><tbody>\n";
+}
+
+// They declare what the others use.
+void TablePage::filesWithoutRungs() {
+  size_t index = listing_.rows.size();
+  for (const auto& [path, text] : listing_.texts) {
+    if (lastOf_.contains(path)) continue;
+    head(path.substr(path.find_last_of('/') + 1), index++);
+    linesBetween(path, UINT32_MAX);
+    out_ += "</tbody></table>\n";
+  }
 }
 
 std::string TablePage::run() {
@@ -157,12 +169,13 @@ std::string TablePage::run() {
   for (size_t i = 0; i < rows.size(); ++i) {
     if (i == 0 || rows[i].routine != rows[i - 1].routine) {
       if (i > 0) out_ += "</tbody></table>\n";
-      head(rows[i], i);
+      head(rows[i].routine, i);
     }
     row(rows[i]);
     if (lastOf_[rows[i].place.file] == i) linesBetween(rows[i].place.file, UINT32_MAX);
   }
   if (!rows.empty()) out_ += "</tbody></table>\n";
+  filesWithoutRungs();
   out_ += "</main>\n";
   endPage(out_);
   return std::move(out_);

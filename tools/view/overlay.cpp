@@ -112,20 +112,26 @@ std::vector<TableRow> rowsOf(const ir::Module& module) {
 }
 
 Listing listingOf(const SourceManager& sources, std::span<const FileId> files, std::string_view control,
-                  std::vector<TableRow> rows) {
+                  std::vector<TableRow> rows, const std::vector<std::string>& included) {
   std::vector<std::string> names;
   for (const FileId file : files) names.emplace_back(sources.name(file));
   Listing listing{titleOf(shownFiles(names)), std::string(control), std::move(rows), {}};
-  std::ranges::sort(listing.rows, {}, &TableRow::number); // as they are written, whatever routine comes first
-  std::map<std::string_view, FileId> readable;            // the last of a name: what a dialect has made of its bytes
+  // As they are written, whatever routine comes first; one that is several in the module is one here.
+  std::ranges::stable_sort(listing.rows, {}, &TableRow::number);
+  const auto again = std::ranges::unique(listing.rows, {}, &TableRow::number);
+  listing.rows.erase(again.begin(), again.end());
+  std::map<std::string_view, FileId> readable; // the last of a name: what a dialect has made of its bytes
   for (uint32_t i = 0; i < sources.fileCount(); ++i) readable[sources.name(FileId{i})] = FileId{i};
-  for (const TableRow& row : listing.rows) {
-    const auto file = readable.find(row.place.file);
-    const auto [text, isNew] = listing.texts.try_emplace(row.place.file);
-    if (!isNew || file == readable.end()) continue;
+  const auto add = [&](const std::string& path) {
+    const auto file = readable.find(path);
+    const auto [text, isNew] = listing.texts.try_emplace(path);
+    if (!isNew || file == readable.end()) return;
     LineReader lines(sources, file->second);
     for (SourceLine line; lines.next(line);) text->second.emplace_back(line.text);
-  }
+  };
+  for (const TableRow& row : listing.rows) add(row.place.file);
+  std::ranges::for_each(names, add);
+  std::ranges::for_each(included, add);
   std::erase_if(listing.texts, [](const auto& text) { return text.second.empty(); });
   return listing;
 }

@@ -78,9 +78,9 @@ struct Listing {
   std::vector<TableRow> rows;
   std::map<std::string, std::vector<std::string>> texts; // lines, by path; a file that cannot be read is not there
 };
-// `files` are those that the program has been made of, from `sources`.
+// `files` are those that the program has been made of, from `sources`; `included` may name them again.
 Listing listingOf(const SourceManager& sources, std::span<const FileId> files, std::string_view control,
-                  std::vector<TableRow> rows);
+                  std::vector<TableRow> rows, const std::vector<std::string>& included);
 
 // A page in the look of renderHtml: the source by rung, with what was not seen of a rung's elements beside it. Nothing
 // is said of runs where the overlay is empty.

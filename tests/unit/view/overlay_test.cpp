@@ -94,6 +94,19 @@ TEST(ViewOverlay, StepsOfHeat) {
   EXPECT_EQ(step(0.2), kHeatSteps);
 }
 
+TEST(ViewOverlay, AListingHasEachRungOnceInTheOrderOfTheSource) {
+  const Listing listing = listingOf({"none/b.plc"}, "TECHNOL",
+                                    {{3, "PROC", "", {"none/b.plc", 9, 0}, 9},
+                                     {1, "MAIN", "first", {"none/b.plc", 2, 0}, 3},
+                                     {1, "MAIN", "second", {"none/b.plc", 2, 0}, 3},
+                                     {2, "MAIN", "", {"none/b.plc", 5, 0}, 6}});
+  std::string rows;
+  for (const TableRow& row : listing.rows) rows += fmt::format("{}{} ", row.number, row.title);
+  EXPECT_EQ(rows, "1first 2 3 ");
+  EXPECT_EQ(listing.title, "b.plc");
+  EXPECT_TRUE(listing.texts.empty()); // there is no such file
+}
+
 TEST(ViewOverlay, ATableForProgramsWithoutADrawing) {
   Listing listing{.title = "Mill", .control = "TECHNOL", .rows = {}, .texts = {}};
   listing.rows = {{1, "MAIN", "start <up>", {"m.plc", 3, 0}, 6},
@@ -101,6 +114,7 @@ TEST(ViewOverlay, ATableForProgramsWithoutADrawing) {
                   {3, "SPINDLE", "speed", {"s.plc", 3, 0}, 4}};
   listing.texts["m.plc"] = {"; mill",  "MODULE_MAIN", "\tLDR A", "\tLA B", "",           "\tWR C",
                             "\tLDR C", "\tWR <D>",    "\tWR E",  "",       "MODULE_END", ""};
+  listing.texts["in/names.inc"] = {"; names"};
   Overlay overlay{.title = "Profile", .summary = {"3 scans"}, .heat = "share of time"};
   overlay.rungs.push_back({1, {}, {Run::State::Ran, 0.9, "90 %", ""}});
   overlay.rungs.push_back({0, {"s.plc", 3, 0}, {Run::State::Never, 0, "", ""}});
@@ -113,9 +127,12 @@ TEST(ViewOverlay, ATableForProgramsWithoutADrawing) {
   EXPECT_EQ(count(page, "<a href=\"#m0\">MAIN</a><i>1\u20132</i>"), 1u);
   EXPECT_EQ(count(page, "<pre><i>1</i>; mill\n<i>2</i>MODULE_MAIN\n</pre>"), 1u); // before the first rung
   EXPECT_EQ(count(page, "<pre><i>7</i>        LDR C\n<i>8</i>        WR &lt;D&gt;\n<i>9</i>        WR E\n</pre>"), 1u);
+  EXPECT_EQ(count(page, "names.inc</h3>"), 1u); // a file without rungs
+  EXPECT_EQ(count(page, "<pre><i>1</i>; names\n</pre>"), 1u);
   EXPECT_EQ(count(page, "<pre><i>11</i>MODULE_END\n</pre>"), 1u); // after the last, without the blank lines
   const std::string body = page.substr(page.find("<main>"));
-  for (int line = 1; line <= 11; ++line) EXPECT_EQ(count(body, fmt::format("<i>{}</i>", line)), line == 10 ? 0u : 1u);
+  for (int line = 1; line <= 11; ++line)
+    EXPECT_EQ(count(body, fmt::format("<i>{}</i>", line)), line == 10 ? 0u : line == 1 ? 2u : 1u);
   EXPECT_EQ(count(page, "start &lt;up&gt;"), 2u);
   EXPECT_EQ(count(page, ">m.plc:3<"), 1u);
   EXPECT_EQ(count(page, "class=\"Q H5\" id=\"r1\""), 1u);

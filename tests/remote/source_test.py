@@ -105,6 +105,15 @@ class Reload(SourceHost):
         self.ctl("rollback")
         self.wait(lambda: not self.get("Y0.0"))
 
+    def test_a_project_has_its_name(self):
+        folder = self.home / "changed"
+        folder.mkdir()
+        (folder / "main.pmc").write_text(PROGRAM)
+        (folder / "rung.toml").write_text('name = "mill 7"\ndialect = "gsk"\nfiles = ["main.pmc"]\n')
+        self.ctl("reload", folder)
+        self.assertIn("program mill 7", self.ctl("status"))
+        self.assertIn("reload mill 7, compiled here from sources", self.logged())
+
     def test_its_errors_are_those_of_rungc(self):
         wrong = self.source(PROGRAM.replace("OUT  Y0.0", "OUT  X0.5"))
         said = subprocess.run([BIN / "rungc", "check", wrong], capture_output=True, text=True).stderr

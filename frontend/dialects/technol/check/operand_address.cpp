@@ -213,6 +213,14 @@ bool OperandParser::addMember(const Token& member, Address& out) {
   return true;
 }
 
+// Of the interface: what is added to a cell stays in it (PLC_MEM_BACKUP has 10000 bytes, man. l.7549). A wider type
+// alone may reach the cells that follow (STO WORD.BZH09 writes BZH10, too, man. l.6572; LOD WORD.PB11, l.7796).
+bool OperandParser::leavesItsCell(const Address& address, int64_t byte, uint32_t bytes) {
+  const bool isMoved = address.hasBase && address.byte != address.begin;
+  return address.space == kInterfaceSpace && isMoved && !address.indexed &&
+         (byte < address.begin || byte + bytes > address.end);
+}
+
 bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out) {
   out.place.space = address.space;
   out.base = address.begin;
@@ -222,6 +230,10 @@ bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t byte
   if (byte < -slack || byte + bytes > program_.bytesOf(address.space) + slack) {
     program_.diagnostics.report(diag::AddressOutOfRange, out.range)
         << spell(out) << (address.space == kInterfaceSpace ? "the interface" : "the program's data");
+    return false;
+  }
+  if (leavesItsCell(address, byte, bytes)) {
+    program_.diagnostics.report(diag::AddressOutOfRange, out.range) << spell(out) << address.name;
     return false;
   }
   if (address.indexed)

@@ -63,6 +63,7 @@ private:
   bool addMember(const Token& member, Address& out);
   bool addPacketMember(const Token& member, Address& out);
   bool addOwnMember(const Token& member, Address& out);
+  static bool leavesItsCell(const Address& address, int64_t byte, uint32_t bytes);
   bool setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out);
   bool checkWrite(const OperandInfo& info, Protection protection, std::string_view name, SourceRange range);
   bool wrongKind(const Operand& operand, std::string_view is, std::string_view wanted) {

@@ -22,19 +22,22 @@ using mapping::PinType;
 
 namespace {
 
-constexpr size_t kLongestPin = mapping::kLongestPinName - std::string_view("-99").size(); // with a number, too
+constexpr uint32_t kByteBits = 8;
+// With a number and a bit's number, too.
+constexpr size_t kLongestPin = mapping::kLongestPinName - std::string_view("-99-7").size();
 
 struct Row {
   std::string pin;
   PinType type = PinType::Bit;
   std::string name;
   std::string comment;
+  uint32_t bits = 0; // that have a pin each
 };
 
 PinType pinTypeOf(uint32_t type) {
   switch (type) {
   case RUNG_TYPE_BIT: return PinType::Bit;
-  case RUNG_TYPE_I8: return PinType::U32; // a byte is mostly eight bits
+  case RUNG_TYPE_I8: return PinType::U32;
   case RUNG_TYPE_F64: return PinType::Float;
   default: return PinType::S32;
   }
@@ -76,9 +79,11 @@ public:
     const bool input = sides == RUNG_SPACE_INPUT || (sides != RUNG_SPACE_OUTPUT && !used.written);
     const bool output = sides == RUNG_SPACE_OUTPUT || (!input && !used.read);
     if (input && !written) return;
-    const Row row{uniquePin(used.name), pinTypeOf(info.type), used.name, commentOf(used.name)};
+    Row row{.type = pinTypeOf(info.type), .name = used.name, .comment = commentOf(used.name)};
+    if (input && info.type == RUNG_TYPE_I8) row.type = PinType::Bit, row.bits = kByteBits; // mostly eight bits
+    row.pin = uniquePin(row);
     if (input)
-      addInput(row, bitsOf(*written));
+      addInput(row, info.type, bitsOf(*written));
     else if (output)
       outputs_.push_back(row);
     else if ((sides & RUNG_SPACE_OUTPUT) != 0)
@@ -91,7 +96,9 @@ public:
         ": a first list, made of what its rungs use.\n"
         "# Remove what the machine does not connect, and give the pins names of your own. Signals that a\n"
         "# [[send]] table drives are for it alone.\n\n";
-    text += table("in", inputs_, "");
+    text += inputs_.empty() && !narrow_.empty() ? "[in]\n" : table("in", inputs_, "");
+    if (!narrow_.empty())
+      text += "# Numbers of 16 bits; of a greater one the pin's upper bits are lost:\n" + rows(narrow_, "# ") + '\n';
     if (!parts_.empty()) text += "# Pins above bring these, or parts of them:\n" + rows(parts_, "# ") + '\n';
     text += table("out", outputs_, "");
     if (!others_.empty()) text += "# Rungs write these, and read them, too:\n" + rows(others_, "# ") + '\n';
@@ -100,18 +107,26 @@ public:
 
 private:
   // Each bit is one pin's.
-  void addInput(const Row& row, const Bits& bits) {
+  void addInput(const Row& row, uint32_t type, const Bits& bits) {
     const bool isTaken = std::ranges::any_of(taken_, [&](const Bits& other) { return other.meets(bits); });
-    (isTaken ? parts_ : inputs_).push_back(row);
+    (isTaken ? parts_ : type == RUNG_TYPE_I16 ? narrow_ : inputs_).push_back(row);
     if (!isTaken) taken_.push_back(bits);
   }
 
-  std::string uniquePin(const std::string& name) {
-    const std::string base = pinNameOf(name);
-    std::string pin = base;
-    for (int number = 2; mapping::isOwnPin(pin) || !pins_.insert(pin).second; ++number)
-      pin = base + "-" + std::to_string(number);
-    return pin;
+  // The key of a row and its pins: of the byte X7 "x7", and "x7-0" to "x7-7".
+  static std::vector<std::string> pinsOf(const std::string& pin, uint32_t bits) {
+    std::vector<std::string> pins{pin};
+    for (uint32_t bit = 0; bit < bits; ++bit) pins.push_back(pin + "-" + std::to_string(bit));
+    return pins;
+  }
+  std::string uniquePin(const Row& row) {
+    const std::string base = pinNameOf(row.name);
+    const auto isTaken = [&](const std::string& pin) { return mapping::isOwnPin(pin) || pins_.contains(pin); };
+    std::string name = base;
+    for (int number = 2; std::ranges::any_of(pinsOf(name, row.bits), isTaken); ++number)
+      name = base + "-" + std::to_string(number);
+    std::ranges::copy(pinsOf(name, row.bits), std::inserter(pins_, pins_.end()));
+    return name;
   }
 
   std::string commentOf(const std::string& name) const {
@@ -124,7 +139,8 @@ private:
     std::string text;
     for (const Row& row : list)
       text += before + row.pin + " = { type = \"" + std::string(mapping::pinTypeName(row.type)) +
-              "\", name = " + inToml(row.name) + " }" + (row.comment.empty() ? "" : " # " + row.comment) + '\n';
+              "\", name = " + inToml(row.name) + (row.bits == 0 ? "" : ", bits = " + std::to_string(row.bits)) + " }" +
+              (row.comment.empty() ? "" : " # " + row.comment) + '\n';
     return text;
   }
 
@@ -152,7 +168,7 @@ private:
   Sides sides_;
   std::set<std::string> names_, pins_;
   std::vector<Bits> taken_; // by inputs
-  std::vector<Row> inputs_, parts_, outputs_, others_;
+  std::vector<Row> inputs_, narrow_, parts_, outputs_, others_;
 };
 
 } // namespace

@@ -121,7 +121,9 @@ public:
     for (const Link& link : map_.links) addLink(binding.links, link);
     for (const Constant& constant : map_.constants) addConstant(binding.constants, constant);
     for (const Protected& cell : map_.never) checkProtected(cell);
-    checkShared();
+    checkShared(written_, "pin");
+    checkShared(constants_, "constant");
+    checkConstants();
     if (replacement_ == nullptr) checkFunctions();
     binding.warnings = std::move(warnings_);
     return binding;
@@ -141,32 +143,45 @@ private:
   void addWritten(const Entry& entry, const Place& place) {
     if (entry.use == Use::Output) return;
     const uint64_t bits = entry.bits != 0 ? entry.bits : inWords(entry) ? kRealBits : place.width();
-    written_.push_back({place.space, place.first, place.first + bits, entry.at, entry.where, entry.name});
+    std::vector<Written>& list = entry.use == Use::Constant ? constants_ : written_;
+    list.push_back({place.space, place.first, place.first + bits, entry.at, entry.where, entry.name});
   }
 
   void warnOfNarrow(const Entry& entry, const Place& place) {
     const bool isInteger = entry.type == PinType::S32 || entry.type == PinType::U32;
     if (entry.use == Use::Output || !isInteger || entry.bits != 0 || place.width() >= kIntegerBits) return;
-    warnings_.push_back(map_.message(entry.at, entry.where + ": type " + std::string(pinTypeName(entry.type)) +
-                                                   " has " + std::to_string(kIntegerBits) + " bits, " + entry.name +
-                                                   " has " + std::to_string(place.width()) +
-                                                   ": a number that does not fit loses its upper bits"));
+    warnings_.push_back(map_.message(
+        entry.at, "warning: " + entry.where + ": type " + std::string(pinTypeName(entry.type)) + " has " +
+                      std::to_string(kIntegerBits) + " bits, " + entry.name + " has " + std::to_string(place.width()) +
+                      ": a number that does not fit loses its upper bits"));
   }
 
   // Each bit is one pin's: of two the one whose turn comes later would have its value there.
-  void checkShared() {
-    std::ranges::stable_sort(written_, {}, [](const Written& w) { return std::pair(w.space, w.first); });
+  void checkShared(std::vector<Written>& written, const std::string& kind) {
+    std::ranges::stable_sort(written, {}, [](const Written& w) { return std::pair(w.space, w.first); });
     const Written* reaches = nullptr; // farthest, of those before
-    for (const Written& next : written_) {
+    for (const Written& next : written) {
       if (reaches != nullptr && reaches->space == next.space && next.first < reaches->end) {
         const bool isLater = std::pair(next.at.line, next.at.column) >= std::pair(reaches->at.line, reaches->at.column);
         const Written& later = isLater ? next : *reaches;
         const Written& former = isLater ? *reaches : next;
         fail(later.at, later.where,
-             {later.name + ", where " + former.where + " writes, too", "bits that no other pin writes",
+             {later.name + ", where " + former.where + " writes, too", "bits that no other " + kind + " writes",
               "remove one of the two"});
       }
       if (reaches == nullptr || reaches->space != next.space || next.end > reaches->end) reaches = &next;
+    }
+  }
+
+  // A constant counts more than a pin, which then does nothing there.
+  void checkConstants() {
+    for (const Written& constant : constants_) {
+      const auto meets = [&](const Written& pin) {
+        return pin.space == constant.space && pin.first < constant.end && constant.first < pin.end;
+      };
+      if (const auto pin = std::ranges::find_if(written_, meets); pin != written_.end())
+        warnings_.push_back(map_.message(constant.at, "warning: " + constant.where + ": the constant counts, and " +
+                                                          pin->where + " (" + pin->name + ") has no effect there"));
     }
   }
 
@@ -176,10 +191,7 @@ private:
     for (const Send& send : map_.sends)
       if (checkChannel(send)) checkKind(send);
     for (const Group& row : map_.groups)
-      if (rung_instance_group_function(instance_, 0, row.code, row.group) != RUNG_OK)
-        fail(row.at, "m-groups",
-             {"M" + std::to_string(row.code) + " in group " + std::to_string(row.group),
-              "what a machine can choose with the dialect " + dialect(), "write another group, or remove the line"});
+      if (rung_instance_group_function(instance_, 0, row.code, row.group) != RUNG_OK) failGroup(row);
     for (const AxisGroup& row : map_.axisGroups)
       if (rung_instance_axis_group(instance_, row.axis, row.group) != RUNG_OK)
         fail(row.at, "axis-groups",
@@ -188,6 +200,34 @@ private:
     if (map_.highSpeed && rung_instance_high_speed_functions(instance_, 0) != RUNG_OK)
       fail(*map_.highSpeed, "high-speed",
            {"true", "false, because the dialect " + dialect() + " has no such handshake", "remove the line"});
+  }
+
+  // Those that a function can have by choice, ascending. To ask changes them, which is the end of a map with a mistake.
+  std::vector<uint32_t> groupsOf(uint32_t code) const {
+    constexpr uint32_t kMostGroups = 32;
+    std::vector<uint32_t> groups;
+    for (uint32_t group = 0; group < kMostGroups; ++group)
+      if (rung_instance_group_function(instance_, 0, code, group) == RUNG_OK) groups.push_back(group);
+    return groups;
+  }
+
+  void failGroup(const Group& row) {
+    constexpr uint32_t kMostCodes = 100;
+    uint32_t code = 0;
+    while (code < kMostCodes && groupsOf(code).empty()) ++code;
+    const std::string found = "M" + std::to_string(row.code) + " in group " + std::to_string(row.group);
+    const std::vector<uint32_t> groups = groupsOf(row.code);
+    if (code == kMostCodes)
+      fail(row.at, "m-groups",
+           {found, "none, because a control of the dialect " + dialect() + " has no groups of M functions",
+            "remove the table [m-groups]"});
+    else if (groups.empty())
+      fail(row.at, "m-groups",
+           {found, "an M function whose group a machine may choose with the dialect " + dialect(), "remove the line"});
+    else
+      fail(row.at, "m-groups",
+           {found, "a group from " + std::to_string(groups.front()) + " to " + std::to_string(groups.back()),
+            "write for example " + std::to_string(row.code) + " = " + std::to_string(groups.front())});
   }
 
   std::string dialect() const { return program_.dialect; }
@@ -227,8 +267,18 @@ private:
             "remove the table, and connect its signals in [in] and [out]"});
     else if (!send.codePin && !carries(send.channel, send.kind, static_cast<uint32_t>(send.code)))
       fail(send.at, "send.code",
-           {kind + std::to_string(send.code), "a code that the signals of the dialect " + dialect() + " hold",
-            "write another code"});
+           {kind + std::to_string(send.code),
+            "at most " + kind + std::to_string(mostOf(send)) + ", what the signals of the dialect " + dialect() +
+                " hold",
+            "write such a code, or the name of a pin that has it"});
+  }
+
+  // The greatest code that the control hands over: all from 0 to there.
+  uint32_t mostOf(const Send& send) const {
+    uint32_t most = 0;
+    for (uint32_t step = uint32_t{1} << 31; step != 0; step /= 2)
+      if (carries(send.channel, send.kind, most + step)) most += step;
+    return most;
   }
 
   std::string kindsOf(uint32_t channel) const {
@@ -265,6 +315,7 @@ private:
     Entry entry{"const." + constant.name, constant.name, constant.at, Use::Constant, constant.type, constant.value};
     const std::optional<Place> place = find(entry);
     if (!place || !fits(entry, *place)) return;
+    addWritten(entry, *place);
     links.push_back({entry.type, constant.name, constant.value, inWords(entry)});
   }
 
@@ -414,7 +465,8 @@ private:
   const rung_program& program_;
   std::vector<std::string>& errors_;
   uint32_t suggestions_ = 0;
-  std::vector<Written> written_;
+  std::vector<Written> written_;   // by pins and parameters
+  std::vector<Written> constants_; // by constants
   std::vector<std::string> warnings_;
 };
 

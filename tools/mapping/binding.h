@@ -31,7 +31,7 @@ struct ConstLink {
 struct Binding {
   std::vector<PinLink> links;
   std::vector<ConstLink> constants;
-  std::vector<std::string> warnings; // as `errors`: pins of integers that their cell is too narrow for
+  std::vector<std::string> warnings; // as `errors`: what works, but hardly as it is meant
 };
 
 // Every name that does not exist or does not suit its entry is one text in `errors`, "PATH:LINE:COLUMN: what is wrong";

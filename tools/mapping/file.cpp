@@ -14,6 +14,7 @@
 
 #include <toml++/toml.h>
 
+#include "ir/support/similar.h"
 #include "rtlib/text/number.h"
 #include "rtlib/text/regular_file.h"
 #include "tools/mapping/connections.h"
@@ -27,6 +28,9 @@ namespace {
 constexpr PinType kPinTypes[] = {PinType::Bit, PinType::S32, PinType::U32, PinType::Float};
 constexpr double kLongestTimeout = 1e6; // seconds
 constexpr double kShortestTimeout = 1e-9;
+
+constexpr std::string_view kAllowed =
+    "a list of \"set\", \"force\", \"reload\", \"start\", \"stop\", \"reset\", \"profile\" and \"serve\"";
 
 constexpr int64_t kMostBits = 32;
 constexpr size_t kMostFiles = 64; // one that includes others, and so on
@@ -165,12 +169,16 @@ private:
   }
   bool takeAllowed(const toml::node& node, File& map) {
     const toml::array* list = node.as_array();
-    return list != nullptr && std::ranges::all_of(*list, [&](const toml::node& element) {
-             const auto known = std::ranges::find(kRemoteNames, textOf(element));
-             if (known == std::end(kRemoteNames)) return false;
-             map.allowed[known - std::begin(kRemoteNames)] = true;
-             return true;
-           });
+    if (list == nullptr) return false;
+    for (const toml::node& element : *list) {
+      const auto known = std::ranges::find(kRemoteNames, textOf(element));
+      if (known != std::end(kRemoteNames))
+        map.allowed[known - std::begin(kRemoteNames)] = true;
+      else
+        fail(positionOf(element), "rungctl.allow: found " + shown(element) + " in the list, expected " +
+                                      std::string(kAllowed) + didYouMean(mostSimilar(textOf(element), kRemoteNames)));
+    }
+    return true;
   }
   bool takeNever(const toml::node& node, File& map) {
     const toml::array* list = node.as_array();
@@ -304,9 +312,7 @@ const Reader::Key<File> Reader::kFileKeys[] = {
 };
 
 const Reader::Key<File> Reader::kRemoteKeys[] = {
-    {"allow", false,
-     "a list of \"set\", \"force\", \"reload\", \"start\", \"stop\", \"reset\", \"profile\" and \"serve\"",
-     "allow = [\"set\"]", &Reader::takeAllowed},
+    {"allow", false, kAllowed, "allow = [\"set\"]", &Reader::takeAllowed},
     {"never", false, "a list of names of the program", "never = [\"X0.0\"]", &Reader::takeNever},
 };
 

@@ -76,6 +76,13 @@ void Reading::unknownKey(const toml::key& key, std::string_view where, const std
                                      didYouMean(mostSimilar(key.str(), known)));
 }
 
+bool Reading::isMisspelt(std::string_view name, const toml::table& table, const std::vector<std::string_view>& known) {
+  return std::ranges::any_of(table, [&](const auto& entry) {
+    const std::string_view key = entry.first.str();
+    return std::ranges::find(known, key) == known.end() && mostSimilar(key, known) == name;
+  });
+}
+
 std::vector<std::string> Reading::errors() {
   std::ranges::stable_sort(errors_, {}, [](const auto& error) {
     const Position& at = error.first;

@@ -93,7 +93,7 @@ public:
         wrong(positionOf(*node), prefix + std::string(known->name), shown(*node), known->expected, known->example);
     }
     for (const auto& key : keys)
-      if (key.needed && !table.contains(key.name))
+      if (key.needed && !table.contains(key.name) && !isMisspelt(key.name, table, namesOf(keys)))
         wrong(positionOf(table), std::string(where), "no key " + std::string(key.name), key.expected, key.example);
     return mistakes() == before;
   }
@@ -106,6 +106,8 @@ private:
     return names;
   }
   void unknownKey(const toml::key& key, std::string_view where, const std::vector<std::string_view>& known);
+  // Whether an unknown key of the table may mean `name`: that is reported, once.
+  static bool isMisspelt(std::string_view name, const toml::table& table, const std::vector<std::string_view>& known);
 
   File& map_;
   uint32_t file_ = 0;

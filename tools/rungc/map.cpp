@@ -80,7 +80,9 @@ int checkMap(const MapOptions& options, const OpenedProgram& program) {
   for (const std::string& warning : binding.warnings) fmt::print(stderr, "{}\n", warning);
   for (const std::string& error : errors) fmt::print(stderr, "{}\n", error);
   if (!errors.empty()) return kWrong;
-  if (!options.source.quiet) fmt::print("{}: {} pins, no mistakes\n", options.check, map.pins.size());
+  const size_t warnings = binding.warnings.size();
+  const std::string of = warnings == 0 ? "" : fmt::format(", {} warning{}", warnings, warnings == 1 ? "" : "s");
+  if (!options.source.quiet) fmt::print("{}: {} pins, no mistakes{}\n", options.check, map.pins.size(), of);
   return kOk;
 }
 

@@ -16,8 +16,9 @@ std::string templateOf(const rung_program& program, const std::vector<map_templa
   const std::string text = map_template::templateMap(instance.handle(), program, used);
   std::vector<std::string> errors;
   const File map = parseMap(text, "t.map", errors);
-  bindMap(map, instance.handle(), program, errors);
+  const Binding binding = bindMap(map, instance.handle(), program, errors);
   EXPECT_EQ(test::joined(errors), "");
+  EXPECT_EQ(test::joined(binding.warnings), "");
   return text;
 }
 
@@ -37,12 +38,22 @@ TEST(Template, WhatTheMachineAndTheNcHave) {
   const std::string begin = "# HAL pins of " + std::string(testing::gskProgram().name) + kHead +
                             "[in]\n"
                             "x0-0 = { type = \"bit\", name = \"X0.0\" }\n"
-                            "x10 = { type = \"u32\", name = \"X10\" }\n"
+                            "x10 = { type = \"bit\", name = \"X10\", bits = 8 }\n"
                             "\n[out]\n"
                             "sym = { type = \"bit\", name = \"SYM\" }\n"
                             "d8-4 = { type = \"s32\", name = \"D8:4\" }\n"
                             "\n# M, S and T functions: an edge of a pin hands one to the program.\n#\n";
   EXPECT_EQ(text.substr(0, begin.size()), begin);
+}
+
+TEST(Template, InputsThatAreNarrowerThanAPin) {
+  const std::string numbers = "# Numbers of 16 bits; of a greater one the pin's upper bits are lost:\n"
+                              "# x12-2 = { type = \"s32\", name = \"X12:2\" }\n\n";
+  const std::string both = templateOf(testing::gskProgram(), {{"X10", true, false}, {"X12:2", true, false}});
+  EXPECT_NE(both.find("[in]\nx10 = { type = \"bit\", name = \"X10\", bits = 8 }\n\n" + numbers), std::string::npos)
+      << both;
+  const std::string alone = templateOf(testing::gskProgram(), {{"X12:2", true, false}});
+  EXPECT_NE(alone.find("[in]\n" + numbers), std::string::npos) << alone;
 }
 
 TEST(Template, WhatBothSidesShareIsAComment) {

@@ -25,6 +25,7 @@ struct Definition {
   std::string_view comment;
   SourceRange range;          // of the name in its declaration; invalid: the control's own
   NamedPlace place;           // not of a constant
+  bool isPlaced = false;      // the declaration says where it lies
   std::string_view value;     // of a constant, as declared; empty: it is a place
   bool usedByControl = false; // by its name, whatever the program does
   bool isConstant() const { return !value.empty(); }
@@ -45,6 +46,9 @@ struct OperandUse {
   NamedPlace place;              // with what is added at run time left out
   std::string_view computed;     // that, as written: ",REG" or ":REG"; empty: nothing is added
   Access access = Access::Read;
+  bool isVariable = false; // `place` is as wide as the instruction takes a variable, whatever its declaration says
+  bool isSet = false;      // a coil that sets the bit and never resets it
+  bool isDue = false;      // the coil that an instruction must have, whether somebody looks at it or not
 };
 
 // An operand that is a place in the program: a label, a subprogram.

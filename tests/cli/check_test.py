@@ -103,7 +103,7 @@ class CheckNames(unittest.TestCase):
     def test_nct(self):
         text = NCT.format(start="", spare="")
         self.assertEqual(self.warnings("p.lad", text),
-                         [("never-written", "START"), ("never-read", "MOTOR"), ("never-read", "LATCH"),
+                         [("never-written", "START"), ("never-read", "MOTOR"), ("never-reset", "LATCH"), ("never-read", "LATCH"),
                           ("never-written", "BY_NO_NAME"), ("unused-name", "SPARE"), ("unused-name", "UNUSED")],
                          "MIDDLE is shifted with the others, KEPT is kept, the NC reads LAMP")
 
@@ -120,7 +120,7 @@ class CheckNames(unittest.TestCase):
         self.assertEqual(self.warnings("p.lad", text), [])
 
     def test_gsk(self):
-        self.assertEqual(self.warnings("p.pmc", GSK), [("never-read", "LOST")],
+        self.assertEqual(self.warnings("p.pmc", GSK), [("never-reset", "ALARM"), ("never-reset", "LOST"), ("never-read", "LOST")],
                          "inputs, outputs, requests of messages and what is kept have their other side in the control")
 
     def test_technol(self):
@@ -131,11 +131,65 @@ class CheckNames(unittest.TestCase):
         codes = self.warnings("p.lad", NCT.format(start="", spare="").replace("MOV KEPT", "MOW KEPT"), status=1)
         self.assertEqual([code for code, _ in codes], ["unknown-instruction"])
 
-    def test_other_commands_say_nothing(self):
+    def test_commands_that_compile_say_the_same(self):
         path = Path(self.folder.name) / "p.lad"
         path.write_text(NCT.format(start="", spare=""))
-        done = subprocess.run([RUNGC, "emit", "ir", path], capture_output=True, text=True, timeout=patience(), check=False)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        said = subprocess.run([RUNGC, "check", path], capture_output=True, text=True, timeout=patience(), check=True)
+        self.assertEqual(said.stdout, f"{path}: 3 rungs, 7 warnings\n")
+        out = Path(self.folder.name) / "p.so"
+        for words, end in ((["check", "-q", path], ""), (["build", path, "-o", out], "3 rungs, 7 warnings; wrote"), (["build", "-q", path, "-o", out], ""),
+                           (["emit", "ir", path, "-o", "/dev/null"], "wrote /dev/null\n"), (["run", path, "--scans", "1"], "1 scans")):
+            with self.subTest(words=words):
+                done = subprocess.run([RUNGC, *words], capture_output=True, text=True, timeout=patience(), check=True)
+                self.assertEqual(done.stderr, said.stderr)
+                self.assertIn(end, done.stdout)
+                self.assertEqual(done.stdout == "", end == "")
+
+    def scenario(self, name, *codes):
+        """The warnings of a scenario's program that have one of the codes, with their lines."""
+        done = subprocess.run([RUNGC, "check", "--no-project", "--json", f"tests/scenarios/{name}"], capture_output=True, text=True, timeout=patience(), check=True)
+        return [(one["line"], one["code"], one["message"]) for one in json.loads(done.stdout) if one["code"] in codes]
+
+    def test_overlaps(self):
+        self.assertEqual(self.scenario("nct/overlaps.lad", "overlap", "shared-terminal"),
+                         [(6, "shared-terminal", "'LIMIT_2' and 'LIMIT' are the same input"),
+                          (10, "shared-terminal", "'LAMP_2' and 'LAMP' are the same output"),
+                          (11, "overlap", "'T_STAR' shares memory with 'RUN' and another name"),
+                          (15, "overlap", "'SPEED' shares memory with 'PARTS'")])
+        self.assertEqual(self.scenario("gsk/overlaps.pmc", "overlap", "shared-terminal"),
+                         [(4, "shared-terminal", "'JOG' and 'GO' are the same input"),
+                          (7, "overlap", "'PARTS' shares memory with 'FAULT' and another name"),
+                          (11, "overlap", "'COUNT' shares memory with 'STATION'")])
+        self.assertEqual(self.scenario("technol/overlaps.plc", "overlap", "shared-terminal"),
+                         [(7, "overlap", "'BEYOND' shares memory with 'NEXT' and 2 other names"),
+                          (10, "overlap", "'SAVED2' shares memory with 'SAVED'")])
+
+    def test_the_places_of_an_overlap(self):
+        done = subprocess.run([RUNGC, "check", "--no-project", "tests/scenarios/gsk/overlaps.pmc"], capture_output=True, text=True, timeout=patience(), check=True)
+        for said in (":7:8: warning: 'PARTS' shares", ":8:8: note: 'FAULT' is declared here", ":34:5: note: 'PARTS' has 16 bits here",
+                     ":4:8: warning: 'JOG' and 'GO'", ":3:8: note: 'GO' is declared here"):
+            self.assertIn(said, done.stderr)
+
+    def test_never_reset(self):
+        self.assertEqual(self.scenario("nct/never-reset.lad", "never-reset", "timer-without-time"),
+                         [(5, "never-reset", "'FAULT' is set, but nothing resets it"), (24, "timer-without-time", "T_NONE has the set time 0")])
+        self.assertEqual(self.scenario("gsk/never-reset.pmc", "never-reset", "timer-without-time"),
+                         [(4, "never-reset", "'FAULT' is set, but nothing resets it"), (10, "never-reset", "'ALARM' is set, but nothing resets it")])
+        self.assertEqual(self.scenario("technol/never-reset.plc", "never-reset", "timer-without-time"), [(3, "never-reset", "'FAULT' is set, but nothing resets it")])
+
+    def test_a_coil_that_must_be_there_needs_no_reader(self):
+        text = ("dialect nct\nmessage 1 \"DOOR\"\nmodule MAIN\nsymbol GO INP000.00\nsymbol SHOWN 6000.00\nsymbol TIMED 6000.01\nsymbol LOST 6000.02\nsymbol NONE 6000.03\n"
+                "rung\n|--[GO]--{MSG #1 #0 #0 #0}--(SHOWN)\nrung\n|--[GO]--{TOND 6001 #1 #1}--+--(TIMED)\n                            +--[GO]--(LOST)\n"
+                "rung\n|--[GO]--(NONE)\nrung\n|--{END}\n")
+        self.assertEqual(self.warnings("p.lad", text), [("never-read", "LOST"), ("never-read", "NONE")])
+        text = ("symbol GO X0.0\nsymbol TIMED R0.0\nsymbol AGAIN R0.1\nsymbol NONE R0.2\nFUNC END1\nLD GO\nFUNC TMRB\nPRM 1\nPRM 1000\nOUT TIMED\nOUT AGAIN\n"
+                "LD GO\nOUT NONE\nFUNC END2\n")
+        self.assertEqual(self.warnings("p.pmc", text), [("never-read", "AGAIN"), ("never-read", "NONE")])
+
+    def test_programs_of_the_docs_have_none(self):
+        for path in sorted([*Path("docs").glob("*.lad"), *Path("docs").glob("*.pmc")]):
+            done = subprocess.run([RUNGC, "check", "--no-project", "--json", path], capture_output=True, text=True, timeout=patience(), check=False)
+            self.assertEqual(json.loads(done.stdout), [], path)
 
     def test_examples_have_none(self):
         for folder in sorted(Path("examples").iterdir()):

@@ -463,7 +463,7 @@ class RetainedTables(Cli):
     PROGRAM = """dialect nct
 module MAIN
 symbol VALUE 6000
-symbol READ  6001.00
+symbol READ  6001.00  ; once: allow(never-reset)
 rung
 |--[N_FIRSTCC]--+--{MOV 5001 #3}
                 +--{MOV 5003 #6000}

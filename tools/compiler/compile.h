@@ -56,7 +56,7 @@ struct Compiled {
   ir::GivenNumbers given;             // of `built`, for a comparison
   frontend::CompileOptions options;   // of the request
   std::unique_ptr<ir::Uses> uses;     // of the module as the dialect made it
-  // Where it was asked for: for its analysis alone, as it has been built.
+  // Where it was asked for: for its analysis alone, as it has been built; the sources must outlive it.
   std::unique_ptr<const frontend::CheckedProgram> source;
   uint64_t codeHash = 0; // ir::hashOf the module
   size_t warnings = 0;   // that were reported on the way

@@ -67,7 +67,7 @@ std::optional<compiler::Compiled> compileWithProfile(SourceManager& sources, con
     branches = std::move(read).value();
     request.branches = &branches;
   }
-  std::optional<compiler::Compiled> compiled = compileSources(sources, options.source, request, status);
+  std::optional<compiler::Compiled> compiled = compileChecked(sources, options.source, request, status);
   if (compiled && compiled->odds.unknown != 0)
     fmt::print(stderr, "rungc: {}: {} of {} rungs with branches are not in it, or have changed since\n",
                options.profileUse, compiled->odds.unknown, compiled->odds.known + compiled->odds.unknown);

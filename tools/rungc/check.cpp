@@ -1,20 +1,9 @@
-// rungc check: reports every mistake of a program, and names that look like mistakes.
+// rungc check: reports every mistake of a program, and what looks like one.
 #include <memory>
 
-#include "ir/layout/program_image.h"
 #include "tools/rungc/commands.h"
-#include "tools/xref/odd_names.h"
 
 namespace rung::rungc {
-namespace {
-
-void checkNames(const compiler::Compiled& compiled, const SourceManager& sources, Diagnostics& diagnostics) {
-  const ir::ProgramImage image(*compiled.layout, compiled.codeHash);
-  const xref::CrossReference reference(image.program(), *compiled.uses, compiled.dialect->shownSpaces);
-  xref::reportOddNames(sources, compiled.source->analysis(), reference, diagnostics);
-}
-
-} // namespace
 
 void addCheck(CommandLine& app, int& status) {
   Command command = app.add("check", "Report all mistakes of a program");
@@ -22,7 +11,7 @@ void addCheck(CommandLine& app, int& status) {
   addSourceOptions(command, *options);
   command.onRun([options, &status] {
     SourceManager sources;
-    const auto compiled = compileSources(sources, *options, {.keepSource = true}, status, checkNames);
+    const auto compiled = compileChecked(sources, *options, {}, status);
     if (compiled) printSummary(*compiled, *options, "");
   });
 }

@@ -1,7 +1,6 @@
 // The subcommands of rungc. Each adds itself to the application and returns nothing; when the user names it, it stores
 // its exit status in `status`: 0 ok, 1 the program or scenario is wrong, 2 usage, 3 environment.
 #pragma once
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -57,12 +56,12 @@ bool wantsColor(const std::string& color, int file);
 void addActivityOption(Command command, bool& activity);
 // -O0 compiles fast, -O2 runs fast.
 void addLevelOption(Command command, std::string& level);
-// More to be said about a program without errors.
-using FurtherCheck = std::function<void(const compiler::Compiled&, const SourceManager&, Diagnostics&)>;
 // Compiles and prints the diagnostics to standard error (JSON: to standard output). On failure `status` says why.
 std::optional<compiler::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
-                                                 compiler::CompileRequest request, int& status,
-                                                 const FurtherCheck& further = {});
+                                                 compiler::CompileRequest request, int& status);
+// The same for those who check, build or run the program: names that look like mistakes are warned of, too.
+std::optional<compiler::Compiled> compileChecked(SourceManager& sources, const SourceOptions& options,
+                                                 compiler::CompileRequest request, int& status);
 using ConfigPairs = std::vector<std::pair<std::string, std::string>>;
 // Nothing, and `status` says why, where one is not KEY=VALUE.
 std::optional<ConfigPairs> configPairs(const std::vector<std::string>& config, int& status);

@@ -392,7 +392,7 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   request.keepBuilt = options.prompt || !options.scenarioFile.empty(); // whoever may force cells
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
   Program program;
-  program.compiled = compileSources(sources, source, request, status);
+  program.compiled = compileChecked(sources, source, request, status);
   if (!program.compiled) return std::nullopt;
   compiler::EngineOptions engineOptions;
   engineOptions.debugger = options.debugger;

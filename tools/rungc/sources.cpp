@@ -15,6 +15,7 @@
 #include "tools/compiler/configuration.h"
 #include "tools/console/working.h"
 #include "tools/rungc/commands.h"
+#include "tools/xref/odd_names.h"
 
 namespace rung::rungc {
 
@@ -30,7 +31,7 @@ void addSourceOptions(Command command, SourceOptions& options, const std::string
   command.option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated").oneValue();
   command.flag("--strict", options.strict, "Warnings that the control's own rules call errors are errors");
   command.flag("--json", options.json, json);
-  command.flag("-q,--quiet", options.quiet, "Nothing but errors and warnings");
+  command.flag("-q,--quiet", options.quiet, "No line that says what was done; errors and warnings stay");
   addColorOption(command, options.color, "Colours in diagnostics");
   command.onParsed([&options] { return takeProject(options); });
 }
@@ -180,9 +181,10 @@ std::optional<std::vector<FileId>> addSources(SourceManager& sources, const Sour
   return status == kOk ? std::optional(files.value()) : std::nullopt;
 }
 
-std::optional<compiler::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
-                                                 compiler::CompileRequest request, int& status,
-                                                 const FurtherCheck& further) {
+namespace {
+
+std::optional<compiler::Compiled> compileFiles(SourceManager& sources, const SourceOptions& options,
+                                               compiler::CompileRequest request, int& status) {
   request.dialect = options.dialect;
   if (options.project) request.name = options.project->name;
   request.activity = options.activity || (options.project && options.project->activity);
@@ -194,12 +196,29 @@ std::optional<compiler::Compiled> compileSources(SourceManager& sources, const S
     return compiler::compile(sources, *files, request, diagnostics);
   }();
   if (compiled) checkNames(*compiled, sources, request.options, diagnostics);
-  if (compiled && further) further(*compiled, sources, diagnostics);
+  if (compiled && request.keepSource) {
+    xref::reportOddNames(sources, compiled->source->analysis(), *compiled->layout, *compiled->uses,
+                         compiled->dialect->shownSpaces, diagnostics);
+    compiled->source.reset(); // it refers to the sources
+  }
   if (compiled) compiled->warnings = diagnostics.warningCount();
   if (diagnostics.hasErrors()) compiled.reset();
   printDiagnostics(diagnostics, sources, options);
   status = compiled ? kOk : kWrong;
   return compiled;
+}
+
+} // namespace
+
+std::optional<compiler::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
+                                                 compiler::CompileRequest request, int& status) {
+  return compileFiles(sources, options, std::move(request), status);
+}
+
+std::optional<compiler::Compiled> compileChecked(SourceManager& sources, const SourceOptions& options,
+                                                 compiler::CompileRequest request, int& status) {
+  request.keepSource = true;
+  return compileFiles(sources, options, std::move(request), status);
 }
 
 } // namespace rung::rungc

@@ -8,6 +8,7 @@
 #include "ir/support/diag_render.h"
 #include "ir/support/similar.h"
 #include "tools/compiler/configuration.h"
+#include "tools/xref/odd_names.h"
 
 namespace rung::scenario {
 namespace {
@@ -112,6 +113,7 @@ compiler::CompileRequest requestOf(const Scenario& scenario, const CompileSettin
   request.activity = settings.activity;
   request.marks = settings.marks;
   request.keepBuilt = true;
+  request.keepSource = firstOf(scenario, Kind::ExpectWarning) != nullptr;
   for (const Statement& s : scenario.statements) {
     if (s.kind == Kind::Dialect) request.dialect = s.name;
     if (s.kind == Kind::Period) request.options.config["period_us"] = std::to_string(s.microseconds);
@@ -132,9 +134,17 @@ std::optional<std::vector<FileId>> addFiles(SourceManager& sources, const std::v
   return std::nullopt;
 }
 
+// As `rungc check`. What the front end knows refers to the sources, which do not outlive the step.
+void reportNames(compiler::Compiled& program, const SourceManager& sources, Diagnostics& diagnostics) {
+  xref::reportOddNames(sources, program.source->analysis(), *program.layout, *program.uses,
+                       program.dialect->shownSpaces, diagnostics);
+  program.source.reset();
+}
+
 void compileFiles(SourceManager& sources, const std::vector<FileId>& files, const compiler::CompileRequest& request,
                   Diagnostics& diagnostics, CompileStep& step) {
   step.program = compiler::compile(sources, files, request, diagnostics);
+  if (step.program && request.keepSource) reportNames(*step.program, sources, diagnostics);
   for (uint32_t i = 0; i < sources.fileCount(); ++i) step.files.emplace_back(sources.name(FileId{i}));
 }
 

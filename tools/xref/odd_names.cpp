@@ -6,10 +6,10 @@
 #include <set>
 #include <tuple>
 
-#include <fmt/format.h>
-
-#include "ir/support/allowance.h"
+#include "ir/layout/program_image.h"
 #include "ir/support/diag/structure.h"
+#include "tools/xref/allowed.h"
+#include "tools/xref/overlaps.h"
 #include "tools/xref/place_names.h"
 #include "tools/xref/place_search.h"
 
@@ -25,6 +25,9 @@ using frontend::OperandUse;
 struct Sides {
   bool read = false;
   bool written = false;
+  bool isDue = false;                // written by a coil that has to be there
+  bool isChanged = false;            // written otherwise than set
+  SourceRange set;                   // the coil that sets it
   std::vector<SourceRange> operands; // that do it
 
   void add(bool reads, bool writes) {
@@ -77,6 +80,7 @@ private:
   std::vector<Line> linesOf(const std::vector<SourceRange>& operands) const;
   bool isIn(const std::vector<Line>& lines, uint32_t rung) const; // some of them
   void addImplicit(const ir::BitRange& place, Sides& sides) const;
+  bool mayChange(const ir::BitRange& place, const Sides& sides) const;
   void reportUnused(const Definition& definition);
   void report(Diag code, const Definition& definition, SourceRange operand = {});
 
@@ -95,6 +99,9 @@ Sides Checker::operandsAt(const ir::BitRange& place) const {
   const auto add = [&](const Placed& one) {
     const Access access = one.operand->access;
     sides.add(access == Access::Read || access == Access::ReadWrite, access != Access::Read);
+    sides.isDue |= one.operand->isDue;
+    sides.isChanged |= access != Access::Read && !one.operand->isSet;
+    if (one.operand->isSet) sides.set = one.operand->range;
     sides.operands.push_back(one.operand->range);
   };
   forEachAt(place, operands_, longest_, [](const Placed& one) { return one.place; }, add);
@@ -130,12 +137,21 @@ void Checker::addImplicit(const ir::BitRange& place, Sides& sides) const {
   for (const xref::Access& access : reference_.perhaps(refAt(place))) sides.add(access.reads, access.writes);
 }
 
+// Whether something but its setting coils writes a place, among these the operator, the control and an index.
+bool Checker::mayChange(const ir::BitRange& place, const Sides& sides) const {
+  if (sides.isChanged || reference_.uses().isRetained(place) || reference_.of(refAt(place)).controlWrites) return true;
+  const std::vector<Line> lines = linesOf(sides.operands);
+  const auto writesElsewhere = [&](const xref::Access& access) { return access.writes && !isIn(lines, access.rung); };
+  return std::ranges::any_of(reference_.accessesOf(place), writesElsewhere) ||
+         std::ranges::any_of(reference_.perhaps(refAt(place)), &xref::Access::writes);
+}
+
 void Checker::reportUnused(const Definition& definition) {
   if (settled_.insert(placeOf(definition)).second) report(diag::UnusedName, definition);
 }
 
 void Checker::report(Diag code, const Definition& definition, SourceRange operand) {
-  if (allows(definition.comment, diagInfo(code).code)) return;
+  if (isAllowed(definition, code)) return;
   DiagBuilder report = diagnostics_.report(code, definition.range);
   report << definition.name;
   if (operand.valid()) report.note(operand, "here");
@@ -150,6 +166,7 @@ void Checker::check(const Definition& definition, bool used) {
   }
   Sides sides = operandsAt(*place);
   const bool unused = !used && sides.operands.empty();
+  if (place->count == 1 && sides.written && !mayChange(*place, sides)) report(diag::NeverReset, definition, sides.set);
   if (!unused && sides.read == sides.written) return;
   addImplicit(*place, sides);
   if (unused && !sides.read && !sides.written) return reportUnused(definition);
@@ -157,7 +174,7 @@ void Checker::check(const Definition& definition, bool used) {
   const Entry entry = reference_.of(refAt(*place));
   const SourceRange operand = sides.operands.empty() ? SourceRange{} : sides.operands.front();
   if (!sides.written && !entry.controlWrites) report(diag::NeverWritten, definition, operand);
-  if (!sides.read && !entry.controlReads) report(diag::NeverRead, definition, operand);
+  if (!sides.read && !sides.isDue && !entry.controlReads) report(diag::NeverRead, definition, operand);
 }
 
 } // namespace
@@ -165,6 +182,13 @@ void Checker::check(const Definition& definition, bool used) {
 void reportOddNames(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference,
                     Diagnostics& diagnostics) {
   Checker(sources, analysis, reference, diagnostics).run();
+  reportOverlaps(sources, analysis, reference, diagnostics);
+}
+
+void reportOddNames(const SourceManager& sources, const Analysis& analysis, const ir::Layout& layout,
+                    const ir::Uses& uses, std::span<const std::string_view> shown, Diagnostics& diagnostics) {
+  const ir::ProgramImage image(layout, 0);
+  reportOddNames(sources, analysis, CrossReference(image.program(), uses, shown), diagnostics);
 }
 
 } // namespace rung::xref

@@ -99,6 +99,7 @@ struct Symbol {
   Protection protection = Protection::None;
   bool predeclared = false;
   bool local = false;
+  bool isOverlay = false;         // a text that lies on memory with a name
   bool broken = false;            // declared in error: uses are silent
   ir::Type type = ir::Type::None; // of a cell; None: needs a prefix
   ir::SpaceId space;

@@ -191,8 +191,10 @@ void Names::addSymbol(Context& context, const Word& name, const Word& value, std
     context.diagnostics.report(diag::BadOperand, value.range) << value.text << "a bit or byte address or a signal";
   }
   symbol->definition = context.analysis.define({.name = name.text, .comment = comment, .range = name.range});
-  if (!symbol->bad)
-    context.analysis.definition(symbol->definition).place = placeOf(context.language, symbol->address, 1);
+  if (symbol->bad) return;
+  frontend::Definition& definition = context.analysis.definition(symbol->definition);
+  definition.place = placeOf(context.language, symbol->address, 1);
+  definition.isPlaced = true;
 }
 
 void Names::addConstant(Context& context, const Word& name, const Word& value) {
@@ -327,11 +329,16 @@ std::optional<NamedAddress> bitOperand(Context& context, const Word& word) {
   return found.address;
 }
 
-std::optional<Address> readBit(Context& context, const Word& word, frontend::Access access) {
+std::optional<Address> readBit(Context& context, const Word& word, frontend::Access access, CoilTraits coil) {
   const std::optional<NamedAddress> bit = bitOperand(context, word);
   if (!bit) return std::nullopt;
-  context.analysis.use(
-      {.range = word.range, .base = bit->name, .place = placeOf(context.language, *bit, 1), .access = access});
+  context.analysis.use({.range = word.range,
+                        .base = bit->name,
+                        .place = placeOf(context.language, *bit, 1),
+                        .access = access,
+                        .isVariable = true,
+                        .isSet = coil.isSet,
+                        .isDue = coil.isDue});
   if (access == frontend::Access::Write && !checkWritable(context, *bit, 1, word.range)) return std::nullopt;
   return bit;
 }

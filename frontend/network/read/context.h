@@ -117,8 +117,12 @@ std::optional<NamedAddress> byteOperand(Context& context, const Word& word, uint
                                         std::string_view expected = kByteAddress);
 // False, with a report, when the program may not write `length` bytes (a bit: 1) there; warns of the system area.
 bool checkWritable(Context& context, const Address& address, uint32_t length, SourceRange range);
+struct CoilTraits { // see frontend::OperandUse
+  bool isSet = false;
+  bool isDue = false;
+};
 // The operand of a contact, which reads, or of a coil, which writes; the analysis has it then. Nullopt as above, and
 // for a bit that the program may not write.
-std::optional<Address> readBit(Context& context, const Word& word, frontend::Access access);
+std::optional<Address> readBit(Context& context, const Word& word, frontend::Access access, CoilTraits coil = {});
 
 } // namespace rung::network

@@ -140,8 +140,9 @@ void NetworkBuilder::coil(Coil kind, const Word& operand, Place at) {
   }
   extend(at);
   write(commandOf(kind), operand.text, at);
+  const CoilTraits traits{.isSet = kind == Coil::Set, .isDue = kind == Coil::Out && state_ == State::Function};
   if (state_ != State::Function || mayHaveCoils()) state_ = State::Outputs;
-  const auto bit = readBit(context_, operand, frontend::Access::Write);
+  const auto bit = readBit(context_, operand, frontend::Access::Write, traits);
   if (bit)
     network_.coils.push_back({kind, *bit, at.line, at.range});
   else

@@ -29,6 +29,11 @@ bool fits(int64_t value, uint32_t length) {
   return value >= -(int64_t{1} << (bits - 1)) && value < (int64_t{1} << bits);
 }
 
+// One number; of a block or a table the cells may have names of their own.
+bool isVariable(const OperandKind& kind) {
+  return !kind.rest && (kind.length == Length::OfKind || kind.length == Length::OfFormat);
+}
+
 class ParameterCheck {
 public:
   ParameterCheck(Context& context, Function& function) : context_(context), function_(function) {}
@@ -174,7 +179,8 @@ bool ParameterCheck::checkAddress(const OperandInfo& info, const Word& word, Par
   context_.analysis.use({.range = word.range,
                          .base = address->name,
                          .place = placeOf(context_.language, *address, length),
-                         .access = info.access});
+                         .access = info.access,
+                         .isVariable = isVariable(*param.kind)});
   param.bytes = param.kind->rest ? context_.language.at(address->area).bytes - address->byte : length;
   return info.access == Access::Read || checkWritable(context_, *address, length, word.range);
 }

@@ -100,6 +100,7 @@ TypedRung RungChecker::check(const ladder::LadderFile& file, const ladder::Rung&
   typed.bad = rung.bad;
   typed.elements.reserve(rung.elements.size());
   typed.operands.reserve(rung.operandPool.size());
+  dueNets_.clear();
   for (const ladder::Element& element : rung.elements) checkElement(typed, element);
   // What marks a place in the program has a rung of its own (l.2926, l.2968, l.3022).
   for (const TypedElement& element : typed.elements) {
@@ -173,6 +174,8 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
   }
   const bool drawn = rung.bad || checkDrawn(rung, element, *added.row); // of a bad one no net is known
   bool ok = readOperands(typed, added) && drawn;
+  if (element.kind == ElementKind::Box && added.row->info.output == Output::Always)
+    dueNets_.insert(element.output.index);
   if (ok && !added.row->isBuilt()) {
     diagnostics_.report(diag::NotBuiltYet, element.mnemonicRange) << added.row->info.mnemonic;
     ok = false;
@@ -214,6 +217,14 @@ bool RungChecker::readLabel(TypedElement& element, const Word& word) {
   return true;
 }
 
+// Due is a plain coil right after a box that must have one, as MSG, TOND and CNT.
+RungChecker::CoilTraits RungChecker::coilTraits(const ladder::Rung& rung, const ladder::Element& element) const {
+  if (element.kind != ElementKind::Coil) return {};
+  const bool isDue =
+      element.coil == ladder::CoilKind::Plain && !rung.bad && dueNets_.contains(rung.inputOf(element).index);
+  return {.isSet = element.coil == ladder::CoilKind::Set, .isDue = isDue};
+}
+
 bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
   const ladder::Element& element = *typedElement.element;
   const NctInstruction& row = *typedElement.row;
@@ -239,7 +250,7 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
       ++typedElement.operandCount;
     }
     const Operand& operand = typed.operands.back();
-    note(row.info.operands[i], operand);
+    note(row.info.operands[i], operand, coilTraits(*typed.rung, element));
     ok = operand.form != Form::Bad && checkOperand(row, i, operand) && checkModifiers(row, element, operand) && ok;
   }
   if (!ok) return false;
@@ -384,13 +395,16 @@ frontend::NamedPlace placeOf(const OperandInfo& info, const Address& address) {
   return {"M", address.word * 32, kindOf(info).words * 32};
 }
 
-void RungChecker::note(const OperandInfo& info, const Operand& operand) {
+void RungChecker::note(const OperandInfo& info, const Operand& operand, CoilTraits coil) {
   if (operand.form != Form::Bit && operand.form != Form::Word) return;
   analysis_.use({.range = operand.source->range,
                  .base = operand.base == nullptr ? frontend::kNoDefinition : operand.base->index,
                  .place = placeOf(info, operand.address),
                  .computed = computedPart(operand),
-                 .access = info.access});
+                 .access = info.access,
+                 .isVariable = true,
+                 .isSet = coil.isSet,
+                 .isDue = coil.isDue});
 }
 
 void RungChecker::warnInt0Only(const Operand& operand) {

@@ -1,6 +1,7 @@
 // Checks the rungs of a program one by one: what each element is, where it may be, what its operands are.
 #pragma once
 #include <unordered_map>
+#include <unordered_set>
 
 #include "frontend/dialects/nct/program.h"
 #include "frontend/sema/foreign_word.h"
@@ -44,7 +45,12 @@ private:
   bool checkDestination(const frontend::OperandInfo& info, const Operand& operand);
   bool checkModifiers(const NctInstruction& row, const ladder::Element& element, const Operand& operand);
   void warnInt0Only(const Operand& operand);
-  void note(const frontend::OperandInfo& info, const Operand& operand);
+  struct CoilTraits { // see frontend::OperandUse
+    bool isSet = false;
+    bool isDue = false;
+  };
+  CoilTraits coilTraits(const ladder::Rung& rung, const ladder::Element& element) const;
+  void note(const frontend::OperandInfo& info, const Operand& operand, CoilTraits coil);
 
   SymbolTable& symbols_;
   OutputReservations& reservations_;
@@ -52,8 +58,9 @@ private:
   Diagnostics& diagnostics_;
   std::string_view module_; // its name, as written
   bool inInt0_;
-  const nc::Signal* handwheel_; // HWMOVE
-  const nc::Signal* fastClock_; // N_P2MS
+  std::unordered_set<uint32_t> dueNets_; // after the rung's boxes that must have a coil
+  const nc::Signal* handwheel_;          // HWMOVE
+  const nc::Signal* fastClock_;          // N_P2MS
 };
 
 } // namespace rung::nct

@@ -144,8 +144,8 @@ ValueId lowerTimer(Lowering& box) {
 void checkTimer(std::span<const Operand> operands, const Config&, Diagnostics& diagnostics) {
   const Operand& set = operands[1];
   const Operand& basis = operands[2];
-  if (set.form == Form::Constant && set.constant.integer == 0)
-    diagnostics.report(diag::TimerWithoutTime, set.source->range) << set.source->text;
+  if (set.form == Form::Constant && !set.fromSymbol && set.constant.integer == 0)
+    diagnostics.report(diag::TimerWithoutTime, set.source->range) << operands[0].source->text;
   if (set.form != Form::Constant || basis.form != Form::Constant) return;
   const int64_t limit = kLimit[basis.constant.integer];
   if (set.constant.integer > limit)

@@ -119,6 +119,7 @@ void SymbolTable::defineAll() {
     if (symbol.kind == SymbolKind::Constant) definition.value = symbol.declaration->value.text;
     const bool known = symbol.kind == SymbolKind::Word || symbol.kind == SymbolKind::Bit;
     if (known) definition.place = {"M", symbol.word * 32 + symbol.bit, symbol.kind == SymbolKind::Bit ? 1u : 32u};
+    definition.isPlaced = symbol.declaration != nullptr;
     analysis_.define(definition);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "frontend/dialects/technol/rows/operand_kinds.h"
 #include "rtlib/text/blanks.h"
 
 namespace rung::frontend::technol {
@@ -43,6 +44,7 @@ Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
   const Declared declared = declaredAt(sources, symbol.declared);
   definition.range = symbol.declared;
   definition.comment = declared.comment;
+  definition.isPlaced = symbol.isOverlay;
   if (symbol.kind == SymbolKind::Constant) definition.value = declared.rest;
   return definition;
 }
@@ -83,7 +85,12 @@ NamedPlace placeOf(const Operand& operand) {
   return {};
 }
 
-void addOperand(const TypedProgram& typed, const Operand& operand, Analysis& analysis) {
+// FL 1 and FL1 1 set their bits.
+bool setsBits(const Statement& statement, std::span<const Operand> operands) {
+  return !operands.empty() && statement.row->info.operands[0].kind == &kinds::kFlag && operands[0].value == 1;
+}
+
+void addOperand(const TypedProgram& typed, const Operand& operand, bool isSet, Analysis& analysis) {
   const NamedPlace place = placeOf(operand);
   if (place.bits == 0) return;
   const std::span<const NameUse> names = typed.namesOf(operand);
@@ -91,7 +98,8 @@ void addOperand(const TypedProgram& typed, const Operand& operand, Analysis& ana
                 .base = names.empty() ? kNoDefinition : names.front().definition,
                 .place = place,
                 .computed = operand.indexed ? "[BX]" : "",
-                .access = operand.access});
+                .access = operand.access,
+                .isSet = isSet});
 }
 
 } // namespace
@@ -108,7 +116,11 @@ Analysis analysisOf(const Program& program, const TypedProgram& typed) {
       analysis.use(name.range, name.definition);
       addTarget(program.symbols[name.definition], name.definition, name.range, false, analysis);
     }
-  for (const Operand& operand : typed.operands) addOperand(typed, operand, analysis);
+  for (uint32_t i = 0; i < typed.statements.size(); ++i) {
+    const std::span<const Operand> operands = typed.operandsOf(typed.statements[i]);
+    const bool isSet = setsBits(program.statements[i], operands);
+    for (const Operand& operand : operands) addOperand(typed, operand, isSet, analysis);
+  }
   analysis.settle();
   return analysis;
 }

@@ -256,6 +256,7 @@ bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statemen
   text.space = base.space;
   text.byte = static_cast<uint32_t>(base.byte + *offset);
   text.protection = base.protection;
+  text.isOverlay = true;
   return true;
 }
 

@@ -160,7 +160,7 @@ void Checker::reportTerminal(const Name& name, const Name& other) {
   if (!entry.controlWrites && !entry.controlReads) return;
   diagnostics_.report(diag::SharedTerminal, definitionOf(name).range)
           .note(definitionOf(other).range, fmt::format("'{}' is declared here", definitionOf(other).name))
-      << definitionOf(name).name << definitionOf(other).name << (entry.controlWrites ? "input" : "output");
+      << definitionOf(name).name << definitionOf(other).name;
 }
 
 void Checker::reportOverlap(const Name& wide, const Name& other, size_t count) {

@@ -45,6 +45,7 @@ private:
   bool overlaps(const Name& wide, const Name& other) const;
   bool isWrittenBy(const Name& name, const ir::BitRange& bits) const;
   bool isNumber(const ir::BitRange& place) const;
+  std::vector<uint32_t> waysTo(const Definition& name) const;
   bool isReachedBy(const Definition& name, const Name& other) const;
   bool meets(const Name& name, const Name& other, Diag code) const;
   void reportTerminal(const Name& name, const Name& other);
@@ -106,14 +107,19 @@ bool Checker::isNumber(const ir::BitRange& place) const {
   });
 }
 
-// Whether a name is used on the line that declares the other one.
-bool Checker::isReachedBy(const Definition& name, const Name& other) const {
+// The names, by their definitions, that are used on the line that declares this one.
+std::vector<uint32_t> Checker::waysTo(const Definition& name) const {
+  std::vector<uint32_t> ways;
   const auto beginOf = [](const frontend::NameUse& use) { return use.range.begin; };
   const uint32_t line = sources_.lineCol(name.range.begin).line;
   for (auto at = std::ranges::lower_bound(analysis_.names(), name.range.begin, {}, beginOf);
        at != analysis_.names().end() && sources_.lineCol(at->range.begin).line == line; ++at)
-    if (at->definition == other.definition) return true;
-  return false;
+    ways.push_back(at->definition);
+  return ways;
+}
+
+bool Checker::isReachedBy(const Definition& name, const Name& other) const {
+  return std::ranges::count(waysTo(name), other.definition) != 0;
 }
 
 // Whether a report of the two is wanted. A file that several others include declares its names in each of them.
@@ -135,13 +141,14 @@ void Checker::check(const Name& name) {
   const Name* first = nullptr;
   const Name* before = nullptr; // of the same place
   bool isMeant = false;         // by way of one of them
+  const std::vector<uint32_t> ways = waysTo(definitionOf(name));
   size_t count = 0;
   forEachAt(
       name.place, names_, longest_, [](const Name& one) { return one.place; },
       [&](const Name& other) {
         if (other.place == name.place) {
           const bool isEarlier = other.definition < name.definition;
-          isMeant |= isReachedBy(definitionOf(name), other);
+          isMeant |= std::ranges::count(ways, other.definition) != 0;
           if (isEarlier && before == nullptr && meets(name, other, diag::SharedTerminal)) before = &other;
           return;
         }

@@ -111,9 +111,13 @@ bool Checker::isNumber(const ir::BitRange& place) const {
 std::vector<uint32_t> Checker::waysTo(const Definition& name) const {
   std::vector<uint32_t> ways;
   const auto beginOf = [](const frontend::NameUse& use) { return use.range.begin; };
-  const uint32_t line = sources_.lineCol(name.range.begin).line;
+  const LineCol place = sources_.lineCol(name.range.begin);
+  const auto isOnLine = [&](SourcePos position) {
+    const LineCol at = sources_.lineCol(position);
+    return at.file == place.file && at.line == place.line;
+  };
   for (auto at = std::ranges::lower_bound(analysis_.names(), name.range.begin, {}, beginOf);
-       at != analysis_.names().end() && sources_.lineCol(at->range.begin).line == line; ++at)
+       at != analysis_.names().end() && isOnLine(at->range.begin); ++at)
     ways.push_back(at->definition);
   return ways;
 }

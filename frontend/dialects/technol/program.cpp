@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "ir/support/diag/technol.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend::technol {
@@ -78,6 +79,15 @@ SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens,
   const SourceRange first = tokens.front().range(), last = tokens.back().range();
   const bool inOrder = first.begin <= last.begin && first.end <= last.end;
   return inOrder && sources.fileOf(first.begin) == sources.fileOf(last.begin) ? join(first, last) : first;
+}
+
+bool takeSign(const Program& program, std::span<const Token> tokens) {
+  const bool isSign = tokens.size() > 1 && (tokens[0].is('-') || tokens[0].is('+'));
+  if (!isSign || tokens[1].kind != TokenKind::Name) return false;
+  program.diagnostics.report(diag::BadIdentifier, join(tokens[0].range(), tokens[1].range()))
+          .note("a sign before a name negates its value: write " + std::string(tokens[1].text))
+      << spelled(tokens.first(2));
+  return true;
 }
 
 bool isOneWord(std::span<const Token> tokens) {

@@ -98,6 +98,8 @@ SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens,
 
 // Tokens as written, one blank where there are some.
 std::string spelled(std::span<const Token> tokens);
+// Whether a declared name has a sign before it, as designations of devices have: -K1. It is reported.
+bool takeSign(const Program& program, std::span<const Token> tokens);
 // Tokens that are one word, 1A or A-B, where a name should be: that is a bad name, all else no name at all.
 bool isOneWord(std::span<const Token> tokens);
 

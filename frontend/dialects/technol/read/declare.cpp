@@ -47,7 +47,8 @@ void Declarations::bits(const Statement& statement, DataItem& item) {
   item.firstBit = static_cast<uint32_t>(program_.itemBits.size());
   program_.itemBits.resize(program_.itemBits.size() + 8, kNone);
   uint32_t number = 0;
-  for (const std::span<const Token> operand : splitOperands(program_.operandTokens(statement))) {
+  for (std::span<const Token> operand : splitOperands(program_.operandTokens(statement))) {
+    if (operand.size() == 2 && takeSign(program_, operand)) operand = operand.subspan(1);
     if (number == 8) {
       program_.diagnostics.report(diag::TooManyBits, rangeOf(program_.sources, operand, statement.range()));
       return;

@@ -39,6 +39,10 @@ void noteLabel(std::span<const Token> tokens, DiagBuilder& report) {
 // `A-B:` is a label that is not a name; a colon has no other meaning.
 bool FileReader::splitLabel(uint32_t& first, uint32_t& count) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
+  if (count > 2 && tokens[2].is(':') && takeSign(program_, tokens)) { // the name is that without it
+    ++first, --count;
+    return false;
+  }
   const auto colon = std::find_if(tokens.begin(), tokens.end(), [](const Token& token) { return token.is(':'); });
   if (colon == tokens.end() || colon - tokens.begin() < 2 || tokens[0].kind == TokenKind::Punct) return false;
   if (tokens[0].kind == TokenKind::Name && findRow(tokens[0].text) != nullptr) return false;

@@ -259,7 +259,7 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
   const size_t point = lastPoint(tokens);
   if (point != std::string_view::npos) {
     if (point + 2 != tokens.size() || tokens[point + 1].kind != TokenKind::Name)
-      return syntax("the name of a bit after the point", tokens.subspan(point + 1));
+      return syntax("the name of a bit after the point", tokens.subspan(point + 1), tokens[point].range());
     return bitAt(info, tokens.first(point), tokens[point + 1], out);
   }
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return bareBit(info, kind, tokens[0], out);

@@ -72,9 +72,12 @@ bool isNotGiven(std::span<const Token> tokens) {
 } // namespace
 
 bool OperandParser::syntax(std::string_view expected, std::span<const Token> tokens) {
+  return syntax(expected, tokens, statement_->range());
+}
+
+bool OperandParser::syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise) {
   const std::string found = tokens.empty() ? "nothing" : "'" + std::string(tokens[0].text) + "'";
-  program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, tokens, statement_->range()))
-      << expected << found;
+  program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, tokens, otherwise)) << expected << found;
   return false;
 }
 

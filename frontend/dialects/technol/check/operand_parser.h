@@ -70,6 +70,7 @@ private:
     return reportWrongKind(program_.diagnostics, operand, is, wanted);
   }
   bool syntax(std::string_view expected, std::span<const Token> tokens);
+  bool syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise); // where there are none
   // The symbol of a name, which is noted.
   uint32_t note(const Token& name, uint32_t symbol);
   uint32_t require(const Token& name) { return note(name, program_.symbols.require(name, file_)); }

@@ -73,7 +73,7 @@ class Source:
     def occurs(self, word):
         """Lines of all files with the word in their code, as (file, line)."""
         pattern = re.compile(rf"(?<![\w]){re.escape(word)}(?![\w])", re.IGNORECASE if self.dialect == "technol" else 0)
-        return [(file, i) for file, lines in self.files.items() for i, line in enumerate(lines) if pattern.search(code_of(line))]
+        return [(file, i) for file, lines in self.files.items() for i, line in enumerate(lines) if pattern.search(re.sub(r"\"[^\"]*\"|'[^']*'", "", code_of(line)))]
 
     def replace_word(self, word, other):
         pattern = re.compile(rf"(?<![\w]){re.escape(word)}(?![\w])")
@@ -184,7 +184,7 @@ def title(source):
 
 def spelling(source):
     """Another spelling of a number."""
-    number = {"nct": r"#(\d+)\b", "gsk": r"\b(?:PRM|FUNC)(\s+)(\d+)\s*$", "technol": r"\bCNST\.(\d+)\b"}[source.dialect]
+    number = {"nct": r"#(\d+)\b", "gsk": r"\b(?:PRM|FUNC)(\s+)(\d+)\s*$", "technol": r"(\bCNST\.|\bTIM\s+\S+,)(\d+)\b"}[source.dialect]
     at = source.pick(i for i in range(len(source.lines)) if re.search(number, source.code(i)) and not re.search(r"JMP|JME|SBS|SBN|\.\d", source.code(i).replace("CNST.", "")))
     code = source.code(at)
     if source.dialect == "nct":  # in a rung of several lines as long as before, or these had to be laid out anew
@@ -198,7 +198,7 @@ def spelling(source):
     elif source.dialect == "gsk":
         new = re.sub(r"(\d+)\s*$", r"0\1", code)
     else:
-        new = re.sub(number, lambda m: f"CNST.0{int(m[1]):X}h", code)
+        new = re.sub(number, lambda m: f"{m[1]}0{int(m[2]):X}h", code)
     source.lines[at] = new + source.lines[at][len(code):]
     return source.edit()
 
@@ -297,9 +297,8 @@ def operand(source):
 
 def new_rung(source):
     """A contact and a coil that occur elsewhere, so that no name is new."""
-    contact = re.compile({"gsk": r"\s*LD\s+(\S+)", "technol": r"\s*LDR\s+(\w+)\s*$", "nct": r"\|--\[(\w+)\]"}["nct" if source.is_ladder else source.dialect])
     coil = re.compile({"gsk": r"\s*OUT\s+(\S+)", "technol": r"\s*WR\s+(\w+)\s*$", "nct": r"--\((\w+)\)\s*$"}["nct" if source.is_ladder else source.dialect])
-    a = source.pick(sorted({m[1] for i in range(len(source.lines)) if (m := contact.match(source.code(i)))}))
+    a = bits(source)
     b = source.pick(sorted({m[1] for i in range(len(source.lines)) if (m := coil.search(source.code(i)))}))
     if source.is_ladder:
         return ["rung", f"|--[{a}]--[/{b}]--(9870.05)", ""]
@@ -310,6 +309,52 @@ def new_rung(source):
 def inserted(source):
     at = source.pick(begin for begin, _ in rungs(source))
     source.lines[at:at] = new_rung(source)
+    return source.edit(rungs=[("added", None, at)])
+
+
+def bits(source):
+    """A contact that occurs elsewhere."""
+    contact = re.compile({"gsk": r"\s*LD\s+(\S+)", "technol": r"\s*LDR\s+(\w+)\s*$", "nct": r"\|--\[(\w+)\]"}["nct" if source.is_ladder else source.dialect])
+    return source.pick(sorted({m[1] for i in range(len(source.lines)) if (m := contact.match(source.code(i)))}))
+
+
+def jumped_over(source):
+    """A jump and its label around rungs that stay as they are."""
+    if source.is_ladder and source.dialect == "gsk":
+        raise Unsuitable
+    found = rungs(source)
+    first = source.pick(range(len(found) - 1))
+    begin, end = found[first][0], found[min(first + source.rng.randint(1, 12), len(found) - 1)][0]
+    if begin == end:
+        raise Unsuitable
+    bit = bits(source)
+    if source.dialect == "nct":
+        jump, label = ["rung", f"|--[{bit}]--{{JMP #97}}", ""], ["rung", "|--{JME #97}", ""]
+    elif source.dialect == "gsk":
+        jump, label = [f"LD {bit}", "FUNC JMPB", "PRM L990"], ["FUNC LBL", "PRM L990"]
+    else:
+        jump, label = [f"        LDR {bit}", "        JL1 A_NEW_LABEL"], ["A_NEW_LABEL:"]
+    source.lines[end:end] = label
+    source.lines[begin:begin] = jump
+    new = [("added", None, begin)]
+    return source.edit(rungs=new if source.dialect == "technol" else new + [("added", None, end + len(jump))])
+
+
+def wait(source):
+    """A mechanism waits once more."""
+    if source.dialect != "technol":
+        raise Unsuitable
+    mechanism, places = False, []
+    code = [i for i in range(len(source.lines)) if source.code(i).strip()]
+    for i, following in zip(code, code[1:]):
+        word = source.code(i).split()[0]
+        mechanism = word == "MECH_BEGIN" or (mechanism and word != "MECH_END")
+        if mechanism and word in ("EX", "EX0", "EX1", "TIM"):
+            places.append(following)
+    at = source.pick(places)
+    if source.code(at).strip().endswith(":"):
+        raise Unsuitable  # before or after the label is not the same
+    source.lines[at:at] = [f"        LDR  {bits(source)}", "        EX1"]
     return source.edit(rungs=[("added", None, at)])
 
 
@@ -420,7 +465,7 @@ def configuration(source):
 
 
 NOTHING = [remark, remark_behind, blank_lines, spaces, title, spelling, label, renamed, variable]
-SOMETHING = [negated, operand, inserted, removed, moved, jump, constant, address, message, content, configuration]
+SOMETHING = [negated, operand, inserted, jumped_over, wait, removed, moved, jump, constant, address, message, content, configuration]
 
 
 # ---- what is found, against what has to be -------------------------------------------------------------------------

@@ -80,8 +80,8 @@ std::map<uint32_t, std::string> messagesOf(const Module& module) {
   return messages;
 }
 
-const std::string& textOf(const std::string& text) { return text; }
-const std::string& textOf(const Setting& setting) { return setting.text; }
+std::string textOf(const std::string& text) { return text; }
+std::string textOf(const Setting& setting) { return setting.text; }
 
 // Calls `visit` with key, former and new value of all that differ; null where there is none.
 template <class Values, class Visit>

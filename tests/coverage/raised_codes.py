@@ -38,6 +38,7 @@ COMMANDS = {
                           "              +---------------------------+\n"), "check a.lad"),
     "dialect-conflict": ({"a.lad": LAMP, "b.lad": "dialect gsk\nmodule LEVEL1\n"}, "check a.lad b.lad"),
     "unknown-dialect": ({"a.lad": LAMP}, "check a.lad --dialect klingon"),
+    "compiled-program": ({"a.lad": "\x7fELF"}, "check a.lad"),
     "unknown-config-key": (project(PROJECT + "[config]\nPLCNVRAN = 4000\n"), "check"),
     "config-value": (project(PROJECT + 'nc = "simulated"\n[config]\naxes = "?"\n'), "check"),
     "file-not-found": ({"a.pmc": "FUNC 0\nFUNC 1\n"}, "check a.pmc --config messages=none.msg"),

@@ -19,6 +19,8 @@
 namespace rung::compiler {
 namespace {
 
+constexpr std::string_view kElfMagic = "\177ELF";
+
 // An invalid module is an error of the compiler, never of the user's program.
 void checkModule(const ir::Module& module, ir::Mode mode) {
   const std::vector<ir::VerifyError> errors = ir::verify(module, mode);
@@ -54,6 +56,11 @@ bool checkEncodingKey(const frontend::CompileOptions& options, Diagnostics& diag
 
 const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
                                        const std::string& name, Diagnostics& diagnostics) {
+  for (const FileId file : files)
+    if (sources.text(file).starts_with(kElfMagic)) {
+      diagnostics.report(diag::CompiledProgram, SourceRange{}) << sources.name(file);
+      return nullptr;
+    }
   const SourceRange start = sources.range(files[0], 0, 0);
   if (!name.empty()) {
     const frontend::Dialect* named = frontend::findDialect(name);
@@ -81,10 +88,6 @@ Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<s
     }
     Result<FileId> file = sources.addFile(name);
     if (!file.ok()) return failure(fmt::format("cannot read '{}': {}", name, file.error()));
-    if (sources.text(file.value())
-            .starts_with("\x7f"
-                         "ELF"))
-      return failure(fmt::format("'{}' is a compiled program; its source files are needed here", name));
     files.push_back(file.value());
   }
   return files;

@@ -63,13 +63,12 @@ struct Compiled {
 };
 
 // Adds the files of a command line; "-" reads standard input. `config`: of the dialect; its `encoding` is that of files
-// that do not name theirs. Fails on the first that cannot be read,
-// or is a compiled program.
+// that do not name theirs. Fails on the first that cannot be read.
 Result<std::vector<FileId>> addFiles(SourceManager& sources, const std::vector<std::string>& names,
                                      const std::map<std::string, std::string>& config);
 
-// The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing says it;
-// that is reported.
+// The dialect of a program: the one named, or with an empty name that of the first file. Null when nothing says it, or
+// one of the files is a compiled program; that is reported.
 const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<const FileId> files,
                                        const std::string& name, Diagnostics& diagnostics);
 

@@ -17,9 +17,10 @@ TEST(ModuleItems, OnceHoweverOftenAsked) {
   EXPECT_EQ(service(module, "B ->").index, 1u);
   EXPECT_EQ(service(module, "A x ->").index, 0u);
   EXPECT_EQ(module.services.size(), 2u);
-  const ir::SpaceId bytes = constantBytes(module, "@T1", "abc");
-  EXPECT_EQ(constantBytes(module, "@T1", "abc"), bytes);
-  EXPECT_NE(constantBytes(module, "@T2", "x"), bytes);
+  ConstantBytes constants(module);
+  const ir::SpaceId bytes = constants.spaceOf("abc");
+  EXPECT_EQ(constants.spaceOf("abc"), bytes);
+  EXPECT_NE(constants.spaceOf("x"), bytes);
   EXPECT_EQ(module.at(bytes).units, 3u);
   EXPECT_EQ(module.inits.size(), 2u);
 }

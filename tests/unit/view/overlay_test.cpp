@@ -95,16 +95,21 @@ TEST(ViewOverlay, StepsOfHeat) {
 }
 
 TEST(ViewOverlay, AListingHasEachRungOnceInTheOrderOfTheSource) {
-  const Listing listing = listingOf({"none/b.plc"}, "TECHNOL",
-                                    {{3, "PROC", "", {"none/b.plc", 9, 0}, 9},
-                                     {1, "MAIN", "first", {"none/b.plc", 2, 0}, 3},
-                                     {1, "MAIN", "second", {"none/b.plc", 2, 0}, 3},
-                                     {2, "MAIN", "", {"none/b.plc", 5, 0}, 6}});
+  SourceManager sources;
+  sources.addBuffer("b.plc", "bytes");
+  const FileId file = sources.addBuffer("b.plc", "line 1\nline 2\n"); // what a dialect has made of them
+  const Listing listing = listingOf(sources, std::array{file}, "TECHNOL",
+                                    {{3, "PROC", "", {"b.plc", 9, 0}, 9},
+                                     {1, "MAIN", "first", {"b.plc", 2, 0}, 3},
+                                     {1, "MAIN", "second", {"b.plc", 2, 0}, 3},
+                                     {2, "MAIN", "", {"b.plc", 5, 0}, 6}},
+                                    {"none/c.inc"});
   std::string rows;
   for (const TableRow& row : listing.rows) rows += fmt::format("{}{} ", row.number, row.title);
   EXPECT_EQ(rows, "1first 2 3 ");
   EXPECT_EQ(listing.title, "b.plc");
-  EXPECT_TRUE(listing.texts.empty()); // there is no such file
+  ASSERT_EQ(listing.texts.size(), 1u); // there is no none/c.inc
+  EXPECT_EQ(listing.texts.at("b.plc"), (std::vector<std::string>{"line 1", "line 2"}));
 }
 
 TEST(ViewOverlay, ATableForProgramsWithoutADrawing) {

@@ -193,6 +193,7 @@ MODULE_MAIN_END
 MODULE_INIT
 MODULE_INIT_END
 MODULE_CLEAR
+        MECH_INIT ALFA
 MODULE_CLEAR_END
 MODULE_HALT
 MODULE_HALT_END
@@ -221,6 +222,7 @@ STOP
                               (("CNST.10", "CNST.11"), "1 changed, 0 added"), (("WORD.LIST[BX]", "WORD.(LIST[BX]+2)"), "1 changed, 0 added"),
                               (("'xyz'", "'xyy'"), "1 changed, 0 added"), (("EX0\n", "EX1\n"), "1 changed, 0 added"),
                               (("        LDR B\n        EX1\n", "        LDR A\n        EX1\n        LDR B\n        EX1\n"), "0 changed, 1 added"),
+                              (("        LDR B\n        EX1\n", "        TIM -,50\n        LDR B\n        EX1\n"), "0 changed, 1 added"),
                               (("        LDR B\n        WR C\n", "        LDR A\n        WR B\n        LDR B\n        WR C\n"), "0 changed, 1 added")):
             status, text = self.technol(change)
             self.assertEqual(status, OTHERWISE, change)

@@ -163,7 +163,7 @@ void Sequences::initialise(uint32_t mechanism) {
   Kept& kept = mechanisms_[mechanism];
   b.slotStore(kept.state, b.i32(0));
   const Mechanism& info = m_.program().mechanisms[mechanism];
-  if (!info.hasTimers) return;
+  if (!info.hasTimers || m_.isCompared()) return;
   if (!kept.reset.valid()) kept.reset = m_.newRoutine("@MECH_INIT " + symbolKey(info.name));
   m_.out().call(kept.reset);
 }

@@ -53,6 +53,46 @@ BitRange elementOf(const Module& module, const Rung& rung, std::span<const Op* c
   return element;
 }
 
+bool isSelect(const Op& op) { return op.code == OpCode::Select; }
+
+// Of each operation whether it loads what a store puts back where a select has nothing else for it.
+class KeptLoads {
+public:
+  explicit KeptLoads(const Rung& rung) : rung_(rung) {
+    if (std::ranges::none_of(rung.ops, isSelect)) return;
+    users_.resize(rung.values.size());
+    for (const Op& op : rung.ops)
+      for (int i = 0; i < op.argCount; ++i) use(arg(rung, op, i), &op);
+    for (const ValueId value : {rung.transfer.cond, rung.transfer.value})
+      if (value.valid()) use(value, nullptr);
+  }
+
+  bool contains(const Op& load) const {
+    if (users_.empty() || load.code != OpCode::Load) return false;
+    const Op* select = onlyUser(load.result);
+    if (select == nullptr || !isSelect(*select) || arg(rung_, *select, 0) == load.result) return false;
+    const Op* store = onlyUser(select->result);
+    return store != nullptr && store->code == OpCode::Store && store->ref == load.ref && store->imm == load.imm;
+  }
+
+private:
+  struct Users {
+    uint32_t count = 0;
+    const Op* last = nullptr;
+  };
+  void use(ValueId value, const Op* user) {
+    ++users_[value.index].count;
+    users_[value.index].last = user;
+  }
+  const Op* onlyUser(ValueId value) const {
+    const Users& users = users_[value.index];
+    return users.count == 1 ? users.last : nullptr;
+  }
+
+  const Rung& rung_;
+  std::vector<Users> users_; // by value; empty where the rung has no select
+};
+
 struct UseHash {
   size_t operator()(const RungUse& use) const {
     const uint64_t place = hashNumber(uint64_t{use.place.space.index} << 32 | use.place.first, kHashSeed);
@@ -69,6 +109,14 @@ public:
     if (list_.size() == kFew && known_.empty()) known_.insert(list_.begin(), list_.end());
     if (list_.size() < kFew ? !contains(list_, use) : known_.insert(use).second) list_.push_back(use);
   }
+  // Of a place that the rung also reads for itself only that is said.
+  void settle() {
+    std::erase_if(list_, [&](const RungUse& use) {
+      RungUse plain = use;
+      plain.keeps = false;
+      return use.keeps && (known_.empty() ? contains(list_, plain) : known_.contains(plain));
+    });
+  }
 
 private:
   static constexpr size_t kFew = 64;
@@ -81,11 +129,12 @@ private:
 Uses::RungFacts Uses::factsOf(const Module& module, const Rung& rung) {
   RungFacts facts;
   OnceEach uses(facts.uses);
+  const KeptLoads kept(rung);
   std::vector<const Op*> definitions(rung.values.size(), nullptr);
   for (const Op& op : rung.ops) {
     if (op.resultCount == 1) definitions[op.result.index] = &op;
     if (const auto use = useOf(module, op))
-      uses.add({*use, use->computed ? elementOf(module, rung, definitions, op, *use) : use->place});
+      uses.add({*use, use->computed ? elementOf(module, rung, definitions, op, *use) : use->place, kept.contains(op)});
     if (opInfo(op.code).attr != Attr::Slot) continue;
     const SlotId slot{op.ref};
     if (op.code == OpCode::SlotStore)
@@ -93,6 +142,7 @@ Uses::RungFacts Uses::factsOf(const Module& module, const Rung& rung) {
     else if (!contains(facts.slotsWritten, slot))
       addOnce(facts.slotsRead, slot);
   }
+  uses.settle();
   const Transfer& transfer = rung.transfer;
   facts.kind = transfer.kind;
   facts.conditional = transfer.cond.valid();
@@ -157,6 +207,16 @@ std::vector<BitRange> Uses::copiedTo(const BitRange& place) const {
     addOnce(targets, BitRange{copy.to, copy.toByte * 8 + first - from.first, end - first});
   }
   return targets;
+}
+
+std::optional<BitRange> Uses::copiedWhole(const BitRange& place) const {
+  for (const Copy& copy : copies_) {
+    const BitRange from = bitsOf(copy.from);
+    if (copy.masked || from.space != place.space || place.first < from.first) continue;
+    const uint32_t distance = place.first - from.first;
+    if (distance + place.count <= from.count) return BitRange{copy.to, copy.toByte * 8 + distance, place.count};
+  }
+  return std::nullopt;
 }
 
 bool Uses::isCleared(const BitRange& place) const { return anyMeets(cleared_, place); }

@@ -2,6 +2,7 @@
 // for engines. Made of the module as the front end built it, because passes drop reads that an engine does not need.
 // Rungs are numbered over all routines, as in rung_program::rungs.
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct RungUse : Use {
   // Of a computed one the place where it lies when what is added at run time is 0, as far as the rung says that: of
   // `X,REG` X. Else `place`.
   BitRange element;
+  // Of a read: all that becomes of it is that a write which some condition leaves out puts back what was there. A coil
+  // that sets a bit reads it so, and depends on nothing that it finds there.
+  bool keeps = false;
   bool operator==(const RungUse&) const = default;
 };
 
@@ -36,6 +40,8 @@ public:
   std::vector<BitRange> copiedFrom(const BitRange& place) const;
   // Where they go then.
   std::vector<BitRange> copiedTo(const BitRange& place) const;
+  // The place that all of it is copied over when a task begins or ends: of an NC's memory the program's own.
+  std::optional<BitRange> copiedWhole(const BitRange& place) const;
   // Whether a fault clears something of the place: what the control or the machine reads.
   bool isCleared(const BitRange& place) const;
   // Whether something of it is kept through power-off.

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """rungc xref as a user sees it: who reads and writes what, whatever the spelling. xref_test.py RUNGC"""
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -54,6 +55,77 @@ GSK = """        LD X0.0
         FUNC END1
         FUNC END2
 """
+IMMEDIATE = """dialect nct
+symbol LIMIT INP000.05 ; allow(never-written)
+module INT0
+rung
+|--[!LIMIT]--(!OUT000.03)
+rung
+|--[/!INP000.05]--(S 7003.01)
+
+module MAIN
+rung
+|--[OUT000.03]--(7000.00)
+rung
+|--[7000.00]--[7003.01]--(R 7003.01)
+rung
+|--{END}
+"""
+LATCHES = {
+    "latch.pmc": """dialect gsk
+symbol FLAG R5.0
+symbol HELD R5.1
+FUNC 0
+LD X0.0
+SET FLAG
+SET HELD
+LD X0.1
+AND HELD
+RST HELD
+OUT Y0.0
+FUNC 1
+""",
+    "latch.lad": """dialect nct
+symbol FLAG 7001.00
+symbol HELD 7001.01
+module MAIN
+rung
+|--[7000.00]--+--(S FLAG)
+              +--(S HELD)
+rung
+|--[7000.01]--[HELD]--+--(R HELD)
+                      +--(7000.02)
+rung
+|--{END}
+""",
+    "latch.plc": """DATA
+        DFM  FLAG,HELD,OUT
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_MAIN
+        LDR  OUT
+        FL1  1,FLAG
+        FL1  1,HELD
+        LDR  HELD
+        FL1  0,HELD
+        WR   OUT
+MODULE_MAIN_END
+""" + "".join(f"MODULE_{name}\nMODULE_{name}_END\n" for name in ("BLOCK_INIT", "BLOCK_DONE", "INIT", "CLEAR", "HALT")) + "STOP\n",
+}
+NAMES = """DATA
+        DFM  B0,B1
+WORDS:  DS 8
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_MAIN
+        LOD  WORD.WORDS+2
+        STO  BYTE.WORDS+5
+        LDR  WORDS+1.B1
+        WR   B1
+MODULE_MAIN_END
+""" + "".join(f"MODULE_{name}\nMODULE_{name}_END\n" for name in ("BLOCK_INIT", "BLOCK_DONE", "INIT", "CLEAR", "HALT")) + "STOP\n"
 
 
 class Xref(unittest.TestCase):
@@ -122,10 +194,63 @@ class Xref(unittest.TestCase):
         self.assertNotIn("control_reads", given)
 
     def test_odd_ones(self):
-        names = self.entries(self.program("p.lad", NCT), "--odd")
+        """Those that check warns of: where an index may lead counts as read or written."""
+        fixed = NCT.replace("COUNT,IDX", "COUNT")
+        names = self.entries(self.program("p.lad", fixed), "--odd")
         self.assertEqual(names["SPARE"]["odd"], "used by no rung")
         self.assertEqual(names["START"]["odd"], "read, but written by no rung")
         self.assertEqual(names["MOTOR"]["odd"] if "MOTOR" in names else "", "")
+        self.assertNotIn("START", self.entries(self.program("i.lad", NCT), "--odd"))
+
+    def warned(self, path):
+        """Names of places that check warns of, each with what is wrong with it."""
+        done = subprocess.run([RUNGC, "check", "--json", path], capture_output=True, text=True, timeout=patience(300), check=False)
+        codes = {"unused-name": "used by no rung", "never-written": "read, but written by no rung", "never-read": "written, but read by no rung"}
+        text = path.read_text().splitlines()
+        return {re.match(r"[\w.]+", text[found["line"] - 1][found["column"] - 1:]).group(): codes[found["code"]]
+                for found in json.loads(done.stdout) if found["code"] in codes}
+
+    def test_odd_names_are_those_that_check_warns_of(self):
+        for name, text in {**LATCHES, "p.lad": NCT, "fixed.lad": NCT.replace("COUNT,IDX", "COUNT"), "given.lad": GIVEN,
+                           "immediate.lad": IMMEDIATE}.items():
+            path = self.program(name, text)
+            odd = {entry["name"]: entry["odd"] for entry in json.loads(self.xref("--format", "json", "--odd", path)) if entry["name"]}
+            self.assertEqual(odd, self.warned(path), name)
+        self.assertEqual(self.warned(self.program("latch.lad", LATCHES["latch.lad"])), {"FLAG": "written, but read by no rung"})
+
+    def test_setting_and_resetting_is_writing(self):
+        for name, text in LATCHES.items():
+            path = self.program(name, text)
+            flag, held = json.loads(self.xref("--format", "json", path, "--place", "FLAG", "--place", "HELD"))
+            self.assertEqual((len(flag["written"]), flag["read"]), (1, []), name)
+            self.assertEqual(flag["odd"], "written, but read by no rung", name)
+            self.assertEqual((len(held["written"]), len(held["read"])), (2, 1), f"{name}: a contact reads it")
+
+    def test_the_time_slice_memory_is_no_other_place(self):
+        path = self.program("i.lad", IMMEDIATE)
+        limit, out, marked = json.loads(self.xref("--format", "json", path, "--place", "LIMIT", "--place", "OUT000.03", "--place", "!OUT000.03"))
+        self.assertEqual([use["rung"] for use in limit["read"]], [1, 2])
+        self.assertTrue(limit["control_writes"])
+        self.assertTrue(all(use["address"].startswith("!") for use in limit["read"]), "what the rung says is shown")
+        self.assertEqual(([use["rung"] for use in out["written"]], [use["rung"] for use in out["read"]]), ([1], [3]))
+        self.assertEqual(marked, out)
+        lathe, = json.loads(self.xref("--format", "json", "examples/nct-lathe", "--place", "TN_TS1"))
+        self.assertGreater(len(lathe["read"]), 3)
+        self.assertNotIn("odd", lathe)
+
+    def test_names_of_the_control_that_nobody_uses(self):
+        path = self.program("given.lad", GIVEN)
+        self.assertTrue(self.xref(path).startswith("TN_TS1 (0680.00)\n"), "FL_ER to FL_LT, PLCRAM are left out")
+        self.assertTrue(self.xref(path, "--place", "FL_ER").startswith("FL_ER (0000.00)"), "who asks is answered")
+
+    def test_places_of_technol_by_their_names(self):
+        path = self.program("n.plc", NAMES)
+        text = self.xref(path)
+        self.assertEqual(re.findall(r"(?m)^([^\s:]+)", text), ["B0", "B1", "WORDS", "WORDS.9", "WORD.WORDS+2", "BYTE.WORDS+5"])
+        self.assertIn("rung 2, {0}:7, as WORDS+2 to WORDS+3\n           rung 3, {0}:10, as WORDS.9\n".format(path), text)
+        for entry in json.loads(self.xref("--format", "json", path)):
+            again, = json.loads(self.xref("--format", "json", path, "--place", entry["address"]))
+            self.assertEqual(entry["address"], again["address"])
 
     def test_examples(self):
         for example in ("gsk-mill", "nct-turning-centre", "technol-machining-centre"):

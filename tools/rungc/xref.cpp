@@ -1,11 +1,12 @@
 // rungc xref: which rungs read and write what.
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
 #include "ir/layout/program_image.h"
 #include "rtlib/nc/names/names.h"
 #include "tools/rungc/commands.h"
-#include "tools/xref/cross_reference.h"
+#include "tools/xref/odd_names.h"
 
 namespace rung::rungc {
 namespace {
@@ -17,7 +18,7 @@ struct XrefOptions {
   std::string format = "text";
 };
 
-std::optional<std::vector<xref::Entry>> entriesOf(const xref::CrossReference& reference, const XrefOptions& options) {
+std::optional<std::vector<xref::Entry>> placesOf(const xref::CrossReference& reference, const XrefOptions& options) {
   std::vector<xref::Entry> entries;
   for (const std::string& name : options.places) {
     const auto place = nc::resolve(reference.program(), name);
@@ -28,21 +29,31 @@ std::optional<std::vector<xref::Entry>> entriesOf(const xref::CrossReference& re
     }
     entries.push_back(reference.of(*place));
   }
-  if (options.places.empty()) entries = reference.all();
-  if (options.odd) std::erase_if(entries, [](const xref::Entry& entry) { return xref::oddity(entry).empty(); });
   return entries;
+}
+
+// What the sources declare or a rung of them uses; the rest is the control's and the compiler's own.
+bool isOfProgram(const rung_program& program, const xref::Entry& entry) {
+  return entry.declared || std::ranges::any_of(entry.accesses, [&](const xref::Access& access) {
+           return program.rungs[access.rung].number != 0;
+         });
 }
 
 int run(const XrefOptions& options) {
   SourceManager sources;
   int status = kOk;
-  const auto compiled = compileSources(sources, options.source, {}, status);
+  const auto compiled = compileSources(sources, options.source, {.keepSource = true}, status);
   if (!compiled) return status;
   const ir::ProgramImage image(*compiled->layout, compiled->codeHash);
   const xref::CrossReference reference(image.program(), *compiled->uses, compiled->dialect->shownSpaces);
-  const auto entries = entriesOf(reference, options);
-  if (!entries) return kWrong;
   const bool listed = !options.places.empty();
+  auto entries = listed ? placesOf(reference, options) : reference.all();
+  if (!entries) return kWrong;
+  xref::markOdd(sources, compiled->source->analysis(), reference, *entries);
+  if (options.odd)
+    std::erase_if(*entries, [](const xref::Entry& entry) { return entry.odd.empty(); });
+  else if (!listed)
+    std::erase_if(*entries, [&](const xref::Entry& entry) { return !isOfProgram(image.program(), entry); });
   const auto show = options.format == "json" ? xref::shownAsJson : xref::shownAsText;
   return writeOutput(show(reference, *entries, listed));
 }

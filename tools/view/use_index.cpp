@@ -22,7 +22,7 @@ std::vector<Use> UseIndex::drawnAt(const ir::BitRange& place) const {
   return uses;
 }
 
-// What an operand says goes before what the program does with the place: a coil that sets also reads its bit.
+// What an operand says goes before what the program does with the place.
 std::vector<Use> UseIndex::of(const ir::BitRange& place) {
   settle();
   std::vector<Use> uses = drawnAt(place);

@@ -2,6 +2,7 @@
 #include "tools/xref/cross_reference.h"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 #include "tools/xref/place_names.h"
@@ -35,22 +36,28 @@ CrossReference::CrossReference(const rung_program& program, const ir::Uses& uses
                                std::span<const std::string_view> shown)
     : program_(program), uses_(uses), shown_(shown) {
   for (uint32_t rung = 0; rung < uses.rungCount(); ++rung)
-    for (const ir::RungUse& use : uses.of(rung)) {
-      const std::optional<BitRange> element = knownPlace(program, uses, use.element);
-      const std::optional<BitRange> reach = knownPlace(program, uses, use.place);
-      if (!element || !reach) continue;
-      const Access access{
-          .rung = rung, .reads = !use.writes, .writes = use.writes, .indexed = use.computed, .as = *element};
-      sorted_.push_back({access, *reach, use.type});
-      longest_ = std::max(longest_, element->count);
-    }
-  std::ranges::stable_sort(sorted_, {}, [](const Use& use) { return orderOf(use.access.as); });
+    for (const ir::RungUse& use : uses.of(rung))
+      if (!use.keeps) add(rung, use);
+  std::ranges::stable_sort(sorted_, {}, [](const Use& use) { return orderOf(use.place); });
+  std::ranges::copy_if(sorted_, std::back_inserter(indexed_), [](const Use& use) { return use.access.indexed; });
 }
+
+void CrossReference::add(uint32_t rung, const ir::RungUse& use) {
+  const std::optional<BitRange> element = knownPlace(program_, uses_, use.element);
+  const std::optional<BitRange> reach = knownPlace(program_, uses_, use.place);
+  if (!element || !reach) return;
+  const Access access{
+      .rung = rung, .reads = !use.writes, .writes = use.writes, .indexed = use.computed, .as = *element};
+  sorted_.push_back({access, listed(*element), listed(*reach), use.type});
+  longest_ = std::max(longest_, element->count);
+}
+
+BitRange CrossReference::listed(const BitRange& place) const { return listedPlace(program_, uses_, place); }
 
 void CrossReference::addPlaces(std::vector<Ref>& places) const {
   for (const Use& use : sorted_) {
     ir::Use place;
-    place.place = use.access.as;
+    place.place = use.place;
     place.type = use.type;
     places.push_back(refOf(place));
   }
@@ -73,14 +80,18 @@ std::vector<Entry> CrossReference::all() const {
 std::vector<Access> CrossReference::accessesOf(const BitRange& bits) const {
   std::vector<Access> accesses;
   forEachAt(
-      bits, sorted_, longest_, [](const Use& use) { return use.access.as; },
+      listed(bits), sorted_, longest_, [](const Use& use) { return use.place; },
       [&](const Use& use) { addAccess(accesses, use.access); });
   std::ranges::stable_sort(accesses, {}, &Access::rung);
   return accesses;
 }
 
-Entry CrossReference::of(const Ref& place) const {
-  Entry entry{.place = place, .accesses = accessesOf(bitsOf(place))};
+Entry CrossReference::of(const Ref& asked) const {
+  Ref place = asked;
+  const BitRange own = listed(bitsOf(asked));
+  place.space = own.space.index;
+  place.byte = own.first / 8;
+  Entry entry{.place = place, .accesses = accessesOf(own)};
   entry.controlWrites = isWrittenByControl(program_, uses_, place);
   entry.controlReads = isReadByControl(program_, uses_, place) ||
                        std::ranges::find(shown_, program_.spaces[place.space].name) != shown_.end();
@@ -89,21 +100,11 @@ Entry CrossReference::of(const Ref& place) const {
 
 std::vector<Access> CrossReference::perhaps(const Ref& place) const {
   std::vector<Access> accesses;
-  const BitRange bits = bitsOf(place);
-  for (const Use& use : sorted_)
-    if (use.access.indexed && !overlap(use.access.as, bits) && overlap(use.reach, bits))
-      addAccess(accesses, use.access);
+  const BitRange bits = listed(bitsOf(place));
+  for (const Use& use : indexed_)
+    if (!overlap(use.place, bits) && overlap(use.reach, bits)) addAccess(accesses, use.access);
   std::ranges::stable_sort(accesses, {}, &Access::rung);
   return accesses;
-}
-
-std::string oddity(const Entry& entry) {
-  const bool read = entry.isRead();
-  const bool written = entry.isWritten();
-  if (!read && !written) return "used by no rung";
-  if (!written && !entry.controlWrites) return "read, but written by no rung";
-  if (!read && !entry.controlReads) return "written, but read by no rung";
-  return {};
 }
 
 } // namespace rung::xref

@@ -26,6 +26,9 @@ struct Entry {
   std::vector<Access> accesses; // by rung, ascending; what an index may lead to from elsewhere is not among them
   bool controlWrites = false;   // the control or the machine, not a rung
   bool controlReads = false;
+  // By markOdd (odd_names.h).
+  bool declared = false;  // by the program
+  std::string_view odd{}; // what looks like a mistake, e.g. "used by no rung"; empty: nothing does
 
   bool isRead() const;
   bool isWritten() const;
@@ -50,24 +53,25 @@ public:
 private:
   struct Use {
     Access access;
+    ir::BitRange place; // that it is listed under, as `reach`
     ir::BitRange reach; // with an index
     ir::Type type = ir::Type::None;
   };
+  void add(uint32_t rung, const ir::RungUse& use);
+  ir::BitRange listed(const ir::BitRange& place) const;
   void addPlaces(std::vector<host::Ref>& places) const;
 
   const rung_program& program_;
   const ir::Uses& uses_;
   const std::span<const std::string_view> shown_;
-  std::vector<Use> sorted_; // by place
-  uint32_t longest_ = 1;    // bits of an element
+  std::vector<Use> sorted_;  // by place
+  std::vector<Use> indexed_; // of these
+  uint32_t longest_ = 1;     // bits of an element
 };
 
 // For people, an entry a paragraph, and for programs. `entries` are of `reference`; `perhaps`: with the rungs whose
 // index may lead there, which takes time in proportion to the program for each entry.
 std::string shownAsText(const CrossReference& reference, const std::vector<Entry>& entries, bool perhaps);
 std::string shownAsJson(const CrossReference& reference, const std::vector<Entry>& entries, bool perhaps);
-
-// What is odd about an entry: "" or "used by no rung", "read, but written by no rung", "written, but read by no rung".
-std::string oddity(const Entry& entry);
 
 } // namespace rung::xref

@@ -10,6 +10,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// With the length of a cell where only that says which of several places at one name it is.
+std::string addressOf(const rung_program& program, const host::Ref& place) {
+  return nc::hasAddresses(program) ? nc::address(program, place) : nc::cellAddress(program, place);
+}
+
 Json accessJson(const rung_program& program, const Access& access) {
   const rung_rung_info& rung = program.rungs[access.rung];
   const bool added = rung.file == RUNG_NONE; // by the compiler
@@ -37,12 +42,12 @@ std::string shownAsJson(const CrossReference& reference, const std::vector<Entry
   const rung_program& program = reference.program();
   Json list = Json::array();
   for (const Entry& entry : entries) {
-    Json json = {{"name", symbolAt(program, entry.place)}, {"address", nc::address(program, entry.place)}};
+    Json json = {{"name", symbolAt(program, entry.place)}, {"address", addressOf(program, entry.place)}};
     json["written"] = accessesJson(program, entry.accesses, &Access::writes);
     json["read"] = accessesJson(program, entry.accesses, &Access::reads);
     if (entry.controlWrites) json["control_writes"] = true;
     if (entry.controlReads) json["control_reads"] = true;
-    if (const std::string odd = oddity(entry); !odd.empty()) json["odd"] = odd;
+    if (!entry.odd.empty()) json["odd"] = entry.odd;
     if (perhaps) {
       const std::vector<Access> others = reference.perhaps(entry.place);
       json["perhaps_written"] = accessesJson(program, others, &Access::writes);

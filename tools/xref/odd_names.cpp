@@ -2,6 +2,7 @@
 #include "tools/xref/odd_names.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -12,6 +13,7 @@
 #include "tools/xref/overlaps.h"
 #include "tools/xref/place_names.h"
 #include "tools/xref/place_search.h"
+#include "tools/xref/used_places.h"
 
 namespace rung::xref {
 namespace {
@@ -20,6 +22,14 @@ using frontend::Access;
 using frontend::Analysis;
 using frontend::Definition;
 using frontend::OperandUse;
+
+constexpr std::string_view kUnused = "used by no rung";
+constexpr std::string_view kReadOnly = "read, but written by no rung";
+constexpr std::string_view kWrittenOnly = "written, but read by no rung";
+constexpr std::string_view kNeverReset = "set, but reset by no rung";
+
+using Key = std::tuple<uint32_t, uint32_t, uint32_t>; // space, first bit, bits
+Key keyOf(const ir::BitRange& place) { return {place.space.index, place.first, place.count}; }
 
 // What is done with a place.
 struct Sides {
@@ -38,10 +48,8 @@ struct Sides {
 
 class Checker {
 public:
-  Checker(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference,
-          Diagnostics& diagnostics)
-      : sources_(sources), analysis_(analysis), reference_(reference), diagnostics_(diagnostics),
-        used_(analysis.definitions().size()) {
+  Checker(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference)
+      : sources_(sources), analysis_(analysis), reference_(reference), used_(analysis.definitions().size()) {
     for (const frontend::NameUse& name : analysis.names()) use(name.definition);
     for (const OperandUse& operand : analysis.operands())
       if (const auto place = rangeOf(reference.program(), operand.place)) operands_.push_back({*place, &operand});
@@ -49,11 +57,12 @@ public:
     for (const Placed& one : operands_) longest_ = std::max(longest_, one.place.count);
   }
 
-  void run() {
+  std::vector<OddName> run() {
     for (uint32_t i = 0; i < used_.size(); ++i) {
       const Definition& definition = analysis_.definitions()[i];
       if (definition.range.valid()) check(definition, used_[i]);
     }
+    return std::move(found_);
   }
 
 private:
@@ -87,7 +96,7 @@ private:
   const SourceManager& sources_;
   const Analysis& analysis_;
   const CrossReference& reference_;
-  Diagnostics& diagnostics_;
+  std::vector<OddName> found_;
   std::vector<bool> used_;  // by definition
   std::set<Place> settled_; // of definitions that are used, or have been reported as unused
   std::vector<Placed> operands_;
@@ -128,7 +137,7 @@ bool Checker::isIn(const std::vector<Line>& lines, uint32_t rung) const {
   return at != lines.end() && at->first == file && at->second <= info.last_line;
 }
 
-// What no operand says. A rung that has an operand there does what that says: a coil that sets a bit also reads it.
+// What no operand says. A rung that has an operand there does what that says.
 void Checker::addImplicit(const ir::BitRange& place, Sides& sides) const {
   const std::vector<Line> lines = linesOf(sides.operands);
   for (const xref::Access& access : reference_.accessesOf(place))
@@ -152,9 +161,7 @@ void Checker::reportUnused(const Definition& definition) {
 
 void Checker::report(Diag code, const Definition& definition, SourceRange operand) {
   if (isAllowed(definition, code)) return;
-  DiagBuilder report = diagnostics_.report(code, definition.range);
-  report << definition.name;
-  if (operand.valid()) report.note(operand, "here");
+  found_.push_back({&definition, code, operand});
 }
 
 void Checker::check(const Definition& definition, bool used) {
@@ -177,11 +184,35 @@ void Checker::check(const Definition& definition, bool used) {
   if (!sides.read && !sides.isDue && !entry.controlReads) report(diag::NeverRead, definition, operand);
 }
 
+std::string_view oddityOf(const OddName& name) {
+  if (name.code == diag::NeverWritten) return kReadOnly;
+  if (name.code == diag::NeverReset) return kNeverReset;
+  return name.code == diag::NeverRead ? kWrittenOnly : kUnused;
+}
+
+// The same of places of addresses.
+std::string_view oddityOf(const Entry& entry, const CrossReference& reference) {
+  if (reference.uses().isRetained(bitsOf(entry.place))) return {};
+  Sides sides{.read = entry.isRead() || entry.controlReads, .written = entry.isWritten() || entry.controlWrites};
+  if (sides.read == sides.written) return {};
+  for (const xref::Access& access : reference.perhaps(entry.place)) sides.add(access.reads, access.writes);
+  if (sides.read == sides.written) return {};
+  return sides.read ? kReadOnly : kWrittenOnly;
+}
+
 } // namespace
+
+std::vector<OddName> oddNames(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference) {
+  return Checker(sources, analysis, reference).run();
+}
 
 void reportOddNames(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference,
                     Diagnostics& diagnostics) {
-  Checker(sources, analysis, reference, diagnostics).run();
+  for (const OddName& name : oddNames(sources, analysis, reference)) {
+    DiagBuilder report = diagnostics.report(name.code, name.definition->range);
+    report << name.definition->name;
+    if (name.operand.valid()) report.note(name.operand, "here");
+  }
   reportOverlaps(sources, analysis, reference, diagnostics);
 }
 
@@ -189,6 +220,30 @@ void reportOddNames(const SourceManager& sources, const Analysis& analysis, cons
                     const ir::Uses& uses, std::span<const std::string_view> shown, Diagnostics& diagnostics) {
   const ir::ProgramImage image(layout, 0);
   reportOddNames(sources, analysis, CrossReference(image.program(), uses, shown), diagnostics);
+}
+
+void markOdd(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference,
+             std::vector<Entry>& entries) {
+  const auto placeOf = [&](const frontend::NamedPlace& place) { return rangeOf(reference.program(), place); };
+  std::map<Key, std::string_view> declared; // to what is odd about it; of two names at one place the first that is
+  for (const Definition& definition : analysis.definitions())
+    if (const auto place = placeOf(definition.place); place && definition.range.valid())
+      declared.try_emplace(keyOf(*place));
+  for (const OddName& name : oddNames(sources, analysis, reference))
+    if (const auto place = placeOf(name.definition->place))
+      if (std::string_view& odd = declared[keyOf(*place)]; odd.empty()) odd = oddityOf(name);
+  std::vector<ir::BitRange> operands;
+  for (const OperandUse& operand : analysis.operands())
+    if (const auto place = placeOf(operand.place)) operands.push_back(*place);
+  const PlaceSet named(std::move(operands)); // the rest belongs to instructions, as their flags do
+  for (Entry& entry : entries) {
+    const auto name = declared.find(keyOf(bitsOf(entry.place)));
+    entry.declared = name != declared.end();
+    if (entry.declared)
+      entry.odd = name->second;
+    else if (named.meets(bitsOf(entry.place)))
+      entry.odd = oddityOf(entry, reference);
+  }
 }
 
 } // namespace rung::xref

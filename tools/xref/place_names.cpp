@@ -38,14 +38,24 @@ std::optional<ir::BitRange> rangeOf(const rung_program& program, const frontend:
   return std::nullopt;
 }
 
+namespace {
+
+bool isHidden(const rung_program& program, const ir::BitRange& place) {
+  return (program.spaces[place.space.index].flags & RUNG_SPACE_HIDDEN) != 0;
+}
+
+} // namespace
+
 std::optional<ir::BitRange> knownPlace(const rung_program& program, const ir::Uses& uses, const ir::BitRange& place) {
-  const auto isHidden = [&](const ir::BitRange& range) {
-    return (program.spaces[range.space.index].flags & RUNG_SPACE_HIDDEN) != 0;
-  };
-  if (!isHidden(place)) return place;
+  if (!isHidden(program, place)) return place;
   const std::vector<ir::BitRange> from = uses.copiedFrom(place);
-  if (from.empty() || isHidden(from[0])) return std::nullopt;
+  if (from.empty() || isHidden(program, from[0])) return std::nullopt;
   return from[0];
+}
+
+ir::BitRange listedPlace(const rung_program& program, const ir::Uses& uses, const ir::BitRange& place) {
+  const std::optional<ir::BitRange> own = uses.copiedWhole(place);
+  return !own || isHidden(program, place) || isHidden(program, *own) ? place : *own;
 }
 
 std::string symbolAt(const rung_program& program, const Ref& place) {
@@ -59,9 +69,8 @@ std::string symbolAt(const rung_program& program, const Ref& place) {
 
 std::string shownName(const rung_program& program, const Ref& place) {
   const std::string symbol = symbolAt(program, place);
-  if (symbol.empty()) return nc::describe(program, place);
-  const std::string address = nc::address(program, place);
-  return nc::hasAddresses(program) && address != symbol ? fmt::format("{} ({})", symbol, address) : symbol;
+  if (symbol.empty()) return nc::hasAddresses(program) ? nc::describe(program, place) : nc::cellAddress(program, place);
+  return nc::hasAddresses(program) ? fmt::format("{} ({})", symbol, nc::address(program, place)) : symbol;
 }
 
 std::string shownRange(const rung_program& program, const ir::BitRange& range) {

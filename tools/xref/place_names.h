@@ -21,6 +21,10 @@ std::optional<ir::BitRange> rangeOf(const rung_program& program, const frontend:
 // name.
 std::optional<ir::BitRange> knownPlace(const rung_program& program, const ir::Uses& uses, const ir::BitRange& place);
 
+// The place under which a cross reference has it: the NC's memory that is copied over the program's own, as !X of NCT
+// over X, is not another place.
+ir::BitRange listedPlace(const rung_program& program, const ir::Uses& uses, const ir::BitRange& place);
+
 // The symbol that lies exactly there; "" when there is none.
 std::string symbolAt(const rung_program& program, const host::Ref& place);
 // For messages: "CLAMPED (X2.0)", "X2.1"; of a program without addresses (nc::hasAddresses) "CLAMPED".

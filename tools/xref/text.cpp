@@ -49,8 +49,7 @@ std::string shownAsText(const CrossReference& reference, const std::vector<Entry
   std::string out;
   for (const Entry& entry : entries) {
     if (!out.empty()) out += '\n';
-    const std::string odd = oddity(entry);
-    put(out, "{}{}{}\n", shownName(program, entry.place), odd.empty() ? "" : ": ", odd);
+    put(out, "{}{}{}\n", shownName(program, entry.place), entry.odd.empty() ? "" : ": ", entry.odd);
     addAccesses(program, entry, &Access::writes, "written", entry.controlWrites ? "by the control or the machine" : "–",
                 out);
     addAccesses(program, entry, &Access::reads, "read", entry.controlReads ? "by the control or the machine" : "–",

@@ -191,6 +191,7 @@ std::string cellAddress(const rung_program& program, const Ref& place) {
 bool hasAddresses(const rung_program& program) { return grammarOf(program).hasAddresses(); }
 
 std::string describe(const rung_program& program, const Ref& place) {
+  if (!hasAddresses(program)) return address(program, place); // made of the names
   constexpr int kMostNames = 3;
   const std::string text = address(program, place);
   std::string names;

@@ -26,9 +26,9 @@ std::string_view headOf(std::string_view name);
 // A short name of the place that `resolve` finds again: a symbol of its own, else the dialect's address.
 std::string placeName(const rung_program& program, const host::Ref& place);
 
-// The dialect's address of the place's bit, or of its first byte.
+// The dialect's address of the place's bit, or of its first byte; NAME+n where it has none but those.
 std::string address(const rung_program& program, const host::Ref& place);
-// The same with the length of a longer cell, where the dialect writes one after the address (D10:2).
+// The same with the length of a longer cell, where the dialect writes one with the address (D10:2, WORD.NAME+4).
 std::string cellAddress(const rung_program& program, const host::Ref& place);
 // False: a user of the dialect knows the names of its cells only.
 bool hasAddresses(const rung_program& program);

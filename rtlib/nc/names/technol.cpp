@@ -1,9 +1,12 @@
 // The plain grammar, with TYPE.NAME, CELL.WEIGHT and the rules for symbols (see technol.h).
 #include "rtlib/nc/names/technol.h"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/text/number.h"
 
 namespace rung::nc {
 
@@ -14,10 +17,11 @@ namespace {
 
 constexpr size_t kSignificant = 31; // characters of a symbol
 
+constexpr std::pair<std::string_view, uint32_t> kTypes[] = {
+    {"BYTE.", 1}, {"WORD.", 2}, {"DWRD.", 4}, {"QWRD.", 8}, {"REAL.", 8}};
+
 // "WORD." at the beginning of the name, which loses it; its bytes.
 std::optional<uint32_t> takeType(std::string_view& name) {
-  constexpr std::pair<std::string_view, uint32_t> kTypes[] = {
-      {"BYTE.", 1}, {"WORD.", 2}, {"DWRD.", 4}, {"QWRD.", 8}, {"REAL.", 8}};
   for (const auto& [type, bytes] : kTypes) {
     if (!name.starts_with(type) || name.size() == type.size()) continue;
     name.remove_prefix(type.size());
@@ -32,6 +36,25 @@ std::optional<Ref> weighted(const std::optional<Ref>& cell, const std::optional<
   Ref ref = host::bitRef(cell->space, cell->byte, weight->bit);
   ref.readonly = cell->readonly;
   return ref;
+}
+
+// "WORD." of a place that is as long.
+std::string_view typeOf(const Ref& place) {
+  if (place.kind == RefKind::Real) return "REAL.";
+  for (const auto& [type, bytes] : kTypes)
+    if (place.width == bytes * 8 && place.count == 1) return type;
+  return {};
+}
+
+// A cell of so many bytes at NAME or NAME+n; of NAME's own length there need be no room.
+std::optional<Ref> typed(NameSearch& search, std::string_view name, uint32_t bytes) {
+  const size_t plus = std::min(name.rfind('+'), name.size());
+  std::optional<Ref> cell = NameSearch::inBytes(search.find(name.substr(0, plus)));
+  const std::optional<uint32_t> distance =
+      plus == name.size() ? std::optional(0u) : text::numberIn<uint32_t>(name.substr(plus + 1));
+  if (!cell || !distance || *distance > 0xFFFFFFF) return std::nullopt;
+  cell->byte += *distance;
+  return search.widened(cell, bytes);
 }
 
 class TechnolNames final : public NameGrammar {
@@ -49,8 +72,7 @@ public:
   }
 
   std::optional<Ref> takeApart(NameSearch& search, std::string_view name) const override {
-    if (const std::optional<uint32_t> bytes = takeType(name))
-      return search.widened(NameSearch::inBytes(search.find(name)), bytes);
+    if (const std::optional<uint32_t> bytes = takeType(name)) return typed(search, name, *bytes);
     const size_t dot = name.rfind('.');
     const bool hasLength = name.find(':') != std::string_view::npos;
     if (dot == std::string_view::npos || hasLength || name.back() == ']' || NameSearch::allDigits(name.substr(dot + 1)))
@@ -74,6 +96,20 @@ public:
       return element(distance / cell) + "." + std::to_string(distance % cell * 8 + place.bit);
     const bool isElement = distance % cell == 0 && uint32_t{place.width} * place.count <= whole.width;
     return isElement ? element(distance / cell) : distance == 0 ? name : name + "+" + std::to_string(distance);
+  }
+
+  // A cell of another length than the declared one: WORD.NAME+4.
+  std::string cellAddress(const rung_program& program, const Ref& place) const override {
+    const rung_symbol* symbol = shortestAt(program, place);
+    const std::string text = address(program, place);
+    if (symbol == nullptr || place.kind == RefKind::Bit || place.kind == RefKind::Text) return text;
+    const Ref cells = host::refOf(*symbol);
+    const uint32_t distance = place.byte - symbol->byte;
+    const bool isNumber = cells.kind == RefKind::Int || cells.kind == RefKind::Real;
+    if (isNumber && place.kind == cells.kind && place.width == cells.width && distance % (cells.width / 8) == 0)
+      return text;
+    const std::string there = distance == 0 ? "" : "+" + std::to_string(distance);
+    return std::string(typeOf(place)) + symbol->name + there;
   }
 };
 

@@ -53,6 +53,29 @@ TEST(Uses, EachUseOnceInOrder) {
                           Use{bits(1, 128, 16), Type::I16, true, false}, Use{bits(0, 10, 1), Type::Bit, true, false}));
 }
 
+// A coil that sets its bit depends on nothing that it finds there; a contact of the same rung does.
+TEST(Uses, WhatAConditionalWritePutsBackIsKept) {
+  const std::string set = "    %0:bit = load X[0.0]\n    %1:bit = const 1\n    %2:bit = load X[1.2]\n"
+                          "    %3:bit = select.bit %0, %1, %2\n    store.bit X[1.2], %3\n";
+  const auto keptOf = [](const std::string& ops) {
+    const Uses uses(moduleOf("routine R {\n" + rung(0, ops) + "}\n"));
+    std::vector<bool> kept;
+    for (const RungUse& use : uses.of(0))
+      if (!use.writes) kept.push_back(use.keeps);
+    return kept;
+  };
+  EXPECT_THAT(keptOf(set), ElementsAre(false, true));
+  EXPECT_THAT(keptOf(set + "    %4:bit = load X[1.2]\n    store.bit X[1.3], %4\n"), ElementsAre(false, false));
+  EXPECT_THAT(keptOf("    %0:bit = load X[0.0]\n    %1:bit = const 1\n    %2:bit = select.bit %0, %1, %0\n"
+                     "    store.bit X[0.0], %2\n"),
+              ElementsAre(false))
+      << "the value itself decides";
+  EXPECT_THAT(keptOf("    %0:bit = load X[0.0]\n    %1:bit = const 1\n    %2:bit = load X[1.2]\n"
+                     "    %3:bit = select.bit %0, %1, %2\n    store.bit X[1.3], %3\n"),
+              ElementsAre(false, false))
+      << "it goes elsewhere";
+}
+
 TEST(Uses, WhereAnIndexIsAddedTo) {
   const Uses uses(moduleOf("routine R {\n" +
                            rung(0, "    %0:i32 = load D[0]\n    %1:i32 = const 3\n    %2:i32 = add %0, %1\n"
@@ -94,6 +117,9 @@ TEST(Uses, CopiesLeadBackToTheirSource) {
   EXPECT_THAT(uses.copiedFrom(bits(2, 5 * 8, 32)), ElementsAre(bits(0, 3 * 8, 8)));
   EXPECT_THAT(uses.copiedFrom(bits(2, 0, 8)), IsEmpty());
   EXPECT_THAT(uses.copiedFrom(bits(0, 16, 8)), IsEmpty());
+  EXPECT_EQ(uses.copiedWhole(bits(0, 2 * 8 + 3, 1)), bits(2, 4 * 8 + 3, 1));
+  EXPECT_EQ(uses.copiedWhole(bits(0, 3 * 8, 16)), std::nullopt) << "only its first half";
+  EXPECT_EQ(uses.copiedWhole(bits(2, 4 * 8, 8)), std::nullopt) << "it is a copy";
 }
 
 TEST(Uses, RegistersComeFromEarlierRungs) {

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "rtlib/nc/nct/signals.h"
+
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
@@ -316,7 +319,24 @@ TEST_F(TechnolNames, Descriptions) {
 TEST_F(TechnolNames, OfPlaces) {
   EXPECT_EQ(placeName(test.program, intRef(data, 4, 16)), "CELL");
   EXPECT_EQ(cellAddress(test.program, intRef(data, 4, 16)), "CELL");
+  EXPECT_EQ(cellAddress(test.program, intRef(data, 4, 8)), "BYTE.CELL");
+  EXPECT_EQ(address(test.program, bitRef(data, 9, 5)), "WEIGHT");
   EXPECT_FALSE(hasAddresses(test.program));
+}
+
+// What is printed of a place can be written in a program, and is that place.
+TEST_F(TechnolNames, AddressesLeadBack) {
+  for (const Ref& place :
+       {intRef(data, 4, 16), intRef(data, 4, 8), intRef(data, 5, 8), intRef(data, 6, 32), intRef(data, 20, 32),
+        intRef(data, 22, 16), intRef(data, 42, 8), intRef(data, 44, 64), intRef(nci, 8, 64), intRef(nci, 10, 16),
+        bitRef(data, 5, 7), bitRef(data, 22, 3), bitRef(data, 41, 1), bitRef(nci, 9, 2), realRef(nci, 8)}) {
+    const std::string text = cellAddress(test.program, place);
+    const std::optional<Ref> found = at(text);
+    ASSERT_TRUE(found) << text;
+    EXPECT_EQ(std::tuple(found->space, found->byte, found->bit, found->width),
+              std::tuple(place.space, place.byte, place.bit, place.width))
+        << text;
+  }
 }
 
 // A weight follows the last point of a name that is nothing else.

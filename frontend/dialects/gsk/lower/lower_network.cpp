@@ -83,7 +83,8 @@ std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungB
   return stack;
 }
 
-// Inside a common line that is off, OUT writes 0, OUTI 1, and SET and RST do nothing (P41): all that is ST0 = 0.
+// Inside a common line that is off, OUT writes 0, OUTI 1, and SET and RST do nothing (P41): all that is ST0 = 0. The
+// choice says that SET and RST write the bit and do not ask it (ir::RungUse::keeps).
 void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const network::Network& network,
                                 ir::ValueId value, const RungMarks& marks) {
   if (network.com != network::kNone) {
@@ -99,8 +100,10 @@ void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, con
     switch (coil.kind) {
     case network::Coil::Out: b.store(place, value); break;
     case network::Coil::OutInverted: b.store(place, b.not_(value)); break;
-    case network::Coil::Set: b.store(place, b.or_(b.load(ir::Type::Bit, place), value)); break;
-    case network::Coil::Reset: b.store(place, b.and_(b.load(ir::Type::Bit, place), b.not_(value))); break;
+    case network::Coil::Set: b.store(place, b.select(value, b.bit(true), b.load(ir::Type::Bit, place))); break;
+    case network::Coil::Reset:
+      b.store(place, b.select(b.not_(value), b.load(ir::Type::Bit, place), b.bit(false)));
+      break;
     }
   }
 }

@@ -17,8 +17,8 @@ inline constexpr Row kBasicRows[] = {
     basic("ORI", "normally closed contact in parallel", kBitRead, "4.3, l.827", "ST0 := ST0 or not bit."),
     basic("ORB", "blocks in parallel", {}, "4.4, l.828", "ST1 := ST1 or ST0, and ST0 is dropped."),
     basic("ANB", "blocks in series", {}, "4.5, l.829", "ST1 := ST1 and ST0, and ST0 is dropped."),
-    basic("SET", "set", inout("bit", kinds::kCoil), "4.6, l.830", "The bit becomes 1 when ST0 is 1, and stays."),
-    basic("RST", "reset", inout("bit", kinds::kCoil), "4.6, l.831", "The bit becomes 0 when ST0 is 1, and stays."),
+    basic("SET", "set", out("bit", kinds::kCoil), "4.6, l.830", "The bit becomes 1 when ST0 is 1, and stays."),
+    basic("RST", "reset", out("bit", kinds::kCoil), "4.6, l.831", "The bit becomes 0 when ST0 is 1, and stays."),
 
     {{.info = {.mnemonic = "END1",
                .title = "end of Level 1",

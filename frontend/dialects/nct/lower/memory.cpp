@@ -154,7 +154,8 @@ void Memory::storeBit(const Place& place, ValueId value) {
   }
 }
 
-// A fixed bit takes a load, a logic operation and a store; the mask remembers only a bit that was really written.
+// A fixed bit takes a load, a logic operation and a store; the mask remembers only a bit that was really written. As a
+// choice it says that the bit is written and not asked (ir::RungUse::keeps).
 void Memory::forceBit(const Place& place, ValueId cond, bool value) {
   if (dropped(place)) return;
   if (!place.fixed) {
@@ -163,7 +164,7 @@ void Memory::forceBit(const Place& place, ValueId cond, bool value) {
   }
   ir::Place bit{.space = place.space, .byte = place.word * 4 + place.bit / 8, .bit = place.bit % 8};
   const ValueId old = b_.load(Type::Bit, bit);
-  b_.store(bit, value ? b_.or_(old, cond) : b_.and_(old, b_.not_(cond)));
+  b_.store(bit, b_.select(value ? cond : b_.not_(cond), value ? b_.bit(true) : old, value ? old : b_.bit(false)));
   if (!masked(place)) return;
   bit.space = spaces_.written;
   b_.store(bit, b_.or_(b_.load(Type::Bit, bit), cond));
@@ -268,7 +269,7 @@ ir::Place Memory::placeOf(Flag flag) const { return {.space = spaces_.m, .byte =
 void Memory::setFlag(Flag flag, ValueId value) { b_.store(placeOf(flag), value.valid() ? value : b_.bit(false)); }
 
 void Memory::raiseErrorFlag(ValueId cond) {
-  b_.store(placeOf(kFlagEr), b_.or_(b_.load(Type::Bit, placeOf(kFlagEr)), cond));
+  b_.store(placeOf(kFlagEr), b_.select(cond, b_.bit(true), b_.load(Type::Bit, placeOf(kFlagEr))));
 }
 
 ValueId Memory::bitAddress(const Place& place) {

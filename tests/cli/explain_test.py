@@ -58,7 +58,7 @@ START (7000.00): read, but written by no rung
         self.assertTrue(self.explain(6, 14).startswith("7000.01,IDX: read here, with ',IDX' added at run time\n"))
 
     def test_declaration(self):
-        self.assertIn("START\n  green button\n  declared at p.lad:3:8\n", self.explain(3, 8))
+        self.assertIn("START: bit\n  green button\n  declared at p.lad:3:8\n", self.explain(3, 8))
 
     def test_constant(self):
         self.assertEqual(self.explain(9, 25), "LIMIT: #10\n  declared at p.lad:4:7\n")
@@ -69,6 +69,31 @@ START (7000.00): read, but written by no rung
     def test_word(self):
         self.assertTrue(self.explain(9, 16).startswith("[nct] MOV:"), "the mnemonic")
 
+    def test_what_is_not_a_word(self):
+        """It is said to be that; nothing is searched."""
+        self.path.write_text(NCT.replace("(7001.00)\nsymbol", "(7001.00) ; and a remark\nsymbol"))
+        for line, column, what in ((5, 9, "the title of a rung"), (3, 26, "a comment"), (6, 40, "a comment"), (3, 7, "a blank"), (6, 3, "a wire"),
+                                   (6, 1, "a wire"), (6, 12, "a wire")):
+            self.assertEqual(self.explain(line, column), what + "\n", f"{line}:{column}")
+        self.assertEqual(self.explain(6, 4), "'[': nothing by itself; name the place of what is beside it\n")
+        self.assertEqual(self.explain(5, 2), "'rung': neither a name of the program nor an instruction or a signal of nct\n")
+
+    def test_a_mnemonic_is_that_of_the_dialect(self):
+        path = Path(self.folder.name) / "p.pmc"
+        path.write_text("dialect gsk\n        LD X0.0 ; a remark\n        OUT Y0.0\n        FUNC END1\n        FUNC END2\n")
+        self.path = path
+        text = self.explain(2, 9)
+        self.assertIn("[gsk] LD", text)
+        self.assertNotIn("[technol]", text)
+        self.assertEqual(self.explain(2, 22), "a comment\n")
+
+    def test_immediate_operand(self):
+        self.path.write_text("dialect nct\nmodule INT0\nsymbol PRB INP000.05\nrung\n|--[!PRB]--(7000.00)\nmodule MAIN\nrung\n|--[7000.00]--[PRB]--(7000.01)\n")
+        text = self.explain(5, 6)
+        self.assertTrue(text.startswith("!PRB: read here\n"), text)
+        self.assertIn("rung 1, p.lad:4, as !", text)
+        self.assertIn("rung 2, p.lad:7\n", text)
+
     def test_program_with_errors(self):
         self.path.write_text(NCT.replace("[7001.00]", "[NOBODY]"))
         self.assertEqual(self.explain(6, 5), "START: read here\n  green button\n  declared at p.lad:3:8\n")
@@ -76,6 +101,77 @@ START (7000.00): read, but written by no rung
     def test_nothing_there(self):
         self.assertIn("has nothing in line 99, column 1", self.explain(99, 1, status=2))
         self.assertIn("has nothing in line 1, column 50", self.explain(1, 50, status=2))
+
+
+class ExplainName(unittest.TestCase):
+    """Names of the project that the working directory belongs to."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        (Path(self.folder.name) / "p.lad").write_text(NCT.replace("START", "PUMP_RUN"))
+        (Path(self.folder.name) / "rung.toml").write_text('name = "p"\ndialect = "nct"\nfiles = ["p.lad"]\n')
+
+    def explain(self, *words, status=0, cwd=None):
+        done = subprocess.run([Path(RUNGC).resolve(), "explain", *words], capture_output=True, text=True, timeout=patience(), check=False,
+                              cwd=cwd or self.folder.name)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    WHOLE = """PUMP_RUN: bit
+  green button
+  declared at p.lad:3:8
+
+PUMP_RUN (7000.00)
+  written  –
+  read     rung 1 "a switch", p.lad:5
+           rung 3, p.lad:10
+  perhaps  read by rung 1 "a switch", p.lad:5, as 7000.01, indexed
+"""
+
+    def test_name(self):
+        self.assertEqual(self.explain("PUMP_RUN").replace(": read, but written by no rung", ""), self.WHOLE)
+        self.assertEqual(self.explain("pump_run"), self.explain("PUMP_RUN"))
+        self.assertIn("PUMP_RUN: bit\n", self.explain("PUMP_RUN", "--project", self.folder.name, cwd="/"))
+        self.assertEqual(self.explain("LIMIT"), "LIMIT: #10\n  declared at p.lad:4:7\n")
+
+    def test_part_of_a_name(self):
+        self.assertRegex(self.explain("PUMP"), r"(?m)^  PUMP_RUN +name in .*rung.toml +green button$")
+
+    def test_names_do_not_hide_the_reference(self):
+        self.assertTrue(self.explain("MOV").startswith("[nct] MOV"))
+
+    def test_program_with_errors(self):
+        path = Path(self.folder.name) / "p.lad"
+        path.write_text(path.read_text().replace("[7001.00]", "[NOBODY]"))
+        self.assertEqual(self.explain("PUMP_RUN"), "PUMP_RUN: bit\n  green button\n  declared at p.lad:3:8\n")
+
+    def test_without_a_project(self):
+        with tempfile.TemporaryDirectory() as empty:
+            self.assertIn("nothing is called 'PUMP_RUN'", self.explain("PUMP_RUN", status=1, cwd=empty))
+            self.assertIn("has no rung.toml", self.explain("MOV", "--project", empty, status=1))
+
+
+class ExplainWord(unittest.TestCase):
+    def explain(self, word):
+        return subprocess.run([RUNGC, "explain", word], capture_output=True, text=True, timeout=patience(), check=True).stdout
+
+    def test_hits_are_whole_sentences(self):
+        text = self.explain("lamp")
+        self.assertIn("panel lamp: USER1 (X0.7 is hand-wheel trial cutting; Y6.7 is USR1 as well)", " ".join(text.split()))
+        self.assertRegex(self.explain("param"), r"(?s)param\.N +gsk configuration +parameter N; `param\.N\.A`.*?first\.")
+
+    def test_kinds_of_operands(self):
+        self.assertIn("format-a", self.explain("COIN"))
+        self.assertTrue(self.explain("format-a").startswith("[gsk] kind of operands format-a\n"))
+
+    def test_nothing_that_only_a_manual_has(self):
+        for word in ("COIN", "CTR", "overtravel", "HB_B12", "SET"):
+            self.assertNotRegex(self.explain(word), r"\bl\.\d|\(P\d+\)", word)
+        self.assertIn("Manual: 5.19.\n", self.explain("COIN"))
+
+    def test_ranges_once(self):
+        self.assertNotRegex(self.explain("CNT"), r"0…2147483647 +0 to 2147483647")
 
 
 if __name__ == "__main__":

@@ -10,7 +10,9 @@
 #include "ir/core/op_info.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/signals.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
+#include "tools/compiler/manual_lines.h"
 
 namespace rung::compiler {
 
@@ -243,6 +245,9 @@ void explainInDialect(const Dialect& dialect, std::string_view word, Collected& 
       add(page, dialect, *row);
       out.add(fmt::format("[{}] {}\n", dialect.name, page.take()));
     }
+  for (const OperandKindInfo* kind : operandKindsOf(dialect))
+    if (text::equalsIgnoringCase(kind->name, word))
+      out.add(fmt::format("[{}] kind of operands {}\n  {}\n", dialect.name, kind->name, kind->doc));
   if (const nc::ConfigKey* row = configKey(dialect, word))
     out.add(fmt::format("[{}] configuration key {}, read by the {}: {}{}\n  {}\n", dialect.name, nc::shownKey(*row),
                         readerOf(*row), nc::takesOf(*row),
@@ -290,19 +295,20 @@ std::string faultTopic() {
 
 } // namespace
 
-std::optional<std::string> explain(std::string_view word) {
+std::optional<std::string> explain(std::string_view word, const Dialect* only) {
   Collected out;
   if (const DiagInfo* info = findDiag(text::lower(word))) out.add(shownDiagnostic(*info));
-  for (const Dialect* dialect : frontend::allDialects()) explainInDialect(*dialect, word, out);
-  std::string text = out.take();
+  for (const Dialect* dialect : frontend::allDialects())
+    if (only == nullptr || dialect == only) explainInDialect(*dialect, word, out);
+  const std::string text = out.take();
   if (text.empty()) return std::nullopt;
-  return text;
+  return withoutManualLines(text);
 }
 
 std::optional<std::string> explainTopic(std::string_view word) {
   if (const Dialect* dialect = frontend::findDialect(word)) return instructionTopic(*dialect);
   if (word == "diagnostics") return diagnosticTopic();
-  if (word == "config") return configTopic();
+  if (word == "config") return withoutManualLines(configTopic());
   if (word == "faults") return faultTopic();
   return std::nullopt;
 }
@@ -322,23 +328,45 @@ std::string explainTopics() {
   return page.take();
 }
 
+namespace {
+
+// The end of a sentence is a full stop before a capital letter, outside of brackets and quotations: neither that of
+// `param.N` nor that of "e.g. 100".
+std::string firstSentence(std::string_view text) {
+  int depth = 0;
+  for (size_t i = 0; i + 2 < text.size(); ++i) {
+    if (text[i] == '\n') return std::string(text.substr(0, i));
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') --depth;
+    const char next = text[i + 2];
+    const bool starts = std::isupper(static_cast<unsigned char>(next)) != 0 || next == '`' || next == '"';
+    if (text[i] == '.' && text[i + 1] == ' ' && depth == 0 && starts) return std::string(text.substr(0, i + 1));
+  }
+  return std::string(text);
+}
+
+void addEntriesOf(const Dialect& dialect, std::vector<ReferenceEntry>& entries) {
+  const auto add = [&](std::string_view name, std::string_view kind, std::string_view title, std::string_view group) {
+    entries.push_back(
+        {std::string(name), fmt::format("{} {}", dialect.name, kind), std::string(title), std::string(group)});
+  };
+  for (const InstructionInfo* row : dialect.instructions) add(row->mnemonic, "instruction", row->title, row->group);
+  for (const OperandKindInfo* kind : operandKindsOf(dialect)) add(kind->name, "kind of operands", kind->doc, "");
+  for (const nc::ConfigKey& row : dialect.configKeys) add(nc::shownKey(row), "configuration", row.doc, "");
+  for (const nc::Fault& fault : nc::faultsOf(dialect.name))
+    add(text::trimmed(fault.text), "fault", fault.explanation, "");
+  if (const nc::SignalTable* signals = nc::signalsOf(dialect.name))
+    for (const nc::Signal& signal : *signals) add(signal.symbol, "signal", signal.meaning, signal.group);
+}
+
+} // namespace
+
 std::vector<ReferenceEntry> referenceEntries() {
   std::vector<ReferenceEntry> entries;
-  for (const Dialect* dialect : frontend::allDialects()) {
-    for (const InstructionInfo* row : dialect->instructions)
-      entries.push_back({std::string(row->mnemonic), fmt::format("{} instruction", dialect->name),
-                         std::string(row->title), std::string(row->group)});
-    for (const nc::ConfigKey& row : dialect->configKeys)
-      entries.push_back({nc::shownKey(row), fmt::format("{} configuration", dialect->name), std::string(row.doc), ""});
-    for (const nc::Fault& fault : nc::faultsOf(dialect->name))
-      entries.push_back(
-          {std::string(fault.text), fmt::format("{} fault", dialect->name), std::string(fault.explanation), ""});
-    if (const nc::SignalTable* signals = nc::signalsOf(dialect->name))
-      for (const nc::Signal& signal : *signals)
-        entries.push_back({signal.symbol, fmt::format("{} signal", dialect->name), signal.meaning, signal.group});
-  }
+  for (const Dialect* dialect : frontend::allDialects()) addEntriesOf(*dialect, entries);
   for (const DiagInfo* info : sortedDiags())
-    entries.push_back({std::string(info->code), std::string(severityOf(*info)), std::string(info->message), ""});
+    entries.push_back({std::string(info->code), std::string(severityOf(*info)), openMessage(info->message), ""});
+  for (ReferenceEntry& entry : entries) entry.title = firstSentence(withoutManualLines(entry.title));
   return entries;
 }
 

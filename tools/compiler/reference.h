@@ -16,9 +16,10 @@ std::string dialectReference(const frontend::Dialect& dialect);
 std::string diagnosticReference();
 // Markdown of the operations of the IR.
 std::string operationReference();
-// What is known about a diagnostic code, a fault, or (of every dialect that has it) a mnemonic, a configuration key, a
-// signal; nothing when unknown. Markdown, as all of these.
-std::optional<std::string> explain(std::string_view word);
+// What is known about a diagnostic code, a fault, or (of every dialect that has it) a mnemonic, a kind of operands, a
+// configuration key, a signal; nothing when unknown. Markdown, as all of these. From here on all is for somebody who
+// has no manual (manual_lines.h). `only`: a dialect, or null.
+std::optional<std::string> explain(std::string_view word, const frontend::Dialect* only = nullptr);
 // What there is to be explained, and a list of one kind of it: a dialect, "diagnostics", "faults", "config".
 std::string explainTopics();
 std::optional<std::string> explainTopic(std::string_view word);
@@ -26,8 +27,8 @@ std::optional<std::string> explainTopic(std::string_view word);
 // Everything that has a name, to be searched.
 struct ReferenceEntry {
   std::string name;
-  std::string kind; // "nct instruction", "error"
-  std::string title;
+  std::string kind;  // "nct instruction", "error"
+  std::string title; // its first sentence
   std::string group; // of an instruction or a signal
 };
 std::vector<ReferenceEntry> referenceEntries();

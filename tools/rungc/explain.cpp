@@ -35,7 +35,7 @@ std::vector<compiler::ReferenceEntry> search(const std::vector<compiler::Referen
 std::string listed(const std::vector<compiler::ReferenceEntry>& found) {
   std::string text = "| name | kind | |\n| --- | --- | --- |\n";
   for (size_t i = 0; i < std::min(found.size(), kShown); ++i) {
-    std::string title = found[i].title.substr(0, found[i].title.find_first_of(".\n"));
+    std::string title = found[i].title;
     std::replace(title.begin(), title.end(), '|', '/');
     text += fmt::format("| {} | {} | {} |\n", found[i].name, found[i].kind, title);
   }
@@ -50,28 +50,27 @@ int reportUnknown(const std::vector<compiler::ReferenceEntry>& entries, const st
   return kWrong;
 }
 
-int explainWord(const std::string& word) {
+// What the reference says of the word, and what the project has by that name; else what contains it.
+int explainWord(const std::string& word, const std::string& projectFile) {
   std::optional<std::string> text = compiler::explainTopic(word);
   if (!text) text = compiler::explain(word);
-  if (text) {
-    std::cout << plainText(*text);
-    return kOk;
-  }
-  const std::vector<compiler::ReferenceEntry> entries = compiler::referenceEntries();
+  const std::optional<ProjectNames> names = namesOfProject(word, projectFile);
+  if (!names && !projectFile.empty()) return kWrong;
+  if (text) std::cout << plainText(*text);
+  if (names && !names->text.empty()) std::cout << (text ? "\n" : "") << names->text;
+  if (text || (names && !names->text.empty())) return kOk;
+  std::vector<compiler::ReferenceEntry> entries = compiler::referenceEntries();
+  if (names) entries.insert(entries.begin(), names->entries.begin(), names->entries.end());
   const std::vector<compiler::ReferenceEntry> found = search(entries, word);
   if (found.empty()) return reportUnknown(entries, word);
   std::cout << plainText(listed(found));
   return kOk;
 }
 
-// An operand, a name, or what the reference says of the word.
 int explainAt(const SourcePlace& place) {
   int status = kOk;
-  const std::optional<Explained> explained = explainPlace(place, status);
-  if (!explained) return status;
-  if (explained->text.empty()) return explainWord(explained->word);
-  std::cout << explained->text;
-  return kOk;
+  if (const std::optional<std::string> text = explainPlace(place, status)) std::cout << *text;
+  return status;
 }
 
 } // namespace
@@ -79,17 +78,20 @@ int explainAt(const SourcePlace& place) {
 void addExplain(CommandLine& app, int& status) {
   Command command = app.add("explain", "Explain a diagnostic, an instruction, a signal, a fault, a configuration key");
   auto word = std::make_shared<std::string>();
+  auto projectFile = std::make_shared<std::string>();
   command.option("WORD", *word,
                  "A code such as unbalanced-stack, a mnemonic such as TOND, a signal such as MF or F7.0, a fault such "
-                 "as dead-loop, a key such as slot_steps, a part of a word, or FILE:LINE:COLUMN: what is written "
-                 "there; without it the topics are listed");
-  command.onRun([word, &status] {
+                 "as dead-loop, a key such as slot_steps, a name of the project, a part of a word, or "
+                 "FILE:LINE:COLUMN: what is written there; without it the topics are listed");
+  command.option("--project", *projectFile,
+                 "The project file, or its folder, whose names are explained, instead of the one found");
+  command.onRun([word, projectFile, &status] {
     if (word->empty())
       std::cout << plainText(compiler::explainTopics());
     else if (const auto place = sourcePlace(*word))
       status = explainAt(*place);
     else
-      status = explainWord(*word);
+      status = explainWord(*word, *projectFile);
   });
 }
 

@@ -5,10 +5,16 @@
 #include <filesystem>
 #include <fmt/format.h>
 
+#include "frontend/syntax/word_lexer.h"
 #include "ir/support/put.h"
+#include "rtlib/host/program_info.h"
+#include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "tools/compiler/manual_lines.h"
 #include "tools/rungc/commands.h"
+#include "tools/rungc/plain_text.h"
 #include "tools/xref/module_reference.h"
+#include "tools/xref/odd_names.h"
 #include "tools/xref/place_names.h"
 
 namespace rung::rungc {
@@ -17,14 +23,24 @@ namespace {
 using frontend::Analysis;
 using frontend::Definition;
 
+std::string typeText(const rung_symbol& symbol) {
+  const host::Ref place = host::refOf(symbol);
+  const bool isText = place.kind == host::RefKind::Text;
+  const std::string cell = isText                              ? fmt::format("text of {} bytes", place.count)
+                           : place.kind == host::RefKind::Real ? "real number"
+                           : place.kind == host::RefKind::Bit  ? "bit"
+                                                               : fmt::format("integer of {} bits", place.width);
+  return isText || place.count <= 1 ? cell : fmt::format("{} times {}", place.count, cell);
+}
+
 class Explainer {
 public:
-  Explainer(const SourceManager& sources, const Analysis& analysis, SourcePos at)
-      : sources_(sources), analysis_(analysis), at_(at) {}
+  // `reference`: of a program without errors; it has the names of places and the rungs that use them. Else null.
+  Explainer(const SourceManager& sources, const Analysis& analysis, const xref::CrossReference* reference)
+      : sources_(sources), analysis_(analysis), reference_(reference) {}
 
-  // With a program without errors the names of places and the rungs that use them.
-  std::string run(const xref::CrossReference* reference) {
-    reference_ = reference;
+  std::string at(SourcePos at) {
+    at_ = at;
     if (const auto* operand = found(analysis_.operands())) {
       put(out_, "{}: {} here{}\n", sources_.text(operand->range), nameOf(operand->access),
           operand->computed.empty() ? "" : fmt::format(", with '{}' added at run time", operand->computed));
@@ -37,6 +53,12 @@ public:
     } else if (const auto* declared = found(analysis_.definitions())) {
       explain(*declared);
     }
+    return std::move(out_);
+  }
+
+  // Of a name that the program declares or uses.
+  std::string named(const Definition& definition) {
+    explain(definition);
     return std::move(out_);
   }
 
@@ -55,18 +77,28 @@ private:
   }
 
   void explain(const Definition& definition) {
-    put(out_, "{}{}\n", definition.name, definition.isConstant() ? fmt::format(": {}", definition.value) : "");
+    put(out_, "{}: {}\n", definition.name, definition.isConstant() ? definition.value : typeOf(definition));
     define(definition);
     if (!definition.isConstant()) uses(definition.place);
   }
+  std::string typeOf(const Definition& definition) const {
+    if (reference_ != nullptr)
+      if (const rung_symbol* symbol = host::findSymbol(reference_->program(), definition.name))
+        return typeText(*symbol);
+    if (definition.place.bits == 0) return "a name";
+    return definition.place.bits == 1 ? "bit" : fmt::format("{} bits", definition.place.bits);
+  }
   void define(const Definition& definition) {
-    if (!definition.comment.empty()) put(out_, "  {}\n", definition.comment);
+    if (!definition.comment.empty()) put(out_, "  {}\n", compiler::withoutManualLines(definition.comment));
     if (definition.range.valid()) put(out_, "  declared at {}\n", placeOf(definition.range));
   }
   void uses(const frontend::NamedPlace& place) {
     if (reference_ == nullptr) return;
     const auto bits = xref::rangeOf(reference_->program(), place);
-    if (bits) put(out_, "\n{}", xref::shownAsText(*reference_, {reference_->of(xref::refAt(*bits))}, true));
+    if (!bits) return;
+    std::vector<xref::Entry> entries{reference_->of(xref::refAt(*bits))};
+    xref::markOdd(sources_, analysis_, *reference_, entries);
+    put(out_, "\n{}", xref::shownAsText(*reference_, entries, true));
   }
   void targets(const frontend::TargetUse& here) {
     put(out_, "{}: {}\n", sources_.text(here.range), here.defines ? "a place in the program" : "control goes there");
@@ -77,8 +109,8 @@ private:
 
   const SourceManager& sources_;
   const Analysis& analysis_;
-  const SourcePos at_;
-  const xref::CrossReference* reference_ = nullptr;
+  const xref::CrossReference* reference_;
+  SourcePos at_;
   std::string out_;
 };
 
@@ -105,22 +137,44 @@ std::optional<SourcePos> positionOf(const SourceManager& sources, FileId file, c
 
 bool endsWord(char c) { return std::string_view(" \t[](){}|;,\"'").find(c) != std::string_view::npos; }
 
-std::string wordAt(const SourceManager& sources, SourcePos at) {
-  const std::string_view line = sources.lineText(at);
-  size_t begin = sources.offsetOf(at) - sources.lineStart(at).offset;
-  size_t end = begin;
+// Of a line, at one of its characters.
+std::string_view wordAt(std::string_view line, size_t at) {
+  size_t begin = at;
+  size_t end = at;
   while (begin > 0 && !endsWord(line[begin - 1])) --begin;
   while (end < line.size() && !endsWord(line[end])) ++end;
-  return std::string(line.substr(begin, end - begin));
+  return line.substr(begin, end - begin);
 }
 
-std::string explainIn(const SourceManager& sources, const frontend::Dialect& dialect, frontend::CheckedProgram& program,
-                      const Diagnostics& diagnostics, SourcePos at) {
-  Explainer explainer(sources, program.analysis(), at);
-  const auto module = diagnostics.hasErrors() ? nullptr : program.build();
-  if (module == nullptr) return explainer.run(nullptr);
-  const xref::ModuleReference reference(*module, dialect.shownSpaces);
-  return explainer.run(&reference.get());
+// A title, a text, a comment; "" for anything else.
+std::string_view proseAt(const SourceManager& sources, SourcePos at) {
+  const SourceLine line{sources.lineCol(at).line,
+                        sources.lineText(at),
+                        {at.value - static_cast<uint32_t>(sources.offsetOf(at) - sources.lineStart(at).offset)}};
+  LineWords words;
+  splitWords(line, {.comment = ';', .quotes = "\"'", .separators = {}}, words);
+  const auto isIn = [&](SourceRange range) { return range.begin <= at && at < range.end; };
+  if (words.hasComment && isIn(words.commentRange)) return "a comment";
+  for (const Word& word : words.words) {
+    if (!word.quoted || !isIn(word.range)) continue;
+    const std::string_view first = words.words.front().text;
+    if (first == "rung") return "the title of a rung";
+    return first == "section" ? "the title of a section" : "a text";
+  }
+  return {};
+}
+
+std::string explainWordAt(const SourceManager& sources, const frontend::Dialect& dialect, SourcePos at) {
+  if (const std::string_view prose = proseAt(sources, at); !prose.empty()) return fmt::format("{}\n", prose);
+  const std::string_view line = sources.lineText(at);
+  const size_t offset = sources.offsetOf(at) - sources.lineStart(at).offset;
+  const char c = line[offset];
+  if (c == ' ' || c == '\t') return "a blank\n";
+  if (c != '|' && endsWord(c)) return fmt::format("'{}': nothing by itself; name the place of what is beside it\n", c);
+  const std::string word(wordAt(line, offset));
+  if (c == '|' || word.find_first_not_of("+-") == std::string::npos) return "a wire\n";
+  if (const auto text = compiler::explain(word, &dialect)) return plainText(*text);
+  return fmt::format("'{}': neither a name of the program nor an instruction or a signal of {}\n", word, dialect.name);
 }
 
 } // namespace
@@ -136,30 +190,79 @@ std::optional<SourcePlace> sourcePlace(const std::string& word) {
   return SourcePlace{word.substr(0, first), *line, *column};
 }
 
-std::optional<Explained> explainPlace(const SourcePlace& place, int& status) {
+namespace {
+
+// A program as far as it can be understood.
+class OpenProgram {
+public:
+  // `options` have what takeProject puts there. False, and `status` says why, where it cannot be had.
+  bool open(const SourceOptions& options, int& status) {
+    const auto files = addSources(sources_, options, compile_, status);
+    if (!files) return false;
+    dialect_ = compiler::chooseDialect(sources_, *files, options.dialect, diagnostics_);
+    if (dialect_ == nullptr) {
+      printDiagnostics(diagnostics_, sources_, options);
+      status = kWrong;
+      return false;
+    }
+    program_ = dialect_->check(sources_, *files, compile_, diagnostics_);
+    if (!diagnostics_.hasErrors()) module_ = program_->build();
+    if (module_ != nullptr) reference_.emplace(*module_, dialect_->shownSpaces);
+    return true;
+  }
+  const SourceManager& sources() const { return sources_; }
+  const frontend::Dialect& dialect() const { return *dialect_; }
+  const Analysis& analysis() const { return program_->analysis(); }
+  Explainer explainer() const { return Explainer(sources_, analysis(), reference_ ? &reference_->get() : nullptr); }
+
+private:
+  SourceManager sources_;
+  Diagnostics diagnostics_;
+  frontend::CompileOptions compile_;
+  const frontend::Dialect* dialect_ = nullptr;
+  std::unique_ptr<frontend::CheckedProgram> program_;
+  std::unique_ptr<ir::Module> module_;
+  std::optional<xref::ModuleReference> reference_;
+};
+
+} // namespace
+
+std::optional<std::string> explainPlace(const SourcePlace& place, int& status) {
   SourceOptions options;
   options.files = {place.file};
   status = takeProject(options);
-  if (status != kOk) return std::nullopt;
-  SourceManager sources;
-  frontend::CompileOptions compile;
-  const auto files = addSources(sources, options, compile, status);
-  if (!files) return std::nullopt;
-  Diagnostics diagnostics;
-  const frontend::Dialect* dialect = compiler::chooseDialect(sources, *files, "", diagnostics);
-  if (dialect == nullptr) {
-    printDiagnostics(diagnostics, sources, options);
-    status = kWrong;
-    return std::nullopt;
-  }
-  const auto program = dialect->check(sources, *files, compile, diagnostics);
+  OpenProgram program;
+  if (status != kOk || !program.open(options, status)) return std::nullopt;
+  const SourceManager& sources = program.sources();
   const auto file = fileOf(sources, place.file);
   const auto at = file ? positionOf(sources, *file, place) : std::nullopt;
   if (!at) {
     status = usageError(fmt::format("{} has nothing in line {}, column {}", place.file, place.line, place.column));
     return std::nullopt;
   }
-  return Explained{explainIn(sources, *dialect, *program, diagnostics, *at), wordAt(sources, *at)};
+  const std::string text = program.explainer().at(*at);
+  return text.empty() ? explainWordAt(sources, program.dialect(), *at) : text;
+}
+
+std::optional<ProjectNames> namesOfProject(const std::string& word, const std::string& projectFile) {
+  if (projectFile.empty() && !project::findUpwards("")) return std::nullopt;
+  SourceOptions options;
+  options.projectFile = projectFile;
+  int status = takeProject(options);
+  OpenProgram program;
+  if (status != kOk || !program.open(options, status)) return std::nullopt;
+  ProjectNames names;
+  const Definition* found = nullptr;
+  for (const Definition& definition : program.analysis().definitions()) {
+    if (definition.range.valid())
+      names.entries.push_back({std::string(definition.name), fmt::format("name in {}", options.project->file),
+                               compiler::withoutManualLines(definition.comment), ""});
+    const bool exact = definition.name == word;
+    if (exact || (found == nullptr && text::equalsIgnoringCase(definition.name, word))) found = &definition;
+    if (exact) break;
+  }
+  if (found != nullptr) names.text = program.explainer().named(*found);
+  return names;
 }
 
 } // namespace rung::rungc

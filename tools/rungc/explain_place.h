@@ -1,7 +1,11 @@
-// `rungc explain FILE:LINE:COLUMN`: what is written there, in the program that the file belongs to.
+// `rungc explain FILE:LINE:COLUMN`: what is written there, in the program that the file belongs to; and of a word what
+// the project has by that name.
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "tools/compiler/reference.h"
 
 namespace rung::rungc {
 
@@ -15,12 +19,17 @@ struct SourcePlace {
 std::optional<SourcePlace> sourcePlace(const std::string& word);
 
 // What an operand or a declared name at the place is and who uses it, also where the program has errors: these are not
-// reported. Else the word that is written there, for the reference. Nothing, and `status` says why, where the place
-// cannot be had.
-struct Explained {
-  std::string text; // empty: look the word up
-  std::string word;
+// reported. Else what the reference says of the word that is written there, or that it is a comment, a title, a wire, a
+// blank. Nothing, and `status` says why, where the place cannot be had.
+std::optional<std::string> explainPlace(const SourcePlace& place, int& status);
+
+// Names of a project.
+struct ProjectNames {
+  std::string text; // what the word is there; empty: nothing, or there is no project
+  std::vector<compiler::ReferenceEntry> entries;
 };
-std::optional<Explained> explainPlace(const SourcePlace& place, int& status);
+// Of the project of --project, else of the working directory; mistakes of its program are not reported. Nothing where
+// there is none or where it cannot be read, which is reported for --project alone.
+std::optional<ProjectNames> namesOfProject(const std::string& word, const std::string& projectFile);
 
 } // namespace rung::rungc

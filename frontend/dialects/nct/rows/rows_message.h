@@ -7,9 +7,9 @@ namespace rung::nct {
 constexpr NctInstruction messageShape(const OperandKind& variableKind) {
   return {.info = {.group = "message",
                    .pins = {P{"EN", "shows on its rising, deletes on its falling edge", true}},
-                   .operands = {O{"Message Number", &kinds::kDecimal, Access::Read, "1 to 999", 1, 999},
-                                O{"Channel Index", &kinds::kDecimal, Access::Read, "0 to 99", 0, 99},
-                                O{"Arbitrary Index", &kinds::kDecimal, Access::Read, "0 to 99", 0, 99},
+                   .operands = {O{"Message Number", &kinds::kDecimal, Access::Read, "", 1, 999},
+                                O{"Channel Index", &kinds::kDecimal, Access::Read, "", 0, 99},
+                                O{"Arbitrary Index", &kinds::kDecimal, Access::Read, "", 0, 99},
                                 O{.name = "Optional Variable",
                                   .kind = &variableKind,
                                   .doc = "printed in the text",

@@ -67,7 +67,9 @@ std::string SimulatedNc::blockStart(host::Instance&, const std::vector<NcArgumen
 }
 std::string SimulatedNc::blockDone(host::Instance&) { return "this dialect's NC starts no blocks"; }
 std::string SimulatedNc::event(host::Instance&, std::string_view name, const std::vector<NcArgument>&) {
-  return "unknown event '" + std::string(name) + "'";
+  std::string known;
+  for (const std::string_view event : events()) known += (known.empty() ? "; there are " : ", ") + std::string(event);
+  return "unknown event '" + std::string(name) + "'" + known;
 }
 std::string SimulatedNc::expectSent(std::string_view, const std::vector<NcArgument>&) {
   return "this dialect's NC has no ports to send by";

@@ -106,6 +106,8 @@ public:
 
   virtual std::string blockStart(host::Instance& instance, const std::vector<NcArgument>& keys);
   virtual std::string blockDone(host::Instance& instance);
+  // Names of those that it knows.
+  virtual std::vector<std::string_view> events() const { return {}; }
   virtual std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys);
   virtual std::string plcCommand(host::Instance& instance, std::string_view command);
   // What has left a port and nobody has seen is as the keys say, or there is nothing (`none`). "" or what is wrong.

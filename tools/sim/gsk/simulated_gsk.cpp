@@ -56,6 +56,7 @@ public:
     takeRequests(instance);
   }
 
+  std::vector<std::string_view> events() const override { return {std::begin(kEvents), std::end(kEvents)}; }
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override;
 
   std::string setQuantity(std::string_view name, double value) override {
@@ -203,7 +204,7 @@ std::string SimulatedGsk::event(host::Instance& instance, std::string_view name,
   if (name == "alarm") {
     if (std::string wrong = unknownKey(name, keys, {"number"}); !wrong.empty()) return wrong;
     const NcArgument* alarm = findKey(keys, "number");
-    if (alarm == nullptr || alarm->integer <= 0) return "event alarm takes number=N";
+    if (alarm == nullptr || alarm->integer <= 0 || alarm->integer > UINT32_MAX) return "event alarm takes number=N";
     simulator_.raiseAlarm(static_cast<uint32_t>(alarm->integer));
     return {};
   }

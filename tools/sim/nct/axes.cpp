@@ -223,7 +223,6 @@ Handled Axes::event(std::string_view name, const std::vector<NcArgument>& keys) 
     pulses_[static_cast<size_t>(wheel) - 1] += static_cast<int32_t>(pulses);
     return "";
   }
-  if (name != "axis_alarm") return std::nullopt;
   if (std::string wrong = unknownKey(name, keys, {"axis", "on"}); !wrong.empty()) return wrong;
   const int64_t axis = integerKey(keys, "axis", 0);
   if (axis < 1 || axis > nc::nct::kAxes) return "event axis_alarm takes axis=1 to 32 and on=0 or on=1";

@@ -59,17 +59,14 @@ Handled Channels::event(std::string_view name, const std::vector<NcArgument>& ke
     if (!channel || blocks == nullptr) return "event mdi takes channel=1 to 8 and blocks=\"…\"";
     return channels_[*channel]->enter(blocks->text);
   }
-  if (name == "reset") {
-    if (std::string wrong = unknownKey(name, keys, {"channel"}); !wrong.empty()) return wrong;
-    const bool one = findKey(keys, "channel") != nullptr;
-    const std::optional<uint32_t> channel = channelKey(keys, 1);
-    if (!channel) return "channels are 1 to 8";
-    for (uint32_t i = 0; i < nc::nct::kChannels; ++i)
-      if (!one || i == *channel) channels_[i]->reset();
-    resetPressed_ = true;
-    return std::string();
-  }
-  return std::nullopt;
+  if (std::string wrong = unknownKey(name, keys, {"channel"}); !wrong.empty()) return wrong;
+  const bool one = findKey(keys, "channel") != nullptr;
+  const std::optional<uint32_t> channel = channelKey(keys, 1);
+  if (!channel) return "channels are 1 to 8";
+  for (uint32_t i = 0; i < nc::nct::kChannels; ++i)
+    if (!one || i == *channel) channels_[i]->reset();
+  resetPressed_ = true;
+  return std::string();
 }
 
 // Into the memory, and with a channel: for automatic mode there, unless the program forbids it (P_RUNAUT, l.8130).

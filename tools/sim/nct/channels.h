@@ -20,6 +20,10 @@ public:
   void select(uint32_t channel, int32_t number);
 
   Handled config(std::string_view key, std::string_view value) override;
+  std::span<const std::string_view> events() const override {
+    static constexpr std::string_view kEvents[] = {"program", "mdi", "reset"};
+    return kEvents;
+  }
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
   Handled setQuantity(std::string_view name, double value) override;

@@ -109,7 +109,6 @@ void Drives::timeSlice() {
 }
 
 Handled Drives::event(std::string_view name, const std::vector<NcArgument>& keys) {
-  if (name != "drive") return std::nullopt;
   if (std::string wrong = unknownKey(name, keys, {"address", "error"}); !wrong.empty()) return wrong;
   const int64_t address = integerKey(keys, "address", 0);
   const int64_t error = integerKey(keys, "error", -1);

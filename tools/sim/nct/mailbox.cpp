@@ -211,7 +211,6 @@ Handled Mailbox::config(std::string_view key, std::string_view value) {
 }
 
 Handled Mailbox::event(std::string_view name, const std::vector<NcArgument>& keys) {
-  if (name != "ethercat") return std::nullopt;
   if (std::string wrong = unknownKey(name, keys, {"device", "error", "silent"}); !wrong.empty()) return wrong;
   Device* device = find(static_cast<int32_t>(integerKey(keys, "device", 0)));
   if (device == nullptr) return "event ethercat takes device=N of a configured device";

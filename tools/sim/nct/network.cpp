@@ -176,7 +176,6 @@ Handled Network::config(std::string_view key, std::string_view value) {
 }
 
 Handled Network::event(std::string_view name, const std::vector<NcArgument>& keys) {
-  if (name != "device") return std::nullopt;
   if (!isolated()) return "event device needs 'config network isolated'";
   line_->accept(); // so that a client that has gone makes room for the next one
   return device_.event(keys, port_);

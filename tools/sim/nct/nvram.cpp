@@ -43,7 +43,6 @@ std::optional<int32_t> Nvram::service(uint32_t function, Block& block) {
 }
 
 Handled Nvram::event(std::string_view name, const std::vector<NcArgument>& keys) {
-  if (name != "damage_nvram") return std::nullopt;
   if (std::string wrong = unknownKey(name, keys, {}); !wrong.empty()) return wrong;
   words_[0] ^= 1;
   return "";

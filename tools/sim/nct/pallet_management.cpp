@@ -121,7 +121,6 @@ Handled PalletManagement::setQuantity(std::string_view name, double value) {
 
 // What the program has locked (P_PTTAB) the operator cannot change, nor the working space in automatic mode (l.5333).
 Handled PalletManagement::event(std::string_view name, const std::vector<NcArgument>& keys) {
-  if (name != "pallet") return std::nullopt;
   if (const NcArgument* edit = findKey(keys, "edit")) {
     editing_ = edit->integer != 0;
     return unknownKey(name, keys, {"edit"});

@@ -174,7 +174,6 @@ Handled Parameters::config(std::string_view key, std::string_view value) {
 }
 
 Handled Parameters::event(std::string_view name, const std::vector<NcArgument>& keys) {
-  if (name != "damage_parameters") return std::nullopt;
   if (std::string wrong = unknownKey(name, keys, {}); !wrong.empty()) return wrong;
   checksum_ = ~checksum_;
   return "";

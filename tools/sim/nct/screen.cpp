@@ -26,7 +26,6 @@ Handled Screen::config(std::string_view key, std::string_view value) {
 }
 
 Handled Screen::event(std::string_view name, const std::vector<NcArgument>& keys) {
-  if (name != "display") return std::nullopt;
   if (std::string wrong = unknownKey(name, keys, {"on"}); !wrong.empty()) return wrong;
   if (findKey(keys, "on") == nullptr) return "event display takes on=0 or on=1";
   connected_ = integerKey(keys, "on", 1) != 0;

@@ -12,6 +12,10 @@ public:
   bool serves(bool write, uint32_t function) const override;
   std::optional<int32_t> service(uint32_t function, Block& block) override;
   Handled config(std::string_view key, std::string_view value) override;
+  std::span<const std::string_view> events() const override {
+    static constexpr std::string_view kEvents[] = {"display"};
+    return kEvents;
+  }
   Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
   std::optional<double> quantity(std::string_view name) const override;
   void powerOn(nc::PowerOn kind) override;

@@ -1,5 +1,6 @@
 // The simulated NC beside an NCT PLC: that it is a simulation, axes that go to the PLC on request, and in simulated
 // mode the whole machine (nct/simulator.h).
+#include <algorithm>
 #include <utility>
 
 #include "rtlib/host/program_info.h"
@@ -11,6 +12,8 @@
 
 namespace rung::sim {
 namespace {
+
+constexpr std::string_view kCancel = "cancel"; // also with `nc scripted`
 
 class SimulatedNct final : public SimulatedNc {
 public:
@@ -72,11 +75,18 @@ public:
 
   void setRealTime() override { simulator_.setRealTime(); }
 
+  std::vector<std::string_view> events() const override {
+    std::vector<std::string_view> names = simulator_.events();
+    names.push_back(kCancel);
+    return names;
+  }
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {
-    if (name == "cancel") return cancel(keys);
-    if (!simulated_) return SimulatedNc::event(instance, name, keys) + "; most events need 'config nc simulated'";
-    if (nct::Handled handled = simulator_.event(name, keys)) return *handled;
-    return SimulatedNc::event(instance, name, keys);
+    if (name == kCancel) return cancel(keys);
+    if (simulated_)
+      if (nct::Handled handled = simulator_.event(name, keys)) return *handled;
+    const bool known = std::ranges::any_of(events(), [&](std::string_view event) { return event == name; });
+    return known ? "event " + std::string(name) + " needs 'config nc simulated'"
+                 : SimulatedNc::event(instance, name, keys);
   }
 
   std::string setQuantity(std::string_view name, double value) override {
@@ -118,7 +128,7 @@ private:
 
   // The operator's buttons: CANCEL alone, or the message that NUMBER, CHANNEL and INDEX name, or ALL=1.
   std::string cancel(const std::vector<NcArgument>& keys) {
-    if (std::string wrong = unknownKey("cancel", keys, {"number", "channel", "index", "all"}); !wrong.empty())
+    if (std::string wrong = unknownKey(kCancel, keys, {"number", "channel", "index", "all"}); !wrong.empty())
       return wrong;
     nc::nct::Messages& list = control_.list();
     const auto key = [&](std::string_view name) { return static_cast<uint32_t>(integerKey(keys, name, 0)); };

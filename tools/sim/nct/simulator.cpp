@@ -1,6 +1,7 @@
 // The dispatcher of the simulated NCT control (see simulator.h).
 #include "tools/sim/nct/simulator.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -33,9 +34,15 @@ Handled Simulator::config(std::string_view key, std::string_view value) {
   return std::nullopt;
 }
 
+std::vector<std::string_view> Simulator::events() const {
+  std::vector<std::string_view> names;
+  for (const Topic* topic : topics_) names.insert(names.end(), topic->events().begin(), topic->events().end());
+  return names;
+}
+
 Handled Simulator::event(std::string_view name, const std::vector<NcArgument>& keys) {
   for (Topic* topic : topics_)
-    if (Handled handled = topic->event(name, keys)) return handled;
+    if (std::ranges::find(topic->events(), name) != topic->events().end()) return topic->event(name, keys);
   return std::nullopt;
 }
 

@@ -30,6 +30,7 @@ public:
 
   // Nothing: no topic knows it.
   Handled config(std::string_view key, std::string_view value);
+  std::vector<std::string_view> events() const;
   Handled event(std::string_view name, const std::vector<NcArgument>& keys);
   std::optional<double> quantity(std::string_view name) const;
   Handled setQuantity(std::string_view name, double value);

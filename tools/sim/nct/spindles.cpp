@@ -302,7 +302,6 @@ Handled Spindles::config(std::string_view key, std::string_view value) {
 }
 
 Handled Spindles::event(std::string_view name, const std::vector<NcArgument>& keys) {
-  if (name != "spindle") return std::nullopt;
   if (std::string wrong = unknownKey(name, keys, {"number", "alarm", "disturbance"}); !wrong.empty()) return wrong;
   const int64_t number = integerKey(keys, "number", 1);
   if (number < 1 || number > nc::nct::kSpindles) return "event spindle takes number=1 to 16";

@@ -262,7 +262,6 @@ Handled ToolManagement::setQuantity(std::string_view name, double value) {
 // ---- the operator ------------------------------------------------------------------------------------------------
 
 Handled ToolManagement::event(std::string_view name, const std::vector<NcArgument>& keys) {
-  if (name != "tool") return std::nullopt;
   if (const NcArgument* edit = findKey(keys, "edit")) {
     editing_ = edit->integer != 0;
     return unknownKey(name, keys, {"edit"});

@@ -75,6 +75,8 @@ public:
 
   // The value is right by the row of the key (rtlib/nc/config_key.h).
   virtual Handled config(std::string_view key, std::string_view value) { return (void)key, (void)value, std::nullopt; }
+  virtual std::span<const std::string_view> events() const { return {}; }
+  // One of them.
   virtual Handled event(std::string_view name, const std::vector<NcArgument>& keys) {
     return (void)name, (void)keys, std::nullopt;
   }

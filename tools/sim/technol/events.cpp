@@ -10,6 +10,8 @@ namespace {
 
 using nc::technol::PlcEvent;
 
+constexpr std::string_view kCommand = "PLCCOMMAND";
+
 struct NamedEvent {
   std::string_view name;
   PlcEvent event;
@@ -46,9 +48,15 @@ std::string command(host::Instance& instance, std::span<const NcArgument> keys, 
 
 } // namespace
 
+std::vector<std::string_view> programEvents() {
+  std::vector<std::string_view> names{kCommand};
+  for (const NamedEvent& named : kEvents) names.push_back(named.name);
+  return names;
+}
+
 std::optional<std::string> callEvent(host::Instance& instance, std::string_view name, std::span<const NcArgument> keys,
                                      const ConstantOf& constantOf) {
-  if (text::equalsIgnoringCase(name, "PLCCOMMAND")) return command(instance, keys, constantOf);
+  if (text::equalsIgnoringCase(name, kCommand)) return command(instance, keys, constantOf);
   for (const NamedEvent& named : kEvents) {
     if (!text::equalsIgnoringCase(name, named.name)) continue;
     // The procedure may set it again, and the start waits (man. l.6463-6467).

@@ -18,6 +18,8 @@ constexpr uint64_t commandRegister(int64_t code) {
   return static_cast<uint64_t>(static_cast<int64_t>(static_cast<int32_t>(code)));
 }
 
+// The names of the events that callEvent knows.
+std::vector<std::string_view> programEvents();
 // PLCEVENT_... calls _ON_EVENT, PLCCOMMAND calls _ON_CMD. "" or why not; nothing where the name is not such an event.
 std::optional<std::string> callEvent(host::Instance& instance, std::string_view name, std::span<const NcArgument> keys,
                                      const ConstantOf& constantOf);

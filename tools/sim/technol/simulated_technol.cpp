@@ -22,6 +22,8 @@
 namespace rung::sim {
 namespace {
 
+constexpr std::string_view kConfirm = "CONFIRM", kHalt = "HALT"; // events
+
 class SimulatedTechnol final : public SimulatedNc {
 public:
   nc::Control& control() override { return control_; }
@@ -138,12 +140,18 @@ public:
     return control_.blocks().reached(instance) ? "" : "no block is in motion";
   }
 
+  std::vector<std::string_view> events() const override {
+    std::vector<std::string_view> names{kConfirm, kHalt};
+    for (const std::vector<std::string_view>& more : {technol::programEvents(), devices_.events()})
+      names.insert(names.end(), more.begin(), more.end());
+    return names;
+  }
   std::string event(host::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys) override {
-    if (text::equalsIgnoringCase(name, "CONFIRM")) {
+    if (text::equalsIgnoringCase(name, kConfirm)) {
       control_.list().confirm();
       return {};
     }
-    if (text::equalsIgnoringCase(name, "HALT")) {
+    if (text::equalsIgnoringCase(name, kHalt)) {
       instance.halt(nc::kTechnolRequested);
       return {};
     }

@@ -174,12 +174,12 @@ std::string SimulatedDevices::netEvent(const EventKeys& keys) {
   return wrong;
 }
 
-std::optional<std::string> SimulatedDevices::portEvent(std::string_view name, std::span<const NcArgument> given) {
+std::span<const SimulatedDevices::Event> SimulatedDevices::portEvents() {
   static constexpr Event kEvents[] = {
       {"CAN", kPacketKeys, &SimulatedDevices::canEvent, true},  {"CAN_UNIT", kUnitKeys, &SimulatedDevices::unitEvent},
       {"CAN_DRIVE", kDriveKeys, &SimulatedDevices::driveEvent}, {"CAN_BUS", kBusKeys, &SimulatedDevices::busEvent},
       {"COM", kLineKeys, &SimulatedDevices::lineEvent},         {"ethercat", kNetKeys, &SimulatedDevices::netEvent}};
-  return oneOf(kEvents, name, given);
+  return kEvents;
 }
 
 // ---- what has been sent --------------------------------------------------------------------------------------------

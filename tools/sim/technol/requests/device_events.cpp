@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "tools/devices/key_text.h"
@@ -13,6 +12,7 @@
 namespace rung::sim::technol {
 namespace {
 
+constexpr std::string_view kKey = "KEY";
 constexpr EventKey kAreaKeys[] = {required({"area", 0, devices::SharedAreas::kAreas - 1}), {"on"}};
 constexpr EventKey kTableKeys[] = {required({"table", 0, devices::PlcTables::kTables - 1}),
                                    {"add"},
@@ -25,9 +25,7 @@ constexpr EventKey kHandwheelKeys[] = {required({"pulses", INT32_MIN, INT32_MAX}
 
 // "2.0x6041.0": the number before the point, which both go away; UINT32_MAX where there is none.
 uint32_t takePart(std::string_view& rest) {
-  std::string_view part = devices::takeUntil(rest, '.');
-  const int base = nc::technol::takePrefix(part, "0x") ? 16 : 10;
-  return text::numberIn<uint32_t>(part, base).value_or(UINT32_MAX);
+  return text::wholeIn<uint32_t>(devices::takeUntil(rest, '.')).value_or(UINT32_MAX);
 }
 
 } // namespace
@@ -73,8 +71,7 @@ std::string SimulatedDevices::handwheelEvent(const EventKeys& keys) {
   return {};
 }
 
-std::optional<std::string> SimulatedDevices::event(host::Instance& instance, std::string_view name,
-                                                   std::span<const NcArgument> given) {
+std::span<const SimulatedDevices::Event> SimulatedDevices::deviceEvents() {
   static constexpr Event kEvents[] = {{"SA_LOCK", kAreaKeys, &SimulatedDevices::areaEvent, true},
                                       {"PLCT", kTableKeys, &SimulatedDevices::tableEvent, true},
                                       {"STOP", kStopKeys, &SimulatedDevices::stopEvent},
@@ -82,9 +79,21 @@ std::optional<std::string> SimulatedDevices::event(host::Instance& instance, std
                                       {"AUTMAN", kManualKeys, &SimulatedDevices::manualEvent},
                                       {"RTM", kCommandKeys, &SimulatedDevices::commandEvent},
                                       {"handwheel", kHandwheelKeys, &SimulatedDevices::handwheelEvent}};
-  if (simulated_ && text::equalsIgnoringCase(name, "KEY")) return keyEvent(instance, given);
-  if (const auto done = oneOf(kEvents, name, given)) return done;
-  return portEvent(name, given);
+  return kEvents;
+}
+
+std::vector<std::string_view> SimulatedDevices::events() const {
+  std::vector<std::string_view> names{kKey};
+  for (const std::span<const Event> events : {deviceEvents(), portEvents()})
+    for (const Event& event : events) names.push_back(event.name);
+  return names;
+}
+
+std::optional<std::string> SimulatedDevices::event(host::Instance& instance, std::string_view name,
+                                                   std::span<const NcArgument> given) {
+  if (simulated_ && text::equalsIgnoringCase(name, kKey)) return keyEvent(instance, given);
+  if (const auto done = oneOf(deviceEvents(), name, given)) return done;
+  return oneOf(portEvents(), name, given);
 }
 
 std::optional<std::string> SimulatedDevices::oneOf(std::span<const Event> events, std::string_view name,

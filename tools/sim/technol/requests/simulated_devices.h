@@ -64,6 +64,7 @@ public:
   // Lines for the log since the last call.
   void takeLog(std::vector<std::string>& log);
 
+  std::vector<std::string_view> events() const;
   // "" or what is wrong; nothing: another event.
   std::optional<std::string> event(host::Instance& instance, std::string_view name, std::span<const NcArgument> keys);
   // Quantities without "NC.".
@@ -95,6 +96,7 @@ private:
   // Nothing: another event.
   std::optional<std::string> oneOf(std::span<const Event> events, std::string_view name,
                                    std::span<const NcArgument> given);
+  static std::span<const Event> deviceEvents();
   std::string areaEvent(const EventKeys& keys);
   std::string tableEvent(const EventKeys& keys);
   std::string stopEvent(const EventKeys& keys);
@@ -103,7 +105,7 @@ private:
   std::string commandEvent(const EventKeys& keys);
   std::string handwheelEvent(const EventKeys& keys);
   // Those of bus_events.cpp.
-  std::optional<std::string> portEvent(std::string_view name, std::span<const NcArgument> given);
+  static std::span<const Event> portEvents();
   std::string canEvent(const EventKeys& keys);
   std::string unitEvent(const EventKeys& keys);
   std::string driveEvent(const EventKeys& keys);

@@ -238,6 +238,16 @@ class Piped(Folder):
             self.assertIn(text, output)
         self.assertNotIn("expect_error", output)
 
+    def test_a_double_has_a_name(self):
+        self.file("sum.lad", "dialect nct\nmodule MAIN\nrung\n|--[7100.00]--{MOVF 7000 *2.5}\n")
+        output = self.prompt("scan 2\nset 7100.00 1\nscan\nREAL.7000\n7000\nwhy REAL.7000\nwatch REAL.7000\nset REAL.7000 0x10\n"
+                             "scan\nsave out.scn\nprint REAL.7000\n", program="sum.lad")
+        for text in ("REAL.7000 = 2.5\n", "7000 = 0 (0x0)\n", "REAL.7000 is 2.5\n    7000, changed in scan 3, 0.030 s\n    written by rung 1",
+                     "30.000 ms  REAL.7000 = 16\n", "40.000 ms  REAL.7000 = 2.5\n", "scan 4: REAL.7000 = 2.5\n"):
+            self.assertIn(text, output)
+        self.assertIn("\nexpect REAL.7000 2.5\n", self.read("out.scn"))
+        self.assertIn("did you mean", self.prompt("REAL.FL_RE\nprint REAL.FL_RE\n", status=WRONG, program="sum.lad"))
+
     def test_forces(self):
         lines = "set START 1\nforce PUMP 0\nscan\nPUMP\nforces\nunforce PUMP\nscan\nPUMP\nforces\n"
         for args in ((), ("--engine", "interp")):

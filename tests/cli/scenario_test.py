@@ -266,6 +266,30 @@ class Trace(Folder):
         self.assertEqual(changes["gsk.NC.NC.MPOS.1"][-1][1], 2.5)
         self.assertEqual(changes["gsk.Y.Y1.0"][-1][1], 1)
 
+    def test_reals_of_programs_are_real(self):
+        """Without names, what rungs read and write, as what they take it for; by name, as the name says."""
+        self.file("sum.lad", "dialect nct\nmodule MAIN\nsymbol SPEED 7002\nrung\n|--[7100.00]--{MOVF 7000 *2.5}\n"
+                             "rung\n|--[7100.00]--{+F SPEED 7000 *0.25}\n")
+        self.file("sum.scn", "program sum.lad\nset 7100.00 1\nscan\nexpect SPEED 2.75\n")
+        self.file("cells.plc", CELLS.replace("MODULE_MAIN\n", "MODULE_MAIN\n        LOD  CNST.0.1\n        STO  REAL.VALUE\n"))
+        self.file("cells.scn", "program cells.plc\nscan\nexpect VALUE 0.1\n")
+        for scenario, names, last in (("sum.scn", (), {"REAL.7000": "2.5", "REAL.7002": "2.75"}),
+                                      ("sum.scn", ("REAL.SPEED", "SPEED"), {"REAL.SPEED": "2.75", "SPEED": "0"}),
+                                      ("cells.scn", (), {"REAL.VALUE": "0.1", "NEXT": "0", "LAST": "0"}),
+                                      ("cells.scn", ("REAL.VALUE", "QWRD.VALUE"), {"REAL.VALUE": "0.1", "QWRD.VALUE": str(0x3FB999999999999A)})):
+            watched = ["--watch", *names] if names else []
+            done = self.run_tests(scenario, "--trace", "t.csv", *watched)
+            self.assertEqual(done.returncode, OK, done.stdout + done.stderr)
+            with open(self.path("t.csv"), newline="") as file:
+                row = list(csv.DictReader(file))[-1]
+            self.assertLessEqual(last.items(), row.items())
+            self.run_tests(scenario, "--trace", "t.vcd", *watched)
+            header, changes, _ = read_vcd(self.path("t.vcd"))
+            for name, value in last.items():
+                if name.startswith("REAL."):
+                    (full,) = [shown for shown in header if shown.endswith("." + name)]
+                    self.assertEqual((header[full], changes[full][-1][1]), (("real", 64), float(value)))
+
     def test_what_cannot_be_traced_is_a_usage_error(self):
         for args, message in ((["passes.scn", "--trace", "t.txt"], "its name must end in .vcd or .csv"),
                               (["passes.scn", "fails.scn", "--trace", "t.vcd"], "--trace takes one scenario, not 2"),

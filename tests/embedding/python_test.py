@@ -523,6 +523,20 @@ class Values(Case):
         self.assertIs(type(plc["SPEED"]), float)
         self.assertEqual(plc["FIVE"], 5)
 
+    def test_reals_by_their_names(self):
+        plc = self.plc("messages")  # of NCT: a double has two words
+        plc["REAL.7200"] = 2.5
+        self.assertEqual((plc["REAL.7200"], plc["7200"], plc["7201"]), (2.5, 0, 0x40040000))
+        plc.write_all({"REAL.7200": 3, "7202": 5})
+        self.assertEqual(plc.read_all(["REAL.7200", "7202"]), {"REAL.7200": 3.0, "7202": 5})
+        info = plc.cell("REAL.7200").info
+        self.assertEqual((info.type, info.address), (rung.Type.F64, "REAL.7200"))
+        self.fails(rung.Status.WRONG_TYPE, plc.__setitem__, "REAL.7200", "2.5", text="is not a real number")
+        for wrong in ("REAL.9999", "REAL.SHOW", "REAL."):
+            self.fails(rung.Status.NOT_FOUND, plc.__getitem__, wrong)
+        self.values["REAL.TEXT"] = -0.5  # of TECHNOL: where eight bytes are
+        self.assertEqual((self.values["REAL.TEXT"], self.values["QWRD.TEXT"]), (-0.5, -0x4020000000000000))
+
     def test_bits_and_addresses(self):
         plc = self.plc()
         for wrong in (2, -1, 256):

@@ -42,7 +42,8 @@ inline void nameBytes(const frontend::Dialect& dialect, std::string_view extensi
   if (module == nullptr) return;
   const xref::ModuleReference whole(*module, dialect.shownSpaces);
   const xref::CrossReference& reference = whole.get();
-  for (const xref::Entry& entry : reference.all()) xref::oddity(entry);
+  std::vector<xref::Entry> entries = reference.all();
+  xref::markOdd(sources, program->analysis(), reference, entries);
   xref::reportOddNames(sources, program->analysis(), reference, diagnostics);
   if (!view::hasDrawing(dialect)) return;
   if (const auto drawn = view::drawnProgram(sources, files, dialect, {}, diagnostics)) view::renderHtml(*drawn);

@@ -163,7 +163,7 @@ Outcome Console::execute(const Statement& statement) {
   const bool named = statement.kind == Kind::Expect || statement.kind == Kind::ExpectRange;
   if (problem) {
     const std::string text = problem->file.empty() ? problem->message : textOf(*problem);
-    return fail(text + (named ? explainer_.why(statement.name) : ""));
+    return fail(text + (named ? explainer_.why(statement.name, wantsReal(statement)) : ""));
   }
   const bool typed = statement.file.empty();
   if (typed && isExpectation(statement.kind)) print_("ok");

@@ -25,8 +25,7 @@ std::string setValue(Lane& lane, const Statement& s) {
 }
 
 std::string expectValue(const Lane& lane, const Statement& s) {
-  const bool wantReal = s.near || s.value.kind == ValueKind::Real || s.high.kind == ValueKind::Real;
-  const Result<Reading> reading = readName(lane.instance(), lane.nc(), s.name, wantReal);
+  const Result<Reading> reading = readName(lane.instance(), lane.nc(), s.name, wantsReal(s));
   if (!reading.ok()) return reading.error();
   return s.kind == Kind::ExpectRange ? checkRange(reading.value(), s) : checkValue(reading.value(), s);
 }

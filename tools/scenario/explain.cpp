@@ -7,6 +7,7 @@
 
 #include "ir/support/put.h"
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/names/names.h"
 #include "tools/scenario/values.h"
 #include "tools/xref/place_names.h"
 
@@ -164,15 +165,16 @@ std::optional<std::string> Explanation::nameLine(const Use& use) const {
   const std::optional<BitRange> shown = xref::knownPlace(program_, uses_, use.place);
   if (!shown) return std::nullopt;
   if (use.computed) return shownRange(program_, *shown) + ", at a computed address";
-  const Ref place = refOf(use);
+  const Ref place = nc::meant(program_, refOf(use));
   return fmt::format("{} = {}{}", shownName(program_, moved(place, *shown)),
                      show(readValue(instance_, session_.nc().control(), place, false)), age(place));
 }
 
 } // namespace
 
-std::string Explainer::why(std::string_view name) const {
-  const std::optional<Ref> place = session_.nc().readPlace(session_.instance().program(), name);
+std::string Explainer::why(std::string_view name, bool wantReal) const {
+  std::optional<Ref> place = session_.nc().readPlace(session_.instance().program(), name);
+  if (place && wantReal) place = host::asReal(session_.instance().memory(), *place).value_or(*place);
   if (uses_ == nullptr || !place || place->kind == host::RefKind::Constant) return {};
   const Changes::Scan begin = changes_->begin();
   std::string since =

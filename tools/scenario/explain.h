@@ -27,7 +27,8 @@ public:
 
   bool knowsProgram() const { return uses_ != nullptr; }
   // Lines, each begun by a line break; "" for what lies in the NC and not in the program's memory.
-  std::string why(std::string_view name) const;
+  // `wantReal`: of the real that begins there.
+  std::string why(std::string_view name, bool wantReal = false) const;
 
 private:
   void follow(const ir::Uses* uses) {

@@ -176,6 +176,10 @@ bool isExpectation(Kind kind) {
   }
 }
 
+bool wantsReal(const Statement& statement) {
+  return statement.near || statement.value.kind == ValueKind::Real || statement.high.kind == ValueKind::Real;
+}
+
 bool expectsNothing(const Scenario& scenario) {
   return std::ranges::none_of(scenario.statements, [](const Statement& s) { return isExpectation(s.kind); });
 }

@@ -203,7 +203,7 @@ private:
       result_.scans = session_.scans();
       if (!problem) continue;
       const bool expectation = s.kind == Kind::Expect || s.kind == Kind::ExpectRange;
-      if (expectation && explainer_) problem->message += explainer_->why(s.name);
+      if (expectation && explainer_) problem->message += explainer_->why(s.name, wantsReal(s));
       result_.problems.push_back(std::move(*problem));
       return; // what follows would only repeat it
     }

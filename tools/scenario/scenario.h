@@ -134,6 +134,8 @@ struct StatementForm {
 std::span<const StatementForm> statementForms();
 
 bool isExpectation(Kind kind);
+// The statement compares real numbers.
+bool wantsReal(const Statement& statement);
 // It expects nothing: it passes whatever the program does, unless that stops with a fault.
 bool expectsNothing(const Scenario& scenario);
 

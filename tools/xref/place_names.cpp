@@ -80,11 +80,16 @@ std::string shownRange(const rung_program& program, const ir::BitRange& range) {
   return fmt::format("one of {} to {}", nc::describe(program, first), nc::describe(program, last));
 }
 
-std::string writtenName(const rung_program& program, const Ref& place) {
-  if (std::string symbol = symbolAt(program, place); !symbol.empty()) return symbol;
-  const std::string name = nc::cellAddress(program, place);
-  const std::optional<Ref> found = nc::resolve(program, name);
-  return found && bitsOf(*found) == bitsOf(place) ? name : std::string();
+std::string writtenName(const rung_program& program, const Ref& use) {
+  const Ref place = nc::meant(program, use);
+  const auto found = [&](const std::string& name) {
+    const std::optional<Ref> there = nc::resolve(program, name);
+    return there && bitsOf(*there) == bitsOf(place) && (there->kind == RefKind::Real || place.kind != RefKind::Real);
+  };
+  const std::string symbol = symbolAt(program, place);
+  for (const std::string& name : {symbol, nc::realName(symbol), nc::cellAddress(program, place)})
+    if (found(name)) return name;
+  return {};
 }
 
 namespace {

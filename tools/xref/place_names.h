@@ -32,7 +32,7 @@ std::string shownName(const rung_program& program, const host::Ref& place);
 // For computed addresses: "one of D100 to D119".
 std::string shownRange(const rung_program& program, const ir::BitRange& range);
 // A name that resolves to the place; "" when the dialect has none.
-std::string writtenName(const rung_program& program, const host::Ref& place);
+std::string writtenName(const rung_program& program, const host::Ref& use);
 
 // Whether the control or the machine writes it; whether one of them reads it.
 bool isWrittenByControl(const rung_program& program, const ir::Uses& uses, const host::Ref& place);

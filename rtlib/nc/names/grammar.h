@@ -28,6 +28,8 @@ public:
   // A name that is not a symbol, of at least one character: NAME:bytes, NAME[n], CELL.n, NAME+n.
   virtual std::optional<host::Ref> takeApart(NameSearch& search, std::string_view name) const;
 
+  // The kind of number that the dialect has in a cell of this width.
+  virtual host::Ref meant(const host::Ref& place) const { return place; }
   // Of a place in one of the program's spaces: AREA+n, AREA+n.b.
   virtual std::string address(const rung_program& program, const host::Ref& place) const;
   virtual std::string cellAddress(const rung_program& program, const host::Ref& place) const {
@@ -57,6 +59,9 @@ public:
   std::optional<host::Ref> bitIn(std::string_view name, std::string_view digits);
   // One cell of so many bytes (1, 2, 4 or the longest) that begins where the integer does.
   std::optional<host::Ref> widened(std::optional<host::Ref> ref, std::optional<uint32_t> bytes) const;
+
+  // The real that begins where the cell does, as host::asReal.
+  std::optional<host::Ref> real(const std::optional<host::Ref>& ref) const;
 
   // Texts and reals as integers, the form that has a width; nothing of a bit or a constant.
   static std::optional<host::Ref> inBytes(std::optional<host::Ref> ref);

@@ -10,6 +10,7 @@
 #include "rtlib/nc/names/nct.h"
 #include "rtlib/nc/names/technol.h"
 #include "rtlib/text/letters.h"
+#include "rtlib/text/name_parts.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nc {
@@ -153,6 +154,10 @@ std::optional<Ref> NameSearch::widened(std::optional<Ref> ref, std::optional<uin
   return inSpace(ref);
 }
 
+std::optional<Ref> NameSearch::real(const std::optional<Ref>& ref) const {
+  return ref ? host::asReal(memory_, *ref) : std::nullopt;
+}
+
 std::optional<Ref> NameSearch::inBytes(std::optional<Ref> ref) {
   if (ref && (ref->kind == RefKind::Text || ref->kind == RefKind::Real)) ref->kind = RefKind::Int;
   return ref && ref->kind == RefKind::Int ? ref : std::nullopt;
@@ -170,15 +175,16 @@ std::optional<Ref> resolve(const rung_program& program, std::string_view name, c
   return grammar.ignoresCase() ? search.find(text::upper(name)) : search.find(name);
 }
 
-std::string_view headOf(std::string_view name) {
-  if (name.starts_with('!')) name.remove_prefix(1);
-  return name.substr(0, name.find_first_of(".,[:+"));
-}
+std::string_view headOf(std::string_view name) { return text::headOf(name); }
 
 std::string placeName(const rung_program& program, const Ref& place) {
   if (place.kind == RefKind::Constant) return std::to_string(place.constant);
   return grammarOf(program).placeName(program, place);
 }
+
+Ref meant(const rung_program& program, const Ref& place) { return grammarOf(program).meant(place); }
+
+std::string realName(std::string_view name) { return std::string(text::kRealPrefix) + std::string(name); }
 
 std::string address(const rung_program& program, const Ref& place) {
   return addressBy(grammarOf(program), program, place);

@@ -20,15 +20,22 @@ using NameFallback = std::function<std::optional<host::Ref>(std::string_view)>;
 // Nothing when the name is unknown, or its place lies outside the program's spaces.
 std::optional<host::Ref> resolve(const rung_program& program, std::string_view name, const NameFallback& fallback = {});
 
-// What a name is a part of: the name without its bit, index, width or distance, SYM of SYM.3, SYM,#2, SYM[2], !SYM.
+// What a name is a part of: the name without its bit, index, width or distance, SYM of SYM.3, SYM,#2, SYM[2], !SYM,
+// REAL.SYM.
 std::string_view headOf(std::string_view name);
 
 // A short name of the place that `resolve` finds again: a symbol of its own, else the dialect's address.
 std::string placeName(const rung_program& program, const host::Ref& place);
 
+// The place as the number that the dialect has there: of NCT an integer of 64 bits, of which it has none, is a real.
+host::Ref meant(const rung_program& program, const host::Ref& place);
+// The name of the real that begins where the cell of this name does: REAL.NAME.
+std::string realName(std::string_view name);
+
 // The dialect's address of the place's bit, or of its first byte; NAME+n where it has none but those.
 std::string address(const rung_program& program, const host::Ref& place);
-// The same with the length of a longer cell, where the dialect writes one with the address (D10:2, WORD.NAME+4).
+// The same with the length of a longer cell, where the dialect writes one with the address (D10:2, WORD.NAME+4),
+// and as the name of a real where it is one (REAL.7000).
 std::string cellAddress(const rung_program& program, const host::Ref& place);
 // False: a user of the dialect knows the names of its cells only.
 bool hasAddresses(const rung_program& program);

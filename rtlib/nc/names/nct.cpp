@@ -1,9 +1,10 @@
-// !NAME, BASE,#n, WORD.bb, signals, and four digits (see nct.h).
+// REAL.NAME, !NAME, BASE,#n, WORD.bb, signals, and four digits (see nct.h).
 #include "rtlib/nc/names/nct.h"
 
 #include "rtlib/host/overwritten.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/nct/signals.h"
+#include "rtlib/text/name_parts.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nc {
@@ -77,6 +78,8 @@ std::string signalText(const Signal& signal, const Ref& place) {
 class NctNames final : public NameGrammar {
 public:
   std::optional<Ref> takeApart(NameSearch& search, std::string_view name) const override {
+    if (name.starts_with(text::kRealPrefix)) // else a bit of the symbol REAL
+      if (std::optional<Ref> real = search.real(search.find(name.substr(text::kRealPrefix.size())))) return real;
     if (name.front() == '!') {
       const std::optional<Ref> ref = search.find(name.substr(1));
       if (!ref || ref->space != search.space(kMemory)) return std::nullopt;
@@ -94,6 +97,11 @@ public:
     const std::optional<uint32_t> word = text::numberIn<uint32_t>(name);
     if (!word || name.size() != 4) return std::nullopt;
     return search.inSpace(host::intRef(search.space(kMemory), 4 * *word, 32));
+  }
+
+  // Two words are a double (man. 6.3.2): nothing else moves or computes 64 bits.
+  Ref meant(const Ref& place) const override {
+    return place.kind == RefKind::Int && place.width == 64 ? host::realRef(place.space, place.byte) : place;
   }
 
   std::string address(const rung_program& program, const Ref& place) const override {
@@ -115,7 +123,13 @@ public:
     return address(program, place) + (isFirstOfMany ? ",#0" : "");
   }
 
+  std::string cellAddress(const rung_program& program, const Ref& place) const override {
+    const std::string own = address(program, place);
+    return place.kind == RefKind::Real ? realName(own) : own;
+  }
+
   std::string placeName(const rung_program& program, const Ref& place) const override {
+    if (place.kind == RefKind::Real) return realName(placeName(program, host::intRef(place.space, place.byte, 32)));
     if (place.space != host::findSpace(program, kTimeSliceMemory)) return NameGrammar::placeName(program, place);
     Ref copy = place;
     copy.space = host::findSpace(program, kMemory);

@@ -1,5 +1,6 @@
-// Names of an NCT program: 0056  0056.17  FLAGS  SYM  SYM.05  SYM,#3  SYM,KCONST  7100,#3  !OUT000.03; the space "M",
-// with ! the space "TS" (the time-slice memory). Words and bits of the NC area are shown by the names of its signals.
+// Names of an NCT program: 0056  0056.17  FLAGS  SYM  SYM.05  SYM,#3  SYM,KCONST  7100,#3  !OUT000.03  REAL.7000 (the
+// real in words 7000 and 7001); the space "M", with ! the space "TS" (the time-slice memory). Words and bits of
+// the NC area are shown by the names of its signals.
 #pragma once
 #include "rtlib/nc/names/grammar.h"
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/text/name_parts.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nc {
@@ -18,7 +19,7 @@ namespace {
 constexpr size_t kSignificant = 31; // characters of a symbol
 
 constexpr std::pair<std::string_view, uint32_t> kTypes[] = {
-    {"BYTE.", 1}, {"WORD.", 2}, {"DWRD.", 4}, {"QWRD.", 8}, {"REAL.", 8}};
+    {"BYTE.", 1}, {"WORD.", 2}, {"DWRD.", 4}, {"QWRD.", 8}, {text::kRealPrefix, 8}};
 
 // "WORD." at the beginning of the name, which loses it; its bytes.
 std::optional<uint32_t> takeType(std::string_view& name) {
@@ -72,7 +73,11 @@ public:
   }
 
   std::optional<Ref> takeApart(NameSearch& search, std::string_view name) const override {
-    if (const std::optional<uint32_t> bytes = takeType(name)) return typed(search, name, *bytes);
+    const bool isReal = name.starts_with(text::kRealPrefix);
+    if (const std::optional<uint32_t> bytes = takeType(name)) {
+      const std::optional<Ref> cell = typed(search, name, *bytes);
+      return isReal ? search.real(cell) : cell;
+    }
     const size_t dot = name.rfind('.');
     const bool hasLength = name.find(':') != std::string_view::npos;
     if (dot == std::string_view::npos || hasLength || name.back() == ']' || NameSearch::allDigits(name.substr(dot + 1)))

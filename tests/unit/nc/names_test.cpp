@@ -139,6 +139,36 @@ TEST_F(NctNames, TimeSliceCopy) {
   EXPECT_FALSE(at("!THREE"));
 }
 
+TEST_F(NctNames, Reals) {
+  EXPECT_EQ(at("REAL.0056"), realRef(m, 224));
+  EXPECT_EQ(at("REAL.APPLE"), realRef(m, 224));
+  EXPECT_EQ(at("REAL.APPLE,#3"), realRef(m, 236));
+  EXPECT_EQ(at("REAL.!0056"), realRef(ts, 224));
+  EXPECT_EQ(at("!REAL.0056"), realRef(ts, 224));
+  EXPECT_EQ(at("REAL.9998"), realRef(m, 39992));
+  for (const char* name : {"REAL.", "REAL.9999", "REAL.READY", "REAL.0056.01", "REAL.THREE", "REAL.56", "real.0056",
+                           "REAL.05", "!REAL.FAR"})
+    EXPECT_FALSE(at(name)) << name;
+  EXPECT_EQ(placeName(test.program, realRef(m, 224)), "REAL.APPLE");
+  EXPECT_EQ(placeName(test.program, realRef(m, 236)), "REAL.0059");
+  EXPECT_EQ(cellAddress(test.program, realRef(m, 224)), "REAL.0056");
+  EXPECT_EQ(meant(test.program, intRef(m, 224, 64)), realRef(m, 224)); // it has no such integers
+  EXPECT_EQ(meant(test.program, intRef(m, 224, 32)), intRef(m, 224, 32));
+}
+
+TEST_F(NctNames, ABitOfASymbolThatIsCalledReal) {
+  test.addSymbol("REAL", m, 4 * 6000, RUNG_TYPE_I32);
+  test.link();
+  EXPECT_EQ(at("REAL.05"), bitRef(m, 24000, 5));
+  EXPECT_EQ(at("REAL.REAL"), realRef(m, 24000));
+}
+
+TEST(NamesOfParts, LoseWhatIsAroundThem) {
+  for (const char* name :
+       {"SYM", "SYM.3", "SYM,#2", "SYM[2]", "!SYM", "SYM:2", "SYM+4", "REAL.SYM", "REAL.!SYM", "!REAL.SYM,#2"})
+    EXPECT_EQ(headOf(name), "SYM") << name;
+}
+
 TEST_F(NctNames, Constants) {
   ASSERT_TRUE(at("BACK"));
   EXPECT_EQ(at("BACK")->kind, RefKind::Constant);
@@ -274,9 +304,11 @@ TEST_F(TechnolNames, WidthsAndOffsets) {
   EXPECT_EQ(at("WORD.TEXT+4"), intRef(data, 44, 16));
   EXPECT_EQ(at("BYTE.CELL"), intRef(data, 4, 8));
   EXPECT_EQ(at("SPEED:8"), intRef(nci, 8, 64));
-  EXPECT_EQ(at("REAL.TABLE+8"), intRef(data, 24, 64));
+  EXPECT_EQ(at("REAL.TABLE+8"), realRef(data, 24));
+  EXPECT_EQ(at("real.speed"), realRef(nci, 8));
+  EXPECT_EQ(at("QWRD.SPEED"), intRef(nci, 8, 64));
   for (const char* name : {"CELL:3", "CELL:", "WEIGHT:1", "CELL+", "CELL+-1", "+1", ":2", "WORD.", "WORD.WEIGHT",
-                           "TABLE+111:2", "TABLE+4294967295", "CELL+2+"})
+                           "REAL.", "REAL.WEIGHT", "REAL.TABLE+121", "TABLE+111:2", "TABLE+4294967295", "CELL+2+"})
     EXPECT_FALSE(at(name)) << name;
 }
 

@@ -46,7 +46,8 @@ TEST_F(WrittenByName, IsRefusedWithTheNameToWrite) {
 
 TEST_F(WrittenByName, RealsAndTextsToo) {
   EXPECT_EQ(nc::writeReal(*instance, real, 1.5),
-            "a value written to 0000 is lost: !0000 is copied over it before the program reads it; write !0000");
+            "a value written to REAL.FREE is lost: REAL.!FREE is copied over it before the program reads it; write "
+            "REAL.!FREE");
   EXPECT_EQ(nc::writeReal(*instance, realCopy, 1.5), "");
   host::Ref text = at("FREE");
   text.kind = host::RefKind::Text;

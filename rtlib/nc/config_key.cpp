@@ -14,7 +14,7 @@ bool matches(std::string_view pattern, std::string_view key) {
   const std::string_view after = pattern.substr(close + 1);
   if (key.size() <= before.size() + after.size() || !key.starts_with(before) || !key.ends_with(after)) return false;
   const std::string_view part = key.substr(before.size(), key.size() - before.size() - after.size());
-  return pattern.substr(open + 1, close - open - 1) != "n" || wholeNumber(part) >= 0;
+  return pattern.substr(open + 1, close - open - 1) != "n" || text::numberIn<uint64_t>(part);
 }
 
 bool isOneOf(std::string_view words, std::string_view value) {
@@ -60,7 +60,7 @@ bool isRight(const ConfigKey& row, std::string_view value) {
 } // namespace
 
 int64_t wholeNumber(std::string_view text) {
-  const auto value = text::numberIn<int64_t>(text);
+  const auto value = text::wholeIn<int64_t>(text);
   return value && *value >= 0 ? *value : -1;
 }
 

@@ -52,7 +52,7 @@ std::string wrongValue(const ConfigKey& row, std::string_view key, std::string_v
 
 // Microseconds of "2ms", "500us", "1s"; -1 when it is anything else, a number without a unit too.
 int64_t durationUs(std::string_view text);
-// A whole number in decimal digits; -1 when it is anything else or needs more than 63 bits.
+// A whole number (text::wholeIn); -1 when it is anything else, negative or needs more than 63 bits.
 int64_t wholeNumber(std::string_view text);
 
 } // namespace rung::nc

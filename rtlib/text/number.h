@@ -2,9 +2,12 @@
 #pragma once
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace rung::text {
 
@@ -26,10 +29,120 @@ std::optional<T> numberIn(std::string_view text, Format... format) {
   return text.empty() ? value : std::nullopt;
 }
 
-// A finite one: 12, -0.5, 1e3.
+// ---- numbers as users write them ---------------------------------------------------------------------------------
+
+// -25, 0x1F, 16#1F, 0b101, 2#101, 8#17, 1_000 are whole; 1.5, -2e3, inf and nan real.
+enum class NumberForm : uint8_t {
+  None,       // no number
+  Whole,      // of -2^63 to 2^64 - 1
+  Real,       // a double
+  OutOfRange, // one that no cell holds: beyond all doubles, so small that it would become 0, bits beyond 64
+};
+
+struct WrittenNumber {
+  NumberForm form = NumberForm::None;
+  bool negative = false;  // of a whole number
+  uint64_t magnitude = 0; // of a whole number
+  double real = 0;        // of both
+  // The 64 bits of a whole number.
+  uint64_t bits() const { return negative ? 0 - magnitude : magnitude; }
+};
+
+namespace detail {
+
+// Takes a prefix such as 0x or 16# off.
+inline uint32_t takeBase(std::string_view& digits) {
+  struct Prefix {
+    std::string_view text;
+    uint32_t base;
+  };
+  for (const Prefix prefix : {Prefix{"0x", 16}, Prefix{"0X", 16}, Prefix{"0b", 2}, Prefix{"0B", 2}, Prefix{"16#", 16},
+                              Prefix{"8#", 8}, Prefix{"2#", 2}}) {
+    if (!digits.starts_with(prefix.text)) continue;
+    digits.remove_prefix(prefix.text.size());
+    return prefix.base;
+  }
+  return 10;
+}
+
+inline uint32_t digitOf(char c) {
+  if (c >= '0' && c <= '9') return static_cast<uint32_t>(c - '0');
+  const char lower = static_cast<char>(c | 0x20);
+  return lower >= 'a' && lower <= 'f' ? static_cast<uint32_t>(lower - 'a') + 10 : UINT32_MAX;
+}
+
+// Digits with single underscores between them.
+inline NumberForm readDigits(std::string_view digits, uint32_t base, uint64_t& magnitude) {
+  bool fits = !digits.empty();
+  bool afterDigit = false;
+  for (const char c : digits) {
+    const uint32_t digit = digitOf(c);
+    const bool between = c == '_' && afterDigit;
+    if (!between && digit >= base) return NumberForm::None;
+    afterDigit = !between;
+    if (between) continue;
+    fits = fits && magnitude <= (UINT64_MAX - digit) / base;
+    magnitude = magnitude * base + digit;
+  }
+  if (!afterDigit) return NumberForm::None;
+  return fits ? NumberForm::Whole : NumberForm::OutOfRange;
+}
+
+inline NumberForm readReal(std::string_view digits, double& real) {
+  if (digits.starts_with('-')) return NumberForm::None; // there was a sign before
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), real);
+  if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) return NumberForm::None;
+  const std::string_view mantissa = digits.substr(0, digits.find_first_of("eE"));
+  const bool vanished = real == 0 && mantissa.find_first_of("123456789") != std::string_view::npos;
+  return error != std::errc() || vanished ? NumberForm::OutOfRange : NumberForm::Real;
+}
+
+} // namespace detail
+
+// Of the whole text.
+inline WrittenNumber writtenNumber(std::string_view text) {
+  constexpr uint64_t kMostNegative = uint64_t{1} << 63;
+  WrittenNumber number;
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  std::string_view digits = text;
+  const uint32_t base = detail::takeBase(digits);
+  number.form = detail::readDigits(digits, base, number.magnitude);
+  if (number.form == NumberForm::Whole && negative && number.magnitude > kMostNegative)
+    number.form = NumberForm::OutOfRange;
+  if (number.form == NumberForm::Whole) {
+    number.negative = negative && number.magnitude != 0;
+    number.real = static_cast<double>(number.magnitude);
+  } else if (number.form == NumberForm::None || base == 10) { // a long decimal number is a real
+    number.form = detail::readReal(text, number.real);
+  }
+  if (negative) number.real = -number.real;
+  return number;
+}
+
+// The whole number that is the text, where T holds it.
+template <class T>
+std::optional<T> wholeIn(std::string_view text) {
+  const WrittenNumber number = writtenNumber(text);
+  if (number.form != NumberForm::Whole) return std::nullopt;
+  const bool fits = number.negative
+                        ? std::cmp_greater_equal(static_cast<int64_t>(number.bits()), std::numeric_limits<T>::min())
+                        : std::cmp_less_equal(number.magnitude, std::numeric_limits<T>::max());
+  return fits ? std::optional(static_cast<T>(number.bits())) : std::nullopt;
+}
+
+// The finite number that is the text, whole or real.
 inline std::optional<double> realIn(std::string_view text) {
-  const std::optional<double> value = numberIn<double>(text);
-  return value && std::isfinite(*value) ? value : std::nullopt;
+  const WrittenNumber number = writtenNumber(text);
+  const bool isNumber = number.form == NumberForm::Whole || number.form == NumberForm::Real;
+  return isNumber && std::isfinite(number.real) ? std::optional(number.real) : std::nullopt;
+}
+
+// Whether an integer of so many bits, 1 to 64, holds the number, with a sign or without; a bit 0 and 1 alone.
+inline bool fitsBits(const WrittenNumber& number, uint32_t bits) {
+  if (number.form != NumberForm::Whole) return false;
+  if (number.negative) return bits > 1 && number.magnitude <= uint64_t{1} << (bits - 1);
+  return bits >= 64 || number.magnitude >> bits == 0;
 }
 
 } // namespace rung::text

@@ -47,7 +47,7 @@ std::string configureServo(ConfiguredDevices& target, const DeviceDefinition& se
   constexpr uint32_t kFirstDrive = 3, kLastDrive = 27, kModel = 18, kFirstUnidrive = 7, kLastUnidrive = 9;
   const std::string_view type = valueOf(servo, "ServoType");
   if (type.empty()) return {};
-  const auto number = text::numberIn<uint32_t>(type);
+  const auto number = text::wholeIn<uint32_t>(type);
   if (!number) return "ServoType: expected the number of a type, found '" + std::string(type) + "'";
   if (*number < kFirstDrive || *number > kLastDrive || *number == kModel) return {};
   const bool isUnidrive = *number >= kFirstUnidrive && *number <= kLastUnidrive;

@@ -17,6 +17,8 @@ std::string setValue(Lane& lane, const Statement& s) {
   if (quantity) return lane.nc().setQuantity(std::string_view(s.name).substr(3), s.value.real);
   const std::optional<Ref> place = lane.nc().writePlace(lane.instance().program(), s.name);
   if (!place) {
+    const std::optional<sim::NcCell> now = lane.nc().readCell(s.name);
+    if (std::string wrong = now ? cellProblem(*now, s.value) : ""; !wrong.empty()) return wrong;
     const auto problem = lane.nc().writeCell(s.name, cellOf(s.value));
     return problem ? *problem : unknownName(lane.instance().program(), lane.nc(), s.name);
   }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "frontend/dialects/dialect.h"
+#include "frontend/syntax/word_lexer.h"
 #include "rtlib/text/regular_file.h"
 #include "tools/scenario/in_project.h"
 #include "tools/scenario/scenario.h"
@@ -44,6 +45,7 @@ public:
   void readFile(const std::string& path, std::string_view text) {
     std::error_code none;
     open_.push_back({path, fs::weakly_canonical(path, none)});
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     uint32_t number = 0;
     while (!text.empty()) {
       const size_t end = std::min(text.find('\n'), text.size());

@@ -10,6 +10,7 @@
 
 #include "ir/support/result.h"
 #include "rtlib/host/state_transfer.h"
+#include "rtlib/text/number.h"
 
 namespace rung::scenario {
 
@@ -57,13 +58,14 @@ enum class Kind : uint8_t {
 
 enum class ValueKind : uint8_t { Int, Real, Text };
 
-// A value as written. An integer keeps 64 bits; one above 2^63-1 is kept modulo 2^64.
+// A value as written.
 struct Value {
   ValueKind kind = ValueKind::Int;
-  bool isBit = false; // written as on, off, true or false: the integer 1 or 0
-  int64_t integer = 0;
-  double real = 0;  // also filled for integers
-  std::string text; // of a quoted string, else as written
+  bool isBit = false;         // written as on, off, true or false: the integer 1 or 0
+  text::WrittenNumber number; // OutOfRange, and no number at all, are texts that nobody has quoted
+  int64_t integer = 0;        // its 64 bits: above 2^63-1 modulo 2^64
+  double real = 0;            // also filled for integers
+  std::string text;           // of a quoted string, else as written
 };
 
 struct KeyValue {

@@ -75,7 +75,7 @@ std::string blockDifference(const ServiceSignature& signature, nc::nct::Block bl
                : fmt::format("{}: {} is {}, expected {}", signature.name(), key.key, found, key.value.text);
   }
   const int32_t found = block.word(at.word);
-  if (key.value.kind == ValueKind::Int && static_cast<uint32_t>(found) == static_cast<uint32_t>(key.value.integer))
+  if (text::fitsBits(key.value.number, 32) && static_cast<uint32_t>(found) == static_cast<uint32_t>(key.value.integer))
     return {};
   return fmt::format("{}: {} is {} (0x{:X}), expected {}", signature.name(), key.key, found,
                      static_cast<uint32_t>(found), key.value.text);
@@ -218,8 +218,8 @@ std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyV
     const std::optional<BlockKey> word = blockKey(signature, key.key);
     if (key.key != "error" && signature.result(key.key) < 0 && !word)
       return fmt::format("{} has no result '{}': it has {}", signature.name(), key.key, signature.resultNames());
-    if (word && !word->isReal && key.value.kind != ValueKind::Int)
-      return fmt::format("{} is one word: expected an integer, not {}", key.key, key.value.text);
+    if (word && !word->isReal && !text::fitsBits(key.value.number, 32))
+      return fmt::format("{} is one word: expected an integer of 32 bits, not {}", key.key, key.value.text);
   }
   return {};
 }

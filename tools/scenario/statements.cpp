@@ -7,6 +7,7 @@
 #include "ir/support/ascii.h"
 #include "ir/support/similar.h"
 #include "rtlib/text/blanks.h"
+#include "rtlib/text/number.h"
 #include "tools/scenario/replace_report.h"
 #include "tools/scenario/words.h"
 
@@ -50,6 +51,10 @@ private:
     return true;
   }
   bool notAValue(const std::string& text);
+  bool notHeld(const std::string& number) {
+    return fail(
+        fmt::format("no variable can hold {}: a real number is 5e-324 to 1.8e308, an integer has 64 bits", number));
+  }
   bool takeValue(Value& into, bool numeric = false) {
     if (done()) return fail("expected a value");
     const ScenarioWord& word = words_[next_++];
@@ -72,6 +77,7 @@ private:
       if (equals == std::string::npos || equals == 0)
         return fail(fmt::format("expected KEY=VALUE, found '{}'", word()));
       into.push_back({word().substr(0, equals), valueOfKey(word().substr(equals + 1))});
+      if (into.back().value.number.form == text::NumberForm::OutOfRange) return notHeld(into.back().value.text);
     }
     return true;
   }
@@ -89,9 +95,10 @@ private:
   }
   bool expectRange() { return takeWord(s_.name, "a name") && takeValue(s_.value, true) && takeValue(s_.high, true); }
   bool expectMessage() {
-    Value number;
-    if (!takeValue(number, true)) return false;
-    s_.number = static_cast<uint32_t>(number.integer);
+    const std::optional<uint32_t> number = done() ? std::nullopt : text::wholeIn<uint32_t>(word());
+    if (!number) return fail("expected a message number");
+    s_.number = *number;
+    ++next_;
     if (!done() && (word() == "on" || word() == "off")) s_.on = words_[next_++].text == "on";
     return takeKeys(s_.keys);
   }
@@ -100,9 +107,9 @@ private:
     if (!takeWord(first, "a diagnostic code")) return false;
     s_.name = first;
     if (done()) return true;
-    const auto line = parseInt(first);
-    if (!line || *line <= 0) return fail(fmt::format("'{}' is not a line number", first));
-    s_.number = static_cast<uint32_t>(*line);
+    const auto line = text::wholeIn<uint32_t>(first);
+    if (!line || *line == 0) return fail(fmt::format("'{}' is not a line number", first));
+    s_.number = *line;
     return takeWord(s_.name, "a diagnostic code");
   }
   bool block() {
@@ -261,6 +268,7 @@ bool LineParser::notAValue(const std::string& text) {
     return fail(fmt::format("'{}' is not a value: only a blank comes before the value", text));
   if (startsWithDigit(text) && parseDuration(text).ok())
     return fail(fmt::format("'{}' is a time; a value is a number in the unit that the program counts in", text));
+  if (text::writtenNumber(text).form == text::NumberForm::OutOfRange) return notHeld(text);
   return fail(fmt::format("'{}' is not a value: expected a number, on, off, true, false or a text in quotes", text));
 }
 
@@ -270,7 +278,7 @@ bool LineParser::takeCount() {
   const std::string time = isTimeUnit(unit) ? word() + unit : word();
   if (parseDuration(time).ok())
     return fail(fmt::format("{} takes a number of runs; for a time write: run {}", words_[0].text, time));
-  const auto count = parseInt(word());
+  const auto count = text::wholeIn<int64_t>(word());
   if (!count || *count < 0) return fail(fmt::format("'{}' is not a number of runs", word()));
   s_.count = static_cast<uint64_t>(*count);
   ++next_;

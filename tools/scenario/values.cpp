@@ -25,6 +25,15 @@ int64_t asSigned(uint64_t value, uint32_t width) {
   return static_cast<int64_t>((modulo(value, width) ^ sign) - sign);
 }
 
+// "" when an integer of the width holds the number, as itself or as the pattern of a negative one.
+std::string widthProblem(const Value& value, uint32_t width) {
+  if (value.kind != ValueKind::Int || text::fitsBits(value.number, width)) return {};
+  if (width == 1) return fmt::format("a bit takes 0 or 1, not {}", value.text);
+  const uint64_t most = UINT64_MAX >> (64 - width);
+  return fmt::format("an integer of {} bits takes {} to {}, not {}", width, -static_cast<int64_t>(most / 2) - 1, most,
+                     value.text);
+}
+
 std::string show(const Value& value) {
   return value.kind == ValueKind::Text ? fmt::format("\"{}\"", value.text) : value.text;
 }
@@ -74,6 +83,13 @@ Reading cellReading(const sim::NcCell& cell, bool wantReal) {
   return reading;
 }
 
+std::string cellProblem(const sim::NcCell& now, const Value& value) {
+  if (now.isReal || now.isText) return {};
+  if (now.untyped && now.width != 64 && value.kind == ValueKind::Real)
+    return fmt::format("the cell has {} bits, so it cannot be {}: a real number needs 64", now.width, value.text);
+  return widthProblem(value, now.width);
+}
+
 sim::NcCell cellOf(const Value& value) {
   if (value.kind == ValueKind::Text) return {.isText = true, .text = value.text};
   if (value.kind == ValueKind::Real) return {.isReal = true, .bits = std::bit_cast<uint64_t>(value.real)};
@@ -105,9 +121,11 @@ std::string numberProblem(const Instance& instance, const Ref& place, const Valu
   if (value.kind == ValueKind::Text) return "this name holds a number, not a text";
   if (value.isBit && place.kind != RefKind::Bit)
     return fmt::format("this name is not a bit, so it cannot be {}: expected a number", value.text);
-  if (place.kind == RefKind::Bit && (value.kind == ValueKind::Real || (value.integer != 0 && value.integer != 1)))
+  if (place.kind == RefKind::Bit && value.kind == ValueKind::Real)
     return fmt::format("a bit takes 0 or 1, not {}", value.text);
-  if (place.kind == RefKind::Real || value.kind == ValueKind::Int || host::asReal(instance.memory(), place)) return {};
+  if (place.kind == RefKind::Real) return {};
+  if (value.kind == ValueKind::Int) return widthProblem(value, place.kind == RefKind::Bit ? 1 : place.width);
+  if (host::asReal(instance.memory(), place)) return {};
   return fmt::format("this name is an integer of {} bits, so it cannot be {}: expected a whole number, or a name of 64 "
                      "bits, which a real has",
                      place.width, value.text);
@@ -147,6 +165,9 @@ std::string checkValue(const Reading& reading, const Statement& expect) {
   if (expect.value.isBit && (reading.kind != ValueKind::Int || reading.width != 1))
     return fmt::format("{} is not a bit, so it cannot be {}: it is {}; expected a number", expect.name,
                        expect.value.text, show(reading));
+  if (reading.kind == ValueKind::Int && !expect.near)
+    if (const std::string problem = widthProblem(expect.value, reading.width); !problem.empty())
+      return fmt::format("{} is {}, and {}", expect.name, show(reading), problem);
   bool same = false;
   if (expect.near)
     same = std::fabs(reading.real - expect.value.real) <= expect.tolerance;
@@ -199,7 +220,7 @@ std::string messageDifference(const nc::ShownMessage& message, const std::vector
       same = message.text == key.value.text;
       found = "\"" + message.text + "\"";
     } else if (const auto technol = technolValue(message, key.key)) {
-      same = *technol == static_cast<uint32_t>(key.value.integer) && key.value.kind == ValueKind::Int;
+      same = *technol == static_cast<uint32_t>(key.value.integer) && text::fitsBits(key.value.number, 32);
       found = std::to_string(*technol);
     } else if (key.key == "channel" || key.key == "index") {
       const int32_t actual = key.key == "index" ? message.index : message.channel;

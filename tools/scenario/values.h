@@ -1,5 +1,5 @@
-// Reading, writing and comparing by the rules of the scenario format: integers modulo their width, reals by tolerance,
-// texts as they are.
+// Reading, writing and comparing by the rules of the scenario format: integers as patterns of their width, reals by
+// tolerance, texts as they are.
 #pragma once
 #include <string>
 #include <string_view>
@@ -30,6 +30,8 @@ std::string showShort(const Reading& reading);
 Reading realReading(double value);
 Reading cellReading(const sim::NcCell& cell, bool wantReal);
 sim::NcCell cellOf(const Value& value);
+// "", or why a cell of the NC that holds `now` cannot hold the number.
+std::string cellProblem(const sim::NcCell& now, const Value& value);
 int64_t signedOf(const Reading& integer);
 
 // The cell of this name, at this place, with the value, for whoever forces it. The name outlives the result.

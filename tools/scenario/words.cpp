@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
 
 #include "ir/support/ascii.h"
@@ -20,40 +19,6 @@ struct TimeUnit {
 constexpr TimeUnit kTimeUnits[] = {{"us", 1.0}, {"ms", 1e3}, {"s", 1e6}, {"min", 60e6}};
 constexpr double kMostSeconds = 50; // a larger number without a unit was probably meant in milliseconds
 constexpr double kLongestUs = 9e15; // far from the end of 64 bits
-
-std::optional<double> parseReal(std::string_view text) {
-  const std::string copy(text);
-  if (copy.empty() || copy.find_first_of("xX") != std::string::npos) return std::nullopt;
-  char* end = nullptr;
-  const double value = std::strtod(copy.c_str(), &end);
-  if (end != copy.c_str() + copy.size()) return std::nullopt;
-  return value;
-}
-
-// Takes a prefix such as 0x or 16# off.
-int takeBase(std::string_view& digits) {
-  struct Prefix {
-    std::string_view text;
-    int base;
-  };
-  for (const Prefix prefix : {Prefix{"0x", 16}, Prefix{"0X", 16}, Prefix{"0b", 2}, Prefix{"0B", 2}, Prefix{"16#", 16},
-                              Prefix{"8#", 8}, Prefix{"2#", 2}}) {
-    if (!digits.starts_with(prefix.text) || digits.size() == prefix.text.size()) continue;
-    digits.remove_prefix(prefix.text.size());
-    return prefix.base;
-  }
-  return 10;
-}
-
-// "1_000" to "1000"; an underscore that is not between two others stays, and is not a digit.
-std::string withoutUnderscores(std::string_view digits) {
-  std::string out;
-  for (size_t i = 0; i < digits.size(); ++i) {
-    const bool between = i > 0 && i + 1 < digits.size() && digits[i - 1] != '_' && digits[i + 1] != '_';
-    if (digits[i] != '_' || !between) out += digits[i];
-  }
-  return out;
-}
 
 std::optional<bool> parseBit(std::string_view text) {
   const std::string lower = text::lower(text);
@@ -94,31 +59,18 @@ std::string splitLine(std::string_view line, std::vector<ScenarioWord>& words) {
   }
 }
 
-std::optional<int64_t> parseInt(std::string_view text) {
-  const bool negative = !text.empty() && text[0] == '-';
-  if (negative || (!text.empty() && text[0] == '+')) text.remove_prefix(1);
-  const int base = takeBase(text);
-  const std::string digits = withoutUnderscores(text);
-  const auto magnitude = text::numberIn<uint64_t>(digits, base);
-  if (!magnitude) return std::nullopt;
-  return static_cast<int64_t>(negative ? 0 - *magnitude : *magnitude);
-}
-
 Value valueOf(const ScenarioWord& word) {
   Value value;
   value.text = word.text;
   value.kind = ValueKind::Text;
   if (word.quoted) return value;
-  const auto bit = parseBit(word.text);
-  if (const auto integer = bit ? std::optional<int64_t>(*bit) : parseInt(word.text)) {
-    value.kind = ValueKind::Int;
-    value.isBit = bit.has_value();
-    value.integer = *integer;
-    value.real = static_cast<double>(*integer);
-  } else if (const auto real = parseReal(word.text)) {
-    value.kind = ValueKind::Real;
-    value.real = *real;
-  }
+  const std::optional<bool> bit = parseBit(word.text);
+  value.isBit = bit.has_value();
+  value.number = text::writtenNumber(bit ? (*bit ? "1" : "0") : word.text);
+  if (value.number.form == text::NumberForm::Whole) value.kind = ValueKind::Int;
+  if (value.number.form == text::NumberForm::Real) value.kind = ValueKind::Real;
+  value.integer = static_cast<int64_t>(value.number.bits());
+  value.real = value.number.real;
   return value;
 }
 
@@ -135,7 +87,7 @@ Result<int64_t> parseDuration(std::string_view text) {
   const size_t length = numberLength(text);
   std::string_view unit = text.substr(length);
   unit.remove_prefix(std::min(unit.find_first_not_of(' '), unit.size()));
-  const auto number = parseReal(text.substr(0, length));
+  const std::optional<double> number = text::realIn(text.substr(0, length));
   if (!number) return failure(fmt::format("'{}' is not a time: expected one such as 250ms, 2s or 1.5min", text));
   if (!(*number >= 0)) return failure(fmt::format("'{}' is negative: a time begins at 0s", text));
   if (unit.empty()) {

@@ -1,7 +1,5 @@
 // Words of a scenario's line and the numbers, texts and times that they write.
 #pragma once
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,9 +15,6 @@ struct ScenarioWord {
 
 // Words of a line up to a comment. Gives "" or what is wrong.
 std::string splitLine(std::string_view line, std::vector<ScenarioWord>& words);
-
-// -25, 0x1F, 0b101, 16#FF, 1_000: 64 bits, modulo 2^64.
-std::optional<int64_t> parseInt(std::string_view text);
 
 // A number, a bit as on, off, true or false, else a text.
 Value valueOf(const ScenarioWord& word);

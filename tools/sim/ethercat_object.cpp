@@ -14,11 +14,7 @@ uint64_t littleEndian(std::span<const uint8_t> bytes) {
   return value;
 }
 
-std::optional<uint64_t> unsignedIn(std::string_view text) {
-  const bool hex = text.starts_with("0x");
-  if (hex) text.remove_prefix(2);
-  return text::numberIn<uint64_t>(text, hex ? 16 : 10);
-}
+std::optional<uint64_t> unsignedIn(std::string_view text) { return text::wholeIn<uint64_t>(text); }
 
 std::string parseProtocols(std::string_view text, EthercatProtocols& protocols) {
   while (!text.empty()) {

@@ -8,6 +8,7 @@
 
 #include "ir/support/diag/operand.h"
 #include "rtlib/nc/config_key.h"
+#include "rtlib/text/number.h"
 
 namespace rung::gsk {
 namespace {
@@ -31,8 +32,7 @@ struct Entry {
 };
 
 std::optional<Entry> entryOf(std::string_view key, const std::string& text) {
-  const auto value =
-      static_cast<uint64_t>(network::parseConstant(text).value_or(-1)); // a negative one is far above every limit
+  const uint64_t value = text::wholeIn<uint64_t>(text).value_or(UINT64_MAX); // above every limit
   if (const auto timer = numberOf(key, "tmr."))
     return Entry{"tmr", *timer, value, timerUnitMs(static_cast<int64_t>(*timer)) * kMaxWord};
   if (const auto counter = numberOf(key, "ctr.")) return Entry{"ctr", *counter, value, kMaxWord};
@@ -44,7 +44,7 @@ bool isSound(const Entry& entry) { return entry.number >= 1 && entry.number <= k
 std::optional<uint64_t> periodOf(const frontend::CompileOptions& options) {
   const auto at = options.config.find("period_us");
   if (at == options.config.end()) return std::nullopt;
-  return network::parseDigits(at->second).value_or(0);
+  return text::wholeIn<uint64_t>(at->second).value_or(0);
 }
 
 } // namespace
@@ -79,7 +79,7 @@ std::optional<uint32_t> partsOf(const frontend::CompileOptions& options) {
 std::optional<uint32_t> slotStepsOf(const frontend::CompileOptions& options) {
   const auto at = options.config.find(kSlotSteps);
   if (at == options.config.end()) return std::nullopt;
-  return static_cast<uint32_t>(network::parseDigits(at->second).value_or(1));
+  return text::wholeIn<uint32_t>(at->second).value_or(1);
 }
 
 Machine configuredMachine(const frontend::CompileOptions& options, Diagnostics& diagnostics) {

@@ -10,7 +10,8 @@ TEST(ConfigKey, WholeNumbers) {
   EXPECT_EQ(wholeNumber("0"), 0);
   EXPECT_EQ(wholeNumber("0000000000000000000000012"), 12);
   EXPECT_EQ(wholeNumber("9223372036854775807"), INT64_MAX);
-  for (const char* wrong : {"", "-1", "+1", "1.0", "1 ", "0x1", "9223372036854775808"})
+  for (const char* ten : {"+10", "0xA", "16#a", "0b1010", "1_0"}) EXPECT_EQ(wholeNumber(ten), 10) << ten;
+  for (const char* wrong : {"", "-1", "1.0", "1 ", "0x", "1__0", "9223372036854775808"})
     EXPECT_EQ(wholeNumber(wrong), -1) << wrong;
 }
 
@@ -19,9 +20,17 @@ TEST(ConfigKey, DurationsHaveAUnit) {
   EXPECT_EQ(durationUs("2ms"), 2000);
   EXPECT_EQ(durationUs("1s"), 1'000'000);
   EXPECT_EQ(durationUs("0s"), 0);
+  EXPECT_EQ(durationUs("1_000us"), 1000);
   EXPECT_EQ(durationUs("0000000000000000000000100ms"), 100'000);
-  for (const char* wrong : {"", "5", "ms", "-1ms", "+1ms", "1.5ms", "1 ms", "1ms ", "1m", "1S", "1min"})
+  for (const char* wrong : {"", "5", "ms", "-1ms", "1.5ms", "1 ms", "1ms ", "1m", "1S", "1min"})
     EXPECT_EQ(durationUs(wrong), -1) << wrong;
+}
+
+TEST(ConfigKey, NumbersInKeysAreDigits) {
+  const ConfigKey keys[] = {{.key = "table<n>"}, {.key = "<ID>"}};
+  EXPECT_EQ(findConfigKey(keys, "table12"), &keys[0]);
+  for (const char* other : {"table0x1", "table-1", "table", "table1_0"})
+    EXPECT_EQ(findConfigKey(keys, other), &keys[1]);
 }
 
 TEST(ConfigKey, LimitsAreRightValues) {

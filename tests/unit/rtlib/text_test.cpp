@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -166,8 +167,69 @@ TEST(Number, RealIsFinite) {
   EXPECT_EQ(text::realIn("12"), 12.0);
   EXPECT_EQ(text::realIn("1."), 1.0);
   EXPECT_EQ(text::realIn("1.7976931348623157e308"), std::numeric_limits<double>::max());
-  for (const char* wrong : {"", "inf", "-INF", "nan", "1e309", "+1", " 1", "1 ", "1,5", "0x1p3", "."})
+  EXPECT_EQ(text::realIn("+1"), 1.0);
+  EXPECT_EQ(text::realIn("-0x10"), -16.0);
+  EXPECT_EQ(text::realIn("100000000000000000000"), 1e20);
+  EXPECT_EQ(text::realIn("5e-324"), 5e-324);
+  EXPECT_EQ(text::realIn("-0.0e-999"), 0.0);
+  for (const char* wrong : {"", "inf", "-INF", "nan", "1e309", "1e-999", "-0.01e-400", " 1", "1 ", "1,5", "0x1p3", ".",
+                            "--1", "+-1", "-+1", "1_000.5"})
     EXPECT_EQ(text::realIn(wrong), nullopt) << wrong;
+}
+
+TEST(WrittenNumber, WholeOnesOfAllForms) {
+  const std::pair<const char*, int64_t> kForms[] = {{"-25", -25},  {"+3", 3},       {"0x1F", 31},   {"0X1f", 31},
+                                                    {"16#1F", 31}, {"0b101", 5},    {"0B1", 1},     {"2#101", 5},
+                                                    {"8#17", 15},  {"1_000", 1000}, {"0xF_F", 255}, {"-0x80", -128},
+                                                    {"0", 0},      {"-0", 0},       {"007", 7}};
+  for (const auto& [text, value] : kForms) EXPECT_EQ(text::wholeIn<int64_t>(text), value) << text;
+  for (const char* wrong : {"",   "-",    "+",    "x",  "0x", "16#", "0b",  "0b2", "8#8",  "2#2",  "0xG", "_1",
+                            "1_", "1__0", "0x_1", "1 ", " 1", "1.0", "1e3", "--1", "0x-1", "10#5", "1#",  "inf"})
+    EXPECT_EQ(text::wholeIn<int64_t>(wrong), nullopt) << wrong;
+}
+
+TEST(WrittenNumber, EndsAtTheLimitsOfItsType) {
+  EXPECT_EQ(text::wholeIn<uint8_t>("0xFF"), 255);
+  EXPECT_EQ(text::wholeIn<uint8_t>("256"), nullopt);
+  EXPECT_EQ(text::wholeIn<uint8_t>("-1"), nullopt);
+  EXPECT_EQ(text::wholeIn<int8_t>("-0x80"), -128);
+  EXPECT_EQ(text::wholeIn<int8_t>("-129"), nullopt);
+  EXPECT_EQ(text::wholeIn<int8_t>("128"), nullopt);
+  EXPECT_EQ(text::wholeIn<uint64_t>("18446744073709551615"), UINT64_MAX);
+  EXPECT_EQ(text::wholeIn<uint64_t>("18446744073709551616"), nullopt);
+  EXPECT_EQ(text::wholeIn<uint64_t>("0xFFFFFFFFFFFFFFFF"), UINT64_MAX);
+  EXPECT_EQ(text::wholeIn<int64_t>("9223372036854775808"), nullopt);
+  EXPECT_EQ(text::wholeIn<int64_t>("-9223372036854775808"), INT64_MIN);
+  EXPECT_EQ(text::wholeIn<int64_t>("-9223372036854775809"), nullopt);
+}
+
+TEST(WrittenNumber, SaysWhatNoCellHolds) {
+  using enum text::NumberForm;
+  const std::pair<const char*, text::NumberForm> kForms[] = {{"1", Whole},
+                                                             {"1.5", Real},
+                                                             {"inf", Real},
+                                                             {"-nan", Real},
+                                                             {"1e308", Real},
+                                                             {"99999999999999999999", Real},
+                                                             {"1e999", OutOfRange},
+                                                             {"-1e999", OutOfRange},
+                                                             {"1e-999", OutOfRange},
+                                                             {"0x10000000000000000", OutOfRange},
+                                                             {"-0x8000000000000001", OutOfRange},
+                                                             {"0e-999", Real},
+                                                             {"x", None},
+                                                             {"", None},
+                                                             {"1e", None}};
+  for (const auto& [text, form] : kForms) EXPECT_EQ(text::writtenNumber(text).form, form) << text;
+}
+
+TEST(WrittenNumber, FitsBitsWithASignOrWithout) {
+  const auto fits = [](const char* text, uint32_t bits) { return text::fitsBits(text::writtenNumber(text), bits); };
+  for (const char* right : {"255", "-1", "-128", "0xFF"}) EXPECT_TRUE(fits(right, 8)) << right;
+  for (const char* wrong : {"256", "-129", "1.0", "x", "18446744073709551615"}) EXPECT_FALSE(fits(wrong, 8)) << wrong;
+  EXPECT_TRUE(fits("0", 1) && fits("1", 1) && fits("-0", 1));
+  EXPECT_FALSE(fits("2", 1) || fits("-1", 1));
+  EXPECT_TRUE(fits("-9223372036854775808", 64) && fits("18446744073709551615", 64));
 }
 
 } // namespace

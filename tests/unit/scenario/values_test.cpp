@@ -1,4 +1,4 @@
-// Values of scenarios: integers modulo their width, tolerances, ranges.
+// Values of scenarios: integers as patterns of their width, tolerances, ranges.
 #include <gtest/gtest.h>
 
 #include "tools/scenario/values.h"
@@ -21,6 +21,31 @@ TEST(ScenarioValues, IntegersCompareModuloTheirWidth) {
   EXPECT_EQ(checkValue(integer(0xFF, 8), statement("expect D0 255")), "");
   EXPECT_NE(checkValue(integer(0xFF, 16), statement("expect D0 -1")), "");
   EXPECT_NE(checkValue(integer(1, 8), statement("expect D0 2")).find("D0 is 1 (0x1), expected 2"), std::string::npos);
+}
+
+TEST(ScenarioValues, WhatTheCellNeverHoldsIsNotExpected) {
+  EXPECT_EQ(checkValue(integer(44, 8), statement("expect D0 300")),
+            "D0 is 44 (0x2C), and an integer of 8 bits takes -128 to 255, not 300");
+  EXPECT_EQ(checkValue(integer(0, 8), statement("expect D0 256")),
+            "D0 is 0 (0x0), and an integer of 8 bits takes -128 to 255, not 256");
+  EXPECT_NE(checkValue(integer(0xFF, 8), statement("expect D0 18446744073709551615")), ""); // which is not -1
+  EXPECT_NE(checkValue(integer(0x7F, 8), statement("expect D0 -129")), "");
+  EXPECT_EQ(checkValue(integer(0, 1), statement("expect X0.0 2")), "X0.0 is 0, and a bit takes 0 or 1, not 2");
+  EXPECT_NE(checkValue(integer(1, 1), statement("expect X0.0 -1")), "");
+  EXPECT_EQ(checkValue(integer(UINT64_MAX, 64), statement("expect Q 18446744073709551615")), "");
+  EXPECT_EQ(checkValue(integer(UINT64_MAX, 64), statement("expect Q -1")), "");
+}
+
+TEST(ScenarioValues, CellsOfTheNcHoldWhatTheirBitsHold) {
+  const auto wrong = [](const sim::NcCell& cell, const char* value) {
+    return cellProblem(cell, statement(std::string("set C ") + value).value);
+  };
+  EXPECT_EQ(wrong({.width = 8}, "255"), "");
+  EXPECT_EQ(wrong({.width = 8}, "256"), "an integer of 8 bits takes -128 to 255, not 256");
+  EXPECT_EQ(wrong({.width = 32, .untyped = true}, "1.5"),
+            "the cell has 32 bits, so it cannot be 1.5: a real number needs 64");
+  EXPECT_EQ(wrong({.width = 64, .untyped = true}, "1.5"), "");
+  EXPECT_EQ(wrong({.isReal = true, .width = 64}, "99999999999999999999"), "");
 }
 
 TEST(ScenarioValues, RealsHaveATolerance) {

@@ -26,7 +26,7 @@ std::string expected(std::string_view attribute, std::string_view what, std::str
 }
 
 std::string setNumber(Settings& settings, const Number& row, std::string_view value) {
-  const auto number = text::numberIn<uint32_t>(value);
+  const auto number = text::wholeIn<uint32_t>(value);
   if (!number || *number < row.least || *number > row.most)
     return expected(row.attribute, std::to_string(row.least) + " to " + std::to_string(row.most), value);
   settings.*row.member = *number;

@@ -7,6 +7,7 @@
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/control/technol/identifier.h"
+#include "rtlib/text/number.h"
 
 namespace rung::sim::technol {
 namespace {
@@ -21,13 +22,13 @@ bool Ports::configure(std::string_view key, std::string_view value, std::string&
   std::string_view rest = name;
   if (!nc::technol::takePrefix(rest, "CAN[1].INOUT08")) return false;
   const uint32_t unit = nc::technol::takeIndex(rest).value_or(0);
-  const auto control = nc::technol::decimal(value);
+  const auto control = text::wholeIn<uint8_t>(value);
   if (rest != ".CONTROL" || unit >= kUnits)
     problem = "'" + std::string(key) + "' is not a unit's control byte: CAN[1].INOUT08[0].CONTROL to [31]";
-  else if (!control || *control > 255)
+  else if (!control)
     problem = "'" + std::string(key) + "' takes 0 to 255";
   else
-    control_[unit] = static_cast<uint8_t>(*control);
+    control_[unit] = *control;
   return true;
 }
 

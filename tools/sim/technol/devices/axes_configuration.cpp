@@ -54,7 +54,7 @@ std::string Axes::configurationProblem() const {
 
 std::string Axes::addSwitch(uint64_t bit, std::string_view value) {
   std::string_view rest = value;
-  const auto axis = text::numberIn<uint32_t>(takeWord(rest));
+  const auto axis = text::wholeIn<uint32_t>(takeWord(rest));
   const auto low = text::realIn(takeWord(rest));
   const auto high = text::realIn(takeWord(rest));
   if (!axis || *axis < 1 || *axis > kMaxAxes || !low || !high || *low > *high || !takeWord(rest).empty())

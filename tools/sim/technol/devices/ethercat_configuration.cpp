@@ -63,7 +63,7 @@ std::string EtherCat::configure(std::string_view key, std::string_view value) {
   if (key == "EtherCATOPViaPLC") {
     wrong = setFlag(byProgram_, value);
   } else if (key == "EtherCATDelayOP") {
-    const auto delay = text::numberIn<uint32_t>(value);
+    const auto delay = text::wholeIn<uint32_t>(value);
     const bool fits = delay && *delay <= kMostDelayMs;
     wrong = fits ? "" : "expected 0 to " + std::to_string(kMostDelayMs) + " milliseconds";
     if (fits) delayMs_ = *delay;
@@ -119,7 +119,7 @@ std::string EtherCat::setName(uint32_t slave, std::string_view name) {
 
 // INIT, where all begin, is refused by none.
 std::string EtherCat::setRefused(uint32_t slave, std::string_view value) {
-  const auto number = text::numberIn<uint32_t>(value);
+  const auto number = text::wholeIn<uint32_t>(value);
   const State state = number && *number <= 8 ? stateOf(*number) : State::Unknown;
   const bool fits = number && (*number == 0 || (state != State::Unknown && state != State::Init));
   if (!fits) return "expected a state, 2, 3, 4 or 8, or 0 for none";

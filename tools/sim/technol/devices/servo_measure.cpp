@@ -20,7 +20,7 @@ bool ServoMeasure::has(std::string_view name) {
 std::string ServoMeasure::set(std::string_view name, std::string_view value) {
   if (!has(name))
     return "a servo has ServoType, MeasConstNumerator and MeasConstDenominator, not '" + std::string(name) + "'";
-  const auto number = text::numberIn<int32_t>(value);
+  const auto number = text::wholeIn<int32_t>(value);
   if (!number) return "'" + std::string(name) + "' needs a whole number; found '" + std::string(value) + "'";
   const bool isType = text::equalsIgnoringCase(name, kType);
   int32_t& place = isType ? type_ : text::equalsIgnoringCase(name, kNumerator) ? numerator_ : denominator_;

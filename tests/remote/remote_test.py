@@ -161,6 +161,41 @@ class Commands(Host):
         changes = re.findall(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d \S+ \(user \d+, process \d+\): (.*)", self.logged())
         self.assertEqual(changes, ["set D8:2 from 0 to 500", "set D8:2 from 500 to 16", "set D8:2 from 16 to -1"])
 
+    def test_numbers_are_written_as_in_scenarios(self):
+        for value, seen in (("0b101", 5), ("16#1F", 31), ("1_000", 1000), ("+7", 7), ("-0x80", -128), ("65535", -1)):
+            self.assertTrue(self.ctl("set", "D8:2", value).startswith(f"D8:2 = {seen}, before "), value)
+            self.assertEqual(self.get("D8:2"), seen)
+        for value, found in (("1__0", '"1__0"'), ("0x", '"0x"'), ("1e999", '"1e999"'), ("1e-999", '"1e-999"'), ("1.5", "1.5"),
+                             ("0x1_0000_0000_0000_0000", '"0x1_0000_0000_0000_0000"'), ("nan", '"nan"'), ("[1]", '"[1]"'),
+                             ("null", '"null"'), ("true", "true")):
+            self.assertIn(f"found {found} for D8:2, expected an integer", self.ctl("set", "D8:2", value, status=WRONG))
+        self.assertIn("found 256 for D8, expected at most 255", self.ctl("set", "D8", "0x100", status=WRONG))
+        self.assertIn("found 2 for X0.3, expected true or false", self.ctl("set", "X0.3", "2", status=WRONG))
+
+    def test_a_byte_has_no_sign_and_wider_integers_have_one(self):
+        self.assertEqual(self.ctl("set", "D100", "255"), "D100 = 255, before 0\n")
+        self.assertEqual(self.ctl("set", "D100", "-1"), "D100 = 255, before 255\n")
+        self.assertEqual(self.ctl("get", "D100", "D100:2"), "D100 = 255\nD100:2 = 255\n")
+        self.assertEqual(self.ctl("set", "D101", "0x80"), "D101 = 128, before 0\n")
+        self.assertEqual(self.ctl("get", "D101", "D100:2", "D100:4"), "D101 = 128\nD100:2 = -32513\nD100:4 = 33023\n")
+
+    def test_a_name_that_is_nearly_one(self):
+        self.assertIn("GUADR is not a name of the program stuck", self.ctl("get", "GUADR", status=WRONG))
+        for command in (("get",), ("watch",), ("set", 1), ("force", 1)):
+            text = self.ctl(command[0], "GUADR", *command[1:], status=WRONG)
+            self.assertTrue(text.endswith("; did you mean GUARD?\n"), text)
+        self.assertNotIn("did you mean", self.ctl("get", "SOMETHING", status=WRONG))
+        self.ctl("reload", self.program_with("symbol GUARD X0.2", "symbol LAMPS Y0.1"), "--yes")
+        self.assertTrue(self.ctl("get", "LAMSP", status=WRONG).endswith("; did you mean LAMPS?\n"))
+        self.assertNotIn("did you mean", self.ctl("get", "GUADR", status=WRONG))  # it is gone
+        self.ctl("rollback")
+        self.assertTrue(self.ctl("get", "GUADR", status=WRONG).endswith("; did you mean GUARD?\n"))
+
+    def test_more_names_than_a_pass_is_asked_for(self):
+        names = [f"D{i}" for i in range(257)]
+        self.assertEqual(self.ctl("get", *names[:256]).count("\n"), 256)
+        self.assertIn("found 257 names, expected at most 256", self.ctl("get", *names, status=WRONG))
+
     def test_forces(self):
         self.assertEqual(self.ctl("forced"), "nothing is forced\n")
         self.assertEqual(self.ctl("force", "X0.0", "true"), "X0.0 is forced to true\n")
@@ -490,6 +525,62 @@ class Profile(Host):
     def test_wrong_words(self):
         self.ctl("profile", "--by", "name", status=USAGE)
         self.ctl("profile", "--top", "0", status=USAGE)
+
+
+class Reals(Host):
+    """A double of NCT in two words: it has a name that everything takes."""
+    program_text = "dialect nct\nmodule MAIN\nsymbol SPEED 7002\nrung\n|--[7100.00]--{+F SPEED SPEED *0.5}\n"
+    source_name = "stuck.lad"
+    map = """[in]
+run = { type = "bit", name = "7100.01" }
+limit = { type = "float", name = "REAL.7010" }
+[rungctl]
+allow = ["set", "force"]
+never = ["REAL.7020"]
+"""
+
+    def test_set_and_get(self):
+        self.assertEqual(self.ctl("set", "REAL.7000", "2.5"), "REAL.7000 = 2.5, before 0.0\n")
+        self.assertEqual(self.ctl("get", "7000", "7001", "REAL.7000"), f"7000 = 0\n7001 = {0x40040000}\nREAL.7000 = 2.5\n")
+        self.assertEqual(self.ctl("set", "REAL.7000", "-0x10"), "REAL.7000 = -16.0, before 2.5\n")
+        self.assertEqual(self.ctl("set", "REAL.7000", "1e300"), "REAL.7000 = 1e+300, before -16.0\n")
+        for wrong in ("1e999", "1e-999", "nan", "x"):
+            self.assertIn(f'found "{wrong}" for REAL.7000, expected a number', self.ctl("set", "REAL.7000", wrong, status=WRONG))
+        self.assertIn("found 2.5 for 7000, expected an integer", self.ctl("set", "7000", "2.5", status=WRONG))
+        for wrong in ("REAL.9999", "REAL.7100.00", "REAL."):
+            self.assertIn(f"{wrong} is not a name of the program", self.ctl("get", wrong, status=WRONG))
+        self.assertTrue(self.ctl("get", "REAL.SPEDE", status=WRONG).endswith("; did you mean REAL.SPEED?\n"))
+        self.assertIn("7021 is never set or forced here", self.ctl("set", "7021", "1", status=WRONG))
+        self.assertIn("setting it has no effect", self.ctl("set", "REAL.7010", "1", status=WRONG))
+
+    def test_forces(self):
+        self.ctl("force", "REAL.SPEED", "0.25")
+        self.ctl("set", "7100.00", "1")
+        self.pass_by(3)
+        self.assertEqual(self.get("REAL.SPEED"), 0.25)
+        self.assertRegex(self.ctl("forced"), r"^REAL\.SPEED = 0\.25, by ")
+        self.ctl("unforce", "REAL.SPEED")
+        self.wait(lambda: self.get("REAL.SPEED") > 1)
+
+    def test_traces(self):
+        out = self.home / "trace.vcd"
+        tracing = self.trace(out, "REAL.SPEED", "SPEED")
+        self.ctl("set", "REAL.SPEED", "1.5")
+        self.pass_by(2)
+        tracing.send_signal(signal.SIGINT)
+        self.assertEqual(tracing.wait(patience()), OK)
+        text = out.read_text()
+        for wanted in ("$var real 64 ! REAL.SPEED $end", '$var wire 32 " SPEED $end', "\nr1.5 !\n"):
+            self.assertIn(wanted, text)
+
+    def test_watches(self):
+        watching = subprocess.Popen([BIN / "rungctl", "watch", "REAL.SPEED"], stdout=subprocess.PIPE, text=True, env=self.environment)
+        self.addCleanup(watching.stdout.close)
+        self.assertRegex(watching.stdout.readline(), r"^[\d.]+ REAL\.SPEED = 0\.0\n$")
+        self.ctl("set", "REAL.SPEED", "-2")
+        self.assertRegex(watching.stdout.readline(), r"^[\d.]+ REAL\.SPEED = -2\.0\n$")
+        watching.send_signal(signal.SIGINT)
+        self.assertEqual(watching.wait(patience()), OK)
 
 
 class Alarms(Host):

@@ -9,9 +9,10 @@
 #include <span>
 #include <utility>
 
-#include "ir/support/similar.h"
+#include "rtlib/text/name_parts.h"
 #include "rtlib/text/number.h"
 #include "rung/types.hpp"
+#include "tools/mapping/meant_name.h"
 #include "tools/mapping/mistake.h"
 
 namespace rung::mapping {
@@ -428,26 +429,17 @@ private:
     return true;
   }
 
-  // What a name is a part of: the name without its bit, index, width or distance, SYM of SYM.3, SYM,#2, SYM[2], !SYM.
-  static std::string_view headOf(std::string_view name) {
-    if (name.starts_with('!')) name.remove_prefix(1);
-    return name.substr(0, name.find_first_of(".,[:+"));
-  }
-
   // The name with the symbol that it may have meant; "" when none is close.
   std::string meantBy(const Entry& entry) {
     if (suggestions_++ >= kMostSuggestions) return {};
-    const std::string_view head = headOf(entry.name);
-    const bool isWhole = head.size() == entry.name.size();
+    const bool isWhole = text::headOf(entry.name).size() == entry.name.size();
     const auto fits = [&](const rung_symbol& symbol) {
       return (symbol.flags & (RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST)) == 0 &&
              (!isWhole || misfitOf({symbol.type, symbol.space, symbol.value}, entry) == Misfit::None);
     };
     const std::span symbols(program_.symbols, program_.symbol_count);
-    const std::string_view symbol = mostSimilar(head, symbols | std::views::filter(fits), &rung_symbol::name);
-    if (symbol.empty()) return {};
-    std::string meant = entry.name;
-    meant.replace(static_cast<size_t>(head.data() - entry.name.data()), head.size(), symbol);
+    std::string meant = meantName(entry.name, symbols | std::views::filter(fits), &rung_symbol::name);
+    if (meant.empty()) return {};
     // A bit, an index or a length may take the place out of the cell.
     int32_t status = RUNG_OK;
     const std::optional<Place> place = placeOf(meant, entry.use, status);

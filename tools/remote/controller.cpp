@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "rtlib/text/controls.h"
 #include "rung/types.hpp"
+#include "tools/mapping/meant_name.h"
 #include "tools/remote/profile.h"
 #include "tools/remote/values.h"
 
@@ -50,6 +52,9 @@ std::vector<std::string> namesOf(const json& request) {
   const auto found = request.find("names");
   const bool good = found != request.end() && found->is_array() && !found->empty() && found->size() <= kMostNames &&
                     std::ranges::all_of(*found, &json::is_string);
+  if (found != request.end() && found->is_array() && found->size() > kMostNames)
+    throw Refused("found " + std::to_string(found->size()) + " names, expected at most " + std::to_string(kMostNames) +
+                  ", which are of one pass; ask for them in parts");
   if (!good) throw Refused("found no list \"names\" of 1 to 256 texts in the request, expected one");
   auto names = found->get<std::vector<std::string>>();
   if (std::ranges::any_of(names, [](const std::string& name) { return text::hasControls(name); }))
@@ -201,6 +206,7 @@ Controller::Controller(std::string host, plc::Box& box, const Image& image, Log&
     : host_(std::move(host)), box_(box), services_(box), dialect_(image.program().dialect), log_(log),
       programs_(std::move(programs)) {
   programs_->serveForces(image);
+  learnSymbols(image.program());
 }
 
 Controller::~Controller() {
@@ -413,9 +419,30 @@ void Controller::tellFollowers(Sink* sink, const char* event, const std::string&
 rung_cell_info Controller::describe(const std::string& name, int32_t access) const {
   auto info = sized<rung_cell_info>();
   int64_t value = 0;
-  check(rung_instance_describe(box_.instance(), nullptr, name.c_str(), access, &info, &value));
+  const int32_t status = rung_instance_describe(box_.instance(), nullptr, name.c_str(), access, &info, &value);
+  if (status == RUNG_NOT_FOUND) {
+    const std::string problem = rung_error_text(); // looking for the name that was meant makes others
+    throw Refused(problem + didYouMean(meantBy(name)));
+  }
+  check(status);
   if (info.type == RUNG_TYPE_TEXT) throw Refused(name + " is a text, expected a bit or a number");
   return info;
+}
+
+// A name of the program that runs now; "" when none is close.
+std::string Controller::meantBy(const std::string& name) const {
+  for (const std::vector<std::string>& symbols : {symbols_, formerSymbols_})
+    if (std::string meant = mapping::meantName(name, symbols);
+        !meant.empty() && cellInfo(box_.instance(), meant, RUNG_READ))
+      return meant;
+  return {};
+}
+
+// The program before may come back.
+void Controller::learnSymbols(const rung_program& program) {
+  formerSymbols_ = std::exchange(symbols_, {});
+  for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count))
+    if ((symbol.flags & RUNG_SYMBOL_HIDDEN) == 0) symbols_.emplace_back(symbol.name);
 }
 
 Controller::FoundCells Controller::find(const std::vector<std::string>& names, int32_t access) const {
@@ -953,6 +980,7 @@ json Controller::reload(const Peer& peer, const json& request) {
   report =
       putInPlace(made, pins.dead, std::move(report), "another program has taken over meanwhile: forces have ended");
   replacement_ = std::move(replacement);
+  learnSymbols(image.program());
   logChange(peer, "reload " + next.text + endedForces());
   return report;
 }

@@ -106,6 +106,8 @@ private:
   struct FoundCells;
   rung_cell_info describe(const std::string& name, int32_t access) const;
   FoundCells find(const std::vector<std::string>& names, int32_t access) const;
+  std::string meantBy(const std::string& name) const;
+  void learnSymbols(const rung_program& program);
   std::vector<Range> rangesOf(const std::string& name) const;
   void refuseProtected(const std::string& name) const;
   std::string refuseWithoutEffect(const std::string& name);
@@ -158,6 +160,7 @@ private:
   plc::Box& box_;
   Services services_;
   std::string dialect_;
+  std::vector<std::string> symbols_, formerSymbols_; // of the last program that was given, and of the one before
   Log& log_;
   std::function<void(nlohmann::json&)> addToStatus_;
   Event simulation_;                   // empty: there is none

@@ -22,9 +22,14 @@ std::string typeName(uint32_t type) {
 }
 
 json toJson(uint32_t type, rung_value value) {
-  if (type == RUNG_TYPE_BIT) return value.integer != 0;
-  if (type != RUNG_TYPE_F64) return value.integer;
-  return std::isfinite(value.real) ? json(value.real) : json();
+  switch (type) {
+  case RUNG_TYPE_BIT: return value.integer != 0;
+  case RUNG_TYPE_I8: return static_cast<uint8_t>(value.integer);
+  case RUNG_TYPE_I16: return static_cast<int16_t>(value.integer);
+  case RUNG_TYPE_I32: return static_cast<int32_t>(value.integer);
+  case RUNG_TYPE_F64: return std::isfinite(value.real) ? json(value.real) : json();
+  default: return value.integer;
+  }
 }
 
 rung_value fromJson(uint32_t type, const json& value, const std::string& name) {

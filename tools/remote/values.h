@@ -1,4 +1,5 @@
-// Values of cells as JSON: a bit is true or false, an integer and a real are numbers; a real that is none is null.
+// Values of cells as JSON: a bit is true or false, an integer and a real are numbers; a real that is none is null. A
+// byte has no sign, wider integers have one.
 #pragma once
 #include <cstdint>
 #include <stdexcept>

@@ -1,8 +1,8 @@
 // rungctl: looks at and changes a program that runs in a host, by the host's socket (docs/control-protocol.md).
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
@@ -16,6 +16,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rtlib/text/number.h"
 #include "tools/command-line/usage.h"
 #include "tools/remote/log.h"
 #include "tools/remote/place.h"
@@ -36,13 +37,11 @@ volatile int gStop = 0; // of SIGINT and SIGTERM
 
 // A number, true or false; anything else stays a text, which the host refuses with what it expected.
 json valueOf(const std::string& text) {
-  if (text.starts_with("0x") || text.starts_with("0X")) { // JSON has none
-    char* end = nullptr;
-    const unsigned long long number = std::strtoull(text.c_str(), &end, 16);
-    if (*end == '\0') return number;
-  }
-  json value = json::parse(text, nullptr, false);
-  return value.is_discarded() || value.is_structured() ? json(text) : value;
+  if (text == "true" || text == "false") return text == "true";
+  const text::WrittenNumber number = text::writtenNumber(text);
+  if (number.form == text::NumberForm::Real && std::isfinite(number.real)) return number.real;
+  if (number.form != text::NumberForm::Whole) return text;
+  return number.negative ? json(static_cast<int64_t>(number.bits())) : json(number.magnitude);
 }
 
 // What rung-run adds: its clock and its connections.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "ir/chunks/long_rungs.h"
+#include "ir/core/long_rungs.h"
 #include "ir/core/eval.h"
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"

@@ -12,7 +12,7 @@
 #include "codegen/llvm/piece_numbers.h"
 #include "ir/chunks/cut.h"
 #include "ir/chunks/late_stores.h"
-#include "ir/chunks/long_rungs.h"
+#include "ir/core/long_rungs.h"
 
 namespace rung::codegen {
 

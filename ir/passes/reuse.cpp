@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ir/core/long_rungs.h"
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
 #include "ir/passes/passes.h"
@@ -35,8 +36,10 @@ public:
     table_.clear(rung.ops.size());
     writes_.start(rung);
     findWritingLoops();
-    for (uint32_t i = 0; i < rung.ops.size(); ++i)
+    for (uint32_t i = 0; i < rung.ops.size(); ++i) {
       if (isReused(i)) reused_.push_back(i);
+      if (isLong(rung) && i % kStretch == 0 && !table_.isInRegion()) table_.clear(kStretch);
+    }
     if (reused_.empty()) return before | kReused;
     write(rung);
     return tookFromLoop_ ? kNothingSettled : kReused;

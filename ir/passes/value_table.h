@@ -29,12 +29,13 @@ public:
     uint32_t below;
   };
 
-  // Empty, for a rung of so many operations.
+  // Empty, for so many operations of a rung.
   void clear(size_t operations) {
     heads_.assign(std::bit_ceil(operations + 1), RUNG_NONE);
     entries_.clear();
     scopes_.clear();
   }
+  bool isInRegion() const { return !scopes_.empty(); }
   void open() { scopes_.push_back(static_cast<uint32_t>(entries_.size())); }
   void close() {
     // The entries of a chain are in order, so the last one entered is its head.

@@ -23,7 +23,7 @@ public:
   // NOLINTNEXTLINE(performance-no-int-to-ptr): iconv says so that it knows no such encoding
   bool isOpen() const { return handle_ != reinterpret_cast<iconv_t>(-1); }
 
-  // How many bytes came through; those that end within a character stay.
+  // How many bytes came through; those of half a character at the end stay.
   size_t convert(std::string_view bytes, std::string& out) {
     std::string input(bytes); // iconv takes what it may change
     char* from = input.data();
@@ -33,7 +33,7 @@ public:
   }
 
 private:
-  // False: at a byte that is no part of a character, or of one that the other encoding lacks.
+  // False: at a byte that begins no character, or at a character that the other encoding lacks.
   bool put(char** from, size_t* left, std::string& out) {
     char buffer[4096];
     for (;;) {
@@ -41,8 +41,8 @@ private:
       size_t room = sizeof buffer;
       const size_t replaced = iconv(handle_, from, left, &to, &room);
       out.append(buffer, sizeof buffer - room);
-      if (replaced == 0) return true;
-      if (replaced != static_cast<size_t>(-1) || errno != E2BIG) return false;
+      if (replaced != static_cast<size_t>(-1)) return true;
+      if (errno != E2BIG) return false;
     }
   }
 

@@ -13,7 +13,7 @@ bool knowsEncoding(const std::string& name);
 
 struct Decoded {
   std::string text;            ///< UTF-8; what comes before the wrong byte where there is one
-  std::optional<size_t> wrong; ///< offset of the first byte that is no part of a character
+  std::optional<size_t> wrong; ///< offset of the first byte that begins no character
 };
 
 /// `encoding` is known.

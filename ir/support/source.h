@@ -77,7 +77,7 @@ public:
   struct Undecoded {
     std::string encoding;
     bool known = true; ///< false: no encoding has this name, and the file says it at `offset`
-    size_t offset = 0; ///< of the byte that is no part of a character
+    size_t offset = 0; ///< of the byte that begins no character
   };
   const std::optional<Undecoded>& undecoded(FileId file) const;
   /// Whether the file, or setEncoding, says what the file is written in.

@@ -113,6 +113,7 @@ public:
 
   // A signal's name alone is all its elements, and has their length.
   std::string cellAddress(const rung_program& program, const Ref& place) const override {
+    if (place.kind == RefKind::Real) return realName(address(program, place));
     const std::string_view area = program.spaces[place.space].name;
     const Signal* signal = area == kMemory || area == kTimeSliceMemory ? signalAt(place) : nullptr;
     if (signal == nullptr || place.kind == RefKind::Bit) return address(program, place);
@@ -121,11 +122,6 @@ public:
     if (bits != element && bits != element * signal->count) return mark(area) + numberText(place);
     const bool isFirstOfMany = bits == element && signal->count > 1 && place.byte == signal->byteOffset;
     return address(program, place) + (isFirstOfMany ? ",#0" : "");
-  }
-
-  std::string cellAddress(const rung_program& program, const Ref& place) const override {
-    const std::string own = address(program, place);
-    return place.kind == RefKind::Real ? realName(own) : own;
   }
 
   std::string placeName(const rung_program& program, const Ref& place) const override {

@@ -215,7 +215,7 @@ class Nct(Coverage):
                      "  rungs run                      4 of 5       80.0 %",
                      "  contacts open and closed       3 of 6       50.0 %",
                      "  coils on and off               2 of 3       66.6 %",
-                     "  conditions that decided        4 of 7       57.1 %  and 2 one way only",
+                     "  conditions shown to decide     4 of 7       57.1 %  and 2 in one direction only",
                      '  rung 1 "latch" (lamp.lad:12)',
                      "    [/STOP] (line 13) never open",
                      '  rung 4 "left out" (lamp.lad:22) never ran']:
@@ -232,7 +232,7 @@ class Nct(Coverage):
         done = run("test", "on.scn", "--coverage-min", 60, cwd=self.folder)
         self.assertEqual(done.returncode, WRONG)
         self.assertIn("contacts open and closed 50.0 %, less than the 60 %", done.stderr)
-        self.assertIn("conditions that decided 57.1 %", done.stderr)
+        self.assertIn("conditions shown to decide 57.1 %", done.stderr)
         self.assertNotIn("coils", done.stderr)
         self.assertEqual(run("test", "on.scn", "--coverage-min", 50, cwd=self.folder).returncode, OK)
         self.assertEqual(run("test", "on.scn", "--coverage-min", 101, cwd=self.folder).returncode, USAGE)
@@ -256,7 +256,7 @@ class Nct(Coverage):
         self.assertIn("coverage of lamp.lad: out.html", done.stdout)
         page = self.folder.joinpath("out.html").read_text(encoding="utf-8")
         for text in ["rungs run: 4 of 5, 80.0 %", "contacts open and closed: 3 of 6, 50.0 %", "never open", "never ran",
-                     "ran 3 times", "(PUMP): decided alone while on, never while off"]:
+                     "ran 3 times", "was shown to switch (PUMP) on, but never off"]:
             self.assertIn(text, page)
 
     def test_pages_of_several_programs(self):
@@ -268,7 +268,7 @@ class Nct(Coverage):
     def test_other_engines(self):
         done = run("test", "on.scn", "--coverage", "--engine", "jit", cwd=self.folder)
         self.assertEqual(done.returncode, USAGE)
-        self.assertIn("coverage is counted by the interpreter", done.stderr)
+        self.assertIn("coverage needs the interpreter", done.stderr)
         self.assertEqual(run("test", "on.scn", "--coverage", "--engine", "interp", cwd=self.folder).returncode, OK)
 
 

@@ -40,14 +40,14 @@ class Diff(unittest.TestCase):
     def test_the_same(self):
         again = HEAD.replace("symbol LAMP 7001.01\n", "") + "symbol LAMP 7001.01\n; a remark\n" + ONE.replace("START", "7000.00").replace('"motor"', '"the motor"') + TWO + THREE + END
         self.assertEqual(self.diff(HEAD + ONE + TWO + THREE + END, again),
-                         (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 4 the same\n"))
+                         (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 4 unchanged\n"))
 
     def test_a_twin_above_changes_nothing(self):
         twin, edge = '\nrung\n|--[@START]--(7002.01)\n', '\nrung\n|--[@START]--(MOTOR)\n'
         self.assertEqual(self.diff(HEAD + edge + END, HEAD + twin + edge + END)[1].splitlines()[-1],
-                         "rungs: 0 changed, 1 added, 0 removed, 0 moved, 2 the same")
+                         "rungs: 0 changed, 1 added, 0 removed, 0 moved, 2 unchanged")
         self.assertEqual(self.diff(HEAD + twin + edge + END, HEAD + edge + END)[1].splitlines()[-1],
-                         "rungs: 0 changed, 0 added, 1 removed, 0 moved, 2 the same")
+                         "rungs: 0 changed, 0 added, 1 removed, 0 moved, 2 unchanged")
 
     def test_changed_added_removed_moved(self):
         status, text = self.diff(HEAD + ONE + TWO + THREE + END,
@@ -63,13 +63,13 @@ changed rung 2 "lamp", old.lad:10 to rung 2 "lamp", new.lad:10
 added rung 3 "new", new.lad:13
   + rung "new"
   + |--[LAMP]--(7003.00)
-rungs: 1 changed, 1 added, 1 removed, 0 moved, 2 the same
+rungs: 1 changed, 1 added, 1 removed, 0 moved, 2 unchanged
 """))
 
     def test_moved(self):
         self.assertEqual(self.diff(HEAD + ONE + TWO + THREE + END, HEAD + TWO + THREE + ONE + END),
                          (OTHERWISE, """moved rung 1 "motor", old.lad:7 to rung 3 "motor", new.lad:13
-rungs: 0 changed, 0 added, 0 removed, 1 moved, 3 the same
+rungs: 0 changed, 0 added, 0 removed, 1 moved, 3 unchanged
 """))
 
     def test_names(self):
@@ -78,7 +78,7 @@ rungs: 0 changed, 0 added, 0 removed, 1 moved, 3 the same
         self.assertEqual(self.diff(before, after), (OTHERWISE, """changed name MOVED: 7101 32 bits to 7102 32 bits
 added name NEW: 7100 32 bits
 removed name OLD: 7100 32 bits
-rungs: 0 changed, 0 added, 0 removed, 0 moved, 2 the same
+rungs: 0 changed, 0 added, 0 removed, 0 moved, 2 unchanged
 """))
 
     NCT_JUMPS = """{HEAD}
@@ -122,14 +122,14 @@ rung
         return self.diff(text, changed)
 
     def test_jumps_go_by_what_they_lead_to(self):
-        same = (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 10 the same\n")
+        same = (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 10 unchanged\n")
         self.assertEqual(self.nct_jumps(("|--{JME #1}", "|--{JME #1} ; the target")), same)
         self.assertEqual(self.nct_jumps(("#1}", "#7}")), same, "a label by another name")
         self.assertEqual(self.nct_jumps(("#5}", "#6}")), same, "a subroutine by another name")
         status, text = self.nct_jumps(("rung\n|--{JME #1}\n\nrung\n|--[MOTOR]--(LAMP)\n", "rung\n|--[MOTOR]--(LAMP)\n\nrung\n|--{JME #1}\n"))
-        self.assertEqual(text.splitlines()[-1], "rungs: 0 changed, 0 added, 0 removed, 1 moved, 9 the same", text)
+        self.assertEqual(text.splitlines()[-1], "rungs: 0 changed, 0 added, 0 removed, 1 moved, 9 unchanged", text)
         status, text = self.nct_jumps(("|--{JME #1}", "|--{JME #1}\n\nrung\n|--[LAMP]--(7003.02)"))
-        self.assertEqual(text.splitlines()[-1], "rungs: 0 changed, 1 added, 0 removed, 0 moved, 10 the same", text)
+        self.assertEqual(text.splitlines()[-1], "rungs: 0 changed, 1 added, 0 removed, 0 moved, 10 unchanged", text)
 
     def test_another_target(self):
         before = HEAD + "\nrung\n|--[START]--{JMP #1}\n\nrung\n|--[/START]--{JMP #1}\n\nrung\n|--[LAMP]--{JMP #2}\n\nrung\n|--{JME #1}\n" + ONE + "\nrung\n|--{JME #2}\n" + TWO + END
@@ -140,7 +140,7 @@ rung
   + rung
   + |--[START]--{JMP #2}
   leads to rung 6, new.lad:22, before: to rung 4, old.lad:16
-rungs: 1 changed, 0 added, 0 removed, 0 moved, 7 the same
+rungs: 1 changed, 0 added, 0 removed, 0 moved, 7 unchanged
 """))
         _, text = self.diff(before, before.replace("JMP #1", "JMP #2", 1), "--format", "json")
         self.assertEqual(json.loads(text)["rungs"][0]["leads"], [{"before": "rung 4, old.lad:16", "after": "rung 6, new.lad:22"}])
@@ -150,9 +150,9 @@ rungs: 1 changed, 0 added, 0 removed, 0 moved, 7 the same
                   "LD X20.3\nFUNC CALL\nPRM P1\nFUNC END2\nFUNC SP\nPRM P1\nLD X20.4\nOUT R10.2\nFUNC SPE\n")
         for old, new in (("PRM L1\nLD X20.2", "PRM L1 ; target\nLD X20.2"), ("L1", "L9"), ("P1", "P22"), ("X20.4", "X020.4")):
             status, text = self.diff(before, before.replace(old, new), ending="pmc")
-            self.assertEqual((status, text), (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 6 the same\n"), (old, new))
+            self.assertEqual((status, text), (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 6 unchanged\n"), (old, new))
         status, text = self.diff(before, before.replace("X20.2", "X20.7"), ending="pmc")
-        self.assertEqual(text.splitlines()[-1], "rungs: 1 changed, 0 added, 0 removed, 0 moved, 5 the same", text)
+        self.assertEqual(text.splitlines()[-1], "rungs: 1 changed, 0 added, 0 removed, 0 moved, 5 unchanged", text)
 
     TECHNOL = """DATA
 BITS: DFM A,B,C,D,,,,
@@ -258,7 +258,7 @@ STOP
         a, b = self.project("a", '"tmr.1" = 1000\n'), self.project("b", '"tmr.1" = 2000\n"tmr.2" = 8\n')
         self.assertEqual(self.run_diff(a, b), (OTHERWISE, """changed configuration tmr.1: 1000 to 2000
 added configuration tmr.2: 8
-rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 the same
+rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 unchanged
 """, ""))
         self.assertEqual([c["name"] for c in json.loads(self.run_diff(a, b, "--format", "json")[1])["configuration"]], ["tmr.1", "tmr.2"])
 
@@ -277,7 +277,7 @@ rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 the same
         said = "rungc: before.pmc is in no project: it is compared in the place of a/v.pmc, with all else of a/rung.toml\n"
         for new in (a, a / "v.pmc"):
             status, text, error = self.run_diff(copy, new)
-            self.assertEqual((status, text.splitlines()[-1], error), (OTHERWISE, "rungs: 1 changed, 0 added, 0 removed, 0 moved, 0 the same", said))
+            self.assertEqual((status, text.splitlines()[-1], error), (OTHERWISE, "rungs: 1 changed, 0 added, 0 removed, 0 moved, 0 unchanged", said))
             self.assertNotIn("message", text)
         status, text, error = self.run_diff("examples/nct-lathe/io.lad", "examples/nct-lathe")
         self.assertEqual((status, error), (SAME, ""), "a file of the project is the project")
@@ -328,7 +328,7 @@ rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 the same
     def test_two_dialects(self):
         lad, pmc = self.file("a.lad", HEAD + ONE + END), self.file("b.pmc", "LD X0.0\nOUT Y0.0\nFUNC END1\nFUNC END2\n")
         done = subprocess.run([RUNGC, "diff", lad, pmc], capture_output=True, text=True, check=False)
-        self.assertEqual((done.returncode, done.stdout, done.stderr), (USAGE, "", "rungc: these are programs of two dialects\n"))
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (USAGE, "", "rungc: the two programs have different dialects\n"))
 
 
 if __name__ == "__main__":

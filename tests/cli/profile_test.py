@@ -220,7 +220,7 @@ class Profile(unittest.TestCase):
     def test_the_text_says_what_measuring_costs(self):
         done = rungc("profile", MILL / "parts.scn", "--top", 3)
         self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertRegex(done.stdout, r"measuring costs \d+\.\d ns an execution, which is subtracted; a scan takes ")
+        self.assertRegex(done.stdout, r"a scan takes \d+\.?\d* [num]+s \(\d+\.?\d* [num]+s while measured\); the overhead of \d+\.\d ns per rung is already subtracted")
         self.assertIn("  ... and ", done.stdout)
 
     def branches(self, program, statements):
@@ -254,7 +254,7 @@ class Profile(unittest.TestCase):
         program.write_text(SUM.replace("[5100.00]", "[5100.01]"))
         code, told = self.generated(program, "--profile-use", profile)
         self.assertNotIn("likely]] {", code)
-        self.assertIn("sum.prof: 1 of 1 rungs with branches are not in it, or have changed since", told)
+        self.assertIn("sum.prof: has no counts for 1 of 1 rungs with branches (new or changed)", told)
         for file, text in ((self.write("wrong.prof", "{}"), "wrong.prof: it was not written by rungc profile -o"),
                            (self.folder / "none.prof", "cannot read")):
             done = rungc("emit", "cpp", program, "--profile-use", file)

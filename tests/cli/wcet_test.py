@@ -162,12 +162,12 @@ class Wcet(unittest.TestCase):
         ways = self.text(source).split("longest slice")[0]
         self.assertEqual(ways, """MAIN: at most 27 steps of a budget of 1000000
   machine instructions: N
-  time on this machine: TIME
+  time on this computer: TIME
   MAIN: rungs 1-7; calls MAIN.SBN2 from rungs 5-6
   MAIN.SBN2, 6 steps, 2 times: rungs 8-10
 
 """)
-        self.assertRegex(self.slice(source), r"^with its copies: TIME: 27 steps of TIME at most \(rung .*\), and the period is TIME$")
+        self.assertRegex(self.slice(source), r"^, including process-image copies: TIME: 27 steps of TIME at most \(rung .*\), and the period is TIME$")
 
     def test_slice_of_a_program_that_leaves_out_what_rests(self):
         source = self.write("a.lad", LADDER)
@@ -189,9 +189,9 @@ class Wcet(unittest.TestCase):
         self.assertEqual(level2["way"][0]["rungs"], [[2, 6]])
         self.assertGreater(level2["instructions"], 1000000)
         text = self.text(self.write("a.pmc", LIST))
-        self.assertIn("LEVEL2: at most 1000000 steps, its budget: the program may loop\n", text)
+        self.assertIn("LEVEL2: at most 1000000 steps, the whole budget: the program may loop\n", text)
         self.assertIn("  loop: rungs 3-5, LEVEL2\n"
-                      "  the budget of 1000000 steps ends the run; with each loop run once the heaviest way has 13\n", text)
+                      "  the budget of 1000000 steps ends the run; with each loop run once, the longest path has 13\n", text)
 
     def test_slice_of_a_program_that_loops(self):
         """Its bound has each loop once, so it says nothing of the longest that a slice may last."""
@@ -199,7 +199,7 @@ class Wcet(unittest.TestCase):
         report = self.tasks(source)[1]
         self.assertLess(report["slice"]["time_ns"], report["slice"]["period_ns"])
         self.assertIsNone(report["slice"]["fits"])
-        self.assertRegex(self.slice(source), r"^with its copies, each loop \(rungs 3-5, LEVEL2\) counted once: TIME: \d+ steps of TIME at most .*, "
+        self.assertRegex(self.slice(source), r"^, including process-image copies, each loop \(rungs 3-5, LEVEL2\) counted once: TIME: \d+ steps of TIME at most .*, "
                                              r"and the period is TIME; a run that loops may last TIME$")
         once = self.write("b.pmc", LIST.replace("FUNC JMPB\nPRM  L1\n", "OUT Y10.4\n").replace("FUNC LBL\nPRM  L1\n", ""))
         self.assertTrue(self.tasks(once)[1]["slice"]["fits"])
@@ -216,7 +216,7 @@ class Wcet(unittest.TestCase):
         self.assertEqual((call["function"], call["count"]), ("message", 1))
         self.assertGreater(call["call_ns"], 0)
         self.assertRegex(self.text(self.folder / "a.plc"), r"(?s)MAIN: .*machine instructions: N, and at most 1 call of message\n"
-                         r"  time on this machine: TIME, TIME of it in those calls\n")
+                         r"  time on this computer: TIME, TIME of it in these calls\n")
 
     def test_what_runs_took(self):
         self.write("a.lad", LADDER)
@@ -225,7 +225,7 @@ class Wcet(unittest.TestCase):
         self.assertEqual(report["measured_by"], str(scenario))
         self.assertEqual((tasks["MAIN"]["measured"]["runs"], tasks["MAIN"]["measured"]["steps"]), (5, 22)) # 27 but the 5 of the third
         self.assertGreater(tasks["MAIN"]["measured"]["time_ns"], 0)
-        self.assertIn("  measured in 5 runs: 22 steps, TIME with its copies\n", self.text("--scenario", scenario))
+        self.assertIn("  measured in 5 runs: 22 steps, TIME including process-image copies\n", self.text("--scenario", scenario))
 
     def test_the_machines_of_the_examples(self):
         for folder, scenario in (("gsk-mill", "tool-change.scn"), ("nct-turning-centre", "turret.scn"),
@@ -248,7 +248,7 @@ class Wcet(unittest.TestCase):
 
     def test_wrong_input(self):
         program = self.write("a.lad", LADDER)
-        self.assertFails(2, "'a.so' is compiled: the heaviest way is found in the sources", "a.so")
+        self.assertFails(2, "wcet needs the sources: 'a.so' is a compiled program", "a.so")
         self.assertFails(3, "cannot read 'none.lad'", "none.lad")
         self.assertFails(1, "error:", self.write("bad.lad", LADDER.replace("{JME #1}", "{JME #3}")))
         self.assertFails(1, "error:", "--json", self.folder / "bad.lad")

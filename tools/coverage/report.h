@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ir/support/result.h"
@@ -82,7 +83,7 @@ struct Totals {
   Share contacts;      // open and closed
   Share coils;         // on and off
   Share decided;       // conditions of a decision that decided it alone both ways
-  uint64_t oneWay = 0; // conditions that decided one way only
+  uint64_t oneWay = 0; // conditions that decided in one direction only
   Totals& operator+=(const Totals& other);
 };
 
@@ -110,6 +111,6 @@ std::string percentText(const Share& share);
 // Where a rung or a part of it has something missing, in words: "never open". Empty where nothing is.
 std::string missingOf(const Condition& condition);
 std::string missingOf(const Output& output);
-std::string missingOf(const Deciding& deciding);
+std::string missingOf(const Deciding& deciding, std::string_view outcome); // "(PUMP)": what it was to decide
 
 } // namespace rung::coverage

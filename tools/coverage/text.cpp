@@ -14,9 +14,10 @@ std::string line(std::string_view what, const Share& share, std::string_view mor
 }
 
 std::string summary(const Totals& totals) {
-  const std::string oneWay = totals.oneWay == 0 ? std::string() : fmt::format("  and {} one way only", totals.oneWay);
+  const std::string oneWay =
+      totals.oneWay == 0 ? std::string() : fmt::format("  and {} in one direction only", totals.oneWay);
   return line("rungs run", totals.rungs) + line("contacts open and closed", totals.contacts) +
-         line("coils on and off", totals.coils) + line("conditions that decided", totals.decided, oneWay);
+         line("coils on and off", totals.coils) + line("conditions shown to decide", totals.decided, oneWay);
 }
 
 std::string byFile(const Program& program) {
@@ -63,10 +64,9 @@ std::vector<std::string> partsMissing(const Rung& rung) {
   for (const Decision& decision : rung.decisions)
     for (const Deciding& deciding : decision.by) {
       const Condition& condition = rung.conditions[deciding.condition];
-      const std::string missing = missingOf(deciding);
+      const std::string missing = missingOf(deciding, outcomeOf(rung, decision));
       if (missing.empty() || !condition.open || !condition.closed) continue;
-      lines.push_back(
-          fmt::format("{} (line {}) {}: {}", condition.text, condition.line, missing, outcomeOf(rung, decision)));
+      lines.push_back(fmt::format("{} (line {}) {}", condition.text, condition.line, missing));
     }
   return lines;
 }
@@ -112,13 +112,14 @@ std::string missingOf(const Output& output) {
   return output.off ? "never on" : "never off";
 }
 
-std::string missingOf(const Deciding& deciding) {
+std::string missingOf(const Deciding& deciding, std::string_view outcome) {
   if (deciding.bothWays()) return {};
-  if (deciding.alone == 0) return "never decided alone";
+  if (deciding.alone == 0) return fmt::format("was never shown to switch {}", outcome);
   const bool on = (deciding.alone & (kOpenOn | kClosedOn)) != 0;
   const bool off = (deciding.alone & (kOpenOff | kClosedOff)) != 0;
-  if (on && off) return "decided alone in one position only";
-  return on ? "decided alone while on, never while off" : "decided alone while off, never while on";
+  if (on && off) return fmt::format("was shown to switch {} in one of its own states only", outcome);
+  return on ? fmt::format("was shown to switch {} on, but never off", outcome)
+            : fmt::format("was shown to switch {} off, but never on", outcome);
 }
 
 std::string toText(const Report& report, const TextOptions& options) {

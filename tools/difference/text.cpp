@@ -75,7 +75,7 @@ std::string shownAsText(const Difference& difference, const Module& before, cons
   addNames(difference.settings, "configuration ", out);
   size_t counts[4] = {};
   for (const RungChange& change : difference.rungs) ++counts[static_cast<int>(change.kind)];
-  put(out, "rungs: {} changed, {} added, {} removed, {} moved, {} the same\n", counts[2], counts[0], counts[1],
+  put(out, "rungs: {} changed, {} added, {} removed, {} moved, {} unchanged\n", counts[2], counts[0], counts[1],
       counts[3], difference.same);
   return out;
 }

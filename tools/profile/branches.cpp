@@ -94,7 +94,7 @@ ir::Branch branchOf(const nlohmann::json& pair) {
 ir::BranchCounts countsOf(const nlohmann::json& file) {
   if (file.value("format", "") != kFormat) throw std::runtime_error("it was not written by rungc profile -o");
   if (file.value("version", 0) != kVersion)
-    throw std::runtime_error("it is of another version of rungc; rungc profile -o makes it anew");
+    throw std::runtime_error("it was written by another version of rungc; write it again with rungc profile -o");
   ir::BranchCounts counts;
   for (const nlohmann::json& rung : file.at("rungs")) {
     const auto key = text::numberIn<uint64_t>(rung.at("key").get<std::string>(), 16);

@@ -240,12 +240,11 @@ private:
         if (!outcome_.result.passed) return false;
         if (measurement.program() == nullptr) return fail(scenario.path, "it runs no program");
         if (measurement.replaced())
-          return fail(scenario.path, "it replaces its program while it runs, and a profile is of one program");
+          return fail(scenario.path, "the scenario replaces its program; a profile needs a single program");
         if (measurement.differs())
           return fail(
               scenario.path,
-              fmt::format("it runs a different program from {} (other files, or a configuration that the compiler "
-                          "reads): profile them one at a time",
+              fmt::format("it runs another program than {} (other files or configuration): profile them separately",
                           request_.scenarios[0].path));
       }
     }

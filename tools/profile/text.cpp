@@ -35,11 +35,9 @@ std::string headText(const Profile& profile) {
 
 // The measurement says what it costs.
 std::string costText(const Profile& profile) {
-  return fmt::format(
-      "measuring costs {} an execution, which is subtracted; a scan takes {}, and {} while its rungs are "
-      "measured\n",
-      durationText(profile.report.clock.costNs()), durationText(profile.deadlines[0].ns.median),
-      durationText(profile.measuredScanNs));
+  return fmt::format("a scan takes {} ({} while measured); the overhead of {} per rung is already subtracted\n",
+                     durationText(profile.deadlines[0].ns.median), durationText(profile.measuredScanNs),
+                     durationText(profile.report.clock.costNs()));
 }
 
 std::string percentText(double ns, double periodUs) {
@@ -70,7 +68,7 @@ std::string worstText(const char* by, const WorstScan& worst, Number number) {
   for (const Cause& cause : worst.causes)
     text += fmt::format("  {}, {}: {}\n", number(cause.value),
                         cause.onlyThen ? "in no other scan" : "usually " + number(cause.usual), placeText(cause.row));
-  if (worst.causes.empty()) text += "  no rung did much more than usual\n";
+  if (worst.causes.empty()) text += "  no rung took much more than usual\n";
   return text;
 }
 
@@ -120,7 +118,7 @@ std::string profileText(const Profile& profile, const TextOptions& options) {
                     [](double operations) { return fmt::format("{:.0f} operations", operations); });
   text += worstText("time", profile.worstByTime, durationText) + "\n";
   text += sumTables(profile.report, options.top) + "\n";
-  text += fmt::format("rungs by {}; times in ns are those of a scan in which the rung ran\n",
+  text += fmt::format("rungs by {}; times in ns are per scan in which the rung ran\n",
                       profile.report.order == Order::Operations ? "operations" : "time (mean x scans)");
   text += rungTable(profile.report, options.top);
   if (options.never && !profile.report.never.empty()) text += "\n" + neverText(profile.report);
@@ -140,7 +138,7 @@ std::string comparisonText(const Profile& profile, const Comparison& comparison,
   };
   std::string text = "against the baseline:\n";
   if (old.scenarios != profile.scenarios || old.scans != profile.scans)
-    text += fmt::format("  it ran other scenarios ({}; {} scans): counts of runs differ for that reason too\n",
+    text += fmt::format("  it is of other scenarios ({}; {} scans), which also changes the counts\n",
                         fmt::join(old.scenarios, " "), old.scans);
   text += fmt::format(
       "  operations {} -> {}{}; of a scan, median: {:.0f} -> {:.0f}; time of a scan, median: {} -> {}\n",

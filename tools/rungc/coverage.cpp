@@ -38,7 +38,7 @@ int checkLeast(const coverage::Totals& totals, double least) {
   check("rungs run", totals.rungs);
   check("contacts open and closed", totals.contacts);
   check("coils on and off", totals.coils);
-  check("conditions that decided", totals.decided);
+  check("conditions shown to decide", totals.decided);
   return status;
 }
 
@@ -53,13 +53,13 @@ std::string numbered(const std::string& path, size_t number) {
 } // namespace
 
 void addCoverageOptions(Command command, CoverageOptions& options) {
-  command.flag("--coverage", options.text,
-               "Say which rungs ran, which contacts and coils were seen both ways, which conditions alone decided");
-  command.flag("--coverage-all", options.all, "The same with everything that is missing");
+  command.flag(
+      "--coverage", options.text,
+      "Report which rungs ran, which contacts and coils were seen in both states, which conditions decided alone");
+  command.flag("--coverage-all", options.all, "The same, listing everything that is missing");
   command.option("--coverage-json", options.json, "Write the coverage to this file, see docs/coverage-format.md");
-  command.option(
-      "--coverage-html", options.html,
-      "Write a page with the coverage on the drawing of the program; of several programs, FILE-2.html and so on");
+  command.option("--coverage-html", options.html,
+                 "Write a page that shows the coverage on the drawing; for further programs FILE-2.html and so on");
   command.option("--coverage-merge", options.former, "Add the coverage of an earlier run, written by --coverage-json")
       .oneValue();
   command.option("--coverage-min", options.least, "Fail if one of the four shares is less than this percentage")

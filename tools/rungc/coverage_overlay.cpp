@@ -58,7 +58,7 @@ private:
     if (deciding.bothWays()) return;
     Element& element = at(rung_.conditions[deciding.condition]).first;
     element.decided = false;
-    say(element, named(rung_.outputs[decision.outputs[0]].text, coverage::missingOf(deciding)));
+    say(element, coverage::missingOf(deciding, rung_.outputs[decision.outputs[0]].text));
   }
   static std::string named(std::string_view what, const std::string& missing) {
     return missing.empty() ? std::string() : fmt::format("{}: {}", what, missing);
@@ -83,7 +83,7 @@ view::Overlay overlayOf(const coverage::Program& program) {
   overlay.title = "Coverage";
   overlay.summary = {summaryLine("rungs run", totals.rungs), summaryLine("contacts open and closed", totals.contacts),
                      summaryLine("coils on and off", totals.coils),
-                     summaryLine("conditions that decided", totals.decided)};
+                     summaryLine("conditions shown to decide", totals.decided)};
   for (const coverage::Rung& rung : program.rungs) {
     overlay.rungs.push_back({rung.number, {rung.file, rung.line, 0}, runOf(rung)});
     Elements(rung).appendTo(overlay.elements);

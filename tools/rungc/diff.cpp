@@ -150,7 +150,8 @@ int run(const DiffOptions& options) {
     side->compiled = compileSources(side->sources, side->options, {.compare = true, .keepSource = true}, status);
     if (!side->compiled) return status;
   }
-  if (before.compiled->dialect != after.compiled->dialect) return usageError("these are programs of two dialects");
+  if (before.compiled->dialect != after.compiled->dialect)
+    return usageError("the two programs have different dialects");
   const ir::ProgramImage images[] = {{*before.compiled->layout, 0}, {*after.compiled->layout, 0}};
   const auto version = [&](const Side& side, const ir::ProgramImage& image) {
     return difference::Version{*side.compiled->built, side.compiled->given, image.program(),
@@ -170,11 +171,11 @@ void addDiff(CommandLine& app, int& status) {
   Command command = app.add("diff", "Compare two versions of a program, by what their rungs do");
   auto options = std::make_shared<DiffOptions>();
   command.option("OLD", options->before, "A source file, or the folder of a project").required();
-  command.option("NEW", options->after, "The same, later").required();
+  command.option("NEW", options->after, "The newer version, in the same form").required();
   command.option("--dialect", options->common.dialect, "nct, gsk or technol; needed where the files do not name it");
   command.option("--config", options->common.config, "KEY=VALUE of the dialect's configuration; may be repeated")
       .oneValue();
-  command.option("--format", options->format, "Of the difference").oneOf({"text", "json"}).showDefault();
+  command.option("--format", options->format, "Format of the report").oneOf({"text", "json"}).showDefault();
   addColorOption(command, options->common.color, "Colours in diagnostics");
   command.exitStatus("0 no difference, 1 there are differences or a program is wrong, 2 wrong usage, 3 environment");
   command.onRun([options, &status] { status = run(*options); });

@@ -15,7 +15,7 @@ Result<std::string> pageWith(const view::Overlay& overlay, const std::vector<std
   SourceManager sources;
   const Result<std::vector<FileId>> ids = compiler::addFiles(sources, files, options.config);
   if (!ids.ok()) return ids.failure();
-  const std::string changed = fmt::format("{} has changed while its scenarios ran", files.front());
+  const std::string changed = fmt::format("{} was changed while its scenarios ran", files.front());
   Diagnostics diagnostics;
   if (!view::hasDrawing(dialect)) {
     auto listing = view::listedProgram(sources, ids.value(), dialect, options, diagnostics);

@@ -111,27 +111,25 @@ int runProfile(const ProfileOptions& options) {
 } // namespace
 
 void addProfile(CommandLine& app, int& status) {
-  Command command = app.add("profile", "What every rung and every scan costs while scenarios run");
+  Command command = app.add("profile", "Measure the cost of every rung and scan while scenarios run");
   auto options = std::make_shared<ProfileOptions>();
   command.option("FILE", options->files,
-                 "Scenarios (.scn, folders) of one program, and its files instead of those that the scenarios name; "
-                 "without any those of the project");
-  command.option("--scenario", options->scenarios, "Scenarios, as FILE");
-  command.option("--engine", options->engine, "Engine whose times are measured: interp, cpp, llvm or jit")
-      .showDefault();
+                 "Scenarios (.scn, folders) of one program, optionally its files instead of those named in the "
+                 "scenarios; default: those of the project");
+  command.option("--scenario", options->scenarios, "Same as naming scenarios as FILE");
+  command.option("--engine", options->engine, "Engine to measure: interp, cpp, llvm or jit").showDefault();
   command
       .option("--by", options->by,
-              "Order: operations (exact, the same in every run) or time (of all scans, interruptions left out)")
+              "Sort by operations (exact, the same in every run) or by time (of all scans, without interruptions)")
       .oneOf({"operations", "time"})
       .showDefault();
-  command.option("--repeat", options->repeat, "How many runs are timed").between(1, 1000).showDefault();
+  command.option("--repeat", options->repeat, "Number of timed runs").between(1, 1000).showDefault();
   command.option("--top", options->text.top, "Lines per table; 0: all").showDefault();
   command.flag("--never", options->text.never, "List the rungs that never ran");
   command.option("--baseline", options->baseline, "Compare with a profile that --json wrote");
-  command.option("--html", options->html,
-                 "Write a page: the drawing of the program, its rungs coloured by their share");
+  command.option("--html", options->html, "Write a page with the drawing, its rungs coloured by their share");
   command.option("-o,--output", options->out, "Write how often each branch was taken, for rungc build --profile-use");
-  command.flag("--json", options->json, "As JSON, with everything (docs/profile-format.md)");
+  command.flag("--json", options->json, "Print everything as JSON (docs/profile-format.md)");
   command.onRun([options, &status] { status = runProfile(*options); });
 }
 

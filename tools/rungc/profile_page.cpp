@@ -48,7 +48,7 @@ view::Overlay overlayOf(const profile::Profile& profile) {
 
 Result<std::string> profilePage(const profile::Profile& profile, const profile::Request& request) {
   const scenario::CompileStep step = scenario::compileProgram(request.scenarios[0], request.programs, {});
-  if (!step.program) return failure("the program has changed while its scenarios ran");
+  if (!step.program) return failure("the program was changed while its scenarios ran");
   const compiler::Compiled& compiled = *step.program;
   return pageWith(overlayOf(profile), compiled.module->files, *compiled.dialect, compiled.options, compiled.project);
 }

@@ -40,7 +40,7 @@ int findBounds(const WcetOptions& options, const ConfigPairs& config, const comp
 int runWcet(const WcetOptions& options) {
   for (const std::string& file : options.source.files)
     if (file.ends_with(".so"))
-      return usageError(fmt::format("'{}' is compiled: the heaviest way is found in the sources", file));
+      return usageError(fmt::format("wcet needs the sources: '{}' is a compiled program", file));
   int status = kOk;
   const std::optional<ConfigPairs> config = configPairs(options.source.config, status);
   if (!config) return status;
@@ -64,12 +64,12 @@ int runWcet(const WcetOptions& options) {
 } // namespace
 
 void addWcet(CommandLine& app, int& status) {
-  Command command = app.add("wcet", "The longest that a run of each task may take, and the way that takes it");
+  Command command = app.add("wcet", "Worst-case execution time of each task, and the path that causes it");
   auto options = std::make_shared<WcetOptions>();
-  addSourceOptions(command, options->source, "As JSON, with everything (docs/wcet-format.md)");
+  addSourceOptions(command, options->source, "Print everything as JSON (docs/wcet-format.md)");
   addActivityOption(command, options->source.activity);
   command.option("--scenario", options->scenarioFile,
-                 "Also measure runs while a scenario drives the program; without a FILE the scenario's own program");
+                 "Also measure the runs of a scenario; without FILE, of the scenario's own program");
   command.onParsed([options] {
     int wrong = kOk;
     if (!options->scenarioFile.empty())

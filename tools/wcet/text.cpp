@@ -32,7 +32,7 @@ std::string counted(uint64_t steps) { return fmt::format("{} step{}", steps, ste
 
 std::string rungsText(const std::vector<uint32_t>& rungs, const rung_program& program) {
   const std::vector<Stretch> drawn = drawnStretches(rungs, program);
-  if (drawn.empty()) return "no rung that is drawn";
+  if (drawn.empty()) return "only rungs added by the compiler";
   std::string text = drawn.size() == 1 && drawn[0].first == drawn[0].last ? "rung" : "rungs";
   for (size_t i = 0; i < drawn.size(); ++i) text += (i == 0 ? " " : ", ") + stretchText(drawn[i]);
   return text;
@@ -75,21 +75,21 @@ std::string loopsText(const TaskBound& task, const rung_program& program) {
   for (const std::vector<uint32_t>& rungs : task.way.circles)
     text += wrapped(fmt::format("  loop: {}", loopText(rungs, program)), "    ");
   if (text.empty()) return text;
-  return text + fmt::format("  the budget of {} steps ends the run; with each loop run once the heaviest way has {}\n",
+  return text + fmt::format("  the budget of {} steps ends the run; with each loop run once, the longest path has {}\n",
                             task.budget, task.way.cost);
 }
 
 std::string stepsText(const TaskBound& task) {
-  if (!task.way.circles.empty()) return counted(task.budget) + ", its budget: the program may loop";
+  if (!task.way.circles.empty()) return counted(task.budget) + ", the whole budget: the program may loop";
   if (task.way.cost > task.budget)
-    return fmt::format("{}, its budget: the heaviest way has {}", counted(task.budget), task.way.cost);
+    return fmt::format("{}, the whole budget: the longest path has {}", counted(task.budget), task.way.cost);
   return fmt::format("{} of a budget of {}", counted(task.way.cost), task.budget);
 }
 
 std::string seenText(const TaskBound& task) {
   if (!task.seen) return {};
-  if (task.seen->runs == 0) return "  measured: it was not run\n";
-  return fmt::format("  measured in {} {}{}: {}, {} with its copies\n", task.seen->runs,
+  if (task.seen->runs == 0) return "  measured: the task did not run\n";
+  return fmt::format("  measured in {} {}{}: {}, {} including process-image copies\n", task.seen->runs,
                      task.parts > 1 ? "part" : "run", task.seen->runs == 1 ? "" : "s", counted(task.seen->steps),
                      profile::durationText(task.seen->ns));
 }
@@ -113,8 +113,8 @@ std::string instructionsText(const TaskBound& task) {
 
 std::string timeText(const TaskBound& task) {
   std::string text = profile::durationText(task.ns());
-  if (!task.calls.empty()) text += fmt::format(", {} of it in those calls", profile::durationText(task.callsNs()));
-  return fmt::format("  time on this machine: {}\n", text);
+  if (!task.calls.empty()) text += fmt::format(", {} of it in these calls", profile::durationText(task.callsNs()));
+  return fmt::format("  time on this computer: {}\n", text);
 }
 
 std::string taskText(const TaskBound& task, const Bounds& bounds, const rung_program& program) {
@@ -134,11 +134,11 @@ std::string sliceText(const Bounds& bounds, const rung_program& program) {
     if (!task.way.circles.empty()) most = std::max(most, task.ns());
   }
   const std::string bound = boundText(bounds.slice, program);
-  if (loops.empty()) return wrapped("longest slice with its copies: " + bound, "  ");
-  return wrapped(
-      fmt::format("longest slice with its copies, each loop ({}) counted once: {}; a run that loops may last {}", loops,
-                  bound, profile::durationText(most)),
-      "  ");
+  if (loops.empty()) return wrapped("longest slice, including process-image copies: " + bound, "  ");
+  return wrapped(fmt::format("longest slice, including process-image copies, each loop ({}) counted once: {}; a run "
+                             "that loops may last {}",
+                             loops, bound, profile::durationText(most)),
+                 "  ");
 }
 
 } // namespace

@@ -108,7 +108,7 @@ TEST(ProfileBaseline, TextNamesWhatChanged) {
   Profile now = profileOf({row(1, 11, "lamp", 750, 10)});
   now.scenarios = {"b.scn"};
   const std::string text = comparisonText(now, compare(now.report, readBack(old)), 0);
-  EXPECT_THAT(text, HasSubstr("it ran other scenarios (a.scn; 100 scans)"));
+  EXPECT_THAT(text, HasSubstr("it is of other scenarios (a.scn; 100 scans)"));
   EXPECT_THAT(text, HasSubstr("operations 500 -> 750 (+50.0%)"));
   EXPECT_THAT(text, HasSubstr("more operations:\n  500 -> 750 (+50.0%): "));
   EXPECT_THAT(text, HasSubstr(": rung 1 \"lamp\", main.lad:10\n"));

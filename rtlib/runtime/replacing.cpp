@@ -120,7 +120,7 @@ int32_t failLater(const rung_instance& instance, host::ReplaceResult result,
 
 int32_t checkDialect(const rung_instance& instance, const rung_program& program) noexcept {
   if (instance.dialect == program.dialect) return RUNG_OK;
-  return fail(RUNG_REFUSED, "%s is a program of %s, the one that runs is of %s", program.name, program.dialect,
+  return fail(RUNG_REFUSED, "%s has the dialect %s, but the running program has %s", program.name, program.dialect,
               instance.dialect.c_str());
 }
 

@@ -148,7 +148,7 @@ class Reload(SourceHost):
     def test_a_dialect_of_another_control_is_refused(self):
         ladder = self.source("dialect nct\n", "other.lad")
         shutil.copy(Path(__file__).resolve().parents[2] / "docs/lamp.lad", ladder)
-        self.assertIn("is a program of nct, the one that runs is of gsk", self.ctl("reload", ladder, status=WRONG))
+        self.assertIn("has the dialect nct, but the running program has gsk", self.ctl("reload", ladder, status=WRONG))
 
     def test_requests_in_the_wrong_order(self):
         connection = self.connected()

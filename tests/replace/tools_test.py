@@ -127,12 +127,12 @@ expect_no_change
 
     def test_what_the_report_has(self):
         self.file("next.lad", LAMP.replace("COUNT  5300", "COUNT  5310").replace("SWITCH 5100.00", "SWITCH 5100.01"))
-        self.fails("program lamp.lad\nreplace next.lad\nexpect_change new COUNT\n", "a.scn:3: the report does not have: "
+        self.fails("program lamp.lad\nreplace next.lad\nexpect_change new COUNT\n", "a.scn:3: the report does not contain: "
                    "new COUNT; it has: moved COUNT, moved SWITCH (before the first scan)")
         self.fails("program lamp.lad\nreplace next.lad\nexpect_change moved SWITCH\nexpect_no_change\n",
                    "a.scn:4: there are changes that no expect_change names: moved COUNT")
         self.fails("program lamp.lad\nreplace next.lad\nexpect_change moved COUNT\nexpect_change moved COUNT\n",
-                   "a.scn:4: the report does not have: moved COUNT; it has: moved SWITCH")
+                   "a.scn:4: the report does not contain: moved COUNT; it contains: moved SWITCH")
         self.fails("program lamp.lad\nscan\nexpect_no_change\n", "a.scn:3: no program has been replaced")
 
     def test_mistakes(self):
@@ -147,7 +147,7 @@ expect_no_change
                    "a.scn:5: expected the new name", "a.scn:6: unexpected 'B' after the statement",
                    "a.scn:7: unexpected 'A' after the statement",
                    "a.scn:8: the program has errors:\nwrong.lad:13:", "error: 'LUMP' is not declared [undeclared-symbol]",
-                   "a.scn:9: other.pmc is a program of gsk, and the one that runs is of nct")
+                   "a.scn:9: other.pmc has the dialect gsk, but the running program has nct")
         self.fails("program lamp.lad\nreplace none.lad\nexpect_no_change\n", "cannot read 'none.lad'",
                    status=ENVIRONMENT)
 
@@ -238,7 +238,7 @@ expect D110:4 -1234567
         self.file("a.scn", "program lamp.lad\nscan\nreplace lamp2.lad\nscan\nexpect COUNT 0\n")
         done = self.rungc("profile", "a.scn")
         self.assertNotEqual(done.returncode, OK)
-        self.assertIn("it replaces its program while it runs, and a profile is of one program", done.stdout + done.stderr)
+        self.assertIn("the scenario replaces its program; a profile needs a single program", done.stdout + done.stderr)
 
     def test_why_speaks_of_the_program_that_runs(self):
         self.fails("program lamp.lad\nscan 3\nreplace lamp2.lad\nset SWITCH 1\nscan\nexpect BEACON 0\n",
@@ -275,8 +275,8 @@ class Shadows(Folder):
         self.fails(scenario + "expect_no_difference\n",
                    "a.scn:5: there are differences that no expect_difference names: LAMP is 1, and 0 in the shadow (first at 1.0",
                    "; T_OFF is 1000, and 2000 in the shadow (first at 0.010 s)")
-        self.fails(scenario + "expect_difference COUNT\n", "a.scn:5: COUNT was not seen to differ; there are: LAMP is 1, and 0")
-        self.fails(scenario + both + "expect_difference LAMP\n", "a.scn:7: the shadow has done nothing otherwise")
+        self.fails(scenario + "expect_difference COUNT\n", "a.scn:5: COUNT did not differ; the differences are: LAMP is 1, and 0")
+        self.fails(scenario + both + "expect_difference LAMP\n", "a.scn:7: the shadow shows no difference")
 
     def test_the_shadow_writes_nothing(self):
         self.passes("program lamp.lad\nshadow late.lad\nset SWITCH 1\nscan 2\nexpect COUNT 1\nscan 110\nexpect LAMP 1\nexpect COUNT 1\n")
@@ -292,7 +292,7 @@ class Shadows(Folder):
         self.fails("program lamp.lad\nshadow lamp.lad\nshadow\nexpect_no_difference\n", "a.scn:4: no program runs beside this one")
         self.fails("program lamp.lad\nshadow lamp.lad\nreplace lamp2.lad\nexpect_no_difference\n", "a.scn:4: no program runs beside")
         self.fails("program lamp.lad\nshadow lamp.lad\nscan\ncold_start\nexpect_no_difference\n",
-                   "a.scn:5: the shadow has ended, as the program that it ran beside has")
+                   "a.scn:5: the shadow has ended together with the program")
         self.fails("program lamp.lad\nscan\nexpect_difference LAMP\n", "a.scn:3: no program runs beside this one: write shadow FILE… before")
 
     def test_its_fault(self):
@@ -305,7 +305,7 @@ class Shadows(Folder):
         self.file("other.pmc", GSK)
         self.file("a.lad", LAMP.replace("(LAMP)", "(LUMP)"))
         self.fails("program lamp.lad\nshadow other.pmc\nscan\nexpect_no_difference\n",
-                   "a.scn:2: other.pmc is a program of gsk, and the one that runs is of nct")
+                   "a.scn:2: other.pmc has the dialect gsk, but the running program has nct")
         self.fails("program lamp.lad\nshadow a.lad\nscan\nexpect_no_difference\n", "a.scn:2: the program has errors:", "undeclared-symbol")
 
     def test_requests_of_the_shadow_alone(self):
@@ -337,7 +337,7 @@ class Prompt(Folder):
         done = self.typed("set SWITCH 1\nscan\nwatch COUNT LAMP\nreplace next.lad\nCOUNT\nwhy COUNT\n")
         self.assertEqual((done.returncode, done.stderr), (OK, ""), done.stdout)
         self.assertIn("moved COUNT\nrenamed LAMP LIGHT\n", done.stdout)
-        self.assertRegex(done.stdout, r"kept \d+ cells and \d+ states of the compiler's\n")
+        self.assertRegex(done.stdout, r"kept \d+ variables and \d+ internal states\n")
         self.assertIn("LAMP is gone", done.stdout)
         self.assertIn("COUNT = 1", done.stdout)
         self.assertIn("next.lad:", done.stdout)
@@ -348,8 +348,8 @@ class Prompt(Folder):
         done = self.typed("scan\nreplace wrong.lad\nreplace other.pmc\nreplace none.lad\nreplace -\nreplace\nscan\n")
         self.assertEqual(done.returncode, WRONG)
         self.assertIn("error: 'LUMP' is not declared [undeclared-symbol]", done.stderr)
-        for part in ("the program that runs has not changed",
-                     "other.pmc is a program of gsk, and the one that runs is of nct", "cannot read 'none.lad'",
+        for part in ("the running program has not changed",
+                     "other.pmc has the dialect gsk, but the running program has nct", "cannot read 'none.lad'",
                      "another program comes from files", "expected a file"):
             self.assertIn(part, done.stdout)
 

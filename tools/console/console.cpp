@@ -77,15 +77,15 @@ std::string faultLine(const host::Instance& instance) {
 
 std::span<const Console::Command> Console::commands() {
   static constexpr Command kCommands[] = {
-      {{"toggle", "toggle NAME", "a bit gets the other value"}, Names::Values, &Console::toggle},
-      {{"watch", "watch [NAME…]", "prints what they become; without names: lists them"},
+      {{"toggle", "toggle NAME", "inverts a bit"}, Names::Values, &Console::toggle},
+      {{"watch", "watch [NAME…]", "prints their changes; without names: lists the watched ones"},
        Names::Values,
        &Console::watch},
-      {{"unwatch", "unwatch NAME…", "prints them no more"}, Names::Values, &Console::unwatch},
+      {{"unwatch", "unwatch NAME…", "stops watching them"}, Names::Values, &Console::unwatch},
       {{"why", "why NAME", "the rungs that write it, and what they read"}, Names::Values, &Console::why},
-      {{"forces", "forces", "what is forced"}, Names::None, &Console::forces},
+      {{"forces", "forces", "lists the forced variables"}, Names::None, &Console::forces},
       {{"messages", "messages", "the messages on the screen"}, Names::None, &Console::messages},
-      {{"save", "save FILE.scn", "writes what was done as a scenario"}, Names::Files, &Console::save},
+      {{"save", "save FILE.scn", "saves the session as a scenario"}, Names::Files, &Console::save},
       {{"help", "help [WORD]", "all statements, or one"}, Names::Statements, &Console::help},
       {{"quit", "quit", "ends the run, as does Ctrl-D"}, Names::None, &Console::quit},
   };

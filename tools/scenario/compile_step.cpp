@@ -69,7 +69,7 @@ void checkOthers(const Scenario& scenario, const std::vector<Reported>& reported
   const Statement* first = firstOf(scenario, Kind::ExpectError);
   const Statement* allow = firstOf(scenario, Kind::AllowErrors);
   if (allow != nullptr && first == nullptr)
-    problems.push_back(problemAt(*allow, "allow_errors needs an expect_error: it allows others beside that one"));
+    problems.push_back(problemAt(*allow, "allow_errors needs an expect_error, besides which it allows other errors"));
   if (allow != nullptr || first == nullptr) return;
   Diagnostics others;
   for (const Reported& r : reported)
@@ -177,7 +177,7 @@ CompileStep compileProgram(const Scenario& scenario, const std::vector<std::stri
 std::string dialectProblem(const SourceManager& sources, FileId file, std::string_view running) {
   const frontend::Dialect* own = frontend::dialectOf(sources, file);
   if (own == nullptr || own->name == running) return {};
-  return fmt::format("{} is a program of {}, and the one that runs is of {}", sources.name(file), own->name, running);
+  return fmt::format("{} has the dialect {}, but the running program has {}", sources.name(file), own->name, running);
 }
 
 CompileStep compileNext(const Scenario& scenario, const Statement& s, const frontend::Dialect& dialect,

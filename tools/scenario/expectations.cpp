@@ -13,7 +13,7 @@ using host::Ref;
 
 std::string setValue(Lane& lane, const Statement& s) {
   const bool quantity = s.name.starts_with("NC.");
-  if (quantity && s.value.kind == ValueKind::Text) return "a quantity of the NC holds a number, not a text";
+  if (quantity && s.value.kind == ValueKind::Text) return "a variable of the NC is a number, not a text";
   if (quantity) return lane.nc().setQuantity(std::string_view(s.name).substr(3), s.value.real);
   const std::optional<Ref> place = lane.nc().writePlace(lane.instance().program(), s.name);
   if (!place) {

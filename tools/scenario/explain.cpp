@@ -120,8 +120,8 @@ void Explanation::writer(uint32_t rung, bool computed) {
   line(4, "{} {}", computed ? "may be written, at a computed address, by" : "written by", rungText(rung));
   reads(6, rung, kNames);
   registers(rung);
-  others("it is passed by or reached as decided in", uses_.decidersOf(rung));
-  others("its routine is called in", uses_.callersOf(rung));
+  others("whether it is reached is decided in", uses_.decidersOf(rung));
+  others("the subprogram is called in", uses_.callersOf(rung));
 }
 
 void Explanation::listed(const std::vector<uint32_t>& rungs) {
@@ -136,7 +136,7 @@ void Explanation::listed(const std::vector<uint32_t>& rungs) {
 void Explanation::registers(uint32_t rung) {
   std::vector<uint32_t> from = uses_.registersFrom(rung);
   std::erase_if(from, [&](uint32_t one) { return program_.rungs[one].number == 0; });
-  others("it takes over the result of", from);
+  others("it uses the result of", from);
   if (!from.empty() && from.size() <= kOthers && uses_.calls(from.back()))
     line(8, "and of the routine that is called there");
 }

@@ -26,7 +26,7 @@ Result<Reading> readName(const host::Instance& instance, const sim::SimulatedNc&
                          bool wantReal) {
   if (name.starts_with(kQuantity)) {
     if (const auto quantity = nc.quantity(name.substr(kQuantity.size()))) return realReading(*quantity);
-    return failure(fmt::format("the simulated NC has no quantity '{}'", name));
+    return failure(fmt::format("the simulated NC has no variable '{}'", name));
   }
   if (const std::optional<host::Ref> place = nc.readPlace(instance.program(), name))
     return readValue(instance, nc.control(), *place, wantReal);

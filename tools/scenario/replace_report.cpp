@@ -58,7 +58,7 @@ ReplaceReport::ReplaceReport(const rung::Replacement& replacement) {
 std::string ReplaceReport::take(const host::StateChange& change) {
   const auto found = std::ranges::find_if(changes, [&](const host::StateChange& other) { return same(change, other); });
   if (found == changes.end())
-    return fmt::format("the report does not have: {}; it has: {}", textOf(change), listOf(changes));
+    return fmt::format("the report does not contain: {}; it contains: {}", textOf(change), listOf(changes));
   changes.erase(found);
   return {};
 }
@@ -69,7 +69,7 @@ std::string ReplaceReport::expectNone() const {
 
 std::vector<std::string> ReplaceReport::lines() const {
   std::vector<std::string> lines = {
-      fmt::format("kept {} and {} of the compiler's", counted(keptCells, "cell"), counted(keptStates, "state"))};
+      fmt::format("kept {} and {}", counted(keptCells, "variable"), counted(keptStates, "internal state"))};
   for (const host::StateChange& change : changes) lines.push_back(textOf(change));
   lines.push_back("a slice may last " + bound);
   return lines;

@@ -183,7 +183,7 @@ std::string Requests::reply(Instance& instance, const Statement& s) {
 // An instruction whose operands may be left out has several signatures of its name.
 std::string Requests::prepare(const Instance& instance, const Statement& s) {
   const rung_program& program = instance.program();
-  std::string problem = fmt::format("this program asks for no service {}", s.name);
+  std::string problem = fmt::format("this program never requests the service {}", s.name);
   for (uint32_t i = 0; i < program.service_count; ++i) {
     const ServiceSignature signature(host::serviceName(program, i));
     if (!signature.isNamed(s.name)) continue;

@@ -75,8 +75,8 @@ void Session::addObserver(Observer& observer) {
 std::string Session::difference() const {
   for (size_t i = 1; i < lanes_.size(); ++i)
     if (const auto found = host::firstDifference(instance(), lanes_[i]->instance(), nc::describe))
-      return fmt::format("engines disagree: {} against {}: {}", lanes_[0]->engineName(), lanes_[i]->engineName(),
-                         *found);
+      return fmt::format("engines disagree (a bug in Rung): {} and {}: {}", lanes_[0]->engineName(),
+                         lanes_[i]->engineName(), *found);
   return {};
 }
 
@@ -179,7 +179,7 @@ Result<NextProgram> Session::makeProgram(const Statement& s) {
   if (!next.ok()) return next;
   const rung_program& program = next.value().engines[0]->program();
   if (std::string_view(program.dialect) != instance().program().dialect)
-    return failure(fmt::format("{} is a program of {}, and the one that runs is of {}", program.name, program.dialect,
+    return failure(fmt::format("{} has the dialect {}, but the running program has {}", program.name, program.dialect,
                                instance().program().dialect));
   return next;
 }

@@ -31,7 +31,7 @@ std::string nameOf(const rung_difference& difference) {
 std::string textOf(const rung_difference& difference) {
   const double seconds = static_cast<double>(difference.first_us) / 1e6;
   if (difference.type == 0)
-    return fmt::format("{} is requested by the shadow alone (first at {:.3f} s)", nameOf(difference), seconds);
+    return fmt::format("only the shadow requests {} (first at {:.3f} s)", nameOf(difference), seconds);
   return fmt::format("{} is {}, and {} in the shadow (first at {:.3f} s)", nameOf(difference),
                      valueText(difference.type, difference.running), valueText(difference.type, difference.next),
                      seconds);
@@ -41,10 +41,10 @@ std::string textOf(const rung_difference& difference) {
 std::string endOf(const rung_shadow_info& info) {
   switch (info.state) {
   case RUNG_SHADOW_FAULTED: return fmt::format("the shadow has stopped with a fault: {}", info.fault);
-  case RUNG_SHADOW_STOPPED: return "the shadow has ended, as the program that it ran beside has";
+  case RUNG_SHADOW_STOPPED: return "the shadow has ended together with the program";
   case RUNG_SHADOW_TOO_SLOW:
-    return "the shadow has ended: a scan had more runs of tasks, or requests, than it has room for";
-  case RUNG_SHADOW_FINISHED: return fmt::format("the shadow has ended after {} passes", RUNG_MOST_SHADOW_PASSES);
+    return "the shadow has ended: a scan had more task runs or requests than there is room for";
+  case RUNG_SHADOW_FINISHED: return fmt::format("the shadow has ended after {} scans", RUNG_MOST_SHADOW_PASSES);
   default: return {};
   }
 }
@@ -101,8 +101,8 @@ std::string Shadows::expectDifference(const Lanes& lanes, const std::string& nam
   std::string problem =
       inAll(lanes, [&](const rung_shadow_info&, const std::vector<rung_difference>& left) -> std::string {
         if (std::ranges::any_of(left, [&](const rung_difference& d) { return nameOf(d) == name; })) return {};
-        return left.empty() ? fmt::format("the shadow has done nothing otherwise; expected {}", name)
-                            : fmt::format("{} was not seen to differ; there are: {}", name, listOf(left));
+        return left.empty() ? fmt::format("the shadow shows no difference; expected {}", name)
+                            : fmt::format("{} did not differ; the differences are: {}", name, listOf(left));
       });
   if (problem.empty()) taken_.insert(name);
   return problem;

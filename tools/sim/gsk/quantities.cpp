@@ -111,7 +111,7 @@ std::string Simulator::setQuantity(std::string_view text, double value) {
     }
   }
   return quantity(text) ? "NC." + std::string(text) + " can only be read"
-                        : "the simulated NC has no quantity 'NC." + std::string(text) + "'";
+                        : "the simulated NC has no variable 'NC." + std::string(text) + "'";
 }
 
 } // namespace rung::sim::gsk

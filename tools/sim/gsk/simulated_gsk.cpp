@@ -62,7 +62,7 @@ public:
   std::string setQuantity(std::string_view name, double value) override {
     if (simulated_) return simulator_.setQuantity(name, value);
     const auto axis = axisOfPosition(name);
-    if (!axis) return "the scripted NC has no quantity 'NC." + std::string(name) + "'";
+    if (!axis) return "the scripted NC has no variable 'NC." + std::string(name) + "'";
     scriptedPositions_[*axis] = value;
     return {};
   }

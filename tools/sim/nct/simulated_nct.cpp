@@ -92,7 +92,7 @@ public:
   std::string setQuantity(std::string_view name, double value) override {
     if (!simulated_) return SimulatedNc::setQuantity(name, value);
     if (nct::Handled handled = simulator_.setQuantity(name, value)) return *handled;
-    return "the simulated NC has no quantity 'NC." + std::string(name) + "' to be set";
+    return "the simulated NC has no variable 'NC." + std::string(name) + "' to be set";
   }
   std::optional<double> quantity(std::string_view name) const override {
     return simulated_ ? simulator_.quantity(name) : SimulatedNc::quantity(name);

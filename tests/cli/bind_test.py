@@ -329,7 +329,7 @@ bytes = { name = "D21", weight = 2 }
         header = EXAMPLE / "nc_block.h"
         for words, status, said in (((header, "--struct", "nc_block"), USAGE, "expected --template or --members FILE"),
                                     ((header,), USAGE, "--struct"),
-                                    ((header, "--struct", "a" * 101, "--template"), USAGE, "100 characters at most"),
+                                    ((header, "--struct", "a" * 101, "--template"), USAGE, "at most 100 characters"),
                                     ((header, "--struct", "nc_block", "--members", "/nowhere"), ENVIRONMENT, "cannot read /nowhere")):
             done = self.bind(*words, *(() if "--members" not in words else (EXAMPLE / "panel.lad", "--no-project")))
             self.assertEqual((done.returncode, done.stdout), (status, ""), done.stderr)
@@ -344,7 +344,7 @@ bytes = { name = "D21", weight = 2 }
         copy.chmod(0o755)
         done = self.run_it(copy, "bind", EXAMPLE / "nc_block.h", "--struct", "nc_block", "--template")
         self.assertEqual((done.returncode, done.stdout), (ENVIRONMENT, ""))
-        self.assertIn("the package rung-bind has it", done.stderr)
+        self.assertIn("install the package rung-bind", done.stderr)
 
 
 def members_of(template):

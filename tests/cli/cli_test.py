@@ -773,7 +773,7 @@ class Seals(Cli):
         self.good("run", self.so)
         self.bad(ENVIRONMENT, "maker.pub is not a secret key", "seal", "--sign", self.private(f"{key}.pub"), self.so)
         os.chmod(key, 0o644)
-        self.bad(ENVIRONMENT, f"others than its owner may use this secret key (mode 0644); chmod 600 {key}", "seal", "--sign", key, self.so)
+        self.bad(ENVIRONMENT, f"other users may read this secret key (mode 0644); chmod 600 {key}", "seal", "--sign", key, self.so)
         os.chmod(self.so, 0o757)
         self.bad(ENVIRONMENT, f"every user may write to it (mode 0757); after chmod go-w it may run, and so may one signed with a known key (rungc seal --sign); its signature is by key {name}, which is not among the known keys", "run", self.so)
 

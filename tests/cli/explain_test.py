@@ -148,7 +148,7 @@ PUMP_RUN (7000.00)
 
     def test_without_a_project(self):
         with tempfile.TemporaryDirectory() as empty:
-            self.assertIn("nothing is called 'PUMP_RUN'", self.explain("PUMP_RUN", status=1, cwd=empty))
+            self.assertIn("'PUMP_RUN' is not known", self.explain("PUMP_RUN", status=1, cwd=empty))
             self.assertIn("has no rung.toml", self.explain("MOV", "--project", empty, status=1))
 
 

@@ -67,7 +67,7 @@ class Map(unittest.TestCase):
         self.expect(self.map(program, "--check", "examples/gsk-mill/mill.map", "-q"), OK)
         done = self.map(program, "--template")
         self.assertEqual((done.returncode, done.stdout), (USAGE, ""))
-        self.assertIn("a shared object does not say what its rungs use; name the sources", done.stderr)
+        self.assertIn("map --template needs the sources: a compiled program does not say which names its rungs use", done.stderr)
 
     def test_what_a_template_leaves_out(self):
         """Constants and clocks of the control, relays that rungs write as bytes, names that rung_hal has itself."""
@@ -92,7 +92,7 @@ class Map(unittest.TestCase):
         done = self.map(program, "--check", wrong)
         self.assertEqual((done.returncode, done.stdout), (WRONG, ""))
         for text in ("4:28: in.b.name: found X0, where in.a.name writes, too, expected bits that no other pin writes",
-                     "in.relay: found RELAY, which rungs write, expected a name that none writes; move the pin to [out], or to [io]",
+                     "in.relay: found RELAY, which rungs write, expected a name that no rung writes; move the pin to [out], or to [io]",
                      "in.fault: found a pin that rung_hal makes for every program, expected another name; write for example fault-plc",
                      "43 characters, expected 42 at most, what HAL takes; shorten the name",
                      "7:33: warning: in.number.name: type s32 has 32 bits, D10:2 has 16: a number that does not fit loses its upper bits"):

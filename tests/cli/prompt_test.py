@@ -116,7 +116,7 @@ class Inputs(Folder):
         self.file("no.scn", "scan\n")
         done = self.run_it("--scenario", "no.scn")
         self.assertEqual(done.returncode, USAGE)
-        self.assertIn("names no program and lies in no project", done.stderr)
+        self.assertIn("names no program and is not in a project", done.stderr)
 
     def test_a_scenario_of_a_project(self):
         done = rungc("run", "--scenario", "examples/gsk-mill/tool-change.scn", cwd=ROOT)
@@ -162,7 +162,7 @@ class Inputs(Folder):
             self.assertEqual(done.returncode, USAGE)
             self.assertIn(message, done.stderr)
         done = self.run_it("lamp.lad", "--set", "NC.MPOS.1=x")
-        self.assertIn("holds a number, not a text", done.stderr)
+        self.assertIn("is a number, not a text", done.stderr)
 
     def test_output_can_be_read_by_programs(self):
         self.assertEqual(self.good("lamp.lad", "-q"), "")
@@ -256,7 +256,7 @@ class Piped(Folder):
         for args in ((), ("--no-ir",)):
             self.assertEqual(rungc("build", "lamp.lad", "-o", "lamp.so", *args, cwd=self.folder).returncode, OK)
             output = self.prompt(lines, status=WRONG if args else OK, program="./lamp.so")
-            self.assertIn("./lamp.so does not say how it was made: it carries no IR" if args else "PUMP = 0", output)
+            self.assertIn("./lamp.so: it carries no IR" if args else "PUMP = 0", output)
 
     def test_wrong_forces(self):
         for line, message in (("force NOTHING 1", "'NOTHING' is not a name"), ("force PUMP", "expected a value"),
@@ -541,7 +541,7 @@ class OnATerminal(Folder):
         self.file("big.lad", "dialect nct\nmodule MAIN\n\n" + rungs)
         terminal = Terminal("build", "big.lad", "-o", "big.so", cwd=self.folder)
         self.addCleanup(terminal.close)
-        terminal.until(r"making machine code, \d+ s")
+        terminal.until(r"compiling to machine code, \d+ s")
         terminal.type("\x03")
 
     def test_history(self):

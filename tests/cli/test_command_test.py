@@ -91,7 +91,7 @@ class Selecting(Folder):
             self.assertEqual(self.run_tests(".", *args).returncode, OK)
             self.assertEqual([line.split()[1] for line in self.lines[:-1]], expected, args)
         done = self.run_tests(".", "--filter", "nothing")
-        self.assertEqual((done.returncode, done.stderr), (USAGE, "rungc: none of the 4 scenarios fits --filter\n"))
+        self.assertEqual((done.returncode, done.stderr), (USAGE, "rungc: --filter matches none of the 4 scenarios\n"))
 
     def test_fail_fast(self):
         for name, text in (("a.scn", GOOD), ("b.scn", BAD), ("c.scn", BAD), ("d.scn", GOOD)):

@@ -176,7 +176,7 @@ class View(unittest.TestCase):
     def test_wrong_use(self):
         done = self.view("docs/lamp.lad")
         self.assertEqual(done.returncode, USAGE)
-        self.assertIn(b"only a project has a name for it", done.stderr)
+        self.assertIn(b"only a project has a default name", done.stderr)
         self.assertEqual(self.view(*LATHE, "--no-project").returncode, USAGE)
         done = self.view(*LATHE, "-o", str(Path(self.folder.name) / "out.pdf"))
         self.assertEqual((done.returncode, self.left_over()), (USAGE, []))

@@ -260,7 +260,7 @@ class Xref(unittest.TestCase):
     def test_unknown(self):
         done = subprocess.run([RUNGC, "xref", self.program("p.lad", NCT), "--place", "NOBODY"], capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stdout, done.stderr),
-                         (WRONG, "", "rungc: 'NOBODY' is not a place of the program; write a symbol or an address of the dialect\n"))
+                         (WRONG, "", "rungc: 'NOBODY' is not a variable of the program; write a symbol or an address of the dialect\n"))
 
 
 if __name__ == "__main__":

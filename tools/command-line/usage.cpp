@@ -78,15 +78,13 @@ void addUsage(CommandLine& app, int& status) {
     bool man = false;
   };
   auto words = std::make_shared<Words>();
-  Command completion = app.add("completion", "Print the completion of command lines for a shell");
+  Command completion = app.add("completion", "Print the completion script of a shell");
   auto shell = std::make_shared<std::string>();
-  completion.option("SHELL", *shell, "The shell; bash and zsh read it from the file that they look for")
-      .required()
-      .oneOf({"bash", "zsh"});
+  completion.option("SHELL", *shell, "The shell for which completions are printed").required().oneOf({"bash", "zsh"});
   completion.onRun([&app, shell] { std::cout << (*shell == "bash" ? bashCompletion(app) : zshCompletion(app)); });
-  Command command = app.add("help", "List the commands, or say what one takes");
+  Command command = app.add("help", "List the commands, or show the options of one");
   command.option("COMMAND", words->word, "The command");
-  command.flag("--man", words->man, "As the source of a manual page, for man -l -");
+  command.flag("--man", words->man, "Print the source of a manual page, for man -l -");
   command.onRun([&app, words, &status] {
     const std::optional<std::string> text = help(app, words->word, words->man);
     if (text) {

@@ -46,8 +46,8 @@ std::optional<std::string> findReader() {
 std::optional<codegen::HostLayout> readLayout(const BindOptions& options, int& status) {
   const std::optional<std::string> reader = findReader();
   if (!reader) {
-    status = environmentError("bind reads headers by the program rung-layout, which is not installed: the package "
-                              "rung-bind has it");
+    status = environmentError(
+        "bind needs the program rung-layout to read headers, which is not installed; install the package rung-bind");
     return std::nullopt;
   }
   const TemporaryFolder folder;
@@ -62,7 +62,7 @@ std::optional<codegen::HostLayout> readLayout(const BindOptions& options, int& s
   if (status != kOk) return std::nullopt;
   const Result<codegen::HostLayout> layout = codegen::layoutOf(folder.contentsOf("layout").value_or(""));
   if (layout.ok()) return layout.value();
-  status = environmentError(fmt::format("{} is of another version: {}", *reader, layout.error()));
+  status = environmentError(fmt::format("{} has another version: {}", *reader, layout.error()));
   return std::nullopt;
 }
 
@@ -106,7 +106,7 @@ int bindStruct(const BindOptions& options, const std::string& file, const codege
 
 int run(const BindOptions& options) {
   if (options.name.size() > kLongestName)
-    return usageError(fmt::format("bind: --struct takes a name of {} characters at most", kLongestName));
+    return usageError(fmt::format("bind: --struct takes a name of at most {} characters", kLongestName));
   std::string file;
   try {
     if (!options.makeTemplate) file = mapping::readFromDisk(options.members);
@@ -131,19 +131,19 @@ int parsed(BindOptions& options) {
 } // namespace
 
 void addBind(CommandLine& app, int& status) {
-  Command command = app.add("bind", "Bind a struct of a host's C or C++ header to a program: writes code for the host; "
-                                    "compile flags of the header follow --");
+  Command command = app.add("bind", "Connect a struct of a host's C or C++ header to a program, as code for the host; "
+                                    "the header's compile flags follow --");
   auto options = std::make_shared<BindOptions>();
   command.option("HEADER", options->header, "The header that defines the struct").required();
   addSourceOptions(command, options->source);
   command.option("--struct", options->name, "The struct: its tag or typedef, with its namespaces").required();
   Option members =
-      command.option("--members", options->members, "The binding file: which members are which names of the program");
-  command.flag("--template", options->makeTemplate, "Write a first binding file, of all members").excludes(members);
-  command.option("-o,--output", options->out, "The file to write instead of standard output");
+      command.option("--members", options->members, "The binding file, which connects members to names of the program");
+  command.flag("--template", options->makeTemplate, "Draft a binding file with all members").excludes(members);
+  command.option("-o,--output", options->out, "Write to this file instead of standard output");
   command.option("--include", options->include,
-                 "How the host's code includes the header; without it, by its file name");
-  command.option("-p,--build", options->build, "Folder of a compile_commands.json that has the header's compile flags");
+                 "Path by which the host's code includes the header; default: its file name");
+  command.option("-p,--build", options->build, "Folder of the compile_commands.json with the header's compile flags");
   app.takeRest(command, options->flags);
   command.onParsed([options] { return parsed(*options); });
   command.onRun([options, &status] { status = run(*options); });

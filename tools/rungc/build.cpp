@@ -39,10 +39,10 @@ void addCodeOptions(Command command, BuildOptions& options) {
   addSourceOptions(command, options.source);
   addLevelOption(command, options.level);
   addActivityOption(command, options.source.activity);
-  command.flag("-g", options.debugInfo, "With debug information for the PLC source");
+  command.flag("-g", options.debugInfo, "Add debug information for the PLC source");
   command.flag("--profile", options.profile, "Count and time every rung");
   command.option("--profile-use", options.profileUse,
-                 "Lay out the code by what rungc profile -o has counted: what seldom runs is put aside");
+                 "Arrange code by the counts of rungc profile -o: rarely executed code is moved aside");
   command.option("--target", options.target,
                  "Triple: x86_64-linux-gnu, aarch64-linux-gnu, armv7-linux-gnueabihf, riscv64-linux-gnu");
 }
@@ -69,7 +69,7 @@ std::optional<compiler::Compiled> compileWithProfile(SourceManager& sources, con
   }
   std::optional<compiler::Compiled> compiled = compileChecked(sources, options.source, request, status);
   if (compiled && compiled->odds.unknown != 0)
-    fmt::print(stderr, "rungc: {}: {} of {} rungs with branches are not in it, or have changed since\n",
+    fmt::print(stderr, "rungc: {}: has no counts for {} of {} rungs with branches (new or changed)\n",
                options.profileUse, compiled->odds.unknown, compiled->odds.known + compiled->odds.unknown);
   return compiled;
 }
@@ -105,7 +105,7 @@ codegen::LlvmOptions llvmOptionsOf(const BuildOptions& options) {
 }
 
 Result<std::string> objectOf(const compiler::Compiled& compiled, const BuildOptions& options) {
-  const console::Working working("making machine code");
+  const console::Working working("compiling to machine code");
   if (options.via == "llvm")
     return codegen::buildLlvmSharedObject(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
   codegen::CppBuildOptions cpp;
@@ -126,7 +126,7 @@ int buildObject(const compiler::Compiled& compiled, const BuildOptions& options)
 
 int writeListing(const SourceManager& sources, const compiler::Compiled& compiled, const std::string& name) {
   if (compiled.dialect->listing == nullptr) {
-    return usageError(fmt::format("programs of {} have no listing", compiled.dialect->name));
+    return usageError(fmt::format("only technol programs have a listing; this program is {}", compiled.dialect->name));
   }
   return writeFile(compiled.dialect->listing(sources, compiled.files, *compiled.module), name);
 }
@@ -172,19 +172,20 @@ void addBuild(CommandLine& app, int& status) {
   auto options = std::make_shared<BuildOptions>();
   addCodeOptions(command, *options);
   command.option("-o,--output", options->out,
-                 "The shared object to write; in a project NAME.so beside its rung.toml without it");
+                 "The shared object to write; default in a project: NAME.so beside rung.toml");
   command.option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one").oneOf({"llvm", "cpp"});
   command.option("--cxx", options->cxx, "C++ compiler for --via cpp");
-  command.flag("--no-ir", options->noIr, "Leave out the program's IR: cells that it writes cannot be forced then");
+  command.flag("--no-ir", options->noIr,
+               "Leave out the program's IR; then variables that its rungs write cannot be forced");
   command
       .option("--binding", options->bindings,
-              "A file of rungc bind: the program runs only in hosts with the same layout; may be repeated")
+              "File written by rungc bind: the program runs only in hosts with that layout; may be repeated")
       .oneValue();
   command.option("--listing", options->listing,
                  "Write the program's numbered lines, to which name_LINE refers (technol)");
   command.onRun([options, &status] {
     if (options->out.empty() && !options->source.project) {
-      status = usageError("build: -o says which file to write; only a project has a name for it");
+      status = usageError("build needs -o FILE; only a project has a default name");
       return;
     }
     if (options->out.empty()) options->out = project::productOf(*options->source.project, ".so");
@@ -204,12 +205,12 @@ void addBuild(CommandLine& app, int& status) {
 }
 
 void addEmit(CommandLine& app, int& status) {
-  Command command = app.add("emit", "Print a form of the program: C++, IR, layout, LLVM IR or assembly");
+  Command command = app.add("emit", "Print an intermediate form of the program: C++, IR, layout, LLVM IR or assembly");
   auto options = std::make_shared<BuildOptions>();
   command.option("WHAT", options->what, "cpp, ir, layout, llvm or asm")
       .required()
       .oneOf({"cpp", "ir", "layout", "llvm", "asm"});
-  command.option("-o,--output", options->out, "The file to write; without it, or with -, standard output");
+  command.option("-o,--output", options->out, "The file to write; default, or with -: standard output");
   addCodeOptions(command, *options);
   command.onRun([options, &status] {
     SourceManager sources;

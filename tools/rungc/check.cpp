@@ -6,7 +6,7 @@
 namespace rung::rungc {
 
 void addCheck(CommandLine& app, int& status) {
-  Command command = app.add("check", "Report all mistakes of a program");
+  Command command = app.add("check", "Report all mistakes in a program");
   auto options = std::make_shared<SourceOptions>();
   addSourceOptions(command, *options);
   command.onRun([options, &status] {

@@ -37,7 +37,7 @@ std::optional<std::string> convert(SourceManager& sources, std::span<const FileI
 bool checkExtension(const ConvertOptions& options) {
   const std::string_view wrong = options.to == "list" ? ".lad" : ".pmc";
   if (!options.out.ends_with(wrong)) return true;
-  fmt::print(stderr, "rungc: '{}' is not a name for a {}; files in this form end in {}\n", options.out,
+  fmt::print(stderr, "rungc: '{}' cannot be a {}: its name must end in {}\n", options.out,
              options.to == "list" ? "command list" : "ladder text", options.to == "list" ? ".pmc" : ".lad");
   return false;
 }
@@ -67,13 +67,13 @@ int run(const ConvertOptions& options) {
 } // namespace
 
 void addConvert(CommandLine& app, int& status) {
-  Command command = app.add("convert", "Write a GSK program in its other form: command list, ladder text");
+  Command command = app.add("convert", "Convert a GSK program between command list and ladder text");
   auto options = std::make_shared<ConvertOptions>();
   addSourceOptions(command, options->source);
   command.option("--to", options->to, "list: command list (.pmc), ladder: ladder text (.lad)")
       .required()
       .oneOf({"list", "ladder"});
-  command.option("-o,--output", options->out, "The file to write; without it, or with -, standard output");
+  command.option("-o,--output", options->out, "The file to write; default, or with -: standard output");
   command.onRun([options, &status] { status = run(*options); });
 }
 

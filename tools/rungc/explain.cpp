@@ -39,13 +39,13 @@ std::string listed(const std::vector<compiler::ReferenceEntry>& found) {
     std::replace(title.begin(), title.end(), '|', '/');
     text += fmt::format("| {} | {} | {} |\n", found[i].name, found[i].kind, title);
   }
-  if (found.size() > kShown) text += fmt::format("\nand {} more; a longer word finds fewer\n", found.size() - kShown);
+  if (found.size() > kShown) text += fmt::format("\nand {} more; use a longer word\n", found.size() - kShown);
   return text;
 }
 
 int reportUnknown(const std::vector<compiler::ReferenceEntry>& entries, const std::string& word) {
   const std::string meant = didYouMean(mostSimilar(word, entries, &compiler::ReferenceEntry::name));
-  fmt::print(stderr, "rungc: nothing is called '{}', and no name or title contains it{}{}\n", word, meant,
+  fmt::print(stderr, "rungc: '{}' is not known, and no name or title contains it{}{}\n", word, meant,
              meant.empty() ? "; `rungc explain` lists the topics" : "");
   return kWrong;
 }
@@ -81,8 +81,8 @@ void addExplain(CommandLine& app, int& status) {
   auto projectFile = std::make_shared<std::string>();
   command.option("WORD", *word,
                  "A code such as unbalanced-stack, a mnemonic such as TOND, a signal such as MF or F7.0, a fault such "
-                 "as dead-loop, a key such as slot_steps, a name of the project, a part of a word, or "
-                 "FILE:LINE:COLUMN: what is written there; without it the topics are listed");
+                 "as dead-loop, a key such as slot_steps, a name of the project, part of a word, or FILE:LINE:COLUMN "
+                 "for what is written there; without it, the topics are listed");
   command.option("--project", *projectFile,
                  "The project file, or its folder, whose names are explained, instead of the one found");
   command.onRun([word, projectFile, &status] {
@@ -107,7 +107,7 @@ void addDoc(CommandLine& app, int& status) {
     else if (const frontend::Dialect* dialect = frontend::findDialect(*page))
       std::cout << compiler::dialectReference(*dialect);
     else {
-      fmt::print(stderr, "rungc: no such page: '{}'; there are gsk, nct, technol, diagnostics and ir\n", *page);
+      fmt::print(stderr, "rungc: unknown page '{}'; the pages are gsk, nct, technol, diagnostics and ir\n", *page);
       status = kUsage;
     }
   });

@@ -101,7 +101,7 @@ private:
     put(out_, "\n{}", xref::shownAsText(*reference_, entries, true));
   }
   void targets(const frontend::TargetUse& here) {
-    put(out_, "{}: {}\n", sources_.text(here.range), here.defines ? "a place in the program" : "control goes there");
+    put(out_, "{}: {}\n", sources_.text(here.range), here.defines ? "a label or subprogram" : "control goes there");
     for (const frontend::TargetUse& use : analysis_.targets())
       if (use.scope == here.scope && use.number == here.number)
         put(out_, "  {} {}\n", use.defines ? "is at  " : "asked at", placeOf(use.range));

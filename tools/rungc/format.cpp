@@ -97,7 +97,7 @@ int replace(const std::string& name, const std::string& text, const SourceOption
   const std::string wrong = host::replaceFile(name, text, {.mode = static_cast<mode_t>(mode)});
   if (!wrong.empty()) return environmentError(wrong);
   fs::permissions(name, mode, error);
-  if (error) return environmentError(fmt::format("cannot give '{}' the mode that it had: {}", name, error.message()));
+  if (error) return environmentError(fmt::format("cannot restore the mode of '{}': {}", name, error.message()));
   if (!options.quiet) fmt::print("formatted {}\n", name);
   return kOk;
 }
@@ -130,18 +130,17 @@ int run(FormatOptions options) {
 } // namespace
 
 void addFormat(CommandLine& app, int& status) {
-  Command command = app.add("format", "Lay out source files in the one style of their language");
+  Command command = app.add("format", "Format source files in the standard style of their language");
   auto options = std::make_shared<FormatOptions>();
-  command.option("FILE", options->source.files,
-                 "Source files, also those that others include, or the folder of a project, all of whose files are "
-                 "meant; - reads standard input and "
-                 "writes standard output; without any, the project (rung.toml) of the working directory or of a folder "
-                 "above it");
+  command.option(
+      "FILE", options->source.files,
+      "Source files, also include files, or the folder of a project for all its files; - formats standard input to "
+      "standard output; default: the project (rung.toml) of the working directory or of a folder above it");
   Option check = command.flag("--check", options->check,
-                              "Write nothing, list the files that would change; exit status 1 when there are some");
-  command.flag("--stdout", options->toOutput, "To standard output instead of into the file").excludes(check);
+                              "Write nothing, list the files that would change; exit status 1 if there are any");
+  command.flag("--stdout", options->toOutput, "Write to standard output instead of the file").excludes(check);
   command.option("--dialect", options->source.dialect, "nct, gsk or technol; needed where the file does not name it");
-  command.flag("-q,--quiet", options->source.quiet, "Do not say which files have changed");
+  command.flag("-q,--quiet", options->source.quiet, "Do not list the changed files");
   addColorOption(command, options->source.color, "Colours in diagnostics");
   command.onRun([options, &status] { status = run(*options); });
 }

@@ -26,8 +26,8 @@ int newKey(const std::string& path) {
     std::remove(publicPath.c_str());
     return environmentError(wrong);
   }
-  fmt::print("key {}: {} signs and stays secret, {} goes to {} of the machines\n", host::textOf(key.publicKey().id()),
-             path, publicPath, host::kKeysFolder);
+  fmt::print("key {}: sign with {}, and keep it secret; install {} in {} on the machines\n",
+             host::textOf(key.publicKey().id()), path, publicPath, host::kKeysFolder);
   return kOk;
 }
 
@@ -38,10 +38,10 @@ void addKey(CommandLine& app, int& status) {
     std::string action;
     std::string file;
   };
-  Command command = app.add("key", "Make a key to sign programs with");
+  Command command = app.add("key", "Create a key for signing programs");
   auto options = std::make_shared<Options>();
-  command.option("ACTION", options->action, "new: make a key").required().oneOf({"new"});
-  command.option("FILE", options->file, "The file of the secret key; FILE.pub is its public half").required();
+  command.option("ACTION", options->action, "new: create a key").required().oneOf({"new"});
+  command.option("FILE", options->file, "The file of the secret key; FILE.pub becomes the public key").required();
   command.onRun([options, &status] { status = newKey(options->file); });
 }
 

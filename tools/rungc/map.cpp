@@ -27,7 +27,7 @@ struct MapOptions {
 
 int writeTemplate(const MapOptions& options, const OpenedProgram& program) {
   if (!program.compiled)
-    return usageError("map --template: a shared object does not say what its rungs use; name the sources");
+    return usageError("map --template needs the sources: a compiled program does not say which names its rungs use");
   std::vector<map_template::UsedName> used;
   const rung_program& tables = program.image->program();
   const std::vector<xref::UsedPlace> places = xref::usedPlaces(tables, *program.compiled->uses);
@@ -62,7 +62,7 @@ void checkDriven(const mapping::File& map, const mapping::Binding& binding, rung
     const mapping::Pin& pin = map.pins[link.pin];
     errors.push_back(
         map.message(pin.at, "in." + pin.name + ": " +
-                                mapping::Mistake{link.name + ", which rungs write", "a name that none writes",
+                                mapping::Mistake{link.name + ", which rungs write", "a name that no rung writes",
                                                  "move the pin to [out], or to [io]"}
                                     .text()));
   }
@@ -97,13 +97,15 @@ int run(const MapOptions& options) {
 } // namespace
 
 void addMap(CommandLine& app, int& status) {
-  Command command = app.add("map", "Write a first mapping file for LinuxCNC, or check one against its program");
+  Command command = app.add("map", "Draft a mapping file, or check one against its program");
   auto options = std::make_shared<MapOptions>();
   addSourceOptions(command, options->source);
-  Option check = command.option("--check", options->check, "Report all mistakes of this mapping file");
-  command.flag("--template", options->makeTemplate, "Write one, made of what the rungs of the program use")
+  Option check = command.option("--check", options->check, "Report all mistakes in this mapping file");
+  command
+      .flag("--template", options->makeTemplate, "Write a mapping file with the inputs and outputs that the rungs use")
       .excludes(check);
-  command.option("-o,--output", options->out, "File for the template instead of standard output").excludes(check);
+  command.option("-o,--output", options->out, "Write the template to this file instead of standard output")
+      .excludes(check);
   command.onRun([options, &status] { status = run(*options); });
 }
 

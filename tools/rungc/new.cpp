@@ -11,7 +11,7 @@ namespace {
 
 int makeNew(const std::string& dialect, const std::string& folder) {
   if (frontend::findDialect(dialect) == nullptr)
-    return usageError(fmt::format("there is no dialect '{}'{}; there are gsk, nct and technol", dialect,
+    return usageError(fmt::format("unknown dialect '{}'{}; the dialects are gsk, nct and technol", dialect,
                                   didYouMean(mostSimilar(dialect, frontend::allDialects(), &frontend::Dialect::name))));
   const Result<std::vector<std::string>> written = project::makeProject(dialect, folder);
   if (!written.ok()) return environmentError(written.error());
@@ -27,10 +27,10 @@ void addNew(CommandLine& app, int& status) {
     std::string dialect;
     std::string folder;
   };
-  Command command = app.add("new", "Make a small complete project: program, scenario, project file");
+  Command command = app.add("new", "Create a small complete project: program, scenario, project file");
   auto options = std::make_shared<Options>();
   command.option("DIALECT", options->dialect, "nct, gsk or technol").required();
-  command.option("DIR", options->folder, "The folder to make; its name becomes that of the project").required();
+  command.option("DIR", options->folder, "The folder to create; its name is the name of the project").required();
   command.onRun([options, &status] { status = makeNew(options->dialect, options->folder); });
 }
 

@@ -68,7 +68,7 @@ std::optional<project::Project> projectOf(const SourceOptions& options, int& sta
 void sayUse(const SourceOptions& options, const project::Project& project) {
   const bool whole = options.files.size() == project.files.size();
   if (options.quiet || options.json || (whole && project.config.empty() && project.includePaths.empty())) return;
-  fmt::print(stderr, "rungc: {} {} to the project {}: {} used; --no-project takes the named files alone\n",
+  fmt::print(stderr, "rungc: {} {} to the project {}: {} used; --no-project uses only the named files\n",
              options.files.size() == 1 ? options.files[0]
                                        : fmt::format("{} and {} more", options.files[0], options.files.size() - 1),
              options.files.size() == 1 ? "belongs" : "belong", project.file,
@@ -87,8 +87,8 @@ bool namesProject(const std::string& name) { return isFolder(name) || isProjectF
 std::optional<project::Project> openProject(const std::string& named, const SourceOptions& options, int& status) {
   if (named.empty()) {
     if (const auto found = project::findUpwards("")) return loadProject(*found, options, status);
-    status = usageError("nothing is named, and neither the working directory nor a folder above it has a rung.toml; "
-                        "name files, or make a project with rungc new");
+    status = usageError("no file is named, and there is no rung.toml in the working directory or above it; name files, "
+                        "or create a project with `rungc new`");
     return std::nullopt;
   }
   const std::string file = isFolder(named) ? (fs::path(named) / project::kFileName).lexically_normal().string() : named;

@@ -13,7 +13,7 @@ void reportChange(bool failsNow, const std::string& problem, const std::string& 
                   const RetainedFiles::Report& report) {
   if (failsNow == fails) return;
   fails = failsNow;
-  report(fails ? fmt::format("warning: {}; the program continues, and saving is tried again", problem)
+  report(fails ? fmt::format("warning: {}; the program continues, and will try to save again", problem)
                : fmt::format("{} is saved again", name));
 }
 

@@ -102,7 +102,7 @@ Result<const compiler::Compiled*> Program::wanted() {
     const std::string file = fileOf(*object);
     Result<compiler::Compiled> found =
         compiler::irOf(host::readSealed(file).image, compiler::hashesOf(object->program()));
-    if (!found.ok()) return failure(object->path() + " does not say how it was made: " + found.error());
+    if (!found.ok()) return failure(object->path() + ": " + found.error());
     carried = std::move(found).value();
   }
   return &*carried;
@@ -158,12 +158,11 @@ private:
       const nc::ConfigKey* row = dialect == nullptr ? nullptr : nc::findConfigKey(dialect->configKeys, key);
       const bool compilers = row != nullptr && row->reader == nc::ConfigReader::Compiler;
       if (compilers && first().compiled) continue;
-      if (compilers)
-        return fmt::format("--config {0}: the compiler reads it: rungc build --config {0}={1}", key, value);
+      if (compilers) return fmt::format("--config {0} is for the compiler: rungc build --config {0}={1}", key, value);
       if (std::string wrong = session_.config(key, value); !wrong.empty()) return wrong;
     }
     if (!first().compiled && options_.scenario.periodUs > 0)
-      return "the scenario chooses the period, which is the compiler's to know: run the sources";
+      return "the scenario sets the period, which is fixed in a compiled program: run the sources";
     for (const scenario::Statement& connect : options_.scenario.connects)
       if (std::string wrong = session_.connect(connect.words[0], connect.words[1]); !wrong.empty())
         return textOf(problemAt(connect, std::move(wrong)));
@@ -286,7 +285,7 @@ private:
       return gSignal != 0 || (timed ? session_.nowUs() >= end.microseconds : session_.scans() >= end.count);
     });
     const host::RealTimeStats stats = session_.runRealTime();
-    fmt::print(out_, "{} slices, {} passes left out, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices,
+    fmt::print(out_, "{} slices, {} scans skipped, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices,
                stats.missed, static_cast<double>(stats.maxLateNs) / 1e3, static_cast<double>(stats.maxRunNs) / 1e3);
     return kOk;
   }
@@ -300,7 +299,7 @@ private:
     source.dialect = session_.instance().program().dialect;
     int status = kOk;
     std::optional<Program> program = makeProgram(options_, source, status);
-    if (!program) return failure("the program that runs has not changed");
+    if (!program) return failure("the running program has not changed");
     programs_.push_back(std::move(*program));
     Program& next = programs_.back();
     return scenario::NextProgram{{next.engine.get()}, next.uses(), [&next] { return next.wanted(); }};
@@ -329,7 +328,7 @@ private:
   int finish(int status) {
     progress_.clear();
     if (!options_.source.quiet)
-      fmt::print(out_, "{} scan{}, {} of the program's time, engine {}\n", session_.scans(),
+      fmt::print(out_, "{} scan{}, {} on the program's clock, engine {}\n", session_.scans(),
                  session_.scans() == 1 ? "" : "s", longText(session_.nowUs()), first().engine->name());
     if (!session_.unexpectedFault().empty()) {
       warn_(console::faultLine(session_.instance()));
@@ -384,7 +383,7 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   const std::string name = !options.engine.empty() ? options.engine : options.debugger ? "jit" : "tiered";
   const auto kind = compiler::engineFromName(name);
   if (!kind) {
-    status = usageError(fmt::format("unknown engine '{}'; there are interp, cpp, llvm, jit and tiered", name));
+    status = usageError(fmt::format("unknown engine '{}'; the engines are interp, cpp, llvm, jit and tiered", name));
     return std::nullopt;
   }
   SourceManager sources;
@@ -400,7 +399,7 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   engineOptions.cacheFolder = options.cache;
   engineOptions.virtualClock = !options.realtime;
   Result<std::unique_ptr<host::Engine>> engine = [&] {
-    const console::Working working("making machine code");
+    const console::Working working("compiling to machine code");
     return compiler::makeEngine(*kind, *program.compiled, engineOptions);
   }();
   if (!engine.ok()) {
@@ -443,11 +442,10 @@ void addRun(CommandLine& app, int& status) {
   auto options = std::make_shared<RunOptions>();
   addSourceOptions(command, options->source);
   command.option("--engine", options->engine,
-                 "interp, cpp, llvm, jit, or tiered: interp until the code of jit is there. Default: tiered, with "
-                 "--debugger jit; a shared object brings its own");
+                 "interp, cpp, llvm, jit, or tiered (interp until jit has compiled). Default: tiered, with --debugger "
+                 "jit; a shared object needs none");
   Option scans =
-      command
-          .option("--scans", options->scans, "Number of scans; default: 1, with --scenario or --prompt none of its own")
+      command.option("--scans", options->scans, "Number of scans; default: 1, or 0 with --scenario or --prompt")
           .between(uint64_t{0}, kMostScans);
   command.option("--for", options->duration, "Time to run, such as 2s or 500ms").excludes(scans);
   command
@@ -456,17 +454,17 @@ void addRun(CommandLine& app, int& status) {
       .oneValue();
   Option scenario =
       command.option("--scenario", options->scenarioFile,
-                     "Carry out the statements of a scenario first; without a FILE it runs the scenario's own program");
+                     "First execute the statements of a scenario; without FILE, on the scenario's own program");
   Option prompt = command.flag("-i,--prompt", options->prompt,
-                               "Then take statements from the terminal: set, scan, run 2s, toggle, watch, help …");
+                               "Then read statements from the terminal: set, scan, run 2s, toggle, watch, help …");
   command.option("--watch", options->watch, "Names whose changes are printed");
   command.option("--trace", options->trace,
-                 "Write the values of the watched names, else of all that the rungs use, to FILE.vcd or FILE.csv");
+                 "Write the values of the watched names, or of all names that the rungs use, to FILE.vcd or FILE.csv");
   Option realtime =
-      command.flag("--realtime", options->realtime, "On the machine's clock").excludes(scenario).excludes(prompt);
+      command.flag("--realtime", options->realtime, "Run on the computer's clock").excludes(scenario).excludes(prompt);
   command
       .option("--priority", options->thread.priority,
-              "Real-time priority of the run, 1 to 99 (SCHED_FIFO); without it the machine's ordinary scheduling")
+              "Real-time priority of the run, 1 to 99 (SCHED_FIFO); default: ordinary scheduling")
       .between(1, 99)
       .needs(realtime);
   command.flag("--lock-memory", options->thread.lockMemory, "Keep all memory of the run in RAM").needs(realtime);
@@ -474,7 +472,7 @@ void addRun(CommandLine& app, int& status) {
   command.flag("--unsealed", options->unsealed, "Load a shared object that has no seal; a damaged one may then crash");
   command.option(
       "--retain", options->retain,
-      "Keep the retained memory in FILE.a and FILE.b: taken at the start, saved during the run and at its end");
+      "Keep the retained memory in FILE.a and FILE.b: loaded at the start, saved during the run and at its end");
   command.option("--cache", options->cache, "Folder for compiled code, to start the same program faster");
   addLevelOption(command, options->level);
   addActivityOption(command, options->source.activity);

@@ -17,7 +17,7 @@ Result<std::vector<compiler::EngineKind>> enginesOf(const std::string& names) {
     }
     const auto kind = compiler::engineFromName(name);
     if (!kind)
-      return failure(fmt::format("unknown engine '{}'; there are interp, cpp, llvm, jit, tiered and all", name));
+      return failure(fmt::format("unknown engine '{}'; the engines are interp, cpp, llvm, jit, tiered and all", name));
     engines.push_back(*kind);
   }
   return engines;

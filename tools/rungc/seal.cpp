@@ -45,12 +45,12 @@ Result<host::SecretKey> readKey(const std::string& path) {
   if (!text.ok()) return text.failure();
   const auto facts = host::factsOf(file.fd());
   if (facts && (facts->mode & 077) != 0)
-    return failure(fmt::format("{}: others than its owner may use this secret key (mode {:04o}); chmod 600 {}", path,
-                               facts->mode, path));
+    return failure(
+        fmt::format("{}: other users may read this secret key (mode {:04o}); chmod 600 {}", path, facts->mode, path));
   std::optional<host::SecretKey> key = host::SecretKey::parse(text.value());
   if (!key)
     return failure(
-        fmt::format("{} is not a secret key; rungc key new makes one, and the file without .pub is it", path));
+        fmt::format("{} is not a secret key; name the file without .pub that `rungc key new` has written", path));
   return *key;
 }
 
@@ -101,11 +101,11 @@ int writeProgram(const std::string& out, const std::string& file) {
 }
 
 void addSeal(CommandLine& app, int& status) {
-  Command command = app.add("seal", "Seal shared objects that another linker made, or sign programs");
+  Command command = app.add("seal", "Seal programs made by another linker, or sign programs");
   auto options = std::make_shared<SealOptions>();
-  command.option("FILE", options->files, "Compiled programs (.so); a seal that one has is replaced").required();
+  command.option("FILE", options->files, "Compiled programs (.so); an existing seal is replaced").required();
   command.option("--sign", options->key, "Sign with this secret key (see rungc help key)");
-  command.flag("-q,--quiet", options->quiet, "Nothing but errors");
+  command.flag("-q,--quiet", options->quiet, "Print only errors");
   command.onRun([options, &status] { status = sealFiles(*options); });
 }
 

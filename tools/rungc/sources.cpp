@@ -22,16 +22,16 @@ namespace rung::rungc {
 void addSourceOptions(Command command, SourceOptions& options, const std::string& json) {
   command.option("FILE", options.files,
                  "Source files in order (.lad, .pmc, .plc), or the folder of a project; - reads standard input; "
-                 "without any, the project (rung.toml) of the working directory or of a folder above it");
+                 "default: the project (rung.toml) of the working directory or of a folder above it");
   Option project =
       command.option("--project", options.projectFile, "The project file, or its folder, instead of the one found");
   command.flag("--no-project", options.noProject, "Only the named files, without the project that they belong to")
       .excludes(project);
   command.option("--dialect", options.dialect, "nct, gsk or technol; needed where the file does not name it");
   command.option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated").oneValue();
-  command.flag("--strict", options.strict, "Warnings that the control's own rules call errors are errors");
+  command.flag("--strict", options.strict, "Treat warnings that the real control would reject as errors");
   command.flag("--json", options.json, json);
-  command.flag("-q,--quiet", options.quiet, "No line that says what was done; errors and warnings stay");
+  command.flag("-q,--quiet", options.quiet, "Do not print what was done, only errors and warnings");
   addColorOption(command, options.color, "Colours in diagnostics");
   command.onParsed([&options] { return takeProject(options); });
 }
@@ -49,8 +49,9 @@ void addLevelOption(Command command, std::string& level) {
 }
 
 void addActivityOption(Command command, bool& activity) {
-  command.flag("--activity", activity,
-               "Leave out rungs that would change nothing: for long programs of which little happens in a scan");
+  command.flag(
+      "--activity", activity,
+      "Change-driven execution: skip rungs that would change nothing, for long programs with few changes in a scan");
 }
 
 namespace {

@@ -122,7 +122,7 @@ int runTests(TestOptions& options) {
   Result<std::vector<compiler::EngineKind>> engines = enginesOf(options.engines);
   if (!engines.ok()) return usageError(engines.error());
   if (options.coverage.wanted() && options.enginesGiven && options.engines != "interp")
-    return usageError(fmt::format("coverage is counted by the interpreter; leave out --engine {}", options.engines));
+    return usageError(fmt::format("coverage needs the interpreter; leave out --engine {}", options.engines));
   scenario::EngineStore store;
   scenario::RunOptions run;
   run.store = &store;
@@ -138,7 +138,7 @@ int runTests(TestOptions& options) {
     const std::optional<std::vector<std::string>> found = scenarioFiles(options.names, status);
     if (!found) return status;
     const std::vector<std::string> files = filtered(*found, options.filters);
-    if (files.empty()) return usageError(fmt::format("none of the {} scenarios fits --filter", found->size()));
+    if (files.empty()) return usageError(fmt::format("--filter matches none of the {} scenarios", found->size()));
     CoverageRun coverage;
     if (options.coverage.wanted()) coverage.observe(run);
     if (const std::string problem = options.trace.problem(files.size()); !problem.empty()) return usageError(problem);
@@ -154,34 +154,33 @@ int runTests(TestOptions& options) {
 } // namespace
 
 void addTest(CommandLine& app, int& status) {
-  Command command = app.add("test", "Run scenarios; several engines are compared after every scan");
+  Command command = app.add("test", "Run scenarios, and compare several engines after every scan");
   auto options = std::make_shared<TestOptions>();
-  command.option(
-      "SCENARIO", options->names,
-      "Scenario files; folders: the scenarios of the project in it, else every *.scn below; without any, those of the "
-      "project of the working directory");
+  command.option("SCENARIO", options->names,
+                 "Scenario files; folders: the scenarios of the project in it, else every *.scn below; default: those "
+                 "of the project of the working directory");
   command
       .option("--engine", options->engines,
               "interp, cpp, llvm, jit, tiered, a list of them with commas, or all: the first four")
       .showDefault();
-  command.option("-j,--jobs", options->threads, "How many scenarios run at a time; default: one per processor")
+  command.option("-j,--jobs", options->threads, "Number of scenarios run in parallel; default: one per processor")
       .between(1u, 256u);
   command
       .option("--filter", options->filters,
               "Only scenarios whose path contains this text; with * ? [ a pattern; may be repeated")
       .oneValue();
-  command.flag("--fail-fast", options->failFast, "End at the first failure");
+  command.flag("--fail-fast", options->failFast, "Stop at the first failure");
   command.flag("--watch-files", options->watchFiles, "Run again when a scenario or a program changes");
   addColorOption(command, options->color, "Colours of ok and FAILED");
   options->trace.addTo(command);
   command.option("--junit", options->junit, "Write the results as JUnit XML");
   command.option("--cxx", options->cxx, "C++ compiler of the engine cpp");
-  command.option("--cache", options->cache,
-                 "Folder for compiled code: programs that have not changed are not compiled again");
+  command.option("--cache", options->cache, "Folder for compiled code: unchanged programs are not compiled again");
   addLevelOption(command, options->level);
   addActivityOption(command, options->activity);
-  command.flag("--strict", options->strict,
-               "Warnings that the control's own rules call errors are errors; a scenario must expect something");
+  command.flag(
+      "--strict", options->strict,
+      "Treat warnings that the real control would reject as errors, and scenarios that expect nothing as failed");
   addCoverageOptions(command, options->coverage);
   command.onRun([command, options, &status] {
     options->enginesGiven = command.given("--engine");

@@ -68,10 +68,10 @@ std::optional<std::string> render(SourceManager& sources, std::span<const FileId
 
 int run(ViewOptions options) {
   fillIn(options);
-  if (options.out.empty())
-    return usageError("view: -o says which file to write, .html or .svg; only a project has a name for it");
+  if (options.out.empty()) return usageError("view needs -o FILE (.html or .svg); only a project has a default name");
   if (!isPage(options) && !options.out.ends_with(".svg")) {
-    fmt::print(stderr, "rungc: '{}' is not a name for a drawing; pages end in .html, pictures in .svg\n", options.out);
+    fmt::print(stderr, "rungc: '{}' cannot be a drawing: its name must end in .html (page) or .svg (picture)\n",
+               options.out);
     return kUsage;
   }
   SourceManager sources;
@@ -95,17 +95,16 @@ void addView(CommandLine& app, int& status) {
   auto options = std::make_shared<ViewOptions>();
   addSourceOptions(command, options->source);
   command.option("-o,--output", options->out,
-                 "The file to write: .html, a page for screen and paper; .svg; in a project NAME.html beside its "
-                 "rung.toml without it");
-  command.option(
-      "--title", options->title,
-      "The machine or program, as the page and its sheets of paper call it; default: the name of the project");
-  command.option("--date", options->date, "The date, to be printed on every sheet");
-  command.option("--revision", options->revision, "The revision, to be printed on every sheet");
+                 "The file to write: .html (a page for screen and paper) or .svg (a picture); default in a project: "
+                 "NAME.html beside rung.toml");
+  command.option("--title", options->title,
+                 "Title of the page and of every printed sheet; default: the name of the project");
+  command.option("--date", options->date, "Date printed on every sheet");
+  command.option("--revision", options->revision, "Revision printed on every sheet");
   command
-      .option("--link", options->link,
-              "The link of a line of the source: {file} as seen from the page, {path} in full, {line}; "
-              "empty: nowhere")
+      .option(
+          "--link", options->link,
+          "Link for a source line: {file} is relative to the page, {path} absolute, {line} the line; empty: no links")
       .showDefault();
   command.onRun([options, &status] { status = run(*options); });
 }

@@ -23,7 +23,7 @@ std::optional<std::vector<xref::Entry>> placesOf(const xref::CrossReference& ref
   for (const std::string& name : options.places) {
     const auto place = nc::resolve(reference.program(), name);
     if (!place || place->kind == host::RefKind::Constant) {
-      fmt::print(stderr, "rungc: '{}' is not a place of the program; write a symbol or an address of the dialect\n",
+      fmt::print(stderr, "rungc: '{}' is not a variable of the program; write a symbol or an address of the dialect\n",
                  name);
       return std::nullopt;
     }
@@ -61,14 +61,14 @@ int run(const XrefOptions& options) {
 } // namespace
 
 void addXref(CommandLine& app, int& status) {
-  Command command = app.add("xref", "List which rungs read and write what");
+  Command command = app.add("xref", "List the rungs that read and write each variable");
   auto options = std::make_shared<XrefOptions>();
   addSourceOptions(command, options->source);
   command.option("--place", options->places,
-                 "Only this symbol or address; may be repeated. Rungs whose index may lead there are listed, too");
+                 "Only this symbol or address; may be repeated. Includes rungs whose index may reach it");
   command.flag("--odd", options->odd,
-               "Only what no rung uses, what is read and written by nobody, and what is written and read by nobody");
-  command.option("--format", options->format, "Of the list").oneOf({"text", "json"}).showDefault();
+               "Only variables that are unused, read but not written, written but not read, or set but not reset");
+  command.option("--format", options->format, "Format of the list").oneOf({"text", "json"}).showDefault();
   command.onRun([options, &status] { status = run(*options); });
 }
 

@@ -332,7 +332,7 @@ def devices(bench, _options):
     expect(abs(values[0] - 0x4000 / 0x7FFF) < 1e-4 and values[1] == 0, values)
     expect(os.read(master, 1024).startswith(b"AAA"), "nothing has left the port")
     expect("/dev/no-such-port cannot be opened: No such file or directory" in done.stdout, "a missing device")
-    expect("SPI_AX: this host moves no axes for the program" in done.stdout, "a refused instruction")
+    expect("SPI_AX: this host cannot move axes for the program" in done.stdout, "a refused instruction")
 
 
 def instances(bench, _options):

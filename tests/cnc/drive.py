@@ -303,7 +303,7 @@ def remote():
     pins(coolant_lamp=True)
     command.mdi("G1 X20 F10")
     change_in_motion([(flow, "false", "coolant_lamp", False, True), ("COOLANT_LAMP", "false", "coolant_lamp", False, True)], "edited.so")
-    check("is never set or forced here" in rungctl("set", "ESTOP_OK", "false", refused=True), "the emergency stop was set")
+    check("is protected by the mapping file" in rungctl("set", "ESTOP_OK", "false", refused=True), "the emergency stop was set")
     check("\"stop\" is not allowed here" in rungctl("stop", refused=True), "stop")
     pins(coolant_lamp=True, enable=True)
     end_motion()
@@ -328,7 +328,7 @@ def alarm():
         return any(error and "the program endless has stopped: dead-loop (rung" in error[1] for error in shown)
 
     wait("the fault at the operator", reported)
-    check("stopped by a fault of endless, which ran then: dead-loop" in rungctl("status"), "status")
+    check("stopped by a fault of endless, which was running then: dead-loop" in rungctl("status"), "status")
     hal.set_p("rung.reset", "1")
     pins(fault=False)
     hal.set_p("rung.reset", "0")

@@ -276,7 +276,7 @@ def remote():
     rungctl("set", "CONV_W", "false")
     pins(conveyor=False)
     change_in_motion([("B_CONV", "true", "conveyor", True, False), ("COOL_PUMP", "false", "coolant_pump", False, True)], "edited")
-    check("is never set or forced here" in rungctl("set", "ESTOP_OK", "false", refused=True), "the emergency stop was set")
+    check("is protected by the mapping file" in rungctl("set", "ESTOP_OK", "false", refused=True), "the emergency stop was set")
     pins(coolant_pump=True, spindle_at_speed=True)
     end_motion()
     check(rungctl("rollback").endswith("the former program runs\n"), "rollback")

@@ -880,7 +880,7 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
     def test_without_a_simulation_there_are_no_events(self):
         self.begin('[rungctl]\nallow = ["set"]\n', [])
         done = subprocess.run([BIN / "rungctl", "event", "reset"], capture_output=True, text=True, env=self.host.environment)
-        self.assertIn("no control is simulated here; rung-run --simulate does it", done.stderr)
+        self.assertIn("this host does not simulate a control; use rung-run --simulate", done.stderr)
 
     def test_wrong_configurations_end_it(self):
         for options, status, text in ((["--config", "a=b"], USAGE, "--simulate"),

@@ -244,7 +244,7 @@ class Mistakes(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             program = Path(folder) / "p.pmc"
             program.write_text("dialect gsk\nFUNC END1\nFUNC END2\n")
-            self.refused(["--com", "1=/dev/null"], USAGE, "are for programs of TECHNOL; this one is of gsk", program)
+            self.refused(["--com", "1=/dev/null"], USAGE, "are only for programs of TECHNOL; this one is of gsk", program)
 
 
 if __name__ == "__main__":

@@ -108,7 +108,7 @@ class ForcesWithoutIr(Forcing):
     build_options = ("--no-ir",)
 
     def test_it_is_refused(self):
-        self.assertIn("the program stuck writes a cell that is to be forced: it carries no IR: it was built with --no-ir",
+        self.assertIn("rungs of stuck write a variable that is to be forced: it carries no IR: it was built with --no-ir",
                       self.ctl("force", "Y0.0", "true", status=WRONG))
         self.ctl("force", "X0.0", "true")
         self.wait(lambda: self.get("Y0.0"))
@@ -136,23 +136,23 @@ class ForcesThatTakeTime(Forcing):
         before = self.passes()
         self.wait(lambda: self.passes() > before + 5)
         for words in (("force", "X0.0", "true"), ("unforce", "X0.0")):
-            self.assertIn("the code for another force is being made", self.ctl(*words, status=WRONG))
+            self.assertIn("another force is being compiled", self.ctl(*words, status=WRONG))
         self.assertEqual(self.ctl("forced"), "nothing is forced\n")
         self.assertEqual(self.ctl("unforce", "--all"), "nothing was forced\n")
-        self.assertEqual(self.refused(), "all forces have been ended meanwhile")
+        self.assertEqual(self.refused(), "all forces have been released in the meantime")
         self.ctl("force", "X0.0", "true")
 
     def test_a_stop(self):
         self.ctl("stop")
-        self.assertEqual(self.refused(), "the program has been stopped meanwhile: forces have ended")
+        self.assertEqual(self.refused(), "the program has been stopped in the meantime; all forces have ended")
 
     def test_a_fault(self):
         self.ctl("set", "X0.1", "1")
-        self.assertEqual(self.refused(), "the program has stopped meanwhile: forces have ended")
+        self.assertEqual(self.refused(), "the program has stopped in the meantime; all forces have ended")
 
     def test_a_reload(self):
         self.ctl("reload", self.program)
-        self.assertEqual(self.refused(), "another program has taken over meanwhile: forces have ended")
+        self.assertEqual(self.refused(), "another program has taken over in the meantime; all forces have ended")
 
     def test_who_has_asked_goes_away(self):
         self.asking[0].shutdown(socket.SHUT_RDWR)
@@ -187,10 +187,10 @@ class BrokenForceCompilers(Forcing):
         done = '; os.write(3, b"compiled\\n")'
         for body, error in (("image(b'junk' * 1000)" + done, "it is not an ELF"),
                             ("pass" + done, "it is not sealed, so others could still change it"),
-                            ("image(good[:-1])" + done, "cannot load the code with the forced cells: "),
+                            ("image(good[:-1])" + done, "cannot load the code with the forced variables: "),
                             (f"image(open({str(self.other)!r}, 'rb').read())" + done, "made code of another program"),
                             (f"image(open({str(self.larger)!r}, 'rb').read())" + done, "chunks and"),
-                            ('os.write(3, b"hello\\n")', "the compiler process answered nothing known"),
+                            ('os.write(3, b"hello\\n")', "the compiler process gave an unknown answer"),
                             ('os.write(3, b"failed\\nno")', "to be forced: no"),
                             ("sys.exit(5)", "it ended with status 5")):
             self.assertIn(error, self.refused(body), body)
@@ -353,7 +353,7 @@ class ForceAttacks(Forcing):
 
     def test_files_that_are_not_the_programs(self):
         nothing = "it carries no IR: it was built with --no-ir, or by another linker"
-        another = "this compiler makes another program of its IR; compile it again"
+        another = "this compiler compiles its IR differently; compile it again"
         for data, error in (({"file": b""}, nothing), ({"file": self.file[:3000]}, nothing), ({"file": bytes(1 << 20)}, nothing),
                             ({"file": self.bare}, nothing), ({"file": self.other}, another), ({"hashes": bytes(16)}, another)):
             self.assertEqual(self.refused(self.packed(**data)), error)
@@ -368,8 +368,8 @@ class ForceAttacks(Forcing):
 
     def test_ir_that_is_not_the_programs(self):
         self.assertEqual(self.process(self.packed(file=self.with_ir(self.ir)), "--forces")[0], "compiled")
-        for text, size, error in ((b"", None, "its IR is of another version; compile it again"),
-                                  (b"rung-ir 2" + self.ir[9:], None, "its IR is of another version; compile it again"),
+        for text, size, error in ((b"", None, "its IR has another version; compile it again"),
+                                  (b"rung-ir 2" + self.ir[9:], None, "its IR has another version; compile it again"),
                                   (self.ir, 2**62, "its IR is damaged"), (self.ir, 5, "its IR is damaged"),
                                   (self.ir, 2**30, "its IR is damaged"),
                                   (self.ir + b"?", None, "its IR cannot be read: "),

@@ -147,16 +147,16 @@ class Commands(Host):
         self.assertEqual(self.ctl("hosts"), "plc\n")
 
     def test_set_and_get(self):
-        self.assertEqual(self.ctl("set", "D8:2", "500"), "D8:2 = 500, before 0\n")
+        self.assertEqual(self.ctl("set", "D8:2", "500"), "D8:2 = 500 (was 0)\n")
         self.assertEqual(self.ctl("get", "D8:2", "X0.1"), "D8:2 = 500\nX0.1 = false\n")
-        self.assertEqual(self.ctl("set", "D8:2", "0x10"), "D8:2 = 16, before 500\n")
-        self.assertEqual(self.ctl("set", "D8:2", "-1"), "D8:2 = -1, before 16\n")
+        self.assertEqual(self.ctl("set", "D8:2", "0x10"), "D8:2 = 16 (was 500)\n")
+        self.assertEqual(self.ctl("set", "D8:2", "-1"), "D8:2 = -1 (was 16)\n")
         self.assertIn("found 65536 for D8:2, expected at most 65535", self.ctl("set", "D8:2", "65536", status=WRONG))
         self.assertIn("found -32769 for D8:2, expected at least -32768", self.ctl("set", "D8:2", "-32769", status=WRONG))
         self.assertIn('found "on" for X0.3, expected true or false', self.ctl("set", "X0.3", "on", status=WRONG))
         self.assertIn("NOWHERE is not a name of the program stuck", self.ctl("set", "NOWHERE", "1", status=WRONG))
-        self.assertIn("X0.2 is never set or forced here", self.ctl("set", "X0.2", "1", status=WRONG))
-        self.assertIn("X0 is never set or forced here", self.ctl("set", "X0", "4", status=WRONG))  # that bit is in it
+        self.assertIn("X0.2 is protected by the mapping file", self.ctl("set", "X0.2", "1", status=WRONG))
+        self.assertIn("X0 is protected by the mapping file", self.ctl("set", "X0", "4", status=WRONG))  # that bit is in it
         self.assertEqual(self.get("D8:2"), -1)
         changes = re.findall(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d \S+ \(user \d+, process \d+\): (.*)", self.logged())
         self.assertEqual(changes, ["set D8:2 from 0 to 500", "set D8:2 from 500 to 16", "set D8:2 from 16 to -1"])
@@ -203,7 +203,7 @@ class Commands(Host):
         self.ctl("force", "D8:2", "9")
         names = {force["name"]: force["value"] for force in json.loads(self.ctl("forced", "--json"))["forced"]}
         self.assertEqual(names, {"X0.0": True, "D8:2": 9})
-        self.assertIn("X0.2 is never set or forced here", self.ctl("force", "X0.2", "1", status=WRONG))
+        self.assertIn("X0.2 is protected by the mapping file", self.ctl("force", "X0.2", "1", status=WRONG))
         self.assertEqual(self.ctl("unforce", "X0.0"), "X0.0 is no longer forced\n")
         self.wait(lambda: not self.get("Y0.0"))
         self.assertIn("X0.0 is not forced", self.ctl("unforce", "X0.0", status=WRONG))
@@ -260,7 +260,7 @@ class Commands(Host):
         self.ctl("reload", other)
         self.assertIn("program other,", self.ctl("status"))
         self.ctl("set", "X0.4", "1")
-        self.wait(lambda: "stopped by a fault of other, which ran then: dead-loop (rung " in self.ctl("status"))
+        self.wait(lambda: "stopped by a fault of other, which was running then: dead-loop (rung " in self.ctl("status"))
         self.assertIn("program stuck,", self.ctl("status"))
         self.wait(lambda: "the program other has stopped: dead-loop" in self.ctl("messages"))
         self.assertIn("; then stuck runs\n", self.ctl("messages"))
@@ -274,7 +274,7 @@ class Commands(Host):
     def test_a_program_that_faults_at_once(self):
         other = self.program_with("LD   X0.1", "LDI  X0.4")
         for _ in range(5):
-            self.assertIn("the new program has stopped at once, and the former one is back", self.ctl("reload", other, status=WRONG))
+            self.assertIn("the new program stopped at once with a fault, and the former one is back", self.ctl("reload", other, status=WRONG))
             self.ctl("reset")
             self.wait(lambda: "\nrunning: " in self.ctl("status"))
 
@@ -282,7 +282,7 @@ class Commands(Host):
         self.ctl("stop")
         self.assertTrue(self.ctl("reload", self.program).endswith("the new program is stopped\n"))
         self.assertTrue(self.ctl("rollback").endswith("the former program is stopped\n"))
-        self.assertIn("is stopped by the operator: nothing of it could be compared", self.ctl("reload", self.program, "--shadow", "3", status=WRONG))
+        self.assertIn("the operator has stopped the program, so there is nothing to compare", self.ctl("reload", self.program, "--shadow", "3", status=WRONG))
 
     def shadowed(self):
         made, lines = self.connect()
@@ -299,11 +299,11 @@ class Commands(Host):
     def test_a_shadow_is_its_clients(self):
         made, ask = self.shadowed()
         self.assertIn(ask(do="compared")["state"], ("prepared", "running"))
-        self.assertIn("another client has a program run beside this one", self.ctl("reload", self.program, "--shadow", "3", status=WRONG))
+        self.assertIn("another client is running a shadow", self.ctl("reload", self.program, "--shadow", "3", status=WRONG))
         other, lines = self.connect()
         lines.readline()
         other.sendall(b'{"do":"compared"}\n')
-        self.assertIn("no program runs beside this one", lines.readline())
+        self.assertIn("there is no shadow", lines.readline())
         self.ctl("stop")
         self.assertEqual(ask(do="compared")["state"], "stopped")
         self.ctl("start")
@@ -327,7 +327,7 @@ class Commands(Host):
         self.wait(lambda: "stopped by a fault: dead-loop (rung " in self.ctl("status"))
         other = self.program_with("LD   X0.1", "LD   X0.4")
         self.assertTrue(self.ctl("reload", other, "--yes").endswith("the new program waits for a reset\n"))
-        self.assertIn("program other, dialect gsk\nstopped by a fault of stuck, which ran then: dead-loop (rung 2, ", self.ctl("status"))
+        self.assertIn("program other, dialect gsk\nstopped by a fault of stuck, which was running then: dead-loop (rung 2, ", self.ctl("status"))
         self.assertTrue(self.ctl("rollback").endswith("the former program waits for a reset\n"))
 
     def test_a_reload_names_the_forces_that_it_ends(self):
@@ -352,7 +352,7 @@ class Commands(Host):
         self.ctl("reload", self.program, "--shadow", "0", status=USAGE)
         faulty = self.program_with("LD   X0.1", "LDI  X0.4")
         text = self.ctl("reload", faulty, "--shadow", "25", "--yes", status=WRONG)
-        self.assertIn("the new program has stopped in the comparison; nothing has changed", text)
+        self.assertIn("the new program stopped with a fault during the comparison; nothing has changed", text)
         self.assertIn("running", self.ctl("status"))
 
     def test_a_compiled_program_beside_sources_is_refused(self):
@@ -419,7 +419,7 @@ class Commands(Host):
         for words in (("force", "D8:2", "1"), ("stop",), ("start",)):
             self.assertIn("stopped", self.ctl(*words, status=WRONG))
         self.assertEqual(self.ctl("set", "D8:2", "9"),
-                         "D8:2 = 9, before 5\na fault has stopped the program: the reset keeps what is set now of inputs alone\n")
+                         "D8:2 = 9 (was 5)\na fault has stopped the program: only inputs that are set now survive the reset\n")
 
     def test_a_watched_name_that_is_gone(self):
         watching = subprocess.Popen([BIN / "rungctl", "watch", "GUARD", "Y0.0"], env=self.environment, text=True,
@@ -775,11 +775,11 @@ class Protected(Host):
         moved = self.home / "moved.pmc"
         moved.write_text(PROGRAM.replace("symbol GUARD X0.2", "symbol GUARD X0.4"))
         subprocess.run([BIN / "rungc", "build", "-q", moved, "-o", self.home / "moved.so"], check=True)
-        self.assertIn("X0.2 is never set or forced here", self.ctl("set", "X0.2", "1", status=WRONG))
+        self.assertIn("X0.2 is protected by the mapping file", self.ctl("set", "X0.2", "1", status=WRONG))
         self.ctl("set", "X0.4", "0")
         self.ctl("reload", self.home / "moved.so", "--yes")
         for words in (("set", "X0.4", "1"), ("force", "X0.4", "1"), ("set", "GUARD", "1")):
-            self.assertIn("is never set or forced here", self.ctl(*words, status=WRONG))
+            self.assertIn("is protected by the mapping file", self.ctl(*words, status=WRONG))
         self.ctl("set", "X0.2", "0")
 
 
@@ -802,8 +802,8 @@ class Named(Host):
 
     def test_a_pin_whose_cell_moves(self):
         moved = self.program_with("symbol GO X0.0", "symbol GO X0.5")
-        self.assertIn("pins lose or change their cells: pin run: GO moves from X0.0 to X0.5; nothing has changed; "
-                      "with --yes it is done all the same", self.ctl("reload", moved, status=WRONG))
+        self.assertIn("pins lose or change their variables: pin run: GO moves from X0.0 to X0.5; nothing has changed; "
+                      "use --yes to do it anyway", self.ctl("reload", moved, status=WRONG))
         self.assertIn("program stuck,", self.ctl("status"))
         self.assertIn("pin run: GO moves from X0.0 to X0.5\n", self.ctl("reload", moved, "--yes"))
         self.assertIn("X0.5 is written before every slice by pin run", self.ctl("set", "X0.5", "1", status=WRONG))
@@ -1095,7 +1095,7 @@ class Protocol(Host):
         done = subprocess.run([BIN / "rung-run", self.program, self.home / "plc.map", "--name", "plc"], capture_output=True,
                               text=True, env=self.environment, timeout=patience())
         self.assertEqual(done.returncode, ENVIRONMENT)
-        self.assertIn("plc.sock: another host has the name plc; give this one another", done.stderr)
+        self.assertIn("plc.sock: another host is called plc; choose another name", done.stderr)
         self.ctl("status")
 
 

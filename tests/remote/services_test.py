@@ -207,7 +207,7 @@ class Services(Provider):
         provider = self.provider()
         other = self.connect()
         other[1].readline()
-        self.assertIn("somebody else serves this program already", self.ask(other, do="serve")["error"])
+        self.assertIn("another client already serves this program", self.ask(other, do="serve")["error"])
         for request in ({"do": "live", "machine": [], "line": 0}, {"do": "served", "ticket": 1, "outcome": "done"}):
             self.assertIn("this connection does not serve the program", self.ask(other, **request)["error"])
         self.assertTrue(self.ask(provider, do="serve")["ok"])
@@ -415,7 +415,7 @@ class GskAxes(Provider):
         self.assertFalse(self.get("EIALA"))
         provider[0].shutdown(socket.SHUT_RDWR)
         self.wait(lambda: self.get("EIALA"))
-        self.assertIn("nobody serves the program any more: the connection has ended", self.ctl("messages"))
+        self.assertIn("the program is no longer served: the connection has ended", self.ctl("messages"))
         provider = self.provider()
         self.assertIn("the program is served again", self.ctl("messages"))
         self.assertTrue(self.get("EIALA"))

@@ -162,7 +162,7 @@ class Reload(SourceHost):
         self.assertIn("have not been compiled", self.ask(connection, do="compiled")["error"])
         self.assertIn("no program has been compiled", self.ask(connection, do="reload", compiled=True)["error"])
         other = self.connected()
-        self.assertIn("another client has a program compiled here", self.send(other, b"x")["error"])
+        self.assertIn("another client is compiling a program here", self.send(other, b"x")["error"])
         self.ask(connection, do="compile")
         self.assertIn("already", self.ask(connection, do="compile")["error"])
         self.assertEqual(self.result(connection)["report"], "found bytes that are not sources, or not all of them")
@@ -353,7 +353,7 @@ class BrokenCompilers(SourceHost):
     def test_answers_that_are_none(self):
         for body, error in (("pass", "the compiler process failed: it ended with status 0"),
                             ("sys.exit(5)", "the compiler process failed: it ended with status 5"),
-                            ('os.write(3, b"hello\\n")', "the compiler process answered nothing known"),
+                            ('os.write(3, b"hello\\n")', "the compiler process gave an unknown answer"),
                             ('os.write(3, b"compiled")', "the compiler process failed: it ended with status 0"),
                             ('image(good); os.write(3, b"compiled\\n"); os.kill(os.getpid(), 11)', "it was ended by the signal Segmentation fault"),
                             ("os.kill(os.getpid(), 6)", "the program may need more than 2048 MB to be compiled"),

@@ -20,7 +20,7 @@ struct Maker {
 Result<std::unique_ptr<ForcedCode>> forcedCode(const Maker& maker, const rung_program& program, void* engine,
                                                std::span<const rung_forced_byte> forced) {
   const Result<const Compiled*> compiled = maker.compiled();
-  if (!compiled.ok()) return failure("the program writes a cell that is to be forced, and " + compiled.error());
+  if (!compiled.ok()) return failure("rungs write a variable that is to be forced, and " + compiled.error());
   return makeForcedCode(*compiled.value(), maker.kind, maker.options, program, engine, forced);
 }
 

@@ -76,7 +76,7 @@ Result<Compiled> irOf(std::string_view object, const Hashes& program) {
   if (!text) return failure("its IR is damaged");
   std::string_view rest = *text;
   Compiled out;
-  if (!takeHead(rest, out.passes)) return failure("its IR is of another version; compile it again");
+  if (!takeHead(rest, out.passes)) return failure("its IR has another version; compile it again");
   ir::ParseOutcome parsed = ir::parse(rest);
   if (!parsed.module) return failure("its IR cannot be read: " + parsed.error.message);
   if (!ir::verify(*parsed.module, ir::Mode::Built).empty()) return failure("its IR is not valid");
@@ -87,7 +87,7 @@ Result<Compiled> irOf(std::string_view object, const Hashes& program) {
   out.layout = std::make_unique<ir::Layout>(ir::Layout(*out.shape, {}).over(*out.module));
   out.codeHash = ir::hashOf(*out.module);
   if (Hashes{out.codeHash, out.layout->memory().hash()} != program)
-    return failure("this compiler makes another program of its IR; compile it again");
+    return failure("this compiler compiles its IR differently; compile it again");
   return out;
 }
 

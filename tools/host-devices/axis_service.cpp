@@ -81,8 +81,8 @@ void AxisService::report(std::vector<std::string>& lines) {
       if ((fresh >> i & 1) != 0) lines.push_back(std::string(nameOf(static_cast<AxisOrder>(i))) + sentence);
   };
   add(refused_, refusedReported_,
-      positioned_.added() == 0 ? ": this host moves no axes for the program; the instruction is refused"
-                               : ": this host moves no such axis for the program; the instruction is refused");
+      positioned_.added() == 0 ? ": this host cannot move axes for the program; the instruction is refused"
+                               : ": this host cannot move this axis for the program; the instruction is refused");
   positioned_.report(lines);
   add(outOfRange_, outOfRangeReported_, ": an axis, port or role is out of range; nothing is done");
 }

@@ -88,8 +88,7 @@ void DeviceReport::losses(std::vector<std::string>& lines) {
     if (isFull && !wasFull)
       lines.push_back(channelName(channel) + ": the queue of the interface is full, packets wait");
     if (isUnheard && !wasUnheard)
-      lines.push_back(channelName(channel) + ": no device acknowledges what is sent; check that one is connected, has "
-                                             "power and has the bit rate of the interface");
+      lines.push_back(channelName(channel) + ": no device acknowledges packets; check connection, power and bit rate");
   }
   for (uint32_t port = 0; port < portLosses_.size(); ++port) {
     const uint32_t now = devices_.ports[port].lostBytes();

@@ -232,7 +232,8 @@ void HostDevices::Machine::openPorts() {
 Instance HostDevices::instance(const Image& image, const rung_instance_options& options) {
   const rung_program& program = image.program();
   if (std::string_view(program.dialect) != "technol")
-    throw std::runtime_error("devices are for programs of TECHNOL; this one is of " + std::string(program.dialect));
+    throw std::runtime_error("devices are only for programs of TECHNOL; this one is of " +
+                             std::string(program.dialect));
   if (std::string wrong = machine_->devices.tables.load(); !wrong.empty())
     machine_->warnings.push_back(std::move(wrong));
   machine_->openChannels();

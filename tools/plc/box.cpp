@@ -76,7 +76,7 @@ std::unique_ptr<Box> Box::make(const Image& image, mapping::File map, const Opti
   const int32_t status = box->start(problem);
   warnings = std::move(box->logged_);
   for (const mapping::Pin& pin : box->map_.pins)
-    if (pin.holds) warnings.push_back("pin " + pin.name + " holds its last value where the program does not run");
+    if (pin.holds) warnings.push_back("pin " + pin.name + " holds its last value while the program does not run");
   if (status < RUNG_OK) throw Error(status, problem.c_str());
   return box;
 }
@@ -406,9 +406,9 @@ OrderSlot::Outcome Box::obey(Order& order) noexcept {
     if (ending_) return {RUNG_WRONG_STATE, "the program is being switched off"};
     if (now == State::Running)
       return {RUNG_WRONG_STATE, (state().flags & RUNG_STATE_STOPPED) != 0
-                                    ? "the operator has stopped the program; a start lets it run on"
-                                    : "the program runs; a reset restarts one that a fault has stopped"};
-    if (!restartable_) return {RUNG_LATER, "axes of the program still move"};
+                                    ? "the operator has stopped the program; start continues it"
+                                    : "the program is running; a reset is needed only after a fault"};
+    if (!restartable_) return {RUNG_LATER, "axes of the program are still moving"};
     state_.store(State::Restarting, std::memory_order_release);
     return {};
   }

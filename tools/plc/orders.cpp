@@ -35,7 +35,7 @@ void OrderSlot::post(const Order& order) {
 Answer OrderSlot::take(Order& order) {
   if (!isDone() && withdraw()) {
     if (status_ == RUNG_LATER) return {RUNG_LATER, problem_};
-    return {RUNG_FAILED, "the thread that scans the program does not run"};
+    return {RUNG_FAILED, "the scan thread does not run"};
   }
   order = order_;
   const Answer answer{status_, problem_};

@@ -61,7 +61,7 @@ std::optional<std::string> Connection::line() {
 
 void Connection::send(std::string_view line) {
   if (ended_) return;
-  if (out_.size() + line.size() > kLongestAnswer) return end("the other side does not take what is sent");
+  if (out_.size() + line.size() > kLongestAnswer) return end("the other side does not read its data");
   out_ += line;
   out_ += '\n';
   sendMore();

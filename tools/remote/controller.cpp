@@ -469,7 +469,7 @@ json Controller::watch(const Peer& peer, const json& request) {
 
 std::string Controller::whyNoScanEnds() {
   const std::optional<rung_state> now = stateNow();
-  if (!now) return "the thread that scans the program does not run";
+  if (!now) return "the scan thread does not run";
   if (const std::optional<rung_fault_info> fault = box_.running() ? std::nullopt : box_.fault())
     return std::string("the program has not finished a scan: it is stopped by a fault: ") + fault->text;
   if ((now->flags & RUNG_STATE_STOPPED) != 0)
@@ -628,7 +628,7 @@ void Controller::refuseProtected(const std::string& name) const {
     const std::vector<Range> kept = rangesOf(cell.name);
     if (kept.empty()) throw Refused("whether " + name + " is protected is not known: " + cell.name + " is not found");
     if (shareOf(cell.name, wanted) != Share::None)
-      throw Refused(name + " is never set or forced here: the mapping file says so ([rungctl] never)");
+      throw Refused(name + " is protected by the mapping file ([rungctl] never)");
   }
 }
 
@@ -701,13 +701,13 @@ json Controller::set(const Peer& peer, const json& request) {
   logChange(peer, "set " + name + " from " + shown(type, done.former) + " to " + shown(type, value));
   json answer = {{"name", name}, {"former", toJson(type, done.former)}, {"value", toJson(type, value)}};
   if ((done.state.flags & RUNG_STATE_FAULTED) != 0)
-    note = "a fault has stopped the program: the reset keeps what is set now of inputs alone";
+    note = "a fault has stopped the program: only inputs that are set now survive the reset";
   if (!note.empty()) answer["note"] = note;
   return answer;
 }
 
 json Controller::event(const Peer& peer, const json& request) {
-  if (!simulation_) throw Refused("no control is simulated here; rung-run --simulate does it");
+  if (!simulation_) throw Refused("this host does not simulate a control; use rung-run --simulate");
   const json keys = request.value("keys", json::object());
   if (!keys.is_object() || !std::ranges::all_of(keys, [](const json& v) { return v.is_string() || v.is_number(); }))
     throw Refused("found no object \"keys\" of texts and numbers in the request, expected one");
@@ -749,7 +749,7 @@ std::vector<Controller::HeldCell> Controller::heldCells() {
 
 void Controller::refuseWhilePending() const {
   if (pending_ != nullptr)
-    throw Refused("the code for another force is being made; try again when it is done, or end all: unforce --all");
+    throw Refused("another force is being compiled; try again later, or release all: unforce --all");
 }
 
 // Nothing: the compiler is at work on its code.
@@ -792,13 +792,13 @@ void Controller::refusePending(const std::string& why) {
 void Controller::finishPending(Sink& sink) {
   if (pending_ == nullptr) return;
   if (pending_->refused.empty() && !box_.running())
-    refusePending("the program has stopped meanwhile: forces have ended");
+    refusePending("the program has stopped in the meantime; all forces have ended");
   json answer = pending_->answer;
   try {
     if (!pending_->refused.empty()) throw Refused(pending_->refused);
     std::optional<Forces> forces = prepared(*pending_);
     if (!forces) return;
-    if (heldCells() != pending_->before) throw Refused("forces have ended meanwhile, and are not put in effect again");
+    if (heldCells() != pending_->before) throw Refused("forces have ended in the meantime and are not applied again");
     putInEffect(*pending_, std::move(*forces));
     answer["ok"] = true;
   } catch (const std::exception& problem) {
@@ -821,7 +821,7 @@ json Controller::force(const Peer& peer, const json& request) {
   std::vector<HeldCell> before = heldCells();
   std::vector<HeldCell> cells = {{name, peer.name, value}};
   std::ranges::copy_if(before, std::back_inserter(cells), [&](const HeldCell& cell) { return cell.name != name; });
-  if (cells.size() > kMostForces) throw Refused("64 cells are forced already; end a force first");
+  if (cells.size() > kMostForces) throw Refused("64 variables are already forced; release one first");
   return begin({.peer = peer,
                 .before = std::move(before),
                 .cells = std::move(cells),
@@ -833,7 +833,7 @@ json Controller::unforce(const Peer& peer, const json& request) {
   const bool all = flagOf(request, "all");
   const std::string name = all ? "" : textOf(request, "name");
   if (all)
-    refusePending("all forces have been ended meanwhile");
+    refusePending("all forces have been released in the meantime");
   else
     refuseWhilePending();
   std::vector<HeldCell> before = heldCells();
@@ -971,14 +971,14 @@ json Controller::reload(const Peer& peer, const json& request) {
   if ((!lost.empty() || !pins.moved.empty()) && !flagOf(request, "yes")) {
     report["ok"] = false;
     report["needs"] = "yes";
-    report["error"] = (pins.moved.empty() ? "" : "pins lose or change their cells: " + joined(pins.moved, "; ")) +
+    report["error"] = (pins.moved.empty() ? "" : "pins lose or change their variables: " + joined(pins.moved, "; ")) +
                       (pins.moved.empty() || lost.empty() ? "" : "; ") +
                       (lost.empty() ? "" : "the new program loses state: " + lost);
     return report;
   }
   if (flagOf(request, "late")) check(rung_replacement_allow_late(made));
-  report =
-      putInPlace(made, pins.dead, std::move(report), "another program has taken over meanwhile: forces have ended");
+  report = putInPlace(made, pins.dead, std::move(report),
+                      "another program has taken over in the meantime; all forces have ended");
   replacement_ = std::move(replacement);
   learnSymbols(image.program());
   logChange(peer, "reload " + next.text + endedForces());
@@ -997,9 +997,9 @@ json Controller::shadow(const Peer& peer, const json& request) {
   if (passes == request.end() || !passes->is_number_unsigned() || *passes == 0 || *passes > kMostShadowPasses)
     throw Refused("found no number \"passes\" from 1 to 100000 in the request, expected one");
   if (shadow_ != nullptr && shadowsFor_ != peer.number)
-    throw Refused("another client has a program run beside this one; try again when it is done");
+    throw Refused("another client is running a shadow; try again when it has ended");
   if (const std::optional<rung_state> now = stateNow(); now && (now->flags & RUNG_STATE_STOPPED) != 0)
-    throw Refused("the program is stopped by the operator: nothing of it could be compared; start it first");
+    throw Refused("the operator has stopped the program, so there is nothing to compare; start it first");
   const NextProgram next = nextProgram(peer, request);
   endShadow();
   rung_shadow* made = nullptr;
@@ -1015,8 +1015,7 @@ json Controller::shadow(const Peer& peer, const json& request) {
 
 json Controller::compared(const Peer& peer, const json&) {
   if (shadow_ != nullptr && shadowsFor_ == peer.number) return shadowReport();
-  if (compared_.is_null() || shadowsFor_ != peer.number)
-    throw Refused("no program runs beside this one; \"shadow\" begins one");
+  if (compared_.is_null() || shadowsFor_ != peer.number) throw Refused("there is no shadow; \"shadow\" starts one");
   return compared_;
 }
 
@@ -1064,7 +1063,8 @@ std::optional<rung_state> Controller::stateNow() {
 }
 
 json Controller::rollback(const Peer& peer, const json&) {
-  if (replacement_ == nullptr) throw Refused("no program has been reloaded, so there is none to go back to");
+  if (replacement_ == nullptr)
+    throw Refused("no program has been reloaded, so there is no former program to return to");
   std::string lost;
   const plc::Box::Losses pins = box_.lossesBy(replacement_.get());
   json report = reportOf(replacement_.get(), lost);
@@ -1073,7 +1073,7 @@ json Controller::rollback(const Peer& peer, const json&) {
   report["again"] = info.next == info.program; // the reloaded program, which a rollback has taken away
   report["pins"] = pins.moved;
   report = putInPlace(replacement_.get(), pins.dead, std::move(report),
-                      "the former program has taken over meanwhile: forces have ended");
+                      "the former program has taken over in the meantime; all forces have ended");
   report["program"] = running().name;
   logChange(peer, "rollback to " + report["program"].get<std::string>() + endedForces());
   return report;
@@ -1093,7 +1093,7 @@ json Controller::stop(const Peer& peer, const json&) {
     finishShadow(std::move(report));
   }
   logChange(peer, "stop" + endedForces());
-  refusePending("the program has been stopped meanwhile: forces have ended");
+  refusePending("the program has been stopped in the meantime; all forces have ended");
   return json::object();
 }
 json Controller::start(const Peer& peer, const json&) { return simple(Order::Kind::Start, peer, "start"); }

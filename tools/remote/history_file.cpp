@@ -38,7 +38,7 @@ void HistoryFile::read() {
   anew_ = true;
   size_ = text.size();
   const bool good = history_.read(text);
-  if (problem.empty() && !good && text.ends_with('\n')) problem = "there are lines in it that are not of a history";
+  if (problem.empty() && !good && text.ends_with('\n')) problem = "it has lines that do not belong to a history";
   if (!problem.empty()) failed_ = "cannot read " + path_ + ": " + problem;
 }
 

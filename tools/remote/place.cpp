@@ -32,7 +32,7 @@ void addPlaces(const std::string& path, std::vector<Place>& places) {
   const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir(path.c_str()), closedir);
   if (folder == nullptr && errno != ENOENT)
     throw std::runtime_error("cannot look for hosts in " + path + ": " + std::strerror(errno) +
-                             "; a host is reached by the user who has started it");
+                             "; only the user who started a host can reach it");
   if (folder == nullptr) return;
   while (const dirent* entry = readdir(folder.get())) {
     const std::string_view name = entry->d_name;
@@ -112,8 +112,8 @@ std::string prepareFolder(uid_t user) {
   if (mkdir(folder.c_str(), kHisAlone) != 0 && errno != EEXIST)
     throw std::runtime_error("cannot make the folder " + folder + ": " + std::strerror(errno));
   if (modeOfFolder(folder, user) != kHisAlone)
-    throw std::runtime_error(folder + " is not a folder that user " + std::to_string(user) +
-                             " alone may use: chmod 700 it, or name another one by RUNG_SOCKETS");
+    throw std::runtime_error(folder + " must be a folder that only user " + std::to_string(user) +
+                             " may use: chmod 700 it, or set RUNG_SOCKETS to another folder");
   return folder;
 }
 

@@ -67,7 +67,7 @@ Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(us
   path_ = socketPath(prepareFolder(user), host);
   const sockaddr_un address = socketAddress(path_);
   if (const std::string another = socketOf(user, host); isServed(another))
-    throw std::runtime_error(another + ": another host has the name " + host + "; give this one another");
+    throw std::runtime_error(another + ": another host is called " + host + "; choose another name");
   unlink(path_.c_str()); // of a host that was killed
   socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (socket_ < 0) refuse(path_);
@@ -98,7 +98,7 @@ void Server::serve(std::chrono::milliseconds wait) {
     if ((event->revents & POLLOUT) != 0) client.connection.sendMore();
     const bool isCalled = (event->revents & ~POLLOUT) != 0;
     if (isCalled && client.waits)
-      client.connection.end("the other side has not waited for its answer");
+      client.connection.end("the client did not wait for its answer");
     else if (isCalled || client.hasRequest())
       read(client);
     ++event;

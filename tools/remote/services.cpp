@@ -73,7 +73,7 @@ json eventOf(uint32_t ticket, const services::Operation& o) {
 json Services::serve(const Peer& peer, const json& request) {
   constexpr uint32_t kMostMs = 60'000;
   if (provider_ != 0 && provider_ != peer.number)
-    throw Refused("somebody else serves this program already; end that connection first");
+    throw Refused("another client already serves this program; end its connection first");
   aliveNs_ = request.contains("alive_ms") ? int64_t{numberOf(request, "alive_ms", kMostMs)} * 1'000'000 : 0;
   provider_ = peer.number;
   heard(peer);
@@ -124,7 +124,7 @@ void Services::gone(const Peer& peer) {
 void Services::lose(const std::string& why) {
   provider_ = 0;
   isLost_ = true;
-  reports_.push_back("nobody serves the program any more: " + why);
+  reports_.push_back("the program is no longer served: " + why);
   services::Live& live = box_.live();
   live.served.store(false, std::memory_order_release);
   live.known.store(false, std::memory_order_release);
@@ -148,7 +148,7 @@ void Services::checkService(Sink& sink) {
     waiting_.clear();
   } else if (aliveNs_ != 0 && silentNs > aliveNs_) {
     sink.send(provider_, {{"event", "unserved"}});
-    lose("the other side was silent for " + std::to_string(silentNs / 1'000'000) + " ms");
+    lose("the client was silent for " + std::to_string(silentNs / 1'000'000) + " ms");
   }
 }
 

@@ -44,7 +44,7 @@ void SourceDesk::begin(uint32_t owner) {
 void SourceDesk::takePlace(const Peer& peer) {
   const bool busy = compilation_ != nullptr && compilation_->state() == Compilation::State::Running;
   if (owner_ != 0 && owner_ != peer.number && (busy || Clock::now() < lastUse_ + kIdle))
-    throw Refused("another client has a program compiled here; try again when it is done");
+    throw Refused("another client is compiling a program here; try again when it has ended");
   begin(peer.number);
 }
 
@@ -58,7 +58,7 @@ json SourceDesk::sources(const Peer& peer, const json& request) {
     takePlace(peer);
   else
     require(peer);
-  if (compilation_ != nullptr) throw Refused("the sources are being compiled already; \"first\": true begins anew");
+  if (compilation_ != nullptr) throw Refused("the sources are already being compiled; \"first\": true starts again");
   if (packed_.size() + piece.size() > sources::kMostBytes) {
     begin(0);
     throw Refused("the sources have more than " + std::to_string(sources::kMostBytes) + " bytes, expected no more");
@@ -70,7 +70,7 @@ json SourceDesk::sources(const Peer& peer, const json& request) {
 
 json SourceDesk::compile(const Peer& peer, const json&) {
   require(peer);
-  if (compilation_ != nullptr) throw Refused("the sources are being compiled already");
+  if (compilation_ != nullptr) throw Refused("the sources are already being compiled");
   const size_t bytes = packed_.size();
   compilation_ = std::make_unique<Compilation>(std::exchange(packed_, {}));
   lastUse_ = Clock::now();

@@ -52,7 +52,7 @@ rung_value fromJson(uint32_t type, const json& value, const std::string& name) {
     return made;
   }
   const uint32_t bits = elementBits(type);
-  if (!value.is_number_integer()) refuse("an integer, because the cell has " + std::to_string(bits) + " bits");
+  if (!value.is_number_integer()) refuse("an integer, because the variable has " + std::to_string(bits) + " bits");
   if (value.is_number_unsigned()) {
     const auto number = value.get<uint64_t>();
     if (bits < 64 && number >> bits != 0) refuse("at most " + std::to_string((uint64_t{1} << bits) - 1));

@@ -48,8 +48,7 @@ RTAPI_MP_ARRAY_STRING(names, kMostInstances, "prefixes of the pins and functions
 static char* so[kMostInstances];
 RTAPI_MP_ARRAY_STRING(so, kMostInstances, "compiled program of each instance, or one for all, absolute path");
 static char* source[kMostInstances];
-RTAPI_MP_ARRAY_STRING(source, kMostInstances,
-                      "in the place of so: source file or project, which is compiled at the start");
+RTAPI_MP_ARRAY_STRING(source, kMostInstances, "instead of so: source file or project, compiled at the start");
 static char* map[kMostInstances];
 RTAPI_MP_ARRAY_STRING(map, kMostInstances, "mapping file of each instance, or one for all, absolute path");
 static char* retain[kMostInstances];
@@ -189,9 +188,8 @@ plc::Box::NewInstance withDevices(PlcInstance& c, const Image& image, mapping::F
 }
 
 std::string apartText(const PlcInstance& c) {
-  return c.prefix + ".fast and " + c.prefix +
-         ".scan are in different threads, but work on the memory of one program; " +
-         "add both to one thread (addf), and start again";
+  return c.prefix + ".fast and " + c.prefix + ".scan are in different threads, but share the memory of one program; " +
+         "add both to one thread (addf) and restart";
 }
 
 // False: what is wrong has been reported.

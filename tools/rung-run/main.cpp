@@ -213,7 +213,7 @@ plc::Box::NewInstance surroundingsOf(const Options& options, const Image& image,
     return [&simulation](const Image& of, const rung_instance_options& with) { return simulation->instance(of, with); };
   }
   if (!isOfTechnol(image)) return {};
-  mapping::refuseAxes(map, "rung-run: LinuxCNC alone moves axes", errors);
+  mapping::refuseAxes(map, "rung-run: axes are only moved in LinuxCNC", errors);
   devices.set(map, errors);
   setDevices(devices, options); // they go before the map
   return [&devices](const Image& of, const rung_instance_options& with) { return devices.instance(of, with); };
@@ -236,7 +236,7 @@ int run(const Options& options) try {
   const Image image = imageOf(options);
   if (!options.simulate && namesDevices(options) && !isOfTechnol(image))
     throw rung_run::WrongOption(
-        "--can, --com, --sa-file, and --config without --simulate are for programs of TECHNOL; this one is of " +
+        "--can, --com, --sa-file, and --config without --simulate are only for programs of TECHNOL; this one is of " +
         std::string(image.program().dialect));
   std::vector<std::string> errors, warnings;
   mapping::File map = mapping::loadMap(options.map, errors);
@@ -276,7 +276,7 @@ int run(const Options& options) try {
 int main(int argc, char** argv) {
   cli::CommandLine app(
       {.name = "rung-run",
-       .description = "Run a PLC program on the machine's clock, with the pins of a mapping file",
+       .description = "Run a PLC program on the computer's clock, with the pins of a mapping file",
        .exitStatus = "0 ok, 1 the mapping file is wrong, 2 wrong usage, 3 a file, the program or the system",
        .guide = "docs/rung-run.md",
        .seeAlso = {"rungctl(1)", "rungc(1)", "rung-map(5)", "rung_hal(9)"}});
@@ -333,7 +333,7 @@ int main(int argc, char** argv) {
   int status = cli::kOk;
   cli::addUsage(app, status);
   const std::optional<int> decided = app.run(argc, argv, [](const cli::WrongWords& words) {
-    print(words.text + "; `rung-run --help` shows what it takes");
+    print(words.text + "; see `rung-run --help`");
     return cli::kUsage;
   });
   return decided ? *decided : run(options);

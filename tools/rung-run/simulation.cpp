@@ -11,7 +11,7 @@ namespace {
 
 MakeSimulation load() {
   static const host::Plugin plugin(kSimulationPlugin, simulationBuild());
-  if (!plugin.ok()) throw std::runtime_error("no control can be simulated: " + plugin.problem());
+  if (!plugin.ok()) throw std::runtime_error("cannot simulate the control: " + plugin.problem());
   return plugin.function<MakeSimulation>(kMakeSimulation);
 }
 

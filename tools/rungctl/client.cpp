@@ -28,7 +28,8 @@ namespace {
 std::string strangerOf(int made) {
   ucred who{};
   socklen_t size = sizeof who;
-  if (getsockopt(made, SOL_SOCKET, SO_PEERCRED, &who, &size) != 0) return "does not say whose it is";
+  if (getsockopt(made, SOL_SOCKET, SO_PEERCRED, &who, &size) != 0)
+    return "does not identify its owner, and is not used";
   if (geteuid() == 0 || who.uid == geteuid() || who.uid == 0) return {};
   return "belongs to user " + std::to_string(who.uid) + ", and is not used";
 }
@@ -61,7 +62,7 @@ Reached reach(const std::string& host) {
     if (const int made = connected(path); made >= 0) return reachedBy(host, made);
     if (problem.empty()) problem = "cannot reach a host at " + path + ": " + std::strerror(errno);
   }
-  throw std::runtime_error(problem + "; is it running, and yours?");
+  throw std::runtime_error(problem + "; is it running, and started by you?");
 }
 
 // A host is connected with once: to look first whether it is there would make it serve two.
@@ -76,7 +77,8 @@ Reached reachTheOnlyOne() {
   std::vector<std::string> hosts;
   for (Reached& one : reached) hosts.push_back(std::move(one.host));
   std::ranges::sort(hosts);
-  throw std::runtime_error(fmt::format("several hosts are running; choose one by --host: {}", fmt::join(hosts, ", ")));
+  throw std::runtime_error(
+      fmt::format("several hosts are running; choose one with --host: {}", fmt::join(hosts, ", ")));
 }
 
 } // namespace

@@ -77,8 +77,8 @@ std::string stopOf(const json& answer) {
   const std::string fault = answer.value("fault", "");
   const std::string faulty = answer.value("fault_of", "");
   const std::string problem = answer.value("restart_problem", "");
-  return fmt::format("stopped by a fault{}: {}\n{}", faulty.empty() ? "" : " of " + faulty + ", which ran then", fault,
-                     problem.empty() ? "" : "the last restart has failed: " + problem + "\n");
+  return fmt::format("stopped by a fault{}: {}\n{}", faulty.empty() ? "" : " of " + faulty + ", which was running then",
+                     fault, problem.empty() ? "" : "the last restart has failed: " + problem + "\n");
 }
 
 // M, S and T functions on their way to the program: a line each, the oldest first.
@@ -95,7 +95,7 @@ std::string functionsOf(const json& answer) {
                         one.value("late", false) ? ", longer than the timeout of the mapping file" : "");
   }
   const auto count = functions.value("count", uint64_t{0});
-  if (count > oldest.size()) text += fmt::format("and {} functions more\n", count - oldest.size());
+  if (count > oldest.size()) text += fmt::format("and {} more functions\n", count - oldest.size());
   const auto lost = functions.value("lost", uint64_t{0});
   if (lost != 0) text += fmt::format("functions lost since the host started: {}\n", lost);
   return text;
@@ -115,7 +115,7 @@ int status(Client& client, const Words& words) {
   std::string text = fmt::format("host {}, program {}, dialect {}\n", shown(answer["host"]), shown(answer["program"]),
                                  shown(answer["dialect"]));
   if (answer.value("powered_off", false))
-    text += "switched off: the program has had its regular end\n";
+    text += "switched off: the program has ended regularly\n";
   else if (answer.contains("not_run"))
     text += "it does not run: " + shown(answer["not_run"]) + "\n";
   else if (!answer.value("scanned", false))
@@ -224,7 +224,7 @@ int trace(Client& client, const Words& words) {
 
 int set(Client& client, const Words& words) {
   const json answer = asked(client, {{"do", "set"}, {"name", words.name}, {"value", valueOf(words.value)}});
-  std::string text = fmt::format("{} = {}, before {}", words.name, shown(answer["value"]), shown(answer["former"]));
+  std::string text = fmt::format("{} = {} (was {})", words.name, shown(answer["value"]), shown(answer["former"]));
   if (answer.contains("note")) text += "\n" + answer["note"].get<std::string>();
   print(words, answer, text);
   return cli::kOk;
@@ -379,7 +379,7 @@ public:
 
 private:
   static void addCommon(cli::Command command, Common& common) {
-    command.option("--host", common.host, "Name of the host; can be left out where only one is running");
+    command.option("--host", common.host, "Name of the host; default: the only running one");
     command.flag("--json", common.asJson, "Print the answer as JSON");
   }
   static int begin(const Words& words, const Run& run) try {
@@ -419,7 +419,7 @@ void addAll(Commands& commands) {
       "watch", "Show values whenever they change, until Ctrl+C",
       [&](cli::Command& command, Words& words) {
         names(command, words);
-        command.flag("--all", words.all, "Every scan, instead of about 50 a second");
+        command.flag("--all", words.all, "Show every scan, instead of about 50 a second");
       },
       watch);
   commands.add(
@@ -427,7 +427,7 @@ void addAll(Commands& commands) {
       [&](cli::Command& command, Words& words) {
         names(command, words);
         command.option("-o,--output", words.file, "File to write, FILE.vcd").required();
-        command.option("--for", words.seconds, "Seconds to record; without it until Ctrl+C").between(0.001, 1e6);
+        command.option("--for", words.seconds, "Seconds to record; default: until Ctrl+C").between(0.001, 1e6);
       },
       trace);
   commands.add("set", "Write a value to a variable once", oneValue, set);
@@ -459,8 +459,8 @@ void addAll(Commands& commands) {
             .option("--shadow", words.shadow,
                     "First run it in the shadow of the running program for this many scans, and compare outputs")
             .between(1u, 100000u);
-        command.flag("--yes", words.yes, "Even if state is lost or outputs differ");
-        command.flag("--late", words.late, "Even if a slice may take longer than its period");
+        command.flag("--yes", words.yes, "Reload even if state is lost or outputs differ");
+        command.flag("--late", words.late, "Reload even if a slice may take longer than its period");
       },
       [](Client& client, const Words& words) { return reload(client, words, gStop); });
   commands.add("rollback", "Return to the program before the last reload; again: to the reloaded one", none, rollback);

@@ -34,7 +34,7 @@ std::string reportOf(const json& answer) {
   }
   for (const json& change : answer.value("changes", json::array()))
     text += fmt::format("{} {}{}\n", shown(change["kind"]), shown(change["name"]),
-                        change.value("former", "").empty() ? "" : ", before " + shown(change["former"]));
+                        change.value("former", "").empty() ? "" : " (was " + shown(change["former"]) + ")");
   for (const json& pin : answer.value("pins", json::array())) text += shown(pin) + "\n";
   text += fmt::format("kept: {} names, {} states of edges, timers and counters\n", answer.value("kept_cells", 0),
                       answer.value("kept_states", 0));
@@ -50,7 +50,7 @@ std::string reportOf(const json& answer) {
 // What has become of it.
 std::string whetherItRuns(const json& answer, const char* program) {
   if (answer.value("put_back", false))
-    return "the new program has stopped at once, and the former one is back: see status";
+    return "the new program stopped at once with a fault, and the former one is back: see status";
   const char* does = answer.value("waits", false)     ? "waits for a reset"
                      : answer.value("stopped", false) ? "is stopped"
                      : answer.value("again", false)   ? "runs again"
@@ -81,13 +81,13 @@ std::string whatSpeaksAgainst(Client& client, const Words& words, const volatile
     text += difference.contains("next")
                 ? fmt::format("{}: {} now, {} in the new program\n", shown(difference["name"]),
                               shown(difference["running"]), shown(difference["next"]))
-                : fmt::format("{}: only the new program asks for it\n", shown(difference["name"]));
+                : fmt::format("{}: requested only by the new program\n", shown(difference["name"]));
   if (!report.value("fault", "").empty()) text += shown(report["fault"]) + "\n";
   print(words, report, text);
   if (!report.value("fault", "").empty())
-    throw std::runtime_error("the new program has stopped in the comparison; nothing has changed");
-  if (!report["differences"].empty()) return "the new program does not do the same";
-  if (report["state"] == "too-slow") return "this host is too slow to run both programs: not all passes were compared";
+    throw std::runtime_error("the new program stopped with a fault during the comparison; nothing has changed");
+  if (!report["differences"].empty()) return "the new program behaves differently";
+  if (report["state"] == "too-slow") return "this host is too slow to run both programs: not all scans were compared";
   if (report["state"] != "finished") return "the comparison was not finished";
   return report["runs"] == 0 ? "no run of a task was compared" : "";
 }
@@ -135,9 +135,10 @@ int compileThere(Client& client, const Words& words, const volatile int& stop) {
 int programOf(Client& client, const Words& words, const volatile int& stop, json& request) {
   const bool compiled = std::ranges::any_of(words.files, [](const std::string& file) { return file.ends_with(".so"); });
   if (compiled && words.files.size() > 1)
-    return fail("found a compiled program beside other files, expected it alone, or sources alone", cli::kUsage);
+    return fail("found a compiled program together with other files, expected one compiled program, or only sources",
+                cli::kUsage);
   if (compiled && words.profile)
-    return fail("--profile is for sources; a compiled program counts where it was built with it", cli::kUsage);
+    return fail("--profile is only for sources; build a compiled program with `rungc build --profile`", cli::kUsage);
   if (compiled) {
     const std::unique_ptr<char, decltype(&std::free)> path(realpath(words.files.front().c_str(), nullptr), &std::free);
     if (path == nullptr) return fail("there is no file " + words.files.front(), cli::kEnvironment);
@@ -155,7 +156,7 @@ int reload(Client& client, const Words& words, const volatile int& stop) {
   if (const int status = programOf(client, words, stop, request); status != cli::kOk) return status;
   if (words.shadow != 0) {
     if (const std::string against = whatSpeaksAgainst(client, words, stop, request); !against.empty() && !words.yes)
-      return fail(against + "; nothing has changed; with --yes it takes over all the same");
+      return fail(against + "; nothing has changed; use --yes to replace it anyway");
     if (stop != 0) return fail("interrupted; nothing has changed");
   }
   request.update({{"do", "reload"}, {"yes", words.yes}, {"late", words.late}});
@@ -167,7 +168,7 @@ int reload(Client& client, const Words& words, const volatile int& stop) {
   if (words.common.asJson) std::cout << answer.dump() << '\n';
   if (answer.contains("needs")) {
     if (!words.common.asJson) std::cout << reportOf(answer);
-    return fail(answer.value("error", "") + "; nothing has changed; with --yes it is done all the same");
+    return fail(answer.value("error", "") + "; nothing has changed; use --yes to do it anyway");
   }
   return fail(answer.value("error", "the host refuses"));
 }

@@ -221,7 +221,7 @@ Compilation::Outcome Compilation::run(const std::vector<std::string>& words, con
   answer.write = File();
   const bool wanted = take(process);
   const std::string wrong =
-      wanted ? exchange(in.write, input, answer.read, outcome.answer, mostAnswer) : "it is not wanted any more";
+      wanted ? exchange(in.write, input, answer.read, outcome.answer, mostAnswer) : "it was cancelled";
   int status = 0;
   if (!wrong.empty()) kill(process, SIGKILL);
   siginfo_t ended{};
@@ -250,7 +250,7 @@ void Compilation::compile(const std::vector<std::string>& words, const std::stri
   } else if (outcome.verdict == kVerdictErrors) {
     end(State::Errors, std::move(outcome.answer));
   } else {
-    if (outcome.problem.empty()) outcome.problem = "the compiler process answered nothing known";
+    if (outcome.problem.empty()) outcome.problem = "the compiler process gave an unknown answer";
     end(State::Failed, std::move(outcome.verdict == kVerdictFailed ? outcome.answer : outcome.problem));
   }
 }

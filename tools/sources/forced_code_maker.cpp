@@ -54,10 +54,10 @@ void ForcedCodeMaker::serve(const Image& image) {
     const rung_program& program = *rung_image_program(of);
     try {
       if ((*static_cast<Shared*>(user))->force(of, program, {forced, count}, *code)) return int32_t{RUNG_OK};
-      std::snprintf(problem, problemBytes, "the code of %s with the forced cells is being made", program.name);
+      std::snprintf(problem, problemBytes, "%s is being compiled with the forced variables", program.name);
       return int32_t{RUNG_LATER};
     } catch (const std::exception& thrown) {
-      std::snprintf(problem, problemBytes, "the program %s writes a cell that is to be forced: %s", program.name,
+      std::snprintf(problem, problemBytes, "rungs of %s write a variable that is to be forced: %s", program.name,
                     thrown.what());
       return int32_t{RUNG_REFUSED};
     }
@@ -103,7 +103,7 @@ bool ForcedCodeMaker::force(const rung_image* image, const rung_program& program
   if (compilation_->state() == Compilation::State::Running) return false;
   const std::unique_ptr<Compilation> done = std::exchange(compilation_, nullptr);
   if (done->state() != Compilation::State::Compiled) throw std::runtime_error(done->report());
-  auto made = std::make_unique<Made>(Image::ofMemory(done->image(), "the code with the forced cells"));
+  auto made = std::make_unique<Made>(Image::ofMemory(done->image(), "the code with the forced variables"));
   checkSame(made->image.program(), program);
   code = {.chunk_fns = made->image.program().chunk_fns,
           .engine = nullptr,

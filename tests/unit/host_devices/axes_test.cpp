@@ -267,7 +267,7 @@ TEST_F(PositionedAxis, OthersAreNotThere) {
   ms(40);
   EXPECT_EQ((*this)["ERR"], 1);
   EXPECT_EQ((*this)["DISP"], 0);
-  EXPECT_THAT(reports(), HasSubstr("POS_INIT: this host moves no such axis for the program"));
+  EXPECT_THAT(reports(), HasSubstr("POS_INIT: this host cannot move this axis for the program"));
 }
 
 TEST(AxisSettings, Mistakes) {

@@ -237,7 +237,7 @@ TEST_F(Bus, Nonsense) {
 TEST_F(Bus, NobodyAcknowledges) {
   beginWith();
   put(CAN_ERR_FLAG | CAN_ERR_ACK, {0, 0, 0, 0, 0, 0, 0, 0});
-  EXPECT_TRUE(soonReports("CAN channel 2: no device acknowledges what is sent"));
+  EXPECT_TRUE(soonReports("CAN channel 2: no device acknowledges packets"));
 }
 
 // Those of the control's own file of the channel.

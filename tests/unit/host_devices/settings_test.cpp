@@ -115,7 +115,7 @@ TEST(DeviceSettings, AxesAreRefused) {
   EXPECT_EQ(bench["POLOHV_4"], 0);
   EXPECT_EQ(bench["PO_OS4PI"], 0);
   EXPECT_EQ(bench["POLOHV_9"], 0);
-  EXPECT_TRUE(bench.soonReports("SPI_AX: this host moves no axes"));
+  EXPECT_TRUE(bench.soonReports("SPI_AX: this host cannot move axes"));
 }
 
 // 7FFFh is 10 V, 1 in SU_OUT_PLC.

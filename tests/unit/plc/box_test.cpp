@@ -238,7 +238,7 @@ out.brake = { type = "bit", name = "Y0.1", safe = true }
 out.speed = { type = "float", name = "D0:2", safe = -1.5 }
 )");
   ASSERT_THAT(b.errors, IsEmpty());
-  EXPECT_THAT(b.warnings, ElementsAre("pin kept holds its last value where the program does not run"));
+  EXPECT_THAT(b.warnings, ElementsAre("pin kept holds its last value while the program does not run"));
   EXPECT_TRUE(b["brake"].bit); // before the first scan
   EXPECT_EQ(b["speed"].real, -1.5);
   b["i"].bit = true;

@@ -55,7 +55,7 @@ TEST(Orders, WithoutAScanAreWithdrawn) {
   Order order;
   const Answer answer = given(slot, order, milliseconds(5));
   EXPECT_EQ(answer.status, RUNG_FAILED);
-  EXPECT_EQ(answer.problem, "the thread that scans the program does not run");
+  EXPECT_EQ(answer.problem, "the scan thread does not run");
   bool done = false;
   slot.take([&](Order&) { return done = true, OrderSlot::Outcome{}; });
   EXPECT_FALSE(done) << "it was withdrawn";

@@ -124,7 +124,7 @@ TEST_F(HistoryFileTest, AFileOfAnotherKindIsReplacedAndThatIsSaid) {
   std::ofstream(path) << "no history\n";
   open();
   history.happen("one", now);
-  EXPECT_TRUE(says("there are lines in it that are not of a history"));
+  EXPECT_TRUE(says("it has lines that do not belong to a history"));
   EXPECT_TRUE(says("the history of messages is kept again"));
   file.reset();
   EXPECT_THAT(textsOf(path), ElementsAre("one"));

@@ -298,7 +298,7 @@ rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 unchanged
         for command in (["diff", program, program], ["check", program], ["xref", program], ["view", program, "-o", "x.svg"], ["format", program], ["emit", "ir", program]):
             done = subprocess.run([RUNGC, *command], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stdout), (OTHERWISE, ""), command)
-            self.assertEqual(done.stderr.splitlines()[0], f"error: '{program}' is a compiled program, and its source files are needed here [compiled-program]", command)
+            self.assertEqual(done.stderr.splitlines()[0], f"error: '{program}' is a compiled program; its source files are needed here [compiled-program]", command)
 
     def test_help(self):
         done = subprocess.run([RUNGC, "diff", "--help"], capture_output=True, text=True, check=False)

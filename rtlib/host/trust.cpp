@@ -68,7 +68,7 @@ File openRootsFolder(std::string_view path, std::string& problem) {
   for (;;) {
     const std::optional<FileFacts> facts = factsOf(folder.fd());
     if (!facts || !isRoots(*facts)) {
-      problem = std::string(end == 0 ? "/" : path.substr(0, end)) + " is not root's alone to write to";
+      problem = std::string(end == 0 ? "/" : path.substr(0, end)) + " must be writable only by root";
       return File();
     }
     const size_t begin = path.find_first_not_of('/', end);
@@ -180,7 +180,7 @@ std::string rootsFileProblem(const std::string& path) {
   const File file(::openat(folder.fd(), name.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
   const std::optional<FileFacts> facts = factsOf(file.fd());
   if (!facts) return std::strerror(errno);
-  return facts->isRegular && isRoots(*facts) ? "" : "it is not root's alone to write to";
+  return facts->isRegular && isRoots(*facts) ? "" : "it must be writable only by root";
 }
 
 std::optional<PublicKey> findKey(const KeyId& id, const std::string& folder, const ProcessIds& ids,

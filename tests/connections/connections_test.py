@@ -640,7 +640,7 @@ class Memory(WithHost):
 
     def is_made_anew(self):
         """Another peer finds it as at the beginning, and the host says why it was silent."""
-        self.assertTrue(wait_until(lambda: "it was made anew" in self.connection()["problem"]), self.connection())
+        self.assertTrue(wait_until(lambda: "it was created again" in self.connection()["problem"]), self.connection())
         peer = Peer(self.path)
         self.addCleanup(peer.close)
         self.assertTrue(wait_until(lambda: peer.write(True, True, 59, 1) or self.host.get("D8:2") == 59))

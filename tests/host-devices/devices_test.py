@@ -93,7 +93,7 @@ class Com(WithHost):
 
     def test_bytes_that_the_program_does_not_take(self):
         os.write(self.master, b"x" * 1500)
-        self.says("bytes were lost, because the program does not take them")
+        self.says("bytes were lost, because the program does not read them")
 
     def test_a_device_that_goes(self):
         os.close(self.master)

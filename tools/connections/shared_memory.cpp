@@ -118,8 +118,8 @@ void SharedMemory::keep() noexcept try {
     return;
   if (!isThere) open();
   layOut();
-  setProblem(isThere ? "another program had written over its head or shortened it; it was made anew"
-                     : "another program had removed it; it was made anew");
+  setProblem(isThere ? "another program had written over its head or shortened it; it was created again"
+                     : "another program had removed it; it was created again");
 } catch (const std::exception& problem) {
   const std::string text = problem.what(), head = title_ + ": ";
   setProblem(text.starts_with(head) ? text.substr(head.size()) : text);

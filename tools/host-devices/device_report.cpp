@@ -95,7 +95,7 @@ void DeviceReport::losses(std::vector<std::string>& lines) {
     const uint32_t lost = now - std::exchange(portLosses_[port], now);
     if (lost > 0)
       lines.push_back("the serial port " + std::to_string(port) + ": " + std::to_string(lost) +
-                      " bytes were lost, because the program does not take them");
+                      " bytes were lost, because the program does not read them");
   }
 }
 

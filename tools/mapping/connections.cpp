@@ -351,10 +351,10 @@ bool ConnectionReader::checkDirection(const PinRow& row, const Connection& conne
   if (isWritable(row.area) || row.area == Area::Memory) return true;
   if (connection.kind == Connection::Kind::ModbusServer && isInput)
     return refuse("an input pin in " + here,
-                  "one in " + writable + ", because clients write no " + here + "; move it there");
+                  "one in " + writable + ", because clients cannot write " + here + "; move it there");
   if (connection.kind == Connection::Kind::ModbusClient && !isInput)
     return refuse("an output pin in " + here,
-                  "one in " + writable + ", because nobody writes the " + here + " of a device; move it there");
+                  "one in " + writable + ", because the " + here + " of a device cannot be written; move it there");
   return true;
 }
 
@@ -394,8 +394,9 @@ bool ConnectionReader::checkOrder(const PinRow& row, Format format, const std::s
 bool ConnectionReader::checkSafe(const PinRow& row, const Pin& pin, const std::string& where) {
   const size_t before = reading_.mistakes();
   if ((row.safe || row.holds) && pin.direction != Direction::In)
-    reading_.fail(row.safeAt, where + ".safe: found one of an output pin, expected it of an input pin alone; write it "
-                                      "where the pin is, in [out]");
+    reading_.fail(row.safeAt, where +
+                                  ".safe: found one for an output pin, expected one only for an input pin; write it "
+                                  "where the pin is, in [out]");
   else
     reading_.checkNumber(row.safe, pin.type, where + ".safe");
   return reading_.mistakes() == before;

@@ -139,7 +139,7 @@ private:
     if (!seconds || !(*seconds >= kShortestTimeout && *seconds <= kLongestTimeout)) return false;
     if (timeoutAt_)
       fail(positionOf(node),
-           "timeout: found a second one, expected that of " + lineOf(*timeoutAt_) + " alone; remove one of them");
+           "timeout: found a second one, expected only that of " + lineOf(*timeoutAt_) + "; remove one of them");
     timeoutAt_ = positionOf(node);
     map.timeoutNs = static_cast<int64_t>(*seconds * 1e9);
     return true;

@@ -28,7 +28,8 @@ Outcome compile(const sources::Forces& forces) {
   if (!std::ranges::all_of(forces.bytes, [&](const auto& byte) { return liesIn(*running.built, byte); }))
     return failed("found a forced byte that lies in no space of the program");
   const compiler::ForcedProgram forced(running, forces.bytes);
-  if (!ir::verify(forced.module, ir::Mode::Final).empty()) return failed("the program with forced cells is not valid");
+  if (!ir::verify(forced.module, ir::Mode::Final).empty())
+    return failed("the program with forced variables is not valid");
   codegen::LlvmOptions options;
   options.debugInfo = false;
   const Result<std::string> object = codegen::buildLlvmSharedObjectByOutput(forced.layout, running.codeHash, options);

@@ -123,6 +123,6 @@ int main(int argc, char** argv) {
   if (words.size() == 1 && words[0] == sources::kForcesWord && hasFiles) return compileForHost(kForces);
   if (words.size() > 4 && words[0] == "--collect" && words[1] == "--user" && isOpen(sources::kAnswerFile))
     return collectForHost(words[2], {words.begin() + 4, words.end()});
-  std::cerr << "rung-compile: hosts of PLC programs start it, as rung_hal and rung-run; nobody else does\n";
+  std::cerr << "rung-compile: only hosts of PLC programs, such as rung_hal and rung-run, start this program\n";
   return kWrongUsage;
 }

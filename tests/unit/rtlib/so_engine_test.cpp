@@ -293,8 +293,8 @@ TEST_F(Privileged, TakesKeysOfRootsFolderAlone) {
   EXPECT_EQ(loadWithKey(file), "loaded\n");
   EXPECT_THAT(loadWithKey(file, "chmod 666 /etc/rung/keys.d/key.pub"), HasSubstr("is not among the known keys"));
   EXPECT_THAT(loadWithKey(file, "chown 65534 /etc/rung/keys.d/key.pub"), HasSubstr("is not among the known keys"));
-  EXPECT_THAT(loadWithKey(file, "chmod 777 /etc/rung"), HasSubstr("/etc/rung is not root's alone to write to"));
-  EXPECT_THAT(loadWithKey(file, "chmod 1777 /etc"), HasSubstr("/etc is not root's alone to write to"));
+  EXPECT_THAT(loadWithKey(file, "chmod 777 /etc/rung"), HasSubstr("/etc/rung must be writable only by root"));
+  EXPECT_THAT(loadWithKey(file, "chmod 1777 /etc"), HasSubstr("/etc must be writable only by root"));
   EXPECT_THAT(loadWithKey(file, "mv /etc/rung /etc/r && ln -s r /etc/rung"), HasSubstr("/etc/rung: "));
   EXPECT_THAT(loadWithKey(putNobodys(sealed(contentsOf(RUNG_TEST_SO_OTHER), &key_))), HasSubstr("loaded"));
   EXPECT_THAT(loadWithKey(putNobodys(sealed(contentsOf(RUNG_TEST_SO_NEEDING), &key_))),

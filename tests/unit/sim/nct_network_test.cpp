@@ -108,7 +108,7 @@ TEST(NctNetwork, OneClientWaitsForTheNextConnection) {
     ASSERT_EQ(device(machine, {number("send", 1), number("w0", i)}), "");
     ASSERT_EQ(device(machine, {number("close", 1)}), "");
   }
-  EXPECT_EQ(device(machine, {word("open", "client"), number("port", 49202)}), "nobody listens on port 49202");
+  EXPECT_EQ(device(machine, {word("open", "client"), number("port", 49202)}), "no server listens on port 49202");
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(machine.ask(false, 62, {4, 1, 6000, 1}), 0);
     EXPECT_EQ(machine.word(6000), i);

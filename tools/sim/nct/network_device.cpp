@@ -11,7 +11,7 @@ std::string NetworkDevice::open(std::string_view role, uint16_t port) {
   if (udp_) return line_.openUdp(port), "";
   if (role == "server") return line_.listen(port), "";
   if (role != "client") return "event device: open=\"udp\", \"server\" or \"client\"";
-  return line_.connect({0, port}, 0) == 0 ? "" : "nobody listens on port " + std::to_string(port);
+  return line_.connect({0, port}, 0) == 0 ? "" : "no server listens on port " + std::to_string(port);
 }
 
 // WORDS words; those that the event does not name are 0.

@@ -8,11 +8,11 @@ namespace {
 constexpr Fault kMaxTime = {"max-time",
                             "A slice took longer than the limit that its host has set (rung_instance_limit, "
                             "the parameter max-time of LinuxCNC's component, rung-run --max-time). The "
-                            "rung in brackets is where it was noticed. Look at loops around it, at what "
-                            "interrupts the thread, and at what a scan takes without a limit."};
-constexpr Fault kOverrun = {"overrun", "Many passes in a row, 500 unless the host says otherwise, began late "
-                                       "by a pass or more. A shorter program, a longer "
-                                       "period, or a look at what takes the time of the thread away."};
+                            "rung in brackets is where it was noticed. Check the loops around it, what "
+                            "interrupts the thread, and how long a scan takes without a limit."};
+constexpr Fault kOverrun = {"overrun", "Many scans in a row, 500 unless the host sets another number, began a "
+                                       "whole period or more late. Shorten the program, choose a longer period, or "
+                                       "check what else takes the time of the thread."};
 
 constexpr Fault kGsk[] = {
     {kGskDeadLoop,

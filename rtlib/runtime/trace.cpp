@@ -37,7 +37,7 @@ struct rung_trace {
   bool writeNext() {
     rung_sample sample{};
     if (watch.next(values.data(), sample) != RUNG_OK) return false;
-    if (sample.lost != lost) vcd.comment(std::to_string(sample.lost - lost) + " passes are missing here");
+    if (sample.lost != lost) vcd.comment(std::to_string(sample.lost - lost) + " scans are missing here");
     lost = sample.lost;
     for (size_t i = 0; i < values.size(); ++i) {
       shown[i].known = true;

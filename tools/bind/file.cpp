@@ -135,8 +135,8 @@ File parse(std::string_view text, std::vector<Error>& errors) {
   try {
     Reader(file, errors).read(toml_text::parse(text));
   } catch (const toml::parse_error& error) {
-    errors.push_back({positionOf(error.source()), fmt::format("{}; the file must be TOML, and further mistakes are "
-                                                              "found once this is",
+    errors.push_back({positionOf(error.source()), fmt::format("{}; the file must be TOML; the rest is checked once "
+                                                              "this is corrected",
                                                               error.description())});
   }
   return file;

@@ -113,7 +113,8 @@ void ModbusServer::accept(int64_t now) {
   Socket made(accept4(listening_.number(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
   if (made.number() < 0) return std::this_thread::sleep_for(kPause); // it has gone, or the system has no more
   makeRoom(now);
-  if (clients_.size() >= mostClients_) return setProblem("a client was refused: there are as many as may be");
+  if (clients_.size() >= mostClients_)
+    return setProblem("a client was refused: the maximum number of clients is connected");
   sendAtOnce(made.number());
   Client& client = clients_.emplace_back();
   client.socket = std::move(made);

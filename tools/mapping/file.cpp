@@ -354,7 +354,7 @@ void Reader::read(std::string_view text, const std::string& path) {
     readKeys(toml_text::parse(text), "", kFileKeys, map());
   } catch (const toml::parse_error& error) {
     fail(positionOf(error.source()),
-         std::string(error.description()) + "; the file must be TOML, and further mistakes are found once this is");
+         std::string(error.description()) + "; the file must be TOML; the rest is checked once this is corrected");
   }
   setFile(before);
 }

@@ -1009,7 +1009,7 @@ json Controller::shadow(const Peer& peer, const json& request) {
   compared_ = nullptr;
   constexpr std::chrono::seconds kTime(3);
   give({.kind = Order::Kind::Shadow, .shadow = made}, kTime);
-  logChange(peer, "shadow " + next.text + " for " + std::to_string(passes->get<uint32_t>()) + " passes");
+  logChange(peer, "shadow " + next.text + " for " + std::to_string(passes->get<uint32_t>()) + " scans");
   return json::object();
 }
 

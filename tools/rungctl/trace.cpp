@@ -42,7 +42,7 @@ void Trace::add(const json& event) {
   const json& values = event.at("values");
   for (size_t i = 0; i < values_.size() && i < values.size(); ++i) values_[i] = valueOf(values[i]);
   const uint64_t lost = event.value("lost", uint64_t{0});
-  if (lost != lost_) vcd_.comment(std::to_string(lost - lost_) + " passes are missing here");
+  if (lost != lost_) vcd_.comment(std::to_string(lost - lost_) + " scans are missing here");
   lost_ = lost;
   vcd_.sample(event.value("us", int64_t{0}), values_);
   ++passes_;

@@ -821,7 +821,7 @@ r0 "
 $end
 #16000
 b10 !
-$comment 1 passes are missing here $end
+$comment 1 scans are missing here $end
 #24000
 b11 !
 r0.5 "

@@ -473,7 +473,7 @@ def sources(bench, options):
     shutil.chown(bench.folder / "libexec/rung-compile", "nobody")
     expect("it must be writable only by root" in refused("@DIR@/first.pmc"), "a compiler that is not root's was started")
     (bench.folder / "libexec/rung-compile").unlink()
-    expect("the package rung has this program" in refused("@DIR@/first.pmc"), "no message of the missing compiler")
+    expect("install the package rung" in refused("@DIR@/first.pmc"), "no message of the missing compiler")
 
 
 def main():

@@ -198,7 +198,7 @@ class BrokenForceCompilers(Forcing):
     def test_no_compiler(self):
         self.fake("pass")
         self.compiler.unlink()
-        self.assertIn("the package rung has this program", self.ctl("force", "Y0.0", "true", status=WRONG))
+        self.assertIn("install the package rung", self.ctl("force", "Y0.0", "true", status=WRONG))
         self.ctl("force", "X0.0", "true")  # which needs none
 
     def test_it_is_given_the_program_and_nothing_else(self):

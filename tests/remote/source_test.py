@@ -380,8 +380,8 @@ class BrokenCompilers(SourceHost):
         self.compiler.chmod(0o777)
         self.assertIn("every user may write to it (mode 0777)", self.compiled(b"")["report"])
         self.compiler.unlink()
-        self.assertEqual(self.compiled(b"")["report"], f"sources cannot be compiled here: {self.compiler}: No such file or directory; the package rung has "
-                         "this program, and the variable RUNG_COMPILE of the host names it elsewhere")
+        self.assertEqual(self.compiled(b"")["report"], f"sources cannot be compiled here: {self.compiler}: No such file or directory; install the package rung, "
+                         "or start the host with RUNG_COMPILE set to the path of rung-compile")
 
 
 class RungRun(unittest.TestCase):

@@ -300,15 +300,13 @@ int main(int argc, char** argv) {
       .between(1u, 1000u)
       .showDefault();
   command
-      .option(
-          "--max-time", options.maxTimeUs,
-          "Stop the program with a fault when a slice takes longer, in microseconds; without it only its step budget "
-          "is checked")
+      .option("--max-time", options.maxTimeUs,
+              "Stop the program with a fault when a slice takes longer, in microseconds; default: only its step budget "
+              "is checked")
       .between(1u, 3'600'000'000u);
   command.option("--retain", options.retain,
                  "Keep the retained memory in FILE.a and FILE.b, and the history of messages in FILE.messages");
-  command
-      .option("--priority", options.priority, "Real-time priority 1 to 99 (SCHED_FIFO); without it normal scheduling")
+  command.option("--priority", options.priority, "Real-time priority 1 to 99 (SCHED_FIFO); default: normal scheduling")
       .between(1, 99);
   command.flag("--lock-memory", options.lockMemory, "Lock all memory in RAM");
   const cli::Option simulate =

@@ -43,8 +43,8 @@ std::string compilerProgram(std::string& problem) {
   std::string path = privileged ? kProgram : chosenProgram();
   problem = privileged ? host::rootsFileProblem(path) : fileProblem(path, ids);
   if (problem.empty()) return path;
-  problem = "sources cannot be compiled here: " + path + ": " + problem + "; the package rung has this program" +
-            (privileged ? "" : ", and the variable RUNG_COMPILE of the host names it elsewhere");
+  problem = "sources cannot be compiled here: " + path + ": " + problem + "; install the package rung" +
+            (privileged ? "" : ", or start the host with RUNG_COMPILE set to the path of rung-compile");
   return {};
 }
 

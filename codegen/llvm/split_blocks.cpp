@@ -1,6 +1,9 @@
 // See split_blocks.h.
 #include "codegen/llvm/split_blocks.h"
 
+#include <ranges>
+#include <vector>
+
 #include <llvm/ADT/DenseMap.h>
 #include <llvm/IR/BasicBlock.h>
 #include <llvm/IR/Function.h>
@@ -19,17 +22,22 @@ llvm::GetElementPtrInst* addressOf(llvm::Value& value) {
   return isPlace ? address : nullptr;
 }
 
-// Where the block is to be cut; its end: nowhere. Room on the stack comes first, and stays in the first block.
-// Addresses do not count: they are part of the instructions that use them, and each block has its own.
-llvm::BasicBlock::iterator cutOf(llvm::BasicBlock& block) {
+// Where the block is to be cut. Room on the stack comes first, and stays in the first block. Addresses do not count:
+// they are part of the instructions that use them, and each block has its own.
+std::vector<llvm::Instruction*> cutsOf(llvm::BasicBlock& block) {
+  std::vector<llvm::Instruction*> cuts;
   uint32_t count = 0;
-  for (auto i = block.begin(); i != block.end(); ++i) {
-    if (addressOf(*i) != nullptr) continue;
-    const bool mayBegin = !llvm::isa<llvm::PHINode>(*i) && !llvm::isa<llvm::AllocaInst>(*i) && !i->isTerminator();
-    if (mayBegin && count >= kMostInstructions) return i;
+  for (llvm::Instruction& instruction : block) {
+    if (addressOf(instruction) != nullptr) continue;
+    const bool mayBegin = !llvm::isa<llvm::PHINode>(instruction) && !llvm::isa<llvm::AllocaInst>(instruction) &&
+                          !instruction.isTerminator();
+    if (mayBegin && count >= kMostInstructions) {
+      cuts.push_back(&instruction);
+      count = 0;
+    }
     ++count;
   }
-  return block.end();
+  return cuts;
 }
 
 // The selector folds addresses of the memory block into the instructions of their own block, and keeps those of other
@@ -54,14 +62,16 @@ void takeAddresses(llvm::BasicBlock& block) {
 } // namespace
 
 bool splitBlocks(llvm::Function& function) {
-  bool changed = false;
-  for (auto block = function.begin(); block != function.end(); ++block) { // those that are made follow
-    const auto cut = cutOf(*block);
-    if (cut == block->end()) continue;
-    takeAddresses(*block->splitBasicBlock(cut));
-    changed = true;
+  std::vector<llvm::Instruction*> cuts;
+  for (llvm::BasicBlock& block : function) {
+    const std::vector<llvm::Instruction*> ofBlock = cutsOf(block);
+    cuts.insert(cuts.end(), ofBlock.begin(), ofBlock.end());
   }
-  return changed;
+  std::vector<llvm::BasicBlock*> made;
+  for (llvm::Instruction* cut : std::ranges::reverse_view(cuts)) // the last first: what follows a cut is moved
+    made.push_back(cut->getParent()->splitBasicBlock(cut));
+  for (llvm::BasicBlock* block : made) takeAddresses(*block);
+  return !made.empty();
 }
 
 } // namespace rung::codegen

@@ -138,7 +138,7 @@ class CheckNames(unittest.TestCase):
         self.assertEqual(said.stdout, f"{path}: 3 rungs, 7 warnings\n")
         out = Path(self.folder.name) / "p.so"
         for words, end in ((["check", "-q", path], ""), (["build", path, "-o", out], "3 rungs, 7 warnings; wrote"), (["build", "-q", path, "-o", out], ""),
-                           (["emit", "ir", path, "-o", "/dev/null"], "wrote /dev/null\n"), (["run", path, "--scans", "1"], "1 scans")):
+                           (["emit", "ir", path, "-o", "/dev/null"], "wrote /dev/null\n"), (["run", path, "--scans", "1"], "1 scan,")):
             with self.subTest(words=words):
                 done = subprocess.run([RUNGC, *words], capture_output=True, text=True, timeout=patience(), check=True)
                 self.assertEqual(done.stderr, said.stderr)

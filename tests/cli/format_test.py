@@ -117,7 +117,7 @@ class Format(unittest.TestCase):
                 path = self.file("a.plc", (MNEMONIC + end).encode(encoding))
                 self.format(path)
                 self.assertEqual(path.read_bytes(), (MNEMONIC_LAID_OUT + end).encode(encoding))
-        told = "; encoding: gb18030\ndialect gsk\nEND1\n    LD X0.0   ; 急停 |\n  OUT Y0.0\nEND2\n\x1a"
+        told = "; encoding: gb18030\ndialect gsk\nFUNC END1\n    LD X0.0   ; 急停 |\n  OUT Y0.0\nFUNC END2\n\x1a"
         path = self.file("c.pmc", told.encode("gb18030"))
         self.format(path)
         text = path.read_bytes().decode("gb18030")

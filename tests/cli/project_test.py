@@ -108,7 +108,7 @@ class Discovery(Cli):
         self.assertIn("none.toml", self.rungc("check", "--project", "none.toml", status=ENVIRONMENT)[1])
 
     def test_without_a_project_files_are_needed(self):
-        self.assertIn("nothing is named", self.rungc("check", status=USAGE)[1])
+        self.assertIn("no file is named", self.rungc("check", status=USAGE)[1])
         self.assertIn("--no-project needs", self.rungc("check", "--no-project", status=USAGE)[1])
         self.write("lamp.lad", LAMP)
         self.assertIn("-o", self.rungc("build", "lamp.lad", status=USAGE)[1])
@@ -229,8 +229,8 @@ class Configuration(Cli):
 
     def test_the_command_line_goes_before_the_project(self):
         self.project(TOML + '[config]\ntimeslice = "2ms"\n')
-        self.assertIn("5.000 ms of", self.rungc("run", "--config", "timeslice=1ms")[0])
-        self.assertIn("10.000 ms of", self.rungc("run")[0])
+        self.assertIn("5.000 ms on", self.rungc("run", "--config", "timeslice=1ms")[0])
+        self.assertIn("10.000 ms on", self.rungc("run")[0])
 
 
 class Words(Cli):

@@ -201,7 +201,7 @@ class Inputs(Folder):
         self.file("slow.scn", "program lamp.lad\nperiod 40ms\nscan\n")
         done = self.run_it("./lamp.so", "--scenario", "slow.scn")
         self.assertEqual(done.returncode, USAGE)
-        self.assertIn("the scenario chooses the period", done.stderr)
+        self.assertIn("the scenario sets the period", done.stderr)
         done = self.run_it("./lamp.so", "--config", "timeslice")
         self.assertEqual(done.returncode, USAGE)
         self.assertIn("--config takes KEY=VALUE, found 'timeslice'", done.stderr)

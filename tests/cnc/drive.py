@@ -318,7 +318,7 @@ def alarm():
     """A program that never ends takes over: the machine stops, the operator learns why, and a reset goes back."""
     while errors.poll():
         pass
-    check("the new program has stopped at once" in rungctl("reload", "endless.so", "--yes", refused=True), "reload")
+    check("the new program stopped at once" in rungctl("reload", "endless.so", "--yes", refused=True), "reload")
     pins(fault=True, enable=False)
     is_state(linuxcnc.STATE_ESTOP)
     shown = []

@@ -458,7 +458,7 @@ class Running(Case):
         plc.limit(1)
         plc["JAM"] = 1
         self.assertFalse(plc.scan(10))
-        self.assertEqual(plc.fault().code, "dead-loop")
+        self.assertEqual(plc.fault().code, "max-time")
         plc.limit(0)
         plc["JAM"] = 0
         plc.power_on(rung.COLD)

@@ -45,7 +45,7 @@ public:
 private:
   void add(const fs::path& path) {
     const std::string original = contentsOf(path);
-    original_[path] = formatted_[path] = original;
+    original_[path] = formatted_[path] = asRead(original);
     if (!isSource(path)) return;
     SCOPED_TRACE(path);
     const auto formatted = format(path, original);
@@ -53,13 +53,21 @@ private:
     EXPECT_EQ(format(path, *formatted), formatted) << "it is not laid out the same way twice";
     const auto lines = test::onItsLines(*formatted, original);
     EXPECT_TRUE(lines) << *formatted;
-    if (lines) formatted_[path] = *lines;
+    if (lines) formatted_[path] = asRead(*lines);
   }
 
   std::optional<std::string> format(const fs::path& path, const std::string& text) {
     SourceManager sources;
     Diagnostics diagnostics;
-    return dialect_.format(sources, sources.addBuffer(path, text), diagnostics);
+    const FileId file = sources.addBytes(path, text);
+    const auto formatted = dialect_.format(sources, file, diagnostics);
+    return formatted ? sources.bytesOf(file, *formatted) : std::nullopt;
+  }
+
+  // The text of a file of these bytes.
+  static std::string asRead(const std::string& bytes) {
+    SourceManager sources;
+    return std::string(sources.text(sources.addBytes("", bytes)));
   }
 
   test::Meaning meaningOf(const Texts& texts, const std::vector<std::string>& files,

@@ -232,7 +232,7 @@ TEST_F(Component, MaxTimeStopsTheProgram) {
   scan(8);
   EXPECT_TRUE(bit("fault"));
   ASSERT_TRUE(scanUntil([&] { return !hal.lines().empty(); }));
-  EXPECT_THAT(hal.lines()[0], HasSubstr("max-time: the slice took longer than the limit of its host (rung "));
+  EXPECT_THAT(hal.lines()[0], HasSubstr("max-time: the slice took longer than the limit of its host ("));
   hal.unload();
   expectNothingLeft();
 }

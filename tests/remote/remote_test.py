@@ -163,7 +163,7 @@ class Commands(Host):
 
     def test_numbers_are_written_as_in_scenarios(self):
         for value, seen in (("0b101", 5), ("16#1F", 31), ("1_000", 1000), ("+7", 7), ("-0x80", -128), ("65535", -1)):
-            self.assertTrue(self.ctl("set", "D8:2", value).startswith(f"D8:2 = {seen}, before "), value)
+            self.assertTrue(self.ctl("set", "D8:2", value).startswith(f"D8:2 = {seen} (was "), value)
             self.assertEqual(self.get("D8:2"), seen)
         for value, found in (("1__0", '"1__0"'), ("0x", '"0x"'), ("1e999", '"1e999"'), ("1e-999", '"1e-999"'), ("1.5", "1.5"),
                              ("0x1_0000_0000_0000_0000", '"0x1_0000_0000_0000_0000"'), ("nan", '"nan"'), ("[1]", '"[1]"'),
@@ -173,10 +173,10 @@ class Commands(Host):
         self.assertIn("found 2 for X0.3, expected true or false", self.ctl("set", "X0.3", "2", status=WRONG))
 
     def test_a_byte_has_no_sign_and_wider_integers_have_one(self):
-        self.assertEqual(self.ctl("set", "D100", "255"), "D100 = 255, before 0\n")
-        self.assertEqual(self.ctl("set", "D100", "-1"), "D100 = 255, before 255\n")
+        self.assertEqual(self.ctl("set", "D100", "255"), "D100 = 255 (was 0)\n")
+        self.assertEqual(self.ctl("set", "D100", "-1"), "D100 = 255 (was 255)\n")
         self.assertEqual(self.ctl("get", "D100", "D100:2"), "D100 = 255\nD100:2 = 255\n")
-        self.assertEqual(self.ctl("set", "D101", "0x80"), "D101 = 128, before 0\n")
+        self.assertEqual(self.ctl("set", "D101", "0x80"), "D101 = 128 (was 0)\n")
         self.assertEqual(self.ctl("get", "D101", "D100:2", "D100:4"), "D101 = 128\nD100:2 = -32513\nD100:4 = 33023\n")
 
     def test_a_name_that_is_nearly_one(self):
@@ -227,7 +227,7 @@ class Commands(Host):
         self.wait(lambda: not self.get("Y0.0"))
 
     def test_a_fault_and_reset(self):
-        self.assertIn("the program runs; a reset restarts one", self.ctl("reset", status=WRONG))
+        self.assertIn("the program is running; a reset is needed only after a fault", self.ctl("reset", status=WRONG))
         self.ctl("set", "X0.1", "1")
         self.wait(lambda: "stopped by a fault: dead-loop (rung " in self.ctl("status"))
         self.wait(lambda: "the program has stopped: dead-loop" in self.ctl("messages"))
@@ -356,7 +356,7 @@ class Commands(Host):
         self.assertIn("running", self.ctl("status"))
 
     def test_a_compiled_program_beside_sources_is_refused(self):
-        self.assertIn("expected it alone, or sources alone", self.ctl("reload", self.program, "other.pmc", status=USAGE))
+        self.assertIn("expected one compiled program, or only sources", self.ctl("reload", self.program, "other.pmc", status=USAGE))
 
     def test_watch_shows_changes(self):
         watching = subprocess.Popen([BIN / "rungctl", "watch", "D8:2", "--json"], stdout=subprocess.PIPE, text=True,
@@ -540,10 +540,10 @@ never = ["REAL.7020"]
 """
 
     def test_set_and_get(self):
-        self.assertEqual(self.ctl("set", "REAL.7000", "2.5"), "REAL.7000 = 2.5, before 0.0\n")
+        self.assertEqual(self.ctl("set", "REAL.7000", "2.5"), "REAL.7000 = 2.5 (was 0.0)\n")
         self.assertEqual(self.ctl("get", "7000", "7001", "REAL.7000"), f"7000 = 0\n7001 = {0x40040000}\nREAL.7000 = 2.5\n")
-        self.assertEqual(self.ctl("set", "REAL.7000", "-0x10"), "REAL.7000 = -16.0, before 2.5\n")
-        self.assertEqual(self.ctl("set", "REAL.7000", "1e300"), "REAL.7000 = 1e+300, before -16.0\n")
+        self.assertEqual(self.ctl("set", "REAL.7000", "-0x10"), "REAL.7000 = -16.0 (was 2.5)\n")
+        self.assertEqual(self.ctl("set", "REAL.7000", "1e300"), "REAL.7000 = 1e+300 (was -16.0)\n")
         for wrong in ("1e999", "1e-999", "nan", "x"):
             self.assertIn(f'found "{wrong}" for REAL.7000, expected a number', self.ctl("set", "REAL.7000", wrong, status=WRONG))
         self.assertIn("found 2.5 for 7000, expected an integer", self.ctl("set", "7000", "2.5", status=WRONG))

@@ -134,7 +134,7 @@ class Reload(SourceHost):
         self.ctl("reload", with_symbol)
         text = self.ctl("reload", self.source(PROGRAM), "--shadow", "25", status=WRONG)
         self.assertIn("no difference\nremoved COUNT\n", text)
-        self.assertIn("the new program loses state: COUNT; nothing has changed; with --yes", text)
+        self.assertIn("the new program loses state: COUNT; nothing has changed; use --yes to do it anyway", text)
         self.ctl("reload", self.source(PROGRAM), "--yes")
         self.assertEqual(self.ctl("reload", self.home / "none.pmc", status=ENVIRONMENT),
                          f"cannot read '{self.home}/none.pmc': No such file or directory\nrungctl: nothing has changed\n")

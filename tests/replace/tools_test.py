@@ -17,7 +17,7 @@ PATIENCE = 300
 LAMP = """dialect nct
 module MAIN
 
-symbol SWITCH 5100.00
+symbol SWITCH 5100.00 ; allow(never-written)
 symbol LAMP   5101.00
 symbol COUNT  5300
 symbol T_OFF  5200

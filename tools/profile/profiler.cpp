@@ -244,7 +244,7 @@ private:
         if (measurement.differs())
           return fail(
               scenario.path,
-              fmt::format("it runs another program than {} (other files or configuration): profile them separately",
+              fmt::format("it runs a different program than {} (other files or configuration): profile them separately",
                           request_.scenarios[0].path));
       }
     }

@@ -185,8 +185,9 @@ std::optional<std::vector<FileId>> addSources(SourceManager& sources, const Sour
 namespace {
 
 std::optional<compiler::Compiled> compileFiles(SourceManager& sources, const SourceOptions& options,
-                                               compiler::CompileRequest request, int& status) {
+                                               compiler::CompileRequest request, bool warnsOfNames, int& status) {
   request.dialect = options.dialect;
+  request.keepSource |= warnsOfNames;
   if (options.project) request.name = options.project->name;
   request.activity = options.activity || (options.project && options.project->activity);
   const auto files = addSources(sources, options, request.options, status);
@@ -197,11 +198,9 @@ std::optional<compiler::Compiled> compileFiles(SourceManager& sources, const Sou
     return compiler::compile(sources, *files, request, diagnostics);
   }();
   if (compiled) checkNames(*compiled, sources, request.options, diagnostics);
-  if (compiled && request.keepSource) {
+  if (compiled && warnsOfNames)
     xref::reportOddNames(sources, compiled->source->analysis(), *compiled->layout, *compiled->uses,
                          compiled->dialect->shownSpaces, diagnostics);
-    compiled->source.reset(); // it refers to the sources
-  }
   if (compiled) compiled->warnings = diagnostics.warningCount();
   if (diagnostics.hasErrors()) compiled.reset();
   printDiagnostics(diagnostics, sources, options);
@@ -213,13 +212,14 @@ std::optional<compiler::Compiled> compileFiles(SourceManager& sources, const Sou
 
 std::optional<compiler::Compiled> compileSources(SourceManager& sources, const SourceOptions& options,
                                                  compiler::CompileRequest request, int& status) {
-  return compileFiles(sources, options, std::move(request), status);
+  return compileFiles(sources, options, std::move(request), false, status);
 }
 
 std::optional<compiler::Compiled> compileChecked(SourceManager& sources, const SourceOptions& options,
                                                  compiler::CompileRequest request, int& status) {
-  request.keepSource = true;
-  return compileFiles(sources, options, std::move(request), status);
+  std::optional<compiler::Compiled> compiled = compileFiles(sources, options, std::move(request), true, status);
+  if (compiled) compiled->source.reset(); // it refers to the sources, which may end before
+  return compiled;
 }
 
 } // namespace rung::rungc

@@ -96,9 +96,10 @@ std::vector<std::string> included(SourceManager& sources, std::span<const FileId
   Diagnostics unheard;
   technol::Program program(sources, unheard);
   program.includePaths = options.includePaths;
+  const auto before = static_cast<uint32_t>(sources.fileCount());
   technol::readProgram(program, files); // adds the files that it reads
   std::vector<std::string> names;
-  for (uint32_t i = 0; i < sources.fileCount(); ++i)
+  for (uint32_t i = before; i < sources.fileCount(); ++i)
     if (const std::string_view name = sources.name(FileId{i}); seen.insert(name).second) names.emplace_back(name);
   return names;
 }

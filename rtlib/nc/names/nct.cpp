@@ -113,9 +113,10 @@ public:
 
   // A signal's name alone is all its elements, and has their length.
   std::string cellAddress(const rung_program& program, const Ref& place) const override {
-    if (place.kind == RefKind::Real) return realName(address(program, place));
     const std::string_view area = program.spaces[place.space].name;
     const Signal* signal = area == kMemory || area == kTimeSliceMemory ? signalAt(place) : nullptr;
+    const bool isRealSignal = signal != nullptr && signal->type == SignalType::Real;
+    if (place.kind == RefKind::Real && !isRealSignal) return realName(address(program, place));
     if (signal == nullptr || place.kind == RefKind::Bit) return address(program, place);
     const uint32_t bits = uint32_t{place.width} * place.count;
     const uint32_t element = elementBytes(signal->type) * 8;

@@ -97,6 +97,8 @@ public:
     const uint32_t distance = place.byte - whole.byte;
     if (whole.kind == RefKind::Bit) return element(distance * 8 + place.bit - whole.bit);
     const uint32_t cell = whole.width / 8;
+    if (place.kind == RefKind::Bit && whole.kind != RefKind::Int)
+      return name + "+" + std::to_string(distance) + "." + std::to_string(place.bit);
     if (place.kind == RefKind::Bit)
       return element(distance / cell) + "." + std::to_string(distance % cell * 8 + place.bit);
     const bool isElement = distance % cell == 0 && uint32_t{place.width} * place.count <= whole.width;

@@ -150,8 +150,8 @@ TEST_F(NctNames, Reals) {
                            "REAL.05", "!REAL.FAR"})
     EXPECT_FALSE(at(name)) << name;
   EXPECT_EQ(placeName(test.program, realRef(m, 224)), "REAL.APPLE");
-  EXPECT_EQ(placeName(test.program, realRef(m, 236)), "REAL.0059");
-  EXPECT_EQ(cellAddress(test.program, realRef(m, 224)), "REAL.0056");
+  EXPECT_EQ(placeName(test.program, realRef(m, 236)), "REAL.ANINPUTS,#13");
+  EXPECT_EQ(cellAddress(test.program, realRef(m, 224)), "REAL.ANINPUTS,#10");
   EXPECT_EQ(meant(test.program, intRef(m, 224, 64)), realRef(m, 224)); // it has no such integers
   EXPECT_EQ(meant(test.program, intRef(m, 224, 32)), intRef(m, 224, 32));
 }

@@ -161,7 +161,7 @@ class CheckNames(unittest.TestCase):
                           (7, "overlap", "'PARTS' shares memory with 'FAULT' and another name"),
                           (11, "overlap", "'COUNT' shares memory with 'STATION'")])
         self.assertEqual(self.scenario("technol/overlaps.plc", "overlap", "shared-terminal"),
-                         [(7, "overlap", "'BEYOND' shares memory with 'NEXT' and 2 other names"),
+                         [(7, "overlap", "'BEYOND' shares memory with 'NEXT' and another name"),
                           (10, "overlap", "'SAVED2' shares memory with 'SAVED'")])
 
     def test_the_places_of_an_overlap(self):

@@ -212,10 +212,10 @@ STOP
                        ("MODULE_MAIN\n", "\n\nMODULE_MAIN\n"), ("CNST.0\n", "CNST.0h\n")):
             status, text = self.technol(change)
             self.assertEqual(status, SAME, f"{change}\n{text}")
-            self.assertRegex(text, r"^rungs: 0 changed, 0 added, 0 removed, 0 moved, \d+ the same\n$")
+            self.assertRegex(text, r"^rungs: 0 changed, 0 added, 0 removed, 0 moved, \d+ unchanged\n$")
         for change in (("DATA\n", "DATA\nFIRST: DS 3\n"), ("STEP: DS 1\n", "STEP: DS 1\nLAST: DS 300\n")):
             status, text = self.technol(change)
-            self.assertRegex(text, r"rungs: 0 changed, 0 added, 0 removed, 0 moved, \d+ the same\n$", change)
+            self.assertRegex(text, r"rungs: 0 changed, 0 added, 0 removed, 0 moved, \d+ unchanged\n$", change)
 
     def test_technol_changes(self):
         for change, rungs in ((("        LDR B\n        WR C\n", "        LDR -B\n        WR C\n"), "1 changed, 0 added"),
@@ -226,7 +226,7 @@ STOP
                               (("        LDR B\n        WR C\n", "        LDR A\n        WR B\n        LDR B\n        WR C\n"), "0 changed, 1 added")):
             status, text = self.technol(change)
             self.assertEqual(status, OTHERWISE, change)
-            self.assertRegex(text, rf"rungs: {rungs}, 0 removed, 0 moved, \d+ the same\n$", f"{change}\n{text}")
+            self.assertRegex(text, rf"rungs: {rungs}, 0 removed, 0 moved, \d+ unchanged\n$", f"{change}\n{text}")
 
     def test_initial_contents(self):
         self.assertEqual(self.technol(("'abc'", "'abd'"))[1].splitlines()[0], "changed initial value TEXT: 'abc' to 'abd'")
@@ -267,7 +267,7 @@ rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 unchanged
         status, text, _ = self.run_diff(a, b)
         self.assertEqual(status, OTHERWISE)
         self.assertEqual(text.splitlines()[0].split(": ")[1], "air to no air")
-        before = HEAD + 'message 3 "x"\nbutton 3 "y"\n' + ONE + END
+        before = HEAD + 'message 3 "x"\nbutton 3 "y"\n' + ONE + "rung\n|--[N_ON]--{MSG #3 #0 #0}--(7300.00)\n" + END
         self.assertEqual(self.diff(before, before.replace('"x"', '"u"').replace('"y"', '"v"'))[1].splitlines()[:2],
                          ["changed message 3: x to u", "changed button 3: y to v"])
 
@@ -318,7 +318,7 @@ rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 unchanged
         status, text = self.diff(source, source.replace("DATA\n", "DATA\nFIRST_OF_ALL: DS 6\n", 1), "--dialect", "technol", ending="plc")
         self.assertEqual(status, OTHERWISE)
         self.assertIn("added name FIRST_OF_ALL", text)
-        self.assertRegex(text, r"rungs: 0 changed, 0 added, 0 removed, 0 moved, \d+ the same\n$")
+        self.assertRegex(text, r"rungs: 0 changed, 0 added, 0 removed, 0 moved, \d+ unchanged\n$")
 
     def test_projects(self):
         for example in ("gsk-mill", "nct-turning-centre", "technol-machining-centre"):

@@ -207,7 +207,7 @@ class Inputs(Folder):
         self.assertIn("--config takes KEY=VALUE, found 'timeslice'", done.stderr)
         done = self.run_it("./lamp.so", "--config", "timeslice=5ms")
         self.assertEqual(done.returncode, USAGE)
-        self.assertIn("the compiler reads it", done.stderr)
+        self.assertIn("is for the compiler", done.stderr)
 
     def test_a_fault_names_its_explanation(self):
         self.file("loop.pmc", LOOP)

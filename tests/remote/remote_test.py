@@ -550,7 +550,7 @@ never = ["REAL.7020"]
         for wrong in ("REAL.9999", "REAL.7100.00", "REAL."):
             self.assertIn(f"{wrong} is not a name of the program", self.ctl("get", wrong, status=WRONG))
         self.assertTrue(self.ctl("get", "REAL.SPEDE", status=WRONG).endswith("; did you mean REAL.SPEED?\n"))
-        self.assertIn("7021 is never set or forced here", self.ctl("set", "7021", "1", status=WRONG))
+        self.assertIn("7021 is protected by the mapping file", self.ctl("set", "7021", "1", status=WRONG))
         self.assertIn("setting it has no effect", self.ctl("set", "REAL.7010", "1", status=WRONG))
 
     def test_forces(self):

@@ -128,7 +128,7 @@ expect_no_change
     def test_what_the_report_has(self):
         self.file("next.lad", LAMP.replace("COUNT  5300", "COUNT  5310").replace("SWITCH 5100.00", "SWITCH 5100.01"))
         self.fails("program lamp.lad\nreplace next.lad\nexpect_change new COUNT\n", "a.scn:3: the report does not contain: "
-                   "new COUNT; it has: moved COUNT, moved SWITCH (before the first scan)")
+                   "new COUNT; it contains: moved COUNT, moved SWITCH (before the first scan)")
         self.fails("program lamp.lad\nreplace next.lad\nexpect_change moved SWITCH\nexpect_no_change\n",
                    "a.scn:4: there are changes that no expect_change names: moved COUNT")
         self.fails("program lamp.lad\nreplace next.lad\nexpect_change moved COUNT\nexpect_change moved COUNT\n",

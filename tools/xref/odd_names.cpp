@@ -231,7 +231,7 @@ void markOdd(const SourceManager& sources, const Analysis& analysis, const Cross
       declared.try_emplace(keyOf(*place));
   for (const OddName& name : oddNames(sources, analysis, reference))
     if (const auto place = placeOf(name.definition->place))
-      if (std::string_view& odd = declared[keyOf(*place)]; odd.empty()) odd = oddityOf(name);
+      if (std::string_view& odd = declared[keyOf(*place)]; odd.empty() || odd == kNeverReset) odd = oddityOf(name);
   std::vector<ir::BitRange> operands;
   for (const OperandUse& operand : analysis.operands())
     if (const auto place = placeOf(operand.place)) operands.push_back(*place);

@@ -70,7 +70,8 @@ std::string symbolAt(const rung_program& program, const Ref& place) {
 std::string shownName(const rung_program& program, const Ref& place) {
   const std::string symbol = symbolAt(program, place);
   if (symbol.empty()) return nc::hasAddresses(program) ? nc::describe(program, place) : nc::cellAddress(program, place);
-  return nc::hasAddresses(program) ? fmt::format("{} ({})", symbol, nc::address(program, place)) : symbol;
+  const std::string address = nc::address(program, place);
+  return nc::hasAddresses(program) && address != symbol ? fmt::format("{} ({})", symbol, address) : symbol;
 }
 
 std::string shownRange(const rung_program& program, const ir::BitRange& range) {

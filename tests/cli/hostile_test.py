@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Sources and other files that are no files, are too deep or grow without end: an error, soon. hostile_test.py RUNGC"""
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -122,6 +123,20 @@ class Hostile(unittest.TestCase):
             self.file(f"x{i}.inc", f"T_INCLUDE x{i + 1}.inc\n" * 2)
         self.file("x30.inc", "; nothing\n")
         self.expect_error(["check", self.technol("includes.plc", " LDR A\n WR B\n", "T_INCLUDE x0.inc\n")], WRONG, "[too-")
+
+    # ---- what is long
+
+    def test_lines_of_contacts(self):
+        """Names that come again and again, and negated ones: what compilers of chains take the square of their length for."""
+        def line(negated, coil):
+            names = (f"{5200 + i % 2000 // 15}.{i % 2000 % 15:02}" for i in range(5000))
+            return "|" + "".join(f"--[{'/' if negated(i) else ''}{name}]" for i, name in enumerate(names)) + f"--({coil})\n"
+        ladder = self.file("line.lad", "dialect nct\nmodule MAIN\n\nrung \"never\"\n" + line(lambda i: i % 7 == 3, "5100.00")
+                           + "\nrung \"always\"\n" + line(lambda i: True, "5100.01"))
+        for engine in ("interp", "jit", "llvm", "cpp"):
+            with self.subTest(engine):
+                found, said = self.rungc("run", ladder, "--engine", engine, "--scans", "2", "--watch", "5100.00", "5100.01")
+                self.assertEqual((found, *re.findall(r"5100.0\d = \d", said)), (OK, "5100.00 = 0", "5100.01 = 1"), said[:2000])
 
 
 if __name__ == "__main__":

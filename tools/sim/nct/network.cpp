@@ -175,7 +175,7 @@ Handled Network::config(std::string_view key, std::string_view value) {
   return "";
 }
 
-Handled Network::event(std::string_view name, const std::vector<NcArgument>& keys) {
+Handled Network::event(std::string_view, const std::vector<NcArgument>& keys) {
   if (!isolated()) return "event device needs 'config network isolated'";
   line_->accept(); // so that a client that has gone makes room for the next one
   return device_.event(keys, port_);

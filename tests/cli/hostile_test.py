@@ -111,6 +111,10 @@ class Hostile(unittest.TestCase):
         found, said = self.rungc("map", program, "--check", good)
         self.assertEqual((found, said.count("good.map:")), (WRONG, 1), said)
 
+    def test_numbers_with_a_comment_inside(self):
+        program = self.technol("good.plc", " LDR A\n WR B\n")
+        self.expect_error(["map", program, "--check", self.file("base.map", "timeout = 16#20\n")], WRONG, "write 0x20 for 16#20")
+
     # ---- growth
 
     def test_macros_of_macros(self):

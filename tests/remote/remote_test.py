@@ -469,8 +469,9 @@ class Commands(Host):
         self.ctl("stop")
         self.ctl("set", "Y0.0", "1")
         self.ctl("start")
-        pins = json.loads(self.ctl("map", "--json"))["pins"]
-        self.assertEqual([(pin["name"], pin["uses"], pin["value"]) for pin in pins], [("run", ["X0.0"], False), ("lamp", ["Y0.0"], False)])
+        def pins():
+            return [(pin["name"], pin["uses"], pin["value"]) for pin in json.loads(self.ctl("map", "--json"))["pins"]]
+        self.wait(lambda: pins() == [("run", ["X0.0"], False), ("lamp", ["Y0.0"], False)])  # after the next scan
 
     def test_messages_are_followed(self):
         self.ctl("set", "X0.1", "1")

@@ -1,5 +1,5 @@
 // TOML within bounds: toml++ follows the parts of a key by recursion, and a key of a hundred thousand parts would end
-// the process.
+// the process. Numbers of another base are 0x20 here, and 16#20 as in scenarios is refused.
 #pragma once
 #include <algorithm>
 #include <string_view>
@@ -22,8 +22,15 @@ inline size_t endOfString(std::string_view text, size_t at) {
   return at + end.size();
 }
 
-// Where a key has more parts; npos: nowhere.
-inline size_t findLongKey(std::string_view text) {
+// What the parser would not stand, or not refuse; null text: nothing.
+struct Wrong {
+  size_t at = 0;
+  const char* text = nullptr;
+};
+
+// 16#20 is 16 and a comment for it.
+inline Wrong findWrong(std::string_view text) {
+  static_assert(kMostParts == 64, "as the sentence says");
   size_t parts = 1;
   for (size_t at = 0; at < text.size();) {
     const char c = text[at];
@@ -31,25 +38,26 @@ inline size_t findLongKey(std::string_view text) {
       at = endOfString(text, at);
       continue;
     }
+    const bool afterDigit = at > 0 && text[at - 1] >= '0' && text[at - 1] <= '9';
+    if (c == '#' && afterDigit) return {at, "# begins a comment: write 0x20 for 16#20, or a blank before the comment"};
     if (c == '#') at = std::min(text.find('\n', at), text.size() - 1);
     if (std::string_view("=,{}[]\n#").find(c) != std::string_view::npos) parts = 1;
-    if (c == '.' && ++parts > kMostParts) return at;
+    if (c == '.' && ++parts > kMostParts) return {at, "a key has more than 64 parts"};
     ++at;
   }
-  return std::string_view::npos;
+  return {};
 }
 
 // Throws toml::parse_error. `path` is for its places.
 inline toml::table parse(std::string_view text, std::string_view path = {}) {
-  const size_t at = findLongKey(text);
-  if (at == std::string_view::npos) return toml::parse(text, path);
+  const Wrong wrong = findWrong(text);
+  if (wrong.text == nullptr) return toml::parse(text, path);
   toml::source_position place{1, 1};
-  for (const char c : text.substr(0, at)) {
+  for (const char c : text.substr(0, wrong.at)) {
     ++place.column;
     if (c == '\n') place = {place.line + 1, 1};
   }
-  static_assert(kMostParts == 64, "as the sentence says");
-  throw toml::parse_error("a key has more than 64 parts", place);
+  throw toml::parse_error(wrong.text, place);
 }
 
 } // namespace rung::toml_text

@@ -22,7 +22,7 @@ inline size_t endOfString(std::string_view text, size_t at) {
   return at + end.size();
 }
 
-// What the parser would not stand, or not refuse; null text: nothing.
+// What the parser must not get, or would not refuse; null text: nothing.
 struct Wrong {
   size_t at = 0;
   const char* text = nullptr;

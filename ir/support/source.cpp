@@ -28,7 +28,7 @@ struct SourceManager::File {
   std::vector<uint32_t> charactersBefore; ///< per kStep bytes; empty for a text in ASCII
   std::string encoding;                   ///< that the text was in; "": in the one that it still is in
   std::optional<Undecoded> undecoded;
-  std::string afterEnd; ///< from the end-of-file mark on
+  std::string afterEnd; ///< bytes, from the end-of-file mark on
 
   void index();
   size_t charactersUpTo(size_t offset) const;
@@ -71,6 +71,7 @@ std::string_view SourceManager::File::line(size_t lineIndex) const {
 namespace {
 
 constexpr size_t kMostText = size_t{256} << 20; // of all sources
+constexpr char kEndOfFile = 0x1A;
 
 Result<std::string> readAll(const std::string& path) {
   std::string contents;
@@ -101,23 +102,23 @@ Result<FileId> SourceManager::addFile(const std::string& path) {
 }
 
 FileId SourceManager::addBytes(std::string name, std::string bytes) {
-  constexpr char kEndOfFile = 0x1A;
   const std::optional<EncodingLine> line = encodingLine(bytes);
   std::string encoding = line ? line->name : encoding_;
   std::optional<Undecoded> undecoded;
-  if (!encoding.empty() && !knowsEncoding(encoding)) {
+  Decoded text{.text = bytes, .wrong = {}};
+  if (!encoding.empty() && knowsEncoding(encoding)) text = decoded(bytes, encoding);
+  const size_t end = text.text.find(kEndOfFile); // what follows need not be text
+  if (!encoding.empty() && !knowsEncoding(encoding))
     undecoded = Undecoded{encoding, false, line ? line->offset : 0};
-  } else if (!encoding.empty()) {
-    Decoded text = decoded(bytes, encoding);
-    if (text.wrong)
-      undecoded = Undecoded{encoding, true, *text.wrong};
-    else
-      bytes = std::move(text.text);
+  else if (text.wrong && end == std::string::npos)
+    undecoded = Undecoded{encoding, true, *text.wrong};
+  std::string afterEnd;
+  if (!undecoded && end != std::string::npos) {
+    text.text.resize(end);
+    const size_t before = encoding.empty() ? end : encoded(text.text, encoding).value_or("").size();
+    afterEnd = bytes.substr(std::min(before, bytes.size()));
   }
-  const size_t end = std::min(bytes.find(kEndOfFile), bytes.size());
-  std::string afterEnd = bytes.substr(end);
-  bytes.resize(end);
-  const FileId id = addBuffer(std::move(name), std::move(bytes));
+  const FileId id = addBuffer(std::move(name), undecoded ? std::move(bytes) : std::move(text.text));
   File& added = *files_[id.index];
   added.encoding = std::move(encoding);
   added.undecoded = std::move(undecoded);
@@ -165,8 +166,10 @@ bool SourceManager::hasEncoding(FileId id) const { return !file(id).encoding.emp
 
 std::optional<std::string> SourceManager::bytesOf(FileId id, std::string text) const {
   const File& of = file(id);
-  text += of.afterEnd;
-  return of.encoding.empty() || of.undecoded ? std::optional(std::move(text)) : encoded(text, of.encoding);
+  std::optional<std::string> bytes =
+      of.encoding.empty() || of.undecoded ? std::optional(std::move(text)) : encoded(text, of.encoding);
+  if (bytes) *bytes += of.afterEnd;
+  return bytes;
 }
 uint32_t SourceManager::lineCount(FileId id) const { return static_cast<uint32_t>(file(id).lineStarts.size()); }
 

@@ -91,6 +91,12 @@ class FullDisk(unittest.TestCase):
         for words in MORE:
             self.is_noticed(RUNGC, words)
 
+    def test_standard_error(self):
+        for words in (["check", "none.pmc"], ["explain", "zzqq"], ["build", "none.pmc", "-o", "none.so"], ["check", "a.pmc", "--config", "tmr.1=x"]):
+            with self.subTest(words=words), open("/dev/full", "w") as full:
+                done = subprocess.run([RUNGC, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=full, cwd=self.home, timeout=patience())
+                self.assertEqual(done.returncode, ENVIRONMENT)
+
     def test_rung_run(self):
         for words in (["--help"], ["--version"], ["--man"]):
             self.is_noticed(RUNG_RUN, words)

@@ -197,8 +197,9 @@ std::optional<int> CommandLine::run(int argc, char** argv, const std::function<i
   try {
     decided = parse(words, argv, wrong);
   } catch (const std::system_error&) { // of fmt::print
-    if (std::ferror(stdout) == 0) throw;
+    if (std::ferror(stdout) == 0 && std::ferror(stderr) == 0) throw;
   }
+  if (std::ferror(stderr) != 0) return kEnvironment; // there is nowhere to say why
   std::cout.flush();
   std::fflush(stdout);
   if (std::cout && std::ferror(stdout) == 0) return decided;

@@ -202,7 +202,8 @@ bool LineScanner::severalWords(const Element& element, size_t begin, size_t end,
   const std::span<const ForeignMark> marks = contact ? std::span<const ForeignMark>(kContactMarks) : kCoilMarks;
   const auto mark =
       std::ranges::find_if(marks, [&](const ForeignMark& one) { return text::equalsIgnoringCase(one.word, first); });
-  if (mark == marks.end() || element.negated || element.edge != 0 || rest.find(' ') != std::string_view::npos) {
+  const bool isOperand = rest.find(' ') == std::string_view::npos && rest.find_first_of("/!#@%") != 0;
+  if (mark == marks.end() || element.negated || element.edge != 0 || !isOperand) {
     if (contact) report.note("contacts in series are drawn one after the other, contacts in parallel in branches");
     return false;
   }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "ir/core/long_rungs.h"
 #include "ir/core/eval.h"
+#include "ir/core/long_rungs.h"
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
 #include "ir/support/check.h"

@@ -14,9 +14,9 @@ struct UsedName {
   bool written = false; // it, or a part of it
 };
 
-// A mapping file without mistakes and warnings. Input is what belongs to the machine or the NC, or what no rung writes; output what
-// goes there, or what no rung reads. What rungs write and read in memory that both sides share is in comments.
-// `program`: the tables of the instance's image.
+// A mapping file without mistakes and warnings. Input is what belongs to the machine or the NC, or what no rung writes;
+// output what goes there, or what no rung reads. What rungs write and read in memory that both sides share is in
+// comments. `program`: the tables of the instance's image.
 std::string templateMap(rung_instance* instance, const rung_program& program, std::span<const UsedName> used);
 
 } // namespace rung::map_template

@@ -1,7 +1,6 @@
 // The module and its open routine (see emitter.h).
 #include "frontend/dialects/technol/lower/emitter.h"
 
-
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/licences.h"
 

@@ -12,8 +12,6 @@
 
 namespace rung {
 
-inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
 struct Word {
   std::string_view text; ///< without the quotes when quoted
   SourceRange range;     ///< with the quotes when quoted

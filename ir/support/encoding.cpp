@@ -6,6 +6,7 @@
 #include <iconv.h>
 
 #include "ir/support/ascii.h"
+#include "ir/support/utf8.h"
 #include "rtlib/text/letters.h"
 
 namespace rung {
@@ -75,7 +76,7 @@ std::optional<std::string> encoded(std::string_view text, const std::string& enc
 std::optional<EncodingLine> encodingLine(std::string_view bytes) {
   constexpr std::string_view kBlanks = " \t\r";
   std::string_view left = bytes;
-  text::takePrefixIgnoringCase(left, "\xEF\xBB\xBF");
+  if (left.starts_with(kByteOrderMark)) left.remove_prefix(kByteOrderMark.size());
   for (int number = 1; number <= 2; ++number) {
     const size_t end = left.find('\n');
     std::string_view line = left.substr(0, end);

@@ -105,10 +105,10 @@ FileId SourceManager::addBytes(std::string name, std::string bytes) {
   const std::optional<EncodingLine> line = encodingLine(bytes);
   std::string encoding = line ? line->name : encoding_;
   std::optional<Undecoded> undecoded;
-  Decoded text{.text = bytes, .wrong = {}};
-  if (!encoding.empty() && knowsEncoding(encoding)) text = decoded(bytes, encoding);
+  const bool known = encoding.empty() || knowsEncoding(encoding);
+  Decoded text = encoding.empty() || !known ? Decoded{.text = bytes, .wrong = {}} : decoded(bytes, encoding);
   const size_t end = text.text.find(kEndOfFile); // what follows need not be text
-  if (!encoding.empty() && !knowsEncoding(encoding))
+  if (!known)
     undecoded = Undecoded{encoding, false, line ? line->offset : 0};
   else if (text.wrong && end == std::string::npos)
     undecoded = Undecoded{encoding, true, *text.wrong};

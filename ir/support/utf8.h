@@ -8,6 +8,9 @@
 
 namespace rung {
 
+/// What some editors begin a text in UTF-8 with.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 /// Number of characters; a stray byte of a damaged text counts with the character before it.
 size_t countCodePoints(std::string_view text);
 

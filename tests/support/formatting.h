@@ -9,7 +9,7 @@
 
 #include "frontend/dialects/dialect.h"
 #include "frontend/syntax/page.h"
-#include "frontend/syntax/word_lexer.h"
+#include "ir/support/utf8.h"
 #include "ir/text/text.h"
 
 namespace rung::test {

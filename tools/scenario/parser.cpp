@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "frontend/dialects/dialect.h"
-#include "frontend/syntax/word_lexer.h"
+#include "ir/support/utf8.h"
 #include "rtlib/text/regular_file.h"
 #include "tools/scenario/in_project.h"
 #include "tools/scenario/scenario.h"

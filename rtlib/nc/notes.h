@@ -1,5 +1,5 @@
-// What DIALECT/signals.csv says after "//": where the manual is not of one mind about a signal, or leaves a name out.
-// It is for whoever compares with the manual, and no part of what a signal means.
+// The text after "//" in DIALECT/signals.csv: where the manual contradicts itself about a signal, or leaves a name out.
+// It is for readers who compare with the manual, and not part of the meaning of a signal.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -557,7 +557,7 @@ json jsonOf(mapping::PinType type, const plc::Value& value) {
 
 } // namespace
 
-// Empty: nobody scans the program.
+// Empty: no thread scans the program.
 std::vector<plc::Value> Controller::pinValues() {
   struct {
     const plc::Box& box;

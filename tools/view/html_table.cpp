@@ -91,7 +91,7 @@ void TablePage::lines(std::string_view file, uint32_t first, uint32_t last) {
   out_ += "</pre>";
 }
 
-// What nobody has shown yet before line `end`: remarks, declarations, the beginnings and ends of modules.
+// What has not been shown yet before line `end`: remarks, declarations, the beginnings and ends of modules.
 void TablePage::linesBetween(const std::string& file, uint32_t end) {
   const auto text = listing_.texts.find(file);
   if (text == listing_.texts.end()) return;

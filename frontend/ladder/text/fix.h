@@ -8,8 +8,8 @@
 namespace rung::ladder {
 
 /// "did you mean WORD?" and the fix that puts it into the place of `range`, as DiagBuilder::meant. In a drawing the
-/// wire on the right of the element becomes longer or shorter, so that what follows keeps its column; where it cannot
-/// there is no fix.
+/// wire on the right of the element becomes longer or shorter, so that what follows keeps its column; without room
+/// for that the fix is left out.
 void meant(DiagBuilder& report, const SourceManager& sources, SourceRange range, std::string_view word);
 
 /// The same of a word that may be misspelt: with a fix only where nothing else can have been meant.

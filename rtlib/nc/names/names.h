@@ -27,7 +27,7 @@ std::string_view headOf(std::string_view name);
 // A short name of the place that `resolve` finds again: a symbol of its own, else the dialect's address.
 std::string placeName(const rung_program& program, const host::Ref& place);
 
-// The place as the number that the dialect has there: of NCT an integer of 64 bits, of which it has none, is a real.
+// The place as a number that the dialect has: NCT has no integers of 64 bits, so one of these is a real.
 host::Ref meant(const rung_program& program, const host::Ref& place);
 // The name of the real that begins where the cell of this name does: REAL.NAME.
 std::string realName(std::string_view name);

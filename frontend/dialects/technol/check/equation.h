@@ -16,7 +16,7 @@ public:
   // Before and after the work of a statement.
   StackUse begin(const Statement& statement);
   void finish(const Row& row) { open_ = open_ && !row.info.terminating; }
-  // A statement that nobody knows: it may be the one that ends the equation, stores a value or takes one.
+  // An unknown statement: it may be the one that ends the equation, stores a value or takes one.
   void unknown() { hasUnknown_ = lostTrack_ = true; }
   // The flags of a macro override what its statements did (man. l.20536).
   StackUse beginMacro(const Statement& statement);

@@ -126,21 +126,21 @@ def section(samples, changed, passes):
     bits = statistics.median(runs_of(bits, 8)) * round(calls / 8 / passes["bits"])
     lines = ["", "## In LinuxCNC's servo thread", "",
              *textwrap.wrap(
-                 f"LinuxCNC {version('linuxcnc-uspace')} on {processor()}, Linux {platform.release().split('-')[0]}, {datetime.date.today()}; "
-                 "simulated axes that move, a servo thread of 1 ms without real-time priority, on a machine that had other "
-                 f"work, which interrupts it. Times are those of HAL (`NAME.scan.time`), of {len(periods):,} cycles. The three machines are "
-                 "instances of one component, with nothing at their pins. ClassicLadder and the program beside it have the same "
-                 f"{RUNGS} rungs of three contacts and a coil, of which ten outputs are compared.", 150), "",
-             "| function | ms from part to part | parts a pass | us a part: median | 99 % | worst | % of the thread's time |",
+                 f"LinuxCNC {version('linuxcnc-uspace')} on {processor()}, Linux {platform.release().split('-')[0]}, {datetime.date.today()}: "
+                 "simulated axes in motion, and a servo thread of 1 ms without real-time priority on a machine with other work, which interrupts it. "
+                 f"Times are those of HAL (`NAME.scan.time`) over {len(periods):,} cycles. A working call of a function is one that runs rungs. "
+                 "The three machines are instances of one component, with nothing connected to their pins. ClassicLadder and the program beside it "
+                 f"have the same {RUNGS} rungs of three contacts and a coil; ten of their outputs are compared.", 150), "",
+             "| function | ms between working calls | working calls per scan | us per working call: median | 99 % | worst | % of the thread's time |",
              "| --- | --- | --- | --- | --- | --- | --- |"]
     lines += [row(title, samples.column(name), every, passes[name]) for name, (_, _, every, title) in MACHINES.items()]
     lines.append(row(f"rung_hal, {RUNGS} rungs of bit logic, GSK", samples.column("bits"), 8, passes["bits"]))
     lines.append(row(f"ClassicLadder, {RUNGS} rungs of bit logic", ladder, 1, calls))
     lines.append(row("motion-controller", samples.column("motion"), 1, calls))
-    lines += ["", f"A pass of these {RUNGS} rungs takes ClassicLadder {statistics.median(ladder) / bits:.0f} times as long (medians).",
+    lines += ["", f"ClassicLadder takes {statistics.median(ladder) / bits:.0f} times as long for a scan of these {RUNGS} rungs (medians).",
               f"The thread's periods differ from 1 ms by {statistics.median(periods):.1f} us (median), {part(periods, 0.99):.1f} us (99 %), "
               f"{max(periods):.0f} us (worst).", "",
-              "| reload by rungctl | changes | longer than another call, us: median | worst |", "| --- | --- | --- | --- |"]
+              "| reload by rungctl | reloads | excess over a usual call, us: median | worst |", "| --- | --- | --- | --- |"]
     for name, (_, _, every, title) in MACHINES.items():
         longer = pauses(samples, changed, name, every)
         lines.append(f"| {title} | {len(longer)} | {statistics.median(longer):.1f} | {max(longer):.1f} |")

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Instructions by callgrind: of the example machines a part, of programs with device services and generated ones a scan.
+"""Instructions by callgrind: per part for the example machines, per scan for programs with device services and generated ones.
 
 count.py BIN            prints the tables
-count.py BIN --check    fails where a count has grown by more than 1 % against counts.json. The counts are pinned to
-                        an environment, which the file names; in another one what has grown is only reported. With CI
-                        in the environment another one fails, too, and so does a count that the file does not have
+count.py BIN --check    fails where a count is more than 1 % above that of counts.json. The counts hold for the environment
+                        that the file names; in another one growth is only reported. Where the variable CI is set, another
+                        environment is a failure as well, and so is a count that the file lacks
 count.py BIN --update   writes counts.json
-count.py BIN --record   makes the recordings anew, after a change of an example or of the simulation
-count.py BIN --small    of generated programs those of 100 rungs alone
-count.py BIN --all      of generated programs those of 10,000 and 50,000 rungs, too: compilers take an hour for them
+count.py BIN --record   renews the recordings, after a change of an example or of the simulation
+count.py BIN --small    generated programs of 100 rungs only
+count.py BIN --all      generated programs of 10,000 and 50,000 rungs as well: compilers take an hour for them
 """
 import argparse
 import json
@@ -55,12 +55,12 @@ def compare(counts, kept):
 
 
 def verdict(counts, table, here, pinned_only):
-    """What to print, and whether that is a failure. `pinned_only`: this must be the environment of the table."""
+    """What to print, and whether it is a failure. `pinned_only`: another environment than the table's is a failure."""
     grown, missing = compare(counts, table["instructions"])
     elsewhere = table["environment"] != here
     lines = grown + missing
     if elsewhere:
-        lines.append(f"the counts of {TABLE.name} are of another environment: {table['environment']}; here: {here}")
+        lines.append(f"the counts of {TABLE.name} are for another environment: {table['environment']}; this one: {here}")
     if pinned_only:
         return lines, bool(lines)
     return lines, bool(lines) and not elsewhere
@@ -106,7 +106,7 @@ def main():
                                 bool(os.environ.get("CI")))
         problems = [services.excess(of_services)]
         if failed:
-            problems.append("other instructions than before; if that is meant: ./dev bench --count --update\n" + "\n".join(lines))
+            problems.append("counts have grown, or are not in the table; if that is intended: ./dev bench --count --update\n" + "\n".join(lines))
         if any(problems):
             raise Failure("\n".join(filter(None, problems)))
         print("\n".join(lines))

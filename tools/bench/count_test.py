@@ -44,9 +44,9 @@ class Verdict(unittest.TestCase):
 
 class Services(unittest.TestCase):
     def rows(self, more):
-        return {services.WITHOUT: (10, 1000, 0), f"{services.ALL}; at rest": (20, 1000 + more, 0)}
+        return {services.WITHOUT: (10, 1000, 0), f"{services.ALL}; idle": (20, 1000 + more, 0)}
 
-    def test_at_rest_they_add_two_hundred_instructions_at_most(self):
+    def test_idle_services_add_two_hundred_instructions_at_most(self):
         self.assertEqual(services.excess(self.rows(200)), "")
         self.assertIn("add 201 instructions", services.excess(self.rows(201)))
 

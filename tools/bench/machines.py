@@ -1,4 +1,4 @@
-"""Instructions that the example machines take a part: a scan, of GSK a slot of 8 ms."""
+"""Instructions that the example machines execute per part: a scan, for GSK a slot of 8 ms."""
 import tempfile
 from pathlib import Path
 
@@ -8,7 +8,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 RECORDINGS = HERE / "machines" / "recordings"
 IDLE_PARTS = (200, 500)  # the first one that is counted, and how many
-SEEN_PART = 100  # whose lines of code are counted
+SEEN_PART = 100  # the one whose cache lines of code are counted
 
 MACHINES = {
     "gsk-mill": {"part program": "nc-program.scn", "tool change": "tool-change.scn"},
@@ -18,10 +18,10 @@ MACHINES = {
 PROFILED = "part program"
 HEAD = """## Instructions of the example machines
 
-Counted by callgrind, exactly: a program built by `rungc build`, in a host of the runtime's library with the control of its dialect. What its machine does comes from a
-recording; writing it into the program's memory is not counted. A part is a scan, of GSK a slot of 8 ms. After each part all of the program's
-memory is compared with that of the interpreter, by a hash. `./dev bench --count` makes this table and the next ones alone. "With its profile": built with `--profile-use`, by
-what `rungc profile -o` counted of the part program. Lines of code: of 64 bytes, of the compiled rungs, in one part; a scan after a sleep loads each of them.
+Exact counts by callgrind: a program built by `rungc build`, in a host of the runtime library with the control of its dialect. What the machine does comes from a
+recording; writing it into the program's memory is not counted. The unit is a scan, for GSK a slot of 8 ms. After each one a hash of the program's
+memory is compared with the interpreter's. `./dev bench --count` prints this table and the next ones only. "With its profile": built with `--profile-use` from the
+counts that `rungc profile -o` took of the part program. Cache lines of code: lines of 64 bytes that the compiled rungs execute in one scan or slot; a scan after a sleep loads each of them.
 """
 
 
@@ -30,7 +30,7 @@ def recording(machine, situation):
 
 
 def parts_of(path):
-    """A line begins with a hash, or stands for several (*N)."""
+    """A line begins with a hash, or repeats the line before it N times (*N)."""
     lines = path.read_text(encoding="ascii").splitlines()[1:]
     return sum(int(line[1:]) if line.startswith("*") else 1 for line in lines)
 
@@ -44,7 +44,7 @@ def record(tools):
 
 
 def count(tools, program, path, parts, folder):
-    """Of a part: instructions of the program's code, all instructions, lines of the program's code."""
+    """Per part: instructions of the program's code, all instructions, cache lines of the program's code."""
     profile = Path(folder) / "profile"
     first, number = parts
     run(tools / "rung-bench-scan", program, path)
@@ -84,7 +84,7 @@ def measure(tools):
 
 
 def text_of(rows):
-    lines = [HEAD, "| machine | compiled rungs | around them | instructions a part | lines of code |", "| --- | --- | --- | --- | --- |"]
+    lines = [HEAD, "| machine | compiled rungs | runtime | instructions per scan or slot | cache lines of code |", "| --- | --- | --- | --- | --- |"]
     for name, (rungs, total, code) in rows.items():
         lines.append(f"| {name} | {rungs:,} | {total - rungs:,} | {total:,} | {code:,} |")
     return "\n".join(lines) + "\n"

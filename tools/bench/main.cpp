@@ -90,11 +90,11 @@ std::vector<Row> rowsFor(const Case& program) {
 
 int printTable(Case program, const std::string& title, const rung::TemporaryFolder& folder) {
   program.straight = (folder / fmt::format("{}-{}.so", program.kind, program.size)).string();
-  fmt::print("## {}\n\n| engine | ns a scan | ns a rung | ratio to straight-line C++ | faster than the interpreter | "
-             "source to "
-             "layout, ms | layout to first scan, ms | resident, MB | code, kB |\n"
-             "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
-             title);
+  fmt::print(
+      "## {}\n\n| engine | ns per scan | ns per rung | ratio to straight-line C++ | times as fast as the interpreter | "
+      "source to layout, ms | layout to first scan, ms | resident, MB | code, kB |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+      title);
   int status = 0;
   double interpreter = 0;
   double memory = 0;
@@ -114,7 +114,7 @@ int printTable(Case program, const std::string& title, const rung::TemporaryFold
                (*m)["back"].get<double>(), (*m)["rss"].get<double>(), code == 0 ? "–" : fmt::format("{:.0f}", code));
     std::fflush(stdout);
   }
-  fmt::print("\nAn instance's memory block has {:.1f} kB.\n\n", memory);
+  fmt::print("\nThe memory block of an instance takes {:.1f} kB.\n\n", memory);
   return status;
 }
 
@@ -135,14 +135,15 @@ int printDocument() {
   if (!folder.ok()) return 3;
   fmt::print("{}", R"(# Performance
 
-Made by `./dev bench`; do not edit. All programs are generated from a seed (tools/bench/generated), in each dialect from one description, and written as straight-line
-C++ as well. Both run from the same inputs and are compared before they are measured. Here ratios are to a byte a bit, compiled by clang++ at -O3, medians of pairs
-measured hot and in turn in one process; absolute times depend on the machine. A scan is a pass of the host's runner without a control, with its copies of the NC area.
-Resident memory is the most that the process ever had, compiler included. Code is what a shared object takes when it is loaded, and the object files of
-the JIT. "Full" is bit logic with, for each ten rungs of it, a timer, a counter and two of integer arithmetic; figures for a rung count its bit logic alone.
+Written by `./dev bench`; do not edit. All programs are generated from a seed (tools/bench/generated): one description becomes a program in each dialect, and the
+same as straight-line C++. All read the same inputs, and their results are compared before anything is measured. Ratios in the first tables are to C++ with one
+byte per bit, compiled by clang++ at -O3: medians of pairs that run hot and in turn in one process. Absolute times depend on the machine. A scan is that of the
+host's runner, without a control, with its copies of the NC area.
+Resident memory is the peak of the process, compiler included. Code is the memory that a loaded shared object takes, or the size of the JIT's object files.
+"Full" is bit logic with one timer, one counter and two integer operations for every ten rungs of it; figures per rung count its bit logic alone.
 
-Far above 1 are the interpreter, which is the definition and not meant to be fast, and fast compilation (LLVM's quick instruction selection without passes keeps
-every value of a rung in memory; it is for trying a change at once).
+Two engines are far above 1: the interpreter, which defines the results and is not meant to be fast, and fast compilation, in which LLVM selects instructions
+quickly, without passes, and keeps every value of a rung in memory. It is for trying a change at once.
 
 )");
   int status = 0;

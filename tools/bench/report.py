@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What docs/performance.md says about generated programs: counts, cold scans, costs of instructions; and the plots.
+"""The part of docs/performance.md after the engines: starts, counts, cold scans, costs of instructions; and the plots.
 
 report.py BIN FOLDER    measures, prints the text, and writes the plots into the folder
 """
@@ -29,45 +29,46 @@ COLD = (("full", 1000), ("bits", 1000), ("timers-running", 100), ("counters", 10
 
 COUNTS_HEAD = """## Instructions of generated programs
 
-Counted by callgrind, exactly, as above: a scan in the host's runner, without a control, after twenty others. A program is drawn from a seed (tools/bench/generated)
-and written in each dialect, and as straight-line C++ in two forms, a byte a bit and 64 bits a word, compiled by g++ and clang++ at -O3. All have the same inputs,
-some of which change before each scan, and the same outputs: bits, words, tables and floating-point numbers are compared after every one of 400 scans. The
-reference is the straight-line form with the fewest instructions. "Bit logic of arrays" has rows of 50 rungs that are alike over neighbouring bits, alarms that stay and their lamps. "Full" is bit logic with, for each ten rungs of it, a timer, a counter and two of integer
-arithmetic. A missing count: the control cannot hold so many rungs, or has no such instruction. In brackets: of these the compiled rungs, without the runner.
+Exact counts by callgrind, as above: a scan in the host's runner, without a control, after twenty others. A program is drawn from a seed (tools/bench/generated)
+and written in each dialect, and as straight-line C++ in two forms, one byte per bit and 64 bits per word, compiled by g++ and clang++ at -O3. All get the same inputs,
+some of which change before each scan, and must give the same outputs: bits, words, tables and floating-point numbers are compared after each of 400 scans. The
+reference is the straight-line form with the fewest instructions. "Bit logic of arrays" consists of groups of 50 isomorphic rungs over adjacent bits: alarms that latch, and
+their lamps. "Full" is bit logic with one timer, one counter and two integer operations for every ten rungs of it. A dash: the control cannot hold that many rungs, or has no
+such instruction. In brackets: how many of these are in the compiled rungs; the others are the runner's.
 """
-PEERS_HEAD = """### The same programs by others
+PEERS_HEAD = """### The same programs in other systems
 
-What ClassicLadder interprets, and what matiec and STruC++ make of Structured Text (IEC 61131-3), compiled at -O3 by gcc and clang; the one with fewer instructions counts. They
-are compared with ours after every one of 400 scans, with the same inputs. In Structured Text a bit is a BOOL, an integer a UDINT, a table an array. No
-variable is in the I/O image, so nothing is copied before and after a scan; of ours the whole pass is counted, as above. A timer is the standard's TON, which keeps the elapsed time
-as well; a counter is written with IF and assignments, as the standard's CTU stays at its preset. Ratios are ours to theirs.
-Left out: mechanisms, which Structured Text does not have; programs of more than 1,000 rungs, each of which is one function to compile. ClassicLadder has bit
-logic only: its timers count in tenths of a second, and its arithmetic is text, which it parses in every scan.
+ClassicLadder interprets its rungs; matiec and STruC++ translate Structured Text (IEC 61131-3) into C and C++, compiled at -O3 by gcc and clang. The one with fewer instructions
+counts. Results are compared with ours after each of 400 scans, with the same inputs. In Structured Text a bit is a BOOL, an integer a UDINT, a table an array. No
+variable is in the I/O image, so nothing is copied before and after a scan; our counts include the copies, as above. A timer is the standard's TON, which keeps the elapsed time
+as well; a counter is written with IF and assignments, because the standard's CTU stops at its preset. Ratios are ours to theirs.
+Left out: mechanisms, which Structured Text does not have, and programs of more than 1,000 rungs, because each becomes one function, which takes too long to compile.
+ClassicLadder has bit logic only: its timers count in tenths of a second, and its arithmetic is text, which it parses in every scan.
 """
-RESTING_HEAD = """### Programs that leave out what rests
+RESTING_HEAD = """### Change-driven execution
 
-Instructions a scan without `--activity`, with it, and the ratio. Busy: something is new in each scan, for more than a thousand of them. Quiet: one input is new in every
-tenth scan. All wakes: the one scan after those in which all inputs change.
+Instructions per scan without `--activity`, with it, and the ratio. Busy: inputs change in each of more than a thousand scans. Quiet: one input changes in every
+tenth scan. All inputs change: the one scan after those in which they all do.
 
-| program | busy | quiet | all wakes |
+| program | busy | quiet | all inputs change |
 | --- | --- | --- | --- |"""
 COLD_HEAD = """## Cold scans
 
-A task of 1 ms always runs after a sleep. Here a scan of ours and one of the reference are run in turn in one process, each after a sleep of 1 ms, 2,000 times: what
-changes at the machine is written before the time is taken, and every place was found before. "Disturbed": before the sleep other work
-touches 2 MB. Early: the thread wakes 250 µs before it is time, reads what a scan reads, and waits ([real-time.md](real-time.md#waking-early)); only ours. Hot: one scan directly
-after another. Microseconds; in the time is that of reading the clock twice. Ratios are of one run.
+A task of 1 ms always runs after a sleep. Here our scan and the reference's run in turn in one process, each after a sleep of 1 ms, 2,000 times. What
+changes at the machine is written before the time is taken, to addresses that were looked up before. "10 %" is the 10th percentile. "Disturbed": before the sleep other work
+touches 2 MB. "Early", ours only: the thread wakes 250 µs early, prefetches what a scan reads, and waits ([real-time.md](real-time.md#waking-early)). "Hot": one scan directly
+after another. Times are in microseconds and include two readings of the clock. Ratios are from one run.
 """
 TOUCHED_HEAD = """### What a scan touches
 
-Lines of 64 bytes and pages of 4 kB, by callgrind's model of a cache that begins empty.
+Cache lines of 64 bytes and pages of 4 kB, by callgrind's model of a cache that is empty at first.
 
 | program | ours: code | ours: data | reference: code | reference: data |
 | --- | --- | --- | --- | --- |"""
 COST_HEAD = """## What an instruction costs
 
-As makers of controls print it: a program of 100 equal rungs less the empty program, divided by 100. The condition is 1 and stays so, what follows is executed in
-every scan; a rung has its contact and what else the line names. Hot: one scan directly after another, median; cold: after a sleep of 1 ms, 10th percentile.
+Measured as makers of controls do: a program of 100 equal rungs minus the empty program, divided by 100. The condition is 1 and stays so, and what follows it is executed in
+every scan; a rung consists of its contact and what the row names. Hot: one scan directly after another, median; cold: after a sleep of 1 ms, 10th percentile.
 """
 
 
@@ -107,7 +108,7 @@ def counts_text(rows):
 
 
 def fewest(row, title):
-    """(its compiler, instructions) of a peer."""
+    """(compiler, instructions) of a peer, or None."""
     counts = {name.removeprefix(f"{title}, "): count for name, count in row["peers"].items() if name.startswith(f"{title}, ")}
     return min(counts.items(), key=lambda each: each[1], default=None)
 
@@ -129,10 +130,10 @@ def peer_lines(rows, title):
 
 
 def peers_text(rows, versions):
-    """Nothing where there is no peer."""
+    """Empty where there is no peer."""
     lines = [PEERS_HEAD] if versions else []
     for title, version in versions.items():
-        head = ["program", *(NAMES[d] for d in DIALECTS), "straight-line reference", title, "its C by",
+        head = ["program", *(NAMES[d] for d in DIALECTS), "straight-line reference", title, "C compiled by",
                 *(f"{NAMES[d]} / {title}" for d in DIALECTS)]
         lines += [f"{title} {version}:", "", f"| {' | '.join(head)} |", "|" + " --- |" * len(head), *peer_lines(rows, title), ""]
     return "\n".join(lines) + "\n" if lines else ""
@@ -151,7 +152,7 @@ def microseconds(values, percent):
 
 
 def ratio_spread(ours, theirs):
-    """(10th percentile, median, 90th) of the ratios of neighbours."""
+    """(10th percentile, median, 90th) of the ratios of scans that ran in turn."""
     ratios = [a / b for a, b in zip(ours, theirs) if b > 0]
     return tuple(percentile(ratios, p) for p in (10, 50, 90))
 
@@ -221,7 +222,7 @@ def main(tools, folder):
     series = [NAMES[dialect] for dialect in DIALECTS]
     by_count = [(named(work), [rows[(d, *work)]["ours"] / reference(rows[(d, *work)]) if rows[(d, *work)] else None for d in DIALECTS])
                 for work in dict.fromkeys(key[1:] for key in rows) if work[1] == PLOTTED_SIZE]
-    plots = {"performance-counts.svg": plot.bars("Instructions a scan, as ratio to the fastest straight-line C++", machine, by_count, series, 1),
+    plots = {"performance-counts.svg": plot.bars("Instructions per scan, as ratio to the fastest straight-line C++", machine, by_count, series, 1),
              "performance-cold.svg": plot.bars("Cold scans, as ratio to straight-line C++: median, 10 to 90 %", machine, groups, series, 1)}
     for name, drawing in plots.items():
         (folder / name).write_text(drawing, encoding="utf-8")

@@ -15,8 +15,10 @@ LARGE = 10_000
 STAGES = ("process", "check", "lowering", "verifier", "uses", "passes", "layout", "hash", "engine and scan")
 HEAD = """## Start
 
-A program starts as `rungc run` starts it: interpreted, while a thread for each core compiles it with all optimisations. CPU time is that of all threads, in ms: of the start of the
-process, the stages of the compiler, and the making of the engine with the first scan; then real time from `main` until the last piece is optimised, on {cores} cores, in which LLVM is loaded. Medians of {runs} runs ({large_runs} of the programs of {large:,} rungs and more, which are bit logic). Memory is the most that the process ever had.
+Programs start as in `rungc run`: interpreted, while one thread per core compiles them with all optimisations. CPU time, in ms, is that of all threads: for the start
+of the process, for each stage of the compiler, and for the creation of the engine with the first scan. Real time is from `main` until the last code unit is
+optimised, on {cores} cores, and includes the loading of LLVM. Medians of {runs} runs ({large_runs} for programs of {large:,} rungs and more). The generated programs are bit
+logic. Memory is the peak of the process.
 """
 
 
@@ -39,7 +41,7 @@ def measure(tools):
 
 
 def text_of(rows, cores):
-    titles = ["program", *STAGES, "to the first scan", "of it after the check", "until all is optimised", "the same, real time", "memory, MB"]
+    titles = ["program", *STAGES, "all to the first scan", "of these after the check", "all until optimised", "real time until optimised", "memory, MB"]
     lines = [HEAD.format(cores=cores, runs=RUNS, large_runs=LARGE_RUNS, large=LARGE), f"| {' | '.join(titles)} |", "|" + " --- |" * len(titles)]
     for name, row in rows.items():
         stages = row["stages"]

@@ -79,7 +79,7 @@ std::string Shadow::compareSchedules() const {
       differentSteps(live_, stepsOf(live_.scan, live_.scan_count), next, stepsOf(next.scan, next.scan_count));
   if (!wrong.empty()) return wrong;
   if (!hasWholeRuns(live_, stepsOf(live_.scan, live_.scan_count)))
-    return "a pass of their schedule is not a whole number of runs";
+    return "a scan of their schedule is not a whole number of runs";
   return differentSteps(live_, stepsOf(live_.slices, live_.slice_count), next, stepsOf(next.slices, next.slice_count));
 }
 

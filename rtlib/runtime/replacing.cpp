@@ -110,8 +110,7 @@ int32_t nextOf(const rung_instance& instance, const rung_replacement* replacemen
 
 int32_t failLater(const rung_instance& instance, host::ReplaceResult result,
                   const host::StateTransfer& transfer) noexcept {
-  if (result == host::ReplaceResult::WithinPass)
-    return fail(RUNG_LATER, "the program is within a pass of its schedule");
+  if (result == host::ReplaceResult::WithinPass) return fail(RUNG_LATER, "the program is within a scan");
   if (result == host::ReplaceResult::RequestsWait)
     return fail(RUNG_LATER, "a request waits for its answer, and the new program numbers its services otherwise");
   return fail(RUNG_LATER, "%s waits at an instruction that the new program does not have",

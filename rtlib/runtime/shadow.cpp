@@ -71,7 +71,7 @@ int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t pas
   if (next == nullptr) return failHandle("an image");
   if (shadow == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the shadow is null");
   if (passes == 0 || passes > RUNG_MOST_SHADOW_PASSES || room == 0 || room > RUNG_MOST_SHADOW_ROOM)
-    return fail(RUNG_BAD_ARGUMENT, "a shadow runs for 1 to %u passes and has room for 1 to %u runs, not for %u and %u",
+    return fail(RUNG_BAD_ARGUMENT, "a shadow runs for 1 to %u scans and has room for 1 to %u runs, not for %u and %u",
                 RUNG_MOST_SHADOW_PASSES, RUNG_MOST_SHADOW_ROOM, passes, room);
   if (const int32_t status = checkDialect(*handle, next->image->program); status != RUNG_OK) return status;
   if (const int32_t status = handle->structs.check(next->image->program); status != RUNG_OK) return status;

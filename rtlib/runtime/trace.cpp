@@ -69,7 +69,7 @@ int32_t rung_trace_new(rung_watch* watch, const char* path, rung_trace** trace) 
   if (handle == nullptr) return failHandle("a watch");
   if (path == nullptr || trace == nullptr)
     return fail(RUNG_BAD_ARGUMENT, "a trace needs the name of a file, and a place for itself");
-  if (!handle->keepsPasses()) return fail(RUNG_BAD_ARGUMENT, "the watch keeps no passes: make it with a depth above 0");
+  if (!handle->keepsPasses()) return fail(RUNG_BAD_ARGUMENT, "the watch keeps no scans: make it with a depth above 0");
   return contained([&] {
     auto made = std::make_unique<rung_trace>(*handle, path);
     if (!made->out) return fail(RUNG_FAILED, "%s cannot be written", path);

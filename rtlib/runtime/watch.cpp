@@ -142,7 +142,7 @@ int32_t rung_watch_new(rung_instance* instance, const rung_cell* cells, uint32_t
   if (handle == nullptr) return failHandle("an instance");
   if (cells == nullptr || count == 0 || watch == nullptr)
     return fail(RUNG_BAD_ARGUMENT, "a watch needs a cell at least, and a place for itself");
-  if (depth > kDeepest) return fail(RUNG_BAD_ARGUMENT, "a watch keeps at most %u passes, not %u", kDeepest, depth);
+  if (depth > kDeepest) return fail(RUNG_BAD_ARGUMENT, "a watch keeps at most %u scans, not %u", kDeepest, depth);
   for (uint32_t i = 0; i < count; ++i) {
     const std::optional<rung_type> type = handle->generations.names.typeOf(cells[i]);
     if (!type) return fail(RUNG_BAD_ARGUMENT, "%u is not a cell of this instance", cells[i]);

@@ -1358,7 +1358,7 @@ class Forcing(Case):
         with open(path, encoding="utf-8") as file:
             self.assertRegex(file.read(), r"COUNT \$end[^$]*")
         with rung.Watch(plc, ["COUNT"]) as watch:
-            self.fails(rung.Status.BAD_ARGUMENT, rung.Trace, watch, path, text="keeps no passes")
+            self.fails(rung.Status.BAD_ARGUMENT, rung.Trace, watch, path, text="keeps no scans")
 
 
 class Lives(Case):

@@ -165,7 +165,7 @@ expect_no_change
         self.file("a.pmc", GSK)
         self.file("b.pmc", GSK.replace("Y0.0", "Y0.1"))
         self.fails("program a.pmc\nperiod 24ms\nslot\nreplace b.pmc\nexpect_no_change\n",
-                   "a.scn:4: the program is within a pass of its schedule (scan 1, 0.008 s)")
+                   "a.scn:4: the program is within a scan (scan 1, 0.008 s)")
         self.passes("program a.pmc\nperiod 24ms\nset X0.0 1\nslot\nscan\nreplace b.pmc\nexpect_change released Y0.0\nexpect_no_change\n"
                     "expect Y0.0 0\nscan\nexpect Y0.1 1\n")
 

@@ -54,7 +54,7 @@ std::vector<std::string> namesOf(const json& request) {
                     std::ranges::all_of(*found, &json::is_string);
   if (found != request.end() && found->is_array() && found->size() > kMostNames)
     throw Refused("found " + std::to_string(found->size()) + " names, expected at most " + std::to_string(kMostNames) +
-                  ", which are of one pass; ask for them in parts");
+                  ", because all come from one scan; ask for them in parts");
   if (!good) throw Refused("found no list \"names\" of 1 to 256 texts in the request, expected one");
   auto names = found->get<std::vector<std::string>>();
   if (std::ranges::any_of(names, [](const std::string& name) { return text::hasControls(name); }))

@@ -72,11 +72,11 @@ TEST(Orders, ThatCannotBeDoneNowAreTriedAgain) {
 
 TEST(Orders, ThatNeverCanBeDoneSayWhy) {
   OrderSlot slot;
-  const Scanning scanning(slot, [](Order&) { return OrderSlot::Outcome{RUNG_LATER, "the program is within a pass"}; });
+  const Scanning scanning(slot, [](Order&) { return OrderSlot::Outcome{RUNG_LATER, "the program is within a scan"}; });
   Order order{.kind = Order::Kind::Replace};
   const Answer answer = given(slot, order, milliseconds(20));
   EXPECT_EQ(answer.status, RUNG_LATER);
-  EXPECT_EQ(answer.problem, "the program is within a pass");
+  EXPECT_EQ(answer.problem, "the program is within a scan");
 }
 
 TEST(Orders, OfSeveralThreadsWaitForEachOther) {

@@ -525,7 +525,7 @@ TEST_F(Runtime, AnotherProgramTakesOver) {
   const rung_cell later = plc.find("STATE"); // found while the change is prepared
   plc.slice();
   EXPECT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_LATER);
-  EXPECT_STREQ(rung_error_text(), "the program is within a pass of its schedule");
+  EXPECT_STREQ(rung_error_text(), "the program is within a scan");
   scan(plc);
   ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
   EXPECT_EQ(plc.state().generation, 1u);
@@ -843,7 +843,7 @@ TEST_F(Runtime, CellsAreWatched) {
   EXPECT_FALSE(watch.newest());
   EXPECT_FALSE(watch.next());
   plc.slice();
-  EXPECT_FALSE(watch.newest()) << "within a pass";
+  EXPECT_FALSE(watch.newest()) << "within a scan";
   scan(plc, 5);
   const auto newest = watch.newest();
   ASSERT_TRUE(newest);

@@ -21,7 +21,7 @@ std::string shortHelp(const CommandLine& app) {
   std::string text = app.root().description() + "\n";
   for (const Command& command : app.commands())
     text += fmt::format("  {} {:<{}} {}\n", app.text().name, command.name(), width, command.description());
-  return text + fmt::format("\n{} help COMMAND says more about one; {} shows them at work.\n", app.text().name,
+  return text + fmt::format("\n{} help COMMAND shows the options of a command; {} has examples.\n", app.text().name,
                             app.text().guide);
 }
 
@@ -45,7 +45,7 @@ std::string unknownOption(const std::string& program, Command command, const std
 
 std::string wrongWord(const std::string& program, Command command, const std::string& word) {
   if (word.starts_with('-')) return unknownOption(program, command, word);
-  return fmt::format("{} {} takes no further word: '{}'", program, command.name(), word);
+  return fmt::format("{} {} takes no further argument: '{}'", program, command.name(), word);
 }
 
 } // namespace
@@ -57,7 +57,7 @@ std::string wrongUsage(const CommandLine& app, const WrongWords& words) {
   const Command& command = *words.command;
   const std::string text = words.unread.empty() ? fmt::format("{}: {}", command.name(), words.text)
                                                 : wrongWord(program, command, words.unread.front());
-  return fmt::format("{0}: {1}; `{0} help {2}` shows what it takes\n", program, text, command.name());
+  return fmt::format("{0}: {1}; `{0} help {2}` shows its arguments and options\n", program, text, command.name());
 }
 
 // What `help` prints; nothing: there is no such command.

@@ -277,7 +277,8 @@ int main(int argc, char** argv) {
   cli::CommandLine app(
       {.name = "rung-run",
        .description = "Run a PLC program on the computer's clock, with the pins of a mapping file",
-       .exitStatus = "0 ok, 1 the mapping file is wrong, 2 wrong usage, 3 a file, the program or the system",
+       .exitStatus =
+           "0 ok, 1 the mapping file is wrong, 2 wrong usage, 3 a file cannot be read, or the program cannot run",
        .guide = "docs/rung-run.md",
        .seeAlso = {"rungctl(1)", "rungc(1)", "rung-map(5)", "rung_hal(9)"}});
   Options options;
@@ -287,22 +288,22 @@ int main(int argc, char** argv) {
               "Compiled program (.so), source file or project folder; sources are compiled first")
       .required();
   command.option("MAP", options.map, "Mapping file").required();
-  command.option("--name", options.name, "Name of this host for rungctl").showDefault();
+  command.option("--name", options.name, "Name of this host, for rungctl").showDefault();
   command.option("--period", options.periodUs, "Period of the scan thread in microseconds; the program keeps its own")
       .between(50u, 100000u)
       .showDefault();
   command
       .option("--early", options.earlyUs,
-              "Wake up this many microseconds early and bring the program into the caches; up to a quarter of the "
+              "Wake up this many microseconds early and prefetch the program into the caches; up to a quarter of the "
               "period")
       .showDefault();
-  command.option("--catch-up", options.catchUp, "Scans that may run one after another when the thread was late")
+  command.option("--catch-up", options.catchUp, "Number of scans that may run at once if the thread was late")
       .between(1u, 1000u)
       .showDefault();
   command
       .option("--max-time", options.maxTimeUs,
-              "Stop the program with a fault when a slice takes longer, in microseconds; default: only its step budget "
-              "is checked")
+              "Microseconds that a slice may take; a longer one stops the program with a fault; default: only the step "
+              "budget is checked")
       .between(1u, 3'600'000'000u);
   command.option("--retain", options.retain,
                  "Keep the retained memory in FILE.a and FILE.b, and the history of messages in FILE.messages");

@@ -42,7 +42,7 @@ void addCodeOptions(Command command, BuildOptions& options) {
   command.flag("-g", options.debugInfo, "Add debug information for the PLC source");
   command.flag("--profile", options.profile, "Count and time every rung");
   command.option("--profile-use", options.profileUse,
-                 "Arrange code by the counts of rungc profile -o: rarely executed code is moved aside");
+                 "Use the counts of rungc profile -o to move rarely executed code aside");
   command.option("--target", options.target,
                  "Triple: x86_64-linux-gnu, aarch64-linux-gnu, armv7-linux-gnueabihf, riscv64-linux-gnu");
 }
@@ -176,7 +176,7 @@ void addBuild(CommandLine& app, int& status) {
   command.option("--via", options->via, "Back end: llvm needs no compiler, cpp runs one").oneOf({"llvm", "cpp"});
   command.option("--cxx", options->cxx, "C++ compiler for --via cpp");
   command.flag("--no-ir", options->noIr,
-               "Leave out the program's IR; then variables that its rungs write cannot be forced");
+               "Leave out the program's IR; variables that its rungs write can then not be forced");
   command
       .option("--binding", options->bindings,
               "File written by rungc bind: the program runs only in hosts with that layout; may be repeated")

@@ -56,10 +56,11 @@ void addCoverageOptions(Command command, CoverageOptions& options) {
   command.flag(
       "--coverage", options.text,
       "Report which rungs ran, which contacts and coils were seen in both states, which conditions decided alone");
-  command.flag("--coverage-all", options.all, "The same, listing everything that is missing");
-  command.option("--coverage-json", options.json, "Write the coverage to this file, see docs/coverage-format.md");
-  command.option("--coverage-html", options.html,
-                 "Write a page that shows the coverage on the drawing; for further programs FILE-2.html and so on");
+  command.flag("--coverage-all", options.all, "Like --coverage, but list everything that is not covered");
+  command.option("--coverage-json", options.json, "Write the coverage to this file as JSON (docs/coverage-format.md)");
+  command.option(
+      "--coverage-html", options.html,
+      "Write a page that shows the coverage on the drawing; a second program is written to FILE-2.html, and so on");
   command.option("--coverage-merge", options.former, "Add the coverage of an earlier run, written by --coverage-json")
       .oneValue();
   command.option("--coverage-min", options.least, "Fail if one of the four shares is less than this percentage")

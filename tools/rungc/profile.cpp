@@ -116,7 +116,7 @@ void addProfile(CommandLine& app, int& status) {
   command.option("FILE", options->files,
                  "Scenarios (.scn, folders) of one program, optionally its files instead of those named in the "
                  "scenarios; default: those of the project");
-  command.option("--scenario", options->scenarios, "Same as naming scenarios as FILE");
+  command.option("--scenario", options->scenarios, "Another way to name a scenario");
   command.option("--engine", options->engine, "Engine to measure: interp, cpp, llvm or jit").showDefault();
   command
       .option("--by", options->by,

@@ -450,13 +450,13 @@ void addRun(CommandLine& app, int& status) {
   command.option("--for", options->duration, "Time to run, such as 2s or 500ms").excludes(scans);
   command
       .option("--set", options->sets,
-              "NAME=VALUE: an input, a variable or a signal of the NC, before the first scan; may be repeated")
+              "NAME=VALUE: set an input, a variable or a signal of the NC before the first scan; may be repeated")
       .oneValue();
   Option scenario =
       command.option("--scenario", options->scenarioFile,
-                     "First execute the statements of a scenario; without FILE, on the scenario's own program");
+                     "First execute the statements of this scenario; without FILE, run the scenario's own program");
   Option prompt = command.flag("-i,--prompt", options->prompt,
-                               "Then read statements from the terminal: set, scan, run 2s, toggle, watch, help …");
+                               "Then read statements from standard input: set, scan, run 2s, toggle, watch, help …");
   command.option("--watch", options->watch, "Names whose changes are printed");
   command.option("--trace", options->trace,
                  "Write the values of the watched names, or of all names that the rungs use, to FILE.vcd or FILE.csv");
@@ -473,7 +473,7 @@ void addRun(CommandLine& app, int& status) {
   command.option(
       "--retain", options->retain,
       "Keep the retained memory in FILE.a and FILE.b: loaded at the start, saved during the run and at its end");
-  command.option("--cache", options->cache, "Folder for compiled code, to start the same program faster");
+  command.option("--cache", options->cache, "Folder for compiled code, so that an unchanged program starts faster");
   addLevelOption(command, options->level);
   addActivityOption(command, options->source.activity);
   // The scenario may name the program, so it is read before the program is looked for.

@@ -23,15 +23,14 @@ void addSourceOptions(Command command, SourceOptions& options, const std::string
   command.option("FILE", options.files,
                  "Source files in order (.lad, .pmc, .plc), or the folder of a project; - reads standard input; "
                  "default: the project (rung.toml) of the working directory or of a folder above it");
-  Option project =
-      command.option("--project", options.projectFile, "The project file, or its folder, instead of the one found");
-  command.flag("--no-project", options.noProject, "Only the named files, without the project that they belong to")
+  Option project = command.option("--project", options.projectFile, "Use this project file, or the one in this folder");
+  command.flag("--no-project", options.noProject, "Use only the named files, not the project that they belong to")
       .excludes(project);
-  command.option("--dialect", options.dialect, "nct, gsk or technol; needed where the file does not name it");
+  command.option("--dialect", options.dialect, "nct, gsk or technol; needed if the file does not name it");
   command.option("--config", options.config, "KEY=VALUE of the dialect's configuration; may be repeated").oneValue();
   command.flag("--strict", options.strict, "Treat warnings that the real control would reject as errors");
   command.flag("--json", options.json, json);
-  command.flag("-q,--quiet", options.quiet, "Do not print what was done, only errors and warnings");
+  command.flag("-q,--quiet", options.quiet, "Print only errors and warnings");
   addColorOption(command, options.color, "Colours in diagnostics");
   command.onParsed([&options] { return takeProject(options); });
 }

@@ -156,9 +156,10 @@ int runTests(TestOptions& options) {
 void addTest(CommandLine& app, int& status) {
   Command command = app.add("test", "Run scenarios, and compare several engines after every scan");
   auto options = std::make_shared<TestOptions>();
-  command.option("SCENARIO", options->names,
-                 "Scenario files; folders: the scenarios of the project in it, else every *.scn below; default: those "
-                 "of the project of the working directory");
+  command.option(
+      "SCENARIO", options->names,
+      "Scenario files, or folders: the scenarios of the project in it, or every *.scn below it; default: those "
+      "of the project of the working directory");
   command
       .option("--engine", options->engines,
               "interp, cpp, llvm, jit, tiered, a list of them with commas, or all: the first four")
@@ -167,7 +168,7 @@ void addTest(CommandLine& app, int& status) {
       .between(1u, 256u);
   command
       .option("--filter", options->filters,
-              "Only scenarios whose path contains this text; with * ? [ a pattern; may be repeated")
+              "Run only scenarios whose path contains this text, or matches it if it has * ? or [; may be repeated")
       .oneValue();
   command.flag("--fail-fast", options->failFast, "Stop at the first failure");
   command.flag("--watch-files", options->watchFiles, "Run again when a scenario or a program changes");
@@ -175,7 +176,8 @@ void addTest(CommandLine& app, int& status) {
   options->trace.addTo(command);
   command.option("--junit", options->junit, "Write the results as JUnit XML");
   command.option("--cxx", options->cxx, "C++ compiler of the engine cpp");
-  command.option("--cache", options->cache, "Folder for compiled code: unchanged programs are not compiled again");
+  command.option("--cache", options->cache,
+                 "Folder for compiled code, so that unchanged programs are not compiled again");
   addLevelOption(command, options->level);
   addActivityOption(command, options->activity);
   command.flag(

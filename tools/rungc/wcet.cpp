@@ -64,12 +64,12 @@ int runWcet(const WcetOptions& options) {
 } // namespace
 
 void addWcet(CommandLine& app, int& status) {
-  Command command = app.add("wcet", "Worst-case execution time of each task, and the path that causes it");
+  Command command = app.add("wcet", "Report the worst-case execution time of each task, and the path that causes it");
   auto options = std::make_shared<WcetOptions>();
   addSourceOptions(command, options->source, "Print everything as JSON (docs/wcet-format.md)");
   addActivityOption(command, options->source.activity);
   command.option("--scenario", options->scenarioFile,
-                 "Also measure the runs of a scenario; without FILE, of the scenario's own program");
+                 "Also measure the runs of this scenario; without FILE, of the scenario's own program");
   command.onParsed([options] {
     int wrong = kOk;
     if (!options->scenarioFile.empty())

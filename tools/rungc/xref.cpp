@@ -65,9 +65,9 @@ void addXref(CommandLine& app, int& status) {
   auto options = std::make_shared<XrefOptions>();
   addSourceOptions(command, options->source);
   command.option("--place", options->places,
-                 "Only this symbol or address; may be repeated. Includes rungs whose index may reach it");
+                 "List only this symbol or address, including rungs whose index may reach it; may be repeated");
   command.flag("--odd", options->odd,
-               "Only variables that are unused, read but not written, written but not read, or set but not reset");
+               "List only variables that are unused, read but not written, written but not read, or set but not reset");
   command.option("--format", options->format, "Format of the list").oneOf({"text", "json"}).showDefault();
   command.onRun([options, &status] { status = run(*options); });
 }

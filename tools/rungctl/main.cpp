@@ -405,13 +405,13 @@ void addAll(Commands& commands) {
     command.option("VALUE", words.value, "true, false or a number; also 0x1F").required();
   };
   commands.addHosts();
-  commands.add("status", "Show whether the program runs, and its faults and figures", none, status);
+  commands.add("status", "Show whether the program runs, its scans and its faults", none, status);
   commands.add(
-      "messages", "Show messages of the program, when they came and went, and faults and restarts",
+      "messages", "Show messages of the program with their times, and faults and restarts",
       [](cli::Command& command, Words& words) {
-        command.flag("-f,--follow", words.follow, "Continue with new ones until Ctrl+C");
-        command.flag("--on", words.on, "Only messages that are on now");
-        command.flag("--history", words.all, "Also those from before the host was started, up to 1000");
+        command.flag("-f,--follow", words.follow, "Keep printing new messages until Ctrl+C");
+        command.flag("--on", words.on, "Show only messages that are on now");
+        command.flag("--history", words.all, "Include messages from before the start of the host, up to 1000");
       },
       messages);
   commands.add("get", "Show values at the end of a scan", names, get);
@@ -457,13 +457,15 @@ void addAll(Commands& commands) {
         command.flag("--profile", words.profile, "With sources: count and time every rung");
         command
             .option("--shadow", words.shadow,
-                    "First run it in the shadow of the running program for this many scans, and compare outputs")
+                    "First run it as a shadow beside the running program for this many scans, and compare outputs")
             .between(1u, 100000u);
         command.flag("--yes", words.yes, "Reload even if state is lost or outputs differ");
         command.flag("--late", words.late, "Reload even if a slice may take longer than its period");
       },
       [](Client& client, const Words& words) { return reload(client, words, gStop); });
-  commands.add("rollback", "Return to the program before the last reload; again: to the reloaded one", none, rollback);
+  commands.add("rollback",
+               "Return to the program before the last reload; a second rollback returns to the reloaded one", none,
+               rollback);
   commands.add("stop", "Stop the program; its outputs stay as they are", none,
                [](Client& client, const Words& words) { return simple(client, words, "stop", "stopped"); });
   commands.add("start", "Continue a stopped program", none,
@@ -474,11 +476,11 @@ void addAll(Commands& commands) {
   commands.add(
       "profile", "Show the time of each rung of a program built with --profile",
       [](cli::Command& command, Words& words) {
-        command.option("--by", words.by, "Sort by total time of a rung, or by its longest execution")
+        command.option("--by", words.by, "Sort rungs by total time or by longest execution")
             .oneOf({"time", "longest"})
             .showDefault();
         command.option("--top", words.top, "Number of rungs to show").between(1u, 10000u).showDefault();
-        command.flag("--reset", words.reset, "Then reset the counters");
+        command.flag("--reset", words.reset, "Reset the counters afterwards");
       },
       profile);
   commands.add(

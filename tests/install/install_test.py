@@ -185,6 +185,9 @@ class Command(unittest.TestCase):
         done = run(PREFIX / "bin/rungc", "test", "examples/gsk-mill/power-up.scn", "examples/embed-plc")
         self.assertRegex(done.stdout, r"(?m)^2 passed, 0 failed")
 
+    def test_the_script_of_the_first_cnc_can_be_started(self):
+        self.assertTrue(os.access(HOME / "examples/first-cnc/mdi", os.X_OK))
+
     def test_a_host_answers_rungctl(self):
         run(PREFIX / "bin/rungc", "build", "-q", "examples/gsk-mill", "-o", "mill.so")
         self.host_answers("mill.so")

@@ -1,6 +1,8 @@
 // See allowance.h.
 #include "ir/support/allowance.h"
 
+#include <algorithm>
+
 #include "ir/support/ascii.h"
 
 namespace rung {
@@ -8,27 +10,48 @@ namespace {
 
 constexpr std::string_view kBegin = "allow(";
 
-// The length of an allowance that the text begins with; 0 where it begins with something else.
-size_t lengthOf(std::string_view text) {
-  if (!text.starts_with(kBegin)) return 0;
-  size_t end = kBegin.size();
-  while (end < text.size() && (isLetter(text[end]) || isDigit(text[end]) || text[end] == '-')) ++end;
-  return end > kBegin.size() && end < text.size() && text[end] == ')' ? end + 1 : 0;
+bool isCodeCharacter(char c) { return isLetter(c) || isDigit(c) || c == '-'; }
+bool isBlank(char c) { return c == ' ' || c == '\t'; }
+
+// Takes the next of several codes with commas between them off; empty where there is something else.
+std::string_view takeCode(std::string_view& list) {
+  list.remove_prefix(std::min(list.find_first_not_of(" \t"), list.size()));
+  const auto* const end = std::ranges::find_if_not(list, isCodeCharacter);
+  const std::string_view code = list.substr(0, static_cast<size_t>(end - list.begin()));
+  list.remove_prefix(code.size());
+  list.remove_prefix(std::min(list.find_first_not_of(" \t"), list.size()));
+  if (!list.empty() && list[0] != ',') return {};
+  list.remove_prefix(std::min<size_t>(1, list.size()));
+  return code;
+}
+
+// What is in the brackets of an allowance that the text begins with; nothing where it begins with something else.
+std::string_view codesOf(std::string_view text) {
+  const size_t end = text.find(')');
+  if (!text.starts_with(kBegin) || end == std::string_view::npos) return {};
+  const std::string_view codes = text.substr(kBegin.size(), end - kBegin.size());
+  for (std::string_view rest = codes; !rest.empty();)
+    if (takeCode(rest).empty()) return {};
+  return codes;
 }
 
 // Between a remark and an allowance.
-bool isMark(char c) { return c == ',' || c == ';' || c == ' ' || c == '\t'; }
+bool isMark(char c) { return c == ',' || c == ';' || isBlank(c); }
 
 } // namespace
 
 bool allows(std::string_view comment, std::string_view code) {
-  return comment.find(std::string(kBegin).append(code).append(")")) != std::string_view::npos;
+  for (size_t at = comment.find(kBegin); at != std::string_view::npos; at = comment.find(kBegin, at + 1))
+    for (std::string_view codes = codesOf(comment.substr(at)); !codes.empty();)
+      if (takeCode(codes) == code) return true;
+  return false;
 }
 
 std::string withoutAllowances(std::string_view comment) {
   std::string shown(comment);
   for (size_t at = shown.find(kBegin); at != std::string::npos; at = shown.find(kBegin, at)) {
-    const size_t length = lengthOf(std::string_view(shown).substr(at));
+    const std::string_view codes = codesOf(std::string_view(shown).substr(at));
+    const size_t length = codes.empty() ? 0 : kBegin.size() + codes.size() + 1;
     size_t first = at;
     size_t end = at + length;
     while (length != 0 && first > 0 && isMark(shown[first - 1])) --first;

@@ -1,4 +1,5 @@
-// `allow(CODE)` in the comment of a declaration: a warning that is meant. It speaks to the compiler alone.
+// `allow(CODE)` or `allow(CODE, CODE)` in the comment of a declaration: warnings that are meant. It speaks to the compiler
+// alone.
 #pragma once
 #include <string>
 #include <string_view>

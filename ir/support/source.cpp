@@ -106,6 +106,8 @@ FileId SourceManager::addBytes(std::string name, std::string bytes) {
   std::string encoding = line ? line->name : encoding_;
   std::optional<Undecoded> undecoded;
   const bool known = encoding.empty() || knowsEncoding(encoding);
+  // Whatever was said of the file before: the editor that saved it has made it UTF-8.
+  if (known && !encoding.empty() && bytes.starts_with(kByteOrderMark)) encoding = "UTF-8";
   Decoded text = encoding.empty() || !known ? Decoded{.text = bytes, .wrong = {}} : decoded(bytes, encoding);
   const size_t end = text.text.find(kEndOfFile); // what follows need not be text
   if (!known)

@@ -43,6 +43,20 @@ TEST(Source, FilesAreUtf8WhateverTheyAreWrittenIn) {
   EXPECT_FALSE(sources.undecoded(told) || sources.undecoded(set));
 }
 
+TEST(Source, AByteOrderMarkCountsMoreThanWhatIsSaid) {
+  const std::string text = "\xEF\xBB\xBF; encoding: gb18030\n; 急\n";
+  SourceManager sources;
+  const FileId marked = sources.addBytes("a.pmc", text);
+  EXPECT_EQ(sources.text(marked), text);
+  EXPECT_EQ(sources.bytesOf(marked, text), text);
+  const FileId wrong = sources.addBytes("b.pmc", "\xEF\xBB\xBF; encoding: gb18030\n\xBC\xB1\n");
+  ASSERT_TRUE(sources.undecoded(wrong));
+  EXPECT_EQ(sources.undecoded(wrong)->encoding, "UTF-8");
+  const FileId unknown = sources.addBytes("c.pmc", "\xEF\xBB\xBF; encoding: klingon\n");
+  ASSERT_TRUE(sources.undecoded(unknown));
+  EXPECT_FALSE(sources.undecoded(unknown)->known);
+}
+
 TEST(Source, ADosMarkEndsAFile) {
   SourceManager sources;
   const FileId file = sources.addBytes("a.lad", "one\n\x1A\x1A rest");

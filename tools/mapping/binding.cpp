@@ -315,7 +315,7 @@ private:
   void addConstant(std::vector<ConstLink>& links, const Constant& constant) {
     Entry entry{"const." + constant.name, constant.name, constant.at, Use::Constant, constant.type, constant.value};
     const std::optional<Place> place = find(entry);
-    if (!place || !fits(entry, *place)) return;
+    if (!place || !isWhole(entry, *place) || !fits(entry, *place)) return;
     addWritten(entry, *place);
     links.push_back({entry.type, constant.name, constant.value, inWords(entry)});
   }
@@ -324,6 +324,18 @@ private:
     Entry entry{"rungctl.never", cell.name, cell.at, Use::Output};
     const std::optional<Place> place = lookUp(entry);
     if (place && place->space == RUNG_NONE) fail(cell.at, entry.where, mistakeOf(Misfit::Constant, *place, entry));
+  }
+
+  // A constant says what is meant, unlike a pin, whose value is rounded.
+  bool isWhole(const Entry& constant, const Place& place) {
+    const bool isReal = place.isReal() || place.type == RUNG_TYPE_BIT || inWords(constant);
+    if (isReal || constant.value == std::floor(constant.value)) return true;
+    const auto whole = [](double value) { return std::to_string(static_cast<int64_t>(value)); };
+    const double below = std::clamp(std::floor(constant.value), -0x1p31, 0x1p32);
+    fail(constant.at, constant.where,
+         {shown(constant), "an integer, which is what the cell of " + std::to_string(place.width()) + " bits holds",
+          "write " + whole(below) + " or " + whole(below + 1)});
+    return false;
   }
 
   // Integers with a sign or without; what is converted from a real number has one.

@@ -151,7 +151,7 @@ TEST(Binding, Constants) {
 D0 = 255
 D1 = -128
 "D2:2" = 40000
-"F20:2" = 7.5
+"F20:2" = 7.0
 "NC.MPOS.2" = -2000000000
 )");
   EXPECT_EQ(test::joined(bound.errors), "");
@@ -160,7 +160,7 @@ D1 = -128
   EXPECT_EQ(bound.binding.constants[1].value, 255);
   EXPECT_EQ(bound.binding.constants[2].type, PinType::S32);
   EXPECT_EQ(bound.binding.constants[4].type, PinType::Float);
-  EXPECT_NE(bound.cell(bound.binding.constants[4]).type, uint32_t{RUNG_TYPE_F64}); // rounded there
+  EXPECT_NE(bound.cell(bound.binding.constants[4]).type, uint32_t{RUNG_TYPE_F64}); // an integer there
   // 8 bytes hold either an integer or a real number: the value says which.
   Bound real = boundTo(testing::technolProgram(), "const.realcell = 5.0");
   EXPECT_EQ(test::joined(real.errors), "");

@@ -47,6 +47,7 @@ private:
   bool isNumber(const ir::BitRange& place) const;
   std::vector<uint32_t> waysTo(const Definition& name) const;
   bool isReachedBy(const Definition& name, const Name& other) const;
+  bool isWidenedOver(const Name& name, const Name& other) const;
   bool meets(const Name& name, const Name& other, Diag code) const;
   void reportTerminal(const Name& name, const Name& other);
   void reportOverlap(const Name& wide, const Name& other, size_t count);
@@ -126,12 +127,19 @@ bool Checker::isReachedBy(const Definition& name, const Name& other) const {
   return std::ranges::count(waysTo(name), other.definition) != 0;
 }
 
-// Whether a report of the two is wanted. A file that several others include declares its names in each of them.
+// Whether the name is over the other one only by an operand that is wider than its declaration.
+bool Checker::isWidenedOver(const Name& name, const Name& other) const {
+  const auto declared = rangeOf(reference_.program(), definitionOf(name).place);
+  return name.widened.valid() && declared && !ir::overlap(*declared, other.place);
+}
+
+// Whether a report of the two is wanted. Names that the declarations put over one another without an address, as bits
+// over their byte, are meant. A file that several others include declares its names in each of them.
 bool Checker::meets(const Name& name, const Name& other, Diag code) const {
   const Definition& one = definitionOf(name);
   const Definition& two = definitionOf(other);
-  return (one.isPlaced || two.isPlaced) && one.range != two.range && !isAllowed(one, code) && !isAllowed(two, code) &&
-         !isReachedBy(one, other) && !isReachedBy(two, name);
+  return (one.isPlaced || two.isPlaced || isWidenedOver(name, other)) && one.range != two.range &&
+         !isAllowed(one, code) && !isAllowed(two, code) && !isReachedBy(one, other) && !isReachedBy(two, name);
 }
 
 bool Checker::overlaps(const Name& wide, const Name& other) const {

@@ -90,6 +90,12 @@ bool setsBits(const Statement& statement, std::span<const Operand> operands) {
   return !operands.empty() && statement.row->info.operands[0].kind == &kinds::kFlag && operands[0].value == 1;
 }
 
+// A type before the name makes a write wider than the variable: it reaches what lies after it. A read by such a type
+// is how the bytes of a number are put together (man. l.7796).
+bool isWiderWrite(const Operand& operand) {
+  return operand.form == Operand::Form::Cell && operand.prefixed && operand.access != Access::Read;
+}
+
 void addOperand(const TypedProgram& typed, const Operand& operand, bool isSet, Analysis& analysis) {
   const NamedPlace place = placeOf(operand);
   if (place.bits == 0) return;
@@ -99,6 +105,7 @@ void addOperand(const TypedProgram& typed, const Operand& operand, bool isSet, A
                 .place = place,
                 .computed = operand.indexed ? "[BX]" : "",
                 .access = operand.access,
+                .isVariable = isWiderWrite(operand),
                 .isSet = isSet});
 }
 

@@ -1,6 +1,8 @@
-// Words that programmers bring along from other languages and controls, and what is written for them here. Each dialect
-// has one table of them.
+// Words and numbers that programmers bring along from other languages and controls, and what is written for them here.
+// Each dialect has one table of the words.
 #pragma once
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -19,5 +21,16 @@ const ForeignWord* findForeign(std::span<const ForeignWord> words, std::string_v
 
 // Adds what is written instead. With a fix only where the meaning stays and `fits`: the operands are those of the word.
 void explainForeign(DiagBuilder& report, SourceRange range, const ForeignWord& word, bool fits);
+
+// Whether a word is one of this language with a letter after it by which others invert the value (N, I) or ask for an
+// edge (P, F): not a slip of the hand, and the word alone does something else.
+bool isModified(std::string_view word, std::string_view known);
+
+// The digits of a number in another language's form: 0x1F, 16#1F, $1F, #$1F, &H1F, 1Fh; 0b101, 2#101.
+struct ForeignNumber {
+  std::string_view digits;
+  uint32_t base = 16;
+};
+std::optional<ForeignNumber> foreignNumber(std::string_view text);
 
 } // namespace rung::frontend

@@ -1,7 +1,9 @@
-// Uses of names that a program does not declare: one report for each name, at its first use.
+// Uses of names that a program does not declare: one report for each name, at its first use, with what is fixed at all
+// of them.
 #pragma once
 #include <algorithm>
 #include <map>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -16,6 +18,14 @@ struct UndeclaredUse {
   SourceRange range;
 };
 
+// The places of the uses.
+template <class Use>
+std::vector<SourceRange> placesOf(std::span<const Use> uses) {
+  std::vector<SourceRange> places;
+  for (const Use& use : uses) places.push_back(use.range);
+  return places;
+}
+
 // Adds the second use, and how many there are.
 void noteFurtherUses(DiagBuilder& report, SourceRange second, size_t further);
 
@@ -29,7 +39,7 @@ public:
     uses_[std::move(key)].push_back(std::move(use));
   }
 
-  // `explain` gets each report, which has the name as its first argument, and the first use.
+  // `explain` gets each report, which has the name as its first argument, and the uses, the first one first.
   template <class Explain>
   void report(Diagnostics& diagnostics, Diag code, Explain explain) {
     const auto begin = [](const Use& use) { return use.range.begin; };
@@ -40,7 +50,7 @@ public:
       const Use& first = uses.front();
       DiagBuilder report = diagnostics.report(code, first.range);
       report << first.name;
-      explain(report, first);
+      explain(report, std::span<const Use>(uses));
       if (uses.size() > 1) noteFurtherUses(report, uses[1].range, uses.size() - 1);
     }
     uses_.clear();

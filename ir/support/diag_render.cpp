@@ -82,8 +82,8 @@ public:
       out_ += printable(note.text) + "\n";
       snippet(note.range, '^', kBlue, "");
     }
-    for (const DiagFix& fix : d.fixes)
-      if (!fix.noted) help(fix);
+    // Fixes of one report belong together: further ones do the same at further places.
+    if (!d.fixes.empty() && !d.fixes.front().noted) help(d.fixes.front());
   }
 
   void dropped(size_t count) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "frontend/ladder/text/drawing.h"
 
@@ -34,28 +36,54 @@ bool isDrawing(std::string_view line) {
   return first != std::string_view::npos && beginsDrawing(line[first]);
 }
 
-} // namespace
+/// A place, and what is written there instead.
+struct Change {
+  SourceRange range;
+  std::string text;
+};
 
-void meant(DiagBuilder& report, const SourceManager& sources, SourceRange range, std::string_view word) {
+/// The word in the place of `range`, in a drawing with the wire on its right; nothing without room for it.
+std::optional<Change> changeOf(const SourceManager& sources, SourceRange range, std::string_view word) {
   const std::string_view line = sources.lineText(range.begin);
   const std::string_view old = sources.text(range);
-  if (old.size() == word.size() || !isDrawing(line)) return static_cast<void>(report.meant(range, word));
+  if (old.size() == word.size() || !isDrawing(line)) return Change{range, std::string(word)};
   const SourceManager::LineStart start = sources.lineStart(range.begin);
   const size_t end = sources.offsetOf(range.end) - start.offset;
   const std::optional<Rest> rest = restOf(line, end);
-  if (rest && rest->last) return static_cast<void>(report.meant(range, word));
-  report.meant({}, word);
+  if (rest && rest->last) return Change{range, std::string(word)};
   // A wire is at least one '-' long.
-  if (!rest || rest->wire == 0 || rest->wire + old.size() <= word.size()) return;
+  if (!rest || rest->wire == 0 || rest->wire + old.size() <= word.size()) return std::nullopt;
   const size_t wire = rest->wire + old.size() - word.size();
   const SourceRange whole{range.begin,
                           sources.position(start.file, start.offset + end + rest->closing.size() + rest->wire)};
-  report.fix(whole, std::string(word) + std::string(rest->closing) + std::string(wire, '-'));
+  return Change{whole, std::string(word) + std::string(rest->closing) + std::string(wire, '-')};
 }
 
-void suggest(DiagBuilder& report, const SourceManager& sources, SourceRange range, const Likely& likely) {
+/// Of all places or of none: a name that is corrected at some of its places would be two names.
+void meantAt(DiagBuilder& report, const SourceManager& sources, std::span<const SourceRange> places,
+             std::string_view word) {
+  std::vector<Change> changes;
+  for (const SourceRange place : places) {
+    std::optional<Change> change = changeOf(sources, place, word);
+    const bool meetsLast = change && !changes.empty() && change->range.begin < changes.back().range.end;
+    if (!change || meetsLast) return static_cast<void>(report.meant({}, word));
+    changes.push_back(std::move(*change));
+  }
+  const bool isSaid = changes[0].range == places[0];
+  report.meant(isSaid ? places[0] : SourceRange{}, word);
+  for (const Change& change : std::span(changes).subspan(isSaid ? 1 : 0)) report.fix(change.range, change.text);
+}
+
+} // namespace
+
+void meant(DiagBuilder& report, const SourceManager& sources, SourceRange range, std::string_view word) {
+  meantAt(report, sources, {&range, 1}, word);
+}
+
+void suggest(DiagBuilder& report, const SourceManager& sources, std::span<const SourceRange> places,
+             const Likely& likely) {
   if (likely.certain)
-    meant(report, sources, range, likely.word);
+    meantAt(report, sources, places, likely.word);
   else
     report.meant({}, likely.word);
 }

@@ -1,5 +1,6 @@
 // Fixes of words in drawings, whose columns must stay.
 #pragma once
+#include <span>
 #include <string_view>
 
 #include "ir/support/diagnostics.h"
@@ -12,7 +13,12 @@ namespace rung::ladder {
 /// for that the fix is left out.
 void meant(DiagBuilder& report, const SourceManager& sources, SourceRange range, std::string_view word);
 
-/// The same of a word that may be misspelt: with a fix only where nothing else can have been meant.
-void suggest(DiagBuilder& report, const SourceManager& sources, SourceRange range, const Likely& likely);
+/// The same of a word that may be misspelt, and is at all these places, in their order: with a fix of all of them, and
+/// only where nothing else can have been meant.
+void suggest(DiagBuilder& report, const SourceManager& sources, std::span<const SourceRange> places,
+             const Likely& likely);
+inline void suggest(DiagBuilder& report, const SourceManager& sources, SourceRange range, const Likely& likely) {
+  suggest(report, sources, {&range, 1}, likely);
+}
 
 } // namespace rung::ladder

@@ -13,6 +13,7 @@
 #include "ir/support/diag/operand.h"
 #include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
 
 namespace rung::network {
 namespace {
@@ -82,10 +83,12 @@ Found findAddress(Context& context, const Word& word) {
   return {};
 }
 
-void suggestName(const Context& context, const UndeclaredName& use, DiagBuilder& report) {
+void suggestName(const Context& context, std::span<const UndeclaredName> uses, DiagBuilder& report) {
   if (!context.diagnostics.suggests()) return;
+  const UndeclaredName& use = uses.front();
   const Likely similar = likeliest(use.name, context.names.ofKind(use.kind), &UserName::name);
-  ladder::suggest(report, context.sources, use.range, similar);
+  const bool isOneKind = std::ranges::count(uses, use.kind, &UndeclaredName::kind) == std::ssize(uses);
+  ladder::suggest(report, context.sources, frontend::placesOf(uses), {similar.word, similar.certain && isOneKind});
   if (!similar.word.empty() || use.kind != UserName::Kind::Symbol) return;
   const nc::SignalTable& signals = context.language.signals();
   if (const nc::Signal* signal = nc::findSignal(signals, mostSimilar(use.name, signals, &nc::Signal::symbol)))
@@ -114,6 +117,55 @@ std::string areasText(const Language& language) {
   return text;
 }
 
+// An operand that is negated as in other languages: /X1.0, -X1.0, NOT X1.0.
+bool isNegated(std::string_view operand) {
+  return text::equalsIgnoringCase(operand, "NOT") ||
+         (operand.size() > 1 && std::string_view("-/!~").find(operand[0]) != std::string_view::npos &&
+          isLetter(operand[1]));
+}
+
+// Negated, or one of several with commas: another command alone would not do for it.
+bool isForeignOperand(const Word& word) {
+  return isNegated(word.text) || word.text.find(',') != std::string_view::npos;
+}
+
+// The name alone would be the bit that is not negated. False where the operand is not negated.
+bool noteNegation(const Language& language, std::string_view operand, DiagBuilder& report) {
+  if (!isNegated(operand)) return false;
+  report.note(fmt::format("a bit is negated by its command: {}, {}, {} or {}", language.nameOf(Command::LoadNot),
+                          language.nameOf(Command::AndNot), language.nameOf(Command::OrNot),
+                          language.nameOf(Command::OutNot)));
+  return true;
+}
+
+// K100, H1F and #100 of other controls.
+bool noteLetter(std::string_view constant, DiagBuilder& report) {
+  if (constant.size() < 2 || !isDigit(constant[1])) return false;
+  const char mark = text::upper(constant[0]);
+  const std::string_view digits = constant.substr(1);
+  const bool isDecimal = std::ranges::all_of(digits, isDigit);
+  const bool isHex = std::ranges::all_of(digits, [](char c) { return hexDigit(c) >= 0; });
+  if (isDecimal && (mark == 'K' || mark == '#'))
+    report.note(fmt::format("a number is written without '{}': {}", constant[0], digits));
+  else if (isHex && (mark == 'H' || mark == '#'))
+    report.note(fmt::format("a hexadecimal number is written 0x{}", digits));
+  else
+    return false;
+  return true;
+}
+
+// How a constant of another language is written here; false where it is none.
+bool noteConstant(const UndeclaredName& use, DiagBuilder& report) {
+  const std::optional<frontend::ForeignNumber> number = frontend::foreignNumber(use.name);
+  if (!number) return noteLetter(use.name, report);
+  const auto value = text::numberIn<uint64_t>(number->digits, static_cast<int>(number->base));
+  if (number->base == 16)
+    report.meant(use.range, fmt::format("0x{}", number->digits));
+  else if (value)
+    report.meant(use.range, fmt::format("{}", *value));
+  return true;
+}
+
 std::string bothOf(std::span<const Word> words) { return fmt::format("{} {}", words[0].text, words[1].text); }
 
 // A line of another kind of text: a drawing, a comment, a label. False when it is none.
@@ -133,14 +185,16 @@ bool noteSyntax(const Language& language, std::string_view word, DiagBuilder& re
   return true;
 }
 
-void explain(const Context& context, const UndeclaredName& use, DiagBuilder& report) {
+void explain(const Context& context, std::span<const UndeclaredName> uses, DiagBuilder& report) {
+  const UndeclaredName& use = uses.front();
   report << use.expected;
   std::string pointed(use.name);
   std::ranges::replace(pointed, ',', '.');
   if (pointed != use.name && splitAddress(context.language, pointed))
     report.note(fmt::format("write {}", pointed)).fix(use.range, pointed);
-  else
-    suggestName(context, use, report);
+  else if (use.kind == UserName::Kind::Constant ? !noteConstant(use, report)
+                                                : !noteNegation(context.language, use.name, report))
+    suggestName(context, uses, report);
   if (use.kind == UserName::Kind::Symbol && isOtherAddress(use.name))
     report.note("areas of this control: " + areasText(context.language));
 }
@@ -201,7 +255,11 @@ void Names::addConstant(Context& context, const Word& name, const Word& value) {
   UserName* constant = declare(context, name, UserName::Kind::Constant);
   if (constant == nullptr) return;
   const auto number = parseConstant(value.text);
-  if (!number) context.diagnostics.report(diag::BadOperand, value.range) << value.text << "a constant";
+  if (!number) {
+    DiagBuilder report = context.diagnostics.report(diag::BadOperand, value.range);
+    report << value.text << "a constant";
+    noteConstant({{value.text, value.range}, UserName::Kind::Constant, {}}, report);
+  }
   constant->value = number.value_or(0);
   constant->bad = !number;
   constant->definition = context.analysis.define({.name = name.text, .range = name.range, .value = value.text});
@@ -240,8 +298,10 @@ void reportUnknownCommand(Context& context, std::span<const Word> words) {
   if (noteSyntax(language, word.text, report)) return;
   const auto fits = [&](std::string_view command) {
     const auto found = findCommand(language, command);
-    return found && operandCount(*found) == words.size() - count;
+    const auto operands = words.subspan(count);
+    return found && operandCount(*found) == operands.size() && std::ranges::none_of(operands, isForeignOperand);
   };
+  if (words.size() == count + 1 && noteNegation(language, words[count].text, report)) return;
   if (const frontend::ForeignWord* foreign = frontend::findForeign(language.foreign, word.text))
     return frontend::explainForeign(report, word.range, *foreign, fits(foreign->here));
   if (const Row* row = language.findFunction(word.text)) {
@@ -250,7 +310,8 @@ void reportUnknownCommand(Context& context, std::span<const Word> words) {
     return;
   }
   if (!context.diagnostics.suggests()) return;
-  const Likely similar = likeliest(word.text, language.commands);
+  Likely similar = likeliest(word.text, language.commands);
+  if (frontend::isModified(word.text, similar.word)) similar = {};
   suggestInstruction(context, word.range, {similar.word, similar.certain && fits(similar.word)}, report);
 }
 
@@ -262,8 +323,9 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
   const auto mnemonicOf = [](const Row* row) { return row->info.mnemonic; };
   const frontend::ForeignWord* foreign = frontend::findForeign(context.language.foreign, name);
   if (foreign != nullptr && !foreign->same) return frontend::explainForeign(report, range, *foreign, false);
-  suggestInstruction(context, range,
-                     likeliest(name, context.language.rows | std::views::filter(isFunction), mnemonicOf), report);
+  Likely similar = likeliest(name, context.language.rows | std::views::filter(isFunction), mnemonicOf);
+  if (frontend::isModified(name, similar.word)) similar = {};
+  suggestInstruction(context, range, similar, report);
 }
 
 void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std::string_view expected) {
@@ -272,12 +334,12 @@ void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std
   if (isFreeName(context.language, word.text) && !context.names.has(word.text)) return context.undeclared.add(use);
   DiagBuilder report = context.diagnostics.report(diag::BadOperand, word.range);
   report << word.text;
-  explain(context, use, report);
+  explain(context, {&use, 1}, report);
 }
 
 void reportUndeclared(Context& context) {
   context.undeclared.report(context.diagnostics, diag::BadOperand,
-                            [&](DiagBuilder& report, const UndeclaredName& use) { explain(context, use, report); });
+                            [&](DiagBuilder& report, auto uses) { explain(context, uses, report); });
 }
 
 void countStep(Context& context, SourceRange range) {

@@ -1,6 +1,9 @@
 // Names that are not declared: one report for each, at its first use, in all dialects.
 #include "frontend/sema/undeclared.h"
 
+#include <algorithm>
+#include <functional>
+
 #include <gtest/gtest.h>
 
 #include "frontend/dialects/dialect.h"
@@ -47,6 +50,39 @@ TEST(Undeclared, OneReportANameAndProgram) {
   }
 }
 
+constexpr Case kMisspelt[] = {
+    {"nct", "a.lad", "NAEM",
+     "dialect nct\nmodule MAIN\nsymbol NAME 7000.01\n"
+     "rung\n|--[NAEM]--(7000.00)\nrung\n|--[/NAEM]--[NAEM]--(7000.02)\nrung\n|--{END}\n"},
+    {"gsk", "a.pmc", "NAEM",
+     "symbol NAME X0.0\nFUNC END1\nLD NAEM\nANI NAEM\nOUT Y0.0\nLD NAEM\nOUT Y0.1\nFUNC END2\n"},
+    {"technol", "a.plc", "NAEM",
+     "DATA\nDFM NAME\nDATA_END\nMODULE_INPUT\nMODULE_INPUT_END\nMODULE_BLOCK_INIT\nMODULE_BLOCK_INIT_END\n"
+     "MODULE_BLOCK_DONE\nMODULE_BLOCK_DONE_END\nMODULE_MAIN\nLDR NAEM\nLA -NAEM\nWR NAEM\nMODULE_MAIN_END\n"
+     "MODULE_INIT\nMODULE_INIT_END\nMODULE_CLEAR\nMODULE_CLEAR_END\nMODULE_HALT\nMODULE_HALT_END\nSTOP\n"},
+};
+
+TEST(Undeclared, AMisspeltNameIsCorrectedAtAllItsUses) {
+  for (const Case& c : kMisspelt) {
+    SourceManager sources;
+    Diagnostics diagnostics;
+    const std::vector<FileId> files = {sources.addBuffer(c.file, c.source)};
+    (void)findDialect(c.dialect)->check(sources, files, {}, diagnostics);
+    ASSERT_EQ(diagnostics.errorCount(), 1u) << renderText(diagnostics, sources);
+    std::vector<DiagFix> fixes = diagnostics.reported().front().fixes;
+    EXPECT_EQ(fixes.size(), 3u) << c.dialect;
+    std::string text(c.source);
+    std::ranges::sort(fixes, std::greater(), [](const DiagFix& fix) { return fix.range.begin.value; });
+    for (const DiagFix& fix : fixes)
+      text.replace(sources.offsetOf(fix.range.begin), sources.text(fix.range).size(), fix.replacement);
+    const std::vector<FileId> fixed = {sources.addBuffer(c.file, text)};
+    Diagnostics rest;
+    (void)findDialect(c.dialect)->check(sources, fixed, {}, rest);
+    EXPECT_EQ(rest.errorCount(), 0u) << renderText(rest, sources);
+    EXPECT_EQ(text.find(c.name), std::string::npos) << text;
+  }
+}
+
 using Names = UndeclaredNames<>;
 
 SourceRange at(uint32_t begin) { return {{begin}, {begin + 1}}; }
@@ -54,12 +90,15 @@ SourceRange at(uint32_t begin) { return {{begin}, {begin + 1}}; }
 // The place of each report, and its notes.
 std::vector<std::string> reported(Names& names) {
   Diagnostics diagnostics;
-  names.report(diagnostics, diag::UndefinedSymbol, [](DiagBuilder&, const UndeclaredUse&) {});
+  names.report(diagnostics, diag::UndefinedSymbol, [](DiagBuilder& report, std::span<const UndeclaredUse> uses) {
+    for (const SourceRange place : placesOf(uses)) report.fix(place, "B");
+  });
   std::vector<std::string> found;
   for (const Diagnostic& d : diagnostics.reported()) {
     found.push_back(std::get<std::string>(d.args.at(0)) + " at " + std::to_string(d.range.begin.value));
     for (const DiagNote& note : d.notes)
       found.back() += ", " + note.text + " " + std::to_string(note.range.begin.value);
+    for (const DiagFix& fix : d.fixes) found.back() += ", fixed at " + std::to_string(fix.range.begin.value);
   }
   return found;
 }
@@ -70,8 +109,10 @@ TEST(Undeclared, UsesComeInAnyOrderAndSeveralTimes) {
   for (const uint32_t place : {5u, 7u}) names.add({"B", at(place)});
   names.add({"C", at(1)});
   names.add({"C", at(1)});
-  EXPECT_EQ(reported(names), (std::vector<std::string>{"A at 10, and 2 further uses; the next is here 20",
-                                                       "B at 5, it is used once more, here 7", "C at 1"}));
+  EXPECT_EQ(reported(names),
+            (std::vector<std::string>{
+                "A at 10, and 2 further uses; the next is here 20, fixed at 10, fixed at 20, fixed at 30",
+                "B at 5, it is used once more, here 7, fixed at 5, fixed at 7", "C at 1, fixed at 1"}));
   EXPECT_TRUE(reported(names).empty()) << "each is reported once";
 }
 

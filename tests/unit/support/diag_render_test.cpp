@@ -39,9 +39,10 @@ TEST(RenderText, ShowsLabelsNotesAndFixes) {
           .note(f.range(7, 8), "first declared here")
           .note("names are common to all modules")
           .fix(f.range(21, 22), "B")
-          .fix(f.range(22, 22), "2")
-          .fix(f.range(23, 25), "")
+          .fix(f.range(7, 8), "B") // the same at a further place
       << "A";
+  f.diags.report(diag::DuplicateSymbol, f.range(22, 22)).fix(f.range(22, 22), "2") << "A";
+  f.diags.report(diag::DuplicateSymbol, f.range(23, 25)).fix(f.range(23, 25), "") << "57";
   EXPECT_EQ(f.text(), R"(main.lad:2:8: error: 'A' is already declared [duplicate-symbol]
     2 | symbol A 57
       |        ^
@@ -52,7 +53,13 @@ main.lad:1:8: note: first declared here
       |        ^
 note: names are common to all modules
       = help: write 'B' instead of 'A'
+main.lad:2:9: error: 'A' is already declared [duplicate-symbol]
+    2 | symbol A 57
+      |         ^
       = help: insert '2'
+main.lad:2:10: error: '57' is already declared [duplicate-symbol]
+    2 | symbol A 57
+      |          ^~
       = help: remove '57'
 )");
 }

@@ -49,6 +49,8 @@ constexpr Case kCases[] = {
     {"BadCharacter", "A: DS 1\n", " LOD \"A\n LOD &\n", "0:7 bad-identifier, 0:8 bad-character", ""},
     {"BadNumber", "", " LOD 12X\n LOD 0GH\n LOD 1.5Z\n LOD 012b\n", "0:6 bad-number, 0:7 bad-number, 0:8 bad-number, 0:9 bad-number", ""},
     {"BadString", "S: STR 5,'abc\n", "", "0:2 bad-string", ""},
+    {"NumberTooLarge", "", " LOD 99999999999999999999\n LOD 0FFFFFFFFFFFFFFFFFh\n", "0:6 operand-range, 0:7 operand-range", ""},
+    {"TextCharacter", "S: STR 5,'a\xE2\x86\x92'\n", " STRCPY S,'\xE2\x82\xAC\xE2\x86\x92'\n LOD '\xE2\x86\x92'\n EQUI K,'\xE2\x86\x92'\n", "0:2 text-character, 0:7 text-character, 0:8 text-character, 0:9 text-character", ""},
     {"SyntaxError", "A: DS 1\n", " 5\n LOD (A+1\n : LOD A\n LOD A,\n", "0:7 syntax-error, 0:8 syntax-error, 0:9 syntax-error, 0:10 operand-count", ""},
     {"UnknownInstruction", "", " LODE 5\n", "0:6 unknown-instruction", ""},
     {"UnknownBeginning", "DFM A\n", " MECH_BEGINN CLAMP\n EX\n LDR A\n EX0\n MECH_END CLAMP\n MECH_INIT CLAMP\n", "0:7 unknown-instruction", ""},

@@ -1,5 +1,5 @@
-// Words of IEC 61131 instruction lists and of FANUC, Mitsubishi, Omron and Siemens programs, and what GSK has for them
-// (man. Part I §4, §5). Included by language.cpp only.
+// Words of IEC 61131 instruction lists, of FANUC, Mitsubishi, Omron, Siemens and TECHNOL programs, and what GSK has for
+// them (man. Part I §4, §5). Included by language.cpp only.
 #pragma once
 #include "frontend/sema/foreign_word.h"
 
@@ -14,6 +14,18 @@ inline constexpr std::string_view kRisingEdge = "the function DIFU, a rising edg
 inline constexpr std::string_view kFallingEdge = "the function DIFD, a falling edge by its number";
 inline constexpr std::string_view kJump = "the function JMPB, which jumps to a label LBL";
 inline constexpr std::string_view kReturn = "the function SPE where the subprogram ends";
+inline constexpr std::string_view kAtRising =
+    "LD, AND or OR of the coil of the function DIFU, a rising edge by its number";
+inline constexpr std::string_view kAtFalling =
+    "LD, AND or OR of the coil of the function DIFD, a falling edge by its number";
+inline constexpr std::string_view kSetAtRising =
+    "SET after LD of the coil of the function DIFU, a rising edge by its number";
+inline constexpr std::string_view kResetAtRising =
+    "RST after LD of the coil of the function DIFU, a rising edge by its number";
+inline constexpr std::string_view kInverts = "OUT of a relay, which LDI reads";
+inline constexpr std::string_view kKeeps = "OUT of a relay, which LD reads again";
+inline constexpr std::string_view kAndBracket = "LD where the bracket begins, ANB where it ends";
+inline constexpr std::string_view kOrBracket = "LD where the bracket begins, ORB where it ends";
 
 inline constexpr frontend::ForeignWord kForeignWords[] = {
     // the same with the same operand
@@ -22,6 +34,7 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"AND NOT", "ANI", true},
     {"AND.NOT", "ANI", true},
     {"AND.STK", "ANB", true},
+    {"ANDLD", "ANB", true},
     {"ANDN", "ANI", true},
     {"ANDNOT", "ANI", true},
     {"LD NOT", "LDI", true},
@@ -31,6 +44,7 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"OR NOT", "ORI", true},
     {"OR.NOT", "ORI", true},
     {"OR.STK", "ORB", true},
+    {"ORLD", "ORB", true},
     {"ORN", "ORI", true},
     {"ORNOT", "ORI", true},
     {"OUT NOT", "OUTI", true},
@@ -44,13 +58,22 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"RSET", "RST", true},
     {"S", "SET", true},
     {"ST", "OUT", true},
+    {"ST NOT", "OUTI", true},
     {"STN", "OUTI", true},
+    {"WR", "OUT", true},
+    {"WRN", "OUTI", true},
     {"WRT", "OUT", true},
     {"WRT.NOT", "OUTI", true},
     // said otherwise here
     {"A", kBegins},
     {"ADD", "the function ADDB"},
     {"AN", kBeginsClosed},
+    {"AND(", kAndBracket},
+    {"ANDF", kAtFalling},
+    {"ANDNT", kAtFalling},
+    {"ANDP", kAtRising},
+    {"ANDPT", kAtRising},
+    {"CA", kInverts},
     {"CAL", "the function CALL"},
     {"CALC", "the function CALL with a condition before it"},
     {"CJ", kJump},
@@ -59,25 +82,57 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"CTD", kCounter},
     {"CTU", kCounter},
     {"CTUD", kCounter},
+    {"DEC", "the function SUBB with 1"},
+    {"DECP", "the function SUBB with 1 after the function DIFU"},
     {"DIV", "the function DIVB"},
+    {"EDGE_H", kRisingEdge},
+    {"EDGE_L", kFallingEdge},
     {"END", "FUNC END1 ends Level 1, FUNC END2 Level 2"},
-    {"F_TRIG", kFallingEdge},
+    {"FL1", "SET or RST"},
     {"FN", kFallingEdge},
     {"FP", kRisingEdge},
+    {"F_TRIG", kFallingEdge},
+    {"INC", "the function ADDB with 1"},
+    {"INCP", "the function ADDB with 1 after the function DIFU"},
+    {"INV", kInverts},
     {"JMP", "the function JMPB jumps to a label LBL; JMP skips what comes before a JMPE"},
     {"JMPC", "the function JMPB jumps to a label LBL when its condition is on; JMPC leaves a subprogram"},
+    {"LA", "AND, or ANB without an operand"},
+    {"LAN", "ANI"},
+    {"LDF", kAtFalling},
+    {"LDP", kAtRising},
+    {"LDR", kBegins},
+    {"LDRN", kBeginsClosed},
+    {"LO", "OR, or ORB without an operand"},
+    {"LON", "ORI"},
     {"MC", "the function COM"},
     {"MCR", "the function COME"},
+    {"MEF", kFallingEdge},
+    {"MEP", kRisingEdge},
     {"MOV", "the function MOVB, MOVW or MOVN"},
+    {"MOVP", "the function MOVB, MOVW or MOVN after the function DIFU"},
+    {"MPP", kKeeps},
+    {"MPS", kKeeps},
+    {"MRD", kKeeps},
     {"MUL", "the function MULB"},
     {"NOP", "nothing: leave the line out"},
     {"NOT", "LDI, ANI, ORI or OUTI; the function NOT inverts bytes"},
     {"O", "OR"},
     {"ON", "ORI"},
+    {"OR(", kOrBracket},
+    {"ORF", kAtFalling},
+    {"ORNT", kAtFalling},
+    {"ORP", kAtRising},
+    {"ORPT", kAtRising},
+    {"OUTP", kRisingEdge},
     {"PLF", kFallingEdge},
     {"PLS", kRisingEdge},
-    {"R_TRIG", kRisingEdge},
+    {"RDNT", kAtFalling},
+    {"RDPT", kAtRising},
     {"RET", kReturn},
+    {"RSTP", kResetAtRising},
+    {"R_TRIG", kRisingEdge},
+    {"SETP", kSetAtRising},
     {"SRET", kReturn},
     {"SUB", "FUNC with a function's name; the numbers of functions are this control's own"},
     {"TOF", kOffDelay},

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <string>
 
+#include <fmt/format.h>
+
+#include "frontend/sema/foreign_word.h"
 #include "ir/support/ascii.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
@@ -24,6 +27,8 @@ bool allDigits(std::string_view text) { return !text.empty() && std::ranges::all
 // A number of too many digits is too large for everything.
 int64_t decimalValue(std::string_view digits) { return text::numberIn<int64_t>(digits).value_or(INT64_MAX); }
 
+constexpr char kHexConstant[] = "a hexadecimal constant is written #${}";
+
 struct ConstantReader {
   const Word& word;
   std::string_view text;
@@ -40,15 +45,11 @@ struct ConstantReader {
     }
     if (text.starts_with('#') && text.find('.') != std::string_view::npos)
       report.note("'#' begins an integer; a real number is written *" + std::string(text.substr(1)));
-    explainHex(report);
-    return std::nullopt;
-  }
-  // #1F, #0x1F, #16#1F
-  void explainHex(DiagBuilder& report) const {
-    std::string_view digits = text.substr(text.starts_with('#') ? 1 : 0);
-    if (!rung::text::takePrefixIgnoringCase(digits, "0x")) rung::text::takePrefixIgnoringCase(digits, "16#");
+    const std::string_view digits = text.substr(text.starts_with('#') ? 1 : 0);
+    if (noteForeignConstant(digits, report)) return std::nullopt;
     if (!digits.empty() && std::ranges::all_of(digits, [](char c) { return hexDigit(c) >= 0; }))
-      report.note("a hexadecimal constant is written #$" + std::string(digits));
+      report.note(fmt::format(kHexConstant, digits));
+    return std::nullopt;
   }
 
   std::optional<Constant> tooLarge(std::string_view range) {
@@ -131,6 +132,8 @@ private:
                   std::string(text));
     else if (allDigits(text))
       report.note("a constant is written #" + std::string(text));
+    else
+      noteForeignConstant(text, report);
     return std::nullopt;
   }
 
@@ -246,6 +249,17 @@ const Symbol* constantSymbol(std::string_view text, SymbolTable& symbols) {
 }
 
 } // namespace
+
+bool noteForeignConstant(std::string_view text, DiagBuilder& report) {
+  const std::optional<frontend::ForeignNumber> number = frontend::foreignNumber(text);
+  if (!number) return false;
+  const auto value = text::numberIn<uint64_t>(number->digits, static_cast<int>(number->base));
+  if (number->base == 16)
+    report.note(fmt::format(kHexConstant, number->digits));
+  else if (value)
+    report.note(fmt::format("there are no binary constants; in decimal it is #{}", *value));
+  return true;
+}
 
 SourceRange rangeOf(const Word& word, std::string_view part) {
   if (part.empty()) return word.range;

@@ -14,6 +14,9 @@ SourceRange rangeOf(const Word& word, std::string_view part);
 // `text`, a piece of `word`, begins with # or *.
 std::optional<Constant> parseConstant(const Word& word, std::string_view text, Diagnostics& diagnostics);
 
+// Of a word that is a number in another language: how it is written here. False where it is none.
+bool noteForeignConstant(std::string_view text, DiagBuilder& report);
+
 struct ParsedAddress {
   Address address;
   const Symbol* base = nullptr; // null: it is digits

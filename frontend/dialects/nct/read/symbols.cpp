@@ -130,14 +130,16 @@ void SymbolTable::noteUndeclared(std::string_view name, SourceRange range, std::
 
 void SymbolTable::reportUndeclared() {
   undeclared_.report(diagnostics_, diag::UndeclaredSymbol,
-                     [&](DiagBuilder& report, const Undeclared& use) { explain(report, use); });
+                     [&](DiagBuilder& report, auto uses) { explain(report, uses); });
 }
 
-void SymbolTable::explain(DiagBuilder& report, const Undeclared& use) {
+void SymbolTable::explain(DiagBuilder& report, std::span<const Undeclared> uses) {
   if (!diagnostics_.suggests()) return;
+  const Undeclared& use = uses.front();
   const std::string_view name = use.name;
-  ladder::suggest(report, sources_, use.range, similarTo(name));
+  ladder::suggest(report, sources_, frontend::placesOf(uses), similarTo(name));
   if (isOtherAddress(name)) report.note(kAddresses);
+  noteForeignConstant(name, report);
   // (S7001.00) is a coil of the name S7001.
   const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && !use.whole.empty() &&
                      (isDigit(name[1]) || find(name.substr(1)) != nullptr);

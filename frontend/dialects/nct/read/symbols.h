@@ -3,6 +3,7 @@
 #pragma once
 #include <deque>
 #include <set>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -87,7 +88,7 @@ private:
   struct Undeclared : frontend::UndeclaredUse {
     std::string_view whole;
   };
-  void explain(DiagBuilder& report, const Undeclared& use);
+  void explain(DiagBuilder& report, std::span<const Undeclared> uses);
   // The known name that is most like a misspelt one; empty when none is close.
   Likely similarTo(std::string_view name) const;
 

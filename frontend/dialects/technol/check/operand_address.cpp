@@ -37,6 +37,12 @@ constexpr PrefixType kBlockPrefixes[] = {{kByte, ir::Type::I8},
                                          {kQword, ir::Type::I64},
                                          {kReal, ir::Type::F64}};
 
+// NOT X of other languages: a name alone may be one of the program.
+bool isNotWord(std::span<const Token> tokens) {
+  return tokens.size() > 1 && text::equalsIgnoringCase(tokens[0].text, "NOT") && tokens[0].kind == TokenKind::Name &&
+         (tokens[1].kind == TokenKind::Name || tokens[1].is('('));
+}
+
 bool isBx(const Token& token) { return token.kind == TokenKind::Name && text::equalsIgnoringCase(token.text, "BX"); }
 
 } // namespace
@@ -46,6 +52,7 @@ bool isBx(const Token& token) { return token.kind == TokenKind::Name && text::eq
 // term {+|- term}
 bool OperandParser::address(std::span<const Token> tokens, Address& out) {
   int sign = 1;
+  bool good = true; // a term that is wrong does not hide the mistakes of the others
   size_t i = 0;
   if (tokens.empty()) return syntax("an address", tokens);
   while (i < tokens.size()) {
@@ -61,11 +68,11 @@ bool OperandParser::address(std::span<const Token> tokens, Address& out) {
       if (depth == 0 && (tokens[end].is('+') || tokens[end].is('-'))) break;
     }
     if (end == i) return syntax("an address", tokens.subspan(i));
-    if (!term(tokens.subspan(i, end - i), sign, out)) return false;
+    good = term(tokens.subspan(i, end - i), sign, out) && good;
     sign = 1;
     i = end;
   }
-  return true;
+  return good;
 }
 
 // ( address ) | number | 'c' | name, each with [BX] and members after it
@@ -95,15 +102,16 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
   } else if (head.kind == TokenKind::Text) {
     const std::optional<uint8_t> character = characterByte(head.text);
     if (!character) {
-      program_.diagnostics.report(diag::WrongOperandKind, head.range())
-          << "'" + std::string(head.text) + "'" << "a text" << "a value or one character";
+      if (checkCharacters(head, program_.diagnostics))
+        program_.diagnostics.report(diag::WrongOperandKind, head.range())
+            << "'" + std::string(head.text) + "'" << "a text" << "a value or one character";
       return false;
     }
     out.byte += int64_t{sign} * *character;
   } else if (head.kind == TokenKind::Name) {
     if (!addSymbol(head, sign, out)) return false;
   } else {
-    return syntax("a name", tokens);
+    return !reportForeignNumber(tokens, program_.diagnostics) && syntax("a name", tokens);
   }
   for (; i < tokens.size();) {
     if (tokens[i].is('[') && i + 2 < tokens.size() && isBx(tokens[i + 1]) && tokens[i + 2].is(']') && out.hasBase) {
@@ -245,10 +253,40 @@ bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t byte
 
 // ---- bits -----------------------------------------------------------------------------------------------------------
 
+// WR -X, EDGE_H -X
+bool OperandParser::reportNegated(bool writes, const Operand& out) {
+  program_.diagnostics.report(diag::WrongOperandKind, out.range)
+          .note(writes ? "what is written is inverted before: CA and WR X, or MOVR X,-Y"
+                       : "the other edge of the bit is that of EDGE_L or EDGE_H")
+      << spelled(out.tokens) << "negated" << "a plain bit";
+  return false;
+}
+
+// I0.0, BITS.8
+bool OperandParser::noBitName(std::span<const Token> tokens, SourceRange point) {
+  const std::string found = tokens.empty() ? "nothing" : "'" + std::string(tokens[0].text) + "'";
+  DiagBuilder report = program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, tokens, point));
+  report << "the name of a bit after the point" << found;
+  if (!tokens.empty() && tokens[0].kind == TokenKind::Number)
+    report.note("bits have names, which DFM declares: BYTE.NAME is the bit of this name in a byte");
+  return false;
+}
+
+// NOT X
+bool OperandParser::negatedByWord(bool mayBeNegated, bool writes, std::span<const Token> tokens, const Operand& out) {
+  if (!mayBeNegated) return reportNegated(writes, out);
+  DiagBuilder report = program_.diagnostics.report(diag::SyntaxError, tokens[0].range());
+  report << "a bit" << "'" + std::string(tokens[0].text) + "'";
+  report.note("a bit is negated by a '-'").fix({tokens[0].pos, tokens[1].pos}, "-");
+  return false;
+}
+
 bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
   const bool writes = info.access != Access::Read;
+  const bool mayBeNegated = kind.sign && !writes;
+  if (isNotWord(tokens)) return negatedByWord(mayBeNegated, writes, tokens, out);
   if (tokens[0].is('-') || tokens[0].is('+')) {
-    if (tokens[0].is('-') && (!kind.sign || writes)) return wrongKind(out, "negated", "a plain bit");
+    if (tokens[0].is('-') && !mayBeNegated) return reportNegated(writes, out);
     out.negated = tokens[0].is('-');
     tokens = tokens.subspan(1);
     if (tokens.empty()) return syntax("a bit", tokens);
@@ -259,7 +297,7 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
   const size_t point = lastPoint(tokens);
   if (point != std::string_view::npos) {
     if (point + 2 != tokens.size() || tokens[point + 1].kind != TokenKind::Name)
-      return syntax("the name of a bit after the point", tokens.subspan(point + 1), tokens[point].range());
+      return noBitName(tokens.subspan(point + 1), tokens[point].range());
     return bitAt(info, tokens.first(point), tokens[point + 1], out);
   }
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return bareBit(info, kind, tokens[0], out);

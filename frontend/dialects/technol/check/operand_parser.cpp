@@ -1,10 +1,10 @@
 // Operands other than addresses (see operand_parser.h).
 #include "frontend/dialects/technol/check/operand_parser.h"
+#include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/reader.h"
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/technol.h"
 #include "ir/support/similar.h"
-#include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
 
 #include <algorithm>
@@ -384,7 +384,7 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Text) {
     if (!kind.text) return wrongKind(out, "a text", "a variable");
     out.form = Operand::Form::Text;
-    out.text = program_.madeTexts.emplace_back(nc::memoryText(tokens[0].text));
+    out.text = program_.madeTexts.emplace_back(memoryText(tokens[0], program_.diagnostics));
     return true;
   }
   if (takeKeyword(kind.keywords, tokens, out)) return true;

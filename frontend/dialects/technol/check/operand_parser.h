@@ -39,6 +39,9 @@ private:
   bool one(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool waitOperands(std::span<Operand> operands);
   bool bit(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool noBitName(std::span<const Token> tokens, SourceRange point);
+  bool reportNegated(bool writes, const Operand& out);
+  bool negatedByWord(bool mayBeNegated, bool writes, std::span<const Token> tokens, const Operand& out);
   bool bareBit(const OperandInfo& info, const OperandKind& kind, const Token& name, Operand& out);
   bool bitAt(const OperandInfo& info, std::span<const Token> where, const Token& name, Operand& out);
   bool flag(const Token& number, Operand& out);

@@ -1,13 +1,13 @@
 // Declarations (see declare.h).
 #include "frontend/dialects/technol/read/declare.h"
 
+#include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/reader.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/diag/technol.h"
-#include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
 
 #include <algorithm>
@@ -262,7 +262,7 @@ bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statemen
 }
 
 void Placer::fillText(const Symbol& text, const Token& token) {
-  const std::string inMemory = nc::memoryText(token.text);
+  const std::string inMemory = memoryText(token, program_.diagnostics);
   std::string_view value = inMemory;
   if (value.size() > text.size - 1) {
     program_.diagnostics.report(diag::StringTooLong, token.range()) << value.size() << text.size - 1;

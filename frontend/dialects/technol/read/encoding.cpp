@@ -1,7 +1,10 @@
 // Encodings of sources (see encoding.h).
 #include "frontend/dialects/technol/read/encoding.h"
 
+#include <fmt/format.h>
+
 #include "frontend/syntax/word_lexer.h"
+#include "ir/support/diag/technol.h"
 #include "ir/support/utf8.h"
 #include "rtlib/nc/technol/code_page.h"
 
@@ -19,6 +22,27 @@ std::optional<uint8_t> characterByte(std::string_view text) {
   if (text.empty() || countCodePoints(text) != 1) return std::nullopt;
   const CodePoint character = decodeUtf8(text, 0);
   return character.valid && character.length == text.size() ? nc::windows1250Of(character.value) : std::nullopt;
+}
+
+bool checkCharacters(const Token& text, Diagnostics& diagnostics) {
+  bool good = true;
+  for (size_t at = 0; at < text.text.size();) {
+    const CodePoint character = decodeUtf8(text.text, at);
+    const uint32_t begin = text.pos.value + 1 + static_cast<uint32_t>(at); // after the apostrophe
+    const auto end = static_cast<uint32_t>(begin + character.length);
+    const std::string_view written = text.text.substr(at, character.length);
+    at += character.length;
+    if (nc::windows1250Of(character.value)) continue;
+    good = false;
+    const SourceRange place = text.written == 0 ? SourceRange{{begin}, {end}} : text.range();
+    diagnostics.report(diag::TextCharacter, place) << fmt::format("U+{:04X} '{}'", character.value, written);
+  }
+  return good;
+}
+
+std::string memoryText(const Token& text, Diagnostics& diagnostics) {
+  checkCharacters(text, diagnostics);
+  return nc::memoryText(text.text);
 }
 
 } // namespace rung::frontend::technol

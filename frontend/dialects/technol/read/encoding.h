@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
+#include "frontend/dialects/technol/read/lexer.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
 
@@ -16,5 +18,10 @@ std::optional<FileId> readable(SourceManager& sources, FileId file, Diagnostics&
 
 // The byte of a text of one character; nothing when it is not a single character of Windows-1250.
 std::optional<uint8_t> characterByte(std::string_view text);
+
+// Reports each character of a text that Windows-1250 lacks; true: there is none.
+bool checkCharacters(const Token& text, Diagnostics& diagnostics);
+// The text as the memory holds it, after these reports.
+std::string memoryText(const Token& text, Diagnostics& diagnostics);
 
 } // namespace rung::frontend::technol

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "frontend/sema/foreign_word.h"
 #include "frontend/syntax/bad_character.h"
 #include "ir/support/ascii.h"
 #include "ir/support/diag/source.h"
@@ -16,6 +17,7 @@ namespace {
 
 bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '?' || c == '@'; }
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\f'; }
+bool isHexDigit(char c) { return hexDigit(c) >= 0; }
 bool isPunct(char c) { return std::string_view(":,.+-()[]$<>").find(c) != std::string_view::npos; }
 
 // End of the number that begins at `first`.
@@ -50,17 +52,40 @@ size_t wordEnd(std::string_view text, size_t first) {
   return i;
 }
 
-// A comment of another language, a letter of another alphabet.
+// How a number of another language is written here; false where the word is none.
+bool noteNumber(std::string_view word, SourceRange range, DiagBuilder& report) {
+  const std::optional<ForeignNumber> number = foreignNumber(word);
+  if (!number) return false;
+  const bool isHex = number->base == 16;
+  const std::string here =
+      (isHex && !isDigit(number->digits[0]) ? "0" : "") + std::string(number->digits) + (isHex ? "h" : "b");
+  if (parseNumber(here)) report.meant(range, here);
+  return true;
+}
+
+// A comment, a number, an address or a negation of another language, a letter of another alphabet.
 void noteForeign(const SourceLine& line, size_t first, size_t last, DiagBuilder& report) {
   const std::string_view word = line.text.substr(first, last - first);
-  if (word.starts_with("//") || word.starts_with("/*") || word.starts_with('#'))
+  const bool isNegated = word.size() > 1 && (word[0] == '/' || word[0] == '!' || word[0] == '~') && isNameChar(word[1]);
+  if (noteNumber(word, line.range(first, last), report)) return;
+  if (word[0] == '#' && std::ranges::all_of(word.substr(1), isHexDigit) && word.size() > 1)
+    report.note("a number has no '#'; a hexadecimal one ends with an h: " + std::string(word.substr(1)) + "h");
+  else if (word.starts_with("//") || word.starts_with("/*") || word == "#")
     report.note("a comment begins with ';'");
+  else if (isNegated)
+    report.note("a bit is negated by a '-': -" + std::string(word.substr(1)));
+  else if (word == "=")
+    report.note("WR writes a result, STO a value");
+  else if (word.starts_with('%'))
+    report.note("bits and variables have names here, which DFM and DS declare, and no addresses");
   const auto* const other = std::ranges::find_if(word, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
   if (other != word.end())
     noteLookAlike(line.text, first + static_cast<size_t>(other - word.begin()), line.begin, report);
 }
 
 void reportWord(const SourceLine& line, size_t first, size_t last, Diagnostics& diagnostics) {
+  if (line.text.substr(first).starts_with("#$")) // a number of another language; a `$` ends other words
+    for (last = first + 2; last < line.text.size() && isNameChar(line.text[last]);) ++last;
   const std::string_view word = line.text.substr(first, last - first);
   for (char c : word)
     if (isNameChar(c)) {
@@ -137,6 +162,15 @@ std::optional<Number> parseRadix(std::string_view digits, int radix) {
 
 } // namespace
 
+// Digits alone, but too many.
+static bool isTooLarge(std::string_view text) {
+  const char last = text.empty() ? ' ' : text::upper(text.back());
+  const int base = last == 'H' ? 16 : last == 'B' ? 2 : 10;
+  const std::string_view digits = base == 10 ? text : text.substr(0, text.size() - 1);
+  return !digits.empty() && !parseNumber(text) &&
+         std::ranges::all_of(digits, [&](char c) { return hexDigit(c) >= 0 && hexDigit(c) < base; });
+}
+
 std::optional<Number> parseNumber(std::string_view text) {
   if (text.empty() || !isDigit(text[0])) return std::nullopt;
   if (text.find('.') != std::string_view::npos) {
@@ -150,12 +184,24 @@ std::optional<Number> parseNumber(std::string_view text) {
 }
 
 void reportBadNumber(const Token& token, std::string_view written, Diagnostics& diagnostics) {
+  const std::string_view number = token.text;
+  if (written == number && isTooLarge(number)) {
+    diagnostics.report(diag::OperandRange, token.range()) << number << "what 64 bits hold";
+    return;
+  }
   DiagBuilder report = diagnostics.report(diag::BadNumber, token.range());
   report << written;
-  std::string_view digits = token.text;
-  if (written != token.text || !text::takePrefixIgnoringCase(digits, "0x")) return;
-  const std::string here = (digits.empty() || isDigit(digits[0]) ? "" : "0") + std::string(digits) + "h";
-  if (parseNumber(here)) report.meant(token.range(), here);
+  if (written != number || noteNumber(number, token.range(), report)) return;
+  if (std::ranges::all_of(number, isHexDigit))
+    report.note("a hexadecimal number ends with an h: " + std::string(number) + "h");
+}
+
+bool reportForeignNumber(std::span<const Token> tokens, Diagnostics& diagnostics) {
+  if (tokens.size() < 2 || !tokens[0].is('$') || tokens[0].text.data() + 1 != tokens[1].text.data()) return false;
+  const Token both{{tokens[0].text.data(), tokens[1].text.size() + 1}, tokens[0].pos, TokenKind::Number};
+  if (!foreignNumber(both.text)) return false;
+  reportBadNumber(both, both.text, diagnostics);
+  return true;
 }
 
 } // namespace rung::frontend::technol

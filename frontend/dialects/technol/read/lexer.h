@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -44,5 +45,7 @@ struct Number {
 std::optional<Number> parseNumber(std::string_view text);
 // Of a token, `written` with what belongs to it; how it is written here where it is a number of another language.
 void reportBadNumber(const Token& token, std::string_view written, Diagnostics& diagnostics);
+// The same of $1F, which is two tokens; false where these are something else.
+bool reportForeignNumber(std::span<const Token> tokens, Diagnostics& diagnostics);
 
 } // namespace rung::frontend::technol

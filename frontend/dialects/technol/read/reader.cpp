@@ -21,6 +21,27 @@ std::string describe(std::span<const Token> tokens) {
   return "'" + std::string(tokens[0].text) + "'";
 }
 
+// A command of another language that the first tokens of a statement are: LD, AND NOT, RD.NOT.STK; ST -X.
+struct ForeignCommand {
+  const ForeignWord* word = nullptr;
+  size_t tokens = 1;
+};
+
+ForeignCommand foreignCommand(std::span<const Token> tokens) {
+  constexpr size_t kLongest = 5;
+  for (size_t count = std::min(tokens.size(), kLongest); count > 0; --count)
+    if (const ForeignWord* word = foreignWord(spelled(tokens.first(count)))) return {word, count};
+  return {};
+}
+
+// Operands that are not written as those of this language.
+bool areNegated(std::span<const Token> operands) {
+  const auto isNegated = [](std::span<const Token> operand) {
+    return !operand.empty() && (operand[0].is('-') || text::equalsIgnoringCase(operand[0].text, "NOT"));
+  };
+  return std::ranges::any_of(splitOperands(operands), isNegated);
+}
+
 // Whether an instruction takes as many operands as there are; of a macro, which has no row, it is not asked.
 bool takesAsMany(const Row* row, std::span<const Token> operands) {
   Diagnostics unheard;
@@ -99,15 +120,19 @@ bool FileReader::instance(uint32_t first, uint32_t count, uint32_t line) {
 
 // An instruction of another language, with what is written for it here. False when it is none of those that are known.
 bool FileReader::foreign(std::span<const Token> tokens) {
-  const Token& token = tokens[0];
-  const ForeignWord* word = foreignWord(token.text);
-  const bool assembler = isAssembler(token.text);
-  if (word == nullptr && !assembler) return false;
+  const ForeignCommand found = foreignCommand(tokens);
+  const bool hasSign = found.tokens == 2 && tokens[1].is('-'); // the operand's
+  const std::span<const Token> command = tokens.first(found.tokens - (hasSign ? 1 : 0));
+  const std::span<const Token> operands = tokens.subspan(command.size());
+  const bool assembler = found.tokens == 1 && isAssembler(tokens[0].text);
+  if (found.word == nullptr && !assembler) return false;
+  const SourceRange range = rangeOf(program_.sources, command, tokens[0].range());
   DiagBuilder report =
-      program_.diagnostics.report(assembler ? diag::UnsupportedAssembler : diag::UnknownInstruction, token.range());
-  report << token.text;
-  if (word != nullptr)
-    explainForeign(report, token.range(), *word, !assembler && takesAsMany(findRow(word->here), tokens.subspan(1)));
+      program_.diagnostics.report(assembler ? diag::UnsupportedAssembler : diag::UnknownInstruction, range);
+  report << spelled(command);
+  if (found.word == nullptr) return true;
+  const bool fits = !assembler && takesAsMany(findRow(found.word->here), operands) && !areNegated(operands);
+  explainForeign(report, range, *found.word, fits);
   return true;
 }
 
@@ -128,7 +153,7 @@ const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
   DiagBuilder report = program_.diagnostics.report(diag::UnknownInstruction, token.range());
   report << token.text;
   noteLabel(tokens, report);
-  if (similar.best().empty()) return nullptr;
+  if (similar.best().empty() || isModified(word, similar.best())) return nullptr;
   const size_t words = parted ? 2 : 1;
   const Row* row = findRow(similar.best());
   suggest(report, rangeOf(program_.sources, tokens.first(words), token.range()),
@@ -440,7 +465,9 @@ std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<
   int64_t sum = 0;
   int sign = 1;
   bool wantsTerm = true;
-  for (const Token& token : tokens) {
+  for (size_t i = 0; i < tokens.size(); ++i) {
+    const Token& token = tokens[i];
+    if (reportForeignNumber(tokens.subspan(i), program.diagnostics)) return std::nullopt;
     if (token.is('+') || token.is('-')) {
       sign = token.is('-') ? (wantsTerm ? -sign : -1) : (wantsTerm ? sign : 1);
       wantsTerm = true;
@@ -458,7 +485,7 @@ std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<
       term = number->value;
     } else if (token.kind == TokenKind::Text) {
       const std::optional<uint8_t> character = characterByte(token.text);
-      if (!character) return fail(token);
+      if (!character) return checkCharacters(token, program.diagnostics) ? fail(token) : std::nullopt;
       term = *character;
     } else {
       const uint32_t symbol = program.symbols.require(token, file);

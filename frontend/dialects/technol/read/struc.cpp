@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/reader.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/diag/technol.h"
 #include "ir/support/hash.h"
-#include "rtlib/nc/technol/code_page.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
@@ -172,7 +172,7 @@ bool Structures::value(Element element, std::span<const Token> tokens, SourceRan
   }
   const bool text = tokens.size() == 1 && tokens[0].kind == TokenKind::Text;
   if (text && element.bytes == 1 && !tokens[0].text.empty()) {
-    const std::string memory = nc::memoryText(tokens[0].text);
+    const std::string memory = memoryText(tokens[0], program_.diagnostics);
     return out.insert(out.end(), memory.begin(), memory.end()), true;
   }
   return number(element.bytes, tokens, otherwise, out);

@@ -272,10 +272,24 @@ void SymbolTable::noteUndefined(const Token& name, uint32_t file, Hint hint) {
 }
 
 void SymbolTable::reportUndefined() {
-  undefined_.report(diagnostics_, diag::UndefinedSymbol, [&](DiagBuilder& report, const Undefined& first) {
+  undefined_.report(diagnostics_, diag::UndefinedSymbol, [&](DiagBuilder& report, std::span<const Undefined> uses) {
+    const Undefined& first = uses.front();
     const Likely meant = similar(first);
-    suggest(report, first.range, meant);
+    suggestAt(report, placesOf(uses), {meant.word, meant.certain && isMeantByAll(uses, meant.word)});
     if (meant.word.empty() && looksLikeNumber(first.name)) report.note("as a number: 0" + std::string(first.name));
+  });
+}
+
+// Another file has other names, and another structure other members; what a macro puts together no place has.
+bool SymbolTable::isMeantByAll(std::span<const Undefined> uses, std::string_view word) const {
+  const Undefined& first = uses.front();
+  return std::ranges::all_of(uses, [&](const Undefined& use) {
+    if (use.range.end.value - use.range.begin.value != use.name.size()) return false;
+    const bool isAlike = use.file == first.file && use.hint.structure == first.hint.structure &&
+                         use.hint.meant.word == first.hint.meant.word;
+    if (isAlike) return true;
+    const Likely meant = similar(use);
+    return meant.certain && meant.word == word;
   });
 }
 
@@ -286,7 +300,8 @@ Likely SymbolTable::similar(const Undefined& use) const {
   if (!diagnostics_.suggests()) return {};
   if (const Likely member = similarMember(use.name, use.hint.structure); !member.word.empty()) return member;
   const auto isVisible = [&](const Symbol& symbol) {
-    return !symbol.predeclared && (!symbol.local || symbol.file == use.file);
+    const bool isWritten = symbol.name.find(kUseMark) == std::string_view::npos;
+    return isWritten && !symbol.predeclared && (!symbol.local || symbol.file == use.file);
   };
   const Likely own = likeliest(use.name, table_.all() | std::views::filter(isVisible), &Symbol::name);
   return !own.word.empty() ? own : similarOfControl(use.name);

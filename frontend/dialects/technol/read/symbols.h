@@ -93,6 +93,7 @@ private:
     Hint hint;
   };
   Likely similar(const Undefined& use) const;
+  bool isMeantByAll(std::span<const Undefined> uses, std::string_view word) const;
   void reportIncludedAgain(std::string_view name);
 
   SourceRange again_;                 // see readsAgain

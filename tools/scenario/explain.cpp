@@ -43,6 +43,8 @@ std::vector<uint32_t> firstOf(std::vector<uint32_t> rungs, size_t most) {
   return rungs;
 }
 
+enum class Forced : uint8_t { No, Part, All };
+
 class Explanation {
 public:
   // `beginning`: what the changes are known from.
@@ -54,7 +56,7 @@ public:
     expected_ = bitsOf(place);
     if (instance_.faulted()) line(4, "the program has stopped with a fault: {}", instance_.faultText());
     if (instance_.stopped()) line(4, "the program is stopped");
-    line(4, "{}{}", shownName(program_, place), age(place));
+    line(4, "{}{}{}", shownName(program_, place), forceOf(place), age(place));
     sources(place, 0);
     return std::move(text_);
   }
@@ -67,6 +69,8 @@ private:
   }
   std::string rungText(uint32_t rung) const { return host::rungText(program_, rung); }
 
+  Forced forcedOf(const BitRange& bits) const;
+  std::string forceOf(const Ref& place) const;
   std::string age(const Ref& place) const;
   void sources(const Ref& place, size_t copies);
   void writer(uint32_t rung, bool computed);
@@ -85,6 +89,30 @@ private:
   BitRange expected_;
   std::string text_;
 };
+
+// A force holds a cell wherever it is copied to and from.
+Forced Explanation::forcedOf(const BitRange& bits) const {
+  const auto isForced = [&](uint32_t bit) {
+    const rt::Place at = instance_.memory().locateBit(bits.space.index, bit / 8, bit % 8);
+    return !at.outside() && std::ranges::any_of(instance_.forcedBits(), [&](const rt::ForcedBits& forced) {
+      return forced.offset == at.offset() && (forced.mask >> at.bit() & 1) != 0;
+    });
+  };
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < bits.count; ++i) count += isForced(bits.first + i) ? 1 : 0;
+  if (count == 0) return Forced::No;
+  return count == bits.count ? Forced::All : Forced::Part;
+}
+
+// " is forced to 1"
+std::string Explanation::forceOf(const Ref& place) const {
+  switch (forcedOf(bitsOf(place))) {
+  case Forced::No: return {};
+  case Forced::Part: return ", a part of which is forced";
+  case Forced::All: break;
+  }
+  return " is forced to " + show(readValue(instance_, session_.nc().control(), place, false));
+}
 
 // ", changed in scan 5 (0.050 s)"
 std::string Explanation::age(const Ref& place) const {
@@ -166,8 +194,13 @@ std::optional<std::string> Explanation::nameLine(const Use& use) const {
   if (!shown) return std::nullopt;
   if (use.computed) return shownRange(program_, *shown) + ", at a computed address";
   const Ref place = nc::meant(program_, refOf(use));
-  return fmt::format("{} = {}{}", shownName(program_, moved(place, *shown)),
-                     show(readValue(instance_, session_.nc().control(), place, false)), age(place));
+  const Forced forced = forcedOf(use.place);
+  return fmt::format("{} = {}{}{}", shownName(program_, moved(place, *shown)),
+                     show(readValue(instance_, session_.nc().control(), place, false)),
+                     forced == Forced::All    ? ", forced"
+                     : forced == Forced::Part ? ", forced in part"
+                                              : "",
+                     age(place));
 }
 
 } // namespace

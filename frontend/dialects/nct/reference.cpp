@@ -174,7 +174,8 @@ void messages(ReferencePage& page) {
           "on the screen: sent again, by whatever box, it comes to the top with its new number, and each of its boxes "
           "deletes it. `message 20 \"Tool {{#0:F0}} is missing\"` gives the text: `{{#0:F0}}` prints an integer, "
           "`{{*0:Fi}}` a double with i decimals, rounded. The kind must be the box's (`message-format`); a box whose "
-          "number is in a register prints what it has. A log entry is the code with 8 digits and the text.",
+          "number is in a register prints what it has. A log entry is the number, channel and index in brackets unless "
+          "both are 0, and the text.",
           nc::nct::kMessages));
   page.part(
       "What the program sees",

@@ -2,10 +2,11 @@
 #include "rtlib/nc/control/control.h"
 
 #include <algorithm>
-#include <charconv>
+#include <cstdio>
 
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/control/gsk/gsk_control.h"
+#include "rtlib/nc/control/message_number.h"
 #include "rtlib/nc/control/nct/nct_control.h"
 #include "rtlib/nc/control/refuse.h"
 #include "rtlib/nc/control/technol/technol_control.h"
@@ -40,22 +41,28 @@ std::optional<host::Ref> Control::readPlace(const rung_program& program, std::st
   return resolve(program, name, [&](std::string_view unknown) { return signal(program, unknown); });
 }
 
+size_t putMessageNumber(uint32_t number, int32_t channel, int32_t index, std::span<char> out) noexcept {
+  char text[kMessageNumber];
+  const int length = channel == 0 && index == 0
+                         ? std::snprintf(text, sizeof text, "%u", number)
+                         : std::snprintf(text, sizeof text, "%u (channel %d, index %d)", number, channel, index);
+  const size_t size = std::min(out.size(), static_cast<size_t>(length));
+  std::copy_n(text, size, out.begin());
+  return size;
+}
+
 size_t Control::describe(const rung_program& program, const rung_message& message, std::span<char> out) const noexcept {
-  char head[16];
-  char* end = std::to_chars(head, head + sizeof head, message.number).ptr;
-  *end++ = ' ';
-  const std::string_view number(head, end);
-  const std::string_view text = host::messageText(program, message.number);
-  const std::string_view shownNumber = number.substr(0, out.size());
-  const std::string_view shownText = text.substr(0, out.size() - shownNumber.size());
-  std::ranges::copy(shownText, std::ranges::copy(shownNumber, out.begin()).out);
-  return shownNumber.size() + shownText.size();
+  size_t size = putMessageNumber(message.number, message.channel, message.index, out);
+  if (size < out.size()) out[size++] = ' ';
+  const std::string_view text = host::messageText(program, message.number).substr(0, out.size() - size);
+  std::ranges::copy(text, out.subspan(size).begin());
+  return size + text.size();
 }
 
 std::string Control::text(const ShownMessage& message) const {
-  std::string text = "message " + std::to_string(message.number);
-  if (message.channel != 0 || message.index != 0)
-    text += " (channel " + std::to_string(message.channel) + ", index " + std::to_string(message.index) + ")";
+  char number[kMessageNumber];
+  const size_t length = putMessageNumber(message.number, message.channel, message.index, number);
+  std::string text = "message " + std::string(number, length);
   if (!message.text.empty()) text += " \"" + message.text + "\"";
   return text;
 }

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/control/message_number.h"
 
 namespace rung::nc::nct {
 namespace {
@@ -29,14 +30,9 @@ std::string filled(const rung_program& program, const rung_message& message) {
 } // namespace
 
 size_t logLine(const rung_program& program, const rung_message& message, std::span<char> out) noexcept {
-  constexpr uint32_t kDigits = 8;
-  char head[kDigits + 1] = {};
-  uint32_t rest = codeOf(message);
-  for (uint32_t i = kDigits; i > 0; --i, rest /= 10) head[i - 1] = static_cast<char>('0' + rest % 10);
-  head[kDigits] = ' ';
-  const size_t shown = std::min(out.size(), sizeof head);
-  std::copy_n(head, shown, out.data());
-  return shown + fillText(host::messageText(program, message.number), message, out.subspan(shown));
+  size_t size = putMessageNumber(message.number, message.channel, message.index, out);
+  if (size < out.size()) out[size++] = ' ';
+  return size + fillText(host::messageText(program, message.number), message, out.subspan(size));
 }
 
 // ---- cells -------------------------------------------------------------------------------------------------------

@@ -87,7 +87,7 @@ private:
   bool changed_ = true;
 };
 
-// The 8 digits of the code and the text with its number: the characters written, what does not fit is cut off.
+// The message's number and the text with its values: the characters written, what does not fit is cut off.
 // Allocates nothing.
 size_t logLine(const rung_program& program, const rung_message& message, std::span<char> out) noexcept;
 

@@ -31,7 +31,7 @@ public:
   bool shows(const host::Instance&, std::span<const ShownMessage> these) const noexcept override {
     return messages_.shows(these);
   }
-  // The number is the code of 8 digits; the text has its numbers filled in.
+  // The text has its numbers filled in.
   size_t describe(const rung_program& program, const rung_message& message,
                   std::span<char> out) const noexcept override;
   nct::Messages& list() { return messages_; }

@@ -6,6 +6,7 @@
 
 #include "rtlib/host/copied_bytes.h"
 #include "rtlib/host/program_info.h"
+#include "rtlib/host/written_bits.h"
 
 namespace rung::host {
 
@@ -75,12 +76,6 @@ void Forcing::nameBytes() {
     bytes_.push_back({.space = place.first, .byte = place.second, .mask = bits.mask, .value = bits.value});
 }
 
-bool Forcing::isWritten(uint32_t offset, uint8_t mask) const {
-  const std::span<const rung_written> writes(program_.writes, program_.write_count);
-  const auto after = std::ranges::upper_bound(writes, offset, {}, &rung_written::offset);
-  if (after == writes.begin()) return false;
-  const rung_written& written = *std::prev(after);
-  return offset - written.offset < written.size && (written.mask & mask) != 0;
-}
+bool Forcing::isWritten(uint32_t offset, uint8_t mask) const { return (writtenBits(program_, offset) & mask) != 0; }
 
 } // namespace rung::host

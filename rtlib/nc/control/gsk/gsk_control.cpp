@@ -7,6 +7,7 @@
 
 #include "rtlib/core/bits.h"
 #include "rtlib/host/program_info.h"
+#include "rtlib/host/written_bits.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/text/number.h"
 
@@ -38,13 +39,23 @@ struct GskPlaces final : Places {
                         .count = std::min(range.byte_count, messageBytes - range.first_byte),
                         .offset = range.offset,
                         .expanded = range.repr == RUNG_REPR_BYTE_PER_BIT});
+      for (uint32_t i = 0; i < pieces.back().size(); ++i)
+        written.push_back(host::writtenBits(program, range.offset + i));
     }
   }
   gsk::Areas areas;
   uint32_t messages;
   uint32_t messageBytes = 0;
   std::vector<gsk::MessageBytes> pieces;
+  std::vector<uint8_t> written; // by rungs, of their bytes
 };
+
+// Messages of the program before that no rung can end any more.
+void endOthers(uint8_t* block, const GskPlaces& places) noexcept {
+  const uint8_t* written = places.written.data();
+  for (const gsk::MessageBytes& piece : places.pieces)
+    for (uint32_t i = 0; i < piece.size(); ++i) block[piece.offset + i] &= *written++;
+}
 
 // Calls see(number) for each message whose bit is 1, in their order, until it gives false. Nearly all bits are 0: eight
 // bytes of the block are looked at together.
@@ -79,6 +90,7 @@ void GskControl::usePlaces(host::Instance& instance, Places& places) noexcept {
   messageBytes_ = own.messageBytes;
   messagePieces_ = own.pieces;
   hasSeen_ = false;
+  endOthers(instance.block().data(), own);
 }
 
 void GskControl::prepare(host::Instance& instance, PowerOn kind) {

@@ -76,13 +76,18 @@ public:
     const rung_cell_info& info = *found;
     if (info.space == RUNG_NONE || info.type == RUNG_TYPE_TEXT || info.count != 1) return;
     const uint32_t sides = sides_.of(info);
+    // Memory that has no name of the user's, such as positions, is the NC's.
+    const bool own = sides == 0 && (program_.spaces[info.space].flags & RUNG_SPACE_HIDDEN) == 0;
+    if (own && used.written) return;
     const bool input = sides == RUNG_SPACE_INPUT || (sides != RUNG_SPACE_OUTPUT && !used.written);
     const bool output = sides == RUNG_SPACE_OUTPUT || (!input && !used.read);
     if (input && !written) return;
     Row row{.type = pinTypeOf(info.type), .name = used.name, .comment = commentOf(used.name)};
     if (input && info.type == RUNG_TYPE_I8) row.type = PinType::Bit, row.bits = kByteBits; // mostly eight bits
     row.pin = uniquePin(row);
-    if (input)
+    if (own)
+      unwritten_.push_back(row);
+    else if (input)
       addInput(row, info.type, bitsOf(*written));
     else if (output)
       outputs_.push_back(row);
@@ -100,6 +105,9 @@ public:
     if (!narrow_.empty())
       text += "# Numbers of 16 bits; of a greater one the pin's upper bits are lost:\n" + rows(narrow_, "# ") + '\n';
     if (!parts_.empty()) text += "# Pins above bring these, or parts of them:\n" + rows(parts_, "# ") + '\n';
+    if (!unwritten_.empty())
+      text += "# No rung writes these relays and registers of the program; a pin, [param] or [const] may:\n" +
+              rows(unwritten_, "# ") + '\n';
     text += table("out", outputs_, "");
     if (!others_.empty()) text += "# Rungs write these, and read them, too:\n" + rows(others_, "# ") + '\n';
     return text + functions();
@@ -168,7 +176,7 @@ private:
   Sides sides_;
   std::set<std::string> names_, pins_;
   std::vector<Bits> taken_; // by inputs
-  std::vector<Row> inputs_, narrow_, parts_, outputs_, others_;
+  std::vector<Row> inputs_, narrow_, parts_, unwritten_, outputs_, others_;
 };
 
 } // namespace

@@ -14,9 +14,10 @@ struct UsedName {
   bool written = false; // it, or a part of it
 };
 
-// A mapping file without mistakes and warnings. Input is what belongs to the machine or the NC, or what no rung writes;
-// output what goes there, or what no rung reads. What rungs write and read in memory that both sides share is in
-// comments. `program`: the tables of the instance's image.
+// A mapping file without mistakes and warnings. Input is what the machine or the NC writes, output what they read; of
+// memory that both sides share what no rung writes, or what no rung reads, and the rest of it is in comments. Of the
+// program's own memory only what no rung writes is there, in comments, too. `program`: the tables of the instance's
+// image.
 std::string templateMap(rung_instance* instance, const rung_program& program, std::span<const UsedName> used);
 
 } // namespace rung::map_template

@@ -32,8 +32,9 @@ struct Entry {
   Position at;
   Use use = Use::Input;
   PinType type = PinType::Bit;
-  double value = 0;  // of a constant, or of a parameter at the start
-  uint32_t bits = 0; // that have a pin each
+  double value = 0;     // of a constant, or of a parameter at the start
+  uint32_t bits = 0;    // that have a pin each
+  bool anyType = false; // the type is not known
 };
 
 // Why an entry cannot refer to a place.
@@ -120,6 +121,7 @@ public:
   Binding run() {
     Binding binding;
     for (const Link& link : map_.links) addLink(binding.links, link);
+    for (const NamedOnly& name : map_.namedOnly) checkName(name);
     for (const Constant& constant : map_.constants) addConstant(binding.constants, constant);
     for (const Protected& cell : map_.never) checkProtected(cell);
     checkShared(written_, "pin");
@@ -312,6 +314,12 @@ private:
     return link.bits.empty() ? name : name.substr(0, name.rfind('-'));
   }
 
+  void checkName(const NamedOnly& name) {
+    Entry entry{name.where, name.name, name.at, toProgram(name.direction) ? Use::Input : Use::Output};
+    entry.anyType = true;
+    (void)find(entry);
+  }
+
   void addConstant(std::vector<ConstLink>& links, const Constant& constant) {
     Entry entry{"const." + constant.name, constant.name, constant.at, Use::Constant, constant.type, constant.value};
     const std::optional<Place> place = find(entry);
@@ -377,6 +385,7 @@ private:
     if (place.space == RUNG_NONE) return Misfit::Constant;
     if (place.type == RUNG_TYPE_TEXT) return Misfit::Text;
     if (entry.use != Use::Output && isOutputOnly(place)) return Misfit::Output;
+    if (entry.anyType) return Misfit::None;
     const bool isBit = place.type == RUNG_TYPE_BIT;
     if (isBit != (entry.type == PinType::Bit)) return isBit ? Misfit::Bit : Misfit::Cell;
     const bool isInteger = entry.type == PinType::S32 || entry.type == PinType::U32;

@@ -192,7 +192,7 @@ private:
   bool takePins(const toml::node& node, Direction direction, const Key<PinRow> (&keys)[N]);
   template <size_t N>
   void readPin(const toml::key& key, const toml::node& node, Direction direction, const Key<PinRow> (&keys)[N]);
-  bool checkRow(const PinRow& row, Direction direction, const std::string& where);
+  void checkRow(const PinRow& row, Direction direction, const std::string& where);
   bool makePins(const Place& name, const PinRow& row, Direction direction, Link& link);
   template <class Row, size_t N, class Add>
   bool takeList(const toml::node& node, std::string_view name, const Key<Row> (&keys)[N], Add add);
@@ -388,11 +388,12 @@ bool Reader::takePins(const toml::node& node, Direction direction, const Key<Pin
 
 template <size_t N>
 void Reader::readPin(const toml::key& key, const toml::node& node, Direction direction, const Key<PinRow> (&keys)[N]) {
+  const size_t before = mistakes();
   const Place name{std::string(key.str()), positionOf(key.source())};
   const std::string where = std::string(tableName(direction)) + "." + name.text;
   if (!isPinName(name.text))
-    return fail(name.at,
-                where + ": found \"" + name.text + "\", expected the name of a pin: letters, digits, '-', '_' and '.'");
+    fail(name.at,
+         where + ": found \"" + name.text + "\", expected the name of a pin: letters, digits, '-', '_' and '.'");
   const toml::table* entry = node.as_table();
   if (entry == nullptr)
     return wrong(positionOf(node), where, shown(node), "a table", name.text + " = { type = \"bit\", name = \"X0.0\" }");
@@ -400,20 +401,23 @@ void Reader::readPin(const toml::key& key, const toml::node& node, Direction dir
     return fail(name.at, where + ": found a name with a dot, expected quotes around it; write for example \"" +
                              name.text + ".1\" = { … }");
   PinRow row;
-  if (!readKeys(*entry, where, keys, row) || !row.type || !checkRow(row, direction, where)) return; // type is needed
+  readKeys(*entry, where, keys, row);
+  if (row.type) checkRow(row, direction, where);
   Link link{.scale = row.scale.value_or(1)};
-  if (!makePins(name, row, direction, link)) return;
+  const bool good = mistakes() == before && makePins(name, row, direction, link);
   if (row.value) link.value = row.value->value;
   for (Place& place : row.names) {
     link.name = std::move(place.text);
     link.at = place.at;
-    map().links.push_back(link);
+    if (good)
+      map().links.push_back(link);
+    else if (!link.name.empty())
+      map().namedOnly.push_back({where + ".name", link.name, link.at, direction});
   }
 }
 
 // What the keys of a pin have to do with each other.
-bool Reader::checkRow(const PinRow& row, Direction direction, const std::string& where) {
-  const size_t before = mistakes();
+void Reader::checkRow(const PinRow& row, Direction direction, const std::string& where) {
   if (row.scale && row.type != PinType::Float)
     fail(row.scaleAt, where + ".scale: found a scale of type " + std::string(pinTypeName(*row.type)) +
                           ", expected one of type float only; remove it, or write type = \"float\"");
@@ -426,7 +430,6 @@ bool Reader::checkRow(const PinRow& row, Direction direction, const std::string&
                               " has one source; give the other names pins of their own");
   checkNumber(row.value, *row.type, where + ".value");
   checkNumber(row.safe, *row.type, where + ".safe");
-  return mistakes() == before;
 }
 
 // The pin of a row, or one for each of its bits.
@@ -592,6 +595,8 @@ std::string_view pinTypeName(PinType type) {
 std::string File::message(Position at, std::string_view what) const {
   return paths[at.file] + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": " + std::string(what);
 }
+
+bool isNamedAsMap(std::string_view path) { return path.ends_with(".map"); }
 
 std::string readFromDisk(const std::string& path) {
   std::string contents;

@@ -57,6 +57,14 @@ struct Link {
   Position at;                 // of the name
 };
 
+// A name of a pin with other mistakes: it is looked up, too, so that all mistakes are said at once.
+struct NamedOnly {
+  std::string where; // its key, for messages
+  std::string name;
+  Position at;
+  Direction direction = Direction::In;
+};
+
 // true and false are bits; integers are S32 where they are negative and U32 otherwise.
 struct Constant {
   PinType type = PinType::Bit;
@@ -182,6 +190,7 @@ struct File {
   std::vector<std::string> paths; // the file, and those that it includes
   std::vector<Pin> pins;
   std::vector<Link> links;
+  std::vector<NamedOnly> namedOnly;
   std::vector<Constant> constants;
   std::vector<Send> sends;
   std::vector<Group> groups;
@@ -201,6 +210,9 @@ struct File {
 
 // The text of a file; throws std::exception, whose text says why there is none: "cannot read PATH: …".
 using ReadFile = std::function<std::string(const std::string& path)>;
+
+// Whether a path is one of a mapping file by its name, as a program's is not.
+bool isNamedAsMap(std::string_view path);
 
 // From the disk: regular files of at most 1 MB.
 std::string readFromDisk(const std::string& path);

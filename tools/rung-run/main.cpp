@@ -232,6 +232,10 @@ int run(const Options& options) try {
   checkEarly(options);
   if (const std::string wrong = remote::wrongHostName(options.name); !wrong.empty())
     throw rung_run::WrongOption("--name: " + wrong);
+  if (mapping::isNamedAsMap(options.program))
+    throw rung_run::WrongOption("found the mapping file " + options.program +
+                                " as the program, expected PROGRAM and then MAP" +
+                                (mapping::isNamedAsMap(options.map) ? "" : "; exchange the two"));
   catchSignals();
   const Image image = imageOf(options);
   if (!options.simulate && namesDevices(options) && !isOfTechnol(image))

@@ -33,16 +33,19 @@ TEST(Template, WhatTheMachineAndTheNcHave) {
                                                               {"SYM", true, true},
                                                               {"X0.0", true, false},
                                                               {"D8:4", false, true},
+                                                              {"D12:2", true, false},
                                                               {"D0:2", true, true},
                                                               {"NOWHERE", true, false}});
-  const std::string begin = "# HAL pins of " + std::string(testing::gskProgram().name) + kHead +
-                            "[in]\n"
-                            "x0-0 = { type = \"bit\", name = \"X0.0\" }\n"
-                            "x10 = { type = \"bit\", name = \"X10\", bits = 8 }\n"
-                            "\n[out]\n"
-                            "sym = { type = \"bit\", name = \"SYM\" }\n"
-                            "d8-4 = { type = \"s32\", name = \"D8:4\" }\n"
-                            "\n# M, S and T functions: an edge of a pin hands one to the program.\n#\n";
+  const std::string begin =
+      "# HAL pins of " + std::string(testing::gskProgram().name) + kHead +
+      "[in]\n"
+      "x0-0 = { type = \"bit\", name = \"X0.0\" }\n"
+      "x10 = { type = \"bit\", name = \"X10\", bits = 8 }\n"
+      "\n# No rung writes these relays and registers of the program; a pin, [param] or [const] may:\n"
+      "# d12-2 = { type = \"s32\", name = \"D12:2\" }\n"
+      "\n[out]\n"
+      "sym = { type = \"bit\", name = \"SYM\" }\n"
+      "\n# M, S and T functions: an edge of a pin hands one to the program.\n#\n";
   EXPECT_EQ(text.substr(0, begin.size()), begin);
 }
 

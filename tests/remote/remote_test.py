@@ -153,13 +153,19 @@ class Commands(Host):
         self.assertEqual(self.ctl("set", "D8:2", "-1"), "D8:2 = -1 (was 16)\n")
         self.assertIn("found 65536 for D8:2, expected at most 65535", self.ctl("set", "D8:2", "65536", status=WRONG))
         self.assertIn("found -32769 for D8:2, expected at least -32768", self.ctl("set", "D8:2", "-32769", status=WRONG))
-        self.assertIn('found "on" for X0.3, expected true or false', self.ctl("set", "X0.3", "on", status=WRONG))
+        self.assertIn('found "open" for X0.3, expected true or false', self.ctl("set", "X0.3", "open", status=WRONG))
         self.assertIn("NOWHERE is not a name of the program stuck", self.ctl("set", "NOWHERE", "1", status=WRONG))
         self.assertIn("X0.2 is protected by the mapping file", self.ctl("set", "X0.2", "1", status=WRONG))
         self.assertIn("X0 is protected by the mapping file", self.ctl("set", "X0", "4", status=WRONG))  # that bit is in it
         self.assertEqual(self.get("D8:2"), -1)
         changes = re.findall(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d \S+ \(user \d+, process \d+\): (.*)", self.logged())
         self.assertEqual(changes, ["set D8:2 from 0 to 500", "set D8:2 from 500 to 16", "set D8:2 from 16 to -1"])
+
+    def test_bits_are_written_as_in_scenarios(self):
+        for word, value in (("on", "true"), ("OFF", "false"), ("True", "true"), ("false", "false"), ("1", "true"), ("0", "false")):
+            self.assertTrue(self.ctl("set", "X0.3", word).startswith(f"X0.3 = {value} (was "))
+            self.assertEqual(self.ctl("force", "X0.3", word), f"X0.3 is forced to {value}\n")
+            self.ctl("unforce", "X0.3")
 
     def test_numbers_are_written_as_in_scenarios(self):
         for value, seen in (("0b101", 5), ("16#1F", 31), ("1_000", 1000), ("+7", 7), ("-0x80", -128), ("65535", -1)):
@@ -398,7 +404,7 @@ class Commands(Host):
         self.assertIn("a fault has stopped the program: a reset restarts it", self.ctl("force", "X0.3", "1", status=WRONG))
 
     def test_a_set_without_effect_is_refused(self):
-        self.assertIn("X0.0 is written before every slice by pin run: setting it has no effect",
+        self.assertIn("X0.0 is written before every slice by pin run: setting it has no effect, forcing it has (rungctl force X0.0 VALUE)\n",
                       self.ctl("set", "X0.0", "1", status=WRONG))
         self.ctl("force", "D8:2", "7")
         self.assertIn("D8:2 is forced to 7: it stays so", self.ctl("set", "D8:2", "9", status=WRONG))
@@ -448,6 +454,25 @@ class Commands(Host):
         tracing.send_signal(signal.SIGCONT)
         self.assertEqual(tracing.wait(patience()), OK)
         self.assertIn("\n1!\n", out.read_text())
+
+    def test_a_trace_that_is_ended_twice(self):
+        out = self.home / "twice.vcd"
+        tracing = self.trace(out, "X0.3")
+        self.host.send_signal(signal.SIGSTOP)
+        self.addCleanup(self.host.send_signal, signal.SIGCONT)
+        self.assertTrue(wait_until(lambda: tracing.send_signal(signal.SIGINT) or tracing.poll() is not None))
+        self.assertEqual(tracing.wait(patience()), OK)
+        self.host.send_signal(signal.SIGCONT)
+        self.assertRegex(out.read_text(), r"\n#\d+\n$")
+
+    def test_a_trace_outlives_its_host(self):
+        out = self.home / "outlived.vcd"
+        tracing = self.trace(out, "X0.3")
+        self.end()
+        self.assertEqual(tracing.wait(patience()), WRONG)
+        self.assertRegex(out.read_text(), r"\n#\d+\n$")
+        self.start()
+        self.wait(self.socket.exists)
 
     def test_sigrok_reads_a_trace(self):
         out = self.home / "sigrok.vcd"
@@ -697,11 +722,49 @@ class History(Host):
         self.ctl("reset")
         self.wait(lambda: self.ctl("messages", "--on") == "")
 
-    def test_followers_hear_of_both(self):
+    def follow(self):
         following = subprocess.Popen([BIN / "rungctl", "messages", "--follow"], stdout=subprocess.PIPE, text=True, env=self.environment)
         self.addCleanup(following.stdout.close)
         self.addCleanup(following.wait)
         self.addCleanup(following.kill)
+        return following
+
+    def read_until(self, following, end):
+        lines = [following.stdout.readline()]
+        while lines[-1] and not lines[-1].endswith(end + "\n"):
+            lines.append(following.stdout.readline())
+        self.assertTrue(lines[-1], lines)
+        return [line.strip().split(" ", 2)[-1].split(":")[0] for line in lines]
+
+    def test_followers_hear_of_the_end_by_a_reset(self):
+        self.show("X0.4", 1)
+        self.wait(lambda: self.entries())
+        following = self.follow()
+        self.assertRegex(following.stdout.readline(), " - on now    message 4\n$")
+        self.ctl("set", "X0.1", 1)
+        self.read_until(following, "until rungctl reset")
+        self.assertTrue(self.entries()[0]["on"])  # a fault ends no message
+        for name in ("X0.1", "X0.4"):
+            self.ctl("set", name, 0)
+        self.ctl("reset")
+        self.assertEqual(self.read_until(following, "the program has been restarted"), ["message 4 has gone", "the program has been restarted"])
+        self.assertIn("went", self.entries()[0])
+
+    def test_followers_hear_of_the_end_by_a_reload(self):
+        """No rung of the new program could end it."""
+        self.show("X0.4", 1)
+        self.wait(lambda: self.entries())
+        following = self.follow()
+        self.assertRegex(following.stdout.readline(), " - on now    message 4\n$")
+        self.ctl("reload", self.program_with("LD   X0.4\nOUT  A0.3\n", ""), "--yes")
+        self.read_until(following, "message 4 has gone")
+        self.assertIn("went", self.entries()[0])
+        self.ctl("rollback")
+        self.assertRegex(following.stdout.readline(), "message 4\n$")
+        self.wait(lambda: [entry["on"] for entry in self.entries() if entry["kind"] == "message"] == [False, True])
+
+    def test_followers_hear_of_both(self):
+        following = self.follow()
         for on in range(50):  # until it follows
             self.show("X0.4", on % 2)
         lines = [following.stdout.readline() for _ in range(2)]
@@ -1192,6 +1255,9 @@ wait
             self.assertIn("cannot read", text)
             self.assertEqual(run(program)[0], USAGE)
             (home / "m.map").write_text("")
+            status, text = run(home / "m.map", program)
+            self.assertEqual(status, USAGE)
+            self.assertIn(f"found the mapping file {home}/m.map as the program, expected PROGRAM and then MAP; exchange the two\n", text)
             for option in ("--com", "--can", "--config"):
                 self.assertEqual(run(program, home / "m.map", "--simulate", option, "0")[0], USAGE)
             for name, wrong in (("../x", "expected letters, digits, '-', '_' and '.'"),

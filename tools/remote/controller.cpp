@@ -365,7 +365,8 @@ void Controller::serveProgram(Sink* sink) {
   std::vector<std::string> reports;
   const bool isStopped = !box_.running(); // a restart is done in this turn
   box_.serve(reports);
-  if (std::exchange(restarts_, box_.restarts()) != box_.restarts()) history_.goAll(box_.clock().dateS());
+  if (std::exchange(restarts_, box_.restarts()) != box_.restarts())
+    for (const std::string& text : history_.goAll(box_.clock().dateS())) tellFollowers(sink, "gone", text, false);
   for (const std::string& text : reports) report(text, sink);
   if (isStopped && !heldNames_.empty())
     report("the forces of " + joined(std::exchange(heldNames_, {}), ", ") + " have ended", sink);
@@ -675,7 +676,7 @@ std::string Controller::refuseWithoutEffect(const std::string& name) {
     const Share share = shareOf(feed.name, wanted);
     if (share == Share::All)
       throw Refused(name + " is written before every slice by " + writerOf(feed, wanted) +
-                    ": setting it has no effect");
+                    ": setting it has no effect, forcing it has (rungctl force " + name + " VALUE)");
     if (share == Share::Part) kept += (kept.empty() ? "" : ", ") + feed.name + " by " + writerOf(feed, wanted);
   }
   return kept.empty()

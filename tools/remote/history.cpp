@@ -61,8 +61,10 @@ std::string History::go(const Key& key, int64_t nowS) {
   return text;
 }
 
-void History::goAll(int64_t nowS) {
-  while (!shown_.empty()) go(Key(shown_.begin()->first), nowS);
+std::vector<std::string> History::goAll(int64_t nowS) {
+  std::vector<std::string> gone;
+  while (!shown_.empty()) gone.push_back(go(Key(shown_.begin()->first), nowS));
+  return gone;
 }
 
 void History::happen(const std::string& text, int64_t nowS) { add({.text = text, .cameS = nowS}); }

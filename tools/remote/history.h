@@ -37,8 +37,8 @@ public:
   void come(const Key& key, const std::string& text, int64_t nowS, bool again);
   // Its text; "" where it was not on.
   std::string go(const Key& key, int64_t nowS);
-  // The program is switched on anew: none is on.
-  void goAll(int64_t nowS);
+  // The program is switched on anew: none is on. The texts of those that were.
+  std::vector<std::string> goAll(int64_t nowS);
   void happen(const std::string& text, int64_t nowS);
   // The host ends.
   void end(int64_t nowS);

@@ -100,7 +100,8 @@ json Client::ask(const json& request, std::chrono::milliseconds patience) {
     if (!line->contains("event")) return *line;
     events_.push_back(*line);
   }
-  throw std::runtime_error("the host " + host_ + " does not answer");
+  throw std::runtime_error(interrupted_ ? "interrupted before the host " + host_ + " answered"
+                                        : "the host " + host_ + " does not answer");
 }
 
 std::optional<json> Client::event(const volatile int& stop) {
@@ -132,7 +133,9 @@ std::optional<json> Client::next(std::chrono::milliseconds wait) {
     }
     if (connection_.ended()) return std::nullopt;
     pollfd waiting{connection_.socket(), POLLIN, 0};
-    if (poll(&waiting, 1, static_cast<int>(wait.count())) <= 0) return std::nullopt;
+    const int ready = poll(&waiting, 1, static_cast<int>(wait.count()));
+    interrupted_ = ready < 0 && errno == EINTR;
+    if (ready <= 0) return std::nullopt;
     connection_.receive();
   }
 }

@@ -25,7 +25,7 @@ public:
 
   const nlohmann::json& greeting() const { return greeting_; }
   static constexpr std::chrono::seconds kAnswer{15};
-  // Waits for the answer. Throws std::runtime_error where the host has gone.
+  // Waits for the answer. Throws std::runtime_error where the host has gone, or a signal ends the wait.
   nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds patience = kAnswer);
   // The next event; waits for it, until `stop` is not 0. Throws std::runtime_error where the host has ended.
   std::optional<nlohmann::json> event(const volatile int& stop);
@@ -43,6 +43,7 @@ private:
   remote::Connection connection_;
   nlohmann::json greeting_;
   std::deque<nlohmann::json> events_;
+  bool interrupted_ = false; // the last wait, by a signal
 };
 
 } // namespace rung::rungctl

@@ -16,6 +16,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rtlib/text/bit_word.h"
 #include "rtlib/text/number.h"
 #include "tools/command-line/usage.h"
 #include "tools/remote/log.h"
@@ -35,9 +36,9 @@ using nlohmann::json;
 
 volatile int gStop = 0; // of SIGINT and SIGTERM
 
-// A number, true or false; anything else stays a text, which the host refuses with what it expected.
+// As in scenarios; anything else stays a text, which the host refuses with what it expected.
 json valueOf(const std::string& text) {
-  if (text == "true" || text == "false") return text == "true";
+  if (const std::optional<bool> bit = text::bitWord(text)) return *bit;
   const text::WrittenNumber number = text::writtenNumber(text);
   if (number.form == text::NumberForm::Real && std::isfinite(number.real)) return number.real;
   if (number.form != text::NumberForm::Whole) return text;
@@ -203,23 +204,31 @@ void addRest(Client& client, const Words& words, rungctl::Trace& trace) {
   }
 }
 
-int trace(Client& client, const Words& words) {
-  std::ofstream file(words.file, std::ios::binary);
-  if (!file) return fail("cannot write " + words.file, cli::kEnvironment);
-  const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", true}});
-  rungctl::Trace trace(file, client.greeting().value("program", ""), begun["names"]);
-  file.flush();                                   // its head shows a reader that no pass is missed from now on
+// Until its time is over or somebody ends it. What came before the host has gone is in the trace, too; then why.
+std::string fill(Client& client, const Words& words, rungctl::Trace& trace) try {
   constexpr std::chrono::milliseconds kTurn(100); // it ends in time where no pass comes, too
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(words.seconds);
   while (gStop == 0 && (words.seconds == 0 || std::chrono::steady_clock::now() < end))
     if (const std::optional<json> event = client.event(kTurn); event && event->value("event", "") == "values")
       trace.add(*event);
   addRest(client, words, trace);
+  return {};
+} catch (const std::runtime_error& problem) {
+  return gStop == 0 ? problem.what() : ""; // who ends it twice does not wait for the rest
+}
+
+int trace(Client& client, const Words& words) {
+  std::ofstream file(words.file, std::ios::binary);
+  if (!file) return fail("cannot write " + words.file, cli::kEnvironment);
+  const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", true}});
+  rungctl::Trace trace(file, client.greeting().value("program", ""), begun["names"]);
+  file.flush(); // its head shows a reader that no pass is missed from now on
+  const std::string problem = fill(client, words, trace);
   trace.end();
   if (!file.flush()) return fail("cannot write " + words.file, cli::kEnvironment);
   print(words, {{"ok", true}, {"passes", trace.passes()}},
         fmt::format("wrote {}: {} {}", words.file, trace.passes(), trace.passes() == 1 ? "scan" : "scans"));
-  return cli::kOk;
+  return problem.empty() ? int{cli::kOk} : fail(problem);
 }
 
 int set(Client& client, const Words& words) {
@@ -402,7 +411,7 @@ void addAll(Commands& commands) {
   };
   const auto oneValue = [](cli::Command& command, Words& words) {
     command.option("NAME", words.name, "Variable: a name or an address of the program").required();
-    command.option("VALUE", words.value, "true, false or a number; also 0x1F").required();
+    command.option("VALUE", words.value, "on, off, true, false or a number; also 0x1F").required();
   };
   commands.addHosts();
   commands.add("status", "Show whether the program runs, its scans and its faults", none, status);

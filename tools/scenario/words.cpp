@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "ir/support/ascii.h"
-#include "rtlib/text/letters.h"
+#include "rtlib/text/bit_word.h"
 #include "rtlib/text/number.h"
 
 namespace rung::scenario {
@@ -19,13 +19,6 @@ struct TimeUnit {
 constexpr TimeUnit kTimeUnits[] = {{"us", 1.0}, {"ms", 1e3}, {"s", 1e6}, {"min", 60e6}};
 constexpr double kMostSeconds = 50; // a larger number without a unit was probably meant in milliseconds
 constexpr double kLongestUs = 9e15; // far from the end of 64 bits
-
-std::optional<bool> parseBit(std::string_view text) {
-  const std::string lower = text::lower(text);
-  if (lower == "on" || lower == "true") return true;
-  if (lower == "off" || lower == "false") return false;
-  return std::nullopt;
-}
 
 // The length of the number before the unit.
 size_t numberLength(std::string_view text) {
@@ -64,7 +57,7 @@ Value valueOf(const ScenarioWord& word) {
   value.text = word.text;
   value.kind = ValueKind::Text;
   if (word.quoted) return value;
-  const std::optional<bool> bit = parseBit(word.text);
+  const std::optional<bool> bit = text::bitWord(word.text);
   value.isBit = bit.has_value();
   value.number = text::writtenNumber(bit ? (*bit ? "1" : "0") : word.text);
   if (value.number.form == text::NumberForm::Whole) value.kind = ValueKind::Int;

@@ -150,5 +150,22 @@ TEST(History, AFloodOfTextsIsLimited) {
       << "the next second";
 }
 
+// Somebody sets the clock, or it had no battery.
+TEST(History, AClockThatIsSetBackHoldsUpNoLine) {
+  constexpr int64_t kHour = 3600;
+  History history;
+  for (int i = 0; i < 3; ++i) { // it has had its lines
+    history.come(kDoor, "DOOR", kBegin, i != 0);
+    history.takeLines(kBegin);
+    history.go(kDoor, kBegin);
+    history.takeLines(kBegin);
+  }
+  history.come(kDoor, "DOOR", kBegin - kHour, true);
+  EXPECT_THAT(history.takeLines(kBegin - kHour), HasSubstr("\"times\":4"));
+  history.come(kOil, "OIL", kBegin - kHour + 1, false);
+  EXPECT_THAT(history.takeLines(kBegin - kHour + 1), HasSubstr("OIL"));
+  EXPECT_THAT(shown(history), ElementsAre("DOOR 0-on x4", "OIL -3599-on")) << "in the order in which they came";
+}
+
 } // namespace
 } // namespace rung::remote

@@ -258,6 +258,13 @@ class Piped(Folder):
             output = self.prompt(lines, status=WRONG if args else OK, program="./lamp.so")
             self.assertIn("./lamp.so: it carries no IR" if args else "PUMP = 0", output)
 
+    def test_why_says_what_is_forced(self):
+        output = self.prompt("force STOP on\nforce PUMP 1\nscan\nwhy PUMP\nwhy READY\nunforce\nwhy PUMP\n")
+        for text in ("PUMP is 1\n    PUMP (5101.00) is forced to 1, changed in scan 1, 0.010 s\n    written by rung 1 ",
+                     "\n      STOP (5100.01) = 1, forced, changed in scan 1, 0.010 s\n",
+                     "\n      PUMP (5101.00) = 1, forced, changed in scan 1, 0.010 s\n", "\n    PUMP (5101.00), changed in scan 1"):
+            self.assertIn(text, output)
+
     def test_wrong_forces(self):
         for line, message in (("force NOTHING 1", "'NOTHING' is not a name"), ("force PUMP", "expected a value"),
                               ("force PUMP 2", "a bit takes 0 or 1"), ("force", "expected a name"),

@@ -439,6 +439,12 @@ class Commands(Host):
         self.assertIn(" Y0.0 = false\n", watching.stdout.readline())
         self.assertRegex(watching.stdout.readline(), r"^\d+\.\d{3} GUARD is gone\n$")
         self.assertIn("GUARD is not a name of the program other", self.ctl("get", "GUARD", status=WRONG))
+        self.ctl("rollback")
+        self.assertRegex(watching.stdout.readline(), r"^\d+\.\d{3} GUARD = false\n$")
+        self.ctl("reload", self.program_with("symbol GUARD X0.2\n", "symbol GUARD D8\n"), "--yes")  # a byte, for a client that waits for a bit
+        self.assertRegex(watching.stdout.readline(), r"^\d+\.\d{3} GUARD is gone\n$")
+        self.ctl("rollback")
+        self.assertRegex(watching.stdout.readline(), r"^\d+\.\d{3} GUARD = false\n$")
 
     def test_a_trace_of_a_program_that_does_not_run_ends_too(self):
         self.ctl("set", "X0.1", "true")

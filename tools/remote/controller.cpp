@@ -125,14 +125,14 @@ struct Controller::Watching {
     return sample.generation != generation ||
            std::memcmp(values.data(), sent.data(), values.size() * sizeof(rung_value)) != 0;
   }
-  // Of a cell that the program no longer has: null.
+  // Of a cell that the program no longer has, or has with another type than the client knows: null.
   json valueOf(size_t i) const { return gone[i] ? json() : toJson(types[i], values[i]); }
   json event(const rung_sample& sample) {
     if (sample.generation != generation) {
       generation = sample.generation;
       for (size_t i = 0; i < cells.size(); ++i) {
         auto info = sized<rung_cell_info>();
-        gone[i] = rung_instance_cell(of, cells[i], &info) != RUNG_OK;
+        gone[i] = rung_instance_cell(of, cells[i], &info) != RUNG_OK || info.type != types[i];
       }
     }
     json list = json::array();

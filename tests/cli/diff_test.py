@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """rungc diff as a user sees it: what rungs do otherwise, not what lines are. diff_test.py RUNGC"""
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -261,6 +262,23 @@ added configuration tmr.2: 8
 rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 unchanged
 """, ""))
         self.assertEqual([c["name"] for c in json.loads(self.run_diff(a, b, "--format", "json")[1])["configuration"]], ["tmr.1", "tmr.2"])
+
+    def test_the_encoding_of_the_files_is_not_the_program(self):
+        a, b = self.project("a", ""), self.project("b", "")
+        (b / "rung.toml").write_text('encoding = "cp1250"\n' + (b / "rung.toml").read_text())
+        self.assertEqual(self.run_diff(a, b), (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 unchanged\n", ""))
+
+    def test_numbers_are_those_of_check(self):
+        """Several MECH_INIT one below the other: each ends its rung, whether its mechanism counts time or not."""
+        mechanisms = "".join(f"        MECH_BEGIN M{i}\n        TIM  -,5\n        MECH_END M{i}\n" for i in range(3)) + "        MECH_BEGIN M3\n        EX\n        MECH_END M3\n"
+        inits = "        PROC_BEGIN RESET\n" + "".join(f"        MECH_INIT M{i}\n" for i in (0, 3, 1, 2)) + "        PROC_END RESET\n"
+        text = self.TECHNOL.replace("        LDR A\n        JL1 FURTHER\n", mechanisms + inits + "        LDR A\n        JL1 FURTHER\n")
+        path = self.file("p.plc", text)
+        checked = subprocess.run([RUNGC, "check", path], capture_output=True, text=True, check=False).stdout
+        _, same = self.diff(text, text, ending="plc")
+        self.assertEqual(re.search(r"(\d+) rungs", checked)[1], re.search(r"(\d+) unchanged", same)[1])
+        status, longer = self.diff(text, text.replace("TIM  -,5\n        MECH_END M1", "EX\n        MECH_END M1"), ending="plc")
+        self.assertEqual((status, longer.splitlines()[-1].split(", ")[:4]), (OTHERWISE, ["rungs: 1 changed", "0 added", "0 removed", "0 moved"]), longer)
 
     def test_messages(self):
         a, b = (self.project(name, "", messages=f'1 "{text}"\n2 "oil"\n') for name, text in (("a", "air"), ("b", "no air")))

@@ -207,8 +207,8 @@ class Wcet(unittest.TestCase):
 
     def test_assembler_with_two_ways(self):
         tasks, _ = self.tasks(self.write("a.plc", ASSEMBLER))
-        self.assertEqual((tasks["MAIN"]["steps"], tasks["MAIN"]["way"][0]["rungs"]), (8, [[2, 3], [5, 6]]))
-        self.assertIn("  MODULE_MAIN: rungs 2-3, 5-6\n", self.text(self.write("a.plc", ASSEMBLER)))
+        self.assertEqual((tasks["MAIN"]["steps"], tasks["MAIN"]["way"][0]["rungs"]), (8, [[1, 1], [3, 4]]))
+        self.assertIn("  MODULE_MAIN: rungs 1, 3-4\n", self.text(self.write("a.plc", ASSEMBLER)))
 
     def test_calls_of_the_host(self):
         tasks, _ = self.tasks(self.write("a.plc", ASSEMBLER.replace("JUM  BOTH", "ESET 3\n        JUM  BOTH")))

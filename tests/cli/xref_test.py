@@ -219,6 +219,20 @@ class Xref(unittest.TestCase):
             self.assertEqual(odd, self.warned(path), name)
         self.assertEqual(self.warned(self.program("latch.lad", LATCHES["latch.lad"])), {"FLAG": "written, but read by no rung"})
 
+    def test_addresses_go_by_the_rules_of_names(self):
+        """What is odd about a name is odd about its address in a program without the name."""
+        names = {"NEEDED": "R6.1", "LOST": "R6.2", "NOBODYS": "R6.3", "KEPT": "R6.4", "LAMP": "Y0.3"}
+        text = "LD X0.0\nFUNC TMR\nPRM 1\nOUT NEEDED\nLD X0.1\nOUT LOST\nLD NOBODYS\nSET KEPT\nLD KEPT\nOUT LAMP\nFUNC END1\nFUNC END2\n"
+        named = self.program("named.pmc", "".join(f"symbol {name} {address}\n" for name, address in names.items()) + text)
+        bare = self.program("bare.pmc", "\n".join(line[:-len(line.split(" ")[-1])] + names.get(line.split(" ")[-1], line.split(" ")[-1]) for line in text.splitlines()) + "\n")
+        warned = self.warned(named)
+        self.assertEqual(warned, {"LOST": "written, but read by no rung", "NOBODYS": "read, but written by no rung", "KEPT": "set, but reset by no rung"})
+        odd = {entry["address"]: entry["odd"] for entry in json.loads(self.xref("--format", "json", "--odd", bare))}
+        self.assertEqual(odd, {names[name]: why for name, why in warned.items()})
+
+    def test_what_the_control_has_is_not_odd(self):
+        self.assertEqual(self.xref("--odd", "examples/technol-mill"), "", "P0OUT, STOP_REQ and the like")
+
     def test_setting_and_resetting_is_writing(self):
         for name, text in LATCHES.items():
             path = self.program(name, text)
@@ -248,7 +262,7 @@ class Xref(unittest.TestCase):
         path = self.program("n.plc", NAMES)
         text = self.xref(path)
         self.assertEqual(re.findall(r"(?m)^([^\s:]+)", text), ["B0", "B1", "WORDS", "WORDS.9", "WORD.WORDS+2", "BYTE.WORDS+5"])
-        self.assertIn("rung 2, {0}:7, as WORDS+2 to WORDS+3\n           rung 3, {0}:10, as WORDS.9\n".format(path), text)
+        self.assertIn("rung 1, {0}:7, as WORDS+2 to WORDS+3\n           rung 2, {0}:10, as WORDS.9\n".format(path), text)
         for entry in json.loads(self.xref("--format", "json", path)):
             again, = json.loads(self.xref("--format", "json", path, "--place", entry["address"]))
             self.assertEqual(entry["address"], again["address"])

@@ -120,6 +120,7 @@ difference::Setting settingOf(const nc::ConfigKey* row, const std::string& value
 difference::Settings settingsOf(const Side& side) {
   difference::Settings settings;
   for (const auto& [key, value] : side.compiled->options.config) {
+    if (key == nc::kEncodingKey.key) continue; // of the files; what they say with it is compared
     const nc::ConfigKey* row = nc::findConfigKey(side.compiled->dialect->configKeys, key);
     difference::Setting setting = settingOf(row, value, side.options);
     const std::string without = row == nullptr ? "" : std::string(row->otherwise);

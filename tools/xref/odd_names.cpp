@@ -31,6 +31,12 @@ constexpr std::string_view kNeverReset = "set, but reset by no rung";
 using Key = std::tuple<uint32_t, uint32_t, uint32_t>; // space, first bit, bits
 Key keyOf(const ir::BitRange& place) { return {place.space.index, place.first, place.count}; }
 
+// What looks like a mistake about a place, and the operand that shows it.
+struct Oddity {
+  Diag code{};
+  SourceRange operand;
+};
+
 // What is done with a place.
 struct Sides {
   bool read = false;
@@ -57,7 +63,9 @@ public:
     for (const Placed& one : operands_) longest_ = std::max(longest_, one.place.count);
   }
 
-  std::vector<OddName> run() {
+  // Of a place that the program names. `used`: also otherwise than as an operand.
+  std::vector<Oddity> odditiesOf(const ir::BitRange& place, bool used) const;
+  std::vector<OddName> names() {
     for (uint32_t i = 0; i < used_.size(); ++i) {
       const Definition& definition = analysis_.definitions()[i];
       if (definition.range.valid()) check(definition, used_[i]);
@@ -91,7 +99,7 @@ private:
   void addImplicit(const ir::BitRange& place, Sides& sides) const;
   bool mayChange(const ir::BitRange& place, const Sides& sides) const;
   void reportUnused(const Definition& definition);
-  void report(Diag code, const Definition& definition, SourceRange operand = {});
+  void report(const Oddity& oddity, const Definition& definition);
 
   const SourceManager& sources_;
   const Analysis& analysis_;
@@ -156,12 +164,28 @@ bool Checker::mayChange(const ir::BitRange& place, const Sides& sides) const {
 }
 
 void Checker::reportUnused(const Definition& definition) {
-  if (settled_.insert(placeOf(definition)).second) report(diag::UnusedName, definition);
+  if (settled_.insert(placeOf(definition)).second) report({diag::UnusedName, {}}, definition);
 }
 
-void Checker::report(Diag code, const Definition& definition, SourceRange operand) {
-  if (isAllowed(definition, code)) return;
-  found_.push_back({&definition, code, operand});
+void Checker::report(const Oddity& oddity, const Definition& definition) {
+  if (isAllowed(definition, oddity.code)) return;
+  found_.push_back({&definition, oddity.code, oddity.operand});
+}
+
+std::vector<Oddity> Checker::odditiesOf(const ir::BitRange& place, bool used) const {
+  std::vector<Oddity> found;
+  Sides sides = operandsAt(place);
+  const bool unused = !used && sides.operands.empty();
+  if (place.count == 1 && sides.written && !mayChange(place, sides)) found.push_back({diag::NeverReset, sides.set});
+  if (!unused && sides.read == sides.written) return found;
+  addImplicit(place, sides);
+  if (unused && !sides.read && !sides.written) return {{diag::UnusedName, {}}};
+  if (sides.read == sides.written || reference_.uses().isRetained(place)) return found;
+  const Entry entry = reference_.of(refAt(place));
+  const SourceRange operand = sides.operands.empty() ? SourceRange{} : sides.operands.front();
+  if (!sides.written && !entry.controlWrites) found.push_back({diag::NeverWritten, operand});
+  if (!sides.read && !sides.isDue && !entry.controlReads) found.push_back({diag::NeverRead, operand});
+  return found;
 }
 
 void Checker::check(const Definition& definition, bool used) {
@@ -171,39 +195,25 @@ void Checker::check(const Definition& definition, bool used) {
     if (!used && !definition.usedByControl && (definition.isConstant() || isTarget)) reportUnused(definition);
     return;
   }
-  Sides sides = operandsAt(*place);
-  const bool unused = !used && sides.operands.empty();
-  if (place->count == 1 && sides.written && !mayChange(*place, sides)) report(diag::NeverReset, definition, sides.set);
-  if (!unused && sides.read == sides.written) return;
-  addImplicit(*place, sides);
-  if (unused && !sides.read && !sides.written) return reportUnused(definition);
-  if (sides.read == sides.written || reference_.uses().isRetained(*place)) return;
-  const Entry entry = reference_.of(refAt(*place));
-  const SourceRange operand = sides.operands.empty() ? SourceRange{} : sides.operands.front();
-  if (!sides.written && !entry.controlWrites) report(diag::NeverWritten, definition, operand);
-  if (!sides.read && !sides.isDue && !entry.controlReads) report(diag::NeverRead, definition, operand);
+  for (const Oddity& oddity : odditiesOf(*place, used))
+    oddity.code == diag::UnusedName ? reportUnused(definition) : report(oddity, definition);
 }
 
-std::string_view oddityOf(const OddName& name) {
-  if (name.code == diag::NeverWritten) return kReadOnly;
-  if (name.code == diag::NeverReset) return kNeverReset;
-  return name.code == diag::NeverRead ? kWrittenOnly : kUnused;
+std::string_view textOf(Diag code) {
+  if (code == diag::NeverWritten) return kReadOnly;
+  if (code == diag::NeverReset) return kNeverReset;
+  return code == diag::NeverRead ? kWrittenOnly : kUnused;
 }
 
-// The same of places of addresses.
-std::string_view oddityOf(const Entry& entry, const CrossReference& reference) {
-  if (reference.uses().isRetained(bitsOf(entry.place))) return {};
-  Sides sides{.read = entry.isRead() || entry.controlReads, .written = entry.isWritten() || entry.controlWrites};
-  if (sides.read == sides.written) return {};
-  for (const xref::Access& access : reference.perhaps(entry.place)) sides.add(access.reads, access.writes);
-  if (sides.read == sides.written) return {};
-  return sides.read ? kReadOnly : kWrittenOnly;
+// Of several oddities of a place, that it is only read or only written is shown.
+void add(std::string_view& shown, Diag code) {
+  if (shown.empty() || shown == kNeverReset) shown = textOf(code);
 }
 
 } // namespace
 
 std::vector<OddName> oddNames(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference) {
-  return Checker(sources, analysis, reference).run();
+  return Checker(sources, analysis, reference).names();
 }
 
 void reportOddNames(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference,
@@ -225,24 +235,30 @@ void reportOddNames(const SourceManager& sources, const Analysis& analysis, cons
 void markOdd(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference,
              std::vector<Entry>& entries) {
   const auto placeOf = [&](const frontend::NamedPlace& place) { return rangeOf(reference.program(), place); };
+  Checker checker(sources, analysis, reference);
   std::map<Key, std::string_view> declared; // to what is odd about it; of two names at one place the first that is
-  for (const Definition& definition : analysis.definitions())
-    if (const auto place = placeOf(definition.place); place && definition.range.valid())
-      declared.try_emplace(keyOf(*place));
-  for (const OddName& name : oddNames(sources, analysis, reference))
-    if (const auto place = placeOf(name.definition->place))
-      if (std::string_view& odd = declared[keyOf(*place)]; odd.empty() || odd == kNeverReset) odd = oddityOf(name);
-  std::vector<ir::BitRange> operands;
+  std::vector<ir::BitRange> controls, operands;
+  for (const Definition& definition : analysis.definitions()) {
+    const auto place = placeOf(definition.place);
+    if (place && definition.range.valid()) declared.try_emplace(keyOf(*place));
+    if (place && !definition.range.valid()) controls.push_back(*place);
+  }
+  for (const OddName& name : checker.names())
+    if (const auto place = placeOf(name.definition->place)) add(declared[keyOf(*place)], name.code);
   for (const OperandUse& operand : analysis.operands())
     if (const auto place = placeOf(operand.place)) operands.push_back(*place);
-  const PlaceSet named(std::move(operands)); // the rest belongs to instructions, as their flags do
+  const PlaceSet ofControl(std::move(controls)); // these are part of its interface, used or not
+  const PlaceSet named(std::move(operands));     // the rest belongs to instructions, as their flags do
   for (Entry& entry : entries) {
-    const auto name = declared.find(keyOf(bitsOf(entry.place)));
+    const ir::BitRange bits = bitsOf(entry.place);
+    const auto name = declared.find(keyOf(bits));
     entry.declared = name != declared.end();
-    if (entry.declared)
+    if (entry.declared) {
       entry.odd = name->second;
-    else if (named.meets(bitsOf(entry.place)))
-      entry.odd = oddityOf(entry, reference);
+      continue;
+    }
+    if (!named.meets(bits) || ofControl.meets(bits)) continue;
+    for (const Oddity& oddity : checker.odditiesOf(bits, true)) add(entry.odd, oddity.code);
   }
 }
 

@@ -26,7 +26,7 @@ void reportOddNames(const SourceManager& sources, const frontend::Analysis& anal
 void reportOddNames(const SourceManager& sources, const frontend::Analysis& analysis, const ir::Layout& layout,
                     const ir::Uses& uses, std::span<const std::string_view> shown, Diagnostics& diagnostics);
 // Says of the entries which are declared and what is odd about them; of addresses that the program's operands name by
-// the same rules.
+// the same rules. Nothing is odd about what the control has by a name of its own.
 void markOdd(const SourceManager& sources, const frontend::Analysis& analysis, const CrossReference& reference,
              std::vector<Entry>& entries);
 

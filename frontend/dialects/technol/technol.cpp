@@ -68,7 +68,7 @@ public:
     const technol::LoweredProgram lowered = walk.run();
     technol::addTasks(program_, lowered, walk.emitter(), period_);
     technol::addSymbols(program_, *module, options_.given != nullptr);
-    technol::numberRungs(*module);
+    technol::numberRungs(program_, *module);
     return module;
   }
 

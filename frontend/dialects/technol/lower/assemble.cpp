@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "frontend/dialects/technol/lower/presets.h"
@@ -133,12 +134,33 @@ void addSymbols(const Program& program, ir::Module& module, bool isCompared) {
   settleSymbols(module);
 }
 
-void numberRungs(ir::Module& module) {
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> numbers; // by file and line
+namespace {
+
+using LineOfFile = std::pair<uint32_t, uint32_t>;
+
+// Lines that begin a module or a procedure.
+std::set<LineOfFile> headingsOf(const Program& program) {
+  std::set<LineOfFile> headings;
+  for (const ModulePart& part : program.parts)
+    headings.emplace(part.file, program.sources.lineCol(program.units[part.unit].begin.begin).line);
+  for (const Statement& statement : program.statements)
+    if (statement.row != nullptr && statement.row->role == Role::ProcBegin)
+      headings.emplace(statement.file, statement.line);
+  return headings;
+}
+
+} // namespace
+
+void numberRungs(const Program& program, ir::Module& module) {
+  const std::set<LineOfFile> headings = headingsOf(program);
+  std::map<LineOfFile, uint32_t> numbers;
   const auto forRungs = [&](auto act) {
     for (ir::Routine& routine : module.routines)
-      for (ir::Rung& rung : routine.rungs)
-        if (rung.begin.line != 0) act(rung, std::pair(rung.begin.file.index, rung.begin.line));
+      for (ir::Rung& rung : routine.rungs) {
+        const LineOfFile place(rung.begin.file.index, rung.begin.line);
+        const bool isLine = rung.weight == 1 && rung.lastLine == rung.begin.line;
+        if (rung.begin.line != 0 && !(isLine && headings.contains(place))) act(rung, place);
+      }
   };
   forRungs([&](const ir::Rung&, auto place) { numbers.emplace(place, 0); });
   uint32_t count = 0;

@@ -12,8 +12,9 @@ void addSpaces(const Program& program, ir::Module& module);
 // The program's names and those interface cells that it uses; upper case. Call when lowering is done.
 // `isCompared`: local names that other files have as well are there, too, with the names of their files.
 void addSymbols(const Program& program, ir::Module& module, bool isCompared);
-// Numbers the rungs by their first lines, in the order of the files; rungs that begin on one line share a number.
-void numberRungs(ir::Module& module);
+// Numbers the rungs by their first lines, in the order of the files; rungs that begin on one line share a number. The
+// line that begins a module or a procedure is not a rung, unless it and the instructions below it are one.
+void numberRungs(const Program& program, ir::Module& module);
 // Tasks are named as their modules without MODULE_, event procedures by their names.
 void addTasks(const Program& program, const LoweredProgram& lowered, Emitter& emitter, uint32_t periodUs);
 

@@ -38,6 +38,11 @@ public:
   }
   // The next operations belong to this statement.
   void statement(const RungSource& source);
+  // The next rungs are the compiler's own, up to the next statement.
+  void beginOwn() {
+    cut();
+    current_ = {};
+  }
   // Number of the rung in the routine that is open or comes next.
   uint32_t openRung() const { return static_cast<uint32_t>(module_.routines[routine_.index].rungs.size()); }
   bool isOpen() const { return builder_.has_value(); }

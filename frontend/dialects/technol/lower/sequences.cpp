@@ -99,6 +99,7 @@ void Sequences::clearAtBeginning(Sequence& sequence) {
   RoutineBuilder& out = m_.out();
   const uint32_t code = std::exchange(sequence.states[0], out.newLabel());
   out.jump(sequence.leave);
+  out.beginOwn();
   out.bind(sequence.states[0]);
   clear({}, sequence.tickets);
   out.jump(code);
@@ -163,9 +164,11 @@ void Sequences::initialise(uint32_t mechanism) {
   Kept& kept = mechanisms_[mechanism];
   b.slotStore(kept.state, b.i32(0));
   const Mechanism& info = m_.program().mechanisms[mechanism];
-  if (!info.hasTimers || m_.isCompared()) return;
-  if (!kept.reset.valid()) kept.reset = m_.newRoutine("@MECH_INIT " + symbolKey(info.name));
-  m_.out().call(kept.reset);
+  if (info.hasTimers && !m_.isCompared()) {
+    if (!kept.reset.valid()) kept.reset = m_.newRoutine("@MECH_INIT " + symbolKey(info.name));
+    m_.out().call(kept.reset);
+  }
+  m_.out().cut(); // also without a call: where rungs begin is not up to the timers of a mechanism elsewhere
 }
 
 void Sequences::makeResets() {

@@ -28,6 +28,23 @@ rung
 rung
 |--{END}
 """
+TECHNOL = """DATA
+        DFM  BIT,IN
+DATA_END
+MODULE_INPUT
+MODULE_INPUT_END
+MODULE_MAIN
+        MECH_BEGIN WAIT
+        LDR  IN
+        FL   1,BIT
+        LOD  CNST.40h
+        EX
+        LDR  IN
+        TEX1 -,25,DONE,1
+DONE:   MECH_END WAIT
+MODULE_MAIN_END
+""" + "".join(f"MODULE_{name}\nMODULE_{name}_END\n" for name in ("BLOCK_INIT", "BLOCK_DONE", "INIT", "CLEAR", "HALT")) + "STOP\n"
+ERRORS = "\nThe program has errors, so what its rungs do is not known: `rungc check` lists the errors.\n"
 
 
 class ExplainPlace(unittest.TestCase):
@@ -76,7 +93,27 @@ START (7000.00): read, but written by no rung
                                    (6, 1, "a wire"), (6, 12, "a wire")):
             self.assertEqual(self.explain(line, column), what + "\n", f"{line}:{column}")
         self.assertEqual(self.explain(6, 4), "'[': nothing by itself; name the place of what is beside it\n")
-        self.assertEqual(self.explain(5, 2), "'rung': neither a name of the program nor an instruction or a signal of nct\n")
+
+    def test_keywords_marks_and_constants(self):
+        self.path.write_text(NCT.replace("--[START]--{JMP", "--[/START]--{JMP").replace("[7001.00]--{MOV 7020 LIMIT}", "[7001.00]--+--{MOV 7020 #5}\n              +--(S 7003.00)"))
+        for line, column, what in ((1, 1, "dialect: the control that the program is for; the first statement of a file"), (1, 9, "nct: the control that the program is for"),
+                                   (2, 1, "module: begins a module, which ends where the next one begins"), (2, 8, "MAIN: the name of the module"),
+                                   (3, 2, "symbol: gives an address a name"), (4, 1, "const: gives a constant a name"), (4, 13, "'#10': a constant"),
+                                   (5, 2, "rung: begins a rung; its text is the rung's title"), (9, 28, "'#5': a constant"),
+                                   (10, 19, "'S': the coil sets its bit, and leaves it without power"), (12, 5, "'/': the contact is normally closed")):
+            self.assertEqual(self.explain(line, column).splitlines()[0], what, f"{line}:{column}")
+        self.assertIn("\nSTART: read here\n", self.explain(12, 5), "the operand behind the mark, too")
+        self.assertTrue(self.explain(3, 14).startswith("7000.00 is START: bit\n"), "an address has its name")
+
+    def test_words_of_lists(self):
+        for name, text, places in (("p.pmc", "LD X0.0\nFUNC 17\nPRM 1\nOUT R0.0\nFUNC END1\nFUNC END2\n",
+                                    ((2, 1, "[gsk] FUNC: "), (2, 6, "[gsk] "), (3, 1, "[gsk] PRM: "), (3, 5, "'1': a constant"), (5, 6, "[gsk] END1 "), (1, 4, "X0.0: read here"))),
+                                   ("p.plc", TECHNOL, ((1, 1, "[technol] DATA: "), (9, 14, "'1': a constant"), (9, 16, "BIT: written here"), (10, 14, "'CNST.40h': a constant"),
+                                                       (13, 14, "'-': nothing is given here"), (14, 18, "WAIT: bit"), (9, 15, "',': nothing by itself; name the place of what is beside it")))):
+            self.path = Path(self.folder.name) / name
+            self.path.write_text(text)
+            for line, column, what in places:
+                self.assertTrue(self.explain(line, column).startswith(what), f"{name}:{line}:{column}: {self.explain(line, column)}")
 
     def test_a_mnemonic_is_that_of_the_dialect(self):
         path = Path(self.folder.name) / "p.pmc"
@@ -96,7 +133,7 @@ START (7000.00): read, but written by no rung
 
     def test_program_with_errors(self):
         self.path.write_text(NCT.replace("[7001.00]", "[NOBODY]"))
-        self.assertEqual(self.explain(6, 5), "START: read here\n  green button\n  declared at p.lad:3:8\n")
+        self.assertEqual(self.explain(6, 5), "START: read here\n  green button\n  declared at p.lad:3:8\n  symbol START 7000.00 ; green button\n" + ERRORS)
 
     def test_nothing_there(self):
         self.assertIn("has nothing in line 99, column 1", self.explain(99, 1, status=2))
@@ -144,7 +181,15 @@ PUMP_RUN (7000.00)
     def test_program_with_errors(self):
         path = Path(self.folder.name) / "p.lad"
         path.write_text(path.read_text().replace("[7001.00]", "[NOBODY]"))
-        self.assertEqual(self.explain("PUMP_RUN"), "PUMP_RUN: bit\n  green button\n  declared at p.lad:3:8\n")
+        self.assertEqual(self.explain("PUMP_RUN"), "PUMP_RUN: bit\n  green button\n  declared at p.lad:3:8\n  symbol PUMP_RUN 7000.00 ; green button\n" + ERRORS)
+        self.assertIn("rungc: the program of the project has errors, so its addresses are not known: `rungc check` lists the errors\n", self.explain("7000.00", status=1))
+
+    def test_address(self):
+        text = self.explain("7000.00")
+        self.assertEqual(text.splitlines()[0], "7000.00 is PUMP_RUN: bit")
+        self.assertEqual(text.split("\n", 1)[1], self.explain("PUMP_RUN").split("\n", 1)[1], "the rest is what the name has")
+        self.assertIn("\n  written  rung 1", self.explain("7001.00"), "an address without a name")
+        self.assertIn("'7999.00' is not known", self.explain("7999.00", status=1), "the program does not use it")
 
     def test_without_a_project(self):
         with tempfile.TemporaryDirectory() as empty:

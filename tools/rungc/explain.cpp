@@ -43,8 +43,11 @@ std::string listed(const std::vector<compiler::ReferenceEntry>& found) {
   return text;
 }
 
-int reportUnknown(const std::vector<compiler::ReferenceEntry>& entries, const std::string& word) {
+int reportUnknown(const std::vector<compiler::ReferenceEntry>& entries, const std::string& word, bool hasErrors) {
   const std::string meant = didYouMean(mostSimilar(word, entries, &compiler::ReferenceEntry::name));
+  if (hasErrors)
+    fmt::print(stderr, "rungc: the program of the project has errors, so its addresses are not known: `rungc check` "
+                       "lists the errors\n");
   fmt::print(stderr, "rungc: '{}' is not known, and no name or title contains it{}{}\n", word, meant,
              meant.empty() ? "; `rungc explain` lists the topics" : "");
   return kWrong;
@@ -62,7 +65,7 @@ int explainWord(const std::string& word, const std::string& projectFile) {
   std::vector<compiler::ReferenceEntry> entries = compiler::referenceEntries();
   if (names) entries.insert(entries.begin(), names->entries.begin(), names->entries.end());
   const std::vector<compiler::ReferenceEntry> found = search(entries, word);
-  if (found.empty()) return reportUnknown(entries, word);
+  if (found.empty()) return reportUnknown(entries, word, names && names->hasErrors);
   std::cout << plainText(listed(found));
   return kOk;
 }

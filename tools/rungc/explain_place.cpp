@@ -5,9 +5,13 @@
 #include <filesystem>
 #include <fmt/format.h>
 
+#include "frontend/ladder/text/keywords.h"
 #include "frontend/syntax/word_lexer.h"
+#include "ir/support/ascii.h"
 #include "ir/support/put.h"
 #include "rtlib/host/program_info.h"
+#include "rtlib/nc/names/names.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "tools/compiler/manual_lines.h"
@@ -39,7 +43,8 @@ public:
   Explainer(const SourceManager& sources, const Analysis& analysis, const xref::CrossReference* reference)
       : sources_(sources), analysis_(analysis), reference_(reference) {}
 
-  std::string at(SourcePos at) {
+  // What an operand or a name there is; "" where there is none. `word`: all that is written there without a blank.
+  std::string at(SourcePos at, const std::string& word) {
     at_ = at;
     if (const auto* operand = found(analysis_.operands())) {
       put(out_, "{}: {} here{}\n", sources_.text(operand->range), nameOf(operand->access),
@@ -49,20 +54,41 @@ public:
     } else if (const auto* target = found(analysis_.targets())) {
       targets(*target);
     } else if (const auto* name = found(analysis_.names())) {
+      if (std::string bit = sources_.text(name->range) == word ? "" : addressed(word); !bit.empty()) return bit;
       explain(analysis_.definitions()[name->definition]);
     } else if (const auto* declared = found(analysis_.definitions())) {
       explain(*declared);
     }
-    return std::move(out_);
+    return ended();
   }
 
   // Of a name that the program declares or uses.
   std::string named(const Definition& definition) {
     explain(definition);
+    return ended();
+  }
+
+  // Of an address: its names, and the rungs that use it. "" where the program has neither.
+  std::string addressed(const std::string& address) {
+    if (reference_ == nullptr) return {};
+    const auto place = nc::resolve(reference_->program(), address);
+    if (!place || place->kind == host::RefKind::Constant) return {};
+    for (const Definition& definition : analysis_.definitions())
+      if (definition.range.valid() && isAt(definition.place, *place)) {
+        put(out_, "{} is {}: {}\n", address, definition.name, typeOf(definition));
+        define(definition);
+      }
+    const xref::Entry entry = reference_->of(*place);
+    if (!out_.empty() || !entry.accesses.empty()) show(entry);
     return std::move(out_);
   }
 
 private:
+  std::string ended() {
+    if (reference_ == nullptr && !out_.empty())
+      out_ += "\nThe program has errors, so what its rungs do is not known: `rungc check` lists the errors.\n";
+    return std::move(out_);
+  }
   template <class Use>
   const Use* found(std::span<const Use> uses) const {
     const auto here = [&](const Use& use) {
@@ -90,15 +116,24 @@ private:
   }
   void define(const Definition& definition) {
     if (!definition.comment.empty()) put(out_, "  {}\n", compiler::withoutManualLines(definition.comment));
-    if (definition.range.valid()) put(out_, "  declared at {}\n", placeOf(definition.range));
+    if (!definition.range.valid()) return;
+    put(out_, "  declared at {}\n", placeOf(definition.range));
+    if (reference_ == nullptr) put(out_, "  {}\n", text::trimmed(sources_.lineText(definition.range.begin)));
   }
   void uses(const frontend::NamedPlace& place) {
     if (reference_ == nullptr) return;
     const auto bits = xref::rangeOf(reference_->program(), place);
     if (!bits) return;
-    std::vector<xref::Entry> entries{reference_->of(xref::refAt(*bits))};
+    show(reference_->of(xref::refAt(*bits)));
+  }
+  void show(const xref::Entry& entry) {
+    std::vector<xref::Entry> entries{entry};
     xref::markOdd(sources_, analysis_, *reference_, entries);
-    put(out_, "\n{}", xref::shownAsText(*reference_, entries, true));
+    put(out_, "{}{}", out_.empty() ? "" : "\n", xref::shownAsText(*reference_, entries, true));
+  }
+  bool isAt(const frontend::NamedPlace& named, const host::Ref& place) const {
+    const auto bits = xref::rangeOf(reference_->program(), named);
+    return bits && *bits == xref::bitsOf(place);
   }
   void targets(const frontend::TargetUse& here) {
     put(out_, "{}: {}\n", sources_.text(here.range), here.defines ? "a label or subprogram" : "control goes there");
@@ -146,13 +181,17 @@ std::string_view wordAt(std::string_view line, size_t at) {
   return line.substr(begin, end - begin);
 }
 
-// A title, a text, a comment; "" for anything else.
-std::string_view proseAt(const SourceManager& sources, SourcePos at) {
+LineWords wordsOf(const SourceManager& sources, SourcePos at) {
   const SourceLine line{sources.lineCol(at).line,
                         sources.lineText(at),
                         {at.value - static_cast<uint32_t>(sources.offsetOf(at) - sources.lineStart(at).offset)}};
   LineWords words;
   splitWords(line, {.comment = ';', .quotes = "\"'", .separators = {}}, words);
+  return words;
+}
+
+// A title, a text, a comment; "" for anything else.
+std::string_view proseAt(const LineWords& words, SourcePos at) {
   const auto isIn = [&](SourceRange range) { return range.begin <= at && at < range.end; };
   if (words.hasComment && isIn(words.commentRange)) return "a comment";
   for (const Word& word : words.words) {
@@ -164,17 +203,54 @@ std::string_view proseAt(const SourceManager& sources, SourcePos at) {
   return {};
 }
 
-std::string explainWordAt(const SourceManager& sources, const frontend::Dialect& dialect, SourcePos at) {
-  if (const std::string_view prose = proseAt(sources, at); !prose.empty()) return fmt::format("{}\n", prose);
-  const std::string_view line = sources.lineText(at);
-  const size_t offset = sources.offsetOf(at) - sources.lineStart(at).offset;
-  const char c = line[offset];
-  if (c == ' ' || c == '\t') return "a blank\n";
-  if (c != '|' && endsWord(c)) return fmt::format("'{}': nothing by itself; name the place of what is beside it\n", c);
-  const std::string word(wordAt(line, offset));
-  if (c == '|' || word.find_first_not_of("+-") == std::string::npos) return "a wire\n";
-  if (const auto text = compiler::explain(word, &dialect)) return plainText(*text);
-  return fmt::format("'{}': neither a name of the program nor an instruction or a signal of {}\n", word, dialect.name);
+// A number as the dialects write it, perhaps after its type: #5, *1.5, 40h, CNST.0.
+bool isNumber(std::string_view word) {
+  if (const size_t point = word.find('.'); point != std::string_view::npos && point > 0 && isLetter(word[0]))
+    word.remove_prefix(point + 1);
+  const size_t first = word.find_first_not_of("#*$+-.");
+  if (first == std::string_view::npos) return false;
+  return isDigit(word[first]) || word.substr(0, first).find_first_of("#*") != std::string_view::npos;
+}
+
+// What is written before an operand in its brackets.
+std::string_view markAt(std::string_view line, size_t at) {
+  const size_t open = at == 0 ? std::string_view::npos : line.find_last_of("[(", at);
+  if (open == std::string_view::npos) return {};
+  const std::string_view before = line.substr(open + 1, at - open - 1);
+  if (before.find_first_not_of("/@%") != std::string_view::npos) return {};
+  const bool coil = line[open] == '(';
+  switch (line[at]) {
+  case '/': return coil ? "the coil is negated" : "the contact is normally closed";
+  case '@': return "at the rising edge";
+  case '%': return "at the falling edge";
+  case 'S':
+  case 'R':
+    if (!coil || line.substr(at + 1, 1) != " ") return {};
+    return line[at] == 'S' ? "the coil sets its bit, and leaves it without power"
+                           : "the coil resets its bit, and leaves it without power";
+  default: return {};
+  }
+}
+
+// Words by their places in a statement: a keyword, what follows it.
+std::string explainStatementWord(const LineWords& words, std::string_view word) {
+  if (words.words.empty()) return {};
+  const std::string_view first = words.words[0].text;
+  const auto keyword = std::ranges::find(ladder::kKeywords, first, &ladder::Keyword::word);
+  if (keyword == std::end(ladder::kKeywords)) return {};
+  if (word == first) return fmt::format("{}: {}\n", word, keyword->meaning);
+  if (first == "dialect") return fmt::format("{}: the control that the program is for\n", word);
+  if (first == "module") return fmt::format("{}: the name of the module\n", word);
+  return first == "message" || first == "button" ? fmt::format("{}: the number of the {}\n", word, first) : "";
+}
+
+// What the reference says of an instruction that is called by its number: FUNC 32.
+std::string explainNumbered(const LineWords& words, std::string_view word, const frontend::Dialect& dialect) {
+  const auto number = text::numberIn<uint32_t>(word);
+  if (!number || words.words.size() < 2 || words.words[0].text != "FUNC" || words.words[1].text != word) return {};
+  for (const frontend::InstructionInfo* row : dialect.instructions)
+    if (row->number == *number && *number != 0) return plainText(*compiler::explain(row->mnemonic, &dialect));
+  return {};
 }
 
 } // namespace
@@ -213,6 +289,16 @@ public:
   const SourceManager& sources() const { return sources_; }
   const frontend::Dialect& dialect() const { return *dialect_; }
   const Analysis& analysis() const { return program_->analysis(); }
+  bool hasErrors() const { return diagnostics_.hasErrors(); }
+  // In any case where no name is written exactly so; null: none.
+  const Definition* definitionOf(std::string_view name) const {
+    const Definition* found = nullptr;
+    for (const Definition& definition : analysis().definitions()) {
+      if (definition.name == name) return &definition;
+      if (found == nullptr && text::equalsIgnoringCase(definition.name, name)) found = &definition;
+    }
+    return found;
+  }
   Explainer explainer() const { return Explainer(sources_, analysis(), reference_ ? &reference_->get() : nullptr); }
 
 private:
@@ -223,6 +309,75 @@ private:
   std::unique_ptr<frontend::CheckedProgram> program_;
   std::unique_ptr<ir::Module> module_;
   std::optional<xref::ModuleReference> reference_;
+};
+
+// What is written at a place.
+class WordExplainer {
+public:
+  WordExplainer(const OpenProgram& program, SourcePos at)
+      : program_(program), sources_(program.sources()), dialect_(program.dialect()), at_(at),
+        words_(wordsOf(sources_, at)), line_(sources_.lineText(at)),
+        offset_(sources_.offsetOf(at) - sources_.lineStart(at).offset) {}
+
+  std::string run() const {
+    if (std::string text = program_.explainer().at(at_, std::string(wordAt(line_, offset_))); !text.empty())
+      return text;
+    if (const std::string_view prose = proseAt(words_, at_); !prose.empty()) return fmt::format("{}\n", prose);
+    const char c = line_[offset_];
+    if (c == ' ' || c == '\t') return "a blank\n";
+    if (isDrawn())
+      if (const std::string_view mark = markAt(line_, offset_); !mark.empty()) return marked(mark);
+    if (c != '|' && endsWord(c))
+      return fmt::format("'{}': nothing by itself; name the place of what is beside it\n", c);
+    const std::string word(wordAt(line_, offset_));
+    if (c == '|' || word.find_first_not_of("+-") == std::string::npos)
+      return isDrawn() ? "a wire\n" : fmt::format("'{}': nothing is given here\n", word);
+    return ofWord(word);
+  }
+
+private:
+  bool isDrawn() const { return dialect_.findBox != nullptr; }
+
+  // With the operand that the mark belongs to.
+  std::string marked(std::string_view mark) const {
+    const size_t next = line_[offset_] == 'S' || line_[offset_] == 'R' ? line_.find_first_not_of(' ', offset_ + 1)
+                                                                       : line_.find_first_not_of("/@%", offset_);
+    return fmt::format("'{}': {}\n{}", line_[offset_], mark,
+                       next == std::string_view::npos
+                           ? std::string()
+                           : program_.explainer().at({at_.value + static_cast<uint32_t>(next - offset_)},
+                                                     std::string(wordAt(line_, next))));
+  }
+
+  std::string ofWord(const std::string& word) const {
+    if (isDrawn())
+      if (std::string text = explainStatementWord(words_, word); !text.empty()) return text;
+    if (std::string text = explainNumbered(words_, word, dialect_); !text.empty()) return text;
+    const std::optional<std::string> reference = compiler::explain(word, &dialect_);
+    std::string text = reference ? plainText(*reference) : "";
+    const Definition* definition = program_.definitionOf(word);
+    const std::string use =
+        definition != nullptr ? program_.explainer().named(*definition) : program_.explainer().addressed(word);
+    if (!use.empty()) text += (text.empty() ? "" : "\n") + use;
+    if (!text.empty()) return text;
+    if (isNumber(word)) return fmt::format("'{}': a constant\n", word);
+    if (const size_t begin = static_cast<size_t>(wordAt(line_, offset_).data() - line_.data());
+        isDrawn() && begin > 0 && line_[begin - 1] == '{')
+      return fmt::format("'{}': an input of the box that begins above\n", word);
+    for (uint32_t i = 0; i < sources_.fileCount(); ++i)
+      if (std::filesystem::path(sources_.name(FileId{i})).filename() == word)
+        return fmt::format("'{}': a file of the program\n", word);
+    return fmt::format("'{}': neither a name of the program nor an instruction or a signal of {}\n", word,
+                       dialect_.name);
+  }
+
+  const OpenProgram& program_;
+  const SourceManager& sources_;
+  const frontend::Dialect& dialect_;
+  const SourcePos at_;
+  const LineWords words_;
+  const std::string_view line_;
+  const size_t offset_; // in the line
 };
 
 } // namespace
@@ -240,8 +395,7 @@ std::optional<std::string> explainPlace(const SourcePlace& place, int& status) {
     status = usageError(fmt::format("{} has nothing in line {}, column {}", place.file, place.line, place.column));
     return std::nullopt;
   }
-  const std::string text = program.explainer().at(*at);
-  return text.empty() ? explainWordAt(sources, program.dialect(), *at) : text;
+  return WordExplainer(program, *at).run();
 }
 
 std::optional<ProjectNames> namesOfProject(const std::string& word, const std::string& projectFile) {
@@ -252,16 +406,13 @@ std::optional<ProjectNames> namesOfProject(const std::string& word, const std::s
   OpenProgram program;
   if (status != kOk || !program.open(options, status)) return std::nullopt;
   ProjectNames names;
-  const Definition* found = nullptr;
-  for (const Definition& definition : program.analysis().definitions()) {
+  for (const Definition& definition : program.analysis().definitions())
     if (definition.range.valid())
       names.entries.push_back({std::string(definition.name), fmt::format("name in {}", options.project->file),
                                compiler::withoutManualLines(definition.comment), ""});
-    const bool exact = definition.name == word;
-    if (exact || (found == nullptr && text::equalsIgnoringCase(definition.name, word))) found = &definition;
-    if (exact) break;
-  }
-  if (found != nullptr) names.text = program.explainer().named(*found);
+  const Definition* found = program.definitionOf(word);
+  names.text = found != nullptr ? program.explainer().named(*found) : program.explainer().addressed(word);
+  names.hasErrors = program.hasErrors();
   return names;
 }
 

@@ -25,8 +25,9 @@ std::optional<std::string> explainPlace(const SourcePlace& place, int& status);
 
 // Names of a project.
 struct ProjectNames {
-  std::string text; // what the word is there; empty: nothing, or there is no project
+  std::string text; // what the word, a name or an address, is there; empty: nothing, or there is no project
   std::vector<compiler::ReferenceEntry> entries;
+  bool hasErrors = false; // the program, of which only names are known then
 };
 // Of the project of --project, else of the working directory; mistakes of its program are not reported. Nothing where
 // there is none or where it cannot be read, which is reported for --project alone.

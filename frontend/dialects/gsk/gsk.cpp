@@ -95,7 +95,7 @@ const frontend::Dialect kGsk = {
     .check = &check,
     .format = &format,
     .reference = &addReference,
-    .explain = &explainSignal,
+    .explain = &explainWord,
 };
 
 } // namespace rung::gsk

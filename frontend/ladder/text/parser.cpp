@@ -6,6 +6,7 @@
 #include <string>
 
 #include "frontend/ladder/text/drawing.h"
+#include "frontend/ladder/text/keywords.h"
 #include "frontend/syntax/bad_character.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
@@ -16,8 +17,6 @@ namespace rung::ladder {
 namespace {
 
 constexpr WordRules kRules{};
-constexpr std::string_view kKeywords[] = {"dialect", "module", "symbol",  "const",
-                                          "message", "button", "section", "rung"};
 
 /// What a drawing line belongs to.
 enum class Place : uint8_t {
@@ -120,7 +119,7 @@ void Parser::reportUnknown(const Word& keyword) {
     report.note("a comment begins with ';'");
     return;
   }
-  suggest(report, keyword.range, likeliest(keyword.text, kKeywords));
+  suggest(report, keyword.range, likeliest(keyword.text, kKeywords, &Keyword::word));
 }
 
 /// Splits the line; false when its words are not even words.
@@ -148,7 +147,7 @@ void Parser::statement(const SourceLine& source) {
     return;
   }
   const Word& keyword = words_.words.front();
-  const bool known = std::find(std::begin(kKeywords), std::end(kKeywords), keyword.text) != std::end(kKeywords);
+  const bool known = std::ranges::find(kKeywords, keyword.text, &Keyword::word) != std::end(kKeywords);
   if (!known || keyword.quoted) {
     reportUnknown(keyword);
     place_ = Place::Skipped;

@@ -78,7 +78,12 @@ void watchSignals(network::Context& context, Machine machine) {
   };
 }
 
-std::string explainSignal(std::string_view word) {
+std::string explainWord(std::string_view word) {
+  if (text::equalsIgnoringCase(word, "FUNC"))
+    return "[gsk] FUNC: a functional instruction, by its number or mnemonic; its parameters follow in PRM lines\n";
+  if (text::equalsIgnoringCase(word, "PRM")) return "[gsk] PRM: a parameter of the functional instruction above\n";
+  if (text::equalsIgnoringCase(word, "TABLE"))
+    return "[gsk] TABLE: in the box of a ladder, the table of the functional instruction follows\n";
   std::string text;
   for (const nc::Signal& signal : nc::gskSignals())
     if (text::equalsIgnoringCase(signal.symbol, word)) text += textOf(signal);

@@ -15,7 +15,8 @@ enum class Machine : uint8_t { Any, Mill, Turn };
 // Warns of each signal that the given machine does not have, where an operand is that signal or a bit of it.
 void watchSignals(network::Context& context, Machine machine);
 
-// What `rungc explain` says about a signal's name or the address of signals, of any case; "" when it is neither.
-std::string explainSignal(std::string_view word);
+// What `rungc explain` says about a signal's name or the address of signals, of any case, or a word of command lists;
+// "" when it is neither.
+std::string explainWord(std::string_view word);
 
 } // namespace rung::gsk

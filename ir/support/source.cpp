@@ -12,6 +12,7 @@
 #include "ir/support/check.h"
 #include "ir/support/encoding.h"
 #include "ir/support/utf8.h"
+#include "rtlib/text/end_of_file.h"
 #include "rtlib/text/regular_file.h"
 
 namespace rung {
@@ -71,7 +72,6 @@ std::string_view SourceManager::File::line(size_t lineIndex) const {
 namespace {
 
 constexpr size_t kMostText = size_t{256} << 20; // of all sources
-constexpr char kEndOfFile = 0x1A;
 
 Result<std::string> readAll(const std::string& path) {
   std::string contents;
@@ -109,13 +109,14 @@ FileId SourceManager::addBytes(std::string name, std::string bytes) {
   // Whatever was said of the file before: the editor that saved it has made it UTF-8.
   if (known && !encoding.empty() && bytes.starts_with(kByteOrderMark)) encoding = "UTF-8";
   Decoded text = encoding.empty() || !known ? Decoded{.text = bytes, .wrong = {}} : decoded(bytes, encoding);
-  const size_t end = text.text.find(kEndOfFile); // what follows need not be text
+  const size_t end = text::upToEndOfFile(text.text).size();
+  const bool isMarked = end < text.text.size();
   if (!known)
     undecoded = Undecoded{encoding, false, line ? line->offset : 0};
-  else if (text.wrong && end == std::string::npos)
+  else if (text.wrong && !isMarked)
     undecoded = Undecoded{encoding, true, *text.wrong};
   std::string afterEnd;
-  if (!undecoded && end != std::string::npos) {
+  if (!undecoded && isMarked) {
     text.text.resize(end);
     const size_t before = encoding.empty() ? end : encoded(text.text, encoding).value_or("").size();
     afterEnd = bytes.substr(std::min(before, bytes.size()));

@@ -42,6 +42,12 @@ class Map(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stderr), (OK, ""))
                 self.expect(self.map(f"examples/{name}", "--template"), OK, text)
 
+    def test_the_mark_of_dos_ends_the_file(self):
+        made = self.path("made.map")
+        self.map("examples/gsk-panel", "--template", "-o", made)
+        made.write_text(made.read_text() + "\x1a\0[")
+        self.assertEqual(self.map("examples/gsk-panel", "--check", made).returncode, OK)
+
     def test_signals_have_the_direction_of_the_nc_interface(self):
         """NCT's memory is both sides'; what its outputs are, the table of signals says, also where rungs read them."""
         text = self.map("tests/cnc/handshake.lad", "--template").stdout

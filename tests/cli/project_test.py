@@ -67,6 +67,10 @@ class Discovery(Cli):
             self.rungc("build", cwd=cwd)
         self.assertTrue((self.path / (self.path.name + ".so")).exists())
 
+    def test_the_mark_of_dos_ends_the_file(self):
+        self.project(TOML + "\x1a\0[")
+        self.rungc("check")
+
     def test_a_drawing_has_its_name(self):
         self.project()
         name = self.path.name

@@ -171,6 +171,43 @@ TABLE = """<PLCTable><Definition><DefinitionID>T</DefinitionID><LinesCount>2</Li
 TABLES = "config PlcTableDef0 t.PlcTDef\nconfig PlcTable0 t.PlcT\n"
 
 
+class Mistakes(Folder):
+    def said(self, text, status=WRONG):
+        self.file("wrong.scn", text)
+        done = self.run_tests("wrong.scn")
+        self.assertEqual(done.returncode, status, done.stdout)
+        return [line.strip() for line in done.stdout.splitlines() if line.startswith("  wrong.scn:")]
+
+    def test_all_are_said_at_once(self):
+        self.assertEqual(self.said("program door.lad\nset START 2\nset NOBODY 1\nwait 1s\nscan\nset COUNT on\nunforce NOTHING\nexpect_range COUNT 5 1\nset LOCK 3\n"),
+                         ["wrong.scn:2: a bit takes 0 or 1, not 2", "wrong.scn:3: 'NOBODY' is not a name of this program",
+                          "wrong.scn:4: unknown statement 'wait'; did you mean: run 250ms",
+                          "wrong.scn:6: this name is not a bit, so it cannot be on: expected a number",
+                          "wrong.scn:7: 'NOTHING' is not a name of this program",
+                          "wrong.scn:8: no value is in the range from 5 to 1: write expect_range COUNT 1 5", "wrong.scn:9: a bit takes 0 or 1, not 3"])
+        self.assertEqual([line.split(":")[1] for line in self.said("program door.lad\nconfig nobody 1\nconfig nothing 2\nscan\n")], ["2", "3"])
+
+    def test_a_range_of_one_value(self):
+        self.assertEqual(self.said("program door.lad\nscan\nexpect_range COUNT 0 0\nexpect_range COUNT -1.5 0x10\n", status=OK), [])
+
+    def test_the_mark_of_dos_ends_the_file(self):
+        self.assertEqual(self.said(PASSES + "\x1a\0 and what was in the sector", status=OK), [])
+
+    def test_other_kinds_of_files(self):
+        for name in ("door.map", "door.so"):
+            self.file(name, "")
+        for words, message in ((["test", "door.map"], "'door.map' is a mapping file, not a scenario: `rungc map --check door.map PROGRAM` checks it"),
+                               (["test", "door.so"], "'door.so' is a compiled program, not a scenario: `rungc run door.so` runs it"),
+                               (["test", "door.lad"], "'door.lad' is a program, not a scenario: `rungc check door.lad` checks it; a scenario is a file of its own that "
+                                                      "begins with: program door.lad"),
+                               *((command, "'passes.scn' is a scenario, not a program: `rungc test passes.scn` runs it") for command in
+                                 (["check", "passes.scn"], ["diff", "door.lad", "passes.scn"], ["view", "passes.scn", "-o", "x.html"], ["xref", "passes.scn"], ["run", "passes.scn"])),
+                               (["map", "door.map", "door.lad"], "'door.map' is a mapping file, not a program: `rungc map --check door.map PROGRAM` checks it"),
+                               (["map", "--no-project", "--check", "door.lad", "door.lad"], "'door.lad' is a program, not a mapping file: `rungc check door.lad` checks it")):
+            done = subprocess.run([RUNGC, *words], cwd=self.folder.name, capture_output=True, timeout=patience(), text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (USAGE, f"rungc: {message}\n"), words)
+
+
 class WrongDevices(Folder):
     """Devices of TECHNOL's control that do not exist or are configured wrongly."""
 

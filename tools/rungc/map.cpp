@@ -10,6 +10,7 @@
 #include "tools/mapping/component_pins.h"
 #include "tools/mapping/message_texts.h"
 #include "tools/mapping/mistake.h"
+#include "tools/project/file_kind.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/opened_program.h"
 #include "tools/xref/place_names.h"
@@ -93,6 +94,8 @@ int run(const MapOptions& options) {
       return usageError(
           fmt::format("map: found the mapping file {0} as the program; write: rungc map {1} --check {0}", file,
                       options.check.empty() || mapping::isNamedAsMap(options.check) ? "PROGRAM" : options.check));
+  if (const std::string other = project::otherKind(options.check, project::FileKind::Map); !other.empty())
+    return usageError(other);
   int status = kOk;
   const std::optional<OpenedProgram> program = openProgram(options.source, status);
   if (!program) return status;

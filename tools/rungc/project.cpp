@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "tools/compiler/configuration.h"
+#include "tools/project/file_kind.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -42,6 +43,16 @@ std::optional<project::Project> loadProject(const std::string& file, const Sourc
 
 // Sources that no project can list.
 bool isOwn(const std::string& file) { return file == "-" || file.ends_with(".so"); }
+
+// Gives the exit status.
+int checkKinds(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    if (isOwn(file)) continue; // a compiled program some commands take
+    const std::string other = project::otherKind(file, project::FileKind::Program);
+    if (!other.empty()) return usageError(other);
+  }
+  return kOk;
+}
 
 // The project that all the named files belong to. Nothing, with status kOk, when there is none.
 std::optional<project::Project> projectOfFiles(const SourceOptions& options, int& status) {
@@ -102,6 +113,7 @@ std::optional<project::Project> openProject(const std::string& named, const Sour
 }
 
 int takeProject(SourceOptions& options) {
+  if (const int status = checkKinds(options.files); status != kOk) return status;
   if (options.noProject && options.files.empty()) return usageError("--no-project needs the names of source files");
   if (options.noProject) return kOk;
   int status = kOk;

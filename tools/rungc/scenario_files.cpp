@@ -63,12 +63,11 @@ std::optional<std::vector<std::string>> scenarioFiles(const std::vector<std::str
   for (const std::string& name : names) {
     std::error_code none;
     std::optional<std::vector<std::string>> found;
-    if (!fs::is_directory(name, none))
-      found = oneFile(name, status);
-    else if (fs::is_regular_file(fs::path(name) / project::kFileName, none))
+    const bool isFolder = fs::is_directory(name, none);
+    if (isFolder ? fs::is_regular_file(fs::path(name) / project::kFileName, none) : namesProject(name))
       found = ofProject(name, status);
     else
-      found = scenariosBelow(name, status);
+      found = isFolder ? scenariosBelow(name, status) : oneFile(name, status);
     if (!found) return std::nullopt;
     std::ranges::move(*found, std::back_inserter(files));
   }

@@ -85,9 +85,23 @@ std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& 
       next = next.subspan(1);
     }
     if (namesValue(s.kind)) check(s, s.name);
+    if (s.kind == Kind::Unforce)
+      for (const std::string& name : s.words) check(s, name);
     if (s.kind != Kind::Print) continue;
     for (const KeyValue& item : s.keys)
       if (!item.key.empty()) check(s, item.key);
+  }
+  return problems;
+}
+
+std::vector<Problem> unfitValues(const Scenario& scenario, const host::Instance& instance, const sim::SimulatedNc& nc) {
+  std::vector<Problem> problems;
+  for (const Statement& s : scenario.statements) {
+    if (s.kind == Kind::Replace) break;
+    const auto place = s.kind == Kind::Set ? nc.readPlace(instance.program(), s.name) : std::nullopt;
+    if (!place) continue;
+    if (std::string problem = valueProblem(instance, *place, s.value); !problem.empty())
+      problems.push_back(problemAt(s, std::move(problem)));
   }
   return problems;
 }

@@ -38,10 +38,12 @@ std::vector<std::string> namesOf(const rung_program& program, const sim::Simulat
 // The message about a name that does not exist, with the one that may be meant.
 std::string unknownName(const rung_program& program, const sim::SimulatedNc& nc, std::string_view name);
 
-// Of all statements that read or write a value, but for quantities of the NC. The program has been started; `next` are
-// those that take over from it, one for each replace statement.
+// Names that do not exist, of all statements that read or write a value, but for quantities of the NC. The program has
+// been started; `next` are those that take over from it, one for each replace statement.
 std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& program,
                                   std::span<const rung_program* const> next, const sim::SimulatedNc& nc);
+// Values that a name of the program cannot hold, of set statements before the first replace.
+std::vector<Problem> unfitValues(const Scenario& scenario, const host::Instance& instance, const sim::SimulatedNc& nc);
 
 // "30.000 ms, scan 3: VALVE = 1, a text": a print statement.
 Result<std::string> printedLine(const Statement& print, const host::Instance& instance, const sim::SimulatedNc& nc,

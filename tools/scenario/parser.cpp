@@ -6,9 +6,10 @@
 #include <optional>
 #include <sstream>
 
-#include "frontend/dialects/dialect.h"
 #include "ir/support/utf8.h"
+#include "rtlib/text/end_of_file.h"
 #include "rtlib/text/regular_file.h"
+#include "tools/project/file_kind.h"
 #include "tools/scenario/in_project.h"
 #include "tools/scenario/scenario.h"
 #include "tools/scenario/statements.h"
@@ -19,13 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t kMostIncludes = 1000; // files that include each other twice would never end
-
-bool isProgramFile(const fs::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".lad" || std::ranges::any_of(frontend::allDialects(), [&](const frontend::Dialect* d) {
-           return std::ranges::find(d->extensions, extension) != d->extensions.end();
-         });
-}
 
 // The text of a file that should be a scenario.
 Result<std::string> readText(const std::string& path) {
@@ -45,6 +39,7 @@ public:
   void readFile(const std::string& path, std::string_view text) {
     std::error_code none;
     open_.push_back({path, fs::weakly_canonical(path, none)});
+    text = text::upToEndOfFile(text);
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     uint32_t number = 0;
     while (!text.empty()) {
@@ -136,10 +131,10 @@ Scenario parse(std::string path, std::string_view text) {
 }
 
 std::string notAScenario(const std::string& path) {
-  if (!isProgramFile(path)) return {};
-  return fmt::format("'{0}' is a program, not a scenario: `rungc check {0}` checks it; a scenario is a file of its own "
-                     "that begins with: program {1}",
-                     path, fs::path(path).filename().string());
+  const std::string other = project::otherKind(path, project::FileKind::Scenario);
+  if (other.empty() || project::kindOfFile(path) != project::FileKind::Program) return other;
+  return fmt::format("{}; a scenario is a file of its own that begins with: program {}", other,
+                     fs::path(path).filename().string());
 }
 
 Result<Scenario> readScenario(const std::string& path) {

@@ -67,6 +67,7 @@ private:
     for (const NamedProgram& named : named_)
       if (named.statement->kind == Kind::Replace) next.push_back(&named.next.engines[0]->program());
     add(result_.problems, unknownNames(scenario_, session_.instance().program(), next, session_.nc()));
+    add(result_.problems, unfitValues(scenario_, session_.instance(), session_.nc()));
     if (!result_.problems.empty() || !observe(program_->compiled())) return;
     runStatements();
   }
@@ -166,15 +167,14 @@ private:
   }
 
   bool configure(const frontend::Dialect& dialect) {
+    const size_t before = result_.problems.size();
     for (const Statement& s : scenario_.statements) {
       std::string problem;
       if (s.kind == Kind::Config && !readsKey(dialect, s.name)) problem = configure(dialect, s);
       if (s.kind == Kind::Connect) problem = session_.connect(s.words[0], s.words[1]);
-      if (problem.empty()) continue;
-      fail(s, problem);
-      return false;
+      if (!problem.empty()) fail(s, problem);
     }
-    return true;
+    return result_.problems.size() == before;
   }
 
   bool powerOn() {

@@ -118,7 +118,7 @@ struct Scenario {
 };
 
 Scenario parse(std::string path, std::string_view text);
-// "" or, when this is the name of a program's source, what to do instead.
+// "" or, when this is the name of another kind of file, what to do instead.
 std::string notAScenario(const std::string& path);
 // Fails when the file cannot be read or is a program.
 Result<Scenario> readScenario(const std::string& path);

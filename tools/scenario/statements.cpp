@@ -93,7 +93,12 @@ private:
     s_.tolerance = tolerance.real;
     return true;
   }
-  bool expectRange() { return takeWord(s_.name, "a name") && takeValue(s_.value, true) && takeValue(s_.high, true); }
+  bool expectRange() {
+    if (!takeWord(s_.name, "a name") || !takeValue(s_.value, true) || !takeValue(s_.high, true)) return false;
+    if (s_.value.real <= s_.high.real) return true;
+    return fail(fmt::format("no value is in the range from {0} to {1}: write expect_range {2} {1} {0}", s_.value.text,
+                            s_.high.text, s_.name));
+  }
   bool expectMessage() {
     const std::optional<uint32_t> number = done() ? std::nullopt : text::wholeIn<uint32_t>(word());
     if (!number) return fail("expected a message number");

@@ -139,12 +139,14 @@ std::optional<Ref> realPlace(const Instance& instance, const Ref& place, const V
 
 } // namespace
 
+std::string valueProblem(const Instance& instance, const Ref& place, const Value& value) {
+  if (place.kind != RefKind::Text) return numberProblem(instance, place, value);
+  return value.kind == ValueKind::Text ? "" : "this name holds a text: expected a value in quotes";
+}
+
 std::string writeValue(Instance& instance, const nc::Control& control, const Ref& place, const Value& value) {
-  if (place.kind == RefKind::Text) {
-    if (value.kind != ValueKind::Text) return "this name holds a text: expected a value in quotes";
-    return nc::writeText(instance, place, control.memoryText(value.text, place.count));
-  }
-  if (std::string problem = numberProblem(instance, place, value); !problem.empty()) return problem;
+  if (std::string problem = valueProblem(instance, place, value); !problem.empty()) return problem;
+  if (place.kind == RefKind::Text) return nc::writeText(instance, place, control.memoryText(value.text, place.count));
   if (const auto real = realPlace(instance, place, value)) return nc::writeReal(instance, *real, value.real);
   return nc::write(instance, place, static_cast<uint64_t>(value.integer));
 }

@@ -34,6 +34,8 @@ sim::NcCell cellOf(const Value& value);
 std::string cellProblem(const sim::NcCell& now, const Value& value);
 int64_t signedOf(const Reading& integer);
 
+// "", or why a place that can be written cannot hold the value.
+std::string valueProblem(const host::Instance& instance, const host::Ref& place, const Value& value);
 // The cell of this name, at this place, with the value, for whoever forces it. The name outlives the result.
 Result<rung_forced_cell> forcedCell(const host::Instance& instance, const std::string& name, const host::Ref& place,
                                     const Value& value);

@@ -6,6 +6,8 @@
 
 #include <toml++/toml.h>
 
+#include "rtlib/text/end_of_file.h"
+
 namespace rung::toml_text {
 
 inline constexpr size_t kMostParts = 64; // of a key
@@ -50,6 +52,7 @@ inline Wrong findWrong(std::string_view text) {
 
 // Throws toml::parse_error. `path` is for its places.
 inline toml::table parse(std::string_view text, std::string_view path = {}) {
+  text = text::upToEndOfFile(text);
   const Wrong wrong = findWrong(text);
   if (wrong.text == nullptr) return toml::parse(text, path);
   toml::source_position place{1, 1};

@@ -1,0 +1,49 @@
+// See file_kind.h.
+#include "tools/project/file_kind.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <string_view>
+
+#include "frontend/dialects/dialect.h"
+
+namespace rung::project {
+namespace {
+
+struct Kind {
+  std::string_view name;
+  std::string_view use; // of the file {0}
+};
+
+// In the order of FileKind.
+constexpr Kind kKinds[] = {{"a file of another kind", ""},
+                           {"a program", "`rungc check {0}` checks it"},
+                           {"a compiled program", "`rungc run {0}` runs it"},
+                           {"a scenario", "`rungc test {0}` runs it"},
+                           {"a mapping file", "`rungc map --check {0} PROGRAM` checks it"}};
+
+const Kind& infoOf(FileKind kind) { return kKinds[static_cast<size_t>(kind)]; }
+
+} // namespace
+
+FileKind kindOfFile(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".so") return FileKind::Compiled;
+  if (extension == ".scn") return FileKind::Scenario;
+  if (extension == ".map") return FileKind::Map;
+  const bool isProgram =
+      extension == ".lad" || std::ranges::any_of(frontend::allDialects(), [&](const frontend::Dialect* dialect) {
+        return std::ranges::find(dialect->extensions, extension) != dialect->extensions.end();
+      });
+  return isProgram ? FileKind::Program : FileKind::Other;
+}
+
+std::string otherKind(const std::string& path, FileKind wanted) {
+  const FileKind kind = kindOfFile(path);
+  if (kind == wanted || kind == FileKind::Other) return {};
+  return fmt::format("'{}' is {}, not {}: {}", path, infoOf(kind).name, infoOf(wanted).name,
+                     fmt::format(fmt::runtime(infoOf(kind).use), path));
+}
+
+} // namespace rung::project

@@ -112,9 +112,20 @@ void RungWriter::write(const Rung& rung, uint32_t number, std::string_view file)
     endOf_[openers.back()] = i;
     openers.pop_back();
   }
-  for (const Op& op : rung.ops) writeOp(op);
+  const bool hasStretches = isLong(rung);
+  for (size_t i = 0; i < rung.ops.size(); ++i) {
+    if (hasStretches && i != 0 && i % kStretch == 0) endBlock(i / kStretch);
+    writeOp(rung.ops[i]);
+  }
   throughMemory_.clear();
   endLine();
+}
+
+// The vectoriser and the scheduler, too, take the square of a basic block's length. The jump costs no instruction, but a
+// compiler cannot know that, and begins a block at its label.
+void RungWriter::endBlock(size_t stretch) {
+  const std::string label = fmt::format("{}_stretch_{}", rungLabel(number_), stretch);
+  statement(fmt::format("asm goto(\"\" : : : : {0}); {0}:;", label));
 }
 
 // ---- late stores -------------------------------------------------------------------------------------------------

@@ -39,6 +39,7 @@ public:
 private:
   void beginLine(uint32_t line, bool force);
   void endLine();
+  void endBlock(size_t stretch);
   void statement(std::string_view text, std::string_view comment = {});
   void writeOp(const ir::Op& op);
   void declare(const ir::Op& op, const std::string& expression, std::string_view comment = {});

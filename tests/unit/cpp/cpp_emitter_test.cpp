@@ -8,6 +8,7 @@
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/cpp/table_writer.h"
 #include "ir/core/builder.h"
+#include "ir/core/long_rungs.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/host/sealing.h"
 #include "rtlib/host/so_engine.h"
@@ -104,6 +105,51 @@ TEST_P(BuiltWith, RunsCallsAndTraps) {
   EXPECT_NE(instance.faultText().find("limit reached"), std::string::npos);
   EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D4:2")), 2u) << "the trap comes before the store";
   EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "LAMP")), 0u) << "outputs go to their safe state";
+}
+
+// Y0.0 := X0.0 and X0.1 and X0.0 and … of 2,500 contacts.
+Module longModule() {
+  Module m = sampleModule();
+  Rung& rung = m.routines[0].rungs[0];
+  rung = {};
+  rung.begin = {FileIndex{0}, 3, 1};
+  RungBuilder b(m, rung);
+  ValueId power = b.load(Type::Bit, {SpaceId{0}, 0, 0});
+  for (uint32_t i = 1; i < 2'500; ++i)
+    power = b.and_(power, b.load(Type::Bit, {SpaceId{0}, 0, static_cast<uint8_t>(i % 2)}));
+  b.store({SpaceId{1}, 0, 0}, power);
+  return m;
+}
+
+size_t stretchesIn(const std::string& text) {
+  size_t count = 0;
+  for (size_t at = text.find("asm goto"); at != std::string::npos; at = text.find("asm goto", at + 1)) ++count;
+  return count;
+}
+
+TEST_P(BuiltWith, ALongRungIsBuiltInStretches) {
+  const Module module = longModule();
+  const Layout layout(module, {});
+  const std::string text = emitCpp(layout, 42, {});
+  EXPECT_EQ(stretchesIn(text), (module.routines[0].rungs[0].ops.size() - 1) / kStretch);
+  const Module usual = sampleModule();
+  EXPECT_EQ(stretchesIn(emitCpp(Layout(usual, {}), 42, {})), 0u);
+  const std::string path = temporaryFile("rung_cpp_long_test.so");
+  CppBuildOptions options;
+  options.compiler = GetParam();
+  const Result<std::string> built = buildCppSharedObject(text, options);
+  ASSERT_TRUE(built.ok()) << built.error();
+  std::string error = host::replaceFile(path, host::sealed(built.value()));
+  const auto engine = host::SoEngine::open(path, error);
+  std::filesystem::remove(path); // it is loaded
+  ASSERT_NE(engine, nullptr) << error;
+  host::Instance instance(engine->program());
+  for (const bool on : {true, false}) {
+    EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.0"), 1), std::nullopt);
+    EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.1"), on), std::nullopt);
+    instance.scan();
+    EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "LAMP")), on ? 1u : 0u);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Compilers, BuiltWith, testing::Values("g++", "clang++-19"), [](const auto& tested) {

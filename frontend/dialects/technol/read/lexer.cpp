@@ -78,6 +78,8 @@ void noteForeign(const SourceLine& line, size_t first, size_t last, DiagBuilder&
     report.note("WR writes a result, STO a value");
   else if (word.starts_with('%'))
     report.note("bits and variables have names here, which DFM and DS declare, and no addresses");
+  else if (word.starts_with('|'))
+    report.note("this is a line of a drawing, and TECHNOL programs are lists: LDR A, LA B, WR C");
   const auto* const other = std::ranges::find_if(word, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
   if (other != word.end())
     noteLookAlike(line.text, first + static_cast<size_t>(other - word.begin()), line.begin, report);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "frontend/sema/analysis.h"
+#include "frontend/sema/foreign_word.h"
 #include "frontend/table/instruction.h"
 #include "ir/core/given_numbers.h"
 #include "ir/core/marks.h"
@@ -55,10 +56,11 @@ public:
 class ReferencePage;
 
 struct Dialect {
-  std::string_view name;                        // "gsk"
-  std::string_view title;                       // "GSK25iMc / GSK25iTc PLC"
-  std::span<const std::string_view> extensions; // of source files that need not name the dialect, e.g. ".pmc"
-  std::span<const nc::ConfigKey> configKeys;    // of compile (CompileOptions::config) and of the simulated control
+  std::string_view name;                         // "gsk"
+  std::string_view title;                        // "GSK25iMc / GSK25iTc PLC"
+  std::span<const std::string_view> extensions;  // of source files that need not name the dialect, e.g. ".pmc"
+  std::span<const ForeignWord> foreignKeys = {}; // keys of other dialects, and what is said here instead
+  std::span<const nc::ConfigKey> configKeys;     // of compile (CompileOptions::config) and of the simulated control
   // The rows, in the order of the reference.
   std::span<const InstructionInfo* const> instructions;
   const nc::SignalTable& (*signals)();                // of the control's interface

@@ -224,6 +224,10 @@ class Configuration(Cli):
         self.project(TOML + "[config]\nPLCNVRAM = 12\n")
         self.assertRegex(self.rungc("check", status=WRONG)[1], r"rung\.toml:5:12: error: PLCNVRAM 12 is outside")
 
+    def test_texts_of_nct_are_statements(self):
+        self.project(TOML + '[config]\nmessages = "main.msg"\n')
+        self.assertIn('in this language: a statement of the program, `message 20 "text"`', self.rungc("check", status=WRONG)[1])
+
     def test_names_of_a_technol_program(self):
         mill = ["examples/technol-machining-centre"]
         for key in ("PlcError=x", "TOOLLIFE=1"):

@@ -52,6 +52,9 @@ bool isNamed(const SourceManager& sources, std::string_view key) {
 } // namespace
 
 std::string unknownKeyText(const frontend::Dialect& dialect, std::string_view key) {
+  if (const frontend::ForeignWord* foreign = frontend::findForeign(dialect.foreignKeys, key))
+    return fmt::format("'{}' is not a configuration key of {} programs; in this language: {}", key, dialect.name,
+                       foreign->here);
   const std::string meant = suggestion(dialect, key);
   return fmt::format("'{}' is not a configuration key of {} programs{}; `rungc explain config` lists them", key,
                      dialect.name, didYouMean(meant));
@@ -84,6 +87,8 @@ void report(const ConfigProblem& problem, const frontend::Dialect& dialect, Sour
   }
   DiagBuilder report = diagnostics.report(diag::UnknownConfigKey, range);
   report << problem.key << fmt::format("{} programs", dialect.name);
+  if (const frontend::ForeignWord* foreign = frontend::findForeign(dialect.foreignKeys, problem.key))
+    return frontend::explainForeign(report, {}, *foreign, false);
   report.meant({}, suggestion(dialect, problem.key));
   report.note("`rungc explain config` lists the keys");
 }

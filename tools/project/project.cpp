@@ -77,6 +77,10 @@ private:
     const SourceRange range = rangeOf(key.source());
     DiagBuilder report = diagnostics_.report(diag::UnknownProjectKey, range);
     report << key.str();
+    const frontend::Dialect* dialect = frontend::findDialect(project_.dialect);
+    const frontend::ForeignWord* foreign =
+        dialect == nullptr ? nullptr : frontend::findForeign(dialect->foreignKeys, key.str());
+    if (foreign != nullptr) return frontend::explainForeign(report, range, *foreign, false);
     const Likely meant = likeliest(key.str(), kKeys);
     suggest(report, range, meant);
     if (meant.word.empty())
@@ -86,11 +90,11 @@ private:
   }
 
   void readTable(const toml::table& table) {
-    for (const auto& [key, node] : table)
-      if (std::find(kKeys.begin(), kKeys.end(), key.str()) == kKeys.end()) reportUnknown(key);
     if (const toml::node* node = table.get("name")) readName(*node);
     if (project_.name.empty()) project_.name = folderName();
     readDialect(table.get("dialect"));
+    for (const auto& [key, node] : table)
+      if (std::find(kKeys.begin(), kKeys.end(), key.str()) == kKeys.end()) reportUnknown(key);
     readFiles(table.get("files"));
     if (const toml::node* node = table.get("include")) readInclude(*node);
     if (const toml::node* node = table.get("encoding")) readEncoding(*node);

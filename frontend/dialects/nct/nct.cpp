@@ -194,6 +194,9 @@ std::optional<std::string> format(SourceManager& sources, FileId file, Diagnosti
 
 constexpr std::string_view kExtensions[] = {".nct"};
 
+constexpr std::string_view kMessageStatement = "a statement of the program, `message 20 \"text\"`";
+constexpr frontend::ForeignWord kForeignKeys[] = {{"messages", kMessageStatement}, {"PlcErrors", kMessageStatement}};
+
 } // namespace
 
 static bool isBuilt(const frontend::InstructionInfo& info) {
@@ -210,6 +213,7 @@ const frontend::Dialect kNct = {
     .name = "nct",
     .title = "NCT2xx / NCT3xx PLC",
     .extensions = kExtensions,
+    .foreignKeys = kForeignKeys,
     .configKeys = nc::nctConfigKeys(),
     .instructions = allInfos(),
     .signals = nc::nctSignals,

@@ -111,6 +111,12 @@ TEST_F(ProjectFile, ReportsEveryMistakeWithItsPlace) {
   EXPECT_THAT(text(), HasSubstr("found true or false; 'machine' takes a text or a number"));
 }
 
+TEST_F(ProjectFile, SaysWhatStandsForAKeyOfAnotherDialect) {
+  EXPECT_THAT(mistakes("messages = \"main.msg\"\ndialect = \"nct\"\nfiles = [\"main.plc\"]\n"),
+              ElementsAre("1:1 unknown-project-key"));
+  EXPECT_THAT(text(), HasSubstr("in this language: a statement of the program, `message 20 \"text\"`"));
+}
+
 TEST_F(ProjectFile, NeedsADialectAndFiles) {
   EXPECT_THAT(mistakes("name = \"x\"\n"), ElementsAre("1:1 missing-project-key", "1:1 missing-project-key"));
 }

@@ -31,7 +31,7 @@ using ElementId = Id<struct ElementTag>;
 inline constexpr NetId kRail{0};
 inline constexpr NetId kNoNet{};
 
-/// Error: what could not be read, to the end of its line.
+/// Error: what could not be read, to the end of its bracket, or of its line.
 enum class ElementKind : uint8_t { Contact, Coil, Box, Error };
 enum class CoilKind : uint8_t { Plain, Negated, Set, Reset };
 

@@ -2,7 +2,6 @@
 #include "frontend/sema/operand_count.h"
 
 #include <algorithm>
-#include <string>
 
 #include "ir/support/diag/operand.h"
 
@@ -32,7 +31,12 @@ std::string listed(std::span<const OperandInfo> operands) {
 
 } // namespace
 
-bool countFits(const InstructionInfo& info, size_t found, SourceRange at, Diagnostics& diagnostics) {
+std::string operandOrder(const InstructionInfo& info) {
+  return "its operands in order: " + listed(info.operands.all());
+}
+
+bool countFits(const InstructionInfo& info, size_t found, SourceRange at, Diagnostics& diagnostics,
+               std::string_view note) {
   const std::span<const OperandInfo> operands = info.operands.all();
   const auto least = static_cast<size_t>(std::ranges::count(operands, false, &OperandInfo::optional));
   const bool repeated = !operands.empty() && operands.back().repeated;
@@ -40,8 +44,8 @@ bool countFits(const InstructionInfo& info, size_t found, SourceRange at, Diagno
   DiagBuilder report = diagnostics.report(diag::OperandCount, at);
   report << info.mnemonic << countText(least, operands.size(), repeated) << found;
   if (!operands.empty())
-    report.note("its operands in order: " + listed(operands) +
-                (least < operands.size() ? "; those in brackets may be left out" : ""));
+    report.note(operandOrder(info) + (least < operands.size() ? "; those in brackets may be left out" : ""));
+  if (!note.empty()) report.note(note);
   return false;
 }
 

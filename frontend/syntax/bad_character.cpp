@@ -46,6 +46,10 @@ void reportBadCharacter(std::string_view text, size_t offset, SourcePos begin, D
   if (character.value > 0x20) name += fmt::format(" '{}'", text.substr(offset, character.length));
   DiagBuilder report = diagnostics.report(diag::BadCharacter, {{at}, {at + character.length}});
   report << name;
+  if (character.valid && character.value >= 0xC0 && asciiFor(character.value) == '\0')
+    report.note(
+        "outside comments and quoted texts a program is ASCII: names have the letters A to Z and a to z, digits "
+        "and _");
   noteLookAlike(text, offset, begin, report);
 }
 

@@ -924,6 +924,19 @@ class HostileInput(Cli):
         self.assertEqual(done.returncode, WRONG)
         self.assertIn(b"[unknown-dialect]", done.stderr)
 
+    def test_a_dialect_of_almost_the_right_name(self):
+        for name in ("NCT", "nct2xx", "ntc"):
+            done = rungc("check", self.file("lamp.lad", LAMP.replace("dialect nct", f"dialect {name}")))
+            self.assertEqual(done.returncode, WRONG)
+            self.assertIn(b"did you mean nct?", done.stderr)
+        done = rungc("check", self.file("lamp.lad", LAMP.replace("dialect nct", "dialect NCT")), "--dialect", "nct")
+        self.assertIn(b"did you mean nct?", done.stderr)
+
+    def test_a_list_is_no_ladder_text(self):
+        done = rungc("check", self.file("lamp.lad", "LD 5100.00\nOUT 5101.00\n"))
+        self.assertIn(b"[missing-dialect]", done.stderr)
+        self.assertIn(b"this is a line of an instruction list", done.stderr)
+
     def test_limits_of_sources(self):
         chain = "".join(f"symbol S{i} S{i + 1},#1\n" for i in range(5000))
         done = self.survives(self.file("chain.lad", "dialect nct\n" + chain + "symbol S5000 5100\nmodule MAIN\n"))

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "frontend/ladder/text/ladder_file.h"
+#include "frontend/ladder/text/list_word.h"
 #include "ir/passes/passes.h"
 #include "ir/support/check.h"
 #include "ir/support/diag/ladder.h"
@@ -15,6 +16,7 @@
 #include "ir/support/meant.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::compiler {
 namespace {
@@ -41,7 +43,18 @@ void reportUnknownDialect(const SourceManager& sources, FileId file, std::string
   const SourceRange range = sources.range(file, begin, begin + word.size());
   DiagBuilder report = diagnostics.report(diag::UnknownDialect, range);
   report << word;
+  // nct2xx, GSK25iMc
+  for (const frontend::Dialect* dialect : frontend::allDialects())
+    if (text::startsWithIgnoringCase(word, dialect->name)) return static_cast<void>(report.meant(range, dialect->name));
   suggest(report, range, likeliest(word, frontend::allDialects(), &frontend::Dialect::name));
+}
+
+void reportNoDialect(const SourceManager& sources, FileId file, Diagnostics& diagnostics) {
+  DiagBuilder report = diagnostics.report(diag::MissingDialect, sources.range(file, 0, 0));
+  LineReader lines(sources, file);
+  LineWords words;
+  for (SourceLine line; words.words.empty() && lines.next(line);) splitWords(line, {}, words);
+  if (ladder::isListLine(words.words)) report.note(ladder::kListNote);
 }
 
 bool checkEncodingKey(const frontend::CompileOptions& options, Diagnostics& diagnostics) {
@@ -72,7 +85,7 @@ const frontend::Dialect* chooseDialect(const SourceManager& sources, std::span<c
   if (const std::string_view unknown = ladder::peekDialect(sources, files[0]); !unknown.empty())
     reportUnknownDialect(sources, files[0], unknown, diagnostics);
   else if (checkEncoding(sources, files[0], diagnostics))
-    diagnostics.report(diag::MissingDialect, start);
+    reportNoDialect(sources, files[0], diagnostics);
   return nullptr;
 }
 

@@ -19,6 +19,7 @@
 #include "ir/support/diag/structure.h"
 #include "ir/support/meant.h"
 #include "rtlib/nc/nct/messages.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::nct {
 namespace {
@@ -54,10 +55,15 @@ private:
     files_.reserve(ids_.size());
     for (FileId file : ids_) {
       ladder::LadderFile& parsed = files_.emplace_back(ladder::parseLadder(sources_, file, diagnostics_, findBoxInfo));
-      if (!parsed.dialect.empty() && parsed.dialect != "nct")
-        diagnostics_.report(diag::DialectConflict, parsed.dialectRange) << parsed.dialect << "nct";
+      if (!parsed.dialect.empty() && parsed.dialect != "nct") reportDialect(parsed);
       if (parsed.dialect.empty()) nameless_ = true; // the file could not be read
     }
+  }
+
+  void reportDialect(const ladder::LadderFile& file) {
+    DiagBuilder report = diagnostics_.report(diag::DialectConflict, file.dialectRange);
+    report << file.dialect << kNct.name;
+    if (text::startsWithIgnoringCase(file.dialect, kNct.name)) report.meant(file.dialectRange, kNct.name);
   }
 
   void declare() {
@@ -103,7 +109,9 @@ private:
     uint32_t number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) {
-      diagnostics_.report(diag::ConstantFormat, declaration.name.range) << digits;
+      DiagBuilder report = diagnostics_.report(diag::BadOperand, declaration.name.range);
+      report << digits << fmt::format("a number of 1 to {}", most);
+      if (digits.starts_with('#')) report.meant(declaration.name.range, digits.substr(1));
     } else if (error != std::errc() || number < 1 || number > most) {
       diagnostics_.report(diag::ConstantOutOfRange, declaration.name.range) << digits << "1 to " + std::to_string(most);
     } else if (!numbers_.insert(number + offset).second) {

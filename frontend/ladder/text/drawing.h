@@ -65,12 +65,15 @@ std::optional<std::vector<std::string>> layOut(const Drawing& drawing);
 /// The drawing of a rung of this file that is not bad, once more, with its pin lines found.
 Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, FindBox findBox);
 
-/// Adds a line to the drawing. Reports at most one error; drawing.bad is set then, and the rest of the line is an
-/// Error.
+/// Adds a line to the drawing. A mistake sets drawing.bad; what could not be read, an element or the rest of the line,
+/// is an Error.
 void scanDrawingLine(const SourceLine& line, Drawing& drawing, Diagnostics& diagnostics);
 
 /// Adds a line that cannot be read, which was reported, as an Error; sets drawing.bad.
 void addUnreadLine(const SourceLine& line, Drawing& drawing);
+
+/// Takes out what is drawn of a right rail.
+void dropRightRail(Drawing& drawing);
 
 /// Finds the pin lines of boxes: fills headOf and nextPin.
 void groupPins(Drawing& drawing, FindBox findBox, Diagnostics& diagnostics);

@@ -7,6 +7,7 @@
 
 #include "frontend/ladder/text/drawing.h"
 #include "frontend/ladder/text/keywords.h"
+#include "frontend/ladder/text/list_word.h"
 #include "frontend/syntax/bad_character.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
@@ -65,6 +66,7 @@ private:
   bool rungIsEmpty_ = false; // the last one
   bool hadStatement_ = false;
   bool hadOutsideRung_ = false;
+  bool isList_ = false; // an instruction list
 };
 
 LadderFile Parser::run() {
@@ -113,8 +115,14 @@ void Parser::drawingLine(const SourceLine& source) {
 }
 
 void Parser::reportUnknown(const Word& keyword) {
+  if (isList_) return; // reported at its first line
   DiagBuilder report = diagnostics_.report(diag::UnknownStatement, keyword.range);
   report << keyword.text;
+  isList_ = isListLine(words_.words);
+  if (isList_) {
+    report.note(kListNote);
+    return;
+  }
   if (keyword.text.starts_with("//") || keyword.text.starts_with('#')) {
     report.note("a comment begins with ';'");
     return;
@@ -250,6 +258,7 @@ void Parser::finishRung(Rung& rung) {
     rungIsEmpty_ = true;
   }
   Diagnostics unheard; // what else is wrong with a drawing that could not be read follows from that
+  dropRightRail(drawing_);
   groupPins(drawing_, findBox_, drawing_.bad ? unheard : diagnostics_);
   wireUp(drawing_, rung, drawing_.bad ? unheard : diagnostics_);
   rung.bad = drawing_.bad;

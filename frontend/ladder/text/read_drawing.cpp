@@ -15,6 +15,7 @@ Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung,
     const auto offset = static_cast<size_t>(text.data() - begin);
     scanDrawingLine({number, text, sources.position(file, offset)}, drawing, unheard);
   }
+  dropRightRail(drawing);
   groupPins(drawing, findBox, unheard);
   RUNG_CHECK(!drawing.bad, "the rung was parsed without errors");
   return drawing;

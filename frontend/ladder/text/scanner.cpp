@@ -25,11 +25,22 @@ struct ForeignMark {
   std::string_view here;
   bool same = true;
 };
-constexpr ForeignMark kContactMarks[] = {{"NOT", "[/"}, {"!", "[/"}};
-constexpr ForeignMark kCoilMarks[] = {
-    {"SET", "(S "}, {"S", "(S "},   {"RST", "(R "},          {"RESET", "(R "},
-    {"R", "(R "},   {"NOT", "(/"},  {"L", "(S ", false},     {"U", "(R ", false},
-    {"OTL", "(S "}, {"OTU", "(R "}, {"LATCH", "(S ", false}, {"UNLATCH", "(R ", false}};
+constexpr ForeignMark kContactMarks[] = {{"NOT", "[/"},      {"!", "[/"},      {"~", "[/"},      {"P", "[@"},
+                                         {"N", "[%", false}, {"R_TRIG", "[@"}, {"F_TRIG", "[%"}, {"-", "[/", false}};
+constexpr ForeignMark kCoilMarks[] = {{"SET", "(S "},
+                                      {"S", "(S "},
+                                      {"RST", "(R "},
+                                      {"RESET", "(R "},
+                                      {"R", "(R "},
+                                      {"NOT", "(/"},
+                                      {"!", "(/"},
+                                      {"~", "(/"},
+                                      {"L", "(S ", false},
+                                      {"U", "(R ", false},
+                                      {"OTL", "(S "},
+                                      {"OTU", "(R "},
+                                      {"LATCH", "(S ", false},
+                                      {"UNLATCH", "(R ", false}};
 
 bool isWire(char c) { return c == '-' || c == '+'; }
 bool isPrintable(char c) { return c > ' ' && c < 0x7F; }
@@ -58,8 +69,14 @@ private:
   void step();
   void wire();
   void element();
+  void skipBad(size_t begin);
   void unread();
+  void addError(size_t begin, size_t end);
+  void countContinuations(size_t begin);
   void strayText();
+  size_t emptyBarsEnd() const;
+  void emptyBars(size_t end);
+  void noteContact(DiagBuilder& report, size_t end) const;
   void remark(const DrawnLine& drawn);
   bool contact(Element& element);
   bool coil(Element& element);
@@ -88,6 +105,8 @@ private:
   bool unclosed(size_t end, char close);
   bool badElement(size_t end, std::string_view forms);
   bool severalWords(const Element& element, size_t begin, size_t end, std::string_view forms);
+  bool misplacedNegation(const Element& element, size_t begin, size_t end, std::string_view forms);
+  void meant(DiagBuilder& report, std::string drawn, bool certain) const;
   bool badCharacter(size_t offset);
 
   const SourceLine& line_;
@@ -97,12 +116,15 @@ private:
   size_t at_ = 0;
   size_t continuations_ = 0; ///< bytes so far that begin no character: byte offset − this = column
   bool good_ = true;
+  size_t badEnd_ = 0; ///< after the closing bracket of an element that was reported; 0: it has none
 };
 
 void LineScanner::step() {
   const char c = text_[at_];
   if (c == ' ') {
     at_ = skipBlanks(at_, text_.size());
+  } else if (const size_t end = emptyBarsEnd(); end != 0) {
+    emptyBars(end);
   } else if (c == '|') {
     push(at_ == 0 ? TokenKind::Rail : TokenKind::Bar, at_, at_ + 1, kNone);
     ++at_;
@@ -130,7 +152,36 @@ void LineScanner::strayText() {
     badCharacter(at_);
     return;
   }
-  diagnostics_.report(diag::StrayText, line_.range(at_, end)) << text_.substr(at_, end - at_);
+  DiagBuilder report = diagnostics_.report(diag::StrayText, line_.range(at_, end));
+  report << text_.substr(at_, end - at_);
+  noteContact(report, end);
+}
+
+/// `-| |-`, a contact whose name may be above it: where it ends; 0 where there is none.
+size_t LineScanner::emptyBarsEnd() const {
+  if (at_ == 0 || text_[at_] != '|' || !isWire(text_[at_ - 1])) return 0;
+  const size_t second = skipBlanks(at_ + 1, text_.size());
+  const bool isContact = second + 1 < text_.size() && text_[second] == '|' && isWire(text_[second + 1]);
+  return isContact ? second + 1 : 0;
+}
+
+void LineScanner::emptyBars(size_t end) {
+  diagnostics_.report(diag::StrayText, line_.range(at_, end)).note("a contact is drawn as [x], a closed one as [/x]")
+      << text_.substr(at_, end - at_);
+  badEnd_ = end;
+  skipBad(at_);
+}
+
+/// `-|A|-`, `-| /A |-` and `-] [-` are contacts of other ladders.
+void LineScanner::noteContact(DiagBuilder& report, size_t end) const {
+  const std::string_view word = text_.substr(at_, end - at_);
+  const size_t before = text_.find_last_not_of(' ', at_ - 1);
+  const size_t after = skipBlanks(end, text_.size());
+  const bool barred = before < at_ && text_[before] == '|' && after < text_.size() && text_[after] == '|';
+  if (word.starts_with(']') || (barred && word == "/"))
+    report.note(fmt::format("a {}contact is drawn as [{}x]", barred ? "closed " : "", barred ? "/" : ""));
+  else if (barred)
+    report.note(fmt::format("a contact is drawn as [{}]", word));
 }
 
 /// The comment after the line belongs to its last element.
@@ -157,27 +208,44 @@ void LineScanner::element() {
   }
   if (!good_) {
     drawing_.operands.resize(operands);
+    if (badEnd_ != 0) skipBad(begin);
     return;
   }
   element.range = line_.range(begin, at_);
   element.operands.count = static_cast<uint32_t>(drawing_.operands.size()) - element.operands.first;
   push(TokenKind::Element, begin, at_, static_cast<uint32_t>(drawing_.elements.size()));
   drawing_.elements.push_back(element);
-  const std::string_view drawn = text_.substr(begin, at_ - begin);
-  continuations_ += drawn.size() - countCodePoints(drawn);
+  countContinuations(begin);
+}
+
+/// A bad element whose end is known: what follows on the line is read.
+void LineScanner::skipBad(size_t begin) {
+  addError(begin, badEnd_);
+  at_ = badEnd_;
+  countContinuations(begin);
+  badEnd_ = 0;
+  good_ = true;
 }
 
 /// From here to the end of the line.
-void LineScanner::unread() {
+void LineScanner::unread() { addError(at_, text_.size()); }
+
+void LineScanner::addError(size_t begin, size_t end) {
   drawing_.bad = true;
   Element element;
   element.kind = ElementKind::Error;
   element.operands.first = static_cast<uint32_t>(drawing_.operands.size());
-  element.range = line_.range(at_, dropBlanks(at_, text_.size()));
+  element.range = line_.range(begin, dropBlanks(begin, end));
   element.line = line_.number;
-  element.column = static_cast<uint32_t>(at_ - continuations_ + 1);
-  push(TokenKind::Element, at_, text_.size(), static_cast<uint32_t>(drawing_.elements.size()));
+  element.column = static_cast<uint32_t>(begin - continuations_ + 1);
+  push(TokenKind::Element, begin, end, static_cast<uint32_t>(drawing_.elements.size()));
   drawing_.elements.push_back(element);
+}
+
+/// Of an element from `begin` to here.
+void LineScanner::countContinuations(size_t begin) {
+  const std::string_view drawn = text_.substr(begin, at_ - begin);
+  continuations_ += drawn.size() - countCodePoints(drawn);
 }
 
 bool LineScanner::unclosed(size_t end, char close) {
@@ -186,33 +254,49 @@ bool LineScanner::unclosed(size_t end, char close) {
 }
 
 bool LineScanner::badElement(size_t end, std::string_view forms) {
+  badEnd_ = end;
   diagnostics_.report(diag::BadElement, line_.range(at_, end)) << forms;
   return false;
 }
 
-/// In the place of one operand; the element keeps its width where it is put right.
+/// In the place of one operand.
 bool LineScanner::severalWords(const Element& element, size_t begin, size_t end, std::string_view forms) {
   const bool contact = element.kind == ElementKind::Contact;
-  const size_t close = text_.find_first_of("])", end) + 1;
+  badEnd_ = text_.find_first_of("])", end) + 1;
   const std::string_view words = text_.substr(begin, end - begin);
   const std::string_view first = words.substr(0, words.find(' '));
   const std::string_view rest = words.substr(skipBlanks(begin + first.size(), end) - begin);
-  DiagBuilder report = diagnostics_.report(diag::BadElement, line_.range(at_, close));
+  DiagBuilder report = diagnostics_.report(diag::BadElement, line_.range(at_, badEnd_));
   report << forms;
   const std::span<const ForeignMark> marks = contact ? std::span<const ForeignMark>(kContactMarks) : kCoilMarks;
   const auto mark =
       std::ranges::find_if(marks, [&](const ForeignMark& one) { return text::equalsIgnoringCase(one.word, first); });
   const bool isOperand = rest.find(' ') == std::string_view::npos && rest.find_first_of("/!#@%") != 0;
-  if (mark == marks.end() || element.negated || element.edge != 0 || !isOperand) {
-    if (contact) report.note("contacts in series are drawn one after the other, contacts in parallel in branches");
-    return false;
-  }
-  const size_t wide = close - at_ - 1; // without the closing bracket
-  std::string drawn = fmt::format("{}{}", mark->here, rest);
-  report.note(fmt::format("did you mean {}{}?", drawn, text_[close - 1]));
-  if (!mark->same || drawn.size() > wide) return false;
+  if (mark != marks.end() && !element.negated && element.edge == 0 && isOperand)
+    meant(report, fmt::format("{}{}", mark->here, rest), mark->same);
+  else if (contact && mark == marks.end())
+    report.note("contacts in series are drawn one after the other, contacts in parallel in branches");
+  return false;
+}
+
+/// The element that a bad one was meant to be, without its closing bracket; it keeps its width where it is put right.
+void LineScanner::meant(DiagBuilder& report, std::string drawn, bool certain) const {
+  const char close = text_[badEnd_ - 1];
+  const size_t wide = badEnd_ - at_ - 1;
+  report.note(fmt::format("did you mean {}{}?", drawn, close));
+  if (!certain || drawn.size() > wide) return;
   drawn.resize(wide, ' ');
-  report.fix(line_.range(at_, close), drawn + text_[close - 1]);
+  report.fix(line_.range(at_, badEnd_), drawn + close);
+}
+
+/// The negation of other languages, `~x`, or one after the edge, `@/x`.
+bool LineScanner::misplacedNegation(const Element& element, size_t begin, size_t end, std::string_view forms) {
+  badEnd_ = text_.find_first_of("])", end) + 1;
+  DiagBuilder report = diagnostics_.report(diag::BadElement, line_.range(at_, badEnd_));
+  report << forms;
+  const std::string_view edge(&element.edge, element.edge != 0 ? 1 : 0);
+  if (!element.negated && element.coil == CoilKind::Plain)
+    meant(report, fmt::format("{}/{}{}", text_[at_], edge, text_.substr(begin + 1, end - begin - 1)), true);
   return false;
 }
 
@@ -237,9 +321,13 @@ bool LineScanner::operand(Element& element, size_t begin, size_t end, std::strin
   }
   const std::string_view word = text_.substr(begin, end - begin);
   const size_t bad = findUnprintable(text_, begin, end);
-  if (bad != end && text_[bad] != ' ') return badCharacter(bad);
+  if (bad != end && text_[bad] != ' ') {
+    badEnd_ = text_.find_first_of("])", end) + 1;
+    return badCharacter(bad);
+  }
   if (word.find(' ') != std::string_view::npos) return severalWords(element, begin, end, forms);
   if (word.empty()) return badElement(text_.find_first_of("])", end) + 1, forms);
+  if (word[0] == '~' || word[0] == '/') return misplacedNegation(element, begin, end, forms);
   pushOperand(begin, end, false);
   return true;
 }

@@ -132,9 +132,9 @@ bool isForeignOperand(const Word& word) {
 // The name alone would be the bit that is not negated. False where the operand is not negated.
 bool noteNegation(const Language& language, std::string_view operand, DiagBuilder& report) {
   if (!isNegated(operand)) return false;
-  report.note(fmt::format("a bit is negated by its command: {}, {}, {} or {}", language.nameOf(Command::LoadNot),
-                          language.nameOf(Command::AndNot), language.nameOf(Command::OrNot),
-                          language.nameOf(Command::OutNot)));
+  report.note(fmt::format("a bit is negated by its command: {}, {}, {} or {}; in a drawing a closed contact is [/x]",
+                          language.nameOf(Command::LoadNot), language.nameOf(Command::AndNot),
+                          language.nameOf(Command::OrNot), language.nameOf(Command::OutNot)));
   return true;
 }
 
@@ -315,9 +315,14 @@ void reportUnknownCommand(Context& context, std::span<const Word> words) {
   suggestInstruction(context, word.range, {similar.word, similar.certain && fits(similar.word)}, report);
 }
 
-void reportUnknownFunction(Context& context, std::string_view name, SourceRange range) {
+void reportUnknownFunction(Context& context, std::string_view name, SourceRange range, std::string_view drawn) {
   DiagBuilder report = context.diagnostics.report(diag::UnknownFunction, range);
   report << name;
+  if (!drawn.empty()) return static_cast<void>(report.note(fmt::format("in a drawing: {}", drawn)));
+  if (findCommand(context.language, name)) {
+    report.note(fmt::format("{} is a command: its line has no `{}`", name, context.language.nameOf(Command::Function)));
+    return;
+  }
   if (!context.diagnostics.suggests()) return;
   const auto isFunction = [](const Row* row) { return row->info.number >= 0; };
   const auto mnemonicOf = [](const Row* row) { return row->info.mnemonic; };

@@ -99,9 +99,9 @@ void reportUndeclared(Context& context);
 // Whether the first two words of a statement are one command of another language: AND NOT.
 bool isForeign(const Language& language, std::span<const Word> words);
 // Reports the words of a statement that begins with no command, and a function that FUNC or a box names wrongly; with
-// what was meant, perhaps.
+// what was meant, perhaps. `drawn`: what a box means whose name is a command's (ladder::drawnFor).
 void reportUnknownCommand(Context& context, std::span<const Word> words);
-void reportUnknownFunction(Context& context, std::string_view name, SourceRange range);
+void reportUnknownFunction(Context& context, std::string_view name, SourceRange range, std::string_view drawn = {});
 
 // One step of the program memory more (P1); the one that is too much is reported.
 void countStep(Context& context, SourceRange range);

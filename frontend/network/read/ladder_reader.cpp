@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/ladder/text/list_word.h"
 #include "frontend/ladder/text/pin_rules.h"
 #include "frontend/network/read/canonical.h"
 #include "frontend/network/read/condition.h"
@@ -146,7 +147,7 @@ bool RungReader::checkBox() {
   if (box_ == nullptr) return true;
   row_ = context_.language.findFunction(box_->mnemonic);
   if (row_ == nullptr) {
-    reportUnknownFunction(context_, box_->mnemonic, box_->mnemonicRange);
+    reportUnknownFunction(context_, box_->mnemonic, box_->mnemonicRange, ladder::drawnFor(box_->mnemonic));
     return false;
   }
   if (isEnd(row_->control) || row_->control == Control::Sp) {
@@ -396,7 +397,8 @@ void LadderReader::readOperands(const ladder::Rung& rung, const Element& element
   }
   Function function{.row = context_.language.findFunction(element.mnemonic), .range = element.range};
   const bool mayBePin = words.empty();
-  if (function.row == nullptr && !mayBePin) reportUnknownFunction(context_, element.mnemonic, element.mnemonicRange);
+  if (function.row == nullptr && !mayBePin)
+    reportUnknownFunction(context_, element.mnemonic, element.mnemonicRange, ladder::drawnFor(element.mnemonic));
   if (function.row == nullptr) return;
   const auto table = std::ranges::find_if(
       words, [&](const Word& word) { return function.row->hasTable && isTableWord(context_.language, word); });

@@ -40,6 +40,18 @@ e3 (R Y) n2 -> .
 )");
 }
 
+// The right rail adds nothing; lines that do not reach it have it alone.
+TEST(Drawing, RightRail) {
+  const char* expected = "e0 [A] n0 -> n1\ne1 [B] n0 -> n1\ne2 (X) n1 -> .\ne3 [C] n0 -> n2\ne4 {MOV D E} n2 -> .\n";
+  EXPECT_EQ(elementsOf("|--[A]--+--(X)\n|--[B]--+\n|\n|--[C]--{MOV D E}\n"), expected);
+  EXPECT_EQ(elementsOf("|--[A]--+--(X)------|\n"
+                       "|--[B]--+           |\n"
+                       "|                   |\n"
+                       "|--[C]--{MOV D E}---|\n"),
+            expected);
+  EXPECT_EQ(elementsOf("|--[A]--+--(X)|\n|--[B]--+\n|\n|--[C]--{MOV D E}|\n"), expected) << "need not be straight";
+}
+
 TEST(Drawing, BoxWithOutput) {
   EXPECT_EQ(elementsOf("|--[EN]--{TOND T_WARM #500 #0}--(WARM)\n"),
             "e0 [EN] n0 -> n1\ne1 {TOND T_WARM #500 #0} n1 -> n2\ne2 (WARM) n2 -> .\n");

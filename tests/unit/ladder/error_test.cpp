@@ -80,8 +80,31 @@ TEST(DrawingErrors, VerticalWires) {
   EXPECT_EQ(errorsOf("|--[A]--|--(X)\n"), "4:7 dangling-wire\n");
   EXPECT_EQ(errorsOf("|--[A]--+--[B]--+--(X)\n        |--[C]--|\n"), "5:9 dangling-wire\n");
   EXPECT_EQ(errorsOf("|--[A]--+--[B]--+--(X)\n        +--[C]--|\n        +--[D]--+\n"), "5:15 dangling-wire\n");
-  EXPECT_EQ(errorsOf("|--[A]--(X)--|\n"), "4:12 dangling-wire\n");
   EXPECT_EQ(errorsOf(" |--[A]--(X)\n"), "4:2 dangling-wire\n");
+}
+
+// Only after what ends a line is a '|' the right rail.
+TEST(DrawingErrors, RightRail) {
+  EXPECT_EQ(errorsOf("|--[A]--|\n"), "4:7 dangling-wire\n");
+  EXPECT_EQ(errorsOf("|--[A]--{CEQ B C}--|--(X)\n|--[D]--{CEQ E F}--|\n"), "4:18 dangling-wire\n5:18 dangling-wire\n");
+  EXPECT_EQ(errorsOf("|--[A]--(X)--|\n|--[B]-------|\n"), "5:7 missing-closing-element\n");
+  EXPECT_EQ(errorsOf("|--[A]--(X)--|--(Y)\n"), "4:12 dangling-wire\n");
+}
+
+TEST(DrawingErrors, SeveralBadElementsOfALine) {
+  EXPECT_EQ(errorsOf("|--[A B]--[~C]--[\u0410]--(SET D)\n"),
+            "4:4 bad-element\n4:11 bad-element\n4:18 bad-character\n4:22 bad-element\n");
+  EXPECT_EQ(errorsOf("|--[]--{MOV A\n"), "4:4 bad-element\n4:8 unclosed-element\n");
+}
+
+TEST(DrawingErrors, ContactsOfBars) {
+  EXPECT_EQ(errorsOf("|--| |--( )--|\n"), "4:4 stray-text\n4:9 bad-element\n");
+  EXPECT_EQ(errorsOf("|--|A|--(X)\n"), "4:5 stray-text\n");
+}
+
+TEST(DrawingErrors, NegationAfterTheEdge) {
+  for (const char* element : {"[~A]", "[@/A]", "[%~A]", "[//A]", "(~A)", "(S /A)"})
+    EXPECT_EQ(errorsOf(std::string("|--[B]--") + element + "\n"), "4:9 bad-element\n") << element;
 }
 
 TEST(DrawingErrors, NothingLeadsFromTheRail) {

@@ -131,6 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Operands, MainRung,
                          ::testing::ValuesIn(std::vector<RungCase>{
                              {"TooFew", "|--[PEAR]--{MOV 7000}", "4:13 operand-count"},
                              {"TooMany", "|--[PEAR]--{MOV 7000 #1 #2}", "4:25 operand-count"},
+                             {"OneUnknown", "|--[PEAR]--{MOV NO}", "4:13 operand-count, 4:17 undeclared-symbol"},
                              {"MacroOfNoChannel", "|--[PEAR]--{MACR 7000 #500 #8}", "4:28 constant-out-of-range (w)"},
                              {"NoneForJump", "|--[PEAR]--{JMP}", "4:13 operand-count"},
                              {"SomeForRet", "|--[PEAR]--{RET #1}", "4:12 ret-outside-subroutine, 4:17 operand-count"},
@@ -267,7 +268,7 @@ TEST(NctDiagnostics, Texts) {
   const Compiled c = compileMain("message 0 \"a\"\nmessage 1000 \"b\"\nmessage 20 \"c\"\nmessage 20 \"d\"\nbutton 33 "
                                  "\"e\"\nbutton 20 \"f\"\nmessage x \"g\"\n");
   EXPECT_EQ(codesOf(c), "3:9 constant-out-of-range, 4:9 constant-out-of-range, 6:9 duplicate-symbol, 7:8 "
-                        "constant-out-of-range, 9:9 constant-format");
+                        "constant-out-of-range, 9:9 bad-operand");
 }
 
 // --- outputs
@@ -484,7 +485,7 @@ TEST(NctDiagnostics, HintsHowToMend) {
                         {"rung\n |--[N_ON]--(7001.00)", "put the rail into the first column"},
                         {"module MIAN", "did you mean MAIN?"},
                         {"rung\n\n|--[N_ON]--(7001.00)", "without a blank line between"},
-                        {"const LIMIT 10", "write #10"},
+                        {"const LIMIT 10", "a constant is written #10"},
                         {"rung\n|--[N_ON]--(INP000.00)", "stays until the NC writes it again"},
                         {"rung \u201cx\u201d", "write '\"'"},
                         {"rung\n|\u2013[N_ON]--(7001.00)", "write '-'"},

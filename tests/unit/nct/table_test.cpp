@@ -89,6 +89,7 @@ constexpr std::string_view kSymbols = "symbol START 7900.00\nsymbol STOP 7900.01
 std::string exampleProgram(const NctInstruction& row) {
   const frontend::InstructionInfo& info = row.info;
   std::string text(kSymbols);
+  if (info.group == "message") text += "message 20 \"fault\"\n";
   const std::string example(info.example);
   if (row.flow == Flow::Section) return text + example + "\n";
   const auto rung = [](const std::string& drawing) { return "rung\n" + drawing + "\n\n"; };

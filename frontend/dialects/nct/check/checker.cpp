@@ -8,6 +8,7 @@
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "frontend/dialects/nct/rows/operand_kinds.h"
 #include "frontend/ladder/text/fix.h"
+#include "frontend/ladder/text/list_word.h"
 #include "frontend/ladder/text/pin_rules.h"
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/ladder.h"
@@ -57,6 +58,12 @@ std::string nameOf(const ladder::Element& element, const NctInstruction& row, st
 }
 
 bool sameName(std::string_view a, std::string_view b) { return a == b; }
+
+// Of a box that is written like a line of an instruction list: its word and one operand.
+std::string listNote(const ladder::Element& element) {
+  const std::string_view drawn = element.operands.count == 1 ? ladder::drawnFor(element.mnemonic) : std::string_view();
+  return drawn.empty() ? std::string() : fmt::format("in a drawing: {}", drawn);
+}
 
 } // namespace
 
@@ -127,6 +134,10 @@ const NctInstruction* RungChecker::rowOf(const ladder::Element& element, const O
 void RungChecker::reportUnknown(const ladder::Element& element) {
   DiagBuilder report = diagnostics_.report(diag::UnknownInstruction, element.mnemonicRange);
   report << element.mnemonic;
+  if (const std::string note = listNote(element); !note.empty()) {
+    report.note(note);
+    return;
+  }
   if (const frontend::ForeignWord* foreign = frontend::findForeign(foreignWords(), element.mnemonic))
     return explainForeign(report, element, *foreign);
   if (!diagnostics_.suggests()) return;
@@ -225,14 +236,24 @@ RungChecker::CoilTraits RungChecker::coilTraits(const ladder::Rung& rung, const 
   return {.isSet = element.coil == ladder::CoilKind::Set, .isDue = isDue};
 }
 
+// Of too few or too many operands none has a place, but each may be wrong by itself.
+void RungChecker::readUncounted(const NctInstruction& row, std::span<const Word> words) {
+  const auto isValue = [](const OperandInfo& operand) { return kindOf(operand).parse == OperandClass::Value; };
+  if (!std::ranges::all_of(row.info.operands.all(), isValue)) return;
+  for (const Word& word : words) parseOperand(word, symbols_, diagnostics_);
+}
+
 bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
   const ladder::Element& element = *typedElement.element;
   const NctInstruction& row = *typedElement.row;
   const std::span<const Word> words = typed.rung->operandsOf(element);
   const size_t most = row.info.operands.size();
   const SourceRange count = words.size() > most ? words[most].range : element.mnemonicRange;
-  if (element.kind == ElementKind::Box && !frontend::countFits(row.info, words.size(), count, diagnostics_))
+  if (element.kind == ElementKind::Box &&
+      !frontend::countFits(row.info, words.size(), count, diagnostics_, listNote(element))) {
+    readUncounted(row, words);
     return false;
+  }
   bool ok = true;
   for (size_t i = 0; i < words.size(); ++i) {
     switch (kindOf(row.info.operands[i]).parse) {
@@ -277,10 +298,7 @@ bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Op
       diagnostics_.report(diag::SymbolKindMismatch, range)
           << text << "a constant" << (kind.form == Form::Bit ? "a bit" : "an address");
     else
-      diagnostics_.report(diag::OperandNotRegister, range) << static_cast<int>(index + 1)
-                                                           << (row.shape == Shape::Contact ? "a contact"
-                                                               : row.shape == Shape::Coil  ? "a coil"
-                                                                                           : row.info.mnemonic);
+      reportNoRegister(row, index, range);
     return false;
   }
   if (operand.form != kind.form) {
@@ -288,6 +306,15 @@ bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Op
     return false;
   }
   return checkRegister(row, index, operand);
+}
+
+void RungChecker::reportNoRegister(const NctInstruction& row, size_t index, SourceRange range) {
+  DiagBuilder report = diagnostics_.report(diag::OperandNotRegister, range);
+  report << static_cast<int>(index + 1)
+         << (row.shape == Shape::Contact ? "a contact"
+             : row.shape == Shape::Coil  ? "a coil"
+                                         : row.info.mnemonic);
+  if (row.info.operands.size() > 1) report.note(frontend::operandOrder(row.info));
 }
 
 bool RungChecker::checkRegister(const NctInstruction& row, size_t index, const Operand& operand) {
@@ -340,10 +367,25 @@ bool RungChecker::checkConstant(const NctInstruction& row, size_t index, const O
         << operand.source->text << fmt::format("{} to {}", info.min, info.max);
     return false;
   }
-  if (!fits)
-    diagnostics_.report(diag::OperandTypeMismatch, operand.source->range)
-        << operand.source->text << describe(is) << row.info.mnemonic << kindOf(info).wanted;
+  if (!fits) reportOtherConstant(row, index, operand);
   return fits;
+}
+
+// With the constant, or the box, of the other format.
+void RungChecker::reportOtherConstant(const NctInstruction& row, size_t index, const Operand& operand) {
+  const OperandKind& kind = kindOf(row.info.operands[index]);
+  const Constant& constant = operand.constant;
+  DiagBuilder report = diagnostics_.report(diag::OperandTypeMismatch, operand.source->range);
+  report << operand.source->text << describe(constant.kind) << row.info.mnemonic << kind.wanted;
+  const std::string_view doubles = doublesOf(row.info.mnemonic);
+  if (constant.kind == ConstantKind::Real && !doubles.empty())
+    report.note(fmt::format("{} is for integers; for doubles there is {}", row.info.mnemonic, doubles));
+  else if (constant.kind == ConstantKind::Decimal && kind.constants == setOf(ConstantKind::Real))
+    report.note(fmt::format("as a double it is written *{}.0", constant.integer));
+  else if (constant.kind == ConstantKind::Decimal && kind.constants == setOf(ConstantKind::Hex))
+    report.note(fmt::format("in hexadecimal it is written #${:X}", static_cast<uint32_t>(constant.integer)));
+  else if (constant.kind == ConstantKind::Hex && kind.constants == setOf(ConstantKind::Decimal))
+    report.note(fmt::format("in decimal it is written #{}", constant.integer));
 }
 
 // Edges belong to contacts; `!` to single bits of the NC area in INT0 (l.546, l.590-596).
@@ -358,6 +400,7 @@ bool RungChecker::checkModifiers(const NctInstruction& row, const ladder::Elemen
   if (immediate && !inInt0_) {
     DiagBuilder report = diagnostics_.report(diag::ImmediateOutsideInt0, range);
     if (element.kind == ElementKind::Contact) report.note("a closed contact is written [/x]");
+    if (element.kind == ElementKind::Coil) report.note("a negated coil is written (/x)");
     return false;
   }
   if (immediate && element.kind == ElementKind::Box) {

@@ -38,8 +38,11 @@ private:
   bool checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
   bool readOperands(TypedRung& typed, TypedElement& element);
+  void readUncounted(const NctInstruction& row, std::span<const Word> words);
   bool readLabel(TypedElement& element, const Word& word);
   bool checkOperand(const NctInstruction& row, size_t index, const Operand& operand);
+  void reportNoRegister(const NctInstruction& row, size_t index, SourceRange range);
+  void reportOtherConstant(const NctInstruction& row, size_t index, const Operand& operand);
   bool checkRegister(const NctInstruction& row, size_t index, const Operand& operand);
   bool checkConstant(const NctInstruction& row, size_t index, const Operand& operand);
   bool checkDestination(const frontend::OperandInfo& info, const Operand& operand);

@@ -78,7 +78,7 @@ void checkMessageNumbers(std::initializer_list<const TypedModule*> modules, cons
       all = all && operand.form == Form::Constant;
       if (operand.form != Form::Constant) return;
       const auto number = static_cast<uint32_t>(operand.constant.integer);
-      if (shown.insert(number).second && !texts.empty() && !texts.contains(number))
+      if (shown.insert(number).second && !texts.contains(number))
         diagnostics.report(diag::MessageWithoutText, operand.source->range) << number;
     });
   if (!all) return;

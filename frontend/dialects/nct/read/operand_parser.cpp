@@ -24,6 +24,21 @@ constexpr std::string_view kRealRange = "the range of a double";
 
 bool allDigits(std::string_view text) { return !text.empty() && std::ranges::all_of(text, isDigit); }
 
+bool allHex(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return hexDigit(c) >= 0; });
+}
+
+// A number without the sign that constants begin with, with its own sign or without.
+bool isDecimalNumber(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  return allDigits(text);
+}
+bool isRealNumber(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  const size_t point = text.find('.');
+  return point != std::string_view::npos && allDigits(text.substr(0, point)) && allDigits(text.substr(point + 1));
+}
+
 // A number of too many digits is too large for everything.
 int64_t decimalValue(std::string_view digits) { return text::numberIn<int64_t>(digits).value_or(INT64_MAX); }
 
@@ -45,10 +60,8 @@ struct ConstantReader {
     }
     if (text.starts_with('#') && text.find('.') != std::string_view::npos)
       report.note("'#' begins an integer; a real number is written *" + std::string(text.substr(1)));
-    const std::string_view digits = text.substr(text.starts_with('#') ? 1 : 0);
-    if (noteForeignConstant(digits, report)) return std::nullopt;
-    if (!digits.empty() && std::ranges::all_of(digits, [](char c) { return hexDigit(c) >= 0; }))
-      report.note(fmt::format(kHexConstant, digits));
+    else if (text.starts_with('#'))
+      noteConstant(report, allHex(text.substr(1)) ? text : text.substr(1));
     return std::nullopt;
   }
 
@@ -67,7 +80,7 @@ struct ConstantReader {
   }
 
   std::optional<Constant> hexadecimal(std::string_view digits) {
-    if (digits.empty() || !std::ranges::all_of(digits, [](char c) { return hexDigit(c) >= 0; })) return malformed();
+    if (!allHex(digits)) return malformed();
     const auto value = text::numberIn<uint32_t>(digits, 16);
     if (!value) return tooLarge(kHexRange);
     return Constant{.kind = ConstantKind::Hex, .integer = static_cast<int32_t>(*value), .real = 0};
@@ -133,7 +146,7 @@ private:
     else if (allDigits(text))
       report.note("a constant is written #" + std::string(text));
     else
-      noteForeignConstant(text, report);
+      noteConstant(report, text);
     return std::nullopt;
   }
 
@@ -250,17 +263,6 @@ const Symbol* constantSymbol(std::string_view text, SymbolTable& symbols) {
 
 } // namespace
 
-bool noteForeignConstant(std::string_view text, DiagBuilder& report) {
-  const std::optional<frontend::ForeignNumber> number = frontend::foreignNumber(text);
-  if (!number) return false;
-  const auto value = text::numberIn<uint64_t>(number->digits, static_cast<int>(number->base));
-  if (number->base == 16)
-    report.note(fmt::format(kHexConstant, number->digits));
-  else if (value)
-    report.note(fmt::format("there are no binary constants; in decimal it is #{}", *value));
-  return true;
-}
-
 SourceRange rangeOf(const Word& word, std::string_view part) {
   if (part.empty()) return word.range;
   const uint32_t begin =
@@ -276,6 +278,22 @@ std::string_view describe(SymbolKind kind) {
   case SymbolKind::Constant: return "a constant";
   }
   return "";
+}
+
+void noteConstant(DiagBuilder& report, std::string_view text) {
+  const std::optional<frontend::ForeignNumber> foreign = frontend::foreignNumber(text);
+  const std::string_view number = text.substr(text.starts_with('+') ? 1 : 0); // constants have no '+'
+  if (foreign && foreign->base == 16)
+    report.note(fmt::format(kHexConstant, foreign->digits));
+  else if (foreign)
+    report.note(fmt::format("there are no binary constants; in decimal it is #{}",
+                            text::numberIn<uint64_t>(foreign->digits, static_cast<int>(foreign->base)).value_or(0)));
+  else if (text.starts_with('#') && allHex(text.substr(1)))
+    report.note(fmt::format(kHexConstant, text.substr(1)));
+  else if (isDecimalNumber(text))
+    report.note(fmt::format("a constant is written #{}", number));
+  else if (isRealNumber(text))
+    report.note(fmt::format("a real number is written *{}", number));
 }
 
 std::optional<Constant> parseConstant(const Word& word, std::string_view text, Diagnostics& diagnostics) {
@@ -311,8 +329,12 @@ Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagno
     operand.form = constant ? Form::Constant : Form::Bad;
     return operand;
   }
-  if (text.starts_with('-') || text.starts_with('+')) {
-    diagnostics.report(diag::ConstantFormat, rangeOf(word, text)) << text;
+  if (text.starts_with('-') || text.starts_with('+') || frontend::foreignNumber(text)) {
+    DiagBuilder report = diagnostics.report(diag::ConstantFormat, rangeOf(word, text));
+    report << text;
+    noteConstant(report, text);
+    if (!isDigit(text[0]) && text.size() > 1 && (isLetter(text[1]) || text[1] == '_'))
+      report.note("a name begins with a letter or _; a closed contact is written [/x]");
     return operand;
   }
   operand.fromSymbol = !text.empty() && !isDigit(text[0]);

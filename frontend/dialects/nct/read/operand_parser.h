@@ -11,11 +11,11 @@ namespace rung::nct {
 // The characters of `part`, a piece of word.text, in the source.
 SourceRange rangeOf(const Word& word, std::string_view part);
 
+// How a number without the # or * of a constant, or of another language, is written here, where it is one.
+void noteConstant(DiagBuilder& report, std::string_view text);
+
 // `text`, a piece of `word`, begins with # or *.
 std::optional<Constant> parseConstant(const Word& word, std::string_view text, Diagnostics& diagnostics);
-
-// Of a word that is a number in another language: how it is written here. False where it is none.
-bool noteForeignConstant(std::string_view text, DiagBuilder& report);
 
 struct ParsedAddress {
   Address address;

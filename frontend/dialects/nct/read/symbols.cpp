@@ -26,8 +26,22 @@ struct Alias {
 constexpr Alias kAliases[] = {{"AP_DISP", "AP_DISPD"}, {"SP_SENDD", "SP_SEND"}};
 
 bool isName(std::string_view text) {
-  return !text.empty() && !isDigit(text[0]) && text[0] != '-' && text[0] != '+' &&
+  return !text.empty() && (isLetter(text[0]) || text[0] == '_') &&
          text.find_first_of(".,:#*@%!/\"") == std::string_view::npos;
+}
+
+// What a designation of IEC 81346 or another bad name may become: K1 of -K1, _1M1 of 1M1; empty when that is not a name.
+std::string likeName(std::string_view text) {
+  const auto isPart = [](char c) { return isLetter(c) || isDigit(c) || c == '_'; };
+  std::string name;
+  for (const char c : text) {
+    if (isPart(c))
+      name += c;
+    else if (!name.empty())
+      name += '_';
+  }
+  if (!name.empty() && isDigit(name[0])) name.insert(0, "_");
+  return isName(name) ? name : std::string();
 }
 
 // An address as IEC 61131, FANUC and Siemens write it, without its '%': I1, X8, QX0, MW100.
@@ -139,7 +153,7 @@ void SymbolTable::explain(DiagBuilder& report, std::span<const Undeclared> uses)
   const std::string_view name = use.name;
   ladder::suggest(report, sources_, frontend::placesOf(uses), similarTo(name));
   if (isOtherAddress(name)) report.note(kAddresses);
-  noteForeignConstant(name, report);
+  noteConstant(report, name);
   // (S7001.00) is a coil of the name S7001.
   const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && !use.whole.empty() &&
                      (isDigit(name[1]) || find(name.substr(1)) != nullptr);
@@ -162,9 +176,10 @@ void SymbolTable::declare(const ladder::Declaration& declaration) {
   const std::string_view name = declaration.name.text;
   if (!isName(name)) {
     refused_.insert(name);
-    diagnostics_.report(diag::BadOperand, declaration.name.range)
-            .note("a name begins with a letter or _, and has none of the characters . , : # * @ % ! / \"")
-        << name << "a name";
+    DiagBuilder report = diagnostics_.report(diag::BadOperand, declaration.name.range);
+    report << name << "a name";
+    report.note("a name begins with a letter or _, and has none of the characters . , : # * @ % ! / \"");
+    if (const std::string like = likeName(name); !like.empty()) report.note("for instance " + like);
     return;
   }
   indexOf(name); // one of the NC is declared by it
@@ -218,8 +233,7 @@ void SymbolTable::resolveConstant(Symbol& symbol) {
   if (!value.text.starts_with('#') && !value.text.starts_with('*')) {
     DiagBuilder report = diagnostics_.report(diag::ConstantFormat, value.range);
     report << value.text;
-    if (!value.text.empty() && value.text.find_first_not_of("0123456789") == std::string_view::npos)
-      report.note("write #" + std::string(value.text));
+    noteConstant(report, value.text);
     return;
   }
   const std::optional<Constant> constant = parseConstant(value, value.text, diagnostics_);

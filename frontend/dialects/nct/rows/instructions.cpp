@@ -94,6 +94,18 @@ const NctInstruction& contactRow(bool onBit, bool closed) {
   return kRows[closed ? kClosedWord : kOpenWord];
 }
 
+std::string_view doublesOf(std::string_view mnemonic) {
+  struct Pair {
+    std::string_view integers;
+    std::string_view doubles;
+  };
+  constexpr Pair kPairs[] = {{"ADD", "+F"},   {"ALR", "ALRF"}, {"CEQ", "FLEQ"}, {"CGE", "FLGE"}, {"CGT", "FLGT"},
+                             {"CLE", "FLLE"}, {"CLT", "FLLT"}, {"CMP", "FCMP"}, {"CNE", "FLNE"}, {"DIV", "/F"},
+                             {"MOV", "MOVF"}, {"MSG", "MSGF"}, {"MUL", "*F"},   {"REM", "REMF"}, {"SUB", "-F"}};
+  const auto* const found = std::ranges::find(kPairs, mnemonic, &Pair::integers);
+  return found == std::end(kPairs) ? std::string_view() : found->doubles;
+}
+
 std::span<const frontend::ForeignWord> foreignWords() { return kForeignWords; }
 
 const NctInstruction& coilRow(int coilKind) {

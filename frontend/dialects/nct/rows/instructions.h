@@ -52,6 +52,8 @@ const frontend::InstructionInfo* findBoxInfo(std::string_view mnemonic);
 // Row of a contact: on a bit or a word, closed or open.
 const NctInstruction& contactRow(bool onBit, bool closed);
 const NctInstruction& coilRow(int coilKind); // ladder::CoilKind as a number
+// The box that does for doubles what this one does for integers; empty when there is none.
+std::string_view doublesOf(std::string_view mnemonic);
 // Boxes of other controls.
 std::span<const frontend::ForeignWord> foreignWords();
 

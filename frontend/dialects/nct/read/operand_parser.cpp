@@ -285,9 +285,8 @@ void noteConstant(DiagBuilder& report, std::string_view text) {
   const std::string_view number = text.substr(text.starts_with('+') ? 1 : 0); // constants have no '+'
   if (foreign && foreign->base == 16)
     report.note(fmt::format(kHexConstant, foreign->digits));
-  else if (foreign)
-    report.note(fmt::format("there are no binary constants; in decimal it is #{}",
-                            text::numberIn<uint64_t>(foreign->digits, static_cast<int>(foreign->base)).value_or(0)));
+  else if (const auto binary = foreign ? text::numberIn<uint64_t>(foreign->digits, 2) : std::nullopt)
+    report.note(fmt::format("there are no binary constants; in decimal it is #{}", *binary));
   else if (text.starts_with('#') && allHex(text.substr(1)))
     report.note(fmt::format(kHexConstant, text.substr(1)));
   else if (isDecimalNumber(text))

@@ -253,6 +253,10 @@ class Xref(unittest.TestCase):
         self.assertGreater(len(lathe["read"]), 3)
         self.assertNotIn("odd", lathe)
 
+    def test_an_index_into_the_time_slice_memory(self):
+        text = self.xref("tests/scenarios/nct/SCP.lad", "--place", "3998")
+        self.assertIn('perhaps  read by rung 7, tests/scenarios/nct/SCP.lad:28', text)
+
     def test_names_of_the_control_that_nobody_uses(self):
         path = self.program("given.lad", GIVEN)
         self.assertTrue(self.xref(path).startswith("TN_TS1\n"), "FL_ER to FL_LT, PLCRAM are left out")
@@ -271,6 +275,11 @@ class Xref(unittest.TestCase):
         for example in ("gsk-mill", "nct-turning-centre", "technol-machining-centre"):
             text = self.xref(f"examples/{example}")
             self.assertIn("\n  written  rung ", text)
+
+    def test_a_subprogram_of_both_levels_is_listed_once(self):
+        path = self.program("sub.pmc", "".join(f"LD X20.{level}\nFUNC CALL\nPRM P1\nFUNC END{level}\n" for level in (1, 2)) +
+                            "FUNC SP\nPRM P1\nLD X20.4\nOUT R10.2\nLD R10.2\nOUT Y0.1\nFUNC SPE\n")
+        self.assertEqual(self.xref(path, "--place", "R10.2"), f"R10.2\n  written  rung 3, {path}:11\n  read     rung 4, {path}:13\n")
 
     def test_unknown(self):
         done = subprocess.run([RUNGC, "xref", self.program("p.lad", NCT), "--place", "NOBODY"], capture_output=True, text=True, check=False)

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <tuple>
+#include <utility>
 
 #include "tools/xref/place_names.h"
 #include "tools/xref/place_search.h"
@@ -35,10 +37,16 @@ bool Entry::isWritten() const { return std::ranges::any_of(accesses, &Access::wr
 CrossReference::CrossReference(const rung_program& program, const ir::Uses& uses,
                                std::span<const std::string_view> shown)
     : program_(program), uses_(uses), shown_(shown) {
-  for (uint32_t rung = 0; rung < uses.rungCount(); ++rung)
+  // The first of those that are the same lines: of a subprogram that two levels run.
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> drawn; // by number and last line
+  for (uint32_t rung = 0; rung < uses.rungCount(); ++rung) {
+    const rung_rung_info& info = program.rungs[rung];
+    const uint32_t shown =
+        info.number == 0 ? rung : drawn.try_emplace({info.number, info.last_line}, rung).first->second;
     for (const ir::RungUse& use : uses.of(rung))
-      if (!use.keeps) add(rung, use);
-  std::ranges::stable_sort(sorted_, {}, [](const Use& use) { return orderOf(use.place); });
+      if (!use.keeps) add(shown, use);
+  }
+  std::ranges::stable_sort(sorted_, {}, [](const Use& use) { return std::pair(orderOf(use.place), use.access.rung); });
   std::ranges::copy_if(sorted_, std::back_inserter(indexed_), [](const Use& use) { return use.access.indexed; });
 }
 
@@ -98,11 +106,18 @@ Entry CrossReference::of(const Ref& asked) const {
   return entry;
 }
 
+// A reach is not another place's as a whole where only part of it is: what is copied is so bit by bit.
+bool CrossReference::reaches(const Use& use, const BitRange& bits) const {
+  if (overlap(use.reach, bits)) return true;
+  const BitRange copied{use.reach.space, bits.first, bits.count};
+  return overlap(use.reach, copied) && listed(copied) == bits;
+}
+
 std::vector<Access> CrossReference::perhaps(const Ref& place) const {
   std::vector<Access> accesses;
   const BitRange bits = listed(bitsOf(place));
   for (const Use& use : indexed_)
-    if (!overlap(use.place, bits) && overlap(use.reach, bits)) addAccess(accesses, use.access);
+    if (!overlap(use.place, bits) && reaches(use, bits)) addAccess(accesses, use.access);
   std::ranges::stable_sort(accesses, {}, &Access::rung);
   return accesses;
 }

@@ -14,7 +14,7 @@
 namespace rung::xref {
 
 struct Access {
-  uint32_t rung = 0; // as in rung_program::rungs
+  uint32_t rung = 0; // as in rung_program::rungs; of one that is drawn and several there, the first
   bool reads = false;
   bool writes = false;
   bool indexed = false; // something is added to the address at run time
@@ -59,6 +59,7 @@ private:
   };
   void add(uint32_t rung, const ir::RungUse& use);
   ir::BitRange listed(const ir::BitRange& place) const;
+  bool reaches(const Use& use, const ir::BitRange& bits) const;
   void addPlaces(std::vector<host::Ref>& places) const;
 
   const rung_program& program_;

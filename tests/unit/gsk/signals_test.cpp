@@ -160,14 +160,14 @@ TEST(Signals, SignalsOfTheOtherMachineGiveAWarning) {
 }
 
 TEST(Signals, ExplainKnowsNamesAndAddresses) {
-  EXPECT_EQ(explainSignal("mf").substr(0, 14), "[gsk] MF: F7.0");
-  EXPECT_EQ(explainSignal("F007.0"), explainSignal("MF"));
-  EXPECT_NE(explainSignal("F10").find("M00~M31: F10 (4 bytes)"), std::string::npos);
-  EXPECT_NE(explainSignal("F13.7").find("M31: F13.7"), std::string::npos);
-  EXPECT_NE(explainSignal("R10.0").find("not a signal"), std::string::npos);
-  EXPECT_EQ(explainSignal("R10.8"), "");
-  EXPECT_EQ(explainSignal("X128"), "");
-  EXPECT_EQ(explainSignal("NO_SUCH"), "");
+  EXPECT_EQ(explainWord("mf").substr(0, 14), "[gsk] MF: F7.0");
+  EXPECT_EQ(explainWord("F007.0"), explainWord("MF"));
+  EXPECT_NE(explainWord("F10").find("M00~M31: F10 (4 bytes)"), std::string::npos);
+  EXPECT_NE(explainWord("F13.7").find("M31: F13.7"), std::string::npos);
+  EXPECT_NE(explainWord("R10.0").find("not a signal"), std::string::npos);
+  EXPECT_EQ(explainWord("R10.8"), "");
+  EXPECT_EQ(explainWord("X128"), "");
+  EXPECT_EQ(explainWord("NO_SUCH"), "");
 }
 
 } // namespace

@@ -89,11 +89,6 @@ int checkMap(const MapOptions& options, const OpenedProgram& program) {
 
 int run(const MapOptions& options) {
   if (options.makeTemplate == !options.check.empty()) return usageError("map: expected --template or --check MAP");
-  for (const std::string& file : options.source.files)
-    if (mapping::isNamedAsMap(file))
-      return usageError(
-          fmt::format("map: found the mapping file {0} as the program; write: rungc map {1} --check {0}", file,
-                      options.check.empty() || mapping::isNamedAsMap(options.check) ? "PROGRAM" : options.check));
   if (const std::string other = project::otherKind(options.check, project::FileKind::Map); !other.empty())
     return usageError(other);
   int status = kOk;

@@ -58,11 +58,11 @@ void closeBracket(size_t open, std::string& out) {
   const std::string inner = out.substr(open + 1);
   const std::string kept = otherParts(inner);
   out.resize(open + 1);
-  if (kept.empty() && !inner.empty()) {
+  if (kept.empty() && !text::trimmed(inner).empty()) {
     out.pop_back();
     if (out.ends_with(' ')) out.pop_back();
   } else {
-    out += (kept.size() < inner.size() ? kept : inner) + ")";
+    out += (!kept.empty() && kept.size() < inner.size() ? kept : inner) + ")";
   }
 }
 

@@ -68,6 +68,18 @@ std::string shapeText(const InstructionInfo& row) {
   return text;
 }
 
+// The further pins of a drawn example, each in a line of its own, where the box is.
+std::string pinLines(const InstructionInfo& row) {
+  const size_t box = row.example.find('{');
+  if (!row.example.starts_with("|--") || box == std::string_view::npos) return {};
+  std::string lines;
+  for (size_t i = 1; i < row.pins.size(); ++i) {
+    const std::string contact = fmt::format("|--[{}]", static_cast<char>('A' + i - 1));
+    lines += fmt::format("\n{:-<{}}{{{}}}", contact, box, row.pins[i].name);
+  }
+  return lines;
+}
+
 void add(ReferencePage& page, const Dialect& dialect, const InstructionInfo& row) {
   const std::string number = row.number < 0 ? "" : fmt::format(" (function {})", row.number);
   page.part(fmt::format("{}{}: {}", row.mnemonic, number, row.title), row.doc);
@@ -80,7 +92,7 @@ void add(ReferencePage& page, const Dialect& dialect, const InstructionInfo& row
              o.access == Access::None ? "-" : nameOf(o.access),
              o.min <= o.max ? fmt::format("{}…{}", o.min, o.max) : "", o.doc);
   if (const std::string shape = shapeText(row); !shape.empty()) page.section("", shape);
-  if (!row.example.empty()) page.section("", fmt::format("```\n{}\n```", row.example));
+  if (!row.example.empty()) page.section("", fmt::format("```\n{}{}\n```", row.example, pinLines(row)));
   page.section("", fmt::format("Manual: {}.{}", row.ref, dialect.isBuilt(row) ? "" : " Not built yet."));
 }
 

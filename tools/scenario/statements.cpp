@@ -336,6 +336,9 @@ std::string LineParser::unknown() {
   for (const Synonym& synonym : kSynonyms)
     if (synonym.word == word) meant = synonym.statement;
   if (meant.empty()) meant = mostSimilar(word, kRows, [](const Row& row) { return row.form.word; });
+  if (meant.empty() && (word.starts_with(';') || word.starts_with("//")))
+    return fmt::format("unknown statement '{}'; a comment begins with '#'", word);
+  if (meant.empty() && words_.size() > 1 && words_[1].text == "=") meant = "set";
   if (meant.empty()) return fmt::format("unknown statement '{}'", word);
   const Row& row = *find(meant);
   mayShapeStart_ = shapesStart(row.kind);
@@ -349,7 +352,10 @@ ParsedLine LineParser::run() {
     return {{}, std::move(problem), mayShapeStart_};
   }
   s_.kind = row->kind;
-  if ((this->*row->read)() && !done()) fail(fmt::format("unexpected '{}' after the statement", word()));
+  if ((this->*row->read)() && !done()) {
+    const bool remark = word().starts_with(';') || word().starts_with("//");
+    fail(fmt::format("unexpected '{}' after the statement{}", word(), remark ? "; a comment begins with '#'" : ""));
+  }
   if (error_.empty()) return {std::move(s_), {}, shapesStart(row->kind)};
   if (error_.starts_with("expected") || error_.starts_with("unexpected"))
     error_ += fmt::format(" (the statement is: {})", row->form.form);

@@ -61,9 +61,7 @@ void writeChunk(const Layout& layout, uint32_t number, const PlaceNames& names, 
   const std::vector<Exit> exits = exitsOf(layout.cut(), chunk);
   const bool extraWeight = hasExtraWeight(exits);
   if (extraWeight) out += "u32 extra = 0;\n";
-  const LateStores late = options.debugInfo ? LateStores() : LateStores(module, chunk, exits); // gdb sees stores done
-  RungWriter writer(layout.memory(), names, extraWeight, late, out);
-  writer.writeLateStores();
+  RungWriter writer(layout.memory(), names, extraWeight, out);
   std::vector<bool> labels(chunk.rungCount, false); // all jumps to a rung are above it
   const auto label = [&](const Destination& to) {
     if (to.inside()) labels[to.rung - chunk.firstRung] = true;

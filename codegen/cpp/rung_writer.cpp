@@ -128,43 +128,6 @@ void RungWriter::endBlock(size_t stretch) {
   statement(fmt::format("asm goto(\"\" : : : : {0}); {0}:;", label));
 }
 
-// ---- late stores -------------------------------------------------------------------------------------------------
-
-std::string RungWriter::never(uint32_t group) const {
-  const LateStores::Group& of = late_.groups()[group];
-  const Type type = typeOf(*of.rung, of.from);
-  return fmt::format("{}{}", static_cast<uint64_t>(of.never) & valueMask(type), type == Type::I64 ? "ull" : "u");
-}
-
-void RungWriter::writeLateStores() {
-  const auto count = static_cast<uint32_t>(late_.groups().size());
-  if (count == 0) return;
-  for (uint32_t i = 0; i < count; ++i) {
-    const LateStores::Group& group = late_.groups()[i];
-    statement(fmt::format("{} late{} = {};", cppType(typeOf(*group.rung, group.from)), i, never(i)));
-  }
-  statement("const auto do_late_stores = [&] {");
-  ++indent_;
-  for (uint32_t i = 0; i < count; ++i) writeLateStoresOf(i);
-  --indent_;
-  statement("};");
-}
-
-void RungWriter::writeLateStoresOf(uint32_t number) {
-  const LateStores::Group& group = late_.groups()[number];
-  rung_ = group.rung;
-  statement(fmt::format("if (late{} != {}) {{", number, never(number)));
-  ++indent_;
-  statement(fmt::format("const {} {} = late{};", cppType(typeOf(*rung_, group.from)), v(group.from), number));
-  for (const Op* op : group.ops)
-    if (op->code == OpCode::Store)
-      storeNow(*op);
-    else
-      declare(*op, pure(*op));
-  --indent_;
-  statement("}");
-}
-
 // ---- operations --------------------------------------------------------------------------------------------------
 
 void RungWriter::declare(const Op& op, const std::string& expression, std::string_view comment) {
@@ -193,13 +156,6 @@ std::string RungWriter::load(const Op& op) const {
 }
 
 void RungWriter::store(const Op& op) {
-  const LateStores::Part late = late_.of(op);
-  const bool remembers = late.role == LateStores::Role::Remembers;
-  if (late.isFirst) statement(fmt::format("late{} = {};", late.group, remembers ? v(late.from) : never(late.group)));
-  if (!remembers) storeNow(op);
-}
-
-void RungWriter::storeNow(const Op& op) {
   const std::string value = a(op, 0);
   if (op.type == Type::Bit) {
     const BitLocation at = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
@@ -457,9 +413,7 @@ std::string RungWriter::way(const Destination& to) const {
 
 // Out of the chunk.
 std::string RungWriter::leaving(const std::string& how) const {
-  std::string before = late_.groups().empty() ? "" : "do_late_stores(); ";
-  if (extraWeight_) before += "ctx->extra_weight = extra; ";
-  return before.empty() ? how : fmt::format("{{ {}{} }}", before, how);
+  return extraWeight_ ? fmt::format("{{ ctx->extra_weight = extra; {} }}", how) : how;
 }
 
 void RungWriter::writeExit(const Exit& exit) {

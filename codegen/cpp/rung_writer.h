@@ -6,7 +6,6 @@
 
 #include "codegen/cpp/cpp_emitter.h"
 #include "ir/chunks/cut.h"
-#include "ir/chunks/late_stores.h"
 #include "ir/layout/memory_layout.h"
 
 namespace rung::codegen {
@@ -24,13 +23,10 @@ private:
 
 class RungWriter {
 public:
-  // `extraWeight`: the chunk adds up its extra weight in a variable `extra`. `late`: of the chunk; outlives the writer.
-  RungWriter(const ir::MemoryLayout& layout, const PlaceNames& names, bool extraWeight, const ir::LateStores& late,
-             std::string& out)
-      : layout_(layout), module_(layout.module()), names_(names), extraWeight_(extraWeight), late_(late), out_(out) {}
+  // `extraWeight`: the chunk adds up its extra weight in a variable `extra`.
+  RungWriter(const ir::MemoryLayout& layout, const PlaceNames& names, bool extraWeight, std::string& out)
+      : layout_(layout), module_(layout.module()), names_(names), extraWeight_(extraWeight), out_(out) {}
 
-  // What the chunk begins with.
-  void writeLateStores();
   // `number` is the rung's number over all routines, `file` its source's name.
   void write(const ir::Rung& rung, uint32_t number, std::string_view file);
   // How control leaves the rung that was written last.
@@ -46,9 +42,6 @@ private:
   std::string pure(const ir::Op& op);
   std::string load(const ir::Op& op) const;
   void store(const ir::Op& op);
-  void storeNow(const ir::Op& op);
-  void writeLateStoresOf(uint32_t group);
-  std::string never(uint32_t group) const;
   void storeAt(const ir::Op& op);
   void openIf(const ir::Op& op, size_t index);
   void yield(const ir::Op& op, const ir::Op& end);
@@ -66,7 +59,6 @@ private:
   const ir::Module& module_;
   const PlaceNames& names_;
   const bool extraWeight_;
-  const ir::LateStores& late_;
   std::string& out_;
   const ir::Rung* rung_ = nullptr;
   uint32_t number_ = 0;

@@ -5,8 +5,6 @@
 #include <llvm/TargetParser/Triple.h>
 
 #include "codegen/llvm/negations_in_flags.h"
-#include "codegen/llvm/reload_values.h"
-#include "codegen/llvm/shared_loads.h"
 #include "codegen/llvm/split_blocks.h"
 #include "codegen/llvm/stores_in_branches.h"
 
@@ -26,9 +24,7 @@ public:
     bool changed = false;
     if (function.hasFnAttribute(kChunkAttribute)) {
       changed = storeInBranches(function) || changed;
-      changed = shareLoads(function) || changed;
       if (isX86_) changed = negateInFlags(function) || changed;
-      changed = reloadValues(function) || changed;
     }
     return splitBlocks(function) || changed; // the last, for it gives blocks that it cuts their addresses
   }

@@ -11,7 +11,6 @@
 #include <llvm/IR/MDBuilder.h>
 
 #include "codegen/llvm/before_selection.h"
-#include "ir/chunks/alike_rungs.h"
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
 #include "ir/support/check.h"
@@ -41,7 +40,6 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   function_->setDoesNotThrow();
   function_->addFnAttr("frame-pointer", "non-leaf");
   function_->addFnAttr(kChunkAttribute);
-  if (hasAlikeRungs(module_, place)) function_->addFnAttr(kAlikeAttribute);
   if (!hostReadsMemory(module_, place)) function_->addParamAttr(0, llvm::Attribute::NoAlias);
   if (extendsWords_) function_->addRetAttr(llvm::Attribute::SExt);
   mem_ = function_->getArg(0);
@@ -59,9 +57,6 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   const std::vector<Exit> exits = exitsOf(layout_.cut(), place);
   extra_ = nullptr;
   if (hasExtraWeight(exits)) builder_.CreateStore(num(0), scratch(extra_, builder_.getInt32Ty()));
-  const bool mayBeLate = debug_ == nullptr && options_.level == LlvmLevel::Opt; // a debugger sees stores done
-  late_ = mayBeLate ? LateStores(module_, place, exits) : LateStores();
-  beginLateStores();
   for (uint32_t i = place.firstRung; i < place.firstRung + place.rungCount; ++i) {
     if (!beginRung(i)) continue;
     emitRung(routine.rungs[i], layout_.cut().rungNumber(place.routine, i));
@@ -362,48 +357,9 @@ void ChunkEmitter::profLeave() {
   store(AbiTypes::kMax, builder_.CreateSelect(builder_.CreateICmpUGT(used, max), used, max));
 }
 
-// ---- late stores -------------------------------------------------------------------------------------------------
-
-llvm::ConstantInt* ChunkEmitter::never(uint32_t group) {
-  const LateStores::Group& of = late_.groups()[group];
-  return llvm::ConstantInt::getSigned(llvm::cast<llvm::IntegerType>(type(typeOf(*of.rung, of.from))), of.never);
-}
-
-void ChunkEmitter::beginLateStores() {
-  kept_.assign(late_.groups().size(), nullptr);
-  for (uint32_t i = 0; i < kept_.size(); ++i) builder_.CreateStore(never(i), scratch(kept_[i], never(i)->getType()));
-}
-
-void ChunkEmitter::doLateStores() {
-  for (uint32_t i = 0; i < kept_.size(); ++i) doLateStoresOf(i);
-}
-
-void ChunkEmitter::doLateStoresOf(uint32_t number) {
-  const LateStores::Group& group = late_.groups()[number];
-  Value* from = builder_.CreateLoad(never(number)->getType(), kept_[number]);
-  llvm::BasicBlock* stores = block("late");
-  llvm::BasicBlock* done = block("done");
-  builder_.CreateCondBr(builder_.CreateICmpEQ(from, never(number)), done, stores);
-  builder_.SetInsertPoint(stores);
-  const Rung* rung = std::exchange(rung_, group.rung);
-  std::vector<Value*> values(group.rung->values.size(), nullptr);
-  values[group.from.index] = from;
-  values_.swap(values);
-  for (const Op* op : group.ops)
-    if (op->code == OpCode::Store)
-      storeNow(*op);
-    else
-      values_[op->result.index] = result(*op);
-  values_.swap(values);
-  rung_ = rung;
-  builder_.CreateBr(done);
-  builder_.SetInsertPoint(done);
-}
-
 // ---- exits -------------------------------------------------------------------------------------------------------
 
 void ChunkEmitter::returnValue(Value* chunk) {
-  doLateStores();
   if (extra_ != nullptr)
     builder_.CreateStore(builder_.CreateLoad(builder_.getInt32Ty(), extra_), ctxField(AbiTypes::kExtraWeight));
   builder_.CreateRet(chunk);

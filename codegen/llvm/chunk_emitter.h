@@ -11,13 +11,9 @@
 #include "codegen/llvm/llvm_module.h"
 #include "codegen/llvm/piece_numbers.h"
 #include "ir/chunks/cut.h"
-#include "ir/chunks/late_stores.h"
 #include "ir/core/long_rungs.h"
 
 namespace rung::codegen {
-
-// Of a function whose chunk has rows of alike rungs (ir/chunks/alike_rungs.h).
-inline constexpr char kAlikeAttribute[] = "rung-alike";
 
 class ChunkEmitter {
 public:
@@ -70,11 +66,6 @@ private:
   Value* loadBitAt(const ir::Op& op);
 
   void store(const ir::Op& op);
-  void storeNow(const ir::Op& op);
-  void beginLateStores();
-  void doLateStores();
-  void doLateStoresOf(uint32_t group);
-  llvm::ConstantInt* never(uint32_t group);
   void storeAt(const ir::Op& op);
   void slotStore(const ir::Op& op);
   struct Element;
@@ -145,8 +136,6 @@ private:
   Value* argsSpace_ = nullptr;
   Value* valueSpace_ = nullptr;
   Value* extra_ = nullptr; // where a chunk adds up its extra weight, if it has any
-  ir::LateStores late_;
-  std::vector<Value*> kept_; // by its groups: where a number is remembered
   uint32_t firstRung_ = 0;
   std::vector<llvm::BasicBlock*> rungBlocks_; // of the chunk's rungs, where something jumps to them
   const ir::Rung* rung_ = nullptr;

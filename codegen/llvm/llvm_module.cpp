@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <llvm/Bitcode/BitcodeReader.h>
-#include <llvm/IR/Dominators.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/Verifier.h>
@@ -21,7 +20,6 @@
 #include <llvm/Transforms/Scalar/SROA.h>
 #include <llvm/Transforms/Scalar/SimplifyCFG.h>
 #include <llvm/Transforms/Utils/Local.h>
-#include <llvm/Transforms/Vectorize/SLPVectorizer.h>
 
 #include "codegen/llvm/chunk_emitter.h"
 #include "codegen/llvm/embedded.h"
@@ -113,42 +111,6 @@ void addIdentity(llvm::Module& module, const ModulePart& part) {
   new llvm::GlobalVariable(module, value->getType(), true, llvm::GlobalValue::ExternalLinkage, value, kPieceIdentity);
 }
 
-// After a branch a select by its condition is one of the operands: a result that may be no number is asked for that,
-// and mostly is one. LLVM's own pass for values along branches takes a sixth of all time, for little more.
-struct SelectsAfterBranches : llvm::PassInfoMixin<SelectsAfterBranches> {
-  llvm::PreservedAnalyses run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
-    bool changed = false;
-    for (llvm::BasicBlock& block : function) {
-      const auto* branch = llvm::dyn_cast<llvm::BranchInst>(block.getTerminator());
-      if (branch == nullptr || branch->isUnconditional()) continue;
-      auto* condition = llvm::dyn_cast<llvm::Instruction>(branch->getCondition()); // a constant has users elsewhere
-      if (condition == nullptr) continue;
-      for (llvm::User* user : condition->users()) {
-        auto* select = llvm::dyn_cast<llvm::SelectInst>(user);
-        if (select == nullptr || select->getCondition() != condition) continue;
-        auto& tree = analyses.getResult<llvm::DominatorTreeAnalysis>(function);
-        for (const unsigned way : {0, 1}) {
-          const llvm::BasicBlockEdge edge(&block, branch->getSuccessor(way));
-          llvm::Value* known = way == 0 ? select->getTrueValue() : select->getFalseValue();
-          changed = replaceDominatedUsesWith(select, known, tree, edge) != 0 || changed;
-        }
-      }
-    }
-    if (!changed) return llvm::PreservedAnalyses::all();
-    llvm::PreservedAnalyses kept;
-    kept.preserveSet<llvm::CFGAnalyses>();
-    return kept;
-  }
-};
-
-// Elsewhere the vectoriser finds little, and looking for it takes as long as all other passes and the code generator.
-struct VectorsOfAlikeRungs : llvm::PassInfoMixin<VectorsOfAlikeRungs> {
-  llvm::PreservedAnalyses run(llvm::Function& function, llvm::FunctionAnalysisManager& analyses) {
-    if (!function.hasFnAttribute(kAlikeAttribute)) return llvm::PreservedAnalyses::all();
-    return llvm::SLPVectorizerPass().run(function, analyses);
-  }
-};
-
 } // namespace
 
 Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, const llvm::TargetMachine& machine,
@@ -203,11 +165,9 @@ void runPasses(llvm::Module& module, llvm::TargetMachine& machine, LlvmLevel lev
   perFunction.addPass(llvm::ReassociatePass());
   perFunction.addPass(llvm::EarlyCSEPass(true));
   perFunction.addPass(llvm::JumpThreadingPass());
-  perFunction.addPass(SelectsAfterBranches());
   perFunction.addPass(llvm::EarlyCSEPass(true));
   perFunction.addPass(llvm::DSEPass());
   perFunction.addPass(llvm::InstCombinePass());
-  perFunction.addPass(VectorsOfAlikeRungs());
   llvm::ModulePassManager passes;
   passes.addPass(llvm::AlwaysInlinerPass(false));
   passes.addPass(llvm::createModuleToFunctionPassAdaptor(std::move(perFunction)));

@@ -268,13 +268,6 @@ ChunkEmitter::Value* ChunkEmitter::load(const Op& op) {
 }
 
 void ChunkEmitter::store(const Op& op) {
-  const LateStores::Part late = late_.of(op);
-  const bool remembers = late.role == LateStores::Role::Remembers;
-  if (late.isFirst) builder_.CreateStore(remembers ? values_[late.from.index] : never(late.group), kept_[late.group]);
-  if (!remembers) storeNow(op);
-}
-
-void ChunkEmitter::storeNow(const Op& op) {
   Value* value = arg(op, 0);
   if (op.type == Type::Bit) {
     const BitLocation place = layout_.memory().bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));

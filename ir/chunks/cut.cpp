@@ -12,9 +12,6 @@ namespace rung::ir {
 namespace {
 
 constexpr uint32_t kNear = 8; // places within this part of a chunk are near one another
-// Of a chunk that may rest. Less: more to look at, and more ends of chunks; more: it rests less often.
-constexpr uint32_t kRestingRungs = 48;
-constexpr uint32_t kRestingOps = 384;
 
 uint32_t weightOf(const Rung& rung) { return std::max(1u, rung.weight); }
 bool leavesRoutine(TransferKind kind) {
@@ -97,13 +94,8 @@ private:
     chunk.weight = weightOf(rungs[chunk.firstRung]) + after[chunk.firstRung];
   }
 
-  // For chunkEnd: operations before each rung, jumps that lead over the border before it, and how many rungs from it on
-  // may rest. After its last rung a routine returns.
+  // For chunkEnd: operations before each rung, and jumps that lead over the border before it.
   void measure(const std::vector<Rung>& rungs) {
-    restsFrom_.assign(rungs.size() + 1, 0);
-    if (module_.activity)
-      for (size_t i = rungs.size() - 1; i-- > 0;)
-        if (dependsOnMemoryAlone(rungs[i])) restsFrom_[i] = restsFrom_[i + 1] + 1;
     opsBefore_.assign(1, 0);
     crossing_.assign(rungs.size() + 2, 0);
     for (uint32_t i = 0; i < rungs.size(); ++i) {
@@ -121,9 +113,6 @@ private:
   bool isFull(uint32_t first, uint32_t end) const {
     return end - first >= options_.maxChunkRungs || opsBefore_[end + 1] - opsBefore_[first] > options_.maxChunkOps;
   }
-  bool isEnoughToRest(uint32_t first, uint32_t end) const {
-    return end - first >= kRestingRungs && opsBefore_[end] - opsBefore_[first] >= kRestingOps;
-  }
 
   // A full chunk is cut in its second half, as late as possible where the fewest jumps would have to leave it; but of
   // such places that lie near one another the rungs' keys choose, so that a rung which is inserted above moves one cut
@@ -132,12 +121,7 @@ private:
     const std::vector<Rung>& rungs = module_.routines[routine].rungs;
     const auto count = static_cast<uint32_t>(rungs.size());
     uint32_t end = first + 1;
-    const bool rests = isEnoughToRest(first, first + restsFrom_[first]);
-    while (end < count && !heads_[end] && !isFull(first, end) && !(rests && isEnoughToRest(first, end))) {
-      // Rungs that may rest are apart from others where they are many.
-      if (rests ? restsFrom_[end] == 0 : isEnoughToRest(end, end + restsFrom_[end])) return end;
-      ++end;
-    }
+    while (end < count && !heads_[end] && !isFull(first, end)) ++end;
     if (end == count || heads_[end]) return end;
     const uint32_t earliest = first + (end - first) / 2 + 1;
     uint32_t best = end;
@@ -169,7 +153,6 @@ private:
   std::vector<bool> heads_;
   std::vector<int32_t> crossing_;
   std::vector<size_t> opsBefore_;
-  std::vector<uint32_t> restsFrom_;
 };
 
 Cut::Cut(const Module& module, const CutOptions& options) : module_(&module) { Cutter(*this, options).run(); }
@@ -252,11 +235,6 @@ bool hostReadsMemory(const Module& module, const Chunk& chunk) {
   return std::ranges::any_of(rungs.subspan(chunk.firstRung, chunk.rungCount), [](const Rung& rung) {
     return std::ranges::any_of(rung.ops, [](const Op& op) { return hostReads(opInfo(op.code)); });
   });
-}
-
-bool dependsOnMemoryAlone(const Rung& rung) {
-  return !leavesRoutine(rung.transfer.kind) &&
-         std::ranges::none_of(rung.ops, [](const Op& op) { return (opInfo(op.code).effects & (kHost | kClock)) != 0; });
 }
 
 bool hasExtraWeight(const std::vector<Exit>& exits) {

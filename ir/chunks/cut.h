@@ -2,15 +2,14 @@
 // program's shape (ir/layout/layout.h); where a byte lies is another matter (ir/layout).
 //
 // A chunk is a run of at most `maxChunkRungs` rungs (and about `maxChunkOps` operations) of one routine, entered only
-// at its head. Of a program that leaves out what rests (Module::activity), chunks are smaller, and rungs that may rest
-// are apart from others where they are many. Within it control goes down only: a Goto or Switch to a rung further down
-// in the same chunk stays inside, every other one leaves. So a chunk begins at each routine's start, after every Call,
-// where a part of a task begins, and at every target that is not below its jump in one chunk. Compile time grows
-// linearly with the number of chunks.
+// at its head. Within it control goes down only: a Goto or Switch to a rung further down in the same chunk stays
+// inside, every other one leaves. So a chunk begins at each routine's start, after every Call, where a part of a task
+// begins, and at every target that is not below its jump in one chunk. Compile time grows linearly with the number of
+// chunks.
 //
 // The watchdog counts the rungs that are run: a chunk weighs what its lightest way from the head out weighs, and a jump
 // or a step down within it that is not on the lightest way from there costs the difference (Destination::extra). So a
-// jump over something that mostly rests costs nothing to count.
+// jump over something that is mostly idle costs nothing to count.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -89,9 +88,6 @@ std::vector<Exit> exitsOf(const Cut& cut, const Chunk& chunk);
 // Whether the host may read memory while the chunk runs. Elsewhere the chunk alone reaches the memory block, and
 // back ends say so to their compilers.
 bool hostReadsMemory(const Module& module, const Chunk& chunk);
-// Whether what the rung does depends on memory alone, and it changes nothing else: a chunk that is left out for that
-// (rtlib/core/activity.h) has only such rungs. Calls and returns change the stack.
-bool dependsOnMemoryAlone(const Rung& rung);
 // Whether some way through the chunk costs extra weight.
 bool hasExtraWeight(const std::vector<Exit>& exits);
 

@@ -208,7 +208,6 @@ struct Module {
   std::vector<Step> fast;
   std::vector<Step> slices; // see rung_program
   bool instrumented = false;
-  bool activity = false; // hosts may leave out chunks that would change nothing
 
   const Space& at(SpaceId id) const { return spaces[id.index]; }
   const Slot& at(SlotId id) const { return slots[id.index]; }

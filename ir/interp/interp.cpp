@@ -61,7 +61,6 @@ InterpEngine::InterpEngine(const Layout& layout, uint64_t codeHash, Counting cou
       functions_(layout.cut().chunks().size(), &chunkFunction), exits_(layout.cut().rungCount()),
       partners_(layout.cut().rungCount()) {
   image_.program().chunk_fns = functions_.data();
-  image_.program().activity_count = 0; // others are compared with it, so it runs every chunk
   const std::vector<Routine>& routines = layout.module().routines;
   for (uint32_t r = 0; r < routines.size(); ++r)
     for (uint32_t i = 0; i < routines[r].rungs.size(); ++i) {

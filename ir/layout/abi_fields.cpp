@@ -61,20 +61,6 @@ constexpr FieldInfo kChunkFields[] = {RUNG_FIELD(rung_chunk, first_rung, U32), R
                                       RUNG_FIELD(rung_chunk, weight, U32)};
 constexpr StructInfo kChunk{"rung_chunk", sizeof(rung_chunk), kChunkFields};
 
-constexpr FieldInfo kActivityFields[] = {
-    RUNG_FIELD(rung_activity, written_first, U32), RUNG_FIELD(rung_activity, written_count, U32),
-    RUNG_FIELD(rung_activity, touched_first, U32), RUNG_FIELD(rung_activity, touched_count, U32),
-    RUNG_FIELD(rung_activity, timer_first, U32),   RUNG_FIELD(rung_activity, timer_count, U32),
-    RUNG_FIELD(rung_activity, of_entry, U32),      RUNG_FIELD(rung_activity, once, U32),
-    RUNG_FIELD(rung_activity, may_rest, U32),      RUNG_FIELD(rung_activity, asks_host, U32)};
-constexpr StructInfo kActivity{"rung_activity", sizeof(rung_activity), kActivityFields};
-
-constexpr FieldInfo kTimerFields[] = {RUNG_FIELD(rung_timer, cell, U32),       RUNG_FIELD(rung_timer, amount, U32),
-                                      RUNG_FIELD(rung_timer, size, U32),       RUNG_FIELD(rung_timer, down, U32),
-                                      RUNG_FIELD(rung_timer, limit_cell, U32), RUNG_FIELD(rung_timer, reserved, U32),
-                                      RUNG_FIELD(rung_timer, limit, I64)};
-constexpr StructInfo kTimer{"rung_timer", sizeof(rung_timer), kTimerFields};
-
 constexpr FieldInfo kRungFields[] = {
     RUNG_FIELD(rung_rung_info, title, Text),     RUNG_FIELD(rung_rung_info, file, U32),
     RUNG_FIELD(rung_rung_info, first_line, U32), RUNG_FIELD(rung_rung_info, last_line, U32),
@@ -133,10 +119,7 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_FIELD(rung_program, continuation_count, U32),
                                         RUNG_FIELD(rung_program, write_count, U32),
                                         RUNG_FIELD(rung_program, read_count, U32),
-                                        RUNG_FIELD(rung_program, activity_count, U32),
-                                        RUNG_FIELD(rung_program, activity_span_count, U32),
                                         RUNG_FIELD(rung_program, change_count, U32),
-                                        RUNG_FIELD(rung_program, timer_count, U32),
                                         RUNG_STRUCTS(rung_program, spaces, space_count, kSpace),
                                         RUNG_STRUCTS(rung_program, symbols, symbol_count, kSymbol),
                                         RUNG_STRUCTS(rung_program, slots, slot_count, kSlot),
@@ -160,10 +143,7 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_ARRAY(rung_program, chunk_fns, chunk_count, ChunkFns),
                                         RUNG_STRUCTS(rung_program, writes, write_count, kWritten),
                                         RUNG_STRUCTS(rung_program, reads, read_count, kSpan),
-                                        RUNG_STRUCTS(rung_program, activity, activity_count, kActivity),
-                                        RUNG_STRUCTS(rung_program, activity_spans, activity_span_count, kSpan),
-                                        RUNG_ARRAY(rung_program, changes, change_count, U32s),
-                                        RUNG_STRUCTS(rung_program, timers, timer_count, kTimer)};
+                                        RUNG_ARRAY(rung_program, changes, change_count, U32s)};
 constexpr StructInfo kProgram{"rung_program", sizeof(rung_program), kProgramFields};
 
 #undef RUNG_FIELD

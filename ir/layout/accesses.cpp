@@ -86,12 +86,6 @@ void addTouched(const MemoryLayout& layout, const Op& op, std::vector<rung_span>
   if (const std::optional<Use> use = useOf(layout.module(), op)) addBytes(layout, *use, spans);
 }
 
-uint64_t sizeOf(const std::vector<rung_span>& spans) {
-  uint64_t sum = 0;
-  for (const rung_span& span : spans) sum += span.size;
-  return sum;
-}
-
 } // namespace
 
 std::vector<rung_written> writtenBits(const MemoryLayout& layout) {
@@ -168,56 +162,6 @@ std::vector<uint32_t> changedWords(const MemoryLayout& layout, TaskId id) {
       }
   std::vector<uint32_t> words = wordsOver(joined(std::move(spans)), layout.size());
   return words.size() <= RUNG_MOST_CHANGES ? words : std::vector<uint32_t>{};
-}
-
-// ---- activity ----------------------------------------------------------------------------------------------------
-
-namespace {
-
-// What the copy takes has come from where it goes to: the run has begun with the copy in the other direction.
-bool goesBack(const Task& task, const Copy& copy) {
-  return std::ranges::any_of(task.begin, [&](const Copy& in) {
-    return !in.masked && in.from.space == copy.to && in.to == copy.from.space && in.from.byte <= copy.toByte &&
-           copy.toByte + copy.from.size <= in.from.byte + in.from.size &&
-           in.toByte - in.from.byte == copy.from.byte - copy.toByte;
-  });
-}
-
-// A bit of a mask says that what the run has written is to go back to where the run has it from. Where a chunk is left
-// out because it would write what is there already, nothing has to go back: marks do not count as changes.
-bool marksWhatGoesBack(const Module& module, const Use& use) {
-  if (!module.mainTask.valid()) return false;
-  const Task& task = module.tasks[module.mainTask.index];
-  return std::ranges::any_of(task.end, [&](const Copy& copy) {
-    if (!copy.masked || copy.mask != use.place.space || !goesBack(task, copy)) return false;
-    const SpaceSpan bytes = bytesOf(use.place);
-    return copy.maskByte <= bytes.byte && bytes.byte + bytes.size <= copy.maskByte + copy.from.size;
-  });
-}
-
-constexpr uint64_t kMostTouched = 4096; // bytes: comparing more for one chunk does not pay
-
-} // namespace
-
-Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk) {
-  const Module& module = layout.module();
-  const Routine& routine = module.at(chunk.routine);
-  Touched out;
-  out.mayRest = chunk.firstRung + chunk.rungCount != routine.rungs.size(); // after its last rung a routine returns
-  out.asksHost = hostReadsMemory(module, chunk);
-  for (const Rung& rung : std::span(routine.rungs).subspan(chunk.firstRung, chunk.rungCount)) {
-    out.mayRest = out.mayRest && dependsOnMemoryAlone(rung);
-    for (const Op& op : rung.ops) {
-      if (const std::optional<Use> use = useOf(module, op); use && use->writes && marksWhatGoesBack(module, *use))
-        continue;
-      addTouched(layout, op, out.all);
-      if (does(op, kWrites)) addTouched(layout, op, out.written);
-    }
-  }
-  out.all = joined(std::move(out.all));
-  out.written = joined(std::move(out.written));
-  out.mayRest = out.mayRest && !out.all.empty() && sizeOf(out.all) <= kMostTouched;
-  return out;
 }
 
 } // namespace rung::ir

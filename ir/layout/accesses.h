@@ -18,13 +18,4 @@ std::vector<rung_span> readBytes(const MemoryLayout& layout, TaskId task);
 // measured); and where there are more than RUNG_MOST_CHANGES.
 std::vector<uint32_t> changedWords(const MemoryLayout& layout, TaskId task);
 
-// What a chunk touches of the memory block, ascending, none touches the next.
-struct Touched {
-  std::vector<rung_span> written; // may be written
-  std::vector<rung_span> all;     // may be read or written
-  bool mayRest = false;           // its effect depends on that memory alone, which is not too much to compare
-  bool asksHost = false;          // who may read any of the memory
-};
-Touched touchedBytes(const MemoryLayout& layout, const Chunk& chunk);
-
 } // namespace rung::ir

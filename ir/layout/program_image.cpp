@@ -9,7 +9,6 @@
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
 #include "ir/layout/accesses.h"
-#include "ir/layout/timers.h"
 #include "ir/support/check.h"
 #include "ir/support/version.h"
 #include "rung/types.hpp"
@@ -43,7 +42,6 @@ public:
     addSpans(module_.safeSpans, image_.safeSpans_);
     addTasks();
     addChunks();
-    addActivity();
     addRungs();
     addSteps(module_.scan, image_.scan_);
     addSteps(module_.fast, image_.fast_);
@@ -281,27 +279,6 @@ private:
           {layout_.cut().rungNumber(chunk.routine, chunk.firstRung), chunk.rungCount, chunk.weight});
   }
 
-  // A measured rung counts its runs.
-  void addActivity() {
-    if (!module_.activity || module_.instrumented) return;
-    const std::vector<bool> once = rungsRunOnce(module_);
-    const std::vector<std::vector<rung_timer>> timers = timersOf(layout_.memory(), layout_.cut(), once);
-    const RoutineId entry = module_.mainTask.valid() ? module_.tasks[module_.mainTask.index].entry : RoutineId{};
-    for (uint32_t i = 0; i < timers.size(); ++i) {
-      const Chunk& chunk = layout_.cut().chunks()[i];
-      const Touched touched = touchedBytes(layout_.memory(), chunk);
-      rung_activity out{};
-      out.of_entry = chunk.routine == entry ? 1 : 0;
-      out.once = chunk.routine == entry && !once.empty() && once[chunk.firstRung] ? 1 : 0;
-      out.may_rest = touched.mayRest ? 1 : 0;
-      out.asks_host = touched.asksHost ? 1 : 0;
-      append(timers[i], image_.timers_, out.timer_first, out.timer_count);
-      append(touched.written, image_.activitySpans_, out.written_first, out.written_count);
-      append(touched.all, image_.activitySpans_, out.touched_first, out.touched_count);
-      image_.activity_.push_back(out);
-    }
-  }
-
   void addRungs() {
     image_.rungs_.resize(layout_.cut().rungCount());
     std::vector<const std::string*> homes(layout_.cut().rungCount());
@@ -379,9 +356,6 @@ private:
     pointTexts(image_.texts_, p.texts, p.text_count);
     point(image_.writes_, p.writes, p.write_count);
     point(image_.reads_, p.reads, p.read_count);
-    point(image_.activity_, p.activity, p.activity_count);
-    point(image_.activitySpans_, p.activity_spans, p.activity_span_count);
-    point(image_.timers_, p.timers, p.timer_count);
     point(image_.changes_, p.changes, p.change_count);
   }
 

@@ -51,9 +51,6 @@ private:
   std::vector<rung_written> writes_;
   std::vector<rung_span> reads_;
   std::vector<uint32_t> changes_;
-  std::vector<rung_activity> activity_;
-  std::vector<rung_span> activitySpans_;
-  std::vector<rung_timer> timers_;
 };
 
 } // namespace rung::ir

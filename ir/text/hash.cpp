@@ -12,10 +12,9 @@ class Hasher {
 public:
   uint64_t of(const Module& module) {
     const auto& [name, dialect, files, spaces, slots, continuations, symbols, inits, retains, safeSpans, faults,
-                 services, messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented, activity] =
-        module;
+                 services, messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented] = module;
     all(name, dialect, files, spaces, slots, continuations, symbols, inits, retains, safeSpans, faults, services,
-        messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented, activity);
+        messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented);
     return hash_;
   }
 

@@ -43,7 +43,6 @@ private:
     scanner_.expectWord("dialect");
     module_.dialect = scanner_.text();
     module_.instrumented = scanner_.acceptWord("instrumented");
-    module_.activity = scanner_.acceptWord("activity");
     scanner_.endLine();
   }
 

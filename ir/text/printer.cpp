@@ -97,8 +97,8 @@ public:
   }
 
   void printModule() {
-    put("module {} dialect {}{}{}\n", inQuotes(module_.name), inQuotes(module_.dialect),
-        module_.instrumented ? " instrumented" : "", module_.activity ? " activity" : "");
+    put("module {} dialect {}{}\n", inQuotes(module_.name), inQuotes(module_.dialect),
+        module_.instrumented ? " instrumented" : "");
     for (const std::string& file : module_.files) put("file {}\n", inQuotes(file));
     printMemory();
     for (const std::string& fault : module_.faults) put("fault {}\n", nameText(fault));

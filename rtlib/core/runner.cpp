@@ -67,7 +67,6 @@ void Runner::endForces() noexcept {
 void Runner::useCode(const Code& code) noexcept {
   code_ = code;
   ctx_->engine = code.engine;
-  if (activity_ != nullptr) activity_->forget();
 }
 
 void Runner::holdAll() noexcept {
@@ -201,36 +200,6 @@ inline uint32_t Runner::runBounded(uint32_t pc, uint32_t limit) noexcept {
 // A pc that is neither a chunk nor DONE counts as one, too.
 inline bool Runner::isFault(uint32_t pc) const noexcept { return pc != RUNG_PC_DONE && pc >= program_->chunk_count; }
 
-// As runBounded, where chunks that rest are left out. A chunk that rests is in the routine of the one that follows it.
-uint32_t Runner::runAwake(uint32_t pc, uint32_t limit) noexcept {
-  uint8_t* const memory = memory_;
-  rung_ctx* const ctx = ctx_;
-  const rung_chunk* const chunks = program_->chunks;
-  const uint32_t count = program_->chunk_count;
-  const uint32_t first = std::min(limit, count);
-  activity_->begin(memory);
-  while (pc < first || (pc < count && ctx->sp != 1)) {
-    if (!activity_->isLooking()) {
-      pc = runBounded(pc, limit);
-      break;
-    }
-    const uint32_t here = activity_->firstAwake(pc);
-    if (here != pc) {
-      pc = pc < first ? std::min(here, first) : here;
-      continue;
-    }
-    if (const Rest* rest = activity_->rest(here); rest != nullptr) {
-      pc = rest->next;
-      continue;
-    }
-    activity_->reach(memory, here);
-    pc = functionOf(code_.functions, here)(memory, ctx, here);
-    activity_->ran(memory, here, pc, chunks[here].weight);
-  }
-  activity_->end(memory, !isFault(pc));
-  return pc;
-}
-
 uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcept {
   ctx_->fault.code = task.budget_fault;
   ctx_->fault.rung = chunk.first_rung;
@@ -239,7 +208,7 @@ uint32_t Runner::overrun(const rung_task& task, const rung_chunk& chunk) noexcep
 }
 
 // Runs from `pc` to the end of the run, a fault, or a chunk at or after `limit` outside every subroutine.
-template <bool Timed, bool Looks>
+template <bool Timed>
 uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
   uint8_t* const memory = memory_;
   rung_ctx* const ctx = ctx_;
@@ -249,44 +218,28 @@ uint32_t Runner::runChunks(uint32_t pc, uint32_t limit, const rung_task& task, u
   const uint32_t first = std::min(limit, count); // that may be where it ends
   uint32_t left = budget;
   ctx->extra_weight = 0;
-  if constexpr (Looks) activity_->begin(memory);
   for (;;) {
     if (pc >= first && (pc >= count || ctx->sp == 1)) [[unlikely]]
       break;
     const uint32_t here = pc;
     const rung_chunk& chunk = chunks[here];
-    const auto takesTooLong = [&] {
-      if constexpr (Looks) activity_->stop(memory, here);
-      return overrun(task, chunk);
-    };
-    if constexpr (Looks) {
-      if (const Rest* rest = activity_->rest(here); rest != nullptr) {
-        if (rest->weight > left) return takesTooLong();
-        left -= rest->weight;
-        pc = rest->next;
-        continue;
-      }
-    }
     if (chunk.weight > left) [[unlikely]]
-      return takesTooLong();
+      return overrun(task, chunk);
     left -= chunk.weight;
-    if constexpr (Looks) activity_->reach(memory, here);
     pc = functionOf(functions, here)(memory, ctx, here);
     if constexpr (Timed)
       if (isLate()) {
-        const uint32_t stopped = takesTooLong();
+        const uint32_t stopped = overrun(task, chunk);
         ctx->fault.code = kMaxTimeFault;
         return stopped;
       }
     const uint32_t extra = ctx->extra_weight;
     if (extra != 0) {
       ctx->extra_weight = 0;
-      if (extra > left) return takesTooLong();
+      if (extra > left) return overrun(task, chunk);
       left -= extra;
     }
-    if constexpr (Looks) activity_->ran(memory, here, pc, chunk.weight + extra);
   }
-  if constexpr (Looks) activity_->end(memory, !isFault(pc));
   budget = left;
   return pc;
 }
@@ -326,37 +279,25 @@ bool Runner::runPart(uint32_t task) noexcept {
   return runNextPart(task);
 }
 
-inline bool Runner::hasActivity(uint32_t task) const noexcept { return activity_ != nullptr && activity_->of(task); }
-
-bool Runner::looksAt(uint32_t task) noexcept { return hasActivity(task) && activity_->looks(); }
-
-inline uint32_t Runner::runFrom(uint32_t pc, uint32_t limit, uint32_t task, const rung_task& t,
-                                uint32_t& budget) noexcept {
-  const bool looks = looksAt(task);
-  if (limit_.ns == 0 && isBounded(t)) return looks ? runAwake(pc, limit) : runBounded(pc, limit);
-  if (looks || limit_.ns != 0) return runWatched(pc, limit, t, budget, looks);
-  return runCounted(pc, limit, t, budget);
+inline uint32_t Runner::runFrom(uint32_t pc, uint32_t limit, const rung_task& t, uint32_t& budget) noexcept {
+  if (limit_.ns != 0) return runChunks<true>(pc, limit, t, budget);
+  return isBounded(t) ? runBounded(pc, limit) : runCounted(pc, limit, t, budget);
 }
 
 // As long as control may go in circles; what comes after them is mostly far lighter than what is left of the budget.
 uint32_t Runner::runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
   if (task.straight_chunk < limit) {
-    pc = runChunks<false, false>(pc, task.straight_chunk, task, budget);
+    pc = runChunks<false>(pc, task.straight_chunk, task, budget);
     if (pc >= program_->chunk_count) return pc;
     if (task.straight_weight <= budget) return runBounded(pc, limit);
   }
-  return runChunks<false, false>(pc, limit, task, budget);
+  return runChunks<false>(pc, limit, task, budget);
 }
 
-uint32_t Runner::runWatched(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget, bool looks) noexcept {
-  if (limit_.ns == 0) return runChunks<false, true>(pc, limit, task, budget);
-  return looks ? runChunks<true, true>(pc, limit, task, budget) : runChunks<true, false>(pc, limit, task, budget);
-}
-
-inline uint32_t Runner::runToEnd(uint32_t task, const rung_task& t) noexcept {
+inline uint32_t Runner::runToEnd(const rung_task& t) noexcept {
   beginStack();
   uint32_t budget = t.budget;
-  return runFrom(t.entry, RUNG_PC_DONE, task, t, budget);
+  return runFrom(t.entry, RUNG_PC_DONE, t, budget);
 }
 
 bool Runner::copiesNothing(uint32_t task) const noexcept {
@@ -371,7 +312,7 @@ void Runner::findPlain() noexcept {
   plain_ = 0;
   if (hooks_.latch != nullptr || hooks_.task != nullptr) return;
   for (uint32_t t = 0; t < std::min(program_->task_count, kMostPlain); ++t)
-    if (copiesNothing(t) && !hasActivity(t) && isBounded(program_->tasks[t])) plain_ |= uint64_t{1} << t;
+    if (copiesNothing(t) && isBounded(program_->tasks[t])) plain_ |= uint64_t{1} << t;
 }
 
 namespace {
@@ -442,7 +383,7 @@ bool Runner::runWithBorders(uint32_t task, uint32_t times) noexcept {
     latch(task);
     begin(task);
     copyBegin(task, t);
-    if (!finish(task, t, runToEnd(task, t))) return false;
+    if (!finish(task, t, runToEnd(t))) return false;
     if (--times == 0 || stopped_) return true;
   }
 }
@@ -476,7 +417,7 @@ bool Runner::runNextPart(uint32_t task) noexcept {
   state.part = state.part + 1 < t.part_count ? state.part + 1 : 0;
   if (state.part == 0) limit = RUNG_PC_DONE; // the last step ends the run whatever was jumped over
   beginStack();
-  state.pc = runFrom(state.pc, limit, task, t, state.budget);
+  state.pc = runFrom(state.pc, limit, t, state.budget);
   return finish(task, t, state.pc);
 }
 

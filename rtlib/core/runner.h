@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <span>
 
-#include "rtlib/core/activity.h"
 #include "rtlib/core/needed_copies.h"
 #include "rtlib/core/pass_steps.h"
 #include "rung/program.h"
@@ -77,11 +76,6 @@ public:
   void setHooks(RunnerHooks hooks) noexcept {
     hooks_ = hooks;
     joined_ = {};
-    findPlain();
-  }
-  // Of the program that runs, also of the next one; null: every chunk runs. Outlives the runner.
-  void setActivity(Activity* activity) noexcept {
-    activity_ = activity;
     findPlain();
   }
   // Of the program that runs, also of the next one: tasks begin and end with these copies; null: with all that the
@@ -157,17 +151,13 @@ private:
   bool runPlain(uint32_t task, uint32_t times) noexcept;
   uint32_t runRow(uint32_t entry, uint32_t times) noexcept;
   uint32_t runAgain(const rung_task& task, uint32_t times) noexcept;
-  uint32_t runToEnd(uint32_t task, const rung_task& t) noexcept;
+  uint32_t runToEnd(const rung_task& t) noexcept;
   uint32_t runBounded(uint32_t pc, uint32_t limit) noexcept;
-  uint32_t runAwake(uint32_t pc, uint32_t limit) noexcept;
-  uint32_t runFrom(uint32_t pc, uint32_t limit, uint32_t task, const rung_task& t, uint32_t& budget) noexcept;
+  uint32_t runFrom(uint32_t pc, uint32_t limit, const rung_task& t, uint32_t& budget) noexcept;
   uint32_t runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
-  uint32_t runWatched(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget, bool looks) noexcept;
-  bool hasActivity(uint32_t task) const noexcept;
-  bool looksAt(uint32_t task) noexcept;
   void useCode(const Code& code) noexcept;
-  // `Timed`: with a limit in time; without one the clock costs nothing. `Looks`: chunks that rest are left out.
-  template <bool Timed, bool Looks>
+  // `Timed`: with a limit in time; without one the clock costs nothing.
+  template <bool Timed>
   uint32_t runChunks(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept;
   void startTime() noexcept {
     if (limit_.ns != 0) deadline_ = limit_.nowNs() + limit_.ns;
@@ -209,7 +199,6 @@ private:
   Code own_;  // of the program
   Code code_; // that runs
   std::span<const ForcedBits> forced_;
-  Activity* activity_ = nullptr;
   const NeededCopies* copies_ = nullptr;
   TimeLimit limit_;
   static constexpr uint32_t kMostPlain = 64; // tasks

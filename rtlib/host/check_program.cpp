@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "rtlib/core/activity.h"
 #include "rtlib/core/memory.h"
 #include "rtlib/host/mapped_file.h"
 #include "rtlib/host/program_info.h"
@@ -56,8 +55,7 @@ public:
     for (void (Checker::*check)() :
          {&Checker::checkHead, &Checker::checkPresence, &Checker::checkSpaces, &Checker::checkSymbols,
           &Checker::checkSlots, &Checker::checkContinuations, &Checker::checkMemory, &Checker::checkCopies,
-          &Checker::checkCode, &Checker::checkActivity, &Checker::checkTimers, &Checker::checkTasks,
-          &Checker::checkSchedule, &Checker::checkTexts}) {
+          &Checker::checkCode, &Checker::checkTasks, &Checker::checkSchedule, &Checker::checkTexts}) {
       (this->*check)();
       if (!error_.empty()) break; // what follows relies on it
     }
@@ -155,11 +153,8 @@ private:
     present("services", p_.service_count, p_.services);
     present("texts", p_.text_count, p_.texts);
     present("written spans", p_.write_count, p_.writes);
-    present("activity", p_.activity_count, p_.activity);
-    present("activity spans", p_.activity_span_count, p_.activity_spans);
     present("read spans", p_.read_count, p_.reads);
     present("changes", p_.change_count, p_.changes);
-    present("timers", p_.timer_count, p_.timers);
   }
 
   // ---- memory ------------------------------------------------------------------------------------------------------
@@ -385,54 +380,6 @@ private:
       if (r.file != RUNG_NONE) index("rung", i, "file", r.file, p_.file_count);
       if (r.first_line > r.last_line) failAt("rung", i, "ends before it begins, in line ", r.last_line);
       index("rung", i, "routine", r.routine, p_.routine_count);
-    }
-  }
-
-  // What is compared lies in whole lines of the block.
-  void checkActivity() {
-    if (p_.activity_count == 0) return;
-    if (p_.activity_count != p_.chunk_count)
-      return fail("the table of activity has ", p_.activity_count, " entries, there are ", p_.chunk_count, " chunks");
-    if (p_.memory_size % rt::kActivityLine != 0)
-      return fail("the memory block of ", p_.memory_size, " bytes does not have whole lines of ", rt::kActivityLine);
-    if (p_.memory_align < rt::kActivityLine)
-      return fail("the memory block has alignment ", p_.memory_align, ", its lines have ", rt::kActivityLine);
-    for (uint32_t i = 0; error_.empty() && i < p_.activity_count; ++i) {
-      const rung_activity& a = p_.activity[i];
-      piece("activity", i, "written spans", a.written_first, a.written_count, p_.activity_span_count);
-      piece("activity", i, "touched spans", a.touched_first, a.touched_count, p_.activity_span_count);
-      piece("activity", i, "timers", a.timer_first, a.timer_count, p_.timer_count);
-      if (a.timer_count > RUNG_MOST_TIMERS) failAt("activity", i, "has too many timers");
-      if (a.once != 0 && a.of_entry == 0) failAt("activity", i, "is not of the main task's entry, but run once");
-      if (a.may_rest > 1 || a.asks_host > 1)
-        failAt("activity", i, "has a `may_rest` or `asks_host` that is not 0 or 1");
-      if (a.timer_count != 0 && a.once == 0) failAt("activity", i, "has timers, but is not run once");
-      if (error_.empty()) checkActivitySpans(a.written_first, a.written_count);
-      if (error_.empty()) checkActivitySpans(a.touched_first, a.touched_count);
-    }
-  }
-
-  void checkTimers() {
-    for (uint32_t i = 0; error_.empty() && i < p_.timer_count; ++i) {
-      const rung_timer& timer = p_.timers[i];
-      if (timer.size != sizeof(int32_t) && timer.size != sizeof(int64_t))
-        return failAt("timer", i, "has ", timer.size, " bytes, expected 4 or 8");
-      if (timer.down > 1) failAt("timer", i, "has the unknown direction ", timer.down);
-      inBlock("timer", i, timer.cell, timer.size);
-      inBlock("timer", i, timer.amount, timer.size);
-      if (timer.limit_cell != RUNG_NONE) inBlock("timer", i, timer.limit_cell, sizeof(uint16_t));
-      if (timer.limit < 0 || timer.limit > RUNG_MOST_TIMER_LIMIT)
-        failAt("timer", i, "has a limit outside 0 to RUNG_MOST_TIMER_LIMIT");
-    }
-  }
-
-  void checkActivitySpans(uint32_t first, uint32_t count) {
-    for (uint32_t i = first; error_.empty() && i < first + count; ++i) {
-      const rung_span& span = p_.activity_spans[i];
-      inBlock("activity span", i, span.offset, span.size);
-      if (span.size == 0) failAt("activity span", i, "is empty");
-      if (i > first && span.offset <= uint64_t{p_.activity_spans[i - 1].offset} + p_.activity_spans[i - 1].size)
-        failAt("activity span", i, "does not lie above the one before it");
     }
   }
 

@@ -15,7 +15,6 @@ Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
   ctx_->host_data = port_.get();
   ctx_->prof = loaded_.counters();
   setRunnerHooks();
-  runner_.setActivity(&loaded_.activity);
   port_->services.setResponder({&respondHook, this});
   port_->services.setServices(loaded_.services, program().service_count);
   coldStart();

@@ -41,8 +41,7 @@ LoadedProgram::LoadedProgram(const Runnable& runnable, uint32_t leastBytes)
       services(runnable.services != nullptr ? runnable.services : program->services),
       blockBytes(bytesFor(runnable, leastBytes)), block(blockFor(runnable, blockBytes)),
       profile(program->instrumented != 0 ? program->rung_count : 0), parts(program->task_count),
-      steps(program->scan_count), retained(retainedBytes(*program)), overwritten(*program), activityMemory(*program),
-      activity(activityMemory.make()),
+      steps(program->scan_count), retained(retainedBytes(*program)), overwritten(*program),
       copyLists(std::make_shared<const CopyLists>(*program, runnable.memory != nullptr)),
       neededCopies(copyLists->views()) {
   clear();

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "rtlib/core/runner.h"
-#include "rtlib/host/activity_memory.h"
 #include "rtlib/host/copy_lists.h"
 #include "rtlib/host/overwritten.h"
 
@@ -42,8 +41,6 @@ struct LoadedProgram {
   std::vector<rung_step> steps;     // room for those of a pass
   std::vector<uint8_t> retained;    // room for a warm start
   Overwritten overwritten;
-  ActivityMemory activityMemory;
-  rt::Activity activity; // over that
   // Whole in a block of somebody else, who may look at all of it.
   std::shared_ptr<const CopyLists> copyLists;
   rt::NeededCopies neededCopies; // in these

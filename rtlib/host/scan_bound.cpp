@@ -21,7 +21,6 @@ constexpr uint32_t kPieceWeight = 64; // beside which reading the clock is cheap
 
 struct Slice {
   uint64_t weight = 0;
-  uint64_t looks = 0; // runs and parts that look for changes
   int64_t periodNs = 0;
   bool circles = false;
 };
@@ -47,7 +46,6 @@ std::vector<Slice> slicesOf(const rung_program& program) {
     Slice& slice = slices.empty() ? before : slices.back();
     const uint64_t times = timesOf(step, task);
     slice.weight += task.heaviest * times;
-    if (program.activity_count != 0 && step.task == program.main_task) slice.looks += times;
     slice.circles = slice.circles || task.circles != 0;
   }
   if (slices.empty()) {
@@ -55,7 +53,6 @@ std::vector<Slice> slicesOf(const rung_program& program) {
     return {before};
   }
   slices.back().weight += before.weight;
-  slices.back().looks += before.looks;
   slices.back().circles = slices.back().circles || before.circles;
   for (size_t i = 0; i < slices.size(); ++i) slices[i].periodNs = delays[(i + 1) % delays.size()];
   return slices;
@@ -114,45 +111,7 @@ public:
     return std::ranges::max(fastest);
   }
 
-  // What looking for changes adds to a run in which everything wakes: all that it looks at is compared, each chunk that
-  // ran is looked at, and so much is woken that the run gives up. No run does all three to their end.
-  int64_t looking() {
-    if (program_.activity_count == 0) return 0;
-    loaded_.clear();
-    int64_t fastest = std::numeric_limits<int64_t>::max();
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      loaded_.activity.forget();
-      const int64_t looked = timed([&] { look(); });
-      const int64_t compared = timed([&] { loaded_.activity.begin(loaded_.block.get()); });
-      for (uint32_t i = 0; i < program_.memory_size; ++i) loaded_.block.get()[i] ^= 1;
-      const int64_t woken = timed([&] {
-        loaded_.activity.begin(loaded_.block.get());
-        loaded_.activity.end(loaded_.block.get(), true);
-      });
-      fastest = std::min(fastest, looked + compared + woken);
-    }
-    return fastest;
-  }
-
 private:
-  template <class Work>
-  static int64_t timed(Work work) {
-    const int64_t begin = monotonicNs();
-    work();
-    return monotonicNs() - begin;
-  }
-
-  // A run in which no chunk rests and none does anything.
-  void look() {
-    rt::Activity& activity = loaded_.activity;
-    activity.begin(loaded_.block.get());
-    for (uint32_t chunk = 0; chunk < program_.chunk_count; ++chunk) {
-      activity.reach(loaded_.block.get(), chunk);
-      activity.ran(loaded_.block.get(), chunk, chunk + 1, program_.chunks[chunk].weight);
-    }
-    activity.end(loaded_.block.get(), true);
-  }
-
   std::vector<Piece> cut() const {
     std::vector<Piece> pieces;
     uint32_t weight = kPieceWeight;
@@ -226,12 +185,10 @@ ScanBound measureBound(const Runnable& runnable) {
   Measurement measurement(runnable);
   const Piece dearest = measurement.dearest();
   const int64_t rest = measurement.longestRest();
-  const int64_t looking = measurement.looking();
   ScanBound bound;
   double fullest = -1;
   for (const Slice& slice : slicesOf(program)) {
-    const int64_t lookingNs = static_cast<int64_t>(slice.looks) * looking;
-    const double ns = static_cast<double>(slice.weight) * dearest.nsPerWeight + static_cast<double>(rest + lookingNs);
+    const double ns = static_cast<double>(slice.weight) * dearest.nsPerWeight + static_cast<double>(rest);
     bound.circles = bound.circles || slice.circles;
     const double full = slice.periodNs == 0 ? 0 : ns / static_cast<double>(slice.periodNs);
     if (full <= fullest) continue;
@@ -239,7 +196,6 @@ ScanBound measureBound(const Runnable& runnable) {
     bound = {.weight = slice.weight,
              .nsPerWeight = dearest.nsPerWeight,
              .rung = program.chunk_count == 0 ? uint32_t{RUNG_NONE} : program.chunks[dearest.first].first_rung,
-             .lookingNs = lookingNs,
              .ns = static_cast<int64_t>(ns),
              .periodNs = slice.periodNs,
              .circles = bound.circles};
@@ -251,7 +207,6 @@ std::string boundText(const ScanBound& bound, const rung_program& program) {
   std::string text = shownTime(static_cast<double>(bound.ns)) + ": " + std::to_string(bound.weight) + " steps of " +
                      shownTime(bound.nsPerWeight) + " at most";
   if (bound.rung < program.rung_count) text += " (" + rungText(program, bound.rung) + ")";
-  if (bound.lookingNs > 0) text += ", " + shownTime(static_cast<double>(bound.lookingNs)) + " of looking for changes";
   if (bound.periodNs > 0) text += ", and the period is " + shownTime(static_cast<double>(bound.periodNs));
   return text;
 }

@@ -169,16 +169,6 @@ class Wcet(unittest.TestCase):
 """)
         self.assertRegex(self.slice(source), r"^, including process-image copies: TIME: 27 steps of TIME at most \(rung .*\), and the period is TIME$")
 
-    def test_slice_of_a_program_that_leaves_out_what_rests(self):
-        source = self.write("a.lad", LADDER)
-        report = self.tasks(source)[1]
-        self.assertEqual(report["slice"]["looking_ns"], 0)
-        report = self.tasks("--activity", source)[1]
-        self.assertGreater(report["slice"]["looking_ns"], 0)
-        self.assertGreater(report["slice"]["time_ns"],
-                           report["slice"]["steps"] * report["slice"]["step_ns"] + report["slice"]["looking_ns"] - 1)
-        self.assertIn(", TIME of looking for changes, and the period is TIME", self.slice("--activity", source))
-
     def test_list_with_a_circle(self):
         tasks, report = self.tasks(self.write("a.pmc", LIST))
         self.assertTrue(report["slice"]["circles"])

@@ -93,7 +93,6 @@ TEST_P(RandomModules, AgreeWithTheInterpreter) {
   const uint64_t seeds = GetParam().kind == EngineKind::Jit ? testing::howMany(40, 150) : testing::howMany(4, 12);
   for (uint64_t seed = 1; seed <= seeds; ++seed) {
     ir::Module module = ir::randomModule(seed);
-    module.activity = seed % 3 == 1;
     if (seed % 2 == 0) ir::runPasses(module, {});
     ir::LayoutOptions layout;
     layout.expandBits = seed % 3 != 0;

@@ -36,8 +36,8 @@ std::vector<Region> tablesOf(const rung_program& p) {
            count * sizeof *table / sizeof(uint32_t)});
   };
   const uint32_t* const counts = &p.space_count;
-  add(counts, static_cast<uint32_t>(&p.timer_count - counts) + 1);
-  for (int weight = 0; weight < 3; ++weight) add(counts, static_cast<uint32_t>(&p.timer_count - counts) + 1);
+  add(counts, static_cast<uint32_t>(&p.change_count - counts) + 1);
+  for (int weight = 0; weight < 3; ++weight) add(counts, static_cast<uint32_t>(&p.change_count - counts) + 1);
   add(p.spaces, p.space_count);
   for (uint32_t i = 0; i < p.space_count; ++i) add(p.spaces[i].ranges, p.spaces[i].range_count);
   add(p.symbols, p.symbol_count);
@@ -56,10 +56,7 @@ std::vector<Region> tablesOf(const rung_program& p) {
   add(p.slices, p.slice_count);
   add(p.writes, p.write_count);
   add(p.reads, p.read_count);
-  add(p.activity, p.activity_count);
-  add(p.activity_spans, p.activity_span_count);
   add(p.changes, p.change_count);
-  add(p.timers, p.timer_count);
   add(reinterpret_cast<const uint64_t*>(p.routines), p.routine_count);
   add(reinterpret_cast<const uint64_t*>(p.texts), p.text_count);
   return regions;

@@ -23,7 +23,7 @@ import peers
 import report
 import services
 from callgrind import TARGET, Failure, run
-from generated import KINDS, RESTING, SMALL_WORKS, Programs, works
+from generated import KINDS, SMALL_WORKS, Programs, works
 
 TABLE = Path(__file__).resolve().parent / "counts.json"
 GROWTH = 1.01
@@ -41,10 +41,6 @@ def build_type(tools):
 
 def names_of(rows):
     return {f"{dialect} {kind} {size}": row["ours"] for (dialect, kind, size), row in rows.items() if row is not None}
-
-
-def names_of_resting(rows):
-    return {f"{dialect} {kind} {size}, --activity, {pace}": count for (dialect, kind, size, pace), (_, count) in rows.items()}
 
 
 def compare(counts, kept):
@@ -82,18 +78,15 @@ def main():
     of_machines = machines.measure(options.tools)
     of_services = services.measure(options.tools)
     with tempfile.TemporaryDirectory() as folder:
-        programs = Programs(options.tools, folder, not options.check)
+        programs = Programs(options.tools, folder)
         # A check needs no straight-line form, which compilers take minutes for.
         rows = programs.counts(SMALL_WORKS if options.small else works(KINDS if options.all else ()), not options.check)
-        resting = programs.resting(() if options.small else RESTING)
     print(machines.text_of(of_machines))
     print(services.text_of(of_services))
     print(report.counts_text(rows))
     print(report.peers_text(rows, peers.versions()), end="")
-    if resting:
-        print(report.resting_text(resting))
     counts = {name: total for name, (_, total, _) in of_machines.items()}
-    counts |= services.names_of(of_services) | names_of(rows) | names_of_resting(resting)
+    counts |= services.names_of(of_services) | names_of(rows)
     if options.update:
         kept = json.loads(TABLE.read_text(encoding="utf-8"))
         here = environment(options.tools)

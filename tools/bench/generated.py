@@ -19,10 +19,6 @@ LARGE_SIZES = (10_000, 50_000)
 LARGE_KINDS = ("bits", "full")  # of these the usual report has large ones, too
 ARITHMETIC = ("integers", 200)  # of the full program of 1,000 rungs; 100 timers and 100 counters are in SIZES
 SMALL_WORKS = [(kind, SIZES[0]) for kind in KINDS]
-RESTING = (("bits", 1000), ("full", 1000))  # that are built with --activity, too
-LARGE_RESTING = (("bits", 10_000),)  # in the usual report
-# Something is new in each scan; one input in every tenth; all inputs in one scan after those.
-PACES = {"busy": "count-long", "quiet": "count-quiet", "wakes": "count-wake"}
 NO_ROOM = 4  # status of rung-bench-generated
 COMPILERS = {"g++": "g++", "clang++": "clang++-19"}
 FORMS = ("byte", "packed")
@@ -34,23 +30,21 @@ def works(large_kinds=()):
 
 
 class Programs:
-    def __init__(self, tools, folder, checks_forms=True):
-        """`checks_forms`: programs with --activity are compared with the straight-line forms, which compilers take
-        minutes for."""
-        self.tools, self.folder, self.checks_forms = tools, Path(folder), checks_forms
+    def __init__(self, tools, folder):
+        self.tools, self.folder = tools, Path(folder)
         self.program = tools / "rung-bench-generated"
         self.peers = Peers(self.program, folder)
 
-    def build(self, name, source, ending, *options):
+    def build(self, name, source, ending):
         path = self.folder / f"{name}.so"
         text = self.folder / f"{name}.{ending}"
         text.write_text(source, encoding="utf-8")
-        run(self.tools / "rungc", "build", "--target", TARGET, *options, "-o", path, text)
+        run(self.tools / "rungc", "build", "--target", TARGET, "-o", path, text)
         return path
 
-    def ours(self, dialect, kind, size, activity=False):
+    def ours(self, dialect, kind, size):
         """The shared object; None where the control has no room for so many."""
-        name = f"{dialect}-{kind}-{size}" + ("-activity" if activity else "")
+        name = f"{dialect}-{kind}-{size}"
         if (self.folder / f"{name}.so").exists():
             return self.folder / f"{name}.so"
         made = subprocess.run([self.program, "source", dialect, kind, str(size)], capture_output=True, text=True, check=False)
@@ -58,7 +52,7 @@ class Programs:
             return None
         if made.returncode != 0:
             raise Failure(made.stderr)
-        return self.build(name, made.stdout, ENDINGS[dialect], *(["--activity"] if activity else []))
+        return self.build(name, made.stdout, ENDINGS[dialect])
 
     def straight(self, kind, size):
         """(form, compiler): shared object, of each. They are kept from run to run: compilers take an hour for the large
@@ -84,10 +78,10 @@ class Programs:
     def others(self, kind, size):
         return self.straight(kind, size) | self.peers.forms(kind, size)
 
-    def words(self, command, dialect, work, forms, activity=False):
+    def words(self, command, dialect, work, forms):
         kind, size = work
         paths = [word for (form, _), path in forms.items() for word in (form, path)]
-        return [self.program, command, dialect, kind, size, self.ours(dialect, kind, size, activity), *paths]
+        return [self.program, command, dialect, kind, size, self.ours(dialect, kind, size), *paths]
 
     def count(self, dialect, work, forms):
         """Instructions a scan: of our compiled rungs, of all of ours, of each straight-line form, of each peer."""
@@ -101,24 +95,6 @@ class Programs:
         return {"rungs": round(rungs / scans), "ours": totals[0],
                 "straight": {key: total for key, total in others.items() if key[0] in FORMS},
                 "peers": {name: total for (form, name), total in others.items() if form not in FORMS}}
-
-    def resting(self, all_works):
-        """By dialect, kind, size, pace: instructions a scan without --activity and with it."""
-        rows = {}
-        for work in all_works:
-            for dialect in DIALECTS:
-                if self.ours(dialect, *work) is None:
-                    continue
-                forms = self.straight(*work) if self.checks_forms else {}
-                run(*self.words("check", dialect, work, forms, True))
-                for pace, command in PACES.items():
-                    rows[dialect, *work, pace] = [self.one_count(command, dialect, work, activity) for activity in (False, True)]
-        return rows
-
-    def one_count(self, command, dialect, work, activity):
-        profile = self.folder / f"profile-resting-{dialect}-{work[0]}-{work[1]}"
-        scans = int(counted(profile, *self.words(command, dialect, work, {}, activity)))
-        return round(sum(self_costs(Path(f"{profile}.1")).values()) / scans)
 
     def counts(self, all_works, with_straight):
         """By dialect, kind, size. Where there is no room: None."""
@@ -139,10 +115,10 @@ class Programs:
         best = min(row["straight"], key=row["straight"].get)
         return {best: self.straight(*work)[best]}
 
-    def times(self, dialect, work, form, quiet=False):
+    def times(self, dialect, work, form):
         """Nanoseconds of each wake-up: (hot, after a sleep, after other work) of ours, then of the straight-line form; then of
-        ours after a sleep that ends early, with what a scan reads touched. `quiet`: of the program with --activity."""
-        return json.loads(run(*self.words("cold-quiet" if quiet else "cold", dialect, work, form, quiet)))
+        ours after a sleep that ends early, with what a scan reads touched."""
+        return json.loads(run(*self.words("cold", dialect, work, form)))
 
     def footprint(self, dialect, work, forms):
         """(lines of code, of data), (pages of code, of data) that one scan touches; of the last form, without one of ours."""

@@ -17,7 +17,7 @@ import plot
 import services
 import start
 from callgrind import Failure, run
-from generated import DIALECTS, LARGE_KINDS, LARGE_RESTING, PACES, RESTING, Instructions, Programs, percentile, works
+from generated import DIALECTS, LARGE_KINDS, Instructions, Programs, percentile, works
 
 TITLES = {"bits": "bit logic", "arrays": "bit logic of arrays", "timers-idle": "timers, idle", "timers-running": "timers, running", "counters": "counters",
           "integers": "integer arithmetic", "reals": "floating-point arithmetic", "indexed": "indexed addressing",
@@ -45,13 +45,6 @@ as well; a counter is written with IF and assignments, because the standard's CT
 Left out: mechanisms, which Structured Text does not have, and programs of more than 1,000 rungs, because each becomes one function, which takes too long to compile.
 ClassicLadder has bit logic only: its timers count in tenths of a second, and its arithmetic is text, which it parses in every scan.
 """
-RESTING_HEAD = """### Change-driven execution
-
-Instructions per scan without `--activity`, with it, and the ratio. Busy: inputs change in each of more than a thousand scans. Quiet: one input changes in every
-tenth scan. All inputs change: the one scan after those in which they all do.
-
-| program | busy | quiet | all inputs change |
-| --- | --- | --- | --- |"""
 COLD_HEAD = """## Cold scans
 
 A task of 1 ms always runs after a sleep. Here our scan and the reference's run in turn in one process, each after a sleep of 1 ms, 2,000 times. What
@@ -139,14 +132,6 @@ def peers_text(rows, versions):
     return "\n".join(lines) + "\n" if lines else ""
 
 
-def resting_text(resting):
-    lines = [RESTING_HEAD]
-    for dialect, *work in dict.fromkeys(key[:-1] for key in resting):
-        cells = [f"{plain:,}, {active:,}, {active / plain:.2f}" for plain, active in (resting[dialect, *work, pace] for pace in PACES)]
-        lines.append(f"| {NAMES[dialect]}, {named(work)} | {' | '.join(cells)} |")
-    return "\n".join(lines) + "\n"
-
-
 def microseconds(values, percent):
     return percentile(values, percent) / 1000
 
@@ -175,7 +160,6 @@ def cold_text(programs, rows):
     """The text, and groups for the plot: a program, and of each dialect the spread of ratios."""
     lines = [COLD_HEAD, "| program | hot: ours, reference | cold, 10 %: ours, reference, ratio | cold, median: ours, reference, ratio | "
              "disturbed, 10 %: ours, reference, ratio | early, 10 %: ours, ratio to cold | early, median: ours, ratio to cold |", "|" + " --- |" * 7]
-    quiet = []
     places = [TOUCHED_HEAD]
     groups = []
     for work in COLD:
@@ -189,14 +173,12 @@ def cold_text(programs, rows):
             name = f"{NAMES[dialect]}, {named(work)}"
             times = programs.times(dialect, work, fastest)
             lines.append(cold_row(name, times))
-            if work in RESTING:
-                quiet.append(cold_row(f"{name}, --activity, quiet", programs.times(dialect, work, fastest, True)))
             spreads.append(ratio_spread(times[1], times[4]))
             own, theirs = programs.footprint(dialect, work, {}), programs.footprint(dialect, work, fastest)
             cells = [f"{side[0][i]:,} lines, {side[1][i]} pages" for side in (own, theirs) for i in (0, 1)]
             places.append(f"| {name} | {' | '.join(cells)} |")
         groups.append((named(work), spreads))
-    return "\n".join([*lines, *quiet, "", *places]) + "\n", groups
+    return "\n".join([*lines, "", *places]) + "\n", groups
 
 
 def cost_text(programs):
@@ -216,7 +198,6 @@ def main(tools, folder):
     with tempfile.TemporaryDirectory() as built:
         programs = Programs(tools, built)
         rows = programs.counts(works(LARGE_KINDS), True)
-        resting = programs.resting(RESTING + LARGE_RESTING)
         cold, groups = cold_text(programs, rows)
         costs = cost_text(programs)
     series = [NAMES[dialect] for dialect in DIALECTS]
@@ -231,7 +212,6 @@ def main(tools, folder):
     print(services.text_of(of_services))
     print(f"{counts_text(rows)}\n![Ratios of instructions, a bar for each dialect and program](performance-counts.svg)\n")
     print(peers_text(rows, peers.versions()), end="")
-    print(resting_text(resting))
     print(f"{cold}\n![Ratios of cold scans, with their spread](performance-cold.svg)\n")
     print(f"Measured on {machine}.\n\n{costs}")
 

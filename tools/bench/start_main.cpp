@@ -69,7 +69,6 @@ compiler::CompileRequest request(SourceManager& sources, const std::string& path
   const std::optional<project::Project> project = project::load(sources, path, diagnostics);
   if (!project) throw std::runtime_error(renderText(diagnostics, sources));
   request.dialect = project->dialect;
-  request.activity = project->activity;
   request.options.includePaths = project->includePaths;
   for (const project::Setting& setting : project->config) request.options.config[setting.key] = setting.value;
   files = good(compiler::addFiles(sources, project->files, request.options.config));

@@ -130,7 +130,6 @@ std::optional<Compiled> compile(SourceManager& sources, std::span<const FileId> 
   ir::readSourcesOfLatches(*out.module);
   out.module->name =
       request.name.empty() ? std::filesystem::path(sources.name(files[0])).stem().string() : request.name;
-  out.module->activity = request.activity;
   ended("lowering");
   checkModule(*out.module, ir::Mode::Built);
   ended("verifier");

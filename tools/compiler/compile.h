@@ -33,7 +33,6 @@ struct CompileRequest {
   bool marks = false;               // note contacts and coils; the module stays as it was built
   bool compare = false; // note what is needed to compare the module, as it was built, with that of another version
   bool optimise = true;
-  bool activity = false;   // hosts may leave out chunks that would change nothing
   bool keepBuilt = false;  // for those who make its code again (recompiler.h)
   bool keepSource = false; // keep what the front end knows of the text
   ir::LayoutOptions layout;

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 10> kKeys = {"name", "dialect",   "files",    "encoding", "include",
-                                                    "nc",   "scenarios", "bindings", "activity", "config"};
+                                                    "nc",   "scenarios", "bindings", "config"};
 
 std::string_view kindOf(const toml::node& node) {
   switch (node.type()) {
@@ -84,9 +84,8 @@ private:
     const Likely meant = likeliest(key.str(), kKeys);
     suggest(report, range, meant);
     if (meant.word.empty())
-      report.note(
-          "the keys of a project file are name, dialect, files, include, nc, scenarios, bindings, activity; those "
-          "of the dialect's configuration belong in the table [config]");
+      report.note("the keys of a project file are name, dialect, files, include, nc, scenarios, bindings; those "
+                  "of the dialect's configuration belong in the table [config]");
   }
 
   void readTable(const toml::table& table) {
@@ -101,7 +100,6 @@ private:
     if (const toml::node* node = table.get("nc")) readNc(*node);
     if (const toml::node* node = table.get("scenarios")) readScenarios(*node);
     if (const toml::node* node = table.get("bindings")) readBindings(*node);
-    if (const toml::node* node = table.get("activity")) readActivity(*node);
     if (const toml::node* node = table.get("config")) readConfig(*node);
     for (Setting& setting : project_.config) placeFile(setting);
     std::stable_sort(project_.config.begin(), project_.config.end(),
@@ -212,12 +210,6 @@ private:
   void readBindings(const toml::node& node) {
     forTexts("bindings", node, "[\"nc_binding.h\"]",
              [&](const std::string& name, const toml::node&) { project_.bindings.push_back(inFolder(name)); });
-  }
-
-  void readActivity(const toml::node& node) {
-    const auto value = node.value_exact<bool>();
-    if (!value) return wrong("activity", node, "true or false", kindOf(node));
-    project_.activity = *value;
   }
 
   void addSetting(const std::string& key, std::string value, const toml::node& node) {

@@ -31,7 +31,6 @@ struct Project {
   std::vector<std::string> includePaths;
   std::vector<Setting> config;        // in the order of the file; `nc` is one of them
   std::vector<std::string> bindings;  // files of rungc bind, for whose layouts the program is built
-  bool activity = false;              // as rungc build --activity
   std::vector<std::string> scenarios; // every file that a pattern matches, in the order of the patterns, each once
 };
 

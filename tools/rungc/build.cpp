@@ -38,7 +38,6 @@ struct BuildOptions {
 void addCodeOptions(Command command, BuildOptions& options) {
   addSourceOptions(command, options.source);
   addLevelOption(command, options.level);
-  addActivityOption(command, options.source.activity);
   command.flag("-g", options.debugInfo, "Add debug information for the PLC source");
   command.flag("--profile", options.profile, "Count and time every rung");
   command.option("--profile-use", options.profileUse,

@@ -30,7 +30,6 @@ struct SourceOptions {
   std::string projectFile;         // --project
   bool noProject = false;
   std::optional<project::Project> project; // that the files belong to
-  bool activity = false;                   // --activity, or the project says so
   bool strict = false;
   bool json = false;
   bool quiet = false;
@@ -52,8 +51,6 @@ std::optional<project::Project> openProject(const std::string& named, const Sour
 void addColorOption(Command command, std::string& color, const std::string& what);
 // By the option and, with auto, whether the file is a terminal.
 bool wantsColor(const std::string& color, int file);
-// --activity, for those who make code.
-void addActivityOption(Command command, bool& activity);
 // -O0 compiles fast, -O2 runs fast.
 void addLevelOption(Command command, std::string& level);
 // Compiles and prints the diagnostics to standard error (JSON: to standard output). On failure `status` says why.
@@ -91,6 +88,7 @@ void addBuild(CommandLine& app, int& status);
 void addConvert(CommandLine& app, int& status);
 void addFormat(CommandLine& app, int& status);
 void addEmit(CommandLine& app, int& status);
+void addOpt(CommandLine& app, int& status);
 void addRun(CommandLine& app, int& status);
 void addTest(CommandLine& app, int& status);
 void addProfile(CommandLine& app, int& status);

@@ -475,7 +475,6 @@ void addRun(CommandLine& app, int& status) {
       "Keep the retained memory in FILE.a and FILE.b: loaded at the start, saved during the run and at its end");
   command.option("--cache", options->cache, "Folder for compiled code, so that an unchanged program starts faster");
   addLevelOption(command, options->level);
-  addActivityOption(command, options->source.activity);
   // The scenario may name the program, so it is read before the program is looked for.
   command.onParsed([options] {
     int wrong = kOk;

@@ -47,12 +47,6 @@ void addLevelOption(Command command, std::string& level) {
   command.option("-O", level, "0: compile fast, 2: run fast").oneOf({"0", "2"}).showDefault();
 }
 
-void addActivityOption(Command command, bool& activity) {
-  command.flag(
-      "--activity", activity,
-      "Change-driven execution: skip rungs that would change nothing, for long programs with few changes in a scan");
-}
-
 namespace {
 
 void complain(const std::string& message) { fmt::print(stderr, "rungc: {}\n", text::withoutControls(message, "\n\t")); }
@@ -188,7 +182,6 @@ std::optional<compiler::Compiled> compileFiles(SourceManager& sources, const Sou
   request.dialect = options.dialect;
   request.keepSource |= warnsOfNames;
   if (options.project) request.name = options.project->name;
-  request.activity = options.activity || (options.project && options.project->activity);
   const auto files = addSources(sources, options, request.options, status);
   if (!files) return std::nullopt;
   Diagnostics diagnostics;

@@ -30,7 +30,6 @@ struct TestOptions {
   std::string color = "auto";
   std::string junit;
   std::string cxx;
-  bool activity = false;
   bool strict = false;
   std::string level = "2";
   std::string cache;
@@ -127,7 +126,6 @@ int runTests(TestOptions& options) {
   scenario::RunOptions run;
   run.store = &store;
   run.engines = engines.value();
-  run.activity = options.activity;
   run.strict = options.strict;
   run.engine.cppCompiler = options.cxx;
   run.engine.optimise = options.level != "0";
@@ -179,7 +177,6 @@ void addTest(CommandLine& app, int& status) {
   command.option("--cache", options->cache,
                  "Folder for compiled code, so that unchanged programs are not compiled again");
   addLevelOption(command, options->level);
-  addActivityOption(command, options->activity);
   command.flag(
       "--strict", options->strict,
       "Treat warnings that the real control would reject as errors, and scenarios that expect nothing as failed");

@@ -67,7 +67,6 @@ void addWcet(CommandLine& app, int& status) {
   Command command = app.add("wcet", "Report the worst-case execution time of each task, and the path that causes it");
   auto options = std::make_shared<WcetOptions>();
   addSourceOptions(command, options->source, "Print everything as JSON (docs/wcet-format.md)");
-  addActivityOption(command, options->source.activity);
   command.option("--scenario", options->scenarioFile,
                  "Also measure the runs of this scenario; without FILE, of the scenario's own program");
   command.onParsed([options] {

@@ -110,7 +110,6 @@ compiler::CompileRequest requestOf(const Scenario& scenario, const CompileSettin
   compiler::CompileRequest request;
   request.options.strict = settings.strict;
   request.instrument = settings.instrument;
-  request.activity = settings.activity;
   request.marks = settings.marks;
   request.keepBuilt = true;
   request.keepSource = firstOf(scenario, Kind::ExpectWarning) != nullptr;

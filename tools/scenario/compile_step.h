@@ -21,7 +21,6 @@ struct CompileStep {
 struct CompileSettings {
   bool strict = false;
   bool instrument = false;
-  bool activity = false;
   bool marks = false;
 };
 

@@ -53,10 +53,8 @@ private:
 
   // Everything that is wrong before the first scan is reported at once.
   void compileAndRun() {
-    const CompileSettings settings{.strict = options_.strict,
-                                   .instrument = options_.instrument,
-                                   .activity = options_.activity,
-                                   .marks = options_.engine.observer != nullptr};
+    const CompileSettings settings{
+        .strict = options_.strict, .instrument = options_.instrument, .marks = options_.engine.observer != nullptr};
     CompileStep step = compileProgram(scenario_, options_.programs, settings);
     note(step);
     if (options_.strict && result_.expectsNothing) fail(scenario_.statements[0], kExpectsNothing);

@@ -16,7 +16,6 @@ struct RunOptions {
   std::vector<compiler::EngineKind> engines; // at least one
   compiler::EngineOptions engine;
   bool instrument = false; // the program has profile counters
-  bool activity = false;   // see CompileRequest
   bool strict = false;
   std::vector<std::string> programs; // instead of the scenario's own program statement, when not empty
   EngineStore* store = nullptr;      // keeps engines for the next scenario; it outlives the run

@@ -60,10 +60,9 @@ Json fitsJson(const host::ScanBound& slice) {
 
 std::string jsonOf(const Bounds& bounds, const rung_program& program) {
   Json json = {{"wcet", 1}, {"program", bounds.program}, {"dialect", program.dialect}};
-  json["slice"] = {{"steps", bounds.slice.weight},        {"time_ns", bounds.slice.ns},
-                   {"period_ns", bounds.slice.periodNs},  {"step_ns", bounds.slice.nsPerWeight},
-                   {"circles", bounds.slice.circles},     {"fits", fitsJson(bounds.slice)},
-                   {"looking_ns", bounds.slice.lookingNs}};
+  json["slice"] = {{"steps", bounds.slice.weight},       {"time_ns", bounds.slice.ns},
+                   {"period_ns", bounds.slice.periodNs}, {"step_ns", bounds.slice.nsPerWeight},
+                   {"circles", bounds.slice.circles},    {"fits", fitsJson(bounds.slice)}};
   if (!bounds.measured.empty()) json["measured_by"] = bounds.measured;
   json["tasks"] = Json::array();
   for (const TaskBound& task : bounds.tasks) json["tasks"].push_back(taskJson(task, bounds, program));

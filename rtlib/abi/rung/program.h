@@ -174,37 +174,6 @@ typedef struct rung_chunk {
   uint32_t weight;     /* steps of its lightest way, for budgets; at least 1 */
 } rung_chunk;
 
-/* What a chunk touches, for hosts that leave out chunks which would change nothing. Spans are ascending, none touches
- * the next. */
-typedef struct rung_activity {
-  uint32_t written_first; /* in `activity_spans`: what the chunk may write */
-  uint32_t written_count;
-  uint32_t touched_first; /* in `activity_spans`: what it may read or write */
-  uint32_t touched_count;
-  uint32_t timer_first; /* in `timers` */
-  uint32_t timer_count; /* at most RUNG_MOST_TIMERS */
-  uint32_t of_entry;    /* 1: of the routine that the main task begins with */
-  uint32_t once;        /* 1: of that, and each run comes to it exactly once, where a fault does not end it before. Such
-                           a task has one part. Other chunks have no timers */
-  uint32_t may_rest;    /* 1: what it does depends on what it touches alone, and it does nothing else */
-  uint32_t asks_host;   /* 1: the host may read or write any of the memory while it runs */
-} rung_activity;
-#define RUNG_MOST_TIMERS 64u
-
-/* A number that a chunk moves on by an amount in each run, as a running timer does: a host may do that in the chunk's
- * place. Nobody else uses the number within a run. What the chunk does depends on it in no other way than whether it is
- * negative, and whether it has come to its limit. */
-typedef struct rung_timer {
-  uint32_t cell;   /* where the number is in the memory block: signed */
-  uint32_t amount; /* where the amount is: of the same size; the chunk does not write it */
-  uint32_t size;   /* bytes of each: 4 or 8 */
-  uint32_t down;   /* 1: the number loses the amount; before, it has come to its limit where it is at most the amount.
-                      0: it gains the amount; then it has come to its limit where it is at least that */
-  uint32_t limit_cell; /* `down` 0: where an unsigned word of 16 bits is that `limit` is multiplied with, which the
-                          chunk does not write; RUNG_NONE: there is none */
-  uint32_t reserved;
-  int64_t limit; /* `down` 0: 0 to RUNG_MOST_TIMER_LIMIT */
-} rung_timer;
 #define RUNG_MOST_TIMER_LIMIT (INT64_MAX >> 16)
 
 typedef struct rung_rung_info {
@@ -364,10 +333,7 @@ typedef struct rung_program {
   uint32_t continuation_count;
   uint32_t write_count;
   uint32_t read_count;
-  uint32_t activity_count; /* chunk_count, or 0: every chunk is to run */
-  uint32_t activity_span_count;
   uint32_t change_count;
-  uint32_t timer_count;
 
   const rung_space* spaces;
   const rung_symbol* symbols;
@@ -393,10 +359,7 @@ typedef struct rung_program {
   const rung_chunk_fn* chunk_fns; /* by chunk */
   const rung_written* writes;     /* all of spaces that chunks may write, ascending; none overlaps the next */
   const rung_span* reads;         /* of each task, ascending; none touches the next */
-  const rung_activity* activity;  /* by chunk */
-  const rung_span* activity_spans;
-  const uint32_t* changes; /* of each task: offsets of eight bytes of the memory block, ascending */
-  const rung_timer* timers;
+  const uint32_t* changes;        /* of each task: offsets of eight bytes of the memory block, ascending */
 } rung_program;
 
 #ifdef __cplusplus

@@ -83,7 +83,6 @@ void compareForced(const ir::Module& module, EngineKind kind, std::span<const ho
                    const ir::LayoutOptions& layout, uint32_t& forcedAtEnd) {
   ir::Module other = module; // so that the layouts differ, and spaces are compared instead of bytes of memory
   other.slots.push_back({.type = ir::Type::I64, .key = "of the reference alone"});
-  other.activity = false;
   Running reference(other, EngineKind::Interp, false);
   Running tested(module, kind, true, layout);
   for (int scan = 0; scan < kScans; ++scan) {
@@ -139,7 +138,6 @@ TEST_P(ForcedCodeOf, KnownCells) {
   for (uint64_t seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE(seed);
     ir::Module module = ir::randomModule(seed, {.rungs = 12, .ops = 8, .traps = false, .known = true});
-    module.activity = seed % 2 != 0;
     Random random(seed);
     std::vector<host::ForcedCell> cells;
     for (uint32_t bit = 0; bit < ir::kKnownCells; ++bit)

@@ -102,14 +102,14 @@ bool equal(const MessageText& a, const MessageText& b) {
 
 bool equal(const Module& a, const Module& b) {
   const auto& [name, dialect, files, spaces, slots, continuations, symbols, inits, retains, safeSpans, faults, services,
-               messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented, activity] = a;
+               messages, routines, tasks, mainTask, fastTask, scan, fast, slices, instrumented] = a;
   return name == b.name && dialect == b.dialect && files == b.files && equalAll(spaces, b.spaces) &&
          equalAll(slots, b.slots) && equalAll(continuations, b.continuations) && equalAll(symbols, b.symbols) &&
          equalAll(inits, b.inits) && equalAll(retains, b.retains) && equalAll(safeSpans, b.safeSpans) &&
          faults == b.faults && services == b.services && equalAll(messages, b.messages) &&
          equalAll(routines, b.routines) && equalAll(tasks, b.tasks) && mainTask == b.mainTask &&
          fastTask == b.fastTask && equalAll(scan, b.scan) && equalAll(fast, b.fast) && equalAll(slices, b.slices) &&
-         instrumented == b.instrumented && activity == b.activity;
+         instrumented == b.instrumented;
 }
 
 } // namespace rung::ir

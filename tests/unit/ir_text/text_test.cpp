@@ -75,7 +75,6 @@ TEST(Hash, ChangesWithEveryField) {
   expectOther(rung.transfer.targets, [](std::vector<uint32_t>& targets) { targets.push_back(0); });
   expectOther(rung.origin, [](Origin& origin) { origin = {"R", 0}; });
   expectOther(module.name, lengthen);
-  expectOther(module.activity, turn);
   expectOther(module.spaces.at(0).units, grow);
   expectOther(module.spaces.at(0).packedOnly, turn);
   expectOther(module.routines, repeat);

@@ -48,13 +48,6 @@ TEST(CheckProgram, SoundProgramPasses) {
   EXPECT_EQ(checkProgram(test.link()), "");
 }
 
-// Of the last chunk.
-void addTimer(TestProgram& test, const rung_timer& timer) {
-  for (size_t i = 0; i < test.functions.size(); ++i) test.addActivity({}, {});
-  test.addTimer(timer);
-  test.link();
-}
-
 class CheckProgram : public testing::TestWithParam<Case> {};
 
 // Each alone lies in the block, and together they have more bytes than a size can say.
@@ -207,51 +200,6 @@ constexpr Case kCases[] = {
     {"ChunkEmpty", [](TestProgram& t) { t.chunks[1].rung_count = 0; }, "chunk 1 has no rungs"},
     {"ChunkWeight", [](TestProgram& t) { t.chunks[1].weight = 0; }, "chunk 1 has weight 0"},
     {"ChunkCode", [](TestProgram& t) { t.functions[1] = nullptr; }, "chunk 1 has no code"},
-    {"ActivityCount", [](TestProgram& t) { t.addActivity({}, {}), t.link(); }, "the table of activity has 1 entries"},
-    {"ActivitySpans",
-     [](TestProgram& t) {
-       for (size_t i = 0; i < t.functions.size(); ++i) t.addActivity({{4, 1}}, {{4, 1}, {0, 1}});
-       t.link();
-     },
-     "activity span 2 does not lie above the one before it"},
-    {"ActivityAlignment",
-     [](TestProgram& t) {
-       for (size_t i = 0; i < t.functions.size(); ++i) t.addActivity({}, {});
-       t.link();
-       t.program.memory_align = 8;
-     },
-     "the memory block has alignment 8, its lines have 16"},
-    {"ActivityPlace",
-     [](TestProgram& t) {
-       for (size_t i = 0; i < t.functions.size(); ++i) t.addActivity({{1 << 20, 1}}, {});
-       t.link();
-     },
-     "activity span 0 lies outside the memory block"},
-    {"TimerPlace", [](TestProgram& t) { addTimer(t, {.cell = 253, .amount = 8, .size = 4, .limit_cell = RUNG_NONE}); },
-     "timer 0 lies outside the memory block"},
-    {"TimerSize", [](TestProgram& t) { addTimer(t, {.cell = 0, .amount = 8, .size = 2, .limit_cell = RUNG_NONE}); },
-     "timer 0 has 2 bytes, expected 4 or 8"},
-    {"TimerWord", [](TestProgram& t) { addTimer(t, {.cell = 0, .amount = 8, .size = 4, .limit_cell = 255}); },
-     "timer 0 lies outside the memory block"},
-    {"TimerLimit",
-     [](TestProgram& t) {
-       addTimer(t, {.cell = 0, .amount = 8, .size = 4, .limit_cell = RUNG_NONE, .limit = INT64_MAX});
-     },
-     "timer 0 has a limit outside"},
-    {"TimerRoutine",
-     [](TestProgram& t) {
-       addTimer(t, {.cell = 0, .amount = 8, .size = 4, .limit_cell = RUNG_NONE});
-       t.activity.back().once = 0;
-       t.link();
-     },
-     "has timers, but is not run once"},
-    {"ActivityRoutine",
-     [](TestProgram& t) {
-       for (size_t i = 0; i < t.functions.size(); ++i) t.addActivity({}, {});
-       t.activity.back().of_entry = 0;
-       t.link();
-     },
-     "is not of the main task's entry, but run once"},
     {"ChangesMany", [](TestProgram& t) { t.addChanges(0, std::vector<uint32_t>(RUNG_MOST_CHANGES + 1, 0)), t.link(); },
      "task 0 has too many changes"},
     {"ChangesPlace", [](TestProgram& t) { t.addChanges(0, {t.memorySize - 7}), t.link(); },

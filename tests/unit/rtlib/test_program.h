@@ -31,9 +31,6 @@ struct TestProgram {
   std::vector<rung_span> retains;
   std::vector<rung_span> safeSpans;
   std::vector<rung_written> writes;
-  std::vector<rung_activity> activity;
-  std::vector<rung_span> activitySpans;
-  std::vector<rung_timer> timers;
   std::vector<rung_span> reads;
   std::vector<uint32_t> changes;
   std::vector<rung_copy> copies;
@@ -95,20 +92,6 @@ struct TestProgram {
     tasks.push_back(task);
     return static_cast<uint32_t>(tasks.size() - 1);
   }
-  // Of the next chunk.
-  void addActivity(std::vector<rung_span> written, std::vector<rung_span> touched) {
-    const auto first = static_cast<uint32_t>(activitySpans.size());
-    const auto count = static_cast<uint32_t>(written.size());
-    activity.push_back({first, count, first + count, static_cast<uint32_t>(touched.size()),
-                        static_cast<uint32_t>(timers.size()), 0, 1, 1, touched.empty() ? 0u : 1u, 0});
-    activitySpans.insert(activitySpans.end(), written.begin(), written.end());
-    activitySpans.insert(activitySpans.end(), touched.begin(), touched.end());
-  }
-  // Of the chunk that `addActivity` was called for last.
-  void addTimer(const rung_timer& timer) {
-    timers.push_back(timer);
-    ++activity.back().timer_count;
-  }
   // What the task may read; all of one task after the other.
   void addReads(uint32_t task, std::vector<rung_span> spans) {
     tasks[task].read_first = static_cast<uint32_t>(reads.size());
@@ -159,8 +142,6 @@ struct TestProgram {
     point(tasks, program.tasks, program.task_count);
     point(partEnds, program.part_ends, program.part_end_count);
     point(scan, program.scan, program.scan_count);
-    point(activity, program.activity, program.activity_count);
-    point(activitySpans, program.activity_spans, program.activity_span_count);
     point(fast, program.fast, program.fast_count);
     point(slices, program.slices, program.slice_count);
     point(faults, program.faults, program.fault_count);
@@ -169,7 +150,6 @@ struct TestProgram {
     point(writes, program.writes, program.write_count);
     point(reads, program.reads, program.read_count);
     point(changes, program.changes, program.change_count);
-    point(timers, program.timers, program.timer_count);
     point(files, program.files, program.file_count);
     point(routines, program.routines, program.routine_count);
     program.chunk_fns = functions.data();

@@ -6,11 +6,10 @@ namespace {
 
 constexpr uint64_t kSeed = 20260102;
 constexpr uint32_t kOperandsBelow = 1000;
-constexpr uint32_t kQuietScans = 10; // from change to change
 
 } // namespace
 
-Machine::Machine(const Work& work, Pace pace) : work_(work), pace_(pace), random_(kSeed) {
+Machine::Machine(const Work& work) : work_(work), random_(kSeed) {
   for (uint32_t i = 0; i < work.inputs; ++i) {
     const bool random = (random_() & 1) != 0;
     inputs_.push_back(work.changes ? random : i < work.inputs / 2 ? work.firstHalf : work.secondHalf);
@@ -23,11 +22,6 @@ Machine::Machine(const Work& work, Pace pace) : work_(work), pace_(pace), random
 Change Machine::next() {
   Change change;
   if (!work_.changes) return change;
-  if (pace_ == Pace::Quiet) {
-    change.bitCount = ++scans_ % kQuietScans == 0 ? 1 : 0;
-    if (change.bitCount != 0) change.bits[0] = below(work_.inputs);
-    return change;
-  }
   change.bitCount = Change::kBits;
   for (uint32_t& bit : change.bits) bit = below(work_.inputs);
   if (work_.operands != 0) {

@@ -22,12 +22,9 @@ struct Change {
   double realValue = 0;
 };
 
-// How much happens: something in each scan, or one input in every tenth.
-enum class Pace : uint8_t { Busy, Quiet };
-
 class Machine {
 public:
-  explicit Machine(const Work& work, Pace pace = Pace::Busy);
+  explicit Machine(const Work& work);
 
   // Before the first scan; results, coils and tables begin at 0.
   const std::vector<bool>& inputs() const { return inputs_; }
@@ -40,8 +37,6 @@ private:
   double anyReal() { return (static_cast<double>(below(1024)) - 512) / 64; }
 
   const Work& work_;
-  Pace pace_;
-  uint32_t scans_ = 0;
   std::mt19937_64 random_;
   std::vector<bool> inputs_;
   std::vector<uint32_t> words_;

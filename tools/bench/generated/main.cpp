@@ -11,14 +11,10 @@
 //                                          all forms side by side, compared after every scan
 //   count DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          under callgrind: scans of each form, and a dump of its own for each
-//   count-long, count-quiet, count-wake DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
-//                                          the same over many scans, where one input changes in ten scans, and of the
-//                                          one scan after these in which all inputs change
 //   touch DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          under callgrind: one scan of the last form, from empty caches
 //   cold DIALECT KIND SIZE PROGRAM.so [byte|packed|peer FORM.so]...
 //                                          a form after the other, each scan after a sleep: nanoseconds as JSON
-//   cold-quiet ...                         the same where one input changes in ten scans
 //   count-rungs, cold-rungs DIALECT NUMBER COUNT PROGRAM.so
 //                                          the same of a program of equal rungs, with the condition 1
 #include <valgrind/callgrind.h>
@@ -48,12 +44,9 @@ using namespace rung;
 using Words = std::vector<std::string>;
 
 constexpr int kNoRoom = 4;
-constexpr int kSettleScans = 20;       // before what is measured
-constexpr int kLongSettleScans = 600;  // until a program that leaves out what rests has found out that nothing does
-constexpr int kCheckedScans = 400;     // compared one by one
-constexpr int kQuietSettleScans = 200; // until a program that leaves out what rests has come to rest
+constexpr int kSettleScans = 20;   // before what is measured
+constexpr int kCheckedScans = 400; // compared one by one
 constexpr int kCountedScans = 40;
-constexpr int kLongScans = 512;
 constexpr int kWakeUps = 2000;
 constexpr int kWakeUpsForRungs = 500; // there are a hundred programs of them
 constexpr auto kSleep = std::chrono::milliseconds(1);
@@ -152,38 +145,21 @@ void check(const Words& words) {
   }
 }
 
-void settle(bench::Side& side, bench::Machine& machine, int scans = kSettleScans) {
+void settle(bench::Side& side, bench::Machine& machine) {
   side.begin(machine);
-  for (int i = 0; i < scans; ++i) {
+  for (int i = 0; i < kSettleScans; ++i) {
     side.apply(machine.next());
     side.scan();
   }
 }
 
-struct Counting {
-  bench::Pace pace = bench::Pace::Busy;
-  int settleScans = kSettleScans;
-  int scans = kCountedScans;
-  bool wakes = false; // all inputs change in each scan
-};
-
-void changeAllInputs(bench::Side& side, const bench::Work& work) {
-  for (uint32_t bit = 0; bit < work.inputs; ++bit) {
-    bench::Change change;
-    change.bitCount = 1;
-    change.bits[0] = bit;
-    side.apply(change);
-  }
-}
-
-void count(const Words& words, const Counting& counting) {
+void count(const Words& words) {
   const Forms forms(words);
   std::vector<bench::Values> ends;
   for (const auto& side : forms.sides) {
-    bench::Machine machine(forms.of, counting.pace);
-    settle(*side, machine, counting.settleScans);
-    for (int i = 0; i < counting.scans; ++i) {
-      if (counting.wakes) changeAllInputs(*side, forms.of);
+    bench::Machine machine(forms.of);
+    settle(*side, machine);
+    for (int i = 0; i < kCountedScans; ++i) {
       side->apply(machine.next());
       CALLGRIND_TOGGLE_COLLECT;
       side->scan();
@@ -195,7 +171,7 @@ void count(const Words& words, const Counting& counting) {
       throw std::runtime_error(wrong);
   }
   forms.checkFault();
-  std::cout << counting.scans << '\n';
+  std::cout << kCountedScans << '\n';
 }
 
 void touch(const Words& words) {
@@ -276,10 +252,10 @@ void measure(bench::Ours& ours, const std::vector<bench::Side*>& others, int wak
   printList(times);
 }
 
-void cold(const Words& words, bench::Pace pace, int settleScans) {
+void cold(const Words& words) {
   const Forms forms(words);
   std::vector<bench::Machine> machines;
-  for (const auto& side : forms.sides) settle(*side, machines.emplace_back(forms.of, pace), settleScans);
+  for (const auto& side : forms.sides) settle(*side, machines.emplace_back(forms.of));
   measure(forms.ours(), forms.others(), kWakeUps, [&](bench::Side& side, size_t k) { side.apply(machines[k].next()); });
   forms.checkFault();
 }
@@ -346,19 +322,11 @@ int run(const Words& words) {
   } else if (command == "check") {
     check(words);
   } else if (command == "count") {
-    count(words, {});
-  } else if (command == "count-long") {
-    count(words, {.settleScans = kLongSettleScans, .scans = kLongScans});
-  } else if (command == "count-quiet") {
-    count(words, {.pace = bench::Pace::Quiet, .settleScans = kQuietSettleScans});
-  } else if (command == "count-wake") {
-    count(words, {.pace = bench::Pace::Quiet, .settleScans = kQuietSettleScans, .scans = 1, .wakes = true});
+    count(words);
   } else if (command == "touch") {
     touch(words);
   } else if (command == "cold") {
-    cold(words, bench::Pace::Busy, kSettleScans);
-  } else if (command == "cold-quiet") {
-    cold(words, bench::Pace::Quiet, kQuietSettleScans);
+    cold(words);
   } else if (command == "count-rungs" || command == "cold-rungs") {
     onRungs(words, command == "cold-rungs");
   } else {

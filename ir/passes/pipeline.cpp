@@ -1,6 +1,8 @@
 // The order of the passes (see pipeline.h).
 #include "ir/passes/pipeline.h"
 
+#include <vector>
+
 #include "ir/passes/passes.h"
 #include "ir/support/check.h"
 #include "ir/verify/verify.h"
@@ -8,53 +10,40 @@
 namespace rung::ir {
 namespace {
 
-class Pipeline {
-public:
-  Pipeline(Module& module, bool verifyEach) : module_(module), verifyEach_(verifyEach) {}
+constexpr std::string_view kOptimising[] = {
+    // These decide the shape.
+    "inline", "carried",
+    // The first fold is followed by another one, of values that now are known to have been stored; removing dead loads
+    // before dead stores to registers leaves fewer readers of those.
+    "fold", "reuse", "fold", "dead", "transient", "dead",
+    // The versions that guards add are new rungs.
+    "guard", "fold", "reuse", "fold", "dead"};
+constexpr size_t kShapePasses = 2;
 
-  void run(void (*pass)(Module&)) {
-    pass(module_);
-    check();
-  }
-  void run(void (*pass)(Module&, Settled&), Settled& settled) {
-    pass(module_, settled);
-    check();
-  }
-
-private:
-  void check() const {
-    if (!verifyEach_) return;
-    const std::vector<VerifyError> errors = verify(module_, module_.instrumented ? Mode::Final : Mode::Built);
-    const std::string text = errors.empty() ? std::string() : render(module_, errors);
-    RUNG_CHECK(errors.empty(), text.c_str());
-  }
-
-  Module& module_;
-  bool verifyEach_;
-};
+void verifyNow(const Module& module) {
+  const std::vector<VerifyError> errors = verify(module, module.instrumented ? Mode::Final : Mode::Built);
+  const std::string text = errors.empty() ? std::string() : render(module, errors);
+  RUNG_CHECK(errors.empty(), text.c_str());
+}
 
 } // namespace
 
+std::span<const std::string_view> optimisingPasses() { return kOptimising; }
+
 void runPasses(Module& module, const PassOptions& options, Module* shape) {
-  Pipeline pipeline(module, options.verifyEach);
-  if (options.optimise) pipeline.run(inlineRoutines);
-  pipeline.run(keepCarried);
+  PassRunner runner(module,
+                    options.verifyEach ? [](const Pass&, const Module& m) { verifyNow(m); } : PassRunner::Observer());
+  const auto run = [&](std::span<const std::string_view> names) {
+    for (const std::string_view name : names) runner.run(*findPass(name));
+  };
+  const std::span<const std::string_view> passes(kOptimising);
+  if (options.optimise)
+    run(passes.first(kShapePasses));
+  else
+    runner.run(*findPass("carried"));
   if (shape != nullptr) *shape = module;
-  if (options.optimise) {
-    Settled settled(module);
-    pipeline.run(foldConstants, settled);
-    pipeline.run(reuseValues, settled);
-    pipeline.run(foldConstants, settled); // of values that now are known to have been stored
-    pipeline.run(removeDeadOps, settled); // loads, that else would keep stores to registers
-    pipeline.run(removeTransientStores, settled);
-    pipeline.run(removeDeadOps, settled);
-    pipeline.run(guardIndices, settled);
-    pipeline.run(foldConstants, settled);
-    pipeline.run(reuseValues, settled);
-    pipeline.run(foldConstants, settled);
-    pipeline.run(removeDeadOps, settled);
-  }
-  if (options.instrument) pipeline.run(instrumentRungs);
+  if (options.optimise) run(passes.subspan(kShapePasses));
+  if (options.instrument) runner.run(*findPass("instrument"));
 }
 
 } // namespace rung::ir

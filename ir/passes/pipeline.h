@@ -3,6 +3,9 @@
 // rungs, keys and source lines. Slots that are `transient` show nowhere and may differ. Time and space are nearly
 // linear in the size of the module.
 #pragma once
+#include <span>
+#include <string_view>
+
 #include "ir/core/module.h"
 
 namespace rung::ir {
@@ -17,5 +20,8 @@ struct PassOptions {
 // memory, chunks and tables follow from: its routines and rungs, their exits, and what they may access. What is done
 // afterwards can only take away from that.
 void runPasses(Module& module, const PassOptions& options, Module* shape = nullptr);
+
+// The names of the passes that `runPasses` runs to optimise, in their order.
+std::span<const std::string_view> optimisingPasses();
 
 } // namespace rung::ir

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <vector>
 
 #include "frontend/table/reference.h"
 #include "ir/core/op_info.h"
+#include "ir/passes/passes.h"
+#include "ir/passes/pipeline.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/signals.h"
 #include "rtlib/text/blanks.h"
@@ -203,6 +206,11 @@ std::string operationReference() {
         types += (types.empty() ? "" : " ") + std::string(ir::typeName(static_cast<ir::Type>(t)));
     page.row(fmt::format("`{}`", info.name), types.empty() ? "-" : types, info.doc);
   }
+  page.section("Passes",
+               fmt::format("`rungc opt` runs passes by name. `rungc build` runs, in this order: {}.",
+                           fmt::join(ir::optimisingPasses(), ", ")),
+               "pass | what it does");
+  for (const ir::Pass& pass : ir::allPasses()) page.row(fmt::format("`{}`", pass.name), pass.doc);
   return page.take();
 }
 

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   addSeal(app, status);
   addKey(app, status);
   addEmit(app, status);
+  addOpt(app, status);
   addConvert(app, status);
   addFormat(app, status);
   addView(app, status);

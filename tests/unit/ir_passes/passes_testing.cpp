@@ -67,7 +67,7 @@ std::string bodyOf(const Module& module, RoutineId routine, uint32_t rung) {
   return body;
 }
 
-std::string after(Pass pass, std::string_view lines, std::string_view transfer) {
+std::string after(PassFunction pass, std::string_view lines, std::string_view transfer) {
   Module module = moduleOf(lines, transfer);
   if (module.routines.empty()) return "no module";
   pass(module);

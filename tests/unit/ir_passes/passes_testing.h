@@ -9,7 +9,7 @@
 
 namespace rung::ir {
 
-using Pass = void (*)(Module&);
+using PassFunction = void (*)(Module&);
 using SettlingPass = void (*)(Module&, Settled&);
 
 // Over all rungs.
@@ -45,6 +45,6 @@ Module moduleOf(std::string_view lines, std::string_view transfer = "}");
 std::string bodyOf(const Module& module, RoutineId routine = RoutineId{0}, uint32_t rung = 0);
 
 // The body after one pass; the verifier has nothing to say about the result.
-std::string after(Pass pass, std::string_view lines, std::string_view transfer = "}");
+std::string after(PassFunction pass, std::string_view lines, std::string_view transfer = "}");
 
 } // namespace rung::ir

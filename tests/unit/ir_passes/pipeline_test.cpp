@@ -84,7 +84,7 @@ TEST(PipelineDeathTest, VerifiesEachPass) {
 TEST(Settled, IsWhatAPassWouldLeaveAsItIs) {
   struct Two {
     SettlingPass leavesOut;
-    Pass overAll;
+    PassFunction overAll;
   };
   constexpr Two kPasses[] = {{foldConstants, foldConstants},
                              {reuseValues, reuseValues},
@@ -198,7 +198,7 @@ void everything(Module& module) { runPasses(module, {.optimise = true, .instrume
 
 struct NamedPass {
   const char* name;
-  Pass pass;
+  PassFunction pass;
   bool keepsOps = false; // does not make fewer of them
 };
 class SameBehaviour : public testing::TestWithParam<NamedPass> {};

@@ -183,15 +183,43 @@ void RungWriter::storeAt(const Op& op) {
               placeComment(op));
 }
 
-// The expression of an operation that has a value and no region.
-// NOLINTNEXTLINE(readability-function-size): a case for every operation
-std::string RungWriter::pure(const Op& op) {
+// A value operation as a call of its function in sem.hpp, but for those that C++ has an operator for.
+std::string RungWriter::valueOf(const Op& op) {
   const auto infix = [&](std::string_view sign) { return fmt::format("{} {} {}", a(op, 0), sign, a(op, 1)); };
-  const auto call = [&](std::string_view name) {
-    return op.argCount == 1 ? fmt::format("{}({})", name, a(op, 0))
-                            : fmt::format("{}({}, {})", name, a(op, 0), a(op, 1));
-  };
   const auto cast = [&](const std::string& text) { return fmt::format("static_cast<{}>({})", cppType(op.type), text); };
+  const bool bit = op.type == Type::Bit;
+  switch (op.code) {
+  // Of bits too: && and || would ask for jumps, which compilers then keep as conditional moves.
+  case OpCode::And: return bit ? infix("&") : cast(infix("&"));
+  case OpCode::Or: return bit ? infix("|") : cast(infix("|"));
+  case OpCode::Xor: return bit ? infix("!=") : cast(infix("^"));
+  case OpCode::Not: return bit ? "!" + a(op, 0) : cast("~" + a(op, 0));
+  case OpCode::Eq:
+  case OpCode::FEq: return infix("==");
+  case OpCode::Ne: return infix("!=");
+  case OpCode::LtU:
+  case OpCode::FLt: return infix("<");
+  case OpCode::LeU:
+  case OpCode::FLe: return infix("<=");
+  case OpCode::Select: return fmt::format("{} ? {} : {}", a(op, 0), a(op, 1), a(op, 2));
+  case OpCode::ZExt: return cast(a(op, 0));
+  case OpCode::Trunc: return bit ? fmt::format("({} & 1) != 0", a(op, 0)) : cast(a(op, 0));
+  default: return callOf(op);
+  }
+}
+
+std::string RungWriter::callOf(const Op& op) {
+  std::string function(opInfo(op.code).function);
+  if (const size_t at = function.find("<T>"); at != std::string::npos)
+    function.replace(at, 3, fmt::format("<{}>", cppType(op.type)));
+  std::string args;
+  for (int i = 0; i < op.argCount; ++i) args += (i == 0 ? "" : ", ") + a(op, i);
+  return fmt::format("{}({})", function, args);
+}
+
+// The expression of an operation that has a value and no region.
+std::string RungWriter::pure(const Op& op) {
+  if (isEvaluable(opInfo(op.code))) return valueOf(op);
   const uint32_t unit = opInfo(op.code).attr == Attr::Window ? module_.spaces[op.ref].unitBytes : 0;
   const auto window = [&] { return layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8)); };
   const bool bit = op.type == Type::Bit;
@@ -200,59 +228,6 @@ std::string RungWriter::pure(const Op& op) {
     if (bit) return op.imm != 0 ? "true" : "false";
     if (op.type == Type::F64) return fmt::format("fromBits(0x{:016x}ull)", static_cast<uint64_t>(op.imm));
     return fmt::format("{}{}", static_cast<uint64_t>(op.imm), op.type == Type::I64 ? "ull" : "u");
-  case OpCode::Add: return call("add");
-  case OpCode::Sub: return call("sub");
-  case OpCode::Mul: return call("mul");
-  case OpCode::DivS: return call("divS");
-  case OpCode::DivU: return call("divU");
-  case OpCode::RemS: return call("remS");
-  case OpCode::RemU: return call("remU");
-  case OpCode::Neg: return call("neg");
-  // Of bits too: && and || would ask for jumps, which compilers then keep as conditional moves.
-  case OpCode::And: return bit ? infix("&") : cast(infix("&"));
-  case OpCode::Or: return bit ? infix("|") : cast(infix("|"));
-  case OpCode::Xor: return bit ? infix("!=") : cast(infix("^"));
-  case OpCode::Not: return bit ? "!" + a(op, 0) : cast("~" + a(op, 0));
-  case OpCode::Shl: return call("shl");
-  case OpCode::ShrU: return call("shrU");
-  case OpCode::ShrS: return call("shrS");
-  case OpCode::PopCount: return call("popCount");
-  case OpCode::BcdEncode: return call("bcdEncode");
-  case OpCode::BcdDecode: return call("bcdDecode");
-  case OpCode::Eq:
-  case OpCode::FEq: return infix("==");
-  case OpCode::Ne: return infix("!=");
-  case OpCode::LtS: return call("ltS");
-  case OpCode::LeS: return call("leS");
-  case OpCode::LtU:
-  case OpCode::FLt: return infix("<");
-  case OpCode::LeU:
-  case OpCode::FLe: return infix("<=");
-  case OpCode::Select: return fmt::format("{} ? {} : {}", a(op, 0), a(op, 1), a(op, 2));
-  case OpCode::ZExt: return cast(a(op, 0));
-  case OpCode::SExt: {
-    const Type from = typeOf(*rung_, arg(*rung_, op, 0));
-    return from == Type::Bit ? cast(fmt::format("0 - static_cast<i64>({})", a(op, 0)))
-                             : cast(fmt::format("asSigned({})", a(op, 0)));
-  }
-  case OpCode::Trunc: return bit ? fmt::format("({} & 1) != 0", a(op, 0)) : cast(a(op, 0));
-  case OpCode::FAdd: return call("fadd");
-  case OpCode::FSub: return call("fsub");
-  case OpCode::FMul: return call("fmul");
-  case OpCode::FDiv: return call("fdiv");
-  case OpCode::FNeg: return call("fneg");
-  case OpCode::FAbs: return call("rung::sem::fabs");
-#define RUNG_OP(name, text)
-#define RUNG_EVALUABLE_OP(name, text)
-#define RUNG_REAL_FUNCTION(name, function)                                                                             \
-  case OpCode::name: return call(#function);
-#include "ir/core/ops.def"
-  case OpCode::FPow: return call("fpow");
-  case OpCode::FToInt: return call(fmt::format("fToInt<{}>", cppType(op.type)));
-  case OpCode::FToIntNearest: return call("fToIntNearest");
-  case OpCode::IntToF: return call("intToF");
-  case OpCode::BitsToF: return call("fromBits");
-  case OpCode::FToBits: return call("toBits");
   case OpCode::Load: return load(op);
   case OpCode::LoadAt:
     if (op.count == 0) return "0";
@@ -267,21 +242,7 @@ std::string RungWriter::pure(const Op& op) {
   case OpCode::ServicePoll: return fmt::format("ctx->host->service_poll(ctx, {})", a(op, 0));
   case OpCode::ServiceResult:
     return fmt::format("static_cast<u64>(ctx->host->service_result(ctx, {}, {}u))", a(op, 0), op.imm);
-  case OpCode::Store:
-  case OpCode::StoreAt:
-  case OpCode::StoreBitAt:
-  case OpCode::SlotStore:
-  case OpCode::If:
-  case OpCode::Else:
-  case OpCode::EndIf:
-  case OpCode::Loop:
-  case OpCode::EndLoop:
-  case OpCode::Message:
-  case OpCode::ServiceRequest:
-  case OpCode::Trap:
-  case OpCode::Note:
-  case OpCode::ProfEnter:
-  case OpCode::ProfLeave: break;
+  default: break;
   }
   RUNG_CHECK(false, "not an operation with a value");
   return {};

@@ -40,6 +40,8 @@ private:
   void writeOp(const ir::Op& op);
   void declare(const ir::Op& op, const std::string& expression, std::string_view comment = {});
   std::string pure(const ir::Op& op);
+  std::string valueOf(const ir::Op& op);
+  std::string callOf(const ir::Op& op);
   std::string load(const ir::Op& op) const;
   void store(const ir::Op& op);
   void storeAt(const ir::Op& op);

@@ -57,6 +57,7 @@ private:
 
   // Operations with one result.
   Value* result(const ir::Op& op);
+  Value* instruction(const ir::Op& op);
   Value* arithmetic(const ir::Op& op);
   Value* shift(const ir::Op& op);
   Value* divide(const ir::Op& op);

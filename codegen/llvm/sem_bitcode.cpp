@@ -5,32 +5,37 @@
 
 using namespace rung::sem;
 
-#define RUNG_SEM_INTEGER(T, U)                                                                                         \
-  extern "C" U rung_sem_div_s_##T(U a, U b) noexcept { return divS(a, b); }                                            \
-  extern "C" U rung_sem_div_u_##T(U a, U b) noexcept { return divU(a, b); }                                            \
-  extern "C" U rung_sem_rem_s_##T(U a, U b) noexcept { return remS(a, b); }                                            \
-  extern "C" U rung_sem_rem_u_##T(U a, U b) noexcept { return remU(a, b); }                                            \
-  extern "C" U rung_sem_shl_##T(U a, u32 n) noexcept { return shl(a, n); }                                             \
-  extern "C" U rung_sem_shr_u_##T(U a, u32 n) noexcept { return shrU(a, n); }                                          \
-  extern "C" U rung_sem_shr_s_##T(U a, u32 n) noexcept { return shrS(a, n); }                                          \
-  extern "C" U rung_sem_bcd_encode_##T(U a) noexcept { return bcdEncode(a); }                                          \
-  extern "C" U rung_sem_bcd_decode_##T(U a) noexcept { return bcdDecode(a); }                                          \
-  extern "C" U rung_sem_f_to_int_##T(double a) noexcept { return fToInt<U>(a); }
+// Each value operation for each of its types, but for those that widen or narrow: they are instructions of LLVM's.
+#define RUNG_TYPES_Bit(X, ...) X(bit, bool, __VA_ARGS__)
+#define RUNG_TYPES_I64(X, ...) X(i64, u64, __VA_ARGS__)
+#define RUNG_TYPES_Float(X, ...) X(f64, double, __VA_ARGS__)
+#define RUNG_TYPES_Ints(X, ...)                                                                                        \
+  X(i8, u8, __VA_ARGS__) X(i16, u16, __VA_ARGS__) X(i32, u32, __VA_ARGS__) X(i64, u64, __VA_ARGS__)
+#define RUNG_TYPES_BitsAndInts(X, ...) RUNG_TYPES_Bit(X, __VA_ARGS__) RUNG_TYPES_Ints(X, __VA_ARGS__)
+#define RUNG_TYPES_IntsAndFloat(X, ...) RUNG_TYPES_Ints(X, __VA_ARGS__) RUNG_TYPES_Float(X, __VA_ARGS__)
+#define RUNG_TYPES_AllTypes(X, ...) RUNG_TYPES_BitsAndInts(X, __VA_ARGS__) RUNG_TYPES_Float(X, __VA_ARGS__)
+#define RUNG_TYPES_BitToI32(X, ...)
 
-RUNG_SEM_INTEGER(i8, u8)
-RUNG_SEM_INTEGER(i16, u16)
-RUNG_SEM_INTEGER(i32, u32)
-RUNG_SEM_INTEGER(i64, u64)
+#define RUNG_RESULT_Same(U) U
+#define RUNG_RESULT_Bit(U) bool
 
-extern "C" double rung_sem_fadd_f64(double a, double b) noexcept { return fadd(a, b); }
-extern "C" double rung_sem_fsub_f64(double a, double b) noexcept { return fsub(a, b); }
-extern "C" double rung_sem_fmul_f64(double a, double b) noexcept { return fmul(a, b); }
-extern "C" double rung_sem_fdiv_f64(double a, double b) noexcept { return fdiv(a, b); }
-extern "C" double rung_sem_fpow_f64(double a, double b) noexcept { return fpow(a, b); }
-#define RUNG_OP(name, text)
-#define RUNG_EVALUABLE_OP(name, text)
-#define RUNG_REAL_FUNCTION(name, function)                                                                             \
-  extern "C" double rung_sem_##function##_f64(double a) noexcept { return function(a); }
+#define RUNG_FUNCTION(type, U, name, result, function, parameters, arguments)                                          \
+  extern "C" RUNG_RESULT_##result(U) rung_sem_##name##_##type parameters noexcept {                                    \
+    using T [[maybe_unused]] = U;                                                                                      \
+    return function arguments;                                                                                         \
+  }
+#define RUNG_Unary(type, U, name, result, function) RUNG_FUNCTION(type, U, name, result, function, (U a), (a))
+#define RUNG_Binary(type, U, name, result, function) RUNG_FUNCTION(type, U, name, result, function, (U a, U b), (a, b))
+#define RUNG_Shift(type, U, name, result, function) RUNG_FUNCTION(type, U, name, result, function, (U a, u32 n), (a, n))
+#define RUNG_Choice(type, U, name, result, function)                                                                   \
+  RUNG_FUNCTION(type, U, name, result, function, (bool which, U a, U b), (which, a, b))
+#define RUNG_FromF64(type, U, name, result, function) RUNG_FUNCTION(type, U, name, result, function, (double a), (a))
+#define RUNG_FromI64(type, U, name, result, function) RUNG_FUNCTION(type, U, name, result, function, (u64 a), (a))
+#define RUNG_FromNarrower(...)
+#define RUNG_FromWider(...)
+#define RUNG_FromInt(...)
+
+#define RUNG_OP(...)
+#define RUNG_VALUE_OP(code, name, types, signature, result, function, doc)                                             \
+  RUNG_TYPES_##types(RUNG_##signature, name, result, function)
 #include "ir/core/ops.def"
-
-extern "C" u64 rung_sem_f_to_int_nearest_i64(double a) noexcept { return fToIntNearest(a); }

@@ -50,13 +50,38 @@ ChunkEmitter::Value* ChunkEmitter::isSet(Value* bit) {
   return builder_.CreateIsNotNull(bit);
 }
 
-// NOLINTNEXTLINE(readability-function-size): a case for every operation
 ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
+  if (isEvaluable(opInfo(op.code))) {
+    Value* value = instruction(op);
+    return value != nullptr ? value : callSem(op);
+  }
   switch (op.code) {
   case OpCode::Const:
     if (op.type == Type::F64)
       return builder_.CreateBitCast(builder_.getInt64(static_cast<uint64_t>(op.imm)), type(op.type));
     return llvm::ConstantInt::get(type(op.type), static_cast<uint64_t>(op.imm));
+  case OpCode::Load: return load(op);
+  case OpCode::LoadAt: return loadAt(op);
+  case OpCode::LoadBitAt: return loadBitAt(op);
+  case OpCode::SlotLoad: {
+    Value* place = at(layout_.memory().slot(SlotId{op.ref}));
+    if (op.type == Type::Bit) return readFlag(place);
+    return builder_.CreateAlignedLoad(type(op.type), place, llvm::Align(1));
+  }
+  case OpCode::Now: return builder_.CreateLoad(builder_.getInt64Ty(), ctxField(AbiTypes::kNow));
+  case OpCode::ServiceRequest: return serviceRequest(op);
+  case OpCode::ServicePoll: return callHost(AbiTypes::kServicePoll, builder_.getInt32Ty(), {arg(op, 0)});
+  case OpCode::ServiceResult:
+    return callHost(AbiTypes::kServiceResult, builder_.getInt64Ty(), {arg(op, 0), num(static_cast<uint64_t>(op.imm))});
+  default: break;
+  }
+  RUNG_CHECK(false, "not an operation with one result");
+  return nullptr;
+}
+
+// Where LLVM has an instruction for a value operation that is ours to the bit; else null.
+ChunkEmitter::Value* ChunkEmitter::instruction(const Op& op) {
+  switch (op.code) {
   case OpCode::Select: return builder_.CreateSelect(isSet(arg(op, 0)), arg(op, 1), arg(op, 2));
   case OpCode::ZExt: return builder_.CreateZExt(arg(op, 0), type(op.type));
   case OpCode::SExt: {
@@ -98,49 +123,8 @@ ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
   case OpCode::Shl:
   case OpCode::ShrU:
   case OpCode::ShrS: return shift(op);
-  case OpCode::BcdEncode:
-  case OpCode::BcdDecode:
-  case OpCode::FAdd:
-  case OpCode::FSub:
-  case OpCode::FMul:
-  case OpCode::FDiv:
-  case OpCode::FPow:
-#define RUNG_OP(name, text)
-#define RUNG_EVALUABLE_OP(name, text)
-#define RUNG_REAL_FUNCTION(name, function) case OpCode::name:
-#include "ir/core/ops.def"
-  case OpCode::FToInt:
-  case OpCode::FToIntNearest: return callSem(op);
-  case OpCode::Load: return load(op);
-  case OpCode::LoadAt: return loadAt(op);
-  case OpCode::LoadBitAt: return loadBitAt(op);
-  case OpCode::SlotLoad: {
-    Value* place = at(layout_.memory().slot(SlotId{op.ref}));
-    if (op.type == Type::Bit) return readFlag(place);
-    return builder_.CreateAlignedLoad(type(op.type), place, llvm::Align(1));
+  default: return nullptr;
   }
-  case OpCode::Now: return builder_.CreateLoad(builder_.getInt64Ty(), ctxField(AbiTypes::kNow));
-  case OpCode::ServiceRequest: return serviceRequest(op);
-  case OpCode::ServicePoll: return callHost(AbiTypes::kServicePoll, builder_.getInt32Ty(), {arg(op, 0)});
-  case OpCode::ServiceResult:
-    return callHost(AbiTypes::kServiceResult, builder_.getInt64Ty(), {arg(op, 0), num(static_cast<uint64_t>(op.imm))});
-  case OpCode::Store:
-  case OpCode::StoreAt:
-  case OpCode::StoreBitAt:
-  case OpCode::SlotStore:
-  case OpCode::If:
-  case OpCode::Else:
-  case OpCode::EndIf:
-  case OpCode::Loop:
-  case OpCode::EndLoop:
-  case OpCode::Message:
-  case OpCode::Trap:
-  case OpCode::Note:
-  case OpCode::ProfEnter:
-  case OpCode::ProfLeave: break;
-  }
-  RUNG_CHECK(false, "not an operation with one result");
-  return nullptr;
 }
 
 // ---- arithmetic --------------------------------------------------------------------------------------------------
@@ -204,7 +188,7 @@ ChunkEmitter::Value* ChunkEmitter::arithmetic(const Op& op) {
 // By a number below the width LLVM's shifts are ours.
 ChunkEmitter::Value* ChunkEmitter::shift(const Op& op) {
   const auto* count = llvm::dyn_cast<llvm::ConstantInt>(arg(op, 1));
-  if (count == nullptr || count->getZExtValue() >= bitWidth(op.type)) return callSem(op);
+  if (count == nullptr || count->getZExtValue() >= bitWidth(op.type)) return nullptr;
   Value* a = arg(op, 0);
   if (op.code == OpCode::Shl) return builder_.CreateShl(a, count->getZExtValue());
   if (op.code == OpCode::ShrU) return builder_.CreateLShr(a, count->getZExtValue());
@@ -214,7 +198,7 @@ ChunkEmitter::Value* ChunkEmitter::shift(const Op& op) {
 // By a number that is neither 0 nor -1 LLVM's divisions are ours.
 ChunkEmitter::Value* ChunkEmitter::divide(const Op& op) {
   auto* divisor = llvm::dyn_cast<llvm::ConstantInt>(arg(op, 1));
-  if (divisor == nullptr || divisor->isZero() || divisor->isMinusOne()) return callSem(op);
+  if (divisor == nullptr || divisor->isZero() || divisor->isMinusOne()) return nullptr;
   Value* a = arg(op, 0);
   if (op.code == OpCode::DivS) return builder_.CreateSDiv(a, divisor);
   if (op.code == OpCode::DivU) return builder_.CreateUDiv(a, divisor);
@@ -222,18 +206,22 @@ ChunkEmitter::Value* ChunkEmitter::divide(const Op& op) {
   return builder_.CreateURem(a, divisor);
 }
 
+// The functions take and give bits as bool, which is an i1.
 ChunkEmitter::Value* ChunkEmitter::callSem(const Op& op) {
   std::vector<Value*> args;
   std::vector<llvm::Type*> types;
   for (int i = 0; i < op.argCount; ++i) {
-    args.push_back(arg(op, i));
+    const bool bit = typeOf(*rung_, ir::arg(*rung_, op, i)) == Type::Bit;
+    args.push_back(bit ? isSet(arg(op, i)) : arg(op, i));
     types.push_back(args.back()->getType());
   }
+  const bool givesBit = typeOf(*rung_, op.result) == Type::Bit;
+  llvm::Type* result = givesBit ? builder_.getInt1Ty() : type(op.type);
   const std::string name = fmt::format("rung_sem_{}_{}", opInfo(op.code).name, typeName(op.type));
-  llvm::CallInst* call = builder_.CreateCall(
-      target_.getOrInsertFunction(name, llvm::FunctionType::get(type(op.type), types, false)), args);
+  llvm::CallInst* call =
+      builder_.CreateCall(target_.getOrInsertFunction(name, llvm::FunctionType::get(result, types, false)), args);
   call->setDoesNotThrow();
-  return call;
+  return givesBit ? asBit(call) : call;
 }
 
 // ---- memory ------------------------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
-// The table of operations: what each takes, gives and does. Verifier, printer, parser, builder, docs and the random
-// generator read it; engines switch over OpCode without a default, so a new name stops the build where it is missing.
+// The table of operations (ops.def) as data: what each takes, gives and does. Verifier, printer, parser, builder, docs
+// and the random generator read it. Interpreter and back ends treat all value operations by their row, and switch over
+// the others without a default, so that a new one stops the build where it is missing.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -67,6 +68,7 @@ struct OpInfo {
   Constraint result;
   Attr attr;
   uint8_t effects;                      // Effect
+  std::string_view function;            // of sem.hpp, `T` in it stands for the type; empty: not a value operation
   std::string_view doc;                 // one or two sentences, with the result of every odd input
   uint8_t fixed = countFixed(operands); // without a Variadic one
 };
@@ -121,8 +123,8 @@ constexpr Type resultType(Constraint constraint, Type own) {
 // Whether the host may look at memory meanwhile: every store above must have been done, and none below.
 constexpr bool hostReads(const OpInfo& info) { return (info.effects & kHost) != 0 && (info.effects & kReads) != 0; }
 constexpr bool isPure(const OpInfo& info) { return info.effects == kPure || info.effects == kClock; }
-// Whether evalPure knows the operation: pure, and its value depends on nothing but its operands.
-constexpr bool isEvaluable(const OpInfo& info) { return info.effects == kPure && info.attr != Attr::Literal; }
+// Whether it is a value operation: evalPure knows it, as its value depends on nothing but its operands.
+constexpr bool isEvaluable(const OpInfo& info) { return !info.function.empty(); }
 // Nothing but reading to do for the result.
 constexpr bool onlyReads(const OpInfo& info) { return isPure(info) || info.effects == kReads; }
 

@@ -8,12 +8,12 @@
 namespace rung::ir {
 
 enum class OpCode : uint8_t {
-#define RUNG_OP(name, text) name,
+#define RUNG_OP(code, ...) code,
 #include "ir/core/ops.def"
 };
 
 inline constexpr int kOpCount = 0
-#define RUNG_OP(name, text) +1 // NOLINT(bugprone-macro-parentheses): a sum is made of them
+#define RUNG_OP(code, ...) +1 // NOLINT(bugprone-macro-parentheses): a sum is made of them
 #include "ir/core/ops.def"
     ;
 

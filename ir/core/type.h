@@ -47,5 +47,8 @@ inline constexpr TypeSet kBit = setOf(Type::Bit);
 inline constexpr TypeSet kFloat = setOf(Type::F64);
 inline constexpr TypeSet kBitsAndInts = kBit | kInts;
 inline constexpr TypeSet kAllTypes = kBitsAndInts | kFloat;
+inline constexpr TypeSet kIntsAndFloat = kInts | kFloat;
+inline constexpr TypeSet kI64 = setOf(Type::I64);
+inline constexpr TypeSet kBitToI32 = kBitsAndInts & static_cast<TypeSet>(~kI64);
 
 } // namespace rung::ir

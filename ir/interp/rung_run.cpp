@@ -189,8 +189,8 @@ size_t RungRun::step(const Op& op, size_t index) {
     give(op, static_cast<uint64_t>(op.imm));
     break;
 // Without effects: one function evaluates them all.
-#define RUNG_OP(name, text)
-#define RUNG_EVALUABLE_OP(name, text) case OpCode::name:
+#define RUNG_OP(...)
+#define RUNG_VALUE_OP(code, ...) case OpCode::code:
 #include "ir/core/ops.def"
     evaluate(op);
     break;

@@ -70,8 +70,8 @@ private:
     case OpCode::Note: return inRung([&](RungBuilder& b) { b.note("a remark"), result(b, b.i32(1)); });
     case OpCode::ProfEnter:
     case OpCode::ProfLeave: return profile();
-#define RUNG_OP(name, text)
-#define RUNG_EVALUABLE_OP(name, text) case OpCode::name:
+#define RUNG_OP(...)
+#define RUNG_VALUE_OP(code, ...) case OpCode::code:
 #include "ir/core/ops.def"
       break; // see above
     }

@@ -197,7 +197,7 @@ std::string diagnosticReference() {
 
 std::string operationReference() {
   ReferencePage page;
-  page.section("Operations of the IR", "Made by `rungc doc ir` from ir/core/op_info.cpp; do not edit.",
+  page.section("Operations of the IR", "Made by `rungc doc ir` from ir/core/ops.def; do not edit.",
                "operation | types | meaning", 1);
   for (const ir::OpInfo& info : ir::allOps()) {
     std::string types;

@@ -378,7 +378,7 @@ RUNG_SHARED double fpow(double x, double y) noexcept {
   const bool grows = y > 0;
   if (isInfinite(y)) {
     if (x == -1) return 1;
-    return fromBits((fabs(x) > 1) == grows ? kInfinity : 0);
+    return fromBits((fabsolute(x) > 1) == grows ? kInfinity : 0);
   }
   if (x == 0 || isInfinite(x)) return fromBits(sign | ((x == 0) == grows ? 0 : kInfinity));
   if (x < 0 && !whole) return fromBits(kNanBits);
@@ -404,7 +404,7 @@ RUNG_SHARED double fcos(double x) noexcept {
 // From 2^53 on that is everywhere.
 RUNG_SHARED double ftan(double x) noexcept {
   if (x == 0) return x;
-  if (!isFinite(x) || fabs(x) >= 9007199254740992.0) return fromBits(kNanBits);
+  if (!isFinite(x) || fabsolute(x) >= 9007199254740992.0) return fromBits(kNanBits);
   const wide::Wide angle = wide::fromDouble(x);
   const wide::Reduced a = wide::reduced(angle);
   const wide::Wide s = wide::sineOf(a.rest);
@@ -418,14 +418,14 @@ RUNG_SHARED double ftan(double x) noexcept {
 // Outside of -1 to 1: NaN.
 RUNG_SHARED double fasin(double x) noexcept {
   if (x == 0) return x;
-  if (!(fabs(x) <= 1)) return fromBits(kNanBits);
+  if (!(fabsolute(x) <= 1)) return fromBits(kNanBits);
   const wide::Wide n = wide::fromDouble(x);
   wide::Wide angle = wide::arcTangent(wide::magnitude(n), wide::cathetus(n));
   angle.negative = n.negative;
   return wide::toDouble(angle);
 }
 RUNG_SHARED double facos(double x) noexcept {
-  if (!(fabs(x) <= 1)) return fromBits(kNanBits);
+  if (!(fabsolute(x) <= 1)) return fromBits(kNanBits);
   const wide::Wide d = wide::fromDouble(x);
   const wide::Wide angle = wide::arcTangent(wide::cathetus(d), wide::magnitude(d));
   return wide::toDouble(d.negative ? wide::add(wide::kPi, wide::negate(angle)) : angle);

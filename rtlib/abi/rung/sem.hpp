@@ -46,6 +46,70 @@ constexpr u32 bitsOf() noexcept {
   return sizeof(U) * 8;
 }
 
+// ---- bits, which are bool, and integers ---------------------------------------------------------------------------
+// Of bits too by & and |: && and || would ask for jumps, which compilers then keep as conditional moves.
+template <class U>
+constexpr U bitAnd(U a, U b) noexcept {
+  return static_cast<U>(a & b);
+}
+template <class U>
+constexpr U bitOr(U a, U b) noexcept {
+  return static_cast<U>(a | b);
+}
+template <class U>
+constexpr U bitXor(U a, U b) noexcept {
+  return static_cast<U>(a ^ b);
+}
+template <class U>
+constexpr U bitNot(U a) noexcept {
+  return static_cast<U>(~a);
+}
+constexpr bool bitNot(bool a) noexcept { return !a; }
+template <class U>
+constexpr bool eq(U a, U b) noexcept {
+  return a == b;
+}
+template <class U>
+constexpr bool ne(U a, U b) noexcept {
+  return a != b;
+}
+template <class U>
+constexpr U choose(bool which, U a, U b) noexcept {
+  return which ? a : b;
+}
+
+// To another width.
+template <class To, class From>
+constexpr To widen(From a) noexcept {
+  return static_cast<To>(a);
+}
+template <class To, class From>
+constexpr To widenSigned(From a) noexcept {
+  return static_cast<To>(asSigned(a));
+}
+template <class To>
+constexpr To widenSigned(bool a) noexcept {
+  return static_cast<To>(0 - static_cast<u64>(a));
+}
+template <class To>
+struct Narrowed {
+  template <class From>
+  static constexpr To of(From a) noexcept {
+    return static_cast<To>(a);
+  }
+};
+template <>
+struct Narrowed<bool> {
+  template <class From>
+  static constexpr bool of(From a) noexcept {
+    return (a & 1) != 0;
+  }
+};
+template <class To, class From>
+constexpr To narrow(From a) noexcept {
+  return Narrowed<To>::of(a);
+}
+
 // ---- integers: wrap around --------------------------------------------------------------------------------------
 template <class U>
 constexpr U add(U a, U b) noexcept {
@@ -107,6 +171,14 @@ template <class U>
 constexpr bool leS(U a, U b) noexcept {
   return asSigned(a) <= asSigned(b);
 }
+template <class U>
+constexpr bool ltU(U a, U b) noexcept {
+  return a < b;
+}
+template <class U>
+constexpr bool leU(U a, U b) noexcept {
+  return a <= b;
+}
 
 template <class U>
 constexpr U popCount(U a) noexcept {
@@ -149,8 +221,11 @@ constexpr double fdiv(double a, double b) noexcept {
   }
   return canon(a / b);
 }
+constexpr bool feq(double a, double b) noexcept { return a == b; }
+constexpr bool flt(double a, double b) noexcept { return a < b; }
+constexpr bool fle(double a, double b) noexcept { return a <= b; }
 constexpr double fneg(double a) noexcept { return fromBits(toBits(a) ^ (1ull << 63)); }
-constexpr double fabs(double a) noexcept { return fromBits(toBits(a) & ~(1ull << 63)); }
+constexpr double fabsolute(double a) noexcept { return fromBits(toBits(a) & ~(1ull << 63)); }
 
 // Toward zero, saturating; NaN gives 0.
 template <class U>

@@ -113,9 +113,9 @@ TEST(Sem, DivisionByZeroHasTheSignOfBoth) {
 TEST(Sem, SignsOfFloatsAreBits) {
   EXPECT_EQ(toBits(fneg(0.0)), 1ull << 63);
   EXPECT_EQ(toBits(fneg(kNan)), 0x7FF8000000000123u);
-  EXPECT_EQ(toBits(sem::fabs(kNan)), 0x7FF8000000000123u);
-  EXPECT_EQ(toBits(sem::fabs(-0.0)), 0u);
-  EXPECT_EQ(sem::fabs(-kInf), kInf);
+  EXPECT_EQ(toBits(sem::fabsolute(kNan)), 0x7FF8000000000123u);
+  EXPECT_EQ(toBits(sem::fabsolute(-0.0)), 0u);
+  EXPECT_EQ(sem::fabsolute(-kInf), kInf);
 }
 
 TEST(Sem, FloatToIntegerSaturates) {

@@ -103,15 +103,7 @@ void RungWriter::write(const Rung& rung, uint32_t number, std::string_view file)
   number_ = number;
   file_ = file;
   throughMemory_ = valuesThroughMemory(rung);
-  endOf_.assign(rung.ops.size(), 0);
-  std::vector<size_t> openers;
-  for (size_t i = 0; i < rung.ops.size(); ++i) {
-    const OpCode code = rung.ops[i].code;
-    if (code == OpCode::If || code == OpCode::Loop) openers.push_back(i);
-    if (code != OpCode::EndIf && code != OpCode::EndLoop) continue;
-    endOf_[openers.back()] = i;
-    openers.pop_back();
-  }
+  findRegions(rung, regions_);
   const bool hasStretches = isLong(rung);
   for (size_t i = 0; i < rung.ops.size(); ++i) {
     if (hasStretches && i != 0 && i % kStretch == 0) endBlock(i / kStretch);
@@ -264,18 +256,17 @@ void RungWriter::writeOp(const Op& op) {
   }
   case OpCode::If: return openIf(op, index);
   case OpCode::Else:
-    yield(op, *regions_.back().end);
+    yield(op, rung_->ops[regions_[index].end]);
     --indent_;
     statement("} else {");
     ++indent_;
     return;
   case OpCode::EndIf:
     yield(op, op);
-    regions_.pop_back();
     --indent_;
     return statement("}");
-  case OpCode::Loop: return openLoop(op, index);
-  case OpCode::EndLoop: return closeLoop(op);
+  case OpCode::Loop: return openLoop(op);
+  case OpCode::EndLoop: return closeLoop(op, index);
   case OpCode::Message:
   case OpCode::ServiceRequest:
   case OpCode::ProfEnter:
@@ -297,12 +288,12 @@ void RungWriter::writeOp(const Op& op) {
 // ---- regions: results of an endif and the carried values of a loop are variables declared before it --------------
 
 void RungWriter::openIf(const Op& op, size_t index) {
-  const Op& end = rung_->ops[endOf_[index]];
+  const Op& half = rung_->ops[regions_[index].end];
+  const Op& end = half.code == OpCode::Else ? rung_->ops[regions_[regions_[index].end].end] : half;
   for (uint32_t i = 0; i < end.resultCount; ++i) {
     const ValueId id{end.result.index + i};
     statement(fmt::format("{} {};", cppType(typeOf(*rung_, id)), v(id)));
   }
-  regions_.push_back({index, &end});
   constexpr std::string_view kHints[] = {"", "[[likely]] ", "[[unlikely]] "}; // by Odds
   statement(fmt::format("if ({}) {}{{", a(op, 0), kHints[op.ref]));
   ++indent_;
@@ -315,9 +306,7 @@ void RungWriter::yield(const Op& op, const Op& end) {
   }
 }
 
-void RungWriter::openLoop(const Op& op, size_t index) {
-  const Op& end = rung_->ops[endOf_[index]];
-  regions_.push_back({index, &end});
+void RungWriter::openLoop(const Op& op) {
   const std::string pass = v(op.result);
   for (uint32_t i = 1; i < op.resultCount; ++i) {
     const ValueId id{op.result.index + i};
@@ -327,9 +316,8 @@ void RungWriter::openLoop(const Op& op, size_t index) {
   ++indent_;
 }
 
-void RungWriter::closeLoop(const Op& op) {
-  const Op& begin = rung_->ops[regions_.back().opener];
-  regions_.pop_back();
+void RungWriter::closeLoop(const Op& op, size_t index) {
+  const Op& begin = rung_->ops[regions_[index].begin];
   // All next values are read before the first is carried on.
   for (uint32_t i = 0; i < op.argCount; ++i)
     statement(fmt::format("const {} n{} = {};", cppType(typeOf(*rung_, arg(*rung_, op, static_cast<int>(i)))), i,

@@ -6,6 +6,7 @@
 
 #include "codegen/cpp/cpp_emitter.h"
 #include "ir/chunks/cut.h"
+#include "ir/core/regions.h"
 #include "ir/layout/memory_layout.h"
 
 namespace rung::codegen {
@@ -47,8 +48,8 @@ private:
   void storeAt(const ir::Op& op);
   void openIf(const ir::Op& op, size_t index);
   void yield(const ir::Op& op, const ir::Op& end);
-  void openLoop(const ir::Op& op, size_t index);
-  void closeLoop(const ir::Op& op);
+  void openLoop(const ir::Op& op);
+  void closeLoop(const ir::Op& op, size_t index);
   void host(const ir::Op& op);
   std::string way(const ir::Destination& to) const;
   std::string leaving(const std::string& how) const;
@@ -68,13 +69,8 @@ private:
   uint32_t line_ = 0; // of the open RUNG_LINE
   bool open_ = false;
   size_t indent_ = 0;
-  struct Region {
-    size_t opener;     // index of the If or Loop
-    const ir::Op* end; // its EndIf or EndLoop
-  };
-  std::vector<Region> regions_;
+  std::vector<ir::Region> regions_; // by operation of the rung in hand
   std::vector<bool> throughMemory_; // by value, of the rung in hand; empty: none
-  std::vector<size_t> endOf_;       // per op: index of the end of the region that it opens
 };
 
 std::string_view cppType(ir::Type type);

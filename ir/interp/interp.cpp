@@ -13,22 +13,6 @@ namespace {
 
 constexpr size_t kOnStack = 4096; // values and operands: 32 kB
 
-std::vector<uint32_t> partnersOf(const Rung& rung) {
-  std::vector<uint32_t> partners;
-  std::vector<uint32_t> open;
-  for (uint32_t i = 0; i < rung.ops.size(); ++i) {
-    const OpCode code = rung.ops[i].code;
-    if (code == OpCode::Else || code == OpCode::EndIf || code == OpCode::EndLoop) {
-      partners.resize(rung.ops.size());
-      partners[open.back()] = i;
-      partners[i] = open.back();
-      open.pop_back();
-    }
-    if (code == OpCode::If || code == OpCode::Else || code == OpCode::Loop) open.push_back(i);
-  }
-  return partners;
-}
-
 // Gives the caller's chunk for a destination that is nowhere.
 Destination reach(Destination to, rung_ctx& ctx) {
   if (to.chunk == RUNG_NONE) to.chunk = ctx.stack[--ctx.sp];
@@ -59,14 +43,14 @@ Destination leave(const Exit& exit, std::span<const uint64_t> values, rung_ctx& 
 InterpEngine::InterpEngine(const Layout& layout, uint64_t codeHash, Counting counting)
     : layout_(layout), counting_(counting), image_(layout, codeHash),
       functions_(layout.cut().chunks().size(), &chunkFunction), exits_(layout.cut().rungCount()),
-      partners_(layout.cut().rungCount()) {
+      regions_(layout.cut().rungCount()) {
   image_.program().chunk_fns = functions_.data();
   const std::vector<Routine>& routines = layout.module().routines;
   for (uint32_t r = 0; r < routines.size(); ++r)
     for (uint32_t i = 0; i < routines[r].rungs.size(); ++i) {
       const uint32_t number = layout.cut().rungNumber(RoutineId{r}, i);
       exits_[number] = exitOf(layout.cut(), RoutineId{r}, i);
-      partners_[number] = partnersOf(routines[r].rungs[i]);
+      if (!findRegions(routines[r].rungs[i], regions_[number])) regions_[number].clear();
       mostValues_ = std::max(mostValues_, routines[r].rungs[i].values.size());
       for (const Op& op : routines[r].rungs[i].ops) mostArgs_ = std::max<size_t>(mostArgs_, op.argCount);
     }
@@ -93,7 +77,7 @@ uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) con
     const uint32_t number = layout_.cut().rungNumber(place.routine, next.rung);
     const std::span<uint64_t> values = room.first(rung.values.size());
     std::ranges::fill(values, uint64_t{0});
-    RungRun run(layout_.memory(), rung, number, partners_[number], mem, ctx, values, room.last(mostArgs_), counting_,
+    RungRun run(layout_.memory(), rung, number, regions_[number], mem, ctx, values, room.last(mostArgs_), counting_,
                 observer_.get());
     const bool completed = run.run();
     if (observer_ != nullptr) observer_->rungRan(number, completed ? values : std::span<const uint64_t>());

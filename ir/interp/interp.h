@@ -11,6 +11,7 @@
 
 #include "ir/chunks/cut.h"
 #include "ir/core/memory_use.h"
+#include "ir/core/regions.h"
 #include "ir/layout/layout.h"
 #include "ir/layout/program_image.h"
 #include "rtlib/host/engine.h"
@@ -62,7 +63,7 @@ private:
   std::vector<Exit> exits_; // by rung number
   // By rung number and operation: the other end of a region (if: its else or endif; else: its endif; loop and endloop:
   // each other). Empty for a rung without regions.
-  std::vector<std::vector<uint32_t>> partners_;
+  std::vector<std::vector<Region>> regions_;
   size_t mostValues_ = 0; // that a rung has
   size_t mostArgs_ = 0;   // that an operation has
 };

@@ -126,7 +126,7 @@ void RungRun::giveArgs(const Op& from, const Op& to, uint32_t skip) {
 }
 
 size_t RungRun::endLoop(const Op& op, size_t index) {
-  const size_t begin = partners_[index];
+  const size_t begin = regions_[index].begin;
   const Op& loop = rung_.ops[begin];
   const uint64_t pass = values_[loop.result.index] + 1;
   if (pass < loop.count) {
@@ -212,14 +212,17 @@ size_t RungRun::step(const Op& op, size_t index) {
   case OpCode::Now: give(op, static_cast<uint64_t>(ctx_.now_us)); break;
   // When the branch above an else has run, its yields become the results of the endif.
   case OpCode::If:
-    if (in(op, 0) == 0) return partners_[index] + (rung_.ops[partners_[index]].code == OpCode::Else ? 1u : 0u);
+    if (in(op, 0) == 0) {
+      const size_t end = regions_[index].end;
+      return rung_.ops[end].code == OpCode::Else ? end + 1 : end;
+    }
     break;
-  case OpCode::Else: giveArgs(op, rung_.ops[partners_[index]], 0); return partners_[index] + 1;
+  case OpCode::Else: giveArgs(op, rung_.ops[regions_[index].end], 0); return regions_[index].end + 1;
   case OpCode::EndIf: giveArgs(op, op, 0); break;
   case OpCode::Loop:
     if (op.count == 0) {
-      giveArgs(op, rung_.ops[partners_[index]], 0);
-      return partners_[index] + 1;
+      giveArgs(op, rung_.ops[regions_[index].end], 0);
+      return regions_[index].end + 1;
     }
     giveArgs(op, op, 1);
     give(op, 0);

@@ -13,10 +13,10 @@ class RungRun {
 public:
   // `values` has a place for each value of the rung and holds their bits (see ir/core/eval.h); `carried` has one for
   // each operand of any operation. All outlive the run.
-  RungRun(const MemoryLayout& layout, const Rung& rung, uint32_t number, const std::vector<uint32_t>& partners,
+  RungRun(const MemoryLayout& layout, const Rung& rung, uint32_t number, const std::vector<Region>& regions,
           uint8_t* mem, rung_ctx& ctx, std::span<uint64_t> values, std::span<uint64_t> carried, Counting counting,
           RungObserver* observer)
-      : layout_(layout), rung_(rung), number_(number), partners_(partners), mem_(mem), ctx_(ctx), values_(values),
+      : layout_(layout), rung_(rung), number_(number), regions_(regions), mem_(mem), ctx_(ctx), values_(values),
         carried_(carried), counting_(counting), observer_(observer) {}
 
   // False: a fault, which is in the context.
@@ -54,7 +54,7 @@ private:
   const MemoryLayout& layout_;
   const Rung& rung_;
   const uint32_t number_;
-  const std::vector<uint32_t>& partners_;
+  const std::vector<Region>& regions_;
   uint8_t* const mem_;
   rung_ctx& ctx_;
   std::span<uint64_t> values_;

@@ -5,6 +5,7 @@
 
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
+#include "ir/core/regions.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"
 

@@ -2,6 +2,7 @@
 // (simplify.cpp), of an `if` whose condition is known only the region that runs stays, loops of no pass or of one are
 // opened, and transfers whose condition or number is known lose it.
 #include "ir/core/ops.h"
+#include "ir/core/regions.h"
 #include "ir/passes/passes.h"
 #include "ir/passes/rewriter.h"
 #include "ir/passes/simplify.h"

@@ -8,27 +8,6 @@
 
 namespace rung::ir {
 
-bool findRegions(const Rung& rung, std::vector<Region>& regions) {
-  regions.resize(rung.ops.size());
-  std::vector<uint32_t> open; // the operation that began the region: if, else or loop
-  bool any = false;
-  for (uint32_t i = 0; i < rung.ops.size(); ++i) {
-    const OpCode code = rung.ops[i].code;
-    const bool opens = code == OpCode::If || code == OpCode::Else || code == OpCode::Loop;
-    const bool closes = code == OpCode::Else || code == OpCode::EndIf || code == OpCode::EndLoop;
-    if (!opens && !closes) continue;
-    any = true;
-    regions[i] = {i, i};
-    if (closes) {
-      regions[open.back()].end = i;
-      regions[i].begin = regions[open.back()].begin;
-      open.pop_back();
-    }
-    if (opens) open.push_back(i);
-  }
-  return any;
-}
-
 void RungRewriter::start(const Rung& rung) {
   rung_ = &rung;
   now_.assign(rung.values.size(), ValueId{});

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ir/core/memory_use.h"
-#include "ir/passes/rewriter.h"
+#include "ir/core/regions.h"
 #include "ir/passes/value_range.h"
 
 namespace rung::ir {

@@ -45,6 +45,11 @@ constexpr FieldInfo kInitFields[] = {RUNG_FIELD(rung_init, offset, U32), RUNG_FI
                                      RUNG_ARRAY(rung_init, data, size, Bytes)};
 constexpr StructInfo kInit{"rung_init", sizeof(rung_init), kInitFields};
 
+constexpr FieldInfo kMessageTextFields[] = {RUNG_FIELD(rung_message_text, number, U32),
+                                            RUNG_FIELD(rung_message_text, reserved, U32),
+                                            RUNG_FIELD(rung_message_text, text, Text)};
+constexpr StructInfo kMessageText{"rung_message_text", sizeof(rung_message_text), kMessageTextFields};
+
 constexpr FieldInfo kSpanFields[] = {RUNG_FIELD(rung_span, offset, U32), RUNG_FIELD(rung_span, size, U32)};
 constexpr StructInfo kSpan{"rung_span", sizeof(rung_span), kSpanFields};
 
@@ -139,7 +144,7 @@ constexpr FieldInfo kProgramFields[] = {RUNG_FIELD(rung_program, size, OwnSize),
                                         RUNG_STRUCTS(rung_program, slices, slice_count, kStep),
                                         RUNG_ARRAY(rung_program, faults, fault_count, Texts),
                                         RUNG_ARRAY(rung_program, services, service_count, Texts),
-                                        RUNG_ARRAY(rung_program, texts, text_count, Texts),
+                                        RUNG_STRUCTS(rung_program, texts, text_count, kMessageText),
                                         RUNG_ARRAY(rung_program, chunk_fns, chunk_count, ChunkFns),
                                         RUNG_STRUCTS(rung_program, writes, write_count, kWritten),
                                         RUNG_STRUCTS(rung_program, reads, read_count, kSpan),

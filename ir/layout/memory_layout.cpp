@@ -8,6 +8,7 @@
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
 #include "ir/support/put.h"
+#include "rung/types.hpp"
 
 namespace rung::ir {
 namespace {
@@ -141,7 +142,7 @@ std::vector<rung_span> MemoryLayout::pieces(const SpaceSpan& span) const {
     const uint32_t first = std::max(range.first_byte, span.byte);
     const uint32_t end = std::min(range.first_byte + range.byte_count, span.byte + span.size);
     if (first >= end) continue;
-    const uint32_t scale = range.repr == RUNG_REPR_PACKED ? 1 : 8;
+    const uint32_t scale = bytesPerByte(range.repr);
     out.push_back({range.offset + (first - range.first_byte) * scale, (end - first) * scale});
     done += end - first;
   }

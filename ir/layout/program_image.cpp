@@ -225,7 +225,7 @@ private:
   Piece piece(SpaceId space, uint32_t byte, uint32_t size) {
     for (const rung_range& range : layout_.memory().space(space).ranges) {
       if (byte < range.first_byte || byte - range.first_byte >= range.byte_count) continue;
-      const uint32_t scale = range.repr == RUNG_REPR_PACKED ? 1 : 8;
+      const uint32_t scale = bytesPerByte(range.repr);
       const uint32_t into = byte - range.first_byte;
       return {range.offset + into * scale, std::min(size, range.byte_count - into), scale};
     }
@@ -321,8 +321,7 @@ private:
     std::vector<MessageText> messages = module_.messages;
     std::ranges::stable_sort(messages, {}, &MessageText::number);
     for (const MessageText& m : messages) {
-      image_.texts_.push_back(text(std::to_string(m.number)));
-      image_.texts_.push_back(text(m.text));
+      image_.texts_.push_back({m.number, 0, text(m.text)});
     }
   }
 
@@ -353,7 +352,7 @@ private:
     pointTexts(image_.files_, p.files, p.file_count);
     pointTexts(image_.faults_, p.faults, p.fault_count);
     pointTexts(image_.services_, p.services, p.service_count);
-    pointTexts(image_.texts_, p.texts, p.text_count);
+    point(image_.texts_, p.texts, p.text_count);
     point(image_.writes_, p.writes, p.write_count);
     point(image_.reads_, p.reads, p.read_count);
     point(image_.changes_, p.changes, p.change_count);

@@ -47,7 +47,7 @@ private:
   std::vector<const char*> files_;
   std::vector<const char*> faults_;
   std::vector<const char*> services_;
-  std::vector<const char*> texts_;
+  std::vector<rung_message_text> texts_;
   std::vector<rung_written> writes_;
   std::vector<rung_span> reads_;
   std::vector<uint32_t> changes_;

@@ -11,7 +11,6 @@
 #include "rtlib/core/memory.h"
 #include "rtlib/host/mapped_file.h"
 #include "rtlib/host/program_info.h"
-#include "rtlib/text/number.h"
 #include "rung/types.hpp"
 
 namespace rung::host {
@@ -461,10 +460,11 @@ private:
     checkList("file", p_.file_count, p_.files);
     checkList("fault", p_.fault_count, p_.faults);
     checkList("service", p_.service_count, p_.services);
-    checkList("text", p_.text_count, p_.texts);
-    if (p_.text_count % 2 != 0) fail("the texts of messages are not pairs: there are ", p_.text_count);
-    for (uint32_t i = 0; i < p_.text_count && error_.empty(); i += 2)
-      if (!text::numberIn<uint32_t>(p_.texts[i])) failAt("text", i, "is not the number of a message: ", p_.texts[i]);
+    for (uint32_t i = 0; error_.empty() && i < p_.text_count; ++i)
+      if (p_.texts[i].text == nullptr)
+        failAt("text", i, "is missing");
+      else
+        readable("text", i, p_.texts[i].text);
   }
   void checkList(const char* table, uint32_t count, const char* const* list) {
     for (uint32_t i = 0; error_.empty() && i < count; ++i)

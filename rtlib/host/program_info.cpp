@@ -5,6 +5,7 @@
 
 #include "rtlib/core/runner.h"
 #include "rtlib/text/number.h"
+#include "rung/types.hpp"
 
 namespace rung::host {
 
@@ -42,7 +43,7 @@ const rung_symbol* findSymbol(const rung_program& program, std::string_view name
 std::optional<LogicalByte> byteAt(const rung_program& program, uint32_t offset) {
   for (uint32_t s = 0; s < program.space_count; ++s)
     for (const rung_range& range : std::span(program.spaces[s].ranges, program.spaces[s].range_count)) {
-      const uint32_t step = range.repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1;
+      const uint32_t step = bytesPerByte(range.repr);
       if (offset >= range.offset && (offset - range.offset) / step < range.byte_count)
         return LogicalByte{s, range.first_byte + (offset - range.offset) / step};
     }
@@ -54,18 +55,9 @@ std::string_view serviceName(const rung_program& program, uint32_t service) {
 }
 
 std::string_view messageText(const rung_program& program, uint32_t number) {
-  const auto numberOf = [&](uint32_t pair) { return text::numberIn<uint32_t>(program.texts[2 * pair]).value_or(0); };
-  uint32_t first = 0;
-  uint32_t end = program.text_count / 2;
-  while (first < end) {
-    const uint32_t middle = first + (end - first) / 2;
-    if (numberOf(middle) < number)
-      first = middle + 1;
-    else
-      end = middle;
-  }
-  return first < program.text_count / 2 && numberOf(first) == number ? program.texts[2 * first + 1]
-                                                                     : std::string_view();
+  const std::span texts(program.texts, program.text_count);
+  const auto found = std::ranges::lower_bound(texts, number, {}, &rung_message_text::number);
+  return found != texts.end() && found->number == number ? std::string_view(found->text) : std::string_view();
 }
 
 uint64_t advanceUs(std::span<const rung_step> steps) {

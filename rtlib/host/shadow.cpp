@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rtlib/host/program_info.h"
+#include "rung/types.hpp"
 
 namespace rung::host {
 namespace {
@@ -128,7 +129,7 @@ void Shadow::indexOutputs() {
     bytes.clear();
     for (uint32_t b = 0; b < std::max(1u, ref.width / 8u); ++b) {
       const rung_range& range = *memory.rangeOf(ref.space, ref.byte + b);
-      const uint32_t scale = range.repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1;
+      const uint32_t scale = bytesPerByte(range.repr);
       const uint32_t first = range.offset + scale * (ref.byte + b - range.first_byte);
       for (uint32_t k = 0; k < scale; ++k) bytes.push_back({first + k, i});
     }

@@ -17,7 +17,7 @@ CHANGES = [
     ("rung/runtime.h", "RUNG_EMPTY = 1,", "RUNG_EMPTY = 7,", "rung-values.so"),
     ("rung/runtime.h", "RUNG_EMPTY = 1,", "RUNG_EMPTY = 1, RUNG_MORE = 9,", "rung-values.so"),
     ("rung/runtime.h", "RUNG_MOST_WATCHES 16u", "RUNG_MOST_WATCHES 17u", "rung-values.so"),
-    ("rung/program.h", "RUNG_ABI_VERSION 6u", "RUNG_ABI_VERSION 7u", "rung-values.so"),
+    ("rung/program.h", "RUNG_ABI_VERSION 7u", "RUNG_ABI_VERSION 8u", "rung-values.so"),
     ("rung/program.h", "  uint32_t memory_align;", "  uint32_t memory_align, more;", "rung-values.so"),
     ("rung/compiler.h", "  const char* cache_folder;", "  const char *cache_folder, *more;", "librung-compiler.so.0"),
 ]

@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-#define RUNG_ABI_VERSION 6u
+#define RUNG_ABI_VERSION 7u
 #define RUNG_PROGRAM_SYMBOL "rung_program_table"
 /* Of a constant that says which layout of a host's struct the program was compiled for: then comes the struct's name.
  * Its value is the hash, its comment the text of rung_layout (rung/runtime.h). */
@@ -229,6 +229,12 @@ typedef struct rung_step {
   uint32_t arg;
 } rung_step;
 
+typedef struct rung_message_text {
+  uint32_t number; /* of the message */
+  uint32_t reserved;
+  const char* text;
+} rung_message_text;
+
 /* Counters of one rung; times in ticks of the host's cycle counter. */
 typedef struct rung_prof {
   uint64_t count;
@@ -354,7 +360,7 @@ typedef struct rung_program {
   const rung_step* slices; /* `scan` on a real clock, where that has another order; else none. It takes the same time */
   const char* const* faults;
   const char* const* services;
-  const char* const* texts; /* message texts: pairs of number (decimal) and text, by ascending numbers */
+  const rung_message_text* texts; /* by ascending numbers; of equal ones the first counts */
 
   const rung_chunk_fn* chunk_fns; /* by chunk */
   const rung_written* writes;     /* all of spaces that chunks may write, ascending; none overlaps the next */

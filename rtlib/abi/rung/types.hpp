@@ -22,6 +22,9 @@ constexpr uint32_t elementBits(uint32_t type) {
   }
 }
 
+// Bytes of the memory block that one byte of a space takes in this representation (rung_range::repr).
+constexpr uint32_t bytesPerByte(uint32_t repr) { return repr == RUNG_REPR_BYTE_PER_BIT ? 8 : 1; }
+
 // The key of a rung: of its text and its routine's name, and of how many rungs before it there have the same text.
 constexpr uint64_t rungKey(uint64_t text, uint32_t copy) {
   constexpr uint64_t kStep = 0x9E37'79B9'7F4A'7C15;

@@ -115,7 +115,7 @@ constexpr const char* kFiles[] = {"main.pmc"};
 constexpr uint32_t kPartEnds[] = {RUNG_PC_DONE};
 constexpr const char* kFaults[] = {"dead-loop"};
 constexpr const char* kServices[] = {"windr"};
-constexpr const char* kTexts[] = {"7", "Oil level low"};
+constexpr rung_message_text kTexts[] = {{7, 0, "Oil level low"}};
 constexpr rung_task kTasks8ms[] = {{"MAIN", 0, 8000, 1000, 0, 0, 0, 0, 0, 0, 1}};
 constexpr rung_task kTasks10ms[] = {{"MAIN", 0, 10000, 1000, 0, 0, 1, 0, 0, 0, 1}};
 constexpr rung_copy kNctCopies[] = {{RUNG_COPY_ALL, kSlice, 0, 0, kSlice}};
@@ -140,7 +140,7 @@ rung_program common(const char* dialect, const rung_task* tasks, const rung_chun
   p.fast_task = RUNG_NONE;
   p.chunk_count = p.rung_count = p.routine_count = p.file_count = p.task_count = p.part_end_count = 1;
   p.fault_count = p.service_count = 1;
-  p.text_count = 2;
+  p.text_count = 1;
   p.chunks = kChunks;
   p.rungs = kRungs;
   p.routines = kRoutines;

@@ -76,6 +76,11 @@ AT(rung_copy, mask, 12);
 AT(rung_copy, size, 16);
 SIZE(rung_copy, 20);
 
+AT(rung_message_text, number, 0);
+AT(rung_message_text, reserved, 4);
+AT(rung_message_text, text, 8);
+SIZE(rung_message_text, 16);
+
 AT(rung_chunk, first_rung, 0);
 AT(rung_chunk, rung_count, 4);
 AT(rung_chunk, weight, 8);

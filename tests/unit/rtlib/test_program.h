@@ -43,7 +43,7 @@ struct TestProgram {
   bool instrumented = false;
   std::vector<const char*> faults = {"dead-loop", "division by zero"};
   std::vector<const char*> services = {"WINDR", "WINDW"};
-  std::vector<const char*> texts = {"20", "Mount tool", "23", "LUBRICATION"};
+  std::vector<rung_message_text> texts = {{20, 0, "Mount tool"}, {23, 0, "LUBRICATION"}};
   std::vector<const char*> files = {"main.pmc"};
   std::vector<const char*> routines = {"MAIN"};
   std::vector<rung_chunk> chunks;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <numeric>
 
 #include "ir/core/eval.h"
 #include "ir/core/long_rungs.h"
@@ -21,19 +22,13 @@ uint64_t placeKey(uint32_t space, int64_t bitOffset, bool bit) {
   return (static_cast<uint64_t>(space) << 40) | (static_cast<uint64_t>(bitOffset) << 1) | (bit ? 1u : 0u);
 }
 
-// The type of a place of the memory block.
-std::string_view memoryType(Type type) {
-  switch (type) {
-  case Type::I8: return "m8";
-  case Type::I16: return "m16";
-  case Type::I32: return "m32";
-  case Type::I64: return "m64";
-  case Type::F64: return "mf64";
-  case Type::None:
-  case Type::Bit: break;
-  }
-  RUNG_CHECK(false, "a bit has no place of its own");
-  return {};
+// The type of a place of the memory block, of which is known that its offset is a multiple of `align`: m16, or m16u
+// where it may have any address.
+std::string memoryType(Type type, uint32_t align) {
+  const uint32_t bits = bitWidth(type);
+  RUNG_CHECK(bits >= 8, "a bit has no place of its own");
+  const bool aligned = align % byteWidth(type) == 0;
+  return fmt::format("m{}{}{}", type == Type::F64 ? "f" : "", bits, aligned ? "" : "u");
 }
 
 // Text that may be in a line comment: no line end, and no backslash at the end that would continue it.
@@ -143,8 +138,8 @@ std::string RungWriter::load(const Op& op) const {
     const BitLocation at = layout_.bit(SpaceId{op.ref}, static_cast<uint64_t>(op.imm));
     return at.wholeByte ? fmt::format("RUNG_FLAG({})", at.offset) : fmt::format("RUNG_BIT({}, {})", at.offset, at.bit);
   }
-  return fmt::format("RUNG_MEM({}, {})", memoryType(op.type),
-                     layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8)));
+  const uint32_t offset = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
+  return fmt::format("RUNG_MEM({}, {})", memoryType(op.type, offset), offset);
 }
 
 void RungWriter::store(const Op& op) {
@@ -156,9 +151,8 @@ void RungWriter::store(const Op& op) {
               placeComment(op));
     return;
   }
-  statement(fmt::format("RUNG_MEM({}, {}) = {};", memoryType(op.type),
-                        layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8)), value),
-            placeComment(op));
+  const uint32_t offset = layout_.byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
+  statement(fmt::format("RUNG_MEM({}, {}) = {};", memoryType(op.type, offset), offset, value), placeComment(op));
 }
 
 void RungWriter::storeAt(const Op& op) {
@@ -170,8 +164,8 @@ void RungWriter::storeAt(const Op& op) {
         fmt::format("RUNG_SET_BIT_AT({}u, {}u, {}u, {}, {}, {});", base, op.count, unit, a(op, 0), a(op, 1), a(op, 2)),
         placeComment(op));
   else
-    statement(fmt::format("RUNG_SET_AT({}, {}u, {}u, {}u, {}, {});", memoryType(op.type), base, op.count, unit,
-                          a(op, 0), a(op, 1)),
+    statement(fmt::format("RUNG_SET_AT({}, {}u, {}u, {}u, {}, {});", memoryType(op.type, std::gcd(base, unit)), base,
+                          op.count, unit, a(op, 0), a(op, 1)),
               placeComment(op));
 }
 
@@ -223,13 +217,15 @@ std::string RungWriter::pure(const Op& op) {
   case OpCode::Load: return load(op);
   case OpCode::LoadAt:
     if (op.count == 0) return "0";
-    return fmt::format("RUNG_AT({}, {}u, {}u, {}u, {})", memoryType(op.type), window(), op.count, unit, a(op, 0));
+    return fmt::format("RUNG_AT({}, {}u, {}u, {}u, {})", memoryType(op.type, std::gcd(window(), unit)), window(),
+                       op.count, unit, a(op, 0));
   case OpCode::LoadBitAt:
     if (op.count == 0) return "false";
     return fmt::format("RUNG_BIT_AT({}u, {}u, {}u, {}, {})", window(), op.count, unit, a(op, 0), a(op, 1));
   case OpCode::SlotLoad:
     return bit ? fmt::format("RUNG_FLAG({})", layout_.slot(SlotId{op.ref}))
-               : fmt::format("RUNG_MEM({}, {})", memoryType(op.type), layout_.slot(SlotId{op.ref}));
+               : fmt::format("RUNG_MEM({}, {})", memoryType(op.type, layout_.slot(SlotId{op.ref})),
+                             layout_.slot(SlotId{op.ref}));
   case OpCode::Now: return "static_cast<u64>(ctx->now_us)";
   case OpCode::ServicePoll: return fmt::format("ctx->host->service_poll(ctx, {})", a(op, 0));
   case OpCode::ServiceResult:
@@ -250,8 +246,9 @@ void RungWriter::writeOp(const Op& op) {
   case OpCode::SlotStore: {
     const uint32_t offset = layout_.slot(SlotId{op.ref});
     const std::string value = a(op, 0);
-    return statement(op.type == Type::Bit ? fmt::format("RUNG_SET_FLAG({}, {});", offset, value)
-                                          : fmt::format("RUNG_MEM({}, {}) = {};", memoryType(op.type), offset, value),
+    return statement(op.type == Type::Bit
+                         ? fmt::format("RUNG_SET_FLAG({}, {});", offset, value)
+                         : fmt::format("RUNG_MEM({}, {}) = {};", memoryType(op.type, offset), offset, value),
                      module_.slots[op.ref].key);
   }
   case OpCode::If: return openIf(op, index);

@@ -71,6 +71,7 @@ private:
   void slotStore(const ir::Op& op);
   struct Element;
   Element element(const ir::Op& op, bool isBit);
+  llvm::Align alignOf(uint64_t offset, ir::Type type) const;
   Value* readFlag(Value* address);
   Value* readBit(Value* address, Value* bit);
   void writeBit(Value* address, Value* bit, Value* value);

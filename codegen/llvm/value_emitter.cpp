@@ -66,7 +66,7 @@ ChunkEmitter::Value* ChunkEmitter::result(const Op& op) {
   case OpCode::SlotLoad: {
     Value* place = at(layout_.memory().slot(SlotId{op.ref}));
     if (op.type == Type::Bit) return readFlag(place);
-    return builder_.CreateAlignedLoad(type(op.type), place, llvm::Align(1));
+    return builder_.CreateAlignedLoad(type(op.type), place, alignOf(layout_.memory().slot(SlotId{op.ref}), op.type));
   }
   case OpCode::Now: return builder_.CreateLoad(builder_.getInt64Ty(), ctxField(AbiTypes::kNow));
   case OpCode::ServiceRequest: return serviceRequest(op);
@@ -226,6 +226,11 @@ ChunkEmitter::Value* ChunkEmitter::callSem(const Op& op) {
 
 // ---- memory ------------------------------------------------------------------------------------------------------
 
+// Of a place in the memory block, which is aligned itself: no more than a value of the type asks for.
+llvm::Align ChunkEmitter::alignOf(uint64_t offset, Type type) const {
+  return std::min(llvm::commonAlignment(llvm::Align(kBlockAlign), offset), llvm::Align(std::max(1u, byteWidth(type))));
+}
+
 // The runtime keeps the byte of a bit that has its own at 0 or 1.
 ChunkEmitter::Value* ChunkEmitter::readFlag(Value* address) {
   llvm::LoadInst* byte = builder_.CreateLoad(builder_.getInt8Ty(), address);
@@ -252,7 +257,7 @@ ChunkEmitter::Value* ChunkEmitter::load(const Op& op) {
     return readFlag(at(place.offset));
   }
   const uint32_t offset = layout_.memory().byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
-  return builder_.CreateAlignedLoad(type(op.type), at(offset), llvm::Align(1));
+  return builder_.CreateAlignedLoad(type(op.type), at(offset), alignOf(offset, op.type));
 }
 
 void ChunkEmitter::store(const Op& op) {
@@ -264,13 +269,14 @@ void ChunkEmitter::store(const Op& op) {
     return;
   }
   const uint32_t offset = layout_.memory().byte(SpaceId{op.ref}, static_cast<uint32_t>(op.imm / 8));
-  builder_.CreateAlignedStore(value, at(offset), llvm::Align(1));
+  builder_.CreateAlignedStore(value, at(offset), alignOf(offset, op.type));
 }
 
 void ChunkEmitter::slotStore(const Op& op) {
   Value* value = arg(op, 0);
   if (op.type == Type::Bit) value = asByte(value);
-  builder_.CreateAlignedStore(value, at(layout_.memory().slot(SlotId{op.ref})), llvm::Align(1));
+  const uint32_t offset = layout_.memory().slot(SlotId{op.ref});
+  builder_.CreateAlignedStore(value, at(offset), alignOf(offset, op.type));
 }
 
 // A place of a window that a computed index may miss.
@@ -278,6 +284,7 @@ struct ChunkEmitter::Element {
   Value* inside;  // whether the access is legal
   Value* address; // legal in any case: of element 0 when the index misses
   Value* bit;     // i8, where the access is one to a bit
+  llvm::Align align;
 };
 
 ChunkEmitter::Element ChunkEmitter::element(const Op& op, bool isBit) {
@@ -295,14 +302,15 @@ ChunkEmitter::Element ChunkEmitter::element(const Op& op, bool isBit) {
     offset = builder_.CreateAdd(offset, builder_.CreateLShr(number, 3));
     bit = builder_.CreateTrunc(builder_.CreateAnd(number, 7), builder_.getInt8Ty());
   }
-  return {inside, builder_.CreateInBoundsGEP(builder_.getInt8Ty(), at(base), offset), bit};
+  return {inside, builder_.CreateInBoundsGEP(builder_.getInt8Ty(), at(base), offset), bit,
+          llvm::commonAlignment(alignOf(base, op.type), unit)};
 }
 
 ChunkEmitter::Value* ChunkEmitter::loadAt(const Op& op) {
   llvm::Constant* none = llvm::Constant::getNullValue(type(op.type));
   if (op.count == 0) return none;
   const Element place = element(op, false);
-  return builder_.CreateSelect(place.inside, builder_.CreateAlignedLoad(type(op.type), place.address, llvm::Align(1)),
+  return builder_.CreateSelect(place.inside, builder_.CreateAlignedLoad(type(op.type), place.address, place.align),
                                none);
 }
 
@@ -324,7 +332,7 @@ void ChunkEmitter::storeAt(const Op& op) {
   if (isBit)
     writeBit(place.address, place.bit, value);
   else
-    builder_.CreateAlignedStore(value, place.address, llvm::Align(1));
+    builder_.CreateAlignedStore(value, place.address, place.align);
   builder_.CreateBr(done);
   builder_.SetInsertPoint(done);
 }

@@ -13,7 +13,6 @@
 namespace rung::ir {
 namespace {
 
-constexpr uint32_t kBlockAlign = 64;
 // What a program decides takes a multiple of so many bytes: a changed program seldom needs more, and then what follows
 // lies elsewhere and is copied.
 constexpr uint32_t kRoom = 4096;

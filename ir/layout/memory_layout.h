@@ -21,6 +21,8 @@ struct BitLocation {
   bool wholeByte = false;
 };
 
+inline constexpr uint32_t kBlockAlign = 64; // of the memory block, in bytes: rung_program::memory_align
+
 struct SpaceLayout {
   std::vector<rung_range> ranges; // sorted, cover the space
 };

@@ -29,7 +29,7 @@ public:
     p.layout_hash = layout_.memory().hash();
     p.code_hash = codeHash;
     p.memory_size = layout_.memory().size();
-    p.memory_align = 64;
+    p.memory_align = kBlockAlign;
     p.instrumented = module_.instrumented ? 1 : 0;
     p.main_task = module_.mainTask.index;
     p.fast_task = module_.fastTask.index;

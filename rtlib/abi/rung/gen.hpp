@@ -8,12 +8,17 @@
 
 namespace rung::gen {
 using namespace sem;
-// Places in the memory block have no alignment and may overlap.
-typedef u8 __attribute__((aligned(1), may_alias)) m8;
-typedef u16 __attribute__((aligned(1), may_alias)) m16;
-typedef u32 __attribute__((aligned(1), may_alias)) m32;
-typedef u64 __attribute__((aligned(1), may_alias)) m64;
-typedef double __attribute__((aligned(1), may_alias)) mf64;
+// Places in the memory block may overlap; m16u and its like have any address, the others one that is a multiple of
+// their size.
+typedef u8 __attribute__((may_alias)) m8;
+typedef u16 __attribute__((may_alias)) m16;
+typedef u32 __attribute__((may_alias)) m32;
+typedef u64 __attribute__((may_alias)) m64;
+typedef double __attribute__((may_alias)) mf64;
+typedef u16 __attribute__((aligned(1), may_alias)) m16u;
+typedef u32 __attribute__((aligned(1), may_alias)) m32u;
+typedef u64 __attribute__((aligned(1), may_alias)) m64u;
+typedef double __attribute__((aligned(1), may_alias)) mf64u;
 typedef bool __attribute__((may_alias)) mbool; // the runtime keeps these bytes at 0 or 1
 } // namespace rung::gen
 
@@ -36,7 +41,7 @@ typedef bool __attribute__((may_alias)) mbool; // the runtime keeps these bytes 
 // A bit with a byte of its own.
 #define RUNG_FLAG(offset) (*reinterpret_cast<const mbool*>(block + (offset)))
 #define RUNG_SET_FLAG(offset, value) *reinterpret_cast<mbool*>(block + (offset)) = (value)
-// m8 m16 m32 m64 mf64
+// m8 m16 m32 m64 mf64, m16u m32u m64u mf64u
 #define RUNG_MEM(type, offset) (*reinterpret_cast<type*>(block + (offset)))
 
 // Element i of a window of `count` elements, `unit` bytes apart; outside of it nothing is read or written.

@@ -6,6 +6,7 @@
 #include "codegen/cpp/memory_struct.h"
 #include "codegen/cpp/rung_writer.h"
 #include "codegen/cpp/table_writer.h"
+#include "codegen/plan/chunk_plan.h"
 #include "ir/layout/program_image.h"
 #include "ir/support/put.h"
 
@@ -51,32 +52,22 @@ void writeRungComment(const Routine& routine, uint32_t index, std::string& out) 
 
 void writeChunk(const Layout& layout, uint32_t number, const PlaceNames& names, const CppOptions& options,
                 std::string& out) {
-  const Chunk& chunk = layout.cut().chunks()[number];
-  const Module& module = layout.module();
-  const Routine& routine = module.at(chunk.routine);
+  const ChunkPlan plan = planOf(layout, number);
   // Its own lines belong to no source.
   put(out, "\n#line 1 \"rung_chunk\"\nstatic uint32_t chunk_{}(uint8_t *{}block, rung_ctx *ctx, uint32_t) {{\n", number,
-      hostReadsMemory(module, chunk) ? "" : "__restrict ");
+      plan.hostReads ? "" : "__restrict ");
   if (options.debugInfo) out += "RUNG_SHOW_MEMORY\n";
-  const std::vector<Exit> exits = exitsOf(layout.cut(), chunk);
-  const bool extraWeight = hasExtraWeight(exits);
-  if (extraWeight) out += "u32 extra = 0;\n";
-  RungWriter writer(layout.memory(), names, extraWeight, out);
-  std::vector<bool> labels(chunk.rungCount, false); // all jumps to a rung are above it
-  const auto label = [&](const Destination& to) {
-    if (to.inside()) labels[to.rung - chunk.firstRung] = true;
-  };
-  for (uint32_t i = chunk.firstRung; i < chunk.firstRung + chunk.rungCount; ++i) {
-    const Rung& rung = routine.rungs[i];
-    const Exit& exit = exits[i - chunk.firstRung];
-    label(exit.taken);
-    for (const Destination& target : exit.targets) label(target);
-    writeRungComment(routine, i, out);
-    if (labels[i - chunk.firstRung]) out += rungLabel(i) + ":\n";
+  if (plan.addsWeight) out += "u32 extra = 0;\n";
+  RungWriter writer(layout.memory(), names, plan.addsWeight, out);
+  for (uint32_t i = plan.chunk.firstRung; i < plan.endRung(); ++i) {
+    const Rung& rung = plan.routine.rungs[i];
+    writeRungComment(plan.routine, i, out);
+    if (plan.isTarget[i - plan.chunk.firstRung]) out += rungLabel(i) + ":\n";
     out += "{\n";
-    const std::string file = rung.begin.file.valid() ? cppString(module.files[rung.begin.file.index]) : "\"\"";
-    writer.write(rung, layout.cut().rungNumber(chunk.routine, i), std::string_view(file).substr(1, file.size() - 2));
-    writer.writeExit(exit);
+    const std::string file = rung.begin.file.valid() ? cppString(layout.module().files[rung.begin.file.index]) : "\"\"";
+    writer.write(rung, layout.cut().rungNumber(plan.chunk.routine, i),
+                 std::string_view(file).substr(1, file.size() - 2));
+    writer.writeExit(plan.exit(i));
     out += "}\n";
   }
   out += "}\n";

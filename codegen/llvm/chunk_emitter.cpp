@@ -28,41 +28,42 @@ ChunkEmitter::ChunkEmitter(llvm::Module& target, const Layout& layout, const Llv
 }
 
 llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
-  const Chunk& place = layout_.cut().chunks()[chunk];
-  bitsAreBytes_ = hasMostlyBytes(place);
-  const Routine& routine = module_.at(place.routine);
-  const Rung& first = routine.rungs[place.firstRung];
+  const ChunkPlan plan = planOf(layout_, chunk);
+  beginFunction(plan);
+  if (plan.addsWeight) builder_.CreateStore(num(0), scratch(extra_, builder_.getInt32Ty()));
+  for (uint32_t i = plan.chunk.firstRung; i < plan.endRung(); ++i) {
+    if (!beginRung(i)) continue;
+    emitRung(plan.routine.rungs[i], layout_.cut().rungNumber(plan.chunk.routine, i));
+    emitExit(plan.exit(i));
+  }
+  return function_;
+}
+
+void ChunkEmitter::beginFunction(const ChunkPlan& plan) {
+  bitsAreBytes_ = hasMostlyBytes(plan);
+  const Rung& first = plan.routine.rungs[plan.chunk.firstRung];
   const bool isNamed = numbers_ == nullptr || debug_ != nullptr; // else the code may be found for another place
-  const std::string name = isNamed ? fmt::format("{}.{}", routine.name, place.firstRung) : "chunk";
+  const std::string name = isNamed ? fmt::format("{}.{}", plan.routine.name, plan.chunk.firstRung) : "chunk";
   auto* signature = llvm::FunctionType::get(builder_.getInt32Ty(),
                                             {builder_.getPtrTy(), builder_.getPtrTy(), builder_.getInt32Ty()}, false);
   function_ = llvm::Function::Create(signature, llvm::GlobalValue::InternalLinkage, name, target_);
   function_->setDoesNotThrow();
   function_->addFnAttr("frame-pointer", "non-leaf");
   function_->addFnAttr(kChunkAttribute);
-  if (!hostReadsMemory(module_, place)) function_->addParamAttr(0, llvm::Attribute::NoAlias);
+  if (!plan.hostReads) function_->addParamAttr(0, llvm::Attribute::NoAlias);
   if (extendsWords_) function_->addRetAttr(llvm::Attribute::SExt);
   mem_ = function_->getArg(0);
   mem_->setName("mem");
   ctx_ = function_->getArg(1);
   ctx_->setName("ctx");
   function_->getArg(2)->setName("chunk");
-  messageSpace_ = argsSpace_ = valueSpace_ = nullptr;
+  messageSpace_ = argsSpace_ = valueSpace_ = extra_ = nullptr;
   if (debug_ != nullptr) debug_->beginFunction(*function_, name, first.begin.file, first.begin.line);
   builder_.SetInsertPoint(block("entry"));
   builder_.SetCurrentDebugLocation({}); // that of another function would not do
-  firstRung_ = place.firstRung;
-  rungBlocks_.assign(place.rungCount, nullptr);
+  firstRung_ = plan.chunk.firstRung;
+  rungBlocks_.assign(plan.chunk.rungCount, nullptr);
   if (debug_ != nullptr) showMemory();
-  const std::vector<Exit> exits = exitsOf(layout_.cut(), place);
-  extra_ = nullptr;
-  if (hasExtraWeight(exits)) builder_.CreateStore(num(0), scratch(extra_, builder_.getInt32Ty()));
-  for (uint32_t i = place.firstRung; i < place.firstRung + place.rungCount; ++i) {
-    if (!beginRung(i)) continue;
-    emitRung(routine.rungs[i], layout_.cut().rungNumber(place.routine, i));
-    emitExit(exits[i - place.firstRung]);
-  }
-  return function_;
 }
 
 // False: control never comes here. All jumps to a rung are above it.

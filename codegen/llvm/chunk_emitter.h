@@ -10,7 +10,7 @@
 #include "codegen/llvm/debug_info.h"
 #include "codegen/llvm/llvm_module.h"
 #include "codegen/llvm/piece_numbers.h"
-#include "ir/chunks/cut.h"
+#include "codegen/plan/chunk_plan.h"
 #include "ir/core/long_rungs.h"
 
 namespace rung::codegen {
@@ -46,6 +46,7 @@ private:
     llvm::BasicBlock* whenFalse;
   };
 
+  void beginFunction(const ChunkPlan& plan);
   bool beginRung(uint32_t rung);
   void emitRung(const ir::Rung& rung, uint32_t number);
   void emitOp(const ir::Op& op);
@@ -108,7 +109,7 @@ private:
   Value* isSet(Value* bit);
   Value* asBit(Value* truth) { return builder_.CreateZExt(truth, type(ir::Type::Bit)); }
   Value* asByte(Value* bit) { return builder_.CreateZExt(bit, builder_.getInt8Ty()); }
-  bool hasMostlyBytes(const ir::Chunk& chunk) const;
+  bool hasMostlyBytes(const ChunkPlan& plan) const;
   Value* num(uint64_t value) { return builder_.getInt32(static_cast<uint32_t>(value)); }
   // In the memory block.
   Value* at(uint64_t offset) { return builder_.CreateConstInBoundsGEP1_64(builder_.getInt8Ty(), mem_, offset); }

@@ -22,11 +22,11 @@ llvm::Type* ChunkEmitter::type(Type type) const {
 // An i1 is masked wherever another block or memory takes it, so that a byte, 0 or 1, is better for bits that lie in
 // bytes; but of a comparison that is joined with bits, and of a bit among others, a byte has to be made. What the chunk
 // has more of decides.
-bool ChunkEmitter::hasMostlyBytes(const Chunk& chunk) const {
+bool ChunkEmitter::hasMostlyBytes(const ChunkPlan& plan) const {
   uint32_t bytes = 0;
   uint32_t others = 0;
-  for (uint32_t i = 0; i < chunk.rungCount; ++i) {
-    const Rung& rung = module_.at(chunk.routine).rungs[chunk.firstRung + i];
+  for (uint32_t i = plan.chunk.firstRung; i < plan.endRung(); ++i) {
+    const Rung& rung = plan.routine.rungs[i];
     std::vector<bool> isTruth(rung.values.size(), false); // a comparison's
     for (const Op& op : rung.ops) {
       if (op.resultCount == 1 && opInfo(op.code).result == Constraint::Bit && op.type != Type::Bit)

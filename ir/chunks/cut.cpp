@@ -5,7 +5,6 @@
 #include <numeric>
 #include <span>
 
-#include "ir/core/op_info.h"
 #include "ir/support/check.h"
 
 namespace rung::ir {
@@ -222,26 +221,6 @@ Exit exitOf(const Cut& cut, RoutineId routine, uint32_t rung) {
   if (transfer.kind == TransferKind::Call) exit.taken = {.chunk = cut.entry(transfer.callee)};
   for (uint32_t target : transfer.targets) exit.targets.push_back(cut.destination(routine, rung, target));
   return exit;
-}
-
-std::vector<Exit> exitsOf(const Cut& cut, const Chunk& chunk) {
-  std::vector<Exit> exits;
-  for (uint32_t i = 0; i < chunk.rungCount; ++i) exits.push_back(exitOf(cut, chunk.routine, chunk.firstRung + i));
-  return exits;
-}
-
-bool hostReadsMemory(const Module& module, const Chunk& chunk) {
-  const std::span rungs(module.at(chunk.routine).rungs);
-  return std::ranges::any_of(rungs.subspan(chunk.firstRung, chunk.rungCount), [](const Rung& rung) {
-    return std::ranges::any_of(rung.ops, [](const Op& op) { return hostReads(opInfo(op.code)); });
-  });
-}
-
-bool hasExtraWeight(const std::vector<Exit>& exits) {
-  return std::any_of(exits.begin(), exits.end(), [](const Exit& exit) {
-    return exit.taken.extra != 0 || exit.otherwise.extra != 0 ||
-           std::any_of(exit.targets.begin(), exit.targets.end(), [](const Destination& to) { return to.extra != 0; });
-  });
 }
 
 } // namespace rung::ir

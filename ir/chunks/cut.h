@@ -83,12 +83,5 @@ struct Exit {
   std::vector<Destination> targets; // Switch
 };
 Exit exitOf(const Cut& cut, RoutineId routine, uint32_t rung);
-// The exits of a chunk's rungs.
-std::vector<Exit> exitsOf(const Cut& cut, const Chunk& chunk);
-// Whether the host may read memory while the chunk runs. Elsewhere the chunk alone reaches the memory block, and
-// back ends say so to their compilers.
-bool hostReadsMemory(const Module& module, const Chunk& chunk);
-// Whether some way through the chunk costs extra weight.
-bool hasExtraWeight(const std::vector<Exit>& exits);
 
 } // namespace rung::ir

@@ -44,8 +44,9 @@ MODULES = {
     "frontend/dialects": DIALECT | DIALECTS,  # its own files list the dialects
     **{dialect: DIALECT for dialect in DIALECTS},  # a dialect never sees another
     "codegen/process": {"ir/support"},
-    "codegen/cpp": ALL_IR | {"codegen/process"},
-    "codegen/llvm": ALL_IR,
+    "codegen/plan": ALL_IR,
+    "codegen/cpp": ALL_IR | {"codegen/plan", "codegen/process"},
+    "codegen/llvm": ALL_IR | {"codegen/plan"},
     "codegen/jit": ALL_IR | {"codegen/llvm", "rtlib/host"},
     "codegen/plugin": {"ir/support", "ir/layout", "codegen/llvm", "codegen/jit", "rtlib/host"},
     "codegen/clang": ALL_IR | {"codegen/cpp"},

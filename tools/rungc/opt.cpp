@@ -138,6 +138,17 @@ size_t changedRungs(const ir::Module& before, const ir::Module& after) {
   return changed;
 }
 
+// The routines alone: no pass changes what the module declares.
+std::string codeOf(const ir::Module& module) {
+  std::string text;
+  for (uint32_t r = 0; r < module.routines.size(); ++r) {
+    text += fmt::format("routine {} {{\n", module.routines[r].name);
+    for (uint32_t i = 0; i < module.routines[r].rungs.size(); ++i) text += ir::printRung(module, ir::RoutineId{r}, i);
+    text += "}\n";
+  }
+  return text;
+}
+
 class Optimiser {
 public:
   Optimiser(ir::Module& module, const OptOptions& options)
@@ -178,7 +189,7 @@ private:
     const double ms = std::chrono::duration<double, std::milli>(Clock::now() - started_).count();
     counts_.push_back({pass.name, operationsOf(module_), options_.statistics ? changedRungs(before_, module_) : 0, ms});
     if (options_.statistics) before_ = module_;
-    if (prints(pass)) fmt::print("; after {}, pass {}\n{}\n", pass.name, counts_.size(), ir::print(module_));
+    if (prints(pass)) fmt::print("; after {}, pass {}\n{}\n", pass.name, counts_.size(), codeOf(module_));
     if (!options_.verifyEach) return;
     const auto errors = ir::verify(module_, module_.instrumented ? ir::Mode::Final : ir::Mode::Built);
     if (!errors.empty()) error_ = ir::render(module_, errors);
@@ -222,8 +233,9 @@ void addOpt(CommandLine& app, int& status) {
   addSourceOptions(command, options->source);
   command.option("--passes", options->passes, "The passes in order, joined by commas; default: those that build runs");
   command
-      .option("--print-after", options->printAfter,
-              "Print the IR after each run of this pass, or after every one (all); may be repeated")
+      .option(
+          "--print-after", options->printAfter,
+          "Print the rungs after each run of this pass, or after every one (all), and not the module; may be repeated")
       .oneValue();
   command.flag("--statistics", options->statistics,
                "Operations left, rungs changed and time of each pass, on standard error");

@@ -7,7 +7,7 @@
 #include "codegen/cpp/rung_writer.h"
 #include "codegen/cpp/table_writer.h"
 #include "codegen/plan/chunk_plan.h"
-#include "ir/layout/program_image.h"
+#include "ir/image/program_image.h"
 #include "ir/support/put.h"
 
 namespace rung::codegen {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "ir/layout/layout.h"
+#include "ir/shape/layout.h"
 #include "ir/support/result.h"
 
 namespace rung::codegen {

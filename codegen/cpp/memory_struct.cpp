@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "ir/layout/memory_members.h"
+#include "ir/shape/memory_members.h"
 #include "ir/support/put.h"
 
 namespace rung::codegen {

@@ -1,8 +1,8 @@
-// The struct that shows a debugger the memory block by names (ir/layout/memory_members.h), as C++ text.
+// The struct that shows a debugger the memory block by names (ir/shape/memory_members.h), as C++ text.
 #pragma once
 #include <string>
 
-#include "ir/layout/memory_layout.h"
+#include "ir/shape/memory_layout.h"
 
 namespace rung::codegen {
 

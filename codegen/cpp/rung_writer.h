@@ -5,9 +5,9 @@
 #include <unordered_map>
 
 #include "codegen/cpp/cpp_emitter.h"
-#include "ir/chunks/cut.h"
 #include "ir/core/regions.h"
-#include "ir/layout/memory_layout.h"
+#include "ir/shape/cut.h"
+#include "ir/shape/memory_layout.h"
 
 namespace rung::codegen {
 

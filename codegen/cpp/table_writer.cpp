@@ -4,7 +4,7 @@
 #include <cstring>
 #include <fmt/format.h>
 
-#include "ir/layout/abi_fields.h"
+#include "ir/image/abi_fields.h"
 #include "ir/support/put.h"
 
 namespace rung::codegen {

@@ -1,4 +1,4 @@
-// Writes the tables of a rung_program as C++ constants, by walking the field lists of ir/layout/abi_fields.h.
+// Writes the tables of a rung_program as C++ constants, by walking the field lists of ir/image/abi_fields.h.
 #pragma once
 #include <string>
 

@@ -15,7 +15,7 @@
 #include "codegen/jit/object_cache.h"
 #include "codegen/jit/pieces.h"
 #include "codegen/llvm/piece_numbers.h"
-#include "ir/chunks/cut.h"
+#include "ir/shape/cut.h"
 #include "ir/support/contained.h"
 #include "rtlib/host/realtime.h"
 

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "ir/layout/program_image.h"
+#include "ir/image/program_image.h"
 
 namespace rung::codegen {
 

@@ -9,9 +9,9 @@
 #include <llvm/Support/SHA256.h>
 
 #include "codegen/llvm/piece_numbers.h"
-#include "ir/chunks/cut.h"
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
+#include "ir/shape/cut.h"
 #include "ir/support/put.h"
 #include "ir/text/text.h"
 

@@ -1,7 +1,7 @@
 // From chunks to pieces, and from a piece to an object file (see pieces.h).
 #include "codegen/jit/pieces.h"
 
-#include "ir/chunks/cut.h"
+#include "ir/shape/cut.h"
 
 namespace rung::codegen {
 

@@ -1,12 +1,12 @@
 // DWARF for the functions of one module: which source line each instruction belongs to, and the names of the program's
-// memory. In every function `mem` points to a struct of them (ir/layout/memory_members.h); `this` does the same, so
+// memory. In every function `mem` points to a struct of them (ir/shape/memory_members.h); `this` does the same, so
 // that gdb, which takes the code for C++, finds a name alone as well.
 #pragma once
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "ir/layout/memory_members.h"
+#include "ir/shape/memory_members.h"
 
 namespace llvm {
 class BasicBlock;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ir/layout/layout.h"
+#include "ir/shape/layout.h"
 #include "ir/support/result.h"
 
 namespace rung::codegen {

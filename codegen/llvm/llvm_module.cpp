@@ -25,7 +25,7 @@
 #include "codegen/llvm/embedded.h"
 #include "codegen/llvm/piece_numbers.h"
 #include "codegen/llvm/table_constants.h"
-#include "ir/layout/program_image.h"
+#include "ir/image/program_image.h"
 
 namespace rung::codegen {
 namespace {

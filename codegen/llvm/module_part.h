@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "ir/layout/memory_members.h"
+#include "ir/shape/memory_members.h"
 
 namespace rung::codegen {
 

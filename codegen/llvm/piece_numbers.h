@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "codegen/llvm/module_part.h"
-#include "ir/chunks/cut.h"
+#include "ir/shape/cut.h"
 
 namespace rung::codegen {
 

@@ -9,7 +9,7 @@
 #include <llvm/IR/Constants.h>
 #include <llvm/IR/Module.h>
 
-#include "ir/layout/abi_fields.h"
+#include "ir/image/abi_fields.h"
 #include "ir/support/check.h"
 
 namespace rung::codegen {

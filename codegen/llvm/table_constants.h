@@ -1,4 +1,4 @@
-// The tables of a rung_program as LLVM constants, by walking the field lists of ir/layout/abi_fields.h.
+// The tables of a rung_program as LLVM constants, by walking the field lists of ir/image/abi_fields.h.
 #pragma once
 #include "rung/program.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ir/layout/layout.h"
+#include "ir/shape/layout.h"
 
 namespace rung::codegen {
 

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "ir/chunks/cut.h"
 #include "ir/core/memory_use.h"
 #include "ir/core/regions.h"
-#include "ir/layout/layout.h"
-#include "ir/layout/program_image.h"
+#include "ir/image/program_image.h"
+#include "ir/shape/cut.h"
+#include "ir/shape/layout.h"
 #include "rtlib/host/engine.h"
 
 namespace rung::ir {

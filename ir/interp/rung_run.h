@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ir/interp/interp.h"
-#include "ir/layout/memory_layout.h"
+#include "ir/shape/memory_layout.h"
 
 namespace rung::ir {
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "ir/core/ops.h"
-#include "ir/passes/pipeline.h"
+#include "ir/transforms/pipeline.h"
 #include "tests/differential/optimised_code.h"
 #include "tests/support/long_run.h"
 

@@ -5,7 +5,7 @@
 
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
-#include "ir/passes/pipeline.h"
+#include "ir/transforms/pipeline.h"
 #include "tests/random/random.h"
 #include "tests/support/differential.h"
 #include "tests/support/long_run.h"

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "ir/passes/pipeline.h"
+#include "ir/transforms/pipeline.h"
 #include "tests/differential/optimised_code.h"
 #include "tests/support/long_run.h"
 

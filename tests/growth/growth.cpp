@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "codegen/jit/jit_engine.h"
+#include "ir/analysis/uses.h"
 #include "ir/core/builder.h"
-#include "ir/passes/pipeline.h"
 #include "ir/support/source.h"
 #include "ir/text/text.h"
-#include "ir/uses/uses.h"
+#include "ir/transforms/pipeline.h"
 #include "tests/unit/ladder/ladder_testing.h"
 #include "tools/compiler/compile.h"
 

@@ -9,7 +9,7 @@ from pathlib import Path
 # "rung/NAME.h".
 FRONTEND = {"ir/support", "ir/core", "rtlib/abi", "rtlib/nc"}
 IR = {"ir/support", "ir/core", "rtlib/abi"}
-ALL_IR = IR | {"ir/text", "ir/verify", "ir/passes", "ir/chunks", "ir/layout", "ir/interp"}
+ALL_IR = IR | {"ir/text", "ir/verify", "ir/shape", "ir/analysis", "ir/transforms", "ir/image", "ir/interp"}
 DIALECT = FRONTEND | {"frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
                       "frontend/ladder/text", "frontend/network", "frontend/dialects"}
 DIALECTS = {f"frontend/dialects/{name}" for name in ("gsk", "nct", "technol")}
@@ -28,11 +28,11 @@ MODULES = {
     "ir/core": IR,
     "ir/text": IR,
     "ir/verify": IR | {"ir/text"},
-    "ir/uses": IR,
-    "ir/passes": IR | {"ir/text", "ir/verify"},
-    "ir/chunks": IR,
-    "ir/layout": IR | {"ir/chunks"},
-    "ir/interp": IR | {"ir/chunks", "ir/layout", "ir/passes", "rtlib/core", "rtlib/host"},  # an engine, as codegen/jit is
+    "ir/shape": IR,
+    "ir/analysis": IR | {"ir/shape"},
+    "ir/transforms": IR | {"ir/text", "ir/verify", "ir/analysis"},
+    "ir/image": IR | {"ir/shape", "ir/analysis"},
+    "ir/interp": IR | {"ir/shape", "ir/image", "rtlib/core", "rtlib/host"},  # an engine, as codegen/jit is
     "frontend/syntax": FRONTEND,
     "frontend/table": FRONTEND | {"frontend/syntax"},
     "frontend/ladder": FRONTEND | {"frontend/syntax"},
@@ -48,7 +48,7 @@ MODULES = {
     "codegen/cpp": ALL_IR | {"codegen/plan", "codegen/process"},
     "codegen/llvm": ALL_IR | {"codegen/plan"},
     "codegen/jit": ALL_IR | {"codegen/llvm", "rtlib/host"},
-    "codegen/plugin": {"ir/support", "ir/layout", "codegen/llvm", "codegen/jit", "rtlib/host"},
+    "codegen/plugin": {"ir/support", "ir/shape", "codegen/llvm", "codegen/jit", "rtlib/host"},
     "codegen/clang": ALL_IR | {"codegen/cpp"},
 }
 # A host of the runtime's library sees its headers alone: neither the simulation nor the compiler, nor the runtime inside.

@@ -2,8 +2,8 @@
 #include "tests/support/cpp_program.h"
 
 #include "codegen/cpp/cpp_emitter.h"
-#include "ir/passes/pipeline.h"
 #include "ir/support/diag_render.h"
+#include "ir/transforms/pipeline.h"
 
 namespace rung::test {
 

@@ -2,7 +2,7 @@
 #include "tests/support/saboteur.h"
 
 #include "ir/core/ops.h"
-#include "ir/passes/rewriter.h"
+#include "ir/transforms/rewriter.h"
 
 namespace rung::ir {
 namespace {

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "ir/layout/program_image.h"
+#include "ir/image/program_image.h"
 #include "ir/support/hash.h"
 #include "rtlib/host/overwritten.h"
 #include "rtlib/host/program_info.h"

@@ -8,13 +8,13 @@
 
 #include "frontend/ladder/text/ladder_file.h"
 #include "frontend/ladder/text/list_word.h"
-#include "ir/passes/passes.h"
 #include "ir/support/check.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/encoding.h"
 #include "ir/support/meant.h"
 #include "ir/text/text.h"
+#include "ir/transforms/passes.h"
 #include "ir/verify/verify.h"
 #include "rtlib/text/letters.h"
 

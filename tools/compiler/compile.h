@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "frontend/dialects/dialect.h"
-#include "ir/layout/layout.h"
-#include "ir/passes/odds.h"
-#include "ir/passes/pipeline.h"
+#include "ir/analysis/odds.h"
+#include "ir/analysis/uses.h"
+#include "ir/shape/layout.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
-#include "ir/uses/uses.h"
+#include "ir/transforms/pipeline.h"
 
 namespace rung::compiler {
 

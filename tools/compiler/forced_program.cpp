@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "ir/chunks/cut.h"
-#include "ir/passes/force.h"
-#include "ir/passes/pipeline.h"
+#include "ir/shape/cut.h"
+#include "ir/transforms/force.h"
+#include "ir/transforms/pipeline.h"
 
 namespace rung::compiler {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "ir/layout/layout.h"
+#include "ir/shape/layout.h"
 #include "tools/compiler/compile.h"
 
 namespace rung::compiler {

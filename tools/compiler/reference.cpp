@@ -9,8 +9,8 @@
 
 #include "frontend/table/reference.h"
 #include "ir/core/op_info.h"
-#include "ir/passes/passes.h"
-#include "ir/passes/pipeline.h"
+#include "ir/transforms/passes.h"
+#include "ir/transforms/pipeline.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/signals.h"
 #include "rtlib/text/blanks.h"

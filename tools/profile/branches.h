@@ -3,8 +3,8 @@
 #pragma once
 #include <string>
 
+#include "ir/analysis/odds.h"
 #include "ir/interp/interp.h"
-#include "ir/passes/odds.h"
 #include "ir/support/result.h"
 
 namespace rung::profile {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "ir/passes/odds.h"
+#include "ir/analysis/odds.h"
 #include "rtlib/profile/profile.h"
 #include "tools/compiler/engines.h"
 #include "tools/profile/scan_times.h"

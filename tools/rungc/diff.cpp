@@ -6,7 +6,7 @@
 #include <iterator>
 #include <memory>
 
-#include "ir/layout/program_image.h"
+#include "ir/image/program_image.h"
 #include "ir/support/hash.h"
 #include "rtlib/text/letters.h"
 #include "tools/difference/difference.h"

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "ir/passes/passes.h"
-#include "ir/passes/pipeline.h"
 #include "ir/text/text.h"
+#include "ir/transforms/passes.h"
+#include "ir/transforms/pipeline.h"
 #include "ir/verify/verify.h"
 #include "tools/mapping/file.h"
 #include "tools/rungc/commands.h"

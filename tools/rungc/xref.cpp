@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "ir/layout/program_image.h"
+#include "ir/image/program_image.h"
 #include "rtlib/nc/names/names.h"
 #include "tools/rungc/commands.h"
 #include "tools/xref/odd_names.h"

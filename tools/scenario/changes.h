@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "ir/uses/uses.h"
+#include "ir/analysis/uses.h"
 #include "tools/scenario/session.h"
 
 namespace rung::scenario {

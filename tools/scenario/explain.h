@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "ir/uses/uses.h"
+#include "ir/analysis/uses.h"
 #include "tools/scenario/changes.h"
 #include "tools/scenario/session.h"
 

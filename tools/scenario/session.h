@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ir/uses/uses.h"
+#include "ir/analysis/uses.h"
 #include "rtlib/host/realtime.h"
 #include "tools/scenario/forces.h"
 #include "tools/scenario/lane.h"

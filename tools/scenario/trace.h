@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "ir/analysis/uses.h"
 #include "ir/support/result.h"
-#include "ir/uses/uses.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/session.h"
 #include "tools/scenario/trace_writers.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "codegen/jit/instruction_bound.h"
-#include "ir/chunks/rung_costs.h"
+#include "ir/analysis/rung_costs.h"
 #include "tools/compiler/engines.h"
 #include "tools/wcet/task_cost.h"
 

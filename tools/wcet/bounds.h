@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ir/chunks/heaviest.h"
+#include "ir/analysis/heaviest.h"
 #include "rtlib/host/engine.h"
 #include "rtlib/host/scan_bound.h"
 #include "tools/compiler/compile.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "ir/chunks/rung_costs.h"
+#include "ir/analysis/rung_costs.h"
 #include "ir/interp/interp.h"
 #include "rtlib/host/instance.h"
 

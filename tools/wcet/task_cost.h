@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "ir/chunks/heaviest.h"
+#include "ir/analysis/heaviest.h"
 
 namespace rung::wcet {
 
@@ -16,7 +16,7 @@ public:
 
   // Whether a run may come to the chunk.
   bool reaches(const ir::Chunk& chunk) const { return uses_[chunk.routine.index] != Use::None; }
-  // `costs`: by rung number (ir/chunks/rung_costs.h). Of a cut task: of the part that costs most.
+  // `costs`: by rung number (ir/analysis/rung_costs.h). Of a cut task: of the part that costs most.
   uint64_t most(std::span<const uint64_t> costs) const;
 
 private:

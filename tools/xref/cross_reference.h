@@ -1,14 +1,14 @@
 // Who reads and who writes what: of each place that a program's rungs use or its symbols name, the rungs. Made of the
-// IR as the front end built it (ir/uses), so it says what the program does and not what its text looks like: an operand
-// of four bytes is a use of all of them, an alias one of the place it names, and a latch one of what it was copied
-// from.
+// IR as the front end built it (ir/analysis/uses.h), so it says what the program does and not what its text looks like:
+// an operand of four bytes is a use of all of them, an alias one of the place it names, and a latch one of what it was
+// copied from.
 #pragma once
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "ir/uses/uses.h"
+#include "ir/analysis/uses.h"
 #include "rtlib/host/ref.h"
 
 namespace rung::xref {

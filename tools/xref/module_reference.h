@@ -1,6 +1,6 @@
 // The cross reference of a module, with all that it refers to.
 #pragma once
-#include "ir/layout/program_image.h"
+#include "ir/image/program_image.h"
 #include "tools/xref/cross_reference.h"
 
 namespace rung::xref {

@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "ir/layout/program_image.h"
+#include "ir/image/program_image.h"
 #include "ir/support/diag/structure.h"
 #include "tools/xref/allowed.h"
 #include "tools/xref/overlaps.h"

@@ -2,7 +2,7 @@
 // reset, or one over another (overlaps.h).
 #pragma once
 #include "frontend/sema/analysis.h"
-#include "ir/layout/layout.h"
+#include "ir/shape/layout.h"
 #include "ir/support/diagnostics.h"
 #include "tools/xref/cross_reference.h"
 

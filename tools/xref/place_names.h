@@ -4,7 +4,7 @@
 #include <string>
 
 #include "frontend/sema/analysis.h"
-#include "ir/uses/uses.h"
+#include "ir/analysis/uses.h"
 #include "rtlib/host/instance.h"
 
 namespace rung::xref {

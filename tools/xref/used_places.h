@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "ir/uses/uses.h"
+#include "ir/analysis/uses.h"
 #include "rung/program.h"
 
 namespace rung::xref {

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <vector>
 
-#include "ir/passes/passes.h"
 #include "ir/text/text.h"
+#include "ir/transforms/passes.h"
 #include "ir/verify/verify.h"
 #include "tests/support/golden.h"
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "ir/interp/interp.h"
-#include "ir/passes/pipeline.h"
+#include "ir/transforms/pipeline.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"
 #include "tests/random/random.h"

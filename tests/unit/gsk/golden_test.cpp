@@ -2,8 +2,8 @@
 // compiler says).
 #include <gtest/gtest.h>
 
-#include "ir/passes/passes.h"
 #include "ir/text/text.h"
+#include "ir/transforms/passes.h"
 #include "tests/support/golden.h"
 #include "tests/unit/gsk/compile.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/interp/interp.h"
-#include "ir/layout/layout.h"
+#include "ir/shape/layout.h"
 #include "ir/verify/verify.h"
 #include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "codegen/llvm/llvm_emitter.h"
-#include "ir/layout/abi_fields.h"
+#include "ir/image/abi_fields.h"
 #include "ir/support/put.h"
 #include "tests/unit/llvm/sample_module.h"
 

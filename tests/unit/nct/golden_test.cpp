@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "frontend/dialects/nct/nct.h"
-#include "ir/passes/passes.h"
 #include "ir/support/diag_render.h"
 #include "ir/text/text.h"
+#include "ir/transforms/passes.h"
 #include "tests/support/golden.h"
 
 namespace rung::nct {

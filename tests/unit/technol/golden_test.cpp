@@ -1,8 +1,8 @@
 // Programs beside what they become: NAME.plc with NAME.ir (the module's text) or NAME.diag (what the compiler says).
 #include <gtest/gtest.h>
 
-#include "ir/passes/passes.h"
 #include "ir/text/text.h"
+#include "ir/transforms/passes.h"
 #include "tests/support/golden.h"
 #include "tests/unit/technol/program.h"
 

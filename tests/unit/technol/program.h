@@ -7,7 +7,7 @@
 
 #include "frontend/dialects/technol/technol.h"
 #include "ir/interp/interp.h"
-#include "ir/layout/layout.h"
+#include "ir/shape/layout.h"
 #include "rtlib/host/instance.h"
 
 namespace rung::technol_test {

@@ -1,5 +1,5 @@
-// What the interpreter sees rungs read and write, in all scenarios: each place is among those that ir/uses, which cross
-// references are made of, states for that rung and that side.
+// What the interpreter sees rungs read and write, in all scenarios: each place is among those that ir/analysis/uses.h,
+// which cross references are made of, states for that rung and that side.
 #include <algorithm>
 #include <array>
 #include <filesystem>

@@ -87,7 +87,7 @@ public:
   ir::ValueId loadScratch(ir::ValueId index);
   void storeScratch(ir::ValueId index, ir::ValueId value);
 
-  // Flags are written bit by bit: where a program does nothing else with FLAGS, each is a byte of its own (ir/layout).
+  // Flags are written bit by bit: where a program does nothing else with FLAGS, each is a byte of its own (ir/shape).
   void setFlag(Flag flag, ir::ValueId value); // invalid id: 0
   void setErrorFlag(bool value) { setFlag(kFlagEr, b_.bit(value)); }
   void raiseErrorFlag(ir::ValueId cond); // FL_ER := FL_ER or cond

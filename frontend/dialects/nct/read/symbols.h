@@ -57,7 +57,7 @@ public:
 
   // What a name at that place of the source means, and a use of it. Null when there is no such name. Symbols of the NC
   // and FLAGS enter the table when they are looked up first: FLAGS of a program that does not name it may lie bit by
-  // bit in bytes (ir/layout). The result stays where it is.
+  // bit in bytes (ir/shape). The result stays where it is.
   const Symbol* use(std::string_view name, SourceRange range);
   // The same for a text that may be something else: no use.
   const Symbol* find(std::string_view name);

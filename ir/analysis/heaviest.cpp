@@ -1,0 +1,283 @@
+// The longest path through the graph of rungs (see heaviest.h), without recursion: a routine may have 50,000 of them.
+#include "ir/analysis/heaviest.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "ir/analysis/rung_costs.h"
+#include "ir/support/saturate.h"
+
+namespace rung::ir {
+namespace {
+
+struct Place {
+  RoutineId routine;
+  uint32_t rung = 0; // in it
+};
+
+// From any rung to the end of its run, its routine, or a part of its task.
+class Ways {
+public:
+  // `callees`: the ways through routines that are called; null: these here. Ways end before the chunk `limit` and those
+  // after it.
+  Ways(const Cut& cut, std::span<const uint64_t> costs, Ways* callees, uint32_t limit)
+      : cut_(cut), costs_(costs), callees_(callees), limit_(limit), marks_(cut.rungCount(), Mark::New),
+        longest_(cut.rungCount(), 0), next_(cut.rungCount(), RUNG_NONE), order_(cut.rungCount(), 0),
+        lowest_(cut.rungCount(), 0), leadsToCircle_(cut.rungCount(), 0) {}
+
+  uint64_t from(Place start) {
+    stack_.push_back(start);
+    while (!stack_.empty()) {
+      const Place place = stack_.back();
+      Mark& mark = marks_[number(place)];
+      if (mark == Mark::New) {
+        mark = Mark::Open;
+        open(place);
+        continue;
+      }
+      if (mark == Mark::Open) {
+        longest_[number(place)] = measure(place);
+        mark = Mark::Done;
+        closeCircle(place);
+      }
+      stack_.pop_back();
+    }
+    return longest_[number(start)];
+  }
+
+  // The longest way from there, in its routine.
+  RoutineWay wayFrom(Place place) {
+    RoutineWay way{.routine = place.routine, .cost = from(place), .rungs = {}, .calls = {}};
+    for (; place.rung != RUNG_NONE; place.rung = next_[number(place)]) {
+      const Transfer& transfer = transferOf(place);
+      way.rungs.push_back(number(place));
+      if (transfer.kind == TransferKind::Call) way.calls.push_back({number(place), transfer.callee});
+    }
+    return way;
+  }
+
+  // By number.
+  const std::vector<std::vector<uint32_t>>& circles() const { return circles_; }
+  // Whether some way from there, which has been measured, comes to a circle.
+  bool leadToCircle(Place place) const { return leadsToCircle_[number(place)] != 0; }
+
+private:
+  enum class Mark : uint8_t { New, Open, Done };
+  static constexpr uint32_t kClosed = UINT32_MAX; // as an order: its circle, if it is in one, is known
+
+  uint32_t number(Place place) const { return cut_.rungNumber(place.routine, place.rung); }
+  const std::vector<Rung>& rungsOf(RoutineId routine) const { return cut_.module().at(routine).rungs; }
+  const Transfer& transferOf(Place place) const { return rungsOf(place.routine)[place.rung].transfer; }
+
+  // The ways from here have to be known first.
+  void open(Place place) {
+    order_[number(place)] = lowest_[number(place)] = opened_++;
+    reached_.push_back(number(place));
+    const auto need = [&](Place next) {
+      if (marks_[number(next)] == Mark::New) stack_.push_back(next);
+    };
+    const Transfer& transfer = transferOf(place);
+    if (transfer.kind == TransferKind::Call && callees_ == nullptr) need({.routine = transfer.callee});
+    forNext(place, transfer, need);
+  }
+
+  // A way that leads back to a rung that is open closes a circle, and ends there.
+  uint64_t measure(Place place) {
+    const Transfer& transfer = transferOf(place);
+    uint32_t& best = next_[number(place)];
+    uint64_t most = 0;
+    forNext(place, transfer, [&](Place next) {
+      if (marks_[number(next)] == Mark::Open || (best != RUNG_NONE && longest_[number(next)] <= most)) return;
+      best = next.rung;
+      most = longest_[number(next)];
+    });
+    if (transfer.kind == TransferKind::Call) {
+      const Place callee{.routine = transfer.callee};
+      most = saturatedSum(most, callees_ != nullptr ? callees_->from(callee) : longest_[number(callee)]);
+    }
+    return saturatedSum(most, costs_[number(place)]);
+  }
+
+  // Tarjan's components of the graph, of which those with a way back to their rungs are circles.
+  void closeCircle(Place place) {
+    const uint32_t own = number(place);
+    const Transfer& transfer = transferOf(place);
+    bool itself = false;
+    bool leads =
+        transfer.kind == TransferKind::Call && callees_ == nullptr && leadToCircle({.routine = transfer.callee});
+    forNext(place, transfer, [&](Place next) {
+      itself = itself || number(next) == own;
+      leads = leads || leadToCircle(next);
+      if (order_[number(next)] != kClosed) lowest_[own] = std::min(lowest_[own], lowest_[number(next)]);
+    });
+    if (lowest_[own] != order_[own]) return;
+    if (reached_.back() == own && !itself) { // alone
+      reached_.pop_back();
+      order_[own] = kClosed;
+      leadsToCircle_[own] = leads ? 1 : 0;
+      return;
+    }
+    const auto first = std::find(reached_.rbegin(), reached_.rend(), own).base() - 1;
+    std::vector<uint32_t> rungs(first, reached_.end());
+    reached_.erase(first, reached_.end());
+    for (const uint32_t rung : rungs) {
+      order_[rung] = kClosed;
+      leadsToCircle_[rung] = 1;
+    }
+    std::ranges::sort(rungs);
+    circles_.push_back(std::move(rungs));
+  }
+
+  // The rungs of the routine where control may be next, after a call: when it has come back.
+  template <class Visit>
+  void forNext(Place place, const Transfer& transfer, Visit visit) const {
+    const auto go = [&](uint32_t rung) {
+      if (rung >= rungsOf(place.routine).size()) return;
+      const Destination to = cut_.destination(place.routine, place.rung, rung);
+      if (to.inside() || to.chunk < limit_) visit(Place{.routine = place.routine, .rung = rung});
+    };
+    const bool continues =
+        transfer.kind == TransferKind::Next || transfer.kind == TransferKind::Call || transfer.cond.valid();
+    if (continues) go(place.rung + 1);
+    if (transfer.kind == TransferKind::Goto) go(transfer.target);
+    for (const uint32_t target : transfer.targets) go(target);
+  }
+
+  const Cut& cut_;
+  std::span<const uint64_t> costs_;
+  Ways* callees_;
+  uint32_t limit_;
+  // By rung number.
+  std::vector<Mark> marks_;
+  std::vector<uint64_t> longest_;
+  std::vector<uint32_t> next_;   // on the longest way, in the same routine; RUNG_NONE: it ends
+  std::vector<uint32_t> order_;  // in which rungs were opened
+  std::vector<uint32_t> lowest_; // that can be reached and is not in a circle that is known
+  std::vector<uint8_t> leadsToCircle_;
+  uint32_t opened_ = 0;
+  std::vector<uint32_t> reached_; // numbers of rungs whose circles are not known yet, as they were opened
+  std::vector<std::vector<uint32_t>> circles_;
+  std::vector<Place> stack_;
+};
+
+// The heaviest part of a task, which may be the whole.
+class TaskWays {
+public:
+  TaskWays(const Cut& cut, TaskId id, std::span<const uint64_t> costs)
+      : cut_(cut), task_(cut.module().tasks[id.index]), whole_(cut, costs, nullptr, RUNG_NONE) {
+    start_ = {.routine = task_.entry};
+    if (task_.parts <= 1)
+      cost_ = whole_.from(start_);
+    else
+      searchParts(cut.partEnds(id), costs);
+    circles_.insert(circles_.end(), whole_.circles().begin(), whole_.circles().end());
+    std::ranges::sort(circles_); // parts may share one
+    const auto same = std::ranges::unique(circles_);
+    circles_.erase(same.begin(), same.end());
+  }
+
+  uint64_t cost() const { return cost_; }
+  uint32_t part() const { return part_; }
+  const std::vector<std::vector<uint32_t>>& circles() const { return circles_; }
+
+  // From the last chunk back to where a circle can be reached.
+  Straight straight() {
+    Straight out;
+    if (task_.parts > 1) return out;
+    uint64_t most = 0;
+    for (auto c = static_cast<uint32_t>(cut_.chunks().size()); c-- > 0;) {
+      const Chunk& chunk = cut_.chunks()[c];
+      if (chunk.routine != task_.entry) continue;
+      const Place place{.routine = chunk.routine, .rung = chunk.firstRung};
+      most = std::max(most, whole_.from(place));
+      if (whole_.leadToCircle(place)) break;
+      out = {.chunk = c, .weight = static_cast<uint32_t>(std::min<uint64_t>(most, UINT32_MAX))};
+    }
+    return out;
+  }
+
+  // Each routine before those that it calls.
+  std::vector<RoutineWay> routines() {
+    std::vector<RoutineWay> ways{heaviest_ != nullptr ? heaviest_->wayFrom(start_) : whole_.wayFrom(start_)};
+    std::map<uint32_t, uint32_t> callers; // by routine: calls from those whose place in the list is not known yet
+    std::map<uint32_t, RoutineWay> found;
+    std::vector<RoutineId> open = calleesOf(ways[0]);
+    while (!open.empty()) {
+      const RoutineId routine = open.back();
+      open.pop_back();
+      if (found.contains(routine.index)) continue;
+      RoutineWay& way = found[routine.index] = whole_.wayFrom({.routine = routine});
+      way.runs = 0;
+      for (const RoutineWay::Call& call : way.calls) ++callers[call.callee.index];
+      std::ranges::copy(calleesOf(way), std::back_inserter(open));
+    }
+    for (const RoutineWay::Call& call : ways[0].calls) ++callers[call.callee.index];
+    for (size_t i = 0; i < ways.size(); ++i)
+      for (const RoutineWay::Call& call : std::vector(ways[i].calls)) {
+        RoutineWay& callee = found[call.callee.index];
+        callee.runs = saturatedSum(callee.runs, ways[i].runs);
+        if (--callers[call.callee.index] == 0) ways.push_back(callee);
+      }
+    return ways;
+  }
+
+private:
+  static std::vector<RoutineId> calleesOf(const RoutineWay& way) {
+    std::vector<RoutineId> callees;
+    for (const RoutineWay::Call& call : way.calls) callees.push_back(call.callee);
+    return callees;
+  }
+
+  // A part begins at any chunk from the end of the one before it.
+  void searchParts(std::vector<uint32_t> ends, std::span<const uint64_t> costs) {
+    uint32_t begin = 0;
+    ends.push_back(RUNG_NONE);
+    for (uint32_t i = 0; i < ends.size(); ++i) {
+      auto part = std::make_unique<Ways>(cut_, costs, &whole_, ends[i]);
+      bool best = false; // so far
+      for (uint32_t c = begin; c < std::min<size_t>(ends[i], cut_.chunks().size()); ++c) {
+        const Chunk& chunk = cut_.chunks()[c];
+        if (chunk.routine != task_.entry) continue;
+        const Place start{.routine = chunk.routine, .rung = chunk.firstRung};
+        const uint64_t cost = part->from(start);
+        if (cost <= cost_) continue;
+        best = true;
+        start_ = start;
+        cost_ = cost;
+        part_ = i;
+      }
+      circles_.insert(circles_.end(), part->circles().begin(), part->circles().end());
+      if (best) heaviest_ = std::move(part);
+      begin = ends[i];
+    }
+  }
+
+  const Cut& cut_;
+  const Task& task_;
+  Ways whole_;
+  std::unique_ptr<Ways> heaviest_; // of a cut task
+  Place start_;
+  uint64_t cost_ = 0;
+  uint32_t part_ = 0;
+  std::vector<std::vector<uint32_t>> circles_;
+};
+
+} // namespace
+
+HeaviestRun heaviestRun(const Cut& cut, TaskId task) {
+  const std::vector<uint64_t> weights = rungWeights(cut);
+  TaskWays ways(cut, task, weights);
+  return {.weight = static_cast<uint32_t>(std::min<uint64_t>(ways.cost(), cut.module().tasks[task.index].budget)),
+          .circles = !ways.circles().empty(),
+          .straight = ways.straight()};
+}
+
+HeaviestWay heaviestWay(const Cut& cut, TaskId task, std::span<const uint64_t> costs) {
+  TaskWays ways(cut, task, costs);
+  return {.cost = ways.cost(), .part = ways.part(), .routines = ways.routines(), .circles = ways.circles()};
+}
+
+} // namespace rung::ir

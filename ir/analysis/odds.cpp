@@ -1,0 +1,39 @@
+// Odds of ifs from counts (see odds.h).
+#include "ir/analysis/odds.h"
+
+#include <algorithm>
+
+#include "ir/core/ops.h"
+
+namespace rung::ir {
+namespace {
+
+constexpr uint64_t kRare = 10; // of so many at most one
+
+Odds oddsOf(const Branch& branch) {
+  if (branch.taken <= branch.reached / kRare) return kSeldom; // one that was never reached, too
+  return branch.reached - branch.taken <= branch.reached / kRare ? kMostly : kEven;
+}
+
+bool isIf(const Op& op) { return op.code == OpCode::If; }
+
+} // namespace
+
+OddsResult setOdds(Module& module, const BranchCounts& counts) {
+  OddsResult result;
+  for (Routine& routine : module.routines)
+    for (Rung& rung : routine.rungs) {
+      const auto ifs = static_cast<size_t>(std::ranges::count_if(rung.ops, isIf));
+      if (ifs == 0 || rung.key == 0) continue;
+      const auto found = counts.find(rung.key);
+      const bool same = found != counts.end() && found->second.size() == ifs;
+      ++(same ? result.known : result.unknown);
+      if (!same) continue;
+      auto branch = found->second.begin();
+      for (Op& op : rung.ops)
+        if (isIf(op)) op.ref = oddsOf(*branch++);
+    }
+  return result;
+}
+
+} // namespace rung::ir

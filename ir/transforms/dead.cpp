@@ -1,0 +1,147 @@
+// Dead operations: a result that nothing uses is not computed; reading has no effect, so loads go too. An if or a loop
+// goes with all that is in it, notes too, when it has neither an effect nor a result that is used; results of an if go
+// one by one. Other notes stay.
+#include <algorithm>
+
+#include "ir/core/op_info.h"
+#include "ir/core/ops.h"
+#include "ir/core/regions.h"
+#include "ir/transforms/passes.h"
+#include "ir/transforms/rewriter.h"
+
+namespace rung::ir {
+namespace {
+
+bool hasEffect(const Op& op) { return (opInfo(op.code).effects & (kWrites | kTraps | kHost)) != 0; }
+
+class DeadOps {
+public:
+  void run(Rung& rung) {
+    rung_ = &rung;
+    if (findRegions(rung, regions_)) findEffects();
+    findUses();
+    if (!changes_) return;
+    writer_.start(rung);
+    for (uint32_t i = 0; i < rung.ops.size(); ++i)
+      if (keep_[i] != 0) write(i);
+    writer_.finish(rung);
+  }
+
+private:
+  const Op& op(uint32_t i) const { return rung_->ops[i]; }
+  void use(const Op& op, uint32_t k) { used_[rung_->args[op.firstArg + k].index] = 1; }
+  void useAll(const Op& op) {
+    for (uint32_t k = 0; k < op.argCount; ++k) use(op, k);
+  }
+  bool isUsed(const Op& op, uint32_t k) const { return used_[op.result.index + k] != 0; }
+  bool anyUsed(const Op& op) const {
+    for (uint32_t k = 0; k < op.resultCount; ++k)
+      if (isUsed(op, k)) return true;
+    return false;
+  }
+
+  // effect_[i] of an if, else or loop: whether something in it has an effect; for an if, also in its else.
+  void findEffects() {
+    effect_.assign(rung_->ops.size(), 0);
+    std::vector<uint32_t> open;
+    for (uint32_t i = 0; i < rung_->ops.size(); ++i) {
+      const OpCode code = op(i).code;
+      if (code == OpCode::If || code == OpCode::Loop || code == OpCode::Else) {
+        open.push_back(i);
+      } else if (code == OpCode::EndIf || code == OpCode::EndLoop) {
+        bool effect = false;
+        for (bool first = false; !first; open.pop_back()) {
+          effect = effect || effect_[open.back()] != 0;
+          first = open.back() == regions_[i].begin;
+        }
+        effect_[regions_[i].begin] = effect ? 1 : 0;
+        if (effect && !open.empty()) effect_[open.back()] = 1;
+      } else if (!open.empty() && hasEffect(op(i))) {
+        effect_[open.back()] = 1;
+      }
+    }
+  }
+
+  void findUses() {
+    used_.assign(rung_->values.size(), 0);
+    keep_.assign(rung_->ops.size(), 0);
+    changes_ = false;
+    for (ValueId id : {rung_->transfer.cond, rung_->transfer.value})
+      if (id.valid()) used_[id.index] = 1;
+    for (uint32_t i = static_cast<uint32_t>(rung_->ops.size()); i-- > 0;) {
+      if (decide(i)) {
+        keep_[i] = 1;
+      } else {
+        changes_ = true;
+        if (op(i).code == OpCode::Else) // with its notes
+          std::fill(keep_.begin() + i, keep_.begin() + regions_[i].end, uint8_t{0});
+        else if (op(i).code == OpCode::EndIf || op(i).code == OpCode::EndLoop)
+          i = regions_[i].begin; // all of the region
+      }
+    }
+  }
+
+  // Whether operation i stays; those after it are decided.
+  bool decide(uint32_t i) {
+    const Op& o = op(i);
+    if (o.code == OpCode::Else) {
+      const Op& end = op(regions_[i].end);
+      useYields(o, end);
+      return effect_[i] != 0 || anyUsed(end);
+    }
+    if (!isNeeded(i)) return false;
+    if (o.code == OpCode::EndIf)
+      useYields(o, o);
+    else
+      useAll(o);
+    return true;
+  }
+
+  bool isNeeded(uint32_t i) const {
+    const Op& o = op(i);
+    if (o.code == OpCode::If || o.code == OpCode::Loop) return true; // its end is
+    if (o.code == OpCode::EndIf || o.code == OpCode::EndLoop) return effect_[regions_[i].begin] != 0 || anyUsed(o);
+    return o.code == OpCode::Note || hasEffect(o) || anyUsed(o);
+  }
+
+  // The operands of an endif or else for which the endif's results are used.
+  void useYields(const Op& op, const Op& end) {
+    for (uint32_t k = 0; k < op.argCount; ++k) {
+      if (isUsed(end, k))
+        use(op, k);
+      else
+        changes_ = true;
+    }
+  }
+
+  void write(uint32_t i) {
+    const Op& o = op(i);
+    if (o.code != OpCode::EndIf && o.code != OpCode::Else) {
+      writer_.copy(o);
+      return;
+    }
+    const Op& end = o.code == OpCode::EndIf ? o : op(regions_[i].end);
+    const uint8_t* first = end.resultCount == 0 ? nullptr : &used_[end.result.index];
+    writer_.copySome(o, {first, end.resultCount});
+  }
+
+  Rung* rung_ = nullptr;
+  RungRewriter writer_;
+  std::vector<Region> regions_;
+  std::vector<uint8_t> effect_;
+  std::vector<uint8_t> used_; // by value
+  std::vector<uint8_t> keep_; // by operation
+  bool changes_ = false;
+};
+
+} // namespace
+
+void removeDeadOps(Module& module, Settled& settled) {
+  DeadOps dead;
+  settled.eachOpen(module, kDeadRemoved, [&](Rung& rung, uint32_t, uint8_t before) -> uint8_t {
+    dead.run(rung);
+    return before | kDeadRemoved;
+  });
+}
+
+} // namespace rung::ir

@@ -121,25 +121,6 @@ TEST(LlvmEmitter, OptInlinesTheSemantics) {
   }
 }
 
-TEST(LlvmEmitter, RowsOfAlikeRungsAreVectors) {
-  constexpr uint32_t kRungs = 64;
-  Module module = sampleModule();
-  module.routines.push_back({.name = "ROW", .rungs = std::vector<Rung>(kRungs)});
-  module.spaces.push_back({.name = "L", .unitBytes = 1, .units = 2 * kRungs / 8});
-  const SpaceId lamps{static_cast<uint32_t>(module.spaces.size() - 1)};
-  for (uint32_t i = 0; i < kRungs; ++i) {
-    RungBuilder b(module, module.routines.back().rungs[i]);
-    b.store({lamps, (kRungs + i) / 8, i % 8}, b.not_(b.load(Type::Bit, {lamps, i / 8, i % 8})));
-  }
-  const Layout layout(module, {});
-  for (const std::string_view target : {"x86_64-linux-gnu", "aarch64-linux-gnu"}) {
-    const Result<std::string> ir =
-        emitLlvmIr(layout, 42, {.level = LlvmLevel::Opt, .debugInfo = false, .target = std::string(target)});
-    ASSERT_TRUE(ir.ok()) << ir.error();
-    EXPECT_THAT(ir.value(), HasSubstr("xor <16 x i8>")) << target;
-  }
-}
-
 TEST(LlvmEmitter, NegationsAreInFlags) {
   constexpr uint32_t kRungs = 8;
   Module module = sampleModule();
@@ -158,52 +139,6 @@ TEST(LlvmEmitter, NegationsAreInFlags) {
   const Result<std::string> code = emitAssembly(layout, 42, options);
   ASSERT_TRUE(code.ok()) << code.error();
   EXPECT_THAT(code.value(), AllOf(HasSubstr("setb"), HasSubstr("setae")));
-}
-
-// Eight rungs each take a number off one of their own where a bit is 1. Gives how often the number is loaded.
-size_t loadsOfANumber(bool isWritten) {
-  constexpr uint32_t kRungs = 8;
-  Module module = sampleModule();
-  module.routines.push_back({.name = "TIMES", .rungs = std::vector<Rung>(kRungs)});
-  module.spaces.push_back({.name = "N", .unitBytes = 4, .units = kRungs + 2});
-  const SpaceId numbers{static_cast<uint32_t>(module.spaces.size() - 1)};
-  const Place shared{numbers, 0, 0};
-  for (uint32_t i = 0; i < kRungs; ++i) {
-    RungBuilder b(module, module.routines.back().rungs[i]);
-    const Place own{numbers, 4 * (i + 1), 0};
-    b.when(b.load(Type::Bit, {numbers, 4 * (kRungs + 1), i}),
-           [&] { b.store(own, b.sub(b.load(Type::I32, own), b.load(Type::I32, shared))); });
-    if (isWritten && i == kRungs - 1) b.store(shared, b.i32(0));
-  }
-  const Layout layout(module, {});
-  const LlvmOptions options{.level = LlvmLevel::Opt, .debugInfo = false, .target = "x86_64-linux-gnu"};
-  const Result<std::string> code = emitAssembly(layout, 42, options);
-  EXPECT_TRUE(code.ok()) << code.error();
-  if (!code.ok()) return 0;
-  const std::string load = "\t" + std::to_string(layout.memory().byte(numbers, 0)) + "(%rdi), %e";
-  size_t count = 0;
-  for (size_t at = code.value().find(load); at != std::string::npos; at = code.value().find(load, at + 1)) ++count;
-  return count;
-}
-
-TEST(LlvmEmitter, ANumberThatManyBranchesLoadIsLoadedOnce) {
-  EXPECT_EQ(loadsOfANumber(false), 1u);
-  EXPECT_EQ(loadsOfANumber(true), 8u) << "it is written below them";
-}
-
-TEST(LlvmEmitter, WhatATrapHasAskedIsNotAskedAgain) {
-  Module module = sampleModule();
-  module.routines.push_back({.name = "REALS", .rungs = std::vector<Rung>(1)});
-  module.spaces.push_back({.name = "F", .unitBytes = 8, .units = 2});
-  const SpaceId reals{static_cast<uint32_t>(module.spaces.size() - 1)};
-  RungBuilder b(module, module.routines.back().rungs[0]);
-  const ValueId product = b.fMul(b.load(Type::F64, {reals, 0, 0}), b.load(Type::F64, {reals, 8, 0}));
-  b.trap(b.not_(b.fEq(product, product)), {0});
-  b.store({reals, 0, 0}, product);
-  const Layout layout(module, {});
-  const Result<std::string> ir = emitLlvmIr(layout, 42, {.level = LlvmLevel::Opt, .debugInfo = false});
-  ASSERT_TRUE(ir.ok()) << ir.error();
-  EXPECT_THAT(ir.value(), AllOf(HasSubstr("fcmp uno double"), Not(HasSubstr("select i1"))));
 }
 
 TEST(LlvmEmitter, LinesOfTheSource) {

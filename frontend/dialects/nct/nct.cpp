@@ -208,7 +208,7 @@ constexpr frontend::ForeignWord kForeignKeys[] = {{"messages", kMessageStatement
 } // namespace
 
 static bool isBuilt(const frontend::InstructionInfo& info) {
-  for (const NctInstruction& row : allInstructions())
+  for (const Row& row : allRows())
     if (&row.info == &info) return row.isBuilt();
   return false;
 }
@@ -223,7 +223,7 @@ const frontend::Dialect kNct = {
     .extensions = kExtensions,
     .foreignKeys = kForeignKeys,
     .configKeys = nc::nctConfigKeys(),
-    .instructions = allInfos(),
+    .instructions = instructionInfos(),
     .signals = nc::nctSignals,
     .isBuilt = isBuilt,
     .findBox = findBoxInfo,

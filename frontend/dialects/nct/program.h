@@ -13,8 +13,8 @@ namespace rung::nct {
 
 struct TypedElement {
   const ladder::Element* element = nullptr;
-  const NctInstruction* row = nullptr; // null: reported
-  uint32_t firstOperand = 0;           // in TypedRung::operands
+  const Row* row = nullptr;  // null: reported
+  uint32_t firstOperand = 0; // in TypedRung::operands
   uint32_t operandCount = 0;
   std::optional<uint32_t> label; // of JMP, JME, SBS, SBN
 };

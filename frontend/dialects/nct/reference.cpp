@@ -45,7 +45,7 @@ void pins(ReferencePage& page) {
       "The first line of a box carries mnemonic and operands and is its first pin; each further line names its "
       "pin.",
       "box | pins from top to bottom");
-  for (const NctInstruction& row : allInstructions())
+  for (const Row& row : allRows())
     if (row.info.pins.size() > 1) page.row(row.info.mnemonic, frontend::pinNames(row.info));
 }
 

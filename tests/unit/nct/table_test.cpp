@@ -51,8 +51,8 @@ TEST(NctTable, HoldsTheWholeInventory) {
   ASSERT_TRUE(file) << "run in the root of the repository";
   std::string line;
   std::getline(file, line);
-  std::map<std::string_view, const NctInstruction*> rows;
-  for (const NctInstruction& row : allInstructions())
+  std::map<std::string_view, const Row*> rows;
+  for (const Row& row : allRows())
     EXPECT_TRUE(rows.emplace(row.info.mnemonic, &row).second) << row.info.mnemonic << " twice";
   while (std::getline(file, line)) {
     const std::vector<std::string> csv = columns(line);
@@ -86,7 +86,7 @@ constexpr std::string_view kSymbols = "symbol START 7900.00\nsymbol STOP 7900.01
                                       "7900.09\nsymbol GO 7900.10\nconst TEN #10\n";
 
 // The row's example with what belongs around it: pins, labels, subroutines.
-std::string exampleProgram(const NctInstruction& row) {
+std::string exampleProgram(const Row& row) {
   const frontend::InstructionInfo& info = row.info;
   std::string text(kSymbols);
   if (info.group == "message") text += "message 20 \"fault\"\n";
@@ -114,7 +114,7 @@ std::string exampleProgram(const NctInstruction& row) {
 }
 
 TEST(NctTable, ExamplesCompile) {
-  for (const NctInstruction& row : allInstructions()) {
+  for (const Row& row : allRows()) {
     const Compiled c = compileMain(exampleProgram(row));
     if (!row.isBuilt()) {
       ASSERT_EQ(c.codes().size(), 1u) << row.info.mnemonic << '\n' << c.rendered();
@@ -129,7 +129,7 @@ TEST(NctTable, ExamplesCompile) {
 }
 
 // A program with one box whose operands are `operands`.
-Compiled withOperands(const NctInstruction& row, const std::vector<std::string>& operands) {
+Compiled withOperands(const Row& row, const std::vector<std::string>& operands) {
   std::string box = std::string("{") + std::string(row.info.mnemonic);
   for (const std::string& operand : operands) box += ' ' + operand;
   box += '}';
@@ -147,7 +147,7 @@ bool has(const Compiled& c, std::string_view code) {
   return false;
 }
 
-std::vector<std::string> goodOperands(const NctInstruction& row) {
+std::vector<std::string> goodOperands(const Row& row) {
   std::vector<std::string> good;
   for (const OperandInfo& info : row.info.operands.all()) {
     good.push_back(info.min <= info.max          ? "#" + std::to_string(info.min)
@@ -159,7 +159,7 @@ std::vector<std::string> goodOperands(const NctInstruction& row) {
 
 // Operands made from the rows: wrong kinds, constants just outside their range, too few and too many.
 TEST(NctTable, GeneratedOperandErrors) {
-  for (const NctInstruction& row : allInstructions()) {
+  for (const Row& row : allRows()) {
     if (row.shape != Shape::Box || row.flow == Flow::Section) continue;
     const std::vector<std::string> good = goodOperands(row);
     const std::string name(row.info.mnemonic);
@@ -199,7 +199,7 @@ struct Drawn {
   std::string modifier;      // in front of the first operand that is an address
 };
 
-std::string elementOf(const NctInstruction& row, const std::string& modifier) {
+std::string elementOf(const Row& row, const std::string& modifier) {
   std::vector<std::string> operands = goodOperands(row);
   for (size_t i = 0; i < operands.size(); ++i) {
     const OperandKind& kind = kindOf(row.info.operands[i]);
@@ -217,7 +217,7 @@ std::string elementOf(const NctInstruction& row, const std::string& modifier) {
   return box + "}";
 }
 
-Compiled drawn(const NctInstruction& row, const Drawn& shape) {
+Compiled drawn(const Row& row, const Drawn& shape) {
   const auto front = [](bool rail) { return rail ? "|-------------" : "|--[7900.00]--"; };
   std::string drawing =
       std::string(front(shape.atRail)) + elementOf(row, shape.modifier) + (shape.output ? "--(7901.00)" : "");
@@ -228,7 +228,7 @@ Compiled drawn(const NctInstruction& row, const Drawn& shape) {
 
 // Man. l.1172-1180: every row at the rail and behind a contact, with and without something behind it.
 TEST(NctTable, FirstColumnAndClosingElement) {
-  for (const NctInstruction& row : allInstructions()) {
+  for (const Row& row : allRows()) {
     if (row.flow == Flow::Section) continue;
     const bool always = row.info.output == Output::Always, none = row.info.output == Output::None;
     const bool atRail = row.info.placement == Placement::AtRail, behind = row.info.placement == Placement::AfterContact;
@@ -250,7 +250,7 @@ TEST(NctTable, FirstColumnAndClosingElement) {
 
 TEST(NctTable, EveryPinIsDrawnAndHasACondition) {
   size_t boxes = 0;
-  for (const NctInstruction& row : allInstructions()) {
+  for (const Row& row : allRows()) {
     if (row.info.pins.size() < 2) continue;
     ++boxes;
     for (size_t pin = 1; pin < row.info.pins.size(); ++pin) {
@@ -265,7 +265,7 @@ TEST(NctTable, EveryPinIsDrawnAndHasACondition) {
 
 // Edges belong to contacts, `!` to bits of the NC in INT0 (man. l.546, l.596, l.930, l.1063).
 TEST(NctTable, ModifiersBelongToContactsAndCoils) {
-  for (const NctInstruction& row : allInstructions()) {
+  for (const Row& row : allRows()) {
     const auto& operands = row.info.operands.all();
     const bool addressable =
         std::ranges::any_of(operands, [](const OperandInfo& o) { return kindOf(o).parse == OperandClass::Value; });

@@ -1,4 +1,4 @@
-// Lowering of networks to IR. A lowering function of the table gets a FunctionLowering: conditions as values, checked
+// Lowering of networks to IR. A lowering function of the table gets a Lowering: conditions as values, checked
 // parameters, and the few things that functions do with them. It says what the output bit W is; coils are not its
 // business.
 #pragma once
@@ -31,11 +31,10 @@ inline network::Address plus(network::Address address, uint32_t bytes) {
 // Whether a number is in a set of bits by their numbers; one above 63 is in none.
 ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set);
 
-class FunctionLowering {
+class Lowering {
 public:
-  FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
-                   const network::Network& network, std::span<const ir::ValueId> conditions,
-                   std::string_view slotPrefix);
+  Lowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const network::Network& network,
+           std::span<const ir::ValueId> conditions, std::string_view slotPrefix);
 
   ir::RungBuilder& b;
   const network::Network& network;
@@ -107,43 +106,43 @@ enum WindowVariant { kWindowRead, kWindowWrite };
 enum LogicVariant { kXor, kAnd, kOr };
 enum ArithmeticVariant { kAdd, kSubtract, kMultiply };
 
-void lowerTimer(FunctionLowering& f);
-void lowerCounter(FunctionLowering& f);
-void lowerEdge(FunctionLowering& f);
+void lowerTimer(Lowering& f);
+void lowerCounter(Lowering& f);
+void lowerEdge(Lowering& f);
 
-void lowerDecode(FunctionLowering& f);
-void lowerMoveMasked(FunctionLowering& f);
-void lowerMoveOr(FunctionLowering& f);
-void lowerMove(FunctionLowering& f);
-void lowerMoveBlock(FunctionLowering& f);
-void lowerNumber(FunctionLowering& f);
-void lowerLogic(FunctionLowering& f);
-void lowerNot(FunctionLowering& f);
-void lowerShift(FunctionLowering& f);
-void lowerParity(FunctionLowering& f);
-void lowerCompare(FunctionLowering& f);
-void lowerCoincidence(FunctionLowering& f);
+void lowerDecode(Lowering& f);
+void lowerMoveMasked(Lowering& f);
+void lowerMoveOr(Lowering& f);
+void lowerMove(Lowering& f);
+void lowerMoveBlock(Lowering& f);
+void lowerNumber(Lowering& f);
+void lowerLogic(Lowering& f);
+void lowerNot(Lowering& f);
+void lowerShift(Lowering& f);
+void lowerParity(Lowering& f);
+void lowerCompare(Lowering& f);
+void lowerCoincidence(Lowering& f);
 
-void lowerArithmetic(FunctionLowering& f);
-void lowerDivision(FunctionLowering& f);
-void lowerBcd(FunctionLowering& f);
+void lowerArithmetic(Lowering& f);
+void lowerDivision(Lowering& f);
+void lowerBcd(Lowering& f);
 
-void lowerRotation(FunctionLowering& f);
-void lowerCodeTable(FunctionLowering& f);
-void lowerSearch(FunctionLowering& f);
-void lowerIndexedMove(FunctionLowering& f);
+void lowerRotation(Lowering& f);
+void lowerCodeTable(Lowering& f);
+void lowerSearch(Lowering& f);
+void lowerIndexedMove(Lowering& f);
 
-void lowerWindow(FunctionLowering& f);
-void lowerAxisControl(FunctionLowering& f);
-void lowerPositionZones(FunctionLowering& f);
-void lowerPositionRange(FunctionLowering& f);
+void lowerWindow(Lowering& f);
+void lowerAxisControl(Lowering& f);
+void lowerPositionZones(Lowering& f);
+void lowerPositionRange(Lowering& f);
 
-void lowerMark(FunctionLowering& f);
-void lowerEnd(FunctionLowering& f);
-void lowerJump(FunctionLowering& f);
-void lowerCall(FunctionLowering& f);
-void lowerLeave(FunctionLowering& f);
-void lowerCommonLine(FunctionLowering& f);
+void lowerMark(Lowering& f);
+void lowerEnd(Lowering& f);
+void lowerJump(Lowering& f);
+void lowerCall(Lowering& f);
+void lowerLeave(Lowering& f);
+void lowerCommonLine(Lowering& f);
 
 // The module of a program without errors.
 std::unique_ptr<ir::Module> lowerProgram(const network::Program& program, network::Context& context,

@@ -10,10 +10,10 @@ using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
-Type doubled(const FunctionLowering& f) { return ir::intOfBytes(2 * f.function.length); }
+Type doubled(const Lowering& f) { return ir::intOfBytes(2 * f.function.length); }
 
 // P22: bit 0 zero, bit 1 negative, bit 5 overflow; the whole byte is rewritten. An invalid value is 0.
-void storeFlags(FunctionLowering& f, ValueId zero, ValueId negative, ValueId overflow) {
+void storeFlags(Lowering& f, ValueId zero, ValueId negative, ValueId overflow) {
   ir::RungBuilder& b = f.b;
   ValueId byte = b.constant(Type::I8, 0);
   const auto add = [&](ValueId flag, int64_t bit) {
@@ -27,7 +27,7 @@ void storeFlags(FunctionLowering& f, ValueId zero, ValueId negative, ValueId ove
 }
 
 // Stores the low bytes of a result and the flags; gives W, the overflow (P38).
-ValueId storeResult(FunctionLowering& f, const network::Address& address, ValueId wide) {
+ValueId storeResult(Lowering& f, const network::Address& address, ValueId wide) {
   ir::RungBuilder& b = f.b;
   const ValueId low = b.trunc(f.dataType(), wide);
   const ValueId overflow = b.ne(b.sextOrTrunc(doubled(f), low), wide);
@@ -37,11 +37,11 @@ ValueId storeResult(FunctionLowering& f, const network::Address& address, ValueI
   return overflow;
 }
 
-ValueId wideOperand(FunctionLowering& f, size_t i) { return f.b.sextOrTrunc(doubled(f), f.operand(i, f.dataType())); }
+ValueId wideOperand(Lowering& f, size_t i) { return f.b.sextOrTrunc(doubled(f), f.operand(i, f.dataType())); }
 
 } // namespace
 
-void lowerArithmetic(FunctionLowering& f) {
+void lowerArithmetic(Lowering& f) {
   f.resettable([&] {
     constexpr OpCode kOps[] = {OpCode::Add, OpCode::Sub, OpCode::Mul};
     const ValueId a = wideOperand(f, 1);
@@ -50,7 +50,7 @@ void lowerArithmetic(FunctionLowering& f) {
 }
 
 // A divisor of 0 changes nothing but W (P38).
-void lowerDivision(FunctionLowering& f) {
+void lowerDivision(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
     const ValueId a = wideOperand(f, 1);
@@ -68,7 +68,7 @@ void lowerDivision(FunctionLowering& f) {
 namespace {
 
 // Signed binary to BCD; W when the magnitude has more digits than the length holds.
-ValueId toBcd(FunctionLowering& f, ValueId source) {
+ValueId toBcd(Lowering& f, ValueId source) {
   constexpr int64_t kLimits[] = {0, 99, 9999, 0, 99999999};
   ir::RungBuilder& b = f.b;
   const ValueId negative = b.ltS(source, b.constant(f.dataType(), 0));
@@ -80,7 +80,7 @@ ValueId toBcd(FunctionLowering& f, ValueId source) {
 }
 
 // BCD to binary; W when a digit is above 9, which shows when the number is written in BCD again.
-ValueId fromBcd(FunctionLowering& f, ValueId source, ValueId sign) {
+ValueId fromBcd(Lowering& f, ValueId source, ValueId sign) {
   ir::RungBuilder& b = f.b;
   const ValueId magnitude = b.bcdDecode(source);
   const ValueId error = b.ne(b.bcdEncode(magnitude), source);
@@ -94,7 +94,7 @@ ValueId fromBcd(FunctionLowering& f, ValueId source, ValueId sign) {
 } // namespace
 
 // Conditions SIN, CNV, RST, ACT.
-void lowerBcd(FunctionLowering& f) {
+void lowerBcd(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
     const ValueId source = f.load(f.dataType(), f.param(1).address);

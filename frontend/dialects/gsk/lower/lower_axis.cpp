@@ -18,7 +18,7 @@ struct Step {
 
 class AxisLowering {
 public:
-  explicit AxisLowering(FunctionLowering& f)
+  explicit AxisLowering(Lowering& f)
       : f_(f), b_(f.b), group_(axis::axisGroups()[static_cast<size_t>(f.param(0).value - 1)]) {}
   void run();
 
@@ -32,7 +32,7 @@ private:
   Step idle(ValueId ready);
   void send();
 
-  FunctionLowering& f_;
+  Lowering& f_;
   ir::RungBuilder& b_;
   const axis::AxisGroup& group_;
 };
@@ -99,6 +99,6 @@ void AxisLowering::run() {
 
 } // namespace
 
-void lowerAxisControl(FunctionLowering& f) { AxisLowering(f).run(); }
+void lowerAxisControl(Lowering& f) { AxisLowering(f).run(); }
 
 } // namespace rung::gsk

@@ -4,25 +4,25 @@
 namespace rung::gsk {
 
 // JMPE, COME, LBL: places only.
-void lowerMark(FunctionLowering&) {}
+void lowerMark(Lowering&) {}
 
 // END1, END2 and SPE: back to the caller, and of a level there is none.
-void lowerEnd(FunctionLowering& f) { f.b.ret(); }
+void lowerEnd(Lowering& f) { f.b.ret(); }
 
 // JMP and JMPB.
-void lowerJump(FunctionLowering& f) { f.b.gotoRung(f.targetRung(), f.act()); }
+void lowerJump(Lowering& f) { f.b.gotoRung(f.targetRung(), f.act()); }
 
 // CALL has a condition, CALLU none.
-void lowerCall(FunctionLowering& f) {
+void lowerCall(Lowering& f) {
   f.b.call(f.callee(), f.function.row->control == network::Control::Call ? f.act() : ir::ValueId{});
 }
 
 // JMPC: every caller on the way looks at the slot (P43).
-void lowerLeave(FunctionLowering& f) {
+void lowerLeave(Lowering& f) {
   f.b.when(f.act(), [&] { f.b.slotStore(f.leaveTarget(), f.b.i32(f.network.target + 1)); });
   f.b.ret(f.act());
 }
 
-void lowerCommonLine(FunctionLowering& f) { f.b.slotStore(f.commonLine(), f.act()); }
+void lowerCommonLine(Lowering& f) { f.b.slotStore(f.commonLine(), f.act()); }
 
 } // namespace rung::gsk

@@ -7,7 +7,7 @@ using ir::Type;
 using ir::ValueId;
 
 // Bit i is (code = first + i): 1 shifted by code - first, which shifts everything out where the difference is above 7.
-void lowerDecode(FunctionLowering& f) {
+void lowerDecode(Lowering& f) {
   ir::RungBuilder& b = f.b;
   const ValueId code = f.load(f.dataType(), f.param(1).address);
   const ValueId distance = b.zextOrTrunc(Type::I32, b.sub(code, b.constant(f.dataType(), f.param(2).value)));
@@ -15,21 +15,21 @@ void lowerDecode(FunctionLowering& f) {
   f.store(f.param(3).address, b.select(f.act(), bits, b.constant(Type::I8, 0)));
 }
 
-void lowerMoveMasked(FunctionLowering& f) {
+void lowerMoveMasked(Lowering& f) {
   f.b.when(f.act(), [&] {
     const ValueId mask = f.b.constant(Type::I8, f.param(0).value * 16 + f.param(1).value);
     f.store(f.param(3).address, f.b.and_(f.load(Type::I8, f.param(2).address), mask));
   });
 }
 
-void lowerMoveOr(FunctionLowering& f) {
+void lowerMoveOr(Lowering& f) {
   f.b.when(f.act(), [&] {
     const ValueId source = f.load(Type::I8, f.param(0).address);
     f.store(f.param(2).address, f.b.or_(source, f.load(Type::I8, f.param(1).address)));
   });
 }
 
-void lowerMove(FunctionLowering& f) {
+void lowerMove(Lowering& f) {
   f.b.when(f.act(), [&] {
     const Type type = ir::intOfBytes(static_cast<uint32_t>(f.variant()));
     f.store(f.param(1).address, f.load(type, f.param(0).address));
@@ -37,7 +37,7 @@ void lowerMove(FunctionLowering& f) {
 }
 
 // All is read before anything is written, so that areas may overlap (P33).
-void lowerMoveBlock(FunctionLowering& f) {
+void lowerMoveBlock(Lowering& f) {
   f.b.when(f.act(), [&] {
     struct Piece {
       uint32_t offset;
@@ -53,13 +53,13 @@ void lowerMoveBlock(FunctionLowering& f) {
   });
 }
 
-void lowerNumber(FunctionLowering& f) {
+void lowerNumber(Lowering& f) {
   f.b.when(f.act(), [&] { f.store(f.param(2).address, f.b.constant(f.dataType(), f.param(1).value)); });
 }
 
 namespace {
 
-ValueId joined(FunctionLowering& f, ValueId a, ValueId b) {
+ValueId joined(Lowering& f, ValueId a, ValueId b) {
   switch (static_cast<LogicVariant>(f.variant())) {
   case kXor: return f.b.xor_(a, b);
   case kAnd: return f.b.and_(a, b);
@@ -70,7 +70,7 @@ ValueId joined(FunctionLowering& f, ValueId a, ValueId b) {
 
 } // namespace
 
-void lowerLogic(FunctionLowering& f) {
+void lowerLogic(Lowering& f) {
   f.b.when(f.act(), [&] {
     const ValueId a = f.load(f.dataType(), f.param(1).address);
     const ValueId b = f.operand(2, f.dataType());
@@ -78,12 +78,12 @@ void lowerLogic(FunctionLowering& f) {
   });
 }
 
-void lowerNot(FunctionLowering& f) {
+void lowerNot(Lowering& f) {
   f.b.when(f.act(), [&] { f.store(f.param(2).address, f.b.not_(f.load(f.dataType(), f.param(1).address))); });
 }
 
 // Conditions DIR, CONT, RST, ACT.
-void lowerShift(FunctionLowering& f) {
+void lowerShift(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
     const ValueId right = f.condition(0);
@@ -98,14 +98,14 @@ void lowerShift(FunctionLowering& f) {
 }
 
 // Conditions OE, RST, ACT.
-void lowerParity(FunctionLowering& f) {
+void lowerParity(Lowering& f) {
   f.resettable([&] {
     const ValueId ones = f.b.popCount(f.load(Type::I8, f.param(0).address));
     return f.b.xor_(f.b.trunc(Type::Bit, ones), f.condition(0));
   });
 }
 
-void lowerCompare(FunctionLowering& f) {
+void lowerCompare(Lowering& f) {
   f.b.when(f.act(), [&] {
     ir::RungBuilder& b = f.b;
     const ValueId benchmark = f.operand(1, f.dataType());
@@ -115,7 +115,7 @@ void lowerCompare(FunctionLowering& f) {
   });
 }
 
-void lowerCoincidence(FunctionLowering& f) {
+void lowerCoincidence(Lowering& f) {
   f.latchedOutput(f.act(), {},
                   [&] { return f.b.eq(f.operand(1, f.dataType()), f.load(f.dataType(), f.param(2).address)); });
 }

@@ -31,7 +31,7 @@ uint32_t spaceFlags(network::AreaUse use) {
 
 size_t indexOf(network::Area area) { return static_cast<size_t>(area); }
 
-bool isLoweredBy(const network::Network& network, void (*lower)(FunctionLowering&)) {
+bool isLoweredBy(const network::Network& network, LowerFn lower) {
   return network.function.row != nullptr && rowOf(*network.function.row).lower == lower;
 }
 bool isTimer(const network::Network& network) { return isLoweredBy(network, &lowerTimer); }

@@ -60,7 +60,7 @@ public:
                  const frontend::CompileOptions& options);
   std::unique_ptr<ir::Module> run();
 
-  // For FunctionLowering.
+  // For Lowering.
   ir::SlotId slot(const std::string& key, ir::Type type, int64_t init, bool transient);
   ir::SpaceId constantSpace(std::string_view bytes) { return constants_.spaceOf(bytes); }
   ir::ServiceId service(std::string_view signature) { return frontend::service(*module_, signature); }

@@ -118,7 +118,7 @@ ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuild
     marks.function(ir::MarkKind::Input, conditions[i], network.function,
                    one ? std::string() : fmt::format(" {}", row.info.pins[i].name));
   }
-  FunctionLowering f(*this, routine, b, network, conditions, slotPrefixes_[routine.unit][index]);
+  Lowering f(*this, routine, b, network, conditions, slotPrefixes_[routine.unit][index]);
   b.setLine(network.function.line);
   if (row.control == network::Control::Plain) b.note(row.info.mnemonic);
   row.lower(f);
@@ -163,52 +163,49 @@ ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set) {
   return b.trunc(ir::Type::Bit, shifted);
 }
 
-// ---- FunctionLowering ----------------------------------------------------------------------------------------------
+// ---- what lowering functions work with -----------------------------------------------------------------------------
 
-FunctionLowering::FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
-                                   const network::Network& net, std::span<const ir::ValueId> conditions,
-                                   std::string_view slotPrefix)
+Lowering::Lowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
+                   const network::Network& net, std::span<const ir::ValueId> conditions, std::string_view slotPrefix)
     : b(builder), network(net), function(net.function), module_(module), routine_(routine), conditions_(conditions),
       slotPrefix_(slotPrefix) {}
 
-ir::ValueId FunctionLowering::load(ir::Type type, const network::Address& address) {
+ir::ValueId Lowering::load(ir::Type type, const network::Address& address) {
   module_.use(*routine_.level, address, std::max(ir::byteWidth(type), 1u));
   return b.load(type, placeOf(*routine_.level, address));
 }
 
-void FunctionLowering::store(const network::Address& address, ir::ValueId value) {
+void Lowering::store(const network::Address& address, ir::ValueId value) {
   module_.use(*routine_.level, address, std::max(ir::byteWidth(b.typeOf(value)), 1u));
   b.store(placeOf(*routine_.level, address), value);
 }
 
-ir::Window FunctionLowering::window(const network::Address& address, uint32_t bytes, uint32_t legal) const {
+ir::Window Lowering::window(const network::Address& address, uint32_t bytes, uint32_t legal) const {
   module_.use(*routine_.level, address, bytes);
   return {spaceOf(*routine_.level, address), address.byte, legal};
 }
 
-ir::ValueId FunctionLowering::operand(size_t i, ir::Type type) {
+ir::ValueId Lowering::operand(size_t i, ir::Type type) {
   return param(i).isAddress ? load(type, param(i).address) : b.constant(type, param(i).value);
 }
 
-ir::SlotId FunctionLowering::slot(std::string_view role, ir::Type type, int64_t init) {
+ir::SlotId Lowering::slot(std::string_view role, ir::Type type, int64_t init) {
   return module_.slot(fmt::format("{}{}", slotPrefix_, role), type, init, false);
 }
 
-ir::ValueId FunctionLowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
+ir::ValueId Lowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
 
-bool FunctionLowering::onceEachRun() const {
+bool Lowering::onceEachRun() const {
   return routine_.level->straight && (routine_.unit == network::kLevel1 || routine_.unit == network::kLevel2);
 }
 
-ir::ValueId FunctionLowering::sinceLastRun() {
-  return b.add(b.sub(b.now(), b.slotLoad(routine_.level->clock)), scanTime());
-}
+ir::ValueId Lowering::sinceLastRun() { return b.add(b.sub(b.now(), b.slotLoad(routine_.level->clock)), scanTime()); }
 
-ir::SlotId FunctionLowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
+ir::SlotId Lowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
 
 // A unit that both levels run shares its state, but each level has a count of its own. What Level 2 does after Level 1
 // in one slot belongs to the same scan.
-void FunctionLowering::markRun() {
+void Lowering::markRun() {
   for (const LevelState& level : module_.levels()) {
     if (!level.routines[routine_.unit].valid()) continue;
     const bool after = level.isLevel2 && !routine_.level->isLevel2;
@@ -217,25 +214,25 @@ void FunctionLowering::markRun() {
   }
 }
 
-ir::ValueId FunctionLowering::runsSinceMark() {
+ir::ValueId Lowering::runsSinceMark() {
   const ir::SlotId mark = slot(routine_.level->isLevel2 ? "mark2" : "mark1", ir::Type::I32);
   return b.sub(b.slotLoad(routine_.level->runs), b.slotLoad(mark));
 }
 
-ir::ServiceId FunctionLowering::service(std::string_view signature) { return module_.service(signature); }
+ir::ServiceId Lowering::service(std::string_view signature) { return module_.service(signature); }
 
-ir::Window FunctionLowering::machinePositions() {
+ir::Window Lowering::machinePositions() {
   constexpr uint32_t kLast = 4 * (kMachineAxes - 1);
   return {module_.machinePositions(), 0, kLast + 1};
 }
 
-ir::Window FunctionLowering::constants(std::string_view bytes, uint32_t legal) {
+ir::Window Lowering::constants(std::string_view bytes, uint32_t legal) {
   return {module_.constantSpace(bytes), 0, legal};
 }
 
-ir::ValueId FunctionLowering::oldOutput() { return b.slotLoad(slot("W", ir::Type::Bit)); }
+ir::ValueId Lowering::oldOutput() { return b.slotLoad(slot("W", ir::Type::Bit)); }
 
-void FunctionLowering::latchedOutput(ir::ValueId execute, ir::ValueId reset, const std::function<ir::ValueId()>& body) {
+void Lowering::latchedOutput(ir::ValueId execute, ir::ValueId reset, const std::function<ir::ValueId()>& body) {
   ir::ValueId keep = oldOutput();
   if (reset.valid()) {
     const ir::ValueId free = b.not_(reset);
@@ -246,15 +243,13 @@ void FunctionLowering::latchedOutput(ir::ValueId execute, ir::ValueId reset, con
   b.slotStore(slot("W", ir::Type::Bit), output_);
 }
 
-void FunctionLowering::resettable(const std::function<ir::ValueId()>& body) {
+void Lowering::resettable(const std::function<ir::ValueId()>& body) {
   latchedOutput(act(), conditions_[conditions_.size() - 2], body);
 }
 
-uint32_t FunctionLowering::targetRung() const { return routine_.rungOf[network.target]; }
-ir::RoutineId FunctionLowering::callee() const { return routine_.level->routines[network.callee]; }
-ir::SlotId FunctionLowering::commonLine() {
-  return module_.slot(fmt::format("{}com", slotPrefix_), ir::Type::Bit, 0, true);
-}
-ir::SlotId FunctionLowering::leaveTarget() { return module_.leaveTarget(); }
+uint32_t Lowering::targetRung() const { return routine_.rungOf[network.target]; }
+ir::RoutineId Lowering::callee() const { return routine_.level->routines[network.callee]; }
+ir::SlotId Lowering::commonLine() { return module_.slot(fmt::format("{}com", slotPrefix_), ir::Type::Bit, 0, true); }
+ir::SlotId Lowering::leaveTarget() { return module_.leaveTarget(); }
 
 } // namespace rung::gsk

@@ -19,7 +19,7 @@ struct Limits {
   ValueId good;
 };
 
-Limits limitsOf(FunctionLowering& f, uint32_t count) {
+Limits limitsOf(Lowering& f, uint32_t count) {
   ir::RungBuilder& b = f.b;
   network::Address address = f.param(0).address;
   const ValueId axis = b.sub(b.zextOrTrunc(Type::I32, f.load(Type::I8, address)), b.i32(1));
@@ -39,7 +39,7 @@ Limits limitsOf(FunctionLowering& f, uint32_t count) {
 } // namespace
 
 // Bit 7 is the zone below limit I; each limit that the position has reached leads one bit further down.
-void lowerPositionZones(FunctionLowering& f) {
+void lowerPositionZones(Lowering& f) {
   f.b.when(f.act(), [&] {
     ir::RungBuilder& b = f.b;
     const Limits limits = limitsOf(f, kZones - 1);
@@ -52,7 +52,7 @@ void lowerPositionZones(FunctionLowering& f) {
 }
 
 // Both limits belong to the zone (man. l.3555).
-void lowerPositionRange(FunctionLowering& f) {
+void lowerPositionRange(Lowering& f) {
   f.latchedOutput(f.act(), {}, [&] {
     ir::RungBuilder& b = f.b;
     const Limits limits = limitsOf(f, 2);

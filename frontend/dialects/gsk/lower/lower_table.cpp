@@ -17,14 +17,14 @@ uint32_t entriesFrom(const network::Address& table, uint32_t length) {
 }
 
 // Entries of `length` bytes one after the other; the index counts bytes.
-ir::Window tableWindow(FunctionLowering& f, const network::Address& table) {
+ir::Window tableWindow(Lowering& f, const network::Address& table) {
   const uint32_t entries = entriesFrom(table, f.function.length);
   return f.window(table, entries * f.function.length, (entries - 1) * f.function.length + 1);
 }
 
-ValueId byteIndex(FunctionLowering& f, ValueId entry) { return f.b.mul(entry, f.b.i32(f.function.length)); }
+ValueId byteIndex(Lowering& f, ValueId entry) { return f.b.mul(entry, f.b.i32(f.function.length)); }
 
-ValueId unsignedWord(FunctionLowering& f, size_t param, Type type) {
+ValueId unsignedWord(Lowering& f, size_t param, Type type) {
   return f.b.zextOrTrunc(type, f.load(f.dataType(), f.param(param).address));
 }
 
@@ -34,7 +34,7 @@ struct Way {
   ValueId result;
 };
 
-Way wayOf(FunctionLowering& f, ValueId count, ValueId current, ValueId target, ValueId base) {
+Way wayOf(Lowering& f, ValueId count, ValueId current, ValueId target, ValueId base) {
   ir::RungBuilder& b = f.b;
   const auto wrapped = [&](ValueId x) { return b.remU(x, count); };
   const ValueId one = b.constant(Type::I64, 1);
@@ -53,7 +53,7 @@ Way wayOf(FunctionLowering& f, ValueId count, ValueId current, ValueId target, V
 } // namespace
 
 // Conditions CN0, DIR, POS, INC, ACT. A position outside the table changes nothing (P31).
-void lowerRotation(FunctionLowering& f) {
+void lowerRotation(Lowering& f) {
   f.latchedOutput(f.act(), {}, [&] {
     ir::RungBuilder& b = f.b;
     const ValueId base = b.zextOrTrunc(Type::I64, f.condition(0));
@@ -70,7 +70,7 @@ void lowerRotation(FunctionLowering& f) {
   });
 }
 
-void lowerCodeTable(FunctionLowering& f) {
+void lowerCodeTable(Lowering& f) {
   std::string bytes;
   for (int64_t row : f.function.table)
     for (uint32_t i = 0; i < f.function.length; ++i) bytes += static_cast<char>(static_cast<uint64_t>(row) >> (8 * i));
@@ -93,7 +93,7 @@ namespace {
 constexpr uint32_t kBlock = 32;
 
 // Whether an entry of the block from `start` matches, of those below `limit`, and the lowest.
-std::array<ValueId, 2> searchBlock(FunctionLowering& f, ValueId start, ValueId limit, ValueId searched) {
+std::array<ValueId, 2> searchBlock(Lowering& f, ValueId start, ValueId limit, ValueId searched) {
   ir::RungBuilder& b = f.b;
   const network::Address& table = f.param(2).address;
   const ValueId none[] = {b.bit(false), b.i32(0)};
@@ -111,7 +111,7 @@ std::array<ValueId, 2> searchBlock(FunctionLowering& f, ValueId start, ValueId l
 
 // The lowest entry that matches. As many entries as the number given says, 0 to n for n+1 (man. l.2022-2026), as far as
 // they exist (P35).
-void lowerSearch(FunctionLowering& f) {
+void lowerSearch(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
     const uint32_t exist = entriesFrom(f.param(2).address, f.function.length);
@@ -130,7 +130,7 @@ void lowerSearch(FunctionLowering& f) {
 }
 
 // Conditions RW, RST, ACT. Valid are the numbers below that of the entries (P36), as far as they exist.
-void lowerIndexedMove(FunctionLowering& f) {
+void lowerIndexedMove(Lowering& f) {
   f.resettable([&] {
     ir::RungBuilder& b = f.b;
     const network::Address& table = f.param(2).address;

@@ -12,7 +12,7 @@ using ir::ValueId;
 constexpr int64_t kNotRunning = INT64_MIN / 2; // as the elapsed time: no gain makes 0 of it
 
 // The preset in microseconds.
-ValueId presetOf(FunctionLowering& f) {
+ValueId presetOf(Lowering& f) {
   constexpr int64_t kUsPerMs = 1000;
   constexpr int64_t kAccuracyMs[] = {8, 48, 1000}; // man. l.1199-1202
   const auto word = [&](const network::Address& address, int64_t unitMs) {
@@ -28,7 +28,7 @@ ValueId presetOf(FunctionLowering& f) {
 
 // P23. A timer gains the time since it ran in this or in the last scan: not always the scan's, for a jump may bring it
 // into another part of Level 2. When it was not reached for a while it gains one scan's time (P19).
-ValueId gainOf(FunctionLowering& f) {
+ValueId gainOf(Lowering& f) {
   if (f.onceEachRun()) return f.scanTime();
   ir::RungBuilder& b = f.b;
   const ir::SlotId last = f.slot("last", Type::I64);
@@ -39,7 +39,7 @@ ValueId gainOf(FunctionLowering& f) {
 
 } // namespace
 
-void lowerTimer(FunctionLowering& f) {
+void lowerTimer(Lowering& f) {
   ir::RungBuilder& b = f.b;
   const ir::SlotId elapsed = f.slot("elapsed", Type::I64, kNotRunning);
   const auto grow = [&] {
@@ -60,7 +60,7 @@ void lowerTimer(FunctionLowering& f) {
   }));
 }
 
-void lowerCounter(FunctionLowering& f) {
+void lowerCounter(Lowering& f) {
   ir::RungBuilder& b = f.b;
   const bool inMemory = f.variant() == kCounterMemory;
   const network::Address preset = inMemory ? f.param(0).address : counterPreset(f.param(0).value);
@@ -116,7 +116,7 @@ void lowerCounter(FunctionLowering& f) {
 }
 
 // P39: the memory belongs to the instruction.
-void lowerEdge(FunctionLowering& f) {
+void lowerEdge(Lowering& f) {
   f.setOutput(frontend::pulse(f.b, f.slot("edge", Type::Bit), f.act(), f.variant() == kRising));
 }
 

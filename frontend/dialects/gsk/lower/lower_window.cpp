@@ -24,7 +24,7 @@ struct Step {
 
 class WindowLowering {
 public:
-  explicit WindowLowering(FunctionLowering& f) : f_(f), b_(f.b) {}
+  explicit WindowLowering(Lowering& f) : f_(f), b_(f.b) {}
   void run();
 
 private:
@@ -62,7 +62,7 @@ private:
   Step rest() { return nothing(b_.bit(false)); }
   void finish(const Step& step);
 
-  FunctionLowering& f_;
+  Lowering& f_;
   ir::RungBuilder& b_;
   ir::SlotId state_;
   ValueId oldState_, function_, length_, refusal_;
@@ -244,6 +244,6 @@ void WindowLowering::finish(const Step& step) {
 
 } // namespace
 
-void lowerWindow(FunctionLowering& f) { WindowLowering(f).run(); }
+void lowerWindow(Lowering& f) { WindowLowering(f).run(); }
 
 } // namespace rung::gsk

@@ -8,11 +8,13 @@
 
 namespace rung::gsk {
 
-class FunctionLowering;
+class Lowering;
+
+using LowerFn = void (*)(Lowering& f);
 
 struct Row : network::Row {
-  void (*lower)(FunctionLowering& f) = nullptr; // null: known, but not built
-  int variant = 0;                              // for `lower`
+  LowerFn lower = nullptr; // null: known, but not built
+  int variant = 0;         // for `lower`
 };
 
 std::span<const Row> allRows();

@@ -4,7 +4,7 @@
 
 namespace rung::gsk {
 
-constexpr Row arithmeticShape(std::string_view first, std::string_view second, void (*lower)(FunctionLowering& f)) {
+constexpr Row arithmeticShape(std::string_view first, std::string_view second, LowerFn lower) {
   return {{.info = {.group = "arithmetic",
                     .pins = {kRst, kAct},
                     .operands = {kFormatA, in(first, kinds::kData), in(second, kinds::kConstantOrData),

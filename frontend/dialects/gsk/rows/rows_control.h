@@ -8,13 +8,13 @@ inline constexpr std::string_view kAfterEnd2 = "the part after END2";
 
 // What begins or ends a part of the program is alone at the left rail.
 constexpr Row markShape(std::string_view group, Control control, OperandList operands = {}, std::string_view tasks = {},
-                        void (*lower)(FunctionLowering& f) = &lowerMark) {
+                        LowerFn lower = &lowerMark) {
   return {{.info = {.group = group, .operands = operands, .placement = Placement::AtRail, .tasks = tasks},
            .control = control,
            .ignoresCondition = control == Control::Sp},
           lower};
 }
-constexpr Row jumpShape(std::string_view group, Control control, OperandInfo goal, void (*lower)(FunctionLowering& f),
+constexpr Row jumpShape(std::string_view group, Control control, OperandInfo goal, LowerFn lower,
                         std::string_view tasks = {}) {
   return {{.info = {.group = group, .pins = {kAct}, .operands = {goal}, .tasks = tasks}, .control = control}, lower};
 }

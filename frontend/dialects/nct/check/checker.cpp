@@ -45,7 +45,7 @@ std::string_view describe(ConstantKind kind) {
 }
 
 // How messages name an element; the operand is that of a contact or a coil.
-std::string nameOf(const ladder::Element& element, const NctInstruction& row, std::string_view operand) {
+std::string nameOf(const ladder::Element& element, const Row& row, std::string_view operand) {
   switch (element.kind) {
   case ElementKind::Contact: return "a contact";
   case ElementKind::Coil:
@@ -69,7 +69,7 @@ std::string listNote(const ladder::Element& element) {
 
 // --- each output once
 // ---------------------------------------------------------------------------------------------------
-void OutputReservations::add(const NctInstruction& row, const Operand& operand) {
+void OutputReservations::add(const Row& row, const Operand& operand) {
   const Reservation reservation = row.reservation;
   const Address& address = operand.address;
   if (reservation == Reservation::None || !address.isFixed()) return;
@@ -121,7 +121,7 @@ TypedRung RungChecker::check(const ladder::LadderFile& file, const ladder::Rung&
   return typed;
 }
 
-const NctInstruction* RungChecker::rowOf(const ladder::Element& element, const Operand* first) {
+const Row* RungChecker::rowOf(const ladder::Element& element, const Operand* first) {
   switch (element.kind) {
   case ElementKind::Contact: return &contactRow(first->form == Form::Bit, element.negated);
   case ElementKind::Coil: return &coilRow(static_cast<int>(element.coil));
@@ -141,16 +141,16 @@ void RungChecker::reportUnknown(const ladder::Element& element) {
   if (const frontend::ForeignWord* foreign = frontend::findForeign(foreignWords(), element.mnemonic))
     return explainForeign(report, element, *foreign);
   if (!diagnostics_.suggests()) return;
-  const auto isBox = [](const NctInstruction& row) { return row.shape == Shape::Box; };
-  const auto mnemonicOf = [](const NctInstruction& row) { return row.info.mnemonic; };
+  const auto isBox = [](const Row& row) { return row.shape == Shape::Box; };
+  const auto mnemonicOf = [](const Row& row) { return row.info.mnemonic; };
   ladder::suggest(report, symbols_.sources(), element.mnemonicRange,
-                  likeliest(element.mnemonic, allInstructions() | std::views::filter(isBox), mnemonicOf));
+                  likeliest(element.mnemonic, allRows() | std::views::filter(isBox), mnemonicOf));
 }
 
 // A box that means the same has as many operands.
 void RungChecker::explainForeign(DiagBuilder& report, const ladder::Element& element,
                                  const frontend::ForeignWord& foreign) {
-  const NctInstruction* row = foreign.same ? findBox(foreign.here) : nullptr;
+  const Row* row = foreign.same ? findBox(foreign.here) : nullptr;
   const bool fits = row != nullptr && row->info.operands.size() == element.operands.count;
   if (fits)
     ladder::meant(report, symbols_.sources(), element.mnemonicRange, foreign.here);
@@ -195,12 +195,12 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
 }
 
 // Each of the two speaks of something else, so both may report.
-bool RungChecker::checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
+bool RungChecker::checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const Row& row) {
   const bool placed = checkPlacement(rung, element, row);
   return ladder::checkPins(row.info, rung.pinsOf(element), element.range, sameName, diagnostics_) && placed;
 }
 
-bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row) {
+bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const Row& row) {
   bool ok = true;
   const auto complain = [&](Diag code, SourceRange range) {
     const bool isBox = element.kind == ElementKind::Box;
@@ -237,7 +237,7 @@ RungChecker::CoilTraits RungChecker::coilTraits(const ladder::Rung& rung, const 
 }
 
 // Of too few or too many operands none has a place, but each may be wrong by itself.
-void RungChecker::readUncounted(const NctInstruction& row, std::span<const Word> words) {
+void RungChecker::readUncounted(const Row& row, std::span<const Word> words) {
   const auto isValue = [](const OperandInfo& operand) { return kindOf(operand).parse == OperandClass::Value; };
   if (!std::ranges::all_of(row.info.operands.all(), isValue)) return;
   for (const Word& word : words) parseOperand(word, symbols_, diagnostics_);
@@ -245,7 +245,7 @@ void RungChecker::readUncounted(const NctInstruction& row, std::span<const Word>
 
 bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
   const ladder::Element& element = *typedElement.element;
-  const NctInstruction& row = *typedElement.row;
+  const Row& row = *typedElement.row;
   const std::span<const Word> words = typed.rung->operandsOf(element);
   const size_t most = row.info.operands.size();
   const SourceRange count = words.size() > most ? words[most].range : element.mnemonicRange;
@@ -288,7 +288,7 @@ bool RungChecker::readOperands(TypedRung& typed, TypedElement& typedElement) {
 
 // --- operands
 // -----------------------------------------------------------------------------------------------------------
-bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Operand& operand) {
+bool RungChecker::checkOperand(const Row& row, size_t index, const Operand& operand) {
   const OperandKind& kind = kindOf(row.info.operands[index]);
   const std::string_view text = operand.source->text;
   const SourceRange range = operand.source->range;
@@ -308,7 +308,7 @@ bool RungChecker::checkOperand(const NctInstruction& row, size_t index, const Op
   return checkRegister(row, index, operand);
 }
 
-void RungChecker::reportNoRegister(const NctInstruction& row, size_t index, SourceRange range) {
+void RungChecker::reportNoRegister(const Row& row, size_t index, SourceRange range) {
   DiagBuilder report = diagnostics_.report(diag::OperandNotRegister, range);
   report << static_cast<int>(index + 1)
          << (row.shape == Shape::Contact ? "a contact"
@@ -317,7 +317,7 @@ void RungChecker::reportNoRegister(const NctInstruction& row, size_t index, Sour
   if (row.info.operands.size() > 1) report.note(frontend::operandOrder(row.info));
 }
 
-bool RungChecker::checkRegister(const NctInstruction& row, size_t index, const Operand& operand) {
+bool RungChecker::checkRegister(const Row& row, size_t index, const Operand& operand) {
   const OperandInfo& info = row.info.operands[index];
   const OperandKind& kind = kindOf(info);
   const Address& address = operand.address;
@@ -357,7 +357,7 @@ bool RungChecker::checkDestination(const OperandInfo& info, const Operand& opera
   return true;
 }
 
-bool RungChecker::checkConstant(const NctInstruction& row, size_t index, const Operand& operand) {
+bool RungChecker::checkConstant(const Row& row, size_t index, const Operand& operand) {
   const OperandInfo& info = row.info.operands[index];
   const ConstantKind is = operand.constant.kind;
   const bool fits = (kindOf(info).constants & setOf(is)) != 0;
@@ -372,7 +372,7 @@ bool RungChecker::checkConstant(const NctInstruction& row, size_t index, const O
 }
 
 // With the constant, or the box, of the other format.
-void RungChecker::reportOtherConstant(const NctInstruction& row, size_t index, const Operand& operand) {
+void RungChecker::reportOtherConstant(const Row& row, size_t index, const Operand& operand) {
   const OperandKind& kind = kindOf(row.info.operands[index]);
   const Constant& constant = operand.constant;
   DiagBuilder report = diagnostics_.report(diag::OperandTypeMismatch, operand.source->range);
@@ -389,7 +389,7 @@ void RungChecker::reportOtherConstant(const NctInstruction& row, size_t index, c
 }
 
 // Edges belong to contacts; `!` to single bits of the NC area in INT0 (l.546, l.590-596).
-bool RungChecker::checkModifiers(const NctInstruction& row, const ladder::Element& element, const Operand& operand) {
+bool RungChecker::checkModifiers(const Row& row, const ladder::Element& element, const Operand& operand) {
   const SourceRange range = operand.source->range;
   const bool immediate = operand.address.immediate;
   const std::string edge(operand.edge == 0 ? 0 : 1, operand.edge);

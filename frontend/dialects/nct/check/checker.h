@@ -12,13 +12,13 @@ namespace rung::nct {
 class OutputReservations {
 public:
   explicit OutputReservations(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
-  void add(const NctInstruction& row, const Operand& operand);
+  void add(const Row& row, const Operand& operand);
 
 private:
   struct Owner {
-    SourceRange once;                    // of the coil, timer, …; invalid: none yet
-    const NctInstruction* row = nullptr; // its row
-    SourceRange setReset;                // of the first SET or RST
+    SourceRange once;         // of the coil, timer, …; invalid: none yet
+    const Row* row = nullptr; // its row
+    SourceRange setReset;     // of the first SET or RST
   };
   Diagnostics& diagnostics_;
   std::unordered_map<uint64_t, Owner> owners_; // by bit, or by word
@@ -31,22 +31,22 @@ public:
   TypedRung check(const ladder::LadderFile& file, const ladder::Rung& rung);
 
 private:
-  const NctInstruction* rowOf(const ladder::Element& element, const Operand* first);
+  const Row* rowOf(const ladder::Element& element, const Operand* first);
   void reportUnknown(const ladder::Element& element);
   void explainForeign(DiagBuilder& report, const ladder::Element& element, const frontend::ForeignWord& foreign);
   void checkElement(TypedRung& typed, const ladder::Element& element);
-  bool checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
-  bool checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const NctInstruction& row);
+  bool checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const Row& row);
+  bool checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const Row& row);
   bool readOperands(TypedRung& typed, TypedElement& element);
-  void readUncounted(const NctInstruction& row, std::span<const Word> words);
+  void readUncounted(const Row& row, std::span<const Word> words);
   bool readLabel(TypedElement& element, const Word& word);
-  bool checkOperand(const NctInstruction& row, size_t index, const Operand& operand);
-  void reportNoRegister(const NctInstruction& row, size_t index, SourceRange range);
-  void reportOtherConstant(const NctInstruction& row, size_t index, const Operand& operand);
-  bool checkRegister(const NctInstruction& row, size_t index, const Operand& operand);
-  bool checkConstant(const NctInstruction& row, size_t index, const Operand& operand);
+  bool checkOperand(const Row& row, size_t index, const Operand& operand);
+  void reportNoRegister(const Row& row, size_t index, SourceRange range);
+  void reportOtherConstant(const Row& row, size_t index, const Operand& operand);
+  bool checkRegister(const Row& row, size_t index, const Operand& operand);
+  bool checkConstant(const Row& row, size_t index, const Operand& operand);
   bool checkDestination(const frontend::OperandInfo& info, const Operand& operand);
-  bool checkModifiers(const NctInstruction& row, const ladder::Element& element, const Operand& operand);
+  bool checkModifiers(const Row& row, const ladder::Element& element, const Operand& operand);
   void warnInt0Only(const Operand& operand);
   struct CoilTraits { // see frontend::OperandUse
     bool isSet = false;

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 #include "ir/support/diag/nct.h"
 #include "rtlib/nc/nct/messages.h"
 
@@ -37,7 +37,7 @@ TextKind checkText(const Word& text, Diagnostics& diagnostics) {
 
 namespace {
 
-void checkBox(const TextKinds& texts, const NctInstruction& row, const Operand& number, Diagnostics& diagnostics) {
+void checkBox(const TextKinds& texts, const Row& row, const Operand& number, Diagnostics& diagnostics) {
   if (number.form != Form::Constant) return;
   const auto found = texts.find(static_cast<uint32_t>(number.constant.integer));
   if (found == texts.end()) return;
@@ -65,8 +65,7 @@ void forEachBox(const TypedModule& module, F f) {
 } // namespace
 
 void checkMessages(const TypedModule& module, const TextKinds& texts, Diagnostics& diagnostics) {
-  forEachBox(module,
-             [&](const NctInstruction& row, const Operand& number) { checkBox(texts, row, number, diagnostics); });
+  forEachBox(module, [&](const Row& row, const Operand& number) { checkBox(texts, row, number, diagnostics); });
 }
 
 void checkMessageNumbers(std::initializer_list<const TypedModule*> modules, const TextKinds& texts,
@@ -74,7 +73,7 @@ void checkMessageNumbers(std::initializer_list<const TypedModule*> modules, cons
   std::set<uint32_t> shown;
   bool all = true; // else some number is in memory
   for (const TypedModule* module : modules)
-    forEachBox(*module, [&](const NctInstruction&, const Operand& operand) {
+    forEachBox(*module, [&](const Row&, const Operand& operand) {
       all = all && operand.form == Form::Constant;
       if (operand.form != Form::Constant) return;
       const auto number = static_cast<uint32_t>(operand.constant.integer);

@@ -6,7 +6,7 @@
 // is dropped, and the buffer is free when it has come.
 #include <algorithm>
 
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 #include "frontend/lower/request.h"
 #include "ir/support/diag/nct.h"
 #include "rtlib/nc/nct/operand_block.h"

@@ -1,5 +1,5 @@
 // MOVCMND: commands to an axis that the PLC moves (man. §6.15, l.3052-3155).
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 #include "ir/support/check.h"
 #include "rtlib/nc/nct/axis_codes.h"
 #include "rtlib/nc/nct/signals.h"

@@ -1,7 +1,7 @@
 // Contacts, coils, SET, RST, DIFU, DIFD (man. §6.1).
 #include <fmt/format.h>
 
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 
 #include "frontend/lower/edge.h"
 

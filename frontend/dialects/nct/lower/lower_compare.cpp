@@ -1,5 +1,5 @@
 // Comparisons of integers (man. §6.12): CMP, which sets flags, and the contacts CLT to CGT.
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 
 namespace rung::nct {
 

@@ -1,5 +1,5 @@
 // CNT and CNTR (man. §6.5).
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 
 namespace rung::nct {
 

@@ -2,7 +2,7 @@
 #include <limits>
 #include <numbers>
 
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 #include "ir/core/ops.h"
 
 namespace rung::nct {

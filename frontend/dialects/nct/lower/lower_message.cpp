@@ -3,7 +3,7 @@
 // The rising edge of the input sends the message, the falling edge deletes what was sent then, whatever the operands
 // say by now. Which part of it is on the screen (or in the log) the NC says in a word of the box, see
 // rtlib/nc/nct/messages.h.
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 #include "frontend/lower/edge.h"
 #include "rtlib/nc/nct/messages.h"
 

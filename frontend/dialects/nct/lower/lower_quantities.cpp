@@ -2,7 +2,7 @@
 // l.3269-3388).
 #include <fmt/format.h>
 
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 #include "ir/support/check.h"
 #include "ir/support/diag/operand.h"
 #include "rtlib/nc/nct/scope_symbols.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "frontend/dialects/nct/check/structure.h"
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 #include "ir/support/check.h"
 #include "ir/support/hash.h"
 #include "rung/types.hpp"
@@ -39,7 +39,7 @@ uint32_t existing(const std::optional<uint32_t>& target) {
 
 // An element's name within its rung, the same in the next version of the program: instruction and operands. Where the
 // first operand distinguishes it from all others (one instance of each), that one alone.
-std::string identityOf(const NctInstruction& row, std::span<const Operand> operands) {
+std::string identityOf(const Row& row, std::span<const Operand> operands) {
   std::string text(row.info.mnemonic);
   for (const Operand& operand : operands) {
     text += ' ';
@@ -140,7 +140,7 @@ void BodyLowering::markOutput(const ladder::Element& element, ValueId condition,
 void BodyLowering::lowerElement(ir::RungBuilder& b, Memory& memory, const TypedRung& typed, size_t index) {
   const TypedElement& typedElement = typed.elements[index];
   const ladder::Element& element = *typedElement.element;
-  const NctInstruction& row = *typedElement.row;
+  const Row& row = *typedElement.row;
   b.setLine(element.line);
   pins_.clear();
   for (const ladder::Pin& pin : typed.rung->pinsOf(element)) pins_.push_back(power_[pin.input.index]);

@@ -1,5 +1,5 @@
 // ROT, the shift register and the arrays (man. §6.6, §6.7).
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 #include "ir/core/ops.h"
 
 namespace rung::nct {

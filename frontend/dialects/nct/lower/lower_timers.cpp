@@ -1,7 +1,7 @@
 // TOND, TOFFD, TPULSE (man. §6.4): the register holds the time that remains, in milliseconds.
 #include <array>
 
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
 

@@ -1,5 +1,5 @@
 // Moving, logic and integer arithmetic (man. §6.3, §6.8, §6.9).
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 #include "ir/core/ops.h"
 
 namespace rung::nct {

@@ -18,18 +18,18 @@ using frontend::InstructionInfo;
 constexpr size_t kRowCount = std::size(kBitRows) + std::size(kWordRows) + std::size(kFloatRows) +
                              std::size(kMessageRows) + std::size(kControlRows) + std::size(kNcRows);
 
-constexpr std::array<NctInstruction, kRowCount> joinRows() {
-  std::array<NctInstruction, kRowCount> rows{};
+constexpr std::array<Row, kRowCount> joinRows() {
+  std::array<Row, kRowCount> rows{};
   size_t n = 0;
-  for (const NctInstruction& row : kBitRows) rows[n++] = row;
-  for (const NctInstruction& row : kWordRows) rows[n++] = row;
-  for (const NctInstruction& row : kFloatRows) rows[n++] = row;
-  for (const NctInstruction& row : kMessageRows) rows[n++] = row;
-  for (const NctInstruction& row : kControlRows) rows[n++] = row;
-  for (const NctInstruction& row : kNcRows) rows[n++] = row;
+  for (const Row& row : kBitRows) rows[n++] = row;
+  for (const Row& row : kWordRows) rows[n++] = row;
+  for (const Row& row : kFloatRows) rows[n++] = row;
+  for (const Row& row : kMessageRows) rows[n++] = row;
+  for (const Row& row : kControlRows) rows[n++] = row;
+  for (const Row& row : kNcRows) rows[n++] = row;
   return rows;
 }
-constexpr std::array<NctInstruction, kRowCount> kRows = joinRows();
+constexpr std::array<Row, kRowCount> kRows = joinRows();
 
 constexpr std::array<const InstructionInfo*, kRowCount> infoPointers() {
   std::array<const InstructionInfo*, kRowCount> infos{};
@@ -48,7 +48,7 @@ constexpr std::array<uint8_t, kRowCount> sortByMnemonic() {
 constexpr std::array<uint8_t, kRowCount> kByMnemonic = sortByMnemonic();
 
 constexpr bool complete() {
-  for (const NctInstruction& row : kRows) {
+  for (const Row& row : kRows) {
     const InstructionInfo& info = row.info;
     if (info.mnemonic.empty() || info.title.empty() || info.group.empty() || info.ref.empty() || info.doc.empty() ||
         info.example.empty())
@@ -69,25 +69,25 @@ constexpr size_t indexOf(std::string_view mnemonic) {
 
 } // namespace
 
-std::span<const NctInstruction> allInstructions() { return kRows; }
-std::span<const InstructionInfo* const> allInfos() { return kInfos; }
+std::span<const Row> allRows() { return kRows; }
+std::span<const InstructionInfo* const> instructionInfos() { return kInfos; }
 
-const NctInstruction* findBox(std::string_view mnemonic) {
+const Row* findBox(std::string_view mnemonic) {
   const auto found =
       std::ranges::lower_bound(kByMnemonic, mnemonic, {}, [](uint8_t i) { return kRows[i].info.mnemonic; });
   if (found != kByMnemonic.end() && kRows[*found].info.mnemonic == mnemonic)
     return kRows[*found].shape == Shape::Box ? &kRows[*found] : nullptr;
-  const auto alias = std::ranges::find_if(
-      kRows, [&](const NctInstruction& row) { return isAlias(row.info, mnemonic, std::equal_to<>()); });
+  const auto alias =
+      std::ranges::find_if(kRows, [&](const Row& row) { return isAlias(row.info, mnemonic, std::equal_to<>()); });
   return alias == std::end(kRows) ? nullptr : &*alias;
 }
 
 const InstructionInfo* findBoxInfo(std::string_view mnemonic) {
-  const NctInstruction* row = findBox(mnemonic);
+  const Row* row = findBox(mnemonic);
   return row == nullptr ? nullptr : &row->info;
 }
 
-const NctInstruction& contactRow(bool onBit, bool closed) {
+const Row& contactRow(bool onBit, bool closed) {
   constexpr size_t kOpenBit = indexOf("open-contact-bit"), kClosedBit = indexOf("closed-contact-bit");
   constexpr size_t kOpenWord = indexOf("open-contact-dword"), kClosedWord = indexOf("closed-contact-dword");
   if (onBit) return kRows[closed ? kClosedBit : kOpenBit];
@@ -108,7 +108,7 @@ std::string_view doublesOf(std::string_view mnemonic) {
 
 std::span<const frontend::ForeignWord> foreignWords() { return kForeignWords; }
 
-const NctInstruction& coilRow(int coilKind) {
+const Row& coilRow(int coilKind) {
   constexpr size_t kByKind[] = {indexOf("coil"), indexOf("negated-coil"), indexOf("SET"), indexOf("RST")};
   return kRows[kByKind[coilKind]];
 }

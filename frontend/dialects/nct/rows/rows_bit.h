@@ -1,6 +1,6 @@
 // Rows: contacts, coils, pulses, section (man. §6.1, §6.2). Included by instructions.cpp only.
 #pragma once
-#include "frontend/dialects/nct/lower/lowering.h"
+#include "frontend/dialects/nct/lower/lower.h"
 #include "frontend/dialects/nct/rows/instructions.h"
 #include "frontend/dialects/nct/rows/operand_kinds.h"
 
@@ -15,7 +15,7 @@ using O = frontend::OperandInfo;
 
 // --- shapes of families: rows that differ in a few words
 // --------------------------------------------------------------------------
-constexpr NctInstruction contactShape(O operand) {
+constexpr Row contactShape(O operand) {
   return {.info = {.group = "bit",
                    .pins = {P{"IN", "power from the left"}},
                    .operands = {operand},
@@ -25,12 +25,12 @@ constexpr NctInstruction contactShape(O operand) {
           .lower = lowerContact,
           .shape = Shape::Contact};
 }
-inline constexpr NctInstruction kBitContact =
+inline constexpr Row kBitContact =
     contactShape({"Address", &kinds::kBit, Access::Read, "direct, indirect or indexed; @, % or, in INT0, ! before it"});
-inline constexpr NctInstruction kWordContact =
+inline constexpr Row kWordContact =
     contactShape({"Address", &kinds::kWord, Access::Read, "may be indexed; @ or % before it"});
 
-constexpr NctInstruction coilShape(Reservation reservation) {
+constexpr Row coilShape(Reservation reservation) {
   return {.info = {.group = "bit",
                    .pins = {P{"IN", "condition"}},
                    .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed; in INT0 ! before it"}}},
@@ -39,7 +39,7 @@ constexpr NctInstruction coilShape(Reservation reservation) {
           .shape = Shape::Coil};
 }
 
-inline constexpr NctInstruction kPulseShape = {
+inline constexpr Row kPulseShape = {
     .info = {.group = "bit",
              .pins = {P{"IN", "condition", true}},
              .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed"}},
@@ -47,7 +47,7 @@ inline constexpr NctInstruction kPulseShape = {
     .lower = lowerPulse,
     .reservation = Reservation::Once};
 
-inline constexpr NctInstruction kBitRows[] = {
+inline constexpr Row kBitRows[] = {
     rowOf(kBitContact, "open-contact-bit", "open contact on a bit", "6.1.1, l.785",
           "Power passes when the bit is 1. With @ or % it passes for one cycle after the bit has risen or "
           "fallen; the edge is kept for each contact of its own. With ! the time-slice memory is read.",

@@ -4,8 +4,8 @@
 
 namespace rung::nct {
 
-constexpr NctInstruction controlShape(std::string_view operand, Placement placement, Flow flow) {
-  NctInstruction row{.info = {.group = "program-control",
+constexpr Row controlShape(std::string_view operand, Placement placement, Flow flow) {
+  Row row{.info = {.group = "program-control",
                               .pins = {P{"EN", "condition"}},
                               .output = Output::None,
                               .placement = placement},
@@ -14,7 +14,7 @@ constexpr NctInstruction controlShape(std::string_view operand, Placement placem
   return row;
 }
 
-inline constexpr NctInstruction kControlRows[] = {
+inline constexpr Row kControlRows[] = {
     rowOf(controlShape("", Placement::AtRail, Flow::End), "END", "end of the cyclic part of a module", "6.14.1, l.2918",
           "The cycle of the module ends here. The subroutines follow it; without any it may be left out.", "|--{END}"),
     rowOf(controlShape("Jump Number", Placement::AfterContact, Flow::Jump), "JMP", "conditional jump", "6.14.2, l.2936",

@@ -4,7 +4,7 @@
 
 namespace rung::nct {
 
-constexpr NctInstruction floatBinaryShape(std::string_view first, std::string_view second, Lower lower) {
+constexpr Row floatBinaryShape(std::string_view first, std::string_view second, LowerFn lower) {
   return {.info = {.group = "float",
                    .pins = {kEnable},
                    .operands = {O{"Result", &kinds::kDouble, Access::Write, "where the result goes"},
@@ -14,9 +14,9 @@ constexpr NctInstruction floatBinaryShape(std::string_view first, std::string_vi
           .lower = lower};
 }
 
-inline constexpr NctInstruction kFloatShape = convertShape("float", kinds::kDouble, kinds::kFloat, lowerFloatFunction);
+inline constexpr Row kFloatShape = convertShape("float", kinds::kDouble, kinds::kFloat, lowerFloatFunction);
 
-constexpr NctInstruction compareShape(const OperandKind& valueKind, const OperandKind& dataKind, Lower lower) {
+constexpr Row compareShape(const OperandKind& valueKind, const OperandKind& dataKind, LowerFn lower) {
   return {.info = {.group = "compare",
                    .pins = {kEnable},
                    .operands = {O{"Value", &valueKind, Access::Read, "left side, a register"},
@@ -25,7 +25,7 @@ constexpr NctInstruction compareShape(const OperandKind& valueKind, const Operan
           .lower = lower};
 }
 
-constexpr NctInstruction compareContactShape(const OperandKind& valueKind, const OperandKind& dataKind, Lower lower) {
+constexpr Row compareContactShape(const OperandKind& valueKind, const OperandKind& dataKind, LowerFn lower) {
   return {.info = {.group = "compare-contact",
                    .pins = {P{"IN", "power from the left"}},
                    .operands = {O{"Value", &valueKind, Access::Read, "left side, a register"},
@@ -34,10 +34,10 @@ constexpr NctInstruction compareContactShape(const OperandKind& valueKind, const
                    .placement = Placement::Anywhere},
           .lower = lower};
 }
-inline constexpr NctInstruction kIntContact = compareContactShape(kinds::kWord, kinds::kInteger, lowerCompareContact);
-inline constexpr NctInstruction kFloatContact = compareContactShape(kinds::kDouble, kinds::kFloat, lowerFloatContact);
+inline constexpr Row kIntContact = compareContactShape(kinds::kWord, kinds::kInteger, lowerCompareContact);
+inline constexpr Row kFloatContact = compareContactShape(kinds::kDouble, kinds::kFloat, lowerFloatContact);
 
-inline constexpr NctInstruction kFloatRows[] = {
+inline constexpr Row kFloatRows[] = {
     rowOf(floatBinaryShape("1st Operand", "2nd Operand", lowerFloatArithmetic), "+F", "floating-point addition",
           "6.10.1, l.2161", "Result := 1st + 2nd.", "|--[N_ON]--{+F 7000 7002 *1.5}", kFloatAdd),
     rowOf(floatBinaryShape("1st Operand", "2nd Operand", lowerFloatArithmetic), "-F", "floating-point subtraction",

@@ -4,7 +4,7 @@
 
 namespace rung::nct {
 
-constexpr NctInstruction messageShape(const OperandKind& variableKind) {
+constexpr Row messageShape(const OperandKind& variableKind) {
   return {.info = {.group = "message",
                    .pins = {P{"EN", "shows on its rising, deletes on its falling edge", true}},
                    .operands = {O{"Message Number", &kinds::kDecimal, Access::Read, "", 1, 999},
@@ -19,7 +19,7 @@ constexpr NctInstruction messageShape(const OperandKind& variableKind) {
           .lower = lowerMessage};
 }
 
-inline constexpr NctInstruction kMessageRows[] = {
+inline constexpr Row kMessageRows[] = {
     rowOf(messageShape(kinds::kDecimal), "MSG", "integer message, screen", "6.13.1, l.2775",
           "The rising edge of the input shows the message, the falling edge deletes it. The output is TRUE while "
           "it is on the screen, from the next cycle on.",

@@ -5,7 +5,7 @@
 
 namespace rung::nct {
 
-constexpr NctInstruction macroShape(frontend::FixedList<O, 8> operands) {
+constexpr Row macroShape(frontend::FixedList<O, 8> operands) {
   return {.info = {.group = "nc-service",
                    .pins = {kEnable},
                    .operands = operands,
@@ -15,7 +15,7 @@ constexpr NctInstruction macroShape(frontend::FixedList<O, 8> operands) {
           .check = checkMacro};
 }
 
-constexpr NctInstruction arrayServiceShape(Check check) {
+constexpr Row arrayServiceShape(CheckFn check) {
   return {.info = {.group = "nc-service",
                    .pins = {P{"EN", "stays TRUE until the output is"}},
                    .operands = {O{"Data", &kinds::kWord, Access::ReadWrite, "first word of the operand block"},
@@ -26,7 +26,7 @@ constexpr NctInstruction arrayServiceShape(Check check) {
           .check = check};
 }
 
-inline constexpr NctInstruction kNcRows[] = {
+inline constexpr Row kNcRows[] = {
     {.info = {.mnemonic = "MOVCMND",
               // The contents print MOVCMND (l.135), the chapter the others, too (l.3052, l.3155).
               .aliases = {"MOVCMD", "MOVCMMD", "MOVCMO"},

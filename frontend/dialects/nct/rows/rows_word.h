@@ -8,8 +8,8 @@ namespace rung::nct {
 inline constexpr frontend::PinInfo kEnable{"EN", "enables the instruction in every cycle"};
 
 // Result and one source.
-constexpr NctInstruction convertShape(std::string_view group, const OperandKind& resultKind,
-                                      const OperandKind& sourceKind, Lower lower) {
+constexpr Row convertShape(std::string_view group, const OperandKind& resultKind, const OperandKind& sourceKind,
+                           LowerFn lower) {
   return {.info = {.group = group,
                    .pins = {kEnable},
                    .operands = {O{"Result", &resultKind, Access::Write, "where the result goes"},
@@ -19,7 +19,7 @@ constexpr NctInstruction convertShape(std::string_view group, const OperandKind&
 }
 
 // Result, a register and a second operand.
-constexpr NctInstruction binaryShape(std::string_view group, const OperandKind& secondKind, Lower lower) {
+constexpr Row binaryShape(std::string_view group, const OperandKind& secondKind, LowerFn lower) {
   return {.info = {.group = group,
                    .pins = {kEnable},
                    .operands = {O{"Result", &kinds::kWord, Access::Write, "where the result goes"},
@@ -29,7 +29,7 @@ constexpr NctInstruction binaryShape(std::string_view group, const OperandKind& 
           .lower = lower};
 }
 
-inline constexpr NctInstruction kTimerShape = {
+inline constexpr Row kTimerShape = {
     .info = {.group = "timer",
              .pins = {P{"EN", "starts the timer", true}},
              .operands = {O{"Address of Timer", &kinds::kUserWord, Access::ReadWrite,
@@ -43,7 +43,7 @@ inline constexpr NctInstruction kTimerShape = {
     .check = checkTimer,
     .reservation = Reservation::Once};
 
-inline constexpr NctInstruction kCounterShape = {
+inline constexpr Row kCounterShape = {
     .info = {.group = "counter",
              .pins = {P{"CK", "counts on its rising edge", true}, P{"U/D", "FALSE up, TRUE down"},
                       P{"R", "TRUE: back to the starting value"}},
@@ -56,7 +56,7 @@ inline constexpr NctInstruction kCounterShape = {
     .lower = lowerCounter,
     .reservation = Reservation::Once};
 
-constexpr NctInstruction arrayShape(std::string_view count) {
+constexpr Row arrayShape(std::string_view count) {
   return {.info = {.group = "shift",
                    .pins = {kEnable},
                    .operands = {O{"Starting Address", &kinds::kWord, Access::ReadWrite, "word with the lowest bits"},
@@ -67,7 +67,7 @@ constexpr NctInstruction arrayShape(std::string_view count) {
           .usesScratch = true};
 }
 
-inline constexpr NctInstruction kWordRows[] = {
+inline constexpr Row kWordRows[] = {
     rowOf(convertShape("data-move", kinds::kWord, kinds::kInteger, lowerMove), "MOV", "move a double word",
           "6.3.1, l.1269", "Result := Operand.", "|--[N_ON]--{MOV 7000 #25}", kMove),
     rowOf(convertShape("data-move", kinds::kWord, kinds::kHex, lowerMove), "MVN",

@@ -31,7 +31,7 @@ uint32_t numberOf(std::string_view names, std::string_view wanted) {
 
 } // namespace
 
-DeviceRequest::DeviceRequest(StatementContext& context)
+DeviceRequest::DeviceRequest(Lowering& context)
     : l_(context), service_(serviceOf(context.mnemonic())), signature_(service_.name) {}
 
 ValueId DeviceRequest::add(std::string name, ValueId value) {
@@ -105,7 +105,7 @@ ValueId bytesArgument(ir::RungBuilder& b, const Area& area, ValueId count) {
   return b.or_(b.or_(fixed, size), b.zextOrTrunc(Type::I64, area.at));
 }
 
-void fetchBytes(StatementContext& l, ValueId ticket, const Area& to, ValueId count, uint32_t most) {
+void fetchBytes(Lowering& l, ValueId ticket, const Area& to, ValueId count, uint32_t most) {
   const ValueId number = l.b().zextOrTrunc(Type::I64, ticket);
   putParts(l, to, count, most, {.bytes = nc::technol::kDataBytes, .firstWord = 0}, [&](ValueId part) {
     return l.b().serviceRequest(l.service(nc::technol::kDataService),

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frontend/dialects/technol/lower/areas.h"
-#include "frontend/dialects/technol/lower/context.h"
+#include "frontend/dialects/technol/lower/lowering.h"
 #include "rtlib/nc/technol/services.h"
 
 namespace rung::frontend::technol {
@@ -18,7 +18,7 @@ enum class DataForm : uint8_t { None, Integer, Real, Text, Binary, Bytes };
 class DeviceRequest {
 public:
   // Of the current statement.
-  explicit DeviceRequest(StatementContext& context);
+  explicit DeviceRequest(Lowering& context);
 
   // Each gives the argument, i64.
   ir::ValueId add(std::string name, ir::ValueId value);
@@ -38,7 +38,7 @@ public:
   ir::ValueId forgotten() const { return forgotten_; }
 
 private:
-  StatementContext& l_;
+  Lowering& l_;
   const nc::technol::DeviceService& service_;
   std::string signature_;
   std::vector<ir::ValueId> args_;
@@ -52,6 +52,6 @@ const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Oper
 // The argument for `count` bytes of an area, i32.
 ir::ValueId bytesArgument(ir::RungBuilder& b, const Area& area, ir::ValueId count);
 // Puts the first `count` bytes of an answer, at most `most`, there.
-void fetchBytes(StatementContext& l, ir::ValueId ticket, const Area& to, ir::ValueId count, uint32_t most);
+void fetchBytes(Lowering& l, ir::ValueId ticket, const Area& to, ir::ValueId count, uint32_t most);
 
 } // namespace rung::frontend::technol

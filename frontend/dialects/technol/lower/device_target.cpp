@@ -16,7 +16,7 @@ constexpr Type kInteger = Type::I32, kReal = Type::I64; // elements of tables as
 
 } // namespace
 
-DeviceTarget::DeviceTarget(StatementContext& context, const Operand& operand, ValueId guard)
+DeviceTarget::DeviceTarget(Lowering& context, const Operand& operand, ValueId guard)
     : l_(&context), operand_(&operand) {
   if (operand.form == Operand::Form::Text) {
     area_ = textOf(context, operand).area;

@@ -10,7 +10,7 @@ class DeviceTarget {
 public:
   DeviceTarget() = default; // not given
   // An index that leads outside the memory stops the program, where `guard` is 1.
-  DeviceTarget(StatementContext& context, const Operand& operand, ir::ValueId guard);
+  DeviceTarget(Lowering& context, const Operand& operand, ir::ValueId guard);
   bool given() const { return l_ != nullptr; }
 
   // The place by the index of the run in which `when` is 1, in later runs too, also of another program that has the
@@ -40,7 +40,7 @@ private:
   void put(ir::ValueId value, ir::Type type) const;
   void fetch(ir::ValueId ticket, ir::ValueId length, DataForm form) const;
 
-  StatementContext* l_ = nullptr;
+  Lowering* l_ = nullptr;
   const Operand* operand_ = nullptr;
   MemoryAccess access_;
   Area area_;

@@ -8,7 +8,7 @@
 
 namespace rung::frontend::technol {
 
-class StatementContext;
+class Lowering;
 struct Operand;
 
 enum BitJoin { kAnd, kOr, kXor };
@@ -20,103 +20,103 @@ enum Count { kCountUp, kCountDown, kCountUpBcd };
 
 // lower_bits.cpp
 ir::ValueId joined(ir::RungBuilder& b, int join, ir::ValueId left, ir::ValueId right);
-void lowerLoadBit(StatementContext& l, std::span<const Operand> o, int);
-void lowerLicence(StatementContext& l, std::span<const Operand> o, int);
-void lowerJoin(StatementContext& l, std::span<const Operand> o, int join);
-void lowerComplement(StatementContext& l, std::span<const Operand> o, int);
-void lowerEdge(StatementContext& l, std::span<const Operand> o, int rising);
-void lowerWrite(StatementContext& l, std::span<const Operand> o, int);
-void lowerFlag(StatementContext& l, std::span<const Operand> o, int condition);
-void lowerMoveBit(StatementContext& l, std::span<const Operand> o, int condition);
-void lowerNothing(StatementContext& l, std::span<const Operand> o, int);
-void lowerJump(StatementContext& l, std::span<const Operand> o, int condition);
+void lowerLoadBit(Lowering& l, std::span<const Operand> o, int);
+void lowerLicence(Lowering& l, std::span<const Operand> o, int);
+void lowerJoin(Lowering& l, std::span<const Operand> o, int join);
+void lowerComplement(Lowering& l, std::span<const Operand> o, int);
+void lowerEdge(Lowering& l, std::span<const Operand> o, int rising);
+void lowerWrite(Lowering& l, std::span<const Operand> o, int);
+void lowerFlag(Lowering& l, std::span<const Operand> o, int condition);
+void lowerMoveBit(Lowering& l, std::span<const Operand> o, int condition);
+void lowerNothing(Lowering& l, std::span<const Operand> o, int);
+void lowerJump(Lowering& l, std::span<const Operand> o, int condition);
 
 // lower_data.cpp
-void lowerLoad(StatementContext& l, std::span<const Operand> o, int);
-void lowerStore(StatementContext& l, std::span<const Operand> o, int condition);
-void lowerMove(StatementContext& l, std::span<const Operand> o, int condition);
-void lowerArithmetic(StatementContext& l, std::span<const Operand> o, int operation);
-void lowerBitwise(StatementContext& l, std::span<const Operand> o, int join);
-void lowerCompare(StatementContext& l, std::span<const Operand> o, int relation);
-void lowerUnary(StatementContext& l, std::span<const Operand> o, int operation);
-void lowerIncrementBcd(StatementContext& l, std::span<const Operand> o, int);
-void lowerBin(StatementContext& l, std::span<const Operand> o, int);
-void lowerBcd(StatementContext& l, std::span<const Operand> o, int);
-void lowerShift(StatementContext& l, std::span<const Operand> o, int right);
-void lowerToReal(StatementContext& l, std::span<const Operand> o, int);
-void lowerDrToRlo(StatementContext& l, std::span<const Operand> o, int);
-void lowerRloToDr(StatementContext& l, std::span<const Operand> o, int);
-void lowerMovBx(StatementContext& l, std::span<const Operand> o, int);
+void lowerLoad(Lowering& l, std::span<const Operand> o, int);
+void lowerStore(Lowering& l, std::span<const Operand> o, int condition);
+void lowerMove(Lowering& l, std::span<const Operand> o, int condition);
+void lowerArithmetic(Lowering& l, std::span<const Operand> o, int operation);
+void lowerBitwise(Lowering& l, std::span<const Operand> o, int join);
+void lowerCompare(Lowering& l, std::span<const Operand> o, int relation);
+void lowerUnary(Lowering& l, std::span<const Operand> o, int operation);
+void lowerIncrementBcd(Lowering& l, std::span<const Operand> o, int);
+void lowerBin(Lowering& l, std::span<const Operand> o, int);
+void lowerBcd(Lowering& l, std::span<const Operand> o, int);
+void lowerShift(Lowering& l, std::span<const Operand> o, int right);
+void lowerToReal(Lowering& l, std::span<const Operand> o, int);
+void lowerDrToRlo(Lowering& l, std::span<const Operand> o, int);
+void lowerRloToDr(Lowering& l, std::span<const Operand> o, int);
+void lowerMovBx(Lowering& l, std::span<const Operand> o, int);
 
 // lower_text.cpp
-void lowerMoveMemory(StatementContext& l, std::span<const Operand> o, int);
-void lowerClear(StatementContext& l, std::span<const Operand> o, int);
-void lowerCopyText(StatementContext& l, std::span<const Operand> o, int);
-void lowerAddText(StatementContext& l, std::span<const Operand> o, int);
-void lowerNumberToText(StatementContext& l, std::span<const Operand> o, int bcd);
-void lowerCompareText(StatementContext& l, std::span<const Operand> o, int);
-void lowerCopyBytes(StatementContext& l, std::span<const Operand> o, int);
-void lowerCompareBytes(StatementContext& l, std::span<const Operand> o, int);
+void lowerMoveMemory(Lowering& l, std::span<const Operand> o, int);
+void lowerClear(Lowering& l, std::span<const Operand> o, int);
+void lowerCopyText(Lowering& l, std::span<const Operand> o, int);
+void lowerAddText(Lowering& l, std::span<const Operand> o, int);
+void lowerNumberToText(Lowering& l, std::span<const Operand> o, int bcd);
+void lowerCompareText(Lowering& l, std::span<const Operand> o, int);
+void lowerCopyBytes(Lowering& l, std::span<const Operand> o, int);
+void lowerCompareBytes(Lowering& l, std::span<const Operand> o, int);
 
 // lower_count.cpp
-void lowerTimer(StatementContext& l, std::span<const Operand> o, int);
-void lowerCounter(StatementContext& l, std::span<const Operand> o, int kind);
+void lowerTimer(Lowering& l, std::span<const Operand> o, int);
+void lowerCounter(Lowering& l, std::span<const Operand> o, int kind);
 
 // lower_mechanism.cpp
-void lowerMechInit(StatementContext& l, std::span<const Operand> o, int);
-void lowerEx(StatementContext& l, std::span<const Operand> o, int);
-void lowerBex(StatementContext& l, std::span<const Operand> o, int);
-void lowerExWhile(StatementContext& l, std::span<const Operand> o, int level); // EX0: 0, EX1: 1
-void lowerTimedEx(StatementContext& l, std::span<const Operand> o, int level);
-void lowerWait(StatementContext& l, std::span<const Operand> o, int);
+void lowerMechInit(Lowering& l, std::span<const Operand> o, int);
+void lowerEx(Lowering& l, std::span<const Operand> o, int);
+void lowerBex(Lowering& l, std::span<const Operand> o, int);
+void lowerExWhile(Lowering& l, std::span<const Operand> o, int level); // EX0: 0, EX1: 1
+void lowerTimedEx(Lowering& l, std::span<const Operand> o, int level);
+void lowerWait(Lowering& l, std::span<const Operand> o, int);
 
 // lower_calls.cpp
-void lowerCall(StatementContext& l, std::span<const Operand> o, int);
-void lowerFinished(StatementContext& l, std::span<const Operand> o, int hostCell);
+void lowerCall(Lowering& l, std::span<const Operand> o, int);
+void lowerFinished(Lowering& l, std::span<const Operand> o, int hostCell);
 
 // lower_message.cpp
-void lowerMessage(StatementContext& l, std::span<const Operand> o, int condition);
-void lowerBitMessage(StatementContext& l, std::span<const Operand> o, int);
+void lowerMessage(Lowering& l, std::span<const Operand> o, int condition);
+void lowerBitMessage(Lowering& l, std::span<const Operand> o, int);
 
 // lower_exchange.cpp; `kind` is a nc::ExchangeKind
-void lowerDefine(StatementContext& l, std::span<const Operand> o, int kind);
-void lowerUpdate(StatementContext& l, std::span<const Operand> o, int);
+void lowerDefine(Lowering& l, std::span<const Operand> o, int kind);
+void lowerUpdate(Lowering& l, std::span<const Operand> o, int);
 
 // lower_share.cpp
-void lowerShareVariable(StatementContext& l, std::span<const Operand> o, int);
-void lowerShareBit(StatementContext& l, std::span<const Operand> o, int);
+void lowerShareVariable(Lowering& l, std::span<const Operand> o, int);
+void lowerShareBit(Lowering& l, std::span<const Operand> o, int);
 
 // lower_service.cpp; `form` is the DataForm of the data operand
-void lowerService(StatementContext& l, std::span<const Operand> o, int form);
-void lowerPolled(StatementContext& l, std::span<const Operand> o, int form);
-void lowerShared(StatementContext& l, std::span<const Operand> o, int form);
+void lowerService(Lowering& l, std::span<const Operand> o, int form);
+void lowerPolled(Lowering& l, std::span<const Operand> o, int form);
+void lowerShared(Lowering& l, std::span<const Operand> o, int form);
 
 // lower_can.cpp
-void lowerCanSend(StatementContext& l, std::span<const Operand> o, int);
-void lowerCanReceive(StatementContext& l, std::span<const Operand> o, int);
-void lowerCanOrder(StatementContext& l, std::span<const Operand> o, int);
-void lowerUnitRead(StatementContext& l, std::span<const Operand> o, int);
-void lowerUnitWrite(StatementContext& l, std::span<const Operand> o, int);
-void lowerDriveSend(StatementContext& l, std::span<const Operand> o, int);
+void lowerCanSend(Lowering& l, std::span<const Operand> o, int);
+void lowerCanReceive(Lowering& l, std::span<const Operand> o, int);
+void lowerCanOrder(Lowering& l, std::span<const Operand> o, int);
+void lowerUnitRead(Lowering& l, std::span<const Operand> o, int);
+void lowerUnitWrite(Lowering& l, std::span<const Operand> o, int);
+void lowerDriveSend(Lowering& l, std::span<const Operand> o, int);
 
 // lower_spindle.cpp
-void lowerAnalogPort(StatementContext& l, std::span<const Operand> o, int);
-void lowerAnalog(StatementContext& l, std::span<const Operand> o, int);
-void lowerAnalogSpindle(StatementContext& l, std::span<const Operand> o, int);
-void lowerToSpindle(StatementContext& l, std::span<const Operand> o, int);
-void lowerToAxis(StatementContext& l, std::span<const Operand> o, int);
-void lowerRamp(StatementContext& l, std::span<const Operand> o, int);
+void lowerAnalogPort(Lowering& l, std::span<const Operand> o, int);
+void lowerAnalog(Lowering& l, std::span<const Operand> o, int);
+void lowerAnalogSpindle(Lowering& l, std::span<const Operand> o, int);
+void lowerToSpindle(Lowering& l, std::span<const Operand> o, int);
+void lowerToAxis(Lowering& l, std::span<const Operand> o, int);
+void lowerRamp(Lowering& l, std::span<const Operand> o, int);
 
 // lower_position.cpp
-void lowerPositionMode(StatementContext& l, std::span<const Operand> o, int);
-void lowerPositionControl(StatementContext& l, std::span<const Operand> o, int);
+void lowerPositionMode(Lowering& l, std::span<const Operand> o, int);
+void lowerPositionControl(Lowering& l, std::span<const Operand> o, int);
 
 // lower_com.cpp
-void lowerComSend(StatementContext& l, std::span<const Operand> o, int);
-void lowerComReceive(StatementContext& l, std::span<const Operand> o, int);
-void lowerComControl(StatementContext& l, std::span<const Operand> o, int);
+void lowerComSend(Lowering& l, std::span<const Operand> o, int);
+void lowerComReceive(Lowering& l, std::span<const Operand> o, int);
+void lowerComControl(Lowering& l, std::span<const Operand> o, int);
 
 // lower_config.cpp
-void lowerConfiguration(StatementContext& l, std::span<const Operand> o, int kind);
+void lowerConfiguration(Lowering& l, std::span<const Operand> o, int kind);
 
 } // namespace rung::frontend::technol

@@ -1,8 +1,8 @@
 // Bit logic and jumps (man. ch. 3.5-3.8).
 #include <array>
 
-#include "frontend/dialects/technol/lower/context.h"
 #include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/dialects/technol/lower/lowering.h"
 
 namespace rung::frontend::technol {
 
@@ -12,7 +12,7 @@ using ir::ValueId;
 namespace {
 
 // What an address needs is computed before a condition's region.
-std::vector<MemoryAccess> reachAll(StatementContext& l, std::span<const Operand> bits, ValueId guard) {
+std::vector<MemoryAccess> reachAll(Lowering& l, std::span<const Operand> bits, ValueId guard) {
   std::vector<MemoryAccess> places;
   for (const Operand& bit : bits) places.push_back(l.reach(bit, guard));
   return places;
@@ -20,9 +20,9 @@ std::vector<MemoryAccess> reachAll(StatementContext& l, std::span<const Operand>
 
 } // namespace
 
-void lowerLoadBit(StatementContext& l, std::span<const Operand> o, int) { l.r().setRlo(l.contact(o[0])); }
+void lowerLoadBit(Lowering& l, std::span<const Operand> o, int) { l.r().setRlo(l.contact(o[0])); }
 
-void lowerLicence(StatementContext& l, std::span<const Operand> o, int) {
+void lowerLicence(Lowering& l, std::span<const Operand> o, int) {
   ir::Place at = place(HostCell::Licences);
   at.byte += static_cast<uint32_t>(o[0].value) / 8;
   at.bit = static_cast<uint8_t>(o[0].value % 8);
@@ -38,16 +38,16 @@ ValueId joined(ir::RungBuilder& b, int join, ValueId left, ValueId right) {
   return {};
 }
 
-void lowerJoin(StatementContext& l, std::span<const Operand> o, int kind) {
+void lowerJoin(Lowering& l, std::span<const Operand> o, int kind) {
   const ValueId rlo = l.r().rlo();
   l.r().setRlo(o[0].given() ? joined(l.b(), kind, rlo, l.contact(o[0])) : joined(l.b(), kind, l.popped(), rlo));
 }
 
-void lowerComplement(StatementContext& l, std::span<const Operand>, int) { l.r().setRlo(l.b().not_(l.r().rlo())); }
+void lowerComplement(Lowering& l, std::span<const Operand>, int) { l.r().setRlo(l.b().not_(l.r().rlo())); }
 
 // The former value: 0 before the first execution after a start, then 2 or 3. The first execution reports no edge (man.
 // l.300).
-void lowerEdge(StatementContext& l, std::span<const Operand> o, int rising) {
+void lowerEdge(Lowering& l, std::span<const Operand> o, int rising) {
   constexpr int kWasLow = 2, kWasHigh = 3;
   const ir::SlotId former = l.ownSlot(Type::I8);
   l.state.forgetAtStart(former);
@@ -58,12 +58,12 @@ void lowerEdge(StatementContext& l, std::span<const Operand> o, int rising) {
   l.r().setRlo(b.and_(was, rising ? bit : b.not_(bit)));
 }
 
-void lowerWrite(StatementContext& l, std::span<const Operand> o, int) {
+void lowerWrite(Lowering& l, std::span<const Operand> o, int) {
   const ValueId rlo = l.r().rlo();
   for (const Operand& bit : o) l.store(l.reach(bit), rlo);
 }
 
-void lowerFlag(StatementContext& l, std::span<const Operand> o, int condition) {
+void lowerFlag(Lowering& l, std::span<const Operand> o, int condition) {
   const ValueId guard = l.guardOf(condition);
   const std::vector<MemoryAccess> places = reachAll(l, o.subspan(1), guard);
   l.b().when(guard, [&] {
@@ -72,7 +72,7 @@ void lowerFlag(StatementContext& l, std::span<const Operand> o, int condition) {
   });
 }
 
-void lowerMoveBit(StatementContext& l, std::span<const Operand> o, int condition) {
+void lowerMoveBit(Lowering& l, std::span<const Operand> o, int condition) {
   const ValueId guard = l.guardOf(condition);
   const std::vector<MemoryAccess> places = reachAll(l, o, guard);
   l.b().when(guard, [&] {
@@ -82,9 +82,9 @@ void lowerMoveBit(StatementContext& l, std::span<const Operand> o, int condition
 }
 
 // CHECK is for the compiler.
-void lowerNothing(StatementContext&, std::span<const Operand>, int) {}
+void lowerNothing(Lowering&, std::span<const Operand>, int) {}
 
-void lowerJump(StatementContext& l, std::span<const Operand> o, int condition) {
+void lowerJump(Lowering& l, std::span<const Operand> o, int condition) {
   l.out().jump(l.jumpTarget(o[0]), l.guardOf(condition));
 }
 

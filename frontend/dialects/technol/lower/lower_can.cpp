@@ -18,18 +18,18 @@ constexpr int64_t kIdBits = 0x7FF;
 // Of a packet to a drive: request of service data (man. l.9203, l.9488).
 constexpr int64_t kServiceDataId = 0x600;
 
-ValueId memberOf(StatementContext& l, const Area& packet, uint32_t offset, Type type) {
+ValueId memberOf(Lowering& l, const Area& packet, uint32_t offset, Type type) {
   return l.b().zextOrTrunc(Type::I64, loadByte(l, packet, l.b().i32(offset), type));
 }
-void setMember(StatementContext& l, const Area& packet, uint32_t offset, Type type, ValueId value) {
+void setMember(Lowering& l, const Area& packet, uint32_t offset, Type type, ValueId value) {
   storeByte(l, packet, l.b().i32(offset), l.b().zextOrTrunc(type, value));
 }
-Area dataOf(StatementContext& l, const Area& packet) { return shifted(l, packet, l.b().i32(kData)); }
+Area dataOf(Lowering& l, const Area& packet) { return shifted(l, packet, l.b().i32(kData)); }
 
 } // namespace
 
 // DR says whether the queue took it (man. l.3709-3742). More than 8 bytes are 8.
-void lowerCanSend(StatementContext& l, std::span<const Operand> o, int) {
+void lowerCanSend(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Area packet = areaOf(l, o[1]);
   const ValueId length = memberOf(l, packet, kLength, Type::I8), most = b.constant(Type::I64, kDataBytes);
@@ -45,7 +45,7 @@ void lowerCanSend(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // The packet is written where one was there: DR is 0 (man. l.3743-3778).
-void lowerCanReceive(StatementContext& l, std::span<const Operand> o, int) {
+void lowerCanReceive(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Area packet = areaOf(l, o[1]);
   DeviceRequest request(l);
@@ -65,7 +65,7 @@ void lowerCanReceive(StatementContext& l, std::span<const Operand> o, int) {
 
 // CAN_RECV_REQ can, objl, [objh], idl, [idh], proc, pmsg: without an upper bound it is the lower one (man.
 // l.3814-3831).
-void lowerCanOrder(StatementContext& l, std::span<const Operand> o, int) {
+void lowerCanOrder(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   DeviceRequest request(l);
   request.addOperand(0, o[0]);
@@ -81,7 +81,7 @@ void lowerCanOrder(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // RLO is 1 for an error, and DR stays (man. l.4296-4299).
-void lowerUnitRead(StatementContext& l, std::span<const Operand> o, int) {
+void lowerUnitRead(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   for (uint32_t i = 0; i < o.size(); ++i) request.addOperand(i, o[i]);
   request.send();
@@ -90,7 +90,7 @@ void lowerUnitRead(StatementContext& l, std::span<const Operand> o, int) {
   l.r().setRlo(failed);
 }
 
-void lowerUnitWrite(StatementContext& l, std::span<const Operand> o, int) {
+void lowerUnitWrite(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   for (uint32_t i = 0; i < o.size(); ++i) request.addOperand(i, o[i]);
   request.add("val", l.r().dr(Type::I64));
@@ -99,7 +99,7 @@ void lowerUnitWrite(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // The packet's head is filled in; CAN_AX_BUSY is 0FFh until the drive has answered (man. l.9474-9493).
-void lowerDriveSend(StatementContext& l, std::span<const Operand> o, int) {
+void lowerDriveSend(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Area packet = fixedArea(l, kInterfaceSpace, l.bytesOf(kInterfaceSpace), placeOf("CAN_AX_SEND_PACKET").byte);
   DeviceRequest request(l);

@@ -8,7 +8,7 @@ using ir::Type;
 using ir::ValueId;
 
 // COM_SEND com [,val]: without the operand the low byte of DR (man. l.21063).
-void lowerComSend(StatementContext& l, std::span<const Operand> o, int) {
+void lowerComSend(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   request.addOperand(0, o[0]);
   if (o[1].given())
@@ -20,7 +20,7 @@ void lowerComSend(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // COM_RECV com [,val]: RLO is 0 where a character was there, which val or DR becomes (man. l.21138-21152).
-void lowerComReceive(StatementContext& l, std::span<const Operand> o, int) {
+void lowerComReceive(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const MemoryAccess target = o[1].given() ? l.reach(o[1]) : MemoryAccess{};
   DeviceRequest request(l);
@@ -35,7 +35,7 @@ void lowerComReceive(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // COM_CONTROL com,CLEAR|RECEIVED|STATE: the first leaves DR alone (man. l.21165-21198).
-void lowerComControl(StatementContext& l, std::span<const Operand> o, int) {
+void lowerComControl(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   request.addOperand(0, o[0]);
   request.addOperand(1, o[1]);

@@ -24,7 +24,7 @@ constexpr uint32_t kBytes = nc::kConfigurationBytes;
 // The identifier, eight characters a word.
 using Words = std::vector<ValueId>;
 
-ValueId request(StatementContext& l, Kind kind, ValueId part, const Words& id) {
+ValueId request(Lowering& l, Kind kind, ValueId part, const Words& id) {
   std::array<ValueId, kHead + kWords> args;
   args[0] = l.b().constant(Type::I64, static_cast<int64_t>(kind));
   args[1] = part;
@@ -39,7 +39,7 @@ ValueId asReal(ir::RungBuilder& b, const Operand& operand, ValueId value) {
   return operand.negated ? b.fNeg(value) : value;
 }
 
-ValueId defaultOf(StatementContext& l, Kind kind, const Operand& operand, Type type) {
+ValueId defaultOf(Lowering& l, Kind kind, const Operand& operand, Type type) {
   ir::RungBuilder& b = l.b();
   switch (kind) {
   case Kind::Real: return asReal(b, operand, l.value(operand));
@@ -58,7 +58,7 @@ ValueId resultOf(ir::RungBuilder& b, Kind kind, ValueId ticket, Type type) {
   return b.zextOrTrunc(type, word);
 }
 
-void getValue(StatementContext& l, std::span<const Operand> o, Kind kind) {
+void getValue(Lowering& l, std::span<const Operand> o, Kind kind) {
   ir::RungBuilder& b = l.b();
   const MemoryAccess target = l.reach(o[0]);
   const Words id = identifierWords(l, o[1], kWords);
@@ -77,7 +77,7 @@ void getValue(StatementContext& l, std::span<const Operand> o, Kind kind) {
 // ---- texts ----------------------------------------------------------------------------------------------------------
 
 // What the target has no room for is cut off.
-void putText(StatementContext& l, const Text& target, Kind kind, const Words& id, ValueId found) {
+void putText(Lowering& l, const Text& target, Kind kind, const Words& id, ValueId found) {
   ir::RungBuilder& b = l.b();
   const Length length{.fixed = false, .most = UINT32_MAX, .value = found};
   const ValueId count = smaller(l, length, roomOf(target)).value;
@@ -86,13 +86,13 @@ void putText(StatementContext& l, const Text& target, Kind kind, const Words& id
   if (kind != Kind::Binary) storeTerminator(l, target.area, count, b.bit(true));
 }
 
-void putDefault(StatementContext& l, const Text& target, const Text& source) {
+void putDefault(Lowering& l, const Text& target, const Text& source) {
   const Length count = smaller(l, lengthOf(l, source), roomOf(target));
   copy(l, target.area, source.area, count);
   storeTerminator(l, target.area, count.value, l.b().bit(true));
 }
 
-void getText(StatementContext& l, std::span<const Operand> o, Kind kind) {
+void getText(Lowering& l, std::span<const Operand> o, Kind kind) {
   const Text target = textOf(l, o[0]);
   const Words id = identifierWords(l, o[1], kWords);
   const Text source = o[2].given() ? textOf(l, o[2]) : Text{};
@@ -109,7 +109,7 @@ void getText(StatementContext& l, std::span<const Operand> o, Kind kind) {
 } // namespace
 
 // CNF_GET_xx target, identifier [, default] and CONST_GET cell, identifier: RLO says whether it was found.
-void lowerConfiguration(StatementContext& l, std::span<const Operand> o, int kind) {
+void lowerConfiguration(Lowering& l, std::span<const Operand> o, int kind) {
   const auto wanted = static_cast<Kind>(kind);
   if (wanted != Kind::Text && wanted != Kind::Binary) return getValue(l, o, wanted);
   inOwnRung(l, anyIsLong(o), [&] { getText(l, o, wanted); });

@@ -1,6 +1,6 @@
 // Timers and counters (man. ch. 3.11).
-#include "frontend/dialects/technol/lower/context.h"
 #include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/dialects/technol/lower/lowering.h"
 #include "frontend/lower/edge.h"
 
 namespace rung::frontend::technol {
@@ -9,7 +9,7 @@ using ir::Type;
 using ir::ValueId;
 
 // RLO = 0 clears the count; else it counts up to the preset in DR, and RLO says that it is there (man. l.884-916).
-void lowerTimer(StatementContext& l, std::span<const Operand> o, int) {
+void lowerTimer(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const CountCell cell = l.countCell(o[0]);
   const ValueId rlo = l.r().rlo();
@@ -30,7 +30,7 @@ void lowerTimer(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // Counts on 0 -> 1 of RLO; then RLO says whether the count is the preset in DR, and DR is the count (man. l.955-977).
-void lowerCounter(StatementContext& l, std::span<const Operand> o, int kind) {
+void lowerCounter(Lowering& l, std::span<const Operand> o, int kind) {
   ir::RungBuilder& b = l.b();
   const CountCell cell = l.countCell(o[0]);
   const ir::SlotId former = l.ownSlot(Type::Bit);

@@ -1,6 +1,6 @@
 // Data instructions (man. ch. 3.9-3.16).
-#include "frontend/dialects/technol/lower/context.h"
 #include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/dialects/technol/lower/lowering.h"
 #include "ir/core/ops.h"
 #include "rtlib/nc/faults.h"
 
@@ -15,7 +15,7 @@ namespace {
 Type widthOf(const Operand& operand) { return operand.given() ? operand.type : Type::I16; }
 
 // A result that is not a number, or a division by zero, is the coprocessor's error.
-ValueId checkedReal(StatementContext& l, ValueId result, ValueId divisor = {}) {
+ValueId checkedReal(Lowering& l, ValueId result, ValueId divisor = {}) {
   ir::RungBuilder& b = l.b();
   ValueId bad = b.not_(b.fEq(result, result));
   if (divisor.valid()) bad = b.or_(bad, b.fEq(divisor, b.real(0)));
@@ -23,7 +23,7 @@ ValueId checkedReal(StatementContext& l, ValueId result, ValueId divisor = {}) {
   return result;
 }
 
-void realArithmetic(StatementContext& l, const Operand& operand, int operation) {
+void realArithmetic(Lowering& l, const Operand& operand, int operation) {
   constexpr OpCode kOps[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
   const ValueId right = l.value(operand);
   const ValueId result = l.b().op(kOps[operation], Type::F64, {l.r().real(), right});
@@ -33,7 +33,7 @@ void realArithmetic(StatementContext& l, const Operand& operand, int operation) 
 // Twice as wide, up to 64 bits: what a product or a dividend takes (man. l.1091-1132).
 Type doubled(Type type) { return type == Type::I8 ? Type::I16 : type == Type::I16 ? Type::I32 : Type::I64; }
 
-void multiply(StatementContext& l, const Operand& operand) {
+void multiply(Lowering& l, const Operand& operand) {
   ir::RungBuilder& b = l.b();
   const ValueId right = l.value(operand);
   const Type wide = doubled(operand.type);
@@ -42,7 +42,7 @@ void multiply(StatementContext& l, const Operand& operand) {
 }
 
 // 8, 16 and 32 bit divisors divide 16, 32 and 64 bits of DR; the quotient must fit 32 bits (man. l.1110-1132, l.5354).
-void divide(StatementContext& l, const Operand& operand) {
+void divide(Lowering& l, const Operand& operand) {
   ir::RungBuilder& b = l.b();
   const ValueId right = b.sextOrTrunc(Type::I64, l.value(operand));
   const ValueId left = b.sextOrTrunc(Type::I64, l.r().dr(doubled(operand.type)));
@@ -52,13 +52,13 @@ void divide(StatementContext& l, const Operand& operand) {
   l.r().setDr(quotient);
 }
 
-void storeIf(StatementContext& l, ValueId guard, const MemoryAccess& access, ValueId value) {
+void storeIf(Lowering& l, ValueId guard, const MemoryAccess& access, ValueId value) {
   l.b().when(guard, [&] { l.store(access, value); });
 }
 
 } // namespace
 
-void lowerLoad(StatementContext& l, std::span<const Operand> o, int) {
+void lowerLoad(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const ValueId value = l.value(o[0]);
   if (o[0].isReal())
@@ -69,13 +69,13 @@ void lowerLoad(StatementContext& l, std::span<const Operand> o, int) {
     l.r().setDr(b.neg(b.sextOrTrunc(Type::I64, value)));
 }
 
-void lowerStore(StatementContext& l, std::span<const Operand> o, int condition) {
+void lowerStore(Lowering& l, std::span<const Operand> o, int condition) {
   const ValueId guard = l.guardOf(condition);
   const ValueId value = o[0].isReal() ? l.r().real() : l.r().dr(o[0].type);
   storeIf(l, guard, l.reach(o[0], guard), value);
 }
 
-void lowerMove(StatementContext& l, std::span<const Operand> o, int condition) {
+void lowerMove(Lowering& l, std::span<const Operand> o, int condition) {
   // A REAL is moved as its 64 bits.
   const Type type = o[0].isReal() ? Type::I64 : o[0].type;
   const ValueId guard = l.guardOf(condition);
@@ -83,7 +83,7 @@ void lowerMove(StatementContext& l, std::span<const Operand> o, int condition) {
   storeIf(l, guard, to, l.load(from, type));
 }
 
-void lowerArithmetic(StatementContext& l, std::span<const Operand> o, int operation) {
+void lowerArithmetic(Lowering& l, std::span<const Operand> o, int operation) {
   if (o[0].isReal()) return realArithmetic(l, o[0], operation);
   if (operation == kMultiply) return multiply(l, o[0]);
   if (operation == kDivide) return divide(l, o[0]);
@@ -92,13 +92,13 @@ void lowerArithmetic(StatementContext& l, std::span<const Operand> o, int operat
   l.r().setDrPart(operation == kAdd ? l.b().add(left, right) : l.b().sub(left, right));
 }
 
-void lowerBitwise(StatementContext& l, std::span<const Operand> o, int kind) {
+void lowerBitwise(Lowering& l, std::span<const Operand> o, int kind) {
   const ValueId right = l.value(o[0]);
   l.r().setDrPart(joined(l.b(), kind, l.r().dr(o[0].type), right));
 }
 
 // EQ1 compares only while RLO is 1, and leaves it 0 otherwise (man. l.1404).
-void lowerCompare(StatementContext& l, std::span<const Operand> o, int relation) {
+void lowerCompare(Lowering& l, std::span<const Operand> o, int relation) {
   const ValueId rlo = relation == kEqualIfRlo ? l.r().rlo() : ValueId{};
   const ValueId right = l.value(o[0], rlo);
   const ValueId left = o[0].isReal() ? l.r().real() : l.r().dr(o[0].type);
@@ -106,7 +106,7 @@ void lowerCompare(StatementContext& l, std::span<const Operand> o, int relation)
   l.r().setRlo(rlo.valid() ? l.b().and_(rlo, result) : result);
 }
 
-void lowerUnary(StatementContext& l, std::span<const Operand> o, int operation) {
+void lowerUnary(Lowering& l, std::span<const Operand> o, int operation) {
   ir::RungBuilder& b = l.b();
   const Type type = widthOf(o[0]);
   if (type == Type::F64) {
@@ -128,14 +128,14 @@ void lowerUnary(StatementContext& l, std::span<const Operand> o, int operation) 
 }
 
 // 0..9999 in 16 bits; after 9999 comes 0 (man. l.1225).
-void lowerIncrementBcd(StatementContext& l, std::span<const Operand>, int) {
+void lowerIncrementBcd(Lowering& l, std::span<const Operand>, int) {
   ir::RungBuilder& b = l.b();
   const ValueId next = b.add(b.bcdDecode(l.r().dr(Type::I16)), b.constant(Type::I16, 1));
   l.r().setDrPart(b.bcdEncode(next));
 }
 
 // With DWRD bit 31 marks a negative number, the other bits are its magnitude (man. l.1250).
-void lowerBin(StatementContext& l, std::span<const Operand> o, int) {
+void lowerBin(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Type type = widthOf(o[0]);
   const ValueId x = l.r().dr(type);
@@ -144,12 +144,12 @@ void lowerBin(StatementContext& l, std::span<const Operand> o, int) {
   l.r().setDrPart(b.select(b.ltS(x, b.constant(type, 0)), b.neg(magnitude), magnitude));
 }
 
-void lowerBcd(StatementContext& l, std::span<const Operand> o, int) {
+void lowerBcd(Lowering& l, std::span<const Operand> o, int) {
   const Type type = widthOf(o[0]);
   l.r().setDrPart(l.b().bcdEncode(l.r().dr(type)));
 }
 
-void lowerShift(StatementContext& l, std::span<const Operand> o, int right) {
+void lowerShift(Lowering& l, std::span<const Operand> o, int right) {
   ir::RungBuilder& b = l.b();
   const Type type = widthOf(o[1]);
   const ValueId count = b.zextOrTrunc(Type::I32, l.value(o[0]));
@@ -157,13 +157,13 @@ void lowerShift(StatementContext& l, std::span<const Operand> o, int right) {
 }
 
 // The integer is sign-extended to 64 bits first and stays in DR (man. l.1511).
-void lowerToReal(StatementContext& l, std::span<const Operand> o, int) {
+void lowerToReal(Lowering& l, std::span<const Operand> o, int) {
   const ValueId whole = l.b().sextOrTrunc(Type::I64, l.r().dr(widthOf(o[0])));
   l.r().setReal(l.b().intToF(whole));
   l.r().setDr(whole);
 }
 
-void lowerDrToRlo(StatementContext& l, std::span<const Operand> o, int) {
+void lowerDrToRlo(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   if (o[0].form == Operand::Form::Integer) {
     const ValueId low = l.r().dr(Type::I32);
@@ -175,11 +175,9 @@ void lowerDrToRlo(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // FFFFh or FFFFFFFFh for 1; the bits above follow the sign.
-void lowerRloToDr(StatementContext& l, std::span<const Operand>, int) {
-  l.r().setDr(l.b().sext(Type::I64, l.r().rlo()));
-}
+void lowerRloToDr(Lowering& l, std::span<const Operand>, int) { l.r().setDr(l.b().sext(Type::I64, l.r().rlo())); }
 
-void lowerMovBx(StatementContext& l, std::span<const Operand>, int) {
+void lowerMovBx(Lowering& l, std::span<const Operand>, int) {
   l.r().setBx(l.b().zextOrTrunc(Type::I32, l.r().dr(Type::I16)));
 }
 

@@ -43,7 +43,7 @@ void fill(ir::RungBuilder& b, const Operand& target, uint32_t count, ValueId val
   b.endLoop();
 }
 
-void fillText(StatementContext& l, const Operand& target, const Operand& given) {
+void fillText(Lowering& l, const Operand& target, const Operand& given) {
   ir::RungBuilder& b = l.b();
   ir::Place at = target.place;
   for (const char c : given.text.substr(0, target.size - 1)) {
@@ -59,8 +59,7 @@ ExchangePeriod periodOf(ExchangeKind kind, const Operand& given) {
 }
 
 // A value of the configuration goes before the instruction's own; without both the variable stays.
-void setDefault(StatementContext& l, const Exchanged& variable, const Operand& target, const Operand& given,
-                ValueId ticket) {
+void setDefault(Lowering& l, const Exchanged& variable, const Operand& target, const Operand& given, ValueId ticket) {
   ir::RungBuilder& b = l.b();
   if (variable.type == ExchangeType::Text && given.given()) return fillText(l, target, given);
   if (nc::isText(variable.type)) return;
@@ -74,7 +73,7 @@ void setDefault(StatementContext& l, const Exchanged& variable, const Operand& t
 } // namespace
 
 // MAP_xx variable, identifier [, default [, FAST]] and DEF_xx variable, identifier, type [, default [, period]].
-void lowerDefine(StatementContext& l, std::span<const Operand> o, int) {
+void lowerDefine(Lowering& l, std::span<const Operand> o, int) {
   const Exchanged& variable = l.program().exchanged[o[0].index];
   const bool mapped = nc::isMapped(variable.kind);
   const Operand& given = o[mapped ? 2 : 3];
@@ -91,7 +90,7 @@ void lowerDefine(StatementContext& l, std::span<const Operand> o, int) {
 namespace {
 
 // One element, which begins `offset` bytes after the variable's place.
-void takeElement(StatementContext& l, const Operand& target, uint32_t offset) {
+void takeElement(Lowering& l, const Operand& target, uint32_t offset) {
   ir::RungBuilder& b = l.b();
   ir::Place at = target.place;
   at.byte += offset;
@@ -103,7 +102,7 @@ void takeElement(StatementContext& l, const Operand& target, uint32_t offset) {
 } // namespace
 
 // UPDATE_IN input or input[i]: also the outputs of this program that are connected to it, as they are now.
-void lowerUpdate(StatementContext& l, std::span<const Operand> o, int) {
+void lowerUpdate(Lowering& l, std::span<const Operand> o, int) {
   const Exchanged& variable = l.program().exchanged[o[0].index];
   const uint32_t bytes = nc::bytesOf(variable.type);
   const auto first = static_cast<uint32_t>(std::max<int64_t>(o[0].value, 0));

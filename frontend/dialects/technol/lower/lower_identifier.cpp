@@ -22,7 +22,7 @@ ValueId quotedWord(ir::RungBuilder& b, std::string_view text) {
 }
 
 // Characters `first` to `first` + `count`.
-ValueId loadedWord(StatementContext& l, const Text& text, uint32_t first, uint32_t count) {
+ValueId loadedWord(Lowering& l, const Text& text, uint32_t first, uint32_t count) {
   ir::RungBuilder& b = l.b();
   const auto in = b.loop(count, std::array{b.constant(Type::I64, 0)});
   const ValueId number = b.add(in[0], b.i32(first));
@@ -35,7 +35,7 @@ ValueId loadedWord(StatementContext& l, const Text& text, uint32_t first, uint32
 
 } // namespace
 
-std::vector<ValueId> identifierWords(StatementContext& l, const Operand& id, uint32_t words) {
+std::vector<ValueId> identifierWords(Lowering& l, const Operand& id, uint32_t words) {
   ir::RungBuilder& b = l.b();
   std::vector<ValueId> made;
   const bool quoted = id.form == Operand::Form::Text;
@@ -51,7 +51,7 @@ std::vector<ValueId> identifierWords(StatementContext& l, const Operand& id, uin
   return made;
 }
 
-ValueId defineRequest(StatementContext& l, std::span<const ValueId> head, const Operand& id) {
+ValueId defineRequest(Lowering& l, std::span<const ValueId> head, const Operand& id) {
   std::vector<ValueId> args(head.begin(), head.end());
   const auto words = identifierWords(l, id, nc::kDefineWords);
   args.insert(args.end(), words.begin(), words.end());

@@ -1,6 +1,6 @@
 // States of mechanisms and of the block modules (man. ch. 4; §11.2 of the inventory has the formulas).
-#include "frontend/dialects/technol/lower/context.h"
 #include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/dialects/technol/lower/lowering.h"
 
 namespace rung::frontend::technol {
 
@@ -10,25 +10,25 @@ using ir::ValueId;
 namespace {
 
 // While the condition fails the unit is left without moving its continuation; the line shows which step it has reached.
-ValueId waits(StatementContext& l, int level) { return level == 0 ? l.b().not_(l.r().rlo()) : l.r().rlo(); }
+ValueId waits(Lowering& l, int level) { return level == 0 ? l.b().not_(l.r().rlo()) : l.r().rlo(); }
 
 // The time in the width of the count: the wait ends at the latest when the count can go no further.
-ValueId timeFor(StatementContext& l, const CountCell& cell, const Operand& operand) {
+ValueId timeFor(Lowering& l, const CountCell& cell, const Operand& operand) {
   const ValueId time = l.b().zextOrTrunc(Type::I32, l.value(operand));
   if (cell.type != Type::I8 || operand.isConstant()) return time;
   const ValueId most = l.b().i32(UINT8_MAX);
   return l.b().select(l.b().ltU(most, time), most, time);
 }
 
-void showLineIf(StatementContext& l, const Sequence& sequence, ValueId cond) {
+void showLineIf(Lowering& l, const Sequence& sequence, ValueId cond) {
   l.b().when(cond, [&] { l.sequences.storeLine(sequence, l.statement().line); });
 }
 
 } // namespace
 
-void lowerMechInit(StatementContext& l, std::span<const Operand> o, int) { l.sequences.initialise(o[0].index); }
+void lowerMechInit(Lowering& l, std::span<const Operand> o, int) { l.sequences.initialise(o[0].index); }
 
-void lowerEx(StatementContext& l, std::span<const Operand>, int) {
+void lowerEx(Lowering& l, std::span<const Operand>, int) {
   Sequence& s = l.sequences.current();
   const uint32_t next = l.sequences.newState(s);
   l.sequences.storeState(s, l.b().i32(next));
@@ -37,14 +37,14 @@ void lowerEx(StatementContext& l, std::span<const Operand>, int) {
   l.out().bind(s.states[next]);
 }
 
-void lowerBex(StatementContext& l, std::span<const Operand>, int) {
+void lowerBex(Lowering& l, std::span<const Operand>, int) {
   Sequence& s = l.sequences.current();
   const uint32_t next = l.sequences.newState(s);
   l.sequences.storeState(s, l.b().i32(next));
   l.out().bind(s.states[next]);
 }
 
-void lowerExWhile(StatementContext& l, std::span<const Operand>, int level) {
+void lowerExWhile(Lowering& l, std::span<const Operand>, int level) {
   Sequence& s = l.sequences.current();
   const uint32_t next = l.sequences.newState(s);
   const ValueId wait = waits(l, level);
@@ -55,7 +55,7 @@ void lowerExWhile(StatementContext& l, std::span<const Operand>, int level) {
 }
 
 // TEX: at the t-th failure control goes to the error label, with the code in DR if there is one (man. l.2107-2131).
-void lowerTimedEx(StatementContext& l, std::span<const Operand> o, int level) {
+void lowerTimedEx(Lowering& l, std::span<const Operand> o, int level) {
   Sequence& s = l.sequences.current();
   const uint32_t error = l.jumpTarget(o[2]);
   ir::RungBuilder& b = l.b();
@@ -77,7 +77,7 @@ void lowerTimedEx(StatementContext& l, std::span<const Operand> o, int level) {
 }
 
 // TIM: the continuation is the instruction itself while the time runs (§11.2).
-void lowerWait(StatementContext& l, std::span<const Operand> o, int) {
+void lowerWait(Lowering& l, std::span<const Operand> o, int) {
   Sequence& s = l.sequences.current();
   const CountCell arriving = l.countCell(o[0]);
   if (!arriving.access.indexed) s.cells.push_back(arriving);

@@ -1,6 +1,6 @@
 // Messages: ESET, ESET1, EDEF (man. ch. 14.3).
-#include "frontend/dialects/technol/lower/context.h"
 #include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/dialects/technol/lower/lowering.h"
 #include "frontend/dialects/technol/lower/message_parts.h"
 #include "rtlib/nc/technol/messages.h"
 
@@ -28,7 +28,7 @@ void showOrRemove(ir::RungBuilder& b, const MessageParts& m, ValueId set) {
 
 // ESET [error],[subid],[set],[par1],[par2],[par3]; the number is in DR where it is not given (man. l.5086-5130).
 // _ON_ESET is called with the number in DR when a message comes up, not when one is removed (man. l.1609, l.5132).
-void lowerMessage(StatementContext& l, std::span<const Operand> o, int condition) {
+void lowerMessage(Lowering& l, std::span<const Operand> o, int condition) {
   ir::RungBuilder& b = l.b();
   const ValueId word = o[0].given() ? b.zextOrTrunc(Type::I16, l.value(o[0])) : l.r().dr(Type::I16);
   const ValueId number = b.zextOrTrunc(Type::I32, word);
@@ -58,7 +58,7 @@ constexpr uint32_t kMostEntries = 64; // of one EDEF
 
 // EDEF [val],bit,error,[subid],mod,[par1],[par2],[par3] (man. l.5192-5260). Carried out again it is the same message
 // while number and addresses are the same, else one more.
-void lowerBitMessage(StatementContext& l, std::span<const Operand> o, int) {
+void lowerBitMessage(Lowering& l, std::span<const Operand> o, int) {
   BitMessage message;
   message.statement = &l.statement();
   message.mode = static_cast<uint32_t>(o[4].value);

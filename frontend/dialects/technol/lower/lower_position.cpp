@@ -31,7 +31,7 @@ ValueId withBits(ir::RungBuilder& b, ValueId byte, ValueId mask, ValueId bits) {
 }
 
 // In the record that the last POS_MODE of the axis named, whichever memory it lies in.
-void writeKept(StatementContext& l, ValueId axis, ValueId mask, ValueId bits) {
+void writeKept(Lowering& l, ValueId axis, ValueId mask, ValueId bits) {
   ir::RungBuilder& b = l.b();
   const KeptRecord kept = keptOf(b, axis);
   const ValueId record = b.loadAt(Type::I64, kept.window, kept.index);
@@ -51,7 +51,7 @@ void writeKept(StatementContext& l, ValueId axis, ValueId mask, ValueId bits) {
 
 // POS_MODE control,len,accel,axis: the initiator is started, the motion not yet allowed (man. l.12205-12238). What the
 // unit refuses leaves the record alone, and the former one stays that of POS_CONTROL.
-void lowerPositionMode(StatementContext& l, std::span<const Operand> o, int) {
+void lowerPositionMode(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Area record = areaOf(l, o[0]);
   DeviceRequest request(l);
@@ -71,7 +71,7 @@ void lowerPositionMode(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // POS_CONTROL status,feed,[mp],axis: without mp the motion is allowed (inventory of the services, 6).
-void lowerPositionControl(StatementContext& l, std::span<const Operand> o, int) {
+void lowerPositionControl(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Area status = areaOf(l, o[0]);
   const ValueId allowed = o[2].given() ? l.bit(o[2]) : b.bit(true);

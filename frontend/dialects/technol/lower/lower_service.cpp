@@ -25,7 +25,7 @@ struct Given {
 };
 
 // Where `guard` is 1, more bytes than the data have from there on stop the program.
-ValueId lengthOf(StatementContext& l, const Given& given, const DeviceTarget& data, ValueId guard) {
+ValueId lengthOf(Lowering& l, const Given& given, const DeviceTarget& data, ValueId guard) {
   const Operand* length = lengthIn(given.infos, given.operands);
   if (length == nullptr) return data.room();
   const ValueId count = l.b().zextOrTrunc(Type::I32, l.value(*length, guard));
@@ -36,7 +36,7 @@ ValueId lengthOf(StatementContext& l, const Given& given, const DeviceTarget& da
   return count;
 }
 
-void addArguments(StatementContext& l, DeviceRequest& request, const Given& given, DataForm form, ValueId guard) {
+void addArguments(Lowering& l, DeviceRequest& request, const Given& given, DataForm form, ValueId guard) {
   for (uint32_t i = 0; i < given.operands.size(); ++i) {
     const OperandInfo& info = given.infos[i];
     if (!isRead(info)) continue;
@@ -65,7 +65,7 @@ void store(DeviceRequest& request, ValueId ticket, const Given& given, DataForm 
 }
 
 // `guard`: the operands count; not valid: in every run.
-Given givenTo(StatementContext& l, std::span<const Operand> operands, DataForm form, ValueId guard) {
+Given givenTo(Lowering& l, std::span<const Operand> operands, DataForm form, ValueId guard) {
   Given given{.infos = l.statement().row->info.operands.all(), .operands = operands, .targets = {}};
   given.targets.resize(operands.size());
   for (uint32_t i = 0; i < operands.size(); ++i) {
@@ -82,7 +82,7 @@ Given givenTo(StatementContext& l, std::span<const Operand> operands, DataForm f
 
 // ECAT_COMMAND without Val and Len whose command lies in a cell: the code where it asks for a state, which has no place
 // to go to (man. l.18231); else 0. The command is the one of the run in which it was asked.
-ValueId codeWithoutPlace(StatementContext& l, const Given& given, ValueId isNew) {
+ValueId codeWithoutPlace(Lowering& l, const Given& given, ValueId isNew) {
   ir::RungBuilder& b = l.b();
   const Operand* command = nullptr;
   for (size_t i = 0; i < given.operands.size(); ++i) {
@@ -100,7 +100,7 @@ ValueId codeWithoutPlace(StatementContext& l, const Given& given, ValueId isNew)
 }
 
 // Where the unit continues until the instruction is answered: at itself.
-void continueHere(StatementContext& l) {
+void continueHere(Lowering& l) {
   Sequence& s = l.sequences.current();
   const uint32_t here = l.sequences.newState(s);
   l.sequences.storeState(s, l.b().i32(here));
@@ -110,7 +110,7 @@ void continueHere(StatementContext& l) {
 } // namespace
 
 // Results are RLO and DR as the row's effects say.
-void lowerService(StatementContext& l, std::span<const Operand> o, int form) {
+void lowerService(Lowering& l, std::span<const Operand> o, int form) {
   const uint16_t effects = l.statement().row->effects;
   const auto data = static_cast<DataForm>(form);
   DeviceRequest request(l);
@@ -122,7 +122,7 @@ void lowerService(StatementContext& l, std::span<const Operand> o, int form) {
 
 // PLCT_*, ECAT_*: one request of this place at a time, whose answer is there in the next run at the earliest. Operands
 // are read when it is made; what is written is the place that they named then.
-void lowerPolled(StatementContext& l, std::span<const Operand> o, int form) {
+void lowerPolled(Lowering& l, std::span<const Operand> o, int form) {
   continueHere(l);
   ir::RungBuilder& b = l.b();
   const ir::SlotId slot = l.ownSlot(Type::I32);
@@ -150,7 +150,7 @@ void lowerPolled(StatementContext& l, std::span<const Operand> o, int form) {
 }
 
 // SA_READ, SA_WRITE: done in the same run unless the area is locked; then asked anew (man. l.15547-15561).
-void lowerShared(StatementContext& l, std::span<const Operand> o, int form) {
+void lowerShared(Lowering& l, std::span<const Operand> o, int form) {
   continueHere(l);
   const auto data = static_cast<DataForm>(form);
   const Given given = givenTo(l, o, data, {});

@@ -16,7 +16,7 @@ using nc::ExchangeType;
 namespace {
 
 // Where an operand lies, as an argument; BX is taken now.
-ValueId placeOf(StatementContext& l, const Operand& operand, uint32_t bit) {
+ValueId placeOf(Lowering& l, const Operand& operand, uint32_t bit) {
   const MemoryAccess access = l.reach(operand);
   ir::RungBuilder& b = l.b();
   const ir::Place at = operand.place;
@@ -27,11 +27,11 @@ ValueId placeOf(StatementContext& l, const Operand& operand, uint32_t bit) {
   return b.or_(shifted, b.constant(Type::I64, nc::placeArgument(at.space.index, 0, bit)));
 }
 
-ValueId limit(StatementContext& l, const Operand& cell) {
+ValueId limit(Lowering& l, const Operand& cell) {
   return cell.given() ? placeOf(l, cell, 0) : l.b().constant(Type::I64, nc::kNoPlace);
 }
 
-void share(StatementContext& l, int64_t what, const Operand& id, std::array<ValueId, 3> places) {
+void share(Lowering& l, int64_t what, const Operand& id, std::array<ValueId, 3> places) {
   ir::RungBuilder& b = l.b();
   const ValueId head[] = {b.constant(Type::I64, what), places[0], places[1], places[2]};
   const ValueId ticket = defineRequest(l, head, id);
@@ -41,7 +41,7 @@ void share(StatementContext& l, int64_t what, const Operand& id, std::array<Valu
 } // namespace
 
 // SHARE_VAR variable, name, type [, least [, most]] or text, name, type [, length].
-void lowerShareVariable(StatementContext& l, std::span<const Operand> o, int) {
+void lowerShareVariable(Lowering& l, std::span<const Operand> o, int) {
   const ExchangeType type = nc::exchangeTypeOf(o[2].value);
   const bool text = nc::isText(type);
   const uint32_t count = !text ? 1 : o[3].given() ? static_cast<uint32_t>(o[3].value) : o[0].size;
@@ -50,7 +50,7 @@ void lowerShareVariable(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // SHARE_BIT byte, name, bit
-void lowerShareBit(StatementContext& l, std::span<const Operand> o, int) {
+void lowerShareBit(Lowering& l, std::span<const Operand> o, int) {
   const std::array<ValueId, 3> places = {placeOf(l, o[0], o[2].place.bit), limit(l, {}), limit(l, {})};
   share(l, nc::exchangeArgument(ExchangeKind::Bit, ExchangeType::Bit, ExchangePeriod::Slow, 1), o[1], places);
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr int64_t kPorts = 16; // of analogue outputs (man. l.7730)
 
 // The output is there at once (inventory of the services, 4): the answer says which port becomes what.
-void storeOutput(StatementContext& l, DeviceRequest& request) {
+void storeOutput(Lowering& l, DeviceRequest& request) {
   ir::RungBuilder& b = l.b();
   const nc::Signal& outputs = interfaceSignal("SU_OUT_PLC");
   const ValueId number = b.sub(request.result("port"), b.constant(Type::I64, 1));
@@ -25,7 +25,7 @@ void storeOutput(StatementContext& l, DeviceRequest& request) {
 }
 
 // Without an operand the value is in DR, of 16 bits (man. l.7776).
-void addValue(StatementContext& l, DeviceRequest& request, const Operand& value) {
+void addValue(Lowering& l, DeviceRequest& request, const Operand& value) {
   if (value.given())
     request.addOperand(0, value);
   else
@@ -35,7 +35,7 @@ void addValue(StatementContext& l, DeviceRequest& request, const Operand& value)
 } // namespace
 
 // The port is that of ANALOG until the next one, in all modules (man. l.7730, l.7783).
-void lowerAnalogPort(StatementContext& l, std::span<const Operand> o, int) {
+void lowerAnalogPort(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   DeviceRequest request(l);
   const ValueId port = request.addOperand(0, o[0]);
@@ -46,7 +46,7 @@ void lowerAnalogPort(StatementContext& l, std::span<const Operand> o, int) {
 
 // ANALOG [val] to the port, ANALOG val|-, axis [,spi] to a spindle. Before the first ANALOG_PORT there is no port, and
 // nothing happens.
-void lowerAnalog(StatementContext& l, std::span<const Operand> o, int) {
+void lowerAnalog(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   DeviceRequest request(l);
   addValue(l, request, o[0]);
@@ -65,7 +65,7 @@ void lowerAnalog(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // ANALOG_SPI val|-, axis
-void lowerAnalogSpindle(StatementContext& l, std::span<const Operand> o, int) {
+void lowerAnalogSpindle(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   addValue(l, request, o[0]);
   request.addOperand(1, o[1]);
@@ -74,7 +74,7 @@ void lowerAnalogSpindle(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // A spindle that is switched off has the output 0 (man. l.7984).
-void lowerToSpindle(StatementContext& l, std::span<const Operand> o, int) {
+void lowerToSpindle(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   for (uint32_t i = 0; i < o.size(); ++i) request.addOperand(i, o[i]);
   request.send();
@@ -83,7 +83,7 @@ void lowerToSpindle(StatementContext& l, std::span<const Operand> o, int) {
 
 // POLOHV_x is 1 until the axis has been positioned; 0 written there ends it (man. l.7964-7973). Where nobody positions
 // axes it stays 0, so that no program waits for ever.
-void lowerToAxis(StatementContext& l, std::span<const Operand> o, int) {
+void lowerToAxis(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   DeviceRequest request(l);
   ValueId axis;
@@ -96,7 +96,7 @@ void lowerToAxis(StatementContext& l, std::span<const Operand> o, int) {
 
 // One step of val towards DR in val's width; DR becomes val (man. l.8274-8299). The difference of two numbers of a
 // width fits the width without a sign.
-void lowerRamp(StatementContext& l, std::span<const Operand> o, int) {
+void lowerRamp(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Type type = o[0].type;
   const MemoryAccess access = l.reach(o[0]);

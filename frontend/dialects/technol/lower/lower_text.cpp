@@ -1,6 +1,6 @@
 // MV, CLEAR and texts (man. ch. 3.15, 3.18).
-#include "frontend/dialects/technol/lower/context.h"
 #include "frontend/dialects/technol/lower/lower.h"
+#include "frontend/dialects/technol/lower/lowering.h"
 #include "frontend/dialects/technol/lower/texts.h"
 
 namespace rung::frontend::technol {
@@ -16,7 +16,7 @@ struct Side {
   ValueId room;
 };
 
-ValueId byteOf(StatementContext& l, const Side& side, ValueId i) {
+ValueId byteOf(Lowering& l, const Side& side, ValueId i) {
   ir::RungBuilder& b = l.b();
   const ValueId zero = b.constant(Type::I8, 0);
   if (side.area.bytes == 0) return zero;
@@ -25,7 +25,7 @@ ValueId byteOf(StatementContext& l, const Side& side, ValueId i) {
 }
 
 // Two areas compared byte by byte. A common 0 ends texts.
-void compare(StatementContext& l, const Side& left, const Side& right, const Length& count, bool texts) {
+void compare(Lowering& l, const Side& left, const Side& right, const Length& count, bool texts) {
   ir::RungBuilder& b = l.b();
   if (count.most == 0) return l.r().setRlo(b.bit(true));
   const auto pass = [&](ValueId i, ValueId equalSoFar, ValueId goesOn) {
@@ -39,7 +39,7 @@ void compare(StatementContext& l, const Side& left, const Side& right, const Len
 }
 
 // Copies what is there and clears what is not.
-void copyInside(StatementContext& l, const Area& to, const Area& from, const Length& count) {
+void copyInside(Lowering& l, const Area& to, const Area& from, const Length& count) {
   const Length exist = inside(l, from, count);
   copy(l, to, from, exist);
   if (exist.most < count.most) clear(l, shifted(l, to, exist.value), fixedCount(l, count.most - exist.most));
@@ -48,7 +48,7 @@ void copyInside(StatementContext& l, const Area& to, const Area& from, const Len
 } // namespace
 
 // The source comes first (man. l.1484, l.13540; one example has it the other way round).
-void lowerMoveMemory(StatementContext& l, std::span<const Operand> o, int) {
+void lowerMoveMemory(Lowering& l, std::span<const Operand> o, int) {
   const bool isLong = !o[2].isConstant() || o[2].value > kManyPasses;
   inOwnRung(l, isLong, [&] {
     const Length count = countOf(l, o[2]);
@@ -58,7 +58,7 @@ void lowerMoveMemory(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // From the first address up to the second, which is not cleared.
-void lowerClear(StatementContext& l, std::span<const Operand> o, int) {
+void lowerClear(Lowering& l, std::span<const Operand> o, int) {
   if (o[0].form == Operand::Form::Keyword) return l.clears.call(o[0].value == 0);
   l.out().cut();
   const Area begin = areaOf(l, o[0]), end = areaOf(l, o[1]);
@@ -74,7 +74,7 @@ void lowerClear(StatementContext& l, std::span<const Operand> o, int) {
 
 // Ends with the terminator, which is copied too, where the target is full, or after `num` characters (man.
 // l.1720-1744). A source without a terminator has as many characters as it holds.
-void lowerCopyText(StatementContext& l, std::span<const Operand> o, int) {
+void lowerCopyText(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l, anyIsLong(o), [&] {
     const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     ir::RungBuilder& b = l.b();
@@ -92,7 +92,7 @@ void lowerCopyText(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // The joined text is cut where the target is full (man. l.1746).
-void lowerAddText(StatementContext& l, std::span<const Operand> o, int) {
+void lowerAddText(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l, anyIsLong(o), [&] {
     const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     ir::RungBuilder& b = l.b();
@@ -105,7 +105,7 @@ void lowerAddText(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // As many digits as the text has characters, the last ones of the number (man. l.1826).
-void lowerNumberToText(StatementContext& l, std::span<const Operand> o, int bcd) {
+void lowerNumberToText(Lowering& l, std::span<const Operand> o, int bcd) {
   const Text text = textOf(l, o[0]);
   ir::RungBuilder& b = l.b();
   ValueId rest = b.zextOrTrunc(Type::I64, l.r().dr(o[1].given() ? Type::I32 : Type::I16));
@@ -119,7 +119,7 @@ void lowerNumberToText(StatementContext& l, std::span<const Operand> o, int bcd)
 }
 
 // Up to a difference, a common terminator or `num` characters; the second text with its terminator (man. l.1860-1870).
-void lowerCompareText(StatementContext& l, std::span<const Operand> o, int) {
+void lowerCompareText(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l, anyIsLong(o), [&] {
     const Text left = textOf(l, o[0]), right = textOf(l, o[1]);
     const Length whole = fixedCount(l, right.most + 1);
@@ -129,7 +129,7 @@ void lowerCompareText(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // Terminators are bytes as any other; without `num` until the target is full (man. l.1911-1925).
-void lowerCopyBytes(StatementContext& l, std::span<const Operand> o, int) {
+void lowerCopyBytes(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l, anyIsLong(o), [&] {
     const Text to = textOf(l, o[0]), from = textOf(l, o[1]);
     const Length count = o[2].given() ? smaller(l, roomOf(to), countOf(l, o[2])) : roomOf(to);
@@ -138,7 +138,7 @@ void lowerCopyBytes(StatementContext& l, std::span<const Operand> o, int) {
 }
 
 // Without `num` as many bytes as the second text holds (man. l.1943-1953).
-void lowerCompareBytes(StatementContext& l, std::span<const Operand> o, int) {
+void lowerCompareBytes(Lowering& l, std::span<const Operand> o, int) {
   inOwnRung(l, anyIsLong(o), [&] {
     const Text left = textOf(l, o[0]), right = textOf(l, o[1]);
     const Length count = o[2].given() ? countOf(l, o[2]) : roomOf(right);

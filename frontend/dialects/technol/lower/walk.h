@@ -1,7 +1,7 @@
 // The walk over the modules of a program: typed statements in, rungs out.
 #pragma once
 
-#include "frontend/dialects/technol/lower/context.h"
+#include "frontend/dialects/technol/lower/lowering.h"
 
 namespace rung::frontend::technol {
 
@@ -46,7 +46,7 @@ private:
 
   const Program& program_;
   const TypedProgram& typed_;
-  StatementContext l_;
+  Lowering l_;
   ir::RoutineId start_;
   Clocks clocks_;
   ModuleKind kind_ = ModuleKind::Main;

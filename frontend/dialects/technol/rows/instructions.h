@@ -13,7 +13,7 @@
 
 namespace rung::frontend::technol {
 
-class StatementContext;
+class Lowering;
 struct CheckContext;
 struct Operand;
 
@@ -58,7 +58,7 @@ enum Effect : uint16_t {
 };
 
 using CheckFn = void (*)(const CheckContext& context, std::span<const Operand> operands, int variant);
-using LowerFn = void (*)(StatementContext& context, std::span<const Operand> operands, int variant);
+using LowerFn = void (*)(Lowering& context, std::span<const Operand> operands, int variant);
 
 struct Row {
   InstructionInfo info;

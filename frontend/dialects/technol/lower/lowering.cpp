@@ -1,5 +1,5 @@
 // The current statement (see context.h).
-#include "frontend/dialects/technol/lower/context.h"
+#include "frontend/dialects/technol/lower/lowering.h"
 
 #include "frontend/dialects/technol/lower/lower.h"
 
@@ -7,28 +7,28 @@ namespace rung::frontend::technol {
 
 using ir::ValueId;
 
-void StatementContext::enter(const Statement& statement, const Typed& typed) {
+void Lowering::enter(const Statement& statement, const Typed& typed) {
   statement_ = &statement;
   typed_ = &typed;
 }
 
-void StatementContext::useStack() {
+void Lowering::useStack() {
   const StackUse& use = typed_->stack;
   if (use.pushed != kNone) r().setStack(use.pushed, r().rlo());
   popped_ = use.popped == kNone ? ValueId{} : r().stack(use.popped);
 }
 
-uint32_t StatementContext::labelOf(uint32_t label) {
+uint32_t Lowering::labelOf(uint32_t label) {
   if (labels_[label] == kNone) labels_[label] = out().newLabel();
   return labels_[label];
 }
 
-ValueId StatementContext::guardOf(int condition) {
+ValueId Lowering::guardOf(int condition) {
   if (condition == kAlways) return {};
   return condition == kIfRlo ? r().rlo() : b().not_(r().rlo());
 }
 
-ValueId StatementContext::contact(const Operand& operand) {
+ValueId Lowering::contact(const Operand& operand) {
   const ValueId value = bit(operand);
   marking.contact(*statement_, value);
   return value;

@@ -8,9 +8,9 @@
 
 namespace rung::frontend::technol {
 
-class StatementContext : public Memory {
+class Lowering : public Memory {
 public:
-  StatementContext(const Program& program, ir::Module& module, ir::Marks* marks, ir::GivenNumbers* given)
+  Lowering(const Program& program, ir::Module& module, ir::Marks* marks, ir::GivenNumbers* given)
       : Memory(program, module, given), state(*this), sequences(*this, state), procedures(*this),
         clears(*this, state, sequences), bitMessages(*this, state), marking(*this, marks),
         labels_(program.labels.size(), kNone) {}

@@ -5,6 +5,8 @@
 
 namespace rung::frontend {
 
+enum Edge : int { kRising, kFalling };
+
 // Gives the slot a new value, and what it held before.
 inline ir::ValueId exchange(ir::RungBuilder& b, ir::SlotId slot, ir::ValueId value) {
   const ir::ValueId before = b.slotLoad(slot);
@@ -12,13 +14,13 @@ inline ir::ValueId exchange(ir::RungBuilder& b, ir::SlotId slot, ir::ValueId val
   return before;
 }
 
-inline ir::ValueId edge(ir::RungBuilder& b, ir::ValueId before, ir::ValueId now, bool rising = true) {
-  return rising ? b.and_(now, b.not_(before)) : b.and_(before, b.not_(now));
+inline ir::ValueId edge(ir::RungBuilder& b, ir::ValueId before, ir::ValueId now, int which = kRising) {
+  return which == kRising ? b.and_(now, b.not_(before)) : b.and_(before, b.not_(now));
 }
 
 // The edge since the last run of the instruction, which remembers the value.
-inline ir::ValueId pulse(ir::RungBuilder& b, ir::SlotId slot, ir::ValueId now, bool rising = true) {
-  return edge(b, exchange(b, slot, now), now, rising);
+inline ir::ValueId pulse(ir::RungBuilder& b, ir::SlotId slot, ir::ValueId now, int which = kRising) {
+  return edge(b, exchange(b, slot, now), now, which);
 }
 
 } // namespace rung::frontend

@@ -1,6 +1,7 @@
-// Items of modules, comparisons and edges, as the dialects' lowerings ask for them.
+// Items of modules, arithmetic, comparisons and edges, as the dialects' lowerings ask for them.
 #include <gtest/gtest.h>
 
+#include "frontend/lower/arithmetic.h"
 #include "frontend/lower/compare.h"
 #include "frontend/lower/edge.h"
 #include "frontend/lower/module_items.h"
@@ -41,6 +42,18 @@ protected:
   ir::RungBuilder b_{module_, rung_};
 };
 
+TEST_F(OperationsTest, ArithmeticByTheTypeOfTheValues) {
+  const ir::ValueId x = b_.i32(1), r = b_.real(1);
+  compute(b_, kSubtract, x, x);
+  EXPECT_EQ(last(), OpCode::Sub);
+  compute(b_, kDivide, x, x);
+  EXPECT_EQ(last(), OpCode::DivS);
+  compute(b_, kDivide, r, r);
+  EXPECT_EQ(last(), OpCode::FDiv);
+  combine(b_, kXor, x, x);
+  EXPECT_EQ(last(), OpCode::Xor);
+}
+
 TEST_F(OperationsTest, ComparisonsByTheTypeOfTheValues) {
   const ir::ValueId x = b_.i32(1), y = b_.i32(2), r = b_.real(1);
   compare(b_, kLessEqual, x, y);
@@ -58,7 +71,7 @@ TEST_F(OperationsTest, ComparisonsByTheTypeOfTheValues) {
 TEST_F(OperationsTest, AnEdgeRemembersTheValue) {
   const ir::SlotId slot = addSlot(module_, {.type = ir::Type::Bit, .key = "k"});
   const ir::ValueId now = b_.bit(true);
-  pulse(b_, slot, now, false);
+  pulse(b_, slot, now, kFalling);
   EXPECT_EQ(rung_.ops[1].code, OpCode::SlotLoad);
   EXPECT_EQ(rung_.ops[2].code, OpCode::SlotStore);
   EXPECT_EQ(last(), OpCode::And);

@@ -12,6 +12,8 @@
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/language.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
+#include "frontend/lower/arithmetic.h"
+#include "frontend/lower/edge.h"
 #include "frontend/network/program.h"
 #include "frontend/network/read/context.h"
 #include "ir/core/builder.h"
@@ -101,10 +103,10 @@ private:
 
 enum TimerVariant { kTimerPage, kTimerFixed, kTimerMemory };
 enum CounterVariant { kCounterPage, kCounterMemory };
-enum EdgeVariant { kRising, kFalling };
 enum WindowVariant { kWindowRead, kWindowWrite };
-enum LogicVariant { kXor, kAnd, kOr };
-enum ArithmeticVariant { kAdd, kSubtract, kMultiply };
+using enum frontend::Edge;
+using enum frontend::Logic;
+using enum frontend::Arithmetic;
 
 void lowerTimer(Lowering& f);
 void lowerCounter(Lowering& f);

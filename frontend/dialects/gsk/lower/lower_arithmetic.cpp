@@ -1,12 +1,10 @@
 // Arithmetic with the flags of R1000 (§6.5, §7.9, §7.12). All of it is done in twice the width, where nothing
 // overflows.
 #include "frontend/dialects/gsk/lower/lower.h"
-#include "ir/core/ops.h"
 
 namespace rung::gsk {
 namespace {
 
-using ir::OpCode;
 using ir::Type;
 using ir::ValueId;
 
@@ -43,9 +41,8 @@ ValueId wideOperand(Lowering& f, size_t i) { return f.b.sextOrTrunc(doubled(f), 
 
 void lowerArithmetic(Lowering& f) {
   f.resettable([&] {
-    constexpr OpCode kOps[] = {OpCode::Add, OpCode::Sub, OpCode::Mul};
     const ValueId a = wideOperand(f, 1);
-    return storeResult(f, f.param(3).address, f.b.binary(kOps[f.variant()], a, wideOperand(f, 2)));
+    return storeResult(f, f.param(3).address, frontend::compute(f.b, f.variant(), a, wideOperand(f, 2)));
   });
 }
 

@@ -57,24 +57,11 @@ void lowerNumber(Lowering& f) {
   f.b.when(f.act(), [&] { f.store(f.param(2).address, f.b.constant(f.dataType(), f.param(1).value)); });
 }
 
-namespace {
-
-ValueId joined(Lowering& f, ValueId a, ValueId b) {
-  switch (static_cast<LogicVariant>(f.variant())) {
-  case kXor: return f.b.xor_(a, b);
-  case kAnd: return f.b.and_(a, b);
-  case kOr: return f.b.or_(a, b);
-  }
-  return {};
-}
-
-} // namespace
-
 void lowerLogic(Lowering& f) {
   f.b.when(f.act(), [&] {
     const ValueId a = f.load(f.dataType(), f.param(1).address);
     const ValueId b = f.operand(2, f.dataType());
-    f.store(f.param(3).address, joined(f, a, b));
+    f.store(f.param(3).address, frontend::combine(f.b, f.variant(), a, b));
   });
 }
 

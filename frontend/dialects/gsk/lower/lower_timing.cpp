@@ -1,7 +1,6 @@
 // Timers, counters and edges (§7.2, §7.4, §7.13).
 #include "frontend/dialects/gsk/config.h"
 #include "frontend/dialects/gsk/lower/lower.h"
-#include "frontend/lower/edge.h"
 
 namespace rung::gsk {
 namespace {
@@ -116,8 +115,6 @@ void lowerCounter(Lowering& f) {
 }
 
 // P39: the memory belongs to the instruction.
-void lowerEdge(Lowering& f) {
-  f.setOutput(frontend::pulse(f.b, f.slot("edge", Type::Bit), f.act(), f.variant() == kRising));
-}
+void lowerEdge(Lowering& f) { f.setOutput(frontend::pulse(f.b, f.slot("edge", Type::Bit), f.act(), f.variant())); }
 
 } // namespace rung::gsk

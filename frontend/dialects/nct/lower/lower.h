@@ -6,7 +6,9 @@
 
 #include "frontend/dialects/nct/lower/memory.h"
 #include "frontend/dialects/nct/rows/instructions.h"
+#include "frontend/lower/arithmetic.h"
 #include "frontend/lower/compare.h"
+#include "frontend/lower/edge.h"
 #include "frontend/lower/module_items.h"
 #include "ir/core/builder.h"
 
@@ -123,21 +125,23 @@ ir::ValueId execute(Lowering& box, Body body) {
 ir::ValueId risingEdge(Lowering& box, std::string_view role, size_t pin);
 
 // --- lowering functions, by family ----------------------------------------------------------------------------------
+using enum frontend::Edge;
+using enum frontend::Arithmetic;
+using enum frontend::Logic;
+using enum frontend::Relation;
+
 // Contacts: variant bit 0: closed; bit 1: on a word.
 inline constexpr int kClosed = 1;
 inline constexpr int kOnWord = 2;
 ir::ValueId lowerContact(Lowering& box);
 enum CoilVariant : int { kCoil, kNegatedCoil, kSet, kReset };
 ir::ValueId lowerCoil(Lowering& box);
-enum PulseVariant : int { kRising, kFalling };
-ir::ValueId lowerPulse(Lowering& box); // DIFU, DIFD
+ir::ValueId lowerPulse(Lowering& box); // DIFU, DIFD; an Edge
 
 enum MoveVariant : int { kMove, kMoveComplement };
 ir::ValueId lowerMove(Lowering& box);
 ir::ValueId lowerMoveDouble(Lowering& box);
-enum LogicVariant : int { kAnd, kOr, kXor };
 ir::ValueId lowerLogic(Lowering& box);
-enum ArithmeticVariant : int { kAdd, kSub };
 ir::ValueId lowerAddSub(Lowering& box);
 ir::ValueId lowerMul(Lowering& box);
 ir::ValueId lowerDiv(Lowering& box);
@@ -148,7 +152,6 @@ RunTime lowerRunTime(ir::RungBuilder& b, SlotMaker& slots); // what a run begins
 enum CounterVariant : int { kStopping, kRing };
 ir::ValueId lowerCounter(Lowering& box);
 
-enum FloatVariant : int { kFloatAdd, kFloatSub, kFloatMul, kFloatDiv };
 ir::ValueId lowerFloatArithmetic(Lowering& box);
 enum FunctionVariant : int {
   kPower,
@@ -183,7 +186,6 @@ ir::ValueId lowerArray(Lowering& box);
 
 ir::ValueId lowerCompare(Lowering& box);      // CMP
 ir::ValueId lowerFloatCompare(Lowering& box); // FCMP
-using enum frontend::Relation;
 ir::ValueId lowerCompareContact(Lowering& box);
 ir::ValueId lowerFloatContact(Lowering& box);
 

@@ -3,8 +3,6 @@
 
 #include "frontend/dialects/nct/lower/lower.h"
 
-#include "frontend/lower/edge.h"
-
 namespace rung::nct {
 
 using ir::RungBuilder;
@@ -37,6 +35,9 @@ ValueId risingEdge(Lowering& box, std::string_view role, size_t pin) {
 
 namespace {
 
+// Of a contact that has one.
+frontend::Edge edgeOf(const Lowering& box) { return box.edge == '@' ? kRising : kFalling; }
+
 constexpr int64_t kNoAddress = 0xFFFFFFFF; // no bit has this address
 
 // The edge of a contact whose address is computed. Its memory belongs to the address it was taken from: when that
@@ -49,7 +50,7 @@ ValueId movingPulse(Lowering& box, const Place& place, ValueId value) {
   const ValueId lastAddress = b.slotLoad(addressSlot);
   const ValueId lastValue = b.slotLoad(valueSlot);
   const ValueId same = b.or_(b.eq(address, lastAddress), b.eq(lastAddress, b.i32(kNoAddress)));
-  const ValueId edge = frontend::edge(b, lastValue, value, box.edge == '@');
+  const ValueId edge = frontend::edge(b, lastValue, value, edgeOf(box));
   const bool guard = place.valid.valid();
   b.slotStore(addressSlot, guard ? b.select(place.valid, address, lastAddress) : address);
   b.slotStore(valueSlot, guard ? b.select(place.valid, value, lastValue) : value);
@@ -66,8 +67,7 @@ ValueId lowerContact(Lowering& box) {
   const Address& address = box.operands[0].address;
   const Place place = onWord ? memory.word(address, AccessBound::Read) : memory.bit(address, AccessBound::Read);
   ValueId value = onWord ? b.ne(memory.loadWord(place), b.i32(0)) : memory.loadBit(place);
-  if (box.edge != 0 && place.fixed)
-    value = frontend::pulse(b, box.slots.make("edge", Type::Bit), value, box.edge == '@');
+  if (box.edge != 0 && place.fixed) value = frontend::pulse(b, box.slots.make("edge", Type::Bit), value, edgeOf(box));
   if (box.edge != 0 && !place.fixed) value = movingPulse(box, place, value);
   if ((box.variant & kClosed) != 0) value = b.not_(value);
   if (!place.valid.valid()) return box.pass(value);
@@ -92,7 +92,7 @@ ValueId lowerCoil(Lowering& box) {
 }
 
 ValueId lowerPulse(Lowering& box) {
-  const ValueId edge = frontend::pulse(box.b, box.slots.make("edge", Type::Bit), box.power(), box.variant == kRising);
+  const ValueId edge = frontend::pulse(box.b, box.slots.make("edge", Type::Bit), box.power(), box.variant);
   const Place place = box.memory.bit(box.operands[0].address, AccessBound::Write);
   box.memory.storeBit(place, edge);
   if (place.valid.valid()) box.memory.raiseErrorFlag(box.b.not_(place.valid));

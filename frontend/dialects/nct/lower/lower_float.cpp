@@ -29,14 +29,12 @@ ValueId when(Lowering& box, ValueId ok, Store store) {
 }
 
 // Underflow: the result is 0 and the exact one is not (l.694-704). Sums of doubles are exact where they are that small.
-ValueId underflows(RungBuilder& b, FloatVariant variant, ValueId x, ValueId y, ValueId result) {
-  switch (variant) {
-  case kFloatAdd:
-  case kFloatSub: return b.bit(false);
-  case kFloatMul: return b.and_(isZero(b, result), b.not_(b.or_(isZero(b, x), isZero(b, y))));
-  case kFloatDiv: return b.and_(isZero(b, result), b.and_(b.not_(isZero(b, x)), isFinite(b, y)));
+ValueId underflows(RungBuilder& b, int operation, ValueId x, ValueId y, ValueId result) {
+  switch (operation) {
+  case kMultiply: return b.and_(isZero(b, result), b.not_(b.or_(isZero(b, x), isZero(b, y))));
+  case kDivide: return b.and_(isZero(b, result), b.and_(b.not_(isZero(b, x)), isFinite(b, y)));
+  default: return b.bit(false);
   }
-  return {};
 }
 
 } // namespace
@@ -45,16 +43,15 @@ ValueId underflows(RungBuilder& b, FloatVariant variant, ValueId x, ValueId y, V
 // a division by 0. What nearly all results are is asked first: finite, and of products and quotients not 0. They have
 // none of these flags.
 ValueId lowerFloatArithmetic(Lowering& box) {
-  constexpr OpCode kCodes[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
   RungBuilder& b = box.b;
+  const int operation = box.variant;
   return execute(box, [&] {
     const Place target = box.memory.twoWords(box.operands[0].address, AccessBound::Write);
     ValueId valid = target.valid;
     const ValueId x = box.memory.real(box.operands[1], valid);
     const ValueId y = box.memory.real(box.operands[2], valid);
     return guarded(box, valid, [&] {
-      const auto variant = static_cast<FloatVariant>(box.variant);
-      const ValueId result = b.op(kCodes[variant], Type::F64, {x, y});
+      const ValueId result = frontend::compute(b, operation, x, y);
       const auto put = [&](ValueId under, ValueId over) {
         box.memory.storeDouble(target, result);
         box.memory.setErrorFlag(false);
@@ -67,14 +64,14 @@ ValueId lowerFloatArithmetic(Lowering& box) {
       };
       const auto putOther = [&] {
         ValueId ok = isNumber(b, result);
-        if (variant == kFloatDiv) ok = b.and_(ok, b.not_(isZero(b, y)));
+        if (operation == kDivide) ok = b.and_(ok, b.not_(isZero(b, y)));
         return when(box, ok, [&] {
           const ValueId over = b.and_(b.and_(isFinite(b, x), isFinite(b, y)), b.not_(isFinite(b, result)));
-          put(underflows(b, variant, x, y, result), over);
+          put(underflows(b, operation, x, y, result), over);
         });
       };
       ValueId ordinary = isFinite(b, result);
-      if (variant == kFloatMul || variant == kFloatDiv) ordinary = b.and_(ordinary, b.not_(isZero(b, result)));
+      if (operation == kMultiply || operation == kDivide) ordinary = b.and_(ordinary, b.not_(isZero(b, result)));
       return b.choose(ordinary, putOrdinary, putOther);
     });
   });

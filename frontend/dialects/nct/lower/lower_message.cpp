@@ -4,7 +4,6 @@
 // say by now. Which part of it is on the screen (or in the log) the NC says in a word of the box, see
 // rtlib/nc/nct/messages.h.
 #include "frontend/dialects/nct/lower/lower.h"
-#include "frontend/lower/edge.h"
 #include "rtlib/nc/nct/messages.h"
 
 namespace rung::nct {
@@ -32,8 +31,8 @@ public:
   ValueId run() {
     const ValueId input = box_.power();
     const ValueId before = frontend::exchange(b_, before_, input);
-    b_.when(frontend::edge(b_, before, input, true), [&] { send(); });
-    b_.when(frontend::edge(b_, before, input, false), [&] { remove(); });
+    b_.when(frontend::edge(b_, before, input, kRising), [&] { send(); });
+    b_.when(frontend::edge(b_, before, input, kFalling), [&] { remove(); });
     return b_.and_(input, b_.ne(b_.load(Type::I32, place(nc::nct::kShownWord)), b_.i32(0)));
   }
 

@@ -1,10 +1,8 @@
 // Moving, logic and integer arithmetic (man. §6.3, §6.8, §6.9).
 #include "frontend/dialects/nct/lower/lower.h"
-#include "ir/core/ops.h"
 
 namespace rung::nct {
 
-using ir::OpCode;
 using ir::RungBuilder;
 using ir::Type;
 using ir::ValueId;
@@ -81,10 +79,9 @@ ValueId lowerMoveDouble(Lowering& box) {
 }
 
 ValueId lowerLogic(Lowering& box) {
-  constexpr OpCode kCodes[] = {OpCode::And, OpCode::Or, OpCode::Xor};
   return binary(box, [&](ValueId a, ValueId b) {
     box.memory.setErrorFlag(false);
-    return box.b.binary(kCodes[box.variant], a, b);
+    return frontend::combine(box.b, box.variant, a, b);
   });
 }
 
@@ -93,14 +90,12 @@ ValueId lowerLogic(Lowering& box) {
 ValueId lowerAddSub(Lowering& box) {
   RungBuilder& b = box.b;
   return binary(box, [&](ValueId x, ValueId y) {
-    const bool add = box.variant == kAdd;
-    const ValueId exact =
-        b.binary(add ? OpCode::Add : OpCode::Sub, b.sextOrTrunc(Type::I64, x), b.sextOrTrunc(Type::I64, y));
+    const ValueId exact = frontend::compute(b, box.variant, b.sextOrTrunc(Type::I64, x), b.sextOrTrunc(Type::I64, y));
     const ValueId result = b.zextOrTrunc(Type::I32, exact);
     setFlags(box.memory, {.error = {},
                           .under = b.ltS(exact, b.constant(Type::I64, INT32_MIN)),
                           .over = b.ltS(b.constant(Type::I64, INT32_MAX), exact),
-                          .carry = add ? b.ltU(result, x) : b.ltU(x, y)});
+                          .carry = box.variant == kAdd ? b.ltU(result, x) : b.ltU(x, y)});
     return result;
   });
 }

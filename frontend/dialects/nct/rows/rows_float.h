@@ -39,14 +39,14 @@ inline constexpr Row kFloatContact = compareContactShape(kinds::kDouble, kinds::
 
 inline constexpr Row kFloatRows[] = {
     rowOf(floatBinaryShape("1st Operand", "2nd Operand", lowerFloatArithmetic), "+F", "floating-point addition",
-          "6.10.1, l.2161", "Result := 1st + 2nd.", "|--[N_ON]--{+F 7000 7002 *1.5}", kFloatAdd),
+          "6.10.1, l.2161", "Result := 1st + 2nd.", "|--[N_ON]--{+F 7000 7002 *1.5}", kAdd),
     rowOf(floatBinaryShape("1st Operand", "2nd Operand", lowerFloatArithmetic), "-F", "floating-point subtraction",
-          "6.10.2, l.2179", "Result := 1st - 2nd.", "|--[N_ON]--{-F 7000 7002 *1.5}", kFloatSub),
+          "6.10.2, l.2179", "Result := 1st - 2nd.", "|--[N_ON]--{-F 7000 7002 *1.5}", kSubtract),
     rowOf(floatBinaryShape("1st Operand", "2nd Operand", lowerFloatArithmetic), "*F", "floating-point multiplication",
-          "6.10.3, l.2197", "Result := 1st * 2nd.", "|--[N_ON]--{*F 7000 7002 *1.5}", kFloatMul),
+          "6.10.3, l.2197", "Result := 1st * 2nd.", "|--[N_ON]--{*F 7000 7002 *1.5}", kMultiply),
     rowOf(floatBinaryShape("1st Operand", "2nd Operand", lowerFloatArithmetic), "/F", "floating-point division",
           "6.10.4, l.2215", "Result := 1st / 2nd. By 0: FL_ER, not executed.", "|--[N_ON]--{/F 7000 7002 *1.5}",
-          kFloatDiv),
+          kDivide),
     rowOf(floatBinaryShape("Base", "Exponent", lowerFloatFunction), "PWR", "power", "6.10.5, l.2233",
           "Result := Base to the power of Exponent; anything to the power of 0 is 1. A negative base, or 0 "
           "to a negative exponent: FL_ER, not executed.",

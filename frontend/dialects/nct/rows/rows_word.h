@@ -159,7 +159,7 @@ inline constexpr Row kWordRows[] = {
     rowOf(binaryShape("integer", kinds::kInteger, lowerAddSub), "SUB", "signed subtraction", "6.9.2, l.2043",
           "Result := 1st - 2nd modulo 2^32. FL_CY is the unsigned borrow; FL_OF: non-negative minus negative gave "
           "a negative number; FL_UF: negative minus non-negative a non-negative one.",
-          "|--[@PART]--{SUB LEFT LEFT #1}", kSub),
+          "|--[@PART]--{SUB LEFT LEFT #1}", kSubtract),
     rowOf(binaryShape("integer", kinds::kInteger, lowerMul), "MUL", "signed multiplication", "6.9.3, l.2067",
           "Result := low 32 bits of 1st * 2nd. FL_OF: the product does not fit.", "|--[N_ON]--{MUL 7000 7001 #3}"),
     rowOf(binaryShape("integer", kinds::kInteger, lowerDiv), "DIV", "signed division", "6.9.4, l.2095",

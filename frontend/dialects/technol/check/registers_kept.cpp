@@ -25,16 +25,16 @@ void LostRegisters::finish(const Row& row, bool waits) {
   if (row.effects & kSetsDr) dr_ = false;
 }
 
-void Mixing::note(Arithmetic kind, const Statement& statement) {
+void Mixing::note(DrUse kind, const Statement& statement) {
   switch (kind) {
-  case Arithmetic::LoadInteger: state_ = State::No; return;
-  case Arithmetic::LoadReal: state_ = State::Real; return;
-  case Arithmetic::Integer:
+  case DrUse::LoadInteger: state_ = State::No; return;
+  case DrUse::LoadReal: state_ = State::Real; return;
+  case DrUse::Integer:
     if (state_ != State::Real) return;
     state_ = State::IntegerOnReal;
     integer_ = &statement;
     return;
-  case Arithmetic::Real:
+  case DrUse::Real:
     if (state_ == State::IntegerOnReal)
       diagnostics_.report(diag::MixedRealInteger, integer_->range())
               .note(statement.range(), "this works on the real value again")

@@ -24,15 +24,16 @@ private:
   bool dr_ = false;
 };
 
-// The rules on mixing real and integer arithmetic (man. l.1551).
-enum class Arithmetic : uint8_t { LoadInteger, LoadReal, Integer, Real };
+// What an instruction does with the number in DR.
+enum class DrUse : uint8_t { LoadInteger, LoadReal, Integer, Real };
 
+// The rules on mixing real and integer arithmetic (man. l.1551).
 class Mixing {
 public:
   explicit Mixing(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   void forget() { state_ = State::No; }
-  void note(Arithmetic kind, const Statement& statement);
+  void note(DrUse kind, const Statement& statement);
 
 private:
   enum class State : uint8_t { No, Real, IntegerOnReal };

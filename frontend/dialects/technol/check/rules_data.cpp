@@ -6,24 +6,22 @@
 namespace rung::frontend::technol {
 
 void checkLoad(const CheckContext& c, std::span<const Operand> o, int) {
-  c.mixing.note(o[0].isReal() ? Arithmetic::LoadReal : Arithmetic::LoadInteger, c.statement);
+  c.mixing.note(o[0].isReal() ? DrUse::LoadReal : DrUse::LoadInteger, c.statement);
 }
 
 void checkArithmetic(const CheckContext& c, std::span<const Operand> o, int) {
-  c.mixing.note(o[0].isReal() ? Arithmetic::Real : Arithmetic::Integer, c.statement);
+  c.mixing.note(o[0].isReal() ? DrUse::Real : DrUse::Integer, c.statement);
 }
 
 // An instruction whose integers do not matter.
 void checkRealUse(const CheckContext& c, std::span<const Operand> o, int) {
-  if (o[0].isReal()) c.mixing.note(Arithmetic::Real, c.statement);
+  if (o[0].isReal()) c.mixing.note(DrUse::Real, c.statement);
 }
 
-void checkToReal(const CheckContext& c, std::span<const Operand>, int) {
-  c.mixing.note(Arithmetic::LoadReal, c.statement);
-}
+void checkToReal(const CheckContext& c, std::span<const Operand>, int) { c.mixing.note(DrUse::LoadReal, c.statement); }
 
 void checkToInteger(const CheckContext& c, std::span<const Operand>, int) {
-  c.mixing.note(Arithmetic::LoadInteger, c.statement);
+  c.mixing.note(DrUse::LoadInteger, c.statement);
 }
 
 void checkMove(const CheckContext& c, std::span<const Operand> o, int) {

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "frontend/lower/arithmetic.h"
 #include "frontend/lower/compare.h"
 #include "ir/core/builder.h"
 
@@ -11,18 +12,15 @@ namespace rung::frontend::technol {
 class Lowering;
 struct Operand;
 
-enum BitJoin { kAnd, kOr, kXor };
 enum Condition { kAlways, kIfRlo, kIfNotRlo };
-enum Arithmetic { kAdd, kSubtract, kMultiply, kDivide };
 inline constexpr int kEqualIfRlo = kGreater + 1; // besides frontend's Relation
 enum Unary { kIncrement, kDecrement, kNegate, kAbsolute };
 enum Count { kCountUp, kCountDown, kCountUpBcd };
 
 // lower_bits.cpp
-ir::ValueId joined(ir::RungBuilder& b, int join, ir::ValueId left, ir::ValueId right);
 void lowerLoadBit(Lowering& l, std::span<const Operand> o, int);
 void lowerLicence(Lowering& l, std::span<const Operand> o, int);
-void lowerJoin(Lowering& l, std::span<const Operand> o, int join);
+void lowerJoin(Lowering& l, std::span<const Operand> o, int logic);
 void lowerComplement(Lowering& l, std::span<const Operand> o, int);
 void lowerEdge(Lowering& l, std::span<const Operand> o, int rising);
 void lowerWrite(Lowering& l, std::span<const Operand> o, int);
@@ -36,7 +34,7 @@ void lowerLoad(Lowering& l, std::span<const Operand> o, int);
 void lowerStore(Lowering& l, std::span<const Operand> o, int condition);
 void lowerMove(Lowering& l, std::span<const Operand> o, int condition);
 void lowerArithmetic(Lowering& l, std::span<const Operand> o, int operation);
-void lowerBitwise(Lowering& l, std::span<const Operand> o, int join);
+void lowerBitwise(Lowering& l, std::span<const Operand> o, int logic);
 void lowerCompare(Lowering& l, std::span<const Operand> o, int relation);
 void lowerUnary(Lowering& l, std::span<const Operand> o, int operation);
 void lowerIncrementBcd(Lowering& l, std::span<const Operand> o, int);

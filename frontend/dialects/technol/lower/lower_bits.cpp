@@ -29,18 +29,9 @@ void lowerLicence(Lowering& l, std::span<const Operand> o, int) {
   l.r().setRlo(l.b().load(Type::Bit, at));
 }
 
-ValueId joined(ir::RungBuilder& b, int join, ValueId left, ValueId right) {
-  switch (static_cast<BitJoin>(join)) {
-  case kAnd: return b.and_(left, right);
-  case kOr: return b.or_(left, right);
-  case kXor: return b.xor_(left, right);
-  }
-  return {};
-}
-
-void lowerJoin(Lowering& l, std::span<const Operand> o, int kind) {
+void lowerJoin(Lowering& l, std::span<const Operand> o, int logic) {
   const ValueId rlo = l.r().rlo();
-  l.r().setRlo(o[0].given() ? joined(l.b(), kind, rlo, l.contact(o[0])) : joined(l.b(), kind, l.popped(), rlo));
+  l.r().setRlo(o[0].given() ? combine(l.b(), logic, rlo, l.contact(o[0])) : combine(l.b(), logic, l.popped(), rlo));
 }
 
 void lowerComplement(Lowering& l, std::span<const Operand>, int) { l.r().setRlo(l.b().not_(l.r().rlo())); }

@@ -24,9 +24,8 @@ ValueId checkedReal(Lowering& l, ValueId result, ValueId divisor = {}) {
 }
 
 void realArithmetic(Lowering& l, const Operand& operand, int operation) {
-  constexpr OpCode kOps[] = {OpCode::FAdd, OpCode::FSub, OpCode::FMul, OpCode::FDiv};
   const ValueId right = l.value(operand);
-  const ValueId result = l.b().op(kOps[operation], Type::F64, {l.r().real(), right});
+  const ValueId result = compute(l.b(), operation, l.r().real(), right);
   l.r().setReal(checkedReal(l, result, operation == kDivide ? right : ValueId{}));
 }
 
@@ -89,12 +88,12 @@ void lowerArithmetic(Lowering& l, std::span<const Operand> o, int operation) {
   if (operation == kDivide) return divide(l, o[0]);
   const ValueId right = l.value(o[0]);
   const ValueId left = l.r().dr(o[0].type);
-  l.r().setDrPart(operation == kAdd ? l.b().add(left, right) : l.b().sub(left, right));
+  l.r().setDrPart(compute(l.b(), operation, left, right));
 }
 
-void lowerBitwise(Lowering& l, std::span<const Operand> o, int kind) {
+void lowerBitwise(Lowering& l, std::span<const Operand> o, int logic) {
   const ValueId right = l.value(o[0]);
-  l.r().setDrPart(joined(l.b(), kind, l.r().dr(o[0].type), right));
+  l.r().setDrPart(combine(l.b(), logic, l.r().dr(o[0].type), right));
 }
 
 // EQ1 compares only while RLO is 1, and leaves it 0 otherwise (man. l.1404).

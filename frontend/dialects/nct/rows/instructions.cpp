@@ -2,69 +2,29 @@
 #include "frontend/dialects/nct/rows/instructions.h"
 
 #include <algorithm>
-#include <array>
 
 #include "frontend/dialects/nct/rows/foreign_words.h"
 #include "frontend/dialects/nct/rows/rows_control.h"
 #include "frontend/dialects/nct/rows/rows_message.h"
 #include "frontend/dialects/nct/rows/rows_nc.h"
-#include "ir/support/check.h"
+#include "frontend/table/rows.h"
 
 namespace rung::nct {
 namespace {
 
 using frontend::InstructionInfo;
 
-constexpr size_t kRowCount = std::size(kBitRows) + std::size(kWordRows) + std::size(kFloatRows) +
-                             std::size(kMessageRows) + std::size(kControlRows) + std::size(kNcRows);
+constexpr auto kRows = frontend::joinRows(kBitRows, kWordRows, kFloatRows, kMessageRows, kControlRows, kNcRows);
+constexpr auto kInfos = frontend::infosOf(kRows);
+constexpr auto kByMnemonic = frontend::orderOf(kRows, frontend::kMnemonicOf);
 
-constexpr std::array<Row, kRowCount> joinRows() {
-  std::array<Row, kRowCount> rows{};
-  size_t n = 0;
-  for (const Row& row : kBitRows) rows[n++] = row;
-  for (const Row& row : kWordRows) rows[n++] = row;
-  for (const Row& row : kFloatRows) rows[n++] = row;
-  for (const Row& row : kMessageRows) rows[n++] = row;
-  for (const Row& row : kControlRows) rows[n++] = row;
-  for (const Row& row : kNcRows) rows[n++] = row;
-  return rows;
-}
-constexpr std::array<Row, kRowCount> kRows = joinRows();
-
-constexpr std::array<const InstructionInfo*, kRowCount> infoPointers() {
-  std::array<const InstructionInfo*, kRowCount> infos{};
-  for (size_t i = 0; i < kRowCount; ++i) infos[i] = &kRows[i].info;
-  return infos;
-}
-constexpr std::array<const InstructionInfo*, kRowCount> kInfos = infoPointers();
-
-constexpr std::array<uint8_t, kRowCount> sortByMnemonic() {
-  std::array<uint8_t, kRowCount> order{};
-  for (size_t i = 0; i < kRowCount; ++i) order[i] = static_cast<uint8_t>(i);
-  std::sort(order.begin(), order.end(),
-            [](uint8_t a, uint8_t b) { return kRows[a].info.mnemonic < kRows[b].info.mnemonic; });
-  return order;
-}
-constexpr std::array<uint8_t, kRowCount> kByMnemonic = sortByMnemonic();
-
-constexpr bool complete() {
-  for (const Row& row : kRows) {
-    const InstructionInfo& info = row.info;
-    if (info.mnemonic.empty() || info.title.empty() || info.group.empty() || info.ref.empty() || info.doc.empty() ||
-        info.example.empty())
-      return false;
-    if (info.pins.size() == 0) return false;
-  }
-  for (size_t i = 1; i < kRowCount; ++i)
-    if (kRows[kByMnemonic[i - 1]].info.mnemonic == kRows[kByMnemonic[i]].info.mnemonic) return false;
-  return true;
-}
-static_assert(complete(), "every row says what it is, where the manual describes it, and has a name of its own");
+static_assert(frontend::rowsAreComplete<kRows>());
+static_assert(frontend::everyRowHas(kRows, &InstructionInfo::example), "every row has an example");
+static_assert(frontend::everyRow(kRows, [](const Row& row) { return row.info.pins.size() > 0; }),
+              "every row has a place in a ladder");
 
 constexpr size_t indexOf(std::string_view mnemonic) {
-  for (size_t i = 0; i < kRowCount; ++i)
-    if (kRows[i].info.mnemonic == mnemonic) return i;
-  return kRowCount;
+  return static_cast<size_t>(std::ranges::find(kRows, mnemonic, frontend::kMnemonicOf) - kRows.begin());
 }
 
 } // namespace
@@ -74,7 +34,7 @@ std::span<const InstructionInfo* const> instructionInfos() { return kInfos; }
 
 const Row* findBox(std::string_view mnemonic) {
   const auto found =
-      std::ranges::lower_bound(kByMnemonic, mnemonic, {}, [](uint8_t i) { return kRows[i].info.mnemonic; });
+      std::ranges::lower_bound(kByMnemonic, mnemonic, {}, [](uint16_t i) { return kRows[i].info.mnemonic; });
   if (found != kByMnemonic.end() && kRows[*found].info.mnemonic == mnemonic)
     return kRows[*found].shape == Shape::Box ? &kRows[*found] : nullptr;
   const auto alias =

@@ -3,7 +3,6 @@
 #include "frontend/dialects/technol/rows/instructions.h"
 
 #include <algorithm>
-#include <array>
 
 #include "frontend/dialects/technol/rows/foreign_words.h"
 #include "frontend/dialects/technol/rows/rows_bit.h"
@@ -15,57 +14,21 @@
 #include "frontend/dialects/technol/rows/rows_structure.h"
 #include "frontend/dialects/technol/rows/rows_text.h"
 #include "frontend/dialects/technol/rows/rows_timing.h"
+#include "frontend/table/rows.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
 namespace {
 
-constexpr size_t kRowCount = std::size(kStructureRows) + std::size(kBitRows) + std::size(kDataRows) +
-                             std::size(kTimingRows) + std::size(kMechanismRows) + std::size(kTextRows) +
-                             std::size(kMessageRows) + std::size(kNcRows) + std::size(kServiceRows);
+constexpr auto kRows = joinRows(kStructureRows, kBitRows, kDataRows, kTimingRows, kMechanismRows, kTextRows,
+                                kMessageRows, kNcRows, kServiceRows);
+constexpr auto kInfos = infosOf(kRows);
+constexpr auto kByName = orderOf(kRows, kMnemonicOf);
 
-constexpr std::array<Row, kRowCount> joinRows() {
-  std::array<Row, kRowCount> rows{};
-  size_t n = 0;
-  for (const Row& row : kStructureRows) rows[n++] = row;
-  for (const Row& row : kBitRows) rows[n++] = row;
-  for (const Row& row : kDataRows) rows[n++] = row;
-  for (const Row& row : kTimingRows) rows[n++] = row;
-  for (const Row& row : kMechanismRows) rows[n++] = row;
-  for (const Row& row : kTextRows) rows[n++] = row;
-  for (const Row& row : kMessageRows) rows[n++] = row;
-  for (const Row& row : kNcRows) rows[n++] = row;
-  for (const Row& row : kServiceRows) rows[n++] = row;
-  return rows;
-}
-constexpr std::array<Row, kRowCount> kRows = joinRows();
-
-constexpr auto kInfos = [] {
-  std::array<const InstructionInfo*, kRowCount> infos{};
-  for (size_t i = 0; i < kRowCount; ++i) infos[i] = &kRows[i].info;
-  return infos;
-}();
-
-constexpr auto kByName = [] {
-  std::array<uint16_t, kRowCount> order{};
-  for (size_t i = 0; i < kRowCount; ++i) order[i] = static_cast<uint16_t>(i);
-  std::sort(order.begin(), order.end(),
-            [](uint16_t a, uint16_t b) { return kRows[a].info.mnemonic < kRows[b].info.mnemonic; });
-  return order;
-}();
-
-constexpr bool rowsAreComplete() {
-  for (size_t i = 0; i < kRowCount; ++i) {
-    const Row& row = kRows[i];
-    if (row.info.doc.empty() || row.info.ref.empty() || row.info.title.empty()) return false;
-    if (row.role == Role::Code && row.lower == nullptr) return false;
-    if (row.info.example.empty()) return false;
-    if (i > 0 && kRows[kByName[i]].info.mnemonic == kRows[kByName[i - 1]].info.mnemonic) return false;
-  }
-  return true;
-}
-static_assert(rowsAreComplete(),
-              "every row has a title, a reference, a doc and an example, code its lowering; mnemonics are unique");
+static_assert(rowsAreComplete<kRows>());
+static_assert(everyRowHas(kRows, &InstructionInfo::example), "every row has an example");
+static_assert(everyRow(kRows, [](const Row& row) { return row.role != Role::Code || row.lower != nullptr; }),
+              "every row of code has a lowering function");
 
 constexpr std::string_view kRegisters[] = {"BX", "CX",  "AX",  "AH",  "DX", "SI",
                                            "DI", "ECX", "EDX", "RLO", "DR", "DR_REAL"};

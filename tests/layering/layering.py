@@ -35,7 +35,7 @@ MODULES = {
     "ir/interp": IR | {"ir/shape", "ir/image", "rtlib/core", "rtlib/host"},  # an engine, as codegen/jit is
     "frontend/syntax": FRONTEND,
     "frontend/table": FRONTEND | {"frontend/syntax"},
-    "frontend/ladder": FRONTEND | {"frontend/syntax"},
+    "frontend/ladder": FRONTEND | {"frontend/syntax", "frontend/table"},
     "frontend/ladder/text": FRONTEND | {"frontend/syntax", "frontend/table", "frontend/ladder"},
     "frontend/sema": FRONTEND | {"frontend/syntax", "frontend/table"},
     "frontend/lower": IR,

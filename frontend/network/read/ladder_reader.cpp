@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "frontend/ladder/pin_rules.h"
 #include "frontend/ladder/text/list_word.h"
-#include "frontend/ladder/text/pin_rules.h"
 #include "frontend/network/read/canonical.h"
 #include "frontend/network/read/condition.h"
 #include "frontend/network/read/network_builder.h"
@@ -166,16 +166,14 @@ bool RungReader::checkBox() {
 
 bool RungReader::checkPins() {
   const auto pins = rung_.pinsOf(*box_);
-  const auto wanted = row_->info.pins.all();
   if (!ladder::checkPins(row_->info, pins, box_->range, text::equalsIgnoringCase, diagnostics_)) return false;
-  if (wanted.empty() && pins[0].input != ladder::kRail && row_->control != Control::Lbl) {
-    diagnostics_.report(diag::FirstColumnRequired, box_->range) << row_->info.mnemonic;
-    return false;
-  }
-  for (size_t i = 0; i < wanted.size(); ++i) {
-    if (pins[i].input != ladder::kRail) continue;
-    diagnostics_.report(diag::MissingCondition, pins[i].range)
-        << row_->info.mnemonic << fmt::format("pin {}", wanted[i].name);
+  for (size_t i = 0; i < pins.size(); ++i) {
+    if (!isMisplaced(row_->info, pins[i])) continue;
+    if (pins[i].input == ladder::kRail)
+      diagnostics_.report(diag::MissingCondition, pins[i].range)
+          << row_->info.mnemonic << fmt::format("pin {}", row_->info.pins[i].name);
+    else
+      diagnostics_.report(diag::FirstColumnRequired, pins[i].range) << row_->info.mnemonic;
     return false;
   }
   return true;

@@ -43,6 +43,11 @@ static_assert(frontend::everyRow(kRows,
                                    return !isFunction(row) || std::ranges::count(kRows, row.info.number, numberOf) == 1;
                                  }),
               "no two functions have one number");
+static_assert(frontend::everyRow(kRows,
+                                 [](const Row& row) {
+                                   return row.info.pins.size() > 0 || row.info.placement != Placement::AfterContact;
+                                 }),
+              "every row without a pin says that it needs no contact before it");
 
 } // namespace
 

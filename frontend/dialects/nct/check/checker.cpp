@@ -7,9 +7,9 @@
 
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "frontend/dialects/nct/rows/operand_kinds.h"
+#include "frontend/ladder/pin_rules.h"
 #include "frontend/ladder/text/fix.h"
 #include "frontend/ladder/text/list_word.h"
-#include "frontend/ladder/text/pin_rules.h"
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/nct.h"
@@ -207,12 +207,9 @@ bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element
     diagnostics_.report(code, range) << nameOf(element, row, isBox ? "" : rung.operandOf(element).text);
     ok = false;
   };
-  for (const ladder::Pin& pin : rung.pinsOf(element)) {
-    if (row.info.placement == Placement::AfterContact && pin.input == ladder::kRail)
-      complain(diag::FirstColumnNotAllowed, pin.range);
-    if (row.info.placement == Placement::AtRail && pin.input != ladder::kRail)
-      complain(diag::FirstColumnRequired, pin.range);
-  }
+  for (const ladder::Pin& pin : rung.pinsOf(element))
+    if (isMisplaced(row.info, pin))
+      complain(pin.input == ladder::kRail ? diag::FirstColumnNotAllowed : diag::FirstColumnRequired, pin.range);
   const bool connected = element.output.valid();
   if (row.info.output == Output::None && connected) complain(diag::ElementAfterClosing, element.range);
   if (row.info.output == Output::Always && !connected) complain(diag::MissingClosingElement, element.range);

@@ -1,5 +1,5 @@
-// Pins of a box against its row (see pin_rules.h).
-#include "frontend/ladder/text/pin_rules.h"
+// Pins against rows (see pin_rules.h).
+#include "frontend/ladder/pin_rules.h"
 
 #include <algorithm>
 
@@ -13,6 +13,15 @@ bool hasName(std::span<const Pin> pins, std::string_view name, SameName same) {
 }
 
 } // namespace
+
+bool isMisplaced(const frontend::InstructionInfo& info, const Pin& pin) {
+  switch (info.placement) {
+  case frontend::Placement::AfterContact: return pin.input == kRail;
+  case frontend::Placement::AtRail: return pin.input != kRail;
+  case frontend::Placement::Anywhere: return false;
+  }
+  return false;
+}
 
 // A pin that is left out is not the next one drawn wrongly.
 bool checkPins(const frontend::InstructionInfo& info, std::span<const Pin> drawn, SourceRange box, SameName same,

@@ -1,4 +1,4 @@
-// What holds of the pins of every box.
+// What the rows of a dialect say of the pins of a drawing.
 #pragma once
 #include "frontend/ladder/rung.h"
 #include "frontend/table/instruction.h"
@@ -11,5 +11,9 @@ using SameName = bool (*)(std::string_view a, std::string_view b);
 /// The pins of a box against those of its row: reports the first that is missing, and those that it does not have.
 bool checkPins(const frontend::InstructionInfo& info, std::span<const Pin> drawn, SourceRange box, SameName same,
                Diagnostics& diagnostics);
+
+/// Whether a pin is at the left rail although its element needs a condition, or is not although it takes none. How that
+/// is said is the dialect's business.
+bool isMisplaced(const frontend::InstructionInfo& info, const Pin& pin);
 
 } // namespace rung::ladder

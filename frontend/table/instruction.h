@@ -93,7 +93,7 @@ struct InstructionInfo {
   std::string_view tasks{};   // where it is allowed, empty: everywhere
   std::string_view ref;       // manual: section and line, e.g. "5.7, l.1271"
   std::string_view doc;       // what it does, in full
-  std::string_view example{}; // source text
+  std::string_view example{}; // source text; CONTRIBUTING.md says which names it may use
 };
 
 // A row of a family, whose rows share a shape and differ in their texts and their variant.

@@ -74,21 +74,45 @@ TEST(NctTable, HoldsTheWholeInventory) {
   for (const auto& [mnemonic, row] : rows) ADD_FAILURE() << mnemonic << " is not in the inventory";
 }
 
-constexpr std::string_view kSymbols = "symbol START 7900.00\nsymbol STOP 7900.01\nsymbol MOTOR 7901.00\nsymbol T_WARM "
-                                      "7902\nsymbol WARMING 7901.01\nsymbol WARM 7901.02\n"
-                                      "symbol RUNNING 7900.02\nsymbol IDLE 7901.03\nsymbol LATCH 7901.04\nsymbol "
-                                      "START_P 7901.05\nsymbol START_N 7901.06\nsymbol STARTED 7901.07\n"
-                                      "symbol RUN 7900.03\nsymbol FAN 7901.08\nsymbol LUBE 7900.04\nsymbol PUMP "
-                                      "7901.09\nsymbol PART 7900.05\nsymbol FULL 7901.10\nsymbol STEP 7900.06\n"
-                                      "symbol HOME 7901.11\nsymbol M6 7900.07\nsymbol TOGO 7903\nsymbol POS "
-                                      "7904\nsymbol GOAL 7905\nsymbol NEGATIVE 7901.12\nsymbol OUT 7901.13\n"
-                                      "symbol PARTS 7906\nsymbol LEFT 7907\nsymbol FAULT 7900.08\nsymbol SKIP "
-                                      "7900.09\nsymbol GO 7900.10\nconst TEN #10\n";
+// What examples may name; an example that needs another name has it declared here.
+constexpr std::string_view kPrelude = R"(symbol START 7900.00
+symbol STOP 7900.01
+symbol MOTOR 7901.00
+symbol T_WARM 7902
+symbol WARMING 7901.01
+symbol WARM 7901.02
+symbol RUNNING 7900.02
+symbol IDLE 7901.03
+symbol LATCH 7901.04
+symbol START_P 7901.05
+symbol START_N 7901.06
+symbol STARTED 7901.07
+symbol RUN 7900.03
+symbol FAN 7901.08
+symbol LUBE 7900.04
+symbol PUMP 7901.09
+symbol PART 7900.05
+symbol FULL 7901.10
+symbol STEP 7900.06
+symbol HOME 7901.11
+symbol M6 7900.07
+symbol TOGO 7903
+symbol POS 7904
+symbol GOAL 7905
+symbol NEGATIVE 7901.12
+symbol OUT 7901.13
+symbol PARTS 7906
+symbol LEFT 7907
+symbol FAULT 7900.08
+symbol SKIP 7900.09
+symbol GO 7900.10
+const TEN #10
+)";
 
-// The row's example with what belongs around it: pins, labels, subroutines.
+// The row's example with what belongs around it: names, pins, labels, subroutines.
 std::string exampleProgram(const Row& row) {
   const frontend::InstructionInfo& info = row.info;
-  std::string text(kSymbols);
+  std::string text(kPrelude);
   if (info.group == "message") text += "message 20 \"fault\"\n";
   const std::string example(info.example);
   if (row.flow == Flow::Section) return text + example + "\n";

@@ -11,7 +11,7 @@ enum class OperandClass : uint8_t { Value, Label, Scope, Text };
 // What the check asks for, of OperandClass::Value.
 struct OperandTraits {
   OperandClass parse = OperandClass::Value;
-  Form form = Form::Word;       // of a place: Word or Bit
+  Form form = Form::Word;       // of a place: Word or Bit; Constant: no place may be written
   uint32_t words = 1;           // of a place
   bool userMemory = false;      // the place is in the user memory
   uint8_t constants = 0;        // which may be written: bits of ConstantKind

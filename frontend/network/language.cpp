@@ -36,9 +36,32 @@ const Row& Language::rowOf(Control control) const {
   return *row;
 }
 
-std::string Language::fullNameOf(Control control) const {
-  const frontend::InstructionInfo& info = rowOf(control).info;
-  return fmt::format("{} ({} {})", info.mnemonic, nameOf(Command::Function), info.number);
+std::optional<uint32_t> Language::findLevel(std::string_view levelName) const {
+  const auto at =
+      std::ranges::find_if(levels, [&](const Level& one) { return text::equalsIgnoringCase(one.name, levelName); });
+  return at == levels.end() ? std::nullopt : std::optional(static_cast<uint32_t>(at - levels.begin()));
+}
+
+uint32_t Language::mainLevel() const {
+  const auto at = std::ranges::find(levels, Turn::Parts, &Level::turn);
+  RUNG_CHECK(at != levels.end(), "a level of a language runs in parts");
+  return static_cast<uint32_t>(at - levels.begin());
+}
+
+const Row& Language::endOf(uint32_t level) const {
+  const Row* row = findFunction(levels[level].end);
+  RUNG_CHECK(row != nullptr && row->control == Control::LevelEnd, "a function ends each level");
+  return *row;
+}
+
+uint32_t Language::levelOf(const Row& end) const {
+  const auto at = std::ranges::find(levels, end.info.mnemonic, &Level::end);
+  RUNG_CHECK(at != levels.end(), "the end of a level ends one");
+  return static_cast<uint32_t>(at - levels.begin());
+}
+
+std::string Language::fullNameOf(const Row& row) const {
+  return fmt::format("{} ({} {})", row.info.mnemonic, nameOf(Command::Function), row.info.number);
 }
 
 std::string Language::numbered(Control control, int64_t number) const {

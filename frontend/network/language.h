@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "frontend/ladder/text/ladder_file.h"
 #include "frontend/network/row.h"
 #include "frontend/sema/foreign_word.h"
+#include "ir/support/diagnostics.h"
 #include "rtlib/nc/signal.h"
 
 namespace rung::network {
@@ -56,18 +58,37 @@ struct AreaInfo {
   constexpr bool seenOutside() const { return use == AreaUse::Output || shown; }
 };
 
+// When a level runs (P3).
+enum class Turn : uint8_t {
+  EverySlot, // whole, in each slot, on the inputs as they are
+  Parts,     // a part in each slot: the main program, to which a JMPC leads
+  LastSlot,  // whole, in the slot of the main program's last part
+};
+
+// What the control runs by itself, without a call.
+struct Level {
+  std::string_view name; // of its task, and of its module in a ladder
+  std::string_view end;  // the function that ends it in a list; its row is a Control::LevelEnd
+  Turn turn = Turn::Parts;
+  Diag endMissing{}; // reported of `end`
+  Diag endTwice{};
+
+  // Whether it sees the inputs as they were when it began.
+  constexpr bool latchesInputs() const { return turn != Turn::EverySlot; }
+};
+
 struct Language {
   std::string_view name;                                // of the dialect
   std::string_view listExtension;                       // of a file with a command list
   std::array<std::string_view, kCommandCount> commands; // their names, by Command
   std::span<const Row* const> rows;
   std::span<const AreaInfo> areas;
-  const nc::SignalTable& (*signals)();    // names that need no declaration
-  std::array<std::string_view, 2> levels; // their names, also of the modules of a ladder
-  std::string_view subprogram;            // before the number in a `module` statement
-  std::string_view messageTexts;          // where they are given, instead of by statements of a ladder
-  uint32_t maxSteps = 0;                  // commands, parameters and table rows of a program
-  uint32_t stackDepth = 0;                // values in the stack register
+  const nc::SignalTable& (*signals)(); // names that need no declaration
+  std::span<const Level> levels;       // in the order of a list, which is that of a slot; one runs in Parts
+  std::string_view subprogram;         // before the number in a `module` statement
+  std::string_view messageTexts;       // where they are given, instead of by statements of a ladder
+  uint32_t maxSteps = 0;               // commands, parameters and table rows of a program
+  uint32_t stackDepth = 0;             // values in the stack register
   uint32_t maxCallDepth = 0;
   ladder::FindBox findBox = nullptr;
   std::span<const frontend::ForeignWord> foreign; // commands and functions of other languages
@@ -77,11 +98,18 @@ struct Language {
   // In any case; null when there is none, or it is not a function.
   const Row* findFunction(std::string_view mnemonic) const;
   const Row* findFunction(uint64_t number) const;
-  // The one that shapes the program so.
+  // By its name, in any case.
+  std::optional<uint32_t> findLevel(std::string_view levelName) const;
+  // The place in `levels` of the one that runs in parts.
+  uint32_t mainLevel() const;
+  const Row& endOf(uint32_t level) const;
+  // The level that a Control::LevelEnd ends.
+  uint32_t levelOf(const Row& end) const;
+  // The one that shapes the program so: not the end of a level.
   const Row& rowOf(Control control) const;
   std::string_view mnemonicOf(Control control) const { return rowOf(control).info.mnemonic; }
   // With its number, as a list names it: "END1 (FUNC 0)".
-  std::string fullNameOf(Control control) const;
+  std::string fullNameOf(const Row& row) const;
   // A label or a subprogram as the operand of its instruction is written.
   std::string numbered(Control control, int64_t number) const;
   // The letter that it begins with.

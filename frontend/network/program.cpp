@@ -1,4 +1,4 @@
-// A network as text.
+// Units and networks as text.
 #include "frontend/network/program.h"
 
 #include <fmt/format.h>
@@ -26,6 +26,16 @@ Logic logicOf(Command command) {
   constexpr Logic kLogic[] = {Logic::Load, Logic::Load, Logic::And,     Logic::And,
                               Logic::Or,   Logic::Or,   Logic::OrBlock, Logic::AndBlock};
   return kLogic[static_cast<size_t>(command)];
+}
+
+std::string nameOf(const Language& language, const Unit& unit) {
+  if (unit.kind == UnitKind::Subprogram) return language.numbered(Control::Sp, unit.number);
+  return std::string(language.levels[unit.number].name);
+}
+
+Program::Program(const Language& language) {
+  for (uint32_t level = 0; level < language.levels.size(); ++level)
+    units.push_back({.kind = UnitKind::Level, .number = level});
 }
 
 std::string commandText(const Language& language, const Network& network) {

@@ -97,28 +97,26 @@ inline Control controlOf(const Network& network) {
   return network.function.row == nullptr ? Control::Plain : network.function.row->control;
 }
 
-enum class UnitKind : uint8_t { Level1, Level2, Subprogram };
+enum class UnitKind : uint8_t { Level, Subprogram };
 
 struct Unit {
-  UnitKind kind = UnitKind::Level1;
-  uint32_t number = 0;           // subprograms
+  UnitKind kind = UnitKind::Level;
+  uint32_t number = 0;           // of a subprogram; of a level its place in Language::levels
   SourceRange range;             // what opens the unit
   SourceRange nameRange;         // subprograms: the operand of SP
-  std::vector<Network> networks; // the last one is the unit's end: END1, END2 or SPE
+  std::vector<Network> networks; // the last one is the unit's end: that of the level, or SPE
   // Filled in by analyse().
-  bool fromLevel1 = false;
-  bool fromLevel2 = false;
-  bool leaves = false; // a JMPC can leave it for Level 2
+  std::vector<bool> runBy; // by level: whether it runs the unit
+  bool leaves = false;     // a JMPC can leave it for the main program
 };
 // "LEVEL1", "LEVEL2", "P5".
 std::string nameOf(const Language& language, const Unit& unit);
 
-inline constexpr uint32_t kLevel1 = 0;
-inline constexpr uint32_t kLevel2 = 1;
-
 struct Program {
-  std::vector<Unit> units{Unit{.kind = UnitKind::Level1}, Unit{.kind = UnitKind::Level2}};
-  std::vector<uint32_t> jumpTargets; // networks of Level 2 that a JMPC leads to; Network::target of a JMPC counts here
+  explicit Program(const Language& language);
+
+  std::vector<Unit> units;           // the levels by their places in the language, then subprograms
+  std::vector<uint32_t> jumpTargets; // networks of the main program that a JMPC leads to; Network::target counts here
 };
 
 // The network as a command list, one command a line, operands without leading zeros: the text that keys are made of.

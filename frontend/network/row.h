@@ -8,11 +8,9 @@
 namespace rung::network {
 
 // Instructions that shape the program; everything else is Plain.
-enum class Control : uint8_t { Plain, End1, End2, Sp, Spe, Jmp, Jmpe, Jmpb, Jmpc, Lbl, Call, CallU, Com, Come };
+enum class Control : uint8_t { Plain, LevelEnd, Sp, Spe, Jmp, Jmpe, Jmpb, Jmpc, Lbl, Call, CallU, Com, Come };
 
-constexpr bool isEnd(Control control) {
-  return control == Control::End1 || control == Control::End2 || control == Control::Spe;
-}
+constexpr bool isEnd(Control control) { return control == Control::LevelEnd || control == Control::Spe; }
 
 struct Row {
   frontend::InstructionInfo info;

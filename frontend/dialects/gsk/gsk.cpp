@@ -56,7 +56,7 @@ private:
   const std::vector<FileId> files_;
   const frontend::CompileOptions options_;
   network::Context context_;
-  network::Program program_;
+  network::Program program_{kLanguage};
   std::vector<ir::MessageText> texts_;
 };
 

@@ -4,9 +4,28 @@
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/rows/foreign_words.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
+#include "ir/support/diag/gsk.h"
 #include "rtlib/nc/gsk/signals.h"
 
 namespace rung::gsk {
+
+namespace {
+
+// P3
+constexpr network::Level kLevels[] = {
+    {.name = "LEVEL1",
+     .end = "END1",
+     .turn = network::Turn::EverySlot,
+     .endMissing = diag::MissingEnd1,
+     .endTwice = diag::DuplicateEnd1},
+    {.name = "LEVEL2",
+     .end = "END2",
+     .turn = network::Turn::Parts,
+     .endMissing = diag::MissingEnd2,
+     .endTwice = diag::DuplicateEnd2},
+};
+
+} // namespace
 
 const network::Language kLanguage = {
     .name = "gsk",
@@ -17,7 +36,7 @@ const network::Language kLanguage = {
     .rows = networkRows(),
     .areas = kAreas,
     .signals = nc::gskSignals,
-    .levels = {"LEVEL1", "LEVEL2"},
+    .levels = kLevels,
     .subprogram = "SUB",
     .messageTexts = "give the texts of area A in a file: `config messages FILE`",
     .maxSteps = 12000, // man. l.354

@@ -156,7 +156,8 @@ private:
   bool findCircles();
   void checkDepth();
   void spread();
-  void reach(uint32_t unit, bool Unit::* mark);
+  void reach(uint32_t unit, uint32_t level);
+  bool runsInMainAlone(const Unit& unit) const;
   void resolveJumps();
   void resolveJump(uint32_t unit, Network& network);
   void resolveLeave(Network& network, const Label& label);
@@ -243,7 +244,7 @@ bool Analysis::findCircles() {
 void Analysis::checkDepth() {
   std::vector<uint32_t> depth(program_.units.size(), 0);
   std::vector<bool> runs(program_.units.size(), false);
-  runs[kLevel1] = runs[kLevel2] = true;
+  std::fill_n(runs.begin(), language_.levels.size(), true);
   for (auto at = order_.rbegin(); at != order_.rend(); ++at) {
     if (!runs[*at]) continue;
     for (const frontend::CallGraph::Call& call : calls_.of(*at)) {
@@ -255,16 +256,16 @@ void Analysis::checkDepth() {
   }
 }
 
-void Analysis::reach(uint32_t unit, bool Unit::* mark) {
-  if (program_.units[unit].*mark) return;
-  program_.units[unit].*mark = true;
-  for (const frontend::CallGraph::Call& call : calls_.of(unit)) reach(call.callee, mark);
+void Analysis::reach(uint32_t unit, uint32_t level) {
+  if (program_.units[unit].runBy[level]) return;
+  program_.units[unit].runBy[level] = true;
+  for (const frontend::CallGraph::Call& call : calls_.of(unit)) reach(call.callee, level);
 }
 
 // Which levels run a unit, and which units a JMPC can leave.
 void Analysis::spread() {
-  reach(kLevel1, &Unit::fromLevel1);
-  reach(kLevel2, &Unit::fromLevel2);
+  for (Unit& unit : program_.units) unit.runBy.assign(language_.levels.size(), false);
+  for (uint32_t level = 0; level < language_.levels.size(); ++level) reach(level, level);
   for (uint32_t u : order_) {
     Unit& unit = program_.units[u];
     if (unit.kind != UnitKind::Subprogram) continue;
@@ -284,6 +285,13 @@ void Analysis::resolveJumps() {
   });
 }
 
+// No other level than the main program does: also where nobody calls it.
+bool Analysis::runsInMainAlone(const Unit& unit) const {
+  for (uint32_t level = 0; level < unit.runBy.size(); ++level)
+    if (unit.runBy[level] && level != language_.mainLevel()) return false;
+  return true;
+}
+
 void Analysis::resolveJump(uint32_t u, Network& network) {
   const auto number = numberOf(network);
   if (!number) {
@@ -301,7 +309,7 @@ void Analysis::resolveJump(uint32_t u, Network& network) {
   const bool leaves = controlOf(network) == Control::Jmpc;
   const Unit& unit = program_.units[u];
   if (leaves && unit.kind != UnitKind::Subprogram) return; // reported
-  if (leaves ? at->second.unit != kLevel2 || unit.fromLevel1 : at->second.unit != u) {
+  if (leaves ? at->second.unit != language_.mainLevel() || !runsInMainAlone(unit) : at->second.unit != u) {
     diagnostics_.report(diag::JumpAcrossEnd, range).note(at->second.range, "the label is here") << name;
     return;
   }

@@ -97,6 +97,7 @@ private:
   void overwrite(State& state, const Place& by, uint32_t network, bool called);
   void finish(uint32_t unit);
   void acrossLevels();
+  void acrossLevels(const Effects& first, const Effects& second);
   void doubleCoil(const Place& here, const Place& other);
   void mixed(const std::optional<Place>& out, const std::optional<Place>& latch);
   std::string whereIs(const Place& other, const Place& here) const;
@@ -247,11 +248,16 @@ void CoilCheck::finish(uint32_t u) {
   }
 }
 
-// Both levels run in one slot, and in every slot Level 1 runs again.
+// All levels may run in one slot, and in every slot some run again.
 void CoilCheck::acrossLevels() {
-  for (const auto& [bit, one] : effects_[kLevel1]) {
-    const auto at = effects_[kLevel2].find(bit);
-    if (at == effects_[kLevel2].end() || !seenOutside(bit)) continue;
+  for (uint32_t later = 1; later < language_.levels.size(); ++later)
+    for (uint32_t level = 0; level < later; ++level) acrossLevels(effects_[level], effects_[later]);
+}
+
+void CoilCheck::acrossLevels(const Effects& first, const Effects& second) {
+  for (const auto& [bit, one] : first) {
+    const auto at = second.find(bit);
+    if (at == second.end() || !seenOutside(bit)) continue;
     const Effect& two = at->second;
     mixed(one.certain, two.latch);
     mixed(two.certain, one.latch);

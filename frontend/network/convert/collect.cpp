@@ -59,9 +59,15 @@ void settleDialect(SourceProgram& program) {
   gap.insert(gap.begin() + place, std::move(own));
 }
 
-void addLevel(SourceProgram& program, UnitKind kind) {
-  const auto isIt = [kind](const SourceUnit& unit) { return unit.kind == kind; };
-  if (std::none_of(program.units.begin(), program.units.end(), isIt)) program.units.push_back({.kind = kind});
+// Those that the files do not have, and before the subprograms.
+void completeLevels(SourceProgram& program, uint32_t levels) {
+  const auto hasLevel = [&](uint32_t level) {
+    return std::ranges::any_of(
+        program.units, [level](const SourceUnit& unit) { return unit.kind == UnitKind::Level && unit.level == level; });
+  };
+  for (uint32_t level = 0; level < levels; ++level)
+    if (!hasLevel(level)) program.units.push_back({.kind = UnitKind::Level, .level = level});
+  std::ranges::stable_sort(program.units, {}, [](const SourceUnit& unit) { return std::pair(unit.kind, unit.level); });
 }
 
 } // namespace
@@ -74,10 +80,7 @@ SourceProgram collect(Context& context, const Reading& reading, const std::vecto
   collector.program.tail = collector.takeGap();
   settleDialect(collector.program);
   splitPreamble(collector.program);
-  addLevel(collector.program, UnitKind::Level1);
-  addLevel(collector.program, UnitKind::Level2);
-  std::stable_sort(collector.program.units.begin(), collector.program.units.end(),
-                   [](const SourceUnit& a, const SourceUnit& b) { return a.kind < b.kind; });
+  completeLevels(collector.program, static_cast<uint32_t>(context.language.levels.size()));
   return std::move(collector.program);
 }
 

@@ -213,12 +213,13 @@ void LadderCollector::openRung() {
 }
 
 void LadderCollector::module(uint32_t line) {
-  const std::string_view name = words_.words[1].text;
   SourceUnit unit;
-  unit.kind = words_.words.size() > 2                                                 ? UnitKind::Subprogram
-              : text::equalsIgnoringCase(name, out_.context.language.levels[kLevel1]) ? UnitKind::Level1
-                                                                                      : UnitKind::Level2;
-  if (unit.kind == UnitKind::Subprogram) unit.number = words_.words[2].text;
+  if (words_.words.size() > 2) {
+    unit.kind = UnitKind::Subprogram;
+    unit.number = words_.words[2].text;
+  } else {
+    unit.level = out_.context.language.findLevel(words_.words[1].text).value();
+  }
   unit.lead = out_.takeGap();
   unit.comment = clean(words_.comment);
   if (unit.kind == UnitKind::Subprogram) {

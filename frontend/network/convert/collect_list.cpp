@@ -29,6 +29,8 @@ private:
   void command();
   void finish(const Network& network);
   void finishSubprogram();
+  // The level that begins where this network ends the one before; kNone where it does not, or that was the last one.
+  uint32_t levelAfter(const Network& network) const;
   // Comments of commands that have no place of their own.
   void spill(const SourceCommand& command, bool after);
   SourceUnit& unit() { return out_.program.units.back(); }
@@ -72,12 +74,20 @@ void ListCollector::spill(const SourceCommand& command, bool after) {
   if (after && !command.comment.empty()) out_.comment(command.comment);
 }
 
+uint32_t ListCollector::levelAfter(const Network& network) const {
+  if (controlOf(network) != Control::LevelEnd) return kNone;
+  const Language& language = out_.context.language;
+  const uint32_t next = language.levelOf(*network.function.row) + 1;
+  return next == language.levels.size() ? kNone : next;
+}
+
 void ListCollector::finish(const Network& network) {
   const Row* row = network.function.row;
   const Control control = controlOf(network);
-  if (control == Control::End1) {
+  if (const uint32_t next = levelAfter(network); next != kNone) {
     spill(commands_[0], false);
-    out_.program.units.push_back({.kind = UnitKind::Level2, .lead = out_.takeGap(), .comment = commands_[0].comment});
+    out_.program.units.push_back(
+        {.kind = UnitKind::Level, .level = next, .lead = out_.takeGap(), .comment = commands_[0].comment});
   } else if (control == Control::Sp) {
     finishSubprogram();
   } else if (isEnd(control)) {
@@ -104,7 +114,7 @@ void ListCollector::finishSubprogram() {
 } // namespace
 
 void collectList(Collector& collector, FileId file) {
-  if (collector.program.units.empty()) collector.program.units.push_back({.kind = UnitKind::Level1});
+  if (collector.program.units.empty()) collector.program.units.push_back({.kind = UnitKind::Level});
   ListCollector(collector, file).run();
 }
 

@@ -24,7 +24,7 @@ SourceProgram readModel(const Language& language, SourceManager& sources, std::s
   Context context{.language = language, .sources = sources, .diagnostics = heard};
   std::vector<Network> networks;
   context.onNetwork = [&networks](const Network& network) { networks.push_back(network); };
-  Program program;
+  Program program(language);
   Reading reading(context, program);
   for (FileId file : files) reading.add(file);
   reading.read();
@@ -41,7 +41,8 @@ bool sameNetwork(const SourceNetwork& a, const SourceNetwork& b) {
 }
 
 bool sameUnit(const SourceUnit& a, const SourceUnit& b) {
-  return a.kind == b.kind && a.number == b.number && std::ranges::equal(a.condition, b.condition, sameCommand) &&
+  return a.kind == b.kind && a.level == b.level && a.number == b.number &&
+         std::ranges::equal(a.condition, b.condition, sameCommand) &&
          std::ranges::equal(a.networks, b.networks, sameNetwork);
 }
 

@@ -38,9 +38,8 @@ private:
 void LadderWriter::begin(const SourceUnit& unit) {
   page_.blank();
   page_.gap(tidy(unit.lead));
-  page_.line(unit.kind == UnitKind::Subprogram
-                 ? fmt::format("module {} {}", language_.subprogram, unit.number)
-                 : fmt::format("module {}", language_.levels[static_cast<size_t>(unit.kind)]),
+  page_.line(unit.kind == UnitKind::Subprogram ? fmt::format("module {} {}", language_.subprogram, unit.number)
+                                               : fmt::format("module {}", language_.levels[unit.level].name),
              unit.comment);
   for (const SourceCommand& command : unit.condition)
     page_.comment(fmt::format("{} {}{}{}", kConditionComment, language_.nameOf(command.command),
@@ -104,7 +103,7 @@ std::string LadderWriter::run(const SourceProgram& program) {
   page_.gap(tidy(program.preamble));
   for (const SourceUnit& unit : program.units) {
     const bool nothing = unit.lead.empty() && unit.comment.empty() && unit.networks.empty();
-    if (unit.kind == UnitKind::Level1 && nothing) continue;
+    if (nothing && unit.kind == UnitKind::Level && unit.level != language_.mainLevel()) continue;
     begin(unit);
     for (const SourceNetwork& network : unit.networks) this->network(network);
   }

@@ -14,10 +14,11 @@ public:
 
 private:
   void command(const SourceCommand& command);
-  void function(Control control, std::string_view comment = {}) {
-    page_.line(commandText(language_, Command::Function, language_.mnemonicOf(control)), comment);
+  void function(const Row& row, std::string_view comment = {}) {
+    page_.line(commandText(language_, Command::Function, row.info.mnemonic), comment);
   }
   void begin(const SourceUnit& unit);
+  void end(const SourceUnit& unit);
   void network(const SourceNetwork& network);
   Gap afterPending(const Gap& gap) {
     pending_.insert(pending_.end(), gap.begin(), gap.end());
@@ -31,7 +32,7 @@ private:
 
   const Language& language_;
   Page page_{language_, Form::List};
-  Gap pending_; // what Level 1 begins with: it has no command of its own
+  Gap pending_; // what the first level begins with: it has no command of its own
 };
 
 void ListWriter::command(const SourceCommand& command) {
@@ -46,25 +47,28 @@ void ListWriter::network(const SourceNetwork& network) {
 
 void ListWriter::begin(const SourceUnit& unit) {
   Gap gap = afterPending(unit.lead);
-  switch (unit.kind) {
-  case UnitKind::Level1:
+  if (unit.kind == UnitKind::Level && unit.level == 0) {
     pending_ = std::move(gap);
     if (!unit.comment.empty()) pending_.push_back({Item::Kind::Comment, unit.comment});
     return;
-  case UnitKind::Level2:
-    page_.blank();
-    page_.gap(tidy(gap));
-    function(Control::End1, unit.comment);
-    break;
-  case UnitKind::Subprogram:
-    page_.blank();
-    page_.gap(tidy(gap));
-    for (const SourceCommand& command : unit.condition) this->command(command);
-    function(Control::Sp, unit.comment);
-    page_.line(commandText(language_, Command::Parameter, unit.number));
-    break;
   }
   page_.blank();
+  page_.gap(tidy(gap));
+  if (unit.kind == UnitKind::Level) {
+    function(language_.endOf(unit.level - 1), unit.comment);
+  } else {
+    for (const SourceCommand& command : unit.condition) this->command(command);
+    function(language_.rowOf(Control::Sp), unit.comment);
+    page_.line(commandText(language_, Command::Parameter, unit.number));
+  }
+  page_.blank();
+}
+
+void ListWriter::end(const SourceUnit& unit) {
+  const bool isLevel = unit.kind == UnitKind::Level;
+  if (isLevel && unit.level + 1 != language_.levels.size()) return; // the next one begins with it
+  page_.blank();
+  function(isLevel ? language_.endOf(unit.level) : language_.rowOf(Control::Spe));
 }
 
 std::string ListWriter::run(const SourceProgram& program) {
@@ -73,9 +77,7 @@ std::string ListWriter::run(const SourceProgram& program) {
   for (const SourceUnit& unit : program.units) {
     begin(unit);
     for (const SourceNetwork& network : unit.networks) this->network(network);
-    if (unit.kind == UnitKind::Level1) continue;
-    page_.blank();
-    function(unit.kind == UnitKind::Level2 ? Control::End2 : Control::Spe);
+    end(unit);
   }
   lead(tidy(program.tail));
   return page_.take();

@@ -53,11 +53,12 @@ struct SourceNetwork {
   std::vector<SourceCommand> commands;
 };
 
-// Level 1, Level 2 or a subprogram; its end is not among its networks.
+// A level or a subprogram; its end is not among its networks.
 struct SourceUnit {
-  UnitKind kind = UnitKind::Level1;
-  std::string_view number;              // "P5", as spelled
-  Gap lead;                             // before `module`; in a list of END1 or SP
+  UnitKind kind = UnitKind::Level;
+  uint32_t level = 0;                   // its place in Language::levels
+  std::string_view number;              // of a subprogram: "P5", as spelled
+  Gap lead;                             // before `module`; in a list of the end of the level before it, or of SP
   std::string comment;                  // after it, on its line
   std::vector<SourceCommand> condition; // of SP, without effect (P13)
   std::vector<SourceNetwork> networks;
@@ -65,7 +66,7 @@ struct SourceUnit {
 
 struct SourceProgram {
   Gap preamble;                  // up to the last declaration before all networks; with the one Dialect
-  std::vector<SourceUnit> units; // Level 1, Level 2, subprograms
+  std::vector<SourceUnit> units; // levels, then subprograms
   Gap tail;
 };
 

@@ -174,7 +174,7 @@ bool noteSyntax(const Language& language, std::string_view word, DiagBuilder& re
     report.note(
         fmt::format("this is a drawing, and the file is read as a command list: a ladder has the extension .lad, "
                     "and above its drawings the statements `dialect {}`, `module {}` and `rung`",
-                    language.name, language.levels[0]));
+                    language.name, language.levels[0].name));
   else if (looksLikeComment(word))
     report.note("a comment begins with ';'");
   else if (word.ends_with(':'))

@@ -330,28 +330,27 @@ private:
   uint32_t conditionEnd_ = 0; // the last line of the condition of a subprogram; it is not a title
 };
 
+// "module LEVEL1, module LEVEL2 or module SUB Pn"
+std::string modulesText(const Language& language) {
+  std::string text;
+  for (const Level& level : language.levels) text += fmt::format("{}module {}", text.empty() ? "" : ", ", level.name);
+  return fmt::format("{} or module {} {}n", text, language.subprogram, language.letterOf(Control::Sp));
+}
+
 void LadderReader::module(const ladder::Module& module) {
   unit_ = kNone;
   const Language& language = context_.language;
-  const auto is = [&](std::string_view name, size_t words) {
-    return module.name.size() == words && text::equalsIgnoringCase(module.name[0].text, name);
-  };
-  if (is(language.levels[kLevel1], 1)) {
-    unit_ = units_.openModule(UnitKind::Level1, 0, module.range, module.range);
-  } else if (is(language.levels[kLevel2], 1)) {
-    unit_ = units_.openModule(UnitKind::Level2, 0, module.range, module.range);
-  } else if (is(language.subprogram, 2)) {
+  const auto level = module.name.size() == 1 ? language.findLevel(module.name[0].text) : std::nullopt;
+  if (level) {
+    unit_ = units_.openLevel(*level, module.range);
+  } else if (module.name.size() == 2 && text::equalsIgnoringCase(module.name[0].text, language.subprogram)) {
     // The operand of SP, checked like one.
     Function sp{.row = &language.rowOf(Control::Sp), .range = module.range};
     if (checkFunction(context_, {module.name[1]}, {}, sp))
-      unit_ = units_.openModule(UnitKind::Subprogram, static_cast<uint32_t>(sp.params[0].value), module.range,
-                                module.name[1].range);
+      unit_ = units_.openSubprogram(static_cast<uint32_t>(sp.params[0].value), module.range, module.name[1].range);
     condition(module);
   } else {
-    context_.diagnostics.report(diag::MalformedStatement, module.range)
-        << "module"
-        << fmt::format("module {}, module {} or module {} {}n", language.levels[kLevel1], language.levels[kLevel2],
-                       language.subprogram, language.letterOf(Control::Sp));
+    context_.diagnostics.report(diag::MalformedStatement, module.range) << "module" << modulesText(language);
   }
   if (unit_ == kNone) units_.setIncomplete();
 }

@@ -1,4 +1,4 @@
-// Units of a program (§1.2): Level 1, END1, Level 2, END2, subprograms.
+// Units of a program (§1.2): the levels, each with its end, then subprograms.
 #include <utility>
 
 #include "frontend/network/read/units.h"
@@ -8,17 +8,11 @@
 
 namespace rung::network {
 
-std::string nameOf(const Language& language, const Unit& unit) {
-  if (unit.kind == UnitKind::Subprogram) return language.numbered(Control::Sp, unit.number);
-  return std::string(language.levels[static_cast<size_t>(unit.kind)]);
-}
-
 void UnitAssembler::add(Network&& network) {
   sawList_ = true;
   if (network.incomplete) incomplete_ = true;
   switch (controlOf(network)) {
-  case Control::End1: return end1(std::move(network));
-  case Control::End2: return end2(std::move(network));
+  case Control::LevelEnd: return endLevel(std::move(network));
   case Control::Sp: return beginSubprogram(network);
   case Control::Spe: return endSubprogram(std::move(network));
   case Control::Plain:
@@ -39,42 +33,39 @@ void UnitAssembler::body(Network&& network) {
   if (current_ != kNone) return program_.units[current_].networks.push_back(std::move(network));
   if (!strayReported_ && !network.incomplete) stray_.push_back(network.range);
   strayReported_ = true;
-  program_.units[kLevel2].networks.push_back(
+  program_.units[levelCount() - 1].networks.push_back(
       std::move(network)); // labels, calls and regions in it are there all the same
 }
 
-void UnitAssembler::end1(Network&& network) {
-  const SourceRange range = network.function.range;
-  if (sawEnd1_) {
-    context_.diagnostics.report(diag::DuplicateEnd1, range) << language_.fullNameOf(Control::End1);
-    return;
+uint32_t UnitAssembler::nextEnded(uint32_t level) const {
+  while (++level < levelCount() && !ends_[level].valid()) {
   }
-  sawEnd1_ = true;
-  if (sawEnd2_) { // what is between them is misplaced for that reason alone
-    stray_.clear();
-    strayReported_ = false;
-    return static_cast<void>(context_.diagnostics.report(diag::EndOrder, range)
-                             << language_.fullNameOf(Control::End1) << language_.fullNameOf(Control::End2));
-  }
-  closeAll();
-  program_.units[kLevel1].networks.push_back(std::move(network));
-  current_ = kLevel2;
+  return level;
 }
 
-void UnitAssembler::end2(Network&& network) {
+void UnitAssembler::endLevel(Network&& network) {
+  const uint32_t level = language_.levelOf(*network.function.row);
   const SourceRange range = network.function.range;
-  if (sawEnd2_) {
-    context_.diagnostics.report(diag::DuplicateEnd2, range) << language_.fullNameOf(Control::End2);
+  if (ends_[level].valid()) {
+    context_.diagnostics.report(language_.levels[level].endTwice, range)
+        << language_.fullNameOf(language_.endOf(level));
     return;
   }
-  sawEnd2_ = true;
-  end2Range_ = range;
+  ends_[level] = range;
+  if (const uint32_t later = nextEnded(level); later != levelCount()) return endOrder(level, later, range);
   closeAll();
-  program_.units[kLevel2].networks.push_back(std::move(network));
-  current_ = kNone;
+  program_.units[level].networks.push_back(std::move(network));
+  current_ = level + 1 == levelCount() ? kNone : level + 1;
 }
 
-uint32_t UnitAssembler::subprogram(uint32_t number, SourceRange range, SourceRange name) {
+void UnitAssembler::endOrder(uint32_t level, uint32_t later, SourceRange range) {
+  stray_.clear(); // what is between them is misplaced for that reason alone
+  strayReported_ = false;
+  context_.diagnostics.report(diag::EndOrder, range)
+      << language_.fullNameOf(language_.endOf(level)) << language_.fullNameOf(language_.endOf(later));
+}
+
+uint32_t UnitAssembler::openSubprogram(uint32_t number, SourceRange range, SourceRange name) {
   const auto index = static_cast<uint32_t>(program_.units.size());
   const auto [at, isNew] = subprograms_.emplace(number, index);
   if (!isNew)
@@ -111,7 +102,7 @@ void UnitAssembler::beginSubprogram(const Network& network) {
     incomplete_ = true;
   } else {
     const Param& number = network.function.params[0];
-    current_ = subprogram(static_cast<uint32_t>(number.value), range, number.range);
+    current_ = openSubprogram(static_cast<uint32_t>(number.value), range, number.range);
   }
   open_.push_back({current_, outside});
 }
@@ -138,26 +129,27 @@ void UnitAssembler::closeAll() {
 }
 
 void UnitAssembler::endOfList(SourceRange lastLine) {
-  const std::string_view end2 = language_.mnemonicOf(Control::End2);
-  for (SourceRange range : stray_) context_.diagnostics.report(diag::CodeAfterEnd2, range) << end2;
-  if (!sawEnd2_ && misplaced_.size() > 1) misplaced_.resize(1); // the missing END2 is the mistake
-  for (SourceRange range : misplaced_) context_.diagnostics.report(diag::SubprogramMisplaced, range) << end2;
+  const std::string_view end = lastEnd().info.mnemonic;
+  for (SourceRange range : stray_) context_.diagnostics.report(diag::CodeAfterEnd2, range) << end;
+  if (!ends_.back().valid() && misplaced_.size() > 1) misplaced_.resize(1); // the missing end is the mistake
+  for (SourceRange range : misplaced_) context_.diagnostics.report(diag::SubprogramMisplaced, range) << end;
   closeAll();
   if (incomplete_) return;
-  if (!sawEnd1_)
-    context_.diagnostics.report(diag::MissingEnd1, sawEnd2_ ? end2Range_ : lastLine)
-        << language_.fullNameOf(Control::End1);
-  if (!sawEnd2_) context_.diagnostics.report(diag::MissingEnd2, lastLine) << language_.fullNameOf(Control::End2);
+  for (uint32_t level = 0; level < levelCount(); ++level) {
+    if (ends_[level].valid()) continue;
+    const uint32_t later = nextEnded(level);
+    context_.diagnostics.report(language_.levels[level].endMissing, later == levelCount() ? lastLine : ends_[later])
+        << language_.fullNameOf(language_.endOf(level));
+  }
 }
 
-uint32_t UnitAssembler::openModule(UnitKind kind, uint32_t number, SourceRange module, SourceRange name) {
-  if (kind == UnitKind::Subprogram) return subprogram(number, module, name);
-  const uint32_t unit = kind == UnitKind::Level1 ? kLevel1 : kLevel2;
-  if (sawList_ || moduleOpened_[unit])
-    context_.diagnostics.report(diag::DuplicateModule, module) << nameOf(language_, program_.units[unit]);
-  moduleOpened_[unit] = true;
-  program_.units[unit].range = module;
-  return unit;
+uint32_t UnitAssembler::openLevel(uint32_t level, SourceRange module) {
+  Unit& unit = program_.units[level];
+  if (sawList_ || moduleOpened_[level])
+    context_.diagnostics.report(diag::DuplicateModule, module) << nameOf(language_, unit);
+  moduleOpened_[level] = true;
+  unit.range = module;
+  return level;
 }
 
 // Ladder modules draw neither ends nor SP; converted into commands they are steps all the same (P1).
@@ -169,9 +161,7 @@ void UnitAssembler::finish(SourceRange anywhere) {
     end.range = placed ? unit.range : anywhere;
     end.file = context_.sources.fileOf(end.range.begin);
     end.firstLine = end.lastLine = context_.sources.lineCol(end.range.begin).line;
-    end.function.row = &language_.rowOf(unit.kind == UnitKind::Level1   ? Control::End1
-                                        : unit.kind == UnitKind::Level2 ? Control::End2
-                                                                        : Control::Spe);
+    end.function.row = unit.kind == UnitKind::Level ? &language_.endOf(unit.number) : &language_.rowOf(Control::Spe);
     end.function.range = end.range;
     end.function.line = end.firstLine;
     const int steps = unit.kind == UnitKind::Subprogram ? 3 : 1; // SP and its PRM, SPE

@@ -12,14 +12,16 @@ namespace rung::network {
 class UnitAssembler {
 public:
   UnitAssembler(Context& context, Program& program)
-      : language_(context.language), context_(context), program_(program) {}
+      : language_(context.language), context_(context), program_(program), ends_(language_.levels.size()),
+        moduleOpened_(language_.levels.size()) {}
 
   // Command lists: every network in the order of the text, then the end of each file.
   void add(Network&& network);
   void endOfList(SourceRange lastLine);
 
-  // Ladder modules: the unit of `module LEVEL1`, `module LEVEL2` or `module SUB Pn`.
-  uint32_t openModule(UnitKind kind, uint32_t number, SourceRange module, SourceRange name);
+  // Ladder modules: the unit of `module LEVEL1` or `module SUB Pn`.
+  uint32_t openLevel(uint32_t level, SourceRange module);
+  uint32_t openSubprogram(uint32_t number, SourceRange range, SourceRange name);
   void addTo(uint32_t unit, Network&& network) { program_.units[unit].networks.push_back(std::move(network)); }
 
   // After all files: every unit gets its end. `anywhere` serves where a unit has no place of its own.
@@ -29,20 +31,24 @@ public:
   void setIncomplete() { incomplete_ = true; }
 
 private:
-  void end1(Network&& network);
-  void end2(Network&& network);
+  void endLevel(Network&& network);
+  void endOrder(uint32_t level, uint32_t later, SourceRange range);
   void beginSubprogram(const Network& network);
   void endSubprogram(Network&& network);
   void body(Network&& network);
   void nest(SourceRange inner);
   void closeAll();
-  uint32_t subprogram(uint32_t number, SourceRange range, SourceRange name);
+  uint32_t levelCount() const { return static_cast<uint32_t>(language_.levels.size()); }
+  // The first level after `level` whose end was seen; levelCount() when there is none.
+  uint32_t nextEnded(uint32_t level) const;
+  // The end after which subprograms belong.
+  const Row& lastEnd() const { return language_.endOf(levelCount() - 1); }
 
   const Language& language_;
   Context& context_;
   Program& program_;
   std::map<uint32_t, uint32_t> subprograms_; // number -> unit
-  uint32_t current_ = kLevel1;               // kNone: after END2, in no subprogram
+  uint32_t current_ = 0;                     // kNone: after the last level, in no subprogram
   struct Open {
     uint32_t unit = kNone;
     uint32_t outside = kNone; // the unit around a misplaced or nested subprogram
@@ -50,15 +56,13 @@ private:
   };
   std::vector<Open> open_; // subprograms, the innermost last
   bool nestedReported_ = false;
-  bool sawEnd1_ = false;
-  bool sawEnd2_ = false;
   bool sawList_ = false;
-  SourceRange end2Range_;
-  bool strayReported_ = false;         // in this run of commands after END2
+  std::vector<SourceRange> ends_;      // of the levels; invalid: not seen
+  bool strayReported_ = false;         // in this run of commands after the last level
   std::vector<SourceRange> stray_;     // such runs
-  std::vector<SourceRange> misplaced_; // subprograms that began before END2
+  std::vector<SourceRange> misplaced_; // subprograms that began before its end
   bool incomplete_ = false;
-  bool moduleOpened_[2] = {false, false};
+  std::vector<bool> moduleOpened_; // by level
 };
 
 } // namespace rung::network

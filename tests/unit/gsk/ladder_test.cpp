@@ -14,13 +14,13 @@ std::string listOf(const std::string& drawing) {
   Diagnostics diagnostics;
   const FileId file = sources.addBuffer("test.lad", "dialect gsk\nmodule LEVEL2\nrung\n" + drawing);
   network::Context context{.language = kLanguage, .sources = sources, .diagnostics = diagnostics};
-  network::Program program;
+  network::Program program(kLanguage);
   network::UnitAssembler units(context, program);
   const ladder::LadderFile parsed = network::parseLadderFile(context, file);
   network::readLadder(context, parsed, units);
   if (diagnostics.hasErrors()) return renderText(diagnostics, sources);
   std::string text;
-  for (const network::Network& network : program.units[network::kLevel2].networks)
+  for (const network::Network& network : program.units[kLanguage.mainLevel()].networks)
     text += commandText(kLanguage, network);
   for (char& c : text)
     if (c == '\n') c = ';';

@@ -29,8 +29,8 @@ inline constexpr frontend::OperandInfo kToPart = {
 inline constexpr frontend::PinInfo kGo = {.name = "GO"};
 
 inline constexpr Row kRows[] = {
-    {.info = {.mnemonic = "FASTEND", .number = 10}, .control = Control::End1},
-    {.info = {.mnemonic = "SLOWEND", .number = 11}, .control = Control::End2},
+    {.info = {.mnemonic = "FASTEND", .number = 10}, .control = Control::LevelEnd},
+    {.info = {.mnemonic = "SLOWEND", .number = 11}, .control = Control::LevelEnd},
     {.info = {.mnemonic = "PART", .number = 12, .operands = {kToPart}}, .control = Control::Sp},
     {.info = {.mnemonic = "PARTEND", .number = 13}, .control = Control::Spe},
     {.info = {.mnemonic = "VISIT", .number = 14, .pins = {kGo}, .operands = {kToPart}}, .control = Control::Call},
@@ -69,6 +69,21 @@ constexpr std::array<const Row*, N> pointersTo(const Row (&rows)[N]) {
 }
 inline constexpr auto kRowPointers = pointersTo(kRows);
 
+inline constexpr Level kLevels[] = {
+    {.name = "FAST",
+     .end = "FASTEND",
+     .turn = Turn::EverySlot,
+     .endMissing = diag::MissingEnd1,
+     .endTwice = diag::DuplicateEnd1},
+    {.name = "SLOW",
+     .end = "SLOWEND",
+     .turn = Turn::Parts,
+     .endMissing = diag::MissingEnd2,
+     .endTwice = diag::DuplicateEnd2},
+};
+inline constexpr uint32_t kFast = 0;
+inline constexpr uint32_t kSlow = 1;
+
 inline const nc::SignalTable& signals() {
   static constexpr nc::Signal kSignals[] = {
       {"*DOOR", "I1.7", "I", 1, 7, nc::SignalType::Bit, nc::Direction::In, 1, 0, "", "", "the door is open", 1, false}};
@@ -87,7 +102,7 @@ inline constexpr Language kLittle = {
     .rows = kRowPointers,
     .areas = kAreas,
     .signals = signals,
-    .levels = {"FAST", "SLOW"},
+    .levels = kLevels,
     .subprogram = "EXTRA",
     .messageTexts = "this language has none",
     .maxSteps = 40,

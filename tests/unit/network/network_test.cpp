@@ -26,11 +26,13 @@ struct Checked {
   SourceManager sources;
   Diagnostics diagnostics;
   Context context;
+  const Language& language;
   Program program;
   std::vector<FileId> files;
 
   Checked(const std::string& name, const std::string& text, const Language& language = kLittle)
-      : context{.language = language, .sources = sources, .diagnostics = diagnostics} {
+      : context{.language = language, .sources = sources, .diagnostics = diagnostics}, language(language),
+        program(language) {
     files.push_back(sources.addBuffer(name, text));
     Reading reading(context, program);
     reading.add(files[0]);
@@ -51,8 +53,8 @@ struct Checked {
   std::vector<std::string> units() const {
     std::vector<std::string> result;
     for (const Unit& unit : program.units) {
-      std::string text = nameOf(kLittle, unit) + ":";
-      for (const Network& network : unit.networks) text += " | " + commandText(kLittle, network);
+      std::string text = nameOf(language, unit) + ":";
+      for (const Network& network : unit.networks) text += " | " + commandText(language, network);
       for (char& c : text)
         if (c == '\n') c = ';';
       result.push_back(text);
@@ -134,9 +136,9 @@ TEST(Network, AListIsReadIntoUnits) {
             " | GET M0.0;DO 22;ARG M2;ARG 2;ROW 7;ROW 8; | GET M0.1;DO 14;ARG U3; | DO 11;\n"
             "U3: | GET M0.2;DO 21;ARG I2;ARG Q1; | DO 13;\n");
   EXPECT_EQ(program.program.units[0].networks[0].title, "the door");
-  EXPECT_EQ(program.program.units[kLevel2].networks[2].callee, 2u);
-  EXPECT_TRUE(program.program.units[2].fromLevel2);
-  EXPECT_FALSE(program.program.units[2].fromLevel1);
+  EXPECT_EQ(program.program.units[kSlow].networks[2].callee, 2u);
+  EXPECT_TRUE(program.program.units[2].runBy[kSlow]);
+  EXPECT_FALSE(program.program.units[2].runBy[kFast]);
 }
 
 TEST(Network, ALadderIsReadIntoTheSameUnits) {
@@ -186,13 +188,13 @@ TEST(Network, NoMoreIsNeededThanTheEndsOfTheLevels) {
   ends.subprogram = {};
   const Checked program("test.lst", "symbol K4 M0.0\nGET I0.0\nPUT K4\nDO 10\nGET K4\nDO COPY\nDO 11\n", ends);
   EXPECT_EQ(joined(program.reports()), "6 unknown-function: unknown function command 'COPY'\n");
-  EXPECT_EQ(program.program.units[kLevel1].networks.size(), 2u) << "K4 is a name here: there are no labels";
+  EXPECT_EQ(program.program.units[kFast].networks.size(), 2u) << "K4 is a name here: there are no labels";
 }
 
-std::string converted(const std::string& name, const std::string& text, Form to) {
-  Checked program(name, text);
+std::string converted(const std::string& name, const std::string& text, Form to, const Language& language = kLittle) {
+  Checked program(name, text, language);
   EXPECT_EQ(joined(program.reports()), "");
-  return convertProgram(kLittle, program.sources, program.files, to, program.diagnostics).value_or("");
+  return convertProgram(language, program.sources, program.files, to, program.diagnostics).value_or("");
 }
 
 TEST(Network, ConvertsToLadderAndBack) {
@@ -211,6 +213,67 @@ TEST(Network, BlocksThatADrawingDoesNotHaveAreAHint) {
   const std::string drawn = converted("test.lst", text, Form::Ladder);
   EXPECT_THAT(drawn, HasSubstr("; list: GET GET MEET\n"));
   EXPECT_EQ(list(converted("test.lad", drawn, Form::List)).units(), list(text).units());
+}
+
+// A language with one level more, of which it says nothing but a row in each of its lists.
+class ThreeLevels {
+public:
+  ThreeLevels() {
+    for (const Row* row : kRowPointers) rows_.push_back(row);
+    rows_.push_back(&idleEnd_);
+    language_.levels = levels_;
+    language_.rows = rows_;
+  }
+  ThreeLevels(const ThreeLevels&) = delete;
+  const Language& language() const { return language_; }
+
+private:
+  Row idleEnd_{.info = {.mnemonic = "IDLEEND", .number = 30}, .control = Control::LevelEnd};
+  std::vector<const Row*> rows_;
+  Level levels_[3] = {kLevels[kFast],
+                      kLevels[kSlow],
+                      {.name = "IDLE",
+                       .end = "IDLEEND",
+                       .turn = Turn::LastSlot,
+                       .endMissing = diag::MissingEnd2,
+                       .endTwice = diag::DuplicateEnd2}};
+  Language language_ = kLittle;
+};
+
+TEST(Network, AThirdLevelIsARow) {
+  const ThreeLevels three;
+  const std::string text = "GET I0.0\nPUT Q0.0\nDO FASTEND\nGET I0.1\nPUT Q0.1\nDO SLOWEND\n"
+                           "GET I0.2\nDO VISIT\nARG U1\nDO IDLEEND\nDO PART\nARG U1\nGET I0.3\nPUT Q0.3\nDO PARTEND\n";
+  const Checked program("test.lst", text, three.language());
+  EXPECT_EQ(joined(program.reports()), "");
+  EXPECT_EQ(joined(program.units()), "FAST: | GET I0.0;PUT Q0.0; | DO 10;\n"
+                                     "SLOW: | GET I0.1;PUT Q0.1; | DO 11;\n"
+                                     "IDLE: | GET I0.2;DO 14;ARG U1; | DO 30;\n"
+                                     "U1: | GET I0.3;PUT Q0.3; | DO 13;\n");
+  EXPECT_EQ(program.program.units[3].runBy, std::vector<bool>({false, false, true}));
+
+  const std::string drawn = converted("test.lst", text, Form::Ladder, three.language());
+  EXPECT_THAT(drawn, HasSubstr("module IDLE\n"));
+  EXPECT_EQ(Checked("test.lad", drawn, three.language()).units(), program.units());
+  const std::string back = converted("test.lad", drawn, Form::List, three.language());
+  EXPECT_EQ(Checked("test.lst", back, three.language()).units(), program.units());
+}
+
+TEST(Network, EndsOfThreeLevelsHaveTheirOrder) {
+  const ThreeLevels three;
+  const auto reports = [&](const std::string& text) {
+    return joined(Checked("test.lst", text, three.language()).reports());
+  };
+  EXPECT_EQ(reports("DO FASTEND\nDO IDLEEND\n"), "2 missing-end2: SLOWEND (DO 11) is missing\n");
+  EXPECT_EQ(reports("DO FASTEND\nDO SLOWEND\n"), "2 missing-end2: IDLEEND (DO 30) is missing\n");
+  EXPECT_EQ(reports("DO FASTEND\nDO IDLEEND\nDO SLOWEND\n"),
+            "3 end-order: SLOWEND (DO 11) comes after IDLEEND (DO 30)\n");
+  EXPECT_EQ(reports("DO FASTEND\nDO SLOWEND\nDO PART\nARG U1\nDO PARTEND\nDO IDLEEND\n"),
+            "3 subprogram-misplaced: a subprogram begins before IDLEEND\n4 subprogram-unused: subprogram U1 is never "
+            "called\n");
+  EXPECT_EQ(reports("GET I0.0\nPUT Q0.0\nDO FASTEND\nDO SLOWEND\nGET I0.1\nPUT Q0.0\nDO IDLEEND\n"),
+            "6 double-coil: Q0.0 is driven by two coils\n")
+      << "the first and the last level";
 }
 
 TEST(Network, FormatsItsLists) {

@@ -20,10 +20,8 @@
 
 namespace rung::gsk {
 
-// Machine positions that the CNC gives: one each of the axes 1-8 (signals of axes are 1-8 as well, man. l.3368).
-inline constexpr uint32_t kMachineAxes = 8;
-
 class ModuleLowering;
+struct LevelState;
 struct RoutineContext;
 
 inline network::Address plus(network::Address address, uint32_t bytes) {
@@ -70,8 +68,8 @@ public:
   void markRun();
   ir::ValueId runsSinceMark();
   ir::ServiceId service(std::string_view signature);
-  // The machine positions that the NC keeps: 8 cells of 4 bytes, axis n at byte 4(n-1), in 0.001 mm.
-  ir::Window machinePositions();
+  // A space that the host writes or reads by its name; `legal` of its bytes may be the first of an element.
+  ir::Window hidden(const std::string& name, uint32_t bytes, uint32_t legal);
   // Constant bytes in a hidden space; `legal` of them may be the first of an element.
   ir::Window constants(std::string_view bytes, uint32_t legal);
 
@@ -94,6 +92,8 @@ public:
   ir::SlotId leaveTarget();
 
 private:
+  ir::SlotId runMark(const LevelState& level);
+
   ModuleLowering& module_;
   RoutineContext& routine_;
   std::span<const ir::ValueId> conditions_;

@@ -52,7 +52,9 @@ std::string stemOf(std::string_view path) {
 ModuleLowering::ModuleLowering(const network::Program& program, network::Context& context,
                                std::span<const FileId> files, const frontend::CompileOptions& options)
     : program_(program), context_(context), files_(files), options_(options), module_(std::make_unique<ir::Module>()),
-      constants_(*module_) {}
+      constants_(*module_), levels_(kLanguage.levels.size()) {
+  for (uint32_t level = 0; level < levels_.size(); ++level) levels_[level].level = level;
+}
 
 std::unique_ptr<ir::Module> ModuleLowering::run() {
   module_->name = files_.empty() ? "" : stemOf(context_.sources.name(files_[0]));
@@ -64,7 +66,6 @@ std::unique_ptr<ir::Module> ModuleLowering::run() {
   addPresets();
   makeKeys();
   makeNumbers();
-  levels_[1].isLevel2 = true;
   for (LevelState& level : levels_) planRoutines(level);
   for (LevelState& level : levels_)
     for (uint32_t unit = 0; unit < program_.units.size(); ++unit)
@@ -79,22 +80,26 @@ void ModuleLowering::addSpaces() {
     const network::AreaInfo& info = kAreas[i];
     const ir::SpaceId space = frontend::addSpace(
         *module_, {.name = std::string(1, info.letter), .units = info.bytes, .flags = spaceFlags(info.use)});
+    spaces_[i] = space;
     for (LevelState& level : levels_) {
       level.spaces[i] = space;
       level.used[i].assign(info.bytes, false);
     }
     if (info.retained) module_->retains.push_back({space, 0, info.bytes});
   }
-  for (network::Area area : {areas::kX, areas::kF})
-    levels_[1].spaces[indexOf(area)] =
-        addHidden(fmt::format("@{}2", kLanguage.at(area).letter), kLanguage.at(area).bytes);
+  for (LevelState& level : levels_) {
+    if (!kLanguage.levels[level.level].latchesInputs()) continue;
+    for (size_t i = 0; i < kAreas.size(); ++i)
+      if (kAreas[i].use == network::AreaUse::Input)
+        level.spaces[i] = hiddenSpace(fmt::format("@{}{}", kAreas[i].letter, level.level + 1), kAreas[i].bytes);
+  }
 }
 
 void ModuleLowering::addSymbols() {
   for (const network::UserName& symbol : context_.names.ofKind(network::UserName::Kind::Symbol))
     module_->symbols.push_back({.name = std::string(symbol.name),
                                 .comment = std::string(symbol.comment),
-                                .space = levels_[0].spaces[indexOf(symbol.address.area)],
+                                .space = spaces_[indexOf(symbol.address.area)],
                                 .byte = symbol.address.byte,
                                 .bit = symbol.address.bit,
                                 .type = symbol.address.isBit ? RUNG_TYPE_BIT : RUNG_TYPE_I8,
@@ -108,7 +113,7 @@ void ModuleLowering::addPresets() {
   for (const Preset& preset : presetsOf(options_)) {
     const auto low = static_cast<uint8_t>(preset.value & 0xFF);
     const auto high = static_cast<uint8_t>(preset.value >> 8);
-    module_->inits.push_back({levels_[0].spaces[indexOf(preset.address.area)], preset.address.byte, {low, high}});
+    module_->inits.push_back({spaces_[indexOf(preset.address.area)], preset.address.byte, {low, high}});
   }
 }
 
@@ -141,26 +146,30 @@ void ModuleLowering::makeNumbers() {
   for (const network::Network* network : drawn) numbers_.emplace(network, static_cast<uint32_t>(numbers_.size()) + 1);
 }
 
+// With the number of the level, counted from 1, where another one runs the unit, too.
+std::string ModuleLowering::routineName(const LevelState& level, const network::Unit& unit) const {
+  std::string name = nameOf(kLanguage, unit);
+  if (std::ranges::count(unit.runBy, true) > 1) name += fmt::format("@{}", level.level + 1);
+  return name;
+}
+
 void ModuleLowering::planRoutines(LevelState& level) {
   level.routines.resize(program_.units.size());
   for (uint32_t u = 0; u < program_.units.size(); ++u) {
     const network::Unit& unit = program_.units[u];
-    if (!(level.isLevel2 ? unit.fromLevel2 : unit.fromLevel1)) continue;
-    const bool twice = unit.fromLevel1 && unit.fromLevel2;
-    level.routines[u] =
-        frontend::addRoutine(*module_, nameOf(kLanguage, unit) + (twice ? (level.isLevel2 ? "@2" : "@1") : ""));
-    level.hasClock = level.hasClock || std::any_of(unit.networks.begin(), unit.networks.end(), isTimer);
-    level.countsRuns = level.countsRuns || std::any_of(unit.networks.begin(), unit.networks.end(), isWindow);
+    if (!unit.runBy[level.level]) continue;
+    level.routines[u] = frontend::addRoutine(*module_, routineName(level, unit));
+    level.hasClock = level.hasClock || std::ranges::any_of(unit.networks, isTimer);
+    level.countsRuns = level.countsRuns || std::ranges::any_of(unit.networks, isWindow);
   }
-  const std::vector<network::Network>& own =
-      program_.units[level.isLevel2 ? network::kLevel2 : network::kLevel1].networks;
+  const std::vector<network::Network>& own = program_.units[level.level].networks;
   level.straight = options_.given == nullptr && std::none_of(own.begin(), own.end(), jumps) &&
-                   (!level.isLevel2 || program_.jumpTargets.empty());
+                   (level.level != kLanguage.mainLevel() || program_.jumpTargets.empty());
   planClock(level);
 }
 
 void ModuleLowering::planClock(LevelState& level) {
-  const std::string name(kLanguage.levels[level.isLevel2 ? network::kLevel2 : network::kLevel1]);
+  const std::string name(kLanguage.levels[level.level].name);
   if (level.hasClock) {
     level.clock = slot("@clock/" + name, ir::Type::I64, 0, false);
     level.scanTime = slot("@scan/" + name, ir::Type::I64, 0, false);
@@ -168,8 +177,8 @@ void ModuleLowering::planClock(LevelState& level) {
   if (level.countsRuns) level.runs = slot("@runs/" + name, ir::Type::I32, 0, false);
 }
 
-bool ModuleLowering::mayLeaveAfter(const RoutineContext& routine, const network::Network& network) const {
-  return routine.level->isLevel2 && network.callee != network::kNone && program_.units[network.callee].leaves;
+bool ModuleLowering::mayLeaveAfter(const network::Network& network) const {
+  return network.callee != network::kNone && program_.units[network.callee].leaves;
 }
 
 void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
@@ -179,15 +188,14 @@ void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
   uint32_t count = clock ? 1 : 0;
   for (const network::Network& network : unit.networks) {
     context.rungOf.push_back(count);
-    count += mayLeaveAfter(context, network) ? 2 : 1;
+    count += mayLeaveAfter(network) ? 2 : 1;
   }
   ir::Routine& routine = module_->routines[level.routines[unitIndex].index];
   routine.rungs.resize(count);
   if (clock) addClock(routine, level, unit);
   for (uint32_t n = 0; n < unit.networks.size(); ++n) {
     lowerNetwork(context, routine.rungs[context.rungOf[n]], n);
-    if (mayLeaveAfter(context, unit.networks[n]))
-      addLeave(context, routine.rungs[context.rungOf[n] + 1], context.rungOf[n] + 2);
+    if (mayLeaveAfter(unit.networks[n])) addLeave(context, routine.rungs[context.rungOf[n] + 1], context.rungOf[n] + 2);
   }
 }
 
@@ -216,15 +224,13 @@ void ModuleLowering::planParts() {
   const auto slotSteps = slotStepsOf(options_);
   if (!slotSteps) return;
   uint64_t level1 = 0;
-  for (const ir::PartPiece& piece : ir::partPieces(*module_, levels_[0].routines[network::kLevel1]))
-    level1 += piece.weight;
+  for (const ir::PartPiece& piece : ir::partPieces(*module_, routineOf(levels_[0]))) level1 += piece.weight;
   if (level1 >= *slotSteps) {
     context_.diagnostics.report(diag::Level1TooLong) << level1 << *slotSteps;
     return;
   }
   const uint64_t room = *slotSteps - level1;
-  const ir::RoutineId level2 = levels_[1].routines[network::kLevel2];
-  const std::vector<ir::PartPiece> pieces = ir::partPieces(*module_, level2);
+  const std::vector<ir::PartPiece> pieces = ir::partPieces(*module_, routineOf(levels_[1]));
   const uint32_t needed = ir::partsNeeded(pieces, room);
   if (needed == 0) return reportLongRungs(pieces, room);
   if (!given)
@@ -236,8 +242,8 @@ void ModuleLowering::planParts() {
 }
 
 void ModuleLowering::reportLongRungs(const std::vector<ir::PartPiece>& pieces, uint64_t room) {
-  const std::vector<ir::Rung>& rungs = module_->at(levels_[1].routines[network::kLevel2]).rungs;
-  const std::vector<network::Network>& networks = program_.units[network::kLevel2].networks;
+  const std::vector<ir::Rung>& rungs = module_->at(routineOf(levels_[1])).rungs;
+  const std::vector<network::Network>& networks = program_.units[levels_[1].level].networks;
   for (const ir::PartPiece& piece : pieces) {
     if (piece.weight <= room) continue;
     const auto network = std::find_if(networks.begin(), networks.end(), [&](const network::Network& n) {
@@ -250,62 +256,76 @@ void ModuleLowering::reportLongRungs(const std::vector<ir::PartPiece>& pieces, u
 }
 
 void ModuleLowering::addTasks() {
-  module_->tasks.push_back({.name = std::string(kLanguage.levels[network::kLevel1]),
-                            .entry = levels_[0].routines[network::kLevel1],
-                            .periodUs = kSlotUs,
-                            .budget = kBudget,
-                            .budgetFault = ir::FaultId{0}});
-  module_->tasks.push_back({.name = std::string(kLanguage.levels[network::kLevel2]),
-                            .entry = levels_[1].routines[network::kLevel2],
-                            .periodUs = kSlotUs * parts_,
-                            .budget = kBudget,
-                            .budgetFault = ir::FaultId{0}});
-  ir::cutTask(*module_, module_->tasks[1], parts_);
-  module_->fastTask = ir::TaskId{0};
-  module_->mainTask = ir::TaskId{1};
-  addResultRegisters(module_->tasks[0]);
-  addLatch(module_->tasks[1], areas::kX);
-  addLatch(module_->tasks[1], areas::kF);
-  const ir::Step advance{.op = RUNG_STEP_ADVANCE, .arg = kSlotUs};
-  const ir::Step level1{.op = RUNG_STEP_RUN, .task = module_->fastTask, .arg = 1};
-  const uint32_t runOrPart = parts_ == 1 ? RUNG_STEP_RUN : RUNG_STEP_PART;
-  const ir::Step level2{.op = runOrPart, .task = module_->mainTask, .arg = 1};
+  for (const LevelState& level : levels_) addTask(level);
+  addScan();
+}
+
+void ModuleLowering::addTask(const LevelState& level) {
+  const network::Level& own = kLanguage.levels[level.level];
+  const bool inEverySlot = own.turn == network::Turn::EverySlot;
+  const ir::TaskId id{static_cast<uint32_t>(module_->tasks.size())};
+  ir::Task& task = module_->tasks.emplace_back(ir::Task{.name = std::string(own.name),
+                                                        .entry = routineOf(level),
+                                                        .periodUs = kSlotUs * (inEverySlot ? 1 : parts_),
+                                                        .budget = kBudget,
+                                                        .budgetFault = ir::FaultId{0}});
+  if (own.turn == network::Turn::Parts) {
+    ir::cutTask(*module_, task, parts_);
+    module_->mainTask = id;
+  } else {
+    addResultRegisters(level);
+  }
+  if (inEverySlot) module_->fastTask = id;
+  if (own.latchesInputs())
+    for (size_t i = 0; i < kAreas.size(); ++i)
+      if (kAreas[i].use == network::AreaUse::Input) addLatch(level, i);
+}
+
+// In every slot the levels in their order, each where it has its turn.
+void ModuleLowering::addScan() {
+  module_->fast.push_back({.op = RUNG_STEP_ADVANCE, .arg = kSlotUs});
   for (uint32_t part = 0; part < parts_; ++part) {
     if (part != 0) module_->scan.push_back({.op = RUNG_STEP_SLOT});
-    module_->scan.insert(module_->scan.end(), {advance, level1, level2});
+    module_->scan.push_back({.op = RUNG_STEP_ADVANCE, .arg = kSlotUs});
+    for (const LevelState& level : levels_) {
+      const network::Turn turn = kLanguage.levels[level.level].turn;
+      if (turn == network::Turn::LastSlot && part + 1 != parts_) continue;
+      const uint32_t op = turn == network::Turn::Parts && parts_ != 1 ? RUNG_STEP_PART : RUNG_STEP_RUN;
+      module_->scan.push_back({.op = op, .task = ir::TaskId{level.level}, .arg = 1});
+      if (part == 0 && turn == network::Turn::EverySlot) module_->fast.push_back(module_->scan.back());
+    }
   }
-  module_->fast = {advance, level1};
 }
 
-// What Level 2 reads of an input area is copied when it begins.
-void ModuleLowering::addLatch(ir::Task& task, network::Area area) {
-  const std::vector<bool>& used = levels_[1].used[indexOf(area)];
-  const ir::SpaceId from = levels_[0].spaces[indexOf(area)];
-  const ir::SpaceId to = levels_[1].spaces[indexOf(area)];
+// What a level reads of an input area is copied when it begins.
+void ModuleLowering::addLatch(const LevelState& level, size_t area) {
+  std::vector<ir::Copy>& begin = module_->tasks[level.level].begin;
+  const std::vector<bool>& used = level.used[area];
+  const ir::SpaceId from = spaces_[area];
+  const ir::SpaceId to = level.spaces[area];
   for (uint32_t byte = 0; byte < used.size(); ++byte) {
     if (!used[byte]) continue;
-    const bool extend = !task.begin.empty() && task.begin.back().to == to &&
-                        byte - (task.begin.back().toByte + task.begin.back().from.size) < kCopyGap;
+    const bool extend =
+        !begin.empty() && begin.back().to == to && byte - (begin.back().toByte + begin.back().from.size) < kCopyGap;
     if (extend)
-      task.begin.back().from.size = byte + 1 - task.begin.back().toByte;
+      begin.back().from.size = byte + 1 - begin.back().toByte;
     else
-      task.begin.push_back({.from = {from, byte, 1}, .to = to, .toByte = byte});
+      begin.push_back({.from = {from, byte, 1}, .to = to, .toByte = byte});
   }
 }
 
-// P4: Level 1 works on a set of result registers of its own; between its runs R holds that of Level 2.
-void ModuleLowering::addResultRegisters(ir::Task& task) {
-  const std::vector<bool>& used = levels_[0].used[indexOf(areas::kR)];
-  if (std::find(used.begin() + kResultFlags, used.begin() + kResultFlags + kResultBytes, true) ==
-      used.begin() + kResultFlags + kResultBytes)
-    return;
-  const ir::SpaceId relays = levels_[0].spaces[indexOf(areas::kR)];
-  const ir::SpaceId level1 = addHidden("@R1", kResultBytes);
-  const ir::SpaceId level2 = addHidden("@R2", kResultBytes);
-  task.begin.push_back({.from = {relays, kResultFlags, kResultBytes}, .to = level2});
-  task.begin.push_back({.from = {level1, 0, kResultBytes}, .to = relays, .toByte = kResultFlags});
-  task.end.push_back({.from = {relays, kResultFlags, kResultBytes}, .to = level1});
-  task.end.push_back({.from = {level2, 0, kResultBytes}, .to = relays, .toByte = kResultFlags});
+// P4: a level works on a set of result registers of its own; between its runs R holds that of the main program.
+void ModuleLowering::addResultRegisters(const LevelState& level) {
+  const auto used = level.used[indexOf(areas::kR)].begin() + kResultFlags;
+  if (std::find(used, used + kResultBytes, true) == used + kResultBytes) return;
+  ir::Task& task = module_->tasks[level.level];
+  const ir::SpaceId relays = spaces_[indexOf(areas::kR)];
+  const ir::SpaceId own = hiddenSpace(fmt::format("@R{}", level.level + 1), kResultBytes);
+  const ir::SpaceId others = hiddenSpace(fmt::format("@R{}", kLanguage.mainLevel() + 1), kResultBytes);
+  task.begin.push_back({.from = {relays, kResultFlags, kResultBytes}, .to = others});
+  task.begin.push_back({.from = {own, 0, kResultBytes}, .to = relays, .toByte = kResultFlags});
+  task.end.push_back({.from = {relays, kResultFlags, kResultBytes}, .to = own});
+  task.end.push_back({.from = {others, 0, kResultBytes}, .to = relays, .toByte = kResultFlags});
 }
 
 ir::SlotId ModuleLowering::slot(const std::string& key, ir::Type type, int64_t init, bool transient) {
@@ -314,10 +334,10 @@ ir::SlotId ModuleLowering::slot(const std::string& key, ir::Type type, int64_t i
   return at->second;
 }
 
-// The NC writes it before each slot; a program that does not look at positions has none.
-ir::SpaceId ModuleLowering::machinePositions() {
-  if (!positions_.valid()) positions_ = addHidden("@MPOS", 4 * kMachineAxes);
-  return positions_;
+ir::SpaceId ModuleLowering::hiddenSpace(const std::string& name, uint32_t bytes) {
+  const auto [at, isNew] = hidden_.emplace(name, ir::SpaceId{});
+  if (isNew) at->second = frontend::addSpace(*module_, {.name = name, .units = bytes, .flags = RUNG_SPACE_HIDDEN});
+  return at->second;
 }
 
 void ModuleLowering::use(LevelState& level, const network::Address& address, uint32_t bytes) {

@@ -12,11 +12,11 @@
 
 namespace rung::gsk {
 
-// Level 1 reads X and F as they are, Level 2 from its latch (P3). Units that both levels run are lowered twice and
-// share their slots.
+// Level 1 reads X and F as they are, Level 2 from its latch (P3). Units that several levels run are lowered for each
+// and share their slots.
 struct LevelState {
-  bool isLevel2 = false;
-  std::array<ir::SpaceId, kAreas.size()> spaces;
+  uint32_t level = 0;                                // its place in the language, and of its unit in the program
+  std::array<ir::SpaceId, kAreas.size()> spaces;     // of inputs the latch, where it has one
   std::array<std::vector<bool>, kAreas.size()> used; // bytes that are read or written, X F R only
   std::vector<ir::RoutineId> routines;               // by unit; invalid where the level does not run it
   bool hasClock = false;
@@ -63,21 +63,20 @@ public:
   // For Lowering.
   ir::SlotId slot(const std::string& key, ir::Type type, int64_t init, bool transient);
   ir::SpaceId constantSpace(std::string_view bytes) { return constants_.spaceOf(bytes); }
+  // One for a name, however often it is asked for.
+  ir::SpaceId hiddenSpace(const std::string& name, uint32_t bytes);
   ir::ServiceId service(std::string_view signature) { return frontend::service(*module_, signature); }
-  ir::SpaceId machinePositions();
-  std::span<const LevelState, 2> levels() const { return levels_; }
+  std::span<const LevelState> levels() const { return levels_; }
   ir::SlotId leaveTarget() { return slot("@leave", ir::Type::I32, 0, false); }
   const network::Program& program() const { return program_; }
   void use(LevelState& level, const network::Address& address, uint32_t bytes);
 
 private:
   void addSpaces();
-  ir::SpaceId addHidden(std::string name, uint32_t bytes) {
-    return frontend::addSpace(*module_, {.name = std::move(name), .units = bytes, .flags = RUNG_SPACE_HIDDEN});
-  }
   void addSymbols();
   void addPresets();
   void planRoutines(LevelState& level);
+  std::string routineName(const LevelState& level, const network::Unit& unit) const;
   void makeKeys();
   void makeNumbers();
   void lowerRoutine(LevelState& level, uint32_t unit);
@@ -96,12 +95,15 @@ private:
   void lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const network::Network& network, ir::ValueId value,
                   const RungMarks& marks);
   void addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next);
-  bool mayLeaveAfter(const RoutineContext& routine, const network::Network& network) const;
+  bool mayLeaveAfter(const network::Network& network) const;
   void planParts();
   void reportLongRungs(const std::vector<ir::PartPiece>& pieces, uint64_t room);
   void addTasks();
-  void addLatch(ir::Task& task, network::Area area);
-  void addResultRegisters(ir::Task& task);
+  void addTask(const LevelState& level);
+  void addScan();
+  void addLatch(const LevelState& level, size_t area);
+  void addResultRegisters(const LevelState& level);
+  ir::RoutineId routineOf(const LevelState& level) const { return level.routines[level.level]; }
 
   const network::Program& program_;
   network::Context& context_;
@@ -111,11 +113,12 @@ private:
   frontend::ConstantBytes constants_;
   std::unordered_map<uint32_t, ir::FileIndex> fileIndex_;
   std::unordered_map<std::string, ir::SlotId> slots_;
-  ir::SpaceId positions_;
+  std::array<ir::SpaceId, kAreas.size()> spaces_; // of the areas
+  std::unordered_map<std::string, ir::SpaceId> hidden_;
   std::vector<std::vector<Key>> keys_;                            // by unit and network
   std::vector<std::vector<std::string>> slotPrefixes_;            // by unit and network; of networks with a function
   std::unordered_map<const network::Network*, uint32_t> numbers_; // as drawn; of the ends of units there is none
-  LevelState levels_[2];
+  std::vector<LevelState> levels_;
   uint32_t parts_ = 1;
 };
 

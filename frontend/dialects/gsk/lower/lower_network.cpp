@@ -150,7 +150,7 @@ void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t 
   ir::RungBuilder b(*module_, rung);
   b.note("return of the call");
   const ir::ValueId target = b.slotLoad(leaveTarget());
-  if (routine.unit != network::kLevel2) return b.ret(b.ne(target, b.i32(0)));
+  if (program_.units[routine.unit].kind == network::UnitKind::Subprogram) return b.ret(b.ne(target, b.i32(0)));
   b.slotStore(leaveTarget(), b.i32(0));
   std::vector<uint32_t> targets{next};
   for (uint32_t network : program_.jumpTargets) targets.push_back(routine.rungOf[network]);
@@ -196,34 +196,35 @@ ir::SlotId Lowering::slot(std::string_view role, ir::Type type, int64_t init) {
 ir::ValueId Lowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
 
 bool Lowering::onceEachRun() const {
-  return routine_.level->straight && (routine_.unit == network::kLevel1 || routine_.unit == network::kLevel2);
+  return routine_.level->straight && routine_.unit == routine_.level->level;
 }
 
 ir::ValueId Lowering::sinceLastRun() { return b.add(b.sub(b.now(), b.slotLoad(routine_.level->clock)), scanTime()); }
 
 ir::SlotId Lowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
 
-// A unit that both levels run shares its state, but each level has a count of its own. What Level 2 does after Level 1
-// in one slot belongs to the same scan.
+// A unit that several levels run shares its state, but each level has a count of its own. What a level does after
+// another one in one slot belongs to the same scan.
 void Lowering::markRun() {
   for (const LevelState& level : module_.levels()) {
     if (!level.routines[routine_.unit].valid()) continue;
-    const bool after = level.isLevel2 && !routine_.level->isLevel2;
     const ir::ValueId runs = b.slotLoad(level.runs);
-    b.slotStore(slot(level.isLevel2 ? "mark2" : "mark1", ir::Type::I32), after ? b.add(runs, b.i32(1)) : runs);
+    b.slotStore(runMark(level), level.level > routine_.level->level ? b.add(runs, b.i32(1)) : runs);
   }
 }
 
+ir::SlotId Lowering::runMark(const LevelState& level) {
+  return slot(fmt::format("mark{}", level.level + 1), ir::Type::I32);
+}
+
 ir::ValueId Lowering::runsSinceMark() {
-  const ir::SlotId mark = slot(routine_.level->isLevel2 ? "mark2" : "mark1", ir::Type::I32);
-  return b.sub(b.slotLoad(routine_.level->runs), b.slotLoad(mark));
+  return b.sub(b.slotLoad(routine_.level->runs), b.slotLoad(runMark(*routine_.level)));
 }
 
 ir::ServiceId Lowering::service(std::string_view signature) { return module_.service(signature); }
 
-ir::Window Lowering::machinePositions() {
-  constexpr uint32_t kLast = 4 * (kMachineAxes - 1);
-  return {module_.machinePositions(), 0, kLast + 1};
+ir::Window Lowering::hidden(const std::string& name, uint32_t bytes, uint32_t legal) {
+  return {module_.hiddenSpace(name, bytes), 0, legal};
 }
 
 ir::Window Lowering::constants(std::string_view bytes, uint32_t legal) {

@@ -10,6 +10,15 @@ using ir::Type;
 using ir::ValueId;
 
 constexpr uint32_t kZones = 8;
+// Machine positions that the CNC gives: one each of the axes 1-8 (signals of axes are 1-8 as well, man. l.3368).
+constexpr uint32_t kMachineAxes = 8;
+constexpr uint32_t kPositionBytes = 4;
+
+// What the NC writes before each slot, axis n at byte 4(n-1), in 0.001 mm. A program that does not look at positions
+// has none.
+ir::Window machinePositions(FunctionLowering& f) {
+  return f.hidden("@MPOS", kPositionBytes * kMachineAxes, kPositionBytes * (kMachineAxes - 1) + 1);
+}
 
 // A block: the number of the axis in one byte, then limits of 4 bytes (man. l.3437-3447; P56).
 struct Limits {
@@ -24,7 +33,7 @@ Limits limitsOf(Lowering& f, uint32_t count) {
   network::Address address = f.param(0).address;
   const ValueId axis = b.sub(b.zextOrTrunc(Type::I32, f.load(Type::I8, address)), b.i32(1));
   Limits limits;
-  limits.position = b.loadAt(Type::I32, f.machinePositions(), b.mul(axis, b.i32(4)));
+  limits.position = b.loadAt(Type::I32, machinePositions(f), b.mul(axis, b.i32(kPositionBytes)));
   address.byte += 1;
   for (uint32_t i = 0; i < count; ++i, address.byte += 4) limits.values.push_back(f.load(Type::I32, address));
   ValueId descending = b.bit(false);

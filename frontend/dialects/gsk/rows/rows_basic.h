@@ -28,7 +28,7 @@ inline constexpr Row kBasicRows[] = {
                .ref = "5.1, l.1040",
                .doc = "Ends the Level 1 program. Appears exactly once, even if Level 1 is empty.",
                .example = "FUNC 0"},
-      .control = Control::End1},
+      .control = Control::LevelEnd},
      &lowerEnd},
     {{.info = {.mnemonic = "END2",
                .title = "end of Level 2",
@@ -38,7 +38,7 @@ inline constexpr Row kBasicRows[] = {
                .ref = "5.2, l.1054",
                .doc = "Ends the Level 2 program. Only subprograms may follow.",
                .example = "FUNC 1"},
-      .control = Control::End2},
+      .control = Control::LevelEnd},
      &lowerEnd},
 };
 

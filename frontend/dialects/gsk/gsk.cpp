@@ -6,6 +6,7 @@
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "frontend/dialects/gsk/read/messages.h"
 #include "frontend/dialects/gsk/reference.h"
+#include "frontend/dialects/gsk/rows/instructions.h"
 #include "frontend/network/check/analyse.h"
 #include "frontend/network/format.h"
 #include "frontend/network/read/reading.h"

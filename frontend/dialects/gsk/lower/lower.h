@@ -1,105 +1,16 @@
-// Lowering of networks to IR. A lowering function of the table gets a Lowering: conditions as values, checked
-// parameters, and the few things that functions do with them. It says what the output bit W is; coils are not its
-// business.
+// The lowering functions of the rows, and the module that they are part of. Ends, jumps, calls and the common line are
+// in lower_control.h.
 #pragma once
-#include <functional>
 #include <memory>
 #include <span>
-#include <string_view>
-#include <vector>
 
 #include "frontend/dialects/dialect.h"
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/language.h"
-#include "frontend/dialects/gsk/rows/instructions.h"
-#include "frontend/lower/arithmetic.h"
-#include "frontend/lower/edge.h"
-#include "frontend/network/program.h"
+#include "frontend/dialects/gsk/lower/lower_function.h"
 #include "frontend/network/read/context.h"
-#include "ir/core/builder.h"
 
 namespace rung::gsk {
-
-class ModuleLowering;
-struct LevelState;
-struct RoutineContext;
-
-inline network::Address plus(network::Address address, uint32_t bytes) {
-  address.byte += bytes;
-  return address;
-}
-// Whether a number is in a set of bits by their numbers; one above 63 is in none.
-ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set);
-
-class Lowering {
-public:
-  Lowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const network::Network& network,
-           std::span<const ir::ValueId> conditions, std::string_view slotPrefix);
-
-  ir::RungBuilder& b;
-  const network::Network& network;
-  const network::Function& function;
-
-  int variant() const { return rowOf(*function.row).variant; }
-  const network::Param& param(size_t i) const { return function.params[i]; }
-  ir::ValueId condition(size_t i) const { return conditions_[i]; }
-  ir::ValueId act() const { return conditions_.back(); }
-  // The type of as many bytes as the format says.
-  ir::Type dataType() const { return ir::intOfBytes(function.length); }
-
-  ir::ValueId load(ir::Type type, const network::Address& address);
-  void store(const network::Address& address, ir::ValueId value);
-  // `legal` bytes of the `bytes` from `address` may be the first of an element.
-  ir::Window window(const network::Address& address, uint32_t bytes, uint32_t legal) const;
-  // A parameter that is an address or a constant.
-  ir::ValueId operand(size_t i, ir::Type type);
-
-  // State of this instruction; all calls with one role give the same slot, also from the other level.
-  ir::SlotId slot(std::string_view role, ir::Type type, int64_t init = 0);
-  // Microseconds between the beginnings of this and the last run of the level.
-  ir::ValueId scanTime();
-  // Every run of the level takes this network, and once.
-  bool onceEachRun() const;
-  // Microseconds since the last run of the level began.
-  ir::ValueId sinceLastRun();
-  // State that all instructions of the program share.
-  ir::SlotId shared(const std::string& key, ir::Type type);
-  // Remembers the current run of each level; how many runs ago that was, on this level (signed).
-  void markRun();
-  ir::ValueId runsSinceMark();
-  ir::ServiceId service(std::string_view signature);
-  // A space that the host writes or reads by its name; `legal` of its bytes may be the first of an element.
-  ir::Window hidden(const std::string& name, uint32_t bytes, uint32_t legal);
-  // Constant bytes in a hidden space; `legal` of them may be the first of an element.
-  ir::Window constants(std::string_view bytes, uint32_t legal);
-
-  void setOutput(ir::ValueId w) { output_ = w; }
-  ir::ValueId output() const { return output_; }
-  // The latched output of §6.3: with `execute` W is what `body` gives, else it keeps its value; `reset` (may be
-  // invalid) makes it 0 and wins (P15, P17).
-  void latchedOutput(ir::ValueId execute, ir::ValueId reset, const std::function<ir::ValueId()>& body);
-  // W as the last scan left it, for a `body` that changes nothing.
-  ir::ValueId oldOutput();
-  // What most functions do with RST and ACT, their last two conditions.
-  void resettable(const std::function<ir::ValueId()>& body);
-
-  // Control: rungs and routines of this level.
-  uint32_t targetRung() const;
-  ir::RoutineId callee() const;
-  // What COM found, for the networks up to COME.
-  ir::SlotId commonLine();
-  // Where a JMPC leads, plus 1; 0: none is under way.
-  ir::SlotId leaveTarget();
-
-private:
-  ir::SlotId runMark(const LevelState& level);
-
-  ModuleLowering& module_;
-  RoutineContext& routine_;
-  std::span<const ir::ValueId> conditions_;
-  std::string_view slotPrefix_;
-  ir::ValueId output_{};
-};
 
 enum TimerVariant { kTimerPage, kTimerFixed, kTimerMemory };
 enum CounterVariant { kCounterPage, kCounterMemory };
@@ -138,13 +49,6 @@ void lowerWindow(Lowering& f);
 void lowerAxisControl(Lowering& f);
 void lowerPositionZones(Lowering& f);
 void lowerPositionRange(Lowering& f);
-
-void lowerMark(Lowering& f);
-void lowerEnd(Lowering& f);
-void lowerJump(Lowering& f);
-void lowerCall(Lowering& f);
-void lowerLeave(Lowering& f);
-void lowerCommonLine(Lowering& f);
 
 // The module of a program without errors.
 std::unique_ptr<ir::Module> lowerProgram(const network::Program& program, network::Context& context,

@@ -1,5 +1,5 @@
 // Ends, jumps, calls and the common line (§7.1, §7.16-7.18).
-#include "frontend/dialects/gsk/lower/lower.h"
+#include "frontend/dialects/gsk/lower/lower_control.h"
 
 namespace rung::gsk {
 

@@ -1,30 +1,47 @@
-// State of one lowering: the module under construction and what its parts share. Private to the lower_*.cpp files.
+// Lowering of a program to a module: spaces for the areas, a routine for each unit on each level, a task for each
+// level, and the scan as slots (P3). The dialect adds what its control has besides.
 #pragma once
-#include <array>
+#include <memory>
 #include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "frontend/dialects/gsk/lower/lower.h"
+#include "frontend/dialects/gsk/lower/lower_function.h"
 #include "frontend/lower/module_items.h"
-#include "ir/core/parts.h"
+#include "frontend/network/read/context.h"
+#include "ir/core/marks.h"
 
 namespace rung::gsk {
 
-// Level 1 reads X and F as they are, Level 2 from its latch (P3). Units that several levels run are lowered for each
-// and share their slots.
+// How the control runs programs of the language.
+struct Execution {
+  uint32_t slotUs = 0;           // from one run of the levels to the next
+  uint32_t budget = 0;           // steps of one run (P6)
+  std::string_view overrunFault; // of a run that takes more
+  network::Address results;      // the first result register: each level has a set of its own (P4)
+  uint32_t resultBytes = 0;      // how many they are
+};
+
+// Units that several levels run are lowered for each and share their slots.
 struct LevelState {
-  uint32_t level = 0;                                // its place in the language, and of its unit in the program
-  std::array<ir::SpaceId, kAreas.size()> spaces;     // of inputs the latch, where it has one
-  std::array<std::vector<bool>, kAreas.size()> used; // bytes that are read or written, X F R only
-  std::vector<ir::RoutineId> routines;               // by unit; invalid where the level does not run it
+  uint32_t level = 0;                  // its place in the language, and of its unit in the program
+  std::vector<ir::SpaceId> spaces;     // by area; of inputs the latch, where it has one
+  std::vector<std::vector<bool>> used; // by area: bytes that are read or written
+  std::vector<ir::RoutineId> routines; // by unit; invalid where the level does not run it
   bool hasClock = false;
   ir::SlotId clock;      // `now` at the beginning of the last run
   ir::SlotId scanTime;   // from that to the beginning of this run
   bool straight = false; // every run takes all networks of the level itself, in their order: none jumps
   bool countsRuns = false;
   ir::SlotId runs; // number of the run
+
+  ir::SpaceId spaceOf(const network::Address& address) const { return spaces[static_cast<size_t>(address.area)]; }
+  ir::Place placeOf(const network::Address& address) const {
+    return {spaceOf(address), address.byte, address.isBit ? address.bit : 0u};
+  }
+  void use(const network::Address& address, uint32_t bytes);
+  ir::RoutineId entry() const { return routines[level]; }
 };
 
 // A unit on one level.
@@ -56,9 +73,20 @@ private:
 
 class ModuleLowering {
 public:
+  // The spaces and symbols are there then. `marks`: null or filled with contacts and coils. `compared`: with another
+  // version of the program; nothing is simplified because of what other rungs do.
   ModuleLowering(const network::Program& program, network::Context& context, std::span<const FileId> files,
-                 const frontend::CompileOptions& options);
-  std::unique_ptr<ir::Module> run();
+                 const Execution& execution, ir::Marks* marks, bool compared);
+  // The networks; then tasks and scan, with the main program in so many parts; then the module.
+  void lowerUnits();
+  void addTasks(uint32_t parts);
+  std::unique_ptr<ir::Module> take() { return std::move(module_); }
+
+  ir::Module& module() { return *module_; }
+  ir::SpaceId spaceOf(network::Area area) const { return spaces_[static_cast<size_t>(area)]; }
+  std::span<const LevelState> levels() const { return levels_; }
+  // The network that a rung of a unit was made of.
+  const network::Network* networkOf(uint32_t unit, const ir::Rung& rung) const;
 
   // For Lowering.
   ir::SlotId slot(const std::string& key, ir::Type type, int64_t init, bool transient);
@@ -66,15 +94,11 @@ public:
   // One for a name, however often it is asked for.
   ir::SpaceId hiddenSpace(const std::string& name, uint32_t bytes);
   ir::ServiceId service(std::string_view signature) { return frontend::service(*module_, signature); }
-  std::span<const LevelState> levels() const { return levels_; }
   ir::SlotId leaveTarget() { return slot("@leave", ir::Type::I32, 0, false); }
-  const network::Program& program() const { return program_; }
-  void use(LevelState& level, const network::Address& address, uint32_t bytes);
 
 private:
   void addSpaces();
   void addSymbols();
-  void addPresets();
   void planRoutines(LevelState& level);
   std::string routineName(const LevelState& level, const network::Unit& unit) const;
   void makeKeys();
@@ -96,30 +120,28 @@ private:
                   const RungMarks& marks);
   void addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next);
   bool mayLeaveAfter(const network::Network& network) const;
-  void planParts();
-  void reportLongRungs(const std::vector<ir::PartPiece>& pieces, uint64_t room);
-  void addTasks();
-  void addTask(const LevelState& level);
-  void addScan();
+  void addTask(const LevelState& level, uint32_t parts);
+  void addScan(uint32_t parts);
   void addLatch(const LevelState& level, size_t area);
   void addResultRegisters(const LevelState& level);
-  ir::RoutineId routineOf(const LevelState& level) const { return level.routines[level.level]; }
+  std::string resultSpace(uint32_t level) const;
 
   const network::Program& program_;
   network::Context& context_;
-  std::span<const FileId> files_;
-  const frontend::CompileOptions& options_;
+  const network::Language& language_;
+  const Execution execution_;
+  ir::Marks* marks_;
+  const bool compared_;
   std::unique_ptr<ir::Module> module_;
   frontend::ConstantBytes constants_;
   std::unordered_map<uint32_t, ir::FileIndex> fileIndex_;
   std::unordered_map<std::string, ir::SlotId> slots_;
-  std::array<ir::SpaceId, kAreas.size()> spaces_; // of the areas
+  std::vector<ir::SpaceId> spaces_; // of the areas
   std::unordered_map<std::string, ir::SpaceId> hidden_;
   std::vector<std::vector<Key>> keys_;                            // by unit and network
   std::vector<std::vector<std::string>> slotPrefixes_;            // by unit and network; of networks with a function
   std::unordered_map<const network::Network*, uint32_t> numbers_; // as drawn; of the ends of units there is none
   std::vector<LevelState> levels_;
-  uint32_t parts_ = 1;
 };
 
 } // namespace rung::gsk

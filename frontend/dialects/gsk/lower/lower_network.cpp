@@ -1,22 +1,13 @@
-// One network to one rung, and what lowering functions may use.
+// One network to one rung.
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "frontend/dialects/gsk/lower/lower_module.h"
-#include "ir/support/check.h"
 #include "rung/types.hpp"
 
 namespace rung::gsk {
 namespace {
-
-ir::SpaceId spaceOf(const LevelState& level, const network::Address& address) {
-  return level.spaces[static_cast<size_t>(address.area)];
-}
-
-ir::Place placeOf(const LevelState& level, const network::Address& address) {
-  return {spaceOf(level, address), address.byte, address.isBit ? address.bit : 0u};
-}
 
 // The lines of a network as written.
 std::string linesOf(const SourceManager& sources, const network::Network& network) {
@@ -71,8 +62,8 @@ std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungB
       stack.back() = step.kind == network::Logic::OrBlock ? b.or_(stack.back(), top) : b.and_(stack.back(), top);
       continue;
     }
-    use(level, step.bit, 1);
-    ir::ValueId value = b.load(ir::Type::Bit, placeOf(level, step.bit));
+    level.use(step.bit, 1);
+    ir::ValueId value = b.load(ir::Type::Bit, level.placeOf(step.bit));
     if (step.negated) value = b.not_(value);
     marks.element(ir::MarkKind::Contact, value, step.range);
     if (step.kind == network::Logic::Load)
@@ -95,8 +86,8 @@ void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, con
   for (const network::CoilStep& coil : network.coils) {
     b.setLine(coil.line);
     marks.element(ir::MarkKind::Coil, value, coil.range);
-    use(*routine.level, coil.bit, 1);
-    const ir::Place place = placeOf(*routine.level, coil.bit);
+    routine.level->use(coil.bit, 1);
+    const ir::Place place = routine.level->placeOf(coil.bit);
     switch (coil.kind) {
     case network::Coil::Out: b.store(place, value); break;
     case network::Coil::OutInverted: b.store(place, b.not_(value)); break;
@@ -112,7 +103,7 @@ void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, con
 ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuilder& b, uint32_t index,
                                           std::span<const ir::ValueId> conditions, const RungMarks& marks) {
   const network::Network& network = program_.units[routine.unit].networks[index];
-  const Row& row = rowOf(*network.function.row);
+  const LoweredRow& row = loweredRow(*network.function.row);
   for (size_t i = 0; i < conditions.size(); ++i) {
     const bool one = conditions.size() == 1;
     marks.function(ir::MarkKind::Input, conditions[i], network.function,
@@ -131,7 +122,7 @@ void ModuleLowering::lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint3
   const network::Network& network = program_.units[routine.unit].networks[index];
   describe(rung, network, keys_[routine.unit][index]);
   ir::RungBuilder b(*module_, rung);
-  const RungMarks marks(options_.marks, context_.sources, routine.level->routines[routine.unit], routine.rungOf[index]);
+  const RungMarks marks(marks_, context_.sources, routine.level->routines[routine.unit], routine.rungOf[index]);
   const std::vector<ir::ValueId> conditions = lowerLogic(*routine.level, b, network, marks);
   ir::ValueId value = conditions.empty() ? ir::ValueId{} : conditions[0];
   if (network.function.row != nullptr) value = lowerFunction(routine, b, index, conditions, marks);
@@ -156,101 +147,5 @@ void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t 
   for (uint32_t network : program_.jumpTargets) targets.push_back(routine.rungOf[network]);
   b.switchTo(target, std::move(targets));
 }
-
-ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set) {
-  const ir::ValueId bits = b.constant(ir::Type::I64, static_cast<int64_t>(set));
-  const ir::ValueId shifted = b.shrU(bits, b.zextOrTrunc(ir::Type::I32, number));
-  return b.trunc(ir::Type::Bit, shifted);
-}
-
-// ---- what lowering functions work with -----------------------------------------------------------------------------
-
-Lowering::Lowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
-                   const network::Network& net, std::span<const ir::ValueId> conditions, std::string_view slotPrefix)
-    : b(builder), network(net), function(net.function), module_(module), routine_(routine), conditions_(conditions),
-      slotPrefix_(slotPrefix) {}
-
-ir::ValueId Lowering::load(ir::Type type, const network::Address& address) {
-  module_.use(*routine_.level, address, std::max(ir::byteWidth(type), 1u));
-  return b.load(type, placeOf(*routine_.level, address));
-}
-
-void Lowering::store(const network::Address& address, ir::ValueId value) {
-  module_.use(*routine_.level, address, std::max(ir::byteWidth(b.typeOf(value)), 1u));
-  b.store(placeOf(*routine_.level, address), value);
-}
-
-ir::Window Lowering::window(const network::Address& address, uint32_t bytes, uint32_t legal) const {
-  module_.use(*routine_.level, address, bytes);
-  return {spaceOf(*routine_.level, address), address.byte, legal};
-}
-
-ir::ValueId Lowering::operand(size_t i, ir::Type type) {
-  return param(i).isAddress ? load(type, param(i).address) : b.constant(type, param(i).value);
-}
-
-ir::SlotId Lowering::slot(std::string_view role, ir::Type type, int64_t init) {
-  return module_.slot(fmt::format("{}{}", slotPrefix_, role), type, init, false);
-}
-
-ir::ValueId Lowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
-
-bool Lowering::onceEachRun() const {
-  return routine_.level->straight && routine_.unit == routine_.level->level;
-}
-
-ir::ValueId Lowering::sinceLastRun() { return b.add(b.sub(b.now(), b.slotLoad(routine_.level->clock)), scanTime()); }
-
-ir::SlotId Lowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
-
-// A unit that several levels run shares its state, but each level has a count of its own. What a level does after
-// another one in one slot belongs to the same scan.
-void Lowering::markRun() {
-  for (const LevelState& level : module_.levels()) {
-    if (!level.routines[routine_.unit].valid()) continue;
-    const ir::ValueId runs = b.slotLoad(level.runs);
-    b.slotStore(runMark(level), level.level > routine_.level->level ? b.add(runs, b.i32(1)) : runs);
-  }
-}
-
-ir::SlotId Lowering::runMark(const LevelState& level) {
-  return slot(fmt::format("mark{}", level.level + 1), ir::Type::I32);
-}
-
-ir::ValueId Lowering::runsSinceMark() {
-  return b.sub(b.slotLoad(routine_.level->runs), b.slotLoad(runMark(*routine_.level)));
-}
-
-ir::ServiceId Lowering::service(std::string_view signature) { return module_.service(signature); }
-
-ir::Window Lowering::hidden(const std::string& name, uint32_t bytes, uint32_t legal) {
-  return {module_.hiddenSpace(name, bytes), 0, legal};
-}
-
-ir::Window Lowering::constants(std::string_view bytes, uint32_t legal) {
-  return {module_.constantSpace(bytes), 0, legal};
-}
-
-ir::ValueId Lowering::oldOutput() { return b.slotLoad(slot("W", ir::Type::Bit)); }
-
-void Lowering::latchedOutput(ir::ValueId execute, ir::ValueId reset, const std::function<ir::ValueId()>& body) {
-  ir::ValueId keep = oldOutput();
-  if (reset.valid()) {
-    const ir::ValueId free = b.not_(reset);
-    keep = b.and_(keep, free);
-    execute = b.and_(execute, free);
-  }
-  output_ = b.choose(execute, body, [&] { return keep; });
-  b.slotStore(slot("W", ir::Type::Bit), output_);
-}
-
-void Lowering::resettable(const std::function<ir::ValueId()>& body) {
-  latchedOutput(act(), conditions_[conditions_.size() - 2], body);
-}
-
-uint32_t Lowering::targetRung() const { return routine_.rungOf[network.target]; }
-ir::RoutineId Lowering::callee() const { return routine_.level->routines[network.callee]; }
-ir::SlotId Lowering::commonLine() { return module_.slot(fmt::format("{}com", slotPrefix_), ir::Type::Bit, 0, true); }
-ir::SlotId Lowering::leaveTarget() { return module_.leaveTarget(); }
 
 } // namespace rung::gsk

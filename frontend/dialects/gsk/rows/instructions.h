@@ -4,22 +4,13 @@
 #include <span>
 #include <string_view>
 
-#include "frontend/network/row.h"
+#include "frontend/dialects/gsk/lower/lowered_row.h"
 
 namespace rung::gsk {
 
-class Lowering;
-
-using LowerFn = void (*)(Lowering& f);
-
-struct Row : network::Row {
-  LowerFn lower = nullptr; // null: known, but not built
-  int variant = 0;         // for `lower`
-};
+using Row = LoweredRow;
 
 std::span<const Row> allRows();
-// The row of a function that a program names.
-inline const Row& rowOf(const network::Row& row) { return static_cast<const Row&>(row); }
 // The data alone of a box's row; null when there is none.
 const frontend::InstructionInfo* findBox(std::string_view mnemonic);
 

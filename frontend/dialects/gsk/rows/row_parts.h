@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "frontend/dialects/gsk/lower/lower.h"
+#include "frontend/dialects/gsk/lower/lower_control.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
 #include "frontend/dialects/gsk/rows/operand_kinds.h"
 

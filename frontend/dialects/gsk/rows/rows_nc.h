@@ -20,7 +20,9 @@ constexpr Row windowShape(std::string_view block) {
                     .output = Output::Always,
                     .stateful = true},
            .recordBytes = kWindowBlockBytes},
-          &lowerWindow};
+          &lowerWindow,
+          0,
+          Row::Asks::Count};
 }
 
 inline constexpr Row kNcRows[] = {

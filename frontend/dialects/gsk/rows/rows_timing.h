@@ -9,7 +9,9 @@ constexpr Row timerShape(OperandList operands, Row::Numbers numbers = Row::Numbe
   return {
       {.info = {.group = "timers", .pins = {kAct}, .operands = operands, .output = Output::Always, .stateful = true},
        .numbers = numbers},
-      &lowerTimer};
+      &lowerTimer,
+      0,
+      Row::Asks::Time};
 }
 constexpr Row counterShape(OperandList operands, Row::Numbers numbers = Row::Numbers::Free) {
   return {{.info = {.group = "counters",

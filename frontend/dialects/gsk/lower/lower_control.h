@@ -1,0 +1,14 @@
+// Lowering of the instructions that shape the program.
+#pragma once
+#include "frontend/dialects/gsk/lower/lower_function.h"
+
+namespace rung::gsk {
+
+void lowerMark(FunctionLowering& f);
+void lowerEnd(FunctionLowering& f);
+void lowerJump(FunctionLowering& f);
+void lowerCall(FunctionLowering& f);
+void lowerLeave(FunctionLowering& f);
+void lowerCommonLine(FunctionLowering& f);
+
+} // namespace rung::gsk

@@ -1,0 +1,74 @@
+// A program of this control: presets as the operator typed them, and the parts of Level 2 (P3).
+#include "frontend/dialects/gsk/config.h"
+#include "frontend/dialects/gsk/lower/lower.h"
+#include "frontend/dialects/gsk/lower/lower_module.h"
+#include "ir/core/parts.h"
+#include "ir/support/diag/gsk.h"
+#include "rtlib/nc/faults.h"
+
+namespace rung::gsk {
+namespace {
+
+constexpr Execution kExecution{.slotUs = kSlotUs,
+                               .budget = 1'000'000, // P6
+                               .overrunFault = nc::kGskDeadLoop,
+                               .results = {areas::kR, kResultFlags},
+                               .resultBytes = kResultBytes};
+
+void addPresets(ModuleLowering& lowering, const frontend::CompileOptions& options) {
+  for (const Preset& preset : presetsOf(options)) {
+    const auto low = static_cast<uint8_t>(preset.value & 0xFF);
+    const auto high = static_cast<uint8_t>(preset.value >> 8);
+    lowering.module().inits.push_back({lowering.spaceOf(preset.address.area), preset.address.byte, {low, high}});
+  }
+}
+
+void reportLongRungs(ModuleLowering& lowering, const LevelState& level2, const std::vector<ir::PartPiece>& pieces,
+                     uint64_t room, Diagnostics& diagnostics) {
+  const std::vector<ir::Rung>& rungs = lowering.module().at(level2.entry()).rungs;
+  for (const ir::PartPiece& piece : pieces) {
+    if (piece.weight <= room) continue;
+    const network::Network* network = lowering.networkOf(level2.level, rungs[piece.firstRung]);
+    diagnostics.report(diag::RungTooLong, network == nullptr ? SourceRange{} : network->range) << piece.weight << room;
+  }
+}
+
+// n of P3: from the period, or from the steps of a slot; with both the period counts and must suffice.
+uint32_t partsOfLevel2(ModuleLowering& lowering, const frontend::CompileOptions& options, Diagnostics& diagnostics) {
+  const auto given = partsOf(options);
+  const auto slotSteps = slotStepsOf(options);
+  const uint32_t parts = given.value_or(1);
+  if (!slotSteps) return parts;
+  const LevelState& first = lowering.levels()[0];
+  const LevelState& second = lowering.levels()[1];
+  uint64_t level1 = 0;
+  for (const ir::PartPiece& piece : ir::partPieces(lowering.module(), first.entry())) level1 += piece.weight;
+  if (level1 >= *slotSteps) {
+    diagnostics.report(diag::Level1TooLong) << level1 << *slotSteps;
+    return parts;
+  }
+  const uint64_t room = *slotSteps - level1;
+  const std::vector<ir::PartPiece> pieces = ir::partPieces(lowering.module(), second.entry());
+  const uint32_t needed = ir::partsNeeded(pieces, room);
+  if (needed == 0)
+    reportLongRungs(lowering, second, pieces, room, diagnostics);
+  else if (!given)
+    return needed;
+  else if (needed > *given)
+    diagnostics.report(diag::PeriodTooShort) << *given * kSlotUs / 1000 << level1 + ir::heaviestPart(pieces, *given)
+                                             << *slotSteps << needed * kSlotUs / 1000;
+  return parts;
+}
+
+} // namespace
+
+std::unique_ptr<ir::Module> lowerProgram(const network::Program& program, network::Context& context,
+                                         std::span<const FileId> files, const frontend::CompileOptions& options) {
+  ModuleLowering lowering(program, context, files, kExecution, options.marks, options.given != nullptr);
+  addPresets(lowering, options);
+  lowering.lowerUnits();
+  lowering.addTasks(partsOfLevel2(lowering, options, context.diagnostics));
+  return lowering.take();
+}
+
+} // namespace rung::gsk

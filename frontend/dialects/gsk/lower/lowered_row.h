@@ -1,0 +1,19 @@
+// A row with its lowering.
+#pragma once
+#include "frontend/network/row.h"
+
+namespace rung::gsk {
+
+class FunctionLowering;
+
+struct LoweredRow : network::Row {
+  void (*lower)(FunctionLowering& f) = nullptr; // null: known, but not built
+  int variant = 0;                              // for `lower`
+  // What it asks of the runs of its level, which are followed where a row does.
+  enum class Asks : uint8_t { Nothing, Time, Count } asks = Asks::Nothing;
+};
+
+// All rows of a language whose programs are lowered are such.
+inline const LoweredRow& loweredRow(const network::Row& row) { return static_cast<const LoweredRow&>(row); }
+
+} // namespace rung::gsk

@@ -1,5 +1,5 @@
-// The row of an instruction of this family of languages: what reading, checking and converting a program ask of it. A
-// dialect derives a row of its own, which has the lowering too.
+// The row of an instruction of this family of languages: what reading, checking and converting a program ask of it.
+// lower/lowered_row.h adds the lowering.
 #pragma once
 #include <cstdint>
 

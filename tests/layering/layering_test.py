@@ -45,6 +45,8 @@ BAD = {
     "a dialect includes another": ("frontend/dialects/nct/x.cpp", '#include "frontend/dialects/gsk/rows.h"'),
     "the networks include a dialect": ("frontend/network/x.cpp", '#include "frontend/dialects/gsk/rows.h"'),
     "the networks include a table of a dialect": ("frontend/network/x.cpp", '#include "rtlib/nc/gsk/signals.h"'),
+    "reading networks includes the IR": ("frontend/network/x.cpp", '#include "ir/core/module.h"'),
+    "lowering networks includes a table of a dialect": ("frontend/network/lower/x.cpp", '#include "rtlib/nc/gsk/signals.h"'),
     "the table includes a dialect": ("frontend/table/x.cpp", '#include "frontend/dialects/gsk/rows.h"'),
     "codegen includes frontend": ("codegen/cpp/x.cpp", '#include "frontend/table/instruction.h"'),
     "LLVM outside its wall": ("codegen/cpp/x.cpp", "#include <llvm/IR/Module.h>"),

@@ -1,5 +1,5 @@
-// The lowering functions of the rows, and the module that they are part of. Ends, jumps, calls and the common line are
-// in lower_control.h.
+// The lowering functions of the rows, and the module that they are part of. Those of ends, jumps, calls and the common
+// line are in frontend/network/lower.
 #pragma once
 #include <memory>
 #include <span>
@@ -7,10 +7,13 @@
 #include "frontend/dialects/dialect.h"
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/language.h"
-#include "frontend/dialects/gsk/lower/lower_function.h"
+#include "frontend/network/lower/lower_function.h"
 #include "frontend/network/read/context.h"
 
 namespace rung::gsk {
+
+using network::FunctionLowering;
+using network::isIn;
 
 enum TimerVariant { kTimerPage, kTimerFixed, kTimerMemory };
 enum CounterVariant { kCounterPage, kCounterMemory };

@@ -1,7 +1,7 @@
 // A program of this control: presets as the operator typed them, and the parts of Level 2 (P3).
 #include "frontend/dialects/gsk/config.h"
 #include "frontend/dialects/gsk/lower/lower.h"
-#include "frontend/dialects/gsk/lower/lower_module.h"
+#include "frontend/network/lower/lower_module.h"
 #include "ir/core/parts.h"
 #include "ir/support/diag/gsk.h"
 #include "rtlib/nc/faults.h"
@@ -9,13 +9,13 @@
 namespace rung::gsk {
 namespace {
 
-constexpr Execution kExecution{.slotUs = kSlotUs,
-                               .budget = 1'000'000, // P6
-                               .overrunFault = nc::kGskDeadLoop,
-                               .results = {areas::kR, kResultFlags},
-                               .resultBytes = kResultBytes};
+constexpr network::Execution kExecution{.slotUs = kSlotUs,
+                                        .budget = 1'000'000, // P6
+                                        .overrunFault = nc::kGskDeadLoop,
+                                        .results = {areas::kR, kResultFlags},
+                                        .resultBytes = kResultBytes};
 
-void addPresets(ModuleLowering& lowering, const frontend::CompileOptions& options) {
+void addPresets(network::ModuleLowering& lowering, const frontend::CompileOptions& options) {
   for (const Preset& preset : presetsOf(options)) {
     const auto low = static_cast<uint8_t>(preset.value & 0xFF);
     const auto high = static_cast<uint8_t>(preset.value >> 8);
@@ -23,8 +23,8 @@ void addPresets(ModuleLowering& lowering, const frontend::CompileOptions& option
   }
 }
 
-void reportLongRungs(ModuleLowering& lowering, const LevelState& level2, const std::vector<ir::PartPiece>& pieces,
-                     uint64_t room, Diagnostics& diagnostics) {
+void reportLongRungs(network::ModuleLowering& lowering, const network::LevelState& level2,
+                     const std::vector<ir::PartPiece>& pieces, uint64_t room, Diagnostics& diagnostics) {
   const std::vector<ir::Rung>& rungs = lowering.module().at(level2.entry()).rungs;
   for (const ir::PartPiece& piece : pieces) {
     if (piece.weight <= room) continue;
@@ -34,13 +34,14 @@ void reportLongRungs(ModuleLowering& lowering, const LevelState& level2, const s
 }
 
 // n of P3: from the period, or from the steps of a slot; with both the period counts and must suffice.
-uint32_t partsOfLevel2(ModuleLowering& lowering, const frontend::CompileOptions& options, Diagnostics& diagnostics) {
+uint32_t partsOfLevel2(network::ModuleLowering& lowering, const frontend::CompileOptions& options,
+                       Diagnostics& diagnostics) {
   const auto given = partsOf(options);
   const auto slotSteps = slotStepsOf(options);
   const uint32_t parts = given.value_or(1);
   if (!slotSteps) return parts;
-  const LevelState& first = lowering.levels()[0];
-  const LevelState& second = lowering.levels()[1];
+  const network::LevelState& first = lowering.levels()[0];
+  const network::LevelState& second = lowering.levels()[1];
   uint64_t level1 = 0;
   for (const ir::PartPiece& piece : ir::partPieces(lowering.module(), first.entry())) level1 += piece.weight;
   if (level1 >= *slotSteps) {
@@ -64,7 +65,7 @@ uint32_t partsOfLevel2(ModuleLowering& lowering, const frontend::CompileOptions&
 
 std::unique_ptr<ir::Module> lowerProgram(const network::Program& program, network::Context& context,
                                          std::span<const FileId> files, const frontend::CompileOptions& options) {
-  ModuleLowering lowering(program, context, files, kExecution, options.marks, options.given != nullptr);
+  network::ModuleLowering lowering(program, context, files, kExecution, options.marks, options.given != nullptr);
   addPresets(lowering, options);
   lowering.lowerUnits();
   lowering.addTasks(partsOfLevel2(lowering, options, context.diagnostics));

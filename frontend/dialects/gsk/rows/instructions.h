@@ -4,11 +4,11 @@
 #include <span>
 #include <string_view>
 
-#include "frontend/dialects/gsk/lower/lowered_row.h"
+#include "frontend/network/lower/lowered_row.h"
 
 namespace rung::gsk {
 
-using Row = LoweredRow;
+using Row = network::LoweredRow;
 
 std::span<const Row> allRows();
 // The data alone of a box's row; null when there is none.

@@ -4,9 +4,9 @@
 #include <string_view>
 
 #include "frontend/dialects/gsk/lower/lower.h"
-#include "frontend/dialects/gsk/lower/lower_control.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
 #include "frontend/dialects/gsk/rows/operand_kinds.h"
+#include "frontend/network/lower/lower_control.h"
 
 namespace rung::gsk {
 
@@ -16,6 +16,12 @@ using frontend::Output;
 using frontend::PinInfo;
 using frontend::Placement;
 using network::Control;
+using network::lowerCall;
+using network::lowerCommonLine;
+using network::lowerEnd;
+using network::lowerJump;
+using network::lowerLeave;
+using network::lowerMark;
 using OperandList = decltype(frontend::InstructionInfo::operands);
 
 constexpr OperandInfo in(std::string_view name, const OperandKind& kind, std::string_view doc = {}) {

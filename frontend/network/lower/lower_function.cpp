@@ -1,13 +1,13 @@
 // What lowering functions may use (see lower_function.h).
-#include "frontend/dialects/gsk/lower/lower_function.h"
+#include "frontend/network/lower/lower_function.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/lower/lower_module.h"
+#include "frontend/network/lower/lower_module.h"
 
-namespace rung::gsk {
+namespace rung::network {
 
 ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set) {
   const ir::ValueId bits = b.constant(ir::Type::I64, static_cast<int64_t>(set));
@@ -16,22 +16,22 @@ ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set) {
 }
 
 FunctionLowering::FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
-                                   const network::Network& net, std::span<const ir::ValueId> conditions,
+                                   const Network& net, std::span<const ir::ValueId> conditions,
                                    std::string_view slotPrefix)
     : b(builder), network(net), function(net.function), module_(module), routine_(routine), conditions_(conditions),
       slotPrefix_(slotPrefix) {}
 
-ir::ValueId FunctionLowering::load(ir::Type type, const network::Address& address) {
+ir::ValueId FunctionLowering::load(ir::Type type, const Address& address) {
   routine_.level->use(address, std::max(ir::byteWidth(type), 1u));
   return b.load(type, routine_.level->placeOf(address));
 }
 
-void FunctionLowering::store(const network::Address& address, ir::ValueId value) {
+void FunctionLowering::store(const Address& address, ir::ValueId value) {
   routine_.level->use(address, std::max(ir::byteWidth(b.typeOf(value)), 1u));
   b.store(routine_.level->placeOf(address), value);
 }
 
-ir::Window FunctionLowering::window(const network::Address& address, uint32_t bytes, uint32_t legal) const {
+ir::Window FunctionLowering::window(const Address& address, uint32_t bytes, uint32_t legal) const {
   routine_.level->use(address, bytes);
   return {routine_.level->spaceOf(address), address.byte, legal};
 }
@@ -108,4 +108,4 @@ ir::SlotId FunctionLowering::commonLine() {
 }
 ir::SlotId FunctionLowering::leaveTarget() { return module_.leaveTarget(); }
 
-} // namespace rung::gsk
+} // namespace rung::network

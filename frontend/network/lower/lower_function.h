@@ -6,17 +6,17 @@
 #include <string>
 #include <string_view>
 
-#include "frontend/dialects/gsk/lower/lowered_row.h"
+#include "frontend/network/lower/lowered_row.h"
 #include "frontend/network/program.h"
 #include "ir/core/builder.h"
 
-namespace rung::gsk {
+namespace rung::network {
 
 class ModuleLowering;
 struct LevelState;
 struct RoutineContext;
 
-inline network::Address plus(network::Address address, uint32_t bytes) {
+inline Address plus(Address address, uint32_t bytes) {
   address.byte += bytes;
   return address;
 }
@@ -25,25 +25,24 @@ ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set);
 
 class FunctionLowering {
 public:
-  FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
-                   const network::Network& network, std::span<const ir::ValueId> conditions,
-                   std::string_view slotPrefix);
+  FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const Network& network,
+                   std::span<const ir::ValueId> conditions, std::string_view slotPrefix);
 
   ir::RungBuilder& b;
-  const network::Network& network;
-  const network::Function& function;
+  const Network& network;
+  const Function& function;
 
   int variant() const { return loweredRow(*function.row).variant; }
-  const network::Param& param(size_t i) const { return function.params[i]; }
+  const Param& param(size_t i) const { return function.params[i]; }
   ir::ValueId condition(size_t i) const { return conditions_[i]; }
   ir::ValueId act() const { return conditions_.back(); }
   // The type of as many bytes as the format says.
   ir::Type dataType() const { return ir::intOfBytes(function.length); }
 
-  ir::ValueId load(ir::Type type, const network::Address& address);
-  void store(const network::Address& address, ir::ValueId value);
+  ir::ValueId load(ir::Type type, const Address& address);
+  void store(const Address& address, ir::ValueId value);
   // `legal` bytes of the `bytes` from `address` may be the first of an element.
-  ir::Window window(const network::Address& address, uint32_t bytes, uint32_t legal) const;
+  ir::Window window(const Address& address, uint32_t bytes, uint32_t legal) const;
   // A parameter that is an address or a constant.
   ir::ValueId operand(size_t i, ir::Type type);
 
@@ -94,4 +93,4 @@ private:
   ir::ValueId output_{};
 };
 
-} // namespace rung::gsk
+} // namespace rung::network

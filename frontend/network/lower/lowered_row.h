@@ -2,11 +2,11 @@
 #pragma once
 #include "frontend/network/row.h"
 
-namespace rung::gsk {
+namespace rung::network {
 
 class FunctionLowering;
 
-struct LoweredRow : network::Row {
+struct LoweredRow : Row {
   void (*lower)(FunctionLowering& f) = nullptr; // null: known, but not built
   int variant = 0;                              // for `lower`
   // What it asks of the runs of its level, which are followed where a row does.
@@ -14,6 +14,6 @@ struct LoweredRow : network::Row {
 };
 
 // All rows of a language whose programs are lowered are such.
-inline const LoweredRow& loweredRow(const network::Row& row) { return static_cast<const LoweredRow&>(row); }
+inline const LoweredRow& loweredRow(const Row& row) { return static_cast<const LoweredRow&>(row); }
 
-} // namespace rung::gsk
+} // namespace rung::network

@@ -1,8 +1,8 @@
 // Lowering of the instructions that shape the program.
 #pragma once
-#include "frontend/dialects/gsk/lower/lower_function.h"
+#include "frontend/network/lower/lower_function.h"
 
-namespace rung::gsk {
+namespace rung::network {
 
 void lowerMark(FunctionLowering& f);
 void lowerEnd(FunctionLowering& f);
@@ -11,4 +11,4 @@ void lowerCall(FunctionLowering& f);
 void lowerLeave(FunctionLowering& f);
 void lowerCommonLine(FunctionLowering& f);
 
-} // namespace rung::gsk
+} // namespace rung::network

@@ -3,14 +3,14 @@
 
 #include <fmt/format.h>
 
-#include "frontend/dialects/gsk/lower/lower_module.h"
+#include "frontend/network/lower/lower_module.h"
 #include "rung/types.hpp"
 
-namespace rung::gsk {
+namespace rung::network {
 namespace {
 
 // The lines of a network as written.
-std::string linesOf(const SourceManager& sources, const network::Network& network) {
+std::string linesOf(const SourceManager& sources, const Network& network) {
   std::string text;
   for (uint32_t line = network.firstLine; line <= network.lastLine; ++line) {
     if (line != network.firstLine) text += '\n';
@@ -21,7 +21,7 @@ std::string linesOf(const SourceManager& sources, const network::Network& networ
 
 } // namespace
 
-void ModuleLowering::describe(ir::Rung& rung, const network::Network& network, Key key) const {
+void ModuleLowering::describe(ir::Rung& rung, const Network& network, Key key) const {
   const auto number = numbers_.find(&network);
   rung.number = number == numbers_.end() ? 0 : number->second;
   rung.title = network.title;
@@ -43,58 +43,55 @@ void RungMarks::element(ir::MarkKind kind, ir::ValueId value, SourceRange range)
   if (marks_ != nullptr) add(kind, value, range, std::string(sources_.text(range)));
 }
 
-void RungMarks::function(ir::MarkKind kind, ir::ValueId value, const network::Function& function,
-                         std::string_view more) const {
+void RungMarks::function(ir::MarkKind kind, ir::ValueId value, const Function& function, std::string_view more) const {
   if (marks_ == nullptr) return;
   std::string text(function.row->info.mnemonic);
-  for (const network::Param& param : function.params) text.append(" ").append(sources_.text(param.range));
+  for (const Param& param : function.params) text.append(" ").append(sources_.text(param.range));
   add(kind, value, function.range, text.append(more));
 }
 
-std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungBuilder& b,
-                                                    const network::Network& network, const RungMarks& marks) {
+std::vector<ir::ValueId> ModuleLowering::lowerLogic(LevelState& level, ir::RungBuilder& b, const Network& network,
+                                                    const RungMarks& marks) {
   std::vector<ir::ValueId> stack;
-  for (const network::LogicStep& step : network.logic) {
+  for (const LogicStep& step : network.logic) {
     b.setLine(step.line);
-    if (step.kind == network::Logic::OrBlock || step.kind == network::Logic::AndBlock) {
+    if (step.kind == Logic::OrBlock || step.kind == Logic::AndBlock) {
       const ir::ValueId top = stack.back();
       stack.pop_back();
-      stack.back() = step.kind == network::Logic::OrBlock ? b.or_(stack.back(), top) : b.and_(stack.back(), top);
+      stack.back() = step.kind == Logic::OrBlock ? b.or_(stack.back(), top) : b.and_(stack.back(), top);
       continue;
     }
     level.use(step.bit, 1);
     ir::ValueId value = b.load(ir::Type::Bit, level.placeOf(step.bit));
     if (step.negated) value = b.not_(value);
     marks.element(ir::MarkKind::Contact, value, step.range);
-    if (step.kind == network::Logic::Load)
+    if (step.kind == Logic::Load)
       stack.push_back(value);
     else
-      stack.back() = step.kind == network::Logic::And ? b.and_(stack.back(), value) : b.or_(stack.back(), value);
+      stack.back() = step.kind == Logic::And ? b.and_(stack.back(), value) : b.or_(stack.back(), value);
   }
   return stack;
 }
 
 // Inside a common line that is off, OUT writes 0, OUTI 1, and SET and RST do nothing (P41): all that is ST0 = 0. The
 // choice says that SET and RST write the bit and do not ask it (ir::RungUse::keeps).
-void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const network::Network& network,
-                                ir::ValueId value, const RungMarks& marks) {
-  if (network.com != network::kNone) {
+void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value,
+                                const RungMarks& marks) {
+  if (network.com != kNone) {
     const ir::ValueId line = b.slotLoad(slot(slotPrefixes_[routine.unit][network.com] + "com", ir::Type::Bit, 0, true));
     marks.function(ir::MarkKind::Result, line, program_.units[routine.unit].networks[network.com].function);
     value = b.and_(value, line);
   }
-  for (const network::CoilStep& coil : network.coils) {
+  for (const CoilStep& coil : network.coils) {
     b.setLine(coil.line);
     marks.element(ir::MarkKind::Coil, value, coil.range);
     routine.level->use(coil.bit, 1);
     const ir::Place place = routine.level->placeOf(coil.bit);
     switch (coil.kind) {
-    case network::Coil::Out: b.store(place, value); break;
-    case network::Coil::OutInverted: b.store(place, b.not_(value)); break;
-    case network::Coil::Set: b.store(place, b.select(value, b.bit(true), b.load(ir::Type::Bit, place))); break;
-    case network::Coil::Reset:
-      b.store(place, b.select(b.not_(value), b.load(ir::Type::Bit, place), b.bit(false)));
-      break;
+    case Coil::Out: b.store(place, value); break;
+    case Coil::OutInverted: b.store(place, b.not_(value)); break;
+    case Coil::Set: b.store(place, b.select(value, b.bit(true), b.load(ir::Type::Bit, place))); break;
+    case Coil::Reset: b.store(place, b.select(b.not_(value), b.load(ir::Type::Bit, place), b.bit(false))); break;
     }
   }
 }
@@ -102,7 +99,7 @@ void ModuleLowering::lowerCoils(RoutineContext& routine, ir::RungBuilder& b, con
 // Gives the output. One that passes on a condition asks nothing of its own.
 ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuilder& b, uint32_t index,
                                           std::span<const ir::ValueId> conditions, const RungMarks& marks) {
-  const network::Network& network = program_.units[routine.unit].networks[index];
+  const Network& network = program_.units[routine.unit].networks[index];
   const LoweredRow& row = loweredRow(*network.function.row);
   for (size_t i = 0; i < conditions.size(); ++i) {
     const bool one = conditions.size() == 1;
@@ -111,7 +108,7 @@ ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuild
   }
   Lowering f(*this, routine, b, network, conditions, slotPrefixes_[routine.unit][index]);
   b.setLine(network.function.line);
-  if (row.control == network::Control::Plain) b.note(row.info.mnemonic);
+  if (row.control == Control::Plain) b.note(row.info.mnemonic);
   row.lower(f);
   const bool passes = std::find(conditions.begin(), conditions.end(), f.output()) != conditions.end();
   if (f.output().valid() && !passes) marks.function(ir::MarkKind::Result, f.output(), network.function);
@@ -119,7 +116,7 @@ ir::ValueId ModuleLowering::lowerFunction(RoutineContext& routine, ir::RungBuild
 }
 
 void ModuleLowering::lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t index) {
-  const network::Network& network = program_.units[routine.unit].networks[index];
+  const Network& network = program_.units[routine.unit].networks[index];
   describe(rung, network, keys_[routine.unit][index]);
   ir::RungBuilder b(*module_, rung);
   const RungMarks marks(marks_, context_.sources, routine.level->routines[routine.unit], routine.rungOf[index]);
@@ -129,7 +126,8 @@ void ModuleLowering::lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint3
   if (!network.coils.empty()) lowerCoils(routine, b, network, value, marks);
 }
 
-// After a call that a JMPC may have left (P43): a subprogram returns at once, Level 2 continues at the label.
+// After a call that a JMPC may have left (P43): a subprogram returns at once, the main program continues at the
+// label.
 void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next) {
   const ir::Rung& call = *(&rung - 1);
   rung.number = call.number;
@@ -141,11 +139,11 @@ void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t 
   ir::RungBuilder b(*module_, rung);
   b.note("return of the call");
   const ir::ValueId target = b.slotLoad(leaveTarget());
-  if (program_.units[routine.unit].kind == network::UnitKind::Subprogram) return b.ret(b.ne(target, b.i32(0)));
+  if (program_.units[routine.unit].kind == UnitKind::Subprogram) return b.ret(b.ne(target, b.i32(0)));
   b.slotStore(leaveTarget(), b.i32(0));
   std::vector<uint32_t> targets{next};
   for (uint32_t network : program_.jumpTargets) targets.push_back(routine.rungOf[network]);
   b.switchTo(target, std::move(targets));
 }
 
-} // namespace rung::gsk
+} // namespace rung::network

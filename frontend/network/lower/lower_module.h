@@ -7,19 +7,19 @@
 #include <unordered_map>
 #include <vector>
 
-#include "frontend/dialects/gsk/lower/lower_function.h"
 #include "frontend/lower/module_items.h"
+#include "frontend/network/lower/lower_function.h"
 #include "frontend/network/read/context.h"
 #include "ir/core/marks.h"
 
-namespace rung::gsk {
+namespace rung::network {
 
 // How the control runs programs of the language.
 struct Execution {
   uint32_t slotUs = 0;           // from one run of the levels to the next
   uint32_t budget = 0;           // steps of one run (P6)
   std::string_view overrunFault; // of a run that takes more
-  network::Address results;      // the first result register: each level has a set of its own (P4)
+  Address results;               // the first result register: each level has a set of its own (P4)
   uint32_t resultBytes = 0;      // how many they are
 };
 
@@ -36,11 +36,11 @@ struct LevelState {
   bool countsRuns = false;
   ir::SlotId runs; // number of the run
 
-  ir::SpaceId spaceOf(const network::Address& address) const { return spaces[static_cast<size_t>(address.area)]; }
-  ir::Place placeOf(const network::Address& address) const {
+  ir::SpaceId spaceOf(const Address& address) const { return spaces[static_cast<size_t>(address.area)]; }
+  ir::Place placeOf(const Address& address) const {
     return {spaceOf(address), address.byte, address.isBit ? address.bit : 0u};
   }
-  void use(const network::Address& address, uint32_t bytes);
+  void use(const Address& address, uint32_t bytes);
   ir::RoutineId entry() const { return routines[level]; }
 };
 
@@ -59,8 +59,7 @@ public:
   // A contact or coil: its text is what its range holds.
   void element(ir::MarkKind kind, ir::ValueId value, SourceRange range) const;
   // A function; `more` is part of its text.
-  void function(ir::MarkKind kind, ir::ValueId value, const network::Function& function,
-                std::string_view more = {}) const;
+  void function(ir::MarkKind kind, ir::ValueId value, const Function& function, std::string_view more = {}) const;
 
 private:
   void add(ir::MarkKind kind, ir::ValueId value, SourceRange range, std::string text) const;
@@ -75,18 +74,18 @@ class ModuleLowering {
 public:
   // The spaces and symbols are there then. `marks`: null or filled with contacts and coils. `compared`: with another
   // version of the program; nothing is simplified because of what other rungs do.
-  ModuleLowering(const network::Program& program, network::Context& context, std::span<const FileId> files,
-                 const Execution& execution, ir::Marks* marks, bool compared);
+  ModuleLowering(const Program& program, Context& context, std::span<const FileId> files, const Execution& execution,
+                 ir::Marks* marks, bool compared);
   // The networks; then tasks and scan, with the main program in so many parts; then the module.
   void lowerUnits();
   void addTasks(uint32_t parts);
   std::unique_ptr<ir::Module> take() { return std::move(module_); }
 
   ir::Module& module() { return *module_; }
-  ir::SpaceId spaceOf(network::Area area) const { return spaces_[static_cast<size_t>(area)]; }
+  ir::SpaceId spaceOf(Area area) const { return spaces_[static_cast<size_t>(area)]; }
   std::span<const LevelState> levels() const { return levels_; }
   // The network that a rung of a unit was made of.
-  const network::Network* networkOf(uint32_t unit, const ir::Rung& rung) const;
+  const Network* networkOf(uint32_t unit, const ir::Rung& rung) const;
 
   // For Lowering.
   ir::SlotId slot(const std::string& key, ir::Type type, int64_t init, bool transient);
@@ -100,35 +99,35 @@ private:
   void addSpaces();
   void addSymbols();
   void planRoutines(LevelState& level);
-  std::string routineName(const LevelState& level, const network::Unit& unit) const;
+  std::string routineName(const LevelState& level, const Unit& unit) const;
   void makeKeys();
   void makeNumbers();
   void lowerRoutine(LevelState& level, uint32_t unit);
   void planClock(LevelState& level);
-  void addClock(ir::Routine& routine, LevelState& level, const network::Unit& unit);
+  void addClock(ir::Routine& routine, LevelState& level, const Unit& unit);
   void lowerNetwork(RoutineContext& routine, ir::Rung& rung, uint32_t network);
   struct Key {
     uint64_t key = 0;
     uint32_t copy = 0;
   };
-  void describe(ir::Rung& rung, const network::Network& network, Key key) const;
-  std::vector<ir::ValueId> lowerLogic(LevelState& level, ir::RungBuilder& b, const network::Network& network,
+  void describe(ir::Rung& rung, const Network& network, Key key) const;
+  std::vector<ir::ValueId> lowerLogic(LevelState& level, ir::RungBuilder& b, const Network& network,
                                       const RungMarks& marks);
   ir::ValueId lowerFunction(RoutineContext& routine, ir::RungBuilder& b, uint32_t network,
                             std::span<const ir::ValueId> conditions, const RungMarks& marks);
-  void lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const network::Network& network, ir::ValueId value,
+  void lowerCoils(RoutineContext& routine, ir::RungBuilder& b, const Network& network, ir::ValueId value,
                   const RungMarks& marks);
   void addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t next);
-  bool mayLeaveAfter(const network::Network& network) const;
+  bool mayLeaveAfter(const Network& network) const;
   void addTask(const LevelState& level, uint32_t parts);
   void addScan(uint32_t parts);
   void addLatch(const LevelState& level, size_t area);
   void addResultRegisters(const LevelState& level);
   std::string resultSpace(uint32_t level) const;
 
-  const network::Program& program_;
-  network::Context& context_;
-  const network::Language& language_;
+  const Program& program_;
+  Context& context_;
+  const Language& language_;
   const Execution execution_;
   ir::Marks* marks_;
   const bool compared_;
@@ -138,10 +137,10 @@ private:
   std::unordered_map<std::string, ir::SlotId> slots_;
   std::vector<ir::SpaceId> spaces_; // of the areas
   std::unordered_map<std::string, ir::SpaceId> hidden_;
-  std::vector<std::vector<Key>> keys_;                            // by unit and network
-  std::vector<std::vector<std::string>> slotPrefixes_;            // by unit and network; of networks with a function
-  std::unordered_map<const network::Network*, uint32_t> numbers_; // as drawn; of the ends of units there is none
+  std::vector<std::vector<Key>> keys_;                   // by unit and network
+  std::vector<std::vector<std::string>> slotPrefixes_;   // by unit and network; of networks with a function
+  std::unordered_map<const Network*, uint32_t> numbers_; // as drawn; of the ends of units there is none
   std::vector<LevelState> levels_;
 };
 
-} // namespace rung::gsk
+} // namespace rung::network

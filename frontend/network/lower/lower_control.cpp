@@ -1,7 +1,7 @@
 // Ends, jumps, calls and the common line (§7.1, §7.16-7.18).
-#include "frontend/dialects/gsk/lower/lower_control.h"
+#include "frontend/network/lower/lower_control.h"
 
-namespace rung::gsk {
+namespace rung::network {
 
 // JMPE, COME, LBL: places only.
 void lowerMark(Lowering&) {}
@@ -14,7 +14,7 @@ void lowerJump(Lowering& f) { f.b.gotoRung(f.targetRung(), f.act()); }
 
 // CALL has a condition, CALLU none.
 void lowerCall(Lowering& f) {
-  f.b.call(f.callee(), f.function.row->control == network::Control::Call ? f.act() : ir::ValueId{});
+  f.b.call(f.callee(), f.function.row->control == Control::Call ? f.act() : ir::ValueId{});
 }
 
 // JMPC: every caller on the way looks at the slot (P43).
@@ -25,4 +25,4 @@ void lowerLeave(Lowering& f) {
 
 void lowerCommonLine(Lowering& f) { f.b.slotStore(f.commonLine(), f.act()); }
 
-} // namespace rung::gsk
+} // namespace rung::network

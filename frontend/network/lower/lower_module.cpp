@@ -1,5 +1,5 @@
 // The module around the networks: spaces, routines, tasks and the schedule of slots.
-#include "frontend/dialects/gsk/lower/lower_module.h"
+#include "frontend/network/lower/lower_module.h"
 
 #include <algorithm>
 
@@ -9,32 +9,30 @@
 #include "ir/support/hash.h"
 #include "rung/types.hpp"
 
-namespace rung::gsk {
+namespace rung::network {
 namespace {
-
-using network::Control;
 
 // Runs of bytes that are copied together although some between them are not needed.
 constexpr uint32_t kCopyGap = 8;
 
-uint32_t spaceFlags(network::AreaUse use) {
+uint32_t spaceFlags(AreaUse use) {
   switch (use) {
-  case network::AreaUse::Input: return RUNG_SPACE_INPUT;
-  case network::AreaUse::Output: return RUNG_SPACE_OUTPUT;
-  case network::AreaUse::Memory: return 0;
+  case AreaUse::Input: return RUNG_SPACE_INPUT;
+  case AreaUse::Output: return RUNG_SPACE_OUTPUT;
+  case AreaUse::Memory: return 0;
   }
   return 0;
 }
 
-size_t indexOf(network::Area area) { return static_cast<size_t>(area); }
+size_t indexOf(Area area) { return static_cast<size_t>(area); }
 
-bool asks(const network::Unit& unit, LoweredRow::Asks what) {
-  return std::ranges::any_of(unit.networks, [what](const network::Network& network) {
+bool asks(const Unit& unit, LoweredRow::Asks what) {
+  return std::ranges::any_of(unit.networks, [what](const Network& network) {
     return network.function.row != nullptr && loweredRow(*network.function.row).asks == what;
   });
 }
 
-bool jumps(const network::Network& network) {
+bool jumps(const Network& network) {
   const Control control = controlOf(network);
   return control == Control::Jmp || control == Control::Jmpb || control == Control::Jmpc;
 }
@@ -47,14 +45,13 @@ std::string stemOf(std::string_view path) {
 
 } // namespace
 
-void LevelState::use(const network::Address& address, uint32_t bytes) {
+void LevelState::use(const Address& address, uint32_t bytes) {
   std::vector<bool>& area = used[indexOf(address.area)];
   for (uint32_t i = 0; i < bytes; ++i) area[address.byte + i] = true;
 }
 
-ModuleLowering::ModuleLowering(const network::Program& program, network::Context& context,
-                               std::span<const FileId> files, const Execution& execution, ir::Marks* marks,
-                               bool compared)
+ModuleLowering::ModuleLowering(const Program& program, Context& context, std::span<const FileId> files,
+                               const Execution& execution, ir::Marks* marks, bool compared)
     : program_(program), context_(context), language_(context.language), execution_(execution), marks_(marks),
       compared_(compared), module_(std::make_unique<ir::Module>()), constants_(*module_),
       levels_(language_.levels.size()) {
@@ -77,7 +74,7 @@ void ModuleLowering::lowerUnits() {
 }
 
 void ModuleLowering::addSpaces() {
-  for (const network::AreaInfo& info : language_.areas) {
+  for (const AreaInfo& info : language_.areas) {
     const ir::SpaceId space = frontend::addSpace(
         *module_, {.name = std::string(1, info.letter), .units = info.bytes, .flags = spaceFlags(info.use)});
     spaces_.push_back(space);
@@ -88,34 +85,33 @@ void ModuleLowering::addSpaces() {
     level.spaces = spaces_;
     if (!language_.levels[level.level].latchesInputs()) continue;
     for (size_t i = 0; i < spaces_.size(); ++i)
-      if (const network::AreaInfo& info = language_.areas[i]; info.use == network::AreaUse::Input)
+      if (const AreaInfo& info = language_.areas[i]; info.use == AreaUse::Input)
         level.spaces[i] = hiddenSpace(fmt::format("@{}{}", info.letter, level.level + 1), info.bytes);
   }
 }
 
 void ModuleLowering::addSymbols() {
-  for (const network::UserName& symbol : context_.names.ofKind(network::UserName::Kind::Symbol))
-    module_->symbols.push_back({.name = std::string(symbol.name),
-                                .comment = std::string(symbol.comment),
-                                .space = spaces_[indexOf(symbol.address.area)],
-                                .byte = symbol.address.byte,
-                                .bit = symbol.address.bit,
-                                .type = symbol.address.isBit ? RUNG_TYPE_BIT : RUNG_TYPE_I8,
-                                .flags = language_.at(symbol.address.area).use == network::AreaUse::Input
-                                             ? uint32_t{RUNG_SYMBOL_READONLY}
-                                             : 0u});
+  for (const UserName& symbol : context_.names.ofKind(UserName::Kind::Symbol))
+    module_->symbols.push_back(
+        {.name = std::string(symbol.name),
+         .comment = std::string(symbol.comment),
+         .space = spaces_[indexOf(symbol.address.area)],
+         .byte = symbol.address.byte,
+         .bit = symbol.address.bit,
+         .type = symbol.address.isBit ? RUNG_TYPE_BIT : RUNG_TYPE_I8,
+         .flags = language_.at(symbol.address.area).use == AreaUse::Input ? uint32_t{RUNG_SYMBOL_READONLY} : 0u});
   frontend::settleSymbols(*module_);
 }
 
 // Keys are made of the text alone; equal networks of one unit are distinguished by their order. The state of a function
 // belongs to the function, whatever its conditions are.
 void ModuleLowering::makeKeys() {
-  for (const network::Unit& unit : program_.units) {
+  for (const Unit& unit : program_.units) {
     std::unordered_map<uint64_t, uint32_t> seen;
     frontend::Numbering alike;
     std::vector<Key>& keys = keys_.emplace_back();
     std::vector<std::string>& prefixes = slotPrefixes_.emplace_back();
-    for (const network::Network& network : unit.networks) {
+    for (const Network& network : unit.networks) {
       const uint64_t text = hashBytes(commandText(language_, network), hashBytes(nameOf(language_, unit)));
       const uint32_t copy = seen[text]++;
       keys.push_back({rungKey(text, copy), copy});
@@ -129,15 +125,15 @@ void ModuleLowering::makeKeys() {
 
 // Every network but the end of a unit is drawn, in the order of the sources, whatever unit it belongs to.
 void ModuleLowering::makeNumbers() {
-  std::vector<const network::Network*> drawn;
-  for (const network::Unit& unit : program_.units)
+  std::vector<const Network*> drawn;
+  for (const Unit& unit : program_.units)
     for (size_t i = 0; i + 1 < unit.networks.size(); ++i) drawn.push_back(&unit.networks[i]);
-  std::ranges::sort(drawn, {}, [](const network::Network* network) { return network->range.begin; });
-  for (const network::Network* network : drawn) numbers_.emplace(network, static_cast<uint32_t>(numbers_.size()) + 1);
+  std::ranges::sort(drawn, {}, [](const Network* network) { return network->range.begin; });
+  for (const Network* network : drawn) numbers_.emplace(network, static_cast<uint32_t>(numbers_.size()) + 1);
 }
 
 // With the number of the level, counted from 1, where another one runs the unit, too.
-std::string ModuleLowering::routineName(const LevelState& level, const network::Unit& unit) const {
+std::string ModuleLowering::routineName(const LevelState& level, const Unit& unit) const {
   std::string name = nameOf(language_, unit);
   if (std::ranges::count(unit.runBy, true) > 1) name += fmt::format("@{}", level.level + 1);
   return name;
@@ -146,13 +142,13 @@ std::string ModuleLowering::routineName(const LevelState& level, const network::
 void ModuleLowering::planRoutines(LevelState& level) {
   level.routines.resize(program_.units.size());
   for (uint32_t u = 0; u < program_.units.size(); ++u) {
-    const network::Unit& unit = program_.units[u];
+    const Unit& unit = program_.units[u];
     if (!unit.runBy[level.level]) continue;
     level.routines[u] = frontend::addRoutine(*module_, routineName(level, unit));
     level.hasClock = level.hasClock || asks(unit, LoweredRow::Asks::Time);
     level.countsRuns = level.countsRuns || asks(unit, LoweredRow::Asks::Count);
   }
-  const std::vector<network::Network>& own = program_.units[level.level].networks;
+  const std::vector<Network>& own = program_.units[level.level].networks;
   level.straight = !compared_ && std::none_of(own.begin(), own.end(), jumps) &&
                    (level.level != language_.mainLevel() || program_.jumpTargets.empty());
   planClock(level);
@@ -167,16 +163,16 @@ void ModuleLowering::planClock(LevelState& level) {
   if (level.countsRuns) level.runs = slot("@runs/" + name, ir::Type::I32, 0, false);
 }
 
-bool ModuleLowering::mayLeaveAfter(const network::Network& network) const {
-  return network.callee != network::kNone && program_.units[network.callee].leaves;
+bool ModuleLowering::mayLeaveAfter(const Network& network) const {
+  return network.callee != kNone && program_.units[network.callee].leaves;
 }
 
 void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
-  const network::Unit& unit = program_.units[unitIndex];
+  const Unit& unit = program_.units[unitIndex];
   RoutineContext context{&level, unitIndex, {}};
-  const bool clock = (level.hasClock || level.countsRuns) && unit.kind != network::UnitKind::Subprogram;
+  const bool clock = (level.hasClock || level.countsRuns) && unit.kind != UnitKind::Subprogram;
   uint32_t count = clock ? 1 : 0;
-  for (const network::Network& network : unit.networks) {
+  for (const Network& network : unit.networks) {
     context.rungOf.push_back(count);
     count += mayLeaveAfter(network) ? 2 : 1;
   }
@@ -190,9 +186,9 @@ void ModuleLowering::lowerRoutine(LevelState& level, uint32_t unitIndex) {
 }
 
 // Timers grow by the time between two scans, however long that was (P23); window requests count scans (P48).
-void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const network::Unit& unit) {
+void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const Unit& unit) {
   ir::Rung& rung = routine.rungs[0];
-  const network::Network& first = unit.networks.front();
+  const Network& first = unit.networks.front();
   describe(rung, first, {hashBytes("@clock", hashBytes(nameOf(language_, unit))), 0});
   rung.number = 0;
   rung.title.clear();
@@ -207,9 +203,9 @@ void ModuleLowering::addClock(ir::Routine& routine, LevelState& level, const net
   b.slotStore(level.clock, now);
 }
 
-const network::Network* ModuleLowering::networkOf(uint32_t unit, const ir::Rung& rung) const {
-  const std::vector<network::Network>& networks = program_.units[unit].networks;
-  const auto at = std::ranges::find_if(networks, [&](const network::Network& network) {
+const Network* ModuleLowering::networkOf(uint32_t unit, const ir::Rung& rung) const {
+  const std::vector<Network>& networks = program_.units[unit].networks;
+  const auto at = std::ranges::find_if(networks, [&](const Network& network) {
     return network.firstLine == rung.begin.line && fileIndex_.at(network.file.index) == rung.begin.file;
   });
   return at == networks.end() ? nullptr : &*at;
@@ -221,15 +217,15 @@ void ModuleLowering::addTasks(uint32_t parts) {
 }
 
 void ModuleLowering::addTask(const LevelState& level, uint32_t parts) {
-  const network::Level& own = language_.levels[level.level];
-  const bool inEverySlot = own.turn == network::Turn::EverySlot;
+  const Level& own = language_.levels[level.level];
+  const bool inEverySlot = own.turn == Turn::EverySlot;
   const ir::TaskId id{static_cast<uint32_t>(module_->tasks.size())};
   ir::Task& task = module_->tasks.emplace_back(ir::Task{.name = std::string(own.name),
                                                         .entry = level.entry(),
                                                         .periodUs = execution_.slotUs * (inEverySlot ? 1 : parts),
                                                         .budget = execution_.budget,
                                                         .budgetFault = ir::FaultId{0}});
-  if (own.turn == network::Turn::Parts) {
+  if (own.turn == Turn::Parts) {
     ir::cutTask(*module_, task, parts);
     module_->mainTask = id;
   } else {
@@ -238,7 +234,7 @@ void ModuleLowering::addTask(const LevelState& level, uint32_t parts) {
   if (inEverySlot) module_->fastTask = id;
   if (own.latchesInputs())
     for (size_t i = 0; i < spaces_.size(); ++i)
-      if (language_.areas[i].use == network::AreaUse::Input) addLatch(level, i);
+      if (language_.areas[i].use == AreaUse::Input) addLatch(level, i);
 }
 
 // In every slot the levels in their order, each where it has its turn.
@@ -249,11 +245,11 @@ void ModuleLowering::addScan(uint32_t parts) {
     if (part != 0) module_->scan.push_back({.op = RUNG_STEP_SLOT});
     module_->scan.push_back(advance);
     for (const LevelState& level : levels_) {
-      const network::Turn turn = language_.levels[level.level].turn;
-      if (turn == network::Turn::LastSlot && part + 1 != parts) continue;
-      const uint32_t op = turn == network::Turn::Parts && parts != 1 ? RUNG_STEP_PART : RUNG_STEP_RUN;
+      const Turn turn = language_.levels[level.level].turn;
+      if (turn == Turn::LastSlot && part + 1 != parts) continue;
+      const uint32_t op = turn == Turn::Parts && parts != 1 ? RUNG_STEP_PART : RUNG_STEP_RUN;
       module_->scan.push_back({.op = op, .task = ir::TaskId{level.level}, .arg = 1});
-      if (part == 0 && turn == network::Turn::EverySlot) module_->fast.push_back(module_->scan.back());
+      if (part == 0 && turn == Turn::EverySlot) module_->fast.push_back(module_->scan.back());
     }
   }
 }
@@ -307,4 +303,4 @@ ir::SpaceId ModuleLowering::hiddenSpace(const std::string& name, uint32_t bytes)
   return at->second;
 }
 
-} // namespace rung::gsk
+} // namespace rung::network

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/sema/uses_by_place.h"
 #include "frontend/table/instruction.h"
 #include "ir/support/source.h"
 
@@ -59,34 +60,55 @@ struct TargetUse {
   bool defines = false; // this is the place; else control goes there
 };
 
+// An instruction by its mnemonic, its number or its box.
+struct InstructionUse {
+  SourceRange range; // of that word
+  const InstructionInfo* instruction = nullptr;
+};
+
 // All texts live as long as the sources and the program that was checked.
 class Analysis {
 public:
   // While the program is read, in any order.
   uint32_t define(const Definition& definition);
   Definition& definition(uint32_t index) { return definitions_[index]; }
-  void use(SourceRange name, uint32_t definition) { names_.push_back({name, definition}); }
-  void use(const OperandUse& operand) { operands_.push_back(operand); }
-  void use(const TargetUse& target) { targets_.push_back(target); }
+  void use(SourceRange name, uint32_t definition) { names_.add({name, definition}); }
+  void use(const OperandUse& operand) { operands_.add(operand); }
+  void use(const TargetUse& target) { targets_.add(target); }
+  void use(const InstructionUse& instruction) { instructions_.add(instruction); }
   // Once, when it is complete: puts uses in the order of the sources.
   void settle();
 
   // Afterwards.
   std::span<const Definition> definitions() const { return definitions_; }
-  std::span<const NameUse> names() const { return names_; }
-  std::span<const OperandUse> operands() const { return operands_; }
-  std::span<const TargetUse> targets() const { return targets_; }
+  std::span<const NameUse> names() const { return names_.all(); }
+  std::span<const OperandUse> operands() const { return operands_.all(); }
+  std::span<const TargetUse> targets() const { return targets_.all(); }
   // The operand that is written there, exactly; null when that names no place, of memory or of the program.
-  const OperandUse* operandAt(SourceRange range) const;
-  const TargetUse* targetAt(SourceRange range) const;
+  const OperandUse* operandAt(SourceRange range) const { return operands_.at(range); }
+  const TargetUse* targetAt(SourceRange range) const { return targets_.at(range); }
   // What the name that is written there, exactly, means; null when that is not a name.
-  const Definition* nameAt(SourceRange range) const;
+  const Definition* nameAt(SourceRange range) const { return definitionOf(names_.at(range)); }
+  // What a character belongs to, the innermost of a kind; null when that is nothing of the kind.
+  const OperandUse* operandAt(SourcePos position) const { return operands_.at(position); }
+  const TargetUse* targetAt(SourcePos position) const { return targets_.at(position); }
+  const InstructionUse* instructionAt(SourcePos position) const { return instructions_.at(position); }
+  // The meaning of a name that is used there.
+  const Definition* nameAt(SourcePos position) const { return definitionOf(names_.at(position)); }
+  // What is declared there, by its name.
+  const Definition* declaredAt(SourcePos position) const { return definitionOf(declared_.at(position)); }
 
 private:
+  const Definition* definitionOf(const NameUse* name) const {
+    return name == nullptr ? nullptr : &definitions_[name->definition];
+  }
+
   std::vector<Definition> definitions_;
-  std::vector<NameUse> names_;
-  std::vector<OperandUse> operands_;
-  std::vector<TargetUse> targets_;
+  UsesByPlace<NameUse> declared_; // the definitions that the program has
+  UsesByPlace<NameUse> names_;
+  UsesByPlace<OperandUse> operands_;
+  UsesByPlace<TargetUse> targets_;
+  UsesByPlace<InstructionUse> instructions_;
 };
 
 } // namespace rung::frontend

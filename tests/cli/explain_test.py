@@ -124,6 +124,12 @@ START (7000.00): read, but written by no rung
         self.assertNotIn("[technol]", text)
         self.assertEqual(self.explain(2, 22), "a comment\n")
 
+    def test_a_function_by_its_number(self):
+        path = Path(self.folder.name) / "p.pmc"
+        path.write_text("FUNC 0\nLD X0.0\nFUNC 35\nPRM 0\nFUNC 36\nFUNC 1\n")
+        self.path = path
+        self.assertTrue(self.explain(3, 6).startswith("[gsk] JMP (function 35): jump over a region\n"))
+
     def test_immediate_operand(self):
         self.path.write_text("dialect nct\nmodule INT0\nsymbol PRB INP000.05\nrung\n|--[!PRB]--(7000.00)\nmodule MAIN\nrung\n|--[7000.00]--[PRB]--(7000.01)\n")
         text = self.explain(5, 6)

@@ -150,6 +150,7 @@ bool RungReader::checkBox() {
     reportUnknownFunction(context_, box_->mnemonic, box_->mnemonicRange, ladder::drawnFor(box_->mnemonic));
     return false;
   }
+  context_.analysis.use(frontend::InstructionUse{box_->mnemonicRange, &row_->info});
   if (isEnd(row_->control) || row_->control == Control::Sp) {
     diagnostics_.report(diag::UnsupportedElement, box_->range)
         << fmt::format("a box {}", row_->info.mnemonic) << "a `module` statement begins and ends what it would";
@@ -397,6 +398,7 @@ void LadderReader::readOperands(const ladder::Rung& rung, const Element& element
   if (function.row == nullptr && !mayBePin)
     reportUnknownFunction(context_, element.mnemonic, element.mnemonicRange, ladder::drawnFor(element.mnemonic));
   if (function.row == nullptr) return;
+  context_.analysis.use(frontend::InstructionUse{element.mnemonicRange, &function.row->info});
   const auto table = std::ranges::find_if(
       words, [&](const Word& word) { return function.row->hasTable && isTableWord(context_.language, word); });
   const auto rows = table == words.end() ? words.end() : table + 1;

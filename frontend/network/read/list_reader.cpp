@@ -95,7 +95,10 @@ void ListReader::checkDialect(const Word& word) {
 const Row* ListReader::functionOf(const Word& word) {
   const auto number = parseDigits(word.text);
   const Row* row = number ? context_.language.findFunction(*number) : context_.language.findFunction(word.text);
-  if (row == nullptr) reportUnknownFunction(context_, word.text, word.range);
+  if (row == nullptr)
+    reportUnknownFunction(context_, word.text, word.range);
+  else
+    context_.analysis.use(frontend::InstructionUse{word.range, &row->info});
   return row;
 }
 

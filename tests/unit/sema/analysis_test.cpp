@@ -70,6 +70,67 @@ TEST(SemaGolden, Names) {
   }
 }
 
+// What a character belongs to.
+TEST(Analysis, IsAskedByPosition) {
+  SourceManager sources;
+  Diagnostics diagnostics;
+  const std::string text = "dialect nct\nmodule MAIN\nsymbol IDX 7010\nsymbol COPY 7020 ; of IDX\n"
+                           "rung\n|--[7000.01,IDX]--{MOV COPY 7030}\nrung\n|--[7000.00]--{JMP #1}\nrung\n|--{JME #1}\n";
+  const FileId file = sources.addBuffer("t.lad", text);
+  const auto program = dialectOf(sources, file)->check(sources, {&file, 1}, {}, diagnostics);
+  const Analysis& analysis = program->analysis();
+  const auto after = [&](std::string_view before) { return sources.position(file, text.find(before) + before.size()); };
+
+  for (const std::string_view before : {"{MOV ", "{MOV C", "{MOV COP"}) {
+    ASSERT_NE(analysis.nameAt(after(before)), nullptr) << before;
+    EXPECT_EQ(analysis.nameAt(after(before))->name, "COPY");
+    ASSERT_NE(analysis.operandAt(after(before)), nullptr) << before;
+    EXPECT_EQ(sources.text(analysis.operandAt(after(before))->range), "COPY");
+  }
+  EXPECT_EQ(analysis.nameAt(after("{MOV COPY")), nullptr) << "the end is outside";
+  EXPECT_EQ(analysis.nameAt(after("{MOV")), nullptr);
+
+  ASSERT_NE(analysis.declaredAt(after("symbol ID")), nullptr);
+  EXPECT_EQ(analysis.declaredAt(after("symbol ID"))->name, "IDX");
+  EXPECT_EQ(analysis.declaredAt(after("symbol IDX")), nullptr);
+  EXPECT_EQ(analysis.declaredAt(after("{MOV ")), nullptr) << "a use";
+  EXPECT_EQ(analysis.nameAt(after("; of ")), nullptr) << "a comment names nothing";
+
+  ASSERT_NE(analysis.nameAt(after("01,")), nullptr);
+  EXPECT_EQ(analysis.nameAt(after("01,"))->name, "IDX");
+  EXPECT_EQ(analysis.nameAt(after("|--[")), nullptr) << "an address";
+  ASSERT_NE(analysis.operandAt(after("|--[")), nullptr);
+  EXPECT_EQ(analysis.operandAt(after("|--["))->computed, ",IDX");
+  EXPECT_EQ(analysis.operandAt(after(",IDX]")), nullptr) << "a wire";
+
+  ASSERT_NE(analysis.targetAt(after("{JMP ")), nullptr);
+  EXPECT_FALSE(analysis.targetAt(after("{JMP "))->defines);
+  ASSERT_NE(analysis.targetAt(after("{JME #")), nullptr);
+  EXPECT_TRUE(analysis.targetAt(after("{JME #"))->defines);
+
+  ASSERT_NE(analysis.instructionAt(after("{M")), nullptr);
+  EXPECT_EQ(analysis.instructionAt(after("{M"))->instruction->mnemonic, "MOV");
+  EXPECT_EQ(analysis.instructionAt(after("{MOV")), nullptr);
+}
+
+// A list names functions by numbers, too; a line of TECHNOL has its mnemonic after its label.
+TEST(Analysis, KnowsInstructions) {
+  const auto at = [](const std::string& name, const std::string& text, std::string_view word) {
+    SourceManager sources;
+    Diagnostics diagnostics;
+    const FileId file = sources.addBuffer(name, text);
+    const auto program = dialectOf(sources, file)->check(sources, {&file, 1}, {}, diagnostics);
+    const InstructionUse* use = program->analysis().instructionAt(sources.position(file, text.find(word)));
+    return use == nullptr ? "" : std::string(use->instruction->mnemonic);
+  };
+  const std::string list = "FUNC 0\nLD X0.0\nFUNC 35\nPRM 0\nFUNC JMPE\nFUNC END2\n";
+  EXPECT_EQ(at("t.pmc", list, "35"), "JMP");
+  EXPECT_EQ(at("t.pmc", list, "JMPE"), "JMPE");
+  EXPECT_EQ(at("t.pmc", list, "X0.0"), "");
+  EXPECT_EQ(at("t.lad", "dialect gsk\nmodule LEVEL2\nrung\n|--[X0.0]--{TMR 1}--(Y0.0)\n", "TMR"), "TMR");
+  EXPECT_EQ(at("t.plc", "MODULE_MAIN\nREADY:  LDR  RUN\nMODULE_MAIN_END\n", "DR"), "LDR");
+}
+
 // What is written there, exactly.
 TEST(Analysis, IsAskedByPlace) {
   SourceManager sources;

@@ -183,6 +183,8 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
     typed.bad = true;
     return;
   }
+  if (element.kind == ElementKind::Box)
+    analysis_.use(frontend::InstructionUse{element.mnemonicRange, &added.row->info});
   const bool drawn = rung.bad || checkDrawn(rung, element, *added.row); // of a bad one no net is known
   bool ok = readOperands(typed, added) && drawn;
   if (element.kind == ElementKind::Box && added.row->info.output == Output::Always)

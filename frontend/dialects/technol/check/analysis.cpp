@@ -123,6 +123,8 @@ Analysis analysisOf(const Program& program, const TypedProgram& typed) {
       analysis.use(name.range, name.definition);
       addTarget(program.symbols[name.definition], name.definition, name.range, false, analysis);
     }
+  for (const Statement& statement : program.statements)
+    if (statement.row != nullptr) analysis.use(InstructionUse{statement.range(), &statement.row->info});
   for (uint32_t i = 0; i < typed.statements.size(); ++i) {
     const std::span<const Operand> operands = typed.operandsOf(typed.statements[i]);
     const bool isSet = setsBits(program.statements[i], operands);

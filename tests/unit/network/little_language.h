@@ -2,7 +2,9 @@
 #pragma once
 #include <iterator>
 #include <string_view>
+#include <vector>
 
+#include "frontend/network/lower/lower_control.h"
 #include "frontend/network/operand_kind.h"
 #include "ir/support/diag/gsk.h"
 
@@ -28,41 +30,49 @@ inline constexpr frontend::OperandInfo kToPart = {
     .name = "part", .kind = &kPart, .access = frontend::Access::None, .doc = "U1-U9", .min = 1, .max = 9};
 inline constexpr frontend::PinInfo kGo = {.name = "GO"};
 
-inline constexpr Row kRows[] = {
-    {.info = {.mnemonic = "FASTEND", .number = 10}, .control = Control::LevelEnd},
-    {.info = {.mnemonic = "SLOWEND", .number = 11}, .control = Control::LevelEnd},
-    {.info = {.mnemonic = "PART", .number = 12, .operands = {kToPart}}, .control = Control::Sp},
-    {.info = {.mnemonic = "PARTEND", .number = 13}, .control = Control::Spe},
-    {.info = {.mnemonic = "VISIT", .number = 14, .pins = {kGo}, .operands = {kToPart}}, .control = Control::Call},
-    {.info = {.mnemonic = "HOP", .number = 15, .pins = {kGo}, .operands = {kToMark}}, .control = Control::Jmpb},
-    {.info = {.mnemonic = "HERE", .number = 16, .operands = {kToMark}, .placement = frontend::Placement::Anywhere},
-     .control = Control::Lbl},
-    {.info = {.mnemonic = "SKIP", .number = 17, .pins = {kGo}}, .control = Control::Jmp},
-    {.info = {.mnemonic = "SKIPEND", .number = 18, .placement = frontend::Placement::AtRail}, .control = Control::Jmpe},
-    {.info = {.mnemonic = "CLOCK",
-              .number = 20,
-              .pins = {frontend::PinInfo{.name = "HALT"}, kGo},
-              .operands = {frontend::OperandInfo{.name = "clock", .kind = &kNumber, .min = 1, .max = 3}},
-              .output = frontend::Output::Always},
-     .numbers = Row::Numbers::Timer},
-    {.info = {.mnemonic = "COPY",
-              .number = 21,
-              .pins = {kGo},
-              .operands = {frontend::OperandInfo{.name = "from", .kind = &kByte},
-                           frontend::OperandInfo{.name = "to", .kind = &kByte, .access = frontend::Access::Write}}}},
-    {.info = {.mnemonic = "PICK",
-              .number = 22,
-              .pins = {kGo},
-              .operands = {frontend::OperandInfo{.name = "work", .kind = &kWords},
-                           frontend::OperandInfo{.name = "rows", .kind = &kNumber, .min = 1, .max = 9}}},
-     .hasTable = true},
-    {.info = {.mnemonic = "RISE", .number = 23, .pins = {kGo}, .output = frontend::Output::Always},
-     .numbers = Row::Numbers::Edge},
-    {.info = {.mnemonic = "LATER", .number = 24, .pins = {kGo}}, .built = false},
+inline void lowerCopy(Lowering& f) {
+  f.b.when(f.act(), [&] { f.store(f.param(1).address, f.load(ir::Type::I8, f.param(0).address)); });
+}
+inline void lowerRise(Lowering& f) { f.setOutput(f.act()); }
+
+inline constexpr LoweredRow kRows[] = {
+    {{.info = {.mnemonic = "FASTEND", .number = 10}, .control = Control::LevelEnd}, &lowerEnd},
+    {{.info = {.mnemonic = "SLOWEND", .number = 11}, .control = Control::LevelEnd}, &lowerEnd},
+    {{.info = {.mnemonic = "PART", .number = 12, .operands = {kToPart}}, .control = Control::Sp}, &lowerMark},
+    {{.info = {.mnemonic = "PARTEND", .number = 13}, .control = Control::Spe}, &lowerEnd},
+    {{.info = {.mnemonic = "VISIT", .number = 14, .pins = {kGo}, .operands = {kToPart}}, .control = Control::Call},
+     &lowerCall},
+    {{.info = {.mnemonic = "HOP", .number = 15, .pins = {kGo}, .operands = {kToMark}}, .control = Control::Jmpb},
+     &lowerJump},
+    {{.info = {.mnemonic = "HERE", .number = 16, .operands = {kToMark}}, .control = Control::Lbl}, &lowerMark},
+    {{.info = {.mnemonic = "SKIP", .number = 17, .pins = {kGo}}, .control = Control::Jmp}, &lowerJump},
+    {{.info = {.mnemonic = "SKIPEND", .number = 18}, .control = Control::Jmpe}, &lowerMark},
+    {{.info = {.mnemonic = "CLOCK",
+               .number = 20,
+               .pins = {frontend::PinInfo{.name = "HALT"}, kGo},
+               .operands = {frontend::OperandInfo{.name = "clock", .kind = &kNumber, .min = 1, .max = 3}},
+               .output = frontend::Output::Always},
+      .numbers = Row::Numbers::Timer}},
+    {{.info = {.mnemonic = "COPY",
+               .number = 21,
+               .pins = {kGo},
+               .operands = {frontend::OperandInfo{.name = "from", .kind = &kByte},
+                            frontend::OperandInfo{.name = "to", .kind = &kByte, .access = frontend::Access::Write}}}},
+     &lowerCopy},
+    {{.info = {.mnemonic = "PICK",
+               .number = 22,
+               .pins = {kGo},
+               .operands = {frontend::OperandInfo{.name = "work", .kind = &kWords},
+                            frontend::OperandInfo{.name = "rows", .kind = &kNumber, .min = 1, .max = 9}}},
+      .hasTable = true}},
+    {{.info = {.mnemonic = "RISE", .number = 23, .pins = {kGo}, .output = frontend::Output::Always},
+      .numbers = Row::Numbers::Edge},
+     &lowerRise},
+    {{.info = {.mnemonic = "LATER", .number = 24, .pins = {kGo}}, .built = false}},
 };
 
 template <size_t N>
-constexpr std::array<const Row*, N> pointersTo(const Row (&rows)[N]) {
+constexpr std::array<const Row*, N> pointersTo(const LoweredRow (&rows)[N]) {
   std::array<const Row*, N> result{};
   for (size_t i = 0; i < N; ++i) result[i] = &rows[i];
   return result;
@@ -115,5 +125,30 @@ inline const frontend::InstructionInfo* findBox(std::string_view mnemonic) {
   const Row* row = kLittle.findFunction(mnemonic);
   return row == nullptr ? nullptr : &row->info;
 }
+
+// A language with one level more, of which it says nothing but a row in each of its lists.
+class ThreeLevels {
+public:
+  ThreeLevels() {
+    for (const Row* row : kRowPointers) rows_.push_back(row);
+    rows_.push_back(&idleEnd_);
+    language_.levels = levels_;
+    language_.rows = rows_;
+  }
+  ThreeLevels(const ThreeLevels&) = delete;
+  const Language& language() const { return language_; }
+
+private:
+  LoweredRow idleEnd_{{.info = {.mnemonic = "IDLEEND", .number = 30}, .control = Control::LevelEnd}, &lowerEnd};
+  std::vector<const Row*> rows_;
+  Level levels_[3] = {kLevels[kFast],
+                      kLevels[kSlow],
+                      {.name = "IDLE",
+                       .end = "IDLEEND",
+                       .turn = Turn::LastSlot,
+                       .endMissing = diag::MissingEnd2,
+                       .endTwice = diag::DuplicateEnd2}};
+  Language language_ = kLittle;
+};
 
 } // namespace rung::network::test

@@ -215,31 +215,6 @@ TEST(Network, BlocksThatADrawingDoesNotHaveAreAHint) {
   EXPECT_EQ(list(converted("test.lad", drawn, Form::List)).units(), list(text).units());
 }
 
-// A language with one level more, of which it says nothing but a row in each of its lists.
-class ThreeLevels {
-public:
-  ThreeLevels() {
-    for (const Row* row : kRowPointers) rows_.push_back(row);
-    rows_.push_back(&idleEnd_);
-    language_.levels = levels_;
-    language_.rows = rows_;
-  }
-  ThreeLevels(const ThreeLevels&) = delete;
-  const Language& language() const { return language_; }
-
-private:
-  Row idleEnd_{.info = {.mnemonic = "IDLEEND", .number = 30}, .control = Control::LevelEnd};
-  std::vector<const Row*> rows_;
-  Level levels_[3] = {kLevels[kFast],
-                      kLevels[kSlow],
-                      {.name = "IDLE",
-                       .end = "IDLEEND",
-                       .turn = Turn::LastSlot,
-                       .endMissing = diag::MissingEnd2,
-                       .endTwice = diag::DuplicateEnd2}};
-  Language language_ = kLittle;
-};
-
 TEST(Network, AThirdLevelIsARow) {
   const ThreeLevels three;
   const std::string text = "GET I0.0\nPUT Q0.0\nDO FASTEND\nGET I0.1\nPUT Q0.1\nDO SLOWEND\n"

@@ -331,8 +331,8 @@ void Reader::beginModule(const ladder::Module& module, std::string_view remark, 
   } else if (const frontend::TargetUse* subprogram = names_.targetAt(module.name.back())) {
     block.text = fmt::format("Subprogram {}", module.name.back().text);
     subprograms_.emplace_back(program_.blocks.size(), targets_.idOf(*subprogram));
-  } else {
-    block.text = name.ends_with('1') ? "Level 1" : "Level 2";
+  } else if (const auto level = gsk::kLanguage.findLevel(name)) {
+    block.text = fmt::format("Level {}", *level + 1);
   }
   program_.blocks.push_back(std::move(block));
 }

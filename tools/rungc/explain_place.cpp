@@ -1,6 +1,7 @@
 // Names and operands at a place of the source (see explain_place.h).
 #include "tools/rungc/explain_place.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -42,7 +43,8 @@ public:
   Explainer(const SourceManager& sources, const Analysis& analysis, const xref::CrossReference* reference)
       : sources_(sources), analysis_(analysis), reference_(reference) {}
 
-  std::string at(SourcePos at) {
+  // What an operand or a name there is; "" where there is none. `word`: all that is written there without a blank.
+  std::string at(SourcePos at, const std::string& word) {
     if (const frontend::OperandUse* operand = analysis_.operandAt(at)) {
       put(out_, "{}: {} here{}\n", sources_.text(operand->range), nameOf(operand->access),
           operand->computed.empty() ? "" : fmt::format(", with '{}' added at run time", operand->computed));
@@ -51,6 +53,7 @@ public:
     } else if (const frontend::TargetUse* target = analysis_.targetAt(at)) {
       targets(*target);
     } else if (const Definition* name = analysis_.nameAt(at)) {
+      if (std::string bit = text::equalsIgnoringCase(name->name, word) ? "" : addressed(word); !bit.empty()) return bit;
       explain(*name);
     } else if (const Definition* declared = analysis_.declaredAt(at)) {
       explain(*declared);
@@ -80,6 +83,11 @@ public:
   }
 
 private:
+  std::string ended() {
+    if (reference_ == nullptr && !out_.empty())
+      out_ += "\nThe program has errors, so what its rungs do is not known: `rungc check` lists the errors.\n";
+    return std::move(out_);
+  }
   std::string placeOf(SourceRange range) const {
     const LineCol at = sources_.lineCol(range.begin);
     return fmt::format("{}:{}:{}", at.file, at.line, at.column);
@@ -185,21 +193,54 @@ std::string_view proseAt(const LineWords& words, SourcePos at) {
   return {};
 }
 
-// Of anything but a name; `instruction`: null where the word is not one that the program has.
-std::string explainWordAt(const SourceManager& sources, const frontend::Dialect& dialect, SourcePos at,
-                          const frontend::InstructionUse* instruction) {
-  if (instruction != nullptr)
-    if (const auto text = compiler::explain(instruction->instruction->mnemonic, &dialect)) return plainText(*text);
-  if (const std::string_view prose = proseAt(sources, at); !prose.empty()) return fmt::format("{}\n", prose);
-  const std::string_view line = sources.lineText(at);
-  const size_t offset = sources.offsetOf(at) - sources.lineStart(at).offset;
-  const char c = line[offset];
-  if (c == ' ' || c == '\t') return "a blank\n";
-  if (c != '|' && endsWord(c)) return fmt::format("'{}': nothing by itself; name the place of what is beside it\n", c);
-  const std::string word(wordAt(line, offset));
-  if (c == '|' || word.find_first_not_of("+-") == std::string::npos) return "a wire\n";
-  if (const auto text = compiler::explain(word, &dialect)) return plainText(*text);
-  return fmt::format("'{}': neither a name of the program nor an instruction or a signal of {}\n", word, dialect.name);
+// A number as the dialects write it, perhaps after its type: #5, *1.5, 40h, CNST.0.
+bool isNumber(std::string_view word) {
+  if (const size_t point = word.find('.'); point != std::string_view::npos && point > 0 && isLetter(word[0]))
+    word.remove_prefix(point + 1);
+  const size_t first = word.find_first_not_of("#*$+-.");
+  if (first == std::string_view::npos) return false;
+  return isDigit(word[first]) || word.substr(0, first).find_first_of("#*") != std::string_view::npos;
+}
+
+// What is written before an operand in its brackets.
+std::string_view markAt(std::string_view line, size_t at) {
+  const size_t open = at == 0 ? std::string_view::npos : line.find_last_of("[(", at);
+  if (open == std::string_view::npos) return {};
+  const std::string_view before = line.substr(open + 1, at - open - 1);
+  if (before.find_first_not_of("/@%") != std::string_view::npos) return {};
+  const bool coil = line[open] == '(';
+  switch (line[at]) {
+  case '/': return coil ? "the coil is negated" : "the contact is normally closed";
+  case '@': return "at the rising edge";
+  case '%': return "at the falling edge";
+  case 'S':
+  case 'R':
+    if (!coil || line.substr(at + 1, 1) != " ") return {};
+    return line[at] == 'S' ? "the coil sets its bit, and leaves it without power"
+                           : "the coil resets its bit, and leaves it without power";
+  default: return {};
+  }
+}
+
+// Words by their places in a statement: a keyword, what follows it.
+std::string explainStatementWord(const LineWords& words, std::string_view word) {
+  if (words.words.empty()) return {};
+  const std::string_view first = words.words[0].text;
+  const auto keyword = std::ranges::find(ladder::kKeywords, first, &ladder::Keyword::word);
+  if (keyword == std::end(ladder::kKeywords)) return {};
+  if (word == first) return fmt::format("{}: {}\n", word, keyword->meaning);
+  if (first == "dialect") return fmt::format("{}: the control that the program is for\n", word);
+  if (first == "module") return fmt::format("{}: the name of the module\n", word);
+  return first == "message" || first == "button" ? fmt::format("{}: the number of the {}\n", word, first) : "";
+}
+
+// What the reference says of an instruction that is called by its number: FUNC 32.
+std::string explainNumbered(const LineWords& words, std::string_view word, const frontend::Dialect& dialect) {
+  const auto number = text::numberIn<uint32_t>(word);
+  if (!number || words.words.size() < 2 || words.words[0].text != "FUNC" || words.words[1].text != word) return {};
+  for (const frontend::InstructionInfo* row : dialect.instructions)
+    if (row->number == *number && *number != 0) return plainText(*compiler::explain(row->mnemonic, &dialect));
+  return {};
 }
 
 } // namespace
@@ -271,6 +312,8 @@ public:
   std::string run() const {
     if (std::string text = program_.explainer().at(at_, std::string(wordAt(line_, offset_))); !text.empty())
       return text;
+    if (const frontend::InstructionUse* use = program_.analysis().instructionAt(at_))
+      if (const auto text = compiler::explain(use->instruction->mnemonic, &dialect_)) return plainText(*text);
     if (const std::string_view prose = proseAt(words_, at_); !prose.empty()) return fmt::format("{}\n", prose);
     const char c = line_[offset_];
     if (c == ' ' || c == '\t') return "a blank\n";
@@ -344,8 +387,7 @@ std::optional<std::string> explainPlace(const SourcePlace& place, int& status) {
     status = usageError(fmt::format("{} has nothing in line {}, column {}", place.file, place.line, place.column));
     return std::nullopt;
   }
-  const std::string text = program.explainer().at(*at);
-  return text.empty() ? explainWordAt(sources, program.dialect(), *at, program.analysis().instructionAt(*at)) : text;
+  return WordExplainer(program, *at).run();
 }
 
 std::optional<ProjectNames> namesOfProject(const std::string& word, const std::string& projectFile) {

@@ -4,11 +4,11 @@
 
 namespace rung::network {
 
-void lowerMark(FunctionLowering& f);
-void lowerEnd(FunctionLowering& f);
-void lowerJump(FunctionLowering& f);
-void lowerCall(FunctionLowering& f);
-void lowerLeave(FunctionLowering& f);
-void lowerCommonLine(FunctionLowering& f);
+void lowerMark(Lowering& f);
+void lowerEnd(Lowering& f);
+void lowerJump(Lowering& f);
+void lowerCall(Lowering& f);
+void lowerLeave(Lowering& f);
+void lowerCommonLine(Lowering& f);
 
 } // namespace rung::network

@@ -15,50 +15,50 @@ ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set) {
   return b.trunc(ir::Type::Bit, shifted);
 }
 
-FunctionLowering::FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
+Lowering::Lowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
                                    const Network& net, std::span<const ir::ValueId> conditions,
                                    std::string_view slotPrefix)
     : b(builder), network(net), function(net.function), module_(module), routine_(routine), conditions_(conditions),
       slotPrefix_(slotPrefix) {}
 
-ir::ValueId FunctionLowering::load(ir::Type type, const Address& address) {
+ir::ValueId Lowering::load(ir::Type type, const Address& address) {
   routine_.level->use(address, std::max(ir::byteWidth(type), 1u));
   return b.load(type, routine_.level->placeOf(address));
 }
 
-void FunctionLowering::store(const Address& address, ir::ValueId value) {
+void Lowering::store(const Address& address, ir::ValueId value) {
   routine_.level->use(address, std::max(ir::byteWidth(b.typeOf(value)), 1u));
   b.store(routine_.level->placeOf(address), value);
 }
 
-ir::Window FunctionLowering::window(const Address& address, uint32_t bytes, uint32_t legal) const {
+ir::Window Lowering::window(const Address& address, uint32_t bytes, uint32_t legal) const {
   routine_.level->use(address, bytes);
   return {routine_.level->spaceOf(address), address.byte, legal};
 }
 
-ir::ValueId FunctionLowering::operand(size_t i, ir::Type type) {
+ir::ValueId Lowering::operand(size_t i, ir::Type type) {
   return param(i).isAddress ? load(type, param(i).address) : b.constant(type, param(i).value);
 }
 
-ir::SlotId FunctionLowering::slot(std::string_view role, ir::Type type, int64_t init) {
+ir::SlotId Lowering::slot(std::string_view role, ir::Type type, int64_t init) {
   return module_.slot(fmt::format("{}{}", slotPrefix_, role), type, init, false);
 }
 
-ir::ValueId FunctionLowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
+ir::ValueId Lowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
 
-bool FunctionLowering::onceEachRun() const {
+bool Lowering::onceEachRun() const {
   return routine_.level->straight && routine_.unit == routine_.level->level;
 }
 
-ir::ValueId FunctionLowering::sinceLastRun() {
+ir::ValueId Lowering::sinceLastRun() {
   return b.add(b.sub(b.now(), b.slotLoad(routine_.level->clock)), scanTime());
 }
 
-ir::SlotId FunctionLowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
+ir::SlotId Lowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
 
 // A unit that several levels run shares its state, but each level has a count of its own. What a level does after
 // another one in one slot belongs to the same scan.
-void FunctionLowering::markRun() {
+void Lowering::markRun() {
   for (const LevelState& level : module_.levels()) {
     if (!level.routines[routine_.unit].valid()) continue;
     const ir::ValueId runs = b.slotLoad(level.runs);
@@ -66,27 +66,27 @@ void FunctionLowering::markRun() {
   }
 }
 
-ir::SlotId FunctionLowering::runMark(const LevelState& level) {
+ir::SlotId Lowering::runMark(const LevelState& level) {
   return slot(fmt::format("mark{}", level.level + 1), ir::Type::I32);
 }
 
-ir::ValueId FunctionLowering::runsSinceMark() {
+ir::ValueId Lowering::runsSinceMark() {
   return b.sub(b.slotLoad(routine_.level->runs), b.slotLoad(runMark(*routine_.level)));
 }
 
-ir::ServiceId FunctionLowering::service(std::string_view signature) { return module_.service(signature); }
+ir::ServiceId Lowering::service(std::string_view signature) { return module_.service(signature); }
 
-ir::Window FunctionLowering::hidden(const std::string& name, uint32_t bytes, uint32_t legal) {
+ir::Window Lowering::hidden(const std::string& name, uint32_t bytes, uint32_t legal) {
   return {module_.hiddenSpace(name, bytes), 0, legal};
 }
 
-ir::Window FunctionLowering::constants(std::string_view bytes, uint32_t legal) {
+ir::Window Lowering::constants(std::string_view bytes, uint32_t legal) {
   return {module_.constantSpace(bytes), 0, legal};
 }
 
-ir::ValueId FunctionLowering::oldOutput() { return b.slotLoad(slot("W", ir::Type::Bit)); }
+ir::ValueId Lowering::oldOutput() { return b.slotLoad(slot("W", ir::Type::Bit)); }
 
-void FunctionLowering::latchedOutput(ir::ValueId execute, ir::ValueId reset, const std::function<ir::ValueId()>& body) {
+void Lowering::latchedOutput(ir::ValueId execute, ir::ValueId reset, const std::function<ir::ValueId()>& body) {
   ir::ValueId keep = oldOutput();
   if (reset.valid()) {
     const ir::ValueId free = b.not_(reset);
@@ -97,15 +97,15 @@ void FunctionLowering::latchedOutput(ir::ValueId execute, ir::ValueId reset, con
   b.slotStore(slot("W", ir::Type::Bit), output_);
 }
 
-void FunctionLowering::resettable(const std::function<ir::ValueId()>& body) {
+void Lowering::resettable(const std::function<ir::ValueId()>& body) {
   latchedOutput(act(), conditions_[conditions_.size() - 2], body);
 }
 
-uint32_t FunctionLowering::targetRung() const { return routine_.rungOf[network.target]; }
-ir::RoutineId FunctionLowering::callee() const { return routine_.level->routines[network.callee]; }
-ir::SlotId FunctionLowering::commonLine() {
+uint32_t Lowering::targetRung() const { return routine_.rungOf[network.target]; }
+ir::RoutineId Lowering::callee() const { return routine_.level->routines[network.callee]; }
+ir::SlotId Lowering::commonLine() {
   return module_.slot(fmt::format("{}com", slotPrefix_), ir::Type::Bit, 0, true);
 }
-ir::SlotId FunctionLowering::leaveTarget() { return module_.leaveTarget(); }
+ir::SlotId Lowering::leaveTarget() { return module_.leaveTarget(); }
 
 } // namespace rung::network

@@ -23,9 +23,9 @@ inline Address plus(Address address, uint32_t bytes) {
 // Whether a number is in a set of bits by their numbers; one above 63 is in none.
 ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set);
 
-class FunctionLowering {
+class Lowering {
 public:
-  FunctionLowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const Network& network,
+  Lowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const Network& network,
                    std::span<const ir::ValueId> conditions, std::string_view slotPrefix);
 
   ir::RungBuilder& b;

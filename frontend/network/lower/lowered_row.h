@@ -4,10 +4,10 @@
 
 namespace rung::network {
 
-class FunctionLowering;
+class Lowering;
 
 struct LoweredRow : Row {
-  void (*lower)(FunctionLowering& f) = nullptr; // null: known, but not built
+  void (*lower)(Lowering& f) = nullptr; // null: known, but not built
   int variant = 0;                              // for `lower`
   // What it asks of the runs of its level, which are followed where a row does.
   enum class Asks : uint8_t { Nothing, Time, Count } asks = Asks::Nothing;

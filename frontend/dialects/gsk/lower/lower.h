@@ -12,7 +12,7 @@
 
 namespace rung::gsk {
 
-using network::FunctionLowering;
+using network::Lowering;
 using network::isIn;
 
 enum TimerVariant { kTimerPage, kTimerFixed, kTimerMemory };

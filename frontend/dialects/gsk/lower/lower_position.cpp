@@ -16,7 +16,7 @@ constexpr uint32_t kPositionBytes = 4;
 
 // What the NC writes before each slot, axis n at byte 4(n-1), in 0.001 mm. A program that does not look at positions
 // has none.
-ir::Window machinePositions(FunctionLowering& f) {
+ir::Window machinePositions(Lowering& f) {
   return f.hidden("@MPOS", kPositionBytes * kMachineAxes, kPositionBytes * (kMachineAxes - 1) + 1);
 }
 

@@ -28,22 +28,22 @@ struct Length {
   ir::ValueId value;
 };
 
-Area fixedArea(Memory& m, ir::SpaceId space, uint32_t bytes, uint32_t first);
-Area areaOf(Memory& m, const Operand& operand);
+Area fixedArea(Emitter& emitter, ir::SpaceId space, uint32_t bytes, uint32_t first);
+Area areaOf(Memory& memory, const Operand& operand);
 // The area from `by` bytes on.
-Area shifted(Memory& m, Area area, ir::ValueId by);
-Length fixedCount(Memory& m, uint32_t count);
-Length countOf(Memory& m, const Operand& operand);
-Length smaller(Memory& m, const Length& a, const Length& b);
+Area shifted(ir::RungBuilder& b, Area area, ir::ValueId by);
+Length fixedCount(ir::RungBuilder& b, uint32_t count);
+Length countOf(Memory& memory, const Operand& operand);
+Length smaller(ir::RungBuilder& b, const Length& x, const Length& y);
 
-ir::ValueId loadByte(Memory& m, const Area& area, ir::ValueId i, ir::Type type = ir::Type::I8);
-void storeByte(Memory& m, const Area& area, ir::ValueId i, ir::ValueId value);
+ir::ValueId loadByte(ir::RungBuilder& b, const Area& area, ir::ValueId i, ir::Type type = ir::Type::I8);
+void storeByte(ir::RungBuilder& b, const Area& area, ir::ValueId i, ir::ValueId value);
 // Copies as if all of the source were read first. The caller has checked both areas.
-void copy(Memory& m, const Area& to, const Area& from, const Length& count);
-void clear(Memory& m, const Area& area, const Length& count);
+void copy(Emitter& emitter, const Area& to, const Area& from, const Length& count);
+void clear(ir::RungBuilder& b, const Area& area, const Length& count);
 // From `first` up to `end`, in rungs of their own.
-void clearRange(Memory& m, ir::SpaceId space, uint32_t first, uint32_t end);
+void clearRange(Memory& memory, ir::SpaceId space, uint32_t first, uint32_t end);
 // The bytes of `count` that lie in the space. Where area or count are not constants the program stops if they do not.
-Length inside(Memory& m, const Area& area, const Length& count);
+Length inside(Emitter& emitter, const Area& area, const Length& count);
 
 } // namespace rung::frontend::technol

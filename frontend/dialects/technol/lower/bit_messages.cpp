@@ -52,30 +52,30 @@ private:
 } // namespace
 
 void BitMessages::reserve(BitMessage& message) {
-  ir::Module& module = m_.module();
+  ir::Module& module = emitter_.module();
   if (!space_.valid()) space_ = addSpace(module, {.name = "@EDEF", .flags = RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED});
   const uint32_t bytes = kCountBytes + message.capacity * kEntryBytes;
   message.table = module.spaces[space_.index].units;
   module.spaces[space_.index].units += bytes;
-  state_.nameCells("@" + instructionKey(m_.program(), *message.statement, "EDEF"),
+  state_.nameCells("@" + instructionKey(memory_.program(), *message.statement, "EDEF"),
                    {.space = space_, .byte = message.table}, Type::I8, bytes);
 }
 
 // The bit is sampled when it is tied: what comes later is an edge.
 void BitMessages::add(BitMessage message, ValueId number, ValueId subId) {
   reserve(message);
-  ir::RungBuilder& b = m_.b();
+  ir::RungBuilder& b = emitter_.b();
   const Entries entries(b, space_, message);
   std::array<ValueId, 6> fields = {number, subId};
   const auto index = [&](const Operand& operand, size_t at) {
-    const MemoryAccess access = operand.indexed ? m_.reach(operand) : MemoryAccess{};
+    const MemoryAccess access = operand.indexed ? memory_.reach(operand) : MemoryAccess{};
     message.windows[at] = access.window;
     fields[2 + at] = access.indexed ? access.index : ValueId{};
     return access;
   };
   const MemoryAccess bitAccess = index(message.bit, 0);
   for (size_t i = 0; i < message.pars.size(); ++i) index(message.pars[i], 1 + i);
-  const ValueId now = message.bit.indexed ? m_.load(bitAccess, Type::Bit) : b.load(Type::Bit, message.bit.place);
+  const ValueId now = message.bit.indexed ? memory_.load(bitAccess, Type::Bit) : b.load(Type::Bit, message.bit.place);
   const ValueId count = b.load(Type::I32, entries.count());
   ValueId fresh = b.eq(count, b.i32(0));
   if (message.capacity > 1) {
@@ -86,7 +86,7 @@ void BitMessages::add(BitMessage message, ValueId number, ValueId subId) {
         same = b.and_(same, b.eq(entries.load(Type::I32, static_cast<uint32_t>(i) * 4, in[0]), fields[i]));
     fresh = b.endLoop(std::array{b.and_(in[1], b.not_(same))})[0];
     const ValueId full = b.leU(b.i32(static_cast<int32_t>(message.capacity)), count);
-    b.trap(b.and_(fresh, full), m_.fault(nc::kTechnolEdef));
+    b.trap(b.and_(fresh, full), emitter_.fault(nc::kTechnolEdef));
   }
   b.when(fresh, [&] {
     for (size_t i = 0; i < fields.size(); ++i)
@@ -100,8 +100,8 @@ void BitMessages::add(BitMessage message, ValueId number, ValueId subId) {
 void BitMessages::forget() {
   constexpr size_t kStoresPerRung = 64;
   for (size_t i = 0; i < messages_.size(); ++i) {
-    if (i % kStoresPerRung == 0) m_.out().cut();
-    m_.b().store({.space = space_, .byte = messages_[i].table}, m_.b().i32(0));
+    if (i % kStoresPerRung == 0) emitter_.out().cut();
+    emitter_.b().store({.space = space_, .byte = messages_[i].table}, emitter_.b().i32(0));
   }
 }
 
@@ -172,14 +172,14 @@ private:
 
 ir::RoutineId BitMessages::makeTask(uint64_t& weight) {
   if (messages_.empty()) return {};
-  const ir::RoutineId routine = m_.newRoutine("@EDEF");
-  m_.open(routine);
+  const ir::RoutineId routine = emitter_.newRoutine("@EDEF");
+  emitter_.open(routine);
   for (const BitMessage& message : messages_) {
-    m_.out().cut();
-    m_.out().statement(sourceOf(m_.program(), *message.statement));
-    BitWatch(m_.b(), space_, message).watch();
+    emitter_.out().cut();
+    emitter_.out().statement(sourceOf(memory_.program(), *message.statement));
+    BitWatch(emitter_.b(), space_, message).watch();
   }
-  weight = m_.close();
+  weight = emitter_.close();
   return routine;
 }
 

@@ -21,7 +21,7 @@ struct BitMessage {
 
 class BitMessages {
 public:
-  BitMessages(Memory& memory, State& state) : m_(memory), state_(state) {}
+  BitMessages(Memory& memory, State& state) : memory_(memory), emitter_(memory.emitter()), state_(state) {}
 
   // Ties the bit, where a statement is carried out; `number` and `subId`, i32, are taken then.
   void add(BitMessage message, ir::ValueId number, ir::ValueId subId);
@@ -33,7 +33,8 @@ public:
 private:
   void reserve(BitMessage& message);
 
-  Memory& m_;
+  Memory& memory_;
+  Emitter& emitter_;
   State& state_;
   std::vector<BitMessage> messages_;
   ir::SpaceId space_;

@@ -24,16 +24,17 @@ std::string keyOf(bool fast, size_t kind) {
 
 } // namespace
 
-Clocks::Clocks(Memory& memory, State& state, uint32_t periodUs) : m_(memory), state_(state), periodUs_(periodUs) {
-  for (const Unit& unit : memory.program().units)
+Clocks::Clocks(const Program& program, Emitter& emitter, State& state, uint32_t periodUs)
+    : program_(program), emitter_(emitter), state_(state), periodUs_(periodUs) {
+  for (const Unit& unit : program.units)
     if (unit.kind == UnitKind::Timed) find(unit);
 }
 
 void Clocks::find(const Unit& timed) {
   const Unit* around = &timed; // the module or procedure that it is in
-  while (around->kind != UnitKind::Procedure && around->parent != kNone) around = &m_.program().units[around->parent];
+  while (around->kind != UnitKind::Procedure && around->parent != kNone) around = &program_.units[around->parent];
   const bool inProcedure = around->kind == UnitKind::Procedure;
-  if (inProcedure && !clock_.valid()) clock_ = m_.newSlot(Type::I32, "CLOCK");
+  if (inProcedure && !clock_.valid()) clock_ = emitter_.newSlot(Type::I32, "CLOCK");
   for (const bool fast : {false, true})
     if (inProcedure || (!runsOnce(around->module) && isFast(around->module) == fast))
       used_[fast ? 1 : 0][static_cast<size_t>(findRow(timed.name)->variant)] = true;
@@ -42,7 +43,7 @@ void Clocks::find(const Unit& timed) {
 // The module that runs first in each millisecond moves the fast clock on.
 ModuleKind Clocks::firstFast() const {
   for (const ModuleKind kind : {ModuleKind::Cyclic, ModuleKind::Fastest})
-    for (const ModulePart& part : m_.program().parts)
+    for (const ModulePart& part : program_.parts)
       if (part.kind == kind) return kind;
   return ModuleKind::Fast;
 }
@@ -58,15 +59,15 @@ void Clocks::leave(ModuleKind kind) {
 }
 
 void Clocks::set(int32_t clock) {
-  m_.out().cut();
-  m_.b().slotStore(clock_, m_.b().i32(clock));
-  m_.out().cut();
+  emitter_.out().cut();
+  emitter_.b().slotStore(clock_, emitter_.b().i32(clock));
+  emitter_.out().cut();
 }
 
 void Clocks::callEvent(ir::RoutineId procedure) {
   const bool timed = clock_.valid();
-  if (timed) m_.b().slotStore(clock_, m_.b().i32(kNoClock));
-  m_.out().call(procedure);
+  if (timed) emitter_.b().slotStore(clock_, emitter_.b().i32(kNoClock));
+  emitter_.out().call(procedure);
   if (timed) set(kMainClock);
 }
 
@@ -78,26 +79,26 @@ void Clocks::advance(bool fast) {
   for (size_t i = 0; i < std::size(kPeriodsUs); ++i) {
     if (!used_[fast ? 1 : 0][i]) continue;
     const int64_t cycles = std::max<int64_t>(1, (kPeriodsUs[i] + cycleUs / 2) / cycleUs);
-    const ir::SlotId counter = m_.newSlot(Type::I32, keyOf(fast, i));
+    const ir::SlotId counter = emitter_.newSlot(Type::I32, keyOf(fast, i));
     phases_.push_back(counter);
     state_.addTimer(counter);
-    ir::RungBuilder& b = m_.b();
+    ir::RungBuilder& b = emitter_.b();
     const ValueId next = b.add(b.slotLoad(counter), b.i32(1));
     const ValueId due = b.leU(b.i32(static_cast<int32_t>(cycles)), next);
     b.slotStore(counter, b.select(due, b.i32(0), next));
     b.slotStore(dueSlot(fast, static_cast<TimedKind>(i)), due);
   }
-  m_.out().cut();
+  emitter_.out().cut();
 }
 
 ir::SlotId Clocks::dueSlot(bool fast, TimedKind kind) {
   ir::SlotId& slot = due_[{fast, kind}];
-  if (!slot.valid()) slot = m_.newSlot(Type::Bit, keyOf(fast, static_cast<size_t>(kind)) + ".DUE");
+  if (!slot.valid()) slot = emitter_.newSlot(Type::Bit, keyOf(fast, static_cast<size_t>(kind)) + ".DUE");
   return slot;
 }
 
 ValueId Clocks::isDue(TimedKind kind, ModuleKind module, bool inProcedure) {
-  ir::RungBuilder& b = m_.b();
+  ir::RungBuilder& b = emitter_.b();
   if (!inProcedure) return runsOnce(module) ? b.bit(false) : b.slotLoad(dueSlot(isFast(module), kind));
   const ValueId clock = b.slotLoad(clock_);
   const ValueId inMain = b.and_(b.eq(clock, b.i32(kMainClock)), b.slotLoad(dueSlot(false, kind)));

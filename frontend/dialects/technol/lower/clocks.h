@@ -10,7 +10,7 @@ namespace rung::frontend::technol {
 
 class Clocks {
 public:
-  Clocks(Memory& memory, State& state, uint32_t periodUs);
+  Clocks(const Program& program, Emitter& emitter, State& state, uint32_t periodUs);
 
   // Around a module: its clock, and the time that has passed.
   void enter(ModuleKind kind);
@@ -29,7 +29,8 @@ private:
   void advance(bool fast);
   ir::SlotId dueSlot(bool fast, TimedKind kind);
 
-  Memory& m_;
+  const Program& program_;
+  Emitter& emitter_;
   State& state_;
   uint32_t periodUs_;
   std::array<std::array<bool, 4>, 2> used_{}; // of the 20 ms task and of the fast one; by TimedKind

@@ -47,9 +47,9 @@ ValueId DeviceRequest::addOperand(uint32_t number, const Operand& operand, Value
   const auto word = [&] {
     switch (operand.form) {
     case Operand::Form::NotGiven: return b.constant(Type::I64, nc::technol::kNotGiven);
-    case Operand::Form::Bit: return b.zextOrTrunc(Type::I64, l_.bit(operand));
+    case Operand::Form::Bit: return b.zextOrTrunc(Type::I64, l_.memory.bit(operand));
     case Operand::Form::Cell: {
-      const ValueId value = l_.value(operand, guard);
+      const ValueId value = l_.memory.value(operand, guard);
       return kindOf(info).twosComplement ? b.sextOrTrunc(Type::I64, value) : b.zextOrTrunc(Type::I64, value);
     }
     case Operand::Form::Keyword: return b.constant(Type::I64, kindOf(info).firstWord + operand.value);
@@ -61,7 +61,7 @@ ValueId DeviceRequest::addOperand(uint32_t number, const Operand& operand, Value
 
 ValueId DeviceRequest::send() {
   if (!service_.results.empty()) signature_.append(" -> ").append(service_.results);
-  const ValueId ticket = l_.b().serviceRequest(l_.service(signature_), args_);
+  const ValueId ticket = l_.b().serviceRequest(l_.emitter.service(signature_), args_);
   use(ticket);
   return ticket;
 }
@@ -105,11 +105,12 @@ ValueId bytesArgument(ir::RungBuilder& b, const Area& area, ValueId count) {
   return b.or_(b.or_(fixed, size), b.zextOrTrunc(Type::I64, area.at));
 }
 
-void fetchBytes(Lowering& l, ValueId ticket, const Area& to, ValueId count, uint32_t most) {
-  const ValueId number = l.b().zextOrTrunc(Type::I64, ticket);
-  putParts(l, to, count, most, {.bytes = nc::technol::kDataBytes, .firstWord = 0}, [&](ValueId part) {
-    return l.b().serviceRequest(l.service(nc::technol::kDataService),
-                                std::array{number, l.b().zextOrTrunc(Type::I64, part)});
+void fetchBytes(Emitter& emitter, ValueId ticket, const Area& to, ValueId count, uint32_t most) {
+  ir::RungBuilder& b = emitter.b();
+  const ValueId number = b.zextOrTrunc(Type::I64, ticket);
+  putParts(b, to, count, most, {.bytes = nc::technol::kDataBytes, .firstWord = 0}, [&](ValueId part) {
+    return b.serviceRequest(emitter.service(nc::technol::kDataService),
+                            std::array{number, b.zextOrTrunc(Type::I64, part)});
   });
 }
 

@@ -52,6 +52,6 @@ const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Oper
 // The argument for `count` bytes of an area, i32.
 ir::ValueId bytesArgument(ir::RungBuilder& b, const Area& area, ir::ValueId count);
 // Puts the first `count` bytes of an answer, at most `most`, there.
-void fetchBytes(Lowering& l, ir::ValueId ticket, const Area& to, ir::ValueId count, uint32_t most);
+void fetchBytes(Emitter& emitter, ir::ValueId ticket, const Area& to, ir::ValueId count, uint32_t most);
 
 } // namespace rung::frontend::technol

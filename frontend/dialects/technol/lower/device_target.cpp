@@ -19,21 +19,21 @@ constexpr Type kInteger = Type::I32, kReal = Type::I64; // elements of tables as
 DeviceTarget::DeviceTarget(Lowering& context, const Operand& operand, ValueId guard)
     : l_(&context), operand_(&operand) {
   if (operand.form == Operand::Form::Text) {
-    area_ = textOf(context, operand).area;
+    area_ = textOf(context.memory, operand).area;
     return;
   }
-  access_ = context.reach(operand, guard);
-  const uint32_t bytes = context.bytesOf(operand.place.space);
+  access_ = context.memory.reach(operand, guard);
+  const uint32_t bytes = context.memory.bytesOf(operand.place.space);
   area_ = access_.indexed
               ? Area{.space = operand.place.space, .bytes = bytes, .fixed = false, .first = 0, .at = access_.index}
-              : fixedArea(context, operand.place.space, bytes, operand.place.byte);
+              : fixedArea(context.emitter, operand.place.space, bytes, operand.place.byte);
 }
 
 void DeviceTarget::keep(ValueId when) {
   if (!access_.indexed) return;
   ir::RungBuilder& b = l_->b();
   const ir::SlotId slot = l_->ownSlot(Type::I32);
-  const ValueId first = l_->placeIn(*operand_, operand_->begin);
+  const ValueId first = l_->memory.placeIn(*operand_, operand_->begin);
   b.when(when, [&] { b.slotStore(slot, b.sub(access_.index, first)); });
   access_.index = area_.at = b.add(b.slotLoad(slot), first);
 }
@@ -47,7 +47,8 @@ uint32_t DeviceTarget::most() const {
 ValueId DeviceTarget::roomWithEnd() const {
   ir::RungBuilder& b = l_->b();
   if (!access_.indexed) return b.i32(most());
-  const ValueId begin = l_->placeIn(*operand_, operand_->begin), end = l_->placeIn(*operand_, operand_->end);
+  const ValueId begin = l_->memory.placeIn(*operand_, operand_->begin),
+                end = l_->memory.placeIn(*operand_, operand_->end);
   const ValueId room = b.sub(end, area_.at);
   const ValueId inside = b.and_(b.leU(begin, area_.at), b.ltU(area_.at, end));
   return b.select(inside, room, b.i32(0));
@@ -67,11 +68,11 @@ Type DeviceTarget::cellType() const {
 }
 
 ValueId DeviceTarget::numberAt(Type type) const {
-  return l_->b().sextOrTrunc(Type::I64, loadByte(*l_, area_, l_->b().i32(0), type));
+  return l_->b().sextOrTrunc(Type::I64, loadByte(l_->b(), area_, l_->b().i32(0), type));
 }
 
 void DeviceTarget::put(ValueId value, Type type) const {
-  storeByte(*l_, area_, l_->b().i32(0), l_->b().zextOrTrunc(type, value));
+  storeByte(l_->b(), area_, l_->b().i32(0), l_->b().zextOrTrunc(type, value));
 }
 
 void DeviceTarget::require(DataForm form, ValueId guard) const {
@@ -79,11 +80,11 @@ void DeviceTarget::require(DataForm form, ValueId guard) const {
   if (!access_.indexed || (!word && form != DataForm::Real)) return;
   ir::RungBuilder& b = l_->b();
   const ValueId lacks = b.ltU(roomWithEnd(), b.i32(ir::byteWidth(word ? kInteger : kReal)));
-  l_->protect(guard.valid() ? b.and_(guard, lacks) : lacks);
+  l_->emitter.protect(guard.valid() ? b.and_(guard, lacks) : lacks);
 }
 
 void DeviceTarget::addWord(DeviceRequest& request, std::string name) const {
-  request.add(std::move(name), l_->b().zextOrTrunc(Type::I64, loadByte(*l_, area_, l_->b().i32(0), Type::I16)));
+  request.add(std::move(name), l_->b().zextOrTrunc(Type::I64, loadByte(l_->b(), area_, l_->b().i32(0), Type::I16)));
 }
 
 void DeviceTarget::addTo(DeviceRequest& request, const std::string& name, DataForm form, ValueId count) const {
@@ -92,7 +93,8 @@ void DeviceTarget::addTo(DeviceRequest& request, const std::string& name, DataFo
   case DataForm::None: return;
   case DataForm::Integer: {
     const Type type = cellType();
-    request.add(name, type == Type::None ? numberAt(kInteger) : b.sextOrTrunc(Type::I64, l_->load(access_, type)));
+    request.add(name,
+                type == Type::None ? numberAt(kInteger) : b.sextOrTrunc(Type::I64, l_->memory.load(access_, type)));
     return;
   }
   case DataForm::Real: request.add(name + ":f", numberAt(kReal)); return;
@@ -110,7 +112,7 @@ void DeviceTarget::take(DeviceRequest& request, ValueId ticket, std::string_view
   case DataForm::Integer: {
     const Type type = cellType();
     if (type == Type::None) return put(value, kInteger);
-    return l_->store(access_, b.zextOrTrunc(type, value));
+    return l_->memory.store(access_, b.zextOrTrunc(type, value));
   }
   case DataForm::Real: return put(value, kReal);
   case DataForm::Text:
@@ -124,8 +126,8 @@ void DeviceTarget::fetch(ValueId ticket, ValueId length, DataForm form) const {
   const bool counted = form == DataForm::Bytes;
   const ValueId room = counted ? roomWithEnd() : this->room();
   const ValueId count = b.select(b.ltU(length, room), length, room);
-  fetchBytes(*l_, ticket, area_, count, most() - (counted ? 0 : terminator()));
-  if (form == DataForm::Text) storeTerminator(*l_, area_, count, b.bit(true));
+  fetchBytes(l_->emitter, ticket, area_, count, most() - (counted ? 0 : terminator()));
+  if (form == DataForm::Text) storeTerminator(b, area_, count, b.bit(true));
 }
 
 } // namespace rung::frontend::technol

@@ -12,9 +12,9 @@ using ir::ValueId;
 namespace {
 
 // What an address needs is computed before a condition's region.
-std::vector<MemoryAccess> reachAll(Lowering& l, std::span<const Operand> bits, ValueId guard) {
+std::vector<MemoryAccess> reachAll(Memory& memory, std::span<const Operand> bits, ValueId guard) {
   std::vector<MemoryAccess> places;
-  for (const Operand& bit : bits) places.push_back(l.reach(bit, guard));
+  for (const Operand& bit : bits) places.push_back(memory.reach(bit, guard));
   return places;
 }
 
@@ -43,7 +43,7 @@ void lowerEdge(Lowering& l, std::span<const Operand> o, int rising) {
   const ir::SlotId former = l.ownSlot(Type::I8);
   l.state.forgetAtStart(former);
   ir::RungBuilder& b = l.b();
-  const ValueId bit = l.bit(o[0]);
+  const ValueId bit = l.memory.bit(o[0]);
   const ValueId was = b.eq(b.slotLoad(former), b.constant(Type::I8, rising ? kWasLow : kWasHigh));
   b.slotStore(former, b.select(bit, b.constant(Type::I8, kWasHigh), b.constant(Type::I8, kWasLow)));
   l.r().setRlo(b.and_(was, rising ? bit : b.not_(bit)));
@@ -51,24 +51,24 @@ void lowerEdge(Lowering& l, std::span<const Operand> o, int rising) {
 
 void lowerWrite(Lowering& l, std::span<const Operand> o, int) {
   const ValueId rlo = l.r().rlo();
-  for (const Operand& bit : o) l.store(l.reach(bit), rlo);
+  for (const Operand& bit : o) l.memory.store(l.memory.reach(bit), rlo);
 }
 
 void lowerFlag(Lowering& l, std::span<const Operand> o, int condition) {
   const ValueId guard = l.guardOf(condition);
-  const std::vector<MemoryAccess> places = reachAll(l, o.subspan(1), guard);
+  const std::vector<MemoryAccess> places = reachAll(l.memory, o.subspan(1), guard);
   l.b().when(guard, [&] {
     const ValueId flag = l.b().bit(o[0].value != 0);
-    for (const MemoryAccess& place : places) l.store(place, flag);
+    for (const MemoryAccess& place : places) l.memory.store(place, flag);
   });
 }
 
 void lowerMoveBit(Lowering& l, std::span<const Operand> o, int condition) {
   const ValueId guard = l.guardOf(condition);
-  const std::vector<MemoryAccess> places = reachAll(l, o, guard);
+  const std::vector<MemoryAccess> places = reachAll(l.memory, o, guard);
   l.b().when(guard, [&] {
-    const ValueId bit = l.load(places[1], Type::Bit);
-    l.store(places[0], o[1].negated ? l.b().not_(bit) : bit);
+    const ValueId bit = l.memory.load(places[1], Type::Bit);
+    l.memory.store(places[0], o[1].negated ? l.b().not_(bit) : bit);
   });
 }
 
@@ -76,7 +76,7 @@ void lowerMoveBit(Lowering& l, std::span<const Operand> o, int condition) {
 void lowerNothing(Lowering&, std::span<const Operand>, int) {}
 
 void lowerJump(Lowering& l, std::span<const Operand> o, int condition) {
-  l.out().jump(l.jumpTarget(o[0]), l.guardOf(condition));
+  l.emitter.out().jump(l.jumpTarget(o[0]), l.guardOf(condition));
 }
 
 } // namespace rung::frontend::technol

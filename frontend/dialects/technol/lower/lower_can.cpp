@@ -18,28 +18,28 @@ constexpr int64_t kIdBits = 0x7FF;
 // Of a packet to a drive: request of service data (man. l.9203, l.9488).
 constexpr int64_t kServiceDataId = 0x600;
 
-ValueId memberOf(Lowering& l, const Area& packet, uint32_t offset, Type type) {
-  return l.b().zextOrTrunc(Type::I64, loadByte(l, packet, l.b().i32(offset), type));
+ValueId memberOf(ir::RungBuilder& b, const Area& packet, uint32_t offset, Type type) {
+  return b.zextOrTrunc(Type::I64, loadByte(b, packet, b.i32(offset), type));
 }
-void setMember(Lowering& l, const Area& packet, uint32_t offset, Type type, ValueId value) {
-  storeByte(l, packet, l.b().i32(offset), l.b().zextOrTrunc(type, value));
+void setMember(ir::RungBuilder& b, const Area& packet, uint32_t offset, Type type, ValueId value) {
+  storeByte(b, packet, b.i32(offset), b.zextOrTrunc(type, value));
 }
-Area dataOf(Lowering& l, const Area& packet) { return shifted(l, packet, l.b().i32(kData)); }
+Area dataOf(ir::RungBuilder& b, const Area& packet) { return shifted(b, packet, b.i32(kData)); }
 
 } // namespace
 
 // DR says whether the queue took it (man. l.3709-3742). More than 8 bytes are 8.
 void lowerCanSend(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
-  const Area packet = areaOf(l, o[1]);
-  const ValueId length = memberOf(l, packet, kLength, Type::I8), most = b.constant(Type::I64, kDataBytes);
+  const Area packet = areaOf(l.memory, o[1]);
+  const ValueId length = memberOf(b, packet, kLength, Type::I8), most = b.constant(Type::I64, kDataBytes);
   const ValueId count = b.select(b.ltU(length, most), length, most);
   DeviceRequest request(l);
   request.addOperand(0, o[0]);
-  request.add("id", b.and_(memberOf(l, packet, kId, Type::I16), b.constant(Type::I64, kIdBits)));
-  request.add("rtr", memberOf(l, packet, kRtr, Type::I8));
+  request.add("id", b.and_(memberOf(b, packet, kId, Type::I16), b.constant(Type::I64, kIdBits)));
+  request.add("rtr", memberOf(b, packet, kRtr, Type::I8));
   request.add("len", count);
-  request.add("data:b", bytesArgument(b, dataOf(l, packet), b.zextOrTrunc(Type::I32, count)));
+  request.add("data:b", bytesArgument(b, dataOf(b, packet), b.zextOrTrunc(Type::I32, count)));
   request.send();
   l.r().setDr(request.result("DR"));
 }
@@ -47,18 +47,18 @@ void lowerCanSend(Lowering& l, std::span<const Operand> o, int) {
 // The packet is written where one was there: DR is 0 (man. l.3743-3778).
 void lowerCanReceive(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
-  const Area packet = areaOf(l, o[1]);
+  const Area packet = areaOf(l.memory, o[1]);
   DeviceRequest request(l);
   request.addOperand(0, o[0]);
   const ValueId ticket = request.send();
   const ValueId code = request.result("DR");
   const ValueId id = request.result("id"), rtr = request.result("rtr"), length = request.result("data");
   b.when(b.eq(code, b.constant(Type::I64, 0)), [&] {
-    setMember(l, packet, kId, Type::I16, id);
-    setMember(l, packet, kRtr, Type::I8, rtr);
-    setMember(l, packet, kLength, Type::I8, length);
-    setMember(l, packet, kData, Type::I64, b.constant(Type::I64, 0));
-    fetchBytes(l, ticket, dataOf(l, packet), b.zextOrTrunc(Type::I32, length), kDataBytes);
+    setMember(b, packet, kId, Type::I16, id);
+    setMember(b, packet, kRtr, Type::I8, rtr);
+    setMember(b, packet, kLength, Type::I8, length);
+    setMember(b, packet, kData, Type::I64, b.constant(Type::I64, 0));
+    fetchBytes(l.emitter, ticket, dataOf(b, packet), b.zextOrTrunc(Type::I32, length), kDataBytes);
   });
   l.r().setDr(code);
 }
@@ -74,7 +74,7 @@ void lowerCanOrder(Lowering& l, std::span<const Operand> o, int) {
     request.addOperand(low + 1, o[low + 1].given() ? o[low + 1] : o[low]);
   }
   request.add("proc", b.constant(Type::I64, l.procedures.eventOf(o[5].index)));
-  request.add("pmsg:b", bytesArgument(b, areaOf(l, o[6]), b.i32(kPacketBytes)));
+  request.add("pmsg:b", bytesArgument(b, areaOf(l.memory, o[6]), b.i32(kPacketBytes)));
   request.send();
   l.r().setRlo(request.flag("RLO"));
   l.r().setDr(request.result("DR"));
@@ -101,16 +101,17 @@ void lowerUnitWrite(Lowering& l, std::span<const Operand> o, int) {
 // The packet's head is filled in; CAN_AX_BUSY is 0FFh until the drive has answered (man. l.9474-9493).
 void lowerDriveSend(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
-  const Area packet = fixedArea(l, kInterfaceSpace, l.bytesOf(kInterfaceSpace), placeOf("CAN_AX_SEND_PACKET").byte);
+  const Area packet =
+      fixedArea(l.emitter, kInterfaceSpace, l.memory.bytesOf(kInterfaceSpace), placeOf("CAN_AX_SEND_PACKET").byte);
   DeviceRequest request(l);
   const ValueId axis = request.addOperand(0, o[0]);
   b.when(isAxis(b, axis), [&] {
-    setMember(l, packet, kId, Type::I16, b.add(axis, b.constant(Type::I64, kServiceDataId)));
-    setMember(l, packet, kRtr, Type::I8, b.constant(Type::I64, 0));
-    setMember(l, packet, kLength, Type::I8, b.constant(Type::I64, kDataBytes));
+    setMember(b, packet, kId, Type::I16, b.add(axis, b.constant(Type::I64, kServiceDataId)));
+    setMember(b, packet, kRtr, Type::I8, b.constant(Type::I64, 0));
+    setMember(b, packet, kLength, Type::I8, b.constant(Type::I64, kDataBytes));
     b.store(placeOf("CAN_AX_BUSY"), b.constant(Type::I8, 0xFF));
   });
-  request.add("data:b", bytesArgument(b, dataOf(l, packet), b.i32(kDataBytes)));
+  request.add("data:b", bytesArgument(b, dataOf(b, packet), b.i32(kDataBytes)));
   request.send();
 }
 

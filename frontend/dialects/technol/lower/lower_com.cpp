@@ -22,13 +22,13 @@ void lowerComSend(Lowering& l, std::span<const Operand> o, int) {
 // COM_RECV com [,val]: RLO is 0 where a character was there, which val or DR becomes (man. l.21138-21152).
 void lowerComReceive(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
-  const MemoryAccess target = o[1].given() ? l.reach(o[1]) : MemoryAccess{};
+  const MemoryAccess target = o[1].given() ? l.memory.reach(o[1]) : MemoryAccess{};
   DeviceRequest request(l);
   request.addOperand(0, o[0]);
   request.send();
   const ValueId none = request.flag("RLO"), character = request.result("DR");
   if (o[1].given())
-    b.when(b.not_(none), [&] { l.store(target, b.zextOrTrunc(o[1].type, character)); });
+    b.when(b.not_(none), [&] { l.memory.store(target, b.zextOrTrunc(o[1].type, character)); });
   else
     l.r().setDr(b.select(none, l.r().dr(Type::I64), character));
   l.r().setRlo(none);

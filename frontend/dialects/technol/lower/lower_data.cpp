@@ -15,18 +15,18 @@ namespace {
 Type widthOf(const Operand& operand) { return operand.given() ? operand.type : Type::I16; }
 
 // A result that is not a number, or a division by zero, is the coprocessor's error.
-ValueId checkedReal(Lowering& l, ValueId result, ValueId divisor = {}) {
-  ir::RungBuilder& b = l.b();
+ValueId checkedReal(Emitter& emitter, ValueId result, ValueId divisor = {}) {
+  ir::RungBuilder& b = emitter.b();
   ValueId bad = b.not_(b.fEq(result, result));
   if (divisor.valid()) bad = b.or_(bad, b.fEq(divisor, b.real(0)));
-  b.trap(bad, l.fault(nc::kTechnolReal));
+  b.trap(bad, emitter.fault(nc::kTechnolReal));
   return result;
 }
 
 void realArithmetic(Lowering& l, const Operand& operand, int operation) {
-  const ValueId right = l.value(operand);
+  const ValueId right = l.memory.value(operand);
   const ValueId result = compute(l.b(), operation, l.r().real(), right);
-  l.r().setReal(checkedReal(l, result, operation == kDivide ? right : ValueId{}));
+  l.r().setReal(checkedReal(l.emitter, result, operation == kDivide ? right : ValueId{}));
 }
 
 // Twice as wide, up to 64 bits: what a product or a dividend takes (man. l.1091-1132).
@@ -34,7 +34,7 @@ Type doubled(Type type) { return type == Type::I8 ? Type::I16 : type == Type::I1
 
 void multiply(Lowering& l, const Operand& operand) {
   ir::RungBuilder& b = l.b();
-  const ValueId right = l.value(operand);
+  const ValueId right = l.memory.value(operand);
   const Type wide = doubled(operand.type);
   const ValueId left = l.r().dr(operand.type);
   l.r().setDr(b.mul(b.sextOrTrunc(wide, left), b.sextOrTrunc(wide, right)));
@@ -43,23 +43,23 @@ void multiply(Lowering& l, const Operand& operand) {
 // 8, 16 and 32 bit divisors divide 16, 32 and 64 bits of DR; the quotient must fit 32 bits (man. l.1110-1132, l.5354).
 void divide(Lowering& l, const Operand& operand) {
   ir::RungBuilder& b = l.b();
-  const ValueId right = b.sextOrTrunc(Type::I64, l.value(operand));
+  const ValueId right = b.sextOrTrunc(Type::I64, l.memory.value(operand));
   const ValueId left = b.sextOrTrunc(Type::I64, l.r().dr(doubled(operand.type)));
   const ValueId quotient = b.divS(left, right);
   const ValueId fits = b.eq(b.sextOrTrunc(Type::I64, b.sextOrTrunc(Type::I32, quotient)), quotient);
-  b.trap(b.or_(b.eq(right, b.constant(Type::I64, 0)), b.not_(fits)), l.fault(nc::kTechnolDivision));
+  b.trap(b.or_(b.eq(right, b.constant(Type::I64, 0)), b.not_(fits)), l.emitter.fault(nc::kTechnolDivision));
   l.r().setDr(quotient);
 }
 
 void storeIf(Lowering& l, ValueId guard, const MemoryAccess& access, ValueId value) {
-  l.b().when(guard, [&] { l.store(access, value); });
+  l.b().when(guard, [&] { l.memory.store(access, value); });
 }
 
 } // namespace
 
 void lowerLoad(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
-  const ValueId value = l.value(o[0]);
+  const ValueId value = l.memory.value(o[0]);
   if (o[0].isReal())
     l.r().setReal(o[0].negated ? b.fNeg(value) : value);
   else if (!o[0].negated)
@@ -71,35 +71,35 @@ void lowerLoad(Lowering& l, std::span<const Operand> o, int) {
 void lowerStore(Lowering& l, std::span<const Operand> o, int condition) {
   const ValueId guard = l.guardOf(condition);
   const ValueId value = o[0].isReal() ? l.r().real() : l.r().dr(o[0].type);
-  storeIf(l, guard, l.reach(o[0], guard), value);
+  storeIf(l, guard, l.memory.reach(o[0], guard), value);
 }
 
 void lowerMove(Lowering& l, std::span<const Operand> o, int condition) {
   // A REAL is moved as its 64 bits.
   const Type type = o[0].isReal() ? Type::I64 : o[0].type;
   const ValueId guard = l.guardOf(condition);
-  const MemoryAccess from = l.reach(o[1], guard), to = l.reach(o[0], guard);
-  storeIf(l, guard, to, l.load(from, type));
+  const MemoryAccess from = l.memory.reach(o[1], guard), to = l.memory.reach(o[0], guard);
+  storeIf(l, guard, to, l.memory.load(from, type));
 }
 
 void lowerArithmetic(Lowering& l, std::span<const Operand> o, int operation) {
   if (o[0].isReal()) return realArithmetic(l, o[0], operation);
   if (operation == kMultiply) return multiply(l, o[0]);
   if (operation == kDivide) return divide(l, o[0]);
-  const ValueId right = l.value(o[0]);
+  const ValueId right = l.memory.value(o[0]);
   const ValueId left = l.r().dr(o[0].type);
   l.r().setDrPart(compute(l.b(), operation, left, right));
 }
 
 void lowerBitwise(Lowering& l, std::span<const Operand> o, int logic) {
-  const ValueId right = l.value(o[0]);
+  const ValueId right = l.memory.value(o[0]);
   l.r().setDrPart(combine(l.b(), logic, l.r().dr(o[0].type), right));
 }
 
 // EQ1 compares only while RLO is 1, and leaves it 0 otherwise (man. l.1404).
 void lowerCompare(Lowering& l, std::span<const Operand> o, int relation) {
   const ValueId rlo = relation == kEqualIfRlo ? l.r().rlo() : ValueId{};
-  const ValueId right = l.value(o[0], rlo);
+  const ValueId right = l.memory.value(o[0], rlo);
   const ValueId left = o[0].isReal() ? l.r().real() : l.r().dr(o[0].type);
   const ValueId result = compare(l.b(), relation == kEqualIfRlo ? kEqual : relation, left, right);
   l.r().setRlo(rlo.valid() ? l.b().and_(rlo, result) : result);
@@ -151,7 +151,7 @@ void lowerBcd(Lowering& l, std::span<const Operand> o, int) {
 void lowerShift(Lowering& l, std::span<const Operand> o, int right) {
   ir::RungBuilder& b = l.b();
   const Type type = widthOf(o[1]);
-  const ValueId count = b.zextOrTrunc(Type::I32, l.value(o[0]));
+  const ValueId count = b.zextOrTrunc(Type::I32, l.memory.value(o[0]));
   l.r().setDrPart(b.op(right ? OpCode::ShrU : OpCode::Shl, type, {l.r().dr(type), count}));
 }
 

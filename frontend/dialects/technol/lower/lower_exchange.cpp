@@ -5,6 +5,7 @@
 
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/lower/lower_identifier.h"
+#include "frontend/dialects/technol/lower/lowering.h"
 #include "rtlib/nc/technol/exchange.h"
 
 namespace rung::frontend::technol {
@@ -43,8 +44,7 @@ void fill(ir::RungBuilder& b, const Operand& target, uint32_t count, ValueId val
   b.endLoop();
 }
 
-void fillText(Lowering& l, const Operand& target, const Operand& given) {
-  ir::RungBuilder& b = l.b();
+void fillText(ir::RungBuilder& b, const Operand& target, const Operand& given) {
   ir::Place at = target.place;
   for (const char c : given.text.substr(0, target.size - 1)) {
     b.store(at, b.constant(Type::I8, static_cast<uint8_t>(c)));
@@ -59,9 +59,9 @@ ExchangePeriod periodOf(ExchangeKind kind, const Operand& given) {
 }
 
 // A value of the configuration goes before the instruction's own; without both the variable stays.
-void setDefault(Lowering& l, const Exchanged& variable, const Operand& target, const Operand& given, ValueId ticket) {
-  ir::RungBuilder& b = l.b();
-  if (variable.type == ExchangeType::Text && given.given()) return fillText(l, target, given);
+void setDefault(ir::RungBuilder& b, const Exchanged& variable, const Operand& target, const Operand& given,
+                ValueId ticket) {
+  if (variable.type == ExchangeType::Text && given.given()) return fillText(b, target, given);
   if (nc::isText(variable.type)) return;
   const ValueId found = answersYes(b, ticket, 1);
   const ValueId configured = fromBits(b, b.serviceResult(ticket, 2), target.type);
@@ -82,20 +82,20 @@ void lowerDefine(Lowering& l, std::span<const Operand> o, int) {
   const auto word = [&](int64_t value) { return b.constant(Type::I64, value); };
   const ir::Place at = o[0].place;
   const ValueId head[] = {word(nc::exchangeArgument(variable.kind, variable.type, period, variable.count)),
-                          l.address(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit), at),
+                          l.emitter.address(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit), at),
                           word(nc::kNoPlace), word(nc::kNoPlace)};
-  setDefault(l, variable, o[0], given, defineRequest(l, head, o[1]));
+  setDefault(b, variable, o[0], given, defineRequest(l.memory, head, o[1]));
 }
 
 namespace {
 
 // One element, which begins `offset` bytes after the variable's place.
-void takeElement(Lowering& l, const Operand& target, uint32_t offset) {
-  ir::RungBuilder& b = l.b();
+void takeElement(Emitter& emitter, const Operand& target, uint32_t offset) {
+  ir::RungBuilder& b = emitter.b();
   ir::Place at = target.place;
   at.byte += offset;
-  const ValueId place = l.address(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit), at);
-  const ValueId ticket = b.serviceRequest(l.service(nc::kUpdateService), std::array{place});
+  const ValueId place = emitter.address(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit), at);
+  const ValueId ticket = b.serviceRequest(emitter.service(nc::kUpdateService), std::array{place});
   b.when(answersYes(b, ticket, 0), [&] { b.store(at, fromBits(b, b.serviceResult(ticket, 1), target.type)); });
 }
 
@@ -107,7 +107,7 @@ void lowerUpdate(Lowering& l, std::span<const Operand> o, int) {
   const uint32_t bytes = nc::bytesOf(variable.type);
   const auto first = static_cast<uint32_t>(std::max<int64_t>(o[0].value, 0));
   const uint32_t end = o[0].value < 0 ? variable.count : first + 1;
-  for (uint32_t i = first; i < end; ++i) takeElement(l, o[0], i * bytes);
+  for (uint32_t i = first; i < end; ++i) takeElement(l.emitter, o[0], i * bytes);
 }
 
 } // namespace rung::frontend::technol

@@ -4,15 +4,15 @@
 
 #include <vector>
 
-#include "frontend/dialects/technol/lower/lowering.h"
+#include "frontend/dialects/technol/lower/memory.h"
 
 namespace rung::frontend::technol {
 
 // The characters of an operand of kind "text or literal", filled up with zeros. Of a text in memory, bytes up to its
 // end; the control ends it at its terminator.
-std::vector<ir::ValueId> identifierWords(Lowering& l, const Operand& id, uint32_t words);
+std::vector<ir::ValueId> identifierWords(Memory& memory, const Operand& id, uint32_t words);
 // Makes a variable known to the control; `head` are the arguments before the identifier. A ticket.
-ir::ValueId defineRequest(Lowering& l, std::span<const ir::ValueId> head, const Operand& id);
+ir::ValueId defineRequest(Memory& memory, std::span<const ir::ValueId> head, const Operand& id);
 // Whether a result is not 0; 0 where nobody answers.
 ir::ValueId answersYes(ir::RungBuilder& b, ir::ValueId ticket, uint32_t result);
 

@@ -14,7 +14,7 @@ ValueId waits(Lowering& l, int level) { return level == 0 ? l.b().not_(l.r().rlo
 
 // The time in the width of the count: the wait ends at the latest when the count can go no further.
 ValueId timeFor(Lowering& l, const CountCell& cell, const Operand& operand) {
-  const ValueId time = l.b().zextOrTrunc(Type::I32, l.value(operand));
+  const ValueId time = l.b().zextOrTrunc(Type::I32, l.memory.value(operand));
   if (cell.type != Type::I8 || operand.isConstant()) return time;
   const ValueId most = l.b().i32(UINT8_MAX);
   return l.b().select(l.b().ltU(most, time), most, time);
@@ -33,15 +33,15 @@ void lowerEx(Lowering& l, std::span<const Operand>, int) {
   const uint32_t next = l.sequences.newState(s);
   l.sequences.storeState(s, l.b().i32(next));
   l.sequences.storeLine(s, l.statement().line);
-  l.out().jump(s.leave);
-  l.out().bind(s.states[next]);
+  l.emitter.out().jump(s.leave);
+  l.emitter.out().bind(s.states[next]);
 }
 
 void lowerBex(Lowering& l, std::span<const Operand>, int) {
   Sequence& s = l.sequences.current();
   const uint32_t next = l.sequences.newState(s);
   l.sequences.storeState(s, l.b().i32(next));
-  l.out().bind(s.states[next]);
+  l.emitter.out().bind(s.states[next]);
 }
 
 void lowerExWhile(Lowering& l, std::span<const Operand>, int level) {
@@ -50,8 +50,8 @@ void lowerExWhile(Lowering& l, std::span<const Operand>, int level) {
   const ValueId wait = waits(l, level);
   l.b().when(
       wait, [&] { l.sequences.storeLine(s, l.statement().line); }, [&] { l.sequences.storeState(s, l.b().i32(next)); });
-  l.out().jump(s.leave, wait);
-  l.out().bind(s.states[next]);
+  l.emitter.out().jump(s.leave, wait);
+  l.emitter.out().bind(s.states[next]);
 }
 
 // TEX: at the t-th failure control goes to the error label, with the code in DR if there is one (man. l.2107-2131).
@@ -72,8 +72,9 @@ void lowerTimedEx(Lowering& l, std::span<const Operand> o, int level) {
   l.sequences.storeState(s, b.select(stays, l.sequences.loadState(s), b.select(late, b.i32(errorState), b.i32(next))));
   if (o[3].given()) l.r().setDr(b.select(late, b.constant(Type::I64, o[3].value), l.r().dr(Type::I64)));
   showLineIf(l, s, stays);
-  l.out().select(b.select(stays, b.i32(1), b.select(late, b.i32(2), b.i32(0))), {s.states[next], s.leave, error});
-  l.out().bind(s.states[next]);
+  l.emitter.out().select(b.select(stays, b.i32(1), b.select(late, b.i32(2), b.i32(0))),
+                         {s.states[next], s.leave, error});
+  l.emitter.out().bind(s.states[next]);
 }
 
 // TIM: the continuation is the instruction itself while the time runs (§11.2).
@@ -85,20 +86,20 @@ void lowerWait(Lowering& l, std::span<const Operand> o, int) {
   l.state.store(arriving, l.b().constant(arriving.type, 0));
   l.sequences.storeState(s, l.b().i32(waiting));
   l.sequences.storeLine(s, l.statement().line);
-  l.out().jump(s.leave);
-  l.out().bind(s.states[waiting]);
+  l.emitter.out().jump(s.leave);
+  l.emitter.out().bind(s.states[waiting]);
 
   ir::RungBuilder& b = l.b();
   CountCell cell = arriving;
-  if (o[0].given()) cell.access = l.reach(o[0]); // the index belongs to this rung
+  if (o[0].given()) cell.access = l.memory.reach(o[0]); // the index belongs to this rung
   const ValueId count = b.add(l.state.load(cell), b.constant(cell.type, 1));
   const ValueId time = timeFor(l, cell, o[1]);
   const ValueId runs = b.ltU(b.zextOrTrunc(Type::I32, count), time);
   l.state.store(cell, b.select(runs, count, b.constant(cell.type, 0)));
   l.sequences.storeState(s, b.select(runs, b.i32(waiting), b.i32(next)));
   showLineIf(l, s, runs);
-  l.out().jump(s.leave, runs);
-  l.out().bind(s.states[next]);
+  l.emitter.out().jump(s.leave, runs);
+  l.emitter.out().bind(s.states[next]);
 }
 
 } // namespace rung::frontend::technol

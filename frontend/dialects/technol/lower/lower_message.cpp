@@ -11,10 +11,10 @@ using ir::ValueId;
 
 namespace {
 
-MessageParts partsOf(Memory& m, ValueId number, const Operand& subId, std::span<const Operand> pars) {
-  const ValueId par1 = valueOr0(m, pars[0], Type::I32), par2 = valueOr0(m, pars[1], Type::I32);
-  const ValueId both = bothPars(m.b(), par1, par2);
-  return {number, valueOr0(m, subId, Type::I32), valueOr0(m, pars[2], Type::I32), both};
+MessageParts partsOf(Memory& memory, ValueId number, const Operand& subId, std::span<const Operand> pars) {
+  const ValueId par1 = valueOr0(memory, pars[0], Type::I32), par2 = valueOr0(memory, pars[1], Type::I32);
+  const ValueId both = bothPars(memory.emitter().b(), par1, par2);
+  return {number, valueOr0(memory, subId, Type::I32), valueOr0(memory, pars[2], Type::I32), both};
 }
 
 // `set` 1 shows and 0 removes; without it the message is shown.
@@ -30,14 +30,14 @@ void showOrRemove(ir::RungBuilder& b, const MessageParts& m, ValueId set) {
 // _ON_ESET is called with the number in DR when a message comes up, not when one is removed (man. l.1609, l.5132).
 void lowerMessage(Lowering& l, std::span<const Operand> o, int condition) {
   ir::RungBuilder& b = l.b();
-  const ValueId word = o[0].given() ? b.zextOrTrunc(Type::I16, l.value(o[0])) : l.r().dr(Type::I16);
+  const ValueId word = o[0].given() ? b.zextOrTrunc(Type::I16, l.memory.value(o[0])) : l.r().dr(Type::I16);
   const ValueId number = b.zextOrTrunc(Type::I32, word);
   ValueId set;
   if (o[2].given()) {
-    const ValueId value = valueOr0(l, o[2], Type::I32);
+    const ValueId value = valueOr0(l.memory, o[2], Type::I32);
     set = b.ne(value, b.i32(0));
   }
-  const MessageParts message = partsOf(l, number, o[1], o.subspan(3, 3));
+  const MessageParts message = partsOf(l.memory, number, o[1], o.subspan(3, 3));
   const ValueId rlo = l.guardOf(condition);
   const bool calls =
       l.procedures.onMessage() != kNone && l.program().procedureOf(l.statement().unit) != l.procedures.onMessage();
@@ -75,8 +75,8 @@ void lowerBitMessage(Lowering& l, std::span<const Operand> o, int) {
     varies = varies || o[5 + i].indexed;
   }
   message.capacity = varies ? kMostEntries : 1;
-  const ValueId word = l.b().zextOrTrunc(Type::I16, l.value(o[2]));
-  l.bitMessages.add(message, l.b().zextOrTrunc(Type::I32, word), valueOr0(l, o[3], Type::I32));
+  const ValueId word = l.b().zextOrTrunc(Type::I16, l.memory.value(o[2]));
+  l.bitMessages.add(message, l.b().zextOrTrunc(Type::I32, word), valueOr0(l.memory, o[3], Type::I32));
 }
 
 } // namespace rung::frontend::technol

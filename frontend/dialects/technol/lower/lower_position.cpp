@@ -31,19 +31,19 @@ ValueId withBits(ir::RungBuilder& b, ValueId byte, ValueId mask, ValueId bits) {
 }
 
 // In the record that the last POS_MODE of the axis named, whichever memory it lies in.
-void writeKept(Lowering& l, ValueId axis, ValueId mask, ValueId bits) {
-  ir::RungBuilder& b = l.b();
+void writeKept(Memory& memory, ValueId axis, ValueId mask, ValueId bits) {
+  ir::RungBuilder& b = memory.emitter().b();
   const KeptRecord kept = keptOf(b, axis);
   const ValueId record = b.loadAt(Type::I64, kept.window, kept.index);
   const ValueId at = b.zextOrTrunc(Type::I32, record);
   for (const ir::SpaceId space : {kInterfaceSpace, kDataSpace}) {
-    const Area area{.space = space, .bytes = l.bytesOf(space), .fixed = false, .first = 0, .at = at};
+    const Area area{.space = space, .bytes = memory.bytesOf(space), .fixed = false, .first = 0, .at = at};
     if (area.bytes < kRecordBytes) continue;
     const int64_t head = nc::technol::bytesArgument(space.index, kRecordBytes, 0);
     const ValueId isThere =
         b.eq(b.and_(record, b.constant(Type::I64, ~int64_t{0xFFFF'FFFF})), b.constant(Type::I64, head));
     b.when(isThere,
-           [&] { storeByte(l, area, b.i32(kBits), withBits(b, loadByte(l, area, b.i32(kBits)), mask, bits)); });
+           [&] { storeByte(b, area, b.i32(kBits), withBits(b, loadByte(b, area, b.i32(kBits)), mask, bits)); });
   }
 }
 
@@ -53,7 +53,7 @@ void writeKept(Lowering& l, ValueId axis, ValueId mask, ValueId bits) {
 // unit refuses leaves the record alone, and the former one stays that of POS_CONTROL.
 void lowerPositionMode(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
-  const Area record = areaOf(l, o[0]);
+  const Area record = areaOf(l.memory, o[0]);
   DeviceRequest request(l);
   request.addOperand(1, o[1]);
   request.addOperand(2, o[2]);
@@ -64,8 +64,8 @@ void lowerPositionMode(Lowering& l, std::span<const Operand> o, int) {
   const KeptRecord kept = keptOf(b, axis);
   b.when(b.and_(taken, isAxis(b, axis)), [&] {
     const ValueId mask = b.constant(Type::I8, kControlBits);
-    storeByte(l, record, b.i32(kBits),
-              withBits(b, loadByte(l, record, b.i32(kBits)), mask, b.zextOrTrunc(Type::I8, bits)));
+    storeByte(b, record, b.i32(kBits),
+              withBits(b, loadByte(b, record, b.i32(kBits)), mask, b.zextOrTrunc(Type::I8, bits)));
     b.storeAt(kept.window, kept.index, bytesArgument(b, record, b.i32(kRecordBytes)));
   });
 }
@@ -73,8 +73,8 @@ void lowerPositionMode(Lowering& l, std::span<const Operand> o, int) {
 // POS_CONTROL status,feed,[mp],axis: without mp the motion is allowed (inventory of the services, 6).
 void lowerPositionControl(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
-  const Area status = areaOf(l, o[0]);
-  const ValueId allowed = o[2].given() ? l.bit(o[2]) : b.bit(true);
+  const Area status = areaOf(l.memory, o[0]);
+  const ValueId allowed = o[2].given() ? l.memory.bit(o[2]) : b.bit(true);
   DeviceRequest request(l);
   request.addOperand(1, o[1]);
   request.add("mp", b.zextOrTrunc(Type::I64, allowed));
@@ -82,12 +82,12 @@ void lowerPositionControl(Lowering& l, std::span<const Operand> o, int) {
   request.send();
   const ValueId word = request.result("status"), control = request.result("control");
   const ValueId none = b.constant(Type::I64, nc::technol::kNotGiven);
-  b.when(b.ne(word, none), [&] { storeByte(l, status, b.i32(0), b.zextOrTrunc(Type::I16, word)); });
+  b.when(b.ne(word, none), [&] { storeByte(b, status, b.i32(0), b.zextOrTrunc(Type::I16, word)); });
   const ValueId known = b.ne(control, none);
   const ValueId mask = b.select(known, b.constant(Type::I8, kControlBits), b.constant(Type::I8, kMp));
   const ValueId mp = b.zextOrTrunc(Type::I8, allowed);
   const ValueId bits = b.or_(b.and_(b.zextOrTrunc(Type::I8, control), b.constant(Type::I8, kControlBits - kMp)), mp);
-  writeKept(l, axis, mask, bits);
+  writeKept(l.memory, axis, mask, bits);
 }
 
 } // namespace rung::frontend::technol

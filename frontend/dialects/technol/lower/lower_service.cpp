@@ -28,10 +28,10 @@ struct Given {
 ValueId lengthOf(Lowering& l, const Given& given, const DeviceTarget& data, ValueId guard) {
   const Operand* length = lengthIn(given.infos, given.operands);
   if (length == nullptr) return data.room();
-  const ValueId count = l.b().zextOrTrunc(Type::I32, l.value(*length, guard));
+  const ValueId count = l.b().zextOrTrunc(Type::I32, l.memory.value(*length, guard));
   if (!length->isConstant()) {
     const ValueId beyond = l.b().ltU(data.roomWithEnd(), count);
-    l.protect(guard.valid() ? l.b().and_(guard, beyond) : beyond);
+    l.emitter.protect(guard.valid() ? l.b().and_(guard, beyond) : beyond);
   }
   return count;
 }
@@ -92,7 +92,7 @@ ValueId codeWithoutPlace(Lowering& l, const Given& given, ValueId isNew) {
   if (command == nullptr || command->isConstant()) return {};
   const ir::SlotId slot = l.ownSlot(Type::Bit);
   b.when(isNew, [&] {
-    const ValueId asked = b.zextOrTrunc(Type::I32, l.value(*command, isNew));
+    const ValueId asked = b.zextOrTrunc(Type::I32, l.memory.value(*command, isNew));
     b.slotStore(slot, b.or_(b.eq(asked, b.i32(nc::technol::kMasterStateCommand)),
                             b.eq(asked, b.i32(nc::technol::kSlaveStateCommand))));
   });
@@ -104,7 +104,7 @@ void continueHere(Lowering& l) {
   Sequence& s = l.sequences.current();
   const uint32_t here = l.sequences.newState(s);
   l.sequences.storeState(s, l.b().i32(here));
-  l.out().bind(s.states[here]);
+  l.emitter.out().bind(s.states[here]);
 }
 
 } // namespace

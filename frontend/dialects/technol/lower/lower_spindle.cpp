@@ -13,8 +13,7 @@ namespace {
 constexpr int64_t kPorts = 16; // of analogue outputs (man. l.7730)
 
 // The output is there at once (inventory of the services, 4): the answer says which port becomes what.
-void storeOutput(Lowering& l, DeviceRequest& request) {
-  ir::RungBuilder& b = l.b();
+void storeOutput(ir::RungBuilder& b, DeviceRequest& request) {
   const nc::Signal& outputs = interfaceSignal("SU_OUT_PLC");
   const ValueId number = b.sub(request.result("port"), b.constant(Type::I64, 1));
   const ValueId value = request.real("out");
@@ -54,13 +53,13 @@ void lowerAnalog(Lowering& l, std::span<const Operand> o, int) {
     request.addOperand(1, o[1]);
     request.addOperand(2, o[2]);
     request.send();
-    return storeOutput(l, request);
+    return storeOutput(b, request);
   }
   const ValueId port = b.zextOrTrunc(Type::I64, b.load(Type::I32, place(HostCell::AnalogPort)));
   request.add("port", port);
   b.when(b.ne(port, b.constant(Type::I64, 0)), [&] {
     request.send();
-    storeOutput(l, request);
+    storeOutput(b, request);
   });
 }
 
@@ -70,7 +69,7 @@ void lowerAnalogSpindle(Lowering& l, std::span<const Operand> o, int) {
   addValue(l, request, o[0]);
   request.addOperand(1, o[1]);
   request.send();
-  storeOutput(l, request);
+  storeOutput(l.b(), request);
 }
 
 // A spindle that is switched off has the output 0 (man. l.7984).
@@ -78,7 +77,7 @@ void lowerToSpindle(Lowering& l, std::span<const Operand> o, int) {
   DeviceRequest request(l);
   for (uint32_t i = 0; i < o.size(); ++i) request.addOperand(i, o[i]);
   request.send();
-  storeOutput(l, request);
+  storeOutput(l.b(), request);
 }
 
 // POLOHV_x is 1 until the axis has been positioned; 0 written there ends it (man. l.7964-7973). Where nobody positions
@@ -99,14 +98,14 @@ void lowerToAxis(Lowering& l, std::span<const Operand> o, int) {
 void lowerRamp(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();
   const Type type = o[0].type;
-  const MemoryAccess access = l.reach(o[0]);
-  const ValueId value = l.load(access, type), wanted = l.r().dr(type);
+  const MemoryAccess access = l.memory.reach(o[0]);
+  const ValueId value = l.memory.load(access, type), wanted = l.r().dr(type);
   const ValueId rises = b.ltS(value, wanted);
   const ValueId distance = b.zextOrTrunc(Type::I64, b.select(rises, b.sub(wanted, value), b.sub(value, wanted)));
-  const ValueId most = b.zextOrTrunc(Type::I64, l.value(o[1]));
+  const ValueId most = b.zextOrTrunc(Type::I64, l.memory.value(o[1]));
   const ValueId step = b.zextOrTrunc(type, b.select(b.ltU(distance, most), distance, most));
   const ValueId next = b.select(rises, b.add(value, step), b.sub(value, step));
-  l.store(access, next);
+  l.memory.store(access, next);
   l.r().setDr(next);
 }
 

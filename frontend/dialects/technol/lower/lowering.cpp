@@ -19,7 +19,7 @@ void Lowering::useStack() {
 }
 
 uint32_t Lowering::labelOf(uint32_t label) {
-  if (labels_[label] == kNone) labels_[label] = out().newLabel();
+  if (labels_[label] == kNone) labels_[label] = emitter.out().newLabel();
   return labels_[label];
 }
 
@@ -29,7 +29,7 @@ ValueId Lowering::guardOf(int condition) {
 }
 
 ValueId Lowering::contact(const Operand& operand) {
-  const ValueId value = bit(operand);
+  const ValueId value = memory.bit(operand);
   marking.contact(*statement_, value);
   return value;
 }

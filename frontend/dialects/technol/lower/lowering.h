@@ -1,4 +1,4 @@
-// What the lowering function of a row sees: the emitter with the program's memory, the current statement, and the parts
+// What the lowering function of a row sees: the current statement, the emitter, the program's memory, and the parts
 // that statements share.
 #pragma once
 
@@ -8,18 +8,19 @@
 
 namespace rung::frontend::technol {
 
-class Lowering : public Memory {
+class Lowering {
 public:
   Lowering(const Program& program, ir::Module& module, ir::Marks* marks, ir::GivenNumbers* given)
-      : Memory(program, module, given), state(*this), sequences(*this, state), procedures(*this),
-        clears(*this, state, sequences), bitMessages(*this, state), marking(*this, marks),
-        labels_(program.labels.size(), kNone) {}
+      : emitter(module, given), memory(program, emitter), state(memory), sequences(program, emitter, state),
+        procedures(program, emitter), clears(memory, state, sequences), bitMessages(memory, state),
+        marking(program, emitter, marks), labels_(program.labels.size(), kNone) {}
 
   // The next statement.
   void enter(const Statement& statement, const Typed& typed);
   // What it does to the stack; then `popped` is what LA, LO, LX without operand took off it.
   void useStack();
 
+  const Program& program() const { return memory.program(); }
   const Statement& statement() const { return *statement_; }
   std::string_view mnemonic() const { return statement_->row->info.mnemonic; }
   ir::ValueId popped() const { return popped_; }
@@ -37,6 +38,12 @@ public:
     procedures.call(procedure, typed_->stack.depth, cond);
   }
 
+  // The open rung and its registers.
+  ir::RungBuilder& b() { return emitter.b(); }
+  Registers& r() { return emitter.r(); }
+
+  Emitter emitter;
+  Memory memory;
   State state;
   Sequences sequences;
   Procedures procedures;

@@ -16,24 +16,25 @@ bool isLogic(const Row& row) {
 
 void Marking::note(ir::MarkKind kind, const Statement& statement, ir::ValueId value) {
   if (marks_ == nullptr) return;
-  const RungSource at = sourceOf(m_.program(), statement);
+  const RungSource at = sourceOf(program_, statement);
   std::string text(statement.row->info.mnemonic);
-  if (statement.tokenCount != 0) text.append(" ").append(spelled(m_.program().operandTokens(statement)));
-  marks_->add(m_.out().routine(), m_.out().openRung(), {kind, value, at.line, at.column, std::move(text)});
+  if (statement.tokenCount != 0) text.append(" ").append(spelled(program_.operandTokens(statement)));
+  marks_->add(emitter_.out().routine(), emitter_.out().openRung(), {kind, value, at.line, at.column, std::move(text)});
 }
 
 void Marking::decision(const Statement& statement) {
   const Row& row = *statement.row;
   if (marks_ == nullptr || (row.effects & kReadsRlo) == 0 || isLogic(row)) return;
   const bool coil = row.info.group == "bit write";
-  note(coil ? ir::MarkKind::Coil : ir::MarkKind::Input, statement, m_.r().rlo());
+  note(coil ? ir::MarkKind::Coil : ir::MarkKind::Input, statement, emitter_.r().rlo());
 }
 
 void Marking::result(const Statement& statement, uint32_t rung) {
   const Row& row = *statement.row;
   const bool asksBit = row.lower == &lowerLoadBit;
   if (marks_ == nullptr || (row.effects & kSetsRlo) == 0 || isLogic(row) || asksBit) return;
-  if (m_.out().isOpen() && m_.out().openRung() == rung) note(ir::MarkKind::Result, statement, m_.r().rlo());
+  if (emitter_.out().isOpen() && emitter_.out().openRung() == rung)
+    note(ir::MarkKind::Result, statement, emitter_.r().rlo());
 }
 
 } // namespace rung::frontend::technol

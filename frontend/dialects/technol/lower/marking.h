@@ -1,7 +1,7 @@
 // Notes, for coverage, which values of a rung are contacts and which is the power into a coil.
 #pragma once
 
-#include "frontend/dialects/technol/lower/memory.h"
+#include "frontend/dialects/technol/lower/emitter.h"
 #include "ir/core/marks.h"
 
 namespace rung::frontend::technol {
@@ -9,7 +9,8 @@ namespace rung::frontend::technol {
 class Marking {
 public:
   // `marks` may be null: nobody asks.
-  Marking(Memory& memory, ir::Marks* marks) : m_(memory), marks_(marks) {}
+  Marking(const Program& program, Emitter& emitter, ir::Marks* marks)
+      : program_(program), emitter_(emitter), marks_(marks) {}
 
   // A bit that LDR, LA, LO or LX asks.
   void contact(const Statement& statement, ir::ValueId value) { note(ir::MarkKind::Contact, statement, value); }
@@ -21,7 +22,8 @@ public:
 private:
   void note(ir::MarkKind kind, const Statement& statement, ir::ValueId value);
 
-  Memory& m_;
+  const Program& program_;
+  Emitter& emitter_;
   ir::Marks* marks_;
 };
 

@@ -14,13 +14,13 @@ struct MemoryAccess {
   ir::ValueId index;
 };
 
-// An emitter that knows the program's memory.
-class Memory : public Emitter {
+// The program's memory, as operations of the emitter's open rung reach it.
+class Memory {
 public:
-  Memory(const Program& program, ir::Module& module, ir::GivenNumbers* given)
-      : Emitter(module, given), program_(program) {}
+  Memory(const Program& program, Emitter& emitter) : program_(program), emitter_(emitter) {}
 
   const Program& program() const { return program_; }
+  Emitter& emitter() { return emitter_; }
   uint32_t bytesOf(ir::SpaceId space) const { return program_.bytesOf(space); }
 
   // Where a cell or bit lies; an index outside its space stops the program (where `guard` is 1, if there is one).
@@ -30,17 +30,18 @@ public:
   // A bit with its sign.
   ir::ValueId bit(const Operand& operand);
   // The bytes of a space.
-  ir::ValueId sizeOf(ir::SpaceId space) { return given(ir::Type::I32, bytesOf(space)); }
+  ir::ValueId sizeOf(ir::SpaceId space) { return emitter_.given(ir::Type::I32, bytesOf(space)); }
   // A place of the space that the operand's variable lies in, as a number.
   ir::ValueId placeIn(const Operand& operand, int64_t byte) {
     const ir::Place begin{.space = operand.place.space, .byte = static_cast<uint32_t>(operand.base)};
-    return address(ir::Type::I32, byte, begin, byte - operand.base);
+    return emitter_.address(ir::Type::I32, byte, begin, byte - operand.base);
   }
   // A constant or a cell; `guard` as for reach.
   ir::ValueId value(const Operand& operand, ir::ValueId guard = {});
 
 private:
   const Program& program_;
+  Emitter& emitter_;
 };
 
 } // namespace rung::frontend::technol

@@ -22,8 +22,9 @@ inline void send(ir::RungBuilder& b, const MessageParts& m, uint32_t op, uint32_
   b.message(op, b.or_(m.number, b.i32(static_cast<int32_t>(marks))), m.par3, m.subId, m.pars);
 }
 
-inline ir::ValueId valueOr0(Memory& m, const Operand& operand, ir::Type type) {
-  return operand.given() ? m.b().zextOrTrunc(type, m.value(operand)) : m.b().constant(type, 0);
+inline ir::ValueId valueOr0(Memory& memory, const Operand& operand, ir::Type type) {
+  ir::RungBuilder& b = memory.emitter().b();
+  return operand.given() ? b.zextOrTrunc(type, memory.value(operand)) : b.constant(type, 0);
 }
 
 } // namespace rung::frontend::technol

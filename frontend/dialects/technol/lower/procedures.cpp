@@ -9,9 +9,10 @@ namespace rung::frontend::technol {
 using ir::Type;
 using ir::ValueId;
 
-Procedures::Procedures(Memory& memory) : m_(memory), onMessage_(memory.program().procedureNamed(kOnMessage)) {
-  for (const Procedure& procedure : memory.program().procedures)
-    routines_.push_back(memory.newRoutine("PROC " + symbolKey(procedure.name)));
+Procedures::Procedures(const Program& program, Emitter& emitter)
+    : emitter_(emitter), onMessage_(program.procedureNamed(kOnMessage)) {
+  for (const Procedure& procedure : program.procedures)
+    routines_.push_back(emitter.newRoutine("PROC " + symbolKey(procedure.name)));
 }
 
 uint32_t Procedures::eventOf(uint32_t procedure) {
@@ -23,29 +24,30 @@ uint32_t Procedures::eventOf(uint32_t procedure) {
 void Procedures::call(uint32_t procedure, uint32_t depth, ValueId cond) {
   std::vector<ir::SlotId> kept;
   for (uint32_t level = 0; level < depth; ++level) {
-    kept.push_back(m_.newSlot(Type::Bit, "CALL~" + std::to_string(m_.module().slots.size()), true));
-    m_.b().slotStore(kept[level], m_.r().stack(level));
+    kept.push_back(emitter_.newSlot(Type::Bit, "CALL~" + std::to_string(emitter_.module().slots.size()), true));
+    emitter_.b().slotStore(kept[level], emitter_.r().stack(level));
   }
-  m_.out().call(routines_[procedure], cond);
-  for (uint32_t level = 0; level < kept.size(); ++level) m_.r().setStack(level, m_.b().slotLoad(kept[level]));
+  emitter_.out().call(routines_[procedure], cond);
+  for (uint32_t level = 0; level < kept.size(); ++level)
+    emitter_.r().setStack(level, emitter_.b().slotLoad(kept[level]));
 }
 
 void Procedures::saveRegisters() {
   if (saved_.empty())
     for (const auto& [type, key] : {std::pair(Type::Bit, "SAVED.RLO"), std::pair(Type::I64, "SAVED.DR"),
                                     std::pair(Type::F64, "SAVED.DR_REAL"), std::pair(Type::I32, "SAVED.BX")})
-      saved_.push_back(m_.newSlot(type, key, true));
-  Registers& r = m_.r();
+      saved_.push_back(emitter_.newSlot(type, key, true));
+  Registers& r = emitter_.r();
   const ValueId values[] = {r.rlo(), r.dr(Type::I64), r.real(), r.bx()};
-  for (size_t i = 0; i < saved_.size(); ++i) m_.b().slotStore(saved_[i], values[i]);
+  for (size_t i = 0; i < saved_.size(); ++i) emitter_.b().slotStore(saved_[i], values[i]);
 }
 
 void Procedures::restoreRegisters() {
-  ir::RungBuilder& b = m_.b();
-  m_.r().setRlo(b.slotLoad(saved_[0]));
-  m_.r().setReal(b.slotLoad(saved_[2]));
-  m_.r().setDr(b.slotLoad(saved_[1]));
-  m_.r().setBx(b.slotLoad(saved_[3]));
+  ir::RungBuilder& b = emitter_.b();
+  emitter_.r().setRlo(b.slotLoad(saved_[0]));
+  emitter_.r().setReal(b.slotLoad(saved_[2]));
+  emitter_.r().setDr(b.slotLoad(saved_[1]));
+  emitter_.r().setBx(b.slotLoad(saved_[3]));
 }
 
 } // namespace rung::frontend::technol

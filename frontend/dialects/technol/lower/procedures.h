@@ -1,13 +1,13 @@
 // Procedures (man. ch. 3.17), and those that the control calls (man. l.1609).
 #pragma once
 
-#include "frontend/dialects/technol/lower/memory.h"
+#include "frontend/dialects/technol/lower/emitter.h"
 
 namespace rung::frontend::technol {
 
 class Procedures {
 public:
-  explicit Procedures(Memory& memory);
+  Procedures(const Program& program, Emitter& emitter);
 
   ir::RoutineId routine(uint32_t procedure) const { return routines_[procedure]; }
   // `depth`: values on the stack of the equation that contains the call; they are kept.
@@ -22,7 +22,7 @@ public:
   void restoreRegisters();
 
 private:
-  Memory& m_;
+  Emitter& emitter_;
   std::vector<ir::RoutineId> routines_;
   uint32_t onMessage_ = kNone;
   std::vector<uint32_t> events_;

@@ -20,19 +20,20 @@ ir::Place lineOf(uint32_t mechanism) { return {.space = kMechanismSpace, .byte =
 
 } // namespace
 
-Sequences::Sequences(Memory& memory, State& state) : m_(memory), state_(state) {
-  for (const Mechanism& mechanism : memory.program().mechanisms) {
+Sequences::Sequences(const Program& program, Emitter& emitter, State& state)
+    : program_(program), emitter_(emitter), state_(state) {
+  for (const Mechanism& mechanism : program.mechanisms) {
     const auto number = static_cast<uint32_t>(mechanisms_.size());
     const std::string name = symbolKey(mechanism.name);
     mechanisms_.push_back(
-        {.state = memory.newSlot(Type::I32, "MECH." + name + ".CONT"), .reset = {}, .cells = {}, .tickets = {}});
+        {.state = emitter.newSlot(Type::I32, "MECH." + name + ".CONT"), .reset = {}, .cells = {}, .tickets = {}});
     state.nameCells("@MECH." + name, bitOf(number), Type::Bit);
     state.nameCells("@MECH." + name + ".LINE", lineOf(number), Type::I16);
   }
 }
 
 void Sequences::begin(Sequence sequence) {
-  RoutineBuilder& out = m_.out();
+  RoutineBuilder& out = emitter_.out();
   sequence.routine = out.routine();
   sequence.continuation.points = {"beginning"};
   if (sequence.leave == kNone) sequence.leave = out.newLabel();
@@ -55,48 +56,48 @@ void Sequences::beginModule(ModuleKind kind, uint32_t unit) {
 }
 
 void Sequences::beginMechanism(uint32_t mechanism, uint32_t unit) {
-  ir::RungBuilder& b = m_.b();
+  ir::RungBuilder& b = emitter_.b();
   const ValueId inactive = b.not_(b.load(Type::Bit, bitOf(mechanism)));
   b.when(inactive, [&] { b.store(lineOf(mechanism), b.constant(Type::I16, 0)); });
-  Sequence sequence{.unit = unit, .routine = {}, .mechanism = mechanism, .leave = m_.out().newLabel()};
-  m_.out().jump(sequence.leave, inactive);
+  Sequence sequence{.unit = unit, .routine = {}, .mechanism = mechanism, .leave = emitter_.out().newLabel()};
+  emitter_.out().jump(sequence.leave, inactive);
   sequence.continuation.slot = mechanisms_[mechanism].state;
-  sequence.continuation.key = m_.module().at(sequence.continuation.slot).key;
+  sequence.continuation.key = emitter_.module().at(sequence.continuation.slot).key;
   begin(std::move(sequence));
 }
 
 void Sequences::end() {
   Sequence& sequence = open_.back();
   if (sequence.mechanism == kNone)
-    m_.b().store(place(sequence.moduleDone), m_.b().bit(true));
+    emitter_.b().store(place(sequence.moduleDone), emitter_.b().bit(true));
   else
-    m_.b().store(bitOf(sequence.mechanism), m_.b().bit(false));
-  storeState(sequence, m_.b().i32(0));
+    emitter_.b().store(bitOf(sequence.mechanism), emitter_.b().bit(false));
+  storeState(sequence, emitter_.b().i32(0));
   storeLine(sequence, 0);
   // What is cleared belongs to the instructions above: where versions are compared it is not part of the end.
-  if (!m_.isCompared()) clear(sequence.cells, sequence.tickets);
-  if (sequence.mechanism == kNone && !sequence.tickets.empty() && !m_.isCompared()) clearAtBeginning(sequence);
-  m_.out().cut();
-  m_.out().setLabels(sequence.dispatch, sequence.states);
-  m_.out().bind(sequence.leave);
+  if (!emitter_.isCompared()) clear(sequence.cells, sequence.tickets);
+  if (sequence.mechanism == kNone && !sequence.tickets.empty() && !emitter_.isCompared()) clearAtBeginning(sequence);
+  emitter_.out().cut();
+  emitter_.out().setLabels(sequence.dispatch, sequence.states);
+  emitter_.out().bind(sequence.leave);
   if (sequence.mechanism != kNone) {
     Kept& kept = mechanisms_[sequence.mechanism];
     kept.cells = std::move(sequence.cells);
     kept.tickets = std::move(sequence.tickets);
   }
-  m_.module().continuations.push_back(std::move(sequence.continuation));
+  emitter_.module().continuations.push_back(std::move(sequence.continuation));
   open_.pop_back();
 }
 
 void Sequences::clear(std::span<const CountCell> cells, std::span<const ir::SlotId> tickets) {
-  for (const CountCell& cell : cells) state_.store(cell, m_.b().constant(cell.type, 0));
-  for (const ir::SlotId ticket : tickets) m_.b().slotStore(ticket, m_.b().i32(0));
+  for (const CountCell& cell : cells) state_.store(cell, emitter_.b().constant(cell.type, 0));
+  for (const ir::SlotId ticket : tickets) emitter_.b().slotStore(ticket, emitter_.b().i32(0));
 }
 
 // The control may give up a block and begin the next one: what a module asked for is of the former block. A module that
 // waits at its beginning has asked for nothing yet, but may have counted.
 void Sequences::clearAtBeginning(Sequence& sequence) {
-  RoutineBuilder& out = m_.out();
+  RoutineBuilder& out = emitter_.out();
   const uint32_t code = std::exchange(sequence.states[0], out.newLabel());
   out.jump(sequence.leave);
   out.beginOwn();
@@ -109,15 +110,15 @@ void Sequences::clearAtBeginning(Sequence& sequence) {
 void Sequences::pass(const Statement& statement) {
   if (open_.empty()) return;
   Sequence& s = open_.back();
-  if (m_.program().owner(statement.unit) != s.unit || s.routine != m_.out().routine()) return;
-  s.instruction = instructionKey(m_.program(), statement, statement.row->info.mnemonic);
+  if (program_.owner(statement.unit) != s.unit || s.routine != emitter_.out().routine()) return;
+  s.instruction = instructionKey(program_, statement, statement.row->info.mnemonic);
   s.section = hashBytes(s.instruction, s.sectionEnds ? 0 : s.section);
   s.sectionEnds = false;
 }
 
 uint32_t Sequences::newState(Sequence& sequence, std::string_view role) {
   addPoint(sequence, role);
-  sequence.states.push_back(m_.out().newLabel());
+  sequence.states.push_back(emitter_.out().newLabel());
   return static_cast<uint32_t>(sequence.states.size()) - 1;
 }
 
@@ -142,41 +143,41 @@ uint32_t Sequences::stateOf(Sequence& sequence, uint32_t label) {
 
 void Sequences::storeState(const Sequence& sequence, ValueId state) {
   if (sequence.mechanism == kNone)
-    m_.b().store(sequence.moduleCont, state);
+    emitter_.b().store(sequence.moduleCont, state);
   else
-    m_.b().slotStore(mechanisms_[sequence.mechanism].state, state);
+    emitter_.b().slotStore(mechanisms_[sequence.mechanism].state, state);
 }
 
 ValueId Sequences::loadState(const Sequence& sequence) {
-  if (sequence.mechanism == kNone) return m_.b().load(Type::I32, sequence.moduleCont);
-  return m_.b().slotLoad(mechanisms_[sequence.mechanism].state);
+  if (sequence.mechanism == kNone) return emitter_.b().load(Type::I32, sequence.moduleCont);
+  return emitter_.b().slotLoad(mechanisms_[sequence.mechanism].state);
 }
 
 void Sequences::storeLine(const Sequence& sequence, uint32_t line) {
   if (sequence.mechanism == kNone) return;
-  m_.b().store(lineOf(sequence.mechanism), m_.given(Type::I16, std::min<uint32_t>(line, UINT16_MAX)));
+  emitter_.b().store(lineOf(sequence.mechanism), emitter_.given(Type::I16, std::min<uint32_t>(line, UINT16_MAX)));
 }
 
 void Sequences::initialise(uint32_t mechanism) {
-  ir::RungBuilder& b = m_.b();
+  ir::RungBuilder& b = emitter_.b();
   b.store(bitOf(mechanism), b.bit(false));
   b.store(lineOf(mechanism), b.constant(Type::I16, 0));
   Kept& kept = mechanisms_[mechanism];
   b.slotStore(kept.state, b.i32(0));
-  const Mechanism& info = m_.program().mechanisms[mechanism];
-  if (info.hasTimers && !m_.isCompared()) {
-    if (!kept.reset.valid()) kept.reset = m_.newRoutine("@MECH_INIT " + symbolKey(info.name));
-    m_.out().call(kept.reset);
+  const Mechanism& info = program_.mechanisms[mechanism];
+  if (info.hasTimers && !emitter_.isCompared()) {
+    if (!kept.reset.valid()) kept.reset = emitter_.newRoutine("@MECH_INIT " + symbolKey(info.name));
+    emitter_.out().call(kept.reset);
   }
-  m_.out().cut(); // also without a call: where rungs begin is not up to the timers of a mechanism elsewhere
+  emitter_.out().cut(); // also without a call: where rungs begin is not up to the timers of a mechanism elsewhere
 }
 
 void Sequences::makeResets() {
   for (const Kept& kept : mechanisms_) {
     if (!kept.reset.valid()) continue;
-    m_.open(kept.reset);
+    emitter_.open(kept.reset);
     clear(kept.cells, kept.tickets);
-    m_.close();
+    emitter_.close();
   }
 }
 

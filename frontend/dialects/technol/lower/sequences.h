@@ -28,7 +28,7 @@ struct Sequence {
 
 class Sequences {
 public:
-  Sequences(Memory& memory, State& state);
+  Sequences(const Program& program, Emitter& emitter, State& state);
 
   void beginModule(ModuleKind kind, uint32_t unit);
   // `leave`: a label after the end, where a mechanism that is not active goes.
@@ -59,7 +59,8 @@ private:
   void clearAtBeginning(Sequence& sequence);
   void addPoint(Sequence& sequence, std::string_view role);
 
-  Memory& m_;
+  const Program& program_;
+  Emitter& emitter_;
   State& state_;
   std::vector<Sequence> open_; // the innermost last
   struct Kept {                // of a mechanism

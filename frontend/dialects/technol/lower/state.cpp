@@ -15,28 +15,28 @@ std::string instructionKey(const Program& program, const Statement& statement, s
 
 // The key names module, instruction and operands.
 ir::SlotId State::newSlot(Type type, const Statement& statement, std::string_view what) {
-  const Program& program = m_.program();
+  const Program& program = memory_.program();
   const std::string unit(program.units[statement.unit].name);
-  automatic_.push_back(m_.newSlot(type, names_.numbered(unit + "." + instructionKey(program, statement, what))));
+  automatic_.push_back(emitter_.newSlot(type, names_.numbered(unit + "." + instructionKey(program, statement, what))));
   return automatic_.back();
 }
 
 CountCell State::countCell(const Operand& operand, const Statement& statement) {
-  if (operand.given()) return {.automatic = false, .slot = {}, .access = m_.reach(operand), .type = operand.type};
+  if (operand.given()) return {.automatic = false, .slot = {}, .access = memory_.reach(operand), .type = operand.type};
   const ir::SlotId slot = newSlot(Type::I16, statement, statement.row->info.mnemonic);
   addTimer(slot);
   return {.automatic = true, .slot = slot, .access = {}, .type = Type::I16};
 }
 
 ValueId State::load(const CountCell& cell) {
-  return cell.automatic ? m_.b().slotLoad(cell.slot) : m_.load(cell.access, cell.type);
+  return cell.automatic ? emitter_.b().slotLoad(cell.slot) : memory_.load(cell.access, cell.type);
 }
 
 void State::store(const CountCell& cell, ValueId value) {
   if (cell.automatic)
-    m_.b().slotStore(cell.slot, value);
+    emitter_.b().slotStore(cell.slot, value);
   else
-    m_.store(cell.access, value);
+    memory_.store(cell.access, value);
 }
 
 } // namespace rung::frontend::technol

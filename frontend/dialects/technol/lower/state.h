@@ -18,13 +18,13 @@ std::string instructionKey(const Program& program, const Statement& statement, s
 
 class State {
 public:
-  explicit State(Memory& memory) : m_(memory) {}
+  explicit State(Memory& memory) : memory_(memory), emitter_(memory.emitter()) {}
 
   // State of a statement alone, e.g. the former value of an edge; `what` names it.
   ir::SlotId newSlot(ir::Type type, const Statement& statement, std::string_view what);
   // Names cells of an allocated space, so that they are found again in a changed program.
   void nameCells(std::string key, ir::Place place, ir::Type type, uint32_t count = 1) {
-    frontend::nameCells(m_.module(), names_.numbered(std::move(key)), place, type, count);
+    frontend::nameCells(emitter_.module(), names_.numbered(std::move(key)), place, type, count);
   }
   CountCell countCell(const Operand& operand, const Statement& statement);
   ir::ValueId load(const CountCell& cell);
@@ -39,7 +39,8 @@ public:
   std::span<const ir::SlotId> forgotten() const { return forgotten_; }
 
 private:
-  Memory& m_;
+  Memory& memory_;
+  Emitter& emitter_;
   Numbering names_;
   std::vector<ir::SlotId> automatic_; // that instructions made for themselves
   std::vector<ir::SlotId> timers_;

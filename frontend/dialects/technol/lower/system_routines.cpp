@@ -13,27 +13,27 @@ using ir::Type;
 
 void Clears::call(bool global) {
   ir::RoutineId& routine = routines_[global ? 0 : 1];
-  if (!routine.valid()) routine = m_.newRoutine(global ? "@CLEAR GLOBAL" : "@CLEAR INTERNAL");
-  m_.out().call(routine);
+  if (!routine.valid()) routine = emitter_.newRoutine(global ? "@CLEAR GLOBAL" : "@CLEAR INTERNAL");
+  emitter_.out().call(routine);
 }
 
 // What lies together is cleared together.
 void Clears::clearData(bool local) {
   uint32_t first = 0, end = 0;
-  for (const DataItem& item : m_.program().items) {
+  for (const DataItem& item : memory_.program().items) {
     if (item.local != local || item.bytes == 0) continue;
     if (item.byte != end) {
-      clearRange(m_, kDataSpace, first, end);
+      clearRange(memory_, kDataSpace, first, end);
       first = item.byte;
     }
     end = item.byte + item.bytes;
   }
-  clearRange(m_, kDataSpace, first, end);
+  clearRange(memory_, kDataSpace, first, end);
 }
 
 // Texts and structures get the contents again that they have when the machine is switched on (man. l.1533-1536).
 void Clears::fillData() {
-  const Program& program = m_.program();
+  const Program& program = memory_.program();
   size_t item = 0;
   for (const ir::Init& init : program.inits) {
     if (init.space != kDataSpace) continue;
@@ -43,9 +43,9 @@ void Clears::fillData() {
     for (size_t at = 0; at < bytes.size(); at += kMostCleared) {
       const std::string_view part = bytes.substr(at, kMostCleared);
       const auto size = static_cast<uint32_t>(part.size());
-      copy(m_, fixedArea(m_, kDataSpace, program.dataBytes, init.byte + static_cast<uint32_t>(at)),
-           fixedArea(m_, m_.constantBytes(part), size, 0), fixedCount(m_, size));
-      m_.out().cut();
+      copy(emitter_, fixedArea(emitter_, kDataSpace, program.dataBytes, init.byte + static_cast<uint32_t>(at)),
+           fixedArea(emitter_, emitter_.constantBytes(part), size, 0), fixedCount(emitter_.b(), size));
+      emitter_.out().cut();
     }
   }
 }
@@ -56,56 +56,57 @@ void Clears::make() {
   constexpr uint32_t kMechanismsPerRung = 16;
   for (const bool global : {true, false}) {
     if (!routines_[global ? 0 : 1].valid()) continue;
-    m_.open(routines_[global ? 0 : 1]);
+    emitter_.open(routines_[global ? 0 : 1]);
     clearData(!global);
     if (global) {
       fillData();
-      for (uint32_t i = 0; i < m_.program().mechanisms.size(); ++i) {
+      for (uint32_t i = 0; i < memory_.program().mechanisms.size(); ++i) {
         sequences_.initialise(i);
-        if (i % kMechanismsPerRung == kMechanismsPerRung - 1) m_.out().cut();
+        if (i % kMechanismsPerRung == kMechanismsPerRung - 1) emitter_.out().cut();
       }
     }
-    m_.clearSlots(global ? state_.timers() : state_.automatic());
-    m_.close();
+    emitter_.clearSlots(global ? state_.timers() : state_.automatic());
+    emitter_.close();
   }
 }
 
 // ---- start and events -----------------------------------------------------------------------------------------------
 
-void makeStart(Memory& memory, ir::RoutineId routine, const State& state, const Clocks& clocks, BitMessages& messages) {
-  memory.open(routine);
-  ir::RungBuilder& b = memory.b();
-  b.store(place(HostCell::InitPending), b.constant(Type::I64, memory.program().filesWith(&SourceFile::finishesInit)));
+void makeStart(const Program& program, Emitter& emitter, ir::RoutineId routine, const State& state,
+               const Clocks& clocks, BitMessages& messages) {
+  emitter.open(routine);
+  ir::RungBuilder& b = emitter.b();
+  b.store(place(HostCell::InitPending), b.constant(Type::I64, program.filesWith(&SourceFile::finishesInit)));
   b.store(place(HostCell::DonePending), b.constant(Type::I64, 0));
   storeStartPresets(b);
-  memory.clearSlots(state.forgotten());
-  memory.clearSlots(clocks.phases());
+  emitter.clearSlots(state.forgotten());
+  emitter.clearSlots(clocks.phases());
   messages.forget();
-  memory.close();
+  emitter.close();
 }
 
 // RLO and DR come from the host.
-static Event makeEvent(Memory& memory, std::string name, ir::RoutineId procedure, Clocks& clocks) {
-  const ir::RoutineId routine = memory.newRoutine("@" + name);
-  memory.open(routine);
-  memory.r().clear();
-  memory.r().setRlo(memory.b().load(Type::Bit, place(HostCell::Rlo)));
-  memory.r().setDr(memory.b().load(Type::I64, place(HostCell::Dr)));
+static Event makeEvent(Emitter& emitter, std::string name, ir::RoutineId procedure, Clocks& clocks) {
+  const ir::RoutineId routine = emitter.newRoutine("@" + name);
+  emitter.open(routine);
+  emitter.r().clear();
+  emitter.r().setRlo(emitter.b().load(Type::Bit, place(HostCell::Rlo)));
+  emitter.r().setDr(emitter.b().load(Type::I64, place(HostCell::Dr)));
   clocks.callEvent(procedure);
-  memory.close();
+  emitter.close();
   return {std::move(name), routine};
 }
 
-std::vector<Event> makeEvents(Memory& memory, const Procedures& procedures, Clocks& clocks) {
+std::vector<Event> makeEvents(const Program& program, Emitter& emitter, const Procedures& procedures, Clocks& clocks) {
   std::vector<Event> events;
   for (const std::string_view name : kOnEvents)
-    if (const uint32_t procedure = memory.program().procedureNamed(name); procedure != kNone)
-      events.push_back(makeEvent(memory, std::string(name), procedures.routine(procedure), clocks));
+    if (const uint32_t procedure = program.procedureNamed(name); procedure != kNone)
+      events.push_back(makeEvent(emitter, std::string(name), procedures.routine(procedure), clocks));
   for (uint32_t number = 0; number < procedures.events().size(); ++number) {
     const uint32_t procedure = procedures.events()[number];
-    events.push_back(makeEvent(memory,
+    events.push_back(makeEvent(emitter,
                                std::string(nc::technol::kPacketTask) + std::to_string(number) + "." +
-                                   symbolKey(memory.program().procedures[procedure].name),
+                                   symbolKey(program.procedures[procedure].name),
                                procedures.routine(procedure), clocks));
   }
   return events;

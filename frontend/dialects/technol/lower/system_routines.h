@@ -11,7 +11,8 @@ namespace rung::frontend::technol {
 // CLEAR GLOBAL,ALL and CLEAR INTERNAL,ALL.
 class Clears {
 public:
-  Clears(Memory& memory, State& state, Sequences& sequences) : m_(memory), state_(state), sequences_(sequences) {}
+  Clears(Memory& memory, State& state, Sequences& sequences)
+      : memory_(memory), emitter_(memory.emitter()), state_(state), sequences_(sequences) {}
 
   void call(bool global);
   // Those that are called.
@@ -21,7 +22,8 @@ private:
   void clearData(bool local);
   void fillData();
 
-  Memory& m_;
+  Memory& memory_;
+  Emitter& emitter_;
   State& state_;
   Sequences& sequences_;
   ir::RoutineId routines_[2]; // GLOBAL, INTERNAL; invalid where not called
@@ -29,13 +31,14 @@ private:
 
 // Runs before MODULE_INIT: edges are recorded anew (man. l.300), the periods of timed blocks begin, EDEF ties its bits
 // anew, presets of the interface. Call when all code is lowered.
-void makeStart(Memory& memory, ir::RoutineId routine, const State& state, const Clocks& clocks, BitMessages& messages);
+void makeStart(const Program& program, Emitter& emitter, ir::RoutineId routine, const State& state,
+               const Clocks& clocks, BitMessages& messages);
 
 // A procedure that the control calls (man. l.1614-1644, l.3834).
 struct Event {
   std::string name;
   ir::RoutineId routine;
 };
-std::vector<Event> makeEvents(Memory& memory, const Procedures& procedures, Clocks& clocks);
+std::vector<Event> makeEvents(const Program& program, Emitter& emitter, const Procedures& procedures, Clocks& clocks);
 
 } // namespace rung::frontend::technol

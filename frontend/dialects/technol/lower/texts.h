@@ -17,26 +17,25 @@ struct Text {
 
 inline Length roomOf(const Text& text) { return {.fixed = text.area.fixed, .most = text.most, .value = text.room}; }
 // An index that leads outside the text stops the program.
-Text textOf(Memory& m, const Operand& operand);
+Text textOf(Memory& memory, const Operand& operand);
 // Characters before the terminator; a text without one has as many as it holds.
-Length lengthOf(Memory& m, const Text& text);
-void storeTerminator(Memory& m, const Area& area, ir::ValueId at, ir::ValueId cond);
+Length lengthOf(ir::RungBuilder& b, const Text& text);
+void storeTerminator(ir::RungBuilder& b, const Area& area, ir::ValueId at, ir::ValueId cond);
 // Whether one of the operands is a long text: what works on it has a rung of its own.
 bool anyIsLong(std::span<const Operand> operands);
 
 template <class Body>
-void inOwnRung(Memory& m, bool isLong, Body body) {
-  if (isLong) m.out().cut();
+void inOwnRung(RoutineBuilder& out, bool isLong, Body body) {
+  if (isLong) out.cut();
   body();
-  if (isLong) m.out().cut();
+  if (isLong) out.cut();
 }
 
 // Passes over the numbers below `most`: `pass` gets a number, the value and whether it continues, and gives the next
 // two. Blocks after the end are passed over. Gives the last value.
 template <class Pass>
-ir::ValueId passWhile(Memory& m, uint32_t most, ir::ValueId first, Pass pass) {
+ir::ValueId passWhile(ir::RungBuilder& b, uint32_t most, ir::ValueId first, Pass pass) {
   using State = std::array<ir::ValueId, 2>;
-  ir::RungBuilder& b = m.b();
   const auto run = [&](uint32_t count, ir::ValueId start, const State& state) {
     const auto in = b.loop(count, state);
     const auto out = b.endLoop(State(pass(b.add(start, in[0]), in[1], in[2])));

@@ -19,9 +19,9 @@ bool isSequential(ModuleKind kind) { return kind == ModuleKind::BlockInit || kin
 
 Walk::Walk(const Program& program, const TypedProgram& typed, ir::Module& module, uint32_t periodUs, ir::Marks* marks,
            ir::GivenNumbers* given)
-    : program_(program), typed_(typed), l_(program, module, marks, given), start_(l_.newRoutine("@START")),
-      clocks_(l_, l_.state, periodUs) {
-  l_.fault(nc::kTechnolRequested); // by the control (man. l.5361)
+    : program_(program), typed_(typed), l_(program, module, marks, given), start_(l_.emitter.newRoutine("@START")),
+      clocks_(program, l_.emitter, l_.state, periodUs) {
+  l_.emitter.fault(nc::kTechnolRequested); // by the control (man. l.5361)
 }
 
 LoweredProgram Walk::run() {
@@ -29,8 +29,8 @@ LoweredProgram Walk::run() {
   l_.clears.make();
   l_.sequences.makeResets();
   made_.bitMessages = l_.bitMessages.makeTask(made_.bitMessagesWeight);
-  makeStart(l_, start_, l_.state, clocks_, l_.bitMessages);
-  made_.events = makeEvents(l_, l_.procedures, clocks_);
+  makeStart(program_, l_.emitter, start_, l_.state, clocks_, l_.bitMessages);
+  made_.events = makeEvents(program_, l_.emitter, l_.procedures, clocks_);
   return std::move(made_);
 }
 
@@ -42,23 +42,23 @@ void Walk::module(ModuleKind kind) {
   bool present = kind == ModuleKind::Done && program_.filesWith(&SourceFile::finishesDone) != 0;
   for (const ModulePart& p : program_.parts) present = present || p.kind == kind;
   if (!present) return;
-  const ir::RoutineId routine = l_.newRoutine(std::string(moduleName(kind)));
-  l_.open(routine);
+  const ir::RoutineId routine = l_.emitter.newRoutine(std::string(moduleName(kind)));
+  l_.emitter.open(routine);
   prologue(kind);
   for (const ModulePart& p : program_.parts)
     if (p.kind == kind) part(p);
   clocks_.leave(kind);
-  const uint64_t weight = l_.close();
+  const uint64_t weight = l_.emitter.close();
   made_.modules.push_back({kind, routine, weight});
 }
 
 // What the compiler adds before a module.
 void Walk::prologue(ModuleKind kind) {
-  if (kind == ModuleKind::Init) l_.out().call(start_);
+  if (kind == ModuleKind::Init) l_.emitter.out().call(start_);
   if (kind == ModuleKind::Done) {
     l_.b().store(place(HostCell::DonePending),
                  l_.b().constant(Type::I64, program_.filesWith(&SourceFile::finishesDone)));
-    l_.out().cut();
+    l_.emitter.out().cut();
   }
   clocks_.enter(kind);
 }
@@ -85,7 +85,7 @@ void Walk::part(const ModulePart& part) {
 void Walk::bindLabels(uint32_t index) {
   const uint32_t first = program_.statements[index].label;
   for (uint32_t i = first; i < program_.labels.size() && program_.labels[i].statement == index; ++i)
-    l_.out().bind(l_.labelOf(i));
+    l_.emitter.out().bind(l_.labelOf(i));
 }
 
 void Walk::statement(uint32_t index) {
@@ -99,7 +99,7 @@ void Walk::statement(uint32_t index) {
   case Role::MechBegin: return beginMechanism(statement);
   case Role::MechEnd: beginAt(statement); return l_.sequences.end();
   case Role::ProcBegin: return beginProcedure(statement);
-  case Role::ProcEnd: l_.close(); return;
+  case Role::ProcEnd: l_.emitter.close(); return;
   case Role::Timed: return beginTimed(statement, typed);
   case Role::MacroBegin: return l_.useStack();
   default: return; // nothing that runs
@@ -109,27 +109,27 @@ void Walk::statement(uint32_t index) {
 void Walk::code(const Typed& typed) {
   const Statement& statement = l_.statement();
   beginRungFor(typed);
-  l_.out().statement(sourceOf(program_, statement));
+  l_.emitter.out().statement(sourceOf(program_, statement));
   l_.useStack();
   l_.marking.decision(statement);
-  const uint32_t rung = l_.out().openRung();
+  const uint32_t rung = l_.emitter.out().openRung();
   statement.row->lower(l_, typed_.operandsOf(typed), statement.row->variant);
   l_.marking.result(statement, rung);
 }
 
 // An equation begins its own rung; long runs of data instructions are cut where a value is loaded.
 void Walk::beginRungFor(const Typed& typed) {
-  const uint32_t length = l_.out().length();
+  const uint32_t length = l_.emitter.out().length();
   const bool loads = (l_.statement().row->effects & kPushes) != 0 || l_.mnemonic() == "LOD";
   const bool begins = typed.stack.begins && length > 0;
-  if (begins || (loads && length >= kLongRung) || length >= kLongestRung) l_.out().cut();
+  if (begins || (loads && length >= kLongRung) || length >= kLongestRung) l_.emitter.out().cut();
 }
 
 // ---- units ----------------------------------------------------------------------------------------------------------
 
 void Walk::beginAt(const Statement& statement) {
-  l_.out().cut();
-  l_.out().statement(sourceOf(program_, statement));
+  l_.emitter.out().cut();
+  l_.emitter.out().statement(sourceOf(program_, statement));
 }
 
 void Walk::beginMechanism(const Statement& statement) {
@@ -139,9 +139,9 @@ void Walk::beginMechanism(const Statement& statement) {
 
 // The normal flow passes a definition by (man. l.1588-1603): its rungs are a routine of their own.
 void Walk::beginProcedure(const Statement& statement) {
-  l_.out().cut();
-  l_.open(l_.procedures.routine(program_.units[statement.unit].index));
-  l_.out().statement(sourceOf(program_, statement));
+  l_.emitter.out().cut();
+  l_.emitter.open(l_.procedures.routine(program_.units[statement.unit].index));
+  l_.emitter.out().statement(sourceOf(program_, statement));
 }
 
 void Walk::beginTimed(const Statement& statement, const Typed& typed) {
@@ -149,7 +149,7 @@ void Walk::beginTimed(const Statement& statement, const Typed& typed) {
   beginAt(statement);
   const bool inProcedure = program_.procedureOf(statement.unit) != kNone;
   const auto kind = static_cast<TimedKind>(statement.row->variant);
-  l_.out().jump(end, l_.b().not_(clocks_.isDue(kind, kind_, inProcedure)));
+  l_.emitter.out().jump(end, l_.b().not_(clocks_.isDue(kind, kind_, inProcedure)));
 }
 
 } // namespace rung::frontend::technol

@@ -28,7 +28,7 @@ public:
        ir::GivenNumbers* given);
 
   LoweredProgram run();
-  Emitter& emitter() { return l_; }
+  Emitter& emitter() { return l_.emitter; }
 
 private:
   void module(ModuleKind kind);

@@ -8,51 +8,51 @@
 
 namespace rung::frontend::technol {
 
-uint32_t Program::bytesOf(ir::SpaceId space) const {
+uint32_t Declarations::bytesOf(ir::SpaceId space) const {
   // Looked for in all signals once: it is asked for with each operand.
   static const uint32_t interfaceBytes = nc::areaBytes(nc::technolSignals(), "I");
   static const uint32_t blockBytes = nc::areaBytes(nc::technolSignals(), "BLK");
   uint32_t bytes = 0;
   if (space == kInterfaceSpace) bytes = interfaceBytes;
   if (space == kDataSpace) bytes = dataBytes;
-  if (space == kMechanismSpace) bytes = static_cast<uint32_t>(mechanisms.size()) * kMechanismBytes;
+  if (space == kMechanismSpace) bytes = mechanismBytes;
   if (space == kRegisterSpace) bytes = kRegisterBytes;
   if (space == kBlockSpace) bytes = blockBytes * kQueuedBlocks;
   if (space == kExchangeSpace) bytes = exchangedBytes;
   return std::max(1u, bytes);
 }
 
-uint32_t Program::owner(uint32_t unit) const {
-  while (unit != kNone && units[unit].kind == UnitKind::Timed) unit = units[unit].parent;
+UnitId SourceProgram::owner(UnitId unit) const {
+  while (unit.valid() && at(unit).kind == UnitKind::Timed) unit = at(unit).parent;
   return unit;
 }
 
-uint32_t Program::procedureOf(uint32_t unit) const {
-  while (unit != kNone && units[unit].kind != UnitKind::Procedure) unit = units[unit].parent;
-  return unit == kNone ? kNone : units[unit].index;
+uint32_t SourceProgram::procedureOf(UnitId unit) const {
+  while (unit.valid() && at(unit).kind != UnitKind::Procedure) unit = at(unit).parent;
+  return unit.valid() ? at(unit).index : kNone;
 }
 
-bool Program::inMechanism(uint32_t unit) const {
-  const uint32_t at = owner(unit);
-  return at != kNone && units[at].kind == UnitKind::Mechanism;
+bool SourceProgram::inMechanism(UnitId unit) const {
+  const UnitId nearest = owner(unit);
+  return nearest.valid() && at(nearest).kind == UnitKind::Mechanism;
 }
 
-bool Program::mayWait(uint32_t unit) const {
-  const uint32_t at = owner(unit);
-  if (at == kNone) return false;
-  const Unit& u = units[at];
+bool SourceProgram::mayWait(UnitId unit) const {
+  const UnitId nearest = owner(unit);
+  if (!nearest.valid()) return false;
+  const Unit& u = at(nearest);
   if (u.kind == UnitKind::Module) return u.module == ModuleKind::BlockInit || u.module == ModuleKind::BlockDone;
   return u.kind == UnitKind::Mechanism;
 }
 
-int64_t Program::filesWith(bool SourceFile::* statement) const {
+int64_t SourceProgram::filesWith(bool SourceFile::* statement) const {
   uint64_t mask = 0;
   for (size_t i = 0; i < files.size(); ++i)
     if (files[i].*statement) mask |= uint64_t{1} << i;
   return static_cast<int64_t>(mask);
 }
 
-uint32_t Program::procedureNamed(std::string_view name) const {
+uint32_t SourceProgram::procedureNamed(std::string_view name) const {
   for (uint32_t i = 0; i < procedures.size(); ++i)
     if (symbolKey(procedures[i].name) == name) return i;
   return kNone;
@@ -81,10 +81,10 @@ SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens,
   return inOrder && sources.fileOf(first.begin) == sources.fileOf(last.begin) ? join(first, last) : first;
 }
 
-bool takeSign(const Program& program, std::span<const Token> tokens) {
+bool takeSign(std::span<const Token> tokens, Diagnostics& diagnostics) {
   const bool isSign = tokens.size() > 1 && (tokens[0].is('-') || tokens[0].is('+'));
   if (!isSign || tokens[1].kind != TokenKind::Name) return false;
-  program.diagnostics.report(diag::BadIdentifier, join(tokens[0].range(), tokens[1].range()))
+  diagnostics.report(diag::BadIdentifier, join(tokens[0].range(), tokens[1].range()))
           .note("a sign before a name negates its value: write " + std::string(tokens[1].text))
       << spelled(tokens.first(2));
   return true;

@@ -1,4 +1,5 @@
-// A program as it has been read. The reader fills it; check and lowering read it.
+// A program as it has been read: its text in statements and units, and what its declarations take in memory. The reader
+// makes both; for check and lowering they are constant.
 #pragma once
 
 #include <deque>
@@ -11,6 +12,42 @@
 
 namespace rung::frontend::technol {
 
+// Procedures that the control calls: when a message comes up (man. l.1609), at its commands and events (l.1614-1644).
+inline constexpr std::string_view kOnMessage = "_ON_ESET";
+inline constexpr std::string_view kOnEvents[] = {"_ON_CMD", "_ON_EVENT"};
+
+// The text of a program.
+struct SourceProgram {
+  explicit SourceProgram(const SourceManager& sourceManager) : sources(sourceManager) {}
+
+  const SourceManager& sources;
+  std::vector<SourceFile> files;
+  std::vector<Token> tokens;
+  std::deque<std::string> madeTexts; // of tokens that no source holds
+  std::vector<Statement> statements;
+  std::vector<Label> labels;
+  std::vector<Unit> units;
+  std::vector<Mechanism> mechanisms;
+  std::vector<Procedure> procedures;
+  std::vector<ModulePart> parts; // in the order of the sources
+
+  const Unit& at(UnitId unit) const { return units[unit.index]; }
+  std::span<const Token> operandTokens(const Statement& statement) const {
+    return std::span(tokens).subspan(statement.firstToken, statement.tokenCount);
+  }
+  // The nearest unit that is not a timed block.
+  UnitId owner(UnitId unit) const;
+  // The procedure that the unit is or lies in; kNone where that is none.
+  uint32_t procedureOf(UnitId unit) const;
+  bool inMechanism(UnitId unit) const;
+  // Whether statements that wait are allowed in this unit (man. l.2166-2171).
+  bool mayWait(UnitId unit) const;
+  // A bit for each file that has such a statement.
+  int64_t filesWith(bool SourceFile::* statement) const;
+  // By its key; kNone where there is none.
+  uint32_t procedureNamed(std::string_view name) const;
+};
+
 // A declaration that takes memory. Addresses are given when all constants are known, in the order of the source over
 // all files, without gaps (man. l.105).
 struct DataItem {
@@ -19,7 +56,7 @@ struct DataItem {
   uint32_t statement = 0;
   uint32_t cell = kNone;      // symbol
   std::vector<uint32_t> also; // further symbols of the same memory
-  uint32_t firstBit = kNone;  // in Program::itemBits, eight of them; Dfm
+  uint32_t firstBit = kNone;  // in Declarations::itemBits, eight of them; Dfm
   std::vector<uint8_t> image; // of an instance
   uint32_t byte = 0;          // in the data, when it is placed; texts on other memory take none
   uint32_t bytes = 0;
@@ -34,59 +71,21 @@ struct Exchanged {
   uint32_t count = 1; // elements; bytes of a text
 };
 
-// Procedures that the control calls: when a message comes up (man. l.1609), at its commands and events (l.1614-1644).
-inline constexpr std::string_view kOnMessage = "_ON_ESET";
-inline constexpr std::string_view kOnEvents[] = {"_ON_CMD", "_ON_EVENT"};
-
-struct Program {
-  Program(SourceManager& sourceManager, Diagnostics& sink) : sources(sourceManager), diagnostics(sink), symbols(sink) {}
-
-  SourceManager& sources;
-  Diagnostics& diagnostics;
-  SymbolTable symbols;
-  std::vector<SourceFile> files;
-  std::vector<Token> tokens;
-  std::deque<std::string> madeTexts; // of tokens that no source holds
-  std::vector<Statement> statements;
-  std::vector<Label> labels;
-  std::vector<Unit> units;
-  std::vector<Mechanism> mechanisms;
-  std::vector<Procedure> procedures;
-  std::vector<ModulePart> parts; // in the order of the sources
+// The memory of a program. The names that lead to it are in the SymbolTable.
+struct Declarations {
   std::vector<DataItem> items;
+  std::vector<uint32_t> itemBits; // symbols, kNone for an unnamed bit
   std::vector<StructureType> structures;
   std::unordered_set<std::string> structureNames; // keys
-  std::vector<uint32_t> itemBits;                 // symbols, kNone for an unnamed bit
-  uint32_t dataBytes = 0;
   std::vector<Exchanged> exchanged;
-  uint32_t exchangedBytes = 0;
   bool exchangesFast = false; // FAST or FASTEST is asked for
   std::vector<ir::Init> inits;
-  uint32_t included = 0; // files by T_INCLUDE
-  // Files that were included, by path, as they are read: once, so that a mistake in one has one place. Nothing: no
-  // text.
-  std::unordered_map<std::string, std::optional<FileId>> includes;
-  uint32_t expanded = 0;                 // lines of macros
-  std::string axisNames;                 // of axes 1 and up, separated by blanks; empty: those of the rows
-  std::string systemFolder;              // of included files named without a path; may be empty
-  std::vector<std::string> includePaths; // looked through after the folders of the program and of the including file
+  uint32_t dataBytes = 0;
+  uint32_t exchangedBytes = 0;
+  uint32_t mechanismBytes = 0;
 
-  std::span<const Token> operandTokens(const Statement& statement) const {
-    return std::span(tokens).subspan(statement.firstToken, statement.tokenCount);
-  }
   // The size of one of the module's spaces.
   uint32_t bytesOf(ir::SpaceId space) const;
-  // The nearest unit that is not a timed block.
-  uint32_t owner(uint32_t unit) const;
-  // The procedure that the unit is or lies in; kNone where that is none.
-  uint32_t procedureOf(uint32_t unit) const;
-  bool inMechanism(uint32_t unit) const;
-  // Whether statements that wait are allowed in this unit (man. l.2166-2171).
-  bool mayWait(uint32_t unit) const;
-  // A bit for each file that has such a statement.
-  int64_t filesWith(bool SourceFile::* statement) const;
-  // By its key; kNone where there is none.
-  uint32_t procedureNamed(std::string_view name) const;
 };
 
 // Splits at the commas outside brackets, those of structures too; an operand may be empty. No tokens: no
@@ -99,7 +98,7 @@ SourceRange rangeOf(const SourceManager& sources, std::span<const Token> tokens,
 // Tokens as written, one blank where there are some.
 std::string spelled(std::span<const Token> tokens);
 // Whether a declared name has a sign before it, as designations of devices have: -K1. It is reported.
-bool takeSign(const Program& program, std::span<const Token> tokens);
+bool takeSign(std::span<const Token> tokens, Diagnostics& diagnostics);
 // Tokens that are one word, 1A or A-B, where a name should be: that is a bad name, all else no name at all.
 bool isOneWord(std::span<const Token> tokens);
 

@@ -1,5 +1,5 @@
 // The records of a program as it has been read: statements, units, symbols. Plain data with indices into the vectors of
-// Program (program.h).
+// SourceProgram and Declarations (program.h).
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,13 @@
 #include "frontend/dialects/technol/rows/instructions.h"
 #include "ir/core/builder.h"
 #include "ir/core/module.h"
+#include "ir/support/ids.h"
 
 namespace rung::frontend::technol {
 
 inline constexpr uint32_t kNone = UINT32_MAX;
+
+using UnitId = Id<struct UnitTag>; // in SourceProgram::units
 
 struct Statement {
   const Row* row = nullptr; // null: the line holds a label only, or is in error
@@ -23,9 +26,9 @@ struct Statement {
   uint32_t line = 0;
   uint32_t firstToken = 0; // operands
   uint32_t tokenCount = 0;
-  uint32_t label = kNone; // in Program::labels
-  uint32_t unit = kNone;  // innermost, in Program::units
-  uint32_t file = 0;      // in Program::files
+  uint32_t label = kNone; // in SourceProgram::labels
+  UnitId unit;            // innermost
+  uint32_t file = 0;      // in SourceProgram::files
 
   SourceRange range() const { return {pos, {pos.value + length}}; }
 };
@@ -36,7 +39,7 @@ enum class UnitKind : uint8_t { Module, Mechanism, Procedure, Timed };
 struct Unit {
   UnitKind kind = UnitKind::Module;
   ModuleKind module = ModuleKind::Main;
-  uint32_t parent = kNone;
+  UnitId parent;
   uint32_t index = kNone;    // in mechanisms or procedures
   std::string_view name;     // as written
   uint32_t endLabel = kNone; // Timed
@@ -45,29 +48,27 @@ struct Unit {
 
 struct Label {
   std::string_view name;
-  uint32_t unit = kNone;
+  UnitId unit;
   uint32_t statement = 0;
   uint32_t passed = 0; // EX-kind statements and jumps before it
 };
 
 struct Mechanism {
   std::string_view name;
-  uint32_t unit = kNone;
-  uint32_t byte = 0;      // of its bit in the space of the mechanisms; the line number follows
+  UnitId unit;
   bool hasTimers = false; // TIM or TEX: initialising it clears more than the continuation
-  bool open = false;
 };
 
 struct Procedure {
   std::string_view name;
-  uint32_t unit = kNone;
+  UnitId unit;
 };
 
 // A module's text in one file.
 struct ModulePart {
   ModuleKind kind = ModuleKind::Main;
   uint32_t file = 0;
-  uint32_t unit = kNone;
+  UnitId unit;
   uint32_t firstStatement = 0;
   uint32_t endStatement = 0;
   SourceRange end; // of the statement that closes it
@@ -82,7 +83,7 @@ struct StructureMember {
   uint32_t offset = 0;
   uint32_t bytes = 0;
   uint32_t elementBytes = 0;  // as `bytes`, but for an array
-  uint32_t structure = kNone; // of each element, in Program::structures
+  uint32_t structure = kNone; // of each element, in Declarations::structures
 };
 
 struct StructureType {
@@ -107,9 +108,10 @@ struct Symbol {
   uint32_t bit = 0;
   uint32_t size = 0;          // bytes of a cell or a text
   int64_t value = 0;          // of a constant
-  uint32_t index = kNone;     // label, procedure, mechanism; of a structure and of a cell that is one: in structures
+  uint32_t index = kNone;     // label, procedure, mechanism; of a structure and of
+                              // a cell that is one: in structures
   uint32_t mechanism = kNone; // of a cell: the mechanism of the same name
-  uint32_t exchanged = kNone; // of a variable of MAP_* or DEF_*: in Program::exchanged
+  uint32_t exchanged = kNone; // of a variable of MAP_* or DEF_*: in Declarations::exchanged
   const char* structure = ""; // of an interface cell: where its members are
   uint32_t file = 0;
   SourceRange declared;

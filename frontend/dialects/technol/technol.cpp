@@ -43,49 +43,46 @@ class TechnolProgram : public CheckedProgram {
 public:
   TechnolProgram(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
                  Diagnostics& diagnostics)
-      : files_(files.begin(), files.end()), options_(options), program_(sources, diagnostics) {}
-
-  void check() {
-    if (const auto folder = options_.config.find("system_folder"); folder != options_.config.end())
-      program_.systemFolder = folder->second;
-    program_.axisNames = axisNamesOf(options_);
-    program_.includePaths = options_.includePaths;
-    technol::readProgram(program_, files_);
-    period_ = periodOf(options_, program_.diagnostics);
-    typed_ = technol::checkProgram(program_);
-    analysis_ = technol::analysisOf(program_, typed_);
+      : files_(files.begin(), files.end()), options_(options), source_(sources), symbols_(diagnostics) {
+    technol::ReadOptions reading{.includePaths = options.includePaths};
+    if (const auto folder = options.config.find("system_folder"); folder != options.config.end())
+      reading.systemFolder = folder->second;
+    technol::readProgram({sources, reading, diagnostics, source_, declarations_, symbols_}, files);
+    period_ = periodOf(options, diagnostics);
+    typed_.emplace(technol::checkProgram(source_, declarations_, symbols_, axisNamesOf(options), diagnostics));
+    analysis_ = technol::analysisOf(*typed_);
   }
 
   const Analysis& analysis() const override { return analysis_; }
 
   std::unique_ptr<ir::Module> build() override {
     auto module = std::make_unique<ir::Module>();
-    module->name = program_.sources.name(files_[0]);
+    module->name = source_.sources.name(files_[0]);
     module->dialect = "technol";
-    for (const FileId file : files_) module->files.emplace_back(program_.sources.name(file));
-    technol::addSpaces(program_, *module);
-    technol::Walk walk(program_, typed_, *module, period_, options_.marks, options_.given);
+    for (const FileId file : files_) module->files.emplace_back(source_.sources.name(file));
+    technol::addSpaces(declarations_, *module);
+    technol::Walk walk(*typed_, *module, period_, options_.marks, options_.given);
     const technol::LoweredProgram lowered = walk.run();
-    technol::addTasks(program_, lowered, walk.emitter(), period_);
-    technol::addSymbols(program_, *module, options_.given != nullptr);
-    technol::numberRungs(program_, *module);
+    technol::addTasks(declarations_, lowered, walk.emitter(), period_);
+    technol::addSymbols(*typed_, *module, options_.given != nullptr);
+    technol::numberRungs(source_, *module);
     return module;
   }
 
 private:
   const std::vector<FileId> files_;
   const CompileOptions options_;
-  technol::Program program_;
+  technol::SourceProgram source_;
+  technol::Declarations declarations_;
+  technol::SymbolTable symbols_;
   uint32_t period_ = technol::kDefaultPeriodUs;
-  technol::TypedProgram typed_;
+  std::optional<technol::TypedProgram> typed_;
   Analysis analysis_;
 };
 
 std::unique_ptr<CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,
                                       const CompileOptions& options, Diagnostics& diagnostics) {
-  auto program = std::make_unique<TechnolProgram>(sources, files, options, diagnostics);
-  program->check();
-  return program;
+  return std::make_unique<TechnolProgram>(sources, files, options, diagnostics);
 }
 
 // Each once, in the order of the files.
@@ -94,10 +91,13 @@ std::vector<std::string> included(SourceManager& sources, std::span<const FileId
   std::set<std::string_view> seen;
   for (const FileId file : files) seen.insert(sources.name(file));
   Diagnostics unheard;
-  technol::Program program(sources, unheard);
-  program.includePaths = options.includePaths;
+  technol::SourceProgram program(sources);
+  technol::Declarations declarations;
+  technol::SymbolTable symbols(unheard);
   const auto before = static_cast<uint32_t>(sources.fileCount());
-  technol::readProgram(program, files); // adds the files that it reads
+  // Adds the files that it reads.
+  technol::readProgram({sources, {.includePaths = options.includePaths}, unheard, program, declarations, symbols},
+                       files);
   std::vector<std::string> names;
   for (uint32_t i = before; i < sources.fileCount(); ++i)
     if (const std::string_view name = sources.name(FileId{i}); seen.insert(name).second) names.emplace_back(name);

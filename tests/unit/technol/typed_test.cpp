@@ -14,18 +14,14 @@ using namespace frontend::technol;
 class Checked {
 public:
   explicit Checked(const std::string& text)
-      : file_(sources_.addBuffer("main.plc", text)), program_(sources_, diagnostics_) {
-    readProgram(program_, std::span(&file_, 1));
-    typed_ = checkProgram(program_);
-  }
+      : file_(sources_.addBuffer("main.plc", text)), source_(sources_), symbols_(diagnostics_), typed_(check()) {}
 
   const TypedProgram& typed() const { return typed_; }
-  const Program& program() const { return program_; }
   const Diagnostics& diagnostics() const { return diagnostics_; }
   // The first statement of an instruction.
   const Typed& of(std::string_view mnemonic, int number = 0) const {
-    for (size_t i = 0; i < program_.statements.size(); ++i)
-      if (program_.statements[i].row && program_.statements[i].row->info.mnemonic == mnemonic && number-- == 0)
+    for (size_t i = 0; i < source_.statements.size(); ++i)
+      if (source_.statements[i].row && source_.statements[i].row->info.mnemonic == mnemonic && number-- == 0)
         return typed_.statements[i];
     ADD_FAILURE() << mnemonic;
     return typed_.statements[0];
@@ -35,15 +31,22 @@ public:
   std::vector<std::string> names(const Operand& operand) const {
     std::vector<std::string> found;
     for (const frontend::NameUse& use : typed_.namesOf(operand))
-      found.push_back(std::string(text(use.range)) + "=" + std::string(program_.symbols[use.definition].name));
+      found.push_back(std::string(text(use.range)) + "=" + std::string(symbols_[use.definition].name));
     return found;
   }
 
 private:
+  TypedProgram check() {
+    readProgram({sources_, {}, diagnostics_, source_, declarations_, symbols_}, std::span(&file_, 1));
+    return checkProgram(source_, declarations_, symbols_, "", diagnostics_);
+  }
+
   SourceManager sources_;
   Diagnostics diagnostics_;
   FileId file_;
-  Program program_;
+  SourceProgram source_;
+  Declarations declarations_;
+  SymbolTable symbols_;
   TypedProgram typed_;
 };
 

@@ -96,10 +96,10 @@ bool isWiderWrite(const Operand& operand) {
   return operand.form == Operand::Form::Cell && operand.prefixed && operand.access != Access::Read;
 }
 
-void addOperand(const TypedProgram& typed, const Operand& operand, bool isSet, Analysis& analysis) {
+void addOperand(const TypedProgram& program, const Operand& operand, bool isSet, Analysis& analysis) {
   const NamedPlace place = placeOf(operand);
   if (place.bits == 0) return;
-  const std::span<const NameUse> names = typed.namesOf(operand);
+  const std::span<const NameUse> names = program.namesOf(operand);
   analysis.use({.range = operand.range,
                 .base = names.empty() ? kNoDefinition : names.front().definition,
                 .place = place,
@@ -111,24 +111,24 @@ void addOperand(const TypedProgram& typed, const Operand& operand, bool isSet, A
 
 } // namespace
 
-Analysis analysisOf(const Program& program, const TypedProgram& typed) {
+Analysis analysisOf(const TypedProgram& program) {
   Analysis analysis;
   for (const Symbol& symbol : program.symbols.all()) {
-    const uint32_t index = analysis.define(definitionOf(program.sources, symbol)); // that of the symbol too
+    const uint32_t index = analysis.define(definitionOf(program.source.sources, symbol)); // that of the symbol too
     analysis.definition(index).usedByControl = isCalledByControl(symbol);
     addTarget(symbol, index, analysis.definition(index).range, true, analysis);
   }
-  for (const std::vector<NameUse>* names : {&program.symbols.uses(), &typed.names})
+  for (const std::vector<NameUse>* names : {&program.symbols.uses(), &program.names})
     for (const NameUse& name : *names) {
       analysis.use(name.range, name.definition);
       addTarget(program.symbols[name.definition], name.definition, name.range, false, analysis);
     }
-  for (const Statement& statement : program.statements)
+  for (const Statement& statement : program.source.statements)
     if (statement.row != nullptr) analysis.use(InstructionUse{statement.range(), &statement.row->info});
-  for (uint32_t i = 0; i < typed.statements.size(); ++i) {
-    const std::span<const Operand> operands = typed.operandsOf(typed.statements[i]);
-    const bool isSet = setsBits(program.statements[i], operands);
-    for (const Operand& operand : operands) addOperand(typed, operand, isSet, analysis);
+  for (uint32_t i = 0; i < program.statements.size(); ++i) {
+    const std::span<const Operand> operands = program.operandsOf(program.statements[i]);
+    const bool isSet = setsBits(program.source.statements[i], operands);
+    for (const Operand& operand : operands) addOperand(program, operand, isSet, analysis);
   }
   analysis.settle();
   return analysis;

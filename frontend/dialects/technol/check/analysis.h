@@ -6,6 +6,6 @@
 
 namespace rung::frontend::technol {
 
-Analysis analysisOf(const Program& program, const TypedProgram& typed);
+Analysis analysisOf(const TypedProgram& program);
 
 } // namespace rung::frontend::technol

@@ -8,7 +8,7 @@ namespace rung::frontend::technol {
 
 class ProcedureCalls {
 public:
-  explicit ProcedureCalls(const Program& program)
+  explicit ProcedureCalls(const SourceProgram& program)
       : graph_(program.procedures.size()), onMessage_(program.procedureNamed(kOnMessage)) {}
 
   // A call in a procedure, or outside all of them (kNone).
@@ -20,12 +20,12 @@ public:
     if (onMessage_ != kNone && caller != onMessage_) add(caller, onMessage_, at);
   }
   // Reports circles, and where there are none chains of calls that are too long.
-  void check(const Program& program) const;
+  void check(const SourceProgram& program, Diagnostics& diagnostics) const;
 
 private:
-  void checkDepth(const Program& program, std::span<const uint32_t> calleesFirst) const;
+  void checkDepth(std::span<const uint32_t> calleesFirst, Diagnostics& diagnostics) const;
 
-  CallGraph graph_; // of Program::procedures
+  CallGraph graph_; // of SourceProgram::procedures
   uint32_t onMessage_ = kNone;
 };
 

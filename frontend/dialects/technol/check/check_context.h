@@ -8,16 +8,18 @@
 namespace rung::frontend::technol {
 
 struct CheckContext {
-  Program& program;
+  const SourceProgram& program;
+  const Declarations& declarations;
+  Diagnostics& diagnostics;
   const Statement& statement;
   Equation& equation;
   Mixing& mixing;
   ProcedureCalls& calls;
 
-  DiagBuilder report(Diag id, SourceRange at) const { return program.diagnostics.report(id, at); }
+  DiagBuilder report(Diag id, SourceRange at) const { return diagnostics.report(id, at); }
   // False: the report is wrong-operand-kind.
   bool wrongKind(const Operand& operand, std::string_view is, std::string_view wanted) const {
-    return reportWrongKind(program.diagnostics, operand, is, wanted);
+    return reportWrongKind(diagnostics, operand, is, wanted);
   }
 };
 

@@ -10,9 +10,9 @@ namespace {
 // Of a module in one file: nothing is open where it begins.
 class PartChecker {
 public:
-  PartChecker(Program& program, TypedProgram& typed, OperandParser& parser, ProcedureCalls& calls)
-      : program_(program), typed_(typed), parser_(parser), calls_(calls), equation_(program.diagnostics),
-        lost_(program.diagnostics), mixing_(program.diagnostics) {}
+  PartChecker(TypedProgram& typed, OperandParser& parser, ProcedureCalls& calls, Diagnostics& diagnostics)
+      : program_(typed.source), typed_(typed), parser_(parser), calls_(calls), diagnostics_(diagnostics),
+        equation_(diagnostics), lost_(diagnostics), mixing_(diagnostics) {}
 
   void check(const ModulePart& part) {
     for (uint32_t i = part.firstStatement; i < part.endStatement && i < program_.statements.size(); ++i)
@@ -26,10 +26,11 @@ private:
   bool parse(const Statement& statement, Typed& typed);
   void code(const Statement& statement, Typed& typed);
 
-  Program& program_;
+  const SourceProgram& program_;
   TypedProgram& typed_;
   OperandParser& parser_;
   ProcedureCalls& calls_;
+  Diagnostics& diagnostics_;
   Equation equation_;
   LostRegisters lost_;
   Mixing mixing_;
@@ -83,22 +84,24 @@ void PartChecker::code(const Statement& statement, Typed& typed) {
   lost_.begin(statement, readsDr(row, typed_.operandsOf(typed)));
   typed.stack = equation_.begin(statement);
   if (parsed && row.check != nullptr)
-    row.check({program_, statement, equation_, mixing_, calls_}, typed_.operandsOf(typed), row.variant);
+    row.check({program_, typed_.declarations, diagnostics_, statement, equation_, mixing_, calls_},
+              typed_.operandsOf(typed), row.variant);
   equation_.finish(row);
   lost_.finish(row, (row.effects & kWaits) != 0 && program_.mayWait(statement.unit));
 }
 
 } // namespace
 
-TypedProgram checkProgram(Program& program) {
-  TypedProgram typed;
+TypedProgram checkProgram(const SourceProgram& program, const Declarations& declarations, SymbolTable& symbols,
+                          std::string_view axisNames, Diagnostics& diagnostics) {
+  TypedProgram typed{.source = program, .declarations = declarations, .symbols = symbols};
   typed.statements.resize(program.statements.size());
-  OperandParser parser(program, typed.names);
+  OperandParser parser(typed, symbols, axisNames, diagnostics);
   ProcedureCalls calls(program);
   for (const ModulePart& part : program.parts)
-    if (part.kind != ModuleKind::Data) PartChecker(program, typed, parser, calls).check(part);
-  calls.check(program);
-  program.symbols.reportUndefined();
+    if (part.kind != ModuleKind::Data) PartChecker(typed, parser, calls, diagnostics).check(part);
+  calls.check(program, diagnostics);
+  symbols.reportUndefined();
   return typed;
 }
 

@@ -62,7 +62,7 @@ bool OperandParser::address(std::span<const Token> tokens, Address& out) {
       if (tokens[end].is('(') || tokens[end].is('[')) ++depth;
       if (tokens[end].is(')') || tokens[end].is(']')) --depth;
       if (depth > kMostBrackets) {
-        program_.diagnostics.report(diag::TooDeep, tokens[end].range()) << "brackets" << kMostBrackets;
+        diagnostics_.report(diag::TooDeep, tokens[end].range()) << "brackets" << kMostBrackets;
         return false;
       }
       if (depth == 0 && (tokens[end].is('+') || tokens[end].is('-'))) break;
@@ -92,7 +92,7 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
     const std::optional<Number> number = parseNumber(head.text);
     const bool pointAfter = tokens.size() > 1 && tokens[1].is('.'); // 1. and 5.A
     if (!number || pointAfter) {
-      reportBadNumber(head, std::string(head.text) + (pointAfter ? "." : ""), program_.diagnostics);
+      reportBadNumber(head, std::string(head.text) + (pointAfter ? "." : ""), diagnostics_);
       return false;
     }
     out.isReal = out.isReal || number->isReal;
@@ -102,16 +102,16 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
   } else if (head.kind == TokenKind::Text) {
     const std::optional<uint8_t> character = characterByte(head.text);
     if (!character) {
-      if (checkCharacters(head, program_.diagnostics))
-        program_.diagnostics.report(diag::WrongOperandKind, head.range())
-            << "'" + std::string(head.text) + "'" << "a text" << "a value or one character";
+      if (checkCharacters(head, diagnostics_))
+        diagnostics_.report(diag::WrongOperandKind, head.range()) << "'" + std::string(head.text) + "'" << "a text"
+                                                                  << "a value or one character";
       return false;
     }
     out.byte += int64_t{sign} * *character;
   } else if (head.kind == TokenKind::Name) {
     if (!addSymbol(head, sign, out)) return false;
   } else {
-    return !reportForeignNumber(tokens, program_.diagnostics) && syntax("a name", tokens);
+    return !reportForeignNumber(tokens, diagnostics_) && syntax("a name", tokens);
   }
   for (; i < tokens.size();) {
     if (tokens[i].is('[') && i + 2 < tokens.size() && isBx(tokens[i + 1]) && tokens[i + 2].is(']') && out.hasBase) {
@@ -130,10 +130,10 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
 bool OperandParser::addSymbol(const Token& name, int sign, Address& out) {
   const uint32_t index = require(name);
   if (index == kNone) return false;
-  const Symbol& symbol = program_.symbols[index];
+  const Symbol& symbol = symbols_[index];
   if (symbol.broken) return false;
   const auto wrong = [&](std::string_view is) {
-    program_.diagnostics.report(diag::WrongOperandKind, name.range()) << name.text << is << "a variable or a constant";
+    diagnostics_.report(diag::WrongOperandKind, name.range()) << name.text << is << "a variable or a constant";
     return false;
   };
   switch (symbol.kind) {
@@ -170,7 +170,7 @@ bool OperandParser::addSymbol(const Token& name, int sign, Address& out) {
 // A member of the structure that the address has brings its type, an array none.
 bool OperandParser::addOwnMember(const Token& member, Address& out) {
   const std::string key = symbolKey(member.text);
-  for (const StructureMember& m : program_.structures[out.own].members) {
+  for (const StructureMember& m : declarations_.structures[out.own].members) {
     if (m.key != key) continue;
     const bool one = m.structure == kNone && m.bytes == m.elementBytes;
     out.byte += m.offset;
@@ -178,7 +178,7 @@ bool OperandParser::addOwnMember(const Token& member, Address& out) {
     out.type = one ? ir::intOfBytes(m.bytes) : ir::Type::None;
     if (m.bytes == 8) out.type = ir::Type::None; // a QWORD or a REAL
     out.own = m.structure;
-    note(member, program_.symbols.find(member.text, file_));
+    note(member, symbols_.find(member.text, file_));
     return true;
   }
   return false;
@@ -187,17 +187,17 @@ bool OperandParser::addOwnMember(const Token& member, Address& out) {
 // The parts of a CAN packet are known without a declaration: the manual's examples use them on plain texts of 12 bytes
 // (man. l.3868-3874, l.3892-4046).
 bool OperandParser::addPacketMember(const Token& member, Address& out) {
-  const uint32_t found = program_.symbols.findMember("TCANMSGS", member.text);
+  const uint32_t found = symbols_.findMember("TCANMSGS", member.text);
   if (found == kNone) return false;
-  out.byte += program_.symbols[note(member, found)].byte;
+  out.byte += symbols_[note(member, found)].byte;
   return true;
 }
 
 // A member of an interface structure brings its type, too; after any other address a member is a constant offset.
 bool OperandParser::addMember(const Token& member, Address& out) {
   if (out.own != kNone && addOwnMember(member, out)) return true;
-  if (const uint32_t found = program_.symbols.findMember(out.structure, member.text); found != kNone) {
-    const Symbol& inside = program_.symbols[note(member, found)];
+  if (const uint32_t found = symbols_.findMember(out.structure, member.text); found != kNone) {
+    const Symbol& inside = symbols_[note(member, found)];
     out.byte += inside.byte;
     out.type = inside.type;
     out.isBit = inside.kind == SymbolKind::Bit;
@@ -207,13 +207,13 @@ bool OperandParser::addMember(const Token& member, Address& out) {
     out.structure = inside.structure;
     return true;
   }
-  const uint32_t index = note(member, program_.symbols.find(member.text, file_));
+  const uint32_t index = note(member, symbols_.find(member.text, file_));
   if (index == kNone && addPacketMember(member, out)) return true;
-  if (index == kNone) return program_.symbols.noteUndefined(member, file_, {.structure = out.structure}), false;
-  const Symbol& symbol = program_.symbols[index];
+  if (index == kNone) return symbols_.noteUndefined(member, file_, {.structure = out.structure}), false;
+  const Symbol& symbol = symbols_[index];
   if (symbol.broken) return false;
   if (symbol.kind != SymbolKind::Constant) {
-    program_.diagnostics.report(diag::WrongOperandKind, member.range())
+    diagnostics_.report(diag::WrongOperandKind, member.range())
         << member.text << "no member" << "a member of a structure";
     return false;
   }
@@ -235,13 +235,13 @@ bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t byte
   out.indexed = address.indexed;
   // An index is checked when it is used; only what no index reaches is wrong now.
   const int64_t slack = address.indexed ? 0xFFFF : 0;
-  if (byte < -slack || byte + bytes > program_.bytesOf(address.space) + slack) {
-    program_.diagnostics.report(diag::AddressOutOfRange, out.range)
+  if (byte < -slack || byte + bytes > declarations_.bytesOf(address.space) + slack) {
+    diagnostics_.report(diag::AddressOutOfRange, out.range)
         << spell(out) << (address.space == kInterfaceSpace ? "the interface" : "the program's data");
     return false;
   }
   if (leavesItsCell(address, byte, bytes)) {
-    program_.diagnostics.report(diag::AddressOutOfRange, out.range) << spell(out) << address.name;
+    diagnostics_.report(diag::AddressOutOfRange, out.range) << spell(out) << address.name;
     return false;
   }
   if (address.indexed)
@@ -255,7 +255,7 @@ bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t byte
 
 // WR -X, EDGE_H -X
 bool OperandParser::reportNegated(bool writes, const Operand& out) {
-  program_.diagnostics.report(diag::WrongOperandKind, out.range)
+  diagnostics_.report(diag::WrongOperandKind, out.range)
           .note(writes ? "what is written is inverted before: CA and WR X, or MOVR X,-Y"
                        : "the other edge of the bit is that of EDGE_L or EDGE_H")
       << spelled(out.tokens) << "negated" << "a plain bit";
@@ -265,7 +265,7 @@ bool OperandParser::reportNegated(bool writes, const Operand& out) {
 // I0.0, BITS.8
 bool OperandParser::noBitName(std::span<const Token> tokens, SourceRange point) {
   const std::string found = tokens.empty() ? "nothing" : "'" + std::string(tokens[0].text) + "'";
-  DiagBuilder report = program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, tokens, point));
+  DiagBuilder report = diagnostics_.report(diag::SyntaxError, rangeOf(program_.sources, tokens, point));
   report << "the name of a bit after the point" << found;
   if (!tokens.empty() && tokens[0].kind == TokenKind::Number)
     report.note("bits have names, which DFM declares: BYTE.NAME is the bit of this name in a byte");
@@ -275,7 +275,7 @@ bool OperandParser::noBitName(std::span<const Token> tokens, SourceRange point) 
 // NOT X
 bool OperandParser::negatedByWord(bool mayBeNegated, bool writes, std::span<const Token> tokens, const Operand& out) {
   if (!mayBeNegated) return reportNegated(writes, out);
-  DiagBuilder report = program_.diagnostics.report(diag::SyntaxError, tokens[0].range());
+  DiagBuilder report = diagnostics_.report(diag::SyntaxError, tokens[0].range());
   report << "a bit" << "'" + std::string(tokens[0].text) + "'";
   report.note("a bit is negated by a '-'").fix({tokens[0].pos, tokens[1].pos}, "-");
   return false;
@@ -310,25 +310,25 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
 bool OperandParser::flag(const Token& number, Operand& out) {
   const std::optional<Number> parsed = parseNumber(number.text);
   if (!parsed) {
-    reportBadNumber(number, number.text, program_.diagnostics);
+    reportBadNumber(number, number.text, diagnostics_);
     return false;
   }
   out.form = Operand::Form::Integer;
   out.value = parsed->value;
   if (!parsed->isReal && (out.value == 0 || out.value == 1)) return true;
-  program_.diagnostics.report(diag::OperandRange, out.range) << number.text << "0 or 1";
+  diagnostics_.report(diag::OperandRange, out.range) << number.text << "0 or 1";
   return false;
 }
 
 uint32_t OperandParser::bitSymbol(const Token& name) {
-  const uint32_t index = program_.symbols.findWeight(name.text, file_);
+  const uint32_t index = symbols_.findWeight(name.text, file_);
   return index != kNone ? note(name, index) : require(name);
 }
 
 bool OperandParser::bareBit(const OperandInfo& info, const OperandKind& kind, const Token& name, Operand& out) {
   const uint32_t index = bitSymbol(name);
   if (index == kNone) return false;
-  const Symbol& symbol = program_.symbols[index];
+  const Symbol& symbol = symbols_[index];
   if (symbol.broken) return false;
   out.form = Operand::Form::Bit;
   if (symbol.mechanism != kNone) { // the name of a cell and a mechanism
@@ -350,13 +350,13 @@ bool OperandParser::bitAt(const OperandInfo& info, std::span<const Token> where,
   const bool hasBase =
       own ? where.size() == 1 || this->address(where.subspan(1), address) : this->address(where, address);
   if (!hasBase) return false;
-  const uint32_t member = address.hasBase ? program_.symbols.findMember(address.structure, name.text) : kNone;
-  const uint32_t index = note(name, member != kNone ? member : program_.symbols.findWeight(name.text, file_));
-  if (index == kNone) return program_.symbols.noteUndefined(name, file_, {.structure = address.structure}), false;
-  const Symbol& symbol = program_.symbols[index];
+  const uint32_t member = address.hasBase ? symbols_.findMember(address.structure, name.text) : kNone;
+  const uint32_t index = note(name, member != kNone ? member : symbols_.findWeight(name.text, file_));
+  if (index == kNone) return symbols_.noteUndefined(name, file_, {.structure = address.structure}), false;
+  const Symbol& symbol = symbols_[index];
   if (symbol.broken) return false;
   if (symbol.kind != SymbolKind::Bit && symbol.kind != SymbolKind::Mechanism) {
-    program_.diagnostics.report(diag::WrongOperandKind, name.range()) << name.text << describe(symbol) << "a bit";
+    diagnostics_.report(diag::WrongOperandKind, name.range()) << name.text << describe(symbol) << "a bit";
     return false;
   }
   if (own && (address.hasBase || !symbol.space.valid())) return syntax("a number of bytes after $", where);
@@ -389,7 +389,7 @@ bool OperandParser::block(const OperandInfo& info, std::span<const Token> tokens
   }
   if (rest.empty() || rest[0].kind != TokenKind::Name) return syntax("an element of a block", rest);
   const nc::Signal* element = nc::findSignal(nc::technolSignals(), "BLK[]." + std::string(rest[0].text), "BLK");
-  if (!element) return program_.symbols.noteUndefined(rest[0], file_, {.structure = "BLK"}), false;
+  if (!element) return symbols_.noteUndefined(rest[0], file_, {.structure = "BLK"}), false;
   if ((element->type == nc::SignalType::Bit) != wantsBit)
     return wrongKind(out, wantsBit ? "a value" : "a bit", wantsBit ? "a bit" : "a value");
   int64_t k = 0;
@@ -398,11 +398,11 @@ bool OperandParser::block(const OperandInfo& info, std::span<const Token> tokens
   else if (rest.size() != 1)
     return syntax("an element of a block", rest.subspan(1));
   if (number->value < 0 || number->value >= kQueuedBlocks || k < 0 || k >= element->count) {
-    program_.diagnostics.report(diag::OperandRange, out.range) << spell(out) << "the queue of command blocks";
+    diagnostics_.report(diag::OperandRange, out.range) << spell(out) << "the queue of command blocks";
     return false;
   }
   if (!checkWrite(info, Protection::Error, spell(out), out.range)) return false;
-  const uint32_t blockBytes = program_.bytesOf(kBlockSpace) / kQueuedBlocks;
+  const uint32_t blockBytes = declarations_.bytesOf(kBlockSpace) / kQueuedBlocks;
   Address address;
   address.space = kBlockSpace;
   address.indexed = byRegister;

@@ -1,7 +1,7 @@
 // Operands other than addresses (see operand_parser.h).
 #include "frontend/dialects/technol/check/operand_parser.h"
+#include "frontend/dialects/technol/read/constant.h"
 #include "frontend/dialects/technol/read/encoding.h"
-#include "frontend/dialects/technol/read/reader.h"
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/technol.h"
 #include "ir/support/similar.h"
@@ -77,7 +77,7 @@ bool OperandParser::syntax(std::string_view expected, std::span<const Token> tok
 
 bool OperandParser::syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise) {
   const std::string found = tokens.empty() ? "nothing" : "'" + std::string(tokens[0].text) + "'";
-  program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, tokens, otherwise)) << expected << found;
+  diagnostics_.report(diag::SyntaxError, rangeOf(program_.sources, tokens, otherwise)) << expected << found;
   return false;
 }
 
@@ -105,7 +105,7 @@ bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out)
   statement_ = &statement;
   file_ = statement.file;
   const auto operands = splitOperands(program_.operandTokens(statement));
-  if (!countFits(statement.row->info, operands.size(), statement.range(), program_.diagnostics)) return false;
+  if (!countFits(statement.row->info, operands.size(), statement.range(), diagnostics_)) return false;
   const auto infos = statement.row->info.operands.all();
   bool ok = true;
   for (size_t i = 0; i < operands.size(); ++i) {
@@ -149,12 +149,12 @@ bool OperandParser::waitOperands(std::span<Operand> operands) {
   Operand& time = operands[1];
   if (count.prefixed && time.isConstant()) {
     const std::string prefix = std::string(prefixOf(naturalPrefix(count.type)).name) + ".";
-    program_.diagnostics.report(diag::InvalidTypePrefix, count.range) << prefix << "a constant time";
+    diagnostics_.report(diag::InvalidTypePrefix, count.range) << prefix << "a constant time";
     return false;
   }
   const int64_t most = count.type == ir::Type::I8 ? 0xFF : 0xFFFF;
   if (time.isConstant() && (time.value < 0 || time.value > most)) {
-    program_.diagnostics.report(diag::OperandRange, time.range) << time.value << "0 to " + std::to_string(most);
+    diagnostics_.report(diag::OperandRange, time.range) << time.value << "0 to " + std::to_string(most);
     return false;
   }
   return true;
@@ -165,15 +165,14 @@ bool OperandParser::checkWrite(const OperandInfo& info, Protection protection, s
   const bool writes = info.access == Access::Write || info.access == Access::ReadWrite;
   if (!writes || protection == Protection::None) return true;
   const bool error = protection == Protection::Error;
-  program_.diagnostics.report(diag::WriteToReadonly, range).severity(error ? Severity::Error : Severity::Warning)
-      << name;
+  diagnostics_.report(diag::WriteToReadonly, range).severity(error ? Severity::Error : Severity::Warning) << name;
   return !error;
 }
 
 uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
   if (tokens.size() < 2 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return 0;
   if (text::equalsIgnoringCase(tokens[0].text, "CNTS")) {
-    program_.diagnostics.report(diag::CntsPrefix, tokens[0].range()).fix(tokens[0].range(), "CNST");
+    diagnostics_.report(diag::CntsPrefix, tokens[0].range()).fix(tokens[0].range(), "CNST");
     tokens = tokens.subspan(2);
     return kCnst;
   }
@@ -186,10 +185,10 @@ uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
 // WRD.CELL, DWORD.CELL: nothing has this name, but a prefix has nearly.
 bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
   if (tokens.size() < 3 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return false;
-  if (program_.symbols.find(tokens[0].text, file_) != kNone) return false;
+  if (symbols_.find(tokens[0].text, file_) != kNone) return false;
   Likely meant = similarPrefix(tokens[0].text, true);
   if (meant.word.empty()) meant = similarPrefix(tokens[0].text, false);
-  if (!meant.word.empty()) program_.symbols.noteUndefined(tokens[0], file_, {.meant = meant});
+  if (!meant.word.empty()) symbols_.noteUndefined(tokens[0], file_, {.meant = meant});
   return !meant.word.empty();
 }
 
@@ -221,8 +220,7 @@ bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, c
                              Operand& out) {
   if (!kind.constant) return wrongKind(out, "a constant", "a variable");
   if (prefix == kQword || prefix == kReal || prefix == kHigh) {
-    program_.diagnostics.report(diag::InvalidTypePrefix, out.range)
-        << std::string(prefixOf(prefix).name) + "." << "a constant";
+    diagnostics_.report(diag::InvalidTypePrefix, out.range) << std::string(prefixOf(prefix).name) + "." << "a constant";
     return false;
   }
   if (address.isReal) {
@@ -245,7 +243,7 @@ bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, c
   const int64_t least = ranged ? info.min : -(int64_t{1} << (width - 1));
   const int64_t most = ranged ? info.max : (int64_t{1} << width) - 1;
   if (out.value >= least && out.value <= most) return true;
-  program_.diagnostics.report(diag::OperandRange, out.range)
+  diagnostics_.report(diag::OperandRange, out.range)
       << out.value << std::to_string(least) + " to " + std::to_string(most);
   return false;
 }
@@ -262,7 +260,7 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
   if (out.type == ir::Type::None && real && !address.isText) out.type = ir::Type::F64;
   if (out.type == ir::Type::None) {
     if (address.isText) return wrongKind(out, "a text", "a cell");
-    program_.diagnostics.report(diag::UntypedOperand, out.range) << address.name;
+    diagnostics_.report(diag::UntypedOperand, out.range) << address.name;
     return false;
   }
   if (!ir::contains(kind.types, out.type))
@@ -282,7 +280,7 @@ bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens
   }
   const uint32_t index = require(tokens[0]);
   if (index == kNone) return false;
-  const Symbol& symbol = program_.symbols[index];
+  const Symbol& symbol = symbols_[index];
   if (symbol.broken) return false;
   const bool shared = kind.symbol == SymbolKind::Mechanism && symbol.mechanism != kNone;
   if (symbol.kind != kind.symbol && !shared) return wrongKind(out, describe(symbol), "a " + std::string(kind.name));
@@ -298,7 +296,7 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
   if (kind.ownName) {
     if (tokens.size() == 1 && text::equalsIgnoringCase(tokens[0].text, info.name))
       return out.form = Operand::Form::Register, true;
-    program_.diagnostics.report(diag::UnsupportedAssembler, statement_->range()).note("in this language: LOD and STO")
+    diagnostics_.report(diag::UnsupportedAssembler, statement_->range()).note("in this language: LOD and STO")
         << statement_->row->info.mnemonic;
     return false;
   }
@@ -311,23 +309,24 @@ bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, st
     return true;
   }
   if (width) {
-    program_.diagnostics.report(diag::InvalidTypePrefix, out.range).note(kind.doc)
+    diagnostics_.report(diag::InvalidTypePrefix, out.range).note(kind.doc)
         << width->name << statement_->row->info.mnemonic;
     return false;
   }
   if (!kind.constant) return syntax(kind.doc.substr(0, kind.doc.find(';')), tokens);
-  const std::optional<int64_t> number = constantValue(program_, file_, tokens, statement_->range(), &names_);
+  const std::optional<int64_t> number =
+      ConstantReader(symbols_, diagnostics_, file_, &names_).value(tokens, statement_->range());
   if (!number) return false;
   out.form = Operand::Form::Integer;
   out.value = *number;
   if (*number >= info.min && *number <= info.max) return true;
-  program_.diagnostics.report(diag::OperandRange, out.range)
+  diagnostics_.report(diag::OperandRange, out.range)
       << *number << std::to_string(info.min) + " to " + std::to_string(info.max);
   return false;
 }
 
 bool OperandParser::wrongPrefix(uint8_t prefix, const Operand& operand) {
-  program_.diagnostics.report(diag::InvalidTypePrefix, operand.range)
+  diagnostics_.report(diag::InvalidTypePrefix, operand.range)
       << std::string(prefixOf(prefix).name) + "." << statement_->row->info.mnemonic;
   return false;
 }
@@ -335,29 +334,29 @@ bool OperandParser::wrongPrefix(uint8_t prefix, const Operand& operand) {
 // A word of the kind that is not a number's name in the program.
 bool OperandParser::ownWord(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
   if (kind.keywords.empty() || tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
-  const uint32_t found = program_.symbols.find(tokens[0].text, file_);
-  const bool fits = found != kNone && (program_.symbols[found].kind == SymbolKind::Cell ||
-                                       program_.symbols[found].kind == SymbolKind::Constant);
-  const bool renamed = kind.axis && !program_.axisNames.empty();
-  return !fits && takeKeyword(renamed ? std::string_view(program_.axisNames) : kind.keywords, tokens, out);
+  const uint32_t found = symbols_.find(tokens[0].text, file_);
+  const bool fits =
+      found != kNone && (symbols_[found].kind == SymbolKind::Cell || symbols_[found].kind == SymbolKind::Constant);
+  const bool renamed = kind.axis && !axisNames_.empty();
+  return !fits && takeKeyword(renamed ? axisNames_ : kind.keywords, tokens, out);
 }
 
 // One of a kind's own words; other names are known and of another kind, or unknown.
 bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
   if (takeKeyword(kind.keywords, tokens, out)) return true;
   if (kind.structure != nullptr && tokens.size() == 1 && tokens[0].kind == TokenKind::Name)
-    if (const uint32_t member = program_.symbols.findMember(kind.structure, tokens[0].text); member != kNone) {
+    if (const uint32_t member = symbols_.findMember(kind.structure, tokens[0].text); member != kNone) {
       out.form = Operand::Form::Keyword;
-      out.value = program_.symbols[note(tokens[0], member)].byte;
+      out.value = symbols_[note(tokens[0], member)].byte;
       return true;
     }
   const std::string wanted(kind.name);
   if (tokens.size() != 1) return syntax("a " + wanted, tokens);
-  const bool unknown = tokens[0].kind == TokenKind::Name && program_.symbols.find(tokens[0].text, file_) == kNone;
+  const bool unknown = tokens[0].kind == TokenKind::Name && symbols_.find(tokens[0].text, file_) == kNone;
   if (!unknown) return wrongKind(out, "no " + wanted, "a " + wanted);
   Similar meant(tokens[0].text);
   forEachWord(kind.keywords, [&](std::string_view word, int64_t) { meant.offer(word); });
-  program_.symbols.noteUndefined(tokens[0], file_, {.meant = {meant.best(), meant.certain()}});
+  symbols_.noteUndefined(tokens[0], file_, {.meant = {meant.best(), meant.certain()}});
   return false;
 }
 
@@ -384,7 +383,7 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Text) {
     if (!kind.text) return wrongKind(out, "a text", "a variable");
     out.form = Operand::Form::Text;
-    out.text = program_.madeTexts.emplace_back(memoryText(tokens[0], program_.diagnostics));
+    out.text = texts_.emplace_back(memoryText(tokens[0], diagnostics_));
     return true;
   }
   if (takeKeyword(kind.keywords, tokens, out)) return true;

@@ -1,7 +1,7 @@
 // Reads the operands of a statement.
 #pragma once
 
-#include "frontend/dialects/technol/check/operand.h"
+#include "frontend/dialects/technol/check/typed.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
 
 namespace rung::frontend::technol {
@@ -9,8 +9,10 @@ namespace rung::frontend::technol {
 // Parses the operands of one statement; reports everything that is wrong with them.
 class OperandParser {
 public:
-  // `names`: where the names of all operands go.
-  OperandParser(Program& program, std::vector<NameUse>& names) : program_(program), names_(names) {}
+  // What operands need beside themselves, names and texts, goes to `typed`.
+  OperandParser(TypedProgram& typed, SymbolTable& symbols, std::string_view axisNames, Diagnostics& diagnostics)
+      : program_(typed.source), declarations_(typed.declarations), symbols_(symbols), axisNames_(axisNames),
+        diagnostics_(diagnostics), names_(typed.names), texts_(typed.texts) {}
 
   // False after a report. The operands follow in `out`, one an operand of the source and NotGiven where the row allows
   // more.
@@ -33,7 +35,7 @@ private:
     Protection protection = Protection::None;
     std::string_view name; // of the base
     const char* structure = "";
-    uint32_t own = kNone; // the program's own structure that it is, in Program::structures
+    uint32_t own = kNone; // the program's own structure that it is, in Declarations::structures
   };
 
   bool one(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
@@ -70,16 +72,21 @@ private:
   bool setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out);
   bool checkWrite(const OperandInfo& info, Protection protection, std::string_view name, SourceRange range);
   bool wrongKind(const Operand& operand, std::string_view is, std::string_view wanted) {
-    return reportWrongKind(program_.diagnostics, operand, is, wanted);
+    return reportWrongKind(diagnostics_, operand, is, wanted);
   }
   bool syntax(std::string_view expected, std::span<const Token> tokens);
   bool syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise); // where there are none
   // The symbol of a name, which is noted.
   uint32_t note(const Token& name, uint32_t symbol);
-  uint32_t require(const Token& name) { return note(name, program_.symbols.require(name, file_)); }
+  uint32_t require(const Token& name) { return note(name, symbols_.require(name, file_)); }
 
-  Program& program_;
+  const SourceProgram& program_;
+  const Declarations& declarations_;
+  SymbolTable& symbols_;
+  std::string_view axisNames_;
+  Diagnostics& diagnostics_;
   std::vector<NameUse>& names_;
+  std::deque<std::string>& texts_;
   uint32_t file_ = 0;
   const Statement* statement_ = nullptr;
   uint8_t inherited_ = 0; // prefix of the operand before

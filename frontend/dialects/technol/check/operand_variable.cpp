@@ -1,6 +1,6 @@
 // Operands that name variables of MAP_* and DEF_*, and bits for their numbers (see operand_parser.h).
 #include "frontend/dialects/technol/check/operand_parser.h"
-#include "frontend/dialects/technol/read/reader.h"
+#include "frontend/dialects/technol/read/constant.h"
 #include "ir/support/diag/technol.h"
 
 namespace rung::frontend::technol {
@@ -16,7 +16,7 @@ bool OperandParser::variable(const OperandKind& kind, std::span<const Token> tok
   const bool byNumber = kind.weight;
   const uint32_t index = byNumber ? bitSymbol(tokens[0]) : require(tokens[0]);
   if (index == kNone) return false;
-  const Symbol& symbol = program_.symbols[index];
+  const Symbol& symbol = symbols_[index];
   if (symbol.broken) return false;
   if (byNumber) {
     if (symbol.kind != SymbolKind::Bit) return wrongKind(out, describe(symbol), "a bit");
@@ -26,8 +26,8 @@ bool OperandParser::variable(const OperandKind& kind, std::span<const Token> tok
   }
   out.value = -1;
   if (indexed && kind.input) {
-    const auto number =
-        constantValue(program_, file_, tokens.subspan(2, tokens.size() - 3), statement_->range(), &names_);
+    const auto number = ConstantReader(symbols_, diagnostics_, file_, &names_)
+                            .value(tokens.subspan(2, tokens.size() - 3), statement_->range());
     if (!number) return false;
     out.value = *number;
   }
@@ -35,14 +35,14 @@ bool OperandParser::variable(const OperandKind& kind, std::span<const Token> tok
 }
 
 bool OperandParser::exchanged(const OperandKind& kind, const Symbol& symbol, Operand& out) {
-  const Exchanged* found = symbol.exchanged == kNone ? nullptr : &program_.exchanged[symbol.exchanged];
+  const Exchanged* found = symbol.exchanged == kNone ? nullptr : &declarations_.exchanged[symbol.exchanged];
   if (kind.input) {
     if (found == nullptr || found->kind != nc::ExchangeKind::DefIn)
       return wrongKind(out, "not an input of DEF_IN", "an input of DEF_IN");
     const int64_t count = nc::isText(found->type) ? 1 : found->count;
     const bool given = out.tokens.size() > 1;
     if (given && (out.value < 0 || out.value >= count)) {
-      program_.diagnostics.report(diag::OperandRange, out.range) << out.value << "0 to " + std::to_string(count - 1);
+      diagnostics_.report(diag::OperandRange, out.range) << out.value << "0 to " + std::to_string(count - 1);
       return false;
     }
   } else if (found == nullptr || &program_.statements[found->statement] != statement_) {

@@ -31,8 +31,8 @@ bool identifierFits(const CheckContext& c, const Operand& id, bool defined) {
   const size_t bracket = id.text.rfind('[');
   const bool index = id.text.back() == ']' && bracket != std::string_view::npos;
   if (!defined || !index || id.text.find_first_not_of('0', bracket + 1) == id.text.size() - 1) return true;
-  c.report(diag::WrongOperandKind, id.range)
-      << id.text << "an identifier with an index at its end" << "an identifier without one";
+  c.report(diag::WrongOperandKind, id.range) << id.text << "an identifier with an index at its end"
+                                             << "an identifier without one";
   return false;
 }
 
@@ -84,14 +84,14 @@ void checkBitMessage(const CheckContext& c, std::span<const Operand> o, int) {
 }
 
 void checkDefine(const CheckContext& c, std::span<const Operand> o, int) {
-  const Exchanged& variable = c.program.exchanged[o[0].index];
+  const Exchanged& variable = c.declarations.exchanged[o[0].index];
   const Operand& given = o[nc::isMapped(variable.kind) ? 2 : 3];
   const bool fits = !given.given() || defaultFits(c, variable, given);
   if (identifierFits(c, o[1], true) && fits) warnIfLong(c, given, o[0]);
 }
 
 void checkUpdate(const CheckContext& c, std::span<const Operand> o, int) {
-  if (nc::isText(c.program.exchanged[o[0].index].type)) c.wrongKind(o[0], "a text", "a bit or a number");
+  if (nc::isText(c.declarations.exchanged[o[0].index].type)) c.wrongKind(o[0], "a text", "a bit or a number");
 }
 
 void checkShareVariable(const CheckContext& c, std::span<const Operand> o, int) {

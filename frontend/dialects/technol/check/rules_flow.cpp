@@ -18,15 +18,15 @@ std::string describeUnit(const Unit& unit) {
 
 // Jumps stay inside their unit; the end label of a timed block counts as inside it.
 void checkTarget(const CheckContext& c, const Operand& operand) {
-  const Program& program = c.program;
+  const SourceProgram& program = c.program;
   const Label& label = program.labels[operand.index];
-  const Unit& unit = program.units[c.statement.unit];
+  const Unit& unit = program.at(c.statement.unit);
   const bool ownEnd = unit.kind == UnitKind::Timed && label.unit == unit.parent &&
                       symbolKey(program.tokens[unit.endLabel].text) == symbolKey(label.name);
   if (label.unit == c.statement.unit || ownEnd) return;
-  const bool leadsInto = unit.kind == UnitKind::Module && label.unit != kNone;
+  const bool leadsInto = unit.kind == UnitKind::Module && label.unit.valid();
   c.report(diag::JumpCrossesUnit, operand.range)
-      << label.name << describeUnit(leadsInto ? program.units[label.unit] : unit);
+      << label.name << describeUnit(leadsInto ? program.at(label.unit) : unit);
 }
 
 } // namespace
@@ -40,10 +40,9 @@ void checkEmptyStack(const CheckContext& c, std::span<const Operand>, int) {
 
 // A mechanism inside a timed block is in that block, too.
 void checkTimer(const CheckContext& c, std::span<const Operand>, int) {
-  const std::vector<Unit>& units = c.program.units;
-  uint32_t at = c.statement.unit;
-  while (at != kNone && units[at].kind == UnitKind::Mechanism) at = units[at].parent;
-  if (at == kNone || units[at].kind != UnitKind::Timed)
+  UnitId unit = c.statement.unit;
+  while (unit.valid() && c.program.at(unit).kind == UnitKind::Mechanism) unit = c.program.at(unit).parent;
+  if (!unit.valid() || c.program.at(unit).kind != UnitKind::Timed)
     c.report(diag::TmOutsideDftm, c.statement.range()) << c.statement.row->info.mnemonic;
 }
 

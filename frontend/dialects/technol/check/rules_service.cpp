@@ -72,7 +72,7 @@ void checkPacket(const CheckContext& c, std::span<const Operand> o, int) { holds
 
 // The first operand is a record of two bytes, the second of which may be another variable (man. l.12061).
 void checkRecord(const CheckContext& c, std::span<const Operand> o, int) {
-  if (o[0].indexed || o[0].place.byte + kRecordBytes <= c.program.bytesOf(o[0].place.space)) return;
+  if (o[0].indexed || o[0].place.byte + kRecordBytes <= c.declarations.bytesOf(o[0].place.space)) return;
   c.report(diag::AddressOutOfRange, o[0].range) << spell(o[0]) + "+1" << "the memory";
 }
 

@@ -15,7 +15,7 @@ constexpr uint32_t kLongestText = 0xFFFF;
 // The bytes from an address on that are in its memory, of `count`. An error where the rest would be written; read, it
 // is 0 (an example of the manual reads beyond its variable, l.13543).
 uint32_t inside(const CheckContext& c, const Operand& operand, uint32_t count, bool written) {
-  const uint32_t exist = c.program.bytesOf(operand.place.space) - operand.place.byte;
+  const uint32_t exist = c.declarations.bytesOf(operand.place.space) - operand.place.byte;
   if (operand.indexed || count <= exist) return count;
   c.report(diag::AddressOutOfRange, operand.range).severity(written ? Severity::Error : Severity::Warning)
       << spell(operand) + "+" + std::to_string(count - 1)

@@ -1,5 +1,5 @@
 // A program that has been checked: what each statement's operands are and what it does to the logic. Plain data beside
-// the Program that it is about, made before any IR; the lowering and tools read it.
+// the parts that it is about, made before any IR; the lowering and tools read it.
 #pragma once
 
 #include <span>
@@ -28,9 +28,13 @@ struct Typed {
 };
 
 struct TypedProgram {
-  std::vector<Typed> statements; // by their index in Program::statements; those outside code have nothing
-  std::vector<Operand> operands;
-  std::vector<NameUse> names; // by the index of the symbol
+  const SourceProgram& source;
+  const Declarations& declarations;
+  const SymbolTable& symbols;
+  std::vector<Typed> statements = {}; // as SourceProgram::statements; those outside code have nothing
+  std::vector<Operand> operands = {};
+  std::vector<NameUse> names = {};    // by the index of the symbol
+  std::deque<std::string> texts = {}; // of the operands, as the memory holds them
 
   std::span<const Operand> operandsOf(const Typed& statement) const {
     return std::span(operands).subspan(statement.firstOperand, statement.operandCount);

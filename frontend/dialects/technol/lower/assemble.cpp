@@ -69,10 +69,11 @@ bool isVisible(const Symbol& symbol) {
 
 } // namespace
 
-void addSpaces(const Program& program, ir::Module& module) {
+void addSpaces(const Declarations& declarations, ir::Module& module) {
   const nc::SignalTable& signals = nc::technolSignals();
   const auto add = [&](std::string name, ir::SpaceId space, uint32_t flags) {
-    module.spaces.push_back({.name = std::move(name), .unitBytes = 1, .units = program.bytesOf(space), .flags = flags});
+    module.spaces.push_back(
+        {.name = std::move(name), .unitBytes = 1, .units = declarations.bytesOf(space), .flags = flags});
   };
   add("NCI", kInterfaceSpace, 0);
   add("DATA", kDataSpace, RUNG_SPACE_ALLOCATED);
@@ -80,7 +81,7 @@ void addSpaces(const Program& program, ir::Module& module) {
   add("@REG", kRegisterSpace, RUNG_SPACE_HIDDEN);
   add("BLK", kBlockSpace, RUNG_SPACE_INPUT);
   add("IO", kExchangeSpace, RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_ALLOCATED);
-  module.inits = program.inits;
+  module.inits = declarations.inits;
   addPowerOnPresets(module);
   // Saved at a regular shutdown, loaded at the start (man. l.7549).
   if (const nc::Signal* backup = nc::findSignal(signals, "PLC_MEM_BACKUP", "I"))
@@ -90,8 +91,8 @@ void addSpaces(const Program& program, ir::Module& module) {
 namespace {
 
 // Elements of an array of bits, a byte each: NAME[0], NAME[1]...
-void addElements(const Program& program, ir::Module& module) {
-  for (const Exchanged& variable : program.exchanged) {
+void addElements(const TypedProgram& program, ir::Module& module) {
+  for (const Exchanged& variable : program.declarations.exchanged) {
     if (variable.type != nc::ExchangeType::Bit || variable.count == 1) continue;
     ir::Symbol made = madeSymbol(program.symbols[variable.symbol]);
     const std::string name = made.name;
@@ -104,7 +105,7 @@ void addElements(const Program& program, ir::Module& module) {
 }
 
 // A local name of one of several files.
-std::string inFile(const Program& program, const Symbol& symbol, const std::string& name) {
+std::string inFile(const SourceProgram& program, const Symbol& symbol, const std::string& name) {
   std::string_view path = program.sources.name(program.files[symbol.file].id);
   if (const size_t slash = path.find_last_of('/'); slash != std::string_view::npos) path.remove_prefix(slash + 1);
   return std::string(path) + ":" + name;
@@ -112,7 +113,7 @@ std::string inFile(const Program& program, const Symbol& symbol, const std::stri
 
 } // namespace
 
-void addSymbols(const Program& program, ir::Module& module, bool isCompared) {
+void addSymbols(const TypedProgram& program, ir::Module& module, bool isCompared) {
   std::unordered_map<std::string, uint32_t> global, local;
   for (const Symbol& symbol : program.symbols.all())
     if (isVisible(symbol)) ++(symbol.local ? local : global)[madeSymbol(symbol).name];
@@ -122,7 +123,8 @@ void addSymbols(const Program& program, ir::Module& module, bool isCompared) {
     if (!isVisible(symbol)) continue;
     ir::Symbol made = madeSymbol(symbol);
     const bool shared = symbol.local && global.contains(made.name);
-    if (isCompared && symbol.local && (symbol.file != 0 || shared)) made.name = inFile(program, symbol, made.name);
+    if (isCompared && symbol.local && (symbol.file != 0 || shared))
+      made.name = inFile(program.source, symbol, made.name);
     const bool other = !isCompared && (shared || (symbol.local && local[made.name] > 1));
     if (!other && (symbol.local || global[made.name] == 1)) module.symbols.push_back(std::move(made));
   }
@@ -139,7 +141,7 @@ namespace {
 using LineOfFile = std::pair<uint32_t, uint32_t>;
 
 // Lines that begin a module or a procedure.
-std::set<LineOfFile> headingsOf(const Program& program) {
+std::set<LineOfFile> headingsOf(const SourceProgram& program) {
   std::set<LineOfFile> headings;
   for (const ModulePart& part : program.parts)
     headings.emplace(part.file, program.sources.lineCol(program.units[part.unit].begin.begin).line);
@@ -151,8 +153,8 @@ std::set<LineOfFile> headingsOf(const Program& program) {
 
 } // namespace
 
-void numberRungs(const Program& program, ir::Module& module) {
-  const std::set<LineOfFile> headings = headingsOf(program);
+void numberRungs(const SourceProgram& source, ir::Module& module) {
+  const std::set<LineOfFile> headings = headingsOf(source);
   std::map<LineOfFile, uint32_t> numbers;
   const auto forRungs = [&](auto act) {
     for (ir::Routine& routine : module.routines)
@@ -172,8 +174,9 @@ namespace {
 
 class TaskMaker {
 public:
-  TaskMaker(const Program& program, const LoweredProgram& lowered, Emitter& emitter, uint32_t periodUs)
-      : program_(program), lowered_(lowered), emitter_(emitter), module_(emitter.module()), periodUs_(periodUs) {}
+  TaskMaker(const Declarations& declarations, const LoweredProgram& lowered, Emitter& emitter, uint32_t periodUs)
+      : declarations_(declarations), lowered_(lowered), emitter_(emitter), module_(emitter.module()),
+        periodUs_(periodUs) {}
   void make();
 
 private:
@@ -187,7 +190,7 @@ private:
     steps.push_back({.op = op, .task = {RUNG_NONE}, .arg = arg});
   }
 
-  const Program& program_;
+  const Declarations& declarations_;
   const LoweredProgram& lowered_;
   Emitter& emitter_;
   ir::Module& module_;
@@ -219,7 +222,7 @@ void TaskMaker::run(std::vector<ir::Step>& steps, ModuleKind kind, uint32_t time
 // l.13455-13482).
 void TaskMaker::fastSteps(std::vector<ir::Step>& steps, uint32_t times) const {
   const bool others = of(ModuleKind::Cyclic).valid() || of(ModuleKind::Fastest).valid();
-  const bool exchanges = program_.exchangesFast;
+  const bool exchanges = declarations_.exchangesFast;
   if (!others && !exchanges) return run(steps, ModuleKind::Fast, times);
   const auto exchange = [&](ModuleKind kind, uint32_t hook) {
     if (exchanges && of(kind).valid()) step(steps, RUNG_STEP_HOOK, hook);
@@ -284,8 +287,8 @@ void TaskMaker::pass(std::vector<ir::Step>& steps, uint32_t us, uint32_t fastRun
 
 } // namespace
 
-void addTasks(const Program& program, const LoweredProgram& lowered, Emitter& emitter, uint32_t periodUs) {
-  TaskMaker(program, lowered, emitter, periodUs).make();
+void addTasks(const Declarations& declarations, const LoweredProgram& lowered, Emitter& emitter, uint32_t periodUs) {
+  TaskMaker(declarations, lowered, emitter, periodUs).make();
 }
 
 } // namespace rung::frontend::technol

@@ -57,8 +57,8 @@ void BitMessages::reserve(BitMessage& message) {
   const uint32_t bytes = kCountBytes + message.capacity * kEntryBytes;
   message.table = module.spaces[space_.index].units;
   module.spaces[space_.index].units += bytes;
-  state_.nameCells("@" + instructionKey(memory_.program(), *message.statement, "EDEF"),
-                   {.space = space_, .byte = message.table}, Type::I8, bytes);
+  state_.nameCells("@" + instructionKey(program_, *message.statement, "EDEF"), {.space = space_, .byte = message.table},
+                   Type::I8, bytes);
 }
 
 // The bit is sampled when it is tied: what comes later is an edge.
@@ -176,7 +176,7 @@ ir::RoutineId BitMessages::makeTask(uint64_t& weight) {
   emitter_.open(routine);
   for (const BitMessage& message : messages_) {
     emitter_.out().cut();
-    emitter_.out().statement(sourceOf(memory_.program(), *message.statement));
+    emitter_.out().statement(sourceOf(program_, *message.statement));
     BitWatch(emitter_.b(), space_, message).watch();
   }
   weight = emitter_.close();

@@ -21,7 +21,8 @@ struct BitMessage {
 
 class BitMessages {
 public:
-  BitMessages(Memory& memory, State& state) : memory_(memory), emitter_(memory.emitter()), state_(state) {}
+  BitMessages(const SourceProgram& program, Memory& memory, State& state)
+      : program_(program), memory_(memory), emitter_(memory.emitter()), state_(state) {}
 
   // Ties the bit, where a statement is carried out; `number` and `subId`, i32, are taken then.
   void add(BitMessage message, ir::ValueId number, ir::ValueId subId);
@@ -33,6 +34,7 @@ public:
 private:
   void reserve(BitMessage& message);
 
+  const SourceProgram& program_;
   Memory& memory_;
   Emitter& emitter_;
   State& state_;

@@ -24,7 +24,7 @@ std::string keyOf(bool fast, size_t kind) {
 
 } // namespace
 
-Clocks::Clocks(const Program& program, Emitter& emitter, State& state, uint32_t periodUs)
+Clocks::Clocks(const SourceProgram& program, Emitter& emitter, State& state, uint32_t periodUs)
     : program_(program), emitter_(emitter), state_(state), periodUs_(periodUs) {
   for (const Unit& unit : program.units)
     if (unit.kind == UnitKind::Timed) find(unit);
@@ -32,7 +32,7 @@ Clocks::Clocks(const Program& program, Emitter& emitter, State& state, uint32_t 
 
 void Clocks::find(const Unit& timed) {
   const Unit* around = &timed; // the module or procedure that it is in
-  while (around->kind != UnitKind::Procedure && around->parent != kNone) around = &program_.units[around->parent];
+  while (around->kind != UnitKind::Procedure && around->parent.valid()) around = &program_.at(around->parent);
   const bool inProcedure = around->kind == UnitKind::Procedure;
   if (inProcedure && !clock_.valid()) clock_ = emitter_.newSlot(Type::I32, "CLOCK");
   for (const bool fast : {false, true})

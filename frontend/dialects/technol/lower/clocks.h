@@ -10,7 +10,7 @@ namespace rung::frontend::technol {
 
 class Clocks {
 public:
-  Clocks(const Program& program, Emitter& emitter, State& state, uint32_t periodUs);
+  Clocks(const SourceProgram& program, Emitter& emitter, State& state, uint32_t periodUs);
 
   // Around a module: its clock, and the time that has passed.
   void enter(ModuleKind kind);
@@ -29,7 +29,7 @@ private:
   void advance(bool fast);
   ir::SlotId dueSlot(bool fast, TimedKind kind);
 
-  const Program& program_;
+  const SourceProgram& program_;
   Emitter& emitter_;
   State& state_;
   uint32_t periodUs_;

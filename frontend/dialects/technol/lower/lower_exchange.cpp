@@ -74,7 +74,7 @@ void setDefault(ir::RungBuilder& b, const Exchanged& variable, const Operand& ta
 
 // MAP_xx variable, identifier [, default [, FAST]] and DEF_xx variable, identifier, type [, default [, period]].
 void lowerDefine(Lowering& l, std::span<const Operand> o, int) {
-  const Exchanged& variable = l.program().exchanged[o[0].index];
+  const Exchanged& variable = l.program.declarations.exchanged[o[0].index];
   const bool mapped = nc::isMapped(variable.kind);
   const Operand& given = o[mapped ? 2 : 3];
   const ExchangePeriod period = periodOf(variable.kind, o[mapped ? 3 : 4]);
@@ -103,7 +103,7 @@ void takeElement(Emitter& emitter, const Operand& target, uint32_t offset) {
 
 // UPDATE_IN input or input[i]: also the outputs of this program that are connected to it, as they are now.
 void lowerUpdate(Lowering& l, std::span<const Operand> o, int) {
-  const Exchanged& variable = l.program().exchanged[o[0].index];
+  const Exchanged& variable = l.program.declarations.exchanged[o[0].index];
   const uint32_t bytes = nc::bytesOf(variable.type);
   const auto first = static_cast<uint32_t>(std::max<int64_t>(o[0].value, 0));
   const uint32_t end = o[0].value < 0 ? variable.count : first + 1;

@@ -40,7 +40,7 @@ void lowerMessage(Lowering& l, std::span<const Operand> o, int condition) {
   const MessageParts message = partsOf(l.memory, number, o[1], o.subspan(3, 3));
   const ValueId rlo = l.guardOf(condition);
   const bool calls =
-      l.procedures.onMessage() != kNone && l.program().procedureOf(l.statement().unit) != l.procedures.onMessage();
+      l.procedures.onMessage() != kNone && l.program.source.procedureOf(l.statement().unit) != l.procedures.onMessage();
   const ValueId comesUp = !set.valid() ? rlo : !rlo.valid() ? set : b.and_(rlo, set);
   if (calls) l.procedures.saveRegisters();
   b.when(rlo, [&] { showOrRemove(b, message, set); });

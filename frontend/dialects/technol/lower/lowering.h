@@ -10,21 +10,21 @@ namespace rung::frontend::technol {
 
 class Lowering {
 public:
-  Lowering(const Program& program, ir::Module& module, ir::Marks* marks, ir::GivenNumbers* given)
-      : emitter(module, given), memory(program, emitter), state(memory), sequences(program, emitter, state),
-        procedures(program, emitter), clears(memory, state, sequences), bitMessages(memory, state),
-        marking(program, emitter, marks), labels_(program.labels.size(), kNone) {}
+  Lowering(const TypedProgram& typed, ir::Module& module, ir::Marks* marks, ir::GivenNumbers* given)
+      : program(typed), emitter(module, given), memory(program.declarations, emitter), state(program.source, memory),
+        sequences(program.source, emitter, state), procedures(program.source, emitter),
+        clears(program, memory, state, sequences), bitMessages(program.source, memory, state),
+        marking(program.source, emitter, marks), labels_(program.source.labels.size(), kNone) {}
 
   // The next statement.
   void enter(const Statement& statement, const Typed& typed);
   // What it does to the stack; then `popped` is what LA, LO, LX without operand took off it.
   void useStack();
 
-  const Program& program() const { return memory.program(); }
   const Statement& statement() const { return *statement_; }
   std::string_view mnemonic() const { return statement_->row->info.mnemonic; }
   ir::ValueId popped() const { return popped_; }
-  // The label of the code at a program's label, in Program::labels.
+  // The label of the code at a program's label, in SourceProgram::labels.
   uint32_t labelOf(uint32_t label);
   uint32_t jumpTarget(const Operand& label) { return labelOf(label.index); }
   // When a statement of this `variant` is carried out: always (an invalid value), or as RLO is.
@@ -42,6 +42,7 @@ public:
   ir::RungBuilder& b() { return emitter.b(); }
   Registers& r() { return emitter.r(); }
 
+  const TypedProgram& program;
   Emitter emitter;
   Memory memory;
   State state;

@@ -9,7 +9,7 @@ namespace rung::frontend::technol {
 class Marking {
 public:
   // `marks` may be null: nobody asks.
-  Marking(const Program& program, Emitter& emitter, ir::Marks* marks)
+  Marking(const SourceProgram& program, Emitter& emitter, ir::Marks* marks)
       : program_(program), emitter_(emitter), marks_(marks) {}
 
   // A bit that LDR, LA, LO or LX asks.
@@ -22,7 +22,7 @@ public:
 private:
   void note(ir::MarkKind kind, const Statement& statement, ir::ValueId value);
 
-  const Program& program_;
+  const SourceProgram& program_;
   Emitter& emitter_;
   ir::Marks* marks_;
 };

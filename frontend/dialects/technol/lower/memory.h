@@ -17,11 +17,10 @@ struct MemoryAccess {
 // The program's memory, as operations of the emitter's open rung reach it.
 class Memory {
 public:
-  Memory(const Program& program, Emitter& emitter) : program_(program), emitter_(emitter) {}
+  Memory(const Declarations& declarations, Emitter& emitter) : declarations_(declarations), emitter_(emitter) {}
 
-  const Program& program() const { return program_; }
   Emitter& emitter() { return emitter_; }
-  uint32_t bytesOf(ir::SpaceId space) const { return program_.bytesOf(space); }
+  uint32_t bytesOf(ir::SpaceId space) const { return declarations_.bytesOf(space); }
 
   // Where a cell or bit lies; an index outside its space stops the program (where `guard` is 1, if there is one).
   MemoryAccess reach(const Operand& operand, ir::ValueId guard = {});
@@ -40,7 +39,7 @@ public:
   ir::ValueId value(const Operand& operand, ir::ValueId guard = {});
 
 private:
-  const Program& program_;
+  const Declarations& declarations_;
   Emitter& emitter_;
 };
 

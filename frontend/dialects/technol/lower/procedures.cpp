@@ -9,7 +9,7 @@ namespace rung::frontend::technol {
 using ir::Type;
 using ir::ValueId;
 
-Procedures::Procedures(const Program& program, Emitter& emitter)
+Procedures::Procedures(const SourceProgram& program, Emitter& emitter)
     : emitter_(emitter), onMessage_(program.procedureNamed(kOnMessage)) {
   for (const Procedure& procedure : program.procedures)
     routines_.push_back(emitter.newRoutine("PROC " + symbolKey(procedure.name)));

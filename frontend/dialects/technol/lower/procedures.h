@@ -7,7 +7,7 @@ namespace rung::frontend::technol {
 
 class Procedures {
 public:
-  Procedures(const Program& program, Emitter& emitter);
+  Procedures(const SourceProgram& program, Emitter& emitter);
 
   ir::RoutineId routine(uint32_t procedure) const { return routines_[procedure]; }
   // `depth`: values on the stack of the equation that contains the call; they are kept.

@@ -17,7 +17,7 @@ constexpr uint32_t kMaxSourceLines = 100; // of one rung; beyond that its text i
 } // namespace
 
 // A statement of a macro has its own text elsewhere; it counts in the line of the use.
-RungSource sourceOf(const Program& program, const Statement& statement) {
+RungSource sourceOf(const SourceProgram& program, const Statement& statement) {
   const FileId own = program.files[statement.file].id;
   const LineCol at = program.sources.lineCol(statement.pos);
   const bool here = program.sources.fileOf(statement.pos) == own && at.line == statement.line;

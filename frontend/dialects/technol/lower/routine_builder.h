@@ -22,7 +22,7 @@ struct RungSource {
   uint32_t column = 0;
 };
 
-RungSource sourceOf(const Program& program, const Statement& statement);
+RungSource sourceOf(const SourceProgram& program, const Statement& statement);
 
 class RoutineBuilder {
 public:

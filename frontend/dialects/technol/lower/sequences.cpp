@@ -20,7 +20,7 @@ ir::Place lineOf(uint32_t mechanism) { return {.space = kMechanismSpace, .byte =
 
 } // namespace
 
-Sequences::Sequences(const Program& program, Emitter& emitter, State& state)
+Sequences::Sequences(const SourceProgram& program, Emitter& emitter, State& state)
     : program_(program), emitter_(emitter), state_(state) {
   for (const Mechanism& mechanism : program.mechanisms) {
     const auto number = static_cast<uint32_t>(mechanisms_.size());
@@ -43,7 +43,7 @@ void Sequences::begin(Sequence sequence) {
   open_.push_back(std::move(sequence));
 }
 
-void Sequences::beginModule(ModuleKind kind, uint32_t unit) {
+void Sequences::beginModule(ModuleKind kind, UnitId unit) {
   const bool init = kind == ModuleKind::BlockInit;
   const HostCell cell = init ? HostCell::BlockInitCont : HostCell::BlockDoneCont;
   Sequence sequence{
@@ -55,7 +55,7 @@ void Sequences::beginModule(ModuleKind kind, uint32_t unit) {
   begin(std::move(sequence));
 }
 
-void Sequences::beginMechanism(uint32_t mechanism, uint32_t unit) {
+void Sequences::beginMechanism(uint32_t mechanism, UnitId unit) {
   ir::RungBuilder& b = emitter_.b();
   const ValueId inactive = b.not_(b.load(Type::Bit, bitOf(mechanism)));
   b.when(inactive, [&] { b.store(lineOf(mechanism), b.constant(Type::I16, 0)); });

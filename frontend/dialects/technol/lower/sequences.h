@@ -8,7 +8,7 @@ namespace rung::frontend::technol {
 
 // A unit while it is lowered.
 struct Sequence {
-  uint32_t unit = kNone;
+  UnitId unit;
   ir::RoutineId routine;
   uint32_t mechanism = kNone;                      // kNone: a module
   HostCell moduleDone = HostCell::BlockInitDone;   // of a module: set when it has run through
@@ -28,11 +28,11 @@ struct Sequence {
 
 class Sequences {
 public:
-  Sequences(const Program& program, Emitter& emitter, State& state);
+  Sequences(const SourceProgram& program, Emitter& emitter, State& state);
 
-  void beginModule(ModuleKind kind, uint32_t unit);
+  void beginModule(ModuleKind kind, UnitId unit);
   // `leave`: a label after the end, where a mechanism that is not active goes.
-  void beginMechanism(uint32_t mechanism, uint32_t unit);
+  void beginMechanism(uint32_t mechanism, UnitId unit);
   // The unit has run through: it starts at its beginning the next time.
   void end();
   // Before each statement.
@@ -59,7 +59,7 @@ private:
   void clearAtBeginning(Sequence& sequence);
   void addPoint(Sequence& sequence, std::string_view role);
 
-  const Program& program_;
+  const SourceProgram& program_;
   Emitter& emitter_;
   State& state_;
   std::vector<Sequence> open_; // the innermost last

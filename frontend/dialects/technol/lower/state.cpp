@@ -6,7 +6,7 @@ namespace rung::frontend::technol {
 using ir::Type;
 using ir::ValueId;
 
-std::string instructionKey(const Program& program, const Statement& statement, std::string_view mnemonic) {
+std::string instructionKey(const SourceProgram& program, const Statement& statement, std::string_view mnemonic) {
   std::string key(mnemonic);
   for (const Token& token : program.operandTokens(statement))
     key += token.is(',') ? ',' : ' ', key += symbolKey(token.text);
@@ -15,9 +15,8 @@ std::string instructionKey(const Program& program, const Statement& statement, s
 
 // The key names module, instruction and operands.
 ir::SlotId State::newSlot(Type type, const Statement& statement, std::string_view what) {
-  const Program& program = memory_.program();
-  const std::string unit(program.units[statement.unit].name);
-  automatic_.push_back(emitter_.newSlot(type, names_.numbered(unit + "." + instructionKey(program, statement, what))));
+  const std::string unit(program_.at(statement.unit).name);
+  automatic_.push_back(emitter_.newSlot(type, names_.numbered(unit + "." + instructionKey(program_, statement, what))));
   return automatic_.back();
 }
 

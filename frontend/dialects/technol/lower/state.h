@@ -14,11 +14,12 @@ struct CountCell {
 };
 
 // An instruction with its operands: what its state is known by in a changed program.
-std::string instructionKey(const Program& program, const Statement& statement, std::string_view mnemonic);
+std::string instructionKey(const SourceProgram& program, const Statement& statement, std::string_view mnemonic);
 
 class State {
 public:
-  explicit State(Memory& memory) : memory_(memory), emitter_(memory.emitter()) {}
+  State(const SourceProgram& program, Memory& memory)
+      : program_(program), memory_(memory), emitter_(memory.emitter()) {}
 
   // State of a statement alone, e.g. the former value of an edge; `what` names it.
   ir::SlotId newSlot(ir::Type type, const Statement& statement, std::string_view what);
@@ -39,6 +40,7 @@ public:
   std::span<const ir::SlotId> forgotten() const { return forgotten_; }
 
 private:
+  const SourceProgram& program_;
   Memory& memory_;
   Emitter& emitter_;
   Numbering names_;

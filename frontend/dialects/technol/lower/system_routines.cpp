@@ -20,7 +20,7 @@ void Clears::call(bool global) {
 // What lies together is cleared together.
 void Clears::clearData(bool local) {
   uint32_t first = 0, end = 0;
-  for (const DataItem& item : memory_.program().items) {
+  for (const DataItem& item : program_.declarations.items) {
     if (item.local != local || item.bytes == 0) continue;
     if (item.byte != end) {
       clearRange(memory_, kDataSpace, first, end);
@@ -33,17 +33,19 @@ void Clears::clearData(bool local) {
 
 // Texts and structures get the contents again that they have when the machine is switched on (man. l.1533-1536).
 void Clears::fillData() {
-  const Program& program = memory_.program();
+  const Declarations& declarations = program_.declarations;
   size_t item = 0;
-  for (const ir::Init& init : program.inits) {
+  for (const ir::Init& init : declarations.inits) {
     if (init.space != kDataSpace) continue;
-    while (item + 1 < program.items.size() && program.items[item].byte + program.items[item].bytes <= init.byte) ++item;
-    if (program.items[item].local) continue;
+    while (item + 1 < declarations.items.size() &&
+           declarations.items[item].byte + declarations.items[item].bytes <= init.byte)
+      ++item;
+    if (declarations.items[item].local) continue;
     const std::string_view bytes(reinterpret_cast<const char*>(init.data.data()), init.data.size());
     for (size_t at = 0; at < bytes.size(); at += kMostCleared) {
       const std::string_view part = bytes.substr(at, kMostCleared);
       const auto size = static_cast<uint32_t>(part.size());
-      copy(emitter_, fixedArea(emitter_, kDataSpace, program.dataBytes, init.byte + static_cast<uint32_t>(at)),
+      copy(emitter_, fixedArea(emitter_, kDataSpace, declarations.dataBytes, init.byte + static_cast<uint32_t>(at)),
            fixedArea(emitter_, emitter_.constantBytes(part), size, 0), fixedCount(emitter_.b(), size));
       emitter_.out().cut();
     }
@@ -60,7 +62,7 @@ void Clears::make() {
     clearData(!global);
     if (global) {
       fillData();
-      for (uint32_t i = 0; i < memory_.program().mechanisms.size(); ++i) {
+      for (uint32_t i = 0; i < program_.source.mechanisms.size(); ++i) {
         sequences_.initialise(i);
         if (i % kMechanismsPerRung == kMechanismsPerRung - 1) emitter_.out().cut();
       }
@@ -72,7 +74,7 @@ void Clears::make() {
 
 // ---- start and events -----------------------------------------------------------------------------------------------
 
-void makeStart(const Program& program, Emitter& emitter, ir::RoutineId routine, const State& state,
+void makeStart(const SourceProgram& program, Emitter& emitter, ir::RoutineId routine, const State& state,
                const Clocks& clocks, BitMessages& messages) {
   emitter.open(routine);
   ir::RungBuilder& b = emitter.b();
@@ -97,7 +99,8 @@ static Event makeEvent(Emitter& emitter, std::string name, ir::RoutineId procedu
   return {std::move(name), routine};
 }
 
-std::vector<Event> makeEvents(const Program& program, Emitter& emitter, const Procedures& procedures, Clocks& clocks) {
+std::vector<Event> makeEvents(const SourceProgram& program, Emitter& emitter, const Procedures& procedures,
+                              Clocks& clocks) {
   std::vector<Event> events;
   for (const std::string_view name : kOnEvents)
     if (const uint32_t procedure = program.procedureNamed(name); procedure != kNone)

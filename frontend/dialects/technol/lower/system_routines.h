@@ -11,8 +11,8 @@ namespace rung::frontend::technol {
 // CLEAR GLOBAL,ALL and CLEAR INTERNAL,ALL.
 class Clears {
 public:
-  Clears(Memory& memory, State& state, Sequences& sequences)
-      : memory_(memory), emitter_(memory.emitter()), state_(state), sequences_(sequences) {}
+  Clears(const TypedProgram& program, Memory& memory, State& state, Sequences& sequences)
+      : program_(program), memory_(memory), emitter_(memory.emitter()), state_(state), sequences_(sequences) {}
 
   void call(bool global);
   // Those that are called.
@@ -22,6 +22,7 @@ private:
   void clearData(bool local);
   void fillData();
 
+  const TypedProgram& program_;
   Memory& memory_;
   Emitter& emitter_;
   State& state_;
@@ -31,7 +32,7 @@ private:
 
 // Runs before MODULE_INIT: edges are recorded anew (man. l.300), the periods of timed blocks begin, EDEF ties its bits
 // anew, presets of the interface. Call when all code is lowered.
-void makeStart(const Program& program, Emitter& emitter, ir::RoutineId routine, const State& state,
+void makeStart(const SourceProgram& program, Emitter& emitter, ir::RoutineId routine, const State& state,
                const Clocks& clocks, BitMessages& messages);
 
 // A procedure that the control calls (man. l.1614-1644, l.3834).
@@ -39,6 +40,7 @@ struct Event {
   std::string name;
   ir::RoutineId routine;
 };
-std::vector<Event> makeEvents(const Program& program, Emitter& emitter, const Procedures& procedures, Clocks& clocks);
+std::vector<Event> makeEvents(const SourceProgram& program, Emitter& emitter, const Procedures& procedures,
+                              Clocks& clocks);
 
 } // namespace rung::frontend::technol

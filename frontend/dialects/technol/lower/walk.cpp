@@ -17,10 +17,10 @@ bool isSequential(ModuleKind kind) { return kind == ModuleKind::BlockInit || kin
 
 } // namespace
 
-Walk::Walk(const Program& program, const TypedProgram& typed, ir::Module& module, uint32_t periodUs, ir::Marks* marks,
+Walk::Walk(const TypedProgram& program, ir::Module& module, uint32_t periodUs, ir::Marks* marks,
            ir::GivenNumbers* given)
-    : program_(program), typed_(typed), l_(program, module, marks, given), start_(l_.emitter.newRoutine("@START")),
-      clocks_(program, l_.emitter, l_.state, periodUs) {
+    : program_(program), source_(program.source), l_(program, module, marks, given),
+      start_(l_.emitter.newRoutine("@START")), clocks_(source_, l_.emitter, l_.state, periodUs) {
   l_.emitter.fault(nc::kTechnolRequested); // by the control (man. l.5361)
 }
 
@@ -29,8 +29,8 @@ LoweredProgram Walk::run() {
   l_.clears.make();
   l_.sequences.makeResets();
   made_.bitMessages = l_.bitMessages.makeTask(made_.bitMessagesWeight);
-  makeStart(program_, l_.emitter, start_, l_.state, clocks_, l_.bitMessages);
-  made_.events = makeEvents(program_, l_.emitter, l_.procedures, clocks_);
+  makeStart(source_, l_.emitter, start_, l_.state, clocks_, l_.bitMessages);
+  made_.events = makeEvents(source_, l_.emitter, l_.procedures, clocks_);
   return std::move(made_);
 }
 
@@ -39,13 +39,13 @@ LoweredProgram Walk::run() {
 void Walk::module(ModuleKind kind) {
   kind_ = kind;
   // The end of the shutdown may be pending in a program without MODULE_DONE.
-  bool present = kind == ModuleKind::Done && program_.filesWith(&SourceFile::finishesDone) != 0;
-  for (const ModulePart& p : program_.parts) present = present || p.kind == kind;
+  bool present = kind == ModuleKind::Done && source_.filesWith(&SourceFile::finishesDone) != 0;
+  for (const ModulePart& p : source_.parts) present = present || p.kind == kind;
   if (!present) return;
   const ir::RoutineId routine = l_.emitter.newRoutine(std::string(moduleName(kind)));
   l_.emitter.open(routine);
   prologue(kind);
-  for (const ModulePart& p : program_.parts)
+  for (const ModulePart& p : source_.parts)
     if (p.kind == kind) part(p);
   clocks_.leave(kind);
   const uint64_t weight = l_.emitter.close();
@@ -57,7 +57,7 @@ void Walk::prologue(ModuleKind kind) {
   if (kind == ModuleKind::Init) l_.emitter.out().call(start_);
   if (kind == ModuleKind::Done) {
     l_.b().store(place(HostCell::DonePending),
-                 l_.b().constant(Type::I64, program_.filesWith(&SourceFile::finishesDone)));
+                 l_.b().constant(Type::I64, source_.filesWith(&SourceFile::finishesDone)));
     l_.emitter.out().cut();
   }
   clocks_.enter(kind);
@@ -65,8 +65,8 @@ void Walk::prologue(ModuleKind kind) {
 
 // RLO and DR are 0 where the manual leaves them open; INIT and DONE learn in DR why they run (man. l.2567, l.2613).
 void Walk::enterPart(const ModulePart& part) {
-  Statement begin{.pos = program_.units[part.unit].begin.begin, .file = part.file};
-  begin.line = program_.sources.lineCol(begin.pos).line;
+  Statement begin{.pos = source_.at(part.unit).begin.begin, .file = part.file};
+  begin.line = source_.sources.lineCol(begin.pos).line;
   beginAt(begin);
   l_.r().clear();
   if (part.kind == ModuleKind::Init || part.kind == ModuleKind::Done)
@@ -76,21 +76,21 @@ void Walk::enterPart(const ModulePart& part) {
 void Walk::part(const ModulePart& part) {
   enterPart(part);
   if (isSequential(part.kind)) l_.sequences.beginModule(part.kind, part.unit);
-  for (uint32_t i = part.firstStatement; i < part.endStatement && i < program_.statements.size(); ++i) statement(i);
+  for (uint32_t i = part.firstStatement; i < part.endStatement && i < source_.statements.size(); ++i) statement(i);
   if (isSequential(part.kind)) l_.sequences.end();
 }
 
 // ---- statements -----------------------------------------------------------------------------------------------------
 
 void Walk::bindLabels(uint32_t index) {
-  const uint32_t first = program_.statements[index].label;
-  for (uint32_t i = first; i < program_.labels.size() && program_.labels[i].statement == index; ++i)
+  const uint32_t first = source_.statements[index].label;
+  for (uint32_t i = first; i < source_.labels.size() && source_.labels[i].statement == index; ++i)
     l_.emitter.out().bind(l_.labelOf(i));
 }
 
 void Walk::statement(uint32_t index) {
-  const Statement& statement = program_.statements[index];
-  const Typed& typed = typed_.statements[index];
+  const Statement& statement = source_.statements[index];
+  const Typed& typed = program_.statements[index];
   l_.enter(statement, typed);
   if (statement.label != kNone) bindLabels(index);
   l_.sequences.pass(statement);
@@ -109,11 +109,11 @@ void Walk::statement(uint32_t index) {
 void Walk::code(const Typed& typed) {
   const Statement& statement = l_.statement();
   beginRungFor(typed);
-  l_.emitter.out().statement(sourceOf(program_, statement));
+  l_.emitter.out().statement(sourceOf(source_, statement));
   l_.useStack();
   l_.marking.decision(statement);
   const uint32_t rung = l_.emitter.out().openRung();
-  statement.row->lower(l_, typed_.operandsOf(typed), statement.row->variant);
+  statement.row->lower(l_, program_.operandsOf(typed), statement.row->variant);
   l_.marking.result(statement, rung);
 }
 
@@ -129,25 +129,25 @@ void Walk::beginRungFor(const Typed& typed) {
 
 void Walk::beginAt(const Statement& statement) {
   l_.emitter.out().cut();
-  l_.emitter.out().statement(sourceOf(program_, statement));
+  l_.emitter.out().statement(sourceOf(source_, statement));
 }
 
 void Walk::beginMechanism(const Statement& statement) {
   beginAt(statement);
-  l_.sequences.beginMechanism(program_.units[statement.unit].index, statement.unit);
+  l_.sequences.beginMechanism(source_.at(statement.unit).index, statement.unit);
 }
 
 // The normal flow passes a definition by (man. l.1588-1603): its rungs are a routine of their own.
 void Walk::beginProcedure(const Statement& statement) {
   l_.emitter.out().cut();
-  l_.emitter.open(l_.procedures.routine(program_.units[statement.unit].index));
-  l_.emitter.out().statement(sourceOf(program_, statement));
+  l_.emitter.open(l_.procedures.routine(source_.at(statement.unit).index));
+  l_.emitter.out().statement(sourceOf(source_, statement));
 }
 
 void Walk::beginTimed(const Statement& statement, const Typed& typed) {
-  const uint32_t end = l_.jumpTarget(typed_.operandsOf(typed)[0]);
+  const uint32_t end = l_.jumpTarget(program_.operandsOf(typed)[0]);
   beginAt(statement);
-  const bool inProcedure = program_.procedureOf(statement.unit) != kNone;
+  const bool inProcedure = source_.procedureOf(statement.unit) != kNone;
   const auto kind = static_cast<TimedKind>(statement.row->variant);
   l_.emitter.out().jump(end, l_.b().not_(clocks_.isDue(kind, kind_, inProcedure)));
 }

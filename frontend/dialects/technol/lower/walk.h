@@ -24,8 +24,7 @@ class Walk {
 public:
   // The spaces of `module` exist; `periodUs` is the main task's period; `marks` and `given` may be
   // null. The program has no errors.
-  Walk(const Program& program, const TypedProgram& typed, ir::Module& module, uint32_t periodUs, ir::Marks* marks,
-       ir::GivenNumbers* given);
+  Walk(const TypedProgram& program, ir::Module& module, uint32_t periodUs, ir::Marks* marks, ir::GivenNumbers* given);
 
   LoweredProgram run();
   Emitter& emitter() { return l_.emitter; }
@@ -44,8 +43,8 @@ private:
   void beginProcedure(const Statement& statement);
   void beginTimed(const Statement& statement, const Typed& typed);
 
-  const Program& program_;
-  const TypedProgram& typed_;
+  const TypedProgram& program_;
+  const SourceProgram& source_;
   Lowering l_;
   ir::RoutineId start_;
   Clocks clocks_;

@@ -1,8 +1,8 @@
 // Declarations (see declare.h).
 #include "frontend/dialects/technol/read/declare.h"
 
+#include "frontend/dialects/technol/read/constant.h"
 #include "frontend/dialects/technol/read/encoding.h"
-#include "frontend/dialects/technol/read/reader.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/operand.h"
@@ -13,44 +13,44 @@
 #include <algorithm>
 
 namespace rung::frontend::technol {
-Symbol Declarations::made(const Token& name, SymbolKind kind) const {
+Symbol DeclarationReader::made(const Token& name, SymbolKind kind) const {
   return namedSymbol(name, kind, file_, structure_.isLocal());
 }
 
-void Declarations::data(const Statement& statement, const Token* name, uint32_t index, bool badName) {
+void DeclarationReader::data(const Statement& statement, const Token* name, uint32_t index, bool badName) {
   if (statement.row->role != Role::Str) structure_.allowsData(statement);
   DataItem item{.role = statement.row->role, .local = structure_.isLocal(), .statement = index};
   const bool needsName = item.role == Role::Str || item.role == Role::Ds;
   if (needsName && name == nullptr && !badName)
-    program_.diagnostics.report(diag::MissingLabel, statement.range()) << statement.row->info.mnemonic;
+    c_.report(diag::MissingLabel, statement.range()) << statement.row->info.mnemonic;
   if (item.role == Role::Str) item.local = false; // texts are global in all files (man. l.1680)
   if (name != nullptr) {
     Symbol symbol = made(*name, item.role == Role::Str ? SymbolKind::Text : SymbolKind::Cell);
     symbol.local = item.local;
     if (item.role == Role::Dfm) symbol.type = ir::Type::I8, symbol.size = 1;
     symbol.space = kDataSpace;
-    item.cell = program_.symbols.declare(symbol);
+    item.cell = c_.symbols.declare(symbol);
   }
   if (item.role == Role::Dfm) bits(statement, item);
-  program_.items.push_back(std::move(item));
+  c_.declarations.items.push_back(std::move(item));
 }
 
-void Declarations::alsoNamed(const Token& name) {
-  DataItem& item = program_.items.back();
-  Symbol symbol = program_.symbols[item.cell];
+void DeclarationReader::alsoNamed(const Token& name) {
+  DataItem& item = c_.declarations.items.back();
+  Symbol symbol = c_.symbols[item.cell];
   symbol.name = name.text;
   symbol.declared = name.range();
-  item.also.push_back(program_.symbols.declare(symbol));
+  item.also.push_back(c_.symbols.declare(symbol));
 }
 
-void Declarations::bits(const Statement& statement, DataItem& item) {
-  item.firstBit = static_cast<uint32_t>(program_.itemBits.size());
-  program_.itemBits.resize(program_.itemBits.size() + 8, kNone);
+void DeclarationReader::bits(const Statement& statement, DataItem& item) {
+  item.firstBit = static_cast<uint32_t>(c_.declarations.itemBits.size());
+  c_.declarations.itemBits.resize(c_.declarations.itemBits.size() + 8, kNone);
   uint32_t number = 0;
   for (std::span<const Token> operand : splitOperands(program_.operandTokens(statement))) {
-    if (operand.size() == 2 && takeSign(program_, operand)) operand = operand.subspan(1);
+    if (operand.size() == 2 && takeSign(operand, c_.diagnostics)) operand = operand.subspan(1);
     if (number == 8) {
-      program_.diagnostics.report(diag::TooManyBits, rangeOf(program_.sources, operand, statement.range()));
+      c_.report(diag::TooManyBits, rangeOf(program_.sources, operand, statement.range()));
       return;
     }
     if (operand.size() == 1 && operand[0].kind == TokenKind::Name) {
@@ -58,7 +58,7 @@ void Declarations::bits(const Statement& statement, DataItem& item) {
       symbol.type = ir::Type::Bit;
       symbol.space = kDataSpace;
       symbol.bit = number;
-      program_.itemBits[item.firstBit + number] = program_.symbols.declare(symbol);
+      c_.declarations.itemBits[item.firstBit + number] = c_.symbols.declare(symbol);
     } else if (operand.size() > 1 || (operand.size() == 1 && !operand[0].is('-'))) {
       noName(operand, "the name of a bit", statement);
     }
@@ -66,32 +66,32 @@ void Declarations::bits(const Statement& statement, DataItem& item) {
   }
 }
 
-void Declarations::noName(std::span<const Token> tokens, std::string_view expected, const Statement& statement) {
+void DeclarationReader::noName(std::span<const Token> tokens, std::string_view expected, const Statement& statement) {
   const SourceRange at = rangeOf(program_.sources, tokens, statement.range());
   if (isOneWord(tokens))
-    program_.diagnostics.report(diag::BadIdentifier, at) << spelled(tokens);
+    c_.report(diag::BadIdentifier, at) << spelled(tokens);
   else
-    program_.diagnostics.report(diag::SyntaxError, at)
-        << expected << (tokens.empty() ? "nothing" : "'" + spelled(tokens) + "'");
+    c_.report(diag::SyntaxError, at) << expected << (tokens.empty() ? "nothing" : "'" + spelled(tokens) + "'");
 }
 
-void Declarations::constant(const Statement& statement) {
+void DeclarationReader::constant(const Statement& statement) {
   const auto operands = splitOperands(program_.operandTokens(statement));
-  if (!countFits(statement.row->info, operands.size(), statement.range(), program_.diagnostics)) return;
+  if (!countFits(statement.row->info, operands.size(), statement.range(), c_.diagnostics)) return;
   const std::span<const Token> name = operands[0];
   if (name.size() != 1 || name[0].kind != TokenKind::Name) {
     noName(name, "the name of a constant", statement);
     return;
   }
-  const std::optional<int64_t> value = constantValue(program_, file_, operands[1], statement.range());
+  const std::optional<int64_t> value =
+      ConstantReader(c_.symbols, c_.diagnostics, file_).value(operands[1], statement.range());
   const bool fits = value && *value >= INT32_MIN && *value <= int64_t{UINT32_MAX}; // 32 bits (man. l.712)
   if (value && !fits)
-    program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, operands[1], statement.range()))
+    c_.report(diag::OperandRange, rangeOf(program_.sources, operands[1], statement.range()))
         << *value << "-80000000h to 0FFFFFFFFh";
   Symbol symbol = made(name[0], SymbolKind::Constant);
   symbol.value = fits ? *value : 0;
   symbol.broken = !fits;
-  program_.symbols.declare(symbol);
+  c_.symbols.declare(symbol);
 }
 
 namespace {
@@ -103,7 +103,7 @@ std::string_view onlyName(std::span<const Token> operand) {
 } // namespace
 
 // What is wrong with the operands is reported when the statement is lowered; the name is known all the same.
-void Declarations::exchanged(const Statement& statement, uint32_t index) {
+void DeclarationReader::exchanged(const Statement& statement, uint32_t index) {
   using nc::ExchangeKind;
   using nc::ExchangeType;
   const auto operands = splitOperands(program_.operandTokens(statement));
@@ -117,15 +117,15 @@ void Declarations::exchanged(const Statement& statement, uint32_t index) {
   const size_t periodAt = mapped ? 3 : 4;
   const std::string_view period = operands.size() > periodAt ? onlyName(operands[periodAt]) : std::string_view();
   if (text::equalsIgnoringCase(period, "FAST") || text::equalsIgnoringCase(period, "FASTEST"))
-    program_.exchangesFast = true;
+    c_.declarations.exchangesFast = true;
   Symbol symbol = exchangedSymbol(operands[0][0], made.type);
   symbol.broken = word < 0;
-  symbol.exchanged = static_cast<uint32_t>(program_.exchanged.size());
-  made.symbol = program_.symbols.declare(symbol);
-  program_.exchanged.push_back(made);
+  symbol.exchanged = static_cast<uint32_t>(c_.declarations.exchanged.size());
+  made.symbol = c_.symbols.declare(symbol);
+  c_.declarations.exchanged.push_back(made);
 }
 
-Symbol Declarations::exchangedSymbol(const Token& name, nc::ExchangeType type) const {
+Symbol DeclarationReader::exchangedSymbol(const Token& name, nc::ExchangeType type) const {
   using nc::ExchangeType;
   Symbol symbol = made(name, type == ExchangeType::Bit    ? SymbolKind::Bit
                              : type == ExchangeType::Text ? SymbolKind::Text
@@ -141,7 +141,7 @@ Symbol Declarations::exchangedSymbol(const Token& name, nc::ExchangeType type) c
   return symbol;
 }
 
-void Declarations::instance(const Statement& statement, const Token* name, uint32_t index, uint32_t type) {
+void DeclarationReader::instance(const Statement& statement, const Token* name, uint32_t index, uint32_t type) {
   structure_.allowsData(statement);
   DataItem item{.role = Role::MemberSize, .local = structure_.isLocal(), .statement = index};
   item.image = structures_.instance(type, program_.operandTokens(statement), statement.range());
@@ -150,16 +150,16 @@ void Declarations::instance(const Statement& statement, const Token* name, uint3
     symbol.space = kDataSpace;
     symbol.size = static_cast<uint32_t>(item.image.size());
     symbol.index = type;
-    item.cell = program_.symbols.declare(symbol);
+    item.cell = c_.symbols.declare(symbol);
   }
-  program_.items.push_back(std::move(item));
+  c_.declarations.items.push_back(std::move(item));
 }
 
 namespace {
 
 class Placer {
 public:
-  explicit Placer(Program& program) : program_(program) {}
+  explicit Placer(ReadContext& context) : c_(context), program_(context.program) {}
   void place(DataItem& item);
   // A variable of MAP_* or DEF_*.
   void place(Exchanged& variable);
@@ -176,28 +176,30 @@ private:
   std::optional<int64_t> size(std::span<const Token> tokens, const Statement& statement);
   uint32_t take(DataItem& item, int64_t bytes, const Statement& statement);
 
-  Program& program_;
+  ReadContext& c_;
+  const SourceProgram& program_;
   std::vector<uint32_t> overlays_; // items
   bool full_ = false;
 };
 
 uint32_t Placer::take(DataItem& item, int64_t bytes, const Statement& statement) {
-  const uint32_t at = program_.dataBytes;
+  const uint32_t at = c_.declarations.dataBytes;
   if (at + bytes > kMaxData) {
-    if (!full_) program_.diagnostics.report(diag::TooLarge, statement.range()) << "bytes of data" << kMaxData;
+    if (!full_) c_.report(diag::TooLarge, statement.range()) << "bytes of data" << kMaxData;
     full_ = true;
     return 0;
   }
-  program_.dataBytes += static_cast<uint32_t>(bytes);
+  c_.declarations.dataBytes += static_cast<uint32_t>(bytes);
   item.byte = at;
   item.bytes = static_cast<uint32_t>(bytes);
   return at;
 }
 
 std::optional<int64_t> Placer::size(std::span<const Token> tokens, const Statement& statement) {
-  const std::optional<int64_t> n = constantValue(program_, statement.file, tokens, statement.range());
+  const std::optional<int64_t> n =
+      ConstantReader(c_.symbols, c_.diagnostics, statement.file).value(tokens, statement.range());
   if (n && (*n < 1 || *n > kMaxData)) {
-    program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, tokens, statement.range()))
+    c_.report(diag::OperandRange, rangeOf(program_.sources, tokens, statement.range()))
         << *n << "1 to " + std::to_string(kMaxData);
     return std::nullopt;
   }
@@ -206,18 +208,18 @@ std::optional<int64_t> Placer::size(std::span<const Token> tokens, const Stateme
 
 void Placer::placeBits(DataItem& item) {
   const uint32_t at = take(item, 1, program_.statements[item.statement]);
-  if (item.cell != kNone) program_.symbols[item.cell].byte = at;
+  if (item.cell != kNone) c_.symbols[item.cell].byte = at;
   for (uint32_t i = 0; i < 8; ++i)
-    if (const uint32_t bit = program_.itemBits[item.firstBit + i]; bit != kNone) program_.symbols[bit].byte = at;
+    if (const uint32_t bit = c_.declarations.itemBits[item.firstBit + i]; bit != kNone) c_.symbols[bit].byte = at;
 }
 
 void Placer::placeArray(DataItem& item, const Statement& statement) {
   const auto operands = splitOperands(program_.operandTokens(statement));
-  if (!countFits(statement.row->info, operands.size(), statement.range(), program_.diagnostics)) return;
+  if (!countFits(statement.row->info, operands.size(), statement.range(), c_.diagnostics)) return;
   const int64_t bytes = size(operands[0], statement).value_or(1);
   const uint32_t at = take(item, bytes, statement);
   if (item.cell == kNone) return;
-  Symbol& cell = program_.symbols[item.cell];
+  Symbol& cell = c_.symbols[item.cell];
   cell.byte = at;
   cell.size = static_cast<uint32_t>(bytes);
   cell.type = bytes == 8 ? ir::Type::None : ir::intOfBytes(cell.size);
@@ -226,13 +228,13 @@ void Placer::placeArray(DataItem& item, const Statement& statement) {
 // STR n, var+xy: the text lies on that memory and reserves nothing. A variable of the program is in the same file
 // (man. l.1695). Done when everything else has its place.
 bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statement& statement) {
-  const uint32_t index = program_.symbols.require(tokens[0], statement.file);
+  const uint32_t index = c_.symbols.require(tokens[0], statement.file);
   if (index == kNone) return false;
-  const Symbol base = program_.symbols[index];
+  const Symbol base = c_.symbols[index];
   if (base.broken) return false;
   const bool foreign = !base.predeclared && base.file != statement.file;
   if (base.kind != SymbolKind::Cell || foreign) {
-    program_.diagnostics.report(diag::WrongOperandKind, tokens[0].range())
+    c_.report(diag::WrongOperandKind, tokens[0].range())
         << tokens[0].text << (foreign ? "a name of another file" : "no variable") << "a variable of this file";
     return false;
   }
@@ -242,14 +244,15 @@ bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statemen
     for (Token& token : terms)
       if (token.is('.')) token.text = "+"; // a member is its offset
     const bool plus = terms.size() > 1 && terms[0].is('+');
-    offset = constantValue(program_, statement.file, std::span<const Token>(terms).subspan(plus), statement.range());
+    offset = ConstantReader(c_.symbols, c_.diagnostics, statement.file)
+                 .value(std::span<const Token>(terms).subspan(plus), statement.range());
   }
   if (!offset) return false;
   // In the interface a text stays on its cell, in the program's data anywhere.
   const int64_t first = base.predeclared ? base.byte : 0;
-  const int64_t end = base.predeclared ? int64_t{base.byte} + base.size : int64_t{program_.dataBytes};
+  const int64_t end = base.predeclared ? int64_t{base.byte} + base.size : int64_t{c_.declarations.dataBytes};
   if (*offset < first - base.byte || *offset > end - base.byte - text.size) {
-    program_.diagnostics.report(diag::AddressOutOfRange, rangeOf(program_.sources, tokens, statement.range()))
+    c_.report(diag::AddressOutOfRange, rangeOf(program_.sources, tokens, statement.range()))
         << std::string(tokens[0].text) + (*offset < 0 ? "" : "+") + std::to_string(*offset)
         << (base.predeclared ? std::string(base.name) : std::string("the program's data"));
     return false;
@@ -262,26 +265,26 @@ bool Placer::overlay(Symbol& text, std::span<const Token> tokens, const Statemen
 }
 
 void Placer::fillText(const Symbol& text, const Token& token) {
-  const std::string inMemory = memoryText(token, program_.diagnostics);
+  const std::string inMemory = memoryText(token, c_.diagnostics);
   std::string_view value = inMemory;
   if (value.size() > text.size - 1) {
-    program_.diagnostics.report(diag::StringTooLong, token.range()) << value.size() << text.size - 1;
+    c_.report(diag::StringTooLong, token.range()) << value.size() << text.size - 1;
     value = value.substr(0, text.size - 1);
   }
   if (!value.empty())
-    program_.inits.push_back({.space = text.space, .byte = text.byte, .data = {value.begin(), value.end()}});
+    c_.declarations.inits.push_back({.space = text.space, .byte = text.byte, .data = {value.begin(), value.end()}});
 }
 
 void Placer::placeText(DataItem& item, const Statement& statement) {
   const auto operands = splitOperands(program_.operandTokens(statement));
-  if (!countFits(statement.row->info, operands.size(), statement.range(), program_.diagnostics)) return;
+  if (!countFits(statement.row->info, operands.size(), statement.range(), c_.diagnostics)) return;
   const int64_t characters = size(operands[0], statement).value_or(1);
   if (item.cell == kNone) return;
-  Symbol& text = program_.symbols[item.cell];
+  Symbol& text = c_.symbols[item.cell];
   text.size = static_cast<uint32_t>(characters) + 1;
   const bool onMemory = operands.size() == 2 && !operands[1].empty() && operands[1][0].kind == TokenKind::Name;
   if (onMemory) {
-    overlays_.push_back(static_cast<uint32_t>(&item - program_.items.data()));
+    overlays_.push_back(static_cast<uint32_t>(&item - c_.declarations.items.data()));
     return;
   }
   text.byte = take(item, text.size, statement);
@@ -289,15 +292,15 @@ void Placer::placeText(DataItem& item, const Statement& statement) {
   if (operands[1].size() == 1 && operands[1][0].kind == TokenKind::Text)
     fillText(text, operands[1][0]);
   else
-    program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, operands[1], statement.range()))
+    c_.report(diag::SyntaxError, rangeOf(program_.sources, operands[1], statement.range()))
         << "a text or an address" << "something else";
 }
 
 void Placer::placeInstance(DataItem& item, const Statement& statement) {
   const uint32_t at = take(item, static_cast<int64_t>(item.image.size()), statement);
-  if (item.cell != kNone) program_.symbols[item.cell].byte = at;
+  if (item.cell != kNone) c_.symbols[item.cell].byte = at;
   const bool zero = std::all_of(item.image.begin(), item.image.end(), [](uint8_t byte) { return byte == 0; });
-  if (!zero && !full_) program_.inits.push_back({.space = kDataSpace, .byte = at, .data = item.image});
+  if (!zero && !full_) c_.declarations.inits.push_back({.space = kDataSpace, .byte = at, .data = item.image});
 }
 
 void Placer::place(DataItem& item) {
@@ -320,48 +323,50 @@ void Placer::place(Exchanged& variable) {
   int64_t count = nc::isText(variable.type) ? 0 : 1;
   if (name.size() > 3 && name[1].is('[') && name.back().is(']')) {
     const auto inside = name.subspan(2, name.size() - 3);
-    count = constantValue(program_, statement.file, inside, statement.range()).value_or(-1);
-    if (count < 0) program_.symbols[variable.symbol].broken = true;
+    count = ConstantReader(c_.symbols, c_.diagnostics, statement.file).value(inside, statement.range()).value_or(-1);
+    if (count < 0) c_.symbols[variable.symbol].broken = true;
     if (count < 0) return;
   }
-  if (count < 1 || count > kMaxData / bytes || program_.exchangedBytes + count * bytes > kMaxData) {
-    program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, name, statement.range()))
+  if (count < 1 || count > kMaxData / bytes || c_.declarations.exchangedBytes + count * bytes > kMaxData) {
+    c_.report(diag::OperandRange, rangeOf(program_.sources, name, statement.range()))
         << count << "1 to " + std::to_string(kMaxData / bytes);
-    program_.symbols[variable.symbol].broken = true;
+    c_.symbols[variable.symbol].broken = true;
     return;
   }
-  Symbol& symbol = program_.symbols[variable.symbol];
+  Symbol& symbol = c_.symbols[variable.symbol];
   variable.count = static_cast<uint32_t>(count) + (isText ? 1 : 0);
-  symbol.byte = program_.exchangedBytes;
+  symbol.byte = c_.declarations.exchangedBytes;
   symbol.size = variable.count * bytes;
   if (variable.type == nc::ExchangeType::Binary && symbol.size != 8) symbol.type = ir::intOfBytes(symbol.size);
-  program_.exchangedBytes += symbol.size;
+  c_.declarations.exchangedBytes += symbol.size;
 }
 
 void Placer::placeOverlays() {
   for (const uint32_t index : overlays_) {
-    const DataItem& item = program_.items[index];
+    const DataItem& item = c_.declarations.items[index];
     const Statement statement = program_.statements[item.statement];
     const auto operands = splitOperands(program_.operandTokens(statement));
-    Symbol text = program_.symbols[item.cell]; // finding the base may add symbols
+    Symbol text = c_.symbols[item.cell]; // finding the base may add symbols
     text.broken = !overlay(text, operands[1], statement) || text.broken;
-    program_.symbols[item.cell] = text;
+    c_.symbols[item.cell] = text;
   }
 }
 
 } // namespace
 
-void placeData(Program& program) {
-  Placer placer(program);
-  for (DataItem& item : program.items) placer.place(item);
-  for (Exchanged& variable : program.exchanged) placer.place(variable);
+void placeData(ReadContext& context) {
+  Declarations& declarations = context.declarations;
+  Placer placer(context);
+  for (DataItem& item : declarations.items) placer.place(item);
+  for (Exchanged& variable : declarations.exchanged) placer.place(variable);
   placer.placeOverlays();
-  for (const DataItem& item : program.items)
+  for (const DataItem& item : declarations.items)
     for (const uint32_t also : item.also) {
-      const Symbol named = program.symbols[also];
-      program.symbols[also] = program.symbols[item.cell];
-      program.symbols[also].name = named.name;
-      program.symbols[also].declared = named.declared;
+      Symbol& symbol = context.symbols[also];
+      const Symbol named = symbol;
+      symbol = context.symbols[item.cell];
+      symbol.name = named.name;
+      symbol.declared = named.declared;
     }
 }
 

@@ -5,10 +5,10 @@
 
 namespace rung::frontend::technol {
 
-class Declarations {
+class DeclarationReader {
 public:
-  Declarations(Program& program, Structure& structure, Structures& structures, uint32_t file)
-      : program_(program), structure_(structure), structures_(structures), file_(file) {}
+  DeclarationReader(ReadContext& context, Structure& structure, Structures& structures, uint32_t file)
+      : c_(context), program_(context.program), structure_(structure), structures_(structures), file_(file) {}
 
   // A declaration that takes memory; `name` is null when it has none. `index` is the statement's number.
   // `badName`: it has one that is not a name, which has been reported.
@@ -27,13 +27,14 @@ private:
   Symbol made(const Token& name, SymbolKind kind) const;
   Symbol exchangedSymbol(const Token& name, nc::ExchangeType type) const;
 
-  Program& program_;
+  ReadContext& c_;
+  const SourceProgram& program_;
   Structure& structure_;
   Structures& structures_;
   uint32_t file_;
 };
 
 // Gives the declared data their places and sizes, in the order of the source.
-void placeData(Program& program);
+void placeData(ReadContext& context);
 
 } // namespace rung::frontend::technol

@@ -13,9 +13,10 @@ namespace rung::frontend::technol {
 
 class FileReader {
 public:
-  FileReader(Program& program, uint32_t file)
-      : program_(program), file_(file), structure_(program, file), structures_(program, structure_, file),
-        declarations_(program, structure_, structures_, file), macros_(program, file) {}
+  FileReader(ReadContext& context, uint32_t file)
+      : c_(context), program_(context.program), file_(file), structure_(context, file),
+        structures_(context, structure_, file), declarations_(context, structure_, structures_, file),
+        macros_(context, file) {}
   void read();
   // Whether a line is a T_INCLUDE.
   static bool isInclude(std::string_view text);
@@ -58,11 +59,12 @@ private:
   const Token* oneName(const Statement& statement);
   void declareUnit(const Token& name, SymbolKind kind, uint32_t index);
 
-  Program& program_;
+  ReadContext& c_;
+  SourceProgram& program_;
   uint32_t file_;
   Structure structure_;
   Structures structures_;
-  Declarations declarations_;
+  DeclarationReader declarations_;
   MacroSet macros_;
   std::vector<std::string> expanding_; // macros whose lines are being read
   std::vector<std::string> including_; // paths

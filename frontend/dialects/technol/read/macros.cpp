@@ -40,9 +40,8 @@ bool MacroSet::flags(std::span<const Token> tokens, MacroStack& stack) {
     const auto* flag = std::find_if(std::begin(kFlags), std::end(kFlags),
                                     [&](const FlagName& f) { return text::equalsIgnoringCase(token.text, f.name); });
     if (flag == std::end(kFlags)) {
-      program_.diagnostics.report(diag::SyntaxError, token.range())
-          << "T_NORMAL, T_BEGIN, T_END, T_PUSH, T_POP, C_0, C_1, D_OFF or D_ON"
-          << "'" + std::string(token.text) + "'";
+      c_.report(diag::SyntaxError, token.range()) << "T_NORMAL, T_BEGIN, T_END, T_PUSH, T_POP, C_0, C_1, D_OFF or D_ON"
+                                                  << "'" + std::string(token.text) + "'";
       return false;
     }
     if (flag->isStack) stack = flag->stack;
@@ -53,14 +52,13 @@ bool MacroSet::flags(std::span<const Token> tokens, MacroStack& stack) {
 void MacroSet::declare(const Token& name, uint32_t macro) {
   // A macro may have the name of an instruction: at its uses CONTROL_T_MACRO says which of them is meant (man.
   // l.20572).
-  if (findRow(name.text) == nullptr) program_.symbols.declare(namedSymbol(name, SymbolKind::Macro, file_, true));
+  if (findRow(name.text) == nullptr) c_.symbols.declare(namedSymbol(name, SymbolKind::Macro, file_, true));
   names_.emplace(symbolKey(name.text), macro);
 }
 
 void MacroSet::begin(std::span<const Token> operands, SourceRange at) {
   if (operands.empty() || operands[0].kind != TokenKind::Name) {
-    program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, operands, at))
-        << "the name of a macro" << "none";
+    c_.report(diag::SyntaxError, rangeOf(program_.sources, operands, at)) << "the name of a macro" << "none";
     operands = {};
   }
   Macro& macro = macros_.emplace_back();
@@ -72,8 +70,7 @@ void MacroSet::begin(std::span<const Token> operands, SourceRange at) {
     if (token.kind == TokenKind::Name)
       macro.formals.push_back(symbolKey(token.text));
     else if (!token.is(','))
-      program_.diagnostics.report(diag::SyntaxError, token.range())
-          << "the name of a parameter" << "'" + std::string(token.text) + "'";
+      c_.report(diag::SyntaxError, token.range()) << "the name of a parameter" << "'" + std::string(token.text) + "'";
   }
   declare(operands[0], static_cast<uint32_t>(macros_.size()) - 1);
 }
@@ -95,22 +92,22 @@ bool MacroSet::take(std::span<const Token> tokens, uint32_t line) {
 }
 
 void MacroSet::abandon() {
-  if (defining_) program_.diagnostics.report(diag::MacroNotClosed, macros_.back().at) << macros_.back().name.text;
+  if (defining_) c_.report(diag::MacroNotClosed, macros_.back().at) << macros_.back().name.text;
   defining_ = false;
 }
 
 void MacroSet::append(std::span<const Token> operands, SourceRange at) {
   const auto parts = splitOperands(operands);
   const auto isName = [](std::span<const Token> part) { return part.size() == 1 && part[0].kind == TokenKind::Name; };
-  if (!countFits(findRow("APPEND_T_MACRO")->info, parts.size(), at, program_.diagnostics)) return;
+  if (!countFits(findRow("APPEND_T_MACRO")->info, parts.size(), at, c_.diagnostics)) return;
   if (!isName(parts[0]) || !isName(parts[1])) {
-    program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, parts[isName(parts[0]) ? 1 : 0], at))
+    c_.report(diag::SyntaxError, rangeOf(program_.sources, parts[isName(parts[0]) ? 1 : 0], at))
         << "the name of a macro" << "something else";
     return;
   }
   const auto found = names_.find(symbolKey(parts[0][0].text));
   if (found == names_.end()) {
-    program_.diagnostics.report(diag::UndefinedSymbol, parts[0][0].range()) << parts[0][0].text;
+    c_.report(diag::UndefinedSymbol, parts[0][0].range()) << parts[0][0].text;
     return;
   }
   Macro alias = macros_[found->second];
@@ -121,15 +118,14 @@ void MacroSet::append(std::span<const Token> operands, SourceRange at) {
 }
 
 void MacroSet::control(std::span<const Token> operands, SourceRange at) {
-  if (!countFits(findRow("CONTROL_T_MACRO")->info, splitOperands(operands).size(), at, program_.diagnostics)) return;
+  if (!countFits(findRow("CONTROL_T_MACRO")->info, splitOperands(operands).size(), at, c_.diagnostics)) return;
   const bool one = operands.size() == 1 && operands[0].kind == TokenKind::Name;
   if (one && text::equalsIgnoringCase(operands[0].text, "PRE"))
     first_ = true;
   else if (one && text::equalsIgnoringCase(operands[0].text, "POS"))
     first_ = false;
   else
-    program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, operands, at))
-        << "POS or PRE" << "something else";
+    c_.report(diag::SyntaxError, rangeOf(program_.sources, operands, at)) << "POS or PRE" << "something else";
 }
 
 void MacroSet::offer(Similar& similar) const {
@@ -182,7 +178,7 @@ bool MacroSet::expand(const Macro& macro, std::span<const Token> operands, Sourc
                       std::vector<Macro::Line>& out) {
   const auto actuals = splitOperands(operands);
   if (actuals.size() != macro.formals.size()) {
-    program_.diagnostics.report(diag::MacroOperandCount, at).note(macro.name.range(), "it is defined here")
+    c_.report(diag::MacroOperandCount, at).note(macro.name.range(), "it is defined here")
         << macro.name.text << macro.formals.size() << actuals.size();
     return false;
   }

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "frontend/dialects/technol/program.h"
+#include "frontend/dialects/technol/read/read_context.h"
 #include "ir/support/similar.h"
 
 namespace rung::frontend::technol {
@@ -30,7 +30,7 @@ struct Macro {
 
 class MacroSet {
 public:
-  MacroSet(Program& program, uint32_t file) : program_(program), file_(file) {}
+  MacroSet(ReadContext& context, uint32_t file) : c_(context), program_(context.program), file_(file) {}
 
   bool defining() const { return defining_; }
   // DEF_T_MACRO name par1, par2
@@ -59,7 +59,8 @@ private:
                   Macro::Line& out);
   void localName(const Macro& macro, Token token, Macro::Line& out);
 
-  Program& program_;
+  ReadContext& c_;
+  SourceProgram& program_;
   uint32_t file_;
   bool defining_ = false;
   bool first_ = false;

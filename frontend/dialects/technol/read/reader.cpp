@@ -60,7 +60,7 @@ void noteLabel(std::span<const Token> tokens, DiagBuilder& report) {
 // `A-B:` is a label that is not a name; a colon has no other meaning.
 bool FileReader::splitLabel(uint32_t& first, uint32_t& count) {
   const std::span<const Token> tokens = std::span<const Token>(program_.tokens).subspan(first, count);
-  if (count > 2 && tokens[2].is(':') && takeSign(program_, tokens)) { // the name is that without it
+  if (count > 2 && tokens[2].is(':') && takeSign(tokens, c_.diagnostics)) { // the name is that without it
     ++first, --count;
     return false;
   }
@@ -68,8 +68,7 @@ bool FileReader::splitLabel(uint32_t& first, uint32_t& count) {
   if (colon == tokens.end() || colon - tokens.begin() < 2 || tokens[0].kind == TokenKind::Punct) return false;
   if (tokens[0].kind == TokenKind::Name && findRow(tokens[0].text) != nullptr) return false;
   const auto label = tokens.first(static_cast<size_t>(colon - tokens.begin()));
-  program_.diagnostics.report(diag::BadIdentifier, rangeOf(program_.sources, label, tokens[0].range()))
-      << spelled(label);
+  c_.report(diag::BadIdentifier, rangeOf(program_.sources, label, tokens[0].range())) << spelled(label);
   first += static_cast<uint32_t>(label.size()) + 1;
   count -= static_cast<uint32_t>(label.size()) + 1;
   return true;
@@ -82,7 +81,7 @@ uint32_t FileReader::readLabel(uint32_t& first, uint32_t& count) {
   const Token name = program_.tokens[first];
   uint32_t label = first;
   if (name.kind == TokenKind::Number) {
-    program_.diagnostics.report(diag::BadIdentifier, name.range()) << name.text;
+    c_.report(diag::BadIdentifier, name.range()) << name.text;
     label = kNone;
   } else if (name.kind != TokenKind::Name) {
     return kNone;
@@ -127,8 +126,7 @@ bool FileReader::foreign(std::span<const Token> tokens) {
   const bool assembler = found.tokens == 1 && isAssembler(tokens[0].text);
   if (found.word == nullptr && !assembler) return false;
   const SourceRange range = rangeOf(program_.sources, command, tokens[0].range());
-  DiagBuilder report =
-      program_.diagnostics.report(assembler ? diag::UnsupportedAssembler : diag::UnknownInstruction, range);
+  DiagBuilder report = c_.report(assembler ? diag::UnsupportedAssembler : diag::UnknownInstruction, range);
   report << spelled(command);
   if (found.word == nullptr) return true;
   const bool fits = !assembler && takesAsMany(findRow(found.word->here), operands) && !areNegated(operands);
@@ -150,7 +148,7 @@ const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
   Similar similar(word);
   for (const Row& row : allRows()) similar.offer(row.info.mnemonic);
   macros_.offer(similar);
-  DiagBuilder report = program_.diagnostics.report(diag::UnknownInstruction, token.range());
+  DiagBuilder report = c_.report(diag::UnknownInstruction, token.range());
   report << token.text;
   noteLabel(tokens, report);
   if (similar.best().empty() || isModified(word, similar.best())) return nullptr;
@@ -166,13 +164,13 @@ const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
 const Row* FileReader::instruction(uint32_t& first, uint32_t& count) {
   const Token& token = program_.tokens[first];
   if (token.kind != TokenKind::Name) {
-    program_.diagnostics.report(diag::SyntaxError, token.range()) << "an instruction" << describe({&token, 1});
+    c_.report(diag::SyntaxError, token.range()) << "an instruction" << describe({&token, 1});
     return nullptr;
   }
   const Row* row = findRow(token.text);
   if (row == nullptr) return unknown(first, count);
   if (!text::equalsIgnoringCase(row->info.mnemonic, token.text))
-    program_.diagnostics.report(diag::JloAlias, token.range()).fix(token.range(), row->info.mnemonic);
+    c_.report(diag::JloAlias, token.range()).fix(token.range(), row->info.mnemonic);
   return row;
 }
 
@@ -199,7 +197,7 @@ void FileReader::logicalLine(uint32_t first, uint32_t count, uint32_t line) {
   badLabel_ = labelled && label == kNone;
   if (count == 0) return;
   if (program_.tokens[first].is(':')) {
-    program_.diagnostics.report(diag::SyntaxError, program_.tokens[first].range()) << "a name before ':'" << "none";
+    c_.report(diag::SyntaxError, program_.tokens[first].range()) << "a name before ':'" << "none";
     return;
   }
   if (macroLine(first, count, line) || instance(first, count, line)) return;
@@ -256,7 +254,7 @@ void FileReader::checkEightBits(const Statement& statement) {
   const auto operands = splitOperands(program_.operandTokens(statement));
   const bool all =
       operands.size() >= 8 && std::none_of(operands.begin(), operands.end(), [](const auto& o) { return o.empty(); });
-  if (!all) program_.diagnostics.report(diag::DfmNeedsEight, statement.range());
+  if (!all) c_.report(diag::DfmNeedsEight, statement.range());
 }
 
 // Labels are this file's alone; they belong to the unit that is open here.
@@ -271,7 +269,7 @@ void FileReader::attachLabels(Statement& statement, uint32_t index) {
     program_.labels.push_back({.name = name.text, .unit = structure_.unit(), .statement = index, .passed = passed_});
     Symbol symbol = namedSymbol(name, SymbolKind::Label, file_, true);
     symbol.index = label;
-    program_.symbols.declare(symbol);
+    c_.symbols.declare(symbol);
   }
   pendingLabels_.clear();
   statement.unit = structure_.unit();
@@ -282,10 +280,9 @@ const Token* FileReader::oneName(const Statement& statement) {
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return &tokens[0];
   const size_t found = splitOperands(tokens).size();
   if (found == 1 && isOneWord(tokens))
-    program_.diagnostics.report(diag::BadIdentifier, rangeOf(program_.sources, tokens, statement.range()))
-        << spelled(tokens);
-  else if (countFits(statement.row->info, found, statement.range(), program_.diagnostics))
-    program_.diagnostics.report(diag::SyntaxError, tokens[0].range()) << "a name" << describe(tokens);
+    c_.report(diag::BadIdentifier, rangeOf(program_.sources, tokens, statement.range())) << spelled(tokens);
+  else if (countFits(statement.row->info, found, statement.range(), c_.diagnostics))
+    c_.report(diag::SyntaxError, tokens[0].range()) << "a name" << describe(tokens);
   return nullptr;
 }
 
@@ -296,12 +293,13 @@ void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index)
     symbol.space = kMechanismSpace;
     symbol.byte = index * kMechanismBytes;
     symbol.type = ir::Type::Bit;
+    c_.declarations.mechanismBytes += kMechanismBytes;
   }
-  const size_t errors = program_.diagnostics.errorCount();
-  program_.symbols.declare(symbol);
+  const size_t errors = c_.diagnostics.errorCount();
+  c_.symbols.declare(symbol);
   // Of a longer name nothing is left that distinguishes it from the mechanism.
   if (kind != SymbolKind::Mechanism || name.text.size() >= kSignificant) return;
-  if (program_.diagnostics.errorCount() > errors) return;
+  if (c_.diagnostics.errorCount() > errors) return;
   // name_LINE, a WORD (man. l.2210)
   program_.madeTexts.push_back(std::string(name.text) + "_LINE");
   symbol.name = program_.madeTexts.back();
@@ -310,7 +308,7 @@ void FileReader::declareUnit(const Token& name, SymbolKind kind, uint32_t index)
   symbol.byte += 1;
   symbol.size = 2;
   symbol.index = kNone;
-  program_.symbols.declare(symbol);
+  c_.symbols.declare(symbol);
 }
 
 // What has no operands at all, and no check that would count them.
@@ -320,17 +318,17 @@ void FileReader::checkNoOperands(const Statement& statement) {
   if (!statement.row->info.operands.all().empty() || statement.tokenCount == 0) return;
   const std::span<const Token> tokens = program_.operandTokens(statement);
   countFits(statement.row->info, splitOperands(tokens).size(), rangeOf(program_.sources, tokens, statement.range()),
-            program_.diagnostics);
+            c_.diagnostics);
 }
 
 // DEBUG [ON|OFF]
 void FileReader::checkSwitch(const Statement& statement) {
   if (statement.tokenCount == 0 || statement.row->info.operands.all().empty()) return;
   const std::span<const Token> tokens = program_.operandTokens(statement);
-  if (!countFits(statement.row->info, splitOperands(tokens).size(), statement.range(), program_.diagnostics)) return;
+  if (!countFits(statement.row->info, splitOperands(tokens).size(), statement.range(), c_.diagnostics)) return;
   if (tokens.size() > 1 ||
       !(text::equalsIgnoringCase(tokens[0].text, "ON") || text::equalsIgnoringCase(tokens[0].text, "OFF")))
-    program_.diagnostics.report(diag::SyntaxError, tokens[0].range()) << "ON or OFF" << describe(tokens);
+    c_.report(diag::SyntaxError, tokens[0].range()) << "ON or OFF" << describe(tokens);
 }
 
 void FileReader::structural(Statement& statement, uint32_t index) {
@@ -350,7 +348,7 @@ void FileReader::structural(Statement& statement, uint32_t index) {
   case Role::Stop: structure_.stop(statement, index); return;
   case Role::Equi: declarations_.constant(statement); return;
   case Role::MemberSize:
-    program_.diagnostics.report(diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
+    c_.report(diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
     return;
   case Role::NoCode: checkSwitch(statement); return;
   case Role::Code:
@@ -365,9 +363,9 @@ void FileReader::structural(Statement& statement, uint32_t index) {
 
 // Some instructions are for MODULE_INIT and procedures, which it may call (man. l.5222).
 bool FileReader::mayStandThere(const Statement& statement) const {
-  const uint32_t owner = program_.owner(statement.unit);
-  if ((statement.row->effects & kInitOnly) == 0 || owner == kNone) return true;
-  const Unit& unit = program_.units[owner];
+  const UnitId owner = program_.owner(statement.unit);
+  if ((statement.row->effects & kInitOnly) == 0 || !owner.valid()) return true;
+  const Unit& unit = program_.at(owner);
   return unit.kind == UnitKind::Procedure || (unit.kind == UnitKind::Module && unit.module == ModuleKind::Init);
 }
 
@@ -378,7 +376,7 @@ void FileReader::code(Statement& statement, uint32_t index) {
   }
   if (statement.row->effects & kDeclares) declarations_.exchanged(statement, index);
   if (!mayStandThere(statement)) {
-    program_.diagnostics.report(diag::InitOnlyInstruction, statement.range()) << statement.row->info.mnemonic;
+    c_.report(diag::InitOnlyInstruction, statement.range()) << statement.row->info.mnemonic;
     statement.row = nullptr;
     return;
   }
@@ -418,95 +416,38 @@ void FileReader::code(Statement& statement, uint32_t index) {
 
 void FileReader::checkWait(const Statement& statement) {
   if (!program_.mayWait(statement.unit))
-    program_.diagnostics.report(diag::ExOutsideMechanism, statement.range()) << statement.row->info.mnemonic;
+    c_.report(diag::ExOutsideMechanism, statement.range()) << statement.row->info.mnemonic;
   else if (program_.inMechanism(statement.unit) && statement.tokenCount > 0)
-    program_.mechanisms[program_.units[program_.owner(statement.unit)].index].hasTimers = true;
+    program_.mechanisms[program_.at(program_.owner(statement.unit)).index].hasTimers = true;
 }
 
 // A loop back without anything that waits or may leave it would run for ever (man. l.2207).
 void FileReader::checkLoop(const Statement& statement) {
   if (statement.row->info.mnemonic != "JUM" || !program_.inMechanism(statement.unit) || statement.tokenCount != 1)
     return;
-  const uint32_t symbol = program_.symbols.find(program_.tokens[statement.firstToken].text, file_);
-  if (symbol == kNone || program_.symbols[symbol].kind != SymbolKind::Label) return;
-  const Label& label = program_.labels[program_.symbols[symbol].index];
+  const uint32_t symbol = c_.symbols.find(program_.tokens[statement.firstToken].text, file_);
+  if (symbol == kNone || c_.symbols[symbol].kind != SymbolKind::Label) return;
+  const Label& label = program_.labels[c_.symbols[symbol].index];
   if (label.unit == statement.unit && label.passed == passed_)
-    program_.diagnostics.report(diag::MechLoopWithoutEx, statement.range())
-        .note(program_.symbols[symbol].declared, "the loop begins here");
+    c_.report(diag::MechLoopWithoutEx, statement.range()).note(c_.symbols[symbol].declared, "the loop begins here");
 }
 
-void readProgram(Program& program, std::span<const FileId> files) {
+void readProgram(ReadContext context, std::span<const FileId> files) {
+  SourceProgram& program = context.program;
   if (files.size() > kMaxFiles) {
-    program.diagnostics.report(diag::TooManyFiles, program.sources.range(files[kMaxFiles], 0, 0)) << kMaxFiles;
+    context.report(diag::TooManyFiles, program.sources.range(files[kMaxFiles], 0, 0)) << kMaxFiles;
     return;
   }
   for (uint32_t i = 0; i < files.size(); ++i) {
     program.files.push_back({.id = files[i], .main = i == 0});
-    program.symbols.addFile();
+    context.symbols.addFile();
   }
   for (uint32_t i = 0; i < files.size(); ++i)
-    if (const auto file = readable(program.sources, files[i], program.diagnostics)) {
+    if (const auto file = readable(context.sources, files[i], context.diagnostics)) {
       program.files[i].id = *file;
-      FileReader(program, i).read();
+      FileReader(context, i).read();
     }
-  placeData(program);
-}
-
-std::optional<int64_t> constantValue(Program& program, uint32_t file, std::span<const Token> tokens,
-                                     SourceRange otherwise, std::vector<NameUse>* names) {
-  const auto fail = [&](const Token& token) -> std::optional<int64_t> {
-    reportBadNumber(token, token.text, program.diagnostics);
-    return std::nullopt;
-  };
-  if (tokens.empty()) {
-    program.diagnostics.report(diag::SyntaxError, otherwise) << "a constant" << "nothing";
-    return std::nullopt;
-  }
-  int64_t sum = 0;
-  int sign = 1;
-  bool wantsTerm = true;
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    const Token& token = tokens[i];
-    if (reportForeignNumber(tokens.subspan(i), program.diagnostics)) return std::nullopt;
-    if (token.is('+') || token.is('-')) {
-      sign = token.is('-') ? (wantsTerm ? -sign : -1) : (wantsTerm ? sign : 1);
-      wantsTerm = true;
-      continue;
-    }
-    if (!wantsTerm || token.kind == TokenKind::Punct) {
-      program.diagnostics.report(diag::SyntaxError, token.range())
-          << "a constant" << "'" + std::string(token.text) + "'";
-      return std::nullopt;
-    }
-    int64_t term = 0;
-    if (token.kind == TokenKind::Number) {
-      const std::optional<Number> number = parseNumber(token.text);
-      if (!number || number->isReal) return fail(token);
-      term = number->value;
-    } else if (token.kind == TokenKind::Text) {
-      const std::optional<uint8_t> character = characterByte(token.text);
-      if (!character) return checkCharacters(token, program.diagnostics) ? fail(token) : std::nullopt;
-      term = *character;
-    } else {
-      const uint32_t symbol = program.symbols.require(token, file);
-      if (symbol == kNone || program.symbols[symbol].broken) return std::nullopt;
-      if (program.symbols[symbol].kind != SymbolKind::Constant) {
-        program.diagnostics.report(diag::WrongOperandKind, token.range())
-            << token.text << "no constant" << "a constant";
-        return std::nullopt;
-      }
-      term = program.symbols[symbol].value;
-      if (names != nullptr) names->push_back({token.range(), symbol});
-    }
-    sum = static_cast<int64_t>(static_cast<uint64_t>(sum) + static_cast<uint64_t>(sign) * static_cast<uint64_t>(term));
-    sign = 1;
-    wantsTerm = false;
-  }
-  if (wantsTerm) {
-    program.diagnostics.report(diag::SyntaxError, tokens.back().range()) << "a constant" << "the end of the operand";
-    return std::nullopt;
-  }
-  return sum;
+  placeData(context);
 }
 
 } // namespace rung::frontend::technol

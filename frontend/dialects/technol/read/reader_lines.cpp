@@ -56,7 +56,7 @@ void FileReader::read() {
 
 // The lines of the file itself (`depth` 0) or of one that it includes.
 void FileReader::readLines(FileId id, uint32_t depth) {
-  LineReader lines(program_.sources, id);
+  LineReader lines(c_.sources, id);
   SourceLine line;
   uint32_t first = 0, lineNumber = 0;
   if (depth == 0) program_.files[file_].lastLine = program_.sources.range(id, 0, 0); // of an empty file
@@ -70,7 +70,7 @@ void FileReader::readLines(FileId id, uint32_t depth) {
     if (structure_.stopped()) {
       const size_t text = line.text.find_first_not_of(" \t");
       if (text < commentOf(line.text) && text != std::string_view::npos && !textAfterStop_)
-        program_.diagnostics.report(diag::TextAfterStop, line.range());
+        c_.report(diag::TextAfterStop, line.range());
       textAfterStop_ = textAfterStop_ || (text < commentOf(line.text) && text != std::string_view::npos);
       continue;
     }
@@ -85,7 +85,7 @@ void FileReader::readLines(FileId id, uint32_t depth) {
       clean = true;
     }
     const auto before = static_cast<uint32_t>(program_.tokens.size());
-    clean = tokenize(line, program_.tokens, program_.diagnostics) && clean;
+    clean = tokenize(line, program_.tokens, c_.diagnostics) && clean;
     if (open && clean && program_.tokens.size() == before) continue; // a blank line or a comment inside
     if (open && clean && beginsStatement(before)) {                  // the comma was one too many
       logicalLine(first, before - first, lineNumber);
@@ -156,28 +156,27 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
   const auto column = static_cast<size_t>(name.data() - line.text.data());
   const SourceRange at = name.empty() ? line.range() : line.range(column, column + name.size());
   if (depth >= kMaxIncludes) {
-    program_.diagnostics.report(diag::TooDeep, at) << "files" << kMaxIncludes;
+    c_.report(diag::TooDeep, at) << "files" << kMaxIncludes;
     return true;
   }
   const bool quoted = name.size() > 1 && name.front() == '\'' && name.back() == '\'';
   if (quoted) name = name.substr(1, name.size() - 2);
   if (name.empty()) {
-    return !countFits(findRow(kInclude)->info, 0, at, program_.diagnostics);
+    return !countFits(findRow(kInclude)->info, 0, at, c_.diagnostics);
   }
   const IncludedFile file = findIncluded(name, quoted, line.begin);
   if (std::find(including_.begin(), including_.end(), file.path) != including_.end()) {
-    program_.diagnostics.report(diag::IncludeCycle, at) << file.path;
+    c_.report(diag::IncludeCycle, at) << file.path;
     return true;
   }
   if (!file.id && !file.again) {
-    auto report = program_.diagnostics.report(diag::IncludeNotFound, at);
+    auto report = c_.report(diag::IncludeNotFound, at);
     report << name;
     for (const std::string& problem : file.problems) report.note(problem);
     return true;
   }
-  if (++program_.included > kMostIncludes) {
-    if (program_.included == kMostIncludes + 1)
-      program_.diagnostics.report(diag::TooLarge, at) << "T_INCLUDE" << kMostIncludes;
+  if (++c_.included > kMostIncludes) {
+    if (c_.included == kMostIncludes + 1) c_.report(diag::TooLarge, at) << "T_INCLUDE" << kMostIncludes;
     return true;
   }
   readIncluded(file, at, depth);
@@ -186,14 +185,14 @@ bool FileReader::includes(const SourceLine& line, uint32_t depth) {
 
 // What is wrong with a file is said at its first inclusion; what another one declares again is that one's mistake.
 void FileReader::readIncluded(const IncludedFile& file, SourceRange at, uint32_t depth) {
-  if (!file.again) program_.includes.emplace(file.path, readable(program_.sources, *file.id, program_.diagnostics));
-  const auto text = program_.includes.at(file.path);
+  if (!file.again) c_.includes.emplace(file.path, readable(c_.sources, *file.id, c_.diagnostics));
+  const auto text = c_.includes.at(file.path);
   if (!text) return;
   including_.push_back(file.path);
   includeReported_ = false;
-  const SourceRange outer = program_.symbols.readsAgain(file.again ? at : SourceRange{});
+  const SourceRange outer = c_.symbols.readsAgain(file.again ? at : SourceRange{});
   readLines(*text, depth + 1);
-  program_.symbols.readsAgain(outer);
+  c_.symbols.readsAgain(outer);
   including_.pop_back();
 }
 
@@ -203,17 +202,17 @@ void FileReader::readIncluded(const IncludedFile& file, SourceRange at, uint32_t
 FileReader::IncludedFile FileReader::findIncluded(std::string_view name, bool quoted, SourcePos at) {
   std::string path(name);
   std::replace(path.begin(), path.end(), '\\', '/');
-  const bool system = quoted && path.find('/') == std::string::npos && !program_.systemFolder.empty();
+  const bool system = quoted && path.find('/') == std::string::npos && !c_.options.systemFolder.empty();
   std::vector<std::string> paths;
   if (system) {
-    paths = {program_.systemFolder + "/" + path};
+    paths = {c_.options.systemFolder + "/" + path};
   } else if (path[0] == '/') {
     paths = {path};
   } else {
     paths = {folderOf(program_.sources.name(program_.files[file_].id)) + path};
     const std::string beside = folderOf(program_.sources.name(program_.sources.fileOf(at))) + path;
     if (beside != paths[0]) paths.push_back(beside);
-    for (const std::string& folder : program_.includePaths) paths.push_back(folder + "/" + path);
+    for (const std::string& folder : c_.options.includePaths) paths.push_back(folder + "/" + path);
   }
   IncludedFile none{.path = paths[0]};
   for (const bool anyCase : {false, true})
@@ -221,8 +220,8 @@ FileReader::IncludedFile FileReader::findIncluded(std::string_view name, bool qu
       const std::string real = anyCase ? inAnyCase(program_.sources, candidate, path) : candidate;
       if (std::find(including_.begin(), including_.end(), real) != including_.end()) return {.path = real};
       if (real.empty()) continue;
-      if (program_.includes.contains(real)) return {.path = real, .again = true};
-      const Result<FileId> file = program_.sources.addFile(real);
+      if (c_.includes.contains(real)) return {.path = real, .again = true};
+      const Result<FileId> file = c_.sources.addFile(real);
       if (file) return {.path = real, .id = file.value()};
       if (!anyCase) none.problems.push_back(real + ": " + file.error());
     }
@@ -243,8 +242,7 @@ bool FileReader::allowedInInclude(const Statement& statement) {
   case Role::NoCode: return true;
   default: break;
   }
-  if (!includeReported_)
-    program_.diagnostics.report(diag::CodeInInclude, statement.range()) << statement.row->info.mnemonic;
+  if (!includeReported_) c_.report(diag::CodeInInclude, statement.range()) << statement.row->info.mnemonic;
   includeReported_ = true;
   return false;
 }
@@ -264,9 +262,9 @@ bool FileReader::macroLine(uint32_t first, uint32_t count, uint32_t line) {
     else if (name == "CONTROL_T_MACRO")
       macros_.control(operands, head.range());
     else if (name == kInclude)
-      countFits(row->info, 0, head.range(), program_.diagnostics);
+      countFits(row->info, 0, head.range(), c_.diagnostics);
     else
-      program_.diagnostics.report(diag::SyntaxError, head.range()) << "DEF_T_MACRO" << name;
+      c_.report(diag::SyntaxError, head.range()) << "DEF_T_MACRO" << name;
     return true;
   }
   const Macro* macro = row == nullptr || macros_.first() ? macros_.find(head.text) : nullptr;
@@ -280,25 +278,25 @@ void FileReader::useMacro(const Macro& macro, uint32_t first, uint32_t count, ui
   const std::string key = symbolKey(macro.name.text);
   if (std::find(expanding_.begin(), expanding_.end(), key) != expanding_.end()) {
     const std::string by = expanding_.back() == key ? "" : ", by way of " + expanding_.back();
-    program_.diagnostics.report(diag::MacroRecursion, head.range()) << macro.name.text << by;
+    c_.report(diag::MacroRecursion, head.range()) << macro.name.text << by;
     return;
   }
   if (expanding_.size() >= kMaxExpansion) {
-    program_.diagnostics.report(diag::TooDeep, head.range()) << "macros" << kMaxExpansion;
+    c_.report(diag::TooDeep, head.range()) << "macros" << kMaxExpansion;
     return;
   }
   const std::vector<Token> operands(program_.tokens.begin() + first + 1, program_.tokens.begin() + first + count);
   std::vector<Macro::Line> lines;
   if (!macros_.expand(macro, operands, head.range(), lines)) return;
-  const bool wasFull = program_.expanded > kMostExpanded;
-  program_.expanded += static_cast<uint32_t>(lines.size());
-  if (program_.expanded > kMostExpanded) {
-    if (!wasFull) program_.diagnostics.report(diag::TooLarge, head.range()) << "lines of macros" << kMostExpanded;
-    program_.expanded = kMostExpanded + 1;
+  const bool wasFull = c_.expanded > kMostExpanded;
+  c_.expanded += static_cast<uint32_t>(lines.size());
+  if (c_.expanded > kMostExpanded) {
+    if (!wasFull) c_.report(diag::TooLarge, head.range()) << "lines of macros" << kMostExpanded;
+    c_.expanded = kMostExpanded + 1;
     return;
   }
   if (std::ranges::any_of(lines, [](const Macro::Line& made) { return made.tokens.size() > kMaxStatement; })) {
-    program_.diagnostics.report(diag::TooLarge, head.range()) << "words in a line of a macro" << kMaxStatement;
+    c_.report(diag::TooLarge, head.range()) << "words in a line of a macro" << kMaxStatement;
     return;
   }
   const MacroStack stack = macro.stack;

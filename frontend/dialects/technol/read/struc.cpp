@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "frontend/dialects/technol/read/constant.h"
 #include "frontend/dialects/technol/read/encoding.h"
-#include "frontend/dialects/technol/read/reader.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/diag/technol.h"
 #include "ir/support/hash.h"
@@ -31,14 +31,14 @@ std::string describe(const Token& token) { return "'" + std::string(token.text) 
 } // namespace
 
 bool Structures::syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise) {
-  program_.diagnostics.report(diag::SyntaxError, rangeOf(program_.sources, tokens, otherwise))
+  c_.report(diag::SyntaxError, rangeOf(c_.sources, tokens, otherwise))
       << expected << (tokens.empty() ? "the end of the line" : describe(tokens[0]));
   return false;
 }
 
 bool Structures::room(int64_t bytes, SourceRange at) {
   if (bytes <= kMaxData) return true;
-  if (!full_) program_.diagnostics.report(diag::TooLarge, at) << "bytes of data" << kMaxData;
+  if (!full_) c_.report(diag::TooLarge, at) << "bytes of data" << kMaxData;
   full_ = true;
   return false;
 }
@@ -67,7 +67,7 @@ bool Structures::isMember(std::span<const Token> tokens) {
   const auto elementOf = [&](const Token& word) -> Element {
     const uint32_t bytes = bytesOf(word), structure = bytes == 0 ? find(word) : kNone;
     if (structure == kNone) return {.bytes = bytes};
-    return {.bytes = static_cast<uint32_t>(program_.structures[structure].image.size()), .structure = structure};
+    return {.bytes = static_cast<uint32_t>(c_.declarations.structures[structure].image.size()), .structure = structure};
   };
   const auto known = [](const Element& element) { return element.bytes != 0 || element.structure != kNone; };
   if (const Element element = elementOf(tokens[0]); known(element))
@@ -81,7 +81,7 @@ bool Structures::isMember(std::span<const Token> tokens) {
 void Structures::begin(const Token& name, const Token& keyword) {
   // Outside every module they are accepted: include files hold them.
   if (structure_.inModule() && !structure_.inData() && !structure_.localOpen())
-    program_.diagnostics.report(diag::DeclarationOutsideData, keyword.range()) << "struc";
+    c_.report(diag::DeclarationOutsideData, keyword.range()) << "struc";
   if (open_) abandon(name.range(), std::string(name.text) + " struc");
   open_ = true;
   name_ = name;
@@ -89,7 +89,7 @@ void Structures::begin(const Token& name, const Token& keyword) {
 }
 
 void Structures::abandon(SourceRange at, std::string_view found) {
-  program_.diagnostics.report(diag::SyntaxError, at) << std::string(name_.text) + " ends" << found;
+  c_.report(diag::SyntaxError, at) << std::string(name_.text) + " ends" << found;
   open_ = false;
 }
 
@@ -98,7 +98,7 @@ void Structures::abandon(SourceRange at, std::string_view found) {
 void Structures::end(const Token& name) {
   const bool matches = open_ && symbolKey(name.text) == symbolKey(name_.text);
   if (!matches)
-    program_.diagnostics.report(diag::SyntaxError, name.range())
+    c_.report(diag::SyntaxError, name.range())
         << (open_ ? std::string(name_.text) + " ends" : std::string("a statement")) << std::string(name.text) + " ends";
   if (!open_) return;
   open_ = false;
@@ -107,10 +107,10 @@ void Structures::end(const Token& name) {
     contents = hashBytes(m.key + "," + std::to_string(m.offset) + "," + std::to_string(contents));
   Symbol symbol = namedSymbol(name_, SymbolKind::Structure, file_, structure_.isLocal());
   symbol.value = static_cast<int64_t>(contents);
-  symbol.index = static_cast<uint32_t>(program_.structures.size());
-  program_.structures.push_back(std::move(made_));
-  program_.structureNames.insert(symbolKey(name_.text));
-  program_.symbols.declare(symbol);
+  symbol.index = static_cast<uint32_t>(c_.declarations.structures.size());
+  c_.declarations.structures.push_back(std::move(made_));
+  c_.declarations.structureNames.insert(symbolKey(name_.text));
+  c_.symbols.declare(symbol);
 }
 
 void Structures::member(const Token* name, const Token& keyword, Element element, std::span<const Token> value) {
@@ -124,7 +124,7 @@ void Structures::member(const Token* name, const Token& keyword, Element element
     made.key = symbolKey(name->text);
     Symbol symbol = namedSymbol(*name, SymbolKind::Constant, file_, structure_.isLocal());
     symbol.value = made.offset;
-    program_.symbols.declare(symbol);
+    c_.symbols.declare(symbol);
   }
   made_.image.insert(made_.image.end(), bytes.begin(), bytes.end());
   made_.members.push_back(std::move(made));
@@ -133,16 +133,16 @@ void Structures::member(const Token* name, const Token& keyword, Element element
 // ---- values ---------------------------------------------------------------------------------------------------------
 
 uint32_t Structures::find(const Token& word) const {
-  if (program_.structures.empty() || word.kind != TokenKind::Name) return kNone;
-  if (!program_.structureNames.contains(symbolKey(word.text))) return kNone;
-  const uint32_t index = program_.symbols.find(word.text, file_);
-  if (index == kNone || program_.symbols[index].kind != SymbolKind::Structure) return kNone;
-  return program_.symbols[index].index;
+  if (c_.declarations.structures.empty() || word.kind != TokenKind::Name) return kNone;
+  if (!c_.declarations.structureNames.contains(symbolKey(word.text))) return kNone;
+  const uint32_t index = c_.symbols.find(word.text, file_);
+  if (index == kNone || c_.symbols[index].kind != SymbolKind::Structure) return kNone;
+  return c_.symbols[index].index;
 }
 
 Bytes Structures::instance(uint32_t structure, std::span<const Token> value, SourceRange otherwise) {
   Bytes out;
-  const Bytes& image = program_.structures[structure].image;
+  const Bytes& image = c_.declarations.structures[structure].image;
   if (!values({static_cast<uint32_t>(image.size()), structure}, value, otherwise, out)) out = image;
   return out;
 }
@@ -162,7 +162,7 @@ bool Structures::value(Element element, std::span<const Token> tokens, SourceRan
   if (!room(static_cast<int64_t>(out.size()) + element.bytes, tokens[0].range())) return false;
   if (tokens.size() == 1 && isWord(tokens[0], "?")) {
     if (element.structure == kNone) return out.resize(out.size() + element.bytes), true;
-    const Bytes& image = program_.structures[element.structure].image;
+    const Bytes& image = c_.declarations.structures[element.structure].image;
     return out.insert(out.end(), image.begin(), image.end()), true;
   }
   if (element.structure != kNone) {
@@ -172,7 +172,7 @@ bool Structures::value(Element element, std::span<const Token> tokens, SourceRan
   }
   const bool text = tokens.size() == 1 && tokens[0].kind == TokenKind::Text;
   if (text && element.bytes == 1 && !tokens[0].text.empty()) {
-    const std::string memory = memoryText(tokens[0], program_.diagnostics);
+    const std::string memory = memoryText(tokens[0], c_.diagnostics);
     return out.insert(out.end(), memory.begin(), memory.end()), true;
   }
   return number(element.bytes, tokens, otherwise, out);
@@ -180,10 +180,10 @@ bool Structures::value(Element element, std::span<const Token> tokens, SourceRan
 
 bool Structures::repeated(Element element, std::span<const Token> tokens, size_t dup, Bytes& out) {
   const SourceRange at = tokens[dup].range();
-  const std::optional<int64_t> count = constantValue(program_, file_, tokens.first(dup), at);
+  const std::optional<int64_t> count = ConstantReader(c_.symbols, c_.diagnostics, file_).value(tokens.first(dup), at);
   if (!count) return false;
   if (*count < 0 || *count > kMaxData) {
-    program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, tokens.first(dup), at))
+    c_.report(diag::OperandRange, rangeOf(c_.sources, tokens.first(dup), at))
         << *count << "0 to " + std::to_string(kMaxData);
     return false;
   }
@@ -198,13 +198,13 @@ bool Structures::repeated(Element element, std::span<const Token> tokens, size_t
 
 // The members in their order; one that is left out keeps the value of the declaration.
 bool Structures::fields(uint32_t structure, std::span<const Token> tokens, SourceRange otherwise, Bytes& out) {
-  const StructureType& type = program_.structures[structure];
+  const StructureType& type = c_.declarations.structures[structure];
   Bytes made = type.image;
   const auto parts = splitOperands(tokens);
   bool ok = true;
   for (size_t i = 0; i < parts.size(); ++i) {
     if (i >= type.members.size()) {
-      program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, parts[i], otherwise))
+      c_.report(diag::OperandRange, rangeOf(c_.sources, parts[i], otherwise))
           << std::to_string(parts.size()) + " values" << "at most " + std::to_string(type.members.size());
       return false;
     }
@@ -213,7 +213,7 @@ bool Structures::fields(uint32_t structure, std::span<const Token> tokens, Sourc
     Bytes bytes;
     ok = value({m.elementBytes, m.structure}, parts[i], otherwise, bytes) && ok;
     if (bytes.size() > m.bytes) {
-      program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, parts[i], otherwise))
+      c_.report(diag::OperandRange, rangeOf(c_.sources, parts[i], otherwise))
           << std::to_string(bytes.size()) + " bytes" << "at most " + std::to_string(m.bytes);
       return false;
     }
@@ -231,12 +231,12 @@ bool Structures::number(uint32_t bytes, std::span<const Token> tokens, SourceRan
     const double x = tokens[0].is('-') ? -real->real : real->real;
     std::memcpy(&bits, &x, sizeof bits);
   } else {
-    const std::optional<int64_t> whole = constantValue(program_, file_, tokens, otherwise);
+    const std::optional<int64_t> whole = ConstantReader(c_.symbols, c_.diagnostics, file_).value(tokens, otherwise);
     if (!whole) return false;
     const int64_t most = bytes == 8 ? INT64_MAX : (int64_t{1} << (8 * bytes)) - 1;
     const int64_t least = bytes == 8 ? INT64_MIN : -(int64_t{1} << (8 * bytes - 1));
     if (*whole < least || *whole > most) {
-      program_.diagnostics.report(diag::OperandRange, rangeOf(program_.sources, tokens, otherwise))
+      c_.report(diag::OperandRange, rangeOf(c_.sources, tokens, otherwise))
           << *whole << std::to_string(least) + " to " + std::to_string(most);
       return false;
     }

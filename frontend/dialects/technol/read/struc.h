@@ -11,8 +11,8 @@ inline constexpr int64_t kMaxData = 16 << 20; // bytes; the control has far less
 
 class Structures {
 public:
-  Structures(Program& program, const Structure& structure, uint32_t file)
-      : program_(program), structure_(structure), file_(file) {}
+  Structures(ReadContext& context, const Structure& structure, uint32_t file)
+      : c_(context), structure_(structure), file_(file) {}
 
   // Lines from `NAME struc` to `NAME ends`; false when the line is none of them. A statement of the language inside
   // ends the structure with a report.
@@ -21,7 +21,7 @@ public:
   // Something else follows: the structure was not closed.
   void abandon(SourceRange at, std::string_view found);
 
-  // The structure that a word names, in Program::structures; kNone when it names none.
+  // The structure that a word names, in Declarations::structures; kNone when it names none.
   uint32_t find(const Token& word) const;
   // The memory of `<a,b>`, `?` or `n DUP(<a,b>)` at the start; as much as the structure takes after a report.
   std::vector<uint8_t> instance(uint32_t structure, std::span<const Token> value, SourceRange otherwise);
@@ -45,7 +45,7 @@ private:
   bool room(int64_t bytes, SourceRange at);
   bool syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise);
 
-  Program& program_;
+  ReadContext& c_;
   const Structure& structure_;
   uint32_t file_;
   bool open_ = false;

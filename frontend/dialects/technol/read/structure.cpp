@@ -25,20 +25,19 @@ bool isOneOf(ModuleKind kind, std::span<const ModuleKind> kinds) {
 
 void Structure::push(Unit unit) {
   unit.parent = unit_;
-  unit_ = static_cast<uint32_t>(program_.units.size());
+  unit_ = {static_cast<uint32_t>(program_.units.size())};
   program_.units.push_back(unit);
 }
 
 void Structure::checkPlace(const Statement& statement, ModuleKind kind) {
-  Diagnostics& diagnostics = program_.diagnostics;
   bool& seen = seen_[static_cast<size_t>(kind)];
   if (kind != ModuleKind::Data && !seen_[0] && !dataReported_) {
     dataReported_ = true;
-    diagnostics.report(diag::DataNotFirst, statement.range());
+    c_.report(diag::DataNotFirst, statement.range());
   }
-  if (seen) diagnostics.report(diag::DuplicateModule, statement.range()) << moduleName(kind);
+  if (seen) c_.report(diag::DuplicateModule, statement.range()) << moduleName(kind);
   if (isOneOf(kind, kMainOnly) && !program_.files[file_].main)
-    diagnostics.report(diag::ModuleNotAllowed, statement.range()) << moduleName(kind);
+    c_.report(diag::ModuleNotAllowed, statement.range()) << moduleName(kind);
   seen = true;
 }
 
@@ -58,9 +57,8 @@ void Structure::beginModule(const Statement& statement, ModuleKind kind, uint32_
 }
 
 void Structure::reportUnclosed(SourceRange at) {
-  const Unit& module = program_.units[program_.parts[part_].unit];
-  program_.diagnostics.report(diag::ModuleNotClosed, at).note(module.begin, "it begins here")
-      << moduleName(kind()) << endName(kind());
+  const Unit& module = program_.at(program_.parts[part_].unit);
+  c_.report(diag::ModuleNotClosed, at).note(module.begin, "it begins here") << moduleName(kind()) << endName(kind());
 }
 
 void Structure::endModule(const Statement& statement, ModuleKind kind_, uint32_t index) {
@@ -82,30 +80,26 @@ void Structure::closeModule(SourceRange at, uint32_t line, uint32_t index) {
   part.endLine = line;
   part.endStatement = index;
   part_ = kNone;
-  unit_ = kNone;
+  unit_ = {};
 }
 
 // All units inside the module, innermost first; only the innermost that lacks its end is reported.
 void Structure::closeUnits(SourceRange at) {
   bool reported = false;
-  while (program_.units[unit_].kind != UnitKind::Module) {
-    if (!reported || program_.units[unit_].kind == UnitKind::Timed)
+  while (program_.at(unit_).kind != UnitKind::Module) {
+    if (!reported || program_.at(unit_).kind == UnitKind::Timed)
       closeUnit(at);
     else
-      unit_ = program_.units[unit_].parent;
+      unit_ = program_.at(unit_).parent;
     reported = true;
   }
 }
 
 void Structure::closeUnit(SourceRange at) {
-  const Unit& unit = program_.units[unit_];
+  const Unit& unit = program_.at(unit_);
   switch (unit.kind) {
-  case UnitKind::Mechanism:
-    program_.diagnostics.report(diag::MechNotClosed, at).note(unit.begin, "it begins here") << unit.name;
-    break;
-  case UnitKind::Procedure:
-    program_.diagnostics.report(diag::ProcNotClosed, at).note(unit.begin, "it begins here") << unit.name;
-    break;
+  case UnitKind::Mechanism: c_.report(diag::MechNotClosed, at).note(unit.begin, "it begins here") << unit.name; break;
+  case UnitKind::Procedure: c_.report(diag::ProcNotClosed, at).note(unit.begin, "it begins here") << unit.name; break;
   case UnitKind::Timed: lostBlocks_.push_back({program_.tokens[unit.endLabel], unit_}); break;
   case UnitKind::Module: break;
   }
@@ -118,13 +112,12 @@ void Structure::beginLocal(const Statement& statement) {
 }
 
 void Structure::endLocal(const Statement& statement) {
-  if (!localOpen_)
-    program_.diagnostics.report(diag::SyntaxError, statement.range()) << "DATA_LOCAL" << "DATA_LOCAL_END";
+  if (!localOpen_) c_.report(diag::SyntaxError, statement.range()) << "DATA_LOCAL" << "DATA_LOCAL_END";
   localOpen_ = false;
 }
 
 void Structure::closeLocal(SourceRange at) {
-  if (localOpen_) program_.diagnostics.report(diag::ModuleNotClosed, at) << "DATA_LOCAL" << "DATA_LOCAL_END";
+  if (localOpen_) c_.report(diag::ModuleNotClosed, at) << "DATA_LOCAL" << "DATA_LOCAL_END";
   localOpen_ = false;
 }
 
@@ -138,54 +131,50 @@ void Structure::stop(const Statement& statement, uint32_t index) {
 }
 
 void Structure::beginMechanism(const Statement& statement, const Token& name) {
-  const uint32_t outer = program_.owner(unit_);
+  const UnitId outer = program_.owner(unit_);
   if (program_.inMechanism(unit_))
-    program_.diagnostics.report(diag::NestedMechanism, statement.range())
-            .note(program_.units[outer].begin, "it begins here")
-        << program_.units[outer].name;
+    c_.report(diag::NestedMechanism, statement.range()).note(program_.at(outer).begin, "it begins here")
+        << program_.at(outer).name;
   const auto index = static_cast<uint32_t>(program_.mechanisms.size());
   push({.kind = UnitKind::Mechanism, .index = index, .name = name.text, .begin = statement.range()});
-  program_.mechanisms.push_back({.name = name.text, .unit = unit_, .byte = index * kMechanismBytes});
+  program_.mechanisms.push_back({.name = name.text, .unit = unit_});
 }
 
-uint32_t Structure::innermost(UnitKind kind) const {
-  uint32_t at = unit_;
-  while (at != kNone && program_.units[at].kind != kind) at = program_.units[at].parent;
-  return at;
+UnitId Structure::innermost(UnitKind kind) const {
+  UnitId unit = unit_;
+  while (unit.valid() && program_.at(unit).kind != kind) unit = program_.at(unit).parent;
+  return unit;
 }
 
 // What was left open inside ends here, too.
 bool Structure::endUnit(const Statement& statement, const Token& name, UnitKind kind) {
   const bool mechanism = kind == UnitKind::Mechanism;
   const Diag mismatch = mechanism ? diag::MechNameMismatch : diag::ProcNameMismatch;
-  const uint32_t at = innermost(kind);
-  if (at == kNone) {
-    program_.diagnostics.report(mismatch, statement.range())
-        << name.text << (mechanism ? "no mechanism" : "no procedure");
+  const UnitId open = innermost(kind);
+  if (!open.valid()) {
+    c_.report(mismatch, statement.range()) << name.text << (mechanism ? "no mechanism" : "no procedure");
     return false;
   }
-  while (unit_ != at) closeUnit(statement.range());
-  const Unit& unit = program_.units[unit_];
+  while (unit_ != open) closeUnit(statement.range());
+  const Unit& unit = program_.at(unit_);
   if (symbolKey(unit.name) != symbolKey(name.text))
-    program_.diagnostics.report(mismatch, name.range()).note(unit.begin, "it begins here")
+    c_.report(mismatch, name.range()).note(unit.begin, "it begins here")
         << name.text << "'" + std::string(unit.name) + "'";
   unit_ = unit.parent;
   return true;
 }
 
 void Structure::beginProcedure(const Statement& statement, const Token& name) {
-  if (const uint32_t outer = innermost(UnitKind::Procedure); outer != kNone)
-    program_.diagnostics.report(diag::NestedProcedure, statement.range())
-            .note(program_.units[outer].begin, "it begins here")
-        << program_.units[outer].name;
+  if (const UnitId outer = innermost(UnitKind::Procedure); outer.valid())
+    c_.report(diag::NestedProcedure, statement.range()).note(program_.at(outer).begin, "it begins here")
+        << program_.at(outer).name;
   const auto index = static_cast<uint32_t>(program_.procedures.size());
   push({.kind = UnitKind::Procedure, .index = index, .name = name.text, .begin = statement.range()});
   program_.procedures.push_back({.name = name.text, .unit = unit_});
 }
 
 void Structure::beginTimed(const Statement& statement, const Token& endLabel) {
-  if (unit_ != kNone && program_.units[unit_].kind == UnitKind::Timed)
-    innerBlocks_.push_back({unit_, statement.range()});
+  if (unit_.valid() && program_.at(unit_).kind == UnitKind::Timed) innerBlocks_.push_back({unit_, statement.range()});
   push({.kind = UnitKind::Timed,
         .name = statement.row->info.mnemonic,
         .endLabel = static_cast<uint32_t>(&endLabel - program_.tokens.data()),
@@ -194,19 +183,19 @@ void Structure::beginTimed(const Statement& statement, const Token& endLabel) {
 
 void Structure::passLabel(std::string_view name) {
   const std::string key = symbolKey(name);
-  uint32_t found = kNone;
-  for (uint32_t at = unit_; at != kNone && program_.units[at].kind == UnitKind::Timed; at = program_.units[at].parent)
-    if (symbolKey(program_.tokens[program_.units[at].endLabel].text) == key) found = at;
-  if (found == kNone) return;
+  UnitId found;
+  for (UnitId at = unit_; at.valid() && program_.at(at).kind == UnitKind::Timed; at = program_.at(at).parent)
+    if (symbolKey(program_.tokens[program_.at(at).endLabel].text) == key) found = at;
+  if (!found.valid()) return;
   while (unit_ != found) closeUnit({});
   // Blocks inside a block are reported when it is certain that it has an end; else its missing end is the mistake.
   std::erase_if(innerBlocks_, [&](const InnerBlock& inner) {
     if (inner.outer != found) return false;
-    program_.diagnostics.report(diag::SyntaxError, inner.at).note(program_.units[found].begin, "it begins here")
+    c_.report(diag::SyntaxError, inner.at).note(program_.at(found).begin, "it begins here")
         << "label '" + std::string(name) + "', which ends the timed block," << "a timed block inside it";
     return true;
   });
-  unit_ = program_.units[found].parent;
+  unit_ = program_.at(found).parent;
 }
 
 bool Structure::fits(const Row& row) const {
@@ -223,8 +212,8 @@ bool Structure::fits(const Row& row) const {
   case Role::Equi: return true;
   case Role::MechBegin:
   case Role::ProcBegin: return inCode;
-  case Role::MechEnd: return innermost(UnitKind::Mechanism) != kNone;
-  case Role::ProcEnd: return innermost(UnitKind::Procedure) != kNone;
+  case Role::MechEnd: return innermost(UnitKind::Mechanism).valid();
+  case Role::ProcEnd: return innermost(UnitKind::Procedure).valid();
   default: return false;
   }
 }
@@ -232,22 +221,20 @@ bool Structure::fits(const Row& row) const {
 bool Structure::allowsCode(const Statement& statement) {
   if (localOpen_ && !inData()) closeLocal(statement.range());
   if (inModule() && !inData()) return true;
-  if (!outsideReported_)
-    program_.diagnostics.report(diag::CodeOutsideModule, statement.range()) << statement.row->info.mnemonic;
+  if (!outsideReported_) c_.report(diag::CodeOutsideModule, statement.range()) << statement.row->info.mnemonic;
   outsideReported_ = true;
   return false;
 }
 
 bool Structure::allowsData(const Statement& statement) {
   if (localOpen_ || inData()) return true;
-  program_.diagnostics.report(diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
+  c_.report(diag::DeclarationOutsideData, statement.range()) << statement.row->info.mnemonic;
   return false;
 }
 
 void Structure::checkMissing() {
   const SourceFile& file = program_.files[file_];
-  Diagnostics& diagnostics = program_.diagnostics;
-  if (!seen_[0] && !dataReported_) diagnostics.report(diag::DataNotFirst, file.lastLine);
+  if (!seen_[0] && !dataReported_) c_.report(diag::DataNotFirst, file.lastLine);
   std::string missing;
   size_t count = 0;
   for (int i = 1; i < kModuleKinds; ++i) {
@@ -257,8 +244,8 @@ void Structure::checkMissing() {
     missing.append(count++ == 0 ? "" : ", ").append(moduleName(kind));
   }
   if (count != 0)
-    diagnostics.report(diag::MissingModule, file.lastLine) << (count == 1 ? "a module is" : "modules are") << missing;
-  if (file.main && !stopped_) diagnostics.report(diag::MissingStop, file.lastLine);
+    c_.report(diag::MissingModule, file.lastLine) << (count == 1 ? "a module is" : "modules are") << missing;
+  if (file.main && !stopped_) c_.report(diag::MissingStop, file.lastLine);
 }
 
 void Structure::finish(uint32_t statementCount) {
@@ -272,19 +259,17 @@ void Structure::finish(uint32_t statementCount) {
   checkMissing();
   // A block whose label is elsewhere leads out of its unit; one without label or with an earlier one has no end.
   for (const OpenBlock& block : lostBlocks_) {
-    const uint32_t symbol = program_.symbols.find(block.label.text, file_);
-    const bool later = symbol != kNone && program_.symbols[symbol].kind == SymbolKind::Label &&
-                       block.label.pos < program_.symbols[symbol].declared.begin;
-    if (symbol != kNone && program_.symbols[symbol].kind != SymbolKind::Label) continue; // the operand's own mistake
+    const uint32_t symbol = c_.symbols.find(block.label.text, file_);
+    const bool later = symbol != kNone && c_.symbols[symbol].kind == SymbolKind::Label &&
+                       block.label.pos < c_.symbols[symbol].declared.begin;
+    if (symbol != kNone && c_.symbols[symbol].kind != SymbolKind::Label) continue; // the operand's own mistake
     if (symbol == kNone)
-      program_.symbols.noteUndefined(block.label, file_, {});
+      c_.symbols.noteUndefined(block.label, file_, {});
     else if (!later)
-      program_.diagnostics.report(diag::SyntaxError, block.label.range())
-              .note(program_.symbols[symbol].declared, "the label")
+      c_.report(diag::SyntaxError, block.label.range()).note(c_.symbols[symbol].declared, "the label")
           << "label '" + std::string(block.label.text) + "' below this statement" << "it above";
     else
-      program_.diagnostics.report(diag::JumpCrossesUnit, block.label.range())
-          << block.label.text << "the unit of this timed block";
+      c_.report(diag::JumpCrossesUnit, block.label.range()) << block.label.text << "the unit of this timed block";
   }
 }
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "frontend/dialects/technol/program.h"
+#include "frontend/dialects/technol/read/read_context.h"
 
 namespace rung::frontend::technol {
 
 class Structure {
 public:
-  Structure(Program& program, uint32_t file) : program_(program), file_(file) {}
+  Structure(ReadContext& context, uint32_t file) : c_(context), program_(context.program), file_(file) {}
 
   // Statements that open and close; `index` is the statement's number.
   void beginModule(const Statement& statement, ModuleKind kind, uint32_t index);
@@ -42,7 +42,7 @@ public:
   // Whether a declaration is allowed here; reports where not.
   bool allowsData(const Statement& statement);
 
-  uint32_t unit() const { return unit_; }
+  UnitId unit() const { return unit_; }
   bool stopped() const { return stopped_; }
   bool inModule() const { return part_ != kNone; }
   bool localOpen() const { return localOpen_; }
@@ -55,7 +55,7 @@ private:
   void closeModule(SourceRange at, uint32_t line, uint32_t index);
   void closeUnits(SourceRange at);
   void closeUnit(SourceRange at);
-  uint32_t innermost(UnitKind kind) const;
+  UnitId innermost(UnitKind kind) const;
   bool endUnit(const Statement& statement, const Token& name, UnitKind kind);
   void closeLocal(SourceRange at);
   void push(Unit unit);
@@ -63,10 +63,11 @@ private:
   void checkPlace(const Statement& statement, ModuleKind kind);
   void checkMissing();
 
-  Program& program_;
+  ReadContext& c_;
+  SourceProgram& program_;
   uint32_t file_;
   uint32_t part_ = kNone; // the open one
-  uint32_t unit_ = kNone;
+  UnitId unit_;
   bool localOpen_ = false;
   bool stopped_ = false;
   bool outsideReported_ = false;
@@ -76,10 +77,10 @@ private:
   std::array<bool, kModuleKinds> seen_{};
   struct OpenBlock {
     Token label;
-    uint32_t unit = kNone;
+    UnitId unit;
   };
   struct InnerBlock {
-    uint32_t outer = kNone; // unit
+    UnitId outer;
     SourceRange at;
   };
   std::vector<InnerBlock> innerBlocks_; // timed blocks inside one

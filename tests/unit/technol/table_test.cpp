@@ -207,7 +207,8 @@ std::vector<const Row*> rowsWithOperands() {
 
 // The two registers of MOV are fixed; its operands are named as they are written.
 std::string good(const OperandInfo& operand) {
-  return std::string(kindOf(operand).ownName ? operand.name : operand.kind->good);
+  const bool isRegister = std::holds_alternative<RegisterKind>(kindOf(operand).takes);
+  return std::string(isRegister ? operand.name : operand.kind->good);
 }
 
 std::vector<std::string> goodOperands(const Row& row, bool optional = true) {
@@ -305,7 +306,7 @@ TEST(TechnolTable, EffectsAreThoseOfTheLowering) {
   for (const Row* row : rowsWithOperands()) {
     if (row->role != Role::Code || (row->effects & kWaits) || row->info.mnemonic == "PROC_CALL") continue;
     auto operands = goodOperands(*row, popsWithoutOperand(*row));
-    if ((row->effects & kDrIfNotGiven) && !row->info.operands[0].optional && kindOf(row->info.operands[0]).notGiven)
+    if ((row->effects & kDrIfNotGiven) && !row->info.operands[0].optional && mayBeOmitted(row->info.operands[0]))
       operands[0] = "-";
     const std::string label = (row->effects & kJumps) ? "LABEL1:\n" : "";
     const std::string units = " PROC_BEGIN PROC1\n PROC_END PROC1\n MECH_BEGIN MECH1\n MECH_END MECH1\n";

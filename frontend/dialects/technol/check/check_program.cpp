@@ -73,7 +73,7 @@ bool readsDr(const Row& row, std::span<const Operand> operands) {
   if ((row.effects & kDrIfNotGiven) == 0) return true;
   for (size_t i = 0; i < operands.size(); ++i) {
     const OperandInfo& info = row.info.operands[i];
-    if (info.optional || kindOf(info).notGiven) return !operands[i].given();
+    if (info.optional || mayBeOmitted(info)) return !operands[i].given();
   }
   return true;
 }

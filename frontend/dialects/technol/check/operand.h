@@ -21,7 +21,7 @@ struct Operand {
     Procedure,
     Width,
     Register,
-    Keyword // value: its place among OperandKind::keywords
+    Keyword // value: its number among the Words of the kind, or a member's offset
   };
 
   Form form = Form::NotGiven;

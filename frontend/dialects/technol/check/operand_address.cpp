@@ -281,7 +281,7 @@ bool OperandParser::negatedByWord(bool mayBeNegated, bool writes, std::span<cons
   return false;
 }
 
-bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
+bool OperandParser::read(const BitKind& kind, const OperandInfo& info, Tokens tokens, Operand& out) {
   const bool writes = info.access != Access::Read;
   const bool mayBeNegated = kind.sign && !writes;
   if (isNotWord(tokens)) return negatedByWord(mayBeNegated, writes, tokens, out);
@@ -300,9 +300,9 @@ bool OperandParser::bit(const OperandInfo& info, const OperandKind& kind, std::s
       return noBitName(tokens.subspan(point + 1), tokens[point].range());
     return bitAt(info, tokens.first(point), tokens[point + 1], out);
   }
-  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return bareBit(info, kind, tokens[0], out);
+  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return bareBit(kind, info, tokens[0], out);
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number)
-    return kind.constant ? flag(tokens[0], out) : wrongKind(out, "a number", "a bit");
+    return kind.flag ? flag(tokens[0], out) : wrongKind(out, "a number", "a bit");
   Address whole;
   return address(tokens, whole) && wrongKind(out, "an address without a bit", "a bit");
 }
@@ -325,7 +325,7 @@ uint32_t OperandParser::bitSymbol(const Token& name) {
   return index != kNone ? note(name, index) : require(name);
 }
 
-bool OperandParser::bareBit(const OperandInfo& info, const OperandKind& kind, const Token& name, Operand& out) {
+bool OperandParser::bareBit(const BitKind& kind, const OperandInfo& info, const Token& name, Operand& out) {
   const uint32_t index = bitSymbol(name);
   if (index == kNone) return false;
   const Symbol& symbol = symbols_[index];
@@ -337,7 +337,7 @@ bool OperandParser::bareBit(const OperandInfo& info, const OperandKind& kind, co
   }
   if (symbol.kind != SymbolKind::Bit && symbol.kind != SymbolKind::Mechanism)
     return wrongKind(out, describe(symbol), "a bit");
-  if (!symbol.space.valid() && !kind.weight)
+  if (!symbol.space.valid() && !kind.number)
     return wrongKind(out, "a bit number", "a bit, with the address of its byte before it");
   out.place = {.space = symbol.space, .byte = symbol.byte, .bit = symbol.bit};
   return checkWrite(info, symbol.protection, name.text, out.range);

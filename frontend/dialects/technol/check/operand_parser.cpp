@@ -54,13 +54,15 @@ std::string widthsOf(ir::TypeSet types) {
   return byte && word ? "8 or 16 bits" : byte ? "8 bits" : "16 bits";
 }
 
+bool isOne(TokenKind kind, std::span<const Token> tokens) { return tokens.size() == 1 && tokens[0].kind == kind; }
+
 // One of the words that a kind takes by itself or in the place of an address.
-bool takeKeyword(std::string_view words, std::span<const Token> tokens, Operand& out) {
-  if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
-  const int64_t number = numberOfWord(words, tokens[0].text);
+bool takeWord(const Words& words, std::span<const Token> tokens, Operand& out) {
+  if (!isOne(TokenKind::Name, tokens)) return false;
+  const int64_t number = numberOfWord(words.list, tokens[0].text);
   if (number < 0) return false;
   out.form = Operand::Form::Keyword;
-  out.value = number;
+  out.value = words.first + number;
   return true;
 }
 
@@ -115,30 +117,31 @@ bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out)
     operand.tokens = operands[i];
     operand.access = info.access;
     operand.firstName = static_cast<uint32_t>(names_.size());
-    ok = one(info, kindOf(info), operands[i], operand) && ok;
+    ok = one(info, operands[i], operand) && ok;
     operand.nameCount = static_cast<uint32_t>(names_.size()) - operand.firstName;
     // The type of a count holds for the time, too (man. l.2133).
     inherited_ = i == 0 && (statement.row->effects & kWaits) && operand.prefixed ? naturalPrefix(operand.type) : 0;
   }
   inherited_ = 0;
   while (out.size() - first < infos.size()) out.emplace_back().range = statement.range();
-  if (ok && infos.size() >= 2 && kindOf(infos[0]).timed) ok = waitOperands(std::span(out).subspan(first));
+  if (ok && infos.size() >= 2 && infos[0].kind == &kinds::kTimerCell) ok = waitOperands(std::span(out).subspan(first));
   return ok;
 }
 
-bool OperandParser::one(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
-  if (tokens.empty()) return (info.optional && kind.notGiven) || kind.empty || syntax("an operand", tokens);
-  if (kind.notGiven && isNotGiven(tokens)) return true;
-  switch (kind.parse) {
-  case OperandClass::Bit: return bit(info, kind, tokens, out);
-  case OperandClass::Value:
-    if (kind.text && tokens.size() == 1 && tokens[0].kind == TokenKind::Text) return text(info, kind, tokens, out);
-    return value(info, kind, tokens, out);
-  case OperandClass::Name: return named(kind, tokens, out);
-  case OperandClass::Keyword: return keyword(info, kind, tokens, out);
-  case OperandClass::Text: return text(info, kind, tokens, out);
-  case OperandClass::Variable: return variable(kind, tokens, out);
-  }
+bool OperandParser::one(const OperandInfo& info, std::span<const Token> tokens, Operand& out) {
+  const OperandKind& kind = kindOf(info);
+  if (tokens.empty())
+    return (info.optional && mayBeOmitted(info)) || kind.omission == Omission::Nothing || syntax("an operand", tokens);
+  if (mayBeOmitted(info) && isNotGiven(tokens)) return true;
+  return std::visit([&](const auto& takes) { return read(takes, info, tokens, out); }, kind.takes);
+}
+
+// The reader has read it.
+bool OperandParser::read(const DeclarationKind&, const OperandInfo&, Tokens, Operand&) { return true; }
+
+bool OperandParser::inRange(int64_t value, int64_t least, int64_t most, SourceRange at) {
+  if (value >= least && value <= most) return true;
+  diagnostics_.report(diag::OperandRange, at) << value << std::to_string(least) + " to " + std::to_string(most);
   return false;
 }
 
@@ -153,11 +156,7 @@ bool OperandParser::waitOperands(std::span<Operand> operands) {
     return false;
   }
   const int64_t most = count.type == ir::Type::I8 ? 0xFF : 0xFFFF;
-  if (time.isConstant() && (time.value < 0 || time.value > most)) {
-    diagnostics_.report(diag::OperandRange, time.range) << time.value << "0 to " + std::to_string(most);
-    return false;
-  }
-  return true;
+  return !time.isConstant() || inRange(time.value, 0, most, time.range);
 }
 
 bool OperandParser::checkWrite(const OperandInfo& info, Protection protection, std::string_view name,
@@ -192,8 +191,8 @@ bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
   return !meant.word.empty();
 }
 
-bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
-                          Operand& out) {
+bool OperandParser::read(const NumberKind& kind, const OperandInfo& info, Tokens tokens, Operand& out) {
+  if (kind.text && isOne(TokenKind::Text, tokens)) return literal(tokens[0], out);
   if (kind.sign && tokens[0].is('-')) {
     out.negated = true;
     tokens = tokens.subspan(1);
@@ -212,13 +211,13 @@ bool OperandParser::value(const OperandInfo& info, const OperandKind& kind, std:
   if (tokens.empty()) return syntax("a value", tokens);
   if (!this->address(tokens, address)) return false;
   if (prefix == kCnst && address.hasBase) return wrongKind(out, "no constant", "a constant");
-  return address.hasBase ? cell(info, kind, address, prefix != 0 ? prefix : inherited_, out)
-                         : constant(info, kind, address, prefix, out);
+  return address.hasBase ? cell(kind, info, address, prefix != 0 ? prefix : inherited_, out)
+                         : constant(kind, info, address, prefix, out);
 }
 
-bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix,
+bool OperandParser::constant(const NumberKind& kind, const OperandInfo& info, const Address& address, uint8_t prefix,
                              Operand& out) {
-  if (!kind.constant) return wrongKind(out, "a constant", "a variable");
+  if (kind.source == Source::Cell) return wrongKind(out, "a constant", "a variable");
   if (prefix == kQword || prefix == kReal || prefix == kHigh) {
     diagnostics_.report(diag::InvalidTypePrefix, out.range) << std::string(prefixOf(prefix).name) + "." << "a constant";
     return false;
@@ -242,16 +241,13 @@ bool OperandParser::constant(const OperandInfo& info, const OperandKind& kind, c
   const bool ranged = info.min <= info.max;
   const int64_t least = ranged ? info.min : -(int64_t{1} << (width - 1));
   const int64_t most = ranged ? info.max : (int64_t{1} << width) - 1;
-  if (out.value >= least && out.value <= most) return true;
-  diagnostics_.report(diag::OperandRange, out.range)
-      << out.value << std::to_string(least) + " to " + std::to_string(most);
-  return false;
+  return inRange(out.value, least, most, out.range);
 }
 
-bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix,
+bool OperandParser::cell(const NumberKind& kind, const OperandInfo& info, const Address& address, uint8_t prefix,
                          Operand& out) {
   if (address.isBit) return wrongKind(out, "a bit", "a variable");
-  if (!kind.cell) return wrongKind(out, "a variable", "a constant");
+  if (kind.source == Source::Constant) return wrongKind(out, "a variable", "a constant");
   out.form = Operand::Form::Cell;
   out.prefixed = prefix != 0;
   out.type = prefix != 0 ? prefixOf(prefix).type : address.type;
@@ -272,18 +268,16 @@ bool OperandParser::cell(const OperandInfo& info, const OperandKind& kind, const
          checkWrite(info, address.protection, address.name, out.range);
 }
 
-bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
-  if (tokens.size() != 1 || tokens[0].kind != TokenKind::Name) {
-    if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number)
-      return wrongKind(out, "a number", "a " + std::string(kind.name));
-    return syntax("the name of a " + std::string(kind.name), tokens);
-  }
+bool OperandParser::read(const NameKind& kind, const OperandInfo& info, Tokens tokens, Operand& out) {
+  const std::string wanted = "a " + std::string(info.kind->name);
+  if (isOne(TokenKind::Number, tokens)) return wrongKind(out, "a number", wanted);
+  if (!isOne(TokenKind::Name, tokens)) return syntax("the name of " + wanted, tokens);
   const uint32_t index = require(tokens[0]);
   if (index == kNone) return false;
   const Symbol& symbol = symbols_[index];
   if (symbol.broken) return false;
   const bool shared = kind.symbol == SymbolKind::Mechanism && symbol.mechanism != kNone;
-  if (symbol.kind != kind.symbol && !shared) return wrongKind(out, describe(symbol), "a " + std::string(kind.name));
+  if (symbol.kind != kind.symbol && !shared) return wrongKind(out, describe(symbol), wanted);
   out.index = shared ? symbol.mechanism : symbol.index;
   out.form = kind.symbol == SymbolKind::Label       ? Operand::Form::Label
              : kind.symbol == SymbolKind::Mechanism ? Operand::Form::Mechanism
@@ -291,38 +285,32 @@ bool OperandParser::named(const OperandKind& kind, std::span<const Token> tokens
   return true;
 }
 
-bool OperandParser::keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
-                            Operand& out) {
-  if (kind.ownName) {
-    if (tokens.size() == 1 && text::equalsIgnoringCase(tokens[0].text, info.name))
-      return out.form = Operand::Form::Register, true;
-    diagnostics_.report(diag::UnsupportedAssembler, statement_->range()).note("in this language: LOD and STO")
-        << statement_->row->info.mnemonic;
+bool OperandParser::read(const RegisterKind&, const OperandInfo& info, Tokens tokens, Operand& out) {
+  if (tokens.size() == 1 && text::equalsIgnoringCase(tokens[0].text, info.name))
+    return out.form = Operand::Form::Register, true;
+  diagnostics_.report(diag::UnsupportedAssembler, statement_->range()).note("in this language: LOD and STO")
+      << statement_->row->info.mnemonic;
+  return false;
+}
+
+bool OperandParser::read(const WidthKind& kind, const OperandInfo& info, Tokens tokens, Operand& out) {
+  const std::string_view doc = info.kind->doc;
+  const PrefixName* width = isOne(TokenKind::Name, tokens) ? prefixNamed(tokens[0].text) : nullptr;
+  if (width != nullptr && (kind.prefixes & width->prefix) == 0) {
+    diagnostics_.report(diag::InvalidTypePrefix, out.range).note(doc) << width->name << statement_->row->info.mnemonic;
     return false;
   }
-  if (!kind.keywords.empty() || kind.structure != nullptr) return chosen(kind, tokens, out);
-  const PrefixName* width =
-      tokens.size() == 1 && tokens[0].kind == TokenKind::Name ? prefixNamed(tokens[0].text) : nullptr;
-  if (width && (kind.prefixes & width->prefix)) {
+  if (width != nullptr) {
     out.form = Operand::Form::Width;
     out.type = width->type;
     return true;
   }
-  if (width) {
-    diagnostics_.report(diag::InvalidTypePrefix, out.range).note(kind.doc)
-        << width->name << statement_->row->info.mnemonic;
-    return false;
-  }
-  if (!kind.constant) return syntax(kind.doc.substr(0, kind.doc.find(';')), tokens);
-  const std::optional<int64_t> number =
-      ConstantReader(symbols_, diagnostics_, file_, &names_).value(tokens, statement_->range());
+  if (!kind.bit) return syntax(doc.substr(0, doc.find(';')), tokens);
+  const auto number = ConstantReader(symbols_, diagnostics_, file_, &names_).value(tokens, statement_->range());
   if (!number) return false;
   out.form = Operand::Form::Integer;
   out.value = *number;
-  if (*number >= info.min && *number <= info.max) return true;
-  diagnostics_.report(diag::OperandRange, out.range)
-      << *number << std::to_string(info.min) + " to " + std::to_string(info.max);
-  return false;
+  return inRange(*number, info.min, info.max, out.range);
 }
 
 bool OperandParser::wrongPrefix(uint8_t prefix, const Operand& operand) {
@@ -332,30 +320,38 @@ bool OperandParser::wrongPrefix(uint8_t prefix, const Operand& operand) {
 }
 
 // A word of the kind that is not a number's name in the program.
-bool OperandParser::ownWord(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
-  if (kind.keywords.empty() || tokens.size() != 1 || tokens[0].kind != TokenKind::Name) return false;
+bool OperandParser::ownWord(const NumberKind& kind, std::span<const Token> tokens, Operand& out) {
+  if (kind.words.list.empty() || !isOne(TokenKind::Name, tokens)) return false;
   const uint32_t found = symbols_.find(tokens[0].text, file_);
   const bool fits =
       found != kNone && (symbols_[found].kind == SymbolKind::Cell || symbols_[found].kind == SymbolKind::Constant);
-  const bool renamed = kind.axis && !axisNames_.empty();
-  return !fits && takeKeyword(renamed ? axisNames_ : kind.keywords, tokens, out);
+  Words words = kind.words;
+  if (kind.axes && !axisNames_.empty()) words.list = axisNames_;
+  return !fits && takeWord(words, tokens, out);
 }
 
-// One of a kind's own words; other names are known and of another kind, or unknown.
-bool OperandParser::chosen(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
-  if (takeKeyword(kind.keywords, tokens, out)) return true;
-  if (kind.structure != nullptr && tokens.size() == 1 && tokens[0].kind == TokenKind::Name)
-    if (const uint32_t member = symbols_.findMember(kind.structure, tokens[0].text); member != kNone) {
-      out.form = Operand::Form::Keyword;
-      out.value = symbols_[note(tokens[0], member)].byte;
-      return true;
-    }
-  const std::string wanted(kind.name);
+bool OperandParser::read(const WordKind& kind, const OperandInfo& info, Tokens tokens, Operand& out) {
+  return takeWord(kind.words, tokens, out) || noWord(kind.words.list, info, tokens, out);
+}
+
+bool OperandParser::read(const MemberKind& kind, const OperandInfo& info, Tokens tokens, Operand& out) {
+  const bool isName = isOne(TokenKind::Name, tokens);
+  const uint32_t member = isName ? symbols_.findMember(kind.structure, tokens[0].text) : kNone;
+  if (member == kNone) return noWord("", info, tokens, out);
+  out.form = Operand::Form::Keyword;
+  out.value = symbols_[note(tokens[0], member)].byte;
+  return true;
+}
+
+// Names that are none of a kind's own words are known and of another kind, or unknown.
+bool OperandParser::noWord(std::string_view words, const OperandInfo& info, std::span<const Token> tokens,
+                           const Operand& out) {
+  const std::string wanted(info.kind->name);
   if (tokens.size() != 1) return syntax("a " + wanted, tokens);
   const bool unknown = tokens[0].kind == TokenKind::Name && symbols_.find(tokens[0].text, file_) == kNone;
   if (!unknown) return wrongKind(out, "no " + wanted, "a " + wanted);
   Similar meant(tokens[0].text);
-  forEachWord(kind.keywords, [&](std::string_view word, int64_t) { meant.offer(word); });
+  forEachWord(words, [&](std::string_view word, int64_t) { meant.offer(word); });
   symbols_.noteUndefined(tokens[0], file_, {.meant = {meant.best(), meant.certain()}});
   return false;
 }
@@ -378,15 +374,17 @@ bool withoutIndex(std::span<const Token> tokens, std::vector<Token>& plain) {
 
 } // namespace
 
-bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens,
-                         Operand& out) {
-  if (tokens.size() == 1 && tokens[0].kind == TokenKind::Text) {
-    if (!kind.text) return wrongKind(out, "a text", "a variable");
-    out.form = Operand::Form::Text;
-    out.text = texts_.emplace_back(memoryText(tokens[0], diagnostics_));
-    return true;
-  }
-  if (takeKeyword(kind.keywords, tokens, out)) return true;
+bool OperandParser::literal(const Token& text, Operand& out) {
+  out.form = Operand::Form::Text;
+  out.text = texts_.emplace_back(memoryText(text, diagnostics_));
+  return true;
+}
+
+bool OperandParser::read(const MemoryKind& kind, const OperandInfo& info, Tokens tokens, Operand& out) {
+  using Content = MemoryKind::Content;
+  if (isOne(TokenKind::Text, tokens))
+    return kind.content == Content::TextOrLiteral ? literal(tokens[0], out) : wrongKind(out, "a text", "a variable");
+  if (takeWord(kind.words, tokens, out)) return true;
   if (const uint8_t prefix = takePrefix(tokens); prefix != 0) {
     if ((kind.prefixes & prefix) == 0) return wrongPrefix(prefix, out);
     out.prefixed = true;
@@ -398,7 +396,7 @@ bool OperandParser::text(const OperandInfo& info, const OperandKind& kind, std::
   Address address;
   if (!this->address(indexed ? plain : tokens, address)) return false;
   if (!address.hasBase) return wrongKind(out, "a constant", "a variable");
-  const bool wantsText = kind.onlyTexts;
+  const bool wantsText = kind.content != Content::Any;
   if (address.isBit || (wantsText && !address.isText))
     return wrongKind(out, address.isBit ? "a bit" : "not a text", wantsText ? "a text" : "a variable");
   address.indexed = address.indexed || indexed;

@@ -38,29 +38,41 @@ private:
     uint32_t own = kNone; // the program's own structure that it is, in Declarations::structures
   };
 
-  bool one(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool one(const OperandInfo& info, std::span<const Token> tokens, Operand& out);
   bool waitOperands(std::span<Operand> operands);
-  bool bit(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  // One for each alternative of Takes; there are tokens.
+  using Tokens = std::span<const Token>;
+  bool read(const BitKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+  bool read(const NumberKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+  bool read(const MemoryKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+  bool read(const NameKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+  bool read(const WordKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+  bool read(const MemberKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+  bool read(const WidthKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+  bool read(const RegisterKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+  bool read(const NewVariableKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+  bool read(const InputKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+  bool read(const BitNumberKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+  bool read(const DeclarationKind& kind, const OperandInfo& info, Tokens tokens, Operand& out);
+
   bool noBitName(std::span<const Token> tokens, SourceRange point);
   bool reportNegated(bool writes, const Operand& out);
   bool negatedByWord(bool mayBeNegated, bool writes, std::span<const Token> tokens, const Operand& out);
-  bool bareBit(const OperandInfo& info, const OperandKind& kind, const Token& name, Operand& out);
+  bool bareBit(const BitKind& kind, const OperandInfo& info, const Token& name, Operand& out);
   bool bitAt(const OperandInfo& info, std::span<const Token> where, const Token& name, Operand& out);
   bool flag(const Token& number, Operand& out);
   uint32_t bitSymbol(const Token& name);
-  bool value(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
-  bool constant(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix, Operand& out);
-  bool cell(const OperandInfo& info, const OperandKind& kind, const Address& address, uint8_t prefix, Operand& out);
+  bool constant(const NumberKind& kind, const OperandInfo& info, const Address& address, uint8_t prefix, Operand& out);
+  bool cell(const NumberKind& kind, const OperandInfo& info, const Address& address, uint8_t prefix, Operand& out);
+  bool inRange(int64_t value, int64_t least, int64_t most, SourceRange at);
   uint8_t takePrefix(std::span<const Token>& tokens);
-  bool named(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
-  bool keyword(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
   bool misspeltPrefix(std::span<const Token> tokens);
-  bool ownWord(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool ownWord(const NumberKind& kind, std::span<const Token> tokens, Operand& out);
+  bool noWord(std::string_view words, const OperandInfo& info, std::span<const Token> tokens, const Operand& out);
   bool wrongPrefix(uint8_t prefix, const Operand& operand);
-  bool variable(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
-  bool exchanged(const OperandKind& kind, const Symbol& symbol, Operand& out);
-  bool chosen(const OperandKind& kind, std::span<const Token> tokens, Operand& out);
-  bool text(const OperandInfo& info, const OperandKind& kind, std::span<const Token> tokens, Operand& out);
+  bool literal(const Token& text, Operand& out);
+  const Symbol* variable(const OperandInfo& info, bool mayBeIndexed, std::span<const Token> tokens, Operand& out);
+  bool exchanged(const Symbol& symbol, Operand& out);
   bool block(const OperandInfo& info, std::span<const Token> tokens, bool wantsBit, Operand& out);
   bool address(std::span<const Token> tokens, Address& out);
   bool term(std::span<const Token> tokens, int sign, Address& out);

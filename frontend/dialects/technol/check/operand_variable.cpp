@@ -5,49 +5,56 @@
 
 namespace rung::frontend::technol {
 
-// NAME or NAME[n]
-bool OperandParser::variable(const OperandKind& kind, std::span<const Token> tokens, Operand& out) {
-  const std::string wanted = "a " + std::string(kind.name);
-  if (tokens[0].kind == TokenKind::Number || tokens[0].kind == TokenKind::Text)
-    return wrongKind(out, tokens[0].kind == TokenKind::Number ? "a number" : "a text", wanted);
-  if (tokens[0].kind != TokenKind::Name) return syntax("a name", tokens);
+// NAME or NAME[n]; null after a report.
+const Symbol* OperandParser::variable(const OperandInfo& info, bool mayBeIndexed, std::span<const Token> tokens,
+                                      Operand& out) {
+  const std::string wanted = "a " + std::string(info.kind->name);
+  const TokenKind kind = tokens[0].kind;
+  if (kind == TokenKind::Number || kind == TokenKind::Text)
+    return wrongKind(out, kind == TokenKind::Number ? "a number" : "a text", wanted), nullptr;
+  if (kind != TokenKind::Name) return syntax("a name", tokens), nullptr;
   const bool indexed = tokens.size() > 3 && tokens[1].is('[') && tokens.back().is(']');
-  if (tokens.size() != 1 && !(indexed && kind.constant)) return syntax("a name alone", tokens);
-  const bool byNumber = kind.weight;
-  const uint32_t index = byNumber ? bitSymbol(tokens[0]) : require(tokens[0]);
-  if (index == kNone) return false;
-  const Symbol& symbol = symbols_[index];
-  if (symbol.broken) return false;
-  if (byNumber) {
-    if (symbol.kind != SymbolKind::Bit) return wrongKind(out, describe(symbol), "a bit");
-    out.form = Operand::Form::Bit;
-    out.place.bit = symbol.bit;
-    return true;
-  }
-  out.value = -1;
-  if (indexed && kind.input) {
+  if (tokens.size() != 1 && !(indexed && mayBeIndexed)) return syntax("a name alone", tokens), nullptr;
+  const bool isBit = std::holds_alternative<BitNumberKind>(kindOf(info).takes);
+  const uint32_t index = isBit ? bitSymbol(tokens[0]) : require(tokens[0]);
+  return index == kNone || symbols_[index].broken ? nullptr : &symbols_[index];
+}
+
+bool OperandParser::read(const BitNumberKind&, const OperandInfo& info, Tokens tokens, Operand& out) {
+  const Symbol* symbol = variable(info, false, tokens, out);
+  if (symbol == nullptr) return false;
+  if (symbol->kind != SymbolKind::Bit) return wrongKind(out, describe(*symbol), "a bit");
+  out.form = Operand::Form::Bit;
+  out.place.bit = symbol->bit;
+  return true;
+}
+
+bool OperandParser::read(const NewVariableKind& kind, const OperandInfo& info, Tokens tokens, Operand& out) {
+  const Symbol* symbol = variable(info, kind.array, tokens, out);
+  if (symbol == nullptr || symbol->exchanged == kNone) return false;
+  const uint32_t declaredBy = declarations_.exchanged[symbol->exchanged].statement;
+  // Else the name is another symbol's, which has been reported.
+  return &program_.statements[declaredBy] == statement_ && exchanged(*symbol, out);
+}
+
+bool OperandParser::read(const InputKind&, const OperandInfo& info, Tokens tokens, Operand& out) {
+  const Symbol* symbol = variable(info, true, tokens, out);
+  if (symbol == nullptr) return false;
+  out.value = -1; // all elements
+  if (tokens.size() > 1) {
     const auto number = ConstantReader(symbols_, diagnostics_, file_, &names_)
                             .value(tokens.subspan(2, tokens.size() - 3), statement_->range());
     if (!number) return false;
     out.value = *number;
   }
-  return exchanged(kind, symbol, out);
+  const Exchanged* input = symbol->exchanged == kNone ? nullptr : &declarations_.exchanged[symbol->exchanged];
+  if (input == nullptr || input->kind != nc::ExchangeKind::DefIn)
+    return wrongKind(out, "not an input of DEF_IN", "an input of DEF_IN");
+  const int64_t count = nc::isText(input->type) ? 1 : input->count;
+  return (tokens.size() == 1 || inRange(out.value, 0, count - 1, out.range)) && exchanged(*symbol, out);
 }
 
-bool OperandParser::exchanged(const OperandKind& kind, const Symbol& symbol, Operand& out) {
-  const Exchanged* found = symbol.exchanged == kNone ? nullptr : &declarations_.exchanged[symbol.exchanged];
-  if (kind.input) {
-    if (found == nullptr || found->kind != nc::ExchangeKind::DefIn)
-      return wrongKind(out, "not an input of DEF_IN", "an input of DEF_IN");
-    const int64_t count = nc::isText(found->type) ? 1 : found->count;
-    const bool given = out.tokens.size() > 1;
-    if (given && (out.value < 0 || out.value >= count)) {
-      diagnostics_.report(diag::OperandRange, out.range) << out.value << "0 to " + std::to_string(count - 1);
-      return false;
-    }
-  } else if (found == nullptr || &program_.statements[found->statement] != statement_) {
-    return false; // the name is another symbol's, which has been reported
-  }
+bool OperandParser::exchanged(const Symbol& symbol, Operand& out) {
   out.form = symbol.kind == SymbolKind::Bit ? Operand::Form::Bit : Operand::Form::Cell;
   out.type = symbol.type;
   out.place = {.space = symbol.space, .byte = symbol.byte, .bit = symbol.bit};

@@ -63,8 +63,7 @@ void checkService(const CheckContext& c, std::span<const Operand> o, int form) {
   const Operand* length = lengthIn(infos, o);
   const int64_t count = length != nullptr && length->form == Operand::Form::Integer ? length->value : 0;
   for (size_t i = 0; i < o.size(); ++i)
-    if (o[i].given() && kindOf(infos[i]).parse == OperandClass::Text)
-      checkData(c, o[i], static_cast<DataForm>(form), count);
+    if (o[i].given() && isMemory(infos[i])) checkData(c, o[i], static_cast<DataForm>(form), count);
 }
 
 // pmsg, the last operand, has 12 bytes (man. l.9497).

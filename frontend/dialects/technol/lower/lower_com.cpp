@@ -41,7 +41,7 @@ void lowerComControl(Lowering& l, std::span<const Operand> o, int) {
   request.addOperand(1, o[1]);
   request.send();
   l.r().setRlo(request.flag("RLO"));
-  if (o[1].value != 0) l.r().setDr(request.result("DR"));
+  if (o[1].value != nc::technol::kFirstLineCommand) l.r().setDr(request.result("DR"));
 }
 
 } // namespace rung::frontend::technol

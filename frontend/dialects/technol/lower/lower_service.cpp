@@ -13,7 +13,6 @@ using ir::ValueId;
 
 namespace {
 
-bool isData(const OperandInfo& info) { return kindOf(info).parse == OperandClass::Text; }
 bool isRead(const OperandInfo& info) { return info.access != Access::Write; }
 bool isWritten(const OperandInfo& info) { return info.access != Access::Read; }
 
@@ -40,7 +39,7 @@ void addArguments(Lowering& l, DeviceRequest& request, const Given& given, DataF
   for (uint32_t i = 0; i < given.operands.size(); ++i) {
     const OperandInfo& info = given.infos[i];
     if (!isRead(info)) continue;
-    if (!isData(info)) {
+    if (!isMemory(info)) {
       request.addOperand(i, given.operands[i], guard);
       continue;
     }
@@ -60,7 +59,7 @@ void store(DeviceRequest& request, ValueId ticket, const Given& given, DataForm 
   for (uint32_t i = 0; i < given.operands.size(); ++i) {
     const OperandInfo& info = given.infos[i];
     if (!isWritten(info) || !given.operands[i].given()) continue;
-    given.targets[i].take(request, ticket, info.name, isData(info) ? form : DataForm::Integer);
+    given.targets[i].take(request, ticket, info.name, isMemory(info) ? form : DataForm::Integer);
   }
 }
 
@@ -71,7 +70,7 @@ Given givenTo(Lowering& l, std::span<const Operand> operands, DataForm form, Val
   for (uint32_t i = 0; i < operands.size(); ++i) {
     if (!isWritten(given.infos[i]) || !operands[i].given()) continue;
     DeviceTarget& target = given.targets[i] = DeviceTarget(l, operands[i], guard);
-    if (isData(given.infos[i])) {
+    if (isMemory(given.infos[i])) {
       target.require(form, guard);
       if (form == DataForm::Bytes) lengthOf(l, given, target, guard);
     }

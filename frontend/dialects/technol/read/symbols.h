@@ -56,9 +56,9 @@ public:
   // kNone where there is none.
   uint32_t find(std::string_view name, uint32_t file);
   // As find, and a use of it; where there is none, the name is noted as undefined.
+  uint32_t require(const Token& name, uint32_t file);
   // While a file that was included before is read: where that is done. Gives what was said last.
   SourceRange readsAgain(SourceRange include) { return std::exchange(again_, include); }
-  uint32_t require(const Token& name, uint32_t file);
   // What is known of a name that is not declared.
   struct Hint {
     const char* structure = nullptr; // of the control, where it is looked for as a member

@@ -128,10 +128,9 @@ bool OperandParser::term(std::span<const Token> tokens, int sign, Address& out) 
 }
 
 bool OperandParser::addSymbol(const Token& name, int sign, Address& out) {
-  const uint32_t index = require(name);
-  if (index == kNone) return false;
-  const Symbol& symbol = symbols_[index];
-  if (symbol.broken) return false;
+  const Symbol* found = usable(require(name));
+  if (found == nullptr) return false;
+  const Symbol& symbol = *found;
   const auto wrong = [&](std::string_view is) {
     diagnostics_.report(diag::WrongOperandKind, name.range()) << name.text << is << "a variable or a constant";
     return false;
@@ -326,10 +325,9 @@ uint32_t OperandParser::bitSymbol(const Token& name) {
 }
 
 bool OperandParser::bareBit(const BitKind& kind, const OperandInfo& info, const Token& name, Operand& out) {
-  const uint32_t index = bitSymbol(name);
-  if (index == kNone) return false;
-  const Symbol& symbol = symbols_[index];
-  if (symbol.broken) return false;
+  const Symbol* found = usable(bitSymbol(name));
+  if (found == nullptr) return false;
+  const Symbol& symbol = *found;
   out.form = Operand::Form::Bit;
   if (symbol.mechanism != kNone) { // the name of a cell and a mechanism
     out.place = {.space = kMechanismSpace, .byte = symbol.mechanism * kMechanismBytes};

@@ -97,6 +97,10 @@ bool reportWrongKind(Diagnostics& diagnostics, const Operand& operand, std::stri
   return false;
 }
 
+const Symbol* OperandParser::usable(uint32_t index) const {
+  return index == kNone || symbols_[index].broken ? nullptr : &symbols_[index];
+}
+
 uint32_t OperandParser::note(const Token& name, uint32_t symbol) {
   if (symbol != kNone) names_.push_back({name.range(), symbol});
   return symbol;
@@ -272,13 +276,11 @@ bool OperandParser::read(const NameKind& kind, const OperandInfo& info, Tokens t
   const std::string wanted = "a " + std::string(info.kind->name);
   if (isOne(TokenKind::Number, tokens)) return wrongKind(out, "a number", wanted);
   if (!isOne(TokenKind::Name, tokens)) return syntax("the name of " + wanted, tokens);
-  const uint32_t index = require(tokens[0]);
-  if (index == kNone) return false;
-  const Symbol& symbol = symbols_[index];
-  if (symbol.broken) return false;
-  const bool shared = kind.symbol == SymbolKind::Mechanism && symbol.mechanism != kNone;
-  if (symbol.kind != kind.symbol && !shared) return wrongKind(out, describe(symbol), wanted);
-  out.index = shared ? symbol.mechanism : symbol.index;
+  const Symbol* symbol = usable(require(tokens[0]));
+  if (symbol == nullptr) return false;
+  const bool shared = kind.symbol == SymbolKind::Mechanism && symbol->mechanism != kNone;
+  if (symbol->kind != kind.symbol && !shared) return wrongKind(out, describe(*symbol), wanted);
+  out.index = shared ? symbol->mechanism : symbol->index;
   out.form = kind.symbol == SymbolKind::Label       ? Operand::Form::Label
              : kind.symbol == SymbolKind::Mechanism ? Operand::Form::Mechanism
                                                     : Operand::Form::Procedure;

@@ -71,7 +71,7 @@ private:
   bool noWord(std::string_view words, const OperandInfo& info, std::span<const Token> tokens, const Operand& out);
   bool wrongPrefix(uint8_t prefix, const Operand& operand);
   bool literal(const Token& text, Operand& out);
-  const Symbol* variable(const OperandInfo& info, bool mayBeIndexed, std::span<const Token> tokens, Operand& out);
+  bool isVariable(const OperandInfo& info, bool mayBeIndexed, std::span<const Token> tokens, const Operand& out);
   bool exchanged(const Symbol& symbol, Operand& out);
   bool block(const OperandInfo& info, std::span<const Token> tokens, bool wantsBit, Operand& out);
   bool address(std::span<const Token> tokens, Address& out);
@@ -88,6 +88,8 @@ private:
   }
   bool syntax(std::string_view expected, std::span<const Token> tokens);
   bool syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise); // where there are none
+  // Null where there is none, or it is declared in error: that has been reported.
+  const Symbol* usable(uint32_t index) const;
   // The symbol of a name, which is noted.
   uint32_t note(const Token& name, uint32_t symbol);
   uint32_t require(const Token& name) { return note(name, symbols_.require(name, file_)); }

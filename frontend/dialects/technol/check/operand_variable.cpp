@@ -5,23 +5,19 @@
 
 namespace rung::frontend::technol {
 
-// NAME or NAME[n]; null after a report.
-const Symbol* OperandParser::variable(const OperandInfo& info, bool mayBeIndexed, std::span<const Token> tokens,
-                                      Operand& out) {
-  const std::string wanted = "a " + std::string(info.kind->name);
+// NAME or NAME[n]
+bool OperandParser::isVariable(const OperandInfo& info, bool mayBeIndexed, std::span<const Token> tokens,
+                               const Operand& out) {
   const TokenKind kind = tokens[0].kind;
   if (kind == TokenKind::Number || kind == TokenKind::Text)
-    return wrongKind(out, kind == TokenKind::Number ? "a number" : "a text", wanted), nullptr;
-  if (kind != TokenKind::Name) return syntax("a name", tokens), nullptr;
+    return wrongKind(out, kind == TokenKind::Number ? "a number" : "a text", "a " + std::string(info.kind->name));
+  if (kind != TokenKind::Name) return syntax("a name", tokens);
   const bool indexed = tokens.size() > 3 && tokens[1].is('[') && tokens.back().is(']');
-  if (tokens.size() != 1 && !(indexed && mayBeIndexed)) return syntax("a name alone", tokens), nullptr;
-  const bool isBit = std::holds_alternative<BitNumberKind>(kindOf(info).takes);
-  const uint32_t index = isBit ? bitSymbol(tokens[0]) : require(tokens[0]);
-  return index == kNone || symbols_[index].broken ? nullptr : &symbols_[index];
+  return tokens.size() == 1 || (indexed && mayBeIndexed) || syntax("a name alone", tokens);
 }
 
 bool OperandParser::read(const BitNumberKind&, const OperandInfo& info, Tokens tokens, Operand& out) {
-  const Symbol* symbol = variable(info, false, tokens, out);
+  const Symbol* symbol = isVariable(info, false, tokens, out) ? usable(bitSymbol(tokens[0])) : nullptr;
   if (symbol == nullptr) return false;
   if (symbol->kind != SymbolKind::Bit) return wrongKind(out, describe(*symbol), "a bit");
   out.form = Operand::Form::Bit;
@@ -30,7 +26,7 @@ bool OperandParser::read(const BitNumberKind&, const OperandInfo& info, Tokens t
 }
 
 bool OperandParser::read(const NewVariableKind& kind, const OperandInfo& info, Tokens tokens, Operand& out) {
-  const Symbol* symbol = variable(info, kind.array, tokens, out);
+  const Symbol* symbol = isVariable(info, kind.array, tokens, out) ? usable(require(tokens[0])) : nullptr;
   if (symbol == nullptr || symbol->exchanged == kNone) return false;
   const uint32_t declaredBy = declarations_.exchanged[symbol->exchanged].statement;
   // Else the name is another symbol's, which has been reported.
@@ -38,7 +34,7 @@ bool OperandParser::read(const NewVariableKind& kind, const OperandInfo& info, T
 }
 
 bool OperandParser::read(const InputKind&, const OperandInfo& info, Tokens tokens, Operand& out) {
-  const Symbol* symbol = variable(info, true, tokens, out);
+  const Symbol* symbol = isVariable(info, true, tokens, out) ? usable(require(tokens[0])) : nullptr;
   if (symbol == nullptr) return false;
   out.value = -1; // all elements
   if (tokens.size() > 1) {

@@ -208,9 +208,9 @@ std::optional<int64_t> Placer::size(std::span<const Token> tokens, const Stateme
 
 void Placer::placeBits(DataItem& item) {
   const uint32_t at = take(item, 1, program_.statements[item.statement]);
-  if (item.cell != kNone) c_.symbols[item.cell].byte = at;
+  if (item.cell != kNone) c_.symbols.edit(item.cell).byte = at;
   for (uint32_t i = 0; i < 8; ++i)
-    if (const uint32_t bit = c_.declarations.itemBits[item.firstBit + i]; bit != kNone) c_.symbols[bit].byte = at;
+    if (const uint32_t bit = c_.declarations.itemBits[item.firstBit + i]; bit != kNone) c_.symbols.edit(bit).byte = at;
 }
 
 void Placer::placeArray(DataItem& item, const Statement& statement) {
@@ -219,7 +219,7 @@ void Placer::placeArray(DataItem& item, const Statement& statement) {
   const int64_t bytes = size(operands[0], statement).value_or(1);
   const uint32_t at = take(item, bytes, statement);
   if (item.cell == kNone) return;
-  Symbol& cell = c_.symbols[item.cell];
+  Symbol& cell = c_.symbols.edit(item.cell);
   cell.byte = at;
   cell.size = static_cast<uint32_t>(bytes);
   cell.type = bytes == 8 ? ir::Type::None : ir::intOfBytes(cell.size);
@@ -280,7 +280,7 @@ void Placer::placeText(DataItem& item, const Statement& statement) {
   if (!countFits(statement.row->info, operands.size(), statement.range(), c_.diagnostics)) return;
   const int64_t characters = size(operands[0], statement).value_or(1);
   if (item.cell == kNone) return;
-  Symbol& text = c_.symbols[item.cell];
+  Symbol& text = c_.symbols.edit(item.cell);
   text.size = static_cast<uint32_t>(characters) + 1;
   const bool onMemory = operands.size() == 2 && !operands[1].empty() && operands[1][0].kind == TokenKind::Name;
   if (onMemory) {
@@ -298,7 +298,7 @@ void Placer::placeText(DataItem& item, const Statement& statement) {
 
 void Placer::placeInstance(DataItem& item, const Statement& statement) {
   const uint32_t at = take(item, static_cast<int64_t>(item.image.size()), statement);
-  if (item.cell != kNone) c_.symbols[item.cell].byte = at;
+  if (item.cell != kNone) c_.symbols.edit(item.cell).byte = at;
   const bool zero = std::all_of(item.image.begin(), item.image.end(), [](uint8_t byte) { return byte == 0; });
   if (!zero && !full_) c_.declarations.inits.push_back({.space = kDataSpace, .byte = at, .data = item.image});
 }
@@ -324,16 +324,16 @@ void Placer::place(Exchanged& variable) {
   if (name.size() > 3 && name[1].is('[') && name.back().is(']')) {
     const auto inside = name.subspan(2, name.size() - 3);
     count = ConstantReader(c_.symbols, c_.diagnostics, statement.file).value(inside, statement.range()).value_or(-1);
-    if (count < 0) c_.symbols[variable.symbol].broken = true;
+    if (count < 0) c_.symbols.edit(variable.symbol).broken = true;
     if (count < 0) return;
   }
   if (count < 1 || count > kMaxData / bytes || c_.declarations.exchangedBytes + count * bytes > kMaxData) {
     c_.report(diag::OperandRange, rangeOf(program_.sources, name, statement.range()))
         << count << "1 to " + std::to_string(kMaxData / bytes);
-    c_.symbols[variable.symbol].broken = true;
+    c_.symbols.edit(variable.symbol).broken = true;
     return;
   }
-  Symbol& symbol = c_.symbols[variable.symbol];
+  Symbol& symbol = c_.symbols.edit(variable.symbol);
   variable.count = static_cast<uint32_t>(count) + (isText ? 1 : 0);
   symbol.byte = c_.declarations.exchangedBytes;
   symbol.size = variable.count * bytes;
@@ -348,7 +348,7 @@ void Placer::placeOverlays() {
     const auto operands = splitOperands(program_.operandTokens(statement));
     Symbol text = c_.symbols[item.cell]; // finding the base may add symbols
     text.broken = !overlay(text, operands[1], statement) || text.broken;
-    c_.symbols[item.cell] = text;
+    c_.symbols.edit(item.cell) = text;
   }
 }
 
@@ -362,7 +362,7 @@ void placeData(ReadContext& context) {
   placer.placeOverlays();
   for (const DataItem& item : declarations.items)
     for (const uint32_t also : item.also) {
-      Symbol& symbol = context.symbols[also];
+      Symbol& symbol = context.symbols.edit(also);
       const Symbol named = symbol;
       symbol = context.symbols[item.cell];
       symbol.name = named.name;

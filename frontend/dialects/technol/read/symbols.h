@@ -72,7 +72,8 @@ public:
   // A member of an interface structure; kNone when it has none of this name.
   uint32_t findMember(const char* structure, std::string_view member);
 
-  Symbol& operator[](uint32_t index) { return table_[index]; }
+  // While the program is read.
+  Symbol& edit(uint32_t index) { return table_[index]; }
   const Symbol& operator[](uint32_t index) const { return table_[index]; }
   const std::deque<Symbol>& all() const { return table_.all(); }
   // Of names that were required, by the index of the symbol, in the order of asking.

@@ -15,9 +15,8 @@ ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set) {
   return b.trunc(ir::Type::Bit, shifted);
 }
 
-Lowering::Lowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder,
-                                   const Network& net, std::span<const ir::ValueId> conditions,
-                                   std::string_view slotPrefix)
+Lowering::Lowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const Network& net,
+                   std::span<const ir::ValueId> conditions, std::string_view slotPrefix)
     : b(builder), network(net), function(net.function), module_(module), routine_(routine), conditions_(conditions),
       slotPrefix_(slotPrefix) {}
 
@@ -46,13 +45,9 @@ ir::SlotId Lowering::slot(std::string_view role, ir::Type type, int64_t init) {
 
 ir::ValueId Lowering::scanTime() { return b.slotLoad(routine_.level->scanTime); }
 
-bool Lowering::onceEachRun() const {
-  return routine_.level->straight && routine_.unit == routine_.level->level;
-}
+bool Lowering::onceEachRun() const { return routine_.level->straight && routine_.unit == routine_.level->level; }
 
-ir::ValueId Lowering::sinceLastRun() {
-  return b.add(b.sub(b.now(), b.slotLoad(routine_.level->clock)), scanTime());
-}
+ir::ValueId Lowering::sinceLastRun() { return b.add(b.sub(b.now(), b.slotLoad(routine_.level->clock)), scanTime()); }
 
 ir::SlotId Lowering::shared(const std::string& key, ir::Type type) { return module_.slot(key, type, 0, false); }
 
@@ -103,9 +98,7 @@ void Lowering::resettable(const std::function<ir::ValueId()>& body) {
 
 uint32_t Lowering::targetRung() const { return routine_.rungOf[network.target]; }
 ir::RoutineId Lowering::callee() const { return routine_.level->routines[network.callee]; }
-ir::SlotId Lowering::commonLine() {
-  return module_.slot(fmt::format("{}com", slotPrefix_), ir::Type::Bit, 0, true);
-}
+ir::SlotId Lowering::commonLine() { return module_.slot(fmt::format("{}com", slotPrefix_), ir::Type::Bit, 0, true); }
 ir::SlotId Lowering::leaveTarget() { return module_.leaveTarget(); }
 
 } // namespace rung::network

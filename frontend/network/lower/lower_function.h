@@ -26,7 +26,7 @@ ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set);
 class Lowering {
 public:
   Lowering(ModuleLowering& module, RoutineContext& routine, ir::RungBuilder& builder, const Network& network,
-                   std::span<const ir::ValueId> conditions, std::string_view slotPrefix);
+           std::span<const ir::ValueId> conditions, std::string_view slotPrefix);
 
   ir::RungBuilder& b;
   const Network& network;

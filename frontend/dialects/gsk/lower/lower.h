@@ -7,13 +7,15 @@
 #include "frontend/dialects/dialect.h"
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/language.h"
+#include "frontend/lower/arithmetic.h"
+#include "frontend/lower/edge.h"
 #include "frontend/network/lower/lower_function.h"
 #include "frontend/network/read/context.h"
 
 namespace rung::gsk {
 
-using network::Lowering;
 using network::isIn;
+using network::Lowering;
 
 enum TimerVariant { kTimerPage, kTimerFixed, kTimerMemory };
 enum CounterVariant { kCounterPage, kCounterMemory };

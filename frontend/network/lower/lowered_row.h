@@ -6,9 +6,11 @@ namespace rung::network {
 
 class Lowering;
 
+using LowerFn = void (*)(Lowering& f);
+
 struct LoweredRow : Row {
-  void (*lower)(Lowering& f) = nullptr; // null: known, but not built
-  int variant = 0;                      // for `lower`
+  LowerFn lower = nullptr; // null: known, but not built
+  int variant = 0;         // for `lower`
   // What it asks of the runs of its level, which are followed where a row does.
   enum class Asks : uint8_t { Nothing, Time, Count } asks = Asks::Nothing;
 };

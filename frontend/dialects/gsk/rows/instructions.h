@@ -9,6 +9,7 @@
 namespace rung::gsk {
 
 using Row = network::LoweredRow;
+using network::LowerFn;
 
 std::span<const Row> allRows();
 // The data alone of a box's row; null when there is none.

@@ -144,7 +144,7 @@ using LineOfFile = std::pair<uint32_t, uint32_t>;
 std::set<LineOfFile> headingsOf(const SourceProgram& program) {
   std::set<LineOfFile> headings;
   for (const ModulePart& part : program.parts)
-    headings.emplace(part.file, program.sources.lineCol(program.units[part.unit].begin.begin).line);
+    headings.emplace(part.file, program.sources.lineCol(program.at(part.unit).begin.begin).line);
   for (const Statement& statement : program.statements)
     if (statement.row != nullptr && statement.row->role == Role::ProcBegin)
       headings.emplace(statement.file, statement.line);

@@ -10,7 +10,7 @@ constexpr uint64_t kI8[] = {0, 1, 2, 7, 9, 0x10, 0x7F, 0x80, 0x99, 0xFE, 0xFF};
 constexpr uint64_t kI16[] = {0, 1, 2, 10, 0x80, 0xFF, 0x100, 0x7FFF, 0x8000, 0x9999, 0xFFFF};
 constexpr uint64_t kI32[] = {0,      1,          2,          10,         0x80,       0x8000,
                              0xFFFF, 0x7FFFFFFF, 0x80000000, 0x99999999, 0xFFFFFFFE, 0xFFFFFFFF};
-constexpr uint64_t kI64[] = {0,
+constexpr uint64_t kWide[] = {0,
                              1,
                              2,
                              10,
@@ -46,7 +46,7 @@ std::span<const uint64_t> boundaryValues(Type type) {
   case Type::I8: return kI8;
   case Type::I16: return kI16;
   case Type::I32: return kI32;
-  case Type::I64: return kI64;
+  case Type::I64: return kWide;
   case Type::F64: return kF64;
   case Type::None: break;
   }

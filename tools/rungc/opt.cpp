@@ -1,6 +1,5 @@
 // rungc opt: passes of the optimiser by name, over a program's IR or a module as text.
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iostream>
@@ -108,7 +107,6 @@ struct PassCount {
   std::string_view name;
   size_t operations = 0; // afterwards
   size_t rungs = 0;      // that it has changed or added
-  double milliseconds = 0;
 };
 
 size_t operationsOf(const ir::Module& module) {
@@ -158,7 +156,6 @@ public:
   // Gives the exit status.
   int run(std::span<const ir::Pass* const> passes) {
     for (const ir::Pass* pass : passes) {
-      started_ = Clock::now();
       runner_.run(*pass);
       if (!error_.empty()) {
         fmt::print(stderr, "rungc: the module is not valid after '{}', pass {}\n{}", pass->name, counts_.size(),
@@ -169,25 +166,19 @@ public:
     return kOk;
   }
 
-  // To standard error, as the module goes to standard output.
   void printStatistics() const {
-    fmt::print(stderr, "{:<12} {:>10} {:>10} {:>8} {:>8}\n", "pass", "operations", "fewer", "rungs", "ms");
-    fmt::print(stderr, "{:<12} {:>10}\n", "", first_);
+    fmt::print("{:<12} {:>10} {:>10} {:>8}\n{:<12} {:>10}\n", "pass", "operations", "fewer", "rungs", "", first_);
     size_t before = first_;
     for (const PassCount& count : counts_) {
       const auto fewer = static_cast<int64_t>(before) - static_cast<int64_t>(count.operations);
-      fmt::print(stderr, "{:<12} {:>10} {:>10} {:>8} {:>8.2f}\n", count.name, count.operations, fewer, count.rungs,
-                 count.milliseconds);
+      fmt::print("{:<12} {:>10} {:>10} {:>8}\n", count.name, count.operations, fewer, count.rungs);
       before = count.operations;
     }
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-
   void ran(const ir::Pass& pass) {
-    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - started_).count();
-    counts_.push_back({pass.name, operationsOf(module_), options_.statistics ? changedRungs(before_, module_) : 0, ms});
+    counts_.push_back({pass.name, operationsOf(module_), options_.statistics ? changedRungs(before_, module_) : 0});
     if (options_.statistics) before_ = module_;
     if (prints(pass)) fmt::print("; after {}, pass {}\n{}\n", pass.name, counts_.size(), codeOf(module_));
     if (!options_.verifyEach) return;
@@ -205,7 +196,6 @@ private:
   ir::Module before_; // the last pass, for the statistics
   size_t first_;
   ir::PassRunner runner_;
-  Clock::time_point started_;
   std::vector<PassCount> counts_;
   std::string error_;
 };
@@ -221,7 +211,8 @@ int runOpt(const OptOptions& options) {
   Optimiser optimiser(*module, options);
   status = optimiser.run(passes);
   if (options.statistics) optimiser.printStatistics();
-  if (status != kOk || (options.out.empty() && !options.printAfter.empty())) return status;
+  const bool printsOther = options.statistics || !options.printAfter.empty();
+  if (status != kOk || (options.out.empty() && printsOther)) return status;
   return writeOutput(ir::print(*module), options.out);
 }
 
@@ -238,7 +229,7 @@ void addOpt(CommandLine& app, int& status) {
           "Print the rungs after each run of this pass, or after every one (all), and not the module; may be repeated")
       .oneValue();
   command.flag("--statistics", options->statistics,
-               "Operations left, rungs changed and time of each pass, on standard error");
+               "Print the operations left and the rungs changed by each pass, and not the module");
   command.flag("--verify-each", options->verifyEach, "Verify the IR after each pass");
   command.option("-o,--output", options->out, "The file to write; default, or with -: standard output");
   command.onRun([options, &status] { status = runOpt(*options); });

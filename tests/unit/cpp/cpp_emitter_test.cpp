@@ -172,7 +172,7 @@ RUNG_LINE(
             std::string::npos)
       << text;
   EXPECT_NE(text.find("// LAMP Y[0.0]"), std::string::npos);
-  EXPECT_NE(text.find("const rung_program rung_program_table = {sizeof(rung_program), 6u, "), std::string::npos)
+  EXPECT_NE(text.find("const rung_program rung_program_table = {sizeof(rung_program), 7u, "), std::string::npos)
       << "the size on the machine that it is compiled for";
 }
 

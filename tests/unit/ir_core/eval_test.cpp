@@ -126,7 +126,7 @@ TEST(Eval, DigitsAndOnes) {
 
 TEST(EvalDeathTest, RefusesWhatHasEffects) {
   EXPECT_DEATH(eval(OpCode::Now, Type::I64, Type::I64, {0}), "can be evaluated");
-  EXPECT_DEATH(eval(OpCode::Add, Type::Bit, Type::Bit, {1, 1}), "of another type");
+  EXPECT_DEATH(eval(OpCode::Add, Type::Bit, Type::Bit, {1, 1}), "a type that its row does not have");
 }
 
 } // namespace

@@ -67,7 +67,7 @@ TEST(LlvmEmitter, FastTextIsTheRungsAsTheyStand) {
             R"(define internal i32 @COUNT.0(ptr noalias %mem, ptr %ctx, i32 %chunk) #0 {
 entry:
   %0 = getelementptr inbounds i8, ptr %mem, i64 COUNT_PLACE
-  %1 = load i16, ptr %0, align 1
+  %1 = load i16, ptr %0, align 2
   %2 = add i16 %1, 1
   %3 = icmp eq i16 %2, 3
   %4 = zext i1 %3 to i8
@@ -85,7 +85,7 @@ fault:                                            ; preds = %entry
 
 go:                                               ; preds = %entry
   %9 = getelementptr inbounds i8, ptr %mem, i64 COUNT_PLACE
-  store i16 %2, ptr %9, align 1
+  store i16 %2, ptr %9, align 2
   %10 = getelementptr inbounds %rung_ctx, ptr %ctx, i32 0, i32 6
   %11 = load i32, ptr %10, align 4
   %12 = sub i32 %11, 1

@@ -2,11 +2,13 @@
 // Each dialect has one table of the words.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
 
 #include "ir/support/diagnostics.h"
+#include "ir/support/similar.h"
 
 namespace rung::frontend {
 
@@ -25,6 +27,15 @@ void explainForeign(DiagBuilder& report, SourceRange range, const ForeignWord& w
 // Whether a word is one of this language with a letter after it by which others invert the value (N, I) or ask for an
 // edge (P, F): not a slip of the hand, and the word alone does something else.
 bool isModified(std::string_view word, std::string_view known);
+
+// Whether a word is as likely a slip of the hand for any of several of these, which would do different things.
+template <class Words, class NameOf = std::identity>
+bool isAmbiguous(std::string_view word, Words&& words, NameOf nameOf = {}) {
+  Similar similar(word);
+  for (const auto& one : words)
+    if (!isModified(word, std::invoke(nameOf, one))) similar.offer(std::invoke(nameOf, one));
+  return similar.ambiguous();
+}
 
 // The digits of a number in another language's form: 0x1F, 16#1F, $1F, #$1F, &H1F, 1Fh; 0b101, 2#101.
 struct ForeignNumber {

@@ -22,6 +22,8 @@ public:
   /// AND, but VALVE_B may be a valve of its own beside VALVE_A, and a tool that puts the latter there changes what a
   /// machine does.
   bool certain() const;
+  /// Whether one change makes the word any of several candidates: RSET may be SET or RST.
+  bool ambiguous() const { return hasRival_ && bound_ == 1; }
 
 private:
   size_t distance(std::string_view candidate) const;

@@ -70,7 +70,7 @@ constexpr ListWord kListWords[] = {
     {"RST", kResetCoil},
     {"S", kSetCoil},
     {"SET", kSetCoil},
-    {"ST", kCoil},
+    {"ST", "a coil (x); where ST begins a rung, a contact [x]"},
     {"STN", kNegatedCoil},
     {"U", kOpen},
     {"UN", kClosed},

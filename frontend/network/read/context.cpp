@@ -301,9 +301,12 @@ void reportUnknownCommand(Context& context, std::span<const Word> words) {
     const auto operands = words.subspan(count);
     return found && operandCount(*found) == operands.size() && std::ranges::none_of(operands, isForeignOperand);
   };
+  const auto isCertain = [&](std::string_view command) {
+    return fits(command) && !frontend::isAmbiguous(word.text, language.commands | std::views::filter(fits));
+  };
   if (words.size() == count + 1 && noteNegation(language, words[count].text, report)) return;
   if (const frontend::ForeignWord* foreign = frontend::findForeign(language.foreign, word.text))
-    return frontend::explainForeign(report, word.range, *foreign, fits(foreign->here));
+    return frontend::explainForeign(report, word.range, *foreign, isCertain(foreign->here));
   if (const Row* row = language.findFunction(word.text)) {
     report.note(
         fmt::format("{0} is a function: write `{1} {0}`", row->info.mnemonic, language.nameOf(Command::Function)));

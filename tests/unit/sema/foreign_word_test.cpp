@@ -13,6 +13,13 @@ TEST(ForeignWord, ALetterForAnEdgeOrAnInversionIsNoSlip) {
   EXPECT_FALSE(isModified("N", ""));
 }
 
+TEST(ForeignWord, OneChangeFromTwoIsAmbiguous) {
+  constexpr std::string_view kWords[] = {"LD", "LDI", "OR", "ORI", "OUT", "SET", "RST"};
+  for (const char* word : {"RSET", "ST", "rset"}) EXPECT_TRUE(isAmbiguous(word, kWords)) << word;
+  for (const char* word : {"LDN", "ORN", "WR", "RD", "S", "RESET", "SETT"})
+    EXPECT_FALSE(isAmbiguous(word, kWords)) << word;
+}
+
 std::string digitsOf(std::string_view text) {
   const auto number = foreignNumber(text);
   return number ? std::string(number->digits) + " in base " + std::to_string(number->base) : "";

@@ -22,6 +22,7 @@ inline constexpr std::string_view kSetAtRising =
     "SET after LD of the coil of the function DIFU, a rising edge by its number";
 inline constexpr std::string_view kResetAtRising =
     "RST after LD of the coil of the function DIFU, a rising edge by its number";
+inline constexpr std::string_view kStarts = "OUT, as ST of IEC 61131; LD, as ST of Panasonic; or a slip of SET or RST";
 inline constexpr std::string_view kInverts = "OUT of a relay, which LDI reads";
 inline constexpr std::string_view kKeeps = "OUT of a relay, which LD reads again";
 inline constexpr std::string_view kAndBracket = "LD where the bracket begins, ANB where it ends";
@@ -55,9 +56,7 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"RD.NOT.STK", "LDI", true},
     {"RD.STK", "LD", true},
     {"RESET", "RST", true},
-    {"RSET", "RST", true},
     {"S", "SET", true},
-    {"ST", "OUT", true},
     {"ST NOT", "OUTI", true},
     {"STN", "OUTI", true},
     {"WR", "OUT", true},
@@ -130,10 +129,12 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"RDNT", kAtFalling},
     {"RDPT", kAtRising},
     {"RET", kReturn},
+    {"RSET", "RST, or a slip of SET"},
     {"RSTP", kResetAtRising},
     {"R_TRIG", kRisingEdge},
     {"SETP", kSetAtRising},
     {"SRET", kReturn},
+    {"ST", kStarts},
     {"SUB", "FUNC with a function's name; the numbers of functions are this control's own"},
     {"TOF", kOffDelay},
     {"TON", kOnDelay},

@@ -10,6 +10,7 @@
 #include "rtlib/text/letters.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace rung::frontend::technol {
 namespace {
@@ -129,7 +130,10 @@ bool FileReader::foreign(std::span<const Token> tokens) {
   DiagBuilder report = c_.report(assembler ? diag::UnsupportedAssembler : diag::UnknownInstruction, range);
   report << spelled(command);
   if (found.word == nullptr) return true;
-  const bool fits = !assembler && takesAsMany(findRow(found.word->here), operands) && !areNegated(operands);
+  const auto takesThem = [&](const Row& row) { return takesAsMany(&row, operands); };
+  const bool fits = !assembler && takesAsMany(findRow(found.word->here), operands) && !areNegated(operands) &&
+                    !isAmbiguous(found.word->word, allRows() | std::views::filter(takesThem),
+                                 [](const Row& row) { return row.info.mnemonic; });
   explainForeign(report, range, *found.word, fits);
   return true;
 }

@@ -128,6 +128,7 @@ inline constexpr ForeignWord kForeignWords[] = {
     {"ST -", kWritesInverted},
     {"ST NOT", kWritesInverted},
     {"STN", kWritesInverted},
+    {"STORE", "STO on data, WR on bits"},
     {"SUB", "SU"},
     {"T", "STO"},
     {"TEST", "LDR"},

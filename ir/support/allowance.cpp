@@ -41,10 +41,14 @@ bool isMark(char c) { return c == ',' || c == ';' || isBlank(c); }
 } // namespace
 
 bool allows(std::string_view comment, std::string_view code) {
+  return std::ranges::count(allowedCodes(comment), code) != 0;
+}
+
+std::vector<std::string_view> allowedCodes(std::string_view comment) {
+  std::vector<std::string_view> all;
   for (size_t at = comment.find(kBegin); at != std::string_view::npos; at = comment.find(kBegin, at + 1))
-    for (std::string_view codes = codesOf(comment.substr(at)); !codes.empty();)
-      if (takeCode(codes) == code) return true;
-  return false;
+    for (std::string_view codes = codesOf(comment.substr(at)); !codes.empty();) all.push_back(takeCode(codes));
+  return all;
 }
 
 std::string withoutAllowances(std::string_view comment) {

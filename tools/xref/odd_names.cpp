@@ -9,6 +9,7 @@
 
 #include "ir/image/program_image.h"
 #include "ir/support/diag/structure.h"
+#include "ir/support/meant.h"
 #include "tools/xref/allowed.h"
 #include "tools/xref/overlaps.h"
 #include "tools/xref/place_names.h"
@@ -216,6 +217,20 @@ std::vector<OddName> oddNames(const SourceManager& sources, const Analysis& anal
   return Checker(sources, analysis, reference).names();
 }
 
+namespace {
+
+// Of `allow(…)` with a word that is not the code of a warning, but resembles one: a remark may have brackets, too.
+void reportUnknownCodes(const Definition& definition, Diagnostics& diagnostics) {
+  for (const std::string_view code : allowedCodes(definition.comment)) {
+    if (findDiag(code) != nullptr) continue;
+    const std::string_view similar = mostSimilar(code, allDiags(), &DiagInfo::code);
+    if (similar.empty() && code.find('-') == std::string_view::npos) continue;
+    diagnostics.report(diag::UnknownAllowance, definition.range).meant({}, similar) << code;
+  }
+}
+
+} // namespace
+
 void reportOddNames(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference,
                     Diagnostics& diagnostics) {
   for (const OddName& name : oddNames(sources, analysis, reference)) {
@@ -223,6 +238,8 @@ void reportOddNames(const SourceManager& sources, const Analysis& analysis, cons
     report << name.definition->name;
     if (name.operand.valid()) report.note(name.operand, "here");
   }
+  for (const Definition& definition : analysis.definitions())
+    if (definition.range.valid()) reportUnknownCodes(definition, diagnostics);
   reportOverlaps(sources, analysis, reference, diagnostics);
 }
 

@@ -20,6 +20,12 @@ TEST(Allowance, IsFoundByItsCode) {
   EXPECT_FALSE(allows("allow(never-read never-reset)", "never-read")); // no list
 }
 
+TEST(Allowance, HasItsCodes) {
+  EXPECT_EQ(rung::allowedCodes("allow(never-read, odd) and allow(x)"),
+            (std::vector<std::string_view>{"never-read", "odd", "x"}));
+  EXPECT_TRUE(rung::allowedCodes("none").empty());
+}
+
 TEST(Allowance, IsNoPartOfTheRemark) {
   EXPECT_EQ(withoutAllowances("allow(never-read)"), "");
   EXPECT_EQ(withoutAllowances("spare input, allow(unused-name)"), "spare input");

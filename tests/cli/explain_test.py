@@ -141,6 +141,30 @@ START (7000.00): read, but written by no rung
         self.path.write_text(NCT.replace("[7001.00]", "[NOBODY]"))
         self.assertEqual(self.explain(6, 5), "START: read here\n  green button\n  declared at p.lad:3:8\n  symbol START 7000.00 ; green button\n" + ERRORS)
 
+    def test_byte_order_mark(self):
+        """It is nothing by itself: what follows it is explained, in the first column, too."""
+        self.path.write_bytes(b"\xef\xbb\xbf" + NCT.encode())
+        for column in (1, 2, 8):
+            self.assertTrue(self.explain(1, column).startswith("dialect: the control"), self.explain(1, column))
+        self.path.write_bytes(b"\xef\xbb\xbf")
+        self.assertNotIn("neither a name", self.explain(1, 1, status=1))
+
+    def test_included_file(self):
+        """A file that a project includes is a part of its program."""
+        self.path = Path("examples/technol-machining-centre/centre.inc")
+        self.assertTrue(self.explain(6, 9).startswith("[technol] EQUI"), self.explain(6, 9))
+        self.assertTrue(self.explain(6, 14).startswith("T_DRIVES: "), self.explain(6, 14))
+
+    def test_a_bit_that_there_is_not(self):
+        self.path.write_text("dialect nct\nmodule MAIN\nrung\n|--[INP000.32]--(7000.00)\nrung\n|--{END}\n")
+        self.assertTrue(self.explain(4, 5).startswith("error here: "), self.explain(4, 5))
+
+    def test_an_index_into_another_signal(self):
+        self.path.write_text("dialect nct\nmodule MAIN\nrung\n|--[N_ON]--{MOV OUT000,#1 #5}\nrung\n|--{END}\n")
+        text = self.explain(4, 18)
+        self.assertIn("  24V interface outputs, DWORD 1: ", text)
+        self.assertNotIn("DWORD 0", text)
+
     def test_nothing_there(self):
         self.assertIn("has nothing in line 99, column 1", self.explain(99, 1, status=2))
         self.assertIn("has nothing in line 1, column 50", self.explain(1, 50, status=2))
@@ -220,6 +244,11 @@ class ExplainWord(unittest.TestCase):
         for word in ("COIN", "CTR", "overtravel", "HB_B12", "SET"):
             self.assertNotRegex(self.explain(word), r"\bl\.\d|\(P\d+\)", word)
         self.assertIn("Manual: 5.19.\n", self.explain("COIN"))
+
+    def test_part_of_a_signal(self):
+        self.assertTrue(self.explain("INP000.32").startswith("[nct] INP000.32: there is no bit 32; a double word has the bits 00 to 31\n"))
+        self.assertTrue(self.explain("INP000.31").startswith("[nct] INP000: "))
+        self.assertTrue(self.explain("OUT000,#1").startswith("[nct] OUT000,#1 is OUT010: 24V interface outputs, DWORD 1"))
 
     def test_ranges_once(self):
         self.assertNotRegex(self.explain("CNT"), r"0…2147483647 +0 to 2147483647")

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <memory>
 
 #include "frontend/ladder/text/keywords.h"
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/ascii.h"
 #include "ir/support/put.h"
+#include "ir/support/utf8.h"
 #include "rtlib/host/program_info.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/text/blanks.h"
@@ -148,14 +150,19 @@ std::optional<FileId> fileOf(const SourceManager& sources, const std::string& pa
   return std::nullopt;
 }
 
-// Columns are characters, offsets bytes.
+// Bytes of a byte order mark that the line begins with.
+size_t markLength(std::string_view line) { return line.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0; }
+
+// Columns are characters, offsets bytes. The byte order mark is nothing by itself: the first word is there.
 std::optional<SourcePos> positionOf(const SourceManager& sources, FileId file, const SourcePlace& place) {
   if (place.line == 0 || place.line > sources.lineCount(file)) return std::nullopt;
   const std::string_view line = sources.lineText(file, place.line);
   const auto begin = static_cast<size_t>(line.data() - sources.text(file).data());
-  for (size_t at = 0; at < line.size(); ++at) {
+  const size_t mark = markLength(line);
+  for (size_t at = mark; at < line.size(); ++at) {
     const SourcePos position = sources.position(file, begin + at);
-    if (sources.lineCol(position).column == place.column) return position;
+    if (sources.lineCol(position).column == place.column || (mark != 0 && at == mark && place.column == 1))
+      return position;
   }
   return std::nullopt;
 }
@@ -172,9 +179,11 @@ std::string_view wordAt(std::string_view line, size_t at) {
 }
 
 LineWords wordsOf(const SourceManager& sources, SourcePos at) {
+  const std::string_view text = sources.lineText(at);
+  const size_t mark = markLength(text);
   const SourceLine line{sources.lineCol(at).line,
-                        sources.lineText(at),
-                        {at.value - static_cast<uint32_t>(sources.offsetOf(at) - sources.lineStart(at).offset)}};
+                        text.substr(mark),
+                        {at.value - static_cast<uint32_t>(sources.offsetOf(at) - sources.lineStart(at).offset - mark)}};
   LineWords words;
   splitWords(line, {.comment = ';', .quotes = "\"'", .separators = {}}, words);
   return words;
@@ -280,6 +289,15 @@ public:
   const frontend::Dialect& dialect() const { return *dialect_; }
   const Analysis& analysis() const { return program_->analysis(); }
   bool hasErrors() const { return diagnostics_.hasErrors(); }
+  // What is wrong with a word, a line for each error; "" where nothing is.
+  std::string errorsIn(SourceRange word) const {
+    std::string text;
+    for (const Diagnostic& one : diagnostics_.reported())
+      if (one.severity == Severity::Error && one.range.valid() && word.begin <= one.range.begin &&
+          one.range.end <= word.end)
+        put(text, "error here: {} [{}]\n", messageOf(one), diagInfo(one.id).code);
+    return text;
+  }
   // In any case where no name is written exactly so; null: none.
   const Definition* definitionOf(std::string_view name) const {
     const Definition* found = nullptr;
@@ -306,10 +324,19 @@ class WordExplainer {
 public:
   WordExplainer(const OpenProgram& program, SourcePos at)
       : program_(program), sources_(program.sources()), dialect_(program.dialect()), at_(at),
-        words_(wordsOf(sources_, at)), line_(sources_.lineText(at)),
-        offset_(sources_.offsetOf(at) - sources_.lineStart(at).offset) {}
+        words_(wordsOf(sources_, at)), line_(sources_.lineText(at).substr(markLength(sources_.lineText(at)))),
+        offset_(sources_.offsetOf(at) - sources_.lineStart(at).offset - markLength(sources_.lineText(at))) {}
 
-  std::string run() const {
+  std::string run() const { return program_.errorsIn(wordRange()) + meaning(); }
+
+private:
+  SourceRange wordRange() const {
+    const std::string_view word = wordAt(line_, offset_);
+    const auto before = static_cast<uint32_t>(offset_ - static_cast<size_t>(word.data() - line_.data()));
+    return {{at_.value - before}, {at_.value - before + static_cast<uint32_t>(word.size())}};
+  }
+
+  std::string meaning() const {
     if (std::string text = program_.explainer().at(at_, std::string(wordAt(line_, offset_))); !text.empty())
       return text;
     if (const frontend::InstructionUse* use = program_.analysis().instructionAt(at_))
@@ -327,7 +354,6 @@ public:
     return ofWord(word);
   }
 
-private:
   bool isDrawn() const { return dialect_.findBox != nullptr; }
 
   // With the operand that the mark belongs to.
@@ -374,12 +400,34 @@ private:
 
 } // namespace
 
+namespace {
+
+// The program of the project that a file lies in, where the program includes the file; else null.
+std::unique_ptr<OpenProgram> includingProgram(const std::string& file) {
+  const auto projectFile = project::findUpwards(std::filesystem::path(file).parent_path().string());
+  if (!projectFile) return nullptr;
+  SourceOptions options;
+  options.projectFile = *projectFile;
+  int status = takeProject(options);
+  auto program = std::make_unique<OpenProgram>();
+  if (status != kOk || !program->open(options, status) || !fileOf(program->sources(), file)) return nullptr;
+  return program;
+}
+
+} // namespace
+
 std::optional<std::string> explainPlace(const SourcePlace& place, int& status) {
   SourceOptions options;
   options.files = {place.file};
   status = takeProject(options);
-  OpenProgram program;
-  if (status != kOk || !program.open(options, status)) return std::nullopt;
+  if (status != kOk) return std::nullopt;
+  std::unique_ptr<OpenProgram> opened;
+  if (!options.project) opened = includingProgram(place.file);
+  if (opened == nullptr) {
+    opened = std::make_unique<OpenProgram>();
+    if (!opened->open(options, status)) return std::nullopt;
+  }
+  const OpenProgram& program = *opened;
   const SourceManager& sources = program.sources();
   const auto file = fileOf(sources, place.file);
   const auto at = file ? positionOf(sources, *file, place) : std::nullopt;

@@ -42,6 +42,21 @@ std::string explainSignal(std::string_view name) {
   return "";
 }
 
+// What follows a signal's name: a bit that does not exist, an index that leads into another signal.
+std::string explainPart(std::string_view name, std::string_view part) {
+  const nc::Signal* signal = nc::findSignal(nc::nctSignals(), name);
+  if (signal == nullptr || part.empty()) return "";
+  const size_t comma = std::min(part.find(','), part.size());
+  std::string_view bit = part.substr(0, comma);
+  if (text::takePrefixIgnoringCase(bit, ".") && signal->type != nc::SignalType::Bit &&
+      text::numberIn<uint32_t>(bit).value_or(0) > 31)
+    return fmt::format("[nct] {0}.{1}: there is no bit {1}; a double word has the bits 00 to 31\n", name, bit);
+  std::string_view index = part.substr(comma);
+  if (!text::takePrefixIgnoringCase(index, ",#")) return "";
+  const nc::Signal* other = signalAfter(*signal, text::numberIn<uint32_t>(index).value_or(0));
+  return other == nullptr ? "" : fmt::format("[nct] {},#{} is {}: {}\n", name, index, other->symbol, other->meaning);
+}
+
 std::string explainFlag(std::string_view name) {
   constexpr std::string_view kMeanings[] = {
       "the instruction was not executed: address or operand out of range, wrong format, NaN",
@@ -91,6 +106,18 @@ std::string explainFunction(std::string_view word) {
 
 } // namespace
 
+const nc::Signal* signalAfter(const nc::Signal& signal, int64_t words) {
+  const auto isIn = [&](const nc::Signal& one) {
+    const int64_t offset = signal.byteOffset / 4 + words - one.byteOffset / 4;
+    const bool isBit = one.type == nc::SignalType::Bit;
+    return offset >= 0 && offset < std::max<int64_t>(1, int64_t{one.count} * one.strideBytes / 4) &&
+           isBit == (signal.type == nc::SignalType::Bit) && (!isBit || one.bit == signal.bit);
+  };
+  if (isIn(signal) || words == 0) return nullptr;
+  const auto found = std::ranges::find_if(nc::nctSignals(), isIn);
+  return found == nc::nctSignals().end() ? nullptr : &*found;
+}
+
 std::string_view typeText(const nc::Signal& signal) {
   if (signal.type == nc::SignalType::Bit) return "bit";
   return nc::elementBytes(signal.type) == 8 ? "double" : "double word";
@@ -120,7 +147,9 @@ std::string parameterText(const nc::nct::ScopeParameter& parameter) {
 
 std::string explainWord(std::string_view word) {
   const std::string_view name = word.substr(0, word.find_first_of(",."));
-  return explainSignal(aliasOf(name)) + explainFlag(name) + explainQuantity(name) + explainFunction(word);
+  const std::string_view signal = aliasOf(name);
+  return explainPart(signal, word.substr(name.size())) + explainSignal(signal) + explainFlag(name) +
+         explainQuantity(name) + explainFunction(word);
 }
 
 } // namespace rung::nct

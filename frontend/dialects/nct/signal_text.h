@@ -8,6 +8,8 @@
 
 namespace rung::nct {
 
+// What an index of so many words leads to from the signal's place, where that is another signal; else null.
+const nc::Signal* signalAfter(const nc::Signal& signal, int64_t words);
 std::string_view typeText(const nc::Signal& signal); // "bit", "double word", "double"
 std::string indexText(const nc::Signal& signal);     // "#0 to #31 (axis)"; "-" when there is one only
 std::string placeText(const nc::Signal& signal);     // "MKBTNS0.05"; "-" for words and bits of words without name

@@ -33,10 +33,10 @@ PROJECTS = {"nct": ["examples/nct-lathe", "examples/nct-turning-centre"],
 
 # What users of other controls write, by dialect: here, there; and whether it means the same.
 FOREIGN = {
-    "gsk": [("LDI", "LDN"), ("ANI", "ANDN"), ("ANI", "AND NOT"), ("ORI", "ORN"), ("OUT", "ST"), ("OUTI", "STN"), ("SET", "S"),
+    "gsk": [("LDI", "LDN"), ("ANI", "ANDN"), ("ANI", "AND NOT"), ("ORI", "ORN"), ("OUT", "ST"), ("SET", "ST"), ("LD", "ST"), ("SET", "RSET"), ("RST", "RSET"), ("OUTI", "STN"), ("SET", "S"),
             ("RST", "R"), ("LD", "RD"), ("OUT", "WRT"), ("ANB", "AND.STK"), ("ORB", "OR.STK"), ("OUT", "="), ("ORB", "OR LD"),
             ("OUTI", "WRT.NOT"), ("LDI", "RD.NOT"), ("OUT", "WR"), ("(S ", "(SET "), ("[/", "[NOT ")],
-    "nct": [("TOND", "TON"), ("TOFFD", "TOF"), ("CEQ", "EQ"), ("CGT", "GT"), ("SBS", "CALL"), ("JME", "LBL"), ("(S ", "(SET "),
+    "nct": [("TOND", "TON"), ("TOFFD", "TOF"), ("CEQ", "EQ"), ("CGT", "GT"), ("FLEQ", "EQ"), ("FLGT", "GT"), ("MOVF", "MOV"), ("SBS", "CALL"), ("JME", "LBL"), ("(S ", "(SET "),
             ("(R ", "(RESET "), ("[/", "[NOT ")],
     "technol": [("LDR", "LD"), ("WR", "ST"), ("PROC_CALL", "CAL"), ("JL1", "JMPC"), ("JL0", "JMPCN"), ("WR", "WRT"),
                 ("LDR -", "LDR NOT "), ("LA -", "LA NOT "), ("LO -", "LO NOT ")],
@@ -115,9 +115,10 @@ def mutated(line, dialect, rng):
     if kind == "operand":
         return " ".join(code.split()[:-1]) + rest if len(code.split()) > 1 and "|" not in code else None
     if kind == "hexadecimal":
-        found = re.search(r"\b0x([0-9A-F]+)\b|\b(0[0-9A-F]+)h\b", code, re.IGNORECASE)
-        digits = found and (found[1] or found[2].lstrip("0"))
-        return found and replaced(code, found, rng.choice(["0x{}", "16#{}", "${}", "0{}h"]).format(digits or "0")) + rest
+        found = re.search(r"\b0x([0-9A-F]+)\b|\b(0[0-9A-F]+)h\b|#\$([0-9A-F]+)\b", code, re.IGNORECASE)
+        digits = found and (found[1] or found[3] or found[2].lstrip("0"))
+        forms = ["#0x{}", "#16#{}", "#0{}h", "0x{}"] if dialect == "nct" else ["0x{}", "16#{}", "${}", "0{}h"]
+        return found and replaced(code, found, rng.choice(forms).format(digits or "0")) + rest
     quotes = [i for i, c in enumerate(code) if c in "\"'"]
     return code[:quotes[-1]] + code[quotes[-1] + 1:] + rest if quotes else None
 

@@ -80,6 +80,10 @@ void meant(DiagBuilder& report, const SourceManager& sources, SourceRange range,
   meantAt(report, sources, {&range, 1}, word);
 }
 
+void fix(DiagBuilder& report, const SourceManager& sources, SourceRange range, std::string_view word) {
+  if (const std::optional<Change> change = changeOf(sources, range, word)) report.fix(change->range, change->text);
+}
+
 void suggest(DiagBuilder& report, const SourceManager& sources, std::span<const SourceRange> places,
              const Likely& likely) {
   if (likely.certain)

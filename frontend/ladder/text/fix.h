@@ -12,6 +12,8 @@ namespace rung::ladder {
 /// wire on the right of the element becomes longer or shorter, so that what follows keeps its column; without room
 /// for that the fix is left out.
 void meant(DiagBuilder& report, const SourceManager& sources, SourceRange range, std::string_view word);
+/// That fix alone, where a note says already what is meant.
+void fix(DiagBuilder& report, const SourceManager& sources, SourceRange range, std::string_view word);
 
 /// The same of a word that may be misspelt, and is at all these places, in their order: with a fix of all of them, and
 /// only where nothing else can have been meant.

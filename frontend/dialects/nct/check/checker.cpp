@@ -7,6 +7,7 @@
 
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "frontend/dialects/nct/rows/operand_kinds.h"
+#include "frontend/dialects/nct/signal_text.h"
 #include "frontend/ladder/pin_rules.h"
 #include "frontend/ladder/text/fix.h"
 #include "frontend/ladder/text/list_word.h"
@@ -55,6 +56,18 @@ std::string nameOf(const ladder::Element& element, const Row& row, std::string_v
   case ElementKind::Error: return std::string(row.info.mnemonic);
   }
   return {};
+}
+
+bool isBox(const Row& row) { return row.shape == Shape::Box; }
+std::string_view mnemonicOf(const Row& row) { return row.info.mnemonic; }
+
+// What is said of a box that has an operand of double format: the text begins with the box for integers.
+std::string forDoubles(std::string_view here) {
+  const size_t end = std::min(here.find_first_of(" ,;"), here.size());
+  const std::string_view doubles = doublesOf(here.substr(0, end));
+  if (doubles.empty()) return std::string(here);
+  const bool compares = here[0] == 'C';
+  return fmt::format("{}{}; a constant is written *0.5", doubles, compares ? "" : ", whose result comes first");
 }
 
 bool sameName(std::string_view a, std::string_view b) { return a == b; }
@@ -131,7 +144,20 @@ const Row* RungChecker::rowOf(const ladder::Element& element, const Operand* fir
   return nullptr;
 }
 
-void RungChecker::reportUnknown(const ladder::Element& element) {
+RungChecker::Numbers RungChecker::numbersOf(std::span<const Word> operands) {
+  Numbers numbers;
+  for (const Word& word : operands) {
+    if (word.quoted || word.text.empty()) continue;
+    const Symbol* symbol = symbols_.find(word.text);
+    const bool isConstant = symbol != nullptr && symbol->kind == SymbolKind::Constant;
+    numbers.integers |= word.text[0] == '#' || (isConstant && symbol->constant.kind != ConstantKind::Real);
+    numbers.doubles |= word.text[0] == '*' || (isConstant && symbol->constant.kind == ConstantKind::Real) ||
+                       (symbol != nullptr && symbol->signal != nullptr && symbol->signal->type == nc::SignalType::Real);
+  }
+  return numbers;
+}
+
+void RungChecker::reportUnknown(const ladder::Element& element, std::span<const Word> operands) {
   DiagBuilder report = diagnostics_.report(diag::UnknownInstruction, element.mnemonicRange);
   report << element.mnemonic;
   if (const std::string note = listNote(element); !note.empty()) {
@@ -139,23 +165,36 @@ void RungChecker::reportUnknown(const ladder::Element& element) {
     return;
   }
   if (const frontend::ForeignWord* foreign = frontend::findForeign(foreignWords(), element.mnemonic))
-    return explainForeign(report, element, *foreign);
+    return explainForeign(report, element, *foreign, numbersOf(operands));
   if (!diagnostics_.suggests()) return;
-  const auto isBox = [](const Row& row) { return row.shape == Shape::Box; };
-  const auto mnemonicOf = [](const Row& row) { return row.info.mnemonic; };
-  ladder::suggest(report, symbols_.sources(), element.mnemonicRange,
-                  likeliest(element.mnemonic, allRows() | std::views::filter(isBox), mnemonicOf));
+  Likely likely = likeliest(element.mnemonic, allRows() | std::views::filter(isBox), mnemonicOf);
+  const std::string_view doubles = numbersOf(operands).doubles ? doublesOf(likely.word) : std::string_view();
+  if (!doubles.empty()) likely = {doubles, false};
+  ladder::suggest(report, symbols_.sources(), element.mnemonicRange, likely);
 }
 
-// A box that means the same has as many operands.
+// With a fix only where it is certain that the box means the same: it has as many operands, of the same format.
 void RungChecker::explainForeign(DiagBuilder& report, const ladder::Element& element,
-                                 const frontend::ForeignWord& foreign) {
-  const Row* row = foreign.same ? findBox(foreign.here) : nullptr;
-  const bool fits = row != nullptr && row->info.operands.size() == element.operands.count;
-  if (fits)
-    ladder::meant(report, symbols_.sources(), element.mnemonicRange, foreign.here);
+                                 const frontend::ForeignWord& foreign, Numbers numbers) {
+  const SourceRange range = element.mnemonicRange;
+  if (!foreign.same) {
+    const std::string here = numbers.doubles ? forDoubles(foreign.here) : std::string(foreign.here);
+    return frontend::explainForeign(report, range, {foreign.word, here, false}, false);
+  }
+  const std::string_view doubles = doublesOf(foreign.here);
+  if (!doubles.empty() && numbers.doubles == numbers.integers) {
+    report.note(fmt::format("in this language: {}; for doubles {}", foreign.here, doubles));
+    return;
+  }
+  const std::string_view here = doubles.empty() || numbers.integers ? foreign.here : doubles;
+  const auto fits = [&](const Row& row) { return isBox(row) && row.info.operands.size() == element.operands.count; };
+  const Row* row = findBox(here);
+  const bool isCertain = row != nullptr && fits(*row) &&
+                         !frontend::isAmbiguous(element.mnemonic, allRows() | std::views::filter(fits), mnemonicOf);
+  if (isCertain)
+    ladder::meant(report, symbols_.sources(), range, here);
   else
-    frontend::explainForeign(report, element.mnemonicRange, foreign, false);
+    report.meant({}, here);
 }
 
 void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element) {
@@ -179,7 +218,7 @@ void RungChecker::checkElement(TypedRung& typed, const ladder::Element& element)
   if (added.row == nullptr) {
     // Of a drawing with an error it may be a pin of a box that was not read.
     const bool mayBePin = rung.bad && element.operands.count == 0;
-    if (!mayBePin) reportUnknown(element);
+    if (!mayBePin) reportUnknown(element, rung.operandsOf(element));
     typed.bad = true;
     return;
   }
@@ -437,10 +476,20 @@ frontend::NamedPlace placeOf(const OperandInfo& info, const Address& address) {
   return {"M", address.word * 32, kindOf(info).words * 32};
 }
 
+// The name that an operand begins with; where a constant index leads from a signal into another one that.
+uint32_t RungChecker::baseOf(const Operand& operand) {
+  if (operand.base == nullptr) return frontend::kNoDefinition;
+  const nc::Signal* signal = operand.base->signal;
+  if (signal == nullptr || operand.address.indexRegister != kNoRegister) return operand.base->index;
+  const nc::Signal* other = signalAfter(*signal, int64_t{operand.address.word} - signal->byteOffset / 4);
+  const Symbol* found = other == nullptr ? nullptr : symbols_.find(other->symbol);
+  return found == nullptr || found->signal != other ? operand.base->index : found->index;
+}
+
 void RungChecker::note(const OperandInfo& info, const Operand& operand, CoilTraits coil) {
   if (operand.form != Form::Bit && operand.form != Form::Word) return;
   analysis_.use({.range = operand.source->range,
-                 .base = operand.base == nullptr ? frontend::kNoDefinition : operand.base->index,
+                 .base = baseOf(operand),
                  .place = placeOf(info, operand.address),
                  .computed = computedPart(operand),
                  .access = info.access,

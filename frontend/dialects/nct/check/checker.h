@@ -32,8 +32,14 @@ public:
 
 private:
   const Row* rowOf(const ladder::Element& element, const Operand* first);
-  void reportUnknown(const ladder::Element& element);
-  void explainForeign(DiagBuilder& report, const ladder::Element& element, const frontend::ForeignWord& foreign);
+  struct Numbers { // what is known of a box by its constants and the signals of the NC
+    bool integers = false;
+    bool doubles = false;
+  };
+  Numbers numbersOf(std::span<const Word> operands);
+  void reportUnknown(const ladder::Element& element, std::span<const Word> operands);
+  void explainForeign(DiagBuilder& report, const ladder::Element& element, const frontend::ForeignWord& foreign,
+                      Numbers numbers);
   void checkElement(TypedRung& typed, const ladder::Element& element);
   bool checkDrawn(const ladder::Rung& rung, const ladder::Element& element, const Row& row);
   bool checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const Row& row);
@@ -53,6 +59,7 @@ private:
     bool isDue = false;
   };
   CoilTraits coilTraits(const ladder::Rung& rung, const ladder::Element& element) const;
+  uint32_t baseOf(const Operand& operand);
   void note(const frontend::OperandInfo& info, const Operand& operand, CoilTraits coil);
 
   SymbolTable& symbols_;

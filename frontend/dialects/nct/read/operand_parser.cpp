@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/ladder/text/fix.h"
 #include "frontend/sema/foreign_word.h"
 #include "ir/support/ascii.h"
 #include "ir/support/diag/nct.h"
@@ -42,11 +43,23 @@ bool isRealNumber(std::string_view text) {
 // A number of too many digits is too large for everything.
 int64_t decimalValue(std::string_view digits) { return text::numberIn<int64_t>(digits).value_or(INT64_MAX); }
 
+// #1F, whose $ is missing; #0b101 has a base of its own.
+bool isOwnHex(std::string_view text) {
+  return text.starts_with('#') && allHex(text.substr(1)) && !frontend::foreignNumber(text.substr(1));
+}
+
+// The value of #b101 if it is a binary number, which it may be as well as #$B101.
+std::optional<uint32_t> bitsAfterB(std::string_view text) {
+  if (text.size() < 3 || text[0] != '#' || text::upper(text[1]) != 'B') return std::nullopt;
+  return text::numberIn<uint32_t>(text.substr(2), 2);
+}
+
 constexpr char kHexConstant[] = "a hexadecimal constant is written #${}";
 
 struct ConstantReader {
   const Word& word;
   std::string_view text;
+  const SourceManager& sources;
   Diagnostics& diagnostics;
 
   std::optional<Constant> malformed() {
@@ -61,7 +74,7 @@ struct ConstantReader {
     if (text.starts_with('#') && text.find('.') != std::string_view::npos)
       report.note("'#' begins an integer; a real number is written *" + std::string(text.substr(1)));
     else if (text.starts_with('#'))
-      noteConstant(report, allHex(text.substr(1)) ? text : text.substr(1));
+      noteConstant(report, isOwnHex(text) ? text : text.substr(1), sources, rangeOf(word, text));
     return std::nullopt;
   }
 
@@ -146,7 +159,7 @@ private:
     else if (allDigits(text))
       report.note("a constant is written #" + std::string(text));
     else
-      noteConstant(report, text);
+      noteConstant(report, text, symbols_.sources(), {});
     return std::nullopt;
   }
 
@@ -220,7 +233,7 @@ private:
 
   bool readIndex(std::string_view text) {
     if (text.starts_with('#')) {
-      const std::optional<Constant> constant = parseConstant(word_, text, diagnostics_);
+      const std::optional<Constant> constant = parseConstant(word_, text, symbols_.sources(), diagnostics_);
       if (!constant) return false;
       if (constant->kind == ConstantKind::Decimal) return constantIndex(*constant);
       diagnostics_.report(diag::ConstantFormat, rangeOf(word_, text)) << text;
@@ -280,23 +293,32 @@ std::string_view describe(SymbolKind kind) {
   return "";
 }
 
-void noteConstant(DiagBuilder& report, std::string_view text) {
+void noteConstant(DiagBuilder& report, std::string_view text, const SourceManager& sources, SourceRange range) {
   const std::optional<frontend::ForeignNumber> foreign = frontend::foreignNumber(text);
   const std::string_view number = text.substr(text.starts_with('+') ? 1 : 0); // constants have no '+'
-  if (foreign && foreign->base == 16)
+  const auto fix = [&](const std::string& constant, bool fits) {
+    if (range.valid() && fits) ladder::fix(report, sources, range, constant);
+  };
+  if (foreign && foreign->base == 16) {
     report.note(fmt::format(kHexConstant, foreign->digits));
-  else if (const auto binary = foreign ? text::numberIn<uint64_t>(foreign->digits, 2) : std::nullopt)
+    fix(fmt::format("#${}", foreign->digits), text::numberIn<uint32_t>(foreign->digits, 16).has_value());
+  } else if (const auto binary = foreign ? text::numberIn<uint64_t>(foreign->digits, 2) : std::nullopt) {
     report.note(fmt::format("there are no binary constants; in decimal it is #{}", *binary));
-  else if (text.starts_with('#') && allHex(text.substr(1)))
+    fix(fmt::format("#{}", *binary), *binary <= INT32_MAX);
+  } else if (const auto bits = bitsAfterB(text)) {
+    report.note(fmt::format("there are no binary constants; the bits {} are #{} in decimal", text.substr(2), *bits));
+  } else if (isOwnHex(text)) {
     report.note(fmt::format(kHexConstant, text.substr(1)));
-  else if (isDecimalNumber(text))
+  } else if (isDecimalNumber(text)) {
     report.note(fmt::format("a constant is written #{}", number));
-  else if (isRealNumber(text))
+  } else if (isRealNumber(text)) {
     report.note(fmt::format("a real number is written *{}", number));
+  }
 }
 
-std::optional<Constant> parseConstant(const Word& word, std::string_view text, Diagnostics& diagnostics) {
-  ConstantReader reader{word, text, diagnostics};
+std::optional<Constant> parseConstant(const Word& word, std::string_view text, const SourceManager& sources,
+                                      Diagnostics& diagnostics) {
+  ConstantReader reader{word, text, sources, diagnostics};
   if (text.starts_with("#$")) return reader.hexadecimal(text.substr(2));
   if (text.starts_with('#')) return reader.decimal(text.substr(1));
   return reader.real(text.substr(1));
@@ -323,7 +345,7 @@ Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagno
       operand.edge = text[0];
   }
   if (isConstantText(text)) {
-    const std::optional<Constant> constant = parseConstant(word, text, diagnostics);
+    const std::optional<Constant> constant = parseConstant(word, text, symbols.sources(), diagnostics);
     if (constant) operand.constant = *constant;
     operand.form = constant ? Form::Constant : Form::Bad;
     return operand;
@@ -331,7 +353,7 @@ Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagno
   if (text.starts_with('-') || text.starts_with('+') || frontend::foreignNumber(text)) {
     DiagBuilder report = diagnostics.report(diag::ConstantFormat, rangeOf(word, text));
     report << text;
-    noteConstant(report, text);
+    noteConstant(report, text, symbols.sources(), rangeOf(word, text));
     if (!isDigit(text[0]) && text.size() > 1 && (isLetter(text[1]) || text[1] == '_'))
       report.note("a name begins with a letter or _; a closed contact is written [/x]");
     return operand;
@@ -375,7 +397,7 @@ std::optional<uint32_t> parseLabel(const Word& word, SymbolTable& symbols, Diagn
   if (allDigits(digits)) {
     number = decimalValue(digits);
   } else if (digits.starts_with("#") && !digits.starts_with("#$")) {
-    const std::optional<Constant> constant = parseConstant(word, digits, diagnostics);
+    const std::optional<Constant> constant = parseConstant(word, digits, symbols.sources(), diagnostics);
     if (!constant) return std::nullopt;
     number = constant->integer;
   } else {

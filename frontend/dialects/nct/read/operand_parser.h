@@ -12,10 +12,12 @@ namespace rung::nct {
 SourceRange rangeOf(const Word& word, std::string_view part);
 
 // How a number without the # or * of a constant, or of another language, is written here, where it is one.
-void noteConstant(DiagBuilder& report, std::string_view text);
+// A valid range is where it is; of a number of another language, whose value is certain, there is a fix.
+void noteConstant(DiagBuilder& report, std::string_view text, const SourceManager& sources, SourceRange range);
 
 // `text`, a piece of `word`, begins with # or *.
-std::optional<Constant> parseConstant(const Word& word, std::string_view text, Diagnostics& diagnostics);
+std::optional<Constant> parseConstant(const Word& word, std::string_view text, const SourceManager& sources,
+                                      Diagnostics& diagnostics);
 
 struct ParsedAddress {
   Address address;

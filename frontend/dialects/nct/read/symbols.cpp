@@ -30,7 +30,8 @@ bool isName(std::string_view text) {
          text.find_first_of(".,:#*@%!/\"") == std::string_view::npos;
 }
 
-// What a designation of IEC 81346 or another bad name may become: K1 of -K1, _1M1 of 1M1; empty when that is not a name.
+// What a designation of IEC 81346 or another bad name may become: K1 of -K1, _1M1 of 1M1; empty when that is not a
+// name.
 std::string likeName(std::string_view text) {
   const auto isPart = [](char c) { return isLetter(c) || isDigit(c) || c == '_'; };
   std::string name;
@@ -153,7 +154,7 @@ void SymbolTable::explain(DiagBuilder& report, std::span<const Undeclared> uses)
   const std::string_view name = use.name;
   ladder::suggest(report, sources_, frontend::placesOf(uses), similarTo(name));
   if (isOtherAddress(name)) report.note(kAddresses);
-  noteConstant(report, name);
+  noteConstant(report, name, sources_, {});
   // (S7001.00) is a coil of the name S7001.
   const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && !use.whole.empty() &&
                      (isDigit(name[1]) || find(name.substr(1)) != nullptr);
@@ -233,10 +234,10 @@ void SymbolTable::resolveConstant(Symbol& symbol) {
   if (!value.text.starts_with('#') && !value.text.starts_with('*')) {
     DiagBuilder report = diagnostics_.report(diag::ConstantFormat, value.range);
     report << value.text;
-    noteConstant(report, value.text);
+    noteConstant(report, value.text, sources_, value.range);
     return;
   }
-  const std::optional<Constant> constant = parseConstant(value, value.text, diagnostics_);
+  const std::optional<Constant> constant = parseConstant(value, value.text, sources_, diagnostics_);
   if (!constant) return;
   symbol.kind = SymbolKind::Constant;
   symbol.constant = *constant;

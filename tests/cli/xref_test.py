@@ -233,6 +233,18 @@ class Xref(unittest.TestCase):
     def test_what_the_control_has_is_not_odd(self):
         self.assertEqual(self.xref("--odd", "examples/technol-mill"), "", "P0OUT, STOP_REQ and the like")
 
+    def test_outputs_of_technol_are_read_by_the_control(self):
+        path = self.program("out.plc", NAMES.replace("        LOD  WORD.WORDS+2\n", "        MOVE BYTE.WORDS,P1OUT\n        LOD  WORD.WORDS+2\n"))
+        self.assertRegex(self.xref(path, "--place", "P1OUT"), r"^P1OUT\n  written  rung \d+, .*\n  read     by the control or the machine\n$")
+        self.assertRegex(self.xref(path, "--place", "P1IN"), r"\n  read     –\n$")
+
+    def test_a_wider_access_of_gsk_has_its_width(self):
+        path = self.program("wide.pmc", "dialect gsk\nsymbol N D10\nLD X0.0\nFUNC MOVW\nPRM N\nPRM D30\nFUNC END1\nFUNC END2\n")
+        lines = self.xref(path).splitlines()
+        self.assertTrue({"N (D10)", "D10:2", "D30:2"} <= set(lines), lines)
+        self.assertTrue(self.xref(path, "--place", "D30:2").startswith("D30:2\n  written  rung "))
+        self.assertTrue(self.xref(path, "--place", "D30").startswith("D30\n"))
+
     def test_setting_and_resetting_is_writing(self):
         for name, text in LATCHES.items():
             path = self.program(name, text)

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <string_view>
 
 #include "rtlib/nc/names/names.h"
+#include "rtlib/nc/technol/signals.h"
 
 namespace rung::xref {
 
@@ -69,8 +71,12 @@ std::string symbolAt(const rung_program& program, const Ref& place) {
 
 std::string shownName(const rung_program& program, const Ref& place) {
   const std::string symbol = symbolAt(program, place);
-  if (symbol.empty()) return nc::hasAddresses(program) ? nc::describe(program, place) : nc::cellAddress(program, place);
   const std::string address = nc::address(program, place);
+  if (symbol.empty()) {
+    const std::string cell = nc::cellAddress(program, place);
+    const bool isLonger = place.kind == RefKind::Int && cell != address; // D10:2, which is no other name of D10
+    return nc::hasAddresses(program) && !isLonger ? nc::describe(program, place) : cell;
+  }
   return nc::hasAddresses(program) && address != symbol ? fmt::format("{} ({})", symbol, address) : symbol;
 }
 
@@ -95,6 +101,20 @@ std::string writtenName(const rung_program& program, const Ref& use) {
 
 namespace {
 
+// The interface of TECHNOL is one space for both directions; its table says which cells the control reads.
+bool isOutputOfTechnol(const rung_program& program, const Ref& place) {
+  if (program.dialect != std::string_view("technol") || program.spaces[place.space].name != std::string_view("NCI"))
+    return false;
+  const ir::BitRange bits = bitsOf(place);
+  return std::ranges::any_of(nc::technolSignals(), [&](const nc::Signal& signal) {
+    if (signal.direction == nc::Direction::In || signal.area != std::string_view("I")) return false;
+    const bool isBit = signal.type == nc::SignalType::Bit;
+    const ir::BitRange own{bits.space, signal.byteOffset * 8 + (isBit ? signal.bit : 0),
+                           isBit ? signal.count : signal.count * signal.strideBytes * 8};
+    return ir::overlap(own, bits);
+  });
+}
+
 // Of a space that is only the one or the other.
 bool isOnly(const rung_program& program, uint32_t space, uint32_t flag) {
   return (program.spaces[space].flags & (RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT)) == flag;
@@ -118,8 +138,8 @@ bool isWrittenByControl(const rung_program& program, const ir::Uses& uses, const
 }
 
 bool isReadByControl(const rung_program& program, const ir::Uses& uses, const Ref& place) {
-  return isOnly(program, place.space, RUNG_SPACE_OUTPUT) || uses.isCleared(bitsOf(place)) ||
-         anyHas(program, uses.copiedTo(bitsOf(place)), RUNG_SPACE_OUTPUT);
+  return isOnly(program, place.space, RUNG_SPACE_OUTPUT) || isOutputOfTechnol(program, place) ||
+         uses.isCleared(bitsOf(place)) || anyHas(program, uses.copiedTo(bitsOf(place)), RUNG_SPACE_OUTPUT);
 }
 
 } // namespace rung::xref

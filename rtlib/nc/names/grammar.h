@@ -59,6 +59,8 @@ public:
   std::optional<host::Ref> bitIn(std::string_view name, std::string_view digits);
   // One cell of so many bytes (1, 2, 4 or the longest) that begins where the integer does.
   std::optional<host::Ref> widened(std::optional<host::Ref> ref, std::optional<uint32_t> bytes) const;
+  // The same at NAME or NAME+n; there need be no room for a cell of NAME's own length.
+  std::optional<host::Ref> ofBytes(std::string_view name, std::optional<uint32_t> bytes);
 
   // The real that begins where the cell does, as host::asReal.
   std::optional<host::Ref> real(const std::optional<host::Ref>& ref) const;

@@ -68,8 +68,7 @@ const rung_symbol* NameGrammar::symbol(const rung_program& program, std::string_
 
 std::optional<Ref> NameGrammar::takeApart(NameSearch& search, std::string_view name) const {
   if (const size_t colon = name.rfind(':'); colon != std::string_view::npos)
-    return search.widened(NameSearch::inBytes(search.find(name.substr(0, colon))),
-                          text::numberIn<uint32_t>(name.substr(colon + 1)));
+    return search.ofBytes(name.substr(0, colon), text::numberIn<uint32_t>(name.substr(colon + 1)));
   if (const size_t bracket = name.rfind('['); name.back() == ']' && bracket != std::string_view::npos) {
     const std::optional<Ref> array = search.find(name.substr(0, bracket));
     const std::optional<uint32_t> index = text::numberIn<uint32_t>(name.substr(bracket + 1, name.size() - bracket - 2));
@@ -142,7 +141,8 @@ std::optional<Ref> NameSearch::inSpace(const std::optional<Ref>& ref) const {
 
 std::optional<Ref> NameSearch::bitIn(std::string_view name, std::string_view digits) {
   const std::optional<uint32_t> bit = text::numberIn<uint32_t>(digits);
-  const std::optional<Ref> cell = bit ? find(name) : std::nullopt;
+  std::optional<Ref> cell = bit ? find(name) : std::nullopt;
+  if (bit && !cell) cell = ofBytes(name, *bit < 8 ? 1 : *bit < 16 ? 2 : *bit < 32 ? 4 : 8); // NAME+n at a space's end
   return cell ? host::bitOf(*cell, *bit) : std::nullopt;
 }
 
@@ -152,6 +152,16 @@ std::optional<Ref> NameSearch::widened(std::optional<Ref> ref, std::optional<uin
   ref->width = static_cast<uint8_t>(*bytes * 8);
   ref->count = 1;
   return inSpace(ref);
+}
+
+std::optional<Ref> NameSearch::ofBytes(std::string_view name, std::optional<uint32_t> bytes) {
+  const size_t plus = std::min(name.rfind('+'), name.size());
+  std::optional<Ref> cell = inBytes(find(name.substr(0, plus)));
+  const std::optional<uint32_t> distance =
+      plus == name.size() ? std::optional(0u) : text::numberIn<uint32_t>(name.substr(plus + 1));
+  if (!cell || !distance || *distance > 0xFFFFFFF) return std::nullopt;
+  cell->byte += *distance;
+  return widened(cell, bytes);
 }
 
 std::optional<Ref> NameSearch::real(const std::optional<Ref>& ref) const {

@@ -47,17 +47,6 @@ std::string_view typeOf(const Ref& place) {
   return {};
 }
 
-// A cell of so many bytes at NAME or NAME+n; of NAME's own length there need be no room.
-std::optional<Ref> typed(NameSearch& search, std::string_view name, uint32_t bytes) {
-  const size_t plus = std::min(name.rfind('+'), name.size());
-  std::optional<Ref> cell = NameSearch::inBytes(search.find(name.substr(0, plus)));
-  const std::optional<uint32_t> distance =
-      plus == name.size() ? std::optional(0u) : text::numberIn<uint32_t>(name.substr(plus + 1));
-  if (!cell || !distance || *distance > 0xFFFFFFF) return std::nullopt;
-  cell->byte += *distance;
-  return search.widened(cell, bytes);
-}
-
 class TechnolNames final : public NameGrammar {
 public:
   bool ignoresCase() const override { return true; }
@@ -75,14 +64,16 @@ public:
   std::optional<Ref> takeApart(NameSearch& search, std::string_view name) const override {
     const bool isReal = name.starts_with(text::kRealPrefix);
     if (const std::optional<uint32_t> bytes = takeType(name)) {
-      const std::optional<Ref> cell = typed(search, name, *bytes);
+      const std::optional<Ref> cell = search.ofBytes(name, bytes);
       return isReal ? search.real(cell) : cell;
     }
     const size_t dot = name.rfind('.');
     const bool hasLength = name.find(':') != std::string_view::npos;
     if (dot == std::string_view::npos || hasLength || name.back() == ']' || NameSearch::allDigits(name.substr(dot + 1)))
       return NameGrammar::takeApart(search, name);
-    return weighted(search.find(name.substr(0, dot)), search.find(name.substr(dot + 1)));
+    std::optional<Ref> cell = search.find(name.substr(0, dot));
+    if (!cell) cell = search.ofBytes(name.substr(0, dot), 1); // the end of a longer one, with nothing behind it
+    return weighted(cell, search.find(name.substr(dot + 1)));
   }
 
   // There are no addresses: CELL, CELL.3, NAME[2], NAME[2].3, and NAME+4 for what begins within a cell.

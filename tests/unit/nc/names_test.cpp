@@ -264,6 +264,7 @@ protected:
     test.addSymbol("@DR", data, 100, RUNG_TYPE_I32);
     test.addSymbol(kLong31, data, 60, RUNG_TYPE_I8);
     test.addSymbol("B234567890123456789012345678901_TAIL", data, 61, RUNG_TYPE_I8);
+    test.addSymbol("LAST", data, 124, RUNG_TYPE_I32);
     test.link();
   }
   std::optional<Ref> at(std::string_view name) const { return resolve(test.program, name); }
@@ -309,6 +310,17 @@ TEST_F(TechnolNames, WidthsAndOffsets) {
   EXPECT_EQ(at("QWRD.SPEED"), intRef(nci, 8, 64));
   for (const char* name : {"CELL:3", "CELL:", "WEIGHT:1", "CELL+", "CELL+-1", "+1", ":2", "WORD.", "WORD.WEIGHT",
                            "REAL.", "REAL.WEIGHT", "REAL.TABLE+121", "TABLE+111:2", "TABLE+4294967295", "CELL+2+"})
+    EXPECT_FALSE(at(name)) << name;
+}
+
+TEST_F(TechnolNames, OnlyWhatIsAccessedHasToBeInTheSpace) {
+  EXPECT_EQ(at("LAST+2:2"), intRef(data, 126, 16));
+  EXPECT_EQ(at("WORD.LAST+2"), intRef(data, 126, 16));
+  EXPECT_EQ(at("LAST+3:1"), intRef(data, 127, 8));
+  EXPECT_EQ(at("LAST+3.7"), bitRef(data, 127, 7));
+  EXPECT_EQ(at("LAST+2.12"), bitRef(data, 127, 4));
+  EXPECT_EQ(at("LAST+3.WEIGHT"), bitRef(data, 127, 5));
+  for (const char* name : {"LAST+1", "LAST+3:2", "LAST+4:1", "LAST+3.8", "LAST+4.0", "LAST+2.16", "LAST+4.WEIGHT"})
     EXPECT_FALSE(at(name)) << name;
 }
 

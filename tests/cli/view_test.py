@@ -218,6 +218,11 @@ rung "up"
             self.assertIn(f">{address or name}<", page[page.index("<figure"):page.index("</figure>")])
         self.assertNotRegex(page, r"\b(0030|0732)\.")
         self.assertNotIn("allow(", page)
+        source.write_text("dialect nct\nmodule MAIN\nrung\n|--[0030.12]--(0732.03)\n", encoding="utf-8")
+        self.assertEqual(self.view(str(source), "-o", self.html).returncode, OK)
+        page = Path(self.html).read_text(encoding="utf-8")
+        for name in ("INP000.12", "OUT000.03"):  # for addresses that are numbers, too
+            self.assertIn(f">{name}<", page[page.index("<figure"):page.index("</figure>")])
 
     def test_the_environment(self):
         self.assertEqual(self.view("nowhere.lad", "-o", self.html).returncode, ENVIRONMENT)

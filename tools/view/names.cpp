@@ -4,10 +4,21 @@
 #include <fmt/format.h>
 
 #include "ir/support/allowance.h"
+#include "ir/support/ascii.h"
 #include "rtlib/nc/names/names.h"
 #include "tools/xref/place_names.h"
 
 namespace rung::view {
+namespace {
+
+// Whether an address is written as a number, as those of NCT are.
+bool isNumber(std::string_view address) {
+  const std::string_view cell = nc::headOf(address);
+  return !cell.empty() && isDigit(cell.front());
+}
+
+} // namespace
+
 Names::Names(const frontend::Dialect& dialect, const frontend::Analysis& analysis,
              const xref::CrossReference& reference)
     : analysis_(analysis), reference_(reference) {
@@ -100,6 +111,8 @@ Named Names::lookUp(const Word& operand) {
   } else if (const auto known = byAddress_.find(named.key); known != byAddress_.end()) {
     named.address = known->second.name;
     named.comment = withoutAllowances(known->second.comment);
+  } else if (isNumber(operand.text) && !isNumber(named.key)) {
+    named.address = named.key; // 0030.12 of NCT is INP000.12
   }
   if (use->computed.empty()) return named;
   named.key += use->computed;

@@ -154,6 +154,16 @@ TEST(ViewNames, AddressesAndCommentsOfSymbols) {
   EXPECT_EQ(sheet.cells[2].operand.note, "green"); // the address of a symbol
 }
 
+TEST(ViewNames, PlacesOfTheNcHaveTheirNamesWhateverTheSpelling) {
+  const auto drawn =
+      draw("t.lad", "dialect nct\nmodule MAIN\n"
+                    "rung\n|--[0030.12]--[INP000.12]--[/0030.12]--[7000.01]--{MOV 7000 0732}--(0732.03)\n");
+  std::string found;
+  for (const Cell& cell : drawn->program.figures[0].sheet.cells)
+    if (!cell.operand.name.empty()) found += cell.operand.name + "=" + cell.operand.address + " ";
+  EXPECT_EQ(found, "0030.12=INP000.12 INP000.12= 0030.12=INP000.12 7000.01= 0732.03=OUT000.03 ");
+}
+
 TEST(ViewNames, UsesAreFoundWhateverTheSpelling) {
   const auto drawn = draw("t.lad", "dialect nct\nmodule MAIN\nsymbol A 7000.05\nsymbol W 7100\nsymbol LONELY 7200\n"
                                    "rung\n|--[A]--[/A]--{MOV W #5}\n\nrung\n|--[7000.05]--{ADD 7100 W #1}\n\n"

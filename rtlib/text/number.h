@@ -35,7 +35,8 @@ std::optional<T> numberIn(std::string_view text, Format... format) {
 enum class NumberForm : uint8_t {
   None,       // no number
   Whole,      // of -2^63 to 2^64 - 1
-  Real,       // a double
+  Real,       // a double: written with a point, an exponent, or as inf or nan
+  TooLong,    // whole and decimal, but beyond 64 bits: no integer, only a real holds it
   OutOfRange, // one that no cell holds: beyond all doubles, so small that it would become 0, bits beyond 64
 };
 
@@ -43,7 +44,7 @@ struct WrittenNumber {
   NumberForm form = NumberForm::None;
   bool negative = false;  // of a whole number
   uint64_t magnitude = 0; // of a whole number
-  double real = 0;        // of both
+  double real = 0;        // of all that a double holds
   // The 64 bits of a whole number.
   uint64_t bits() const { return negative ? 0 - magnitude : magnitude; }
 };
@@ -113,8 +114,10 @@ inline WrittenNumber writtenNumber(std::string_view text) {
   if (number.form == NumberForm::Whole) {
     number.negative = negative && number.magnitude != 0;
     number.real = static_cast<double>(number.magnitude);
-  } else if (number.form == NumberForm::None || base == 10) { // a long decimal number is a real
+  } else if (number.form == NumberForm::None) {
     number.form = detail::readReal(text, number.real);
+  } else if (base == 10 && detail::readReal(text, number.real) == NumberForm::Real) {
+    number.form = NumberForm::TooLong;
   }
   if (negative) number.real = -number.real;
   return number;
@@ -134,7 +137,7 @@ std::optional<T> wholeIn(std::string_view text) {
 // The finite number that is the text, whole or real.
 inline std::optional<double> realIn(std::string_view text) {
   const WrittenNumber number = writtenNumber(text);
-  const bool isNumber = number.form == NumberForm::Whole || number.form == NumberForm::Real;
+  const bool isNumber = number.form != NumberForm::None && number.form != NumberForm::OutOfRange;
   return isNumber && std::isfinite(number.real) ? std::optional(number.real) : std::nullopt;
 }
 

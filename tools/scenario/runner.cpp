@@ -198,9 +198,12 @@ private:
     for (const Statement& s : scenario_.statements) {
       if (belongsToStart(s.kind)) continue;
       std::optional<Problem> problem = session_.execute(s);
+      if (session_.scans() != result_.scans) lastSet_ = nullptr;
       result_.scans = session_.scans();
+      if (s.kind == Kind::Set) lastSet_ = &s;
       if (!problem) continue;
       const bool expectation = s.kind == Kind::Expect || s.kind == Kind::ExpectRange;
+      if (expectation) problem->message += unseenSet();
       if (expectation && explainer_) problem->message += explainer_->why(s.name, wantsReal(s));
       result_.problems.push_back(std::move(*problem));
       return; // what follows would only repeat it
@@ -208,9 +211,16 @@ private:
     if (const std::string fault = session_.unexpectedFault(); !fault.empty()) fail(scenario_.statements.back(), fault);
   }
 
+  // That the program has not seen the last value which the scenario has set.
+  std::string unseenSet() const {
+    if (lastSet_ == nullptr) return {};
+    return fmt::format("\n    no scan since `set {}` in line {}", lastSet_->name, lastSet_->line);
+  }
+
   const Scenario& scenario_;
   const RunOptions& options_;
   RunResult result_;
+  const Statement* lastSet_ = nullptr;     // null: a scan has run since
   EngineStore ownStore_;                   // when the options bring none
   std::shared_ptr<StoredProgram> program_; // outlives the session
   std::vector<NamedProgram> named_;        // in the order of their statements

@@ -62,8 +62,8 @@ enum class ValueKind : uint8_t { Int, Real, Text };
 struct Value {
   ValueKind kind = ValueKind::Int;
   bool isBit = false;         // written as on, off, true or false: the integer 1 or 0
-  text::WrittenNumber number; // OutOfRange or None: a text without quotes
-  int64_t integer = 0;        // its 64 bits: above 2^63-1 modulo 2^64
+  text::WrittenNumber number; // TooLong: an Int; OutOfRange or None: a text without quotes
+  int64_t integer = 0;        // its 64 bits: above 2^63-1 modulo 2^64; of a TooLong one nothing
   double real = 0;            // also filled for integers
   std::string text;           // of a quoted string, else as written
 };

@@ -77,7 +77,11 @@ private:
       if (equals == std::string::npos || equals == 0)
         return fail(fmt::format("expected KEY=VALUE, found '{}'", word()));
       into.push_back({word().substr(0, equals), valueOfKey(word().substr(equals + 1))});
-      if (into.back().value.number.form == text::NumberForm::OutOfRange) return notHeld(into.back().value.text);
+      const Value& value = into.back().value;
+      if (value.number.form == text::NumberForm::OutOfRange) return notHeld(value.text);
+      if (value.number.form == text::NumberForm::TooLong)
+        return fail(
+            fmt::format("no integer can hold {0}: it has at most 64 bits; for a real number write {0}.0", value.text));
     }
     return true;
   }

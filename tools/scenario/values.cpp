@@ -92,7 +92,8 @@ std::string cellProblem(const sim::NcCell& now, const Value& value) {
 
 sim::NcCell cellOf(const Value& value) {
   if (value.kind == ValueKind::Text) return {.isText = true, .text = value.text};
-  if (value.kind == ValueKind::Real) return {.isReal = true, .bits = std::bit_cast<uint64_t>(value.real)};
+  const bool isTooLong = value.number.form == text::NumberForm::TooLong; // a cell that takes it is a real
+  if (value.kind == ValueKind::Real || isTooLong) return {.isReal = true, .bits = std::bit_cast<uint64_t>(value.real)};
   return {.bits = static_cast<uint64_t>(value.integer)};
 }
 
@@ -187,6 +188,9 @@ std::string checkValue(const Reading& reading, const Statement& expect) {
 }
 
 std::string checkRange(const Reading& reading, const Statement& expect) {
+  for (const Value* limit : {&expect.value, &expect.high})
+    if (reading.kind == ValueKind::Int && limit->number.form == text::NumberForm::TooLong)
+      return fmt::format("{} is {}, and {}", expect.name, show(reading), widthProblem(*limit, reading.width));
   bool inside = false;
   if (reading.kind == ValueKind::Real)
     inside = reading.real >= expect.value.real && reading.real <= expect.high.real;

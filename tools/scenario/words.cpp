@@ -60,8 +60,13 @@ Value valueOf(const ScenarioWord& word) {
   const std::optional<bool> bit = text::bitWord(word.text);
   value.isBit = bit.has_value();
   value.number = text::writtenNumber(bit ? (*bit ? "1" : "0") : word.text);
-  if (value.number.form == text::NumberForm::Whole) value.kind = ValueKind::Int;
-  if (value.number.form == text::NumberForm::Real) value.kind = ValueKind::Real;
+  switch (value.number.form) {
+  case text::NumberForm::Whole:
+  case text::NumberForm::TooLong: value.kind = ValueKind::Int; break;
+  case text::NumberForm::Real: value.kind = ValueKind::Real; break;
+  case text::NumberForm::None:
+  case text::NumberForm::OutOfRange: break;
+  }
   value.integer = static_cast<int64_t>(value.number.bits());
   value.real = value.number.real;
   return value;

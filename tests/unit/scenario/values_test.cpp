@@ -46,6 +46,11 @@ TEST(ScenarioValues, CellsOfTheNcHoldWhatTheirBitsHold) {
             "the cell has 32 bits, so it cannot be 1.5: a real number needs 64");
   EXPECT_EQ(wrong({.width = 64, .untyped = true}, "1.5"), "");
   EXPECT_EQ(wrong({.isReal = true, .width = 64}, "99999999999999999999"), "");
+  EXPECT_EQ(wrong({.width = 64, .untyped = true}, "99999999999999999999"),
+            "an integer of 64 bits takes -9223372036854775808 to 18446744073709551615, not 99999999999999999999");
+  const sim::NcCell cell = cellOf(statement("set C 99999999999999999999").value);
+  EXPECT_TRUE(cell.isReal);
+  EXPECT_EQ(std::bit_cast<double>(cell.bits), 1e20);
 }
 
 TEST(ScenarioValues, RealsHaveATolerance) {
@@ -58,6 +63,9 @@ TEST(ScenarioValues, RangesAreUnsignedUnlessTheLowBoundIsNegative) {
   EXPECT_EQ(checkRange(integer(200, 8), statement("expect_range D0 100 250")), "");
   EXPECT_EQ(checkRange(integer(0xFE, 8), statement("expect_range D0 -3 0")), "");
   EXPECT_NE(checkRange(integer(0xFE, 8), statement("expect_range D0 0 100")), "");
+  EXPECT_EQ(checkRange(integer(5, 32), statement("expect_range D0 0 18446744073709551616")),
+            "D0 is 5 (0x5), and an integer of 32 bits takes -2147483648 to 4294967295, not 18446744073709551616");
+  EXPECT_EQ(checkRange(realReading(5), statement("expect_range R 0 18446744073709551616")), "");
 }
 
 TEST(ScenarioValues, MessagesCompareTheirProperties) {

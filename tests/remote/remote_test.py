@@ -171,10 +171,14 @@ class Commands(Host):
         for value, seen in (("0b101", 5), ("16#1F", 31), ("1_000", 1000), ("+7", 7), ("-0x80", -128), ("65535", -1)):
             self.assertTrue(self.ctl("set", "D8:2", value).startswith(f"D8:2 = {seen} (was "), value)
             self.assertEqual(self.get("D8:2"), seen)
-        for value, found in (("1__0", '"1__0"'), ("0x", '"0x"'), ("1e999", '"1e999"'), ("1e-999", '"1e-999"'), ("1.5", "1.5"),
-                             ("0x1_0000_0000_0000_0000", '"0x1_0000_0000_0000_0000"'), ("nan", '"nan"'), ("[1]", '"[1]"'),
+        for value, found in (("1__0", '"1__0"'), ("0x", '"0x"'), ("1.5", "1.5"), ("nan", '"nan"'), ("[1]", '"[1]"'),
                              ("null", '"null"'), ("true", "true")):
             self.assertIn(f"found {found} for D8:2, expected an integer", self.ctl("set", "D8:2", value, status=WRONG))
+        for value in ("1e999", "1e-999", "0x1_0000_0000_0000_0000"):
+            self.assertIn(f"no variable can hold {value}, given for D8:2", self.ctl("set", "D8:2", value, status=WRONG))
+        for value in ("18446744073709551616", "-9223372036854775809"):
+            self.assertIn(f"found {value} for D8:2, expected -32768 to 65535", self.ctl("set", "D8:2", value, status=WRONG))
+        self.assertIn("found 1.0 for X0.3, expected true or false", self.ctl("set", "X0.3", "1.0", status=WRONG))
         self.assertIn("found 256 for D8, expected at most 255", self.ctl("set", "D8", "0x100", status=WRONG))
         self.assertIn("found 2 for X0.3, expected true or false", self.ctl("set", "X0.3", "2", status=WRONG))
 
@@ -576,7 +580,14 @@ never = ["REAL.7020"]
         self.assertEqual(self.ctl("get", "7000", "7001", "REAL.7000"), f"7000 = 0\n7001 = {0x40040000}\nREAL.7000 = 2.5\n")
         self.assertEqual(self.ctl("set", "REAL.7000", "-0x10"), "REAL.7000 = -16.0 (was 2.5)\n")
         self.assertEqual(self.ctl("set", "REAL.7000", "1e300"), "REAL.7000 = 1e+300 (was -16.0)\n")
-        for wrong in ("1e999", "1e-999", "nan", "x"):
+        self.assertEqual(self.ctl("set", "REAL.7000", "18446744073709551616"), "REAL.7000 = 1.8446744073709552e+19 (was 1e+300)\n")
+        for wrong in ("1e999", "1e-999"):
+            self.assertIn(f"no variable can hold {wrong}, given for REAL.7000", self.ctl("set", "REAL.7000", wrong, status=WRONG))
+        for bits, seen in ((0x7FF80000, "nan"), (0x7FF00000, "inf"), (-0x100000, "-inf")):
+            self.ctl("set", "7000", "0")
+            self.ctl("set", "7001", str(bits))
+            self.assertEqual(self.ctl("get", "REAL.7000"), f"REAL.7000 = {seen}\n")
+        for wrong in ("nan", "x"):
             self.assertIn(f'found "{wrong}" for REAL.7000, expected a number', self.ctl("set", "REAL.7000", wrong, status=WRONG))
         self.assertIn("found 2.5 for 7000, expected an integer", self.ctl("set", "7000", "2.5", status=WRONG))
         for wrong in ("REAL.9999", "REAL.7100.00", "REAL."):

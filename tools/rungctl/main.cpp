@@ -36,7 +36,7 @@ using nlohmann::json;
 
 volatile int gStop = 0; // of SIGINT and SIGTERM
 
-// As in scenarios; anything else stays a text, which the host refuses with what it expected.
+// As in scenarios; what JSON cannot hold stays a text, which the host takes or refuses with what it expected.
 json valueOf(const std::string& text) {
   if (const std::optional<bool> bit = text::bitWord(text)) return *bit;
   const text::WrittenNumber number = text::writtenNumber(text);
@@ -167,10 +167,10 @@ int get(Client& client, const Words& words) {
   return cli::kOk;
 }
 
-// Of a watched name; one that is not a real has none after a program without that name has taken over.
+// Of a watched name, which has none after a program without that name has taken over.
 std::string changeOf(const json& name, const json& value) {
   const std::string text = name["name"].get<std::string>();
-  return value.is_null() && name["type"] != "real" ? text + " is gone" : text + " = " + shown(value);
+  return value.is_null() ? text + " is gone" : text + " = " + shown(value);
 }
 
 int watch(Client& client, const Words& words) {

@@ -26,6 +26,7 @@ host::VcdValue valueOf(const json& value) {
   else if (value.is_number_integer())
     made.integer = static_cast<uint64_t>(value.get<int64_t>());
   if (value.is_number()) made.real = value.get<double>();
+  if (value.is_string()) made.real = text::numberIn<double>(value.get<std::string>()).value_or(0); // nan, inf
   return made;
 }
 

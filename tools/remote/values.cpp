@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
@@ -45,7 +44,8 @@ text::WrittenNumber writtenIn(const json& value) {
 }
 
 std::string rangeOf(uint32_t bits) {
-  return fmt::format("{} to {}", -static_cast<int64_t>((uint64_t{1} << (bits - 1)) - 1) - 1, UINT64_MAX >> (64 - bits));
+  const int64_t least = -static_cast<int64_t>((uint64_t{1} << (bits - 1)) - 1) - 1;
+  return std::to_string(least) + " to " + std::to_string(UINT64_MAX >> (64 - bits));
 }
 
 } // namespace

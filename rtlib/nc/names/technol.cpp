@@ -72,7 +72,7 @@ public:
     if (dot == std::string_view::npos || hasLength || name.back() == ']' || NameSearch::allDigits(name.substr(dot + 1)))
       return NameGrammar::takeApart(search, name);
     std::optional<Ref> cell = search.find(name.substr(0, dot));
-    if (!cell) cell = search.ofBytes(name.substr(0, dot), 1); // the end of a longer one, with nothing behind it
+    if (!cell) cell = search.ofBytes(name.substr(0, dot), 1); // the end of a longer one, at the end of its space
     return weighted(cell, search.find(name.substr(dot + 1)));
   }
 

@@ -68,7 +68,7 @@ struct OpInfo {
   Constraint result;
   Attr attr;
   uint8_t effects;                      // Effect
-  std::string_view function;            // of sem.hpp, `T` in it stands for the type; empty: not a value operation
+  std::string_view function;            // of sem.hpp, with `T` for the type; empty: not a value operation
   std::string_view doc;                 // one or two sentences, with the result of every odd input
   uint8_t fixed = countFixed(operands); // without a Variadic one
 };

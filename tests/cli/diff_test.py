@@ -229,6 +229,61 @@ STOP
             self.assertEqual(status, OTHERWISE, change)
             self.assertRegex(text, rf"rungs: {rungs}, 0 removed, 0 moved, \d+ unchanged\n$", f"{change}\n{text}")
 
+    def technol_program(self, data, main):
+        head, tail = self.TECHNOL.split("DATA\n", 1)[0], self.TECHNOL.split("DATA_END\n", 1)[1]
+        begin, end = tail.index("MODULE_MAIN\n"), tail.index("MODULE_MAIN_END\n")
+        clear = tail[end:].replace("        MECH_INIT ALFA\n", "")
+        return f"{head}DATA\n{data}DATA_END\n{tail[:begin]}MODULE_MAIN\n{main}{clear}"
+
+    def technol_pair(self, data, main, old, new):
+        before = self.technol_program(data, main)
+        self.assertIn(old, before)
+        status, text = self.diff(before, re.sub(rf"(?<!\w){re.escape(old.rstrip())}(?!\w)" + old[len(old.rstrip()):], new, before), ending="plc")
+        self.assertRegex(text.splitlines()[-1], r"^rungs: 0 changed, 0 added, 0 removed, 0 moved, \d+ unchanged$", text)
+        return status, text.splitlines()[:-1]
+
+    def test_a_bit_moves_in_a_byte_that_is_used_as_a_whole(self):
+        data = "IN1: DFM A,B,,,,,,\nREST: DFM C,,,,,,,\n"
+        logic = "        LDR B\n        LA A\n        WR C\n"
+        for wide in ("MOVE IN1,P1IN", "MOVE P1OUT,IN1", "LOD BYTE.IN1\n        STO BYTE.REST", "LOD BYTE.IN1[BX]\n        STO BYTE.REST", "MOVE WORD.IN1,WORD.IN1"):
+            main = f"{logic}        {wide}\n"
+            with self.subTest(wide):
+                self.assertEqual(self.technol_pair(data, main, "A,B,,", "A,,B,"), (OTHERWISE, ["changed name B: bit 1 of IN1 to bit 2 of IN1"]))
+                self.assertEqual(self.technol_pair(data, main, "A,B,,", "B,A,,"), (OTHERWISE, ["changed name A: bit 0 of IN1 to bit 1 of IN1", "changed name B: bit 1 of IN1 to bit 0 of IN1"]))
+                self.assertEqual(self.technol_pair(data, main, "DATA\n", "DATA\nNEW: DS 3\n"), (OTHERWISE, ["added name NEW: byte × 3"]))
+        table = logic + "        LOD BYTE.FIRST[BX]\n        STO BYTE.IN1\n"
+        self.assertEqual(self.technol_pair("FIRST: DFM D,,,,,,,\n" + data, table, "DFM C,,", "DFM ,C,"), (OTHERWISE, ["changed name C: bit 0 of REST to bit 1 of REST"]), "a table of bytes")
+        self.assertEqual(self.technol_pair("FIRST: DS 4\n" + data, table, "DFM C,,", "DFM ,C,"), (SAME, []), "a variable that ends before")
+        self.assertEqual(self.technol_pair(data, logic, "A,B,,", "A,,B,"), (SAME, []))
+        self.assertEqual(self.technol_pair(data, logic, "A,B,,", "B,A,,"), (SAME, []))
+        self.assertEqual(self.technol_pair(data, logic + "        MOVE IN1,P1IN\n", "DFM C,,", "DFM ,C,"), (SAME, []))
+
+    def test_names_of_variables(self):
+        data = "IN1: DFM A,B,,,,,,\nN1: DS 2\nN2: DS 2\nLIST: DS 8\n"
+        main = "        LDR A\n        WR B\n        MOVE IN1,P1IN\n        LOD WORD.N1\n        STO WORD.N2\n        LOD WORD.LIST[BX]\n        STO WORD.N1\n"
+        for old, new in (("A", "AA"), ("B", "AB"), ("IN1", "ZIN"), ("N1", "N9"), ("N2", "A2"), ("LIST", "ALIST")):
+            with self.subTest(old):
+                status, lines = self.technol_pair(data, main, old, new)
+                self.assertEqual((status, [line.split(":")[0] for line in lines]), (OTHERWISE, sorted((f"removed name {old}", f"added name {new}"), key=lambda line: line.split()[2])))
+
+    def test_line_numbers_that_the_program_reads(self):
+        mechanism = "        MECH_BEGIN ALFA\n        EX\n        EX\n        MECH_END ALFA\n"
+        reads = "        LOD WORD.ALFA_LINE\n        STO WORD.N1\n"
+        before = self.technol_program("N1: DS 2\n", reads + mechanism)
+        line = before.splitlines().index("        EX") + 1
+        self.assertEqual(self.technol_pair("N1: DS 2\n", mechanism, "DATA\n", "DATA\n; one\n"), (SAME, []), "nothing reads them")
+        self.assertEqual(self.technol_pair("N1: DS 2\n", reads + mechanism, "STOP\n", "; one\nSTOP\n"), (SAME, []), "below")
+        self.assertEqual(self.technol_pair("N1: DS 2\n", reads + mechanism, "DATA\n", "DATA\n\n\n"),
+                         (OTHERWISE, [f"line numbers that the program reads have changed: ALFA_LINE {line} → {line + 2}, {line + 1} → {line + 3}"]))
+        _, text = self.diff(before, "; one\n" + before, "--format", "json", ending="plc")
+        self.assertEqual(json.loads(text)["lines"], [{"name": "ALFA_LINE", "before": [line, line + 1], "after": [line + 1, line + 2]}])
+
+    def test_a_list_and_the_ladder_that_it_becomes(self):
+        source = self.file("h.pmc", "FUNC END1\nLD X20.0\nLDI X20.2\nAND X20.4\nORB\nSET R0.0\nFUNC END2\n")
+        ladder = Path(self.folder.name) / "h.lad"
+        subprocess.run([RUNGC, "convert", source, "--to", "ladder", "-o", ladder], capture_output=True, check=True)
+        self.assertEqual(self.run_diff(source, ladder)[:2], (SAME, "rungs: 0 changed, 0 added, 0 removed, 0 moved, 1 unchanged\n"))
+
     def test_initial_contents(self):
         self.assertEqual(self.technol(("'abc'", "'abd'"))[1].splitlines()[0], "changed initial value TEXT: 'abc' to 'abd'")
         status, text = self.technol(("STEP: DS 1\n", "STEP: DS 1\nMORE: STR 5,'new'\n"))

@@ -226,10 +226,12 @@ def label(source):
 
 
 def renamed(source):
-    """A name of an address; the rungs are the same."""
+    """A name of an address or a variable; the rungs are the same."""
     if source.dialect == "technol":
-        raise Unsuitable
-    old = source.pick(m[1] for line in source.lines if (m := re.match(r"symbol\s+(\w+)\s", line)) and len(source.occurs(m[1])) >= 1)
+        bits = {name for _, names in flags(source) for name in names if name}
+        old = source.pick(sorted(bits | {m[1] for line in source.lines if (m := re.match(r"(\w+):\s+(?:DS|DFM)\s", code_of(line)))}))
+    else:
+        old = source.pick(m[1] for line in source.lines if (m := re.match(r"symbol\s+(\w+)\s", line)) and len(source.occurs(m[1])) >= 1)
     drawn = any("|" in source.files[file][i] for file, i in source.occurs(old))
     new = ("Z" + old[1:]) if drawn else old + "X"
     if source.occurs(new):
@@ -253,6 +255,32 @@ def variable(source):
     at = source.pick(i for i, line in enumerate(source.lines) if re.match(r"\s*DATA\s*$", code_of(line)))
     source.lines.insert(at + 1, f"NEW_VARIABLE: DS {source.rng.randint(1, 40)}")
     return source.edit(names=["NEW_VARIABLE"])
+
+
+def flags(source):
+    """Lines that declare the bits of a byte, with its label and their names."""
+    for i in range(len(source.lines)):
+        found = re.match(r"(?:(\w+):)?\s+DFM\s+([\w,]+)\s*$", source.code(i))
+        if found:
+            yield (i, found[1]), found[2].split(",")
+
+
+def swapped_bits(source, is_terminal):
+    if source.dialect != "technol":
+        raise Unsuitable
+    moves = "\n".join(source.code(i) for i in range(len(source.lines)))
+    (at, _), names = source.pick((place, names) for place, names in flags(source) if is_terminal(place[1], moves) and len(set(names) - {""}) > 1)
+    one, other = source.rng.sample([i for i, name in enumerate(names) if name], 2)
+    changed = list(names)
+    changed[one], changed[other] = names[other], names[one]
+    source.lines[at] = source.lines[at].replace(",".join(names), ",".join(changed))
+    return [names[one], names[other]]
+
+
+def place_in_byte(source):
+    """Two bits of a byte that nothing uses as a whole change places."""
+    swapped_bits(source, lambda label, _: label is None)
+    return source.edit()
 
 
 # ---- edits that change a rung --------------------------------------------------------------------------------------
@@ -397,6 +425,11 @@ def jump(source):
     return source.edit(rungs=[("changed", at, at)])
 
 
+def terminal(source):
+    """Two bits of a byte that goes to terminals or comes from there change places."""
+    return source.edit(names=swapped_bits(source, lambda label, moves: label and re.search(rf"\bMOVE\s+({label},P\dIN|P\dOUT,{label})\b", moves)))
+
+
 def constant(source):
     """The value of a constant: its name, and the rungs that use it."""
     pattern = {"nct": r"(const\s+)(\w+)(\s+#)(\d+)(?![\d.])", "technol": r"(\s*EQUI\s+)(\w+)(\s*,\s*)(\d+)(?!\w)"}.get(source.dialect)
@@ -464,8 +497,8 @@ def configuration(source):
     return source.edit(configuration=[key[0]])
 
 
-NOTHING = [remark, remark_behind, blank_lines, spaces, title, spelling, label, renamed, variable]
-SOMETHING = [negated, operand, inserted, jumped_over, wait, removed, moved, jump, constant, address, message, content, configuration]
+NOTHING = [remark, remark_behind, blank_lines, spaces, title, spelling, label, renamed, variable, place_in_byte]
+SOMETHING = [negated, operand, inserted, jumped_over, wait, removed, moved, jump, terminal, constant, address, message, content, configuration]
 
 
 # ---- what is found, against what has to be -------------------------------------------------------------------------
@@ -505,7 +538,7 @@ def fits(change, kind, file, before, after):
 
 
 def wrong_names(expected, found):
-    names = [change["name"] for change in found]
+    names = [change["name"].split(":")[-1] for change in found]  # without the file of a local one
     for name in expected:
         if not any(found_name.startswith(name) for found_name in names):
             return f"{name} is not reported, but {names}"

@@ -8,6 +8,7 @@
 
 #include "rtlib/nc/names/names.h"
 #include "rtlib/text/letters.h"
+#include "tools/difference/cells.h"
 #include "tools/difference/contents.h"
 #include "tools/difference/pairs.h"
 
@@ -110,12 +111,14 @@ NameChange changeOf(std::string name, const Value* before, const Value* after) {
   return {kind, std::move(name), before != nullptr ? textOf(*before) : "", after != nullptr ? textOf(*after) : ""};
 }
 
-std::vector<NameChange> compareNames(const Version& before, const Version& after) {
+std::vector<NameChange> compareNames(const Version& before, const Version& after, const FormerNames& former) {
   std::vector<NameChange> changes;
   eachChange(namesOf(before), namesOf(after),
              [&](const std::string& name, const std::string* old, const std::string* now) {
                changes.push_back(changeOf(name, old, now));
              });
+  std::ranges::move(compareBits(before, after, former), std::back_inserter(changes));
+  std::ranges::stable_sort(changes, {}, &NameChange::name);
   return changes;
 }
 
@@ -168,11 +171,13 @@ std::string_view nameOf(ChangeKind kind) {
 
 Difference compare(const Version& before, const Version& after, const Options& options) {
   Difference difference;
-  compareRungs(PairedRungs(before, after), difference);
-  difference.names = compareNames(before, after);
+  const FormerNames former = formerNames(before, after);
+  compareRungs(PairedRungs(before, after, former), difference);
+  difference.names = compareNames(before, after, former);
   difference.contents = compareContents(before, after);
   difference.messages = compareMessages(before.module, after.module, options);
   difference.settings = compareSettings(before.settings, after.settings);
+  difference.lines = compareLines(before, after, former);
   return difference;
 }
 

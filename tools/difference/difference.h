@@ -63,15 +63,23 @@ struct NameChange {
   std::string after;  // "" of a removed one
 };
 
+// A cell that holds the number of the line where a mechanism waits: which numbers it gets, line by line.
+struct LineChange {
+  std::string name;
+  std::vector<uint32_t> before;
+  std::vector<uint32_t> after;
+};
+
 struct Difference {
   std::vector<RungChange> rungs;    // in the order of the new program, removed ones after what they followed
-  std::vector<NameChange> names;    // by name
+  std::vector<NameChange> names;    // by name; also bits that have moved where their byte is used as a whole
   std::vector<NameChange> contents; // initial ones, of names
   std::vector<NameChange> messages; // by number
   std::vector<NameChange> settings; // by key
+  std::vector<LineChange> lines;    // that rungs read, by the name of the cell
   size_t same = 0;                  // rungs
   bool none() const {
-    return rungs.empty() && names.empty() && contents.empty() && messages.empty() && settings.empty();
+    return rungs.empty() && names.empty() && contents.empty() && messages.empty() && settings.empty() && lines.empty();
   }
 };
 

@@ -27,6 +27,13 @@ Json namesJson(const std::vector<NameChange>& changes) {
   return list;
 }
 
+Json linesJson(const std::vector<LineChange>& changes) {
+  Json list = Json::array();
+  for (const LineChange& change : changes)
+    list.push_back({{"name", change.name}, {"before", change.before}, {"after", change.after}});
+  return list;
+}
+
 } // namespace
 
 std::string shownAsJson(const Difference& difference, const ir::Module& before, const ir::Module& after) {
@@ -44,7 +51,8 @@ std::string shownAsJson(const Difference& difference, const ir::Module& before, 
                      {"names", namesJson(difference.names)},
                      {"contents", namesJson(difference.contents)},
                      {"messages", namesJson(difference.messages)},
-                     {"configuration", namesJson(difference.settings)}};
+                     {"configuration", namesJson(difference.settings)},
+                     {"lines", linesJson(difference.lines)}};
   return json.dump(2) + "\n";
 }
 

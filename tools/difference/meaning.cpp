@@ -13,6 +13,7 @@
 #include "ir/core/ops.h"
 #include "ir/support/hash.h"
 #include "ir/support/put.h"
+#include "ir/transforms/passes.h"
 
 namespace rung::difference {
 namespace {
@@ -38,10 +39,9 @@ std::string withoutOrdinals(std::string_view key) {
 
 class PlaceTexts {
 public:
-  explicit PlaceTexts(const Module& module) : module_(module) {
+  PlaceTexts(const Module& module, const FormerNames& former) : module_(module) {
     for (const Symbol& symbol : module.symbols)
-      if (symbol.space.valid() && isAllocated(symbol.space))
-        names_[symbol.space.index].emplace(symbol.byte * 8 + symbol.bit, symbol.name);
+      if (symbol.space.valid() && isAllocated(symbol.space)) add(symbol, former);
     for (const Task& task : module.tasks)
       for (const Copy& copy : task.begin)
         if (!copy.masked && isHidden(copy.to) && !isHidden(copy.from.space)) latches_.push_back(&copy);
@@ -49,25 +49,51 @@ public:
 
   bool isAllocated(SpaceId space) const { return (module_.at(space).flags & RUNG_SPACE_ALLOCATED) != 0; }
 
-  // Where the compiler gives addresses out: the name that begins at the place or before it, and the distance. What a
-  // latch holds is what it is copied from.
-  std::string of(SpaceId space, uint64_t bit) const {
+  // Where the compiler gives addresses out: the name that begins at the place, of a bit for a bit, else the variable
+  // that begins before it, and the distance. What a latch holds is what it is copied from.
+  std::string of(SpaceId space, uint64_t bit, bool isBit = false) const {
     for (const Copy* copy : latches_)
       if (copy->to == space && bit / 8 >= copy->toByte && bit / 8 - copy->toByte < copy->from.size)
-        return of(copy->from.space, bit - 8 * uint64_t{copy->toByte} + 8 * uint64_t{copy->from.byte});
+        return of(copy->from.space, bit - 8 * uint64_t{copy->toByte} + 8 * uint64_t{copy->from.byte}, isBit);
     const auto names = names_.find(space.index);
     if (names == names_.end()) return fmt::format("{}+{}", module_.at(space).name, bit);
-    const auto next = names->second.upper_bound(bit);
-    if (next == names->second.begin()) return fmt::format("+{}", bit);
+    const auto& [variables, bits] = names->second;
+    const Names &first = isBit ? bits : variables, &second = isBit ? variables : bits;
+    for (const Names* alike : {&first, &second})
+      if (const auto at = alike->find(bit); at != alike->end())
+        return fmt::format("{}+0", withoutOrdinals(at->second.text));
+    const auto next = variables.upper_bound(bit);
+    if (next == variables.begin()) return fmt::format("+{}", bit);
     const auto& [begin, name] = *std::prev(next);
-    return fmt::format("{}+{}", withoutOrdinals(name), bit - begin);
+    return fmt::format("{}+{}", withoutOrdinals(name.text), bit - begin);
   }
 
 private:
+  // Of several at one place one that both versions have.
+  struct Name {
+    bool isNew = false;
+    std::string text;
+    auto operator<=>(const Name&) const = default;
+  };
+  using Names = std::map<uint64_t, Name>; // by bit
+  struct SpaceNames {
+    Names variables;
+    Names bits;
+  };
+
+  void add(const Symbol& symbol, const FormerNames& former) {
+    const auto known = former.find(symbol.name);
+    const Name name{known == former.end(), known == former.end() ? symbol.name : known->second};
+    SpaceNames& names = names_[symbol.space.index];
+    Names& alike = symbol.type == RUNG_TYPE_BIT ? names.bits : names.variables;
+    const auto [at, isFirst] = alike.emplace(uint64_t{symbol.byte} * 8 + symbol.bit, name);
+    if (!isFirst) at->second = std::min(at->second, name);
+  }
+
   bool isHidden(SpaceId space) const { return (module_.at(space).flags & RUNG_SPACE_HIDDEN) != 0; }
 
   const Module& module_;
-  std::map<uint32_t, std::multimap<uint64_t, std::string>> names_; // by allocated space and bit
+  std::map<uint32_t, SpaceNames> names_; // by allocated space
   std::vector<const Copy*> latches_;
 };
 
@@ -164,8 +190,8 @@ private:
 
 class Meanings {
 public:
-  Meanings(const Module& module, const GivenNumbers& given)
-      : module_(module), given_(given), drawing_(module), ways_(module), places_(module) {
+  Meanings(const Module& module, const GivenNumbers& given, const FormerNames& former)
+      : module_(module), given_(given), drawing_(module), ways_(module), places_(module, former) {
     std::vector<uint32_t> user(module.slots.size(), 0);
     for (const Slot& slot : module.slots) shared_.push_back(slot.transient || slot.key.starts_with('@'));
     for (const Continuation& continuation : module.continuations)
@@ -283,7 +309,7 @@ private:
 
   void addAttribute(const Op& op, std::string& out) {
     switch (opInfo(op.code).attr) {
-    case Attr::Place: return addPlace(SpaceId{op.ref}, static_cast<uint64_t>(op.imm), out);
+    case Attr::Place: return addPlace(SpaceId{op.ref}, static_cast<uint64_t>(op.imm), op.type == Type::Bit, out);
     case Attr::Window: return addWindow(op, out);
     case Attr::Slot: return addSlot(op.ref, out);
     case Attr::Service: return put(out, " {}", module_.services[op.ref]);
@@ -307,13 +333,13 @@ private:
     const uint32_t width = isBit ? 1 : byteWidth(op.type);
     if (places_.isAllocated(id) && op.imm == 0 && space.unitBytes == 1 && op.count + width - 1 == bytes)
       return put(out, " {}", space.name);
-    addPlace(id, static_cast<uint64_t>(op.imm), out);
+    addPlace(id, static_cast<uint64_t>(op.imm), isBit, out);
     put(out, " {}", op.count);
   }
 
   // Cells that an instruction has of its own, as it has slots, go by their order.
-  void addPlace(SpaceId space, uint64_t bit, std::string& out) {
-    const std::string text = places_.of(space, bit);
+  void addPlace(SpaceId space, uint64_t bit, bool isBit, std::string& out) {
+    const std::string text = places_.of(space, bit, isBit);
     const bool own = places_.isAllocated(space) && (module_.at(space).flags & RUNG_SPACE_HIDDEN) != 0;
     if (own)
       put(out, " own cell {}", ownCells_.emplace(text, ownCells_.size()).first->second);
@@ -348,8 +374,21 @@ private:
 
 } // namespace
 
-std::vector<DrawnRung> drawnRungs(const Module& module, const GivenNumbers& given) {
-  return Meanings(module, given).run();
+// Source lines give the operations of a module their order. Here they have the one in which they are needed.
+std::vector<DrawnRung> drawnRungs(const Module& module, const GivenNumbers& given, const FormerNames& former) {
+  Module ordered = module;
+  GivenNumbers numbers = given;
+  for (Routine& routine : ordered.routines)
+    for (Rung& rung : routine.rungs)
+      for (Op& op : rung.ops) op.line = 0;
+  orderOperations(ordered, nullptr, &numbers);
+  std::vector<DrawnRung> drawn = Meanings(ordered, numbers, former).run();
+  for (DrawnRung& rung : drawn) {
+    const Routine& routine = module.routines[static_cast<size_t>(rung.routine - ordered.routines.data())];
+    rung.rung = &routine.rungs[static_cast<size_t>(rung.rung - rung.routine->rungs.data())];
+    rung.routine = &routine;
+  }
+  return drawn;
 }
 
 } // namespace rung::difference

@@ -62,9 +62,10 @@ std::string nameOf(const Module& module, const std::vector<DrawnRung>& rungs, co
 
 } // namespace
 
-PairedRungs::PairedRungs(const Version& before, const Version& after)
-    : before_(drawnRungs(before.module, before.given)), after_(drawnRungs(after.module, after.given)),
-      homeBefore_(homesOf(before.module, before_)), homeAfter_(homesOf(after.module, after_)) {
+PairedRungs::PairedRungs(const Version& before, const Version& after, const FormerNames& former)
+    : before_(drawnRungs(before.module, before.given, ownNames(former))),
+      after_(drawnRungs(after.module, after.given, former)), homeBefore_(homesOf(before.module, before_)),
+      homeAfter_(homesOf(after.module, after_)) {
   pairRoutines(before, after);
   const auto nameBefore = [&](uint32_t rung) {
     return std::string_view(before.module.routines[homeBefore_[rung]].name);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rtlib/host/rung_alignment.h"
+#include "tools/difference/cells.h"
 #include "tools/difference/difference.h"
 #include "tools/difference/meaning.h"
 
@@ -16,7 +17,7 @@ namespace rung::difference {
 // jump to it.
 class PairedRungs {
 public:
-  PairedRungs(const Version& before, const Version& after);
+  PairedRungs(const Version& before, const Version& after, const FormerNames& former);
 
   struct Pair {
     uint32_t before = 0; // in the list of drawn rungs

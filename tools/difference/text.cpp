@@ -1,6 +1,7 @@
 // A difference for people (see difference.h).
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <string_view>
 
 #include "ir/support/put.h"
@@ -59,6 +60,30 @@ void addMessages(const std::vector<NameChange>& changes, std::string& out) {
   }
 }
 
+// "36 → 38, 40 → 42": what is unlike, or all where one version has more of them; the first ones of many.
+std::string shownLines(const LineChange& change) {
+  constexpr size_t kShown = 4;
+  std::vector<std::string> parts;
+  if (change.before.size() == change.after.size()) {
+    for (size_t i = 0; i < change.after.size(); ++i)
+      if (change.before[i] != change.after[i])
+        parts.push_back(fmt::format("{} → {}", change.before[i], change.after[i]));
+  } else {
+    parts.push_back(fmt::format("{} → {}", fmt::join(change.before, ", "), fmt::join(change.after, ", ")));
+  }
+  const size_t shown = std::min(parts.size(), kShown);
+  const std::string more = parts.size() > shown ? fmt::format(" and {} more", parts.size() - shown) : "";
+  return fmt::format("{} {}{}", change.name,
+                     fmt::join(parts.begin(), parts.begin() + static_cast<ptrdiff_t>(shown), ", "), more);
+}
+
+void addLineNumbers(const std::vector<LineChange>& changes, std::string& out) {
+  if (changes.empty()) return;
+  std::vector<std::string> parts;
+  for (const LineChange& change : changes) parts.push_back(shownLines(change));
+  put(out, "line numbers that the program reads have changed: {}\n", fmt::join(parts, "; "));
+}
+
 } // namespace
 
 std::string_view shownName(const ir::Routine& routine) {
@@ -73,6 +98,7 @@ std::string shownAsText(const Difference& difference, const Module& before, cons
   addNames(difference.contents, "initial value ", out);
   addMessages(difference.messages, out);
   addNames(difference.settings, "configuration ", out);
+  addLineNumbers(difference.lines, out);
   size_t counts[4] = {};
   for (const RungChange& change : difference.rungs) ++counts[static_cast<int>(change.kind)];
   put(out, "rungs: {} changed, {} added, {} removed, {} moved, {} unchanged\n", counts[2], counts[0], counts[1],

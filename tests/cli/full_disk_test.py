@@ -32,6 +32,7 @@ COMMANDS = {
     "seal": ["a.so"],
     "key": ["new", "{n}"],
     "emit": ["ir", "a.pmc"],
+    "opt": ["a.pmc"],
     "convert": ["a.pmc", "--to", "ladder"],
     "format": ["a.pmc", "--stdout"],
     "view": ["a.pmc", "-o", "a.html"],
@@ -46,7 +47,7 @@ COMMANDS = {
     "completion": ["bash"],
     "help": [],
 }
-MORE = [["--help"], ["--version"], ["check", "--json", "a.pmc"], ["check", "--help"], ["emit", "cpp", "a.pmc"],
+MORE = [["opt", "a.pmc", "--statistics"], ["opt", "a.pmc", "--print-after", "fold"], ["--help"], ["--version"], ["check", "--json", "a.pmc"], ["check", "--help"], ["emit", "cpp", "a.pmc"],
         ["emit", "layout", "a.pmc"], ["emit", "llvm", "a.pmc"], ["emit", "asm", "a.pmc"], ["profile", "--json", "a.scn", "--engine", "interp"],
         ["wcet", "--json", "a.pmc"], ["xref", "--json", "a.pmc"], ["doc", "gsk"], ["doc", "diagnostics"], ["help", "--man"], ["explain"],
         ["explain", "gsk"], ["test", "--coverage-all", "--engine", "interp", "long.scn"]]

@@ -271,7 +271,7 @@ class Words(Cli):
         for command in ("new", "check", "build", "run", "test", "explain"):
             self.assertIn(f"rungc {command}", out)
         self.assertIn("--listing", self.rungc("help", "build")[0])
-        self.assertLess(len(self.rungc(status=USAGE)[1].splitlines()), 25)
+        self.assertLess(len(self.rungc(status=USAGE)[1].splitlines()), 26)
 
     def test_an_unknown_dialect(self):
         err = self.rungc("check", self.write("s.lad", LAMP.replace("nct", "siemens")), status=WRONG)[1]

@@ -210,7 +210,7 @@ std::string technolProgram(uint32_t bytes, const std::string& main) {
 }
 
 void technolRungs(uint32_t n) {
-  n /= kRungsTakeLong;
+  n = 2 * n / kRungsTakeLong; // fewer fit into one code unit, whose fixed cost would be a step
   constexpr uint32_t kBytes = 400;
   const auto bit = [](uint32_t i) { return fmt::format("B{}_{}", i / 8 % kBytes, i % 8); };
   std::string text;

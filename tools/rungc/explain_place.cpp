@@ -243,15 +243,6 @@ std::string explainStatementWord(const LineWords& words, std::string_view word) 
   return first == "message" || first == "button" ? fmt::format("{}: the number of the {}\n", word, first) : "";
 }
 
-// What the reference says of an instruction that is called by its number: FUNC 32.
-std::string explainNumbered(const LineWords& words, std::string_view word, const frontend::Dialect& dialect) {
-  const auto number = text::numberIn<uint32_t>(word);
-  if (!number || words.words.size() < 2 || words.words[0].text != "FUNC" || words.words[1].text != word) return {};
-  for (const frontend::InstructionInfo* row : dialect.instructions)
-    if (row->number == *number && *number != 0) return plainText(*compiler::explain(row->mnemonic, &dialect));
-  return {};
-}
-
 } // namespace
 
 std::optional<SourcePlace> sourcePlace(const std::string& word) {
@@ -370,7 +361,6 @@ private:
   std::string ofWord(const std::string& word) const {
     if (isDrawn())
       if (std::string text = explainStatementWord(words_, word); !text.empty()) return text;
-    if (std::string text = explainNumbered(words_, word, dialect_); !text.empty()) return text;
     const std::optional<std::string> reference = compiler::explain(word, &dialect_);
     std::string text = reference ? plainText(*reference) : "";
     const Definition* definition = program_.definitionOf(word);

@@ -41,10 +41,10 @@ CrossReference::CrossReference(const rung_program& program, const ir::Uses& uses
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> drawn; // by number and last line
   for (uint32_t rung = 0; rung < uses.rungCount(); ++rung) {
     const rung_rung_info& info = program.rungs[rung];
-    const uint32_t shown =
+    const uint32_t first =
         info.number == 0 ? rung : drawn.try_emplace({info.number, info.last_line}, rung).first->second;
     for (const ir::RungUse& use : uses.of(rung))
-      if (!use.keeps) add(shown, use);
+      if (!use.keeps) add(first, use);
   }
   std::ranges::stable_sort(sorted_, {}, [](const Use& use) { return std::pair(orderOf(use.place), use.access.rung); });
   std::ranges::copy_if(sorted_, std::back_inserter(indexed_), [](const Use& use) { return use.access.indexed; });

@@ -108,8 +108,8 @@ void RungWriter::write(const Rung& rung, uint32_t number, std::string_view file)
   endLine();
 }
 
-// The vectoriser and the scheduler, too, take the square of a basic block's length. The jump costs no instruction, but a
-// compiler cannot know that, and begins a block at its label.
+// The vectoriser and the scheduler, too, take the square of a basic block's length. The jump costs no instruction, but
+// a compiler cannot know that, and begins a block at its label.
 void RungWriter::endBlock(size_t stretch) {
   const std::string label = fmt::format("{}_stretch_{}", rungLabel(number_), stretch);
   statement(fmt::format("asm goto(\"\" : : : : {0}); {0}:;", label));

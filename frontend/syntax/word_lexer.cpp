@@ -96,8 +96,9 @@ bool checkEncoding(const SourceManager& sources, FileId file, Diagnostics& diagn
   if (!undecoded && (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")))
     report.note("it begins as UTF-16 does: `encoding = \"utf-16\"` in the project file says so");
   else if (!undecoded && text[offset] != '\0')
-    report.note("a file in another encoding names it in its first line, for instance `; encoding: windows-1250`; or the "
-                "project file does, `encoding = \"windows-1250\"`");
+    report.note(
+        "a file in another encoding names it in its first line, for instance `; encoding: windows-1250`; or the "
+        "project file does, `encoding = \"windows-1250\"`");
   return false;
 }
 

@@ -11,17 +11,17 @@ constexpr uint64_t kI16[] = {0, 1, 2, 10, 0x80, 0xFF, 0x100, 0x7FFF, 0x8000, 0x9
 constexpr uint64_t kI32[] = {0,      1,          2,          10,         0x80,       0x8000,
                              0xFFFF, 0x7FFFFFFF, 0x80000000, 0x99999999, 0xFFFFFFFE, 0xFFFFFFFF};
 constexpr uint64_t kWide[] = {0,
-                             1,
-                             2,
-                             10,
-                             0x80000000,
-                             0xFFFFFFFF,
-                             0x20000000000001,
-                             0x7FFFFFFFFFFFFFFF,
-                             0x8000000000000000,
-                             0x9999999999999999,
-                             0xFFFFFFFFFFFFFFFE,
-                             0xFFFFFFFFFFFFFFFF};
+                              1,
+                              2,
+                              10,
+                              0x80000000,
+                              0xFFFFFFFF,
+                              0x20000000000001,
+                              0x7FFFFFFFFFFFFFFF,
+                              0x8000000000000000,
+                              0x9999999999999999,
+                              0xFFFFFFFFFFFFFFFE,
+                              0xFFFFFFFFFFFFFFFF};
 constexpr uint64_t kF64[] = {
     0x0000000000000000, 0x8000000000000000, // 0, -0
     0x3FF0000000000000, 0xBFF0000000000000, // 1, -1

@@ -39,13 +39,12 @@ constexpr Row coilShape(Reservation reservation) {
           .shape = Shape::Coil};
 }
 
-inline constexpr Row kPulseShape = {
-    .info = {.group = "bit",
-             .pins = {P{"IN", "condition", true}},
-             .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed"}},
-             .stateful = true},
-    .lower = lowerPulse,
-    .reservation = Reservation::Once};
+inline constexpr Row kPulseShape = {.info = {.group = "bit",
+                                             .pins = {P{"IN", "condition", true}},
+                                             .operands = {O{"Address", &kinds::kBit, Access::Write, "may be indexed"}},
+                                             .stateful = true},
+                                    .lower = lowerPulse,
+                                    .reservation = Reservation::Once};
 
 inline constexpr Row kBitRows[] = {
     rowOf(kBitContact, "open-contact-bit", "open contact on a bit", "6.1.1, l.785",

@@ -6,10 +6,10 @@ namespace rung::nct {
 
 constexpr Row controlShape(std::string_view operand, Placement placement, Flow flow) {
   Row row{.info = {.group = "program-control",
-                              .pins = {P{"EN", "condition"}},
-                              .output = Output::None,
-                              .placement = placement},
-                     .flow = flow};
+                   .pins = {P{"EN", "condition"}},
+                   .output = Output::None,
+                   .placement = placement},
+          .flow = flow};
   if (!operand.empty()) row.info.operands = {O{operand, &kinds::kLabel, Access::None, "#0 to #99"}};
   return row;
 }

@@ -1,6 +1,6 @@
 // The tables of a rung_program, made from a module and its layout, with their storage. The interpreter and the JIT use
 // the image as it is; the emitters print it as C++ text or LLVM constants by walking abi_fields.h. chunk_fns is
-// null here: whoever owns code fills it in.
+// null here; the engine that runs the image sets it.
 #pragma once
 #include "ir/image/image_tables.h"
 

@@ -14,6 +14,7 @@
 #include "ir/core/memory_use.h"
 #include "ir/core/ops.h"
 #include "rtlib/text/letters.h"
+#include "rung/types.hpp"
 
 namespace rung::difference {
 namespace {
@@ -21,15 +22,7 @@ namespace {
 using namespace ir;
 
 bool isBit(const Symbol& symbol) { return symbol.type == RUNG_TYPE_BIT; }
-uint32_t bytesOf(const Symbol& symbol) {
-  switch (symbol.type) {
-  case RUNG_TYPE_I16: return 2 * symbol.count;
-  case RUNG_TYPE_I32: return 4 * symbol.count;
-  case RUNG_TYPE_I64:
-  case RUNG_TYPE_F64: return 8 * symbol.count;
-  default: return symbol.count; // bytes, texts
-  }
-}
+uint32_t bytesOf(const Symbol& symbol) { return elementBits(symbol.type) / 8 * symbol.count; } // not of bits
 uint64_t positionOf(const Symbol& symbol) { return uint64_t{symbol.byte} * 8 + symbol.bit; }
 
 bool isOwn(const Module& module, SpaceId id) {
@@ -54,7 +47,7 @@ std::vector<const Symbol*> cellsOf(const Version& version) {
 // What cells by two names have in common.
 struct Form {
   std::string space;
-  std::string behind; // the cell before it that both versions have by one name
+  std::string previous; // the cell before it that both versions have by one name
   uint32_t type = 0;
   uint32_t count = 0;
   uint32_t bit = 0;
@@ -74,17 +67,17 @@ Names namesOf(const std::vector<const Symbol*>& cells) {
 std::map<Form, std::vector<std::string>> othersOf(const Module& module, const std::vector<const Symbol*>& cells,
                                                   const Names& there) {
   std::map<Form, std::vector<std::string>> others;
-  std::string behind;
+  std::string previous;
   SpaceId space;
   for (const Symbol* cell : cells) {
-    if (cell->space != space) behind.clear();
+    if (cell->space != space) previous.clear();
     space = cell->space;
     if (there.contains(cell->name)) {
-      behind = cell->name;
+      previous = cell->name;
       continue;
     }
     const Form form{.space = module.at(cell->space).name,
-                    .behind = behind,
+                    .previous = previous,
                     .type = cell->type,
                     .count = cell->count,
                     .bit = cell->bit,

@@ -91,23 +91,17 @@ template <class To>
 constexpr To widenSigned(bool a) noexcept {
   return static_cast<To>(0 - static_cast<u64>(a));
 }
+// To a bit, the lowest one: a plain cast to bool asks whether any bit is set.
 template <class To>
-struct Narrowed {
-  template <class From>
-  static constexpr To of(From a) noexcept {
-    return static_cast<To>(a);
-  }
-};
+inline constexpr bool kIsBit = false;
 template <>
-struct Narrowed<bool> {
-  template <class From>
-  static constexpr bool of(From a) noexcept {
-    return (a & 1) != 0;
-  }
-};
+inline constexpr bool kIsBit<bool> = true;
 template <class To, class From>
 constexpr To narrow(From a) noexcept {
-  return Narrowed<To>::of(a);
+  if constexpr (kIsBit<To>)
+    return (a & 1) != 0;
+  else
+    return static_cast<To>(a);
 }
 
 // ---- integers: wrap around --------------------------------------------------------------------------------------

@@ -50,6 +50,17 @@ class Diff(unittest.TestCase):
         self.assertEqual(self.diff(HEAD + twin + edge + END, HEAD + edge + END)[1].splitlines()[-1],
                          "rungs: 0 changed, 0 added, 1 removed, 0 moved, 2 unchanged")
 
+    def test_requests_with_blocks_change_places(self):
+        """Each has a buffer of its own; which part of the compiler's memory it is says nothing."""
+        head = HEAD + "symbol READ 7100\nsymbol WRITE 7200\n"
+        read, write = "\nrung\n|--[START]--{MR READ #107}--(MOTOR)\n", "\nrung\n|--[LAMP]--{MW WRITE #106}--(7001.05)\n"
+        self.assertEqual(self.diff(head + read + TWO + write + END, head + write + read + TWO + END),
+                         (OTHERWISE, """moved rung 3, old.lad:15 to rung 1, new.lad:9
+rungs: 0 changed, 0 added, 0 removed, 1 moved, 3 unchanged
+"""))
+        self.assertEqual(self.diff(head + write + END, head + read + write + END)[1].splitlines()[-1],
+                         "rungs: 0 changed, 1 added, 0 removed, 0 moved, 2 unchanged")
+
     def test_changed_added_removed_moved(self):
         status, text = self.diff(HEAD + ONE + TWO + THREE + END,
                                  HEAD + THREE + TWO.replace("[MOTOR]", "[MOTOR]--[START]") + '\nrung "new"\n|--[LAMP]--(7003.00)\n' + END)

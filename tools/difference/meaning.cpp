@@ -293,7 +293,7 @@ private:
     out += '\n';
   }
 
-  void addNumber(const Op& op, std::string& out, std::vector<Exit>& exits) const {
+  void addNumber(const Op& op, std::string& out, std::vector<Exit>& exits) {
     if (const auto at = waysOf_.find(op.result.index); at != waysOf_.end()) {
       const std::vector<uint32_t>& targets = *at->second->targets;
       const auto way = static_cast<uint64_t>(op.imm);
@@ -303,8 +303,10 @@ private:
     const auto at = numbers_.find(op.result.index);
     if (at == numbers_.end()) return put(out, " {}", op.imm);
     const GivenNumber& given = *at->second;
-    if (given.space.valid())
-      put(out, " at {}+{}", places_.of(given.space, given.byte * uint64_t{8} + given.bit), given.distance);
+    if (!given.space.valid()) return;
+    out += " at";
+    addPlace(given.space, given.byte * uint64_t{8} + given.bit, false, out);
+    put(out, "+{}", given.distance);
   }
 
   void addAttribute(const Op& op, std::string& out) {

@@ -36,7 +36,7 @@ public:
                             .written = written_,
                             .sources = sources_,
                             .marks = options_.marks,
-                            .isCompared = options_.given != nullptr,
+                            .given = options_.given,
                             .files = frontend::addFiles(module_, sources_, files)};
     const ir::RoutineId main = lowerModule(context, program_.main);
     const WrittenRange byMain = std::exchange(written_, {});

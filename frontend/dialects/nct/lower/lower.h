@@ -11,6 +11,7 @@
 #include "frontend/lower/edge.h"
 #include "frontend/lower/module_items.h"
 #include "ir/core/builder.h"
+#include "ir/core/given_numbers.h"
 
 namespace rung::nct {
 
@@ -52,15 +53,21 @@ struct SharedWords {
 // What boxes share with the NC: the services of the program, and words in hidden spaces that the host knows by name.
 class Shared {
 public:
-  explicit Shared(ir::Module& module) : module_(module) {}
+  // `given` may be null: the module is not compared with another.
+  Shared(ir::Module& module, ir::RoutineId routine, ir::GivenNumbers* given)
+      : module_(module), routine_(routine), given_(given) {}
   // "NAME arguments -> results", see docs/scenario-format.md.
   ir::ServiceId service(std::string_view signature) { return frontend::service(module_, signature); }
   // Words of this box alone, under its key: a hidden symbol, so that they are found again in a changed program. The
   // space is made when it is asked for first.
   SharedWords words(std::string_view space, uint32_t count, const std::string& key);
+  // The first of them by its number in the space, in the routine's last rung.
+  ir::ValueId number(ir::RungBuilder& b, ir::Type type, const SharedWords& words);
 
 private:
   ir::Module& module_;
+  const ir::RoutineId routine_;
+  ir::GivenNumbers* const given_;
 };
 
 struct Lowering {

@@ -33,6 +33,14 @@ SharedWords Shared::words(std::string_view space, uint32_t count, const std::str
   return words;
 }
 
+ValueId Shared::number(RungBuilder& b, Type type, const SharedWords& words) {
+  const ValueId number = b.constant(type, words.first);
+  if (given_ != nullptr)
+    given_->add(routine_, static_cast<uint32_t>(module_.routines[routine_.index].rungs.size() - 1),
+                {.value = number, .space = words.space, .byte = words.first * 4});
+  return number;
+}
+
 namespace {
 
 using enum frontend::RequestState;
@@ -190,7 +198,7 @@ Step ArrayServiceLowering::ask(const WordRange& range, const Place& place, Value
   const ValueId first = place.fixed ? b_.i32(place.word) : place.wordNo;
   if (first_.valid()) b_.slotStore(first_, first);
   const ValueId args[] = {b_.sextOrTrunc(Type::I64, function), b_.sextOrTrunc(Type::I64, first),
-                          b_.constant(Type::I64, buffer_.first)};
+                          box_.shared.number(b_, Type::I64, buffer_)};
   const ir::ServiceId service = box_.shared.service(
       access() == FunctionAccess::Write ? "MW function address block -> code" : "MR function address block -> code");
   const ValueId ticket = b_.serviceRequest(service, args);

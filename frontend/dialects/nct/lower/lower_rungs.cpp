@@ -56,7 +56,7 @@ public:
                const std::vector<RunTime>& times, uint32_t body)
       : context_(context), source_(module), routines_(routines), times_(times), body_(module.bodies[body]),
         id_(routines[body]), routine_(context.module.routines[routines[body].index]),
-        slots_(context.module, routine_.name), shared_(context.module) {}
+        slots_(context.module, routine_.name), shared_(context.module, id_, context.given) {}
 
   void run() {
     routine_.rungs.reserve(body_.end - body_.first);
@@ -231,7 +231,7 @@ bool hasTimer(const TypedRung& rung) {
 // rung that takes it.
 std::vector<RunTime> takeTime(LoweringContext& context, const TypedModule& module, ir::Routine& routine) {
   std::vector<RunTime> times(module.rungs.size());
-  if (!context.config.runsAtWholeMs() || context.isCompared) return times;
+  if (!context.config.runsAtWholeMs() || context.given != nullptr) return times;
   const std::vector<bool> once = evaluatedOncePerRun(module);
   const auto asks = [&](uint32_t i) { return once[i] && hasTimer(module.rungs[i]); };
   if (std::ranges::none_of(std::views::iota(0u, static_cast<uint32_t>(once.size())), asks)) return times;

@@ -5,6 +5,7 @@
 
 #include "frontend/dialects/nct/lower/memory.h"
 #include "frontend/dialects/nct/program.h"
+#include "ir/core/given_numbers.h"
 #include "ir/core/marks.h"
 #include "ir/core/module.h"
 
@@ -18,7 +19,7 @@ struct LoweringContext {
   WrittenRange& written;
   const SourceManager& sources;
   ir::Marks* marks = nullptr;                          // null: not asked for
-  bool isCompared = false;                             // with another version
+  ir::GivenNumbers* given = nullptr;                   // null: not compared with another version
   std::unordered_map<uint32_t, ir::FileIndex> files{}; // by FileId
   std::unordered_map<uint64_t, uint32_t> sameText{};   // rungs with equal texts so far, for their keys
 };

@@ -240,6 +240,16 @@ STOP
             self.assertEqual(status, OTHERWISE, change)
             self.assertRegex(text, rf"rungs: {rungs}, 0 removed, 0 moved, \d+ unchanged\n$", f"{change}\n{text}")
 
+    def test_technol_waits(self):
+        """The count of a TIM is cleared by what comes to it, in a rung of its own or not; how it is called says nothing."""
+        for before in ("FL 1,D\n        TIM -,50\n", "EX\n        TIM -,50\n"):
+            for time, changed in (("032h", 0), ("T_NEW", 0), ("51", 1)):
+                with self.subTest(before=before, time=time):
+                    old = self.TECHNOL.replace("        FL 1,D\n", f"        {before}").replace("DATA\n", "DATA\n        EQUI T_NEW,50\n", 1)
+                    status, text = self.diff(old, old.replace("TIM -,50", f"TIM -,{time}"), "--dialect", "technol", ending="plc")
+                    self.assertEqual(status, OTHERWISE if changed else SAME, text)
+                    self.assertRegex(text, rf"rungs: {changed} changed, 0 added, 0 removed, 0 moved, \d+ unchanged\n$")
+
     def technol_program(self, data, main):
         head, tail = self.TECHNOL.split("DATA\n", 1)[0], self.TECHNOL.split("DATA_END\n", 1)[1]
         begin, end = tail.index("MODULE_MAIN\n"), tail.index("MODULE_MAIN_END\n")

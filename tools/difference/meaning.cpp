@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "ir/core/memory_use.h"
 #include "ir/core/op_info.h"
@@ -186,21 +187,48 @@ private:
   std::map<Key, Ways> cells_;
 };
 
+// ---- slots of several instructions -------------------------------------------------------------------------------
+
+// Where a slot is used, as drawn: what the compiler's own rungs do with the state of an instruction follows from that.
+class SlotUses {
+public:
+  void add(const Rung& rung, uint32_t line) {
+    if (rung.number == 0) return;
+    rungs_.insert(rung.number);
+    lines_.emplace(rung.begin.file.index, line);
+  }
+  // An instruction that ends a rung and begins the next one, as one that waits does, is still in one line.
+  bool several() const { return rungs_.size() > 1 && lines_.size() > 1; }
+
+private:
+  std::set<uint32_t> rungs_;
+  std::set<std::pair<uint32_t, uint32_t>> lines_; // with their files
+};
+
+// By slot: several instructions may use it.
+std::vector<bool> sharedSlots(const Module& module) {
+  std::vector<SlotUses> uses(module.slots.size());
+  for (const Routine& routine : module.routines)
+    for (const Rung& rung : routine.rungs)
+      for (const Op& op : rung.ops)
+        if (opInfo(op.code).attr == Attr::Slot) uses[op.ref].add(rung, op.line);
+  std::vector<bool> shared;
+  for (size_t i = 0; i < uses.size(); ++i) {
+    const Slot& slot = module.slots[i];
+    shared.push_back(slot.transient || slot.key.starts_with('@') || uses[i].several());
+  }
+  for (const Continuation& continuation : module.continuations)
+    if (continuation.slot.valid()) shared[continuation.slot.index] = true;
+  return shared;
+}
+
 // ---- meanings ----------------------------------------------------------------------------------------------------
 
 class Meanings {
 public:
-  Meanings(const Module& module, const GivenNumbers& given, const FormerNames& former)
-      : module_(module), given_(given), drawing_(module), ways_(module), places_(module, former) {
-    std::vector<uint32_t> user(module.slots.size(), 0);
-    for (const Slot& slot : module.slots) shared_.push_back(slot.transient || slot.key.starts_with('@'));
-    for (const Continuation& continuation : module.continuations)
-      if (continuation.slot.valid()) shared_[continuation.slot.index] = true;
-    for (const Routine& routine : module.routines)
-      for (const Rung& rung : routine.rungs)
-        for (const Op& op : rung.ops)
-          if (opInfo(op.code).attr == Attr::Slot) noteUse(op.ref, rung.number, user);
-  }
+  Meanings(const Module& module, const GivenNumbers& given, const FormerNames& former, std::vector<bool> shared)
+      : module_(module), given_(given), drawing_(module), ways_(module), places_(module, former),
+        shared_(std::move(shared)) {}
 
   std::vector<DrawnRung> run() {
     std::vector<DrawnRung> drawn;
@@ -209,13 +237,6 @@ public:
   }
 
 private:
-  // What the compiler's own rungs do with the state of an instruction follows from that.
-  void noteUse(uint32_t slot, uint32_t rung, std::vector<uint32_t>& user) {
-    if (rung == 0) return;
-    if (user[slot] != 0 && user[slot] != rung) shared_[slot] = true;
-    user[slot] = rung;
-  }
-
   // A unit that two levels run is there twice: what both have is meant once.
   DrawnRung meaningOf(const std::vector<Drawing::Part>& parts) {
     DrawnRung drawn;
@@ -365,7 +386,7 @@ private:
   const Drawing drawing_;
   const WayCells ways_;
   const PlaceTexts places_;
-  std::vector<bool> shared_; // by slot: several rungs may use it
+  const std::vector<bool> shared_; // by slot
   // Of the current rung.
   std::string_view routine_;
   std::map<uint32_t, size_t> own_; // its slots by their first uses
@@ -378,13 +399,14 @@ private:
 
 // Source lines give the operations of a module their order. Here they have the one in which they are needed.
 std::vector<DrawnRung> drawnRungs(const Module& module, const GivenNumbers& given, const FormerNames& former) {
+  std::vector<bool> shared = sharedSlots(module);
   Module ordered = module;
   GivenNumbers numbers = given;
   for (Routine& routine : ordered.routines)
     for (Rung& rung : routine.rungs)
       for (Op& op : rung.ops) op.line = 0;
   orderOperations(ordered, nullptr, &numbers);
-  std::vector<DrawnRung> drawn = Meanings(ordered, numbers, former).run();
+  std::vector<DrawnRung> drawn = Meanings(ordered, numbers, former, std::move(shared)).run();
   for (DrawnRung& rung : drawn) {
     const Routine& routine = module.routines[static_cast<size_t>(rung.routine - ordered.routines.data())];
     rung.rung = &routine.rungs[static_cast<size_t>(rung.rung - rung.routine->rungs.data())];

@@ -250,6 +250,15 @@ STOP
                     self.assertEqual(status, OTHERWISE if changed else SAME, text)
                     self.assertRegex(text, rf"rungs: {changed} changed, 0 added, 0 removed, 0 moved, \d+ unchanged\n$")
 
+    def test_a_rung_is_shown_to_its_last_line(self):
+        """A macro with a jump makes several rungs in one line; the last one goes on below it."""
+        macro = "DEF_T_MACRO AT_MOST CELL,HIGH\n T_LOCAL FITS\n LOD TMAC.CELL\n LE TMAC.HIGH\n JL1 FITS\n LOD TMAC.HIGH\nFITS: STO TMAC.CELL\nEND_T_MACRO\n"
+        old = self.TECHNOL.replace("DATA\n", macro + "DATA\n", 1).replace("        LDR B\n        WR C\n", "        AT_MOST WORD_1,CNST.50\n        LOD CNST.7\n        STO STEP\n")
+        status, text = self.diff(old, old.replace("CNST.7", "CNST.8"), "--dialect", "technol", ending="plc")
+        self.assertEqual(status, OTHERWISE)
+        self.assertIn("  - AT_MOST WORD_1,CNST.50\n  - LOD CNST.7\n", text)
+        self.assertIn("  + AT_MOST WORD_1,CNST.50\n  + LOD CNST.8\n", text)
+
     def technol_program(self, data, main):
         head, tail = self.TECHNOL.split("DATA\n", 1)[0], self.TECHNOL.split("DATA_END\n", 1)[1]
         begin, end = tail.index("MODULE_MAIN\n"), tail.index("MODULE_MAIN_END\n")

@@ -241,7 +241,7 @@ private:
   DrawnRung meaningOf(const std::vector<Drawing::Part>& parts) {
     DrawnRung drawn;
     drawn.routine = &module_.routines[parts[0].routine];
-    drawn.rung = &drawn.routine->rungs[parts[0].rung];
+    drawn.rung = &longestOf(parts);
     std::set<std::string> seen;
     std::string all;
     for (size_t i = 0; i < parts.size();) {
@@ -257,6 +257,16 @@ private:
     }
     drawn.meaning = hashBytes(all);
     return drawn;
+  }
+
+  // All parts begin in one line. One that ends later has the lines of the others, too.
+  const Rung& longestOf(const std::vector<Drawing::Part>& parts) const {
+    const std::vector<Rung>& rungs = module_.routines[parts[0].routine].rungs;
+    const Rung* longest = &rungs[parts[0].rung];
+    for (const Drawing::Part& part : parts)
+      if (part.routine == parts[0].routine && rungs[part.rung].lastLine > longest->lastLine)
+        longest = &rungs[part.rung];
+    return *longest;
   }
 
   void add(uint32_t routine, uint32_t number, std::string& out, std::vector<Exit>& exits) {

@@ -25,7 +25,7 @@ struct Exit {
 // A rung as it is drawn: those of the module that have its number.
 struct DrawnRung {
   const ir::Routine* routine = nullptr; // of the first
-  const ir::Rung* rung = nullptr;       // the first
+  const ir::Rung* rung = nullptr;       // of those in this routine the first that reaches to the last line
   uint64_t meaning = 0;                 // equal: it does the same, where its exits lead to the same
   std::vector<Exit> exits;              // as many where meanings are equal
 };

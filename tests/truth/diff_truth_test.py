@@ -30,6 +30,8 @@ ALL = {
     "technol": ["technol-mill", "technol-magazine", "technol-machining-centre"],
 }
 
+TEXT = re.compile(r"\"[^\"]*\"|'[^']*'")
+
 
 class Unsuitable(Exception):
     """The edit finds no place in this program."""
@@ -73,13 +75,14 @@ class Source:
     def occurs(self, word):
         """Lines of all files with the word in their code, as (file, line)."""
         pattern = re.compile(rf"(?<![\w]){re.escape(word)}(?![\w])", re.IGNORECASE if self.dialect == "technol" else 0)
-        return [(file, i) for file, lines in self.files.items() for i, line in enumerate(lines) if pattern.search(re.sub(r"\"[^\"]*\"|'[^']*'", "", code_of(line)))]
+        return [(file, i) for file, lines in self.files.items() for i, line in enumerate(lines) if pattern.search(TEXT.sub("", code_of(line)))]
 
     def replace_word(self, word, other):
-        pattern = re.compile(rf"(?<![\w]){re.escape(word)}(?![\w])")
+        """Not in texts: what is there is another thing of that name, as a key of the control's configuration."""
+        pattern = re.compile(rf"({TEXT.pattern})|(?<![\w]){re.escape(word)}(?![\w])")
         for i, line in enumerate(self.lines):
             code = code_of(line)
-            self.lines[i] = pattern.sub(other, code) + line[len(code):]
+            self.lines[i] = pattern.sub(lambda found: found[1] or other, code) + line[len(code):]
 
 
 def code_of(line):

@@ -250,6 +250,17 @@ STOP
                     self.assertEqual(status, OTHERWISE if changed else SAME, text)
                     self.assertRegex(text, rf"rungs: {changed} changed, 0 added, 0 removed, 0 moved, \d+ unchanged\n$")
 
+    def test_technol_clocks(self):
+        """The period of a timed block is what it does; what other blocks are timed is not."""
+        block = "        DFTM1 LATER\n        LDR B\n        WR C\nLATER:\n"
+        one = self.TECHNOL.replace("        LDR B\n        WR C\n", block)
+        two = one.replace(block, block + block.replace("LATER", "LATEST"))
+        for old, new, rungs in ((one, one.replace("DFTM1 ", "DFTM10 "), "1 changed, 0 added"), (two, two.replace("DFTM1 LATER\n", "DFTM10 LATER\n"), "1 changed, 0 added"),
+                                (one, two, "0 changed, 2 added")):
+            status, text = self.diff(old, new, "--dialect", "technol", ending="plc")
+            self.assertEqual(status, OTHERWISE)
+            self.assertRegex(text, rf"rungs: {rungs}, 0 removed, 0 moved, \d+ unchanged\n$")
+
     def test_a_rung_is_shown_to_its_last_line(self):
         """A macro with a jump makes several rungs in one line; the last one goes on below it."""
         macro = "DEF_T_MACRO AT_MOST CELL,HIGH\n T_LOCAL FITS\n LOD TMAC.CELL\n LE TMAC.HIGH\n JL1 FITS\n LOD TMAC.HIGH\nFITS: STO TMAC.CELL\nEND_T_MACRO\n"

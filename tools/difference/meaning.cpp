@@ -187,35 +187,39 @@ private:
   std::map<Key, Ways> cells_;
 };
 
-// ---- slots of several instructions -------------------------------------------------------------------------------
+// ---- whose state a slot is ---------------------------------------------------------------------------------------
 
-// Where a slot is used, as drawn: what the compiler's own rungs do with the state of an instruction follows from that.
+// Where a slot is used in what is drawn: what the compiler's own rungs do with the state of an instruction follows from
+// that.
 class SlotUses {
 public:
-  void add(const Rung& rung, uint32_t line) {
+  void add(const Rung& rung, const Op& op) {
     if (rung.number == 0) return;
     rungs_.insert(rung.number);
-    lines_.emplace(rung.begin.file.index, line);
+    lines_.emplace(rung.begin.file.index, op.line);
+    isWritten_ |= op.code == OpCode::SlotStore;
   }
-  // An instruction that ends a rung and begins the next one, as one that waits does, is still in one line.
-  bool several() const { return rungs_.size() > 1 && lines_.size() > 1; }
+  // One that ends a rung and begins the next one, as one that waits does, is still in one line. What no drawn rung
+  // writes is the compiler's, as its clocks are.
+  bool ofOneInstruction() const { return isWritten_ && (rungs_.size() == 1 || lines_.size() == 1); }
 
 private:
   std::set<uint32_t> rungs_;
   std::set<std::pair<uint32_t, uint32_t>> lines_; // with their files
+  bool isWritten_ = false;
 };
 
-// By slot: several instructions may use it.
+// By slot: it is not the state of one instruction.
 std::vector<bool> sharedSlots(const Module& module) {
   std::vector<SlotUses> uses(module.slots.size());
   for (const Routine& routine : module.routines)
     for (const Rung& rung : routine.rungs)
       for (const Op& op : rung.ops)
-        if (opInfo(op.code).attr == Attr::Slot) uses[op.ref].add(rung, op.line);
+        if (opInfo(op.code).attr == Attr::Slot) uses[op.ref].add(rung, op);
   std::vector<bool> shared;
   for (size_t i = 0; i < uses.size(); ++i) {
     const Slot& slot = module.slots[i];
-    shared.push_back(slot.transient || slot.key.starts_with('@') || uses[i].several());
+    shared.push_back(slot.transient || slot.key.starts_with('@') || !uses[i].ofOneInstruction());
   }
   for (const Continuation& continuation : module.continuations)
     if (continuation.slot.valid()) shared[continuation.slot.index] = true;

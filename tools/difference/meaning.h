@@ -33,10 +33,9 @@ struct DrawnRung {
 // Of a module as a front end built it for a comparison, routine by routine; rungs that the compiler added are left out.
 //
 // A rung means its operations, whatever the order in which it reads: on places by their addresses, or where the
-// compiler gives the addresses out by their former names; on state of an instruction whatever its key, on what several
-// instructions share by its key. Names of places with addresses, titles, comments, lines and numbers that the rung is
-// given (ir::GivenNumbers) mean nothing. A number by which a mechanism, or a rung elsewhere, finds its way later is an
-// exit.
+// compiler gives the addresses out by their former names; on state of an instruction whatever its key, on other state
+// by its key. Names of places with addresses, titles, comments, lines and numbers that the rung is given
+// (ir::GivenNumbers) mean nothing. A number by which a mechanism, or a rung elsewhere, finds its way later is an exit.
 std::vector<DrawnRung> drawnRungs(const ir::Module& module, const ir::GivenNumbers& given, const FormerNames& former);
 
 } // namespace rung::difference

@@ -13,10 +13,11 @@ namespace rung::ir {
 
 struct GivenNumber {
   ValueId value;        // a constant of the rung
-  SpaceId space;        // of an address; invalid: a line, or the size of a space
+  SpaceId space;        // of an address; invalid: a line, the size or the number of a space, or a routine
   uint32_t byte = 0;    // where the variable begins that it is an address in
   int64_t distance = 0; // from there, in bytes
   uint32_t bit = 0;     // of the byte there
+  RoutineId routine{};  // whose number it is; invalid: none
   bool operator==(const GivenNumber&) const = default;
 };
 

@@ -270,6 +270,19 @@ STOP
         self.assertIn("  - AT_MOST WORD_1,CNST.50\n  - LOD CNST.7\n", text)
         self.assertIn("  + AT_MOST WORD_1,CNST.50\n  + LOD CNST.8\n", text)
 
+    def test_technol_texts_and_procedures_of_requests(self):
+        """Each text has a space and each procedure that the control calls a number, in their order, which says nothing."""
+        old = self.TECHNOL.replace("STEP: DS 1\n", "STEP: DS 1\nPACKET: STR 12\n").replace("MODULE_MAIN\n", "".join(
+            ["MODULE_MAIN\n", *(f"        PROC_BEGIN {name}\n        LDR A\n        WR {bit}\n        PROC_END {name}\n" for name, bit in (("P1", "B"), ("P2", "C")))]))
+        old = old.replace("MODULE_INIT\n", "MODULE_INIT\n        LDR A\n        JL1 NEXT\nNEXT:\n        CAN_RECV_REQ 2,580h,-,21h,-,P1,PACKET\n").replace("        EX0\n", "        EX0\n        PLCT_COL_INDEX 0,'one',WORD_1\n        EX\n")
+        changed, added = "1 changed, 0 added", "0 changed, 1 added"
+        for change, rungs in ((("STRCPY TEXT,'xyz'", "STRCPY TEXT,'xyz'\n        STRCPY TEXT,'new'"), changed), (("'one'", "'two'"), changed),
+                              (("MODULE_INIT\n", "MODULE_INIT\n        CAN_RECV_REQ 2,580h,-,22h,-,P2,PACKET\n"), added), (("-,P1,", "-,P2,"), changed)):
+            status, text = self.diff(old, old.replace(*change), "--dialect", "technol", ending="plc")
+            self.assertEqual(status, OTHERWISE, change)
+            self.assertRegex(text, rf"rungs: {rungs}, 0 removed, 0 moved, \d+ unchanged\n$", f"{change}\n{text}")
+        self.assertIn("  leads to PROC P2, before: to PROC P1\n", text)
+
     def technol_program(self, data, main):
         head, tail = self.TECHNOL.split("DATA\n", 1)[0], self.TECHNOL.split("DATA_END\n", 1)[1]
         begin, end = tail.index("MODULE_MAIN\n"), tail.index("MODULE_MAIN_END\n")

@@ -338,6 +338,10 @@ private:
     const auto at = numbers_.find(op.result.index);
     if (at == numbers_.end()) return put(out, " {}", op.imm);
     const GivenNumber& given = *at->second;
+    if (given.routine.valid()) {
+      exits.push_back({.to = Exit::To::Routine, .index = drawing_.homeOf(given.routine.index)});
+      return put(out, " routine");
+    }
     if (!given.space.valid()) return;
     out += " at";
     addPlace(given.space, given.byte * uint64_t{8} + given.bit, false, out);

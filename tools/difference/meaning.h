@@ -15,7 +15,7 @@ struct Exit {
   enum class To : uint8_t {
     Rung,    // `part` of a drawn rung
     End,     // of a routine
-    Routine, // a call
+    Routine, // a call, or what the control calls later
   };
   To to = To::Rung;
   uint32_t index = 0; // in the list of drawn rungs, or of routines

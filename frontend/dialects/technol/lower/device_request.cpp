@@ -99,8 +99,10 @@ const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Oper
   return nullptr;
 }
 
-ValueId bytesArgument(ir::RungBuilder& b, const Area& area, ValueId count) {
-  const ValueId fixed = b.constant(Type::I64, nc::technol::bytesArgument(area.space.index, 0, 0));
+// The number of a space with a text goes by the texts before it. Where the area begins says which one it is.
+ValueId bytesArgument(Emitter& emitter, const Area& area, ValueId count) {
+  ir::RungBuilder& b = emitter.b();
+  const ValueId fixed = emitter.given(Type::I64, nc::technol::bytesArgument(area.space.index, 0, 0));
   const ValueId wide = b.zextOrTrunc(Type::I64, count);
   const ValueId size = b.shl(wide, b.i32(32));
   return b.or_(b.or_(fixed, size), b.zextOrTrunc(Type::I64, area.at));

@@ -50,7 +50,7 @@ private:
 // The operand that says how many bytes of the data are meant; null where the row has none.
 const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Operand> operands);
 // The argument for `count` bytes of an area, i32.
-ir::ValueId bytesArgument(ir::RungBuilder& b, const Area& area, ir::ValueId count);
+ir::ValueId bytesArgument(Emitter& emitter, const Area& area, ir::ValueId count);
 // Puts the first `count` bytes of an answer, at most `most`, there.
 void fetchBytes(Emitter& emitter, ir::ValueId ticket, const Area& to, ir::ValueId count, uint32_t most);
 

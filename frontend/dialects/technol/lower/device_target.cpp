@@ -98,9 +98,9 @@ void DeviceTarget::addTo(DeviceRequest& request, const std::string& name, DataFo
     return;
   }
   case DataForm::Real: request.add(name + ":f", numberAt(kReal)); return;
-  case DataForm::Text: request.add(name + ":s", bytesArgument(b, area_, count)); return;
+  case DataForm::Text: request.add(name + ":s", bytesArgument(l_->emitter, area_, count)); return;
   case DataForm::Binary:
-  case DataForm::Bytes: request.add(name + ":b", bytesArgument(b, area_, count)); return;
+  case DataForm::Bytes: request.add(name + ":b", bytesArgument(l_->emitter, area_, count)); return;
   }
 }
 

@@ -58,6 +58,10 @@ ir::ValueId Emitter::address(Type type, int64_t value, ir::Place begin, int64_t 
                {.value = {}, .space = begin.space, .byte = begin.byte, .distance = distance, .bit = begin.bit});
 }
 
+ir::ValueId Emitter::routine(Type type, int64_t value, ir::RoutineId routine) {
+  return given(type, value, {.value = {}, .space = {}, .routine = routine});
+}
+
 void Emitter::protect(ir::ValueId bad) { b().trap(bad, fault(nc::kTechnolProtection)); }
 
 } // namespace rung::frontend::technol

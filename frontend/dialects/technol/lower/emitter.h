@@ -38,10 +38,12 @@ public:
   ir::ServiceId service(std::string_view signature) { return frontend::service(module_, signature); }
   // A hidden space that holds the bytes.
   ir::SpaceId constantBytes(std::string_view bytes) { return constants_.spaceOf(bytes); }
-  // A constant that is not part of what the program's author wrote: a line, the size of a space.
+  // A constant that is not part of what the program's author wrote: a line, the size or the number of a space.
   ir::ValueId given(ir::Type type, int64_t value) { return given(type, value, {}); }
   // One that says where something lies, `distance` bytes after the place where a variable begins.
   ir::ValueId address(ir::Type type, int64_t value, ir::Place begin, int64_t distance = 0);
+  // The number of a routine.
+  ir::ValueId routine(ir::Type type, int64_t value, ir::RoutineId routine);
   bool isCompared() const { return given_ != nullptr; }
   // Stops the program where `bad` is 1: an access outside the memory.
   void protect(ir::ValueId bad);

@@ -39,7 +39,7 @@ void lowerCanSend(Lowering& l, std::span<const Operand> o, int) {
   request.add("id", b.and_(memberOf(b, packet, kId, Type::I16), b.constant(Type::I64, kIdBits)));
   request.add("rtr", memberOf(b, packet, kRtr, Type::I8));
   request.add("len", count);
-  request.add("data:b", bytesArgument(b, dataOf(b, packet), b.zextOrTrunc(Type::I32, count)));
+  request.add("data:b", bytesArgument(l.emitter, dataOf(b, packet), b.zextOrTrunc(Type::I32, count)));
   request.send();
   l.r().setDr(request.result("DR"));
 }
@@ -73,8 +73,8 @@ void lowerCanOrder(Lowering& l, std::span<const Operand> o, int) {
     request.addOperand(low, o[low]);
     request.addOperand(low + 1, o[low + 1].given() ? o[low + 1] : o[low]);
   }
-  request.add("proc", b.constant(Type::I64, l.procedures.eventOf(o[5].index)));
-  request.add("pmsg:b", bytesArgument(b, areaOf(l.memory, o[6]), b.i32(kPacketBytes)));
+  request.add("proc", l.procedures.event(o[5].index));
+  request.add("pmsg:b", bytesArgument(l.emitter, areaOf(l.memory, o[6]), b.i32(kPacketBytes)));
   request.send();
   l.r().setRlo(request.flag("RLO"));
   l.r().setDr(request.result("DR"));
@@ -111,7 +111,7 @@ void lowerDriveSend(Lowering& l, std::span<const Operand> o, int) {
     setMember(b, packet, kLength, Type::I8, b.constant(Type::I64, kDataBytes));
     b.store(placeOf("CAN_AX_BUSY"), b.constant(Type::I8, 0xFF));
   });
-  request.add("data:b", bytesArgument(b, dataOf(b, packet), b.i32(kDataBytes)));
+  request.add("data:b", bytesArgument(l.emitter, dataOf(b, packet), b.i32(kDataBytes)));
   request.send();
 }
 

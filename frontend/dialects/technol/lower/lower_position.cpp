@@ -66,7 +66,7 @@ void lowerPositionMode(Lowering& l, std::span<const Operand> o, int) {
     const ValueId mask = b.constant(Type::I8, kControlBits);
     storeByte(b, record, b.i32(kBits),
               withBits(b, loadByte(b, record, b.i32(kBits)), mask, b.zextOrTrunc(Type::I8, bits)));
-    b.storeAt(kept.window, kept.index, bytesArgument(b, record, b.i32(kRecordBytes)));
+    b.storeAt(kept.window, kept.index, bytesArgument(l.emitter, record, b.i32(kRecordBytes)));
   });
 }
 

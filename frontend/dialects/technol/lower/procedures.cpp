@@ -2,6 +2,7 @@
 #include "frontend/dialects/technol/lower/procedures.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace rung::frontend::technol {
@@ -15,10 +16,10 @@ Procedures::Procedures(const SourceProgram& program, Emitter& emitter)
     routines_.push_back(emitter.newRoutine("PROC " + symbolKey(procedure.name)));
 }
 
-uint32_t Procedures::eventOf(uint32_t procedure) {
-  const auto found = std::ranges::find(events_, procedure);
-  if (found == events_.end()) return events_.push_back(procedure), static_cast<uint32_t>(events_.size()) - 1;
-  return static_cast<uint32_t>(found - events_.begin());
+ValueId Procedures::event(uint32_t procedure) {
+  const auto number = std::ranges::find(events_, procedure) - events_.begin();
+  if (number == std::ssize(events_)) events_.push_back(procedure);
+  return emitter_.routine(Type::I64, number, routines_[procedure]);
 }
 
 void Procedures::call(uint32_t procedure, uint32_t depth, ValueId cond) {

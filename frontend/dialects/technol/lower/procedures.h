@@ -12,8 +12,8 @@ public:
   ir::RoutineId routine(uint32_t procedure) const { return routines_[procedure]; }
   // `depth`: values on the stack of the equation that contains the call; they are kept.
   void call(uint32_t procedure, uint32_t depth, ir::ValueId cond = {});
-  // The number of a procedure among those that CAN_RECV_REQ names, in the order in which they are asked for.
-  uint32_t eventOf(uint32_t procedure);
+  // The number, i64, of a procedure among those that CAN_RECV_REQ names, in the order in which they are asked for.
+  ir::ValueId event(uint32_t procedure);
   std::span<const uint32_t> events() const { return events_; }
   // Of messages, or kNone.
   uint32_t onMessage() const { return onMessage_; }

@@ -273,6 +273,9 @@ def swapped_bits(source, is_terminal):
         raise Unsuitable
     moves = "\n".join(source.code(i) for i in range(len(source.lines)))
     (at, _), names = source.pick((place, names) for place, names in flags(source) if is_terminal(place[1], moves) and len(set(names) - {""}) > 1)
+    code = "\n".join(code_of(line) for lines in source.files.values() for line in lines)
+    if any(name and re.search(rf"\.{name}\b", code) for name in names):
+        raise Unsuitable  # BYTE.NAME: it is the number of a bit in another byte, too
     one, other = source.rng.sample([i for i, name in enumerate(names) if name], 2)
     changed = list(names)
     changed[one], changed[other] = names[other], names[one]
@@ -385,12 +388,18 @@ def wait(source):
     at = source.pick(places)
     if source.code(at).strip().endswith(":"):
         raise Unsuitable  # before or after the label is not the same
-    source.lines[at:at] = [f"        LDR  {bits(source)}", "        EX1"]
+    new = [f"        LDR  {bits(source)}", "        EX1"]
+    below = [source.code(i).split() for i in code if i >= at][:2]
+    if below == [line.split() for line in new]:
+        raise Unsuitable  # which of two that are alike is new cannot be told
+    source.lines[at:at] = new
     return source.edit(rungs=[("added", None, at)])
 
 
 def removed(source):
-    begin, end = source.pick(r for r in rungs(source) if is_plain("\n".join(source.lines[r[0]:r[1]])))
+    texts = {r: "\n".join(source.lines[r[0]:r[1]]) for r in rungs(source)}
+    # With the only call the subprogram is gone as well: what nothing calls is not in the program.
+    begin, end = source.pick(r for r, text in texts.items() if is_plain(text) and not re.search(r"\bCALLU?\b", text))
     del source.lines[begin:end]
     return source.edit(rungs=[("removed", begin, None)])
 

@@ -283,6 +283,18 @@ STOP
             self.assertRegex(text, rf"rungs: {rungs}, 0 removed, 0 moved, \d+ unchanged\n$", f"{change}\n{text}")
         self.assertIn("  leads to PROC P2, before: to PROC P1\n", text)
 
+    def test_technol_local_data_of_macros(self):
+        """Each use has its own, in their order, which says nothing."""
+        macro = "DEF_T_MACRO EDGE BIT,TO\n T_LOCAL BEFORE,I,J,K,L,M,N,O,NONE\nDATA_LOCAL\n DFM BEFORE,I,J,K,L,M,N,O\nDATA_LOCAL_END\n LDR TMAC.BIT\n LA -BEFORE\n JL0 NONE\n FL 1,TMAC.TO\nNONE: LDR TMAC.BIT\n WR BEFORE\nEND_T_MACRO\n"
+        use = "        LDR D\n        JL1 {0}\n        EDGE {1},C\n{0}:\n"
+        old = self.TECHNOL.replace("DATA\n", macro + "DATA\n", 1).replace("        LDR B\n        WR C\n", use.format("U1", "A") + use.format("U2", "B"))
+        for new, rungs in ((old.replace("MODULE_MAIN\n", "MODULE_MAIN\n" + use.format("U0", "B"), 1), "0 changed, 2 added, 0 removed"), (old.replace("LA -BEFORE", "LA BEFORE"), "2 changed, 0 added, 0 removed"),
+                           (old.replace("EDGE A,C", "EDGE B,C"), "1 changed, 0 added, 0 removed")):
+            status, text = self.diff(old, new, "--dialect", "technol", ending="plc")
+            self.assertEqual(status, OTHERWISE)
+            self.assertRegex(text, rf"rungs: {rungs}, 0 moved, \d+ unchanged\n$", text)
+            self.assertNotIn("BEFORE#", text)
+
     def technol_program(self, data, main):
         head, tail = self.TECHNOL.split("DATA\n", 1)[0], self.TECHNOL.split("DATA_END\n", 1)[1]
         begin, end = tail.index("MODULE_MAIN\n"), tail.index("MODULE_MAIN_END\n")

@@ -162,7 +162,7 @@ std::map<std::string, BitPlace> bitsOf(const Version& version, const FormerNames
     if (cell->space != space) variable.clear();
     space = cell->space;
     const auto known = former.find(cell->name);
-    if (known == former.end()) continue;
+    if (known == former.end() || (cell->flags & RUNG_SYMBOL_HIDDEN) != 0) continue;
     if (!isBit(*cell)) {
       // Of several that begin at one place always the same one.
       if (!variable.empty() && begin == cell->byte && variable < known->second) continue;
@@ -170,7 +170,6 @@ std::map<std::string, BitPlace> bitsOf(const Version& version, const FormerNames
       begin = cell->byte;
       continue;
     }
-    if ((cell->flags & RUNG_SYMBOL_HIDDEN) != 0) continue;
     const std::string distance = cell->byte != begin ? fmt::format("+{}", cell->byte - begin) : "";
     const std::string of = variable.empty() ? "its byte" : variable + distance;
     places.emplace(known->second, BitPlace{fmt::format("bit {} of {}", cell->bit, of), whole.contains(*cell)});

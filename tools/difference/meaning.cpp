@@ -221,8 +221,6 @@ std::vector<bool> sharedSlots(const Module& module) {
     const Slot& slot = module.slots[i];
     shared.push_back(slot.transient || slot.key.starts_with('@') || !uses[i].ofOneInstruction());
   }
-  for (const Continuation& continuation : module.continuations)
-    if (continuation.slot.valid()) shared[continuation.slot.index] = true;
   return shared;
 }
 

@@ -51,8 +51,11 @@ ir::Symbol madeSymbol(const Symbol& symbol) {
   return made;
 }
 
-bool isVisible(const Symbol& symbol) {
-  if (symbol.broken || symbol.name.find(kUseMark) != std::string_view::npos) return false;
+// Local to one use of a macro.
+bool isOfUse(const Symbol& symbol) { return symbol.name.find(kUseMark) != std::string_view::npos; }
+
+bool hasSymbol(const Symbol& symbol) {
+  if (symbol.broken) return false;
   switch (symbol.kind) {
   case SymbolKind::Bit:
   case SymbolKind::Cell:
@@ -111,6 +114,19 @@ std::string inFile(const SourceProgram& program, const Symbol& symbol, const std
   return std::string(path) + ":" + name;
 }
 
+// What is local to a use of a macro, by a name that all uses share: which use it is goes by those before it.
+void addOfUses(const TypedProgram& program, ir::Module& module) {
+  for (const Symbol& symbol : program.symbols.all()) {
+    if (!isOfUse(symbol) || !hasSymbol(symbol)) continue;
+    ir::Symbol made = madeSymbol(symbol);
+    made.name.erase(made.name.find(kUseMark) + 1);
+    made.flags |= RUNG_SYMBOL_HIDDEN;
+    module.symbols.push_back(std::move(made));
+  }
+}
+
+bool isVisible(const Symbol& symbol) { return hasSymbol(symbol) && !isOfUse(symbol); }
+
 } // namespace
 
 void addSymbols(const TypedProgram& program, ir::Module& module, bool isCompared) {
@@ -129,6 +145,7 @@ void addSymbols(const TypedProgram& program, ir::Module& module, bool isCompared
     if (!other && (symbol.local || global[made.name] == 1)) module.symbols.push_back(std::move(made));
   }
   addElements(program, module);
+  if (isCompared) addOfUses(program, module);
   for (int i = 0; i < kHostCells; ++i) {
     const HostCellInfo& cell = hostCell(static_cast<HostCell>(i));
     nameCells(module, std::string(cell.name), {.space = kRegisterSpace, .byte = cell.byte}, cell.type, cell.count);

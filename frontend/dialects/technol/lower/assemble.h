@@ -10,7 +10,8 @@ inline constexpr uint32_t kDefaultPeriodUs = 20'000; // man. l.2507
 // Spaces in the order of symbols.h, memory that starts filled, memory that is kept.
 void addSpaces(const Declarations& declarations, ir::Module& module);
 // The program's names and those interface cells that it uses; upper case. Call when lowering is done.
-// `isCompared`: local names that other files have as well are there, too, with the names of their files.
+// `isCompared`: local names that other files have as well are there, too, with the names of their files, and those of
+// macros, hidden.
 void addSymbols(const TypedProgram& program, ir::Module& module, bool isCompared);
 // Numbers the rungs by their first lines, in the order of the files; rungs that begin on one line share a number. The
 // line that begins a module or a procedure is not a rung, unless it and the instructions below it are one.

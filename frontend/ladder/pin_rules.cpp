@@ -2,6 +2,11 @@
 #include "frontend/ladder/pin_rules.h"
 
 #include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "ir/support/diag/ladder.h"
 
@@ -10,6 +15,16 @@ namespace {
 
 bool hasName(std::span<const Pin> pins, std::string_view name, SameName same) {
   return std::ranges::any_of(pins, [&](const Pin& pin) { return same(pin.name, name); });
+}
+
+// All of one box at once.
+void reportMissing(const frontend::InstructionInfo& info, std::span<const std::string_view> pins, SourceRange box,
+                   Diagnostics& diagnostics) {
+  std::string names(pins.size() == 1 ? "pin" : "pins");
+  for (const std::string_view pin : pins) names += fmt::format("{} {}", pin == pins[0] ? "" : ",", pin);
+  diagnostics.report(diag::MissingPin, box)
+          .note(fmt::format("a pin has a line of its own below the box: |--[x]--{{{}}}", pins[0]))
+      << info.mnemonic << names;
 }
 
 } // namespace
@@ -27,23 +42,23 @@ bool isMisplaced(const frontend::InstructionInfo& info, const Pin& pin) {
 bool checkPins(const frontend::InstructionInfo& info, std::span<const Pin> drawn, SourceRange box, SameName same,
                Diagnostics& diagnostics) {
   const auto known = info.pins.all();
-  const auto missing = [&](size_t pin) {
-    diagnostics.report(diag::MissingPin, box) << info.mnemonic << known[pin].name;
-    return false;
-  };
+  std::vector<std::string_view> missing;
   bool good = true;
   size_t next = 1; // the first has the mnemonic
   for (size_t i = 1; i < drawn.size(); ++i, ++next) {
-    if (next < known.size() && same(drawn[i].name, known[next].name)) continue;
-    const bool isLater =
-        next < known.size() &&
-        std::ranges::any_of(known.subspan(next + 1), [&](const auto& pin) { return same(pin.name, drawn[i].name); });
-    if (isLater && !hasName(drawn.subspan(i + 1), known[next].name, same)) return missing(next);
+    const auto isDrawn = [&](const frontend::PinInfo& pin) { return same(drawn[i].name, pin.name); };
+    const bool isLater = std::ranges::any_of(known.subspan(std::min(next, known.size())), isDrawn);
+    for (; isLater && !isDrawn(known[next]) && !hasName(drawn.subspan(i + 1), known[next].name, same); ++next)
+      missing.push_back(known[next].name);
+    if (next < known.size() && isDrawn(known[next])) continue;
     diagnostics.report(diag::UnknownPin, drawn[i].range)
         << info.mnemonic << drawn[i].name << (next < known.size() ? known[next].name : "no further pin");
     good = false;
   }
-  return next < known.size() ? missing(next) : good;
+  for (; next < known.size(); ++next) missing.push_back(known[next].name);
+  if (missing.empty()) return good;
+  reportMissing(info, missing, box, diagnostics);
+  return false;
 }
 
 } // namespace rung::ladder

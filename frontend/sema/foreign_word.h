@@ -44,4 +44,21 @@ struct ForeignNumber {
 };
 std::optional<ForeignNumber> foreignNumber(std::string_view text);
 
+// A time in another language's form, with its unit: T#5s, 2.5s, 100ms, T#1m30s.
+struct ForeignTime {
+  enum class Unit : uint8_t { Milliseconds, Seconds, Minutes, Hours };
+  uint64_t amount = 0;
+  Unit unit = Unit::Milliseconds; // that of a single whole number; else milliseconds
+  uint64_t milliseconds() const;
+};
+std::optional<ForeignTime> foreignTime(std::string_view text);
+
+// A comparison in the place of an operand, `a > 5`: its sides without blanks, and what IEC 61131 calls it.
+struct ForeignComparison {
+  std::string_view left;
+  std::string_view word; // GT, GE, EQ, NE, LE, LT
+  std::string_view right;
+};
+std::optional<ForeignComparison> foreignComparison(std::string_view text);
+
 } // namespace rung::frontend

@@ -45,6 +45,8 @@ bool countFits(const InstructionInfo& info, size_t found, SourceRange at, Diagno
   report << info.mnemonic << countText(least, operands.size(), repeated) << found;
   if (!operands.empty())
     report.note(operandOrder(info) + (least < operands.size() ? "; those in brackets may be left out" : ""));
+  if (found + 1 == least && !operands[found].doc.empty())
+    report.note(std::string(operands[found].name) + ": " + std::string(operands[found].doc));
   if (!note.empty()) report.note(note);
   return false;
 }

@@ -194,7 +194,7 @@ class Mistakes(Folder):
         self.assertEqual(self.said(PASSES + "\x1a\0 and what was in the sector", status=OK), [])
 
     def test_other_kinds_of_files(self):
-        for name in ("door.map", "door.so"):
+        for name in ("door.map", "door.so", "door.toml", "door.bind", "door.rir"):
             self.file(name, "")
         for words, message in ((["test", "door.map"], "'door.map' is a mapping file, not a scenario: `rungc map --check door.map PROGRAM` checks it"),
                                (["test", "door.so"], "'door.so' is a compiled program, not a scenario: `rungc run door.so` runs it"),
@@ -202,10 +202,19 @@ class Mistakes(Folder):
                                                       "begins with: program door.lad"),
                                *((command, "'passes.scn' is a scenario, not a program: `rungc test passes.scn` runs it") for command in
                                  (["check", "passes.scn"], ["diff", "door.lad", "passes.scn"], ["view", "passes.scn", "-o", "x.html"], ["xref", "passes.scn"], ["run", "passes.scn"])),
+                               (["check", "door.toml"], "'door.toml' is a project file, not a program: `rungc check --project door.toml` checks its program"),
+                               (["check", "door.bind"], "'door.bind' is a binding file, not a program: `rungc bind --members door.bind` connects its members"),
+                               (["check", "door.rir"], "'door.rir' is the IR of a program, not a program: `rungc opt door.rir` runs passes over it"),
                                (["map", "door.map", "door.lad"], "'door.map' is a mapping file, not a program: `rungc map --check door.map PROGRAM` checks it"),
                                (["map", "--no-project", "--check", "door.lad", "door.lad"], "'door.lad' is a program, not a mapping file: `rungc check door.lad` checks it")):
             done = subprocess.run([RUNGC, *words], cwd=self.folder.name, capture_output=True, timeout=patience(), text=True, check=False)
             self.assertEqual((done.returncode, done.stderr), (USAGE, f"rungc: {message}\n"), words)
+
+    def test_a_file_that_no_command_takes(self):
+        self.file("door.csv", "START,7000.00\n")
+        done = subprocess.run([RUNGC, "check", "door.csv"], cwd=self.folder.name, capture_output=True, timeout=patience(), text=True, check=False)
+        self.assertEqual(done.returncode, WRONG)
+        self.assertIn("the file is not one of a program by its name; those have the extensions .lad, ", done.stderr)
 
 
 class WrongDevices(Folder):

@@ -22,6 +22,7 @@ namespace rung::compiler {
 namespace {
 
 constexpr std::string_view kElfMagic = "\177ELF";
+constexpr std::string_view kLadder = ".lad";
 
 // An invalid module is an error of the compiler, never of the user's program.
 void checkModule(const ir::Module& module, ir::Mode mode) {
@@ -55,6 +56,12 @@ void reportNoDialect(const SourceManager& sources, FileId file, Diagnostics& dia
   LineWords words;
   for (SourceLine line; words.words.empty() && lines.next(line);) splitWords(line, {}, words);
   if (ladder::isListLine(words.words)) report.note(ladder::kListNote);
+  const std::string extension = std::filesystem::path(sources.name(file)).extension().string();
+  if (extension.empty() || extension == kLadder) return;
+  std::string programs(kLadder);
+  for (const frontend::Dialect* dialect : frontend::allDialects())
+    for (const std::string_view one : dialect->extensions) programs += fmt::format(", {}", one);
+  report.note(fmt::format("the file is not one of a program by its name; those have the extensions {}", programs));
 }
 
 bool checkEncodingKey(const frontend::CompileOptions& options, Diagnostics& diagnostics) {

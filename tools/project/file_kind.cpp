@@ -21,7 +21,10 @@ constexpr Kind kKinds[] = {{"a file of another kind", ""},
                            {"a program", "`rungc check {0}` checks it"},
                            {"a compiled program", "`rungc run {0}` runs it"},
                            {"a scenario", "`rungc test {0}` runs it"},
-                           {"a mapping file", "`rungc map --check {0} PROGRAM` checks it"}};
+                           {"a mapping file", "`rungc map --check {0} PROGRAM` checks it"},
+                           {"a binding file", "`rungc bind --members {0}` connects its members"},
+                           {"a project file", "`rungc check --project {0}` checks its program"},
+                           {"the IR of a program", "`rungc opt {0}` runs passes over it"}};
 
 const Kind& infoOf(FileKind kind) { return kKinds[static_cast<size_t>(kind)]; }
 
@@ -32,6 +35,9 @@ FileKind kindOfFile(const std::string& path) {
   if (extension == ".so") return FileKind::Compiled;
   if (extension == ".scn") return FileKind::Scenario;
   if (extension == ".map") return FileKind::Map;
+  if (extension == ".bind") return FileKind::Binding;
+  if (extension == ".toml") return FileKind::Project;
+  if (extension == ".rir") return FileKind::Ir;
   const bool isProgram =
       extension == ".lad" || std::ranges::any_of(frontend::allDialects(), [&](const frontend::Dialect* dialect) {
         return std::ranges::find(dialect->extensions, extension) != dialect->extensions.end();

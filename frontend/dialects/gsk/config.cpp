@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/sema/foreign_word.h"
 #include "ir/support/diag/operand.h"
 #include "rtlib/nc/config_key.h"
 #include "rtlib/text/number.h"
@@ -24,6 +25,8 @@ std::optional<uint64_t> numberOf(std::string_view key, std::string_view prefix) 
   return network::parseDigits(key.substr(prefix.size())).value_or(0);
 }
 
+constexpr std::string_view kTimer = "tmr";
+
 struct Entry {
   std::string_view family;
   uint64_t number;
@@ -34,12 +37,29 @@ struct Entry {
 std::optional<Entry> entryOf(std::string_view key, const std::string& text) {
   const uint64_t value = text::wholeIn<uint64_t>(text).value_or(UINT64_MAX); // above every limit
   if (const auto timer = numberOf(key, "tmr."))
-    return Entry{"tmr", *timer, value, timerUnitMs(static_cast<int64_t>(*timer)) * kMaxWord};
+    return Entry{kTimer, *timer, value, timerUnitMs(static_cast<int64_t>(*timer)) * kMaxWord};
   if (const auto counter = numberOf(key, "ctr.")) return Entry{"ctr", *counter, value, kMaxWord};
   return std::nullopt;
 }
 
-bool isSound(const Entry& entry) { return entry.number >= 1 && entry.number <= kNumbers && entry.value <= entry.max; }
+void checkPreset(const Entry& entry, const std::string& key, const std::string& text,
+                 const frontend::CompileOptions& options, Diagnostics& diagnostics) {
+  const SourceRange place = options.placeOf(key);
+  const text::NumberForm form = text::writtenNumber(text).form;
+  if (entry.number < 1 || entry.number > kNumbers) {
+    diagnostics.report(diag::ConstantOutOfRange, place)
+        << key << fmt::format("{0}.1 to {0}.{1}", entry.family, kNumbers);
+  } else if (form == text::NumberForm::None || form == text::NumberForm::Real) {
+    DiagBuilder report = diagnostics.report(diag::BadOperand, place);
+    report << text
+           << fmt::format("the value of {}, a whole number{}", key, entry.family == kTimer ? " of milliseconds" : "");
+    if (const auto time = frontend::foreignTime(text); time && entry.family == kTimer)
+      report.note(fmt::format("{} in milliseconds: {}", text, time->milliseconds()));
+  } else if (entry.value > entry.max) {
+    diagnostics.report(diag::ConstantOutOfRange, place)
+        << fmt::format("{} {}", key, text) << fmt::format("0 to {}", entry.max);
+  }
+}
 
 std::optional<uint64_t> periodOf(const frontend::CompileOptions& options) {
   const auto at = options.config.find("period_us");
@@ -61,13 +81,8 @@ void checkConfig(const frontend::CompileOptions& options, Diagnostics& diagnosti
       diagnostics.report(diag::ConstantOutOfRange, options.placeOf(kSlotSteps))
           << fmt::format("{} {}", kSlotSteps, steps->second) << nc::takesOf(row);
   }
-  for (const auto& [key, text] : options.config) {
-    const auto entry = entryOf(key, text);
-    if (!entry || isSound(*entry)) continue;
-    diagnostics.report(diag::ConstantOutOfRange, options.placeOf(key))
-        << fmt::format("{} {}", key, text)
-        << fmt::format("{}.1 to {}.{} with 0 to {}", entry->family, entry->family, kNumbers, entry->max);
-  }
+  for (const auto& [key, text] : options.config)
+    if (const auto entry = entryOf(key, text)) checkPreset(*entry, key, text, options, diagnostics);
 }
 
 std::optional<uint32_t> partsOf(const frontend::CompileOptions& options) {
@@ -98,7 +113,7 @@ std::vector<Preset> presetsOf(const frontend::CompileOptions& options) {
     const auto entry = entryOf(key, text);
     if (!entry) continue;
     const auto number = static_cast<int64_t>(entry->number);
-    const bool timer = entry->family == "tmr";
+    const bool timer = entry->family == kTimer;
     result.push_back({timer ? timerPreset(number) : counterPreset(number),
                       static_cast<uint32_t>(timer ? entry->value / timerUnitMs(number) : entry->value)});
   }

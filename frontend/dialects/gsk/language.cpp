@@ -38,7 +38,7 @@ const network::Language kLanguage = {
     .signals = nc::gskSignals,
     .levels = kLevels,
     .subprogram = "SUB",
-    .messageTexts = "give the texts of area A in a file: `config messages FILE`",
+    .messageTexts = "give the texts of area A in a file: `--config messages=FILE`, or in rung.toml messages = \"FILE\"",
     .maxSteps = 12000, // man. l.354
     .stackDepth = 9,   // ST0-ST8 (P11)
     .maxCallDepth = 8, // P46

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <charconv>
-#include <unordered_set>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -114,8 +114,9 @@ private:
       if (digits.starts_with('#')) report.meant(declaration.name.range, digits.substr(1));
     } else if (error != std::errc() || number < 1 || number > most) {
       diagnostics_.report(diag::ConstantOutOfRange, declaration.name.range) << digits << "1 to " + std::to_string(most);
-    } else if (!numbers_.insert(number + offset).second) {
-      diagnostics_.report(diag::DuplicateSymbol, declaration.name.range) << digits;
+    } else if (const auto [first, isNew] = numbers_.emplace(number + offset, declaration.range); !isNew) {
+      diagnostics_.report(diag::DuplicateSymbol, declaration.name.range).note(first->second, "the first one is here")
+          << fmt::format("{} {}", declaration.kind == ladder::DeclarationKind::Button ? "button" : "message", digits);
     } else {
       texts_.messages.push_back({number + offset, std::string(declaration.value.text)});
       return number;
@@ -183,9 +184,9 @@ private:
   TypedModule reported_; // rungs of modules that are none
   Texts texts_;
   TextKinds textKinds_;
-  std::unordered_set<uint32_t> numbers_; // of the texts
-  uint32_t drawn_ = 0;                   // rungs so far, over all files
-  bool nameless_ = false;                // rungs are in no known module, or were not read: MAIN may be among them
+  std::unordered_map<uint32_t, SourceRange> numbers_; // of the texts: their declarations
+  uint32_t drawn_ = 0;                                // rungs so far, over all files
+  bool nameless_ = false; // rungs are in no known module, or were not read: MAIN may be among them
 };
 
 std::unique_ptr<frontend::CheckedProgram> check(SourceManager& sources, std::span<const FileId> files,

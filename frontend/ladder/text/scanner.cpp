@@ -325,7 +325,9 @@ bool LineScanner::operand(Element& element, size_t begin, size_t end, std::strin
     badEnd_ = text_.find_first_of("])", end) + 1;
     return badCharacter(bad);
   }
-  if (word.find(' ') != std::string_view::npos) return severalWords(element, begin, end, forms);
+  // What is written for a comparison, a > 5, the dialect knows.
+  const bool compares = element.kind == ElementKind::Contact && word.find_first_of("<>=") != std::string_view::npos;
+  if (word.find(' ') != std::string_view::npos && !compares) return severalWords(element, begin, end, forms);
   if (word.empty()) return badElement(text_.find_first_of("])", end) + 1, forms);
   if (word[0] == '~' || word[0] == '/') return misplacedNegation(element, begin, end, forms);
   pushOperand(begin, end, false);

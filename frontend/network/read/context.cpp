@@ -156,6 +156,10 @@ bool noteLetter(std::string_view constant, DiagBuilder& report) {
 
 // How a constant of another language is written here; false where it is none.
 bool noteConstant(const UndeclaredName& use, DiagBuilder& report) {
+  if (const auto time = frontend::foreignTime(use.name)) {
+    report.note(fmt::format("{} in milliseconds: {}", use.name, time->milliseconds()));
+    return true;
+  }
   const std::optional<frontend::ForeignNumber> number = frontend::foreignNumber(use.name);
   if (!number) return noteLetter(use.name, report);
   const auto value = text::numberIn<uint64_t>(number->digits, static_cast<int>(number->base));
@@ -197,6 +201,14 @@ void explain(const Context& context, std::span<const UndeclaredName> uses, DiagB
     suggestName(context, uses, report);
   if (use.kind == UserName::Kind::Symbol && isOtherAddress(use.name))
     report.note("areas of this control: " + areasText(context.language));
+}
+
+// [x>5]: comparisons are functions.
+void reportComparison(Context& context, const Word& word) {
+  DiagBuilder report = context.diagnostics.report(diag::BadOperand, word.range);
+  report << word.text << "a bit";
+  if (const frontend::ForeignWord* function = frontend::findForeign(context.language.foreign, "CMP"))
+    report.note(fmt::format("a comparison is {}", function->here));
 }
 
 // A word that is an address is one also where the table has a signal of that name: T00 to T31.
@@ -387,6 +399,10 @@ bool checkWritable(Context& context, const Address& address, uint32_t length, So
 
 std::optional<NamedAddress> bitOperand(Context& context, const Word& word) {
   if (!word.range.valid()) return std::nullopt;
+  if (frontend::foreignComparison(word.text)) {
+    reportComparison(context, word);
+    return std::nullopt;
+  }
   const Found found = findAddress(context, word);
   if (!found.known) unknownOperand(context, word, UserName::Kind::Symbol, "a bit address, a signal or a declared name");
   if (!found.address) return std::nullopt;

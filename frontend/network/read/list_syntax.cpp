@@ -36,6 +36,9 @@ void reportSurplus(const Language& language, Command command, const Word& word, 
     report.note("a comment begins with ';'");
   else if (findCommand(language, word.text))
     report.note("each command has a line of its own");
+  else if (command == Command::Function)
+    report.note(fmt::format("its parameters follow on lines of their own: {} {}", language.nameOf(Command::Parameter),
+                            word.text));
 }
 
 } // namespace

@@ -164,6 +164,9 @@ void NetworkBuilder::checkConditions(const Row& row, Place at) {
   DiagBuilder report = context_.diagnostics.report(diag::WrongConditionCount, at.range);
   report << row.info.mnemonic << wanted << depth();
   if (!names.empty()) report.note(fmt::format("its conditions in order:{}", names));
+  if (wanted == 0 && !open_.empty())
+    report.note(open_.front(), fmt::format("the network that begins here has no output, such as {}",
+                                           context_.language.nameOf(Command::Out)));
   network_.bad = true;
 }
 

@@ -92,7 +92,8 @@ bool ParameterCheck::checkFormat(const Word& word, Param& param) {
 }
 
 bool ParameterCheck::checkNumber(const OperandInfo& info, const Word& word, Param& param) {
-  const auto number = constantWord(context_, word, "a number");
+  const auto number =
+      constantWord(context_, word, info.doc.empty() ? "a number" : fmt::format("a number ({})", info.doc));
   if (!number) return false;
   param.value = *number;
   if (param.value < info.min || param.value > info.max) {

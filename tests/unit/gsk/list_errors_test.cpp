@@ -244,9 +244,18 @@ TEST(GskConfig, WrongValues) {
   EXPECT_EQ(codes("tmr.1", "3145680"), "");
   EXPECT_EQ(codes("tmr.21", "3145680"), "- constant-out-of-range");
   EXPECT_EQ(codes("tmr.101", "8"), "- constant-out-of-range");
+  EXPECT_EQ(codes("tmr.1", "-8"), "- constant-out-of-range");
+  EXPECT_EQ(codes("tmr.1", "100ms"), "- bad-operand");
+  EXPECT_EQ(codes("ctr.1", "many"), "- bad-operand");
   EXPECT_EQ(codes("ctr.100", "65535"), "");
   EXPECT_EQ(codes("ctr.1", "65536"), "- constant-out-of-range");
   EXPECT_EQ(codes("param.17", "x"), "") << "the NC model's";
+}
+
+TEST(GskConfig, ATimeIsInMilliseconds) {
+  const std::string text = compileList("FUNC 0\nFUNC 1\n", {{{"tmr.1", "2s"}}})->text();
+  EXPECT_NE(text.find("'2s' is not the value of tmr.1, a whole number of milliseconds"), std::string::npos) << text;
+  EXPECT_NE(text.find("2s in milliseconds: 2000"), std::string::npos) << text;
 }
 
 TEST(GskList, HintsHowToMend) {

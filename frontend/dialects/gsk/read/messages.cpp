@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "frontend/dialects/gsk/language.h"
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/diag/gsk.h"
+#include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/source.h"
 
@@ -19,13 +21,16 @@ namespace {
 
 constexpr uint64_t kMessages = 256;
 
-// 8 x byte + bit + 1 of a bit in A (P57), or the number itself; nullopt for anything else.
+// Of a bit in A (P57).
+constexpr uint64_t messageOf(uint64_t byte, uint64_t bit) { return 8 * byte + bit + 1; }
+
+// Of the number itself or the bit; nullopt for anything else.
 std::optional<uint64_t> numberOf(std::string_view text) {
   if (const auto number = network::parseDigits(text)) return number;
   const auto split = network::splitAddress(kLanguage, text);
   if (!split || split->area != areas::kA || split->bit.size() != 1) return std::nullopt;
   if (split->bit[0] < '0' || split->bit[0] > '7') return std::nullopt;
-  return 8 * split->byte + static_cast<uint64_t>(split->bit[0] - '0') + 1;
+  return messageOf(split->byte, static_cast<uint64_t>(split->bit[0] - '0'));
 }
 
 class MessageReader {
@@ -72,8 +77,8 @@ private:
     }
     const auto [at, isNew] = texts_.emplace(static_cast<uint32_t>(number), Entry{text, word.range});
     if (!isNew)
-      diagnostics_.report(diag::DuplicateSymbol, word.range).note(at->second.range, "the first text of this message")
-          << word.text;
+      diagnostics_.report(diag::DuplicateSymbol, word.range).note(at->second.range, "the first one is here")
+          << fmt::format("message {}", word.text);
   }
 
   Diagnostics& diagnostics_;
@@ -101,6 +106,24 @@ std::vector<ir::MessageText> readMessages(SourceManager& sources, FileId program
     reader.line(words);
   }
   return reader.result();
+}
+
+void checkTexts(const network::Program& program, const std::vector<ir::MessageText>& texts, bool hasFile,
+                Diagnostics& diagnostics) {
+  std::set<uint64_t> known;
+  for (const ir::MessageText& text : texts) known.insert(text.number);
+  for (const network::Unit& unit : program.units)
+    for (const network::Network& network : unit.networks)
+      for (const network::CoilStep& coil : network.coils) {
+        if (coil.bit.area != areas::kA || coil.kind == network::Coil::Reset) continue;
+        const uint64_t number = messageOf(coil.bit.byte, coil.bit.bit);
+        if (!known.insert(number).second) continue;
+        DiagBuilder report = diagnostics.report(diag::MessageWithoutText, coil.range);
+        report << number;
+        if (hasFile) continue;
+        report.note(kLanguage.messageTexts);
+        return;
+      }
 }
 
 } // namespace rung::gsk

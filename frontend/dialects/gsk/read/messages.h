@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frontend/network/program.h"
 #include "ir/core/module.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
@@ -13,5 +14,9 @@ namespace rung::gsk {
 // `path` is relative to the folder of `program`. Reports what is wrong; what is right is in the result, by number.
 std::vector<ir::MessageText> readMessages(SourceManager& sources, FileId program, std::string_view path,
                                           Diagnostics& diagnostics);
+
+// Warns of coils that ask for a message without a text: of each message once; without a file of texts of the first.
+void checkTexts(const network::Program& program, const std::vector<ir::MessageText>& texts, bool hasFile,
+                Diagnostics& diagnostics);
 
 } // namespace rung::gsk

@@ -340,7 +340,10 @@ bool RungChecker::checkOperand(const Row& row, size_t index, const Operand& oper
     return false;
   }
   if (operand.form != kind.form) {
-    diagnostics_.report(diag::SymbolKindMismatch, range) << text << describe(operand.form) << describe(kind.form);
+    DiagBuilder report = diagnostics_.report(diag::SymbolKindMismatch, range);
+    report << text << describe(operand.form) << describe(kind.form);
+    const bool isWholeWord = operand.form == Form::Word && text.find(',') == std::string_view::npos;
+    if (isWholeWord && kind.form == Form::Bit) report.note(fmt::format("its first bit is {}.00", text));
     return false;
   }
   return checkRegister(row, index, operand);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "frontend/dialects/nct/rows/instructions.h"
 #include "frontend/ladder/text/fix.h"
 #include "frontend/sema/foreign_word.h"
 #include "ir/support/ascii.h"
@@ -56,6 +57,29 @@ std::optional<uint32_t> bitsAfterB(std::string_view text) {
 
 constexpr char kHexConstant[] = "a hexadecimal constant is written #${}";
 
+// A time is two operands of a timer.
+std::string timeNote(const frontend::ForeignTime& time) {
+  return fmt::format("a timer takes a time as two operands, a number and its unit (#0 ms, #1 s, #2 min, #3 h): #{} #{}",
+                     time.amount, static_cast<int>(time.unit));
+}
+
+// A constant that is written as in other languages becomes one of these.
+std::string comparedOperand(std::string_view text) {
+  if (isDecimalNumber(text)) return fmt::format("#{}", text);
+  return isRealNumber(text) ? fmt::format("*{}", text) : std::string(text);
+}
+
+// [x>5]: comparisons are boxes before the coil.
+void reportComparison(Diagnostics& diagnostics, const Word& word, const frontend::ForeignComparison& comparison) {
+  const std::string right = comparedOperand(comparison.right);
+  const frontend::ForeignWord* box = frontend::findForeign(foreignWords(), comparison.word);
+  const std::string_view integers = box->here;
+  const std::string_view mnemonic = right.starts_with('*') ? doublesOf(integers) : integers;
+  DiagBuilder report = diagnostics.report(diag::BadOperand, word.range);
+  report << word.text << "a bit or a word";
+  report.note(fmt::format("a comparison is a box: {{{} {} {}}}", mnemonic, comparison.left, right));
+}
+
 struct ConstantReader {
   const Word& word;
   std::string_view text;
@@ -71,7 +95,8 @@ struct ConstantReader {
       if (fixed != text) report.note("the decimal sign is a point: " + fixed);
       if (text.size() > 1 && allDigits(text.substr(1))) report.note("write " + fixed + ".0");
     }
-    if (text.starts_with('#') && text.find('.') != std::string_view::npos)
+    const bool isReal = text.starts_with('#') && text.find('.') != std::string_view::npos;
+    if (isReal && !frontend::foreignTime(text.substr(1)))
       report.note("'#' begins an integer; a real number is written *" + std::string(text.substr(1)));
     else if (text.starts_with('#'))
       noteConstant(report, isOwnHex(text) ? text : text.substr(1), sources, rangeOf(word, text));
@@ -171,7 +196,7 @@ private:
       return nullptr;
     }
     const Symbol* found = symbols_.use(name, rangeOf(word_, name));
-    if (found == nullptr)
+    if (found == nullptr && !symbols_.wasRefused(name))
       symbols_.noteUndeclared(name, rangeOf(word_, name), name.data() == word_.text.data() ? word_.text : "");
     return found == nullptr || found->kind == SymbolKind::Bad ? nullptr : found;
   }
@@ -313,6 +338,8 @@ void noteConstant(DiagBuilder& report, std::string_view text, const SourceManage
     report.note(fmt::format("a constant is written #{}", number));
   } else if (isRealNumber(text)) {
     report.note(fmt::format("a real number is written *{}", number));
+  } else if (const auto time = frontend::foreignTime(text)) {
+    report.note(timeNote(*time));
   }
 }
 
@@ -337,6 +364,10 @@ Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagno
     return operand;
   }
   if (symbols.wasRefused(word.text)) return operand; // -K1, 1M1: its declaration was reported
+  if (const auto comparison = frontend::foreignComparison(word.text)) {
+    reportComparison(diagnostics, word, *comparison);
+    return operand;
+  }
   std::string_view text = word.text;
   for (; !text.empty() && std::string_view("@%!").find(text[0]) != std::string_view::npos; text.remove_prefix(1)) {
     if (text[0] == '!')
@@ -350,7 +381,7 @@ Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagno
     operand.form = constant ? Form::Constant : Form::Bad;
     return operand;
   }
-  if (text.starts_with('-') || text.starts_with('+') || frontend::foreignNumber(text)) {
+  if (text.starts_with('-') || text.starts_with('+') || frontend::foreignNumber(text) || frontend::foreignTime(text)) {
     DiagBuilder report = diagnostics.report(diag::ConstantFormat, rangeOf(word, text));
     report << text;
     noteConstant(report, text, symbols.sources(), rangeOf(word, text));

@@ -2,7 +2,10 @@
 #include "frontend/dialects/nct/read/symbols.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "frontend/ladder/text/fix.h"
@@ -11,6 +14,7 @@
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/similar.h"
+#include "rtlib/text/number.h"
 
 namespace rung::nct {
 namespace {
@@ -25,18 +29,19 @@ struct Alias {
 // Misprints of the manual that programs may have taken over (l.8220, l.8796).
 constexpr Alias kAliases[] = {{"AP_DISP", "AP_DISPD"}, {"SP_SENDD", "SP_SEND"}};
 
+constexpr std::string_view kNameRule = "a name has letters, digits and _, and begins with a letter or _";
+bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_'; }
+
 bool isName(std::string_view text) {
-  return !text.empty() && (isLetter(text[0]) || text[0] == '_') &&
-         text.find_first_of(".,:#*@%!/\"") == std::string_view::npos;
+  return !text.empty() && !isDigit(text[0]) && std::ranges::all_of(text, isNameChar);
 }
 
 // What a designation of IEC 81346 or another bad name may become: K1 of -K1, _1M1 of 1M1; empty when that is not a
 // name.
 std::string likeName(std::string_view text) {
-  const auto isPart = [](char c) { return isLetter(c) || isDigit(c) || c == '_'; };
   std::string name;
   for (const char c : text) {
-    if (isPart(c))
+    if (isNameChar(c))
       name += c;
     else if (!name.empty())
       name += '_';
@@ -49,6 +54,16 @@ std::string likeName(std::string_view text) {
 bool isOtherAddress(std::string_view text) {
   const size_t letters = std::min(text.find_first_not_of("ABDEIMQWXYabdeimqwxy"), text.size());
   return letters >= 1 && letters <= 2 && letters < text.size() && isDigit(text[letters]);
+}
+
+// INP0.5, OUT12: a bit or a word of the control's inputs and outputs whose numbers lack zeros, and what is meant.
+std::string withZeros(std::string_view operand) {
+  const std::string_view name = operand.substr(0, operand.find('.'));
+  const auto number = text::numberIn<uint32_t>(name.substr(std::min<size_t>(3, name.size())));
+  if (!number || *number > 999 || !(name.starts_with("INP") || name.starts_with("OUT"))) return {};
+  const std::string word = fmt::format("{}{:03}", name.substr(0, 3), *number);
+  const auto bit = text::numberIn<uint32_t>(operand.substr(std::min(name.size() + 1, operand.size())));
+  return bit ? fmt::format("{}.{:02}", word, *bit) : word;
 }
 
 constexpr std::string_view kAddresses = "inputs and outputs of the control are bits of INP000, INP001, ... and OUT000, "
@@ -152,9 +167,14 @@ void SymbolTable::explain(DiagBuilder& report, std::span<const Undeclared> uses)
   if (!diagnostics_.suggests()) return;
   const Undeclared& use = uses.front();
   const std::string_view name = use.name;
+  if (const std::string meant = withZeros(use.whole.empty() ? name : use.whole); !meant.empty()) {
+    report.note(fmt::format("inputs and outputs are numbered with three digits, their bits with two: {}", meant));
+    return;
+  }
   ladder::suggest(report, sources_, frontend::placesOf(uses), similarTo(name));
   if (isOtherAddress(name)) report.note(kAddresses);
   noteConstant(report, name, sources_, {});
+  if (!isName(name)) report.note(kNameRule);
   // (S7001.00) is a coil of the name S7001.
   const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && !use.whole.empty() &&
                      (isDigit(name[1]) || find(name.substr(1)) != nullptr);
@@ -179,7 +199,7 @@ void SymbolTable::declare(const ladder::Declaration& declaration) {
     refused_.insert(name);
     DiagBuilder report = diagnostics_.report(diag::BadOperand, declaration.name.range);
     report << name << "a name";
-    report.note("a name begins with a letter or _, and has none of the characters . , : # * @ % ! / \"");
+    report.note(kNameRule);
     if (const std::string like = likeName(name); !like.empty()) report.note("for instance " + like);
     return;
   }

@@ -36,7 +36,7 @@ inline constexpr Row kTimerShape = {
                             "time that remains, in milliseconds"},
                           O{"Set Value", &kinds::kDecimal, Access::Read, "at most 2147483 s, 35791 min or 596 h", 0,
                             INT32_MAX},
-                          O{"Time Basis", &kinds::kDecimal, Access::Read, "0 msec, 1 sec, 2 min, 3 hours", 0, 3}},
+                          O{"Time Basis", &kinds::kDecimal, Access::Read, "#0 ms, #1 s, #2 min, #3 h", 0, 3}},
              .output = Output::Always,
              .stateful = true},
     .lower = lowerTimer,

@@ -115,12 +115,17 @@ class CheckNames(unittest.TestCase):
         other = NCT.format(start=" ; allow(never-read)", spare="")
         self.assertIn("START", [name for _, name in self.warnings("p.lad", other)], "only what is named is allowed")
 
+    def test_each_half_of_a_double_has_its_own_sides(self):
+        text = ("dialect nct\nmodule MAIN\nsymbol GO INP000.00\nsymbol D 6010\nsymbol LOST 6020\nsymbol HALF 6031\nrung\n|--[GO]--{MOVF D *2.5}\nrung\n"
+                "|--[GO]--{MOVF LOST *2.5}\nrung\n|--[GO]--{MOV OUT000 6011}\nrung\n|--[GO]--{MOVF 6030 *1.0}\nrung\n|--[HALF]--(OUT010.00)\nrung\n|--{END}\n")
+        self.assertEqual(self.warnings("p.lad", text), [("never-read", "LOST")], "the upper word of D is read")
+
     def test_an_index_may_lead_anywhere(self):
         text = "dialect nct\nmodule MAIN\nsymbol A 7001.00\nsymbol I 7002\nrung\n|--[A]--[7000.00,I]--{MOV 7010,I #1}\nrung\n|--{END}\n"
         self.assertEqual(self.warnings("p.lad", text), [])
 
     def test_gsk(self):
-        self.assertEqual(self.warnings("p.pmc", GSK), [("never-reset", "ALARM"), ("never-reset", "LOST"), ("never-read", "LOST")],
+        self.assertEqual(self.warnings("p.pmc", GSK), [("never-reset", "ALARM"), ("never-reset", "LOST"), ("never-read", "LOST"), ("message-without-text", "SET ALARM")],
                          "inputs, outputs, requests of messages and what is kept have their other side in the control")
 
     def test_technol(self):

@@ -56,20 +56,22 @@ struct Sides {
 class Checker {
 public:
   Checker(const SourceManager& sources, const Analysis& analysis, const CrossReference& reference)
-      : sources_(sources), analysis_(analysis), reference_(reference), used_(analysis.definitions().size()) {
+      : sources_(sources), analysis_(analysis), reference_(reference), used_(analysis.definitions().size()),
+        reach_(analysis.definitions().size()) {
     for (const frontend::NameUse& name : analysis.names()) use(name.definition);
     for (const OperandUse& operand : analysis.operands())
-      if (const auto place = rangeOf(reference.program(), operand.place)) operands_.push_back({*place, &operand});
+      if (const auto place = rangeOf(reference.program(), operand.place)) add({*place, &operand});
     std::ranges::stable_sort(operands_, {}, [](const Placed& one) { return startOf(one.place); });
     for (const Placed& one : operands_) longest_ = std::max(longest_, one.place.count);
   }
 
-  // Of a place that the program names. `used`: also otherwise than as an operand.
-  std::vector<Oddity> odditiesOf(const ir::BitRange& place, bool used) const;
+  // Of a place that the program names. `used`: also otherwise than as an operand. `reach`: the bits of the widest
+  // operand by that name, such as a double, of which each part may be read or written by itself.
+  std::vector<Oddity> odditiesOf(const ir::BitRange& place, bool used, uint32_t reach) const;
   std::vector<OddName> names() {
     for (uint32_t i = 0; i < used_.size(); ++i) {
       const Definition& definition = analysis_.definitions()[i];
-      if (definition.range.valid()) check(definition, used_[i]);
+      if (definition.range.valid()) check(definition, used_[i], reach_[i]);
     }
     return std::move(found_);
   }
@@ -92,7 +94,14 @@ private:
     const Definition& definition = analysis_.definitions()[index];
     if (definition.range.valid()) settled_.insert(placeOf(definition));
   }
-  void check(const Definition& definition, bool used);
+  void add(const Placed& one) {
+    operands_.push_back(one);
+    const uint32_t base = one.operand->base;
+    if (base == frontend::kNoDefinition) return;
+    const bool begins = one.operand->place.firstBit == analysis_.definitions()[base].place.firstBit;
+    if (begins) reach_[base] = std::max(reach_[base], one.place.count);
+  }
+  void check(const Definition& definition, bool used, uint32_t reach);
   Sides operandsAt(const ir::BitRange& place) const;
   using Line = std::pair<std::string_view, uint32_t>;
   std::vector<Line> linesOf(const std::vector<SourceRange>& operands) const;
@@ -106,8 +115,9 @@ private:
   const Analysis& analysis_;
   const CrossReference& reference_;
   std::vector<OddName> found_;
-  std::vector<bool> used_;  // by definition
-  std::set<Place> settled_; // of definitions that are used, or have been reported as unused
+  std::vector<bool> used_;      // by definition
+  std::vector<uint32_t> reach_; // by definition, see odditiesOf
+  std::set<Place> settled_;     // of definitions that are used, or have been reported as unused
   std::vector<Placed> operands_;
   uint32_t longest_ = 1; // bits of an operand's place
 };
@@ -173,9 +183,13 @@ void Checker::report(const Oddity& oddity, const Definition& definition) {
   found_.push_back({&definition, oddity.code, oddity.operand});
 }
 
-std::vector<Oddity> Checker::odditiesOf(const ir::BitRange& place, bool used) const {
+std::vector<Oddity> Checker::odditiesOf(const ir::BitRange& place, bool used, uint32_t reach) const {
   std::vector<Oddity> found;
   Sides sides = operandsAt(place);
+  if (reach > place.count) {
+    const Sides whole = operandsAt({place.space, place.first, reach});
+    sides.add(whole.read, whole.written);
+  }
   const bool unused = !used && sides.operands.empty();
   if (place.count == 1 && sides.written && !mayChange(place, sides)) found.push_back({diag::NeverReset, sides.set});
   if (!unused && sides.read == sides.written) return found;
@@ -189,14 +203,14 @@ std::vector<Oddity> Checker::odditiesOf(const ir::BitRange& place, bool used) co
   return found;
 }
 
-void Checker::check(const Definition& definition, bool used) {
+void Checker::check(const Definition& definition, bool used, uint32_t reach) {
   const std::optional<ir::BitRange> place = rangeOf(reference_.program(), definition.place);
   if (!place) {
     const bool isTarget = analysis_.targetAt(definition.range) != nullptr; // a label, a procedure
     if (!used && !definition.usedByControl && (definition.isConstant() || isTarget)) reportUnused(definition);
     return;
   }
-  for (const Oddity& oddity : odditiesOf(*place, used))
+  for (const Oddity& oddity : odditiesOf(*place, used, reach))
     oddity.code == diag::UnusedName ? reportUnused(definition) : report(oddity, definition);
 }
 
@@ -275,7 +289,7 @@ void markOdd(const SourceManager& sources, const Analysis& analysis, const Cross
       continue;
     }
     if (!named.meets(bits) || ofControl.meets(bits)) continue;
-    for (const Oddity& oddity : checker.odditiesOf(bits, true)) add(entry.odd, oddity.code);
+    for (const Oddity& oddity : checker.odditiesOf(bits, true, bits.count)) add(entry.odd, oddity.code);
   }
 }
 

@@ -332,6 +332,22 @@ STOP
                 status, lines = self.technol_pair(data, main, old, new)
                 self.assertEqual((status, [line.split(":")[0] for line in lines]), (OTHERWISE, sorted((f"removed name {old}", f"added name {new}"), key=lambda line: line.split()[2])))
 
+    def test_the_name_of_a_mechanism(self):
+        status, text = self.diff(self.TECHNOL, re.sub(r"\bALFA\b", "ZULU", self.TECHNOL), "--dialect", "technol", ending="plc")
+        lines = text.splitlines()
+        self.assertEqual((status, sorted(line.split(":")[0] for line in lines[:-1])), (OTHERWISE, ["added name ZULU", "removed name ALFA"]), text)
+        self.assertRegex(lines[-1], r"^rungs: 0 changed, 0 added, 0 removed, 0 moved, \d+ unchanged$")
+
+    def test_one_variable_more_and_another_name_in_one_place(self):
+        data = "FIRST: DS 2\nN1: DS 2\n"
+        main = "ONE:    LOD WORD.FIRST\n        STO WORD.N1\nTWO:    LOD WORD.N1\n        INR\n        STO WORD.FIRST\n        JL1 ONE\n        JL1 TWO\n"
+        before = self.technol_program(data, main)
+        for now in ("FIRST: DS 2\nNEW: DS 2\nN9: DS 2\n", "FIRST: DS 2\nN9: DS 2\nNEW: DS 2\n"):
+            with self.subTest(now):
+                added = main.replace("WORD.N1", "WORD.N9") + "THREE:  LOD CNST.7\n        STO WORD.NEW\n        JL0 THREE\n"
+                _, text = self.diff(before, self.technol_program(now, added), ending="plc")
+                self.assertRegex(text.splitlines()[-1], r"^rungs: 0 changed, 1 added, 0 removed, 0 moved, \d+ unchanged$", text)
+
     def test_line_numbers_that_the_program_reads(self):
         mechanism = "        MECH_BEGIN ALFA\n        EX\n        EX\n        MECH_END ALFA\n"
         reads = "        LOD WORD.ALFA_LINE\n        STO WORD.N1\n"

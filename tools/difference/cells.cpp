@@ -5,6 +5,7 @@
 #include <compare>
 #include <fmt/format.h>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <span>
 #include <tuple>
@@ -12,7 +13,10 @@
 #include <unordered_set>
 
 #include "ir/core/memory_use.h"
+#include "ir/core/op_info.h"
 #include "ir/core/ops.h"
+#include "ir/support/hash.h"
+#include "ir/support/put.h"
 #include "rtlib/text/letters.h"
 #include "rung/types.hpp"
 
@@ -55,36 +59,115 @@ struct Form {
   auto operator<=>(const Form&) const = default;
 };
 
+// What rungs do with a cell, apart from all names: which operation of what rung, sorted.
+using Roles = std::vector<uint64_t>;
+
+struct NamedCell {
+  std::string name;
+  Form form; // without what precedes it
+  Roles roles;
+};
+
+// The operations of a rung without places and numbers, which depend on what else there is.
+uint64_t shapeOf(const Rung& rung) {
+  std::string shape;
+  for (const Op& op : rung.ops) {
+    put(shape, "{} {}", static_cast<int>(op.code), static_cast<int>(op.type));
+    for (int i = 0; i < op.argCount; ++i) put(shape, " {}", arg(rung, op, i).index);
+  }
+  return hashBytes(shape);
+}
+
+class RoleFinder {
+public:
+  explicit RoleFinder(const Module& module) {
+    for (const Routine& routine : module.routines)
+      for (const Rung& rung : routine.rungs)
+        if (rung.number != 0) add(module, rung);
+  }
+  Roles ofPlace(SpaceId space, uint64_t bit) const { return sorted(places_, std::pair(space.index, bit)); }
+  Roles ofSlot(SlotId slot) const { return sorted(slots_, slot.index); }
+
+private:
+  void add(const Module& module, const Rung& rung) {
+    const uint64_t shape = shapeOf(rung);
+    for (size_t i = 0; i < rung.ops.size(); ++i) {
+      const Op& op = rung.ops[i];
+      const uint64_t role = shape + i;
+      if (opInfo(op.code).attr == Attr::Slot) slots_[op.ref].push_back(role);
+      if (const std::optional<Use> use = useOf(module, op); use && !use->computed)
+        places_[{use->place.space.index, use->place.first}].push_back(role);
+    }
+  }
+  static Roles sorted(const auto& roles, const auto& key) {
+    const auto at = roles.find(key);
+    Roles found = at == roles.end() ? Roles() : at->second;
+    std::ranges::sort(found);
+    return found;
+  }
+
+  std::map<std::pair<uint32_t, uint64_t>, Roles> places_; // by space and first bit
+  std::map<uint32_t, Roles> slots_;
+};
+
+// Cells, and the state by which mechanisms continue, which has their names.
+std::vector<NamedCell> namedCellsOf(const Version& version) {
+  const Module& module = version.module;
+  const RoleFinder roles(module);
+  std::vector<NamedCell> cells;
+  for (const Symbol* cell : cellsOf(version))
+    cells.push_back({cell->name,
+                     {.space = module.at(cell->space).name,
+                      .type = cell->type,
+                      .count = cell->count,
+                      .bit = cell->bit,
+                      .hidden = (cell->flags & RUNG_SYMBOL_HIDDEN) != 0},
+                     roles.ofPlace(cell->space, positionOf(*cell))});
+  for (const Continuation& continuation : module.continuations)
+    if (continuation.slot.valid())
+      cells.push_back(
+          {module.slots[continuation.slot.index].key, {.space = "continuations"}, roles.ofSlot(continuation.slot)});
+  return cells;
+}
+
 using Names = std::unordered_set<std::string>;
 
-Names namesOf(const std::vector<const Symbol*>& cells) {
+Names namesOf(const std::vector<NamedCell>& cells) {
   Names names;
-  for (const Symbol* cell : cells) names.insert(cell->name);
+  for (const NamedCell& cell : cells) names.insert(cell.name);
   return names;
 }
 
 // The cells whose names the other version does not have, in their order.
-std::map<Form, std::vector<std::string>> othersOf(const Module& module, const std::vector<const Symbol*>& cells,
-                                                  const Names& there) {
-  std::map<Form, std::vector<std::string>> others;
-  std::string previous;
-  SpaceId space;
-  for (const Symbol* cell : cells) {
-    if (cell->space != space) previous.clear();
-    space = cell->space;
-    if (there.contains(cell->name)) {
-      previous = cell->name;
+std::map<Form, std::vector<const NamedCell*>> othersOf(const std::vector<NamedCell>& cells, const Names& there) {
+  std::map<Form, std::vector<const NamedCell*>> others;
+  Form previous;
+  for (const NamedCell& cell : cells) {
+    if (cell.form.space != previous.space) previous = {.space = cell.form.space};
+    if (there.contains(cell.name)) {
+      previous.previous = cell.name;
       continue;
     }
-    const Form form{.space = module.at(cell->space).name,
-                    .previous = previous,
-                    .type = cell->type,
-                    .count = cell->count,
-                    .bit = cell->bit,
-                    .hidden = (cell->flags & RUNG_SYMBOL_HIDDEN) != 0};
-    others[form].push_back(cell->name);
+    Form form = cell.form;
+    form.previous = previous.previous;
+    others[form].push_back(&cell);
   }
   return others;
+}
+
+// First those with which rungs do the same, then the rest in their order.
+void pairUp(std::vector<const NamedCell*> before, std::vector<const NamedCell*> after, FormerNames& former) {
+  std::map<Roles, std::vector<const NamedCell*>> byRoles; // the first one last
+  for (const NamedCell* cell : before | std::views::reverse) byRoles[cell->roles].push_back(cell);
+  std::erase_if(after, [&](const NamedCell* cell) {
+    const auto at = byRoles.find(cell->roles);
+    if (at == byRoles.end() || at->second.empty()) return false;
+    former.emplace(cell->name, at->second.back()->name);
+    std::erase(before, at->second.back());
+    at->second.pop_back();
+    return true;
+  });
+  for (size_t i = 0; i < std::min(before.size(), after.size()); ++i) former.emplace(after[i]->name, before[i]->name);
 }
 
 // ---- bytes that are used as a whole -------------------------------------------------------------------------------
@@ -259,17 +342,14 @@ private:
 } // namespace
 
 FormerNames formerNames(const Version& before, const Version& after) {
-  const std::vector<const Symbol*> old = cellsOf(before), now = cellsOf(after);
+  const std::vector<NamedCell> old = namedCellsOf(before), now = namedCellsOf(after);
   const Names oldNames = namesOf(old), newNames = namesOf(now);
   FormerNames former;
   for (const std::string& name : newNames)
     if (oldNames.contains(name)) former.emplace(name, name);
-  const auto gone = othersOf(before.module, old, newNames);
-  for (const auto& [form, names] : othersOf(after.module, now, oldNames)) {
-    const auto at = gone.find(form);
-    if (at == gone.end()) continue;
-    for (size_t i = 0; i < std::min(names.size(), at->second.size()); ++i) former.emplace(names[i], at->second[i]);
-  }
+  const auto gone = othersOf(old, newNames);
+  for (const auto& [form, cells] : othersOf(now, oldNames))
+    if (const auto at = gone.find(form); at != gone.end()) pairUp(at->second, cells, former);
   return former;
 }
 

@@ -9,9 +9,9 @@
 
 namespace rung::difference {
 
-// The former name of each cell that both versions have, by its name now. A name that only one version has belongs to a
-// cell by another name in the other if it follows the same cell there and is of the same form: which of them it is
-// makes no difference, as long as each is one.
+// The former name of each cell that both versions have, by its name now; and of the state by which a mechanism
+// continues, by its key. A name that only one version has belongs to a cell by another name in the other if it follows
+// the same cell there and is of the same form: of several the one with which rungs do the same.
 using FormerNames = std::map<std::string, std::string>;
 
 FormerNames formerNames(const Version& before, const Version& after);

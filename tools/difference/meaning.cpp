@@ -229,7 +229,7 @@ std::vector<bool> sharedSlots(const Module& module) {
 class Meanings {
 public:
   Meanings(const Module& module, const GivenNumbers& given, const FormerNames& former, std::vector<bool> shared)
-      : module_(module), given_(given), drawing_(module), ways_(module), places_(module, former),
+      : module_(module), given_(given), former_(former), drawing_(module), ways_(module), places_(module, former),
         shared_(std::move(shared)) {}
 
   std::vector<DrawnRung> run() {
@@ -389,6 +389,7 @@ private:
   void addSlot(uint32_t slot, std::string& out) {
     const Slot& info = module_.slots[slot];
     if (shared_[slot]) {
+      if (const auto known = former_.find(info.key); known != former_.end()) return put(out, " {}", known->second);
       std::string_view key = info.key;
       if (key.starts_with(routine_)) key.remove_prefix(routine_.size()); // a subroutine by another name is the same
       return put(out, " {}", withoutOrdinals(key));
@@ -399,6 +400,7 @@ private:
 
   const Module& module_;
   const GivenNumbers& given_;
+  const FormerNames& former_;
   const Drawing drawing_;
   const WayCells ways_;
   const PlaceTexts places_;

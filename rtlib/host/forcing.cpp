@@ -28,14 +28,14 @@ void Forcing::add(const ForcedCell& cell) {
   }
   if (ref.kind == RefKind::Bit) {
     const auto mask = static_cast<uint8_t>(1u << ref.bit);
-    addByte(ref.space, ref.byte, mask, (cell.bits & 1) != 0 ? mask : 0);
+    addByte(cell.name, ref.space, ref.byte, mask, (cell.bits & 1) != 0 ? mask : 0);
     return;
   }
   for (uint32_t i = 0; i < ref.width / 8u; ++i)
-    addByte(ref.space, ref.byte + i, 0xFF, static_cast<uint8_t>(cell.bits >> (8 * i)));
+    addByte(cell.name, ref.space, ref.byte + i, 0xFF, static_cast<uint8_t>(cell.bits >> (8 * i)));
 }
 
-void Forcing::addByte(uint32_t space, uint32_t byte, uint8_t mask, uint8_t value) {
+void Forcing::addByte(std::string_view name, uint32_t space, uint32_t byte, uint8_t mask, uint8_t value) {
   const rt::Memory memory(program_, nullptr);
   for (uint32_t bit = 0; bit < 8; ++bit) {
     if ((mask >> bit & 1) == 0) continue;
@@ -45,18 +45,19 @@ void Forcing::addByte(uint32_t space, uint32_t byte, uint8_t mask, uint8_t value
       return;
     }
     const auto held = static_cast<uint8_t>(1u << place.bit());
-    hold(place.offset(), {.mask = held, .value = (value >> bit & 1) != 0 ? held : uint8_t{0}});
+    hold(name, place.offset(), {.mask = held, .value = (value >> bit & 1) != 0 ? held : uint8_t{0}});
   }
 }
 
-void Forcing::hold(uint32_t offset, Bits bits) {
+void Forcing::hold(std::string_view name, uint32_t offset, Bits bit) {
   Bits& held = bits_[offset];
-  const auto both = static_cast<uint8_t>(held.mask & bits.mask);
-  if (((held.value ^ bits.value) & both) != 0) problem_ = "two forces want different values in one place";
-  if (both == bits.mask) return;
-  held.mask |= bits.mask;
-  held.value = static_cast<uint8_t>((held.value & ~bits.mask) | bits.value);
-  forCopiesOf(program_, offset, [&](uint32_t copied) { hold(copied, bits); });
+  const auto [holder, isNew] = holders_.try_emplace({offset, bit.mask}, name);
+  if (((held.value ^ bit.value) & held.mask & bit.mask) != 0)
+    problem_ = "two forces want different values in one place: " + holder->second + " and " + std::string(name);
+  if (!isNew) return;
+  held.mask |= bit.mask;
+  held.value = static_cast<uint8_t>((held.value & ~bit.mask) | bit.value);
+  forCopiesOf(program_, offset, [&](uint32_t copied) { hold(name, copied, bit); });
 }
 
 // The same bits as spaces have them.

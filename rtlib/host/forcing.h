@@ -8,6 +8,8 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rtlib/core/runner.h"
@@ -16,8 +18,9 @@
 namespace rung::host {
 
 struct ForcedCell {
-  Ref ref;           // a Bit, Int or Real; of an array its first element
-  uint64_t bits = 0; // the value; of an integer its lowest bits
+  Ref ref;                    // a Bit, Int or Real; of an array its first element
+  uint64_t bits = 0;          // the value; of an integer its lowest bits
+  std::string_view name = {}; // for messages
 };
 
 class Forcing {
@@ -43,14 +46,15 @@ private:
     uint8_t value = 0;
   };
   void add(const ForcedCell& cell);
-  void addByte(uint32_t space, uint32_t byte, uint8_t mask, uint8_t value);
-  void hold(uint32_t offset, Bits bits);
+  void addByte(std::string_view name, uint32_t space, uint32_t byte, uint8_t mask, uint8_t value);
+  void hold(std::string_view name, uint32_t offset, Bits bit);
   void nameBytes();
   bool isWritten(uint32_t offset, uint8_t mask) const;
 
   const rung_program& program_;
   std::string problem_;
-  std::map<uint32_t, Bits> bits_; // by offset in the block
+  std::map<uint32_t, Bits> bits_;                               // by offset in the block
+  std::map<std::pair<uint32_t, uint8_t>, std::string> holders_; // by offset and mask: which force holds the bit
   std::vector<rt::ForcedBits> held_;
   std::vector<rung_forced_byte> bytes_;
   bool needsCode_ = false;

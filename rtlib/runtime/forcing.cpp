@@ -81,10 +81,10 @@ int32_t locate(const rung_instance& instance, const rung_program& program, const
                 wanted.name, program.name);
   if (read.type == RUNG_TYPE_TEXT || read.ref.kind == host::RefKind::Constant)
     return fail(RUNG_WRONG_TYPE, "%s is a text or a constant: it cannot be forced", wanted.name);
-  places.push_back({.ref = read.ref, .bits = bitsOf(read, wanted.value)});
+  places.push_back({.ref = read.ref, .bits = bitsOf(read, wanted.value), .name = wanted.name});
   const LocatedCell written = locateCell(*instance.around, program, {wanted.name, RUNG_WRITE | access});
   if (written.state != CellState::Gone && written.state != CellState::Retyped && !(written.ref == read.ref))
-    places.push_back({.ref = written.ref, .bits = bitsOf(written, wanted.value)});
+    places.push_back({.ref = written.ref, .bits = bitsOf(written, wanted.value), .name = wanted.name});
   force = {.name = wanted.name,
            .owner = wanted.owner != nullptr ? wanted.owner : "",
            .type = read.type,

@@ -267,7 +267,7 @@ TEST_F(Forcing, BadArguments) {
   EXPECT_EQ(failing({cell("NOTE", 1)}), RUNG_WRONG_TYPE);
   EXPECT_EQ(failing({cell("LIMIT", 1)}), RUNG_WRONG_TYPE);
   EXPECT_EQ(failing({cell("DOOR", 1), cell("PORT", 0)}), RUNG_BAD_ARGUMENT);
-  EXPECT_THAT(rung_error_text(), HasSubstr("different values"));
+  EXPECT_THAT(rung_error_text(), HasSubstr("different values in one place: DOOR and PORT"));
   const rung::Instance other(image_);
   const rung::Forces open = forces({cell("DOOR", 1), cell("PORT", 8)});
   EXPECT_EQ(rung_instance_force(other.handle(), open.handle()), RUNG_WRONG_STATE) << "off";

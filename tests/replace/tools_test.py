@@ -136,14 +136,14 @@ expect_no_change
         self.fails("program lamp.lad\nscan\nexpect_no_change\n", "a.scn:3: no program has been replaced")
 
     def test_mistakes(self):
-        form = "expect_change new|removed|moved|retyped|released [state] NAME | expect_change renamed FORMER NAME"
+        form = "expect_change new|removed|moved|retyped|released|cut [state] NAME | expect_change renamed FORMER NAME"
         self.file("wrong.lad", LAMP.replace("(LAMP)", "(LUMP)"))
         self.file("other.pmc", GSK)
         self.fails("program lamp.lad\nreplace\nexpect_change\nexpect_change gone A\nexpect_change renamed A\n"
                    "expect_change new A B\nexpect_no_change A\nreplace wrong.lad\nreplace other.pmc\n",
                    "a.scn:2: expected a file (the statement is: replace FILE…)",
-                   f"a.scn:3: expected new, removed, moved, retyped, released or renamed (the statement is: {form})",
-                   "a.scn:4: expected new, removed, moved, retyped, released or renamed, found 'gone'",
+                   f"a.scn:3: expected new, removed, moved, retyped, released, cut or renamed (the statement is: {form})",
+                   "a.scn:4: expected new, removed, moved, retyped, released, cut or renamed, found 'gone'",
                    "a.scn:5: expected the new name", "a.scn:6: unexpected 'B' after the statement",
                    "a.scn:7: unexpected 'A' after the statement",
                    "a.scn:8: the program has errors:\nwrong.lad:13:", "error: 'LUMP' is not declared [undeclared-symbol]",

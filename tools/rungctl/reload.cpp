@@ -24,6 +24,8 @@ using nlohmann::json;
 
 namespace {
 
+constexpr char kCutNote[] = ": its new place has no room for all its contents, the rest is lost";
+
 std::string reportOf(const json& answer) {
   std::string text;
   for (const json& rung : answer.value("rungs", json::array())) {
@@ -33,8 +35,9 @@ std::string reportOf(const json& answer) {
                     title.empty() ? "" : " \"" + shown(rung["title"]) + "\"", shown(rung["file"]), shown(rung["line"]));
   }
   for (const json& change : answer.value("changes", json::array()))
-    text += fmt::format("{} {}{}\n", shown(change["kind"]), shown(change["name"]),
-                        change.value("former", "").empty() ? "" : " (was " + shown(change["former"]) + ")");
+    text += fmt::format("{} {}{}{}\n", shown(change["kind"]), shown(change["name"]),
+                        change.value("former", "").empty() ? "" : " (was " + shown(change["former"]) + ")",
+                        change.value("kind", "") == "cut" ? kCutNote : "");
   for (const json& pin : answer.value("pins", json::array())) text += shown(pin) + "\n";
   text += fmt::format("kept: {} names, {} states of edges, timers and counters\n", answer.value("kept_cells", 0),
                       answer.value("kept_states", 0));

@@ -9,6 +9,7 @@ namespace rung::scenario {
 namespace {
 
 constexpr size_t kListed = 8; // changes in a message
+constexpr char kCutNote[] = ": its new place has no room for all its contents, the rest is lost";
 
 std::string counted(uint32_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
@@ -70,7 +71,8 @@ std::string ReplaceReport::expectNone() const {
 std::vector<std::string> ReplaceReport::lines() const {
   std::vector<std::string> lines = {
       fmt::format("kept {} and {}", counted(keptCells, "variable"), counted(keptStates, "internal state"))};
-  for (const host::StateChange& change : changes) lines.push_back(textOf(change));
+  for (const host::StateChange& change : changes)
+    lines.push_back(textOf(change) + (change.kind == host::ChangeKind::Cut ? kCutNote : ""));
   lines.push_back("a slice may last " + bound);
   return lines;
 }

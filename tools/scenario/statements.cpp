@@ -247,7 +247,7 @@ const P::Row P::kRows[] = {
      Kind::Replace,
      &P::program},
     {{"expect_change",
-      "expect_change new|removed|moved|retyped|released [state] NAME | expect_change renamed FORMER NAME",
+      "expect_change new|removed|moved|retyped|released|cut [state] NAME | expect_change renamed FORMER NAME",
       "the replacement has made this change to a variable, or to internal state"},
      Kind::ExpectChange,
      &P::expectChange},
@@ -323,9 +323,10 @@ bool LineParser::print() {
 // A cell may be called "state", too.
 bool LineParser::expectChange() {
   std::string kind;
-  if (!takeWord(kind, "new, removed, moved, retyped, released or renamed")) return false;
+  if (!takeWord(kind, "new, removed, moved, retyped, released, cut or renamed")) return false;
   const auto known = changeKindFromName(kind);
-  if (!known) return fail(fmt::format("expected new, removed, moved, retyped, released or renamed, found '{}'", kind));
+  if (!known)
+    return fail(fmt::format("expected new, removed, moved, retyped, released, cut or renamed, found '{}'", kind));
   s_.change.kind = *known;
   if (*known == host::ChangeKind::Renamed)
     return takeWord(s_.change.formerName, "the former name") && takeWord(s_.change.name, "the new name");

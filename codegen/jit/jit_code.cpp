@@ -12,10 +12,12 @@
 #include <llvm/ExecutionEngine/Orc/ObjectLinkingLayer.h>
 #include <llvm/ExecutionEngine/Orc/TargetProcess/JITLoaderGDB.h>
 
+#include "codegen/jit/code_reader.h"
 #include "codegen/jit/object_cache.h"
 #include "codegen/jit/pieces.h"
 #include "codegen/llvm/piece_numbers.h"
 #include "ir/shape/cut.h"
+#include "ir/support/check.h"
 #include "ir/support/contained.h"
 #include "rtlib/host/realtime.h"
 
@@ -35,6 +37,7 @@ public:
       : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout.cut(), chunks)),
         cache_(options.cacheFolder), report_(report) {
     report_ = {.modules = static_cast<uint32_t>(pieces_.size())};
+    if (options.lengths) report_.lengths.resize(layout.cut().chunks().size());
     shareMembers();
     if (options.cacheFolder.empty()) return;
     const CacheKeys keys(layout, codeHash, options.code, machine);
@@ -69,8 +72,15 @@ private:
   }
 
   // What fails within the compiler or LLVM ends the piece, and not the process.
-  Result<std::string> compiled(const ModulePart& piece) const {
-    return contained([&] { return compilePiece(layout_, codeHash_, options_.code, piece); });
+  Result<std::string> compiled(const ModulePart& piece) {
+    PieceCode code;
+    Result<std::string> object = contained([&] {
+      return compilePiece(layout_, codeHash_, options_.code, piece, options_.lengths ? makeCodeReader(code) : nullptr);
+    });
+    CodeLengths lengths(std::move(code.functions));
+    for (size_t c = 0; c < code.chunks.size(); ++c)
+      report_.lengths[piece.firstChunk + c] = lengths.of(code.chunks[c]); // no other piece has it
+    return object;
   }
 
   void doPiece(const ModulePart& piece, llvm::orc::LLJIT& jit, const JitCode::Take& take) {
@@ -166,6 +176,7 @@ private:
 
 Result<std::unique_ptr<JitCode>> makeJitCode(const JitOptions& options) {
   if (!options.code.target.empty()) return failure("the JIT makes code for this machine only");
+  RUNG_CHECK(!options.lengths || options.cacheFolder.empty(), "what is not compiled has no length");
   Result<std::unique_ptr<llvm::TargetMachine>> machine = makeTargetMachine(options.code, MachineUse::Jit);
   if (!machine.ok()) return machine.failure();
   Result<std::unique_ptr<llvm::orc::LLJIT>> jit = makeLinker(options);

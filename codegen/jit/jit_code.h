@@ -6,7 +6,9 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "codegen/jit/code_paths.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "rung/program.h"
 
@@ -17,12 +19,14 @@ struct JitOptions {
   bool gdb = false;        // make the code known to a debugger
   std::string cacheFolder; // keeps object files there and takes them from there; empty: no cache
   uint32_t threads = 1;    // that compile at the same time
+  bool lengths = false;    // report how long the code is; without a cache
 };
 
 struct JitReport {
-  uint32_t modules = 0;     // pieces that the program was compiled in
-  uint32_t fromCache = 0;   // of them
-  std::string cacheTrouble; // why a piece could not be kept; the code is good all the same
+  uint32_t modules = 0;            // pieces that the program was compiled in
+  uint32_t fromCache = 0;          // of them
+  std::string cacheTrouble;        // why a piece could not be kept; the code is good all the same
+  std::vector<CodeLength> lengths; // with JitOptions::lengths: by chunk of the layout
 };
 
 // Machine code of chunks, for the pieces of a program one after the other.

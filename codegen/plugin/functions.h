@@ -1,7 +1,6 @@
 // LLVM's back end as a library that a program loads when it first needs it: loading LLVM takes longer than most of what
 // the compiler does without it. The programs have load.cpp, and the plug-in the real functions; both are of one build.
 #pragma once
-#include "codegen/jit/instruction_bound.h"
 #include "codegen/jit/jit_code.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "codegen/llvm/sections.h"
@@ -15,7 +14,6 @@ struct LlvmFunctions {
   decltype(&codegen::withSection) withSection;
   decltype(&codegen::sectionOf) sectionOf;
   decltype(&makeJitCode) jitCode;
-  decltype(&boundInstructions) instructionBound;
 };
 
 // What the plug-in exports: its functions, which stay as they are.

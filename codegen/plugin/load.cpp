@@ -47,9 +47,4 @@ Result<std::unique_ptr<JitCode>> makeJitCode(const JitOptions& options) {
   return call<&LlvmFunctions::jitCode>(options);
 }
 
-Result<std::vector<CodeLength>> boundInstructions(const ir::Layout& layout, uint64_t codeHash,
-                                                  const LlvmOptions& options) {
-  return call<&LlvmFunctions::instructionBound>(layout, codeHash, options);
-}
-
 } // namespace rung::codegen

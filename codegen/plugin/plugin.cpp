@@ -24,7 +24,6 @@ constexpr LlvmFunctions kFunctions{
     .withSection = &Contained<&withSection>::call,
     .sectionOf = &Contained<&sectionOf>::call,
     .jitCode = &Contained<&makeJitCode>::call,
-    .instructionBound = &Contained<&boundInstructions>::call,
 };
 
 } // namespace

@@ -21,11 +21,9 @@ struct WcetOptions {
 
 // Gives the exit status; what is wrong is printed.
 int findBounds(const WcetOptions& options, const ConfigPairs& config, const compiler::Compiled& compiled,
-               host::Engine& engine, wcet::Bounds& bounds) {
+               codegen::JitEngine& engine, wcet::Bounds& bounds) {
   const console::Working working("measuring");
-  Result<wcet::Bounds> found = wcet::boundsOf(compiled, engine);
-  if (!found.ok()) return environmentError(found.error());
-  bounds = std::move(found).value();
+  bounds = wcet::boundsOf(compiled, engine);
   if (options.scenarioFile.empty()) return kOk;
   const wcet::Drive drive{.name = options.scenarioFile,
                           .config = config,
@@ -51,7 +49,7 @@ int runWcet(const WcetOptions& options) {
   diagnostics.json = false; // standard output is the bounds'
   const std::optional<compiler::Compiled> compiled = compileSources(sources, diagnostics, request, status);
   if (!compiled) return status;
-  const Result<std::unique_ptr<host::Engine>> engine = compiler::makeEngine(compiler::EngineKind::Jit, *compiled, {});
+  const Result<std::unique_ptr<codegen::JitEngine>> engine = wcet::compileWithLengths(*compiled);
   if (!engine.ok()) return environmentError(engine.error());
   wcet::Bounds bounds;
   status = findBounds(options, *config, *compiled, *engine.value(), bounds);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "codegen/jit/instruction_bound.h"
 #include "ir/analysis/rung_costs.h"
 #include "tools/compiler/engines.h"
 #include "tools/wcet/task_cost.h"
@@ -83,13 +82,16 @@ double TaskBound::callsNs() const {
   return ns;
 }
 
-Result<Bounds> boundsOf(const compiler::Compiled& compiled, host::Engine& machineCode) {
-  Result<std::vector<codegen::CodeLength>> chunks =
-      codegen::boundInstructions(*compiled.layout, compiled.codeHash, compiler::jitOptionsOf({}).code);
-  if (!chunks.ok()) return chunks.failure();
+Result<std::unique_ptr<codegen::JitEngine>> compileWithLengths(const compiler::Compiled& compiled) {
+  codegen::JitOptions options = compiler::jitOptionsOf({});
+  options.lengths = true;
+  return codegen::compileJit(*compiled.layout, compiled.codeHash, options);
+}
+
+Bounds boundsOf(const compiler::Compiled& compiled, codegen::JitEngine& machineCode) {
   Bounds bounds{.program = compiled.module->name, .routines = {}, .tasks = {}, .slice = {}, .measured = {}};
   bounds.slice = host::measureBound({.program = machineCode.program(), .engine = machineCode.context()});
-  const Known known = knownOf(compiled.layout->cut(), std::move(chunks).value(), bounds.slice.nsPerWeight);
+  const Known known = knownOf(compiled.layout->cut(), machineCode.report().lengths, bounds.slice.nsPerWeight);
   for (const ir::Routine& routine : compiled.module->routines) bounds.routines.push_back(routine.name);
   for (uint32_t t = 0; t < compiled.module->tasks.size(); ++t) bounds.tasks.push_back(boundTask(known, ir::TaskId{t}));
   return bounds;

@@ -2,12 +2,13 @@
 // the host's functions, and in time on this machine; and the heaviest way with its rungs.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "codegen/jit/jit_engine.h"
 #include "ir/analysis/heaviest.h"
-#include "rtlib/host/engine.h"
 #include "rtlib/host/scan_bound.h"
 #include "tools/compiler/compile.h"
 #include "tools/wcet/host_functions.h"
@@ -53,8 +54,9 @@ struct Bounds {
   std::string measured;  // by what Seen was measured; "": nothing was
 };
 
-// `machineCode` runs the program's code as the bounds are to hold for it.
-Result<Bounds> boundsOf(const compiler::Compiled& compiled, host::Engine& machineCode);
+// The program's code as the bounds hold for it, once for both: its length, and how fast it is.
+Result<std::unique_ptr<codegen::JitEngine>> compileWithLengths(const compiler::Compiled& compiled);
+Bounds boundsOf(const compiler::Compiled& compiled, codegen::JitEngine& machineCode);
 
 // Numbers that follow one another.
 struct Stretch {

@@ -107,10 +107,10 @@ uint64_t callsOf(const TaskBound& bound, ir::OpCode function) {
   return 0;
 }
 
-Bounds boundsOf(const compiler::Compiled& compiled, host::Engine& engine) {
-  Result<Bounds> bounds = wcet::boundsOf(compiled, engine);
-  if (bounds.ok()) return std::move(bounds).value();
-  ADD_FAILURE() << bounds.error();
+Bounds boundsOf(const compiler::Compiled& compiled) {
+  const Result<std::unique_ptr<codegen::JitEngine>> engine = compileWithLengths(compiled);
+  if (engine.ok()) return wcet::boundsOf(compiled, *engine.value());
+  ADD_FAILURE() << engine.error();
   return {};
 }
 
@@ -129,7 +129,7 @@ struct Measured {
 
 Measured measured(const compiler::Compiled& compiled, int scans) {
   const std::unique_ptr<host::Engine> engine = engineOf(EngineKind::Jit, compiled);
-  Measured out{.bounds = boundsOf(compiled, *engine), .most = {}};
+  Measured out{.bounds = boundsOf(compiled), .most = {}};
   StepRuns runs(compiled);
   host::Instance instance(*engine);
   instance.setTaskWatch(&runs);
@@ -197,8 +197,8 @@ TEST(Instructions, AreThoseOfTheCodeWhereItHasOneWay) {
 
 class StepMachine final : public scenario::Observer {
 public:
-  void begin(const compiler::Compiled& compiled, host::Engine& engine) {
-    bounds_ = boundsOf(compiled, engine);
+  void begin(const compiler::Compiled& compiled) {
+    bounds_ = boundsOf(compiled);
     runs_ = std::make_unique<StepRuns>(compiled, 23);
   }
   void started(scenario::Session& session) override { session.instance().setTaskWatch(runs_.get()); }
@@ -221,7 +221,7 @@ TEST_P(Machine, TakesNoMoreThanTheBound) {
   scenario::RunOptions options{.engines = {EngineKind::Jit}, .engine = {}, .programs = {}, .started = {}};
   options.started = [&](scenario::Session& session, const compiler::Compiled& compiled) {
     engine = engineOf(EngineKind::Jit, compiled);
-    machine.begin(compiled, *engine);
+    machine.begin(compiled);
     session.addObserver(machine);
     return std::string();
   };

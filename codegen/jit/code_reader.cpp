@@ -1,7 +1,5 @@
-// Reads the graph of each function at the end of code generation (see instruction_bound.h).
-#include "codegen/jit/instruction_bound.h"
-
-#include <numeric>
+// Reads the graph of each function at the end of code generation (see code_reader.h).
+#include "codegen/jit/code_reader.h"
 
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/Analysis/ScalarEvolution.h>
@@ -15,15 +13,10 @@
 #include <llvm/InitializePasses.h>
 #include <llvm/PassRegistry.h>
 
-#include "codegen/jit/pieces.h"
+#include "codegen/llvm/llvm_module.h"
 
 namespace rung::codegen {
 namespace {
-
-struct PieceCode {
-  std::vector<std::string> chunks; // names of their functions
-  std::map<std::string, FunctionCode> functions;
-};
 
 // Padding before a block that is aligned runs where control falls into the block.
 uint64_t paddingAfter(const llvm::MachineBasicBlock& block) {
@@ -147,20 +140,6 @@ char CodeReader::kId = 0;
 
 } // namespace
 
-Result<std::vector<CodeLength>> boundInstructions(const ir::Layout& layout, uint64_t codeHash,
-                                                  const LlvmOptions& options) {
-  std::vector<uint32_t> all(layout.cut().chunks().size());
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<CodeLength> lengths;
-  for (const ModulePart& piece : cutPieces(layout.cut(), all)) {
-    PieceCode code;
-    const Result<std::string> object =
-        compilePiece(layout, codeHash, options, piece, std::make_unique<CodeReader>(code));
-    if (!object.ok()) return object.failure();
-    CodeLengths measured(std::move(code.functions));
-    for (const std::string& chunk : code.chunks) lengths.push_back(measured.of(chunk));
-  }
-  return lengths;
-}
+std::unique_ptr<llvm::FunctionPass> makeCodeReader(PieceCode& code) { return std::make_unique<CodeReader>(code); }
 
 } // namespace rung::codegen

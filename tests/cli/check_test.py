@@ -125,7 +125,7 @@ class CheckNames(unittest.TestCase):
         self.assertEqual(self.warnings("p.lad", text), [])
 
     def test_gsk(self):
-        self.assertEqual(self.warnings("p.pmc", GSK), [("never-reset", "ALARM"), ("never-reset", "LOST"), ("never-read", "LOST"), ("message-without-text", "SET ALARM")],
+        self.assertEqual(self.warnings("p.pmc", GSK), [("never-reset", "ALARM"), ("never-reset", "LOST"), ("never-read", "LOST")],
                          "inputs, outputs, requests of messages and what is kept have their other side in the control")
 
     def test_technol(self):

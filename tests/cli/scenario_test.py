@@ -194,7 +194,7 @@ class Mistakes(Folder):
         self.assertEqual(self.said(PASSES + "\x1a\0 and what was in the sector", status=OK), [])
 
     def test_other_kinds_of_files(self):
-        for name in ("door.map", "door.so", "door.toml", "door.bind", "door.rir"):
+        for name in ("door.map", "door.so", "door.toml", "door.bind"):
             self.file(name, "")
         for words, message in ((["test", "door.map"], "'door.map' is a mapping file, not a scenario: `rungc map --check door.map PROGRAM` checks it"),
                                (["test", "door.so"], "'door.so' is a compiled program, not a scenario: `rungc run door.so` runs it"),
@@ -204,7 +204,6 @@ class Mistakes(Folder):
                                  (["check", "passes.scn"], ["diff", "door.lad", "passes.scn"], ["view", "passes.scn", "-o", "x.html"], ["xref", "passes.scn"], ["run", "passes.scn"])),
                                (["check", "door.toml"], "'door.toml' is a project file, not a program: `rungc check --project door.toml` checks its program"),
                                (["check", "door.bind"], "'door.bind' is a binding file, not a program: `rungc bind --members door.bind` connects its members"),
-                               (["check", "door.rir"], "'door.rir' is the IR of a program, not a program: `rungc opt door.rir` runs passes over it"),
                                (["map", "door.map", "door.lad"], "'door.map' is a mapping file, not a program: `rungc map --check door.map PROGRAM` checks it"),
                                (["map", "--no-project", "--check", "door.lad", "door.lad"], "'door.lad' is a program, not a mapping file: `rungc check door.lad` checks it")):
             done = subprocess.run([RUNGC, *words], cwd=self.folder.name, capture_output=True, timeout=patience(), text=True, check=False)

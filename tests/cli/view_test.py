@@ -136,12 +136,12 @@ class View(unittest.TestCase):
         self.assertIn("<h1>mill.pmc</h1>", (self.page("examples/gsk-mill/mill.pmc", "--no-project"), Path(self.html).read_text())[1])
 
     def test_a_picture_is_xml(self):
-        source = self.file("t.lad", 'dialect nct\nmodule MAIN\nsymbol A<B&C 7000.00 ; <b> "\u4e3b" \' ]]>\n'
-                                    'rung "</title><script>"\n|--[A<B&C]--(A<B&C) ; & <\n')
+        source = self.file("t.lad", 'dialect nct\nmodule MAIN\nsymbol A_B 7000.00 ; <b> "\u4e3b" \' ]]>\n'
+                                    'rung "</title><script>"\n|--[A_B]--(A_B) ; & <\n')
         self.assertEqual(self.view(source, "-o", self.svg).returncode, OK)
         root = xml.etree.ElementTree.parse(self.svg).getroot()
         texts = [node.text for node in root.iter("{http://www.w3.org/2000/svg}text")]
-        self.assertEqual(texts.count("A<B&C"), 2)
+        self.assertEqual(texts.count("A_B"), 2)
         self.assertIn("& <", texts)
         titles = [node.text for node in root.iter("{http://www.w3.org/2000/svg}title")]
         self.assertEqual(titles, ["t.lad", "Rung 1: </title><script>"])

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "frontend/dialects/dialect.h"
+#include "tools/project/project.h"
 
 namespace rung::project {
 namespace {
@@ -23,21 +24,20 @@ constexpr Kind kKinds[] = {{"a file of another kind", ""},
                            {"a scenario", "`rungc test {0}` runs it"},
                            {"a mapping file", "`rungc map --check {0} PROGRAM` checks it"},
                            {"a binding file", "`rungc bind --members {0}` connects its members"},
-                           {"a project file", "`rungc check --project {0}` checks its program"},
-                           {"the IR of a program", "`rungc opt {0}` runs passes over it"}};
+                           {"a project file", "`rungc check --project {0}` checks its program"}};
 
 const Kind& infoOf(FileKind kind) { return kKinds[static_cast<size_t>(kind)]; }
 
 } // namespace
 
 FileKind kindOfFile(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
+  const std::filesystem::path name = std::filesystem::path(path).filename();
+  const std::string extension = name.extension().string();
   if (extension == ".so") return FileKind::Compiled;
   if (extension == ".scn") return FileKind::Scenario;
   if (extension == ".map") return FileKind::Map;
   if (extension == ".bind") return FileKind::Binding;
-  if (extension == ".toml") return FileKind::Project;
-  if (extension == ".rir") return FileKind::Ir;
+  if (extension == ".toml" && name != kFileName) return FileKind::Project; // rung.toml stands for its program
   const bool isProgram =
       extension == ".lad" || std::ranges::any_of(frontend::allDialects(), [&](const frontend::Dialect* dialect) {
         return std::ranges::find(dialect->extensions, extension) != dialect->extensions.end();

@@ -4,7 +4,7 @@
 
 namespace rung::project {
 
-enum class FileKind { Other, Program, Compiled, Scenario, Map, Binding, Project, Ir };
+enum class FileKind { Other, Program, Compiled, Scenario, Map, Binding, Project };
 
 FileKind kindOfFile(const std::string& path);
 // "" or, where the name says that the file is of another kind, that and which command takes it.

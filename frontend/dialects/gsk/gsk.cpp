@@ -40,8 +40,8 @@ public:
     const bool understood = reading.read();
     network::analyse(context_, program_, !understood);
     texts_ = configuredMessages(context_.sources, files_[0], options_, context_.diagnostics);
-    if (!context_.diagnostics.hasErrors()) // a mistake may hide a text
-      checkTexts(program_, texts_, options_.config.contains("messages"), context_.diagnostics);
+    const bool hasTexts = options_.config.contains("messages"); // without a file they may be elsewhere
+    if (hasTexts && !context_.diagnostics.hasErrors()) checkTexts(program_, texts_, context_.diagnostics);
     context_.analysis.settle();
   }
 

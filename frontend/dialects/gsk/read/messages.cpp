@@ -108,8 +108,7 @@ std::vector<ir::MessageText> readMessages(SourceManager& sources, FileId program
   return reader.result();
 }
 
-void checkTexts(const network::Program& program, const std::vector<ir::MessageText>& texts, bool hasFile,
-                Diagnostics& diagnostics) {
+void checkTexts(const network::Program& program, const std::vector<ir::MessageText>& texts, Diagnostics& diagnostics) {
   std::set<uint64_t> known;
   for (const ir::MessageText& text : texts) known.insert(text.number);
   for (const network::Unit& unit : program.units)
@@ -117,12 +116,7 @@ void checkTexts(const network::Program& program, const std::vector<ir::MessageTe
       for (const network::CoilStep& coil : network.coils) {
         if (coil.bit.area != areas::kA || coil.kind == network::Coil::Reset) continue;
         const uint64_t number = messageOf(coil.bit.byte, coil.bit.bit);
-        if (!known.insert(number).second) continue;
-        DiagBuilder report = diagnostics.report(diag::MessageWithoutText, coil.range);
-        report << number;
-        if (hasFile) continue;
-        report.note(kLanguage.messageTexts);
-        return;
+        if (known.insert(number).second) diagnostics.report(diag::MessageWithoutText, coil.range) << number;
       }
 }
 

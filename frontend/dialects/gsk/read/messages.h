@@ -15,8 +15,7 @@ namespace rung::gsk {
 std::vector<ir::MessageText> readMessages(SourceManager& sources, FileId program, std::string_view path,
                                           Diagnostics& diagnostics);
 
-// Warns of coils that ask for a message without a text: of each message once; without a file of texts of the first.
-void checkTexts(const network::Program& program, const std::vector<ir::MessageText>& texts, bool hasFile,
-                Diagnostics& diagnostics);
+// Warns of messages that coils ask for and that have no text, each at the first coil.
+void checkTexts(const network::Program& program, const std::vector<ir::MessageText>& texts, Diagnostics& diagnostics);
 
 } // namespace rung::gsk

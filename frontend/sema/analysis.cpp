@@ -3,11 +3,6 @@
 
 namespace rung::frontend {
 
-uint32_t Analysis::define(const Definition& definition) {
-  definitions_.push_back(definition);
-  return static_cast<uint32_t>(definitions_.size() - 1);
-}
-
 void Analysis::settle() {
   for (uint32_t i = 0; i < definitions_.size(); ++i)
     if (definitions_[i].range.valid()) declared_.add({definitions_[i].range, i});

@@ -70,8 +70,7 @@ struct InstructionUse {
 class Analysis {
 public:
   // While the program is read, in any order.
-  uint32_t define(const Definition& definition);
-  Definition& definition(uint32_t index) { return definitions_[index]; }
+  void define(const Definition& definition) { definitions_.push_back(definition); }
   void use(SourceRange name, uint32_t definition) { names_.add({name, definition}); }
   void use(const OperandUse& operand) { operands_.add(operand); }
   void use(const TargetUse& target) { targets_.add(target); }

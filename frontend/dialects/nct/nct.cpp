@@ -31,8 +31,8 @@ public:
   NctProgram(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
              Diagnostics& diagnostics)
       : sources_(sources), ids_(files.begin(), files.end()), options_(options), diagnostics_(diagnostics),
-        config_(readConfig(options, diagnostics)), symbols_(config_, sources, analysis_, diagnostics),
-        reservations_(diagnostics) {}
+        config_(readConfig(options, diagnostics)), symbols_(config_, sources, diagnostics), reservations_(diagnostics) {
+  }
 
   void check() {
     read();
@@ -40,7 +40,7 @@ public:
     checkRungs();
     symbols_.reportUndeclared();
     checkModules();
-    symbols_.defineAll();
+    symbols_.addTo(analysis_);
     analysis_.settle();
   }
 
@@ -177,7 +177,7 @@ private:
   Diagnostics& diagnostics_;
   const Config config_;
   frontend::Analysis analysis_;
-  SymbolTable symbols_;
+  Symbols symbols_;
   OutputReservations reservations_;
   std::vector<ladder::LadderFile> files_;
   Program program_;

@@ -71,7 +71,7 @@ struct Exchanged {
   uint32_t count = 1; // elements; bytes of a text
 };
 
-// The memory of a program. The names that lead to it are in the SymbolTable.
+// The memory of a program. The names that lead to it are in the Symbols.
 struct Declarations {
   std::vector<DataItem> items;
   std::vector<uint32_t> itemBits; // symbols, kNone for an unnamed bit

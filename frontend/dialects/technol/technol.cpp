@@ -74,7 +74,7 @@ private:
   const CompileOptions options_;
   technol::SourceProgram source_;
   technol::Declarations declarations_;
-  technol::SymbolTable symbols_;
+  technol::Symbols symbols_;
   uint32_t period_ = technol::kDefaultPeriodUs;
   std::optional<technol::TypedProgram> typed_;
   Analysis analysis_;
@@ -93,7 +93,7 @@ std::vector<std::string> included(SourceManager& sources, std::span<const FileId
   Diagnostics unheard;
   technol::SourceProgram program(sources);
   technol::Declarations declarations;
-  technol::SymbolTable symbols(unheard);
+  technol::Symbols symbols(unheard);
   const auto before = static_cast<uint32_t>(sources.fileCount());
   // Adds the files that it reads.
   technol::readProgram({sources, {.includePaths = options.includePaths}, unheard, program, declarations, symbols},

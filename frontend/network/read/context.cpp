@@ -75,11 +75,13 @@ struct Found {
 };
 
 Found findAddress(Context& context, const Word& word) {
-  if (const UserName* symbol = context.names.use(context.analysis, word, UserName::Kind::Symbol))
-    return {symbol->bad ? std::nullopt : std::optional(NamedAddress{symbol->address, symbol->definition}), true};
+  if (const uint32_t index = context.names.use(word, UserName::Kind::Symbol); index != frontend::kNoName) {
+    const UserName& symbol = context.names[index];
+    return {symbol.bad ? std::nullopt : std::optional(NamedAddress{symbol.address, index}), true};
+  }
   if (const auto text = splitAddress(context.language, word.text))
     return {readAddress(context.diagnostics, *text, word), true};
-  if (const auto signal = context.names.useSignal(context, word)) return {signal, true};
+  if (const auto signal = context.names.useSignal(context.language, word)) return {signal, true};
   return {};
 }
 
@@ -230,15 +232,15 @@ frontend::NamedPlace placeOf(const Language& language, const Address& address, u
 
 UserName* Names::declare(Context& context, const Word& name, UserName::Kind kind) {
   if (name.quoted || !isFreeName(context.language, name.text)) {
-    refused_.insert(name.text);
+    refuse(name.text);
     context.diagnostics.report(diag::BadOperand, name.range)
         << name.text
         << "a free name: a letter, then letters, digits and _, and no command, address, label or subprogram";
     return nullptr;
   }
   const uint32_t index =
-      table_.declare({.name = name.text, .declared = name.range, .kind = kind, .bad = true}, context.diagnostics);
-  return index == frontend::kNoName ? nullptr : &table_[index];
+      SymbolTable::declare({.name = name.text, .declared = name.range, .kind = kind, .bad = true}, context.diagnostics);
+  return index == frontend::kNoName ? nullptr : &edit(index);
 }
 
 void Names::addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment) {
@@ -250,17 +252,12 @@ void Names::addSymbol(Context& context, const Word& name, const Word& value, std
       symbol->address = *address;
       symbol->bad = !checkArea(context, value, text->area, text->byte, 1);
     }
-  } else if (const auto signal = useSignal(context, value)) {
+  } else if (const auto signal = useSignal(context.language, value)) {
     symbol->address = *signal;
     symbol->bad = false;
   } else {
     context.diagnostics.report(diag::BadOperand, value.range) << value.text << "a bit or byte address or a signal";
   }
-  symbol->definition = context.analysis.define({.name = name.text, .comment = comment, .range = name.range});
-  if (symbol->bad) return;
-  frontend::Definition& definition = context.analysis.definition(symbol->definition);
-  definition.place = placeOf(context.language, symbol->address, 1);
-  definition.isPlaced = true;
 }
 
 void Names::addConstant(Context& context, const Word& name, const Word& value) {
@@ -272,28 +269,42 @@ void Names::addConstant(Context& context, const Word& name, const Word& value) {
     report << value.text << "a constant";
     noteConstant({{value.text, value.range}, UserName::Kind::Constant, {}}, report);
   }
+  constant->text = value.text;
   constant->value = number.value_or(0);
   constant->bad = !number;
-  constant->definition = context.analysis.define({.name = name.text, .range = name.range, .value = value.text});
 }
 
-const UserName* Names::use(frontend::Analysis& analysis, const Word& word, UserName::Kind kind) const {
-  const uint32_t index = table_.find(word.text);
-  if (index == frontend::kNoName || table_[index].kind != kind) return nullptr;
-  analysis.use(word.range, table_[index].definition);
-  return &table_[index];
+uint32_t Names::use(const Word& word, UserName::Kind kind) {
+  const uint32_t index = find(word.text);
+  if (index == frontend::kNoName || all()[index].kind != kind) return frontend::kNoName;
+  SymbolTable::use(word.range, index);
+  return index;
 }
 
-std::optional<NamedAddress> Names::useSignal(Context& context, const Word& word) {
-  const nc::Signal* signal = nc::findSignal(context.language.signals(), word.text);
+std::optional<NamedAddress> Names::useSignal(const Language& language, const Word& word) {
+  const nc::Signal* signal = nc::findSignal(language.signals(), word.text);
   if (signal == nullptr) return std::nullopt;
-  const Address address = addressOf(context.language, *signal);
-  const auto [at, isNew] = signals_.emplace(signal, 0);
-  if (isNew)
-    at->second = context.analysis.define(
-        {.name = signal->symbol, .comment = signal->meaning, .place = placeOf(context.language, address, 1)});
-  context.analysis.use(word.range, at->second);
-  return NamedAddress{address, at->second};
+  uint32_t index = find(signal->symbol, {kSignals});
+  if (index == frontend::kNoName)
+    index = enter({.name = signal->symbol,
+                   .kind = UserName::Kind::Signal,
+                   .comment = signal->meaning,
+                   .address = addressOf(language, *signal)},
+                  kSignals);
+  SymbolTable::use(word.range, index);
+  return NamedAddress{all()[index].address, index};
+}
+
+void Names::addTo(frontend::Analysis& analysis, const Language& language) const {
+  SymbolTable::addTo(analysis, [&](const UserName& name) {
+    const bool isPlace = name.kind != UserName::Kind::Constant && !name.bad;
+    return frontend::Definition{.name = name.name,
+                                .comment = name.comment,
+                                .range = name.declared,
+                                .place = isPlace ? placeOf(language, name.address, 1) : frontend::NamedPlace{},
+                                .isPlaced = isPlace && name.kind == UserName::Kind::Symbol,
+                                .value = name.text};
+  });
 }
 
 bool isForeign(const Language& language, std::span<const Word> words) {
@@ -351,15 +362,16 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
 void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std::string_view expected) {
   if (context.names.wasRefused(word.text)) return; // its declaration was reported
   const UndeclaredName use{{word.text, word.range}, kind, std::string(expected)};
-  if (isFreeName(context.language, word.text) && !context.names.has(word.text)) return context.undeclared.add(use);
+  if (isFreeName(context.language, word.text) && !context.names.has(word.text))
+    return context.names.noteUndeclared(use);
   DiagBuilder report = context.diagnostics.report(diag::BadOperand, word.range);
   report << word.text;
   explain(context, {&use, 1}, report);
 }
 
 void reportUndeclared(Context& context) {
-  context.undeclared.report(context.diagnostics, diag::BadOperand,
-                            [&](DiagBuilder& report, auto uses) { explain(context, uses, report); });
+  context.names.reportUndeclared(context.diagnostics, diag::BadOperand,
+                                 [&](DiagBuilder& report, auto uses) { explain(context, uses, report); });
 }
 
 void countStep(Context& context, SourceRange range) {

@@ -2,36 +2,32 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <ranges>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "frontend/network/address.h"
-#include "frontend/sema/analysis.h"
-#include "frontend/sema/names.h"
-#include "frontend/sema/undeclared.h"
+#include "frontend/sema/symbol_table.h"
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
 
 namespace rung::network {
 
-// A name that the program declares.
+// A name that the program declares, or a signal that it uses.
 struct UserName {
-  enum class Kind : uint8_t { Symbol, Constant };
+  enum class Kind : uint8_t { Symbol, Constant, Signal };
 
   std::string_view name;
   SourceRange declared;
   Kind kind = Kind::Symbol;
-  uint32_t definition = 0; // in the analysis
-  bool bad = false;        // its declaration was reported: uses stay silent
+  bool bad = false; // its declaration was reported: uses stay silent
   std::string_view comment;
-  Address address;   // of a symbol
-  int64_t value = 0; // of a constant
+  Address address;       // not of a constant
+  std::string_view text; // of a constant, as declared
+  int64_t value = 0;     // of a constant
 };
 
 // An address as an operand has it.
@@ -47,30 +43,30 @@ struct UndeclaredName : frontend::UndeclaredUse {
 
 struct Context;
 
-class Names {
+class Names : public frontend::SymbolTable<UserName, UndeclaredName> {
 public:
+  Names() { addScope(); }
+
   void addSymbol(Context& context, const Word& name, const Word& value, std::string_view comment);
   void addConstant(Context& context, const Word& name, const Word& value);
 
-  // Whether a declaration of this name was reported, because it is none.
-  bool wasRefused(std::string_view name) const { return refused_.contains(name); }
-  bool has(std::string_view name) const { return table_.find(name) != frontend::kNoName; }
-  // What a word means, which the analysis has as a use of it then; null for no name of the program of this kind.
-  const UserName* use(frontend::Analysis& analysis, const Word& word, UserName::Kind kind) const;
+  bool has(std::string_view name) const { return find(name) != frontend::kNoName; }
+  // What a word means, and a use of it; kNoName for no name of the program of this kind.
+  uint32_t use(const Word& word, UserName::Kind kind);
   // The same of a signal's name.
-  std::optional<NamedAddress> useSignal(Context& context, const Word& word);
+  std::optional<NamedAddress> useSignal(const Language& language, const Word& word);
   // In the order of their declarations.
   auto ofKind(UserName::Kind kind) const {
-    return table_.all() | std::views::filter([kind](const UserName& name) { return name.kind == kind; });
+    return all() | std::views::filter([kind](const UserName& name) { return name.kind == kind; });
   }
+  // Says in the analysis what all names are. To be called last.
+  void addTo(frontend::Analysis& analysis, const Language& language) const;
 
 private:
+  static constexpr uint32_t kSignals = 1; // scope; the program may declare a name that a signal has
+
   // Enters a name, bad until its value is read; null when it was reported.
   UserName* declare(Context& context, const Word& name, UserName::Kind kind);
-
-  frontend::NameTable<UserName> table_;
-  std::set<std::string_view> refused_;
-  std::map<const nc::Signal*, uint32_t> signals_; // those that are used: their definitions
 };
 
 struct Network;
@@ -86,7 +82,6 @@ struct Context {
   // May be empty. Takes every complete network with what was written.
   std::function<void(const Network&)> onNetwork = {};
   frontend::Analysis analysis = {};
-  frontend::UndeclaredNames<UndeclaredName> undeclared = {};
 };
 
 // A word that is not what the operand expects, a constant or an address, nor a name of this kind. A name that is not

@@ -16,8 +16,8 @@ using frontend::OperandInfo;
 
 // The value of a plain constant or of a `const` name.
 std::optional<int64_t> constantWord(Context& context, const Word& word, std::string_view expected) {
-  if (const UserName* constant = context.names.use(context.analysis, word, UserName::Kind::Constant))
-    return constant->bad ? std::nullopt : std::optional(constant->value);
+  if (const uint32_t index = context.names.use(word, UserName::Kind::Constant); index != frontend::kNoName)
+    return context.names[index].bad ? std::nullopt : std::optional(context.names[index].value);
   const auto value = parseConstant(word.text);
   if (!value) unknownOperand(context, word, UserName::Kind::Constant, expected);
   return value;

@@ -38,6 +38,7 @@ bool Reading::read() {
   for (const auto& file : ladders_) readLadder(context_, file, units_);
   reportUndeclared(context_);
   units_.finish(lastLineOf(context_.sources, last_));
+  context_.names.addTo(context_.analysis, context_.language);
   return !units_.incomplete();
 }
 

@@ -1,13 +1,10 @@
 // Names that are not declared: one report for each, at its first use, in all dialects.
-#include "frontend/sema/undeclared.h"
-
 #include <algorithm>
 #include <functional>
 
 #include <gtest/gtest.h>
 
 #include "frontend/dialects/dialect.h"
-#include "ir/support/diag/technol.h"
 #include "ir/support/diag_render.h"
 
 namespace rung::frontend {
@@ -81,39 +78,6 @@ TEST(Undeclared, AMisspeltNameIsCorrectedAtAllItsUses) {
     EXPECT_EQ(rest.errorCount(), 0u) << renderText(rest, sources);
     EXPECT_EQ(text.find(c.name), std::string::npos) << text;
   }
-}
-
-using Names = UndeclaredNames<>;
-
-SourceRange at(uint32_t begin) { return {{begin}, {begin + 1}}; }
-
-// The place of each report, and its notes.
-std::vector<std::string> reported(Names& names) {
-  Diagnostics diagnostics;
-  names.report(diagnostics, diag::UndefinedSymbol, [](DiagBuilder& report, std::span<const UndeclaredUse> uses) {
-    for (const SourceRange place : placesOf(uses)) report.fix(place, "B");
-  });
-  std::vector<std::string> found;
-  for (const Diagnostic& d : diagnostics.reported()) {
-    found.push_back(std::get<std::string>(d.args.at(0)) + " at " + std::to_string(d.range.begin.value));
-    for (const DiagNote& note : d.notes)
-      found.back() += ", " + note.text + " " + std::to_string(note.range.begin.value);
-    for (const DiagFix& fix : d.fixes) found.back() += ", fixed at " + std::to_string(fix.range.begin.value);
-  }
-  return found;
-}
-
-TEST(Undeclared, UsesComeInAnyOrderAndSeveralTimes) {
-  Names names;
-  for (const uint32_t place : {30u, 10u, 20u, 10u}) names.add({"A", at(place)});
-  for (const uint32_t place : {5u, 7u}) names.add({"B", at(place)});
-  names.add({"C", at(1)});
-  names.add({"C", at(1)});
-  EXPECT_EQ(reported(names),
-            (std::vector<std::string>{
-                "A at 10, and 2 further uses; the next is here 20, fixed at 10, fixed at 20, fixed at 30",
-                "B at 5, it is used once more, here 7, fixed at 5, fixed at 7", "C at 1, fixed at 1"}));
-  EXPECT_TRUE(reported(names).empty()) << "each is reported once";
 }
 
 } // namespace

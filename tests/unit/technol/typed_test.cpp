@@ -46,7 +46,7 @@ private:
   FileId file_;
   SourceProgram source_;
   Declarations declarations_;
-  SymbolTable symbols_;
+  Symbols symbols_;
   TypedProgram typed_;
 };
 

@@ -107,7 +107,7 @@ void OutputReservations::add(const Row& row, const Operand& operand) {
 
 // --- rungs
 // --------------------------------------------------------------------------------------------------------------
-RungChecker::RungChecker(SymbolTable& symbols, OutputReservations& reservations, frontend::Analysis& analysis,
+RungChecker::RungChecker(Symbols& symbols, OutputReservations& reservations, frontend::Analysis& analysis,
                          Diagnostics& diagnostics, std::string_view module)
     : symbols_(symbols), reservations_(reservations), analysis_(analysis), diagnostics_(diagnostics), module_(module),
       inInt0_(module != "MAIN"), handwheel_(nc::findSignal(nc::nctSignals(), "HWMOVE")),

@@ -26,7 +26,7 @@ private:
 
 class RungChecker {
 public:
-  RungChecker(SymbolTable& symbols, OutputReservations& reservations, frontend::Analysis& analysis,
+  RungChecker(Symbols& symbols, OutputReservations& reservations, frontend::Analysis& analysis,
               Diagnostics& diagnostics, std::string_view module);
   TypedRung check(const ladder::LadderFile& file, const ladder::Rung& rung);
 
@@ -62,7 +62,7 @@ private:
   uint32_t baseOf(const Operand& operand);
   void note(const frontend::OperandInfo& info, const Operand& operand, CoilTraits coil);
 
-  SymbolTable& symbols_;
+  Symbols& symbols_;
   OutputReservations& reservations_;
   frontend::Analysis& analysis_;
   Diagnostics& diagnostics_;

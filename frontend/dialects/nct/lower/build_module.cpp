@@ -18,7 +18,7 @@ constexpr uint32_t kInt0Budget = 100'000;
 
 class ModuleBuilder {
 public:
-  ModuleBuilder(ir::Module& module, const Program& program, SymbolTable& symbols, const SourceManager& sources,
+  ModuleBuilder(ir::Module& module, const Program& program, Symbols& symbols, const SourceManager& sources,
                 const frontend::CompileOptions& options)
       : module_(module), program_(program), symbols_(symbols), config_(symbols.config()), sources_(sources),
         options_(options) {}
@@ -215,7 +215,7 @@ private:
 
   ir::Module& module_;
   const Program& program_;
-  SymbolTable& symbols_;
+  Symbols& symbols_;
   const Config& config_;
   const SourceManager& sources_;
   const frontend::CompileOptions& options_;
@@ -227,7 +227,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<ir::Module> buildModule(const Program& program, SymbolTable& symbols, const Texts& texts,
+std::unique_ptr<ir::Module> buildModule(const Program& program, Symbols& symbols, const Texts& texts,
                                         const SourceManager& sources, std::span<const FileId> files,
                                         const frontend::CompileOptions& options) {
   auto module = std::make_unique<ir::Module>();

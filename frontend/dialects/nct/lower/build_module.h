@@ -13,7 +13,7 @@ struct Texts {
   std::vector<ir::MessageText> messages; // and buttons, see nct.h
 };
 
-std::unique_ptr<ir::Module> buildModule(const Program& program, SymbolTable& symbols, const Texts& texts,
+std::unique_ptr<ir::Module> buildModule(const Program& program, Symbols& symbols, const Texts& texts,
                                         const SourceManager& sources, std::span<const FileId> files,
                                         const frontend::CompileOptions& options);
 

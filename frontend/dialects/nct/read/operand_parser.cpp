@@ -141,7 +141,7 @@ struct ConstantReader {
 
 class AddressReader {
 public:
-  AddressReader(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics)
+  AddressReader(const Word& word, Symbols& symbols, Diagnostics& diagnostics)
       : word_(word), symbols_(symbols), diagnostics_(diagnostics) {}
 
   std::optional<ParsedAddress> read(std::string_view text) {
@@ -197,7 +197,7 @@ private:
     }
     const Symbol* found = symbols_.use(name, rangeOf(word_, name));
     if (found == nullptr && !symbols_.wasRefused(name))
-      symbols_.noteUndeclared(name, rangeOf(word_, name), name.data() == word_.text.data() ? word_.text : "");
+      symbols_.noteUndeclared({{name, rangeOf(word_, name)}, name.data() == word_.text.data() ? word_.text : ""});
     return found == nullptr || found->kind == SymbolKind::Bad ? nullptr : found;
   }
 
@@ -284,7 +284,7 @@ private:
   }
 
   const Word& word_;
-  SymbolTable& symbols_;
+  Symbols& symbols_;
   Diagnostics& diagnostics_;
   ParsedAddress result_;
   int64_t word64_ = 0;
@@ -293,7 +293,7 @@ private:
 bool isConstantText(std::string_view text) { return text.starts_with('#') || text.starts_with('*'); }
 
 // A lone name of a constant; null when it is anything else. Says nothing.
-const Symbol* constantSymbol(std::string_view text, SymbolTable& symbols) {
+const Symbol* constantSymbol(std::string_view text, Symbols& symbols) {
   if (text.empty() || isDigit(text[0]) || text.find_first_of(".:,") != std::string_view::npos) return nullptr;
   const Symbol* found = symbols.find(text);
   return found != nullptr && found->kind == SymbolKind::Constant ? found : nullptr;
@@ -351,12 +351,12 @@ std::optional<Constant> parseConstant(const Word& word, std::string_view text, c
   return reader.real(text.substr(1));
 }
 
-std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, SymbolTable& symbols,
+std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, Symbols& symbols,
                                           Diagnostics& diagnostics) {
   return AddressReader(word, symbols, diagnostics).read(text);
 }
 
-Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics) {
+Operand parseOperand(const Word& word, Symbols& symbols, Diagnostics& diagnostics) {
   Operand operand;
   operand.source = &word;
   if (word.quoted) {
@@ -422,7 +422,7 @@ Operand parseScopeSymbol(const Word& word, Diagnostics& diagnostics) {
   return operand;
 }
 
-std::optional<uint32_t> parseLabel(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics) {
+std::optional<uint32_t> parseLabel(const Word& word, Symbols& symbols, Diagnostics& diagnostics) {
   std::string_view digits = word.text;
   int64_t number = 0;
   if (allDigits(digits)) {

@@ -24,17 +24,17 @@ struct ParsedAddress {
   const Symbol* base = nullptr; // null: it is digits
 };
 // Without modifiers. Names are looked up in `symbols`.
-std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, SymbolTable& symbols,
+std::optional<ParsedAddress> parseAddress(const Word& word, std::string_view text, Symbols& symbols,
                                           Diagnostics& diagnostics);
 
 // An operand of a contact, coil or box, with its modifiers. A quoted word is Form::Text.
-Operand parseOperand(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics);
+Operand parseOperand(const Word& word, Symbols& symbols, Diagnostics& diagnostics);
 
 // The name of a quantity that SCP queries: a constant, its index in the list.
 Operand parseScopeSymbol(const Word& word, Diagnostics& diagnostics);
 
 // The number of a label or subroutine: #12, 12, or a constant's name (man. l.2942).
-std::optional<uint32_t> parseLabel(const Word& word, SymbolTable& symbols, Diagnostics& diagnostics);
+std::optional<uint32_t> parseLabel(const Word& word, Symbols& symbols, Diagnostics& diagnostics);
 
 // "a word", "a bit", "a constant": for messages.
 std::string_view describe(SymbolKind kind);

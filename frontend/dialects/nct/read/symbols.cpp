@@ -86,20 +86,19 @@ std::string_view aliasOf(std::string_view name) {
   return name;
 }
 
-SymbolTable::SymbolTable(const Config& config, const SourceManager& sources, frontend::Analysis& analysis,
-                         Diagnostics& diagnostics)
-    : config_(config), sources_(sources), analysis_(analysis), diagnostics_(diagnostics) {
+Symbols::Symbols(const Config& config, const SourceManager& sources, Diagnostics& diagnostics)
+    : config_(config), sources_(sources), diagnostics_(diagnostics) {
   for (const auto& [name, first] : {std::pair("PLCNVRAM", config.plcNvram), std::pair("PLCRAM", config.plcRam)}) {
     Symbol area = word(name, first);
     area.isArea = true;
-    table_.enter(area);
+    enter(area);
   }
   uint32_t bit = 0;
   for (std::string_view name : kFlagNames) {
     Symbol flag = word(name, kFlagsWord);
     flag.kind = SymbolKind::Bit;
     flag.bit = bit++;
-    table_.enter(flag);
+    enter(flag);
   }
   direction_.resize(config.plcNvram);
   for (const nc::Signal& signal : nc::nctSignals()) {
@@ -109,8 +108,8 @@ SymbolTable::SymbolTable(const Config& config, const SourceManager& sources, fro
   }
 }
 
-uint32_t SymbolTable::enterPredefined(std::string_view name) {
-  if (name == kFlagsName) return table_.enter(word(name, kFlagsWord));
+uint32_t Symbols::enterPredefined(std::string_view name) {
+  if (name == kFlagsName) return enter(word(name, kFlagsWord));
   const nc::Signal* signal = nc::findSignal(nc::nctSignals(), aliasOf(name));
   if (signal == nullptr) return frontend::kNoName;
   Symbol symbol = word(name, signal->byteOffset / 4);
@@ -120,52 +119,48 @@ uint32_t SymbolTable::enterPredefined(std::string_view name) {
   }
   symbol.signal = signal;
   symbol.comment = signal->meaning;
-  return table_.enter(symbol);
+  return enter(symbol);
 }
 
-uint32_t SymbolTable::indexOf(std::string_view name) {
-  const uint32_t known = table_.find(name);
+uint32_t Symbols::indexOf(std::string_view name) {
+  const uint32_t known = SymbolTable::find(name);
   return known != frontend::kNoName ? known : enterPredefined(name);
 }
 
-const Symbol* SymbolTable::find(std::string_view name) {
+const Symbol* Symbols::find(std::string_view name) {
   const uint32_t index = indexOf(name);
   if (index == frontend::kNoName) return nullptr;
-  Symbol& found = table_[index];
+  Symbol& found = edit(index);
   found.index = index;
   if (found.pending) resolve(found);
   return &found;
 }
 
-const Symbol* SymbolTable::use(std::string_view name, SourceRange range) {
+const Symbol* Symbols::use(std::string_view name, SourceRange range) {
   const Symbol* found = find(name);
-  if (found != nullptr) analysis_.use(range, found->index);
+  if (found != nullptr) SymbolTable::use(range, found->index);
   return found;
 }
 
-void SymbolTable::defineAll() {
-  for (const Symbol& symbol : table_.all()) {
-    frontend::Definition definition{.name = symbol.name, .comment = symbol.comment, .range = symbol.declared};
-    if (symbol.kind == SymbolKind::Constant) definition.value = symbol.declaration->value.text;
-    const bool known = symbol.kind == SymbolKind::Word || symbol.kind == SymbolKind::Bit;
-    if (known) definition.place = {"M", symbol.word * 32 + symbol.bit, symbol.kind == SymbolKind::Bit ? 1u : 32u};
-    definition.isPlaced = symbol.declaration != nullptr;
-    analysis_.define(definition);
-  }
+static frontend::Definition definitionOf(const Symbol& symbol) {
+  frontend::Definition definition{.name = symbol.name, .comment = symbol.comment, .range = symbol.declared};
+  if (symbol.kind == SymbolKind::Constant) definition.value = symbol.declaration->value.text;
+  const bool known = symbol.kind == SymbolKind::Word || symbol.kind == SymbolKind::Bit;
+  if (known) definition.place = {"M", symbol.word * 32 + symbol.bit, symbol.kind == SymbolKind::Bit ? 1u : 32u};
+  definition.isPlaced = symbol.declaration != nullptr;
+  return definition;
 }
 
-void SymbolTable::noteUndeclared(std::string_view name, SourceRange range, std::string_view whole) {
-  undeclared_.add({{name, range}, whole});
+void Symbols::addTo(frontend::Analysis& analysis) const { SymbolTable::addTo(analysis, definitionOf); }
+
+void Symbols::reportUndeclared() {
+  SymbolTable::reportUndeclared(diagnostics_, diag::UndeclaredSymbol,
+                                [&](DiagBuilder& report, auto uses) { explain(report, uses); });
 }
 
-void SymbolTable::reportUndeclared() {
-  undeclared_.report(diagnostics_, diag::UndeclaredSymbol,
-                     [&](DiagBuilder& report, auto uses) { explain(report, uses); });
-}
-
-void SymbolTable::explain(DiagBuilder& report, std::span<const Undeclared> uses) {
+void Symbols::explain(DiagBuilder& report, std::span<const UndeclaredName> uses) {
   if (!diagnostics_.suggests()) return;
-  const Undeclared& use = uses.front();
+  const UndeclaredName& use = uses.front();
   const std::string_view name = use.name;
   if (const std::string meant = withZeros(use.whole.empty() ? name : use.whole); !meant.empty()) {
     report.note(fmt::format("inputs and outputs are numbered with three digits, their bits with two: {}", meant));
@@ -184,8 +179,8 @@ void SymbolTable::explain(DiagBuilder& report, std::span<const Undeclared> uses)
 }
 
 // Names of the program come first.
-Likely SymbolTable::similarTo(std::string_view name) const {
-  const Likely own = likeliest(name, table_.all(), &Symbol::name);
+Likely Symbols::similarTo(std::string_view name) const {
+  const Likely own = likeliest(name, all(), &Symbol::name);
   if (!own.word.empty()) return own;
   Similar similar(name);
   for (const nc::Signal& signal : nc::nctSignals()) similar.offer(signal.symbol);
@@ -193,10 +188,10 @@ Likely SymbolTable::similarTo(std::string_view name) const {
   return {similar.best(), similar.certain()};
 }
 
-void SymbolTable::declare(const ladder::Declaration& declaration) {
+void Symbols::declare(const ladder::Declaration& declaration) {
   const std::string_view name = declaration.name.text;
   if (!isName(name)) {
-    refused_.insert(name);
+    refuse(name);
     DiagBuilder report = diagnostics_.report(diag::BadOperand, declaration.name.range);
     report << name << "a name";
     report.note(kNameRule);
@@ -210,22 +205,22 @@ void SymbolTable::declare(const ladder::Declaration& declaration) {
   symbol.comment = declaration.comment;
   symbol.declaration = &declaration;
   symbol.pending = true;
-  table_.declare(symbol, diagnostics_);
+  SymbolTable::declare(symbol, diagnostics_);
 }
 
-void SymbolTable::declareBad(std::string_view name) {
+void Symbols::declareBad(std::string_view name) {
   if (indexOf(name) != frontend::kNoName) return;
   Symbol symbol = word(name, 0);
   symbol.kind = SymbolKind::Bad;
-  table_.enter(symbol);
+  enter(symbol);
 }
 
-void SymbolTable::resolveAll() {
-  for (uint32_t i = 0; i < table_.all().size(); ++i)
-    if (table_[i].pending) resolve(table_[i]);
+void Symbols::resolveAll() {
+  for (uint32_t i = 0; i < all().size(); ++i)
+    if (edit(i).pending) resolve(edit(i));
 }
 
-void SymbolTable::resolve(Symbol& symbol) {
+void Symbols::resolve(Symbol& symbol) {
   const Word& value = symbol.declaration->value;
   if (symbol.resolving) {
     diagnostics_.report(diag::BadOperand, value.range)
@@ -249,7 +244,7 @@ void SymbolTable::resolve(Symbol& symbol) {
   symbol.pending = false;
 }
 
-void SymbolTable::resolveConstant(Symbol& symbol) {
+void Symbols::resolveConstant(Symbol& symbol) {
   const Word& value = symbol.declaration->value;
   if (!value.text.starts_with('#') && !value.text.starts_with('*')) {
     DiagBuilder report = diagnostics_.report(diag::ConstantFormat, value.range);
@@ -263,7 +258,7 @@ void SymbolTable::resolveConstant(Symbol& symbol) {
   symbol.constant = *constant;
 }
 
-void SymbolTable::resolveAddress(Symbol& symbol) {
+void Symbols::resolveAddress(Symbol& symbol) {
   const Word& value = symbol.declaration->value;
   if (value.text.empty() || std::string_view("#*@%!/+-").find(value.text[0]) != std::string_view::npos) {
     DiagBuilder report = diagnostics_.report(diag::BadOperand, value.range);

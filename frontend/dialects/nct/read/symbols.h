@@ -1,8 +1,6 @@
 // Names of a program: the flags and limits, the symbols of the NC, and what the program declares. Names are common to
 // all modules and files and may be used above their declaration; case matters.
 #pragma once
-#include <deque>
-#include <set>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -10,9 +8,7 @@
 #include "frontend/dialects/nct/config.h"
 #include "frontend/dialects/nct/read/operand.h"
 #include "frontend/ladder/text/ladder_file.h"
-#include "frontend/sema/analysis.h"
-#include "frontend/sema/names.h"
-#include "frontend/sema/undeclared.h"
+#include "frontend/sema/symbol_table.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/nct/signals.h"
 
@@ -28,7 +24,7 @@ std::string_view aliasOf(std::string_view name);
 enum class SymbolKind : uint8_t { Bad, Word, Bit, Constant };
 
 struct Symbol {
-  uint32_t index = 0; // in SymbolTable::all and Analysis::definitions, of one that was found
+  uint32_t index = 0; // in Symbols::all, of one that was found
   std::string_view name;
   SourceRange declared;
   SymbolKind kind = SymbolKind::Bad; // Bad: its declaration was reported, uses stay silent
@@ -43,10 +39,13 @@ struct Symbol {
   bool resolving = false; // it is being read: meeting it again is a circle
 };
 
-class SymbolTable {
+struct UndeclaredName : frontend::UndeclaredUse {
+  std::string_view whole; // the operand's text when the name is its beginning
+};
+
+class Symbols : public frontend::SymbolTable<Symbol, UndeclaredName> {
 public:
-  SymbolTable(const Config& config, const SourceManager& sources, frontend::Analysis& analysis,
-              Diagnostics& diagnostics);
+  Symbols(const Config& config, const SourceManager& sources, Diagnostics& diagnostics);
 
   // Enters a name; a name that is there already is reported.
   void declare(const ladder::Declaration& declaration);
@@ -61,16 +60,10 @@ public:
   const Symbol* use(std::string_view name, SourceRange range);
   // The same for a text that may be something else: no use.
   const Symbol* find(std::string_view name);
-  // A name that is not declared; `whole` is the operand's text when the name is its beginning.
-  void noteUndeclared(std::string_view name, SourceRange range, std::string_view whole);
-  // Reports undeclared-symbol, once for each name, at its first use.
+  // Reports undeclared-symbol. To be called when all operands have been read.
   void reportUndeclared();
   // Says in the analysis what all names are. To be called last.
-  void defineAll();
-  // All names but those of the NC that nothing mentions, in the order of entering.
-  // Whether a declaration of this name was reported, because it is none.
-  bool wasRefused(std::string_view name) const { return refused_.contains(name); }
-  const std::deque<Symbol>& all() const { return table_.all(); }
+  void addTo(frontend::Analysis& analysis) const;
 
   const Config& config() const { return config_; }
   const SourceManager& sources() const { return sources_; }
@@ -85,23 +78,16 @@ private:
   void resolve(Symbol& symbol);
   void resolveConstant(Symbol& symbol);
   void resolveAddress(Symbol& symbol);
-  struct Undeclared : frontend::UndeclaredUse {
-    std::string_view whole;
-  };
-  void explain(DiagBuilder& report, std::span<const Undeclared> uses);
+  void explain(DiagBuilder& report, std::span<const UndeclaredName> uses);
   // The known name that is most like a misspelt one; empty when none is close.
   Likely similarTo(std::string_view name) const;
 
   static constexpr uint8_t kInput = 1;
   const Config& config_;
   const SourceManager& sources_;
-  frontend::Analysis& analysis_;
   Diagnostics& diagnostics_;
-  frontend::NameTable<Symbol> table_; // in the order of Analysis::definitions
-  frontend::UndeclaredNames<Undeclared> undeclared_;
   std::vector<uint8_t> direction_; // by word of the NC area
-  std::set<std::string_view> refused_;
-  int depth_ = 0; // of declarations that refer to each other
+  int depth_ = 0;                  // of declarations that refer to each other
 };
 
 } // namespace rung::nct

@@ -35,9 +35,16 @@ NamedPlace placeOf(const Symbol& symbol) {
   return isCell ? NamedPlace{kSpaces[symbol.space.index], bit, symbol.size * 8} : NamedPlace{};
 }
 
+bool isCalledByControl(const Symbol& symbol) {
+  if (symbol.kind != SymbolKind::Procedure) return false;
+  const std::string name = symbolKey(symbol.name);
+  return name == kOnMessage || std::ranges::find(kOnEvents, name) != std::end(kOnEvents);
+}
+
 Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
   Definition definition{.name = symbol.name};
   definition.place = placeOf(symbol);
+  definition.usedByControl = isCalledByControl(symbol);
   // Of a mechanism the compiler declares the line, and of a macro's use its own names: no source has them.
   const bool written = symbol.declared.valid() && sources.text(symbol.declared) == symbol.name;
   if (symbol.predeclared || !written) return definition;
@@ -47,12 +54,6 @@ Definition definitionOf(const SourceManager& sources, const Symbol& symbol) {
   definition.isPlaced = symbol.isOverlay;
   if (symbol.kind == SymbolKind::Constant) definition.value = declared.rest;
   return definition;
-}
-
-bool isCalledByControl(const Symbol& symbol) {
-  if (symbol.kind != SymbolKind::Procedure) return false;
-  const std::string name = symbolKey(symbol.name);
-  return name == kOnMessage || std::ranges::find(kOnEvents, name) != std::end(kOnEvents);
 }
 
 // A label or procedure is a place in the program too; it is numbered as symbols are.
@@ -113,16 +114,12 @@ void addOperand(const TypedProgram& program, const Operand& operand, bool isSet,
 
 Analysis analysisOf(const TypedProgram& program) {
   Analysis analysis;
-  for (const Symbol& symbol : program.symbols.all()) {
-    const uint32_t index = analysis.define(definitionOf(program.source.sources, symbol)); // that of the symbol too
-    analysis.definition(index).usedByControl = isCalledByControl(symbol);
-    addTarget(symbol, index, analysis.definition(index).range, true, analysis);
-  }
-  for (const std::vector<NameUse>* names : {&program.symbols.uses(), &program.names})
-    for (const NameUse& name : *names) {
-      analysis.use(name.range, name.definition);
-      addTarget(program.symbols[name.definition], name.definition, name.range, false, analysis);
-    }
+  const Symbols& symbols = program.symbols;
+  symbols.addTo(analysis, [&](const Symbol& symbol) { return definitionOf(program.source.sources, symbol); });
+  for (uint32_t i = 0; i < symbols.all().size(); ++i)
+    addTarget(symbols[i], i, analysis.definitions()[i].range, true, analysis);
+  for (const NameUse& name : symbols.uses())
+    addTarget(symbols[name.definition], name.definition, name.range, false, analysis);
   for (const Statement& statement : program.source.statements)
     if (statement.row != nullptr) analysis.use(InstructionUse{statement.range(), &statement.row->info});
   for (uint32_t i = 0; i < program.statements.size(); ++i) {

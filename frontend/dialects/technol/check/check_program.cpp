@@ -92,7 +92,7 @@ void PartChecker::code(const Statement& statement, Typed& typed) {
 
 } // namespace
 
-TypedProgram checkProgram(const SourceProgram& program, const Declarations& declarations, SymbolTable& symbols,
+TypedProgram checkProgram(const SourceProgram& program, const Declarations& declarations, Symbols& symbols,
                           std::string_view axisNames, Diagnostics& diagnostics) {
   TypedProgram typed{.source = program, .declarations = declarations, .symbols = symbols};
   typed.statements.resize(program.statements.size());

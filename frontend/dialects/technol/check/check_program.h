@@ -9,7 +9,7 @@ namespace rung::frontend::technol {
 // stack, registers lost at a wait, jumps, calls. Of a program with errors, also those found while it was read, the
 // result is what could be understood; such a program is not lowered. `symbols` gets the names of the control that the
 // operands use. `axisNames`: of axes 1 and up, separated by blanks; empty: those of the rows.
-TypedProgram checkProgram(const SourceProgram& program, const Declarations& declarations, SymbolTable& symbols,
+TypedProgram checkProgram(const SourceProgram& program, const Declarations& declarations, Symbols& symbols,
                           std::string_view axisNames, Diagnostics& diagnostics);
 
 } // namespace rung::frontend::technol

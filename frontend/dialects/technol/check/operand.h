@@ -45,7 +45,7 @@ struct Operand {
   std::span<const Token> tokens;
   SourceRange range;
   Access access = Access::Read; // what the instruction does with it
-  uint32_t firstName = 0;       // what its names are, in TypedProgram::names
+  uint32_t firstName = 0;       // what its names are, in Symbols::uses
   uint32_t nameCount = 0;
 
   bool given() const { return form != Form::NotGiven; }

@@ -102,7 +102,7 @@ const Symbol* OperandParser::usable(uint32_t index) const {
 }
 
 uint32_t OperandParser::note(const Token& name, uint32_t symbol) {
-  if (symbol != kNone) names_.push_back({name.range(), symbol});
+  if (symbol != kNone) symbols_.use(name.range(), symbol);
   return symbol;
 }
 
@@ -120,9 +120,9 @@ bool OperandParser::parse(const Statement& statement, std::vector<Operand>& out)
     operand.range = rangeOf(program_.sources, operands[i], statement.range());
     operand.tokens = operands[i];
     operand.access = info.access;
-    operand.firstName = static_cast<uint32_t>(names_.size());
+    operand.firstName = static_cast<uint32_t>(symbols_.uses().size());
     ok = one(info, operands[i], operand) && ok;
-    operand.nameCount = static_cast<uint32_t>(names_.size()) - operand.firstName;
+    operand.nameCount = static_cast<uint32_t>(symbols_.uses().size()) - operand.firstName;
     // The type of a count holds for the time, too (man. l.2133).
     inherited_ = i == 0 && (statement.row->effects & kWaits) && operand.prefixed ? naturalPrefix(operand.type) : 0;
   }
@@ -308,7 +308,7 @@ bool OperandParser::read(const WidthKind& kind, const OperandInfo& info, Tokens 
     return true;
   }
   if (!kind.bit) return syntax(doc.substr(0, doc.find(';')), tokens);
-  const auto number = ConstantReader(symbols_, diagnostics_, file_, &names_).value(tokens, statement_->range());
+  const auto number = ConstantReader(symbols_, diagnostics_, file_).value(tokens, statement_->range());
   if (!number) return false;
   out.form = Operand::Form::Integer;
   out.value = *number;

@@ -9,10 +9,10 @@ namespace rung::frontend::technol {
 // Parses the operands of one statement; reports everything that is wrong with them.
 class OperandParser {
 public:
-  // What operands need beside themselves, names and texts, goes to `typed`.
-  OperandParser(TypedProgram& typed, SymbolTable& symbols, std::string_view axisNames, Diagnostics& diagnostics)
+  // The texts of operands go to `typed`.
+  OperandParser(TypedProgram& typed, Symbols& symbols, std::string_view axisNames, Diagnostics& diagnostics)
       : program_(typed.source), declarations_(typed.declarations), symbols_(symbols), axisNames_(axisNames),
-        diagnostics_(diagnostics), names_(typed.names), texts_(typed.texts) {}
+        diagnostics_(diagnostics), texts_(typed.texts) {}
 
   // False after a report. The operands follow in `out`, one an operand of the source and NotGiven where the row allows
   // more.
@@ -90,16 +90,15 @@ private:
   bool syntax(std::string_view expected, std::span<const Token> tokens, SourceRange otherwise); // where there are none
   // Null where there is none, or it is declared in error: that has been reported.
   const Symbol* usable(uint32_t index) const;
-  // The symbol of a name, which is noted.
+  // The symbol of a name, which is used.
   uint32_t note(const Token& name, uint32_t symbol);
-  uint32_t require(const Token& name) { return note(name, symbols_.require(name, file_)); }
+  uint32_t require(const Token& name) { return symbols_.require(name, file_); }
 
   const SourceProgram& program_;
   const Declarations& declarations_;
-  SymbolTable& symbols_;
+  Symbols& symbols_;
   std::string_view axisNames_;
   Diagnostics& diagnostics_;
-  std::vector<NameUse>& names_;
   std::deque<std::string>& texts_;
   uint32_t file_ = 0;
   const Statement* statement_ = nullptr;

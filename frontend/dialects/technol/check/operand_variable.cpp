@@ -38,8 +38,8 @@ bool OperandParser::read(const InputKind&, const OperandInfo& info, Tokens token
   if (symbol == nullptr) return false;
   out.value = -1; // all elements
   if (tokens.size() > 1) {
-    const auto number = ConstantReader(symbols_, diagnostics_, file_, &names_)
-                            .value(tokens.subspan(2, tokens.size() - 3), statement_->range());
+    const auto number =
+        ConstantReader(symbols_, diagnostics_, file_).value(tokens.subspan(2, tokens.size() - 3), statement_->range());
     if (!number) return false;
     out.value = *number;
   }

@@ -30,10 +30,9 @@ struct Typed {
 struct TypedProgram {
   const SourceProgram& source;
   const Declarations& declarations;
-  const SymbolTable& symbols;
+  const Symbols& symbols;
   std::vector<Typed> statements = {}; // as SourceProgram::statements; those outside code have nothing
   std::vector<Operand> operands = {};
-  std::vector<NameUse> names = {};    // by the index of the symbol
   std::deque<std::string> texts = {}; // of the operands, as the memory holds them
 
   std::span<const Operand> operandsOf(const Typed& statement) const {
@@ -41,7 +40,7 @@ struct TypedProgram {
   }
   // The names in an operand, in the order in which they were looked up.
   std::span<const NameUse> namesOf(const Operand& operand) const {
-    return std::span(names).subspan(operand.firstName, operand.nameCount);
+    return symbols.uses().subspan(operand.firstName, operand.nameCount);
   }
 };
 

@@ -23,7 +23,6 @@ std::optional<int64_t> ConstantReader::named(const Token& name) {
     diagnostics_.report(diag::WrongOperandKind, name.range()) << name.text << "no constant" << "a constant";
     return std::nullopt;
   }
-  if (names_ != nullptr) names_->push_back({name.range(), index});
   return symbols_[index].value;
 }
 

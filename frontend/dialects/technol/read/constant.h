@@ -8,9 +8,8 @@ namespace rung::frontend::technol {
 // Reads those of one file.
 class ConstantReader {
 public:
-  // `names`: where the names in them are noted; may be null.
-  ConstantReader(SymbolTable& symbols, Diagnostics& diagnostics, uint32_t file, std::vector<NameUse>* names = nullptr)
-      : symbols_(symbols), diagnostics_(diagnostics), file_(file), names_(names) {}
+  ConstantReader(Symbols& symbols, Diagnostics& diagnostics, uint32_t file)
+      : symbols_(symbols), diagnostics_(diagnostics), file_(file) {}
 
   // Nothing after a report; `otherwise` is its place where there are no tokens.
   std::optional<int64_t> value(std::span<const Token> tokens, SourceRange otherwise);
@@ -21,10 +20,9 @@ private:
   std::optional<int64_t> syntax(SourceRange at, const std::string& found);
   std::optional<int64_t> badNumber(const Token& token);
 
-  SymbolTable& symbols_;
+  Symbols& symbols_;
   Diagnostics& diagnostics_;
   uint32_t file_;
-  std::vector<NameUse>* names_;
 };
 
 } // namespace rung::frontend::technol

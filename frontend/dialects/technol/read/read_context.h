@@ -17,7 +17,7 @@ struct ReadContext {
   Diagnostics& diagnostics;
   SourceProgram& program;
   Declarations& declarations;
-  SymbolTable& symbols;
+  Symbols& symbols;
 
   // Files that were included, by path, as they are read: once, so that a mistake in one has one place. Nothing: no
   // text.

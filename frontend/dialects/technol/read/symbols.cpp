@@ -114,7 +114,7 @@ std::string symbolKey(std::string_view name) {
   return text::upper(name.substr(0, std::min(mark, kSignificant))).append(name.substr(mark));
 }
 
-void SymbolTable::checkName(const Symbol& symbol) {
+void Symbols::checkName(const Symbol& symbol) {
   if (std::min(symbol.name.find(kUseMark), symbol.name.size()) > kSignificant)
     diagnostics_.report(diag::NameTooLong, symbol.declared) << symbol.name;
   switch (reservedWord(symbol.name)) {
@@ -127,16 +127,16 @@ void SymbolTable::checkName(const Symbol& symbol) {
 }
 
 // The symbol that a name of this file would collide with; kNone when there is none.
-uint32_t SymbolTable::inOwnFile(const Symbol& symbol) const {
-  const uint32_t own = table_.find(symbol.name, {kFirstFile + symbol.file});
+uint32_t Symbols::inOwnFile(const Symbol& symbol) const {
+  const uint32_t own = SymbolTable::find(symbol.name, {kFirstFile + symbol.file});
   if (own != kNone) return own;
-  const uint32_t global = table_.find(symbol.name, {kGlobal});
-  return global == kNone || !symbol.local || table_[global].file == symbol.file ? global : kNone;
+  const uint32_t global = SymbolTable::find(symbol.name, {kGlobal});
+  return global == kNone || !symbol.local || all()[global].file == symbol.file ? global : kNone;
 }
 
 // Whether both declarations are allowed: the same constant twice, or a mechanism and a cell of one name (man. l.12304).
-bool SymbolTable::merge(uint32_t earlier, Symbol& symbol) {
-  Symbol& first = table_[earlier];
+bool Symbols::merge(uint32_t earlier, Symbol& symbol) {
+  Symbol& first = edit(earlier);
   if (first.kind == SymbolKind::Constant && symbol.kind == SymbolKind::Constant && first.value == symbol.value)
     return true;
   if (first.kind == SymbolKind::Structure && symbol.kind == SymbolKind::Structure && first.value == symbol.value)
@@ -152,7 +152,7 @@ bool SymbolTable::merge(uint32_t earlier, Symbol& symbol) {
   return true;
 }
 
-void SymbolTable::checkPredeclared(const Symbol& symbol) {
+void Symbols::checkPredeclared(const Symbol& symbol) {
   const Predefined* constant = findPredefined(symbolKey(symbol.name));
   const bool sameConstant = constant && symbol.kind == SymbolKind::Constant && symbol.value == constant->value;
   const nc::Signal* signal = nc::findSignal(nc::technolSignals(), symbolKey(symbol.name), "I");
@@ -160,38 +160,38 @@ void SymbolTable::checkPredeclared(const Symbol& symbol) {
 }
 
 // Once for an inclusion, however many names the file has.
-void SymbolTable::reportIncludedAgain(std::string_view name) {
+void Symbols::reportIncludedAgain(std::string_view name) {
   if (reportedAgain_.insert(again_.begin).second)
     diagnostics_.report(diag::DuplicateSymbol, again_).note("the file is included before this, and declares it there")
         << name;
 }
 
-uint32_t SymbolTable::declare(Symbol symbol) {
+uint32_t Symbols::declare(Symbol symbol) {
   checkName(symbol);
   const uint32_t earlier = inOwnFile(symbol);
   if (earlier == kNone) {
     checkPredeclared(symbol);
-    return table_.enter(symbol, scopeOf(symbol));
+    return enter(symbol, scopeOf(symbol));
   }
-  const Symbol& first = table_[earlier];
+  const Symbol& first = all()[earlier];
   if (!merge(earlier, symbol)) {
     const bool sameLine = first.declared == symbol.declared;
     if (sameLine && again_.valid()) {
       reportIncludedAgain(symbol.name);
-      return table_.add(symbol);
+      return add(symbol);
     }
     reportDuplicate(diagnostics_, symbol.name, symbol.declared, first.declared,
                     sameLine ? "by the macro's first use; T_LOCAL gives each use a name of its own" : kFirstDeclared);
-    return table_.add(symbol);
+    return add(symbol);
   }
   if (symbol.kind == SymbolKind::Constant || symbol.kind == SymbolKind::Structure) return earlier;
   // The cell carries both meanings.
-  return symbol.kind == SymbolKind::Cell ? table_.enter(symbol, scopeOf(first)) : table_.add(symbol);
+  return symbol.kind == SymbolKind::Cell ? enter(symbol, scopeOf(first)) : add(symbol);
 }
 
-uint32_t SymbolTable::enterPredeclared(std::string_view name) {
+uint32_t Symbols::enterPredeclared(std::string_view name) {
   if (const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "I"))
-    return table_.enter(fromSignal(*signal), kControl);
+    return enter(fromSignal(*signal), kControl);
   const Predefined* constant = findPredefined(symbolKey(name));
   if (!constant) return kNone;
   Symbol symbol;
@@ -199,20 +199,20 @@ uint32_t SymbolTable::enterPredeclared(std::string_view name) {
   symbol.kind = SymbolKind::Constant;
   symbol.predeclared = true;
   symbol.value = constant->value;
-  return table_.enter(symbol, kControl);
+  return enter(symbol, kControl);
 }
 
-uint32_t SymbolTable::find(std::string_view name, uint32_t file) {
-  const uint32_t known = table_.find(name, {kFirstFile + file, kGlobal, kControl});
+uint32_t Symbols::find(std::string_view name, uint32_t file) {
+  const uint32_t known = SymbolTable::find(name, {kFirstFile + file, kGlobal, kControl});
   return known != kNone ? known : enterPredeclared(name);
 }
 
-uint32_t SymbolTable::require(const Token& name, uint32_t file) {
+uint32_t Symbols::require(const Token& name, uint32_t file) {
   const uint32_t index = find(name.text, file);
   if (index == kNone)
     noteUndefined(name, file, {});
   else
-    uses_.push_back({name.range(), index});
+    use(name.range(), index);
   return index;
 }
 
@@ -267,13 +267,9 @@ static Likely similarOfControl(std::string_view name) {
   return {similar.best(), similar.certain()};
 }
 
-void SymbolTable::noteUndefined(const Token& name, uint32_t file, Hint hint) {
-  undefined_.add({{name.text, name.range()}, file, hint});
-}
-
-void SymbolTable::reportUndefined() {
-  undefined_.report(diagnostics_, diag::UndefinedSymbol, [&](DiagBuilder& report, std::span<const Undefined> uses) {
-    const Undefined& first = uses.front();
+void Symbols::reportUndefined() {
+  reportUndeclared(diagnostics_, diag::UndefinedSymbol, [&](DiagBuilder& report, std::span<const UndefinedName> uses) {
+    const UndefinedName& first = uses.front();
     const Likely meant = similar(first);
     suggestAt(report, placesOf(uses), {meant.word, meant.certain && isMeantByAll(uses, meant.word)});
     if (meant.word.empty() && looksLikeNumber(first.name)) report.note("as a number: 0" + std::string(first.name));
@@ -281,9 +277,9 @@ void SymbolTable::reportUndefined() {
 }
 
 // Another file has other names, and another structure other members; what a macro puts together no place has.
-bool SymbolTable::isMeantByAll(std::span<const Undefined> uses, std::string_view word) const {
-  const Undefined& first = uses.front();
-  return std::ranges::all_of(uses, [&](const Undefined& use) {
+bool Symbols::isMeantByAll(std::span<const UndefinedName> uses, std::string_view word) const {
+  const UndefinedName& first = uses.front();
+  return std::ranges::all_of(uses, [&](const UndefinedName& use) {
     if (use.range.end.value - use.range.begin.value != use.name.size()) return false;
     const bool isAlike = use.file == first.file && use.hint.structure == first.hint.structure &&
                          use.hint.meant.word == first.hint.meant.word;
@@ -295,7 +291,7 @@ bool SymbolTable::isMeantByAll(std::span<const Undefined> uses, std::string_view
 
 // The visible name that is most like a misspelt one; "" when none is close. Members of the structure come first, then
 // the program's own names, then those of the control, bits of bytes among them.
-Likely SymbolTable::similar(const Undefined& use) const {
+Likely Symbols::similar(const UndefinedName& use) const {
   if (!use.hint.meant.word.empty()) return use.hint.meant;
   if (!diagnostics_.suggests()) return {};
   if (const Likely member = similarMember(use.name, use.hint.structure); !member.word.empty()) return member;
@@ -303,11 +299,11 @@ Likely SymbolTable::similar(const Undefined& use) const {
     const bool isWritten = symbol.name.find(kUseMark) == std::string_view::npos;
     return isWritten && !symbol.predeclared && (!symbol.local || symbol.file == use.file);
   };
-  const Likely own = likeliest(use.name, table_.all() | std::views::filter(isVisible), &Symbol::name);
+  const Likely own = likeliest(use.name, all() | std::views::filter(isVisible), &Symbol::name);
   return !own.word.empty() ? own : similarOfControl(use.name);
 }
 
-uint32_t SymbolTable::findWeight(std::string_view name, uint32_t file) {
+uint32_t Symbols::findWeight(std::string_view name, uint32_t file) {
   const uint32_t index = find(name, file);
   if (index != kNone) return index;
   const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "W");
@@ -316,16 +312,16 @@ uint32_t SymbolTable::findWeight(std::string_view name, uint32_t file) {
   Symbol symbol = fromSignal(*signal);
   symbol.protection = Protection::None;
   symbol.space = {};
-  return table_.enter(symbol, kControl);
+  return enter(symbol, kControl);
 }
 
-uint32_t SymbolTable::findMember(const char* structure, std::string_view member) {
+uint32_t Symbols::findMember(const char* structure, std::string_view member) {
   if (*structure == 0) return kNone;
   const std::string full = std::string(structure) + "." + std::string(member);
   const nc::Signal* signal = nc::findSignal(nc::technolSignals(), full, structure);
   if (signal == nullptr) return kNone;
   const auto [entry, isNew] = members_.emplace(signal, kNone);
-  if (isNew) entry->second = table_.add(fromSignal(*signal));
+  if (isNew) entry->second = add(fromSignal(*signal));
   return entry->second;
 }
 

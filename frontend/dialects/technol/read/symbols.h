@@ -11,10 +11,7 @@
 #include <vector>
 
 #include "frontend/dialects/technol/records.h"
-#include "frontend/sema/analysis.h"
-#include "frontend/sema/names.h"
-#include "frontend/sema/undeclared.h"
-#include "ir/support/diagnostics.h"
+#include "frontend/sema/symbol_table.h"
 #include "ir/support/similar.h"
 #include "rtlib/nc/signal.h"
 
@@ -45,39 +42,42 @@ struct Predefined {
 };
 std::span<const Predefined> predefinedConstants();
 
-class SymbolTable {
-public:
-  explicit SymbolTable(Diagnostics& diagnostics) : diagnostics_(diagnostics) { table_.addScope(); }
+// What is known of a name that is not declared.
+struct NameHint {
+  const char* structure = nullptr; // of the control, where it is looked for as a member
+  Likely meant;                    // what it may have been; without a word: to be looked for
+};
 
-  void addFile() { table_.addScope(); }
+struct UndefinedName : UndeclaredUse {
+  uint32_t file = 0;
+  NameHint hint;
+};
+
+class Symbols : public SymbolTable<Symbol, UndefinedName, symbolKey> {
+public:
+  explicit Symbols(Diagnostics& diagnostics) : diagnostics_(diagnostics) { addScope(); }
+
+  void addFile() { addScope(); }
   // Enters a name of `symbol.file` and returns its index. Reports duplicate-symbol, shared-name, reserved-word and
   // name-too-long; a duplicate gets a symbol of its own that no name leads to.
   uint32_t declare(Symbol symbol);
+  // While a file that was included before is read: where that is done. Gives what was said last.
+  SourceRange readsAgain(SourceRange include) { return std::exchange(again_, include); }
+  using SymbolTable::edit; // while the program is read
+
   // kNone where there is none.
   uint32_t find(std::string_view name, uint32_t file);
   // As find, and a use of it; where there is none, the name is noted as undefined.
   uint32_t require(const Token& name, uint32_t file);
-  // While a file that was included before is read: where that is done. Gives what was said last.
-  SourceRange readsAgain(SourceRange include) { return std::exchange(again_, include); }
-  // What is known of a name that is not declared.
-  struct Hint {
-    const char* structure = nullptr; // of the control, where it is looked for as a member
-    Likely meant;                    // what it may have been; without a word: to be looked for
-  };
-  void noteUndefined(const Token& name, uint32_t file, Hint hint);
-  // Reports undefined-symbol, once for each name, at its first use.
-  void reportUndefined();
   // A bit name that may only follow an address.
   uint32_t findWeight(std::string_view name, uint32_t file);
   // A member of an interface structure; kNone when it has none of this name.
   uint32_t findMember(const char* structure, std::string_view member);
-
-  // While the program is read.
-  Symbol& edit(uint32_t index) { return table_[index]; }
-  const Symbol& operator[](uint32_t index) const { return table_[index]; }
-  const std::deque<Symbol>& all() const { return table_.all(); }
-  // Of names that were required, by the index of the symbol, in the order of asking.
-  const std::vector<NameUse>& uses() const { return uses_; }
+  void noteUndefined(const Token& name, uint32_t file, NameHint hint) {
+    noteUndeclared({{name.text, name.range()}, file, hint});
+  }
+  // Reports undefined-symbol. To be called when all operands have been read.
+  void reportUndefined();
 
 private:
   // Scopes: the global names, those of the control that are in use, and each file's own.
@@ -89,21 +89,14 @@ private:
   void checkName(const Symbol& symbol);
   void checkPredeclared(const Symbol& symbol);
   uint32_t enterPredeclared(std::string_view name);
-  struct Undefined : UndeclaredUse {
-    uint32_t file = 0;
-    Hint hint;
-  };
-  Likely similar(const Undefined& use) const;
-  bool isMeantByAll(std::span<const Undefined> uses, std::string_view word) const;
+  Likely similar(const UndefinedName& use) const;
+  bool isMeantByAll(std::span<const UndefinedName> uses, std::string_view word) const;
   void reportIncludedAgain(std::string_view name);
 
   SourceRange again_;                 // see readsAgain
   std::set<SourcePos> reportedAgain_; // inclusions
   Diagnostics& diagnostics_;
-  NameTable<Symbol, symbolKey> table_;
-  std::vector<NameUse> uses_;
   std::unordered_map<const nc::Signal*, uint32_t> members_; // of structures of the control, those that are in use
-  UndeclaredNames<Undefined, symbolKey> undefined_;
 };
 
 } // namespace rung::frontend::technol

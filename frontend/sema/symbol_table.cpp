@@ -1,5 +1,7 @@
-// Names that are declared twice (see names.h).
-#include "frontend/sema/names.h"
+// Names that are declared twice or not at all (see symbol_table.h).
+#include "frontend/sema/symbol_table.h"
+
+#include <string>
 
 #include "ir/support/diag/operand.h"
 
@@ -9,6 +11,11 @@ void reportDuplicate(Diagnostics& diagnostics, std::string_view name, SourceRang
                      std::string_view note) {
   diagnostics.report(diag::DuplicateSymbol, range).note(first, first.valid() ? note : "it is predefined by the control")
       << name;
+}
+
+void noteFurtherUses(DiagBuilder& report, SourceRange second, size_t further) {
+  report.note(second, further == 1 ? "it is used once more, here"
+                                   : "and " + std::to_string(further) + " further uses; the next is here");
 }
 
 } // namespace rung::frontend

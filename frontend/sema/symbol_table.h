@@ -1,0 +1,133 @@
+// The names of a program, for every dialect: here they are declared, found in their scopes and used, and those that are
+// not declared are reported. A dialect derives its own table, which knows what a declaration means and which names the
+// control has; tools ask the Analysis, which gets it all in the end.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <span>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "frontend/sema/analysis.h"
+#include "ir/support/diagnostics.h"
+
+namespace rung::frontend {
+
+inline constexpr uint32_t kNoName = UINT32_MAX;
+
+inline constexpr std::string_view kFirstDeclared = "first declared here";
+
+// Reports a name that is declared again. `first` is the former place, and `note` what it is; invalid: the control has
+// the name.
+void reportDuplicate(Diagnostics& diagnostics, std::string_view name, SourceRange range, SourceRange first,
+                     std::string_view note = kFirstDeclared);
+
+// A use of a name that is not declared.
+struct UndeclaredUse {
+  std::string_view name;
+  SourceRange range;
+};
+
+// The places of the uses.
+template <class Use>
+std::vector<SourceRange> placesOf(std::span<const Use> uses) {
+  std::vector<SourceRange> places;
+  for (const Use& use : uses) places.push_back(use.range);
+  return places;
+}
+
+// Adds the second use, and how many there are.
+void noteFurtherUses(DiagBuilder& report, SourceRange second, size_t further);
+
+// Capitals and small letters differ, and all of a name counts.
+constexpr std::string_view asWritten(std::string_view name) { return name; }
+
+// A Symbol has a `name`, whose text lives as long as the table, and the range `declared`: invalid, it is the control's.
+// Undeclared is an UndeclaredUse, with what the dialect needs to know for the report. Two names of the same key are one
+// name. Symbols are numbered in the order of entering and stay where they are. Scope 0 is there from the beginning;
+// each addScope makes the next.
+template <class Symbol, class Undeclared = UndeclaredUse, auto keyOf = asWritten>
+class SymbolTable {
+public:
+  // In the first of the scopes that has the name; kNoName where none has.
+  uint32_t find(std::string_view name, std::initializer_list<uint32_t> scopes = {0}) const {
+    const auto key = keyOf(name);
+    for (const uint32_t scope : scopes)
+      if (const auto at = scopes_[scope].find(key); at != scopes_[scope].end()) return at->second;
+    return kNoName;
+  }
+  // A name that means the symbol is written there.
+  void use(SourceRange range, uint32_t symbol) { uses_.push_back({range, symbol}); }
+  const Symbol& operator[](uint32_t symbol) const { return symbols_[symbol]; }
+  const std::deque<Symbol>& all() const { return symbols_; }
+  // In the order of their noting; the definition is the number of the symbol.
+  std::span<const NameUse> uses() const { return uses_; }
+
+  // Whether a declaration of this name was reported, because it is none: uses stay silent.
+  bool wasRefused(std::string_view name) const { return refused_.contains(keyOf(name)); }
+  // In any order, also several times.
+  void noteUndeclared(Undeclared use) { undeclared_[keyOf(use.name)].push_back(std::move(use)); }
+  // Once for each name, at its first use. `explain` gets the report, which has the name as its first argument, and all
+  // uses, the first one first, so that a fix is one of all.
+  template <class Explain>
+  void reportUndeclared(Diagnostics& diagnostics, Diag code, Explain explain) {
+    const auto begin = [](const Undeclared& use) { return use.range.begin; };
+    for (auto& [key, uses] : std::exchange(undeclared_, {})) {
+      std::ranges::stable_sort(uses, {}, begin);
+      const auto again = std::ranges::unique(uses, {}, begin);
+      uses.erase(again.begin(), again.end());
+      DiagBuilder report = diagnostics.report(code, uses.front().range);
+      report << uses.front().name;
+      explain(report, std::span<const Undeclared>(uses));
+      if (uses.size() > 1) noteFurtherUses(report, uses[1].range, uses.size() - 1);
+    }
+  }
+
+  // Gives the analysis what it has: definitionOf(symbol) for each symbol, by its number, and the uses.
+  template <class DefinitionOf>
+  void addTo(Analysis& analysis, DefinitionOf definitionOf) const {
+    for (const Symbol& symbol : symbols_) analysis.define(definitionOf(symbol));
+    for (const NameUse& name : uses_) analysis.use(name.range, name.definition);
+  }
+
+protected:
+  void addScope() { scopes_.emplace_back(); }
+  // A symbol that no name leads to.
+  uint32_t add(Symbol symbol) {
+    symbols_.push_back(std::move(symbol));
+    return static_cast<uint32_t>(symbols_.size() - 1);
+  }
+  // A symbol that its name leads to from now on.
+  uint32_t enter(Symbol symbol, uint32_t scope = 0) {
+    const uint32_t index = add(std::move(symbol));
+    scopes_[scope].insert_or_assign(keyOf(symbols_[index].name), index);
+    return index;
+  }
+  // The same, but a name that the scope has already is reported; kNoName then.
+  uint32_t declare(Symbol symbol, Diagnostics& diagnostics) {
+    const uint32_t first = find(symbol.name);
+    if (first == kNoName) return enter(std::move(symbol));
+    reportDuplicate(diagnostics, symbol.name, symbol.declared, symbols_[first].declared);
+    return kNoName;
+  }
+  // The dialect has reported that the declared name is none.
+  void refuse(std::string_view name) { refused_.insert(keyOf(name)); }
+  Symbol& edit(uint32_t symbol) { return symbols_[symbol]; }
+
+private:
+  using Key = decltype(keyOf(std::string_view()));
+
+  std::deque<Symbol> symbols_;
+  std::vector<std::unordered_map<Key, uint32_t>> scopes_{1};
+  std::vector<NameUse> uses_;
+  std::set<Key> refused_;
+  std::map<Key, std::vector<Undeclared>> undeclared_;
+};
+
+} // namespace rung::frontend

@@ -67,23 +67,9 @@ void addTarget(const Symbol& symbol, uint32_t number, SourceRange range, bool de
 NamedPlace placeOf(const Operand& operand) {
   if (!operand.place.space.valid()) return {};
   const std::string_view space = kSpaces[operand.place.space.index];
-  const uint32_t byte = (operand.indexed ? static_cast<uint32_t>(operand.value) : operand.place.byte) * 8;
-  switch (operand.form) {
-  case Operand::Form::Bit: return {space, byte + operand.place.bit, 1};
-  case Operand::Form::Cell:
-    return {space, byte, operand.type == ir::Type::None ? operand.size * 8 : ir::bitWidth(operand.type)};
-  case Operand::Form::Text: return {space, byte, operand.size * 8};
-  case Operand::Form::NotGiven:
-  case Operand::Form::Integer:
-  case Operand::Form::Real:
-  case Operand::Form::Label:
-  case Operand::Form::Mechanism:
-  case Operand::Form::Procedure:
-  case Operand::Form::Width:
-  case Operand::Form::Register:
-  case Operand::Form::Keyword: break;
-  }
-  return {};
+  const uint32_t bit = static_cast<uint32_t>(operand.byte()) * 8;
+  if (operand.form == Operand::Form::Bit) return {space, bit + operand.place.bit, 1};
+  return {space, bit, operand.type == ir::Type::None ? operand.size() * 8 : ir::bitWidth(operand.type)};
 }
 
 // FL 1 and FL1 1 set their bits.

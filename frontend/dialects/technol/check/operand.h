@@ -1,6 +1,7 @@
 // An operand of a statement as it is understood.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string_view>
 
@@ -16,9 +17,7 @@ struct Operand {
     Text,
     Integer,
     Real,
-    Label,
-    Mechanism,
-    Procedure,
+    Name, // of a label, a mechanism or a procedure: `index`
     Width,
     Register,
     Keyword // value: its number among the Words of the kind, or a member's offset
@@ -31,14 +30,11 @@ struct Operand {
   bool isText = false;            // of a text variable, whose last byte is its terminator
   uint32_t scale = 1;             // bytes that BX counts
   ir::Type type = ir::Type::None; // of a cell, a constant or a width; F64 for reals
-  ir::Place place;
-  // Of a text or an array at an address: bytes from there to its end, with a text's terminator; 0 past the end. Where
-  // indexed, from `value` on: BX takes off more.
-  uint32_t size = 0;
-  int64_t begin = 0; // of that text or array, in its space
+  ir::Place place;                // where indexed, without its byte
+  int64_t offset = 0;             // where indexed: the byte of the space that BX is added to
+  int64_t begin = 0;              // of the variable or member that the address is counted from, in its space
   int64_t end = 0;
-  int64_t base = 0;  // of any place: where the variable begins that its address is counted from
-  int64_t value = 0; // of a constant; where indexed, the offset in bytes that BX is added to
+  int64_t value = 0; // of a constant; of an input the element, -1: all
   double real = 0;
   uint32_t index = kNone; // label, mechanism, procedure, variable of MAP_* or DEF_*
   std::string_view text;  // of a quoted text, as the memory holds it (Windows-1250)
@@ -51,6 +47,11 @@ struct Operand {
   bool given() const { return form != Form::NotGiven; }
   bool isConstant() const { return form == Form::Integer || form == Form::Real; }
   bool isReal() const { return type == ir::Type::F64; }
+  // The byte of the space that it names; where indexed BX is added.
+  int64_t byte() const { return indexed ? offset : int64_t{place.byte}; }
+  // Bytes from there to the end of the variable, with a text's terminator; 0 past the end. Where indexed BX takes off
+  // more.
+  uint32_t size() const { return static_cast<uint32_t>(std::max<int64_t>(end - byte(), 0)); }
 };
 
 // The operand as written, without blanks.

@@ -230,7 +230,8 @@ bool OperandParser::leavesItsCell(const Address& address, int64_t byte, uint32_t
 
 bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t bytes, Operand& out) {
   out.place.space = address.space;
-  out.base = address.begin;
+  out.begin = address.begin;
+  out.end = address.end;
   out.indexed = address.indexed;
   // An index is checked when it is used; only what no index reaches is wrong now.
   const int64_t slack = address.indexed ? 0xFFFF : 0;
@@ -244,7 +245,7 @@ bool OperandParser::setPlace(const Address& address, int64_t byte, uint32_t byte
     return false;
   }
   if (address.indexed)
-    out.value = byte;
+    out.offset = byte;
   else
     out.place.byte = static_cast<uint32_t>(byte);
   return true;

@@ -281,9 +281,7 @@ bool OperandParser::read(const NameKind& kind, const OperandInfo& info, Tokens t
   const bool shared = kind.symbol == SymbolKind::Mechanism && symbol->mechanism != kNone;
   if (symbol->kind != kind.symbol && !shared) return wrongKind(out, describe(*symbol), wanted);
   out.index = shared ? symbol->mechanism : symbol->index;
-  out.form = kind.symbol == SymbolKind::Label       ? Operand::Form::Label
-             : kind.symbol == SymbolKind::Mechanism ? Operand::Form::Mechanism
-                                                    : Operand::Form::Procedure;
+  out.form = Operand::Form::Name;
   return true;
 }
 
@@ -405,9 +403,6 @@ bool OperandParser::read(const MemoryKind& kind, const OperandInfo& info, Tokens
   out.form = Operand::Form::Cell;
   out.isText = address.isText;
   if (kind.prefixes != 0 && !out.prefixed && !address.isText) out.type = address.type;
-  out.size = static_cast<uint32_t>(std::max<int64_t>(address.end - address.byte, 0));
-  out.begin = address.begin;
-  out.end = address.end;
   const uint32_t least = kind.pastEnd && !address.indexed ? 0 : 1; // an end is after its memory
   const uint32_t bytes = out.type == ir::Type::None ? least : ir::byteWidth(out.type);
   return setPlace(address, address.byte, bytes, out) && checkWrite(info, address.protection, address.name, out.range);

@@ -54,7 +54,8 @@ bool OperandParser::exchanged(const Symbol& symbol, Operand& out) {
   out.form = symbol.kind == SymbolKind::Bit ? Operand::Form::Bit : Operand::Form::Cell;
   out.type = symbol.type;
   out.place = {.space = symbol.space, .byte = symbol.byte, .bit = symbol.bit};
-  out.size = symbol.size;
+  out.begin = symbol.byte;
+  out.end = out.begin + symbol.size;
   out.index = symbol.exchanged;
   return true;
 }

@@ -53,8 +53,8 @@ bool defaultFits(const CheckContext& c, const Exchanged& variable, const Operand
 }
 
 void warnIfLong(const CheckContext& c, const Operand& text, const Operand& target) {
-  if (text.form == Form::Text && text.text.size() > target.size - 1)
-    c.report(diag::StringTooLong, text.range) << text.text.size() << target.size - 1;
+  if (text.form == Form::Text && text.text.size() > target.size() - 1)
+    c.report(diag::StringTooLong, text.range) << text.text.size() << target.size() - 1;
 }
 
 bool limitsFit(const CheckContext& c, ExchangeType type, std::span<const Operand> o) {
@@ -64,7 +64,7 @@ bool limitsFit(const CheckContext& c, ExchangeType type, std::span<const Operand
   if (text && most.given()) return c.wrongKind(most, "a limit", "none with a text");
   if (text && least.form == Form::Cell) return c.wrongKind(least, "a cell", "a length, which is a constant");
   if (!text && least.form == Form::Integer) return c.wrongKind(least, "a length", "a real cell");
-  return !text || !least.given() || inRange(c, least, 1, o[0].size);
+  return !text || !least.given() || inRange(c, least, 1, o[0].size());
 }
 
 // Of EDEF: 00 never, 01 a rising edge, 10 a falling one.

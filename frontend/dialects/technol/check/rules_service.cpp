@@ -16,7 +16,7 @@ namespace {
 constexpr uint32_t kIntegerBytes = 4, kRealBytes = 8, kPacketBytes = 12, kRecordBytes = 2;
 
 // Bytes that an operand has: its type's, or those up to the end of its variable.
-uint32_t bytesOf(const Operand& operand) { return operand.prefixed ? ir::byteWidth(operand.type) : operand.size; }
+uint32_t bytesOf(const Operand& operand) { return operand.prefixed ? ir::byteWidth(operand.type) : operand.size(); }
 
 // An index shows when the program runs.
 void holds(const CheckContext& c, const Operand& operand, int64_t bytes) {

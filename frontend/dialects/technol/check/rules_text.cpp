@@ -33,7 +33,7 @@ bool textFits(const CheckContext& c, const Operand& operand) {
     c.report(diag::TooLarge, operand.range) << "characters in a text" << kLongestText;
     return false;
   }
-  if (operand.indexed || (operand.size != 0 && operand.place.byte >= operand.begin)) return true;
+  if (operand.indexed || (operand.size() != 0 && operand.place.byte >= operand.begin)) return true;
   c.report(diag::AddressOutOfRange, operand.range) << spell(operand) << "the text";
   return false;
 }
@@ -62,7 +62,7 @@ void checkTexts(const CheckContext& c, std::span<const Operand> o, int) { textsF
 void checkNumberToText(const CheckContext& c, std::span<const Operand> o, int) {
   constexpr uint32_t kMostDigits = 10;
   if (!textFits(c, o[0])) return;
-  const uint32_t characters = o[0].size - 1;
+  const uint32_t characters = o[0].size() - 1;
   if (!o[0].indexed && characters >= 1 && characters <= kMostDigits) return;
   c.report(diag::OperandRange, o[0].range)
       << (o[0].indexed ? std::string("+BX") : std::to_string(characters) + " characters") << "1 to 10 characters";
@@ -70,14 +70,14 @@ void checkNumberToText(const CheckContext& c, std::span<const Operand> o, int) {
 
 void checkCopyBytes(const CheckContext& c, std::span<const Operand> o, int) {
   if (!textsFit(c, o) || o[0].indexed || (o[2].given() && !o[2].isConstant())) return;
-  const uint32_t room = o[0].size - 1;
+  const uint32_t room = o[0].size() - 1;
   inside(c, o[1], o[2].given() ? std::min(room, static_cast<uint32_t>(o[2].value)) : room, false);
 }
 
 void checkCompareBytes(const CheckContext& c, std::span<const Operand> o, int) {
   const bool known = o[2].given() ? o[2].isConstant() : !o[1].indexed;
   if (!textsFit(c, o) || !known) return;
-  const uint32_t count = o[2].given() ? static_cast<uint32_t>(o[2].value) : o[1].size - 1;
+  const uint32_t count = o[2].given() ? static_cast<uint32_t>(o[2].value) : o[1].size() - 1;
   inside(c, o[0], count, false);
   inside(c, o[1], count, false);
 }

@@ -24,12 +24,14 @@ Area fixedArea(Emitter& emitter, ir::SpaceId space, uint32_t bytes, uint32_t fir
           .at = emitter.address(Type::I32, first, {.space = space, .byte = first})};
 }
 
-Area areaOf(Memory& memory, const Operand& operand) {
-  const MemoryAccess access = memory.reach(operand);
-  const uint32_t bytes = memory.bytesOf(operand.place.space);
-  if (!access.indexed) return fixedArea(memory.emitter(), access.place.space, bytes, access.place.byte);
-  return {.space = operand.place.space, .bytes = bytes, .fixed = false, .first = 0, .at = access.index};
+Area areaAt(Memory& memory, const MemoryAccess& access) {
+  const ir::SpaceId space = access.place.space;
+  const uint32_t bytes = memory.bytesOf(space);
+  if (!access.indexed) return fixedArea(memory.emitter(), space, bytes, access.place.byte);
+  return {.space = space, .bytes = bytes, .fixed = false, .first = 0, .at = access.index};
 }
+
+Area areaOf(Memory& memory, const Operand& operand) { return areaAt(memory, memory.reach(operand)); }
 
 ValueId loadByte(ir::RungBuilder& b, const Area& area, ValueId i, Type type) {
   const ir::Window window{.space = area.space, .byte = 0, .count = area.bytes - ir::byteWidth(type) + 1};

@@ -29,6 +29,7 @@ struct Length {
 };
 
 Area fixedArea(Emitter& emitter, ir::SpaceId space, uint32_t bytes, uint32_t first);
+Area areaAt(Memory& memory, const MemoryAccess& access);
 Area areaOf(Memory& memory, const Operand& operand);
 // The area from `by` bytes on.
 Area shifted(ir::RungBuilder& b, Area area, ir::ValueId by);

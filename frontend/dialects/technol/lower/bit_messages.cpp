@@ -67,15 +67,8 @@ void BitMessages::add(BitMessage message, ValueId number, ValueId subId) {
   ir::RungBuilder& b = emitter_.b();
   const Entries entries(b, space_, message);
   std::array<ValueId, 6> fields = {number, subId};
-  const auto index = [&](const Operand& operand, size_t at) {
-    const MemoryAccess access = operand.indexed ? memory_.reach(operand) : MemoryAccess{};
-    message.windows[at] = access.window;
-    fields[2 + at] = access.indexed ? access.index : ValueId{};
-    return access;
-  };
-  const MemoryAccess bitAccess = index(message.bit, 0);
-  for (size_t i = 0; i < message.pars.size(); ++i) index(message.pars[i], 1 + i);
-  const ValueId now = message.bit.indexed ? memory_.load(bitAccess, Type::Bit) : b.load(Type::Bit, message.bit.place);
+  for (size_t i = 0; i < message.places.size(); ++i) fields[2 + i] = message.places[i].index;
+  const ValueId now = memory_.load(message.places[0], Type::Bit);
   const ValueId count = b.load(Type::I32, entries.count());
   ValueId fresh = b.eq(count, b.i32(0));
   if (message.capacity > 1) {
@@ -110,8 +103,8 @@ namespace {
 // Looks at one bit; its edges show and remove the message.
 class BitWatch {
 public:
-  BitWatch(ir::RungBuilder& b, ir::SpaceId space, const BitMessage& message)
-      : b_(b), message_(message), entries_(b, space, message) {}
+  BitWatch(Memory& memory, ir::SpaceId space, const BitMessage& message)
+      : memory_(memory), b_(memory.emitter().b()), message_(message), entries_(b_, space, message) {}
 
   void watch() {
     const ValueId count = b_.load(Type::I32, entries_.count());
@@ -123,10 +116,7 @@ public:
 
 private:
   void look(ValueId entry) {
-    const Operand& operand = message_.bit;
-    const ValueId bit = operand.indexed ? b_.loadBitAt(message_.windows[0], indexOf(entry, 0),
-                                                       b_.i32(static_cast<int32_t>(operand.place.bit)))
-                                        : b_.load(Type::Bit, operand.place);
+    const ValueId bit = load(0, Type::Bit, entry);
     const ValueId now = b_.zextOrTrunc(Type::I8, bit);
     b_.when(b_.ne(now, entries_.load(Type::I8, kOldField, entry)), [&] {
       entries_.store(kOldField, entry, now);
@@ -152,17 +142,17 @@ private:
   ValueId valueOf(size_t par, ValueId entry) {
     const Operand& operand = message_.pars[par];
     if (!operand.given()) return b_.i32(0);
-    const ValueId value = operand.isConstant() ? b_.constant(operand.type, operand.value)
-                          : operand.indexed
-                              ? b_.loadAt(operand.type, message_.windows[1 + par], indexOf(entry, 1 + par))
-                              : b_.load(operand.type, operand.place);
-    return b_.zextOrTrunc(Type::I32, value);
+    return b_.zextOrTrunc(Type::I32,
+                          operand.isConstant() ? memory_.value(operand) : load(1 + par, operand.type, entry));
   }
 
-  ValueId indexOf(ValueId entry, size_t at) {
-    return entries_.load(Type::I32, kIndexField + static_cast<uint32_t>(at) * 4, entry);
+  ValueId load(size_t at, Type type, ValueId entry) {
+    MemoryAccess place = message_.places[at];
+    if (place.indexed) place.index = entries_.load(Type::I32, kIndexField + static_cast<uint32_t>(at) * 4, entry);
+    return memory_.load(place, type);
   }
 
+  Memory& memory_;
   ir::RungBuilder& b_;
   const BitMessage& message_;
   Entries entries_;
@@ -177,7 +167,7 @@ ir::RoutineId BitMessages::makeTask(uint64_t& weight) {
   for (const BitMessage& message : messages_) {
     emitter_.out().cut();
     emitter_.out().statement(sourceOf(program_, *message.statement));
-    BitWatch(emitter_.b(), space_, message).watch();
+    BitWatch(memory_, space_, message).watch();
   }
   weight = emitter_.close();
   return routine;

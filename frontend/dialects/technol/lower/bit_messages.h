@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "frontend/dialects/technol/lower/state.h"
 
@@ -11,9 +12,8 @@ namespace rung::frontend::technol {
 // space @EDEF, which outlives CLEAR.
 struct BitMessage {
   const Statement* statement = nullptr;
-  Operand bit;
-  std::array<Operand, 3> pars;
-  std::array<ir::Window, 4> windows; // of bit and pars where they are indexed
+  std::span<const Operand> pars;
+  std::array<MemoryAccess, 4> places; // of the bit and of pars
   uint32_t mode = 0;
   uint32_t capacity = 1;
   uint32_t table = 0; // first byte in @EDEF: the number of entries, then these

@@ -23,10 +23,7 @@ DeviceTarget::DeviceTarget(Lowering& context, const Operand& operand, ValueId gu
     return;
   }
   access_ = context.memory.reach(operand, guard);
-  const uint32_t bytes = context.memory.bytesOf(operand.place.space);
-  area_ = access_.indexed
-              ? Area{.space = operand.place.space, .bytes = bytes, .fixed = false, .first = 0, .at = access_.index}
-              : fixedArea(context.emitter, operand.place.space, bytes, operand.place.byte);
+  area_ = areaAt(context.memory, access_);
 }
 
 void DeviceTarget::keep(ValueId when) {
@@ -41,7 +38,7 @@ void DeviceTarget::keep(ValueId when) {
 uint32_t DeviceTarget::most() const {
   if (operand_->form == Operand::Form::Text) return static_cast<uint32_t>(operand_->text.size());
   if (operand_->prefixed) return ir::byteWidth(operand_->type);
-  return operand_->indexed ? static_cast<uint32_t>(operand_->end - operand_->begin) : operand_->size;
+  return operand_->indexed ? static_cast<uint32_t>(operand_->end - operand_->begin) : operand_->size();
 }
 
 ValueId DeviceTarget::roomWithEnd() const {
@@ -64,7 +61,7 @@ ValueId DeviceTarget::room() const {
 // A variable of 8 bytes without a type of its own is a QWORD or a REAL (man. l.700-704).
 Type DeviceTarget::cellType() const {
   if (operand_->type != Type::None) return operand_->type == Type::F64 ? Type::I64 : operand_->type;
-  return !operand_->isText && operand_->size == 8 ? Type::I64 : Type::None;
+  return !operand_->isText && operand_->size() == 8 ? Type::I64 : Type::None;
 }
 
 ValueId DeviceTarget::numberAt(Type type) const {

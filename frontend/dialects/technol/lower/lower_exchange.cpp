@@ -46,7 +46,7 @@ void fill(ir::RungBuilder& b, const Operand& target, uint32_t count, ValueId val
 
 void fillText(ir::RungBuilder& b, const Operand& target, const Operand& given) {
   ir::Place at = target.place;
-  for (const char c : given.text.substr(0, target.size - 1)) {
+  for (const char c : given.text.substr(0, target.size() - 1)) {
     b.store(at, b.constant(Type::I8, static_cast<uint8_t>(c)));
     ++at.byte;
   }

@@ -1,4 +1,6 @@
 // Messages: ESET, ESET1, EDEF (man. ch. 14.3).
+#include <algorithm>
+
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/lower/lowering.h"
 #include "frontend/dialects/technol/lower/message_parts.h"
@@ -59,24 +61,16 @@ constexpr uint32_t kMostEntries = 64; // of one EDEF
 // EDEF [val],bit,error,[subid],mod,[par1],[par2],[par3] (man. l.5192-5260). Carried out again it is the same message
 // while number and addresses are the same, else one more.
 void lowerBitMessage(Lowering& l, std::span<const Operand> o, int) {
-  BitMessage message;
-  message.statement = &l.statement();
-  message.mode = static_cast<uint32_t>(o[4].value);
-  message.bit = o[1];
-  if (o[0].given()) {
-    message.bit = o[0];
-    message.bit.form = Operand::Form::Bit;
-    message.bit.type = Type::Bit;
-    message.bit.place.bit = o[1].place.bit;
-  }
-  bool varies = !o[2].isConstant() || (o[3].given() && !o[3].isConstant()) || message.bit.indexed;
-  for (size_t i = 0; i < message.pars.size(); ++i) {
-    message.pars[i] = o[5 + i];
-    varies = varies || o[5 + i].indexed;
-  }
-  message.capacity = varies ? kMostEntries : 1;
   const ValueId word = l.b().zextOrTrunc(Type::I16, l.memory.value(o[2]));
-  l.bitMessages.add(message, l.b().zextOrTrunc(Type::I32, word), valueOr0(l.memory, o[3], Type::I32));
+  const ValueId number = l.b().zextOrTrunc(Type::I32, word), subId = valueOr0(l.memory, o[3], Type::I32);
+  BitMessage message{.statement = &l.statement(), .pars = o.subspan(5, 3), .mode = static_cast<uint32_t>(o[4].value)};
+  message.places[0] = l.memory.reach(o[0].given() ? o[0] : o[1]);
+  message.places[0].place.bit = o[1].place.bit;
+  for (size_t i = 0; i < message.pars.size(); ++i) message.places[1 + i] = l.memory.reach(message.pars[i]);
+  const bool varies = !o[2].isConstant() || (o[3].given() && !o[3].isConstant()) ||
+                      std::ranges::any_of(message.places, &MemoryAccess::indexed);
+  message.capacity = varies ? kMostEntries : 1;
+  l.bitMessages.add(message, number, subId);
 }
 
 } // namespace rung::frontend::technol

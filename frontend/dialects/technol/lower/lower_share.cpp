@@ -46,7 +46,7 @@ void share(Lowering& l, int64_t what, const Operand& id, std::array<ValueId, 3> 
 void lowerShareVariable(Lowering& l, std::span<const Operand> o, int) {
   const ExchangeType type = nc::exchangeTypeOf(o[2].value);
   const bool text = nc::isText(type);
-  const uint32_t count = !text ? 1 : o[3].given() ? static_cast<uint32_t>(o[3].value) : o[0].size;
+  const uint32_t count = !text ? 1 : o[3].given() ? static_cast<uint32_t>(o[3].value) : o[0].size();
   const std::array<ValueId, 3> places = {placeOf(l.memory, o[0], 0), limit(l.memory, text ? Operand{} : o[3]),
                                          limit(l.memory, o[4])};
   share(l, nc::exchangeArgument(ExchangeKind::Variable, type, ExchangePeriod::Slow, count), o[1], places);

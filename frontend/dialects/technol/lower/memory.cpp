@@ -14,7 +14,7 @@ MemoryAccess Memory::reach(const Operand& operand, ValueId guard) {
   const uint32_t width = operand.type == Type::Bit || operand.type == Type::None ? 1 : ir::byteWidth(operand.type);
   ValueId index = emitter_.r().bx();
   if (operand.scale != 1) index = b.mul(index, b.i32(operand.scale));
-  if (operand.value != 0 || emitter_.isCompared()) index = b.add(index, placeIn(operand, operand.value));
+  if (operand.offset != 0 || emitter_.isCompared()) index = b.add(index, placeIn(operand, operand.offset));
   // BX has 16 bits: addresses of a segment of 64 kB wrap around, so that an index may be negative.
   if (bytes <= 0x10000) index = b.and_(index, b.i32(0xFFFF));
   access.window = {.space = operand.place.space, .byte = 0, .count = bytes >= width ? bytes - width + 1 : 0};

@@ -32,8 +32,8 @@ public:
   ir::ValueId sizeOf(ir::SpaceId space) { return emitter_.given(ir::Type::I32, bytesOf(space)); }
   // A place of the space that the operand's variable lies in, as a number.
   ir::ValueId placeIn(const Operand& operand, int64_t byte) {
-    const ir::Place begin{.space = operand.place.space, .byte = static_cast<uint32_t>(operand.base)};
-    return emitter_.address(ir::Type::I32, byte, begin, byte - operand.base);
+    const ir::Place begin{.space = operand.place.space, .byte = static_cast<uint32_t>(operand.begin)};
+    return emitter_.address(ir::Type::I32, byte, begin, byte - operand.begin);
   }
   // A constant or a cell; `guard` as for reach.
   ir::ValueId value(const Operand& operand, ir::ValueId guard = {});

@@ -22,7 +22,7 @@ Text textOf(Memory& memory, const Operand& operand) {
   }
   text.area = areaOf(memory, operand);
   if (!operand.indexed) {
-    text.most = operand.size - 1;
+    text.most = operand.size() - 1;
     text.room = b.i32(text.most);
     return text;
   }

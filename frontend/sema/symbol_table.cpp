@@ -1,8 +1,6 @@
 // Names that are declared twice or not at all (see symbol_table.h).
 #include "frontend/sema/symbol_table.h"
 
-#include <string>
-
 #include "ir/support/diag/operand.h"
 
 namespace rung::frontend {
@@ -12,6 +10,8 @@ void reportDuplicate(Diagnostics& diagnostics, std::string_view name, SourceRang
   diagnostics.report(diag::DuplicateSymbol, range).note(first, first.valid() ? note : "it is predefined by the control")
       << name;
 }
+
+std::string asWritten(std::string_view name) { return std::string(name); }
 
 void noteFurtherUses(DiagBuilder& report, SourceRange second, size_t further) {
   report.note(second, further == 1 ? "it is used once more, here"

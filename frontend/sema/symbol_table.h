@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -45,19 +46,21 @@ std::vector<SourceRange> placesOf(std::span<const Use> uses) {
 // Adds the second use, and how many there are.
 void noteFurtherUses(DiagBuilder& report, SourceRange second, size_t further);
 
+// What all spellings of a name have in common.
+using NameKey = std::string (*)(std::string_view name);
 // Capitals and small letters differ, and all of a name counts.
-constexpr std::string_view asWritten(std::string_view name) { return name; }
+std::string asWritten(std::string_view name);
 
 // A Symbol has a `name`, whose text lives as long as the table, and the range `declared`: invalid, it is the control's.
 // Undeclared is an UndeclaredUse, with what the dialect needs to know for the report. Two names of the same key are one
 // name. Symbols are numbered in the order of entering and stay where they are. Scope 0 is there from the beginning;
 // each addScope makes the next.
-template <class Symbol, class Undeclared = UndeclaredUse, auto keyOf = asWritten>
+template <class Symbol, class Undeclared = UndeclaredUse>
 class SymbolTable {
 public:
   // In the first of the scopes that has the name; kNoName where none has.
   uint32_t find(std::string_view name, std::initializer_list<uint32_t> scopes = {0}) const {
-    const auto key = keyOf(name);
+    const std::string key = keyOf_(name);
     for (const uint32_t scope : scopes)
       if (const auto at = scopes_[scope].find(key); at != scopes_[scope].end()) return at->second;
     return kNoName;
@@ -70,9 +73,9 @@ public:
   std::span<const NameUse> uses() const { return uses_; }
 
   // Whether a declaration of this name was reported, because it is none: uses stay silent.
-  bool wasRefused(std::string_view name) const { return refused_.contains(keyOf(name)); }
+  bool wasRefused(std::string_view name) const { return refused_.contains(keyOf_(name)); }
   // In any order, also several times.
-  void noteUndeclared(Undeclared use) { undeclared_[keyOf(use.name)].push_back(std::move(use)); }
+  void noteUndeclared(Undeclared use) { undeclared_[keyOf_(use.name)].push_back(std::move(use)); }
   // Once for each name, at its first use. `explain` gets the report, which has the name as its first argument, and all
   // uses, the first one first, so that a fix is one of all.
   template <class Explain>
@@ -97,6 +100,8 @@ public:
   }
 
 protected:
+  explicit SymbolTable(NameKey keyOf = asWritten) : keyOf_(keyOf) {}
+
   void addScope() { scopes_.emplace_back(); }
   // A symbol that no name leads to.
   uint32_t add(Symbol symbol) {
@@ -106,7 +111,7 @@ protected:
   // A symbol that its name leads to from now on.
   uint32_t enter(Symbol symbol, uint32_t scope = 0) {
     const uint32_t index = add(std::move(symbol));
-    scopes_[scope].insert_or_assign(keyOf(symbols_[index].name), index);
+    scopes_[scope].insert_or_assign(keyOf_(symbols_[index].name), index);
     return index;
   }
   // The same, but a name that the scope has already is reported; kNoName then.
@@ -117,17 +122,16 @@ protected:
     return kNoName;
   }
   // The dialect has reported that the declared name is none.
-  void refuse(std::string_view name) { refused_.insert(keyOf(name)); }
+  void refuse(std::string_view name) { refused_.insert(keyOf_(name)); }
   Symbol& edit(uint32_t symbol) { return symbols_[symbol]; }
 
 private:
-  using Key = decltype(keyOf(std::string_view()));
-
+  NameKey keyOf_;
   std::deque<Symbol> symbols_;
-  std::vector<std::unordered_map<Key, uint32_t>> scopes_{1};
+  std::vector<std::unordered_map<std::string, uint32_t>> scopes_{1};
   std::vector<NameUse> uses_;
-  std::set<Key> refused_;
-  std::map<Key, std::vector<Undeclared>> undeclared_;
+  std::set<std::string> refused_;
+  std::map<std::string, std::vector<Undeclared>> undeclared_;
 };
 
 } // namespace rung::frontend

@@ -22,15 +22,14 @@ struct Meaning {
 std::string inCapitals(std::string_view name) { return text::upper(name); }
 
 // As a dialect derives one.
-template <auto keyOf = asWritten>
-class Names : public SymbolTable<Meaning, UndeclaredUse, keyOf> {
+class Names : public SymbolTable<Meaning> {
 public:
-  using Base = SymbolTable<Meaning, UndeclaredUse, keyOf>;
-  using Base::add;
-  using Base::addScope;
-  using Base::declare;
-  using Base::enter;
-  using Base::refuse;
+  explicit Names(NameKey keyOf = asWritten) : SymbolTable(keyOf) {}
+  using SymbolTable::add;
+  using SymbolTable::addScope;
+  using SymbolTable::declare;
+  using SymbolTable::enter;
+  using SymbolTable::refuse;
 };
 
 class SymbolTableTest : public testing::Test {
@@ -46,13 +45,13 @@ protected:
 };
 
 TEST_F(SymbolTableTest, CaseMattersUnlessTheDialectSaysOtherwise) {
-  Names<> exact;
+  Names exact;
   EXPECT_EQ(exact.declare({"pump", range(0, 4), 1}, diagnostics_), 0u);
   EXPECT_EQ(exact.declare({"PUMP", range(5, 9), 2}, diagnostics_), 1u);
   EXPECT_EQ(exact[exact.find("PUMP")].value, 2);
   EXPECT_EQ(exact.find("Pump"), kNoName);
 
-  Names<inCapitals> capitals;
+  Names capitals(inCapitals);
   capitals.enter({"pump", {}, 1});
   EXPECT_EQ(capitals.find("Pump"), 0u);
   capitals.refuse("-k1");
@@ -62,7 +61,7 @@ TEST_F(SymbolTableTest, CaseMattersUnlessTheDialectSaysOtherwise) {
 }
 
 TEST_F(SymbolTableTest, ASecondDeclarationShowsTheFirst) {
-  Names<> table;
+  Names table;
   table.declare({"pump", range(0, 4), 1}, diagnostics_);
   EXPECT_EQ(table.declare({"pump", range(10, 14), 2}, diagnostics_), kNoName);
   ASSERT_EQ(diagnostics_.reported().size(), 1u);
@@ -74,14 +73,14 @@ TEST_F(SymbolTableTest, ASecondDeclarationShowsTheFirst) {
 }
 
 TEST_F(SymbolTableTest, ANameOfTheControlHasNoPlace) {
-  Names<> table;
+  Names table;
   table.enter({"pump", {}, 1});
   EXPECT_EQ(table.declare({"pump", range(0, 4), 2}, diagnostics_), kNoName);
   EXPECT_EQ(reported().notes.at(0).text, "it is predefined by the control");
 }
 
 TEST_F(SymbolTableTest, TheFirstScopeThatHasTheNameCounts) {
-  Names<> table;
+  Names table;
   table.addScope();
   const uint32_t outer = table.enter({"pump", {}, 1}, 0);
   EXPECT_EQ(table.find("pump", {1, 0}), outer);
@@ -94,7 +93,7 @@ TEST_F(SymbolTableTest, TheFirstScopeThatHasTheNameCounts) {
 }
 
 TEST_F(SymbolTableTest, TheAnalysisGetsSymbolsAndUses) {
-  Names<> table;
+  Names table;
   const uint32_t pump = table.declare({"pump", range(0, 4), 1}, diagnostics_);
   const uint32_t big = table.declare({"PUMP", range(5, 9), 2}, diagnostics_);
   table.use(range(10, 14), pump);
@@ -111,7 +110,7 @@ TEST_F(SymbolTableTest, TheAnalysisGetsSymbolsAndUses) {
 SourceRange at(uint32_t begin) { return {{begin}, {begin + 1}}; }
 
 // The place of each report, and its notes.
-std::vector<std::string> reported(Names<>& names) {
+std::vector<std::string> reported(Names& names) {
   Diagnostics diagnostics;
   names.reportUndeclared(diagnostics, diag::UndefinedSymbol,
                          [](DiagBuilder& report, std::span<const UndeclaredUse> uses) {
@@ -128,7 +127,7 @@ std::vector<std::string> reported(Names<>& names) {
 }
 
 TEST(SymbolTable, UndeclaredUsesComeInAnyOrderAndSeveralTimes) {
-  Names<> names;
+  Names names;
   for (const uint32_t place : {30u, 10u, 20u, 10u}) names.noteUndeclared({"A", at(place)});
   for (const uint32_t place : {5u, 7u}) names.noteUndeclared({"B", at(place)});
   names.noteUndeclared({"C", at(1)});

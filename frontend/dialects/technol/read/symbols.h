@@ -53,9 +53,9 @@ struct UndefinedName : UndeclaredUse {
   NameHint hint;
 };
 
-class Symbols : public SymbolTable<Symbol, UndefinedName, symbolKey> {
+class Symbols : public SymbolTable<Symbol, UndefinedName> {
 public:
-  explicit Symbols(Diagnostics& diagnostics) : diagnostics_(diagnostics) { addScope(); }
+  explicit Symbols(Diagnostics& diagnostics) : SymbolTable(symbolKey), diagnostics_(diagnostics) { addScope(); }
 
   void addFile() { addScope(); }
   // Enters a name of `symbol.file` and returns its index. Reports duplicate-symbol, shared-name, reserved-word and

@@ -6,7 +6,6 @@
 
 #include "codegen/llvm/negations_in_flags.h"
 #include "codegen/llvm/split_blocks.h"
-#include "codegen/llvm/stores_in_branches.h"
 
 namespace rung::codegen {
 namespace {
@@ -21,11 +20,7 @@ public:
   }
 
   bool runOnFunction(llvm::Function& function) override {
-    bool changed = false;
-    if (function.hasFnAttribute(kChunkAttribute)) {
-      changed = storeInBranches(function) || changed;
-      if (isX86_) changed = negateInFlags(function) || changed;
-    }
+    const bool changed = isX86_ && function.hasFnAttribute(kChunkAttribute) && negateInFlags(function);
     return splitBlocks(function) || changed; // the last, for it gives blocks that it cuts their addresses
   }
 

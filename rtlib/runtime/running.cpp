@@ -55,7 +55,7 @@ void endPass(rung_instance& instance) noexcept {
 void beforePart(rung_instance& instance) noexcept {
   if (instance.running.withinSlice()) return;
   instance.structs.takeAll();
-  readInputs(instance);
+  if (!instance.inputs.empty()) readInputs(instance); // most hosts bind none
   instance.now().blockPlan.readRest(instance.running.block().data());
   instance.around->beforePart(instance.running);
 }
@@ -73,7 +73,7 @@ void afterPart(rung_instance& instance) noexcept {
     reportFault(instance);
     return;
   }
-  writeOutputs(instance);
+  if (!instance.outputs.empty()) writeOutputs(instance);
   instance.now().blockPlan.write(running.block().data());
   if (running.atListStart()) endPass(instance);
   if (sliceEnds) stepFunctions(instance);

@@ -34,7 +34,7 @@ constexpr Pass kPasses[] = {
     {.name = "guard",
      .doc = "Adds versions of a rung for the likely values of its indices, each with fixed addresses.",
      .overRungs = &guardIndices},
-    {.name = "instrument", .doc = "Counts and times each rung.", .overModule = &instrumentRungs},
+    {.name = "instrument", .doc = "Counts and times each rung.", .overModule = &instrumentRungs, .last = true},
 };
 
 } // namespace

@@ -1,5 +1,5 @@
 // The passes: functions for tests, and a table of them by name, from which the pipeline and `rungc opt` take theirs.
-// Each keeps the module valid; what each does is said in its file.
+// Each keeps a module valid that is not instrumented; what each does is said in its file.
 #pragma once
 #include <functional>
 #include <optional>
@@ -36,6 +36,7 @@ struct Pass {
   std::string_view doc;  // what it does, one sentence
   void (*overModule)(Module&) = nullptr;
   void (*overRungs)(Module&, Settled&) = nullptr;
+  bool last = false; // the others take no module that it has changed
 };
 std::span<const Pass> allPasses();
 // Null: no pass has this name.

@@ -66,6 +66,15 @@ uint64_t bitsOf(const LocatedCell& cell, rung_value value) {
   return cell.place.real ? std::bit_cast<uint64_t>(value.real) : static_cast<uint64_t>(value.integer);
 }
 
+// As the cell holds it: a bit is 0 or 1, an integer is extended by its sign.
+rung_value held(const LocatedCell& cell, rung_value value) noexcept {
+  if (cell.place.real) return value;
+  const uint32_t width = cell.place.width();
+  if (width == 1) return {.integer = value.integer & 1};
+  const uint32_t above = 64 - width;
+  return {.integer = static_cast<int64_t>(static_cast<uint64_t>(value.integer) << above) >> above};
+}
+
 // The cell that the name is for those who read it, and, where that is another, the one that the machine writes.
 int32_t locate(const rung_instance& instance, const rung_program& program, const rung_forced_cell& wanted, Force& force,
                std::vector<host::ForcedCell>& places) {
@@ -88,7 +97,7 @@ int32_t locate(const rung_instance& instance, const rung_program& program, const
   force = {.name = wanted.name,
            .owner = wanted.owner != nullptr ? wanted.owner : "",
            .type = read.type,
-           .value = wanted.value};
+           .value = held(read, wanted.value)};
   return RUNG_OK;
 }
 

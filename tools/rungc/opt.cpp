@@ -4,15 +4,18 @@
 #include <fmt/ranges.h>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <span>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ir/text/text.h"
 #include "ir/transforms/passes.h"
 #include "ir/transforms/pipeline.h"
 #include "ir/verify/verify.h"
-#include "tools/mapping/file.h"
+#include "rtlib/text/regular_file.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -64,20 +67,27 @@ std::vector<const ir::Pass*> passesOf(const OptOptions& options, int& status) {
     if (name != kAll && ir::findPass(name) == nullptr)
       status = usageError(
           fmt::format("--print-after takes {} or the name of a pass ({}), found '{}'", kAll, knownPasses(), name));
+  for (size_t i = 1; i < passes.size(); ++i)
+    if (passes[i - 1]->last)
+      status = usageError(fmt::format("no pass can follow '{}', found '{}'", passes[i - 1]->name, passes[i]->name));
   return passes;
 }
 
 std::unique_ptr<ir::Module> moduleInFile(const std::string& file, int& status) {
   std::string text;
-  try {
-    text = mapping::readFromDisk(file);
-  } catch (const std::exception& error) {
-    status = environmentError(error.what());
+  if (const std::string problem = text::readRegular(file, text::kMostSource, text); !problem.empty()) {
+    status = environmentError(fmt::format("cannot read {}: {}", file, problem));
     return nullptr;
   }
   ir::ParseOutcome parsed = ir::parse(text);
   if (!parsed.module) {
     fmt::print(stderr, "{}:{}:{}: {}\n", file, parsed.error.line, parsed.error.column, parsed.error.message);
+    status = kWrong;
+    return nullptr;
+  }
+  if (parsed.module->instrumented) {
+    fmt::print(stderr, "{}: the module is instrumented: no pass can follow; run the passes on the module before\n",
+               file);
     status = kWrong;
     return nullptr;
   }
@@ -100,7 +110,16 @@ std::unique_ptr<ir::Module> moduleOfSources(const SourceOptions& options, int& s
   return compiled ? std::move(compiled->built) : nullptr;
 }
 
-bool isModuleText(const std::vector<std::string>& files) { return files.size() == 1 && files[0].ends_with(kEnding); }
+bool isModuleText(const std::string& file) { return file.ends_with(kEnding); }
+
+// A module as text alone, or sources. On failure `status` says why.
+std::unique_ptr<ir::Module> moduleOf(const SourceOptions& options, int& status) {
+  if (std::ranges::none_of(options.files, isModuleText)) return moduleOfSources(options, status);
+  if (options.files.size() == 1) return moduleInFile(options.files[0], status);
+  status =
+      usageError(fmt::format("a module as text ({}) is the only file, found {} files", kEnding, options.files.size()));
+  return nullptr;
+}
 
 // What one run of a pass has done.
 struct PassCount {
@@ -136,7 +155,19 @@ size_t changedRungs(const ir::Module& before, const ir::Module& after) {
   return changed;
 }
 
-// The routines alone: no pass changes what the module declares.
+// All of the text but the routines, a line each.
+std::set<std::string> declarationsOf(const ir::Module& module) {
+  std::set<std::string> lines;
+  bool declares = true;
+  std::istringstream text(ir::print(module));
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("routine ")) declares = false;
+    if (declares && !line.empty()) lines.insert(line);
+    if (line == "}") declares = true;
+  }
+  return lines;
+}
+
 std::string codeOf(const ir::Module& module) {
   std::string text;
   for (uint32_t r = 0; r < module.routines.size(); ++r) {
@@ -151,6 +182,7 @@ class Optimiser {
 public:
   Optimiser(ir::Module& module, const OptOptions& options)
       : module_(module), options_(options), before_(module), first_(operationsOf(module)),
+        declared_(options.printAfter.empty() ? std::set<std::string>() : declarationsOf(module)),
         runner_(module, [this](const ir::Pass& pass, const ir::Module&) { ran(pass); }) {}
 
   // Gives the exit status.
@@ -180,12 +212,21 @@ private:
   void ran(const ir::Pass& pass) {
     counts_.push_back({pass.name, operationsOf(module_), options_.statistics ? changedRungs(before_, module_) : 0});
     if (options_.statistics) before_ = module_;
-    if (prints(pass)) fmt::print("; after {}, pass {}\n{}\n", pass.name, counts_.size(), codeOf(module_));
+    if (!options_.printAfter.empty()) print(pass);
     if (!options_.verifyEach) return;
     const auto errors = ir::verify(module_, module_.instrumented ? ir::Mode::Final : ir::Mode::Built);
     if (!errors.empty()) error_ = ir::render(module_, errors);
   }
 
+  // The rungs, and the declarations that the pass has changed.
+  void print(const ir::Pass& pass) {
+    std::set<std::string> before = std::exchange(declared_, declarationsOf(module_));
+    if (!prints(pass)) return;
+    fmt::print("; after {}, pass {}\n", pass.name, counts_.size());
+    for (const std::string& line : declared_)
+      if (!before.contains(line)) fmt::print("{}\n", line);
+    fmt::print("{}\n", codeOf(module_));
+  }
   bool prints(const ir::Pass& pass) const {
     return std::ranges::any_of(options_.printAfter,
                                [&](const std::string& name) { return name == kAll || name == pass.name; });
@@ -195,6 +236,7 @@ private:
   const OptOptions& options_;
   ir::Module before_; // the last pass, for the statistics
   size_t first_;
+  std::set<std::string> declared_; // after the last pass, where passes are printed
   ir::PassRunner runner_;
   std::vector<PassCount> counts_;
   std::string error_;
@@ -204,9 +246,7 @@ int runOpt(const OptOptions& options) {
   int status = kOk;
   const std::vector<const ir::Pass*> passes = passesOf(options, status);
   if (status != kOk) return status;
-  const std::unique_ptr<ir::Module> module = isModuleText(options.source.files)
-                                                 ? moduleInFile(options.source.files[0], status)
-                                                 : moduleOfSources(options.source, status);
+  const std::unique_ptr<ir::Module> module = moduleOf(options.source, status);
   if (module == nullptr) return status;
   Optimiser optimiser(*module, options);
   status = optimiser.run(passes);
@@ -219,14 +259,15 @@ int runOpt(const OptOptions& options) {
 } // namespace
 
 void addOpt(CommandLine& app, int& status) {
-  Command command = app.add("opt", "Run passes of the optimiser by name and print the IR");
+  Command command =
+      app.add("opt", "Run passes of the optimiser by name on sources or on a module as text (.rir), and print the IR");
   auto options = std::make_shared<OptOptions>();
   addSourceOptions(command, options->source);
   command.option("--passes", options->passes, "The passes in order, joined by commas; default: those that build runs");
   command
-      .option(
-          "--print-after", options->printAfter,
-          "Print the rungs after each run of this pass, or after every one (all), and not the module; may be repeated")
+      .option("--print-after", options->printAfter,
+              "Print the rungs and the changed declarations after each run of this pass, or after every one (all), and "
+              "not the module; may be repeated")
       .oneValue();
   command.flag("--statistics", options->statistics,
                "Print the operations left and the rungs changed by each pass, and not the module");

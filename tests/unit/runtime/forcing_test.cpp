@@ -164,6 +164,17 @@ TEST_F(Forcing, AnotherSetTakesItsPlaceAndTimesLast) {
   ASSERT_EQ(put(one), RUNG_OK) << "a set serves as often as one likes";
 }
 
+TEST_F(Forcing, TheValueIsThatOfTheCell) {
+  const rung::Forces even = forces({cell("DOOR", 74)});
+  ASSERT_EQ(put(even), RUNG_OK);
+  EXPECT_EQ(value("DOOR"), 0);
+  EXPECT_EQ(rung::forcedCells(plc_)[0].value.integer, 0);
+  plc_.scan();
+  const rung::Forces zero = forces({cell("DOOR", 0)});
+  ASSERT_EQ(put(zero), RUNG_OK);
+  EXPECT_EQ(rung::forcedCells(plc_)[0].since_us, 0) << "it is forced to the same as before";
+}
+
 TEST_F(Forcing, WhatTheProgramWritesNeedsACompiler) {
   EXPECT_EQ(failing({cell("COUNT", 7)}), RUNG_REFUSED);
   EXPECT_THAT(rung_error_text(), HasSubstr("rung_compiler_serve"));

@@ -104,15 +104,17 @@ private:
     if (reference_ != nullptr)
       if (const rung_symbol* symbol = host::findSymbol(reference_->program(), definition.name))
         return typeText(*symbol);
-    if (definition.place.bits == 0) return "a name";
+    if (!hasPlace(definition)) return "a name without a place in memory";
     return definition.place.bits == 1 ? "bit" : fmt::format("{} bits", definition.place.bits);
   }
   void define(const Definition& definition) {
     if (!definition.comment.empty()) put(out_, "  {}\n", compiler::withoutManualLines(definition.comment));
     if (!definition.range.valid()) return;
     put(out_, "  declared at {}\n", placeOf(definition.range));
-    if (reference_ == nullptr) put(out_, "  {}\n", text::trimmed(sources_.lineText(definition.range.begin)));
+    if (reference_ == nullptr || !hasPlace(definition)) // else the rungs that use it are shown
+      put(out_, "  {}\n", text::trimmed(sources_.lineText(definition.range.begin)));
   }
+  static bool hasPlace(const Definition& definition) { return definition.isConstant() || definition.place.bits != 0; }
   void uses(const frontend::NamedPlace& place) {
     if (reference_ == nullptr) return;
     const auto bits = xref::rangeOf(reference_->program(), place);
@@ -251,8 +253,7 @@ std::optional<SourcePlace> sourcePlace(const std::string& word) {
   if (first == std::string::npos || first == 0) return std::nullopt;
   const auto line = text::numberIn<uint32_t>(std::string_view(word).substr(first + 1, last - first - 1));
   const auto column = text::numberIn<uint32_t>(std::string_view(word).substr(last + 1));
-  std::error_code none;
-  if (!line || !column || !std::filesystem::is_regular_file(word.substr(0, first), none)) return std::nullopt;
+  if (!line || !column) return std::nullopt;
   return SourcePlace{word.substr(0, first), *line, *column};
 }
 

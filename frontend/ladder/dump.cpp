@@ -37,9 +37,9 @@ std::string dumpRung(const Rung& rung) {
       put(out, " {}{}n{}", pin.name, pin.name.empty() ? "" : "=", pin.input.index);
     }
     put(out, " -> {}", element.output.valid() ? fmt::format("n{}", element.output.index) : ".");
-    if (!element.remark.empty()) put(out, " ; {}", element.remark);
     out += '\n';
   }
+  for (const Comment& comment : rung.comments) put(out, "; {}\n", comment.text);
   return out;
 }
 

@@ -60,13 +60,20 @@ struct Element {
   SourceRange range;               ///< with its brackets; a box: its first line
   uint32_t line = 0;               ///< of `range`, from 1
   uint32_t column = 0;             ///< of `range`, from 1, in characters
-  std::string_view remark;         ///< the comment after the line that this element is the last of
 };
 
 struct Net {
   SourceRange range; ///< a place to point at: its first wire, or an element that it touches
   Slice drivers;     ///< see Rung::driversOf
   Slice consumers;   ///< see Rung::consumersOf
+};
+
+/// A comment on a line of its own, or after a line of a drawing.
+struct Comment {
+  std::string_view text; ///< without blanks at its ends
+  SourceRange range;     ///< with the ';'
+  uint32_t line = 0;
+  bool alone = false; ///< on its line
 };
 
 struct Rung {
@@ -79,6 +86,7 @@ struct Rung {
   uint32_t lastLine = 0;        ///< the last line of the drawing
   uint32_t module = UINT32_MAX; ///< of its source; UINT32_MAX outside of any (reported)
 
+  std::vector<Comment> comments; ///< from the line after `statement` to the last line of the drawing
   std::vector<Element> elements; ///< in order of evaluation
   std::vector<Net> nets;         ///< nets[0] is the left rail, also when nothing touches it
   std::vector<Word> operandPool;
@@ -120,7 +128,7 @@ void orderElements(Rung& rung, Diagnostics& diagnostics);
 /// An element in its brackets, as it is written without needless blanks.
 std::string elementText(const Element& element, std::span<const Word> operands);
 
-/// One line an element: `e2 [/STOP] n1 -> n2`, pins after the first as `R=n3`, `.` for no output.
+/// One line an element: `e2 [/STOP] n1 -> n2`, pins after the first as `R=n3`, `.` for no output. Then its comments.
 std::string dumpRung(const Rung& rung);
 
 } // namespace rung::ladder

@@ -28,6 +28,13 @@ Logic logicOf(Command command) {
   return kLogic[static_cast<size_t>(command)];
 }
 
+std::vector<Logic> logicOf(std::span<const Written> commands) {
+  std::vector<Logic> result;
+  for (const Written& written : commands)
+    if (isLogic(written.command)) result.push_back(logicOf(written.command));
+  return result;
+}
+
 std::string nameOf(const Language& language, const Unit& unit) {
   if (unit.kind == UnitKind::Subprogram) return language.numbered(Control::Sp, unit.number);
   return std::string(language.levels[unit.number].name);

@@ -2,11 +2,13 @@
 // list can say (P11): contacts in postfix order, then a function or nothing, then coils.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "frontend/network/address.h"
+#include "frontend/network/gap.h"
 #include "frontend/network/language.h"
 #include "frontend/network/operand_kind.h"
 #include "ir/support/source.h"
@@ -15,12 +17,14 @@ namespace rung::network {
 
 inline constexpr uint32_t kNone = UINT32_MAX;
 
-// A command with its operand as written, for conversions. In ladder form it is what a part of the drawing means.
+// A command as its author wrote it, for conversions. In ladder form it is what a part of the drawing means.
 struct Written {
   Command command = Command::Load;
   std::string_view operand; // FUNC: the mnemonic
   SourceRange range;        // of the statement or the element; PRM and TABLE of a box: of the operand
   uint32_t line = 0;
+  std::vector<std::string> before = {}; // comment lines; those before the first command are in the network's gap
+  std::string comment = {};             // after it, on its line
 };
 
 enum class Logic : uint8_t { Load, And, Or, OrBlock, AndBlock };
@@ -38,6 +42,8 @@ enum class Coil : uint8_t { Out, OutInverted, Set, Reset }; // in the order of t
 Command commandOf(Logic kind, bool negated);
 // A logic command as the stack register sees it.
 Logic logicOf(Command command);
+// Of those that are logic commands.
+std::vector<Logic> logicOf(std::span<const Written> commands);
 constexpr Command commandOf(Coil kind) {
   return static_cast<Command>(static_cast<uint8_t>(Command::Out) + static_cast<uint8_t>(kind));
 }
@@ -81,7 +87,9 @@ struct Network {
   std::vector<LogicStep> logic;
   Function function;
   std::vector<CoilStep> coils;
-  std::vector<Written> written; // only where somebody asked for it (Context::onNetwork)
+  // What its author wrote, where Context::gaps are kept.
+  Gap gap; // before it
+  std::vector<Written> written;
   uint32_t steps = 0;
   bool bad = false;        // reported; never lowered
   bool incomplete = false; // bad in a way that may hide a function command
@@ -105,10 +113,17 @@ struct Unit {
   SourceRange range;             // what opens the unit
   SourceRange nameRange;         // subprograms: the operand of SP
   std::vector<Network> networks; // the last one is the unit's end: that of the level, or SPE
+  // What its author wrote, where Context::gaps are kept.
+  Gap lead;                       // before `module`; in a list of the end of the level before it, or of SP
+  std::string comment;            // after it, on its line
+  std::vector<Written> condition; // of SP, without effect (P13)
   // Filled in by analyse().
   std::vector<bool> runBy; // by level: whether it runs the unit
   bool leaves = false;     // a JMPC can leave it for the main program
 };
+inline std::span<const Network> withoutEnd(const Unit& unit) {
+  return std::span(unit.networks).first(unit.networks.size() - 1);
+}
 // "LEVEL1", "LEVEL2", "P5".
 std::string nameOf(const Language& language, const Unit& unit);
 

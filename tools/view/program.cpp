@@ -118,10 +118,10 @@ public:
 private:
   void readTexts();
   void readFile(const LadderFile& file);
-  void readLine(const LadderFile& file, const SourceLine& line);
-  void readStatement(const LadderFile& file, const SourceLine& line);
+  void readStatement(const LadderFile& file, const ladder::Statement& statement);
   void readDeclaration(const Declaration& declaration);
   void readRung(const LadderFile& file, const ladder::Rung& rung, std::string_view remark);
+  bool isHint(std::string_view text) const;
   void comment(std::string_view text);
   void flushComments(const Place& place);
   Link onUse(const OperandUse& use) override;
@@ -167,10 +167,7 @@ private:
   std::map<size_t, std::optional<ir::BitRange>> places_; // of those with a name
 
   // In the current file.
-  LineWords words_;
   std::string comments_; // that nothing has taken yet
-  size_t nextStatement_ = 0;
-  uint32_t nextRung_ = 0;
 };
 
 // NCT has them in the source, GSK in a file beside it: 8 x byte + bit + 1 is the bit of A that asks for one.
@@ -222,8 +219,12 @@ Place Reader::placeOfElement(SourcePos drawn) const {
 }
 
 // A conversion's hint at what only a command list can say is not a comment of the author.
+bool Reader::isHint(std::string_view text) const {
+  return converted() && network::parseBlocksHint(gsk::kLanguage, text);
+}
+
 void Reader::comment(std::string_view text) {
-  if (converted() && network::parseBlocksHint(gsk::kLanguage, text)) return;
+  if (isHint(text)) return;
   text = plain(text);
   if (!text.empty()) comments_.append(text).push_back('\n');
 }
@@ -260,6 +261,8 @@ void Reader::readRung(const LadderFile& file, const ladder::Rung& rung, std::str
   figure.title = rung.comment;
   figure.place = placeOfRung(file, rung);
   if (!remark.empty()) figure.comments.emplace_back(remark);
+  for (const ladder::Comment& comment : rung.comments)
+    if (comment.alone && !isHint(comment.text)) figure.comments.emplace_back(comment.text);
   const ladder::Drawing drawing = ladder::readDrawing(sources_, file.file, rung, input_.dialect->findBox);
   const auto placeOf = [this](SourcePos drawn) { return placeOfElement(drawn); };
   program_.figures.push_back(std::move(figure));
@@ -337,50 +340,35 @@ void Reader::beginModule(const ladder::Module& module, std::string_view remark, 
   program_.blocks.push_back(std::move(block));
 }
 
-void Reader::readStatement(const LadderFile& file, const SourceLine& line) {
-  splitWords(line, {}, words_);
-  const Place place = placeOf(file, line.number);
-  if (words_.words[0].text == "dialect") {
-    if (!words_.comment.empty()) comment(words_.comment);
-    return flushComments(place);
-  }
-  const ladder::Statement& statement = file.statements[nextStatement_++];
-  if (statement.kind == StatementKind::Declaration) return readDeclaration(file.declarations[statement.index]);
-  flushComments(place);
+void Reader::readStatement(const LadderFile& file, const ladder::Statement& statement) {
   switch (statement.kind) {
-  case StatementKind::Declaration: return;
-  case StatementKind::Module: return beginModule(file.modules[statement.index], words_.comment, place);
-  case StatementKind::Section:
-    return add(Block::Kind::Section, std::string(file.sections[statement.index].title.text), words_.comment, place);
-  case StatementKind::Rung: return readRung(file, file.rungs[statement.index], words_.comment);
-  }
-}
-
-void Reader::readLine(const LadderFile& file, const SourceLine& line) {
-  const std::string_view text = text::trimmed(line.text);
-  if (text.empty()) {
+  case StatementKind::Comment: return comment(file.comments[statement.index].text);
+  case StatementKind::Blank:
     if (!comments_.empty() && !comments_.ends_with("\n\n")) comments_.push_back('\n');
-  } else if (text[0] == ';') {
-    std::string_view words = text::trimmed(text.substr(1));
-    const bool inside = nextRung_ > 0 && line.number < file.rungs[nextRung_ - 1].lastLine;
-    if (!inside) return comment(words);
-    if (!converted() || !network::parseBlocksHint(gsk::kLanguage, words))
-      program_.figures.back().comments.emplace_back(words);
-  } else if (!ladder::beginsDrawing(text[0])) {
-    const size_t rungs = program_.figures.size();
-    readStatement(file, line);
-    if (program_.figures.size() > rungs) ++nextRung_;
+    return;
+  case StatementKind::Declaration: return readDeclaration(file.declarations[statement.index]);
+  case StatementKind::Dialect:
+    if (!statement.comment.empty()) comment(statement.comment);
+    break;
+  case StatementKind::Module:
+  case StatementKind::Section:
+  case StatementKind::Rung: break;
   }
+  const Place place = placeOf(file, statement.line);
+  flushComments(place);
+  if (statement.kind == StatementKind::Module)
+    beginModule(file.modules[statement.index], statement.comment, place);
+  else if (statement.kind == StatementKind::Section)
+    add(Block::Kind::Section, std::string(file.sections[statement.index].title.text), statement.comment, place);
+  else if (statement.kind == StatementKind::Rung)
+    readRung(file, file.rungs[statement.index], statement.comment);
 }
 
 void Reader::readFile(const LadderFile& file) {
-  nextStatement_ = 0;
-  nextRung_ = 0;
   comments_.clear();
   if (input_.files.size() > 1)
     add(Block::Kind::File, program_.files[indexOf(file.file)].name, {}, {indexOf(file.file), 0, 0});
-  LineReader lines(sources_, file.file);
-  for (SourceLine line; lines.next(line);) readLine(file, line);
+  for (const ladder::Statement& statement : file.statements) readStatement(file, statement);
   flushComments({});
 }
 

@@ -1,6 +1,7 @@
 // Tokens to cells (see sheet_builder.h).
 #include "tools/view/sheet_builder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 namespace rung::view {
 
+using ladder::Comment;
 using ladder::Drawing;
 using ladder::Element;
 using ladder::ElementKind;
@@ -156,12 +158,9 @@ void SheetDrawing::addRow(uint32_t line) {
 
 // The comment after the line.
 std::string SheetDrawing::remarkOf(uint32_t line) const {
-  const std::string_view text = drawing_.lines[line].source.text;
-  const auto tokens = drawing_.tokensOf(drawing_.lines[line]);
-  const size_t mark = text.find(';', tokens.empty() ? 0 : tokens.back().end);
-  if (mark == std::string_view::npos) return {};
-  const size_t first = text.find_first_not_of(' ', mark + 1);
-  return first == std::string_view::npos ? std::string() : std::string(text.substr(first));
+  const uint32_t number = drawing_.lines[line].source.number;
+  const auto at = std::ranges::lower_bound(drawing_.comments, number, {}, &Comment::line);
+  return at == drawing_.comments.end() || at->line != number ? std::string() : std::string(at->text);
 }
 
 uint32_t SheetDrawing::elementCell(uint32_t element, uint32_t line) {

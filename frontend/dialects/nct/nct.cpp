@@ -165,8 +165,11 @@ private:
         module->rungs.push_back(checker->check(file, file.rungs[statement.index]));
         module->rungs.back().number = drawn_;
         break;
+      case ladder::StatementKind::Dialect:
       case ladder::StatementKind::Declaration:
-      case ladder::StatementKind::Section: break;
+      case ladder::StatementKind::Section:
+      case ladder::StatementKind::Comment:
+      case ladder::StatementKind::Blank: break;
       }
     }
   }

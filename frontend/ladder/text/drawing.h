@@ -43,7 +43,8 @@ struct Drawing {
   std::vector<uint32_t> headOf;  ///< per element: the box whose pin line it is, kNone for an element of its own
   std::vector<uint32_t> nextPin; ///< per element: the next pin line of the same box, or kNone
   std::vector<Word> operands;
-  bool bad = false; ///< an error was reported
+  std::vector<Comment> comments; ///< after its lines; with those between them where the parser adds them
+  bool bad = false;              ///< an error was reported
 
   void clear();
   std::span<const Token> tokensOf(const DrawnLine& line) const {
@@ -54,6 +55,9 @@ struct Drawing {
     return std::span(operands).subspan(element.operands.first, element.operands.count);
   }
 };
+
+/// The comment of a line from its ';' on.
+Comment commentFrom(const SourceLine& line, size_t begin);
 
 /// Whether a line that begins with this character, after blanks, is one of a drawing.
 constexpr bool beginsDrawing(char c) { return std::string_view("|+-[({").find(c) != std::string_view::npos; }

@@ -33,12 +33,15 @@ struct Section {
   SourceRange range;
 };
 
-enum class StatementKind : uint8_t { Module, Declaration, Section, Rung };
+/// Comment and Blank: lines outside of drawings.
+enum class StatementKind : uint8_t { Dialect, Module, Declaration, Section, Rung, Comment, Blank };
 
-/// The statements after `dialect` in the order of the file; index is the place in the vector of their kind.
+/// What a file has, in its order; index is the place in the vector of their kind, 0 where there is none.
 struct Statement {
   StatementKind kind;
-  uint32_t index;
+  uint32_t index = 0;
+  uint32_t line = 0;
+  std::string_view comment = {}; ///< after it, on its line
 };
 
 struct LadderFile {
@@ -51,6 +54,7 @@ struct LadderFile {
   std::vector<Word> badNames; ///< of declarations that were reported: uses of them should stay silent
   std::vector<Section> sections;
   std::vector<Rung> rungs;
+  std::vector<Comment> comments; ///< those that are statements
 };
 
 /// The row of a box's mnemonic in the dialect's table; null for one that the dialect does not have. The drawing alone

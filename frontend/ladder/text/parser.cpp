@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "frontend/ladder/text/drawing.h"
 #include "frontend/ladder/text/keywords.h"
@@ -52,7 +53,9 @@ private:
 
   void reportUnknown(const Word& keyword);
   void malformed(std::string_view form);
-  void add(StatementKind kind, size_t index) { result_.statements.push_back({kind, static_cast<uint32_t>(index)}); }
+  void add(StatementKind kind, size_t index) {
+    result_.statements.push_back({kind, static_cast<uint32_t>(index), line_, words_.comment});
+  }
   SourceRange statementRange() const { return join(words_.words.front().range, words_.words.back().range); }
   bool isText(size_t word) const { return words_.words.size() > word && words_.words[word].quoted; }
 
@@ -61,6 +64,8 @@ private:
   const FindBox findBox_;
   LadderFile result_;
   LineWords words_;
+  uint32_t line_ = 0;             ///< of the last statement
+  std::vector<Comment> comments_; ///< since the last statement or line of a drawing
   Drawing drawing_;
   Place place_ = Place::Outside;
   bool rungIsEmpty_ = false; // the last one
@@ -84,10 +89,12 @@ void Parser::line(const SourceLine& source) {
   const size_t first = source.text.find_first_not_of(" \t");
   if (first == std::string_view::npos) {
     closeRung();
+    result_.statements.push_back({StatementKind::Blank, 0, source.number});
     return;
   }
   const char c = source.text[first];
-  if (c == ';') return; // between drawing lines, too: a comment is not a blank line
+  if (c == ';')
+    return comments_.push_back(commentFrom(source, first)); // between drawing lines, too: it is not a blank line
   if (!beginsDrawing(c)) {
     closeRung();
     statement(source);
@@ -100,6 +107,8 @@ void Parser::line(const SourceLine& source) {
 
 void Parser::drawingLine(const SourceLine& source) {
   if (place_ == Place::Rung) {
+    drawing_.comments.insert(drawing_.comments.end(), comments_.begin(), comments_.end());
+    comments_.clear();
     scanDrawingLine(source, drawing_, diagnostics_);
     Rung& rung = result_.rungs.back();
     rung.lastLine = source.number;
@@ -162,6 +171,7 @@ void Parser::statement(const SourceLine& source) {
     return;
   }
   if (isFirst && keyword.text != "dialect") diagnostics_.report(diag::MissingDialect, keyword.range);
+  line_ = source.number;
   dispatch(source, keyword.text);
 }
 
@@ -181,13 +191,15 @@ void Parser::malformed(std::string_view form) {
 }
 
 void Parser::dialect() {
-  if (!result_.dialect.empty() || !result_.statements.empty()) {
+  const auto isStatement = [](const Statement& one) { return one.kind < StatementKind::Comment; };
+  if (std::ranges::any_of(result_.statements, isStatement)) {
     diagnostics_.report(diag::MisplacedDialect, statementRange());
   } else if (words_.words.size() != 2 || words_.words[1].quoted) {
     malformed("dialect NAME");
   } else {
     result_.dialect = words_.words[1].text;
     result_.dialectRange = words_.words[1].range;
+    add(StatementKind::Dialect, 0);
   }
 }
 
@@ -248,6 +260,11 @@ void Parser::openRung(const SourceLine& source) {
 void Parser::closeRung() {
   if (place_ == Place::Rung) finishRung(result_.rungs.back());
   place_ = Place::Outside;
+  for (const Comment& comment : std::exchange(comments_, {})) {
+    result_.statements.push_back(
+        {StatementKind::Comment, static_cast<uint32_t>(result_.comments.size()), comment.line});
+    result_.comments.push_back(comment);
+  }
 }
 
 void Parser::finishRung(Rung& rung) {
@@ -261,6 +278,7 @@ void Parser::finishRung(Rung& rung) {
   dropRightRail(drawing_);
   groupPins(drawing_, findBox_, drawing_.bad ? unheard : diagnostics_);
   wireUp(drawing_, rung, drawing_.bad ? unheard : diagnostics_);
+  rung.comments = std::move(drawing_.comments);
   rung.bad = drawing_.bad;
   if (!rung.bad) orderElements(rung, diagnostics_);
 }

@@ -10,6 +10,7 @@
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/utf8.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::ladder {
@@ -55,7 +56,7 @@ public:
     while (good_ && at_ < text_.size() && text_[at_] != ';') step();
     if (!good_) unread();
     drawn.tokens.count = static_cast<uint32_t>(drawing_.tokens.size()) - drawn.tokens.first;
-    if (good_ && at_ < text_.size()) remark(drawn);
+    if (good_ && at_ < text_.size()) drawing_.comments.push_back(commentFrom(line_, at_));
     drawing_.lines.push_back(drawn);
   }
 
@@ -77,7 +78,6 @@ private:
   size_t emptyBarsEnd() const;
   void emptyBars(size_t end);
   void noteContact(DiagBuilder& report, size_t end) const;
-  void remark(const DrawnLine& drawn);
   bool contact(Element& element);
   bool coil(Element& element);
   bool box(Element& element);
@@ -182,16 +182,6 @@ void LineScanner::noteContact(DiagBuilder& report, size_t end) const {
     report.note(fmt::format("a {}contact is drawn as [{}x]", barred ? "closed " : "", barred ? "/" : ""));
   else if (barred)
     report.note(fmt::format("a contact is drawn as [{}]", word));
-}
-
-/// The comment after the line belongs to its last element.
-void LineScanner::remark(const DrawnLine& drawn) {
-  const std::span<const Token> tokens = drawing_.tokensOf(drawn);
-  const auto last =
-      std::find_if(tokens.rbegin(), tokens.rend(), [](const Token& t) { return t.kind == TokenKind::Element; });
-  if (last == tokens.rend()) return;
-  const size_t begin = skipBlanks(at_ + 1, text_.size());
-  drawing_.elements[last->element].remark = text_.substr(begin, dropBlanks(begin, text_.size()) - begin);
 }
 
 void LineScanner::element() {
@@ -416,6 +406,7 @@ void Drawing::clear() {
   headOf.clear();
   nextPin.clear();
   operands.clear();
+  comments.clear();
   bad = false;
 }
 
@@ -426,6 +417,12 @@ void scanDrawingLine(const SourceLine& line, Drawing& drawing, Diagnostics& diag
 void addUnreadLine(const SourceLine& line, Drawing& drawing) {
   Diagnostics unheard;
   LineScanner(line, drawing, unheard).skip();
+}
+
+Comment commentFrom(const SourceLine& line, size_t begin) {
+  const std::string_view text = text::trimmed(line.text.substr(begin + 1));
+  const size_t end = line.text.find_last_not_of(" \t\r") + 1;
+  return {text, line.range(begin, end), line.number, line.text.find_first_not_of(" \t") == begin};
 }
 
 size_t findUnprintable(std::string_view text, size_t begin, size_t end) {

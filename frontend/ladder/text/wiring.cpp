@@ -273,10 +273,8 @@ void Wiring::makeElements() {
     Element element = drawing_.elements[i];
     element.pins.first = static_cast<uint32_t>(rung_.pinPool.size());
     addPin(i, {});
-    for (uint32_t pin = drawing_.nextPin[i]; pin != kNone; pin = drawing_.nextPin[pin]) {
+    for (uint32_t pin = drawing_.nextPin[i]; pin != kNone; pin = drawing_.nextPin[pin])
       addPin(pin, drawing_.elements[pin].mnemonic);
-      if (element.remark.empty()) element.remark = drawing_.elements[pin].remark;
-    }
     element.pins.count = static_cast<uint32_t>(rung_.pinPool.size()) - element.pins.first;
     if (outputs_[i] != kNone) element.output = netOf(outputs_[i]);
     rung_.elements.push_back(element);

@@ -5,74 +5,56 @@
 
 #include <fmt/format.h>
 
-#include "frontend/network/convert/collect.h"
 #include "frontend/network/convert/drawing.h"
 #include "frontend/network/convert/writers.h"
+#include "frontend/network/read/gaps.h"
+#include "frontend/network/read/reading.h"
 #include "ir/support/check.h"
 #include "ir/support/diag/gsk.h"
 
 namespace rung::network {
 namespace {
 
-using convert::SourceCommand;
-using convert::SourceNetwork;
 using convert::SourceProgram;
-using convert::SourceUnit;
 
-SourceProgram readModel(const Language& language, SourceManager& sources, std::span<const FileId> files) {
-  Diagnostics heard; // all of it is reported
-  Context context{.language = language, .sources = sources, .diagnostics = heard};
-  std::vector<Network> networks;
-  context.onNetwork = [&networks](const Network& network) { networks.push_back(network); };
-  Program program(language);
-  Reading reading(context, program);
-  for (FileId file : files) reading.add(file);
-  reading.read();
-  RUNG_CHECK(!heard.hasErrors(), "the program has no errors");
-  return convert::collect(context, reading, networks);
+bool sameCommand(const Written& a, const Written& b) { return a.command == b.command && a.operand == b.operand; }
+
+bool sameNetwork(const Network& a, const Network& b) {
+  return clean(a.title) == clean(b.title) && std::ranges::equal(a.written, b.written, sameCommand);
 }
 
-bool sameCommand(const SourceCommand& a, const SourceCommand& b) {
-  return a.command == b.command && a.operand == b.operand;
-}
-
-bool sameNetwork(const SourceNetwork& a, const SourceNetwork& b) {
-  return a.title == b.title && std::ranges::equal(a.commands, b.commands, sameCommand);
-}
-
-bool sameUnit(const SourceUnit& a, const SourceUnit& b) {
-  return a.kind == b.kind && a.level == b.level && a.number == b.number &&
-         std::ranges::equal(a.condition, b.condition, sameCommand) &&
-         std::ranges::equal(a.networks, b.networks, sameNetwork);
+bool sameUnit(const Unit& a, const Unit& b) {
+  return a.kind == b.kind && a.number == b.number && std::ranges::equal(a.condition, b.condition, sameCommand) &&
+         std::ranges::equal(withoutEnd(a), withoutEnd(b), sameNetwork);
 }
 
 // Of a program and what it was converted to: the same commands in the same order.
-std::vector<Origin> originsOf(const SourceProgram& model, const SourceProgram& converted) {
+std::vector<Origin> originsOf(const Program& program, const Program& converted) {
   std::vector<Origin> origins;
-  for (size_t u = 0; u < model.units.size(); ++u) {
-    for (size_t n = 0; n < model.units[u].networks.size(); ++n) {
-      const auto& written = model.units[u].networks[n].commands;
-      const auto& drawn = converted.units[u].networks[n].commands;
+  for (size_t u = 0; u < program.units.size(); ++u) {
+    for (size_t n = 0; n < withoutEnd(program.units[u]).size(); ++n) {
+      const auto& written = program.units[u].networks[n].written;
+      const auto& drawn = converted.units[u].networks[n].written;
       for (size_t i = 0; i < written.size(); ++i)
-        if (convert::isElement(written[i].command)) origins.push_back({drawn[i].range.begin, written[i].range.begin});
+        if (isElement(written[i].command)) origins.push_back({drawn[i].range.begin, written[i].range.begin});
     }
   }
   std::sort(origins.begin(), origins.end(), [](const Origin& a, const Origin& b) { return a.drawn < b.drawn; });
   return origins;
 }
 
-// What the model was converted to, read again.
-SourceProgram readBack(const Language& language, SourceManager& sources, FileId file, const SourceProgram& model) {
-  SourceProgram again = readModel(language, sources, std::span(&file, 1));
-  RUNG_CHECK(std::ranges::equal(model.units, again.units, sameUnit), "a converted program is the same program");
+// What a program was converted to, read again.
+Program readBack(const Language& language, SourceManager& sources, FileId file, const Program& program) {
+  Program again = convert::readSource(language, sources, std::span(&file, 1)).program;
+  RUNG_CHECK(std::ranges::equal(program.units, again.units, sameUnit), "a converted program is the same program");
   return again;
 }
 
 // False when a network is too large to be drawn.
-bool checkDrawings(const Language& language, const SourceProgram& model, Diagnostics& diagnostics) {
-  for (const SourceUnit& unit : model.units) {
-    for (const SourceNetwork& network : unit.networks) {
-      const convert::DrawingSize size = sizeOf(language, network);
+bool checkDrawings(const Language& language, const Program& program, Diagnostics& diagnostics) {
+  for (const Unit& unit : program.units) {
+    for (const Network& network : withoutEnd(unit)) {
+      const convert::DrawingSize size = convert::sizeOf(language, network);
       if (size.lines * size.columns > convert::kMaxDrawing)
         diagnostics.report(diag::DrawingTooLarge, network.range) << size.lines << size.columns;
     }
@@ -85,12 +67,12 @@ bool checkDrawings(const Language& language, const SourceProgram& model, Diagnos
 std::optional<std::string> convertProgram(const Language& language, SourceManager& sources,
                                           std::span<const FileId> files, convert::Form to, Diagnostics& diagnostics) {
   const bool toList = to == convert::Form::List;
-  const SourceProgram model = readModel(language, sources, files);
-  if (!toList && !checkDrawings(language, model, diagnostics)) return std::nullopt;
-  std::string text = toList ? writeList(language, model) : writeLadder(language, model);
+  const SourceProgram source = convert::readSource(language, sources, files);
+  if (!toList && !checkDrawings(language, source.program, diagnostics)) return std::nullopt;
+  std::string text = toList ? writeList(language, source) : writeLadder(language, source);
   SourceManager converted;
   const std::string name = fmt::format("converted{}", toList ? language.listExtension : ".lad");
-  readBack(language, converted, converted.addBuffer(name, text), model);
+  readBack(language, converted, converted.addBuffer(name, text), source.program);
   return text;
 }
 
@@ -98,13 +80,13 @@ std::optional<LadderForm> ladderForm(const Language& language, SourceManager& so
                                      Diagnostics& diagnostics) {
   if (std::ranges::all_of(files, [&](FileId file) { return isLadder(language, sources, file); }))
     return LadderForm{{files.begin(), files.end()}, {}, {}};
-  const SourceProgram model = readModel(language, sources, files);
-  if (!checkDrawings(language, model, diagnostics)) return std::nullopt;
+  const SourceProgram source = convert::readSource(language, sources, files);
+  if (!checkDrawings(language, source.program, diagnostics)) return std::nullopt;
   LadderForm form;
-  for (const SourceUnit& unit : model.units)
-    for (const SourceNetwork& network : unit.networks) form.networks.push_back(network.range);
-  form.files.push_back(sources.addBuffer("converted.lad", writeLadder(language, model)));
-  form.elements = originsOf(model, readBack(language, sources, form.files[0], model));
+  for (const Unit& unit : source.program.units)
+    for (const Network& network : withoutEnd(unit)) form.networks.push_back(network.range);
+  form.files.push_back(sources.addBuffer("converted.lad", writeLadder(language, source)));
+  form.elements = originsOf(source.program, readBack(language, sources, form.files[0], source.program));
   return form;
 }
 

@@ -15,8 +15,8 @@
 
 #include <fmt/format.h>
 
-#include "frontend/network/convert/hints.h"
 #include "frontend/network/read/canonical.h"
+#include "frontend/network/read/drawn_comments.h"
 #include "ir/support/check.h"
 
 namespace rung::network::convert {
@@ -41,7 +41,7 @@ struct Spot {
 
 class Painter {
 public:
-  Painter(const Language& language, const SourceNetwork& network) : language_(language), network_(network) {
+  Painter(const Language& language, const Network& network) : language_(language), network_(network) {
     place();
     measure();
   }
@@ -77,7 +77,7 @@ private:
   void paintCoils(uint32_t column);
 
   const Language& language_;
-  const SourceNetwork& network_;
+  const Network& network_;
   std::vector<uint32_t> contacts_; // commands
   std::vector<uint32_t> coils_;
   uint32_t function_ = kNone;
@@ -93,8 +93,8 @@ private:
 };
 
 void Painter::place() {
-  for (uint32_t i = 0; i < network_.commands.size(); ++i) {
-    const SourceCommand& command = network_.commands[i];
+  for (uint32_t i = 0; i < network_.written.size(); ++i) {
+    const Written& command = network_.written[i];
     if (isContact(command.command)) {
       contacts_.push_back(i);
       texts_.push_back(elementText(command.command, command.operand));
@@ -102,16 +102,16 @@ void Painter::place() {
     if (isCoil(command.command)) coils_.push_back(i);
     if (command.command == Command::Function) function_ = i;
   }
-  auto trees = treesOf(logicOf(network_.commands));
+  auto trees = treesOf(logicOf(network_.written));
   RUNG_CHECK(trees.has_value(), "a network without errors is balanced");
   for (SpTree& tree : *trees) trees_.push_back({.sp = std::move(tree), .order = {}, .extents = {}});
   if (function_ != kNone) box_ = boxText();
 }
 
 std::string Painter::boxText() const {
-  std::string text = fmt::format("{{{}", network_.row->info.mnemonic);
+  std::string text = fmt::format("{{{}", network_.function.row->info.mnemonic);
   bool table = false;
-  for (const SourceCommand& command : network_.commands) {
+  for (const Written& command : network_.written) {
     if (command.command != Command::Parameter && command.command != Command::Table) continue;
     if (command.command == Command::Table && !table) text += fmt::format(" {}", language_.nameOf(Command::Table));
     table = command.command == Command::Table;
@@ -279,7 +279,7 @@ void Painter::paintPins() {
 void Painter::paintBox() {
   if (trees_.empty()) put(0, 0, "|--");
   element(0, boxColumn_, function_, box_);
-  const auto pins = furtherPinsOf(network_.row->info);
+  const auto pins = furtherPinsOf(network_.function.row->info);
   for (uint32_t pin = 1; pin < trees_.size(); ++pin) {
     const size_t width = box_.size() > kMaxPad ? 0 : box_.size() - 2;
     put(pin, boxColumn_, fmt::format("{{{:<{}}", pins[pin - 1].name, width) + '}');
@@ -289,7 +289,7 @@ void Painter::paintBox() {
 
 void Painter::paintCoils(uint32_t column) {
   for (uint32_t i = 0; i < coils_.size(); ++i) {
-    const SourceCommand& coil = network_.commands[coils_[i]];
+    const Written& coil = network_.written[coils_[i]];
     if (coils_.size() == 1)
       put(0, column, "--");
     else
@@ -299,8 +299,8 @@ void Painter::paintCoils(uint32_t column) {
 }
 
 Drawing Painter::run() {
-  drawing_.lineOf.assign(network_.commands.size(), kNone);
-  columnOf_.resize(network_.commands.size());
+  drawing_.lineOf.assign(network_.written.size(), kNone);
+  columnOf_.resize(network_.written.size());
   for (uint32_t line = 0; line < lines_; ++line) put(line, 0, "");
   for (Tree& tree : trees_) paint(tree);
   for (size_t pin = 1; pin < trees_.size(); ++pin) { // the line that keeps two trees apart
@@ -319,7 +319,7 @@ Drawing Painter::run() {
 
 } // namespace
 
-DrawingSize sizeOf(const Language& language, const SourceNetwork& network) { return Painter(language, network).size(); }
-Drawing draw(const Language& language, const SourceNetwork& network) { return Painter(language, network).run(); }
+DrawingSize sizeOf(const Language& language, const Network& network) { return Painter(language, network).size(); }
+Drawing draw(const Language& language, const Network& network) { return Painter(language, network).run(); }
 
 } // namespace rung::network::convert

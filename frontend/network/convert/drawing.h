@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "frontend/network/convert/source_model.h"
+#include "frontend/network/read/drawn_comments.h"
 
 namespace rung::network::convert {
 
@@ -21,7 +21,7 @@ struct DrawingSize {
 };
 // A branch that spans many elements is as long as they are: lines times columns of one drawing have a limit.
 inline constexpr uint64_t kMaxDrawing = 200'000'000;
-DrawingSize sizeOf(const Language& language, const SourceNetwork& network);
-Drawing draw(const Language& language, const SourceNetwork& network);
+DrawingSize sizeOf(const Language& language, const Network& network);
+Drawing draw(const Language& language, const Network& network);
 
 } // namespace rung::network::convert

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "frontend/network/convert/source_model.h"
+#include "frontend/network/program.h"
 #include "frontend/syntax/page.h"
 
 namespace rung::network::convert {

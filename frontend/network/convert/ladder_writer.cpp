@@ -1,47 +1,45 @@
-// The source model as ladder text.
+// A program as ladder text.
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "frontend/network/convert/drawing.h"
 #include "frontend/network/convert/gap_writer.h"
-#include "frontend/network/convert/hints.h"
 #include "frontend/network/convert/writers.h"
 #include "frontend/network/read/canonical.h"
 #include "frontend/network/read/condition.h"
+#include "frontend/network/read/drawn_comments.h"
+#include "frontend/network/read/gaps.h"
 
 namespace rung::network::convert {
 namespace {
 
 using Kind = Item::Kind;
 
-// A comment line that would be read as something else.
-bool looksLikeHint(const Language& language, std::string_view text) {
-  return parseTag(text) || parseBlocksHint(language, text);
-}
-
 class LadderWriter {
 public:
-  explicit LadderWriter(const Language& language) : language_(language) {}
-  std::string run(const SourceProgram& program);
+  LadderWriter(const Language& language, const SourceProgram& source) : language_(language), source_(source) {}
+  std::string run();
 
 private:
-  void begin(const SourceUnit& unit);
-  void network(const SourceNetwork& network);
+  void begin(const Unit& unit);
+  void network(const Network& network);
   void rung(Gap gap, std::string_view title);
-  void drawing(const SourceNetwork& network);
+  void drawing(const Network& network);
 
   const Language& language_;
+  const SourceProgram& source_;
   Page page_{language_, Form::Ladder};
 };
 
-void LadderWriter::begin(const SourceUnit& unit) {
+void LadderWriter::begin(const Unit& unit) {
   page_.blank();
   page_.gap(tidy(unit.lead));
-  page_.line(unit.kind == UnitKind::Subprogram ? fmt::format("module {} {}", language_.subprogram, unit.number)
-                                               : fmt::format("module {}", language_.levels[unit.level].name),
+  page_.line(unit.kind == UnitKind::Subprogram
+                 ? fmt::format("module {} {}", language_.subprogram, source_.sources.text(unit.nameRange))
+                 : fmt::format("module {}", language_.levels[unit.number].name),
              unit.comment);
-  for (const SourceCommand& command : unit.condition)
+  for (const Written& command : unit.condition)
     page_.comment(fmt::format("{} {}{}{}", kConditionComment, language_.nameOf(command.command),
                               command.operand.empty() ? "" : " ", command.operand));
 }
@@ -60,22 +58,22 @@ void LadderWriter::rung(Gap gap, std::string_view title) {
   page_.line(begins ? fmt::format("rung \"{}\"", title) : "rung");
 }
 
-void LadderWriter::drawing(const SourceNetwork& network) {
+void LadderWriter::drawing(const Network& network) {
   const Drawing drawing = draw(language_, network);
   std::vector<std::string> tags;
   const auto addTagged = [&](bool before, uint32_t command, std::string_view text) {
     if (tags.empty()) tags = tagsOf(language_, network);
-    page_.comment(tagged(before, tags[command], text));
+    page_.comment(fmt::format("{}{}{}{}", before ? "-> " : "", tags[command], text.empty() ? "" : " ", text));
   };
-  const std::string hint = blocksHint(language_, logicOf(network.commands));
+  const std::string hint = blocksHint(language_, logicOf(network.written));
   if (!hint.empty()) page_.comment(hint);
   std::vector<const std::string*> remarks(drawing.lines.size(), nullptr);
   std::vector<const std::vector<std::string>*> above(drawing.lines.size(), nullptr);
-  for (uint32_t i = 0; i < network.commands.size(); ++i) {
-    const SourceCommand& command = network.commands[i];
+  for (uint32_t i = 0; i < network.written.size(); ++i) {
+    const Written& command = network.written[i];
     const uint32_t line = drawing.lineOf[i];
     if (!command.before.empty() && line != kNone && line > 0 && drawing.ends[line].first == i &&
-        std::ranges::none_of(command.before, [&](const std::string& text) { return looksLikeHint(language_, text); }))
+        std::ranges::none_of(command.before, looksTagged))
       above[line] = &command.before;
     else
       for (const std::string& text : command.before) addTagged(true, i, text);
@@ -93,29 +91,30 @@ void LadderWriter::drawing(const SourceNetwork& network) {
 }
 
 // After `module SUB Pn` the blank line ends the condition, or says that the comments after it are none.
-void LadderWriter::network(const SourceNetwork& network) {
+void LadderWriter::network(const Network& network) {
   page_.blank();
-  rung(tidy(protect(network.gap, network.title)), network.title);
+  const std::string title = clean(network.title);
+  rung(tidy(protect(network.gap, title)), title);
   drawing(network);
 }
 
-std::string LadderWriter::run(const SourceProgram& program) {
-  page_.gap(tidy(program.preamble));
-  for (const SourceUnit& unit : program.units) {
-    const bool nothing = unit.lead.empty() && unit.comment.empty() && unit.networks.empty();
-    if (nothing && unit.kind == UnitKind::Level && unit.level != language_.mainLevel()) continue;
+std::string LadderWriter::run() {
+  page_.gap(tidy(source_.preamble));
+  for (const Unit& unit : source_.program.units) {
+    const bool nothing = unit.lead.empty() && unit.comment.empty() && withoutEnd(unit).empty();
+    if (nothing && unit.kind == UnitKind::Level && unit.number != language_.mainLevel()) continue;
     begin(unit);
-    for (const SourceNetwork& network : unit.networks) this->network(network);
+    for (const Network& network : withoutEnd(unit)) this->network(network);
   }
   page_.blank();
-  page_.gap(tidy(program.tail));
+  page_.gap(tidy(source_.tail));
   return page_.take();
 }
 
 } // namespace
 
-std::string writeLadder(const Language& language, const SourceProgram& program) {
-  return LadderWriter(language).run(program);
+std::string writeLadder(const Language& language, const SourceProgram& source) {
+  return LadderWriter(language, source).run();
 }
 
 } // namespace rung::network::convert

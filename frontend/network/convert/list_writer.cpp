@@ -1,25 +1,26 @@
-// The source model as a command list.
+// A program as a command list.
 #include <fmt/format.h>
 
 #include "frontend/network/convert/gap_writer.h"
 #include "frontend/network/convert/writers.h"
+#include "frontend/network/read/gaps.h"
 
 namespace rung::network::convert {
 namespace {
 
 class ListWriter {
 public:
-  explicit ListWriter(const Language& language) : language_(language) {}
-  std::string run(const SourceProgram& program);
+  ListWriter(const Language& language, const SourceProgram& source) : language_(language), source_(source) {}
+  std::string run();
 
 private:
-  void command(const SourceCommand& command);
+  void command(const Written& command);
   void function(const Row& row, std::string_view comment = {}) {
     page_.line(commandText(language_, Command::Function, row.info.mnemonic), comment);
   }
-  void begin(const SourceUnit& unit);
-  void end(const SourceUnit& unit);
-  void network(const SourceNetwork& network);
+  void begin(const Unit& unit);
+  void end(const Unit& unit);
+  void network(const Network& network);
   Gap afterPending(const Gap& gap) {
     pending_.insert(pending_.end(), gap.begin(), gap.end());
     return std::exchange(pending_, {});
@@ -31,23 +32,24 @@ private:
   }
 
   const Language& language_;
+  const SourceProgram& source_;
   Page page_{language_, Form::List};
   Gap pending_; // what the first level begins with: it has no command of its own
 };
 
-void ListWriter::command(const SourceCommand& command) {
+void ListWriter::command(const Written& command) {
   for (const std::string& text : command.before) page_.comment(text);
   page_.line(commandText(language_, command.command, command.operand), command.comment);
 }
 
-void ListWriter::network(const SourceNetwork& network) {
-  lead(tidy(protect(afterPending(network.gap), network.title)));
-  for (const SourceCommand& command : network.commands) this->command(command);
+void ListWriter::network(const Network& network) {
+  lead(tidy(protect(afterPending(network.gap), clean(network.title))));
+  for (const Written& command : network.written) this->command(command);
 }
 
-void ListWriter::begin(const SourceUnit& unit) {
+void ListWriter::begin(const Unit& unit) {
   Gap gap = afterPending(unit.lead);
-  if (unit.kind == UnitKind::Level && unit.level == 0) {
+  if (unit.kind == UnitKind::Level && unit.number == 0) {
     pending_ = std::move(gap);
     if (!unit.comment.empty()) pending_.push_back({Item::Kind::Comment, unit.comment});
     return;
@@ -55,38 +57,38 @@ void ListWriter::begin(const SourceUnit& unit) {
   page_.blank();
   page_.gap(tidy(gap));
   if (unit.kind == UnitKind::Level) {
-    function(language_.endOf(unit.level - 1), unit.comment);
+    function(language_.endOf(unit.number - 1), unit.comment);
   } else {
-    for (const SourceCommand& command : unit.condition) this->command(command);
+    for (const Written& command : unit.condition) this->command(command);
     function(language_.rowOf(Control::Sp), unit.comment);
-    page_.line(commandText(language_, Command::Parameter, unit.number));
+    page_.line(commandText(language_, Command::Parameter, source_.sources.text(unit.nameRange)));
   }
   page_.blank();
 }
 
-void ListWriter::end(const SourceUnit& unit) {
+void ListWriter::end(const Unit& unit) {
   const bool isLevel = unit.kind == UnitKind::Level;
-  if (isLevel && unit.level + 1 != language_.levels.size()) return; // the next one begins with it
+  if (isLevel && unit.number + 1 != language_.levels.size()) return; // the next one begins with it
   page_.blank();
-  function(isLevel ? language_.endOf(unit.level) : language_.rowOf(Control::Spe));
+  function(isLevel ? language_.endOf(unit.number) : language_.rowOf(Control::Spe));
 }
 
-std::string ListWriter::run(const SourceProgram& program) {
-  page_.gap(tidy(program.preamble));
+std::string ListWriter::run() {
+  page_.gap(tidy(source_.preamble));
   page_.blank();
-  for (const SourceUnit& unit : program.units) {
+  for (const Unit& unit : source_.program.units) {
     begin(unit);
-    for (const SourceNetwork& network : unit.networks) this->network(network);
+    for (const Network& network : withoutEnd(unit)) this->network(network);
     end(unit);
   }
-  lead(tidy(program.tail));
+  lead(tidy(source_.tail));
   return page_.take();
 }
 
 } // namespace
 
-std::string writeList(const Language& language, const SourceProgram& program) {
-  return ListWriter(language).run(program);
+std::string writeList(const Language& language, const SourceProgram& source) {
+  return ListWriter(language, source).run();
 }
 
 } // namespace rung::network::convert

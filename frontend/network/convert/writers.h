@@ -1,12 +1,12 @@
-// The source model as text.
+// A program as text.
 #pragma once
 #include <string>
 
-#include "frontend/network/convert/source_model.h"
+#include "frontend/network/convert/source_program.h"
 
 namespace rung::network::convert {
 
-std::string writeList(const Language& language, const SourceProgram& program);
-std::string writeLadder(const Language& language, const SourceProgram& program);
+std::string writeList(const Language& language, const SourceProgram& source);
+std::string writeLadder(const Language& language, const SourceProgram& source);
 
 } // namespace rung::network::convert

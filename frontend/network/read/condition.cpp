@@ -6,26 +6,20 @@
 #include "frontend/network/read/canonical.h"
 #include "frontend/network/read/list_reader.h"
 #include "frontend/network/read/network_builder.h"
-#include "rtlib/text/blanks.h"
 
 namespace rung::network {
 namespace {
 
-// The command of a comment line; nullopt for any other line.
-std::optional<Written> commandOf(const Context& context, FileId file, uint32_t line) {
-  const SourceManager& sources = context.sources;
-  const std::string_view text = text::trimmed(sources.lineText(file, line));
-  if (!text.starts_with(';')) return std::nullopt;
-  const std::string_view comment = text::trimmed(text.substr(1));
-  if (!comment.starts_with(kConditionComment)) return std::nullopt;
-  const auto words = wordsIn(comment.substr(kConditionComment.size()));
-  const auto command = words.empty() ? std::nullopt : findCommand(context.language, words[0]);
+// The command of a comment line; nullopt for any other comment.
+std::optional<Written> commandOf(const Language& language, const ladder::Comment& comment) {
+  if (!comment.text.starts_with(kConditionComment)) return std::nullopt;
+  const auto words = wordsIn(comment.text.substr(kConditionComment.size()));
+  const auto command = words.empty() ? std::nullopt : findCommand(language, words[0]);
   if (!command || !isLogic(*command) || words.size() != (isBlock(*command) ? 1 : 2)) return std::nullopt;
-  const auto begin = static_cast<size_t>(text.data() - sources.text(file).data());
   return Written{.command = *command,
                  .operand = words.size() == 2 ? words[1] : std::string_view(),
-                 .range = sources.range(file, begin, begin + text.size()),
-                 .line = line};
+                 .range = comment.range,
+                 .line = comment.line};
 }
 
 // Whether they leave one value on the stack, and every contact has a bit.
@@ -49,15 +43,14 @@ bool isCondition(const Context& context, const std::vector<Written>& commands) {
 
 } // namespace
 
-Condition conditionAfter(const Context& context, FileId file, uint32_t moduleLine) {
-  Condition result{.commands = {}, .lastLine = moduleLine};
-  for (uint32_t line = moduleLine + 1; line <= context.sources.lineCount(file); ++line) {
-    const auto command = commandOf(context, file, line);
+std::vector<Written> conditionIn(const Context& context, std::span<const ladder::Comment> comments) {
+  std::vector<Written> result;
+  for (const ladder::Comment& comment : comments) {
+    const auto command = commandOf(context.language, comment);
     if (!command) break;
-    result.commands.push_back(*command);
-    result.lastLine = line;
+    result.push_back(*command);
   }
-  if (!result.commands.empty() && !isCondition(context, result.commands)) return {{}, moduleLine};
+  if (!isCondition(context, result)) result.clear();
   return result;
 }
 

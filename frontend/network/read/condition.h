@@ -6,9 +6,11 @@
 // They are one where a command list would take their commands for a condition; else, and everywhere else, such comments
 // are comments like any other, and may be titles.
 #pragma once
+#include <span>
 #include <string_view>
 #include <vector>
 
+#include "frontend/ladder/text/ladder_file.h"
 #include "frontend/network/program.h"
 #include "frontend/network/read/context.h"
 
@@ -16,12 +18,7 @@ namespace rung::network {
 
 inline constexpr std::string_view kConditionComment = "condition:";
 
-struct Condition {
-  std::vector<Written> commands; // one a line; the ranges are those of the comments
-  uint32_t lastLine = 0;         // of the condition, or of the module where there is none
-};
-
-// What is said of the module whose line that is.
-Condition conditionAfter(const Context& context, FileId file, uint32_t moduleLine);
+// That of a module in the comments directly after it: one command a line, with the range of the comment.
+std::vector<Written> conditionIn(const Context& context, std::span<const ladder::Comment> comments);
 
 } // namespace rung::network

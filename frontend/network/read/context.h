@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "frontend/network/address.h"
+#include "frontend/network/read/gaps.h"
 #include "frontend/sema/symbol_table.h"
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/diagnostics.h"
@@ -69,8 +70,6 @@ private:
   UserName* declare(Context& context, const Word& name, UserName::Kind kind);
 };
 
-struct Network;
-
 struct Context {
   const Language& language;
   SourceManager& sources;
@@ -79,8 +78,7 @@ struct Context {
   uint32_t steps = 0;
   // May be empty. Sees what operands name: a bit, or `length` bytes from an address on.
   std::function<void(const Word& word, const Address& address, uint32_t length)> onPlace = {};
-  // May be empty. Takes every complete network with what was written.
-  std::function<void(const Network&)> onNetwork = {};
+  Gaps gaps = {};
   frontend::Analysis analysis = {};
 };
 

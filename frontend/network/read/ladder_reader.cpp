@@ -10,6 +10,7 @@
 #include "frontend/ladder/text/list_word.h"
 #include "frontend/network/read/canonical.h"
 #include "frontend/network/read/condition.h"
+#include "frontend/network/read/drawn_comments.h"
 #include "frontend/network/read/network_builder.h"
 #include "frontend/network/read/title.h"
 #include "ir/support/diag/gsk.h"
@@ -26,6 +27,7 @@ using ladder::Element;
 using ladder::ElementId;
 using ladder::ElementKind;
 using ladder::NetId;
+using ladder::StatementKind;
 
 Coil coilOf(ladder::CoilKind kind) {
   switch (kind) {
@@ -39,11 +41,17 @@ Coil coilOf(ladder::CoilKind kind) {
 
 Place placeOf(const Element& element) { return {element.range, element.line}; }
 
+// What is said of a rung beside its drawing.
+struct RungText {
+  std::string_view title;
+  std::optional<std::vector<Logic>> blocks; // as a hint has them
+};
+
 // The shape of one rung: which box, which coils, and whether a command list can say it.
 class RungReader {
 public:
-  RungReader(Context& context, NetworkBuilder& builder, const ladder::Rung& rung, std::string_view title)
-      : context_(context), diagnostics_(context.diagnostics), builder_(builder), rung_(rung), title_(title) {}
+  RungReader(Context& context, NetworkBuilder& builder, const ladder::Rung& rung, const RungText& text)
+      : context_(context), diagnostics_(context.diagnostics), builder_(builder), rung_(rung), text_(text) {}
 
   // False when the drawing was rejected; it was reported, and nothing has reached the builder.
   bool read();
@@ -59,14 +67,13 @@ private:
   bool decomposeInputs();
   std::string nameOf(const Element& element) const;
   void emitInputs();
-  std::optional<std::vector<Logic>> hint() const;
   void emitBox();
 
   Context& context_;
   Diagnostics& diagnostics_;
   NetworkBuilder& builder_;
   const ladder::Rung& rung_;
-  std::string_view title_;
+  const RungText& text_;
   const Element* box_ = nullptr;
   const Row* row_ = nullptr;
   std::vector<const Element*> coils_; // from top to bottom
@@ -229,8 +236,8 @@ void RungReader::emitInputs() {
     const std::vector<CanonicalStep> own = canonicalSteps(input);
     steps.insert(steps.end(), own.begin(), own.end());
   }
-  if (const auto blocks = hint())
-    if (auto other = withBlocks(steps, *blocks, context_.language.stackDepth)) steps = std::move(*other);
+  if (text_.blocks)
+    if (auto other = withBlocks(steps, *text_.blocks, context_.language.stackDepth)) steps = std::move(*other);
   Place last;
   for (const CanonicalStep& step : steps) {
     if (!step.contact.valid()) {
@@ -241,15 +248,6 @@ void RungReader::emitInputs() {
     last = placeOf(contact);
     builder_.contact(step.kind, contact.negated, rung_.operandOf(contact), last);
   }
-}
-
-// After the line with the word `rung`.
-std::optional<std::vector<Logic>> RungReader::hint() const {
-  const SourceManager& sources = context_.sources;
-  const std::string_view line =
-      text::trimmed(sources.lineText(sources.fileOf(rung_.statement.begin), rung_.firstLine + 1));
-  if (!line.starts_with(';')) return std::nullopt;
-  return parseBlocksHint(context_.language, text::trimmed(line.substr(1)));
 }
 
 bool isTableWord(const Language& language, const Word& word) {
@@ -272,7 +270,7 @@ void RungReader::emitBox() {
 
 bool RungReader::read() {
   if (!sort() || !checkBox() || !checkCoils() || !decomposeInputs()) return false;
-  builder_.title(title_);
+  builder_.title(text_.title);
   emitInputs();
   if (box_ != nullptr) emitBox();
   for (const Element* coil : coils_) builder_.coil(coilOf(coil->coil), rung_.operandOf(*coil), placeOf(*coil));
@@ -303,23 +301,31 @@ public:
         builder_(context, file.file, [this](Network&& n) { take(std::move(n)); }) {}
 
   void read() {
-    for (const ladder::Statement& statement : file_.statements) {
-      if (statement.kind == ladder::StatementKind::Module) module(file_.modules[statement.index]);
-      if (statement.kind == ladder::StatementKind::Rung) readRung(file_.rungs[statement.index]);
-    }
+    while (next_ < file_.statements.size()) readStatement(file_.statements[next_++]);
   }
 
 private:
-  void module(const ladder::Module& module);
-  void condition(const ladder::Module& module);
-  void readRung(const ladder::Rung& rung);
+  void readStatement(const ladder::Statement& statement);
+  void comment(const ladder::Comment& comment) {
+    title_.comment(comment.text);
+    context_.gaps.comment(comment.text);
+  }
+  void blank() {
+    title_.blank();
+    context_.gaps.blank();
+  }
+  void declaration(const ladder::Declaration& declaration);
+  void module(const ladder::Module& module, std::string_view comment);
+  std::vector<Written> condition();
+  void readRung(const ladder::Rung& rung, std::string_view comment);
   void readRejected(const ladder::Rung& rung);
   void readOperands(const ladder::Rung& rung, const Element& element);
   void take(Network&& network) {
     network.firstLine = rung_->firstLine;
     network.lastLine = rung_->lastLine;
     network.range = rung_->range;
-    units_.addTo(unit_, std::move(network));
+    if (context_.gaps.areKept()) attachComments(context_.language, *rung_, network);
+    units_.at(unit_).networks.push_back(std::move(network));
   }
 
   Context& context_;
@@ -328,8 +334,29 @@ private:
   NetworkBuilder builder_;
   const ladder::Rung* rung_ = nullptr;
   uint32_t unit_ = kNone;
-  uint32_t conditionEnd_ = 0; // the last line of the condition of a subprogram; it is not a title
+  TitleRule title_;
+  size_t next_ = 0; // statement
 };
+
+void LadderReader::readStatement(const ladder::Statement& statement) {
+  switch (statement.kind) {
+  case StatementKind::Comment: return comment(file_.comments[statement.index]);
+  case StatementKind::Blank: return blank();
+  case StatementKind::Dialect: context_.gaps.dialect(statement.comment); break;
+  case StatementKind::Declaration: declaration(file_.declarations[statement.index]); break;
+  case StatementKind::Section:
+    context_.gaps.section(file_.sections[statement.index].title.text, statement.comment);
+    break;
+  case StatementKind::Module: module(file_.modules[statement.index], statement.comment); break;
+  case StatementKind::Rung: readRung(file_.rungs[statement.index], statement.comment); break;
+  }
+  title_.statement();
+}
+
+void LadderReader::declaration(const ladder::Declaration& declaration) {
+  const auto kind = declaration.kind == ladder::DeclarationKind::Symbol ? Item::Kind::Symbol : Item::Kind::Const;
+  context_.gaps.declaration(kind, declaration.name, declaration.value, declaration.comment);
+}
 
 // "module LEVEL1, module LEVEL2 or module SUB Pn"
 std::string modulesText(const Language& language) {
@@ -338,8 +365,9 @@ std::string modulesText(const Language& language) {
   return fmt::format("{} or module {} {}n", text, language.subprogram, language.letterOf(Control::Sp));
 }
 
-void LadderReader::module(const ladder::Module& module) {
+void LadderReader::module(const ladder::Module& module, std::string_view comment) {
   unit_ = kNone;
+  std::vector<Written> condition;
   const Language& language = context_.language;
   const auto level = module.name.size() == 1 ? language.findLevel(module.name[0].text) : std::nullopt;
   if (level) {
@@ -349,33 +377,42 @@ void LadderReader::module(const ladder::Module& module) {
     Function sp{.row = &language.rowOf(Control::Sp), .range = module.range};
     if (checkFunction(context_, {module.name[1]}, {}, sp))
       unit_ = units_.openSubprogram(static_cast<uint32_t>(sp.params[0].value), module.range, module.name[1].range);
-    condition(module);
+    condition = this->condition();
   } else {
     context_.diagnostics.report(diag::MalformedStatement, module.range) << "module" << modulesText(language);
   }
-  if (unit_ == kNone) units_.setIncomplete();
+  if (unit_ == kNone) return units_.setIncomplete();
+  if (!context_.gaps.areKept()) return;
+  Unit& unit = units_.at(unit_);
+  unit.lead = context_.gaps.take();
+  unit.comment = clean(comment);
+  unit.condition = std::move(condition);
 }
 
 // Warned of and counted as in a command list (P1, P13).
-void LadderReader::condition(const ladder::Module& module) {
-  const Condition condition = conditionAfter(context_, file_.file, context_.sources.lineCol(module.range.begin).line);
-  conditionEnd_ = condition.lastLine;
-  if (condition.commands.empty()) return;
-  context_.diagnostics.report(diag::ConditionIgnored, condition.commands.front().range)
+std::vector<Written> LadderReader::condition() {
+  const auto rest = std::span(file_.statements).subspan(next_);
+  const auto end = std::ranges::find_if(rest, [](const auto& one) { return one.kind != StatementKind::Comment; });
+  if (end == rest.begin()) return {};
+  const auto comments = std::span(file_.comments).subspan(rest[0].index, static_cast<size_t>(end - rest.begin()));
+  std::vector<Written> commands = conditionIn(context_, comments);
+  if (commands.empty()) return commands;
+  next_ += commands.size();
+  context_.diagnostics.report(diag::ConditionIgnored, commands.front().range)
       << context_.language.mnemonicOf(Control::Sp);
-  for (const Written& written : condition.commands) countStep(context_, written.range);
+  for (const Written& written : commands) countStep(context_, written.range);
+  return commands;
 }
 
-// The text after the word `rung`; where there is none that can be a title, the rule of command lists.
-std::string_view titleOf(const SourceManager& sources, FileId file, uint32_t from, const ladder::Rung& rung) {
-  const std::string_view own = text::trimmed(rung.comment);
-  return isTitle(own) ? own : titleAbove(sources, file, from, rung.firstLine);
-}
-
-void LadderReader::readRung(const ladder::Rung& rung) {
+// The title is the text after the word `rung`; where there is none that can be one, the rule of command lists.
+void LadderReader::readRung(const ladder::Rung& rung, std::string_view comment) {
   rung_ = &rung;
   if (unit_ == kNone) return; // reported with the module
-  RungReader reader(context_, builder_, rung, titleOf(context_.sources, file_.file, conditionEnd_, rung));
+  const std::string_view own = text::trimmed(rung.comment);
+  if (!own.empty()) context_.gaps.title(own);
+  if (!comment.empty()) context_.gaps.comment(comment);
+  const RungText text{isTitle(own) ? own : title_.title(), blocksIn(context_.language, rung)};
+  RungReader reader(context_, builder_, rung, text);
   if (rung.bad || !reader.read()) readRejected(rung);
 }
 

@@ -31,6 +31,7 @@ public:
 private:
   void comment();
   void readStatement(std::span<const Word> words);
+  void declaration(Command command, std::span<const Word> words);
   void unknownCommand(std::span<const Word> words);
   void lostOperand(Command command, const Word& name, Place at);
   void dispatch(Command command, std::span<const Word> words, Place at);
@@ -48,10 +49,13 @@ private:
 };
 
 void ListReader::comment() {
-  if (words_.hasComment)
+  if (words_.hasComment) {
     title_.comment(words_.comment);
-  else
+    context_.gaps.comment(words_.comment);
+  } else {
     title_.blank();
+    context_.gaps.blank();
+  }
   builder_.title(title_.title());
 }
 
@@ -65,11 +69,18 @@ void ListReader::readStatement(std::span<const Word> words) {
     return builder_.garbage(at);
   }
   if (*command >= Command::Dialect) builder_.title({});
-  if (isDeclaration(*command)) return; // readListSymbols
+  if (isDeclaration(*command)) return declaration(*command, words);
   if (!readable || !checkOperands(context_.language, context_.diagnostics, *command, words))
     return lostOperand(*command, words[0], at);
   if (*command == Command::Dialect) return checkDialect(words[1]);
   dispatch(*command, words, at);
+  builder_.comment(words_.comment);
+}
+
+// What it declares was read before all networks (readListSymbols).
+void ListReader::declaration(Command command, std::span<const Word> words) {
+  const auto kind = command == Command::Symbol ? Item::Kind::Symbol : Item::Kind::Const;
+  if (words.size() == 1 + operandCount(command)) context_.gaps.declaration(kind, words[1], words[2], words_.comment);
 }
 
 // A drawing is reported at its first line.
@@ -87,6 +98,7 @@ void ListReader::lostOperand(Command command, const Word& name, Place at) {
 }
 
 void ListReader::checkDialect(const Word& word) {
+  context_.gaps.dialect(words_.comment);
   const std::string_view own = context_.language.name;
   if (!text::equalsIgnoringCase(word.text, own))
     context_.diagnostics.report(diag::DialectConflict, word.range) << word.text << own;

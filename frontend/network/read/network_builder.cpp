@@ -27,7 +27,14 @@ void NetworkBuilder::step(Place at) {
 }
 
 void NetworkBuilder::write(Command command, std::string_view operand, Place at) {
-  if (context_.onNetwork) network_.written.push_back({command, operand, at.range, at.line});
+  if (!context_.gaps.areKept()) return;
+  Written written{command, operand, at.range, at.line};
+  if (!network_.written.empty()) written.before = context_.gaps.takeComments(network_.gap);
+  network_.written.push_back(std::move(written));
+}
+
+void NetworkBuilder::comment(std::string_view text) {
+  if (!network_.written.empty()) network_.written.back().comment = clean(text);
 }
 
 void NetworkBuilder::begin(Place at) {
@@ -37,6 +44,7 @@ void NetworkBuilder::begin(Place at) {
   network_.firstLine = at.line;
   network_.range = at.range;
   network_.title = pendingTitle_;
+  network_.gap = context_.gaps.take();
   pendingTitle_ = {};
   state_ = State::Logic;
   open_.clear();
@@ -243,7 +251,6 @@ void NetworkBuilder::finish() {
   if (state_ == State::Logic) stackError({network_.range, network_.firstLine}, "the network has no output");
   completeFunction();
   state_ = State::Idle;
-  if (context_.onNetwork) context_.onNetwork(network_);
   sink_(std::move(network_));
   network_ = Network{};
 }

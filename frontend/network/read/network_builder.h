@@ -32,6 +32,8 @@ public:
   void tableRow(const Word& operand, Place at);
   // A command that could not be read, and was reported.
   void garbage(Place at);
+  // That of the last command, on its line.
+  void comment(std::string_view text);
   // The title of the network that begins next.
   void title(std::string_view text) { pendingTitle_ = text; }
   // Completes the network under way.

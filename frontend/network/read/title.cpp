@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "ir/support/ascii.h"
-#include "rtlib/text/blanks.h"
 
 namespace rung::network {
 namespace {
@@ -31,24 +30,6 @@ void TitleRule::comment(std::string_view text) {
   if (!isTitle(text)) return;
   if (!inBlock_) title_ = text;
   inBlock_ = true;
-}
-
-std::string_view titleAbove(const SourceManager& sources, FileId file, uint32_t from, uint32_t line) {
-  uint32_t first = line;
-  while (first > from + 1) {
-    const std::string_view above = text::trimmed(sources.lineText(file, first - 1));
-    if (!above.empty() && above[0] != ';') break;
-    --first;
-  }
-  TitleRule rule;
-  for (; first < line; ++first) {
-    const std::string_view text = text::trimmed(sources.lineText(file, first));
-    if (text.empty())
-      rule.blank();
-    else
-      rule.comment(text::trimmed(text.substr(1)));
-  }
-  return rule.title();
 }
 
 } // namespace rung::network

@@ -5,8 +5,6 @@
 #include <optional>
 #include <string_view>
 
-#include "ir/support/source.h"
-
 namespace rung::network {
 
 // `section "text"` in a comment of a command list is ladder text's statement: its text.
@@ -26,8 +24,5 @@ private:
   std::string_view title_;
   bool inBlock_ = false; // the line above was a comment with words
 };
-
-// The title from the comment lines above a line of ladder text, those after the line `from`.
-std::string_view titleAbove(const SourceManager& sources, FileId file, uint32_t from, uint32_t line);
 
 } // namespace rung::network

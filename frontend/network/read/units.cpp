@@ -1,7 +1,8 @@
 // Units of a program (§1.2): the levels, each with its end, then subprograms.
-#include <utility>
-
 #include "frontend/network/read/units.h"
+
+#include <algorithm>
+#include <utility>
 
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/structure.h"
@@ -54,8 +55,34 @@ void UnitAssembler::endLevel(Network&& network) {
   ends_[level] = range;
   if (const uint32_t later = nextEnded(level); later != levelCount()) return endOrder(level, later, range);
   closeAll();
-  program_.units[level].networks.push_back(std::move(network));
   current_ = level + 1 == levelCount() ? kNone : level + 1;
+  if (current_ != kNone)
+    takeSource(program_.units[current_], network);
+  else
+    giveBackSource(network);
+  program_.units[level].networks.push_back(std::move(network));
+}
+
+// Of the commands that a unit begins with. It has one comment; the others go before it.
+void UnitAssembler::takeSource(Unit& unit, Network& network) {
+  unit.lead = std::move(network.gap);
+  const auto toLead = [&unit](const std::string& text) { unit.lead.push_back(commentItem(text)); };
+  for (Written& written : network.written) {
+    std::ranges::for_each(std::exchange(written.before, {}), toLead);
+    std::string comment = std::exchange(written.comment, {});
+    if (!isLogic(written.command) && unit.comment.empty())
+      unit.comment = std::move(comment);
+    else if (!comment.empty())
+      toLead(comment);
+    if (isLogic(written.command)) unit.condition.push_back(std::move(written));
+  }
+}
+
+// Of the end of a unit, which ladder text does not have: it goes to what comes next.
+void UnitAssembler::giveBackSource(Network& network) {
+  if (network.written.empty()) return;
+  if (!network.written[0].comment.empty()) network.gap.push_back(commentItem(network.written[0].comment));
+  context_.gaps.giveBack(std::exchange(network.gap, {}));
 }
 
 void UnitAssembler::endOrder(uint32_t level, uint32_t later, SourceRange range) {
@@ -88,7 +115,7 @@ void UnitAssembler::nest(SourceRange inner) {
   }
 }
 
-void UnitAssembler::beginSubprogram(const Network& network) {
+void UnitAssembler::beginSubprogram(Network& network) {
   strayReported_ = false;
   const SourceRange range = network.function.range;
   if (!open_.empty())
@@ -104,6 +131,7 @@ void UnitAssembler::beginSubprogram(const Network& network) {
     const Param& number = network.function.params[0];
     current_ = openSubprogram(static_cast<uint32_t>(number.value), range, number.range);
   }
+  takeSource(program_.units[current_], network);
   open_.push_back({current_, outside});
 }
 
@@ -114,6 +142,7 @@ void UnitAssembler::endSubprogram(Network&& network) {
           << language_.mnemonicOf(Control::Spe) << language_.mnemonicOf(Control::Sp);
     return;
   }
+  giveBackSource(network);
   program_.units[current_].networks.push_back(std::move(network));
   current_ = open_.back().outside;
   open_.pop_back();

@@ -22,7 +22,7 @@ public:
   // Ladder modules: the unit of `module LEVEL1` or `module SUB Pn`.
   uint32_t openLevel(uint32_t level, SourceRange module);
   uint32_t openSubprogram(uint32_t number, SourceRange range, SourceRange name);
-  void addTo(uint32_t unit, Network&& network) { program_.units[unit].networks.push_back(std::move(network)); }
+  Unit& at(uint32_t unit) { return program_.units[unit]; }
 
   // After all files: every unit gets its end. `anywhere` serves where a unit has no place of its own.
   void finish(SourceRange anywhere);
@@ -33,9 +33,11 @@ public:
 private:
   void endLevel(Network&& network);
   void endOrder(uint32_t level, uint32_t later, SourceRange range);
-  void beginSubprogram(const Network& network);
+  void beginSubprogram(Network& network);
   void endSubprogram(Network&& network);
   void body(Network&& network);
+  static void takeSource(Unit& unit, Network& network);
+  void giveBackSource(Network& network);
   void nest(SourceRange inner);
   void closeAll();
   uint32_t levelCount() const { return static_cast<uint32_t>(language_.levels.size()); }

@@ -231,7 +231,7 @@ TEST(Drawing, BoxOperandsMayBeTexts) {
   ASSERT_EQ(parsed.errors(), "");
   EXPECT_EQ(dumpRung(parsed.ladder.rungs[0]),
             "rung 3-4\ne0 [A] n0 -> n1\ne1 {MSG #1 \"a } ; {#0:F0} \u4E2D\" W} n1 -> n2\n"
-            "e2 (X) n2 -> . ; remark\n");
+            "e2 (X) n2 -> .\n; remark\n");
 }
 
 TEST(Drawing, ColumnsCountCharacters) {
@@ -246,11 +246,11 @@ TEST(Drawing, MnemonicsMayLookLikeWires) {
             "A B} n3 -> .\n");
 }
 
-TEST(Drawing, RemarkBelongsToTheLastElementOfItsLine) {
+TEST(Drawing, CommentsAfterLinesAreKept) {
   EXPECT_EQ(elementsOf("|--[A]--+--(X) ;  first  \n        |    ; of nothing\n        +--[B]--(Y)\n"),
-            "e0 [A] n0 -> n1\ne1 (X) n1 -> . ; first\ne2 [B] n1 -> n2\ne3 (Y) n2 -> .\n");
+            "e0 [A] n0 -> n1\ne1 (X) n1 -> .\ne2 [B] n1 -> n2\ne3 (Y) n2 -> .\n; first\n; of nothing\n");
   EXPECT_EQ(elementsOf("|--[A]--{CNT C}\n|--[B]--{U/D  } ; pin\n|--[C]--{R    }\n"),
-            "e0 [A] n0 -> n1\ne1 [B] n0 -> n2\ne2 [C] n0 -> n3\ne3 {CNT C} n1 U/D=n2 R=n3 -> . ; pin\n");
+            "e0 [A] n0 -> n1\ne1 [B] n0 -> n2\ne2 [C] n0 -> n3\ne3 {CNT C} n1 U/D=n2 R=n3 -> .\n; pin\n");
 }
 
 TEST(Drawing, NothingOnTheRightIsNoOutput) {

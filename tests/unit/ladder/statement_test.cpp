@@ -13,6 +13,9 @@ std::string outline(const Parsed& parsed) {
   const auto word = [](const Word& w) { return w.quoted ? "\"" + std::string(w.text) + "\"" : std::string(w.text); };
   for (const Statement& s : file.statements) {
     switch (s.kind) {
+    case StatementKind::Dialect:
+    case StatementKind::Comment:
+    case StatementKind::Blank: continue;
     case StatementKind::Module:
       text += "module";
       for (const Word& w : file.modules[s.index].name) text += " " + word(w);
@@ -99,13 +102,28 @@ TEST(Statements, NextStatementEndsADrawingToo) {
 
 TEST(Statements, CommentLinesDoNotEndADrawing) {
   EXPECT_EQ(elementsOf("|--[A]--+--(X)\n; in between\n   ; and indented\n|--[B]--+\n"),
-            "e0 [A] n0 -> n1\ne1 [B] n0 -> n1\ne2 (X) n1 -> .\n");
+            "e0 [A] n0 -> n1\ne1 [B] n0 -> n1\ne2 (X) n1 -> .\n; in between\n; and indented\n");
+}
+
+TEST(Statements, CommentsBelongToTheRungOrAreStatements) {
+  const Parsed parsed("dialect nct\nmodule M ; m\n\n; above\nrung\n; inside\n|--[A]--(X) ; after\n; below\n");
+  EXPECT_EQ(parsed.errors(), "");
+  std::string kinds;
+  for (const Statement& s : parsed.ladder.statements) kinds += std::to_string(static_cast<int>(s.kind));
+  EXPECT_EQ(kinds, "016545") << "dialect, module, blank, comment, rung, comment";
+  EXPECT_EQ(parsed.ladder.statements.at(1).comment, "m");
+  EXPECT_EQ(parsed.ladder.comments.at(0).text, "above");
+  EXPECT_EQ(parsed.ladder.comments.at(1).text, "below");
+  const auto& own = parsed.ladder.rungs.at(0).comments;
+  ASSERT_EQ(own.size(), 2u);
+  EXPECT_TRUE(own[0].alone && own[0].text == "inside" && own[0].line == 6);
+  EXPECT_TRUE(!own[1].alone && own[1].text == "after" && own[1].line == 7);
 }
 
 TEST(Statements, LineEndsOfDos) {
   const Parsed parsed("dialect nct\r\nmodule M\r\nrung\r\n|--[A]--(X) ; r\r\n\r\nsymbol B 1 ; c\r\n");
   EXPECT_EQ(parsed.errors(), "");
-  EXPECT_EQ(dumpRung(parsed.ladder.rungs.at(0)), "rung 3-4\ne0 [A] n0 -> n1\ne1 (X) n1 -> . ; r\n");
+  EXPECT_EQ(dumpRung(parsed.ladder.rungs.at(0)), "rung 3-4\ne0 [A] n0 -> n1\ne1 (X) n1 -> .\n; r\n");
   EXPECT_EQ(parsed.ladder.declarations.at(0).comment, "c");
 }
 
@@ -114,7 +132,7 @@ TEST(Statements, CommentsAndTextsMayBeInAnyAlphabet) {
       "\xEF\xBB\xBF"
       "dialect gsk ; \u4E3B\u8F74\nmodule M\nmessage 1 \"\u4E3B\"\nrung \"\u00E9\"\n|--[A]--(X) ; \u4E3B\n");
   EXPECT_EQ(parsed.errors(), "");
-  EXPECT_EQ(parsed.ladder.rungs.at(0).elements.at(1).remark, "\u4E3B");
+  EXPECT_EQ(parsed.ladder.rungs.at(0).comments.at(0).text, "\u4E3B");
 }
 
 TEST(Statements, PeekDialect) {

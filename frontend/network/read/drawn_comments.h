@@ -1,0 +1,48 @@
+// Comments of a drawing, and the commands that they belong to: by their place, or by a tag, where a command has none in
+// the drawing or others are beside it (docs/dialects/gsk.md):
+//   ; [A] text               after the command of contact [A]; its second one is [A]#2
+//   ; -> {TMRB preset} text  a comment line before the parameter `preset`
+// A comment that only looks like one, naming nothing that is there, is a comment like any other.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/ladder/text/ladder_file.h"
+#include "frontend/network/program.h"
+
+namespace rung::network {
+
+// The commands of the first and the last element of a line; kNone where it has none.
+struct LineEnds {
+  uint32_t first = kNone;
+  uint32_t last = kNone;
+
+  // The places of two commands of the line compare as their columns do.
+  template <class PlaceOf>
+  void add(uint32_t command, PlaceOf placeOf) {
+    if (first == kNone || placeOf(command) < placeOf(first)) first = command;
+    if (last == kNone || placeOf(last) < placeOf(command)) last = command;
+  }
+};
+
+// Whether a drawing has an element of its own for it.
+constexpr bool isElement(Command command) {
+  return isContact(command) || isCoil(command) || command == Command::Function;
+}
+// That element, "[/A]", "(S B)"; functions are "{TMRB}".
+std::string elementText(Command command, std::string_view operand);
+
+// A tag for every command of a network, no two the same; blocks are "[ORB]".
+std::vector<std::string> tagsOf(const Language& language, const Network& network);
+inline constexpr std::string_view kBefore = "->"; // before a tag: a comment line
+// Whether a comment may be taken for one with a tag.
+bool looksTagged(std::string_view comment);
+
+// The hint of blocks (canonical.h): the line after the word `rung`.
+std::optional<std::vector<Logic>> blocksIn(const Language& language, const ladder::Rung& rung);
+// Gives the comments of a rung to the network that it draws, but for a hint that was heeded.
+void attachComments(const Language& language, const ladder::Rung& rung, Network& network);
+
+} // namespace rung::network

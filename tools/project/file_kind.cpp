@@ -37,7 +37,7 @@ FileKind kindOfFile(const std::string& path) {
   if (extension == ".scn") return FileKind::Scenario;
   if (extension == ".map") return FileKind::Map;
   if (extension == ".bind") return FileKind::Binding;
-  if (extension == ".toml" && name != kFileName) return FileKind::Project; // rung.toml stands for its program
+  if (extension == ".toml" && name != kFileName) return FileKind::Project; // rung.toml means its program
   const bool isProgram =
       extension == ".lad" || std::ranges::any_of(frontend::allDialects(), [&](const frontend::Dialect* dialect) {
         return std::ranges::find(dialect->extensions, extension) != dialect->extensions.end();

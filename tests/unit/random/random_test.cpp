@@ -40,7 +40,8 @@ TEST(RandomModule, ReadsBackFromItsText) {
   }
 }
 
-// Seeds that are written down somewhere keep their meaning. Another hash here is right only when the generator changed.
+// Seeds that are written down somewhere keep their meaning. Another hash here is right only when the generator or the
+// table of operations changed.
 TEST(RandomModule, AndThoseOfOperationsAreTheSameOnEveryMachine) {
   uint64_t hash = kHashSeed;
   for (uint64_t seed = 0; seed < 20; ++seed) hash = hashBytes(print(randomModule(seed)), hash);

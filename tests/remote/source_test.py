@@ -385,6 +385,20 @@ class BrokenCompilers(SourceHost):
 
 
 class RungRun(unittest.TestCase):
+    def test_each_new_project_runs(self):
+        for dialect in ("nct", "gsk", "technol"):
+            with self.subTest(dialect), tempfile.TemporaryDirectory() as home:
+                subprocess.run([BIN / "rungc", "new", dialect, "machine"], check=True, cwd=home, stdout=subprocess.DEVNULL)
+                folder = Path(home) / "machine"
+                subprocess.run([BIN / "rungc", "map", "--template", "-o", "machine.map"], check=True, cwd=folder,
+                               stdout=subprocess.DEVNULL)
+                host = subprocess.Popen([BIN / "rung-run", ".", "machine.map"], cwd=folder, stderr=subprocess.PIPE, text=True,
+                                        env={**os.environ, "RUNG_SOCKETS": str(Path(home) / "sockets")}, start_new_session=True)
+                self.assertIn("listening at", host.stderr.readline())
+                host.terminate()
+                host.communicate(timeout=patience())
+                self.assertEqual(host.returncode, OK)
+
     def test_sources_at_the_start(self):
         with tempfile.TemporaryDirectory() as folder:
             home = Path(folder)

@@ -76,11 +76,11 @@ private:
     sources.includePaths = project_->includePaths;
     for (const project::Setting& setting : project_->config) sources.config[setting.key] = setting.value;
     options.config = sources.config;
+    options.includePaths = sources.includePaths;
     const auto encoding = sources.config.find(std::string(nc::kEncodingKey.key));
     if (encoding == sources.config.end()) return;
     sources_.setEncoding(encoding->second);
     sources.config.erase(encoding); // the texts that are sent are UTF-8
-    options.includePaths = sources.includePaths;
   }
 
   // Of a dialect that is not known the compiler says it.

@@ -16,7 +16,7 @@ int makeNew(const std::string& dialect, const std::string& folder) {
   const Result<std::vector<std::string>> written = project::makeProject(dialect, folder);
   if (!written.ok()) return environmentError(written.error());
   for (const std::string& file : written.value()) fmt::print("{}\n", file);
-  fmt::print("try: cd {} && rungc test\n", folder);
+  fmt::print("try: cd '{}' && rungc test\n", folder);
   return kOk;
 }
 

@@ -25,7 +25,8 @@ std::string templateOf(const rung_program& program, const std::vector<map_templa
 constexpr const char* kHead =
     ": a first list, made of what its rungs use.\n"
     "# Remove what the machine does not connect, and give the pins names of your own. Signals "
-    "that a\n# [[send]] table drives are for it alone.\n\n";
+    "that a\n# [[send]] table drives are for it alone.\n\n"
+    "# What rungctl may change; by default nothing:\n# [rungctl]\n# allow = [\"set\", \"force\", \"reload\"]\n\n";
 
 TEST(Template, WhatTheMachineAndTheNcHave) {
   const std::string text = templateOf(testing::gskProgram(), {{"X0.0", true, false},
@@ -37,7 +38,7 @@ TEST(Template, WhatTheMachineAndTheNcHave) {
                                                               {"D0:2", true, true},
                                                               {"NOWHERE", true, false}});
   const std::string begin =
-      "# HAL pins of " + std::string(testing::gskProgram().name) + kHead +
+      "# Pins of " + std::string(testing::gskProgram().name) + kHead +
       "[in]\n"
       "x0-0 = { type = \"bit\", name = \"X0.0\" }\n"
       "x10 = { type = \"bit\", name = \"X10\", bits = 8 }\n"

@@ -125,6 +125,8 @@ std::string replaceFile(const std::string& path, std::string_view bytes, const W
     why = writeInto(path, bytes) ? "" : std::strerror(errno);
   else
     why = replaceFileIn(AT_FDCWD, targetOf(path), bytes, writing);
+  if (!why.empty() && ::stat(folderOf(path).c_str(), &there) != 0 && errno == ENOENT)
+    why = "the folder " + folderOf(path) + " does not exist";
   return why.empty() ? "" : "cannot write '" + path + "': " + why;
 }
 

@@ -10,6 +10,7 @@
 #include "ir/support/similar.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/nc/signals.h"
+#include "tools/scenario/statements.h"
 
 namespace rung::scenario {
 namespace {
@@ -76,8 +77,9 @@ std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& 
   const rung_program* running = &program;
   const auto check = [&](const Statement& s, const std::string& name) {
     if (name.starts_with(kQuantity)) return; // some exist only once they have been set
+    const bool isMessage = s.kind == Kind::Expect && isMessageWord(name);
     if (!nc.readPlace(*running, name) && !nc.readCell(name) && !nc.cellMayCome(name))
-      problems.push_back(problemAt(s, unknownName(*running, nc, name)));
+      problems.push_back(problemAt(s, unknownName(*running, nc, name) + std::string(isMessage ? kMessageNote : "")));
   };
   for (const Statement& s : scenario.statements) {
     if (s.kind == Kind::Replace) {

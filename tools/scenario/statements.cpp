@@ -7,6 +7,7 @@
 #include "ir/support/ascii.h"
 #include "ir/support/similar.h"
 #include "rtlib/text/blanks.h"
+#include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "tools/scenario/replace_report.h"
 #include "tools/scenario/words.h"
@@ -364,6 +365,7 @@ ParsedLine LineParser::run() {
   if (error_.empty()) return {std::move(s_), {}, shapesStart(row->kind)};
   if (error_.starts_with("expected") || error_.starts_with("unexpected"))
     error_ += fmt::format(" (the statement is: {})", row->form.form);
+  if (row->kind == Kind::Expect && isMessageWord(s_.name)) error_ += kMessageNote;
   return {{}, std::move(error_), shapesStart(row->kind)};
 }
 
@@ -374,6 +376,10 @@ std::vector<StatementForm> formsOfRows() {
 }
 
 } // namespace
+
+bool isMessageWord(std::string_view name) {
+  return text::equalsIgnoringCase(name, "message") || text::equalsIgnoringCase(name, "msg");
+}
 
 bool preparesStart(Kind kind) { return kind == Kind::Config || kind == Kind::Connect || kind == Kind::Period; }
 

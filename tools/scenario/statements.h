@@ -16,6 +16,10 @@ struct ParsedLine {
 
 ParsedLine parseLine(std::string_view line);
 
+// Whether a name in `expect NAME VALUE` may be meant for a message; then the note is added to what is wrong.
+bool isMessageWord(std::string_view name);
+inline constexpr std::string_view kMessageNote = "; for a message write: expect_message NUMBER [on|off]";
+
 // Statements that come before the first scan.
 bool preparesStart(Kind kind);
 

@@ -53,6 +53,7 @@ struct AreaInfo {
   bool shown = false; // memory whose bits the control shows, or passes on
   Presets presets{};
   uint32_t system = UINT32_MAX; // from this byte on it belongs to the control
+  std::string_view instead{};   // what is written where other languages have bits in an area of this letter
 
   // Whether what a coil writes is seen by others than contacts and functions.
   constexpr bool seenOutside() const { return use == AreaUse::Output || shown; }

@@ -26,8 +26,15 @@ inline constexpr std::array<network::AreaInfo, 10> kAreas = {{
      .bytes = 400,
      .retained = true,
      .doc = "counters: preset and value, two bytes each",
-     .presets = {2, 4}},
-    {.letter = 'T', .bytes = 200, .retained = true, .doc = "timer presets, two bytes each", .presets = {1, 1}},
+     .presets = {2, 4},
+     .instead = "a counter is `FUNC CTR` with its number in a PRM line; the OUT after it shows that it is done"},
+    {.letter = 'T',
+     .bytes = 200,
+     .retained = true,
+     .doc = "timer presets, two bytes each",
+     .presets = {1, 1},
+     .instead = "a timer is `FUNC TMRB` with its number and its milliseconds in PRM lines; the OUT after it shows that "
+                "the time is over"},
     {.letter = 'A', .bytes = 32, .doc = "message display requests", .shown = true},
     {.letter = 'K', .bytes = 32, .retained = true, .doc = "keep relays"},
 }};

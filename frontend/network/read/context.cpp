@@ -222,6 +222,8 @@ void reportNoBit(Context& context, const Word& word, const Address& address) {
     report.note(fmt::format("the signal {} of the {} code is written by its address, {}", signal->symbol,
                             context.language.at(address.area).letter,
                             textOf(context.language, addressOf(context.language, *signal))));
+  if (const std::string_view instead = context.language.at(address.area).instead; !instead.empty())
+    report.note(instead);
 }
 
 } // namespace

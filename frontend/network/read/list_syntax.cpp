@@ -26,8 +26,21 @@ std::string_view wantedOperand(Command command) {
 // Only these may appear outside comments.
 bool isPlain(char c) { return c >= 0x21 && c <= 0x7E; }
 
+// What other languages write in brackets, as comparisons, or as bits of timers: `AND ( X0.1`, `LD D0 = 1`, `OUT T1
+// K50`.
+void noteForeign(const Language& language, std::span<const Word> words, DiagBuilder& report) {
+  const bool compares = words[2].text.find_first_not_of("<>=!") == std::string_view::npos;
+  const std::string word = compares ? "CMP" : words[1].text == "(" ? fmt::format("{}(", words[0].text) : "";
+  if (const frontend::ForeignWord* foreign = frontend::findForeign(language.foreign, word))
+    report.note(fmt::format("{} {}", compares ? "a comparison is" : "in this language:", foreign->here));
+  else if (const auto address = splitAddress(language, words[1].text);
+           address && !language.at(address->area).instead.empty())
+    report.note(language.at(address->area).instead);
+}
+
 // A word too many; what other languages have there.
-void reportSurplus(const Language& language, Command command, const Word& word, Diagnostics& diagnostics) {
+void reportSurplus(const Language& language, Command command, std::span<const Word> words, Diagnostics& diagnostics) {
+  const Word& word = words[operandCount(command) + 1];
   DiagBuilder report = diagnostics.report(diag::BadOperand, word.range);
   report << word.text
          << fmt::format("a part of this statement: {} takes {}", language.nameOf(command),
@@ -39,6 +52,8 @@ void reportSurplus(const Language& language, Command command, const Word& word, 
   else if (command == Command::Function)
     report.note(fmt::format("its parameters follow on lines of their own: {} {}", language.nameOf(Command::Parameter),
                             word.text));
+  else if (isContact(command) || isCoil(command))
+    noteForeign(language, words, report);
 }
 
 } // namespace
@@ -91,7 +106,7 @@ bool checkOperands(const Language& language, Diagnostics& diagnostics, Command c
     diagnostics.report(diag::BadOperand, words[0].range)
         << words[0].text << fmt::format("a complete statement: {} is missing", wantedOperand(command));
   else
-    reportSurplus(language, command, words[wanted + 1], diagnostics);
+    reportSurplus(language, command, words, diagnostics);
   return false;
 }
 

@@ -143,8 +143,8 @@ void NetworkBuilder::coil(Coil kind, const Word& operand, Place at) {
   } else if (state_ == State::Logic && depth() > 1) {
     openBlocks(at);
   } else if (state_ == State::Function && !mayHaveCoils()) {
-    stackError(at, fmt::format("there is no value for this output: {}, and {} has none", beginsWith(),
-                               network_.function.row->info.mnemonic));
+    stackError(at, fmt::format("there is no value for this output: {} has no output, and {}",
+                               network_.function.row->info.mnemonic, beginsWith()));
   }
   extend(at);
   write(commandOf(kind), operand.text, at);

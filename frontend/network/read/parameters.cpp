@@ -52,6 +52,7 @@ private:
   bool checkValue(const OperandInfo& info, const Word& word, Param& param);
   bool checkPlace(const Word& word, const OperandKind& kind);
   bool checkAddress(const OperandInfo& info, const Word& word, Param& param);
+  void noteSibling(DiagBuilder& report, size_t parameters) const;
   uint32_t lengthOf(const OperandKind& kind) const;
   std::string expectedBy(const OperandKind* kind, std::string_view expected) const;
 
@@ -211,6 +212,18 @@ bool ParameterCheck::checkOne(const OperandInfo& info, const Word& word, Param& 
   return false;
 }
 
+// A timer or counter with a preset elsewhere, and the one that takes as many parameters as there are.
+void ParameterCheck::noteSibling(DiagBuilder& report, size_t parameters) const {
+  const frontend::InstructionInfo& info = function_.row->info;
+  const auto& rows = context_.language.rows;
+  const auto sibling = std::ranges::find_if(
+      rows, [&](const Row* row) { return row->info.group == info.group && row->info.operands.size() == parameters; });
+  if (function_.row->numbers == Row::Numbers::Free || parameters <= info.operands.size() || sibling == rows.end())
+    return;
+  report.note(
+      fmt::format("{}: {}; {}: {}", info.mnemonic, info.title, (*sibling)->info.mnemonic, (*sibling)->info.title));
+}
+
 bool ParameterCheck::check(const std::vector<Word>& words) {
   const auto operands = function_.row->info.operands.all();
   if (words.size() != operands.size()) { // nobody knows which one is missing
@@ -219,6 +232,7 @@ bool ParameterCheck::check(const std::vector<Word>& words) {
     std::string names;
     for (const OperandInfo& operand : operands) names += fmt::format("{}{}", names.empty() ? " " : ", ", operand.name);
     if (!names.empty()) report.note(fmt::format("its parameters in order:{}", names));
+    noteSibling(report, words.size());
     return false;
   }
   bool good = true;

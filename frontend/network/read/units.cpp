@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/structure.h"
 
@@ -167,8 +169,13 @@ void UnitAssembler::endOfList(SourceRange lastLine) {
   for (uint32_t level = 0; level < levelCount(); ++level) {
     if (ends_[level].valid()) continue;
     const uint32_t later = nextEnded(level);
-    context_.diagnostics.report(language_.levels[level].endMissing, later == levelCount() ? lastLine : ends_[later])
-        << language_.fullNameOf(language_.endOf(level));
+    const Row& end = language_.endOf(level);
+    DiagBuilder report = context_.diagnostics.report(language_.levels[level].endMissing,
+                                                     later == levelCount() ? lastLine : ends_[later]);
+    report << language_.fullNameOf(end);
+    if (level + 1 < levelCount())
+      report.note(fmt::format("write `{} {}` before the first network of {}", language_.nameOf(Command::Function),
+                              end.info.mnemonic, language_.levels[level + 1].name));
   }
 }
 

@@ -35,6 +35,7 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"AND NOT", "ANI", true},
     {"AND.NOT", "ANI", true},
     {"AND.STK", "ANB", true},
+    {"ANDI", "ANI", true},
     {"ANDLD", "ANB", true},
     {"ANDN", "ANI", true},
     {"ANDNOT", "ANI", true},
@@ -64,6 +65,7 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"WRT", "OUT", true},
     {"WRT.NOT", "OUTI", true},
     // said otherwise here
+    {")", "ANB or ORB where a bracket ends"},
     {"A", kBegins},
     {"ADD", "the function ADDB"},
     {"AN", kBeginsClosed},

@@ -51,7 +51,7 @@ inline constexpr OperandInfo kSubprogram = {
     .name = "subprogram", .kind = &kinds::kSubprogram, .access = Access::None, .doc = "P1-P512", .min = 1, .max = 512};
 
 inline constexpr PinInfo kAct = {.name = "ACT", .doc = "1: execute"};
-inline constexpr PinInfo kRst = {.name = "RST", .doc = "1: the output becomes 0; goes before ACT (P17)"};
+inline constexpr PinInfo kRst = {.name = "RST", .doc = "1: the output becomes 0; has priority over ACT (P17)"};
 inline constexpr PinInfo kCn0 = {.name = "CN0", .doc = "numbers begin with 0 or 1"};
 inline constexpr PinInfo kUpDown = {.name = "UPDOWN", .doc = "0 up, 1 down"};
 inline constexpr PinInfo kCount = {.name = "ACT", .doc = "counts at its rising edge", .edge = true};

@@ -24,7 +24,8 @@ constexpr Row counterShape(OperandList operands, Row::Numbers numbers = Row::Num
 }
 
 inline constexpr Row kTimingRows[] = {
-    rowOf(timerShape({number("number", 1, 100)}, Row::Numbers::Timer), 2, "TMR", "on-delay timer", "5.3, l.1074",
+    rowOf(timerShape({number("number", 1, 100)}, Row::Numbers::Timer), 2, "TMR",
+          "on-delay timer, preset on its page (tmr.N)", "5.3, l.1074",
           "OUT becomes 1 when ACT has been 1 for the preset time, which is set on the timer page and kept through "
           "power-off: timers 1-20 in units of 48 ms, 21-100 in units of 8 ms, the remainder dropped. ACT=0: OUT=0, the "
           "time is forgotten. The time counts from the first scan with ACT=1 (P23).",
@@ -32,7 +33,7 @@ inline constexpr Row kTimingRows[] = {
     rowOf(
         timerShape({number("number", 1, 200), number("preset", 8, 999999, "milliseconds; a remainder of 8 is dropped")},
                    Row::Numbers::Timer),
-        3, "TMRB", "fixed on-delay timer", "5.4, l.1118",
+        3, "TMRB", "on-delay timer, preset in the program", "5.4, l.1118",
         "As TMR, but the preset is part of the program, in milliseconds and units of 8 ms. Its numbers are a set of "
         "their own.",
         "LD X9.0\nFUNC 3\nPRM 1\nPRM 1000\nOUT Y9.0", kTimerFixed),
@@ -58,7 +59,8 @@ inline constexpr Row kTimingRows[] = {
      &lowerDecode},
 
     rowOf(
-        counterShape({number("number", 1, 100)}, Row::Numbers::Counter), 6, "CTR", "ring counter", "5.7, l.1271",
+        counterShape({number("number", 1, 100)}, Row::Numbers::Counter), 6, "CTR",
+        "ring counter, preset on its page (ctr.N)", "5.7, l.1271",
         "Counts rising edges of ACT. Up: from the start value (CN0) to the preset, the next pulse begins again. Down: "
         "from the preset to CN0 (P26). RST=1 sets the start value and OUT=0. OUT=1 when a count arrives at the end of "
         "its way. Preset and value lie in C, two bytes each from C(4(n-1)), and are kept through power-off (P8).",

@@ -43,6 +43,15 @@ bool isNotWord(std::span<const Token> tokens) {
          (tokens[1].kind == TokenKind::Name || tokens[1].is('('));
 }
 
+// LA (X and LO Y) of other languages.
+bool reportBracket(Diagnostics& diagnostics, SourceRange operand, std::string_view bracket) {
+  diagnostics.report(diag::SyntaxError, operand)
+          .note("there are no brackets around conditions: LDR begins what is inside, and LA or LO without an operand "
+                "joins it where the bracket ends")
+      << "a bit" << bracket;
+  return false;
+}
+
 bool isBx(const Token& token) { return token.kind == TokenKind::Name && text::equalsIgnoringCase(token.text, "BX"); }
 
 } // namespace
@@ -303,6 +312,8 @@ bool OperandParser::read(const BitKind& kind, const OperandInfo& info, Tokens to
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Name) return bareBit(kind, info, tokens[0], out);
   if (tokens.size() == 1 && tokens[0].kind == TokenKind::Number)
     return kind.flag ? flag(tokens[0], out) : wrongKind(out, "a number", "a bit");
+  if (tokens[0].is('(') != tokens.back().is(')'))
+    return reportBracket(diagnostics_, out.range, tokens[0].is('(') ? "'('" : "')'");
   Address whole;
   return address(tokens, whole) && wrongKind(out, "an address without a bit", "a bit");
 }
@@ -322,7 +333,8 @@ bool OperandParser::flag(const Token& number, Operand& out) {
 
 uint32_t OperandParser::bitSymbol(const Token& name) {
   const uint32_t index = symbols_.findWeight(name.text, file_);
-  return index != kNone ? note(name, index) : require(name);
+  if (index == kNone) symbols_.noteUndefined(name, file_, {.isBit = true});
+  return note(name, index);
 }
 
 bool OperandParser::bareBit(const BitKind& kind, const OperandInfo& info, const Token& name, Operand& out) {

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace rung::frontend::technol {
 Symbol DeclarationReader::made(const Token& name, SymbolKind kind) const {
   return namedSymbol(name, kind, file_, structure_.isLocal());
@@ -47,10 +49,15 @@ void DeclarationReader::bits(const Statement& statement, DataItem& item) {
   item.firstBit = static_cast<uint32_t>(c_.declarations.itemBits.size());
   c_.declarations.itemBits.resize(c_.declarations.itemBits.size() + 8, kNone);
   uint32_t number = 0;
-  for (std::span<const Token> operand : splitOperands(program_.operandTokens(statement))) {
+  const auto operands = splitOperands(program_.operandTokens(statement));
+  for (std::span<const Token> operand : operands) {
     if (operand.size() == 2 && takeSign(operand, c_.diagnostics)) operand = operand.subspan(1);
     if (number == 8) {
-      c_.report(diag::TooManyBits, rangeOf(program_.sources, operand, statement.range()));
+      DiagBuilder report = c_.report(diag::TooManyBits, rangeOf(program_.sources, operand, statement.range()));
+      const auto empty = std::ranges::count_if(operands, [](const auto& one) { return one.empty(); });
+      if (empty != 0)
+        report.note(fmt::format("an empty place between commas counts, too: {} names and {} empty ones",
+                                std::ssize(operands) - empty, empty));
       return;
     }
     if (operand.size() == 1 && operand[0].kind == TokenKind::Name) {

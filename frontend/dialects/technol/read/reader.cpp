@@ -49,10 +49,13 @@ bool takesAsMany(const Row* row, std::span<const Token> operands) {
   return row == nullptr || countFits(row->info, splitOperands(operands).size(), {}, unheard);
 }
 
-// NAME INSTRUCTION …: a label without its colon.
-void noteLabel(std::span<const Token> tokens, DiagBuilder& report) {
-  if (tokens.size() > 1 && tokens[1].kind == TokenKind::Name && findRow(tokens[1].text) != nullptr &&
-      reservedWord(tokens[1].text) == Reserved::Yes)
+// NAME INSTRUCTION …, or NAME alone, which is not like a word that opens, closes or declares something: a label without
+// its colon.
+void noteLabel(std::span<const Token> tokens, std::string_view similar, DiagBuilder& report) {
+  const Row* like = findRow(similar);
+  const bool alone = tokens.size() == 1 && (like == nullptr || like->role == Role::Code);
+  if (alone || (tokens.size() > 1 && tokens[1].kind == TokenKind::Name && findRow(tokens[1].text) != nullptr &&
+                reservedWord(tokens[1].text) == Reserved::Yes))
     report.note("a label ends with a colon: " + std::string(tokens[0].text) + ":");
 }
 
@@ -154,7 +157,7 @@ const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
   macros_.offer(similar);
   DiagBuilder report = c_.report(diag::UnknownInstruction, token.range());
   report << token.text;
-  noteLabel(tokens, report);
+  noteLabel(tokens, similar.best(), report);
   if (similar.best().empty() || isModified(word, similar.best())) return nullptr;
   const size_t words = parted ? 2 : 1;
   const Row* row = findRow(similar.best());
@@ -420,7 +423,9 @@ void FileReader::code(Statement& statement, uint32_t index) {
 
 void FileReader::checkWait(const Statement& statement) {
   if (!program_.mayWait(statement.unit))
-    c_.report(diag::ExOutsideMechanism, statement.range()) << statement.row->info.mnemonic;
+    c_.report(diag::ExOutsideMechanism, statement.range())
+            .note("a mechanism is written between MECH_BEGIN NAME and MECH_END NAME, and runs while the bit NAME is 1")
+        << statement.row->info.mnemonic;
   else if (program_.inMechanism(statement.unit) && statement.tokenCount > 0)
     program_.mechanisms[program_.at(program_.owner(statement.unit)).index].hasTimers = true;
 }

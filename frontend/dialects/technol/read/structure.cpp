@@ -221,7 +221,12 @@ bool Structure::fits(const Row& row) const {
 bool Structure::allowsCode(const Statement& statement) {
   if (localOpen_ && !inData()) closeLocal(statement.range());
   if (inModule() && !inData()) return true;
-  if (!outsideReported_) c_.report(diag::CodeOutsideModule, statement.range()) << statement.row->info.mnemonic;
+  if (!outsideReported_) {
+    DiagBuilder report = c_.report(diag::CodeOutsideModule, statement.range());
+    report << statement.row->info.mnemonic;
+    if (inData()) report.note("DATA has declarations alone; instructions belong in a module such as MODULE_MAIN");
+    if (inData() && statement.row->info.mnemonic == "MECH_INIT") report.note("a mechanism is declared by MECH_BEGIN");
+  }
   outsideReported_ = true;
   return false;
 }

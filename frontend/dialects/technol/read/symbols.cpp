@@ -272,7 +272,10 @@ void Symbols::reportUndefined() {
     const UndefinedName& first = uses.front();
     const Likely meant = similar(first);
     suggestAt(report, placesOf(uses), {meant.word, meant.certain && isMeantByAll(uses, meant.word)});
-    if (meant.word.empty() && looksLikeNumber(first.name)) report.note("as a number: 0" + std::string(first.name));
+    if (meant.word.empty() && looksLikeNumber(first.name))
+      report.note("as a number: 0" + std::string(first.name));
+    else if (meant.word.empty() && first.hint.isBit)
+      report.note("a bit is declared between DATA and DATA_END: DFM " + std::string(first.name));
   });
 }
 

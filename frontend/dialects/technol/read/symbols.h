@@ -46,6 +46,7 @@ std::span<const Predefined> predefinedConstants();
 struct NameHint {
   const char* structure = nullptr; // of the control, where it is looked for as a member
   Likely meant;                    // what it may have been; without a word: to be looked for
+  bool isBit = false;              // it is used as one
 };
 
 struct UndefinedName : UndeclaredUse {

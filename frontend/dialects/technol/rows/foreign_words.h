@@ -20,7 +20,10 @@ inline constexpr std::string_view kRisingOfResult = "WR of a bit, then EDGE_H of
 inline constexpr std::string_view kFallingOfResult = "WR of a bit, then EDGE_L of it";
 inline constexpr std::string_view kSetAtEdge = "WR of a bit, EDGE_H of it, then FL1 1,X";
 inline constexpr std::string_view kResetAtEdge = "WR of a bit, EDGE_H of it, then FL1 0,X";
-inline constexpr std::string_view kTimer = "TM in a DFTM block, which counts its periods";
+inline constexpr std::string_view kTimer =
+    "TM in a DFTM block, which counts its periods (`rungc explain DFTM1`); a mechanism waits by TIM -,N";
+inline constexpr std::string_view kCondition = "LDR of the condition, then JL0 to a label after what it is for";
+inline constexpr std::string_view kAfterwards = "a label, to which JL0 or JUM leads";
 
 inline constexpr ForeignWord kForeignWords[] = {
     // the same with the same operand
@@ -61,8 +64,12 @@ inline constexpr ForeignWord kForeignWords[] = {
     {"FST", "STO REAL."},
     {"FSTP", "STO REAL."},
     {"FSUB", "SU REAL."},
+    {"ELSE", kAfterwards},
+    {"ENDIF", kAfterwards},
+    {"END_IF", kAfterwards},
     {"F_TRIG", "EDGE_L"},
     {"IDIV", "DIVB"},
+    {"IF", kCondition},
     {"IMUL", "MULB"},
     {"INC", "LOD, INR and STO"},
     {"JE", "EQ and JL1"},

@@ -138,7 +138,7 @@ private:
     paint(kBlue, "help: ");
     const std::string_view old = fix.range.valid() ? sources_.text(fix.range) : std::string_view();
     const std::string shownOld = shown(old);
-    const std::string shownNew = shown(fix.replacement);
+    const std::string shownNew = shown(withoutPadding(fix.replacement));
     if (old.empty()) {
       out_ += fmt::format("insert '{}'\n", shownNew);
     } else if (fix.replacement.empty()) {
@@ -146,6 +146,13 @@ private:
     } else {
       out_ += fmt::format("write '{}' instead of '{}'\n", shownNew, shownOld);
     }
+  }
+
+  /// Without the blanks before a closing bracket that keep the columns of a drawing.
+  static std::string withoutPadding(std::string text) {
+    if (text.empty() || std::string_view("])}").find(text.back()) == std::string_view::npos) return text;
+    const size_t end = text.find_last_not_of(' ', text.size() - 2) + 1;
+    return text.erase(end, text.size() - 1 - end);
   }
 
   /// A text from the source, not longer than a line.

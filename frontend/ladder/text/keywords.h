@@ -1,4 +1,4 @@
-// The words that begin a statement of ladder text, and what they mean to its author.
+// The words that begin a statement of ladder text, and what they mean to its author; and those of other languages.
 #pragma once
 #include <string_view>
 
@@ -17,6 +17,16 @@ inline constexpr Keyword kKeywords[] = {
     {"button", "the title of a function button"},
     {"section", "a title above the rungs that follow"},
     {"rung", "begins a rung; its text is the rung's title"},
+};
+
+inline constexpr std::string_view kBeginsRung = "a rung begins with `rung` or `rung \"comment\"`";
+inline constexpr std::string_view kBeginsSubprogram =
+    "a subprogram begins with a box or a `module`; `rungc explain` with the dialect lists what there is";
+inline constexpr std::string_view kEndsItself =
+    "a program ends with its file; an instruction that ends a part of it is a box in a rung";
+inline constexpr Keyword kForeignKeywords[] = {
+    {"network", kBeginsRung},          {"end", kEndsItself}, {"end_program", kEndsItself}, {"sub", kBeginsSubprogram},
+    {"subroutine", kBeginsSubprogram},
 };
 
 } // namespace rung::ladder

@@ -117,6 +117,7 @@ void Parser::drawingLine(const SourceLine& source) {
     place_ = Place::Skipped;
   } else if (place_ == Place::Outside) {
     DiagBuilder report = diagnostics_.report(diag::StrayDrawing, source.range());
+    report.note("the statement `rung` begins a rung, and its drawing follows on the next line");
     if (!result_.rungs.empty())
       report.note(result_.rungs.back().statement, "this rung's drawing ended at a blank line or another statement");
     place_ = Place::Skipped;
@@ -136,7 +137,14 @@ void Parser::reportUnknown(const Word& keyword) {
     report.note("a comment begins with ';'");
     return;
   }
-  suggest(report, keyword.range, likeliest(keyword.text, kKeywords, &Keyword::word));
+  const auto foreign = std::ranges::find_if(
+      kForeignKeywords, [&](const Keyword& one) { return text::equalsIgnoringCase(one.word, keyword.text); });
+  if (foreign != std::end(kForeignKeywords))
+    report.note(foreign->meaning);
+  else if (keyword.text.ends_with(':'))
+    report.note("a label is a box in a rung of its own; `rungc explain` with the dialect lists the boxes");
+  else
+    suggest(report, keyword.range, likeliest(keyword.text, kKeywords, &Keyword::word));
 }
 
 /// Splits the line; false when its words are not even words.

@@ -266,6 +266,8 @@ bool LineScanner::severalWords(const Element& element, size_t begin, size_t end,
     meant(report, fmt::format("{}{}", mark->here, rest), mark->same);
   else if (contact && mark == marks.end())
     report.note("contacts in series are drawn one after the other, contacts in parallel in branches");
+  else if (mark == marks.end())
+    report.note(fmt::format("an instruction is a box, which has braces: {{{}}}", words));
   return false;
 }
 

@@ -91,9 +91,7 @@ void OutputReservations::add(const Row& row, const Operand& operand) {
   const SourceRange here = operand.source->range;
   if (reservation == Reservation::Once && owner.once.valid()) {
     diagnostics_.report(diag::DuplicateOutput, here).note(owner.once, "here")
-        << operand.source->text
-        << (owner.row->shape == Shape::Coil ? std::string("already has a coil")
-                                            : fmt::format("is already used by {}", owner.row->info.mnemonic));
+        << operand.source->text << (owner.row->shape == Shape::Coil ? "a coil" : owner.row->info.mnemonic);
     return;
   }
   const bool wasMixed = owner.once.valid() && owner.setReset.valid();
@@ -243,9 +241,11 @@ bool RungChecker::checkDrawn(const ladder::Rung& rung, const ladder::Element& el
 
 bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element& element, const Row& row) {
   bool ok = true;
-  const auto complain = [&](Diag code, SourceRange range) {
-    const bool isBox = element.kind == ElementKind::Box;
-    diagnostics_.report(code, range) << nameOf(element, row, isBox ? "" : rung.operandOf(element).text);
+  const bool isBox = element.kind == ElementKind::Box;
+  const auto complain = [&](Diag code, SourceRange range, std::string_view note = {}) {
+    DiagBuilder report = diagnostics_.report(code, range);
+    report << nameOf(element, row, isBox ? "" : rung.operandOf(element).text);
+    if (!note.empty()) report.note(note);
     ok = false;
   };
   for (const ladder::Pin& pin : rung.pinsOf(element))
@@ -253,7 +253,11 @@ bool RungChecker::checkPlacement(const ladder::Rung& rung, const ladder::Element
       complain(pin.input == ladder::kRail ? diag::FirstColumnNotAllowed : diag::FirstColumnRequired, pin.range);
   const bool connected = element.output.valid();
   if (row.info.output == Output::None && connected) complain(diag::ElementAfterClosing, element.range);
-  if (row.info.output == Output::Always && !connected) complain(diag::MissingClosingElement, element.range);
+  if (row.info.output == Output::Always && !connected)
+    complain(diag::MissingClosingElement, element.range,
+             isBox ? fmt::format("any free bit will do: {{{} ...}}--(DONE), and above it `symbol DONE {:04}.00`",
+                                 element.mnemonic, symbols_.config().plcRam)
+                   : std::string());
   return ok;
 }
 

@@ -232,6 +232,8 @@ private:
       DiagBuilder report = diagnostics_.report(diag::BitFormat, text.empty() ? word_.range : rangeOf(word_, text));
       report << text;
       if (text.size() == 1 && allDigits(text)) report.note("write .0" + std::string(text));
+      if (text::equalsIgnoringCase(text, "DN") || text::equalsIgnoringCase(text, "Q"))
+        report.note("a timer or counter shows that it is done by the coil after its box: {TOND ...}--(x)");
       const size_t modifier = text.find_first_of("@%!");
       if (modifier != std::string_view::npos)
         report.note("'" + std::string(1, text[modifier]) + "' is written before the operand");

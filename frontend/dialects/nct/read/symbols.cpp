@@ -166,16 +166,23 @@ void Symbols::explain(DiagBuilder& report, std::span<const UndeclaredName> uses)
     report.note(fmt::format("inputs and outputs are numbered with three digits, their bits with two: {}", meant));
     return;
   }
-  ladder::suggest(report, sources_, frontend::placesOf(uses), similarTo(name));
+  const Likely similar = similarTo(name);
+  ladder::suggest(report, sources_, frontend::placesOf(uses), similar);
   if (isOtherAddress(name)) report.note(kAddresses);
   noteConstant(report, name, sources_, {});
   if (!isName(name)) report.note(kNameRule);
   // (S7001.00) is a coil of the name S7001.
   const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && !use.whole.empty() &&
                      (isDigit(name[1]) || find(name.substr(1)) != nullptr);
-  if (glued)
-    report.note("set and reset have a blank: (" + std::string(1, name[0]) + " " + std::string(use.whole.substr(1)) +
-                ")");
+  const bool coloned = (name == "S" || name == "R") && use.whole.size() > 2 && use.whole[1] == ':';
+  if (glued || coloned)
+    report.note(fmt::format("set and reset have a blank: ({} {})", name[0], use.whole.substr(coloned ? 2 : 1)));
+  else if (name == "P" || name == "N")
+    report.note(
+        fmt::format("a contact for a {} edge is [{}x]", name == "P" ? "rising" : "falling", name == "P" ? '@' : '%'));
+  else if (similar.word.empty() && isName(name) && !isOtherAddress(name))
+    report.note(fmt::format("a bit is declared by `symbol {0} {1:04}.00`, a word by `symbol {0} {1:04}`", name,
+                            config_.plcRam));
 }
 
 // Names of the program come first.

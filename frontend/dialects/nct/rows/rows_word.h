@@ -31,7 +31,7 @@ constexpr Row binaryShape(std::string_view group, const OperandKind& secondKind,
 
 inline constexpr Row kTimerShape = {
     .info = {.group = "timer",
-             .pins = {P{"EN", "starts the timer", true}},
+             .pins = {P{"EN", "the condition of the timer"}},
              .operands = {O{"Address of Timer", &kinds::kUserWord, Access::ReadWrite,
                             "time that remains, in milliseconds"},
                           O{"Set Value", &kinds::kDecimal, Access::Read, "at most 2147483 s, 35791 min or 596 h", 0,

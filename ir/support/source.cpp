@@ -167,6 +167,18 @@ std::string_view SourceManager::text(FileId id) const { return file(id).text; }
 const std::optional<SourceManager::Undecoded>& SourceManager::undecoded(FileId id) const { return file(id).undecoded; }
 bool SourceManager::hasEncoding(FileId id) const { return !file(id).encoding.empty(); }
 
+std::string_view SourceManager::saidEncoding(FileId id) const {
+  const File& of = file(id);
+  const std::optional<EncodingLine> line = encodingLine(text(id));
+  return line && line->name == of.encoding ? std::string_view(of.encoding) : std::string_view();
+}
+
+bool SourceManager::isEncodingComment(SourceRange comment) const {
+  const FileId id = fileOf(comment.begin);
+  const std::optional<EncodingLine> line = encodingLine(text(id));
+  return line && offsetOf(comment.begin) <= line->offset && line->offset < offsetOf(comment.end);
+}
+
 std::optional<std::string> SourceManager::bytesOf(FileId id, std::string text) const {
   const File& of = file(id);
   std::optional<std::string> bytes =

@@ -82,6 +82,10 @@ public:
   const std::optional<Undecoded>& undecoded(FileId file) const;
   /// Whether the file, or setEncoding, says what the file is written in.
   bool hasEncoding(FileId file) const;
+  /// The encoding of a file that says it by a line of its own (encodingLine); "" where it does not, or is another one.
+  std::string_view saidEncoding(FileId file) const;
+  /// Whether this is the comment by which a file says its encoding.
+  bool isEncodingComment(SourceRange comment) const;
   /// The bytes of a file that has `text` instead of its own: in its encoding, with its end-of-file mark. Nothing where
   /// the encoding lacks a character.
   std::optional<std::string> bytesOf(FileId file, std::string text) const;

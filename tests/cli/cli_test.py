@@ -900,6 +900,35 @@ class Convert(Cli):
         self.assertEqual((done.returncode, done.stdout), (WRONG, b""))
         self.assertIn(b"missing-end2", done.stderr)
 
+    def converted(self, name, contents, to):
+        out = str(Path(self.folder.name) / f"converted-{name}{'.pmc' if to == 'list' else '.lad'}")
+        done = rungc("convert", self.file(name, contents), "--to", to, "-o", out)
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.assertEqual(rungc("check", out).returncode, OK)
+        return Path(out).read_bytes()
+
+    def test_a_file_says_its_encoding_in_the_other_form_too(self):
+        said = b"; encoding: gb18030\n"
+        program = "LD X0.0 ; \u706f\nOUT Y0.0\nFUNC END1\nFUNC END2\n"
+        for head in (said, b"dialect gsk\n" + said, said + b"; a lamp\n"):
+            for to in ("list", "ladder"):
+                with self.subTest(head=head, to=to):
+                    contents = self.converted("lamp.pmc", head + program.encode("gb18030"), to)
+                    self.assertTrue(contents.startswith(said), contents)
+                    self.assertEqual(contents.count(b"encoding"), 1, contents)
+                    self.assertIn("\u706f".encode("gb18030"), contents)
+        # A byte order mark says that an editor has made it UTF-8 since then.
+        contents = self.converted("marked.pmc", b"\xef\xbb\xbf" + said + program.encode(), "ladder")
+        self.assertNotIn(b"encoding", contents)
+        self.assertIn("\u706f".encode(), contents)
+
+    def test_a_section_beside_the_word_rung(self):
+        for head in ('rung "start" ; section "axes"', '; start\nrung ; section "axes"', '; start\n\nrung ; section "axes"'):
+            for to in ("list", "ladder"):
+                with self.subTest(head=head, to=to):
+                    text = self.converted("axes.lad", f"dialect gsk\nmodule LEVEL1\n\n{head}\n|--[X0.0]--(Y0.0)\n", to)
+                    self.assertLess(text.index(b'section "axes"'), text.index(b"start"))
+
     def test_other_dialects_have_one_form(self):
         done = rungc("convert", self.file("lamp.lad", LAMP), "--to", "list")
         self.assertEqual(done.returncode, WRONG)

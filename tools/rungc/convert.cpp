@@ -30,7 +30,10 @@ std::optional<std::string> convert(SourceManager& sources, std::span<const FileI
   }
   if (dialect->compile(sources, files, compile, diagnostics) == nullptr) return std::nullopt;
   const auto form = options.to == "list" ? network::convert::Form::List : network::convert::Form::Ladder;
-  return network::convertProgram(gsk::kLanguage, sources, files, form, diagnostics);
+  std::optional<std::string> text = network::convertProgram(gsk::kLanguage, sources, files, form, diagnostics);
+  const std::string_view encoding = sources.saidEncoding(files[0]); // the result is written in it
+  if (text && !encoding.empty()) text->insert(0, fmt::format("; encoding: {}\n", encoding));
+  return text;
 }
 
 // The compiler distinguishes the two forms by their extensions: a list in a .lad file could not be read again.

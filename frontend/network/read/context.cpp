@@ -368,6 +368,10 @@ void unknownOperand(Context& context, const Word& word, UserName::Kind kind, std
     return context.names.noteUndeclared(use);
   DiagBuilder report = context.diagnostics.report(diag::BadOperand, word.range);
   report << word.text;
+  if (const uint32_t declared = context.names.find(word.text); declared != frontend::kNoName) {
+    const bool isConstant = context.names[declared].kind == UserName::Kind::Constant;
+    report.note(fmt::format("{} is declared as {}", word.text, isConstant ? "a constant" : "the name of an address"));
+  }
   explain(context, {&use, 1}, report);
 }
 

@@ -57,6 +57,15 @@ void Gaps::title(std::string_view text) {
   if (kept_) gap_.insert(at, {Kind::Comment, clean(text)});
 }
 
+void Gaps::remark(std::string_view text) {
+  if (!sectionIn(text)) return comment(text);
+  begun_ = true;
+  const auto mayBelongToTitle = [](const Item& item) { return item.kind == Kind::Comment || item.kind == Kind::Blank; };
+  auto at = gap_.end();
+  while (at != gap_.begin() && mayBelongToTitle(*std::prev(at))) --at;
+  if (kept_) gap_.insert(at, commentItem(text));
+}
+
 void Gaps::giveBack(Gap&& gap) {
   gap_.insert(gap_.begin(), std::make_move_iterator(gap.begin()), std::make_move_iterator(gap.end()));
 }

@@ -26,6 +26,8 @@ public:
   void section(std::string_view title, std::string_view comment);
   // That of a rung: in a list it is the first line of the last block of comment lines.
   void title(std::string_view text);
+  // After the word that a rung begins with. A section goes before the title, which it would take away.
+  void remark(std::string_view text);
   // What belongs to an end, which ladder text does not have.
   void giveBack(Gap&& gap);
 

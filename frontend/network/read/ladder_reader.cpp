@@ -307,6 +307,7 @@ public:
 private:
   void readStatement(const ladder::Statement& statement);
   void comment(const ladder::Comment& comment) {
+    if (context_.sources.isEncodingComment(comment.range)) return;
     title_.comment(comment.text);
     context_.gaps.comment(comment.text);
   }
@@ -410,7 +411,7 @@ void LadderReader::readRung(const ladder::Rung& rung, std::string_view comment) 
   if (unit_ == kNone) return; // reported with the module
   const std::string_view own = text::trimmed(rung.comment);
   if (!own.empty()) context_.gaps.title(own);
-  if (!comment.empty()) context_.gaps.comment(comment);
+  if (!comment.empty()) context_.gaps.remark(comment);
   const RungText text{isTitle(own) ? own : title_.title(), blocksIn(context_.language, rung)};
   RungReader reader(context_, builder_, rung, text);
   if (rung.bad || !reader.read()) readRejected(rung);

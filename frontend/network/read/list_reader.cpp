@@ -49,6 +49,7 @@ private:
 };
 
 void ListReader::comment() {
+  if (words_.hasComment && context_.sources.isEncodingComment(words_.commentRange)) return;
   if (words_.hasComment) {
     title_.comment(words_.comment);
     context_.gaps.comment(words_.comment);

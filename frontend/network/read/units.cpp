@@ -160,10 +160,10 @@ void UnitAssembler::closeAll() {
 }
 
 void UnitAssembler::endOfList(SourceRange lastLine) {
-  const std::string_view end = lastEnd().info.mnemonic;
-  for (SourceRange range : stray_) context_.diagnostics.report(diag::CodeAfterEnd2, range) << end;
+  const std::string_view last = lastEnd().info.mnemonic;
+  for (SourceRange range : stray_) context_.diagnostics.report(diag::CodeAfterEnd2, range) << last;
   if (!ends_.back().valid() && misplaced_.size() > 1) misplaced_.resize(1); // the missing end is the mistake
-  for (SourceRange range : misplaced_) context_.diagnostics.report(diag::SubprogramMisplaced, range) << end;
+  for (SourceRange range : misplaced_) context_.diagnostics.report(diag::SubprogramMisplaced, range) << last;
   closeAll();
   if (incomplete_) return;
   for (uint32_t level = 0; level < levelCount(); ++level) {

@@ -106,5 +106,7 @@ std::span<const Dialect* const> allDialects();
 const Dialect* findDialect(std::string_view name);
 // By the text of a file: `dialect NAME` in a ladder text, else by its extension; null when neither says so.
 const Dialect* dialectOf(const SourceManager& sources, FileId file);
+// Of program files: that of ladder text, and those of the dialects.
+std::vector<std::string_view> programExtensions();
 
 } // namespace rung::frontend

@@ -21,6 +21,13 @@ const Dialect* findDialect(std::string_view name) {
   return nullptr;
 }
 
+std::vector<std::string_view> programExtensions() {
+  std::vector<std::string_view> extensions = {".lad"};
+  for (const Dialect* dialect : allDialects())
+    extensions.insert(extensions.end(), dialect->extensions.begin(), dialect->extensions.end());
+  return extensions;
+}
+
 const Dialect* dialectOf(const SourceManager& sources, FileId file) {
   if (const Dialect* named = findDialect(ladder::peekDialect(sources, file))) return named;
   const std::string name = text::lower(sources.name(file));

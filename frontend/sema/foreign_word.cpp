@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ir/support/ascii.h"
+#include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
@@ -45,12 +46,6 @@ struct ComparisonSign {
 };
 constexpr ComparisonSign kComparisonSigns[] = {{">=", "GE"}, {"<=", "LE"}, {"<>", "NE"}, {"!=", "NE"},
                                                {"==", "EQ"}, {">", "GT"},  {"<", "LT"},  {"=", "EQ"}};
-
-std::string_view withoutBlanks(std::string_view text) {
-  const size_t first = std::min(text.find_first_not_of(' '), text.size());
-  text.remove_prefix(first);
-  return text.substr(0, text.find_last_not_of(' ') + 1);
-}
 
 } // namespace
 
@@ -121,8 +116,8 @@ std::optional<ForeignComparison> foreignComparison(std::string_view text) {
   const auto* const sign = std::ranges::find_if(
       kComparisonSigns, [&](const ComparisonSign& one) { return text.substr(begin).starts_with(one.sign); });
   if (sign == std::end(kComparisonSigns)) return std::nullopt;
-  const ForeignComparison found{withoutBlanks(text.substr(0, begin)), sign->word,
-                                withoutBlanks(text.substr(begin + sign->sign.size()))};
+  const ForeignComparison found{text::trimmed(text.substr(0, begin)), sign->word,
+                                text::trimmed(text.substr(begin + sign->sign.size()))};
   if (found.left.empty() || found.right.empty() || found.right.find_first_of("<>= ") != std::string_view::npos ||
       found.left.find(' ') != std::string_view::npos)
     return std::nullopt;

@@ -69,10 +69,9 @@ uint64_t bitsOf(const LocatedCell& cell, rung_value value) {
 // As the cell holds it: a bit is 0 or 1, an integer is extended by its sign.
 rung_value held(const LocatedCell& cell, rung_value value) noexcept {
   if (cell.place.real) return value;
-  const uint32_t width = cell.place.width();
-  if (width == 1) return {.integer = value.integer & 1};
-  const uint32_t above = 64 - width;
-  return {.integer = static_cast<int64_t>(static_cast<uint64_t>(value.integer) << above) >> above};
+  if (cell.place.width() == 1) return {.integer = value.integer & 1};
+  const uint32_t unused = cell.place.unused;
+  return {.integer = static_cast<int64_t>(static_cast<uint64_t>(value.integer) << unused) >> unused};
 }
 
 // The cell that the name is for those who read it, and, where that is another, the one that the machine writes.

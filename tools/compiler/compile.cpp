@@ -1,8 +1,10 @@
 // Files to a laid-out program (see compile.h).
 #include "tools/compiler/compile.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iostream>
 #include <iterator>
 
@@ -22,7 +24,6 @@ namespace rung::compiler {
 namespace {
 
 constexpr std::string_view kElfMagic = "\177ELF";
-constexpr std::string_view kLadder = ".lad";
 
 // An invalid module is an error of the compiler, never of the user's program.
 void checkModule(const ir::Module& module, ir::Mode mode) {
@@ -57,11 +58,10 @@ void reportNoDialect(const SourceManager& sources, FileId file, Diagnostics& dia
   for (SourceLine line; words.words.empty() && lines.next(line);) splitWords(line, {}, words);
   if (ladder::isListLine(words.words)) report.note(ladder::kListNote);
   const std::string extension = std::filesystem::path(sources.name(file)).extension().string();
-  if (extension.empty() || extension == kLadder) return;
-  std::string programs(kLadder);
-  for (const frontend::Dialect* dialect : frontend::allDialects())
-    for (const std::string_view one : dialect->extensions) programs += fmt::format(", {}", one);
-  report.note(fmt::format("the file is not one of a program by its name; those have the extensions {}", programs));
+  const std::vector<std::string_view> programs = frontend::programExtensions();
+  if (extension.empty() || std::ranges::find(programs, extension) != programs.end()) return;
+  report.note(fmt::format("the file is not one of a program by its name; those have the extensions {}",
+                          fmt::join(programs, ", ")));
 }
 
 bool checkEncodingKey(const frontend::CompileOptions& options, Diagnostics& diagnostics) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <string_view>
+#include <vector>
 
 #include "frontend/dialects/dialect.h"
 #include "tools/project/project.h"
@@ -38,11 +39,8 @@ FileKind kindOfFile(const std::string& path) {
   if (extension == ".map") return FileKind::Map;
   if (extension == ".bind") return FileKind::Binding;
   if (extension == ".toml" && name != kFileName) return FileKind::Project; // rung.toml means its program
-  const bool isProgram =
-      extension == ".lad" || std::ranges::any_of(frontend::allDialects(), [&](const frontend::Dialect* dialect) {
-        return std::ranges::find(dialect->extensions, extension) != dialect->extensions.end();
-      });
-  return isProgram ? FileKind::Program : FileKind::Other;
+  const std::vector<std::string_view> programs = frontend::programExtensions();
+  return std::ranges::find(programs, extension) != programs.end() ? FileKind::Program : FileKind::Other;
 }
 
 std::string otherKind(const std::string& path, FileKind wanted) {

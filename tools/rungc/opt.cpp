@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <iostream>
 #include <memory>
+#include <ranges>
 #include <set>
 #include <span>
 #include <sstream>
@@ -33,16 +34,6 @@ struct OptOptions {
   std::string out;
 };
 
-std::vector<std::string> splitAtCommas(const std::string& text) {
-  std::vector<std::string> parts;
-  for (size_t at = 0; at <= text.size();) {
-    const size_t comma = std::min(text.find(',', at), text.size());
-    parts.push_back(text.substr(at, comma - at));
-    at = comma + 1;
-  }
-  return parts;
-}
-
 std::string knownPasses() {
   std::vector<std::string_view> names;
   for (const ir::Pass& pass : ir::allPasses()) names.push_back(pass.name);
@@ -62,7 +53,7 @@ std::vector<const ir::Pass*> passesOf(const OptOptions& options, int& status) {
   if (options.passes.empty())
     for (const std::string_view name : ir::optimisingPasses()) add(name);
   else
-    for (const std::string& name : splitAtCommas(options.passes)) add(name);
+    for (const auto name : std::views::split(options.passes, ',')) add(std::string_view(name.begin(), name.end()));
   for (const std::string& name : options.printAfter)
     if (name != kAll && ir::findPass(name) == nullptr)
       status = usageError(

@@ -74,7 +74,7 @@ std::string shownName(const rung_program& program, const Ref& place) {
   const std::string address = nc::address(program, place);
   if (symbol.empty()) {
     const std::string cell = nc::cellAddress(program, place);
-    const bool isLonger = place.kind == RefKind::Int && cell != address; // D10:2, which is no other name of D10
+    const bool isLonger = place.kind == RefKind::Int && cell != address; // D10:2, which is not another name of D10
     return nc::hasAddresses(program) && !isLonger ? nc::describe(program, place) : cell;
   }
   return nc::hasAddresses(program) && address != symbol ? fmt::format("{} ({})", symbol, address) : symbol;

@@ -19,9 +19,17 @@ function(rung_target_defaults target scope)
   endif()
 endfunction()
 
-# rung_add_library(NAME SOURCES file... LIBS target...): a static library, or an interface library without SOURCES.
+# rung_add_library(NAME [FOLDERS folder...] [SOURCES file...] LIBS target...): a static library of every *.cpp in the folders,
+# and of the sources; an interface library without any.
 function(rung_add_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;SOURCES;LIBS")
+  foreach(folder IN LISTS arg_FOLDERS)
+    file(GLOB found CONFIGURE_DEPENDS ${folder}/*.cpp)
+    if(NOT found)
+      message(FATAL_ERROR "${folder} has no *.cpp")
+    endif()
+    list(APPEND arg_SOURCES ${found})
+  endforeach()
   if(arg_SOURCES)
     add_library(${name} STATIC ${arg_SOURCES})
     rung_target_defaults(${name} PUBLIC)

@@ -19,7 +19,7 @@
 #include <clang/Tooling/Tooling.h>
 #include <llvm/Support/FileSystem.h>
 
-#include "ir/support/similar.h"
+#include "rtlib/text/similar.h"
 
 namespace rung::codegen {
 namespace {
@@ -42,7 +42,7 @@ public:
     return found == structs_.end() ? nullptr : &found->second;
   }
   std::string similarTo(const std::string& name) const {
-    return std::string(mostSimilar(name, structs_ | std::views::keys));
+    return std::string(text::mostSimilar(name, structs_ | std::views::keys));
   }
 
 private:
@@ -186,7 +186,7 @@ public:
 private:
   std::string missing(const std::string& similar) const {
     return "there is no struct " + request_.name + " in " + request_.header +
-           (similar.empty() ? "; name the tag or the typedef, with its namespaces" : didYouMean(similar));
+           (similar.empty() ? "; name the tag or the typedef, with its namespaces" : text::didYouMean(similar));
   }
 
   std::string unfit(const ASTContext& context, const Named& found) const {

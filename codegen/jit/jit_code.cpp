@@ -19,7 +19,7 @@
 #include "ir/shape/cut.h"
 #include "ir/support/check.h"
 #include "ir/support/contained.h"
-#include "rtlib/host/realtime.h"
+#include "rtlib/run/realtime.h"
 
 namespace rung::codegen {
 
@@ -55,7 +55,7 @@ public:
     std::vector<std::thread> helpers;
     for (uint32_t i = 1; i < std::min<size_t>(options_.threads, pieces_.size()); ++i)
       helpers.emplace_back([&] {
-        host::becomeHelper();
+        runtime::becomeHelper();
         work();
       });
     work();

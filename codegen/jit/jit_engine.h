@@ -4,11 +4,11 @@
 #include <string_view>
 
 #include "codegen/jit/jit_code.h"
-#include "rtlib/host/engine.h"
+#include "rtlib/load/engine.h"
 
 namespace rung::codegen {
 
-class JitEngine final : public host::Engine {
+class JitEngine final : public runtime::Engine {
 public:
   ~JitEngine() override;
   const rung_program& program() const override;

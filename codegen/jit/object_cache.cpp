@@ -155,7 +155,7 @@ CacheKey CacheKeys::of(const ModulePart& piece) const {
 }
 
 ObjectCache::ObjectCache(const std::string& folder) {
-  if (!folder.empty()) folder_ = host::CodeFolder::open(folder, problem_);
+  if (!folder.empty()) folder_ = runtime::CodeFolder::open(folder, problem_);
 }
 
 std::string ObjectCache::name(const ModulePart& piece) { return llvm::toHex(piece.key, true) + ".o"; }

@@ -2,7 +2,7 @@
 // of a program that changes in one rung the other pieces are found, also where they have moved, but for those whose
 // cells lie elsewhere in memory now. The key is also in the object (see PieceIdentity) and is compared there: a file
 // under a right name with other contents counts as absent, as a damaged one does, and one that others could have
-// written (see host::CodeFolder). Several processes may use one folder.
+// written (see runtime::CodeFolder). Several processes may use one folder.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 #include "codegen/llvm/code_version.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "codegen/llvm/module_part.h"
-#include "rtlib/host/code_folder.h"
+#include "rtlib/load/code_folder.h"
 
 namespace rung::codegen {
 
@@ -41,7 +41,7 @@ public:
 
 private:
   static std::string name(const ModulePart& piece);
-  std::optional<host::CodeFolder> folder_;
+  std::optional<runtime::CodeFolder> folder_;
   std::string problem_; // of a folder that cannot be used
 };
 

@@ -11,8 +11,8 @@ struct LlvmFunctions {
   decltype(&emitLlvmIr) irText;
   decltype(&emitAssembly) assembly;
   decltype(&buildLlvmSharedObject) sharedObject;
-  decltype(&codegen::withSection) withSection;
-  decltype(&codegen::sectionOf) sectionOf;
+  decltype(&withSection) withSection;
+  decltype(&sectionOf) sectionOf;
   decltype(&makeJitCode) jitCode;
 };
 

@@ -1,14 +1,14 @@
 // The side of the programs (see functions.h): each function of LLVM's back end loads the plug-in and hands over.
 #include "codegen/llvm/code_version.h"
 #include "codegen/plugin/functions.h"
-#include "rtlib/host/plugin.h"
+#include "rtlib/load/plugin.h"
 
 namespace rung::codegen {
 namespace {
 
 // Any thread; it is loaded once.
 Result<const LlvmFunctions*> llvmFunctions() {
-  static const host::Plugin plugin(kLlvmPlugin, codeVersion());
+  static const runtime::Plugin plugin(kLlvmPlugin, codeVersion());
   if (!plugin.ok()) return failure("LLVM cannot be loaded: " + plugin.problem());
   return plugin.function<GetLlvmFunctions>(kGetLlvmFunctions)();
 }

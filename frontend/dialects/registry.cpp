@@ -11,7 +11,7 @@
 namespace rung::frontend {
 
 std::span<const Dialect* const> allDialects() {
-  static constexpr std::array<const Dialect*, 3> kAll = {&gsk::kGsk, &nct::kNct, &kTechnol};
+  static constexpr std::array<const Dialect*, 3> kAll = {&gsk::kGsk, &nct::kNct, &technol::kTechnol};
   return kAll;
 }
 

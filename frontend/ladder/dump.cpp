@@ -4,7 +4,7 @@
 #include "frontend/ladder/rung.h"
 #include "ir/support/put.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 
 std::string elementText(const Element& element, std::span<const Word> operands) {
   const std::string_view edge(&element.edge, element.edge != 0 ? 1 : 0);
@@ -43,4 +43,4 @@ std::string dumpRung(const Rung& rung) {
   return out;
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -6,7 +6,7 @@
 #include "frontend/ladder/rung.h"
 #include "ir/support/diag/ladder.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 using Work = std::priority_queue<uint32_t, std::vector<uint32_t>, std::greater<>>;
@@ -104,4 +104,4 @@ void orderElements(Rung& rung, Diagnostics& diagnostics) {
   linkNets(rung);
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

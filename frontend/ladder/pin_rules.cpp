@@ -10,7 +10,7 @@
 
 #include "ir/support/diag/ladder.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 bool hasName(std::span<const Pin> pins, std::string_view name, SameName same) {
@@ -61,4 +61,4 @@ bool checkPins(const frontend::InstructionInfo& info, std::span<const Pin> drawn
   return false;
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -3,7 +3,7 @@
 #include "frontend/ladder/rung.h"
 #include "frontend/table/instruction.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 
 /// Whether two names of pins are one to the dialect.
 using SameName = bool (*)(std::string_view a, std::string_view b);
@@ -16,4 +16,4 @@ bool checkPins(const frontend::InstructionInfo& info, std::span<const Pin> drawn
 /// is said is the dialect's business.
 bool isMisplaced(const frontend::InstructionInfo& info, const Pin& pin);
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -4,7 +4,7 @@
 #include "frontend/ladder/rung.h"
 #include "ir/support/diag/ladder.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 bool checkElement(const Rung& rung, const Element& element, Diagnostics& diagnostics) {
@@ -43,4 +43,4 @@ bool checkClosed(const Rung& rung, Diagnostics& diagnostics) {
   return good;
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -23,7 +23,7 @@
 #include "ir/support/ids.h"
 #include "ir/support/source.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 
 using NetId = Id<struct NetTag>;
 using ElementId = Id<struct ElementTag>;
@@ -131,4 +131,4 @@ std::string elementText(const Element& element, std::span<const Word> operands);
 /// One line an element: `e2 [/STOP] n1 -> n2`, pins after the first as `R=n3`, `.` for no output. Then its comments.
 std::string dumpRung(const Rung& rung);
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

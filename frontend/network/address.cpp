@@ -5,11 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "ir/support/ascii.h"
 #include "ir/support/saturate.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 constexpr uint64_t kSaturated = 1ull << 62;
@@ -18,7 +17,7 @@ std::optional<int64_t> parseHex(std::string_view text) {
   if (text.empty()) return std::nullopt;
   uint64_t value = 0;
   for (char c : text) {
-    const int digit = hexDigit(c);
+    const int digit = text::hexDigit(c);
     if (digit < 0) return std::nullopt;
     value = std::min(saturatedSum(saturatedProduct(value, 16), static_cast<uint32_t>(digit)), kSaturated);
   }
@@ -43,7 +42,7 @@ std::optional<uint64_t> parseDigits(std::string_view text) {
   if (text.empty()) return std::nullopt;
   uint64_t value = 0;
   for (char c : text) {
-    if (!isDigit(c)) return std::nullopt;
+    if (!text::isDigit(c)) return std::nullopt;
     value = std::min(saturatedSum(saturatedProduct(value, 10), static_cast<uint32_t>(c - '0')), kSaturated);
   }
   return value;
@@ -76,4 +75,4 @@ Address addressOf(const Language& language, const nc::Signal& signal) {
           isBit};
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -9,7 +9,7 @@
 #include "frontend/network/language.h"
 #include "rtlib/nc/signal.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 struct Address {
   Area area{};
@@ -39,4 +39,4 @@ std::optional<uint64_t> parseDigits(std::string_view text);
 // `[-] number` or `0x` hexadecimal digits.
 std::optional<int64_t> parseConstant(std::string_view text);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

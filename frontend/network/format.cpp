@@ -14,7 +14,7 @@
 #include "frontend/syntax/page.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 constexpr Table kNames; // symbol, const
@@ -29,7 +29,7 @@ class ListFormatter {
 public:
   ListFormatter(const Language& language, SourceManager& sources, FileId file, Diagnostics& diagnostics)
       : context_{.language = language, .sources = sources, .diagnostics = diagnostics}, file_(file),
-        page_(sources.text(file), convert::kCommentColumn) {}
+        page_(sources.text(file), kCommentColumn) {}
 
   std::string run() {
     findNumbers();
@@ -89,7 +89,7 @@ void ListFormatter::statement(std::span<const Word> words, std::string_view comm
   if (*command == Command::Dialect)
     return page_.line(fmt::format("{}{} {}", number(), text::lower(words[0].text), words[1].text), comment);
   const std::string operand = words.size() > 1 ? operandText(context_.language, *command, words[1]) : "";
-  page_.line(number() + convert::commandText(context_.language, *command, operand), comment);
+  page_.line(number() + commandText(context_.language, *command, operand), comment);
 }
 
 } // namespace
@@ -103,4 +103,4 @@ std::optional<std::string> format(const Language& language, SourceManager& sourc
   return diagnostics.errorCount() == before ? std::optional(std::move(text)) : std::nullopt;
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

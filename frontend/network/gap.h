@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // Comments have no ';' before them, no blanks at their ends, no control characters. The title of a network is one of
 // the comments of its gap, where the rule of titles (read/title.h) finds it.
@@ -18,4 +18,4 @@ struct Item {
 };
 using Gap = std::vector<Item>;
 
-} // namespace rung::network
+} // namespace rung::frontend::network

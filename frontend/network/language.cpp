@@ -9,7 +9,7 @@
 #include "ir/support/check.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 bool isFunction(const Row& row) { return row.info.number >= 0; }
@@ -77,4 +77,4 @@ std::string Language::mnemonicsOf(bool (*isSo)(const Row& row)) const {
   return text;
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

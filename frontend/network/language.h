@@ -14,7 +14,7 @@
 #include "ir/support/diagnostics.h"
 #include "rtlib/nc/signal.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // The statements of a list (P12). Declarations are allowed in lists as in ladder text, for conversions.
 // clang-format off
@@ -119,4 +119,4 @@ struct Language {
   std::string mnemonicsOf(bool (*isSo)(const Row& row)) const;
 };
 
-} // namespace rung::network
+} // namespace rung::frontend::network

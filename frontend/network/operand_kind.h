@@ -6,7 +6,7 @@
 #include "ir/support/diag/operand.h"
 #include "ir/support/diagnostics.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // How the word of an operand is read.
 enum class OperandClass : uint8_t { Value, Number, Mask, Named, Format };
@@ -32,4 +32,4 @@ inline const OperandKind& kindOf(const frontend::OperandInfo& operand) {
   return static_cast<const OperandKind&>(*operand.kind);
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

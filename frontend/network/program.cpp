@@ -6,7 +6,7 @@
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 std::string textOf(const Language& language, const Param& param) {
@@ -80,4 +80,4 @@ std::string identityOf(const Language& language, const SourceManager& sources, c
   return text;
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -13,7 +13,7 @@
 #include "frontend/network/operand_kind.h"
 #include "ir/support/source.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 inline constexpr uint32_t kNone = UINT32_MAX;
 
@@ -140,4 +140,4 @@ std::string commandText(const Language& language, const Network& network);
 // or an edge its number alone.
 std::string identityOf(const Language& language, const SourceManager& sources, const Function& function);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -5,7 +5,7 @@
 
 #include "frontend/table/instruction.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // Instructions that shape the program; everything else is Plain.
 enum class Control : uint8_t { Plain, LevelEnd, Sp, Spe, Jmp, Jmpe, Jmpb, Jmpc, Lbl, Call, CallU, Com, Come };
@@ -23,4 +23,4 @@ struct Row {
   bool built = true;        // else it is known, and refused by name
 };
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <string>
 
-#include "ir/support/ascii.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
@@ -33,7 +32,7 @@ struct TimePart {
 std::optional<TimePart> takeTimePart(std::string_view& text) {
   const std::string_view digits = text.substr(0, text.find_first_not_of("0123456789."));
   const std::optional<double> amount = text::realIn(digits);
-  if (!amount || !isDigit(digits[0])) return std::nullopt;
+  if (!amount || !text::isDigit(digits[0])) return std::nullopt;
   text.remove_prefix(digits.size());
   for (const TimeUnit& unit : kTimeUnits)
     if (text::takePrefixIgnoringCase(text, unit.text)) return TimePart{*amount, unit.unit};
@@ -83,10 +82,12 @@ std::optional<ForeignNumber> foreignNumber(std::string_view text) {
       break;
     }
   if (number.base == 0) {
-    if (text.empty() || !isDigit(text[0]) || text::upper(text.back()) != 'H') return std::nullopt;
+    if (text.empty() || !text::isDigit(text[0]) || text::upper(text.back()) != 'H') return std::nullopt;
     number = {text.substr(0, text.size() - 1), 16};
   }
-  const auto isOne = [&](char c) { return hexDigit(c) >= 0 && static_cast<uint32_t>(hexDigit(c)) < number.base; };
+  const auto isOne = [&](char c) {
+    return text::hexDigit(c) >= 0 && static_cast<uint32_t>(text::hexDigit(c)) < number.base;
+  };
   if (number.digits.empty() || !std::ranges::all_of(number.digits, isOne)) return std::nullopt;
   return number;
 }

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "ir/support/diagnostics.h"
-#include "ir/support/similar.h"
+#include "rtlib/text/similar.h"
 
 namespace rung::frontend {
 
@@ -31,7 +31,7 @@ bool isModified(std::string_view word, std::string_view known);
 // Whether a word is as likely a slip of the hand for any of several of these, which would do different things.
 template <class Words, class NameOf = std::identity>
 bool isAmbiguous(std::string_view word, Words&& words, NameOf nameOf = {}) {
-  Similar similar(word);
+  text::Similar similar(word);
   for (const auto& one : words)
     if (!isModified(word, std::invoke(nameOf, one))) similar.offer(std::invoke(nameOf, one));
   return similar.ambiguous();

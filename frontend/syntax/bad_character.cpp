@@ -10,7 +10,7 @@
 #include "ir/support/diag/source.h"
 #include "ir/support/utf8.h"
 
-namespace rung {
+namespace rung::frontend {
 namespace {
 
 struct LookAlike {
@@ -63,4 +63,4 @@ void noteLookAlike(std::string_view text, size_t offset, SourcePos begin, DiagBu
   report.fix({{at}, {at + character.length}}, {&ascii, 1});
 }
 
-} // namespace rung
+} // namespace rung::frontend

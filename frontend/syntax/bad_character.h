@@ -4,7 +4,7 @@
 
 #include "ir/support/diagnostics.h"
 
-namespace rung {
+namespace rung::frontend {
 
 /// Reports the character at `offset` of a text that begins at `begin`. One that only looks like an ASCII character (of
 /// another alphabet, of a word processor, full width) is put right by a fix.
@@ -13,4 +13,4 @@ void reportBadCharacter(std::string_view text, size_t offset, SourcePos begin, D
 /// The look-alike's part of the report, where the character is one.
 void noteLookAlike(std::string_view text, size_t offset, SourcePos begin, DiagBuilder& report);
 
-} // namespace rung
+} // namespace rung::frontend

@@ -7,7 +7,7 @@
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/utf8.h"
 
-namespace rung {
+namespace rung::frontend {
 namespace {
 
 constexpr size_t kCommentGap = 2; // between a line and the comment after it
@@ -130,4 +130,4 @@ std::string Page::take() {
   return out;
 }
 
-} // namespace rung
+} // namespace rung::frontend

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rung {
+namespace rung::frontend {
 
 /// Lines of up to three cells in columns; one object a kind of lines, which its address names. The last cell of a line
 /// reaches as far as it likes.
@@ -70,4 +70,4 @@ private:
 /// Without blanks, tabs and carriage returns at its end.
 std::string_view withoutTrailingSpace(std::string_view text);
 
-} // namespace rung
+} // namespace rung::frontend

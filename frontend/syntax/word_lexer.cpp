@@ -9,7 +9,7 @@
 #include "ir/support/utf8.h"
 #include "rtlib/text/blanks.h"
 
-namespace rung {
+namespace rung::frontend {
 namespace {
 
 bool isBlank(char c) { return c == ' ' || c == '\t'; }
@@ -102,4 +102,4 @@ bool checkEncoding(const SourceManager& sources, FileId file, Diagnostics& diagn
   return false;
 }
 
-} // namespace rung
+} // namespace rung::frontend

@@ -10,7 +10,7 @@
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
 
-namespace rung {
+namespace rung::frontend {
 
 struct Word {
   std::string_view text; ///< without the quotes when quoted
@@ -64,4 +64,4 @@ void splitWords(const SourceLine& line, const WordRules& rules, LineWords& out);
 /// Reports bad-encoding at the first byte that is not UTF-8 (or is NUL: not a text at all) and returns false then.
 bool checkEncoding(const SourceManager& sources, FileId file, Diagnostics& diagnostics);
 
-} // namespace rung
+} // namespace rung::frontend

@@ -1,7 +1,7 @@
 // The tables of a program, filled and joined (see program_image.h).
 #include "ir/image/program_image.h"
 
-#include "ir/support/version.h"
+#include "rtlib/text/version.h"
 
 namespace rung::ir {
 namespace {
@@ -51,7 +51,7 @@ ProgramImage::ProgramImage(const Layout& layout, uint64_t codeHash) {
   p.abi_version = RUNG_ABI_VERSION;
   p.name = tables_.text(module.name);
   p.dialect = tables_.text(module.dialect);
-  p.compiler = compilerName();
+  p.compiler = text::compilerName();
   p.layout_hash = layout.memory().hash();
   p.code_hash = codeHash;
   p.memory_size = layout.memory().size();

@@ -8,7 +8,7 @@ namespace rung::ir {
 
 class ProgramImage {
 public:
-  // `codeHash` names the code that will run (ir::hashOf its module); the image copies what it needs.
+  // `codeHash` names the code that will run (hashOf its module); the image copies what it needs.
   ProgramImage(const Layout& layout, uint64_t codeHash);
   ProgramImage(const ProgramImage&) = delete;
   ProgramImage& operator=(const ProgramImage&) = delete;

@@ -14,7 +14,7 @@
 #include "ir/image/program_image.h"
 #include "ir/shape/cut.h"
 #include "ir/shape/layout.h"
-#include "rtlib/host/engine.h"
+#include "rtlib/load/engine.h"
 
 namespace rung::ir {
 
@@ -37,7 +37,7 @@ enum class Counting : uint8_t {
   Operations,
 };
 
-class InterpEngine final : public host::Engine {
+class InterpEngine final : public runtime::Engine {
 public:
   // The layout and its module outlive the engine.
   InterpEngine(const Layout& layout, uint64_t codeHash, Counting counting = Counting::Ticks);

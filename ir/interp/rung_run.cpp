@@ -164,7 +164,7 @@ void RungRun::setFault(const Op& op) {
   ctx_.fault.line = lineOf(rung_, op);
 }
 
-uint64_t RungRun::clock() const { return counting_ == Counting::Operations ? operations_ : rt::readTicks(); }
+uint64_t RungRun::clock() const { return counting_ == Counting::Operations ? operations_ : core::readTicks(); }
 
 void RungRun::countRung() {
   rung_prof& prof = ctx_.prof[number_];

@@ -9,7 +9,7 @@
 #include <unordered_set>
 
 #include "ir/core/op_info.h"
-#include "ir/support/ascii.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::ir {
 namespace {
@@ -121,8 +121,8 @@ static_assert(std::ranges::is_sorted(kReserved));
 
 std::string identifier(std::string_view name) {
   std::string out;
-  if (name.empty() || isDigit(name.front())) out += '_';
-  for (const char c : name) out += isDigit(c) || isLetter(c) ? c : '_';
+  if (name.empty() || text::isDigit(name.front())) out += '_';
+  for (const char c : name) out += text::isDigit(c) || text::isLetter(c) ? c : '_';
   // Those that begin so may be macros of the compiler: __FILE__, __x86_64__.
   if (std::ranges::binary_search(kReserved, std::string_view(out)) || out.starts_with("__")) out += '_';
   return out;

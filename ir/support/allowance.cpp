@@ -3,14 +3,14 @@
 
 #include <algorithm>
 
-#include "ir/support/ascii.h"
+#include "rtlib/text/letters.h"
 
 namespace rung {
 namespace {
 
 constexpr std::string_view kBegin = "allow(";
 
-bool isCodeCharacter(char c) { return isLetter(c) || isDigit(c) || c == '-'; }
+bool isCodeCharacter(char c) { return text::isLetter(c) || text::isDigit(c) || c == '-'; }
 bool isBlank(char c) { return c == ' ' || c == '\t'; }
 
 // Takes the next of several codes with commas between them off; empty where there is something else.

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <iconv.h>
 
-#include "ir/support/ascii.h"
 #include "ir/support/utf8.h"
 #include "rtlib/text/letters.h"
 
@@ -52,7 +51,9 @@ private:
 
 constexpr char kUtf8[] = "UTF-8";
 
-bool isNameCharacter(char c) { return isLetter(c) || isDigit(c) || c == '-' || c == '_' || c == '.' || c == ':'; }
+bool isNameCharacter(char c) {
+  return text::isLetter(c) || text::isDigit(c) || c == '-' || c == '_' || c == '.' || c == ':';
+}
 
 } // namespace
 

@@ -6,7 +6,7 @@
 
 #include "ir/core/module.h"
 #include "ir/core/op_info.h"
-#include "ir/support/ascii.h"
+#include "rtlib/text/letters.h"
 #include "rung/program.h"
 
 namespace rung::ir {
@@ -56,6 +56,6 @@ constexpr const Keyword* findKeyword(std::span<const Keyword> list, uint32_t val
 }
 
 // What a name without quotes may have; the first character is not a digit.
-constexpr bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '@' || c == '.'; }
+constexpr bool isNameChar(char c) { return text::isLetter(c) || text::isDigit(c) || c == '_' || c == '@' || c == '.'; }
 
 } // namespace rung::ir

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <iterator>
 
-#include "ir/support/ascii.h"
 #include "ir/text/keywords.h"
 #include "ir/text/rung_parser.h"
 #include "ir/text/text.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::ir {
 namespace {
@@ -169,7 +169,7 @@ private:
     const std::string_view digits = scanner_.hexDigits();
     if (digits.size() % 2 != 0) scanner_.fail("two hexadecimal digits a byte expected");
     for (size_t i = 0; i + 1 < digits.size(); i += 2) {
-      init.data.push_back(static_cast<uint8_t>(hexDigit(digits[i]) * 16 + hexDigit(digits[i + 1])));
+      init.data.push_back(static_cast<uint8_t>(text::hexDigit(digits[i]) * 16 + text::hexDigit(digits[i + 1])));
     }
     module_.inits.push_back(std::move(init));
   }

@@ -7,10 +7,10 @@
 
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
-#include "ir/support/ascii.h"
 #include "ir/support/put.h"
 #include "ir/text/keywords.h"
 #include "ir/text/text.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::ir {
 namespace {
@@ -42,7 +42,7 @@ std::string inQuotes(std::string_view text) {
 }
 
 bool isWord(std::string_view name) {
-  if (name.empty() || isDigit(name[0])) return false;
+  if (name.empty() || text::isDigit(name[0])) return false;
   for (char c : name)
     if (!isNameChar(c)) return false;
   return true;

@@ -5,8 +5,8 @@
 #include <charconv>
 #include <fmt/format.h>
 
-#include "ir/support/ascii.h"
 #include "ir/text/keywords.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::ir {
 void Scanner::fail(std::string message) {
@@ -73,18 +73,18 @@ void Scanner::expectWord(std::string_view word) {
 
 bool Scanner::peekName() {
   skipBlanks();
-  return more() && (text_[pos_] == '"' || (isNameChar(text_[pos_]) && !isDigit(text_[pos_])));
+  return more() && (text_[pos_] == '"' || (isNameChar(text_[pos_]) && !text::isDigit(text_[pos_])));
 }
 
 bool Scanner::peekNumber() {
   skipBlanks();
-  return more() && isDigit(text_[pos_]);
+  return more() && text::isDigit(text_[pos_]);
 }
 
 std::string_view Scanner::word() {
   skipBlanks();
   const size_t begin = pos_;
-  if (!more() || !isNameChar(text_[pos_]) || isDigit(text_[pos_])) {
+  if (!more() || !isNameChar(text_[pos_]) || text::isDigit(text_[pos_])) {
     fail("word expected");
     return {};
   }
@@ -108,8 +108,8 @@ std::string Scanner::text() {
       else if (c == 't')
         c = '\t';
       else if (c == 'x') {
-        const int high = more() ? hexDigit(text_[pos_]) : -1;
-        const int low = pos_ + 1 < text_.size() ? hexDigit(text_[pos_ + 1]) : -1;
+        const int high = more() ? text::hexDigit(text_[pos_]) : -1;
+        const int low = pos_ + 1 < text_.size() ? text::hexDigit(text_[pos_ + 1]) : -1;
         if (high < 0 || low < 0) fail("two hexadecimal digits expected after \\x");
         pos_ = std::min(pos_ + 2, text_.size());
         c = static_cast<char>(high * 16 + low);
@@ -165,7 +165,7 @@ double Scanner::real() {
 std::string_view Scanner::hexDigits() {
   skipBlanks();
   const size_t begin = pos_;
-  while (more() && hexDigit(text_[pos_]) >= 0) ++pos_;
+  while (more() && text::hexDigit(text_[pos_]) >= 0) ++pos_;
   return text_.substr(begin, pos_ - begin);
 }
 

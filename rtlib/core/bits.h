@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace rung::rt {
+namespace rung::core {
 
 // From eight bytes, of which the lowest bits count.
 inline uint8_t packBits(const uint8_t* bits) noexcept {
@@ -19,4 +19,4 @@ inline void unpackBits(uint8_t byte, uint8_t* bits) noexcept {
   std::memcpy(bits, &bytes, sizeof bytes);
 }
 
-} // namespace rung::rt
+} // namespace rung::core

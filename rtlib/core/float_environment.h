@@ -3,7 +3,7 @@
 #pragma once
 #include <cstdint>
 
-namespace rung::rt {
+namespace rung::core {
 
 #if defined(__x86_64__) || defined(__SSE2__)
 inline constexpr uint32_t kDefaultFloatControl = 0x1F80;
@@ -69,4 +69,4 @@ private:
   uint32_t found_ = 0;
 };
 
-} // namespace rung::rt
+} // namespace rung::core

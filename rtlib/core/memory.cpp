@@ -7,7 +7,7 @@
 
 #include "rtlib/core/bits.h"
 
-namespace rung::rt {
+namespace rung::core {
 
 bool Memory::contains(uint32_t space, uint32_t byte, uint32_t size) const noexcept {
   if (space >= program_->space_count) return false;
@@ -152,4 +152,4 @@ void Memory::write(uint32_t space, uint32_t byte, uint32_t size, uint64_t value)
   write(locate(space, byte, size), value);
 }
 
-} // namespace rung::rt
+} // namespace rung::core

@@ -8,7 +8,7 @@
 #include "rtlib/core/place.h"
 #include "rung/program.h"
 
-namespace rung::rt {
+namespace rung::core {
 
 class Memory {
 public:
@@ -80,4 +80,4 @@ private:
   uint8_t* block_;
 };
 
-} // namespace rung::rt
+} // namespace rung::core

@@ -7,7 +7,7 @@
 
 #include "rung/program.h"
 
-namespace rung::rt {
+namespace rung::core {
 
 struct NeededCopies {
   struct Range { // in `copies`
@@ -34,4 +34,4 @@ struct NeededCopies {
   std::span<const rung_copy> leftOut;
 };
 
-} // namespace rung::rt
+} // namespace rung::core

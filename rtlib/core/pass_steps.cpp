@@ -1,7 +1,7 @@
 // See pass_steps.h.
 #include "rtlib/core/pass_steps.h"
 
-namespace rung::rt {
+namespace rung::core {
 namespace {
 
 bool isOneWith(const rung_step& step, const rung_step& next) noexcept {
@@ -23,4 +23,4 @@ uint32_t joinSteps(std::span<const rung_step> list, uint32_t works, rung_step* j
   return count;
 }
 
-} // namespace rung::rt
+} // namespace rung::core

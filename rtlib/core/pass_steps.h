@@ -6,7 +6,7 @@
 
 #include "rung/program.h"
 
-namespace rung::rt {
+namespace rung::core {
 
 // A hook that the control has nothing to do for; `works`: those that it has something to do for, a bit each.
 inline bool isIdle(const rung_step& step, uint32_t works) noexcept {
@@ -17,4 +17,4 @@ inline bool isIdle(const rung_step& step, uint32_t works) noexcept {
 // between are one step. Their number: `joined` has room for as many as `list` has.
 uint32_t joinSteps(std::span<const rung_step> list, uint32_t works, rung_step* joined) noexcept;
 
-} // namespace rung::rt
+} // namespace rung::core

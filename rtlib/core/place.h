@@ -5,7 +5,7 @@
 
 #include "rung/program.h"
 
-namespace rung::rt {
+namespace rung::core {
 
 // A bit, or an integer or real of up to eight bytes. Its bits lie together in the eight bytes of the block at `window`,
 // whatever its width and alignment: a load, a mask and a shift find it. Integers with bits in bytes of their own lie
@@ -30,4 +30,4 @@ struct Place {
   uint32_t bit() const noexcept { return shift % 8u; }
 };
 
-} // namespace rung::rt
+} // namespace rung::core

@@ -5,7 +5,7 @@
 
 #include "rtlib/core/memory.h"
 
-namespace rung::rt {
+namespace rung::core {
 
 // How the word holds the value of a place.
 enum class ValueForm : uint8_t {
@@ -42,4 +42,4 @@ inline void writePlaces(Memory memory, std::span<const ListedPlace> places, std:
   }
 }
 
-} // namespace rung::rt
+} // namespace rung::core

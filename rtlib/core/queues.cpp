@@ -1,7 +1,7 @@
 // Tickets and the function table for generated code.
 #include "rtlib/core/queues.h"
 
-namespace rung::rt {
+namespace rung::core {
 
 namespace {
 
@@ -110,4 +110,4 @@ void ServiceQueue::restart() noexcept {
   lostBefore_.store(replies_.lost(), std::memory_order_relaxed);
 }
 
-} // namespace rung::rt
+} // namespace rung::core

@@ -10,7 +10,7 @@
 #include "rtlib/core/ring.h"
 #include "rung/program.h"
 
-namespace rung::rt {
+namespace rung::core {
 
 inline constexpr uint32_t kMessageCapacity = 256;
 using MessageQueue = FixedRing<rung_message, kMessageCapacity>;
@@ -121,4 +121,4 @@ struct HostPort {
 // The function table for generated code, over a HostPort.
 const rung_host_api& hostApi() noexcept;
 
-} // namespace rung::rt
+} // namespace rung::core

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace rung::rt {
+namespace rung::core {
 
 template <class T>
 class Ring {
@@ -98,4 +98,4 @@ public:
   FixedRing() noexcept : RingStorage<T, N>{}, Ring<T>(RingStorage<T, N>::items, N) {}
 };
 
-} // namespace rung::rt
+} // namespace rung::core

@@ -9,7 +9,7 @@
 
 #include "rtlib/core/float_environment.h"
 
-namespace rung::rt {
+namespace rung::core {
 
 Runner::Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts, void* engine,
                rung_step* room) noexcept
@@ -551,4 +551,4 @@ void Runner::sliceToFast() noexcept {
   if (fastAhead()) walk(realTimePass(), [this](const rung_step& step, const rung_step&) { return runsFast(step); });
 }
 
-} // namespace rung::rt
+} // namespace rung::core

@@ -17,11 +17,11 @@
 #include "rtlib/core/pass_steps.h"
 #include "rung/program.h"
 
-namespace rung::rt {
+namespace rung::core {
 
 // rung_fault::code when a chunk reported a fault without naming it, or returned a chunk that does not exist.
 inline constexpr uint32_t kUndescribedFault = 0xFFFFFFFEu;
-// The host's, of a machine that is too slow for the program: see host::Pace.
+// The host's, of a machine that is too slow for the program: see runtime::Pace.
 inline constexpr uint32_t kOverrunFault = 0xFFFFFFFDu;
 // The host's, too: a slice took longer than its limit in time.
 inline constexpr uint32_t kMaxTimeFault = 0xFFFFFFFCu;
@@ -217,4 +217,4 @@ private:
   bool defaultFloats_ = false; // in a scan or run: its floating-point settings are in force
 };
 
-} // namespace rung::rt
+} // namespace rung::core

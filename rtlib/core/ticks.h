@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <ctime>
 
-namespace rung::rt {
+namespace rung::core {
 
 inline uint64_t readTicks() noexcept {
 #if defined(__x86_64__) || defined(__i386__)
@@ -22,4 +22,4 @@ inline uint64_t readTicks() noexcept {
 #endif
 }
 
-} // namespace rung::rt
+} // namespace rung::core

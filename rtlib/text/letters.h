@@ -1,10 +1,21 @@
-// Capitals and small letters of ASCII, whatever the locale; all other bytes stay as they are.
+// Kinds of characters of ASCII, and its capitals and small letters, whatever the locale; all other bytes stay as they
+// are.
 #pragma once
 #include <algorithm>
 #include <string>
 #include <string_view>
 
 namespace rung::text {
+
+constexpr bool isDigit(char c) { return c >= '0' && c <= '9'; }
+constexpr bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// What a hexadecimal digit of either case counts; -1 for any other character.
+constexpr int hexDigit(char c) {
+  if (isDigit(c)) return c - '0';
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
 
 constexpr char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }

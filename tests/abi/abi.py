@@ -16,12 +16,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
-INCLUDES = [ROOT / "rtlib/abi", ROOT / "tools/compiler"]
+INCLUDES = [ROOT / "rtlib/abi", ROOT / "compiler"]
 HEADERS = ["rung/program.h", "rung/runtime.h", "rung/compiler.h"]
 # By library: its header, the mark of its functions, its version script.
 LIBRARIES = {
-    "librung-runtime.so.0": ("rung/runtime.h", "RUNG_API", ROOT / "rtlib/runtime/exports.txt"),
-    "librung-compiler.so.0": ("rung/compiler.h", "RUNG_COMPILER_API", ROOT / "tools/compiler/exports.txt"),
+    "librung-runtime.so.0": ("rung/runtime.h", "RUNG_API", ROOT / "rtlib/api/exports.txt"),
+    "librung-compiler.so.0": ("rung/compiler.h", "RUNG_COMPILER_API", ROOT / "compiler/exports.txt"),
 }
 VALUES = "rung-values.so"  # what no function of the libraries names: enumerations and constants; the data of an image
 

@@ -144,7 +144,7 @@ class Discovery(Cli):
         self.assertIn("3 errors; try `rungc explain", err)
 
     def test_include_paths(self):
-        main = (ROOT / "tools/project/templates/technol/main.plc").read_text()
+        main = (ROOT / "tools/rungc/templates/technol/main.plc").read_text()
         self.write("common/names.inc", "\tEQUI TWO_SECONDS,100\n")
         self.write("machine/main.plc", main)
         self.write("machine/rung.toml", 'dialect = "technol"\nfiles = ["main.plc"]\ninclude = ["../common"]\n')

@@ -150,7 +150,7 @@ def session(bench, options):
         prepare_remote(bench, options)
         map_text += REMOTE
     bench.file("program.map", map_text)
-    for tool in (Path(options.rungc).parent / "rungctl", HERE.parents[1] / "tools/rung-hal/rung-operator"):
+    for tool in (Path(options.rungc).parent / "rungctl", HERE.parents[1] / "machine/rung-hal/rung-operator"):
         shutil.copy(tool, bench.home)
     for name in ("machine.ini", "machine.hal", "tool.tbl", "drive.py"):
         bench.copy(HERE / name)
@@ -196,7 +196,7 @@ def prepare_extra_joint(bench, options, program, joint):
     bench.copy(HERE / f"{name}.hal", "machine.hal")
     for file in ("tool.tbl", "drive.py", f"{name}.py"):
         bench.copy(HERE / file)
-    tools = HERE.parents[1] / "tools/rung-hal"
+    tools = HERE.parents[1] / "machine/rung-hal"
     for tool in (Path(options.rungc).parent / "rungctl", tools / "rung-operator", tools / "rung-services"):
         shutil.copy(tool, bench.home)
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from cnc_test import HERE, PATIENCE, Bench, check_machine, expect
 
-TOOLS = HERE.parents[1] / "tools/rung-hal"
+TOOLS = HERE.parents[1] / "machine/rung-hal"
 
 
 def replace(path, old, new):

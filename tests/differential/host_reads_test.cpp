@@ -19,9 +19,9 @@ constexpr Place kCell{kWords, 0, 0};
 constexpr Place kFlag{kBits, 0, 3};
 
 // Answers with what it finds in the cell and the flag.
-class Reader final : public host::ScheduleHooks {
+class Reader final : public runtime::ScheduleHooks {
 public:
-  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+  bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) override {
     reply.ticket = request.ticket;
     reply.resultCount = 2;
     reply.results[0] = static_cast<int64_t>(instance.memory().read(0, 0, 4));
@@ -107,7 +107,7 @@ TEST_P(HostReads, WhatTheProgramHasStored) {
   auto engine = compiler::makeEngine(GetParam().kind, compiled, options);
   ASSERT_TRUE(engine.ok()) << engine.error();
   Reader reader;
-  const auto instance = std::make_unique<host::Instance>(*engine.value(), &reader);
+  const auto instance = std::make_unique<runtime::Instance>(*engine.value(), &reader);
   instance->scan();
   ASSERT_FALSE(instance->faulted()) << instance->faultText();
   const auto word = [&](uint32_t byte) { return instance->memory().read(0, byte, 4); };

@@ -6,8 +6,8 @@
 #include <map>
 #include <sstream>
 
+#include "compiler/project.h"
 #include "tests/support/formatting.h"
-#include "tools/project/project.h"
 
 namespace rung {
 namespace {
@@ -130,15 +130,15 @@ INSTANTIATE_TEST_SUITE_P(Dialects, FormattedScenarios, testing::Values("gsk", "n
 TEST(FormattedExamples, AreTheSamePrograms) {
   int compiled = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator("examples")) {
-    const fs::path file = entry.path() / project::kFileName;
+    const fs::path file = entry.path() / compiler::kFileName;
     if (!fs::exists(file)) continue;
     SCOPED_TRACE(file);
     SourceManager sources;
     Diagnostics diagnostics;
-    const auto project = project::load(sources, file, diagnostics);
+    const auto project = compiler::load(sources, file, diagnostics);
     ASSERT_TRUE(project);
     frontend::CompileOptions options{.includePaths = project->includePaths};
-    for (const project::Setting& setting : project->config) { // a file is beside the program
+    for (const compiler::Setting& setting : project->config) { // a file is beside the program
       const bool isFile = fs::path(setting.value).is_absolute();
       options.config[setting.key] = isFile ? fs::path(setting.value).filename().string() : setting.value;
     }

@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "ir/support/check.h"
-#include "tools/control-files/control_files.h"
+#include "machine/host/control_files.h"
 
-using namespace rung::control_files;
+using namespace rung::host;
 
 namespace {
 

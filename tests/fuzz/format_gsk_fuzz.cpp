@@ -4,6 +4,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  rung::fuzz::formatBytes(rung::gsk::kGsk, text.starts_with("dialect gsk") ? ".lad" : ".pmc", '\x01', text);
+  rung::fuzz::formatBytes(rung::frontend::gsk::kGsk, text.starts_with("dialect gsk") ? ".lad" : ".pmc", '\x01', text);
   return 0;
 }

@@ -3,6 +3,7 @@
 #include "tests/fuzz/format_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  rung::fuzz::formatBytes(rung::nct::kNct, ".lad", '\f', std::string(reinterpret_cast<const char*>(data), size));
+  rung::fuzz::formatBytes(rung::frontend::nct::kNct, ".lad", '\f',
+                          std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }

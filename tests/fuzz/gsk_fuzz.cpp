@@ -14,7 +14,7 @@
 namespace {
 
 using namespace rung;
-using network::convert::Form;
+using frontend::network::Form;
 
 constexpr size_t kMaxDrawn = 20'000; // of a list: branches are as wide as what they span
 
@@ -24,9 +24,10 @@ std::string convert(const std::string& text, Form from, Form to) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FileId file = sources.addBuffer(nameOf(from), text);
-  const bool compiles = gsk::kGsk.compile(sources, std::span(&file, 1), {}, diagnostics) != nullptr;
+  const bool compiles = frontend::gsk::kGsk.compile(sources, std::span(&file, 1), {}, diagnostics) != nullptr;
   RUNG_CHECK(compiles, "what was converted compiles");
-  const auto result = network::convertProgram(gsk::kLanguage, sources, std::span(&file, 1), to, diagnostics);
+  const auto result =
+      frontend::network::convertProgram(frontend::gsk::kLanguage, sources, std::span(&file, 1), to, diagnostics);
   RUNG_CHECK(result.has_value(), "what compiles converts");
   return *result;
 }
@@ -39,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FileId file = sources.addBuffer(nameOf(form), text);
-  const auto module = gsk::kGsk.compile(sources, std::span(&file, 1), {}, diagnostics);
+  const auto module = frontend::gsk::kGsk.compile(sources, std::span(&file, 1), {}, diagnostics);
   renderText(diagnostics, sources);
   RUNG_CHECK((module == nullptr) == diagnostics.hasErrors(), "no module without a reason");
   if (module == nullptr || size > kMaxDrawn) return 0;

@@ -14,9 +14,9 @@
 #include <span>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/host/mapped_file.h"
-#include "rtlib/host/program_info.h"
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/mapped_file.h"
+#include "rtlib/load/program_info.h"
+#include "rtlib/load/so_engine.h"
 #include "tests/fuzz/mutations.h"
 #include "tests/support/adopted_image.h"
 
@@ -83,7 +83,7 @@ uint32_t hostile(std::mt19937_64& random, uint32_t former) {
 }
 
 // What a host does with a program that has passed the check.
-void use(const rung_program& program, host::Engine& engine) try {
+void use(const rung_program& program, runtime::Engine& engine) try {
   Instance plc(test::adopted(program, engine.context()));
   plc.powerOn();
   for (int i = 0; i < 3; ++i) plc.scan();
@@ -108,15 +108,15 @@ TEST_P(HostileTables, AreRefusedOrHarmless) {
   const std::string build = std::string(RUNG_TEST_RUNGC) + " build -q " + GetParam() + " -o " + path;
   ASSERT_EQ(std::system(build.c_str()), 0) << build;
   std::string error;
-  const std::unique_ptr<host::SoEngine> engine = host::SoEngine::open(path, error);
+  const std::unique_ptr<runtime::SoEngine> engine = runtime::SoEngine::open(path, error);
   ASSERT_NE(engine, nullptr) << error;
   const rung_program& program = engine->program();
   Dl_info where{};
   ASSERT_NE(dladdr(&program, &where), 0);
   void* const library = dlopen(where.dli_fname, RTLD_LAZY | RTLD_NOLOAD);
   ASSERT_NE(library, nullptr) << dlerror();
-  const host::MappedFile file(library);
-  ASSERT_EQ(host::checkProgram(program, &file), "");
+  const runtime::MappedFile file(library);
+  ASSERT_EQ(runtime::checkProgram(program, &file), "");
   const std::vector<Region> regions = tablesOf(program);
   for (const Region& region : regions) makeWritable(region);
 
@@ -144,7 +144,7 @@ TEST_P(HostileTables, AreRefusedOrHarmless) {
           former.emplace_back(&word, word);
           word = hostile(random, word);
         }
-        if (host::checkProgram(program, &file).empty()) {
+        if (runtime::checkProgram(program, &file).empty()) {
           ++shared->accepted;
           use(program, *engine);
         }

@@ -8,7 +8,7 @@
 namespace {
 
 using namespace rung;
-using namespace rung::ladder;
+using namespace rung::frontend::ladder;
 
 /// The rows of some boxes, so that fuzzing reaches the grouping by names as well.
 const frontend::InstructionInfo* findBox(std::string_view mnemonic) {

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "ir/support/check.h"
+#include "machine/host/binding.h"
+#include "machine/host/mapping_file.h"
 #include "tests/fuzz/mapped_programs.h"
 #include "tests/support/adopted_image.h"
 #include "tests/support/compiled_program.h"
-#include "tools/mapping/binding.h"
-#include "tools/mapping/file.h"
 
 namespace {
 
@@ -39,52 +39,51 @@ void checkError(std::string_view error) {
   RUNG_CHECK(error.size() > 1 && error[0] == ' ', "an error says what is wrong");
 }
 
-void checkPlace(const mapping::Position& at) { RUNG_CHECK(at.line > 0 && at.column > 0, "an entry has a place"); }
+void checkPlace(const host::Position& at) { RUNG_CHECK(at.line > 0 && at.column > 0, "an entry has a place"); }
 
-void checkMap(const mapping::File& map) {
+void checkMap(const host::File& map) {
   std::set<std::string_view> names;
-  for (const mapping::Pin& pin : map.pins) {
+  for (const host::Pin& pin : map.pins) {
     RUNG_CHECK(!pin.name.empty() && names.insert(pin.name).second, "a pin is made once");
     checkPlace(pin.at);
   }
-  const auto pin = [&](uint32_t number) -> const mapping::Pin& {
+  const auto pin = [&](uint32_t number) -> const host::Pin& {
     RUNG_CHECK(number < map.pins.size(), "an entry's pin is there");
     return map.pins[number];
   };
-  for (const mapping::Link& link : map.links) {
+  for (const host::Link& link : map.links) {
     RUNG_CHECK(std::isfinite(link.scale) && link.scale != 0, "a scale can be divided by");
     RUNG_CHECK(!link.name.empty(), "an entry names a place");
     RUNG_CHECK(link.bits.empty() || link.bits.front() == link.pin, "the first bit's pin is the entry's");
-    for (const uint32_t bit : link.bits)
-      RUNG_CHECK(pin(bit).type == mapping::PinType::Bit, "a bit has a pin of type bit");
-    RUNG_CHECK(!link.value || pin(link.pin).direction == mapping::Direction::Parameter, "only parameters have a value");
+    for (const uint32_t bit : link.bits) RUNG_CHECK(pin(bit).type == host::PinType::Bit, "a bit has a pin of type bit");
+    RUNG_CHECK(!link.value || pin(link.pin).direction == host::Direction::Parameter, "only parameters have a value");
     checkPlace(link.at);
   }
-  for (const mapping::Constant& constant : map.constants) {
+  for (const host::Constant& constant : map.constants) {
     RUNG_CHECK(!constant.name.empty() && std::isfinite(constant.value), "a constant has a name and a value");
     checkPlace(constant.at);
   }
-  const auto checkEdge = [&](const mapping::Edge& edge) {
-    RUNG_CHECK(pin(edge.pin).direction == mapping::Direction::In && pin(edge.pin).type == mapping::PinType::Bit,
+  const auto checkEdge = [&](const host::Edge& edge) {
+    RUNG_CHECK(pin(edge.pin).direction == host::Direction::In && pin(edge.pin).type == host::PinType::Bit,
                "an edge is of an input bit");
   };
-  for (const mapping::Send& send : map.sends) {
+  for (const host::Send& send : map.sends) {
     checkEdge(send.edge);
-    if (send.codePin) RUNG_CHECK(pin(*send.codePin).direction == mapping::Direction::In, "the code comes from HAL");
-    if (send.donePin) RUNG_CHECK(pin(*send.donePin).direction == mapping::Direction::Out, "the answer goes to HAL");
+    if (send.codePin) RUNG_CHECK(pin(*send.codePin).direction == host::Direction::In, "the code comes from HAL");
+    if (send.donePin) RUNG_CHECK(pin(*send.donePin).direction == host::Direction::Out, "the answer goes to HAL");
     checkPlace(send.at);
   }
-  for (const mapping::Edge& edge : map.aborts) checkEdge(edge);
+  for (const host::Edge& edge : map.aborts) checkEdge(edge);
   RUNG_CHECK(map.timeoutNs >= 0, "a time is not negative");
-  for (const mapping::Connection& connection : map.connections) {
+  for (const host::Connection& connection : map.connections) {
     RUNG_CHECK(connection.timeoutNs > 0 && connection.periodNs > 0 && connection.requests > 0 &&
                    connection.connections > 0,
                "a connection has its times and limits");
-    for (const mapping::ConnectedPin& one : connection.pins) {
-      const mapping::Direction direction = pin(one.pin).direction;
-      RUNG_CHECK(direction == mapping::Direction::In || direction == mapping::Direction::Out, "it has one source");
+    for (const host::ConnectedPin& one : connection.pins) {
+      const host::Direction direction = pin(one.pin).direction;
+      RUNG_CHECK(direction == host::Direction::In || direction == host::Direction::Out, "it has one source");
       RUNG_CHECK(one.place < 65536 && std::isfinite(one.safe), "a pin has a place and a safe value");
-      RUNG_CHECK(one.area != mapping::Area::Memory || one.place % mapping::bytesOf(one.format) == 0, "it is aligned");
+      RUNG_CHECK(one.area != host::Area::Memory || one.place % host::bytesOf(one.format) == 0, "it is aligned");
     }
   }
 }
@@ -118,23 +117,22 @@ void checkLink(const Instance& plc, const rung_program& program, const Link& lin
     RUNG_CHECK(rung_instance_find(plc.handle(), link.name.c_str(), RUNG_READ, &cell) == RUNG_OK, "it is found");
   const rung_cell_info info = plc.describe(cell);
   RUNG_CHECK(info.space != RUNG_NONE && info.type != RUNG_TYPE_TEXT, "a place holds a value");
-  RUNG_CHECK((info.type == RUNG_TYPE_BIT) == (link.type == mapping::PinType::Bit), "a bit is for a bit");
-  RUNG_CHECK(info.type != RUNG_TYPE_F64 || link.type == mapping::PinType::Float, "a real number is for a float");
+  RUNG_CHECK((info.type == RUNG_TYPE_BIT) == (link.type == host::PinType::Bit), "a bit is for a bit");
+  RUNG_CHECK(info.type != RUNG_TYPE_F64 || link.type == host::PinType::Float, "a real number is for a float");
   const uint32_t flags = program.spaces[info.space].flags;
   RUNG_CHECK(direction != RUNG_TO_PROGRAM || (flags & RUNG_SPACE_OUTPUT) == 0 || (flags & RUNG_SPACE_INPUT) != 0,
              "outputs are not written");
 }
 
-void checkBinding(const mapping::File& map, const Bound& program) {
+void checkBinding(const host::File& map, const Bound& program) {
   std::vector<std::string> errors;
   const Instance plc(program.image); // a new one: what is bound stays
-  const mapping::Binding binding = mapping::bindMap(map, plc.handle(), program.image.program(), errors);
-  for (const mapping::PinLink& link : binding.links) {
-    if (mapping::toProgram(link.direction)) checkLink(plc, program.image.program(), link, link.scale, RUNG_TO_PROGRAM);
-    if (mapping::fromProgram(link.direction))
-      checkLink(plc, program.image.program(), link, link.scale, RUNG_FROM_PROGRAM);
+  const host::Binding binding = host::bindMap(map, plc.handle(), program.image.program(), errors);
+  for (const host::PinLink& link : binding.links) {
+    if (host::toProgram(link.direction)) checkLink(plc, program.image.program(), link, link.scale, RUNG_TO_PROGRAM);
+    if (host::fromProgram(link.direction)) checkLink(plc, program.image.program(), link, link.scale, RUNG_FROM_PROGRAM);
   }
-  for (const mapping::ConstLink& constant : binding.constants)
+  for (const host::ConstLink& constant : binding.constants)
     checkLink(plc, program.image.program(), constant, 1, RUNG_TO_PROGRAM);
   const size_t links = binding.links.size() + binding.constants.size();
   const size_t entries = map.links.size() + map.constants.size();
@@ -155,7 +153,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (path != "i.map") throw std::runtime_error("cannot read it");
     return "timeout = 1\nin.a = { type = \"bit\", name = \"X0.0\" }\nin.wrong = 1\n";
   };
-  const mapping::File map = mapping::parseMap({reinterpret_cast<const char*>(data), size}, "f.map", errors, included);
+  const host::File map = host::parseMap({reinterpret_cast<const char*>(data), size}, "f.map", errors, included);
   checkMap(map);
   for (const std::string& error : errors) checkError(error);
   for (const Bound& program : programs()) checkBinding(map, program);

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "machine/host/binding.h"
 #include "tests/fuzz/mapped_programs.h"
 #include "tests/support/adopted_image.h"
 #include "tests/support/compiled_program.h"
-#include "tools/mapping/binding.h"
 
 namespace rung::fuzz {
 namespace {
@@ -25,8 +25,8 @@ TEST(MapFileSeeds, BindWithoutErrors) {
     const testing::CompiledProgram program(source.file, source.text, compiler::EngineKind::Interp);
     const Instance instance(test::adopted(program.program()));
     std::vector<std::string> errors;
-    const mapping::File map = mapping::parseMap(text, path, errors);
-    mapping::bindMap(map, instance.handle(), program.program(), errors);
+    const host::File map = host::parseMap(text, path, errors);
+    host::bindMap(map, instance.handle(), program.program(), errors);
     EXPECT_THAT(errors, ::testing::IsEmpty());
   }
 }

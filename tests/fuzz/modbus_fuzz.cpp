@@ -11,17 +11,17 @@
 #include <vector>
 
 #include "ir/support/check.h"
+#include "machine/io/connections/modbus_image.h"
+#include "machine/io/connections/registers.h"
+#include "machine/io/connections/socket.h"
 #include "tests/support/faultless_map.h"
-#include "tools/connections/modbus_image.h"
-#include "tools/connections/registers.h"
-#include "tools/connections/socket.h"
 
 namespace {
 
 using namespace rung;
-using namespace rung::connections;
+using namespace rung::io;
 
-mapping::File mapOf() {
+host::File mapOf() {
   return test::faultlessMap(R"([in]
 run = { type = "bit", name = "X0.0" }
 door = { type = "bit", name = "X0.1" }
@@ -50,7 +50,7 @@ struct Server {
     modbus_set_socket(context, near.number());
   }
 
-  mapping::File map = mapOf();
+  host::File map = mapOf();
   Exchange exchange{map, map.connections.at(0)};
   ModbusImage image{exchange};
   modbus_t* context = modbus_new_tcp(nullptr, 502);

@@ -7,10 +7,10 @@
 
 #include "ir/support/check.h"
 #include "tests/fuzz/split_files.h"
+#include "tools/report/module_reference.h"
+#include "tools/report/odd_names.h"
 #include "tools/view/drawn_program.h"
 #include "tools/view/html.h"
-#include "tools/xref/module_reference.h"
-#include "tools/xref/odd_names.h"
 
 namespace rung::fuzz {
 
@@ -40,11 +40,11 @@ inline void nameBytes(const frontend::Dialect& dialect, std::string_view extensi
   if (diagnostics.hasErrors()) return;
   const auto module = program->build();
   if (module == nullptr) return;
-  const xref::ModuleReference whole(*module, dialect.shownSpaces);
-  const xref::CrossReference& reference = whole.get();
-  std::vector<xref::Entry> entries = reference.all();
-  xref::markOdd(sources, program->analysis(), reference, entries);
-  xref::reportOddNames(sources, program->analysis(), reference, diagnostics);
+  const report::ModuleReference whole(*module, dialect.shownSpaces);
+  const report::CrossReference& reference = whole.get();
+  std::vector<report::Entry> entries = reference.all();
+  report::markOdd(sources, program->analysis(), reference, entries);
+  report::reportOddNames(sources, program->analysis(), reference, diagnostics);
   if (!view::hasDrawing(dialect)) return;
   if (const auto drawn = view::drawnProgram(sources, files, dialect, {}, diagnostics)) view::renderHtml(*drawn);
 }

@@ -5,6 +5,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  rung::fuzz::nameBytes(rung::gsk::kGsk, text.starts_with("dialect gsk") ? ".lad" : ".pmc", '\f', text);
+  rung::fuzz::nameBytes(rung::frontend::gsk::kGsk, text.starts_with("dialect gsk") ? ".lad" : ".pmc", '\f', text);
   return 0;
 }

@@ -4,6 +4,7 @@
 #include "tests/fuzz/names_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  rung::fuzz::nameBytes(rung::nct::kNct, ".lad", '\f', std::string(reinterpret_cast<const char*>(data), size));
+  rung::fuzz::nameBytes(rung::frontend::nct::kNct, ".lad", '\f',
+                        std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }

@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "ir/support/check.h"
-#include "tools/devices/tables/plc_tables.h"
+#include "machine/io/tables/plc_tables.h"
 
-using namespace rung::devices;
-using namespace rung::control_files;
+using namespace rung::io;
+using namespace rung::host;
 
 namespace {
 

@@ -8,13 +8,13 @@
 #include <random>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/host/sealing.h"
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/sealing.h"
+#include "rtlib/load/so_engine.h"
 #include "tests/fuzz/mutations.h"
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 namespace fs = std::filesystem;
 
 // What disks, links and copies do to a file.

@@ -19,8 +19,8 @@
 
 #include "ir/support/check.h"
 #include "ir/support/temporary_folder.h"
-#include "rtlib/host/retain.h"
-#include "rtlib/host/retained_take.h"
+#include "rtlib/retain/retain.h"
+#include "rtlib/retain/retained_take.h"
 
 namespace {
 
@@ -81,13 +81,13 @@ const std::string& ownDescription() {
     program.space_count = program.symbol_count = 1;
     program.spaces = &space;
     program.symbols = &symbol;
-    const rung::host::RetainRun run = {0, 0, kSize};
-    return rung::host::retainLayoutOf(program, {&run, 1}).description;
+    const rung::runtime::RetainRun run = {0, 0, kSize};
+    return rung::runtime::retainLayoutOf(program, {&run, 1}).description;
   }();
   return description;
 }
 
-void checkLoad(const rung::host::RetainImage& image, const Bytes& a, const std::optional<Bytes>& b) {
+void checkLoad(const rung::runtime::RetainImage& image, const Bytes& a, const std::optional<Bytes>& b) {
   const Bytes* newest = newestOf(a, b);
   const bool fits = newest != nullptr && number(*newest, 8, 8) == kLayout && number(*newest, 24, 4) == kSize;
   RUNG_CHECK(image.found == fits, "an intact image of this layout is found, and no other");
@@ -100,7 +100,7 @@ void checkLoad(const rung::host::RetainImage& image, const Bytes& a, const std::
     RUNG_CHECK(image.bytes.empty() || !image.description.empty(), "nothing of an image that nobody can use");
     const std::vector<uint8_t> initial(kSize);
     const std::vector<uint8_t> taken =
-        rung::host::takeRetained(ownDescription(), image.description, image.bytes, initial).image;
+        rung::runtime::takeRetained(ownDescription(), image.description, image.bytes, initial).image;
     RUNG_CHECK(taken.empty() || taken.size() == kSize, "what is taken is an image of this layout");
   }
   const bool damaged = !intact(a) || (b && !intact(*b));
@@ -126,12 +126,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   std::filesystem::remove(base + ".b");
   write(base + ".a", a);
   if (b) write(base + ".b", *b);
-  rung::host::RetainStore store(base, kLayout, kSize);
+  rung::runtime::RetainStore store(base, kLayout, kSize);
   checkLoad(store.load(), a, b);
 
   const Bytes next = {1, 2, 3, 4, 5, 6, 7, 8};
   std::string error;
   RUNG_CHECK(store.save(next, error), "a new image can be saved");
-  RUNG_CHECK(rung::host::RetainStore(base, kLayout, kSize).load().bytes == next, "what was saved last is loaded next");
+  RUNG_CHECK(rung::runtime::RetainStore(base, kLayout, kSize).load().bytes == next,
+             "what was saved last is loaded next");
   return 0;
 }

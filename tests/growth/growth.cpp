@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "codegen/jit/jit_engine.h"
+#include "compiler/compile.h"
 #include "ir/analysis/uses.h"
 #include "ir/core/builder.h"
 #include "ir/support/source.h"
 #include "ir/text/text.h"
 #include "ir/transforms/pipeline.h"
 #include "tests/unit/ladder/ladder_testing.h"
-#include "tools/compiler/compile.h"
 
 namespace {
 
@@ -26,25 +26,25 @@ using namespace rung::ir;
 void parseRungs(uint32_t n) {
   std::string text = "dialect t\nmodule M\n";
   for (uint32_t i = 0; i < n; ++i) text += "rung \"r\"\n|--[A]--+--[/B]--(X)\n|--[C]--+\n\n";
-  const ladder::Parsed parsed(std::move(text));
+  const frontend::ladder::Parsed parsed(std::move(text));
 }
 
 void parseErrors(uint32_t n) {
   std::string text = "dialect t\nmodule M\n";
   for (uint32_t i = 0; i < n; ++i) text += "rung\n|--[A\n";
-  const ladder::Parsed parsed(std::move(text));
+  const frontend::ladder::Parsed parsed(std::move(text));
 }
 
 void parseLine(uint32_t n) {
   std::string drawing = "|--";
   for (uint32_t i = 0; i < n; ++i) drawing += "[A]--";
-  const ladder::Parsed parsed = ladder::parseDrawing(drawing + "(X)\n");
+  const frontend::ladder::Parsed parsed = frontend::ladder::parseDrawing(drawing + "(X)\n");
 }
 
 void parseBoxesBelowEachOther(uint32_t n) {
   std::string line = "|--[A]";
   for (uint32_t i = 0; i < n; ++i) line += "--{XX }";
-  const ladder::Parsed parsed = ladder::parseDrawing(line + "\n|---[A]" + line.substr(6) + "\n");
+  const frontend::ladder::Parsed parsed = frontend::ladder::parseDrawing(line + "\n|---[A]" + line.substr(6) + "\n");
 }
 
 // ---- modules ----

@@ -184,7 +184,7 @@ class Tables(WithHost):
 
 
 class Areas(WithHost):
-    """The layout is that of tools/devices/shared/shared_areas.h; two areas of 32000 bytes."""
+    """The layout is that of machine/io/shared/shared_areas.h; two areas of 32000 bytes."""
     BYTES = 32000
 
     def setUp(self):

@@ -4,8 +4,8 @@
 
 #include <fmt/core.h>
 
+#include "machine/command-line/command_line.h"
 #include "tests/host-sim/simulator.h"
-#include "tools/command-line/command_line.h"
 
 int main(int argc, char** argv) {
   using namespace rung;

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "compiler/code_maker.h"
+#include "compiler/compile.h"
 #include "ir/support/check.h"
 #include "ir/support/diag_render.h"
 #include "tests/support/adopted_image.h"
-#include "tools/compiler/code_maker.h"
-#include "tools/compiler/compile.h"
 
 namespace rung::host_sim {
 namespace {
@@ -120,7 +120,7 @@ std::string join(std::initializer_list<const char*> parts) {
 
 struct Programs::Made {
   compiler::Compiled compiled;
-  std::unique_ptr<host::Engine> engine;
+  std::unique_ptr<runtime::Engine> engine;
 };
 
 Programs::Programs() {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "compiler/engines.h"
 #include "rung/runtime.hpp"
-#include "tools/compiler/engines.h"
 
 namespace rung::host_sim {
 

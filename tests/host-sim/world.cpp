@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "ir/support/check.h"
-#include "rtlib/host/program_info.h"
-#include "rtlib/runtime/surroundings.h"
+#include "rtlib/api/surroundings.h"
+#include "rtlib/load/program_info.h"
 
 namespace rung::host_sim {
 namespace {
@@ -41,7 +41,7 @@ never = ["OTHER"]
 constexpr const char* kRetained = "/disk/retained";
 
 // Programs are made already; code with forced cells is made while it is asked for.
-class Made final : public remote::Programs {
+class Made final : public control::Programs {
 public:
   explicit Made(const host_sim::Programs& programs) : programs_(programs) {}
   Image open(const std::string& path) override {
@@ -85,7 +85,7 @@ bool MemoryDisk::replace(const std::string& path, std::span<const uint8_t> bytes
   return true;
 }
 
-std::unique_ptr<host::Disk::Lock> MemoryDisk::lock(const std::string& path, bool& made, std::string&) {
+std::unique_ptr<runtime::Disk::Lock> MemoryDisk::lock(const std::string& path, bool& made, std::string&) {
   made = !files_.contains(path);
   if (locked_[path]) return nullptr;
   files_[path] = "";
@@ -106,14 +106,14 @@ void World::switchOn() {
   image_ = programs_.image(0);
   const auto newInstance = [this](const Image& image, const rung_instance_options& options) {
     Instance made(image, &options);
-    runtime::setOutside(*made.handle(), {.disk = &disk, .savePeriod = std::chrono::milliseconds(0)});
+    api::setOutside(*made.handle(), {.disk = &disk, .savePeriod = std::chrono::milliseconds(0)});
     return made;
   };
   try {
-    mapping::File map = mapping::parseMap(kMap, "sim.map", errors);
-    exchange_ = std::make_unique<connections::Exchange>(map, map.connections.at(0));
-    box_ = plc::Box::make(*image_, std::move(map), {.retain = kRetained, .newInstance = newInstance, .clock = this},
-                          errors, warnings);
+    host::File map = host::parseMap(kMap, "sim.map", errors);
+    exchange_ = std::make_unique<io::Exchange>(map, map.connections.at(0));
+    box_ = host::Box::make(*image_, std::move(map), {.retain = kRetained, .newInstance = newInstance, .clock = this},
+                           errors, warnings);
   } catch (const Error& error) { // a full disk
     errors.emplace_back(error.what());
   }
@@ -121,7 +121,7 @@ void World::switchOn() {
   for (const std::string& text : errors) log.push_back("error: " + text);
   if (box_ == nullptr) return;
   pins_.clear();
-  for (const mapping::Pin& pin : box_->pins()) pins_.push_back(pin.name);
+  for (const host::Pin& pin : box_->pins()) pins_.push_back(pin.name);
   values_.assign(pins_.size(), {});
   cells_.clear();
   for (Value& value : values_) cells_.push_back({.any = &value});
@@ -129,8 +129,8 @@ void World::switchOn() {
   writeRequest();
   far.heardNs = -1;
   tellFar();
-  log_ = std::make_unique<remote::Log>(*this, [this](const std::string& line) { log.push_back(line); });
-  controller_ = std::make_unique<remote::Controller>("sim", *box_, *image_, *log_, std::make_unique<Made>(programs_));
+  log_ = std::make_unique<control::Log>(*this, [this](const std::string& line) { log.push_back(line); });
+  controller_ = std::make_unique<control::Controller>("sim", *box_, *image_, *log_, std::make_unique<Made>(programs_));
   dueNs_ = nowNs_ + kPeriodNs;
   ran_ = true;
   faulted_ = 0;
@@ -176,7 +176,7 @@ void World::switchOff() {
 }
 
 void World::cutPower() {
-  runtime::cutPower(*box_->instance());
+  api::cutPower(*box_->instance());
   controller_.reset();
   log_.reset();
   box_.reset();
@@ -195,12 +195,12 @@ void World::step() {
     far.heardNs = nowNs_;
   }
   exchange_->readInputs(cells_.data(), nowNs_);
-  const plc::StepResult result = box_->step(kPeriodNs, reset);
+  const host::StepResult result = box_->step(kPeriodNs, reset);
   tellFar();
   ++steps;
   lastStepNs = nowNs_;
   const rung_state after = box_->state();
-  if (result == plc::StepResult::Ran && (after.flags & RUNG_STATE_STOPPED) == 0 && after.passes == before + 1)
+  if (result == host::StepResult::Ran && (after.flags & RUNG_STATE_STOPPED) == 0 && after.passes == before + 1)
     ++wholeScans;
   noteChanges(scansBefore, cellBefore);
 }
@@ -240,9 +240,11 @@ void World::turn() {
   noteChanges(wholeScans, cell("SCANS"));
 }
 
-void World::lookForSaving() { runtime::lookForSaving(*box_->instance()); }
+void World::lookForSaving() { api::lookForSaving(*box_->instance()); }
 
-remote::Peer World::peerOf(uint32_t number) const { return {.number = number, .user = 0, .process = 1, .name = "sim"}; }
+control::Peer World::peerOf(uint32_t number) const {
+  return {.number = number, .user = 0, .process = 1, .name = "sim"};
+}
 
 json World::ask(uint32_t peer, const json& request) {
   json answer = controller_->answer(peerOf(peer), request);
@@ -275,10 +277,10 @@ void World::setPin(const std::string& name, bool value) { values_[numberOf(name)
 bool World::pin(const std::string& name) const { return values_[numberOf(name)].bit; }
 
 int64_t World::cell(const std::string& name) const {
-  const host::Instance& inside = runtime::insideOf(*box_->instance());
-  const rung_symbol* symbol = host::findSymbol(inside.program(), name);
+  const runtime::Instance& inside = api::insideOf(*box_->instance());
+  const rung_symbol* symbol = runtime::findSymbol(inside.program(), name);
   if (symbol == nullptr) return -1;
-  host::Ref ref = host::refOf(*symbol);
+  runtime::Ref ref = runtime::refOf(*symbol);
   ref.width = symbol->type == RUNG_TYPE_BIT ? 1 : 32;
   return static_cast<int64_t>(inside.read(ref));
 }

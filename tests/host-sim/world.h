@@ -11,18 +11,18 @@
 
 #include <nlohmann/json.hpp>
 
-#include "rtlib/host/clock.h"
-#include "rtlib/host/disk_file.h"
+#include "machine/control/controller.h"
+#include "machine/control/log.h"
+#include "machine/host/box.h"
+#include "machine/io/connections/exchange.h"
+#include "rtlib/load/disk_file.h"
+#include "rtlib/run/clock.h"
 #include "tests/host-sim/programs.h"
-#include "tools/connections/exchange.h"
-#include "tools/plc/box.h"
-#include "tools/remote/controller.h"
-#include "tools/remote/log.h"
 
 namespace rung::host_sim {
 
 // Files in memory. A write that fails leaves the file that was there.
-class MemoryDisk final : public host::Disk {
+class MemoryDisk final : public runtime::Disk {
 public:
   bool read(const std::string& path, size_t most, std::string& bytes, std::string& problem) override;
   bool replace(const std::string& path, std::span<const uint8_t> bytes, std::string& error) override;
@@ -38,14 +38,14 @@ private:
 };
 
 // What the clients get.
-class Clients final : public remote::Sink {
+class Clients final : public control::Sink {
 public:
   void send(uint32_t peer, const nlohmann::json& event) override { events[peer].push_back(event); }
   void answer(uint32_t peer, const nlohmann::json& answer) override { answers[peer].push_back(answer); }
   std::map<uint32_t, std::deque<nlohmann::json>> events, answers;
 };
 
-class World final : public host::Clock {
+class World final : public runtime::Clock {
 public:
   explicit World(const Programs& programs);
   ~World() override;
@@ -86,7 +86,7 @@ public:
   bool reset = false; // the pin
   MemoryDisk disk;
   Clients clients;
-  plc::Box& box() { return *box_; }
+  host::Box& box() { return *box_; }
   rung_instance* instance() { return box_->instance(); }
   // Of the program, whatever its state.
   int64_t cell(const std::string& name) const;
@@ -117,22 +117,22 @@ private:
   void tellFar();
   void noteChanges(uint64_t scansBefore, int64_t cellBefore);
   size_t numberOf(const std::string& pin) const;
-  remote::Peer peerOf(uint32_t number) const;
+  control::Peer peerOf(uint32_t number) const;
 
   const Programs& programs_;
   int64_t nowNs_ = 1'000'000'000;
   int64_t dueNs_ = 0;
   std::vector<std::string> pins_; // their names
   std::vector<Value> values_;     // of each
-  std::vector<plc::PinCell> cells_;
+  std::vector<host::PinCell> cells_;
   uint32_t number_ = 0; // of the program that ran last
   uint32_t faulted_ = 0;
   bool ran_ = false;
   std::optional<Image> image_;
-  std::unique_ptr<plc::Box> box_;
-  std::unique_ptr<connections::Exchange> exchange_;
-  std::unique_ptr<remote::Log> log_;
-  std::unique_ptr<remote::Controller> controller_;
+  std::unique_ptr<host::Box> box_;
+  std::unique_ptr<io::Exchange> exchange_;
+  std::unique_ptr<control::Log> log_;
+  std::unique_ptr<control::Controller> controller_;
 };
 
 } // namespace rung::host_sim

@@ -1,75 +1,46 @@
 #!/usr/bin/env python3
-"""Checks who may include whom, and that the runtime knows its dialects in rtlib/nc alone (docs/architecture.md):
-layering.py [ROOT]; exit 1 and a line for each offence."""
+"""Checks who may include whom, that a folder has one namespace, and that the runtime knows its dialects in rtlib/nc alone
+(docs/architecture.md): layering.py [ROOT]; exit 1 and a line for each offence."""
 import re
 import sys
 from pathlib import Path
 
-# Folder -> folders it may include besides itself and EVERYBODYS; the longest matching folder counts. "rtlib/abi" is also
-# "rung/NAME.h".
-FRONTEND = {"ir/support", "ir/core", "rtlib/abi", "rtlib/nc"}
-IR = {"ir/support", "ir/core", "rtlib/abi"}
-ALL_IR = IR | {"ir/text", "ir/verify", "ir/shape", "ir/analysis", "ir/transforms", "ir/image", "ir/interp"}
-DIALECT = FRONTEND | {"frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
-                      "frontend/ladder/text", "frontend/network", "frontend/network/lower", "frontend/dialects"}
-DIALECTS = {f"frontend/dialects/{name}" for name in ("gsk", "nct", "technol")}
-EVERYBODYS = "rtlib/text"  # header files that include nothing of ours
-MODULES = {
-    EVERYBODYS: set(),
-    "rtlib/abi": set(),
-    "rtlib/core": {"rtlib/abi"},
-    "rtlib/nc": {"rtlib/abi"},
-    "rtlib/host": {"rtlib/abi", "rtlib/core"},
-    "rtlib/nc/names": {"rtlib/abi", "rtlib/core", "rtlib/nc", "rtlib/host"},
-    "rtlib/nc/control": {"rtlib/abi", "rtlib/core", "rtlib/nc", "rtlib/nc/names", "rtlib/host"},
-    "rtlib/profile": {"rtlib/abi", "rtlib/core", "rtlib/host"},
-    "rtlib/runtime": {"rtlib/abi", "rtlib/core", "rtlib/nc/control", "rtlib/nc/names", "rtlib/host", "rtlib/profile"},
-    "ir/support": set(),
-    "ir/core": IR,
-    "ir/text": IR,
-    "ir/verify": IR | {"ir/text"},
-    "ir/shape": IR,
-    "ir/analysis": IR | {"ir/shape"},
-    "ir/transforms": IR | {"ir/text", "ir/verify", "ir/analysis"},
-    "ir/image": IR | {"ir/shape", "ir/analysis"},
-    "ir/interp": IR | {"ir/shape", "ir/image", "rtlib/core", "rtlib/host"},  # an engine, as codegen/jit is
-    "frontend/syntax": FRONTEND,
-    "frontend/table": FRONTEND | {"frontend/syntax"},
-    "frontend/ladder": FRONTEND | {"frontend/syntax", "frontend/table"},
-    "frontend/ladder/text": FRONTEND | {"frontend/syntax", "frontend/table", "frontend/ladder"},
-    "frontend/sema": FRONTEND | {"frontend/syntax", "frontend/table"},
-    "frontend/lower": IR,
-    "frontend/network": {"ir/support", "rtlib/nc", "frontend/syntax", "frontend/table", "frontend/sema", "frontend/ladder",
-                         "frontend/ladder/text"},
-    "frontend/network/lower": FRONTEND | {"frontend/table", "frontend/sema", "frontend/lower", "frontend/network"},
-    "frontend/dialects": DIALECT | DIALECTS,  # its own files list the dialects
-    **{dialect: DIALECT for dialect in DIALECTS},  # a dialect never sees another
-    "codegen/process": {"ir/support"},
-    "codegen/plan": ALL_IR,
-    "codegen/cpp": ALL_IR | {"codegen/plan", "codegen/process"},
-    "codegen/llvm": ALL_IR | {"codegen/plan"},
-    "codegen/jit": ALL_IR | {"codegen/llvm", "rtlib/host"},
-    "codegen/plugin": {"ir/support", "ir/shape", "codegen/llvm", "codegen/jit", "rtlib/host"},
-    "codegen/clang": ALL_IR | {"codegen/cpp"},
+# Folder -> what it may include besides itself; the longest folder that a file is in counts. "rung/NAME.h" is rtlib/abi.
+LAYERS = {
+    "rtlib": (),
+    "ir": ("rtlib/abi", "rtlib/text"),
+    "frontend": ("ir/support", "ir/core", "rtlib/abi", "rtlib/text", "rtlib/nc"),
+    "codegen": ("ir", "rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run"),
+    "compiler": ("frontend", "codegen", "ir", "rtlib"),
+    "machine": ("rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run/alone.h", "rtlib/run/clock.h", "rtlib/run/realtime.h"),
+    "sim": ("machine/host", "machine/io", "machine/rung-run/simulation_plugin.h", "rtlib"),
+    "tools": ("compiler", "sim", "machine/host", "machine/command-line", "frontend", "codegen", "ir", "rtlib"),
+    # Walls within them.
+    "rtlib/text": ("rtlib/text",),
+    "rtlib/abi": (),
+    "rtlib/core": ("rtlib/abi",),
+    "rtlib/nc": ("rtlib/abi", "rtlib/text"),
+    "rtlib/nc/names": ("rtlib/abi", "rtlib/text", "rtlib/core", "rtlib/load", "rtlib/run", "rtlib/nc"),
+    "rtlib/nc/control": ("rtlib/abi", "rtlib/text", "rtlib/core", "rtlib/load", "rtlib/run", "rtlib/change", "rtlib/retain", "rtlib/nc",
+                         "rtlib/nc/names"),
+    **{f"rtlib/{folder}": ("rtlib/abi", "rtlib/text", "rtlib/core", "rtlib/load", "rtlib/run", "rtlib/change", "rtlib/retain",
+                           "rtlib/record") for folder in ("load", "run", "change", "retain", "record")},
+    "ir/support": ("rtlib/text",),
+    "ir/core": ("ir/support", "rtlib/abi", "rtlib/text"),
+    "ir/interp": ("ir", "rtlib/abi", "rtlib/text", "rtlib/core", "rtlib/load", "rtlib/run"),  # an engine, as codegen/jit is
+    **{f"frontend/{folder}": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/ladder", "frontend/lower", "ir/support", "ir/core",
+                              "rtlib/abi", "rtlib/text", "rtlib/nc") for folder in ("syntax", "table", "sema", "ladder", "lower")},
+    "frontend/network": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/ladder", "ir/support", "rtlib/nc/signal.h", "rtlib/text"),
+    "frontend/network/lower": ("frontend", "ir/support", "ir/core", "rtlib/abi", "rtlib/text"),
+    **{f"frontend/dialects/{dialect}": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
+                                        "frontend/network", "frontend/network/lower", "frontend/dialects/dialect.h", "ir/support", "ir/core", "rtlib/abi", "rtlib/text",
+                                        "rtlib/nc") for dialect in ("gsk", "nct", "technol")},
+    "machine/host": ("rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run", "rtlib/nc", "rtlib/nc/control"),
+    "machine/io": ("machine/host", "rtlib"),
+    "machine/compile": ("compiler", "frontend", "codegen", "ir", "rtlib"),
+    "machine/rungctl": ("machine", "rtlib"),
 }
-# A host of the runtime's library sees its headers alone: neither the simulation nor the compiler, nor the runtime inside.
-OURS = ("tools/", "frontend/", "codegen/", "ir/", "rtlib/")
-HOSTS = ("tools/rung-hal", "tools/rung-run", "tools/connections", "tools/remote", "tools/sources", "tools/plc", "tools/mapping", "tools/services")
-IN_A_HOST_TOO = ("tools/rung-hal/", "tools/rung-run/", "tools/connections/", "tools/command-line/", "tools/remote/",
-                 "tools/sources/", "tools/plc/", "tools/mapping/", "tools/toml/", "tools/control-files/", "tools/devices/", "tools/services/", "tools/host-devices/host_devices.h",
-                 "tools/host-devices/analog_pins.h", "rtlib/host/alone.h", "rtlib/host/clock.h", "rtlib/host/disk_file.h", "rtlib/host/file.h", "rtlib/host/plugin.h", "rtlib/host/realtime.h", "rtlib/host/trust.h",
-                 "rtlib/text/", "ir/support/similar.h")  # the last: spelling suggestions
-# Devices know neither a program's memory nor a machine: numbers and structs go in and out. What connects them to a
-# program knows no simulation.
-DEVICES = ("tools/devices/", "tools/control-files/", "rtlib/text/", "rtlib/nc/", "rtlib/core/ring.h", "rtlib/host/file.h", "rtlib/host/realtime.h", "rtlib/host/disk_file.h")
-DEVICE_FOLDERS = {
-    "tools/devices": DEVICES,
-    "tools/device-requests": ("tools/device-requests/", *DEVICES, "rtlib/host/", "rtlib/core/"),
-    "tools/host-devices": ("tools/host-devices/", "tools/device-requests/", *DEVICES, "tools/mapping/file.h", "tools/plc/pin_cell.h", "rtlib/host/",
-                           "rtlib/core/", "rtlib/runtime/surroundings.h"),
-}
-TABLES = ("rtlib/nc/gsk/", "rtlib/nc/nct/", "rtlib/nc/technol/")  # of the dialects: for them, and for tools/services
-FREE = ("tools", "tests", "examples")  # may include everything, but nobody includes them
+FREE = ("tests", "examples")  # may include everything, but nobody includes them
 
 # Foreign headers that only some folders may include; others (std, fmt, ...) are free outside rtlib.
 FOREIGN = {
@@ -77,22 +48,39 @@ FOREIGN = {
     "llvm-c/": (),
     "lld/": ("codegen/llvm", "codegen/jit"),
     "clang/": ("codegen/clang",),
-    "fmt/": ("ir", "frontend", "codegen"),
-    "nlohmann/": ("ir/support", "codegen"),
-    "CLI/": (),
-    "expat.h": (),
-    "modbus.h": (),
-    "pugixml.hpp": (),
-    "toml++/": (),
+    "fmt/": ("ir", "frontend", "codegen", "compiler", "machine", "sim", "tools"),
+    "nlohmann/": ("ir/support", "codegen", "compiler", "machine", "sim/plugin", "tools"),
+    "CLI/": ("machine/command-line",),
+    "expat.h": ("machine/host",),
+    "modbus.h": ("machine/io/connections",),
+    "modbus/": ("machine/io/connections",),
+    "pugixml.hpp": ("tools/rungc",),
+    "toml++/": ("rtlib/text", "machine/host", "compiler", "tools/bind"),
     "utf8proc.h": ("ir/support",),
-    "zlib.h": ("rtlib/host",),
-    "sodium.h": ("rtlib/host",),
+    "zlib.h": ("rtlib/load", "rtlib/retain", "compiler"),
+    "sodium.h": ("rtlib/load", "rtlib/retain", "machine/control", "machine/compile"),
     "gtest/": (),
     "gmock/": (),
     "benchmark/": (),
 }
 SUFFIXES = {".h", ".hpp", ".cpp", ".c", ".def"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+[<"]([^>"]+)[>"]', re.MULTILINE)
+
+# Folder -> its namespace; the longest folder counts. A file may open that one, and one inside it, and no other of ours.
+NAMESPACES = {
+    "rtlib/text": "text", "rtlib/core": "core", "rtlib/nc": "nc", "rtlib/api": "api",
+    **{f"rtlib/{folder}": "runtime" for folder in ("load", "run", "change", "retain", "record")},
+    "ir": "ir", "ir/support": "", "frontend": "frontend", "frontend/ladder": "frontend::ladder",
+    "frontend/network": "frontend::network",
+    **{f"frontend/dialects/{dialect}": f"frontend::{dialect}" for dialect in ("gsk", "nct", "technol")},
+    "codegen": "codegen", "compiler": "compiler",
+    "machine/host": "host", "machine/io": "io", "machine/control": "control", "machine/compile": "compile",
+    "machine/command-line": "cli", "machine/rung-run": "rung_run", "machine/rung-hal": "hal", "machine/rungctl": "rungctl",
+    "sim": "sim", "sim/plugin": "rung_run",  # what rung-run declares, it defines
+    "tools/rungc": "rungc", "tools/scenario": "scenario", "tools/report": "report", "tools/view": "view", "tools/bind": "bind",
+    "tools/bench": "bench",
+}
+NAMESPACE = re.compile(r"^namespace rung(?:::([\w:]+))?(?= *\{)", re.MULTILINE)
 
 # The name of a dialect as a word or a part of an identifier (gskNames, kNctTimeout, TECHNOL's); not in "function".
 DIALECT_NAME = re.compile(r"(?<![A-Za-z])(?:gsk|nct|technol)(?![a-z])|(?:Gsk|Nct|Technol)(?![a-z])"
@@ -107,103 +95,91 @@ def within(path, folder):
     return path == folder or path.startswith(folder + "/")
 
 
-def module_of(path):
-    return max((m for m in MODULES if within(path, m)), key=len, default=None)
+def longest(path, table):
+    return max((folder for folder in table if within(path, folder)), key=len, default=None)
 
 
 def offence(root, path, target):
     """What is wrong with `path` including `target`, or None."""
-    if any(within(path, folder) for folder in FREE):
-        return None
     for prefix, allowed in FOREIGN.items():
         if target.startswith(prefix):
             return None if any(within(path, folder) for folder in allowed) else f"may not include {target}"
     if target.startswith("rung/"):
-        target = "rtlib/abi/" + target
+        compiler_api = target == "rung/compiler.h"
+        target = ("compiler/" if compiler_api else "rtlib/abi/") + target
     if not (root / target).is_file():
         beside = "/" not in target and (root / path).parent.joinpath(target).is_file()
         return f"writes {target} without its folder" if beside else None
-    source, used = module_of(path), module_of(target)
-    if used is None:
-        return f"may not include {target}"
-    if source is None:
-        return "is in no known module"
-    if within(source, "frontend/network") and target.startswith(TABLES):
-        return f"({source}) may not include {target}"
-    return None if used in (source, EVERYBODYS) or used in MODULES[source] else f"({source}) may not include {target}"
+    layer = longest(path, LAYERS)
+    if any(covers(allowed, target) for allowed in (layer, *LAYERS[layer])):
+        return None
+    return f"({layer}) may not include {target}"
 
 
-def check_hosts(root):
-    """What ships with a machine is built on the library."""
-    found = []
-    for file in sorted(file for folder in HOSTS for file in (root / folder).rglob("*")):
-        if file.suffix in SUFFIXES:
-            for match in INCLUDE.finditer(file.read_text(encoding="utf-8")):
-                target = match.group(1)
-                allowed = IN_A_HOST_TOO + (TABLES if within(file.relative_to(root).as_posix(), "tools/services") else ())
-                if target.startswith(OURS) and not target.startswith(allowed):
-                    found.append(f"{file.relative_to(root).as_posix()}: may not include {target}")
-    return found
+def covers(allowed, target):
+    """A folder at the top is allowed as a whole; another one without the walls inside it, which are named for themselves."""
+    walls = [wall for wall in LAYERS if wall != allowed and within(wall, allowed)] if "/" in allowed else ()
+    return within(target, allowed) and not any(within(target, wall) for wall in walls)
 
 
-def check_devices(root):
-    found = []
-    for folder, allowed in DEVICE_FOLDERS.items():
-        for file in sorted(file for file in (root / folder).rglob("*") if file.suffix in SUFFIXES):
-            for match in INCLUDE.finditer(file.read_text(encoding="utf-8")):
-                if match.group(1).startswith(OURS) and not match.group(1).startswith(allowed):
-                    found.append(f"{file.relative_to(root).as_posix()}: may not include {match.group(1)}")
-    return found
+def lines(root, *folders):
+    for folder in folders:
+        for file in sorted((root / folder).rglob("*")):
+            if file.suffix in SUFFIXES:
+                yield file.relative_to(root).as_posix(), file.read_text(encoding="utf-8")
+
+
+def line_of(text, at):
+    return text.count("\n", 0, at) + 1
+
+
+def check_includes(root):
+    for path, text in lines(root, *(folder for folder in LAYERS if "/" not in folder)):
+        for match in INCLUDE.finditer(text):
+            if problem := offence(root, path, match.group(1)):
+                yield f"{path}:{line_of(text, match.start(1))}: {problem}"
+
+
+def check_namespaces(root):
+    for path, text in lines(root, *(folder for folder in LAYERS if "/" not in folder)):
+        folder = longest(path, NAMESPACES)
+        if folder is None:
+            continue
+        expected = NAMESPACES[folder]
+        for match in NAMESPACE.finditer(text):
+            found = match[1] or ""
+            if expected and found != expected and not found.startswith(expected + "::"):
+                yield f"{path}:{line_of(text, match.start())}: namespace rung::{found}, in a folder of rung::{expected}"
 
 
 def check_dialect_names(root):
     """Code, comments and file names of rtlib outside rtlib/nc."""
-    found = []
     for file in sorted((root / "rtlib").rglob("*")):
         path = file.relative_to(root).as_posix()
         if within(path, "rtlib/nc") or not file.is_file():
             continue
         for match in DIALECT_NAME.finditer(path):
-            found.append(f"{path}: names a dialect ({match.group()}): belongs in rtlib/nc")
+            yield f"{path}: names a dialect ({match.group()}): belongs in rtlib/nc"
         text = file.read_text(encoding="utf-8")
         for match in DIALECT_NAME.finditer(text):
-            line = text.count("\n", 0, match.start()) + 1
-            found.append(f"{path}:{line}: names a dialect ({match.group()}): belongs in rtlib/nc")
-    return found
+            yield f"{path}:{line_of(text, match.start())}: names a dialect ({match.group()}): belongs in rtlib/nc"
 
 
 def check_lowerings(root):
     """What is wrong with a program is reported before it is lowered."""
-    found = []
-    for file in sorted(file for folder in CHECKED_BEFORE for file in (root / folder).rglob("*")):
-        text = file.read_text(encoding="utf-8")
+    for path, text in lines(root, *CHECKED_BEFORE):
         for match in REPORT.finditer(text):
-            line = text.count("\n", 0, match.start()) + 1
-            found.append(f"{file.relative_to(root).as_posix()}:{line}: reports ({match.group()}): belongs in the check")
-    return found
+            yield f"{path}:{line_of(text, match.start())}: reports ({match.group()}): belongs in the check"
 
 
 def check(root):
-    found = check_hosts(root) + check_devices(root) + check_dialect_names(root) + check_lowerings(root)
-    for top in ("frontend", "ir", "codegen", "rtlib"):
-        for file in sorted((root / top).rglob("*")):
-            if file.suffix not in SUFFIXES:
-                continue
-            path = file.relative_to(root).as_posix()
-            if module_of(path) is None:
-                found.append(f"{path}: is in no known module")
-                continue
-            text = file.read_text(encoding="utf-8")
-            for match in INCLUDE.finditer(text):
-                if problem := offence(root, path, match.group(1)):
-                    found.append(f"{path}:{text.count(chr(10), 0, match.start(1)) + 1}: {problem}")
-    return found
+    return [*check_includes(root), *check_namespaces(root), *check_dialect_names(root), *check_lowerings(root)]
 
 
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     found = check(root)
-    print("\n".join(found) or "include directions are right, and no dialect is named in rtlib outside rtlib/nc")
+    print("\n".join(found) or "include directions are right, a folder has one namespace, and no dialect is named in rtlib outside rtlib/nc")
     return 1 if found else 0
 
 

@@ -7,17 +7,17 @@
 #include <thread>
 #include <vector>
 
-#include "rtlib/host/realtime.h"
+#include "machine/io/connections/connections.h"
+#include "rtlib/run/realtime.h"
 #include "tests/realtime/guard.h"
 #include "tests/support/faultless_map.h"
-#include "tools/connections/connections.h"
 
 namespace rung::test {
 namespace {
 
-mapping::File mapOf() {
+host::File mapOf() {
   const std::string port = std::to_string(20000 + getpid() % 10000); // two of this program run side by side
-  mapping::File map = faultlessMap(R"([in]
+  host::File map = faultlessMap(R"([in]
 a = { type = "bit", name = "X0.0" }
 b = { type = "s32", name = "D0:2" }
 c = { type = "float", name = "D4:4" }
@@ -34,26 +34,26 @@ host = "127.0.0.1"
 period = 0.001
 holding-registers = { b = 0, d = 1 }
 port = )" + port);
-  const mapping::File memory =
+  const host::File memory =
       faultlessMap("[in]\nc = { type = \"float\", name = \"D4:4\" }\n[shared-memory]\nname = \"rt-" +
                    std::to_string(getpid()) + "\"\nperiod = 0.001\npins = { c = 0 }\n");
-  mapping::Connection shared = memory.connections.at(0);
+  host::Connection shared = memory.connections.at(0);
   shared.pins.at(0).pin = 2;
   map.connections.push_back(std::move(shared));
   return map;
 }
 
 TEST(ConnectionsInAStep, WaitForNobody) {
-  const mapping::File map = mapOf();
-  std::vector<plc::Value> values(map.pins.size());
-  std::vector<plc::PinCell> cells;
-  for (plc::Value& value : values) cells.push_back({.any = &value});
-  connections::Connections connections(map);
+  const host::File map = mapOf();
+  std::vector<host::Value> values(map.pins.size());
+  std::vector<host::PinCell> cells;
+  for (host::Value& value : values) cells.push_back({.any = &value});
+  io::Connections connections(map);
   connections.writeOutputs(cells.data());
   connections.start();
   Guard guard;
   for (int i = 0; i < 200; ++i) {
-    const int64_t now = host::monotonicNs();
+    const int64_t now = runtime::monotonicNs();
     {
       const Guarded guarded(guard);
       connections.readInputs(cells.data(), now);

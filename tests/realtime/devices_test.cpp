@@ -11,9 +11,9 @@
 #include <fstream>
 #include <thread>
 
+#include "machine/io/host_devices.h"
 #include "rung/runtime.hpp"
 #include "tests/realtime/guard.h"
-#include "tools/host-devices/host_devices.h"
 
 namespace rung::test {
 namespace {
@@ -55,7 +55,7 @@ protected:
     devices_.end();
   }
 
-  host_devices::HostDevices devices_;
+  io::HostDevices devices_;
 
 private:
   fs::path folder_ = fs::temp_directory_path() / ("rung-devices-" + std::to_string(getpid()));
@@ -89,22 +89,22 @@ TEST_F(DevicesInAStep, Tables) {
 
 // An axis whose drive does what it is told.
 TEST_F(DevicesInAStep, Axes) {
-  mapping::File map;
-  map.devices.push_back({mapping::DeviceSetting::Kind::Axis, "4", "table", {}});
+  host::File map;
+  map.devices.push_back({host::DeviceSetting::Kind::Axis, "4", "table", {}});
   std::vector<std::string> errors;
   devices_.set(map, errors);
   devices_.addAxisPins(map, errors);
   ASSERT_TRUE(errors.empty());
   double place = 0; // where it is commanded to
   bool on = true, fault = false, enable = false;
-  const auto cellOf = [&](const mapping::Pin& pin) -> plc::PinCell {
-    if (pin.type == mapping::PinType::Float) return {.real = &place};
-    if (pin.direction == mapping::Direction::Out) return {.bit = &enable};
+  const auto cellOf = [&](const host::Pin& pin) -> host::PinCell {
+    if (pin.type == host::PinType::Float) return {.real = &place};
+    if (pin.direction == host::Direction::Out) return {.bit = &enable};
     return {.bit = pin.name.ends_with("fault") ? &fault : &on};
   };
-  std::vector<plc::PinCell> cells;
-  for (const mapping::Pin& pin : map.pins) cells.push_back(cellOf(pin));
-  devices_.connectAxes(cells.data(), plc::kVariables);
+  std::vector<host::PinCell> cells;
+  for (const host::Pin& pin : map.pins) cells.push_back(cellOf(pin));
+  devices_.connectAxes(cells.data(), host::kVariables);
   run("device-units.plc", {"TAKE", "BEGIN", "EACH", "ALLOW"},
       {{"AXIS", 4}, {"LEN", 1000}, {"ACC", 500}, {"FEED", int64_t{6000} << 16}});
   EXPECT_TRUE(enable);

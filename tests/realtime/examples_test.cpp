@@ -10,7 +10,7 @@
 #include <iterator>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/so_engine.h"
 #include "tests/realtime/hosts.h"
 
 namespace rung::test {
@@ -29,14 +29,14 @@ std::vector<std::string> exampleNames() {
 }
 
 // The maps that an example brings, and the one of all its bits.
-std::vector<mapping::File> mapsOf(const fs::path& example, const rung_program& program) {
-  std::vector<mapping::File> maps = {mapOfAll(program)};
+std::vector<host::File> mapsOf(const fs::path& example, const rung_program& program) {
+  std::vector<host::File> maps = {mapOfAll(program)};
   for (const fs::directory_entry& entry : fs::directory_iterator(example)) {
     if (entry.path().extension() != ".map") continue;
     std::ifstream file(entry.path(), std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     std::vector<std::string> errors;
-    maps.push_back(mapping::parseMap(text, entry.path().string(), errors));
+    maps.push_back(host::parseMap(text, entry.path().string(), errors));
     for (const std::string& error : errors) ADD_FAILURE() << error;
   }
   return maps;
@@ -61,11 +61,11 @@ TEST_P(Example, IsCleanInRealTime) {
   const std::string build = std::string(RUNG_TEST_RUNGC) + " build -q " + example.string() + " -o " + object;
   ASSERT_EQ(std::system(build.c_str()), 0) << build;
   std::string error;
-  const auto engine = host::SoEngine::open(object, error);
+  const auto engine = runtime::SoEngine::open(object, error);
   ASSERT_NE(engine, nullptr) << error;
   const rung_program& program = engine->program();
   const auto retain = [&](const char* name) { return (folder / name).string(); };
-  for (const mapping::File& map : mapsOf(example, program)) {
+  for (const host::File& map : mapsOf(example, program)) {
     SCOPED_TRACE(map.paths[0]);
     EXPECT_EXIT(exitWith("box", runInBox(program, map, retain("box"))), testing::ExitedWithCode(0), "box: ");
     EXPECT_EXIT(exitWith("apart", runFastApart(program, map)), testing::ExitedWithCode(0), "apart: ");

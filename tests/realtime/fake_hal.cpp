@@ -12,7 +12,7 @@
 #include <sstream>
 #include <type_traits>
 
-#include "tools/rung-hal/hal_api.h"
+#include "machine/rung-hal/hal_api.h"
 
 // The component, and where it keeps its parameters, as RTAPI finds them.
 extern "C" {

@@ -3,13 +3,13 @@
 
 #include <functional>
 
-#include "rtlib/host/realtime.h"
+#include "machine/host/box.h"
 #include "rtlib/nc/control/retention.h"
+#include "rtlib/run/realtime.h"
 #include "tests/realtime/guard.h"
 #include "tests/realtime/places.h"
 #include "tests/support/adopted_image.h"
 #include "tests/support/fake_clock.h"
-#include "tools/plc/box.h"
 
 namespace rung::test {
 namespace {
@@ -32,14 +32,14 @@ union PinValue {
 // Pins as HAL would have them.
 class Pins {
 public:
-  explicit Pins(const std::vector<mapping::Pin>& pins) : pins_(pins), values_(pins.size()) {
+  explicit Pins(const std::vector<host::Pin>& pins) : pins_(pins), values_(pins.size()) {
     for (PinValue& value : values_) cells_.push_back({.any = &value});
   }
-  const plc::PinCell* cells() const { return cells_.data(); }
+  const host::PinCell* cells() const { return cells_.data(); }
 
   void toggle() {
     for (size_t i = 0; i < pins_.size(); ++i)
-      if (mapping::toProgram(pins_[i].direction)) toggle(pins_[i].type, values_[i]);
+      if (host::toProgram(pins_[i].direction)) toggle(pins_[i].type, values_[i]);
   }
   // The first pin that has another value there; "" where none has.
   std::string difference(const Pins& other) const {
@@ -49,20 +49,20 @@ public:
   }
 
 private:
-  void toggle(mapping::PinType type, PinValue& value) {
+  void toggle(host::PinType type, PinValue& value) {
     switch (type) {
-    case mapping::PinType::Bit: value.bit = toggles_.next(value.bit); return;
-    case mapping::PinType::S32: value.s32 = toggles_.nextNumber(value.s32); return;
-    case mapping::PinType::U32:
+    case host::PinType::Bit: value.bit = toggles_.next(value.bit); return;
+    case host::PinType::S32: value.s32 = toggles_.nextNumber(value.s32); return;
+    case host::PinType::U32:
       value.u32 = static_cast<uint32_t>(toggles_.nextNumber(static_cast<int32_t>(value.u32)));
       return;
-    case mapping::PinType::Float: value.real = toggles_.nextNumber(static_cast<int32_t>(value.real)); return;
+    case host::PinType::Float: value.real = toggles_.nextNumber(static_cast<int32_t>(value.real)); return;
     }
   }
 
-  const std::vector<mapping::Pin>& pins_;
+  const std::vector<host::Pin>& pins_;
   std::vector<PinValue> values_;
-  std::vector<plc::PinCell> cells_;
+  std::vector<host::PinCell> cells_;
   Toggles toggles_;
 };
 
@@ -91,7 +91,7 @@ public:
       outcome_.problem = error;
   }
 
-  host::Instance& instance() { return instance_; }
+  runtime::Instance& instance() { return instance_; }
   Guard& guard() { return guard_; }
   Outcome& outcome() { return outcome_; }
 
@@ -127,7 +127,7 @@ public:
 
 private:
   std::unique_ptr<nc::Control> control_;
-  host::Instance instance_;
+  runtime::Instance instance_;
   nc::Retention retention_;
   Inputs inputs_;
   Guard guard_;
@@ -136,12 +136,12 @@ private:
 
 } // namespace
 
-Outcome runInBox(const rung_program& program, mapping::File map, const std::string& retain) {
+Outcome runInBox(const rung_program& program, host::File map, const std::string& retain) {
   Outcome outcome;
   std::vector<std::string> errors;
   std::vector<std::string> reports;
-  const std::unique_ptr<plc::Box> box =
-      plc::Box::make(test::adopted(program), std::move(map), {.retain = retain}, errors, reports);
+  const std::unique_ptr<host::Box> box =
+      host::Box::make(test::adopted(program), std::move(map), {.retain = retain}, errors, reports);
   for (const std::string& error : errors) outcome.problem += error + "\n";
   if (!box) return outcome;
   Pins pins(box->pins());
@@ -150,16 +150,16 @@ Outcome runInBox(const rung_program& program, mapping::File map, const std::stri
   bool reset = false;
   for (int ms = 0; ms < kRunMs && outcome.problem.empty(); ++ms) {
     pins.toggle();
-    plc::StepResult result;
+    host::StepResult result;
     {
       const Guarded realTime(guard);
       if (box->running()) box->setTimeLimit(1000 * kNsInMs);
-      box->touch(host::monotonicNs() + kNsInMs); // as rung-run does with --early
+      box->touch(runtime::monotonicNs() + kNsInMs); // as rung-run does with --early
       result = box->step(kNsInMs, reset);
     }
     outcome.problem = inSlice(outcome.slices, guard.offences());
-    outcome.slices += result == plc::StepResult::Ran ? 1 : 0;
-    outcome.faults += result == plc::StepResult::Failed ? 1 : 0;
+    outcome.slices += result == host::StepResult::Ran ? 1 : 0;
+    outcome.faults += result == host::StepResult::Failed ? 1 : 0;
     reset = !box->running() && !reset;
     box->serve(reports);
     rung_message_info message{};
@@ -170,11 +170,11 @@ Outcome runInBox(const rung_program& program, mapping::File map, const std::stri
   return outcome;
 }
 
-Outcome runFastApart(const rung_program& program, const mapping::File& map) {
+Outcome runFastApart(const rung_program& program, const host::File& map) {
   Outcome outcome;
   std::vector<std::string> reports;
-  const std::unique_ptr<plc::Box> whole = plc::Box::make(test::adopted(program), map, {}, reports, reports);
-  const std::unique_ptr<plc::Box> apart = plc::Box::make(test::adopted(program), map, {}, reports, reports);
+  const std::unique_ptr<host::Box> whole = host::Box::make(test::adopted(program), map, {}, reports, reports);
+  const std::unique_ptr<host::Box> apart = host::Box::make(test::adopted(program), map, {}, reports, reports);
   Pins wholePins(whole->pins());
   Pins apartPins(apart->pins());
   whole->connect(wholePins.cells());
@@ -184,7 +184,7 @@ Outcome runFastApart(const rung_program& program, const mapping::File& map) {
   for (int ms = 0; ms < kRunMs && outcome.problem.empty(); ++ms) {
     wholePins.toggle();
     apartPins.toggle();
-    outcome.slices += whole->step(kNsInMs, reset) == plc::StepResult::Ran ? 1 : 0;
+    outcome.slices += whole->step(kNsInMs, reset) == host::StepResult::Ran ? 1 : 0;
     {
       const Guarded realTime(guard);
       apart->stepFast(kNsInMs, reset);
@@ -228,16 +228,16 @@ Outcome runOnClock(const rung_program& program, const std::string& retain) {
   while (bare.goesOn()) {
     {
       const Guarded realTime(bare.guard());
-      host::runRealTime(bare.instance(), [&] { bare.instance().slice(); }, keepGoing);
+      runtime::runRealTime(bare.instance(), [&] { bare.instance().slice(); }, keepGoing);
     }
     bare.betweenSlices(); // after a fault
   }
   return bare.end();
 }
 
-mapping::File mapOfAll(const rung_program& program) {
+host::File mapOfAll(const rung_program& program) {
   const std::unique_ptr<nc::Control> control = nc::makeControl(program.dialect);
-  const host::Instance instance(program, control.get());
+  const runtime::Instance instance(program, control.get());
   return mapOf(namesOf(instance, *control));
 }
 

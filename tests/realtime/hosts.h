@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "machine/host/mapping_file.h"
 #include "rung/program.h"
-#include "tools/mapping/file.h"
 
 namespace rung::test {
 
@@ -21,16 +21,16 @@ struct Outcome {
 constexpr int kRunMs = 10'000;
 
 // In LinuxCNC's component, in a thread of 1 ms, with the pins of the map.
-Outcome runInBox(const rung_program& program, mapping::File map, const std::string& retain);
+Outcome runInBox(const rung_program& program, host::File map, const std::string& retain);
 // The same with the fast task in a place of its own, beside a box that runs everything in one: pins that differ are a
 // problem.
-Outcome runFastApart(const rung_program& program, const mapping::File& map);
+Outcome runFastApart(const rung_program& program, const host::File& map);
 // Slice by slice beside its control, as a host of its own does it.
 Outcome runBare(const rung_program& program, const std::string& retain);
 // In the loop on the machine's clock.
 Outcome runOnClock(const rung_program& program, const std::string& retain);
 
 // A pin for every bit that a machine could be connected to.
-mapping::File mapOfAll(const rung_program& program);
+host::File mapOfAll(const rung_program& program);
 
 } // namespace rung::test

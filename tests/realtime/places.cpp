@@ -14,8 +14,8 @@ namespace {
 constexpr size_t kMostPins = 600; // each way: as many as a large machine has
 
 // The flags of the space where a name's bit is; 0: it is none that a pin could have.
-uint32_t spaceFlags(const host::Instance& instance, const std::optional<host::Ref>& place) {
-  if (!place || place->kind != host::RefKind::Bit || place->count != 1) return 0;
+uint32_t spaceFlags(const runtime::Instance& instance, const std::optional<runtime::Ref>& place) {
+  if (!place || place->kind != runtime::RefKind::Bit || place->count != 1) return 0;
   return instance.program().spaces[place->space].flags;
 }
 
@@ -40,11 +40,11 @@ void thin(std::vector<std::string>& names) {
 
 } // namespace
 
-Names namesOf(const host::Instance& instance, const nc::Control& control) {
+Names namesOf(const runtime::Instance& instance, const nc::Control& control) {
   Names names;
   std::set<std::array<uint32_t, 3>> taken; // by inputs
   for (const std::string& name : candidates(instance.program())) {
-    const std::optional<host::Ref> place = control.writePlace(instance.program(), name);
+    const std::optional<runtime::Ref> place = control.writePlace(instance.program(), name);
     const uint32_t flags = spaceFlags(instance, place);
     if ((flags & RUNG_SPACE_INPUT) != 0 && !control.writesItself(instance.program(), *place) &&
         taken.insert({place->space, place->byte, place->bit}).second) // each bit is one pin's
@@ -56,30 +56,30 @@ Names namesOf(const host::Instance& instance, const nc::Control& control) {
   return names;
 }
 
-mapping::File mapOf(const Names& names) {
-  mapping::File map;
+host::File mapOf(const Names& names) {
+  host::File map;
   map.paths = {"all.map"};
-  const auto add = [&](const std::string& name, mapping::Direction direction) {
+  const auto add = [&](const std::string& name, host::Direction direction) {
     const auto pin = static_cast<uint32_t>(map.pins.size());
-    map.pins.push_back({.name = std::string(mapping::tableName(direction)) + "-" + std::to_string(pin),
+    map.pins.push_back({.name = std::string(host::tableName(direction)) + "-" + std::to_string(pin),
                         .direction = direction,
                         .at = {pin + 1}});
     map.links.push_back({.pin = pin, .name = name, .at = {pin + 1}});
   };
-  for (const std::string& name : names.inputs) add(name, mapping::Direction::In);
-  for (const std::string& name : names.outputs) add(name, mapping::Direction::Out);
+  for (const std::string& name : names.inputs) add(name, host::Direction::In);
+  for (const std::string& name : names.outputs) add(name, host::Direction::Out);
   return map;
 }
 
-Inputs::Inputs(const host::Instance& instance, const nc::Control& control, const std::vector<std::string>& names) {
+Inputs::Inputs(const runtime::Instance& instance, const nc::Control& control, const std::vector<std::string>& names) {
   for (const std::string& name : names)
-    places_.push_back({host::locate(instance.memory(), *control.writePlace(instance.program(), name))});
+    places_.push_back({runtime::locate(instance.memory(), *control.writePlace(instance.program(), name))});
   values_.resize(places_.size());
 }
 
-void Inputs::toggle(host::Instance& instance) {
+void Inputs::toggle(runtime::Instance& instance) {
   for (uint64_t& value : values_) value = toggles_.next(value != 0) ? 1 : 0;
-  rt::writePlaces(instance.memory(), places_, values_);
+  core::writePlaces(instance.memory(), places_, values_);
 }
 
 } // namespace rung::test

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "machine/host/mapping_file.h"
 #include "rtlib/core/place_list.h"
 #include "rtlib/nc/control/control.h"
-#include "tools/mapping/file.h"
 
 namespace rung::test {
 
@@ -16,10 +16,10 @@ struct Names {
   std::vector<std::string> inputs;
   std::vector<std::string> outputs;
 };
-Names namesOf(const host::Instance& instance, const nc::Control& control);
+Names namesOf(const runtime::Instance& instance, const nc::Control& control);
 
 // A pin for each.
-mapping::File mapOf(const Names& names);
+host::File mapOf(const Names& names);
 
 // Every value of a machine changes now and then; the same sequence in every run.
 class Toggles {
@@ -35,11 +35,11 @@ private:
 // The inputs of a program without pins.
 class Inputs {
 public:
-  Inputs(const host::Instance& instance, const nc::Control& control, const std::vector<std::string>& names);
-  void toggle(host::Instance& instance);
+  Inputs(const runtime::Instance& instance, const nc::Control& control, const std::vector<std::string>& names);
+  void toggle(runtime::Instance& instance);
 
 private:
-  std::vector<rt::ListedPlace> places_;
+  std::vector<core::ListedPlace> places_;
   std::vector<uint64_t> values_;
   Toggles toggles_;
 };

@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from patience import patience, wait_until
 
-TOOL = Path(__file__).resolve().parents[2] / "tools/rung-hal/rung-operator"
+TOOL = Path(__file__).resolve().parents[2] / "machine/rung-hal/rung-operator"
 # The folder has `on` while it runs, and `stuck` while nobody reads its errors; what was shown is in `shown`.
 LINUXCNC = """import os, time
 HOME = os.path.dirname(__file__)

@@ -18,7 +18,7 @@ from patience import patience, wait_until
 from remote_test import ENVIRONMENT, OK, PROGRAM, USAGE, WRONG, Host
 
 BIN = Path(sys.argv[1]).resolve()
-TEMPLATE = Path(__file__).resolve().parents[2] / "tools/project/templates/technol"
+TEMPLATE = Path(__file__).resolve().parents[2] / "tools/rungc/templates/technol"
 
 
 def packed(texts, files, dialect=b"technol"):

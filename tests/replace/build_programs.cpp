@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <string>
 
-#include "rtlib/host/sealing.h"
+#include "rtlib/load/sealing.h"
 #include "tests/replace/programs.h"
 #include "tests/support/cpp_program.h"
 
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
     const Result<std::string> object =
         test::buildCppProgram(*frontend::findDialect("nct"), sources, std::span(&file, 1), options);
     const std::string wrong =
-        object.ok() ? host::writeProgram(std::string(argv[1]) + "/" + name + ".so", host::sealed(object.value()))
+        object.ok() ? runtime::writeProgram(std::string(argv[1]) + "/" + name + ".so", runtime::sealed(object.value()))
                     : object.error();
     if (wrong.empty()) continue;
     std::fprintf(stderr, "%s: %s\n", name.c_str(), wrong.c_str());

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/so_engine.h"
 #include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/retention.h"
 
@@ -16,17 +16,17 @@ using namespace rung;
 int main(int argc, char** argv) {
   if (argc != 4) return 2;
   std::string error;
-  const std::unique_ptr<host::SoEngine> engine = host::SoEngine::open(argv[1], error);
+  const std::unique_ptr<runtime::SoEngine> engine = runtime::SoEngine::open(argv[1], error);
   if (engine == nullptr) return std::puts(error.c_str()), 1;
   const std::unique_ptr<nc::Control> control = nc::makeControl(engine->program().dialect);
-  host::Instance instance(engine->program(), control.get());
+  runtime::Instance instance(engine->program(), control.get());
   nc::Retention retention(*control, instance, argv[2], nullptr); // the machine's program never changes
   std::string report;
   const std::optional<nc::PowerOn> kind = retention.load(report, error);
   std::puts(report.c_str());
   if (!kind) return std::puts(error.c_str()), 1;
   control->powerOn(instance, *kind);
-  const std::optional<host::Ref> ready =
+  const std::optional<runtime::Ref> ready =
       control->readPlace(instance.program(), "READY"); // as it names all that it exchanges
   const auto scan = [&] {
     do { // the machine's own thread would wait for sliceDelayUs() here

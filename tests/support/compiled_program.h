@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "tools/compiler/engines.h"
+#include "compiler/engines.h"
 
 namespace rung::testing {
 
@@ -19,7 +19,7 @@ public:
 
 private:
   compiler::Compiled compiled_;
-  std::unique_ptr<host::Engine> engine_;
+  std::unique_ptr<runtime::Engine> engine_;
 };
 
 } // namespace rung::testing

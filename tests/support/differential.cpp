@@ -4,16 +4,16 @@
 #include <fmt/format.h>
 
 #include "ir/text/text.h"
-#include "rtlib/host/compare.h"
+#include "rtlib/change/compare.h"
 #include "rtlib/nc/names/names.h"
 
 namespace rung::testing {
 namespace {
 
 // Answers every second request in the same scan, so that programs see both kinds.
-class Responder final : public host::ScheduleHooks {
+class Responder final : public runtime::ScheduleHooks {
 public:
-  bool respond(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+  bool respond(runtime::Instance&, const core::ServiceRequest& request, core::ServiceReply& reply) override {
     if (request.ticket % 2 == 0) return false;
     reply.ticket = request.ticket;
     reply.state = request.argCount % 3 == 0 ? uint32_t{RUNG_SERVICE_ERROR} : uint32_t{RUNG_SERVICE_DONE};
@@ -24,7 +24,7 @@ public:
   }
 };
 
-std::optional<std::string> firstCountDifference(const host::Instance& a, const host::Instance& b) {
+std::optional<std::string> firstCountDifference(const runtime::Instance& a, const runtime::Instance& b) {
   for (size_t i = 0; i < a.profile().size(); ++i)
     if (a.profile()[i].count != b.profile()[i].count)
       return fmt::format("rung {} was counted {} times here, {} times there", i, a.profile()[i].count,
@@ -34,14 +34,14 @@ std::optional<std::string> firstCountDifference(const host::Instance& a, const h
 
 } // namespace
 
-std::optional<std::string> firstDisagreement(host::Engine& first, host::Engine& second, int scans) {
+std::optional<std::string> firstDisagreement(runtime::Engine& first, runtime::Engine& second, int scans) {
   Responder answers;
-  const auto a = std::make_unique<host::Instance>(first, &answers);
-  const auto b = std::make_unique<host::Instance>(second, &answers);
+  const auto a = std::make_unique<runtime::Instance>(first, &answers);
+  const auto b = std::make_unique<runtime::Instance>(second, &answers);
   for (int scan = 1; scan <= scans; ++scan) {
     a->scan();
     b->scan();
-    auto difference = host::firstDifference(*a, *b, nc::describe);
+    auto difference = runtime::firstDifference(*a, *b, nc::describe);
     if (!difference) difference = firstCountDifference(*a, *b);
     if (difference) return fmt::format("scan {}: {} against {}: {}", scan, first.name(), second.name(), *difference);
   }

@@ -3,13 +3,13 @@
 #include <optional>
 #include <string>
 
-#include "rtlib/host/engine.h"
-#include "tools/compiler/engines.h"
+#include "compiler/engines.h"
+#include "rtlib/load/engine.h"
 
 namespace rung::testing {
 
 // Nothing when memory, messages, requests, faults and execution counts agree after each of `scans` scans.
-std::optional<std::string> firstDisagreement(host::Engine& first, host::Engine& second, int scans);
+std::optional<std::string> firstDisagreement(runtime::Engine& first, runtime::Engine& second, int scans);
 
 // A module with its layout in the form that makeEngine takes.
 compiler::Compiled compiledFrom(ir::Module module, const ir::LayoutOptions& options = {});

@@ -5,14 +5,14 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/mapping/file.h"
+#include "machine/host/mapping_file.h"
 
 namespace rung::test {
 
 // Throws with all mistakes where there are some.
-inline mapping::File faultlessMap(std::string_view text) {
+inline host::File faultlessMap(std::string_view text) {
   std::vector<std::string> errors;
-  mapping::File map = mapping::parseMap(text, "m.map", errors);
+  host::File map = host::parseMap(text, "m.map", errors);
   std::string all;
   for (const std::string& error : errors) all += error + '\n';
   if (!all.empty()) throw std::runtime_error(all);

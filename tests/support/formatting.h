@@ -21,7 +21,7 @@ inline std::vector<std::string_view> linesOf(std::string_view text) {
   std::vector<std::string_view> lines;
   while (!text.empty()) {
     const size_t end = text.find('\n');
-    lines.push_back(withoutTrailingSpace(text.substr(0, end)));
+    lines.push_back(frontend::withoutTrailingSpace(text.substr(0, end)));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   return lines;

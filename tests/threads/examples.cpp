@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/host/sealing.h"
+#include "rtlib/load/sealing.h"
 #include "tests/support/cpp_program.h"
 
 namespace rung::test {
@@ -20,7 +20,7 @@ const frontend::Dialect* dialectOf(const Example& example) {
 
 } // namespace
 
-std::unique_ptr<host::SoEngine> load(const Example& example) {
+std::unique_ptr<runtime::SoEngine> load(const Example& example) {
   SourceManager sources;
   std::vector<FileId> files;
   for (const std::string& name : example.files) {
@@ -35,9 +35,9 @@ std::unique_ptr<host::SoEngine> load(const Example& example) {
   }
   const TemporaryFolder folder;
   const std::string path = (folder / "program.so").string();
-  std::string error = host::replaceFile(path, host::sealed(object.value()), {.mode = host::kProgramMode});
+  std::string error = runtime::replaceFile(path, runtime::sealed(object.value()), {.mode = runtime::kProgramMode});
   EXPECT_EQ(error, "");
-  std::unique_ptr<host::SoEngine> engine = host::SoEngine::open(path, error);
+  std::unique_ptr<runtime::SoEngine> engine = runtime::SoEngine::open(path, error);
   EXPECT_NE(engine, nullptr) << error;
   return engine;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/so_engine.h"
 
 namespace rung::test {
 
@@ -16,6 +16,6 @@ struct Example {
 inline void PrintTo(const Example& example, std::ostream* out) { *out << example.name; }
 
 // Null fails the test.
-std::unique_ptr<host::SoEngine> load(const Example& example);
+std::unique_ptr<runtime::SoEngine> load(const Example& example);
 
 } // namespace rung::test

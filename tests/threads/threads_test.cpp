@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/host/retained_memory.h"
+#include "rtlib/retain/retained_memory.h"
+#include "sim/machine.h"
 #include "tests/threads/examples.h"
 #include "tests/unit/rtlib/test_program.h"
-#include "tools/sim/machine.h"
 
 namespace rung::test {
 namespace {
@@ -44,7 +44,7 @@ public:
       if ((instance().program().spaces[s].flags & RUNG_SPACE_INPUT) != 0) change(s);
     machine_.scan();
   }
-  host::Instance& instance() { return machine_.inside(); }
+  runtime::Instance& instance() { return machine_.inside(); }
   Bytes memory() const { return {machine_.inside().block().begin(), machine_.inside().block().end()}; }
 
 private:
@@ -90,8 +90,8 @@ TEST_P(Threads, TheSaverWorksBesideTheScan) {
   Machine machine(program, 1);
   std::string report;
   std::string error;
-  host::RetainedMemory retained(program, file, host::RetainWhen::Always, &host::takeRetainedOf,
-                                std::chrono::milliseconds(1));
+  runtime::RetainedMemory retained(program, file, runtime::RetainWhen::Always, &runtime::takeRetainedOf,
+                                   std::chrono::milliseconds(1));
   retained.load(machine.instance(), report, error);
   ASSERT_EQ(error, "");
   std::atomic<bool> done = false;
@@ -115,10 +115,10 @@ TEST_P(Threads, TheSaverWorksBesideTheScan) {
   EXPECT_EQ(retained.finish(machine.instance()), "");
   Bytes kept(machine.instance().retainedSize());
   machine.instance().copyRetained(kept);
-  const host::RetainMap map(program);
+  const runtime::RetainMap map(program);
   Bytes image(map.size());
   map.pack(kept, image);
-  EXPECT_EQ(host::RetainStore(file, map.layout().hash, map.size()).load().bytes, image);
+  EXPECT_EQ(runtime::RetainStore(file, map.layout().hash, map.size()).load().bytes, image);
 }
 
 constexpr int64_t kLast = 2'000; // requests
@@ -147,7 +147,7 @@ uint32_t askAgain(uint8_t* mem, rung_ctx* ctx, uint32_t) {
 // Answers and takes messages until it is stopped.
 class Host {
 public:
-  explicit Host(host::Instance& instance) : thread_([this, &instance] { work(instance); }) {}
+  explicit Host(runtime::Instance& instance) : thread_([this, &instance] { work(instance); }) {}
   // What was shown, in its order.
   std::vector<uint32_t> stop() {
     stop_ = true;
@@ -156,13 +156,13 @@ public:
   }
 
 private:
-  void work(host::Instance& instance) {
+  void work(runtime::Instance& instance) {
     bool last = false;
     do {
       last = stop_; // then all is there
-      rt::ServiceRequest request;
+      core::ServiceRequest request;
       while (instance.services().take(request)) {
-        rt::ServiceReply reply;
+        core::ServiceReply reply;
         reply.ticket = request.ticket;
         reply.resultCount = 1;
         reply.results[0] = 2 * request.args[0];
@@ -185,7 +185,7 @@ void build(TestProgram& test) {
   test.link();
 }
 
-int64_t numberOf(host::Instance& instance) {
+int64_t numberOf(runtime::Instance& instance) {
   int64_t number = 0;
   std::memcpy(&number, instance.block().data() + 8, sizeof number);
   return number;
@@ -194,7 +194,7 @@ int64_t numberOf(host::Instance& instance) {
 TEST(Services, AreAnsweredByAnotherThread) {
   TestProgram test;
   build(test);
-  host::Instance instance(test.program);
+  runtime::Instance instance(test.program);
   Host host(instance);
   while (!instance.faulted() && numberOf(instance) < kLast) {
     instance.scan();
@@ -211,7 +211,7 @@ TEST(Services, AreAnsweredByAnotherThread) {
 TEST(Services, AreAnsweredWhileTheProgramRestarts) {
   TestProgram test;
   build(test);
-  host::Instance instance(test.program);
+  runtime::Instance instance(test.program);
   Host host(instance);
   for (int restart = 0; restart < 300; ++restart) {
     instance.coldStart();

@@ -30,7 +30,7 @@ bool isLarge() {
 std::vector<Text> drawnTexts() {
   std::vector<Text> texts;
   for (uint64_t seed = 1; seed <= (isLarge() ? 400u : 12u); ++seed)
-    texts.push_back({fmt::format("drawn-{}.pmc", seed), gsk::test::ProgramGenerator(seed).list()});
+    texts.push_back({fmt::format("drawn-{}.pmc", seed), frontend::gsk::test::ProgramGenerator(seed).list()});
   const std::vector<uint32_t> sizes = isLarge() ? std::vector<uint32_t>{13, 40, 100, 200} : std::vector<uint32_t>{20};
   for (const std::string_view dialect : bench::kDialects)
     for (const bench::Kind kind : kKinds)
@@ -52,7 +52,7 @@ std::unique_ptr<Program> Program::of(const Text& text) {
   return nullptr;
 }
 
-void scatter(host::Instance& instance, ir::RandomSource& random) {
+void scatter(runtime::Instance& instance, ir::RandomSource& random) {
   const rung_program& program = instance.program();
   for (const rung_space& space : std::span(program.spaces, program.space_count)) {
     if ((space.flags & RUNG_SPACE_HIDDEN) != 0) continue; // timers and the like are what the program left there

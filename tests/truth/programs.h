@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "rtlib/host/instance.h"
+#include "compiler/engines.h"
+#include "rtlib/run/instance.h"
 #include "tests/random/random_source.h"
-#include "tools/compiler/engines.h"
 
 namespace rung::truth {
 
@@ -41,6 +41,6 @@ private:
 };
 
 // Any contents of the memory that programs see.
-void scatter(host::Instance& instance, ir::RandomSource& random);
+void scatter(runtime::Instance& instance, ir::RandomSource& random);
 
 } // namespace rung::truth

@@ -5,14 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/truth/programs.h"
-#include "tools/wcet/bounds.h"
-#include "tools/wcet/step_counter.h"
+#include "tools/report/wcet_bounds.h"
+#include "tools/report/wcet_step_counter.h"
 
 namespace rung::truth {
 namespace {
 
-std::vector<wcet::StepCounter::Count> countSteps(const compiler::Compiled& compiled, int scans) {
-  wcet::StepCounter counter(compiled.module->tasks.size());
+std::vector<report::StepCounter::Count> countSteps(const compiler::Compiled& compiled, int scans) {
+  report::StepCounter counter(compiled.module->tasks.size());
   compiler::EngineOptions options;
   options.observer = [&](const compiler::Compiled& of) { return counter.observer(of.layout->cut()); };
   const auto engine = compiler::makeEngine(compiler::EngineKind::Interp, compiled, options);
@@ -20,7 +20,7 @@ std::vector<wcet::StepCounter::Count> countSteps(const compiler::Compiled& compi
     ADD_FAILURE() << engine.error();
     return counter.counts();
   }
-  host::Instance instance(*engine.value());
+  runtime::Instance instance(*engine.value());
   instance.setTaskWatch(&counter);
   ir::RandomSource random(5);
   for (int i = 0; i < scans; ++i) {

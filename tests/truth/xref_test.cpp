@@ -14,15 +14,15 @@
 
 #include "ir/image/program_image.h"
 #include "ir/support/hash.h"
-#include "rtlib/host/overwritten.h"
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/nc/signals.h"
+#include "rtlib/run/overwritten.h"
 #include "rtlib/text/letters.h"
 #include "tests/truth/programs.h"
+#include "tools/report/cross_reference.h"
+#include "tools/report/place_names.h"
 #include "tools/scenario/runner.h"
-#include "tools/xref/cross_reference.h"
-#include "tools/xref/place_names.h"
 
 namespace rung::truth {
 namespace {
@@ -32,18 +32,18 @@ using ir::BitRange;
 
 // Where a program's memory is in a space that a user knows, by the tables that the program runs with.
 std::optional<BitRange> variableAt(const rung_program& program, const BitRange& place) {
-  const host::Ref ref = xref::refAt(place);
+  const runtime::Ref ref = report::refAt(place);
   if ((program.spaces[place.space.index].flags & RUNG_SPACE_HIDDEN) == 0) return place;
-  const std::optional<host::Ref> source = host::Overwritten(program).source(ref); // a latch of an input
+  const std::optional<runtime::Ref> source = runtime::Overwritten(program).source(ref); // a latch of an input
   if (!source || (program.spaces[source->space].flags & RUNG_SPACE_HIDDEN) != 0) return std::nullopt;
-  return xref::bitsOf(*source);
+  return report::bitsOf(*source);
 }
 
 // Of NCT's time-slice memory the variable without `!`.
 BitRange withoutMark(const rung_program& program, const BitRange& place) {
-  const uint32_t slices = host::findSpace(program, "TS");
+  const uint32_t slices = runtime::findSpace(program, "TS");
   const bool marked = std::string_view(program.dialect) == "nct" && place.space.index == slices;
-  return marked ? BitRange{ir::SpaceId{host::findSpace(program, "M")}, place.first, place.count} : place;
+  return marked ? BitRange{ir::SpaceId{runtime::findSpace(program, "M")}, place.first, place.count} : place;
 }
 
 // What `xref --place` prints of a program's variables.
@@ -62,7 +62,7 @@ public:
   // The direct accesses: rung, place as its address says, and what is printed.
   template <class Visit>
   void forDirect(Visit visit) {
-    for (const Json& entry : Json::parse(xref::shownAsJson(reference_, reference_.all(), false)))
+    for (const Json& entry : Json::parse(report::shownAsJson(reference_, reference_.all(), false)))
       for (const char* side : {"written", "read"})
         for (const Json& access : entry[side])
           if (!access.value("indexed", false)) visit(access);
@@ -71,7 +71,8 @@ public:
 private:
   const Json& entryOf(const BitRange& place) {
     const auto [at, isNew] = entries_.try_emplace({place.space.index, place.first, place.count});
-    if (isNew) at->second = Json::parse(xref::shownAsJson(reference_, {reference_.of(xref::refAt(place))}, true))[0];
+    if (isNew)
+      at->second = Json::parse(report::shownAsJson(reference_, {reference_.of(report::refAt(place))}, true))[0];
     return at->second;
   }
   bool isIn(const Json& list, uint32_t rung) const {
@@ -83,7 +84,7 @@ private:
   }
 
   const ir::ProgramImage image_;
-  const xref::CrossReference reference_;
+  const report::CrossReference reference_;
   std::map<std::tuple<uint32_t, uint32_t, uint32_t>, Json> entries_;
 };
 
@@ -153,8 +154,9 @@ private:
     if (!writes && listing_.has(rung, place, true) &&
         keeps(program, place, lines_.of(file, info.first_line, info.last_line)))
       return;
-    found_.wrong.insert(fmt::format("{}: {} {} ({} bits)", host::rungText(program, rung), writes ? "writes" : "reads",
-                                    nc::address(program, xref::refAt(place)), place.count));
+    found_.wrong.insert(fmt::format("{}: {} {} ({} bits)", runtime::rungText(program, rung),
+                                    writes ? "writes" : "reads", nc::address(program, report::refAt(place)),
+                                    place.count));
   }
 
   Listing listing_;
@@ -213,7 +215,7 @@ TEST(Xref, ListsWhatDrawnProgramsDo) {
     };
     const auto engine = compiler::makeEngine(compiler::EngineKind::Interp, program->compiled(), options);
     ASSERT_TRUE(engine.ok()) << engine.error();
-    host::Instance instance(*engine.value());
+    runtime::Instance instance(*engine.value());
     ir::RandomSource random(11);
     for (int i = 0; i < 6; ++i) {
       if (instance.faulted()) instance.coldStart();
@@ -229,16 +231,17 @@ TEST(Xref, ListsWhatDrawnProgramsDo) {
 // ---- what is listed stands in the rung -----------------------------------------------------------------------------
 
 // Of a word as a program has it: a name, an address, a signal of the control, in capitals or not.
-std::optional<host::Ref> placeOf(const rung_program& program, std::string_view word) {
-  const nc::NameFallback signals = [&](std::string_view name) -> std::optional<host::Ref> {
+std::optional<runtime::Ref> placeOf(const rung_program& program, std::string_view word) {
+  const nc::NameFallback signals = [&](std::string_view name) -> std::optional<runtime::Ref> {
     const nc::Signal* signal = nc::findSignal(*nc::signalsOf(program.dialect), name);
     if (signal == nullptr) return std::nullopt;
-    const uint32_t space = host::findSpace(program, signal->area);
+    const uint32_t space = runtime::findSpace(program, signal->area);
     const bool isBit = signal->type == nc::SignalType::Bit;
-    return isBit ? host::bitRef(space, signal->byteOffset, signal->bit) : host::intRef(space, signal->byteOffset, 8);
+    return isBit ? runtime::bitRef(space, signal->byteOffset, signal->bit)
+                 : runtime::intRef(space, signal->byteOffset, 8);
   };
   for (const std::string& form : {std::string(word), text::upper(word)})
-    if (const auto place = nc::resolve(program, form, signals); place && place->kind != host::RefKind::Constant)
+    if (const auto place = nc::resolve(program, form, signals); place && place->kind != runtime::RefKind::Constant)
       return place;
   return std::nullopt;
 }
@@ -247,7 +250,7 @@ std::optional<host::Ref> placeOf(const rung_program& program, std::string_view w
 std::vector<BitRange> namedIn(const rung_program& program, const std::string& lines) {
   std::vector<BitRange> places;
   const auto take = [&](std::string_view word) {
-    if (const auto place = placeOf(program, word)) places.push_back(xref::bitsOf(*place));
+    if (const auto place = placeOf(program, word)) places.push_back(report::bitsOf(*place));
   };
   size_t begin = 0;
   for (size_t i = 0; i <= lines.size(); ++i) {
@@ -296,14 +299,14 @@ uint64_t expectNamed(const compiler::Compiled& compiled, Lines lines) {
   Found found;
   listing.forDirect([&](const Json& access) {
     const std::string address = access["address"];
-    const std::optional<host::Ref> ref = nc::resolve(program, address);
+    const std::optional<runtime::Ref> ref = nc::resolve(program, address);
     if (access["rung"] == 0) return; // the compiler's
     ++found.held;
     if (!ref) {
       found.wrong.insert(address + " cannot be written in " + program.dialect);
       return;
     }
-    BitRange place = withoutMark(program, xref::bitsOf(*ref));
+    BitRange place = withoutMark(program, report::bitsOf(*ref));
     place.count = access["bits"];
     const uint32_t line = access["line"];
     const auto rung =

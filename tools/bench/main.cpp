@@ -11,8 +11,8 @@
 
 #include "codegen/process/process.h"
 #include "ir/support/temporary_folder.h"
+#include "machine/command-line/usage.h"
 #include "tools/bench/measure.h"
-#include "tools/command-line/usage.h"
 
 namespace {
 

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "codegen/cpp/cpp_emitter.h"
+#include "compiler/engines.h"
 #include "ir/support/diag_render.h"
 #include "ir/support/temporary_folder.h"
-#include "rtlib/host/file.h"
+#include "rtlib/load/file.h"
 #include "tools/bench/generated/side.h"
-#include "tools/compiler/engines.h"
 
 namespace rung::bench {
 namespace {
@@ -124,7 +124,7 @@ Result<void> buildStraight(const Case& which, const std::string& compiler, const
   options.debugInfo = false;
   const Result<std::string> image = codegen::buildCppSharedObject(straightSource(work.value(), BitForm::Byte), options);
   if (!image.ok()) return image.failure();
-  if (std::string wrong = host::replaceFile(path, image.value()); !wrong.empty()) return failure(std::move(wrong));
+  if (std::string wrong = runtime::replaceFile(path, image.value()); !wrong.empty()) return failure(std::move(wrong));
   return {};
 }
 
@@ -150,9 +150,9 @@ Result<Measured> measure(const Case& which) {
   compiler::EngineOptions engineOptions;
   engineOptions.optimise = which.optimise;
   engineOptions.cppCompiler = which.compiler;
-  Result<std::unique_ptr<host::Engine>> engine = compiler::makeEngine(*kind, *compiled, engineOptions);
+  Result<std::unique_ptr<runtime::Engine>> engine = compiler::makeEngine(*kind, *compiled, engineOptions);
   if (!engine.ok()) return engine.failure();
-  host::Instance(*engine.value()).scan();
+  runtime::Instance(*engine.value()).scan();
   out.backMs = nsSince(start) / 1e6;
   out.residentMb = residentMb();
 

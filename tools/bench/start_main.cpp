@@ -15,11 +15,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compiler/engines.h"
+#include "compiler/project.h"
+#include "compiler/tiered.h"
 #include "ir/support/diag_render.h"
-#include "rtlib/host/instance.h"
-#include "tools/compiler/engines.h"
-#include "tools/compiler/tiered.h"
-#include "tools/project/project.h"
+#include "rtlib/run/instance.h"
 
 namespace {
 
@@ -61,16 +61,16 @@ private:
 // A project's files with its configuration, or one file.
 compiler::CompileRequest request(SourceManager& sources, const std::string& path, std::vector<FileId>& files) {
   compiler::CompileRequest request;
-  if (!path.ends_with(project::kFileName)) {
+  if (!path.ends_with(compiler::kFileName)) {
     files = good(compiler::addFiles(sources, {path}, {}));
     return request;
   }
   Diagnostics diagnostics;
-  const std::optional<project::Project> project = project::load(sources, path, diagnostics);
+  const std::optional<compiler::Project> project = compiler::load(sources, path, diagnostics);
   if (!project) throw std::runtime_error(renderText(diagnostics, sources));
   request.dialect = project->dialect;
   request.options.includePaths = project->includePaths;
-  for (const project::Setting& setting : project->config) request.options.config[setting.key] = setting.value;
+  for (const compiler::Setting& setting : project->config) request.options.config[setting.key] = setting.value;
   files = good(compiler::addFiles(sources, project->files, request.options.config));
   return request;
 }
@@ -88,7 +88,7 @@ nlohmann::json start(const std::string& path) {
   if (!compiled) throw std::runtime_error(renderText(diagnostics, sources));
   const auto engine = good(
       compiler::TieredEngine::make(*compiled, compiler::jitOptionsOf({}), ir::Counting::Ticks, compiler::Pace::Any));
-  host::Instance instance(*engine);
+  runtime::Instance instance(*engine);
   instance.scan();
   stages.ended("engine and scan");
   const double first = cpuMs();

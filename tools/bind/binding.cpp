@@ -8,17 +8,17 @@
 #include <ranges>
 #include <span>
 
-#include "ir/support/similar.h"
+#include "machine/host/mapping_mistake.h"
+#include "rtlib/text/similar.h"
 #include "rung/runtime.hpp"
 #include "rung/types.hpp"
-#include "tools/mapping/mistake.h"
 
 namespace rung::bind {
 namespace {
 
 using codegen::HostLayout;
 using codegen::MemberKind;
-using mapping::Mistake;
+using host::Mistake;
 
 // The cell of a name.
 struct Place {
@@ -156,7 +156,7 @@ private:
       return (symbol.flags & (RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST)) == 0;
     };
     const std::span symbols(program_.symbols, program_.symbol_count);
-    const std::string_view meant = mostSimilar(head, symbols | std::views::filter(isShown), &rung_symbol::name);
+    const std::string_view meant = text::mostSimilar(head, symbols | std::views::filter(isShown), &rung_symbol::name);
     return {"an unknown name " + entry_->name, "a symbol or an address of the program, or a signal of the NC interface",
             meant.empty() ? "write the name as the program has it" : fmt::format("did you mean {}?", meant)};
   }

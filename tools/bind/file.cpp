@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include "ir/support/similar.h"
-#include "tools/toml/parse.h"
+#include "rtlib/text/similar.h"
+#include "rtlib/text/toml.h"
 
 namespace rung::bind {
 namespace {
@@ -61,8 +61,9 @@ private:
          fmt::format("{}: found {}, expected {}; write for example {}", where, shown(node), expected, example));
   }
   void unknown(const toml::key& key, std::string_view where, std::initializer_list<std::string_view> known) {
-    fail(positionOf(key.source()), fmt::format("{}: found an unknown key {}, expected {}{}", where, key.str(),
-                                               fmt::join(known, ", "), didYouMean(mostSimilar(key.str(), known))));
+    fail(positionOf(key.source()),
+         fmt::format("{}: found an unknown key {}, expected {}{}", where, key.str(), fmt::join(known, ", "),
+                     text::didYouMean(text::mostSimilar(key.str(), known))));
   }
 
   // axis.position = … is a key of a table `axis`; { … } says more of one member.
@@ -133,7 +134,7 @@ private:
 File parse(std::string_view text, std::vector<Error>& errors) {
   File file;
   try {
-    Reader(file, errors).read(toml_text::parse(text));
+    Reader(file, errors).read(text::parse(text));
   } catch (const toml::parse_error& error) {
     errors.push_back({positionOf(error.source()), fmt::format("{}; the file must be TOML; the rest is checked once "
                                                               "this is corrected",

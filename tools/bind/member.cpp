@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "ir/support/similar.h"
 #include "rtlib/text/number.h"
+#include "rtlib/text/similar.h"
 
 namespace rung::bind {
 namespace {
@@ -27,7 +27,7 @@ bool findIn(const HostLayout& layout, const HostRecord& record, std::string_view
   return false;
 }
 
-void offerNames(const HostLayout& layout, const HostRecord& record, Similar& similar) {
+void offerNames(const HostLayout& layout, const HostRecord& record, text::Similar& similar) {
   for (const HostMember& member : record.members) {
     if (!member.name.empty())
       similar.offer(member.name);
@@ -63,10 +63,10 @@ private:
     rest_.remove_prefix(end);
     const HostRecord& in = layout_.records[record];
     if (!name.empty() && findIn(layout_, in, name, at_.bit, at_)) return true;
-    Similar similar(name);
+    text::Similar similar(name);
     offerNames(layout_, in, similar);
     problem_ = fmt::format("found an unknown member {}, expected one of {}{}", name, where,
-                           similar.best().empty() ? "; --template lists them" : didYouMean(similar.best()));
+                           similar.best().empty() ? "; --template lists them" : text::didYouMean(similar.best()));
     return false;
   }
 

@@ -14,10 +14,10 @@ EVERYTHING = ("CMakeLists.txt", "*/CMakeLists.txt", "*.cmake", "cmake/*", "CMake
 # What only tests read that look at the whole tree (READS .).
 HARMLESS = ("*.md", "LICENSE", ".gitignore", "*/.gitignore", ".clang-tidy", ".clang-format", "debian/*", "packaging/*")
 # Where a file of C or C++ that nothing is built from is no known case, whoever reads it.
-PRODUCT = ("codegen/", "frontend/", "ir/", "rtlib/", "tools/")
+PRODUCT = ("codegen/", "compiler/", "frontend/", "ir/", "machine/", "rtlib/", "sim/", "tools/")
 INCLUDED = (".h", ".hpp", ".hxx", ".def", ".inc")
 COMPILED = (".c", ".cc", ".cpp")
-TOPS = ("codegen", "debian", "docs", "examples", "frontend", "ir", "packaging", "rtlib", "tests", "tools")
+TOPS = ("codegen", "compiler", "debian", "docs", "examples", "frontend", "ir", "machine", "packaging", "rtlib", "sim", "tests", "tools")
 NAMED = re.compile(r"(?<![\w./-])(?:[A-Z]+\.md|LICENSE|(?:%s)(?:/[\w.+-]+)*)(?=(/?))" % "|".join(TOPS))
 INCLUDE = re.compile(r'^\s*#\s*include.*$', re.MULTILINE)
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"|\'((?:[^\'\\\n]|\\.)*)\'')

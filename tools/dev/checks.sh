@@ -115,7 +115,7 @@ check_coverage() { # which lines the tests run; a source file that none of them 
   LLVM_PROFILE_FILE="$PWD/build-coverage/profile/build/%4m.profraw" build_preset coverage build-coverage
   rm -f build-coverage/profile/*.profraw
   LLVM_PROFILE_FILE="$PWD/build-coverage/profile/%4m.profraw" test_in build-coverage
-  tools/coverage-report build-coverage
+  tools/dev/coverage-report build-coverage
 }
 
 check_reads() {

@@ -9,10 +9,10 @@
 #include "codegen/clang/layout_json.h"
 #include "codegen/process/process.h"
 #include "ir/support/temporary_folder.h"
+#include "machine/host/mapping_file.h"
 #include "tools/bind/binding.h"
 #include "tools/bind/generate.h"
 #include "tools/bind/template.h"
-#include "tools/mapping/file.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/opened_program.h"
 
@@ -109,7 +109,7 @@ int run(const BindOptions& options) {
     return usageError(fmt::format("bind: --struct takes a name of at most {} characters", kLongestName));
   std::string file;
   try {
-    if (!options.makeTemplate) file = mapping::readFromDisk(options.members);
+    if (!options.makeTemplate) file = host::readFromDisk(options.members);
   } catch (const std::exception& error) {
     return environmentError(error.what());
   }

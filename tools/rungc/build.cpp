@@ -6,15 +6,15 @@
 
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/llvm/llvm_emitter.h"
+#include "compiler/engines.h"
+#include "compiler/kept_ir.h"
 #include "ir/text/text.h"
-#include "rtlib/host/sealing.h"
+#include "machine/host/mapping_file.h"
+#include "rtlib/load/sealing.h"
 #include "tools/bind/claim.h"
-#include "tools/compiler/engines.h"
-#include "tools/compiler/kept_ir.h"
-#include "tools/console/working.h"
-#include "tools/mapping/file.h"
-#include "tools/profile/branches.h"
+#include "tools/report/profile_branches.h"
 #include "tools/rungc/commands.h"
+#include "tools/scenario/working.h"
 
 namespace rung::rungc {
 namespace {
@@ -58,7 +58,7 @@ std::optional<compiler::Compiled> compileWithProfile(SourceManager& sources, con
                                                      compiler::CompileRequest request, int& status) {
   ir::BranchCounts branches;
   if (!options.profileUse.empty()) {
-    Result<ir::BranchCounts> read = profile::branchesIn(options.profileUse);
+    Result<ir::BranchCounts> read = report::branchesIn(options.profileUse);
     if (!read.ok()) {
       status = environmentError(read.error());
       return std::nullopt;
@@ -78,7 +78,7 @@ bool takeBindings(const BuildOptions& options, compiler::CompileRequest& request
   for (const std::string& path : options.bindings) {
     std::string file;
     try {
-      file = mapping::readFromDisk(path);
+      file = host::readFromDisk(path);
     } catch (const std::exception& error) {
       status = environmentError(error.what());
       return false;
@@ -104,7 +104,7 @@ codegen::LlvmOptions llvmOptionsOf(const BuildOptions& options) {
 }
 
 Result<std::string> objectOf(const compiler::Compiled& compiled, const BuildOptions& options) {
-  const console::Working working("compiling to machine code");
+  const scenario::Working working("compiling to machine code");
   if (options.via == "llvm")
     return codegen::buildLlvmSharedObject(*compiled.layout, compiled.codeHash, llvmOptionsOf(options));
   codegen::CppBuildOptions cpp;
@@ -120,7 +120,7 @@ Result<std::string> objectOf(const compiler::Compiled& compiled, const BuildOpti
 int buildObject(const compiler::Compiled& compiled, const BuildOptions& options) {
   Result<std::string> object = objectOf(compiled, options);
   if (object.ok() && !options.noIr) object = compiler::withIr(object.value(), compiled);
-  return object.ok() ? writeProgram(options.out, host::sealed(object.value())) : environmentError(object.error());
+  return object.ok() ? writeProgram(options.out, runtime::sealed(object.value())) : environmentError(object.error());
 }
 
 int writeListing(const SourceManager& sources, const compiler::Compiled& compiled, const std::string& name) {
@@ -140,7 +140,7 @@ std::string writtenBy(const BuildOptions& options) {
 }
 
 Result<std::string> textOf(const compiler::Compiled& compiled, const BuildOptions& options) {
-  const console::Working working("writing the " + options.what);
+  const scenario::Working working("writing the " + options.what);
   Result<std::string> text = failure("");
   if (options.what == "cpp")
     text = codegen::emitCpp(*compiled.layout, compiled.codeHash, {.debugInfo = options.debugInfo});
@@ -187,7 +187,7 @@ void addBuild(CommandLine& app, int& status) {
       status = usageError("build needs -o FILE; only a project has a default name");
       return;
     }
-    if (options->out.empty()) options->out = project::productOf(*options->source.project, ".so");
+    if (options->out.empty()) options->out = compiler::productOf(*options->source.project, ".so");
     SourceManager sources;
     compiler::CompileRequest request = requestOf(*options);
     request.keepBuilt = !options->noIr;

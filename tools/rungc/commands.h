@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "tools/command-line/command_line.h"
-#include "tools/command-line/usage.h"
-#include "tools/compiler/compile.h"
-#include "tools/project/project.h"
+#include "compiler/compile.h"
+#include "compiler/project.h"
+#include "machine/command-line/command_line.h"
+#include "machine/command-line/usage.h"
 
 namespace rung::rungc {
 
@@ -29,7 +29,7 @@ struct SourceOptions {
   std::vector<std::string> config; // KEY=VALUE, those of the project first
   std::string projectFile;         // --project
   bool noProject = false;
-  std::optional<project::Project> project; // that the files belong to
+  std::optional<compiler::Project> project; // that the files belong to
   bool strict = false;
   bool json = false;
   bool quiet = false;
@@ -47,7 +47,7 @@ bool namesProject(const std::string& name);
 int takeProject(SourceOptions& options);
 // The project that a folder or a rung.toml names, or with "" the nearest one upwards; its mistakes are printed.
 // Nothing, and `status` says why, when there is none.
-std::optional<project::Project> openProject(const std::string& named, const SourceOptions& options, int& status);
+std::optional<compiler::Project> openProject(const std::string& named, const SourceOptions& options, int& status);
 void addColorOption(Command command, std::string& color, const std::string& what);
 // By the option and, with auto, whether the file is a terminal.
 bool wantsColor(const std::string& color, int file);
@@ -75,7 +75,7 @@ int environmentError(const std::string& message);
 void printSummary(const compiler::Compiled& compiled, const SourceOptions& options, const std::string& written);
 // "wrote mill.html" when the status is good; nothing with --quiet or --json. Gives the status.
 int sayWrote(int status, const std::string& out, const SourceOptions& options);
-// The whole text or, as the exit status and a message say, nothing (see host::replaceFile).
+// The whole text or, as the exit status and a message say, nothing (see runtime::replaceFile).
 int writeFile(const std::string& text, const std::string& out);
 // To a file, or with "" or "-" to standard output.
 int writeOutput(const std::string& text, const std::string& out = {});

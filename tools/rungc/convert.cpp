@@ -8,8 +8,8 @@
 #include "frontend/dialects/gsk/language.h"
 #include "frontend/network/convert/convert.h"
 #include "ir/support/diag/source.h"
-#include "tools/console/working.h"
 #include "tools/rungc/commands.h"
+#include "tools/scenario/working.h"
 
 namespace rung::rungc {
 namespace {
@@ -24,13 +24,14 @@ std::optional<std::string> convert(SourceManager& sources, std::span<const FileI
                                    const frontend::CompileOptions& compile, Diagnostics& diagnostics) {
   const frontend::Dialect* dialect = compiler::chooseDialect(sources, files, options.source.dialect, diagnostics);
   if (dialect == nullptr) return std::nullopt;
-  if (dialect != &gsk::kGsk) {
+  if (dialect != &frontend::gsk::kGsk) {
     diagnostics.report(diag::NoConversion, sources.range(files[0], 0, 0)) << dialect->title;
     return std::nullopt;
   }
   if (dialect->compile(sources, files, compile, diagnostics) == nullptr) return std::nullopt;
-  const auto form = options.to == "list" ? network::convert::Form::List : network::convert::Form::Ladder;
-  std::optional<std::string> text = network::convertProgram(gsk::kLanguage, sources, files, form, diagnostics);
+  const auto form = options.to == "list" ? frontend::network::Form::List : frontend::network::Form::Ladder;
+  std::optional<std::string> text =
+      frontend::network::convertProgram(frontend::gsk::kLanguage, sources, files, form, diagnostics);
   const std::string_view encoding = sources.saidEncoding(files[0]); // the result is written in it
   if (text && !encoding.empty()) text->insert(0, fmt::format("; encoding: {}\n", encoding));
   return text;
@@ -54,7 +55,7 @@ int run(const ConvertOptions& options) {
   if (!files) return status;
   Diagnostics diagnostics;
   const auto text = [&] {
-    const console::Working working("converting");
+    const scenario::Working working("converting");
     return convert(sources, *files, options, compile, diagnostics);
   }();
   // With --json the diagnostics go to standard output: after a program there they would corrupt it.

@@ -17,22 +17,22 @@
 namespace rung::rungc {
 namespace {
 
-Result<coverage::Report> readReport(const std::string& path) {
+Result<report::CoverageReport> readReport(const std::string& path) {
   std::string contents;
   const std::string problem = text::readRegular(path, text::kMostSource, contents);
   if (!problem.empty()) return failure(fmt::format("cannot read '{}': {}", path, problem));
-  Result<coverage::Report> report = coverage::fromJson(contents);
+  Result<report::CoverageReport> report = report::fromJson(contents);
   if (!report.ok()) return failure(fmt::format("'{}' is not a report of --coverage-json: {}", path, report.error()));
   return report;
 }
 
 // Every share must reach the least that was asked for.
-int checkLeast(const coverage::Totals& totals, double least) {
+int checkLeast(const report::Totals& totals, double least) {
   int status = kOk;
-  const auto check = [&](std::string_view what, const coverage::Share& share) {
+  const auto check = [&](std::string_view what, const report::Share& share) {
     if (share.percent() >= least) return;
     fmt::print(stderr, "rungc: coverage: {} {}, less than the {:g} % of --coverage-min\n", what,
-               coverage::percentText(share), least);
+               report::percentText(share), least);
     status = kWrong;
   };
   check("rungs run", totals.rungs);
@@ -80,9 +80,9 @@ void CoverageRun::observe(scenario::RunOptions& run) {
 }
 
 // A page for each program that has run; one that only a former run knows is not drawn.
-int CoverageRun::writePages(const coverage::Report& report, const std::string& path) const {
+int CoverageRun::writePages(const report::CoverageReport& report, const std::string& path) const {
   size_t pages = 0;
-  for (const coverage::Program& program : report.programs) {
+  for (const report::Program& program : report.programs) {
     const auto origin = origins_.find(program.files);
     if (origin == origins_.end()) continue;
     const auto& [dialect, project, options] = origin->second;
@@ -97,18 +97,18 @@ int CoverageRun::writePages(const coverage::Report& report, const std::string& p
 }
 
 int CoverageRun::finish(const CoverageOptions& options) const {
-  coverage::Report report = collection_.report();
+  report::CoverageReport report = collection_.report();
   for (const std::string& path : options.former) {
-    const Result<coverage::Report> former = readReport(path);
+    const Result<report::CoverageReport> former = readReport(path);
     if (!former.ok()) return environmentError(former.error());
-    coverage::mergeFormer(report, former.value());
+    report::mergeFormer(report, former.value());
   }
   if (options.text || options.all)
-    fmt::print("\n{}", coverage::toText(report, {.missing = options.all ? 0 : coverage::TextOptions{}.missing}));
+    fmt::print("\n{}", report::toText(report, {.missing = options.all ? 0 : report::CoverageTextOptions{}.missing}));
   int status = kOk;
-  if (!options.json.empty()) status = std::max(status, writeFile(coverage::toJson(report), options.json));
+  if (!options.json.empty()) status = std::max(status, writeFile(report::toJson(report), options.json));
   if (!options.html.empty()) status = std::max(status, writePages(report, options.html));
-  if (options.least > 0) status = std::max(status, checkLeast(coverage::totalsOf(report), options.least));
+  if (options.least > 0) status = std::max(status, checkLeast(report::totalsOf(report), options.least));
   return status;
 }
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "frontend/dialects/dialect.h"
-#include "tools/command-line/command_line.h"
-#include "tools/coverage/collector.h"
+#include "machine/command-line/command_line.h"
+#include "tools/report/coverage_collector.h"
 #include "tools/scenario/runner.h"
 
 namespace rung::rungc {
@@ -41,9 +41,9 @@ public:
   int finish(const CoverageOptions& options) const;
 
 private:
-  int writePages(const coverage::Report& report, const std::string& path) const;
+  int writePages(const report::CoverageReport& report, const std::string& path) const;
 
-  coverage::Collection collection_;
+  report::Collection collection_;
   std::mutex mutex_;                                   // of the origins
   std::map<std::vector<std::string>, Origin> origins_; // by files
 };

@@ -10,8 +10,8 @@ namespace {
 
 using Element = view::ElementOverlay;
 
-std::string summaryLine(std::string_view what, const coverage::Share& share) {
-  return fmt::format("{}: {} of {}, {}", what, share.seen, share.all, coverage::percentText(share));
+std::string summaryLine(std::string_view what, const report::Share& share) {
+  return fmt::format("{}: {} of {}, {}", what, share.seen, share.all, report::percentText(share));
 }
 
 void say(Element& element, const std::string& text) {
@@ -22,11 +22,11 @@ void say(Element& element, const std::string& text) {
 // The elements of one rung by line and column: the inputs of a box and its result are one element.
 class Elements {
 public:
-  explicit Elements(const coverage::Rung& rung) : rung_(rung) {
-    for (const coverage::Output& output : rung.outputs) add(output);
-    for (const coverage::Condition& condition : rung.conditions) add(condition);
-    for (const coverage::Decision& decision : rung.decisions)
-      for (const coverage::Deciding& deciding : decision.by) add(decision, deciding);
+  explicit Elements(const report::Rung& rung) : rung_(rung) {
+    for (const report::Output& output : rung.outputs) add(output);
+    for (const report::Condition& condition : rung.conditions) add(condition);
+    for (const report::Decision& decision : rung.decisions)
+      for (const report::Deciding& deciding : decision.by) add(decision, deciding);
   }
   void appendTo(std::vector<Element>& all) const {
     for (const auto& [place, element] : byPlace_) all.push_back(element);
@@ -40,35 +40,35 @@ private:
     return {found->second, isNew};
   }
   // Of a box with several pins the first gives its state, the others are in its detail.
-  void add(const coverage::Output& output) {
+  void add(const report::Output& output) {
     const auto [element, isNew] = at(output);
-    if (!isNew) return say(element, named(output.text, coverage::missingOf(output)));
+    if (!isNew) return say(element, named(output.text, report::missingOf(output)));
     element.kind = output.coil ? Element::Kind::Coil : Element::Kind::Box;
     element.off = output.off;
     element.on = output.on;
   }
-  void add(const coverage::Condition& condition) {
+  void add(const report::Condition& condition) {
     const auto [element, isNew] = at(condition);
-    if (!isNew) return say(element, named("its result", coverage::missingOf(condition)));
+    if (!isNew) return say(element, named("its result", report::missingOf(condition)));
     element.kind = condition.contact ? Element::Kind::Contact : Element::Kind::Box;
     element.off = condition.open;
     element.on = condition.closed;
   }
-  void add(const coverage::Decision& decision, const coverage::Deciding& deciding) {
+  void add(const report::Decision& decision, const report::Deciding& deciding) {
     if (deciding.bothWays()) return;
     Element& element = at(rung_.conditions[deciding.condition]).first;
     element.decided = false;
-    say(element, coverage::missingOf(deciding, rung_.outputs[decision.outputs[0]].text));
+    say(element, report::missingOf(deciding, rung_.outputs[decision.outputs[0]].text));
   }
   static std::string named(std::string_view what, const std::string& missing) {
     return missing.empty() ? std::string() : fmt::format("{}: {}", what, missing);
   }
 
-  const coverage::Rung& rung_;
+  const report::Rung& rung_;
   std::map<std::pair<uint32_t, uint32_t>, Element> byPlace_;
 };
 
-view::Run runOf(const coverage::Rung& rung) {
+view::Run runOf(const report::Rung& rung) {
   view::Run run;
   run.state = rung.runs > 0 ? view::Run::State::Ran : view::Run::State::Never;
   if (rung.runs > 0) run.label = rung.runs == 1 ? "ran once" : fmt::format("ran {} times", rung.runs);
@@ -77,14 +77,14 @@ view::Run runOf(const coverage::Rung& rung) {
 
 } // namespace
 
-view::Overlay overlayOf(const coverage::Program& program) {
-  const coverage::Totals totals = coverage::totalsOf(program.rungs);
+view::Overlay overlayOf(const report::Program& program) {
+  const report::Totals totals = report::totalsOf(program.rungs);
   view::Overlay overlay;
   overlay.title = "Coverage";
   overlay.summary = {summaryLine("rungs run", totals.rungs), summaryLine("contacts open and closed", totals.contacts),
                      summaryLine("coils on and off", totals.coils),
                      summaryLine("conditions shown to decide", totals.decided)};
-  for (const coverage::Rung& rung : program.rungs) {
+  for (const report::Rung& rung : program.rungs) {
     overlay.rungs.push_back({rung.number, {rung.file, rung.line, 0}, runOf(rung)});
     Elements(rung).appendTo(overlay.elements);
   }

@@ -1,10 +1,10 @@
 // Coverage of a program in the terms of its drawing.
 #pragma once
-#include "tools/coverage/report.h"
+#include "tools/report/coverage_report.h"
 #include "tools/view/overlay.h"
 
 namespace rung::rungc {
 
-view::Overlay overlayOf(const coverage::Program& program);
+view::Overlay overlayOf(const report::Program& program);
 
 } // namespace rung::rungc

@@ -9,7 +9,7 @@
 #include "ir/image/program_image.h"
 #include "ir/support/hash.h"
 #include "rtlib/text/letters.h"
-#include "tools/difference/difference.h"
+#include "tools/report/difference.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -59,7 +59,7 @@ std::optional<size_t> placeOf(const std::string& copy, const Side& whole) {
 // False: it is not known which file of the project it is.
 bool completeCopy(Side& copy, const Side& whole) {
   const std::optional<size_t> place = placeOf(copy.name, whole);
-  const project::Project& project = *whole.options.project;
+  const compiler::Project& project = *whole.options.project;
   if (!place) {
     fmt::print(stderr,
                "rungc: {} is in no project, and {} has no file of this name: configuration and messages are not "
@@ -95,8 +95,8 @@ uint64_t contentOf(const std::string& path) {
 
 // Numbers by their values, times in microseconds, files beside the project by their names there. What the control reads
 // from a file counts; what the compiler reads is compared as what it has become.
-difference::Setting settingOf(const nc::ConfigKey* row, const std::string& value, const SourceOptions& options) {
-  difference::Setting setting{.text = value, .meaning = value, .content = 0};
+report::Setting settingOf(const nc::ConfigKey* row, const std::string& value, const SourceOptions& options) {
+  report::Setting setting{.text = value, .meaning = value, .content = 0};
   if (row == nullptr) return setting;
   switch (row->form) {
   case nc::ConfigForm::Whole: setting.meaning = std::to_string(nc::wholeNumber(value)); break;
@@ -117,12 +117,12 @@ difference::Setting settingOf(const nc::ConfigKey* row, const std::string& value
 }
 
 // A key that says what holds without it says nothing.
-difference::Settings settingsOf(const Side& side) {
-  difference::Settings settings;
+report::Settings settingsOf(const Side& side) {
+  report::Settings settings;
   for (const auto& [key, value] : side.compiled->options.config) {
     if (key == nc::kEncodingKey.key) continue; // of the files; what they say with it is compared
     const nc::ConfigKey* row = nc::findConfigKey(side.compiled->dialect->configKeys, key);
-    difference::Setting setting = settingOf(row, value, side.options);
+    report::Setting setting = settingOf(row, value, side.options);
     const std::string without = row == nullptr ? "" : std::string(row->otherwise);
     if (without.empty() || settingOf(row, without, {}).meaning != setting.meaning) settings.emplace(key, setting);
   }
@@ -155,13 +155,13 @@ int run(const DiffOptions& options) {
     return usageError("the two programs have different dialects");
   const ir::ProgramImage images[] = {{*before.compiled->layout, 0}, {*after.compiled->layout, 0}};
   const auto version = [&](const Side& side, const ir::ProgramImage& image) {
-    return difference::Version{*side.compiled->built, side.compiled->given, image.program(),
-                               complete ? settingsOf(side) : difference::Settings{},
-                               controlNames(side.compiled->source->analysis())};
+    return report::Version{*side.compiled->built, side.compiled->given, image.program(),
+                           complete ? settingsOf(side) : report::Settings{},
+                           controlNames(side.compiled->source->analysis())};
   };
-  const difference::Options what{.messages = complete, .textName = before.compiled->dialect->textName};
-  const difference::Difference found = difference::compare(version(before, images[0]), version(after, images[1]), what);
-  const auto show = options.format == "json" ? difference::shownAsJson : difference::shownAsText;
+  const report::Options what{.messages = complete, .textName = before.compiled->dialect->textName};
+  const report::Difference found = report::compare(version(before, images[0]), version(after, images[1]), what);
+  const auto show = options.format == "json" ? report::shownAsJson : report::shownAsText;
   status = writeOutput(show(found, *before.compiled->built, *after.compiled->built));
   return status != kOk || found.none() ? status : kWrong;
 }

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <memory>
 
-#include "ir/support/similar.h"
+#include "compiler/reference.h"
 #include "rtlib/text/letters.h"
-#include "tools/compiler/reference.h"
+#include "rtlib/text/similar.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/explain_place.h"
 #include "tools/rungc/plain_text.h"
@@ -44,7 +44,7 @@ std::string listed(const std::vector<compiler::ReferenceEntry>& found) {
 }
 
 int reportUnknown(const std::vector<compiler::ReferenceEntry>& entries, const std::string& word, bool hasErrors) {
-  const std::string meant = didYouMean(mostSimilar(word, entries, &compiler::ReferenceEntry::name));
+  const std::string meant = text::didYouMean(text::mostSimilar(word, entries, &compiler::ReferenceEntry::name));
   if (hasErrors)
     fmt::print(stderr, "rungc: the program of the project has errors, so its addresses are not known: `rungc check` "
                        "lists the errors\n");

@@ -6,22 +6,21 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "compiler/manual_lines.h"
 #include "frontend/ladder/text/keywords.h"
 #include "frontend/syntax/word_lexer.h"
-#include "ir/support/ascii.h"
 #include "ir/support/put.h"
 #include "ir/support/utf8.h"
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
-#include "tools/compiler/manual_lines.h"
+#include "tools/report/module_reference.h"
+#include "tools/report/odd_names.h"
+#include "tools/report/place_names.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/plain_text.h"
-#include "tools/xref/module_reference.h"
-#include "tools/xref/odd_names.h"
-#include "tools/xref/place_names.h"
 
 namespace rung::rungc {
 namespace {
@@ -30,19 +29,19 @@ using frontend::Analysis;
 using frontend::Definition;
 
 std::string typeText(const rung_symbol& symbol) {
-  const host::Ref place = host::refOf(symbol);
-  const bool isText = place.kind == host::RefKind::Text;
-  const std::string cell = isText                              ? fmt::format("text of {} bytes", place.count)
-                           : place.kind == host::RefKind::Real ? "real number"
-                           : place.kind == host::RefKind::Bit  ? "bit"
-                                                               : fmt::format("integer of {} bits", place.width);
+  const runtime::Ref place = runtime::refOf(symbol);
+  const bool isText = place.kind == runtime::RefKind::Text;
+  const std::string cell = isText                                 ? fmt::format("text of {} bytes", place.count)
+                           : place.kind == runtime::RefKind::Real ? "real number"
+                           : place.kind == runtime::RefKind::Bit  ? "bit"
+                                                                  : fmt::format("integer of {} bits", place.width);
   return isText || place.count <= 1 ? cell : fmt::format("{} times {}", place.count, cell);
 }
 
 class Explainer {
 public:
   // `reference`: of a program without errors; it has the names of places and the rungs that use them. Else null.
-  Explainer(const SourceManager& sources, const Analysis& analysis, const xref::CrossReference* reference)
+  Explainer(const SourceManager& sources, const Analysis& analysis, const report::CrossReference* reference)
       : sources_(sources), analysis_(analysis), reference_(reference) {}
 
   // What an operand or a name there is; "" where there is none. `word`: all that is written there without a blank.
@@ -73,13 +72,13 @@ public:
   std::string addressed(const std::string& address) {
     if (reference_ == nullptr) return {};
     const auto place = nc::resolve(reference_->program(), address);
-    if (!place || place->kind == host::RefKind::Constant) return {};
+    if (!place || place->kind == runtime::RefKind::Constant) return {};
     for (const Definition& definition : analysis_.definitions())
       if (definition.range.valid() && isAt(definition.place, *place)) {
         put(out_, "{} is {}: {}\n", address, definition.name, typeOf(definition));
         define(definition);
       }
-    const xref::Entry entry = reference_->of(*place);
+    const report::Entry entry = reference_->of(*place);
     if (!out_.empty() || !entry.accesses.empty()) show(entry);
     return std::move(out_);
   }
@@ -102,7 +101,7 @@ private:
   }
   std::string typeOf(const Definition& definition) const {
     if (reference_ != nullptr)
-      if (const rung_symbol* symbol = host::findSymbol(reference_->program(), definition.name))
+      if (const rung_symbol* symbol = runtime::findSymbol(reference_->program(), definition.name))
         return typeText(*symbol);
     if (!hasPlace(definition)) return "a name without a place in memory";
     return definition.place.bits == 1 ? "bit" : fmt::format("{} bits", definition.place.bits);
@@ -117,18 +116,18 @@ private:
   static bool hasPlace(const Definition& definition) { return definition.isConstant() || definition.place.bits != 0; }
   void uses(const frontend::NamedPlace& place) {
     if (reference_ == nullptr) return;
-    const auto bits = xref::rangeOf(reference_->program(), place);
+    const auto bits = report::rangeOf(reference_->program(), place);
     if (!bits) return;
-    show(reference_->of(xref::refAt(*bits)));
+    show(reference_->of(report::refAt(*bits)));
   }
-  void show(const xref::Entry& entry) {
-    std::vector<xref::Entry> entries{entry};
-    xref::markOdd(sources_, analysis_, *reference_, entries);
-    put(out_, "{}{}", out_.empty() ? "" : "\n", xref::shownAsText(*reference_, entries, true));
+  void show(const report::Entry& entry) {
+    std::vector<report::Entry> entries{entry};
+    report::markOdd(sources_, analysis_, *reference_, entries);
+    put(out_, "{}{}", out_.empty() ? "" : "\n", report::shownAsText(*reference_, entries, true));
   }
-  bool isAt(const frontend::NamedPlace& named, const host::Ref& place) const {
-    const auto bits = xref::rangeOf(reference_->program(), named);
-    return bits && *bits == xref::bitsOf(place);
+  bool isAt(const frontend::NamedPlace& named, const runtime::Ref& place) const {
+    const auto bits = report::rangeOf(reference_->program(), named);
+    return bits && *bits == report::bitsOf(place);
   }
   void targets(const frontend::TargetUse& here) {
     put(out_, "{}: {}\n", sources_.text(here.range), here.defines ? "a label or subprogram" : "control goes there");
@@ -139,7 +138,7 @@ private:
 
   const SourceManager& sources_;
   const Analysis& analysis_;
-  const xref::CrossReference* reference_;
+  const report::CrossReference* reference_;
   std::string out_;
 };
 
@@ -180,22 +179,23 @@ std::string_view wordAt(std::string_view line, size_t at) {
   return line.substr(begin, end - begin);
 }
 
-LineWords wordsOf(const SourceManager& sources, SourcePos at) {
+frontend::LineWords wordsOf(const SourceManager& sources, SourcePos at) {
   const std::string_view text = sources.lineText(at);
   const size_t mark = markLength(text);
-  const SourceLine line{sources.lineCol(at).line,
-                        text.substr(mark),
-                        {at.value - static_cast<uint32_t>(sources.offsetOf(at) - sources.lineStart(at).offset - mark)}};
-  LineWords words;
+  const frontend::SourceLine line{
+      sources.lineCol(at).line,
+      text.substr(mark),
+      {at.value - static_cast<uint32_t>(sources.offsetOf(at) - sources.lineStart(at).offset - mark)}};
+  frontend::LineWords words;
   splitWords(line, {.comment = ';', .quotes = "\"'", .separators = {}}, words);
   return words;
 }
 
 // A title, a text, a comment; "" for anything else.
-std::string_view proseAt(const LineWords& words, SourcePos at) {
+std::string_view proseAt(const frontend::LineWords& words, SourcePos at) {
   const auto isIn = [&](SourceRange range) { return range.begin <= at && at < range.end; };
   if (words.hasComment && isIn(words.commentRange)) return "a comment";
-  for (const Word& word : words.words) {
+  for (const frontend::Word& word : words.words) {
     if (!word.quoted || !isIn(word.range)) continue;
     const std::string_view first = words.words.front().text;
     if (first == "rung") return "the title of a rung";
@@ -206,11 +206,11 @@ std::string_view proseAt(const LineWords& words, SourcePos at) {
 
 // A number as the dialects write it, perhaps after its type: #5, *1.5, 40h, CNST.0.
 bool isNumber(std::string_view word) {
-  if (const size_t point = word.find('.'); point != std::string_view::npos && point > 0 && isLetter(word[0]))
+  if (const size_t point = word.find('.'); point != std::string_view::npos && point > 0 && text::isLetter(word[0]))
     word.remove_prefix(point + 1);
   const size_t first = word.find_first_not_of("#*$+-.");
   if (first == std::string_view::npos) return false;
-  return isDigit(word[first]) || word.substr(0, first).find_first_of("#*") != std::string_view::npos;
+  return text::isDigit(word[first]) || word.substr(0, first).find_first_of("#*") != std::string_view::npos;
 }
 
 // What is written before an operand in its brackets.
@@ -234,11 +234,11 @@ std::string_view markAt(std::string_view line, size_t at) {
 }
 
 // Words by their places in a statement: a keyword, what follows it.
-std::string explainStatementWord(const LineWords& words, std::string_view word) {
+std::string explainStatementWord(const frontend::LineWords& words, std::string_view word) {
   if (words.words.empty()) return {};
   const std::string_view first = words.words[0].text;
-  const auto keyword = std::ranges::find(ladder::kKeywords, first, &ladder::Keyword::word);
-  if (keyword == std::end(ladder::kKeywords)) return {};
+  const auto keyword = std::ranges::find(frontend::ladder::kKeywords, first, &frontend::ladder::Keyword::word);
+  if (keyword == std::end(frontend::ladder::kKeywords)) return {};
   if (word == first) return fmt::format("{}: {}\n", word, keyword->meaning);
   if (first == "dialect") return fmt::format("{}: the control that the program is for\n", word);
   if (first == "module") return fmt::format("{}: the name of the module\n", word);
@@ -308,7 +308,7 @@ private:
   const frontend::Dialect* dialect_ = nullptr;
   std::unique_ptr<frontend::CheckedProgram> program_;
   std::unique_ptr<ir::Module> module_;
-  std::optional<xref::ModuleReference> reference_;
+  std::optional<report::ModuleReference> reference_;
 };
 
 // What is written at a place.
@@ -384,7 +384,7 @@ private:
   const SourceManager& sources_;
   const frontend::Dialect& dialect_;
   const SourcePos at_;
-  const LineWords words_;
+  const frontend::LineWords words_;
   const std::string_view line_;
   const size_t offset_; // in the line
 };
@@ -395,7 +395,7 @@ namespace {
 
 // The program of the project that a file lies in, where the program includes the file; else null.
 std::unique_ptr<OpenProgram> includingProgram(const std::string& file) {
-  const auto projectFile = project::findUpwards(std::filesystem::path(file).parent_path().string());
+  const auto projectFile = compiler::findUpwards(std::filesystem::path(file).parent_path().string());
   if (!projectFile) return nullptr;
   SourceOptions options;
   options.projectFile = *projectFile;
@@ -430,7 +430,7 @@ std::optional<std::string> explainPlace(const SourcePlace& place, int& status) {
 }
 
 std::optional<ProjectNames> namesOfProject(const std::string& word, const std::string& projectFile) {
-  if (projectFile.empty() && !project::findUpwards("")) return std::nullopt;
+  if (projectFile.empty() && !compiler::findUpwards("")) return std::nullopt;
   SourceOptions options;
   options.projectFile = projectFile;
   int status = takeProject(options);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/compiler/reference.h"
+#include "compiler/reference.h"
 
 namespace rung::rungc {
 

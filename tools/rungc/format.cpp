@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "ir/support/check.h"
-#include "rtlib/host/file.h"
+#include "rtlib/load/file.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -22,7 +22,7 @@ struct FormatOptions {
 
 bool isProject(const std::string& name) {
   std::error_code error;
-  return fs::is_directory(name, error) || fs::path(name).filename() == project::kFileName;
+  return fs::is_directory(name, error) || fs::path(name).filename() == compiler::kFileName;
 }
 
 bool isIn(const std::string& name, const std::string& folder) {
@@ -30,23 +30,23 @@ bool isIn(const std::string& name, const std::string& folder) {
   return !relative.empty() && *relative.begin() != "..";
 }
 
-std::map<std::string, std::string> configOf(const project::Project& project) {
+std::map<std::string, std::string> configOf(const compiler::Project& project) {
   std::map<std::string, std::string> config;
-  for (const project::Setting& setting : project.config) config[setting.key] = setting.value;
+  for (const compiler::Setting& setting : project.config) config[setting.key] = setting.value;
   return config;
 }
 
 // Of the project in whose folder the file is; nothing where there is none that can be read.
 std::map<std::string, std::string> configFor(const std::string& name) {
-  const auto found = project::findUpwards(fs::path(name).parent_path().string());
+  const auto found = compiler::findUpwards(fs::path(name).parent_path().string());
   SourceManager sources;
   Diagnostics diagnostics;
-  const auto project = found ? project::load(sources, *found, diagnostics) : std::nullopt;
+  const auto project = found ? compiler::load(sources, *found, diagnostics) : std::nullopt;
   return project ? configOf(*project) : std::map<std::string, std::string>();
 }
 
 // What the files of a project include from its folder; what lies elsewhere may be other people's.
-std::vector<std::string> includedFiles(const project::Project& project) {
+std::vector<std::string> includedFiles(const compiler::Project& project) {
   const frontend::Dialect& dialect = *frontend::findDialect(project.dialect);
   SourceManager sources;
   const Result<std::vector<FileId>> files = compiler::addFiles(sources, project.files, configOf(project));
@@ -72,7 +72,7 @@ int takeFiles(SourceOptions& options) {
 // Of a file that does not say its dialect, such as one that others include: that of the project in whose folder it is.
 std::string dialectOf(const SourceManager& sources, FileId file, const SourceOptions& options, int& status) {
   if (!options.dialect.empty() || frontend::dialectOf(sources, file) != nullptr) return options.dialect;
-  const auto found = project::findUpwards(fs::path(sources.name(file)).parent_path().string());
+  const auto found = compiler::findUpwards(fs::path(sources.name(file)).parent_path().string());
   const auto project = found ? openProject(*found, options, status) : std::nullopt;
   return project ? project->dialect : "";
 }
@@ -94,7 +94,7 @@ std::optional<std::string> formatted(SourceManager& sources, FileId file, const 
 int replace(const std::string& name, const std::string& text, const SourceOptions& options) {
   std::error_code error;
   const fs::perms mode = fs::status(name, error).permissions() & fs::perms::all;
-  const std::string wrong = host::replaceFile(name, text, {.mode = static_cast<mode_t>(mode)});
+  const std::string wrong = runtime::replaceFile(name, text, {.mode = static_cast<mode_t>(mode)});
   if (!wrong.empty()) return environmentError(wrong);
   fs::permissions(name, mode, error);
   if (error) return environmentError(fmt::format("cannot restore the mode of '{}': {}", name, error.message()));

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "rtlib/host/file.h"
-#include "rtlib/host/sealing.h"
-#include "rtlib/host/trust.h"
+#include "rtlib/load/file.h"
+#include "rtlib/load/sealing.h"
+#include "rtlib/load/trust.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -16,18 +16,18 @@ constexpr unsigned kPublicMode = 0644;
 
 // A key is never written over another.
 int newKey(const std::string& path) {
-  const host::SecretKey key = host::SecretKey::make();
+  const runtime::SecretKey key = runtime::SecretKey::make();
   const std::string publicPath = path + ".pub";
-  std::string wrong = host::replaceFile(publicPath, host::textOf(key.publicKey()),
-                                        {.mode = kPublicMode, .mayReplace = false, .lasts = true});
+  std::string wrong = runtime::replaceFile(publicPath, runtime::textOf(key.publicKey()),
+                                           {.mode = kPublicMode, .mayReplace = false, .lasts = true});
   if (!wrong.empty()) return environmentError(wrong);
-  wrong = host::replaceFile(path, key.text(), {.mode = kSecretMode, .mayReplace = false, .lasts = true});
+  wrong = runtime::replaceFile(path, key.text(), {.mode = kSecretMode, .mayReplace = false, .lasts = true});
   if (!wrong.empty()) {
     std::remove(publicPath.c_str());
     return environmentError(wrong);
   }
   fmt::print("key {}: sign with {}, and keep it secret; install {} in {} on the machines\n",
-             host::textOf(key.publicKey().id()), path, publicPath, host::kKeysFolder);
+             runtime::textOf(key.publicKey().id()), path, publicPath, runtime::kKeysFolder);
   return kOk;
 }
 

@@ -2,8 +2,8 @@
 #include <iostream>
 #include <optional>
 
-#include "tools/command-line/command_line.h"
-#include "tools/command-line/usage.h"
+#include "machine/command-line/command_line.h"
+#include "machine/command-line/usage.h"
 #include "tools/rungc/commands.h"
 
 int main(int argc, char** argv) {

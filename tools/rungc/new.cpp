@@ -2,18 +2,19 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "ir/support/similar.h"
-#include "tools/project/new_project.h"
+#include "rtlib/text/similar.h"
 #include "tools/rungc/commands.h"
+#include "tools/rungc/new_project.h"
 
 namespace rung::rungc {
 namespace {
 
 int makeNew(const std::string& dialect, const std::string& folder) {
   if (frontend::findDialect(dialect) == nullptr)
-    return usageError(fmt::format("unknown dialect '{}'{}; the dialects are gsk, nct and technol", dialect,
-                                  didYouMean(mostSimilar(dialect, frontend::allDialects(), &frontend::Dialect::name))));
-  const Result<std::vector<std::string>> written = project::makeProject(dialect, folder);
+    return usageError(
+        fmt::format("unknown dialect '{}'{}; the dialects are gsk, nct and technol", dialect,
+                    text::didYouMean(text::mostSimilar(dialect, frontend::allDialects(), &frontend::Dialect::name))));
+  const Result<std::vector<std::string>> written = makeProject(dialect, folder);
   if (!written.ok()) return environmentError(written.error());
   for (const std::string& file : written.value()) fmt::print("{}\n", file);
   fmt::print("try: cd '{}' && rungc test\n", folder);

@@ -1,7 +1,7 @@
 // See opened_program.h.
 #include "tools/rungc/opened_program.h"
 
-#include "tools/compiler/engines.h"
+#include "compiler/engines.h"
 
 namespace rung::rungc {
 
@@ -20,7 +20,7 @@ std::optional<OpenedProgram> openProgram(const SourceOptions& source, int& statu
   SourceManager sources;
   program.compiled = compileSources(sources, source, {}, status);
   if (!program.compiled) return std::nullopt;
-  Result<std::unique_ptr<host::Engine>> engine =
+  Result<std::unique_ptr<runtime::Engine>> engine =
       compiler::makeEngine(compiler::EngineKind::Interp, *program.compiled, {});
   if (!engine.ok()) {
     status = environmentError(engine.error());

@@ -3,9 +3,9 @@
 #include <memory>
 #include <optional>
 
-#include "rtlib/host/engine.h"
+#include "compiler/compile.h"
+#include "rtlib/load/engine.h"
 #include "rung/runtime.hpp"
-#include "tools/compiler/compile.h"
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
@@ -13,7 +13,7 @@ namespace rung::rungc {
 // What is compiled ends after the image.
 struct OpenedProgram {
   std::optional<compiler::Compiled> compiled; // nothing of a shared object
-  std::unique_ptr<host::Engine> engine;
+  std::unique_ptr<runtime::Engine> engine;
   std::unique_ptr<Image> image; // never null
 };
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/compiler/compile.h"
+#include "compiler/compile.h"
 #include "tools/view/drawn_program.h"
 #include "tools/view/html.h"
 

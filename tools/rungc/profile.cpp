@@ -8,13 +8,13 @@
 #include <memory>
 
 #include "rtlib/text/regular_file.h"
-#include "tools/console/working.h"
-#include "tools/profile/branches.h"
-#include "tools/profile/text.h"
+#include "tools/report/profile_branches.h"
+#include "tools/report/profile_text.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/profile_page.h"
 #include "tools/rungc/scenario_files.h"
 #include "tools/rungc/scenarios.h"
+#include "tools/scenario/working.h"
 
 namespace rung::rungc {
 namespace {
@@ -27,7 +27,7 @@ struct ProfileOptions {
   std::string baseline;
   std::string html;
   std::string out;
-  profile::TextOptions text;
+  report::ProfileTextOptions text;
   uint32_t repeat = 5;
   bool json = false;
 };
@@ -39,7 +39,7 @@ bool isScenario(const std::string& name) {
 }
 
 // Gives the exit status.
-int sortNames(const ProfileOptions& options, profile::Request& request) {
+int sortNames(const ProfileOptions& options, report::Request& request) {
   std::vector<std::string> scenarios;
   for (const std::vector<std::string>* names : {&options.scenarios, &options.files})
     for (const std::string& name : *names) (isScenario(name) ? scenarios : request.programs).push_back(name);
@@ -56,55 +56,55 @@ int sortNames(const ProfileOptions& options, profile::Request& request) {
   return kOk;
 }
 
-Result<profile::Baseline> openBaseline(const std::string& path) {
+Result<report::Baseline> openBaseline(const std::string& path) {
   std::string contents;
   const std::string problem = text::readRegular(path, text::kMostSource, contents);
   if (!problem.empty()) return failure(fmt::format("cannot read '{}': {}", path, problem));
-  Result<profile::Baseline> baseline = profile::readBaseline(contents);
+  Result<report::Baseline> baseline = report::readBaseline(contents);
   return baseline.ok() ? std::move(baseline) : failure(fmt::format("{}: {}", path, baseline.error()));
 }
 
 int runProfile(const ProfileOptions& options) {
-  profile::Request request;
+  report::Request request;
   const auto engine = compiler::engineFromName(options.engine);
   if (!engine || *engine == compiler::EngineKind::Tiered) // whose times are of two engines
     return usageError("--engine takes one of interp, cpp, llvm and jit");
   request.engine = *engine;
-  request.order = options.by == "time" ? profile::Order::Time : profile::Order::Operations;
+  request.order = options.by == "time" ? report::Order::Time : report::Order::Operations;
   request.repeat = options.repeat;
   if (const int status = sortNames(options, request); status != kOk) return status;
-  std::optional<profile::Comparison> comparison;
-  std::optional<profile::Baseline> baseline;
+  std::optional<report::Comparison> comparison;
+  std::optional<report::Baseline> baseline;
   if (!options.baseline.empty()) { // read first: a wrong file should not cost the measurements
-    Result<profile::Baseline> read = openBaseline(options.baseline);
+    Result<report::Baseline> read = openBaseline(options.baseline);
     if (!read.ok()) return environmentError(read.error());
     baseline = std::move(read).value();
   }
   ir::BranchCounts branches;
   if (!options.out.empty()) request.branches = &branches;
-  const profile::Outcome outcome = [&] {
-    console::Working working("compiling");
+  const report::Outcome outcome = [&] {
+    scenario::Working working("compiling");
     request.progress = [&](const std::string& text) { working.say(text); };
-    return profile::profileScenarios(request);
+    return report::profileScenarios(request);
   }();
   if (!outcome.done) {
     printResult({outcome.scenario, 0, outcome.result});
     return outcome.result.environment.empty() ? kWrong : kEnvironment;
   }
-  if (baseline) comparison = profile::compare(outcome.profile.report, std::move(*baseline));
+  if (baseline) comparison = report::compare(outcome.profile.report, std::move(*baseline));
   if (!options.html.empty()) {
     const Result<std::string> page = profilePage(outcome.profile, request);
     if (!page.ok()) return environmentError(page.error());
     if (const int status = writeFile(page.value(), options.html); status != kOk) return status;
   }
   if (!options.out.empty())
-    if (const int status = writeFile(profile::branchesJson(branches), options.out); status != kOk) return status;
+    if (const int status = writeFile(report::branchesJson(branches), options.out); status != kOk) return status;
   if (options.json) {
-    std::cout << profile::profileJson(outcome.profile, comparison ? &*comparison : nullptr);
+    std::cout << report::profileJson(outcome.profile, comparison ? &*comparison : nullptr);
     return kOk;
   }
-  std::cout << profile::profileText(outcome.profile, options.text);
-  if (comparison) std::cout << '\n' << profile::comparisonText(outcome.profile, *comparison, options.text.top);
+  std::cout << report::profileText(outcome.profile, options.text);
+  if (comparison) std::cout << '\n' << report::comparisonText(outcome.profile, *comparison, options.text.top);
   return kOk;
 }
 

@@ -3,9 +3,10 @@
 #include <filesystem>
 #include <fmt/format.h>
 
-#include "tools/compiler/configuration.h"
-#include "tools/project/file_kind.h"
+#include "compiler/configuration.h"
+#include "compiler/file_kind.h"
 #include "tools/rungc/commands.h"
+#include "tools/scenario/configuration.h"
 
 namespace rung::rungc {
 namespace {
@@ -17,23 +18,23 @@ bool isFolder(const std::string& path) {
   return fs::is_directory(path, error);
 }
 
-bool isProjectFile(const std::string& path) { return fs::path(path).filename() == project::kFileName; }
+bool isProjectFile(const std::string& path) { return fs::path(path).filename() == compiler::kFileName; }
 
-void checkSettings(const project::Project& project, const SourceManager& sources, Diagnostics& diagnostics) {
+void checkSettings(const compiler::Project& project, const SourceManager& sources, Diagnostics& diagnostics) {
   std::vector<std::pair<std::string, std::string>> pairs;
-  for (const project::Setting& setting : project.config) pairs.emplace_back(setting.key, setting.value);
+  for (const compiler::Setting& setting : project.config) pairs.emplace_back(setting.key, setting.value);
   const frontend::Dialect& dialect = *frontend::findDialect(project.dialect);
-  for (const compiler::ConfigProblem& problem : compiler::checkConfiguration(dialect, pairs, "")) {
+  for (const compiler::ConfigProblem& problem : scenario::checkConfiguration(dialect, pairs)) {
     const auto setting = std::find_if(project.config.begin(), project.config.end(),
-                                      [&](const project::Setting& s) { return s.key == problem.key; });
+                                      [&](const compiler::Setting& s) { return s.key == problem.key; });
     compiler::report(problem, dialect, sources.range(FileId{0}, setting->begin, setting->end), diagnostics);
   }
 }
 
-std::optional<project::Project> loadProject(const std::string& file, const SourceOptions& options, int& status) {
+std::optional<compiler::Project> loadProject(const std::string& file, const SourceOptions& options, int& status) {
   SourceManager sources;
   Diagnostics diagnostics;
-  std::optional<project::Project> project = project::load(sources, file, diagnostics);
+  std::optional<compiler::Project> project = compiler::load(sources, file, diagnostics);
   if (project) checkSettings(*project, sources, diagnostics);
   if (diagnostics.hasErrors()) project.reset();
   if (!project || !diagnostics.reported().empty()) printDiagnostics(diagnostics, sources, options);
@@ -48,26 +49,26 @@ bool isOwn(const std::string& file) { return file == "-" || file.ends_with(".so"
 int checkKinds(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     if (isOwn(file)) continue; // a compiled program some commands take
-    const std::string other = project::otherKind(file, project::FileKind::Program);
+    const std::string other = compiler::otherKind(file, compiler::FileKind::Program);
     if (!other.empty()) return usageError(other);
   }
   return kOk;
 }
 
 // The project that all the named files belong to. Nothing, with status kOk, when there is none.
-std::optional<project::Project> projectOfFiles(const SourceOptions& options, int& status) {
+std::optional<compiler::Project> projectOfFiles(const SourceOptions& options, int& status) {
   if (std::any_of(options.files.begin(), options.files.end(), isOwn)) return std::nullopt;
-  const auto file = project::findUpwards(fs::path(options.files[0]).parent_path().string());
+  const auto file = compiler::findUpwards(fs::path(options.files[0]).parent_path().string());
   if (!file) return std::nullopt;
-  std::optional<project::Project> project = loadProject(*file, options, status);
+  std::optional<compiler::Project> project = loadProject(*file, options, status);
   if (!project) return std::nullopt;
   const bool all = std::all_of(options.files.begin(), options.files.end(),
-                               [&](const std::string& name) { return project::hasFile(*project, name); });
+                               [&](const std::string& name) { return compiler::hasFile(*project, name); });
   return all ? std::move(project) : std::nullopt;
 }
 
 // The project of these options; nothing with status kOk when the files are meant alone.
-std::optional<project::Project> projectOf(const SourceOptions& options, int& status) {
+std::optional<compiler::Project> projectOf(const SourceOptions& options, int& status) {
   if (!options.projectFile.empty()) return openProject(options.projectFile, options, status);
   if (options.files.empty()) return openProject("", options, status);
   const std::string& first = options.files[0];
@@ -76,7 +77,7 @@ std::optional<project::Project> projectOf(const SourceOptions& options, int& sta
 }
 
 // Says that more than what was named is used.
-void sayUse(const SourceOptions& options, const project::Project& project) {
+void sayUse(const SourceOptions& options, const compiler::Project& project) {
   const bool whole = options.files.size() == project.files.size();
   if (options.quiet || options.json || (whole && project.config.empty() && project.includePaths.empty())) return;
   fmt::print(stderr, "rungc: {} {} to the project {}: {} used; --no-project uses only the named files\n",
@@ -95,14 +96,15 @@ bool isSet(const std::vector<std::string>& config, const std::string& key) {
 
 bool namesProject(const std::string& name) { return isFolder(name) || isProjectFile(name); }
 
-std::optional<project::Project> openProject(const std::string& named, const SourceOptions& options, int& status) {
+std::optional<compiler::Project> openProject(const std::string& named, const SourceOptions& options, int& status) {
   if (named.empty()) {
-    if (const auto found = project::findUpwards("")) return loadProject(*found, options, status);
+    if (const auto found = compiler::findUpwards("")) return loadProject(*found, options, status);
     status = usageError("no file is named, and there is no rung.toml in the working directory or above it; name files, "
                         "or create a project with `rungc new`");
     return std::nullopt;
   }
-  const std::string file = isFolder(named) ? (fs::path(named) / project::kFileName).lexically_normal().string() : named;
+  const std::string file =
+      isFolder(named) ? (fs::path(named) / compiler::kFileName).lexically_normal().string() : named;
   std::error_code error;
   if (fs::is_regular_file(file, error)) return loadProject(file, options, status);
   if (isFolder(named))
@@ -119,13 +121,13 @@ int takeProject(SourceOptions& options) {
   int status = kOk;
   options.project = projectOf(options, status);
   if (!options.project) return status;
-  const project::Project& project = *options.project;
+  const compiler::Project& project = *options.project;
   const bool isNamed = !options.files.empty() && !namesProject(options.files[0]);
   if (isNamed && options.projectFile.empty()) sayUse(options, project);
   if (!isNamed || options.projectFile.empty()) options.files = project.files;
   if (options.dialect.empty()) options.dialect = project.dialect;
   std::vector<std::string> config;
-  for (const project::Setting& setting : project.config)
+  for (const compiler::Setting& setting : project.config)
     if (!isSet(options.config, setting.key)) config.push_back(setting.key + "=" + setting.value);
   options.config.insert(options.config.begin(), config.begin(), config.end());
   return kOk;

@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
+#include "sim/retained_tables.h"
 #include "tools/scenario/session.h"
-#include "tools/sim/retained_tables.h"
 
 namespace rung::rungc {
 

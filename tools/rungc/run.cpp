@@ -10,21 +10,21 @@
 #include <span>
 #include <unistd.h>
 
-#include "rtlib/host/seal.h"
-#include "rtlib/host/so_engine.h"
+#include "compiler/engines.h"
+#include "compiler/kept_ir.h"
+#include "rtlib/load/seal.h"
+#include "rtlib/load/so_engine.h"
 #include "rtlib/nc/config_key.h"
-#include "tools/compiler/engines.h"
-#include "tools/compiler/kept_ir.h"
-#include "tools/console/console.h"
-#include "tools/console/progress.h"
-#include "tools/console/prompt.h"
-#include "tools/console/working.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/retained_files.h"
 #include "tools/rungc/run_scenario.h"
 #include "tools/rungc/scenarios.h"
 #include "tools/scenario/compile_step.h"
+#include "tools/scenario/console.h"
+#include "tools/scenario/progress.h"
+#include "tools/scenario/prompt.h"
 #include "tools/scenario/trace.h"
+#include "tools/scenario/working.h"
 
 namespace rung::rungc {
 namespace {
@@ -43,7 +43,7 @@ struct RunOptions {
   std::string trace;
   bool prompt = false;
   bool realtime = false;
-  host::RealTimeOptions thread; // of a real-time run
+  runtime::RealTimeOptions thread; // of a real-time run
   bool debugger = false;
   bool unsealed = false;
   std::string level = "2";
@@ -63,7 +63,7 @@ std::string longText(int64_t us) {
   return text + fmt::format("{:.3f} s", static_cast<double>(us % kMinute) / 1e6);
 }
 
-console::Signal gSignal = 0; // of SIGINT and SIGTERM: the only thing a signal handler may touch
+scenario::Signal gSignal = 0; // of SIGINT and SIGTERM: the only thing a signal handler may touch
 
 void catchSignals() {
   struct sigaction action{};
@@ -75,8 +75,8 @@ void catchSignals() {
 // What is run.
 struct Program {
   std::optional<compiler::Compiled> compiled; // nothing of a shared object
-  std::unique_ptr<host::Engine> engine;       // ends before it
-  const host::SoEngine* object = nullptr;     // the same, of a shared object
+  std::unique_ptr<runtime::Engine> engine;    // ends before it
+  const runtime::SoEngine* object = nullptr;  // the same, of a shared object
   std::optional<compiler::Compiled> carried;  // that of a shared object, as far as it carries that, once it was wanted
 
   const ir::Uses* uses() const { return compiled ? compiled->uses.get() : nullptr; }
@@ -84,7 +84,7 @@ struct Program {
 };
 
 // All of the file that it was loaded from.
-std::string fileOf(const host::SoEngine& object) {
+std::string fileOf(const runtime::SoEngine& object) {
   constexpr size_t kPiece = size_t{1} << 20;
   std::string bytes;
   for (size_t got = kPiece; got == kPiece;) {
@@ -101,7 +101,7 @@ Result<const compiler::Compiled*> Program::wanted() {
   if (!carried) {
     const std::string file = fileOf(*object);
     Result<compiler::Compiled> found =
-        compiler::irOf(host::readSealed(file).image, compiler::hashesOf(object->program()));
+        compiler::irOf(runtime::readSealed(file).image, compiler::hashesOf(object->program()));
     if (!found.ok()) return failure(object->path() + ": " + found.error());
     carried = std::move(found).value();
   }
@@ -133,8 +133,8 @@ public:
   }
 
 private:
-  static console::Start startOf(const RunOptions& options, bool compiled) {
-    console::Start start;
+  static scenario::Start startOf(const RunOptions& options, bool compiled) {
+    scenario::Start start;
     start.programs = options.source.files;
     start.project = options.source.project;
     start.periodUs = options.scenario.periodUs;
@@ -213,14 +213,14 @@ private:
   // Inputs, then the scenario, then what --scans and --for ask for, then the person.
   int drive() {
     catchSignals();
-    console::Console console(session_, watch_, recording_, *explainer_, print_);
+    scenario::Console console(session_, watch_, recording_, *explainer_, print_);
     if (const int status = setInputs(); status != kOk) return status;
     int status = runScenario(console);
     if (status == kOk) status = runScans(console);
     if (!options_.prompt || gSignal == SIGTERM) return status;
     gSignal = 0;
     session_.setInterrupt([this] { return interrupted(); });
-    return console::runPrompt(console, gSignal, [this] { progress_.begin(); }) ? status : int{kWrong};
+    return scenario::runPrompt(console, gSignal, [this] { progress_.begin(); }) ? status : int{kWrong};
   }
 
   int setInputs() {
@@ -251,17 +251,17 @@ private:
     return statement.value().text;
   }
 
-  int runScenario(console::Console& console) {
+  int runScenario(scenario::Console& console) {
     session_.setInterrupt([this] { return interrupted(); });
     for (const scenario::Statement& s : options_.scenario.statements) {
-      const console::Outcome outcome = console.execute(s);
-      if (outcome == console::Outcome::Interrupted) print_(fmt::format("interrupted at {}:{}", s.file, s.line));
-      if (outcome != console::Outcome::Done) return kWrong;
+      const scenario::Outcome outcome = console.execute(s);
+      if (outcome == scenario::Outcome::Interrupted) print_(fmt::format("interrupted at {}:{}", s.file, s.line));
+      if (outcome != scenario::Outcome::Done) return kWrong;
     }
     return kOk;
   }
 
-  int runScans(console::Console& console) {
+  int runScans(scenario::Console& console) {
     if (!options_.prompt) session_.setUnattended();
     session_.setInterrupt([this] { return interrupted() || session_.instance().faulted(); });
     const bool driven = options_.prompt || !options_.scenarioFile.empty();
@@ -272,19 +272,19 @@ private:
     advance.text = options_.duration.empty() ? fmt::format("scan {}", advance.count) : "run " + options_.duration;
     if (options_.realtime) return runRealTime(advance);
     if (advance.count > 0 || advance.kind == scenario::Kind::Run) {
-      return console.execute(advance) == console::Outcome::Failed ? kWrong : kOk;
+      return console.execute(advance) == scenario::Outcome::Failed ? kWrong : kOk;
     }
     return kOk;
   }
 
   int runRealTime(const scenario::Statement& end) {
-    const host::RealTimeThread thread(options_.thread);
+    const runtime::RealTimeThread thread(options_.thread);
     if (!thread.problem().empty()) return environmentError(thread.problem());
     const bool timed = end.kind == scenario::Kind::Run;
     session_.setInterrupt([this, end, timed] {
       return gSignal != 0 || (timed ? session_.nowUs() >= end.microseconds : session_.scans() >= end.count);
     });
-    const host::RealTimeStats stats = session_.runRealTime();
+    const runtime::RealTimeStats stats = session_.runRealTime();
     fmt::print(out_, "{} slices, {} scans skipped, latest start {:.1f} us, longest slice {:.1f} us\n", stats.slices,
                stats.missed, static_cast<double>(stats.maxLateNs) / 1e3, static_cast<double>(stats.maxRunNs) / 1e3);
     return kOk;
@@ -331,7 +331,7 @@ private:
       fmt::print(out_, "{} scan{}, {} on the program's clock, engine {}\n", session_.scans(),
                  session_.scans() == 1 ? "" : "s", longText(session_.nowUs()), first().engine->name());
     if (!session_.unexpectedFault().empty()) {
-      warn_(console::faultLine(session_.instance()));
+      warn_(scenario::faultLine(session_.instance()));
       status = kWrong;
     }
     for (const Program& program : programs_)
@@ -347,10 +347,10 @@ private:
   const RunOptions& options_;
   std::list<Program> programs_; // that ran: the session may hold on to any
   scenario::Session session_;
-  console::Recording recording_;
+  scenario::Recording recording_;
   std::FILE* out_ = options_.source.json ? stderr : stdout; // with --json nothing but that is on standard output
-  console::Progress progress_{stderr};
-  console::Print print_ = [this](const std::string& line) {
+  scenario::Progress progress_{stderr};
+  scenario::Print print_ = [this](const std::string& line) {
     progress_.clear();
     fmt::print(out_, "{}\n", line);
     std::fflush(out_);
@@ -359,7 +359,7 @@ private:
     progress_.clear();
     fmt::print(stderr, "rungc: {}\n", line);
   };
-  console::Watch watch_{print_};
+  scenario::Watch watch_{print_};
   std::unique_ptr<RetainedFiles> retained_;
   std::unique_ptr<scenario::Trace> trace_;
   std::unique_ptr<scenario::Explainer> explainer_; // once the session has started
@@ -367,8 +367,8 @@ private:
 
 std::optional<Program> openSharedObject(const RunOptions& options, const std::string& file, int& status) {
   std::string error;
-  std::unique_ptr<host::SoEngine> object =
-      host::SoEngine::open(file, error, {.loaded = host::Loaded::WithProcess, .mayLackSeal = options.unsealed});
+  std::unique_ptr<runtime::SoEngine> object =
+      runtime::SoEngine::open(file, error, {.loaded = runtime::Loaded::WithProcess, .mayLackSeal = options.unsealed});
   if (object == nullptr) {
     status = environmentError(error);
     return std::nullopt;
@@ -398,8 +398,8 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   engineOptions.optimise = options.level != "0";
   engineOptions.cacheFolder = options.cache;
   engineOptions.virtualClock = !options.realtime;
-  Result<std::unique_ptr<host::Engine>> engine = [&] {
-    const console::Working working("compiling to machine code");
+  Result<std::unique_ptr<runtime::Engine>> engine = [&] {
+    const scenario::Working working("compiling to machine code");
     return compiler::makeEngine(*kind, *program.compiled, engineOptions);
   }();
   if (!engine.ok()) {

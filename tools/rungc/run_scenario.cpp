@@ -37,7 +37,7 @@ int findProgram(const std::string& path, const std::vector<std::string>& program
     options.noProject = true;
     return kOk;
   }
-  const auto project = project::findUpwards(fs::path(path).parent_path().lexically_normal().string());
+  const auto project = compiler::findUpwards(fs::path(path).parent_path().lexically_normal().string());
   if (!project) return usageError(fmt::format("{} names no program and is not in a project: name the program", path));
   options.projectFile = *project;
   return kOk;

@@ -64,7 +64,7 @@ std::optional<std::vector<std::string>> scenarioFiles(const std::vector<std::str
     std::error_code none;
     std::optional<std::vector<std::string>> found;
     const bool isFolder = fs::is_directory(name, none);
-    if (isFolder ? fs::is_regular_file(fs::path(name) / project::kFileName, none) : namesProject(name))
+    if (isFolder ? fs::is_regular_file(fs::path(name) / compiler::kFileName, none) : namesProject(name))
       found = ofProject(name, status);
     else
       found = isFolder ? scenariosBelow(name, status) : oneFile(name, status);

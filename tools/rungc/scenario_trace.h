@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/command-line/command_line.h"
+#include "machine/command-line/command_line.h"
 #include "tools/scenario/runner.h"
 #include "tools/scenario/trace.h"
 

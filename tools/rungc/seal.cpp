@@ -8,10 +8,10 @@
 #include <optional>
 #include <string_view>
 
-#include "rtlib/host/elf_file.h"
-#include "rtlib/host/file.h"
-#include "rtlib/host/sealing.h"
-#include "rtlib/host/trust.h"
+#include "rtlib/load/elf_file.h"
+#include "rtlib/load/file.h"
+#include "rtlib/load/sealing.h"
+#include "rtlib/load/trust.h"
 #include "rtlib/text/regular_file.h"
 #include "rung/program.h"
 #include "tools/rungc/commands.h"
@@ -27,27 +27,27 @@ struct SealOptions {
   bool quiet = false;
 };
 
-Result<std::string> contentsOf(const host::File& file, const std::string& path, const std::string& problem) {
+Result<std::string> contentsOf(const runtime::File& file, const std::string& path, const std::string& problem) {
   std::string bytes;
-  const std::string wrong = file.ok() ? host::readAll(file.fd(), kMostBytes, bytes) : problem;
+  const std::string wrong = file.ok() ? runtime::readAll(file.fd(), kMostBytes, bytes) : problem;
   return wrong.empty() ? Result<std::string>(std::move(bytes))
                        : failure(fmt::format("cannot read {}: {}", path, wrong));
 }
 
-host::File opened(const std::string& path, std::string& problem) {
-  return host::File(text::openRegular(path, problem));
+runtime::File opened(const std::string& path, std::string& problem) {
+  return runtime::File(text::openRegular(path, problem));
 }
 
-Result<host::SecretKey> readKey(const std::string& path) {
+Result<runtime::SecretKey> readKey(const std::string& path) {
   std::string problem;
-  const host::File file = opened(path, problem);
+  const runtime::File file = opened(path, problem);
   const Result<std::string> text = contentsOf(file, path, problem);
   if (!text.ok()) return text.failure();
-  const auto facts = host::factsOf(file.fd());
+  const auto facts = runtime::factsOf(file.fd());
   if (facts && (facts->mode & 077) != 0)
     return failure(
         fmt::format("{}: other users may read this secret key (mode {:04o}); chmod 600 {}", path, facts->mode, path));
-  std::optional<host::SecretKey> key = host::SecretKey::parse(text.value());
+  std::optional<runtime::SecretKey> key = runtime::SecretKey::parse(text.value());
   if (!key)
     return failure(
         fmt::format("{} is not a secret key; name the file without .pub that `rungc key new` has written", path));
@@ -56,34 +56,34 @@ Result<host::SecretKey> readKey(const std::string& path) {
 
 // Why these bytes are not to be sealed.
 std::string wrongProgram(std::string_view bytes) {
-  const host::SealedFile file = host::readSealed(bytes);
+  const runtime::SealedFile file = runtime::readSealed(bytes);
   if (!file.damage.empty()) return "its seal shows damage: " + file.damage + "; build it again";
-  const host::ElfObject object = host::readElf(file.image);
+  const runtime::ElfObject object = runtime::readElf(file.image);
   if (!object.problem.empty()) return object.problem + "; expected a shared object (.so)";
   if (std::ranges::find(object.exported, RUNG_PROGRAM_SYMBOL) == object.exported.end())
     return "it is not a compiled PLC program: it exports no symbol " RUNG_PROGRAM_SYMBOL;
   return {};
 }
 
-int sealFile(const std::string& path, const host::SecretKey* key, bool quiet) {
+int sealFile(const std::string& path, const runtime::SecretKey* key, bool quiet) {
   std::string problem;
-  const host::File file = opened(path, problem);
+  const runtime::File file = opened(path, problem);
   const Result<std::string> bytes = contentsOf(file, path, problem);
   if (!bytes.ok()) return environmentError(bytes.error());
   if (const std::string wrong = wrongProgram(bytes.value()); !wrong.empty()) {
     fmt::print(stderr, "rungc: {}: {}\n", path, wrong);
     return kWrong;
   }
-  const int status = writeProgram(path, host::sealed(bytes.value(), key));
+  const int status = writeProgram(path, runtime::sealed(bytes.value(), key));
   if (status != kOk || quiet) return status;
-  fmt::print("sealed {}{}\n", path, key != nullptr ? ", signed by key " + host::textOf(key->publicKey().id()) : "");
+  fmt::print("sealed {}{}\n", path, key != nullptr ? ", signed by key " + runtime::textOf(key->publicKey().id()) : "");
   return kOk;
 }
 
 int sealFiles(const SealOptions& options) {
-  std::optional<host::SecretKey> key;
+  std::optional<runtime::SecretKey> key;
   if (!options.key.empty()) {
-    const Result<host::SecretKey> read = readKey(options.key);
+    const Result<runtime::SecretKey> read = readKey(options.key);
     if (!read.ok()) return environmentError(read.error());
     key = read.value();
   }
@@ -96,7 +96,7 @@ int sealFiles(const SealOptions& options) {
 } // namespace
 
 int writeProgram(const std::string& out, const std::string& file) {
-  const std::string wrong = host::writeProgram(out, file);
+  const std::string wrong = runtime::writeProgram(out, file);
   return wrong.empty() ? kOk : environmentError(wrong);
 }
 

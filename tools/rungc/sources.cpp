@@ -9,13 +9,14 @@
 #include <string_view>
 #include <unistd.h>
 
+#include "compiler/configuration.h"
 #include "ir/support/diag_render.h"
-#include "rtlib/host/file.h"
+#include "rtlib/load/file.h"
 #include "rtlib/text/controls.h"
-#include "tools/compiler/configuration.h"
-#include "tools/console/working.h"
+#include "tools/report/odd_names.h"
 #include "tools/rungc/commands.h"
-#include "tools/xref/odd_names.h"
+#include "tools/scenario/configuration.h"
+#include "tools/scenario/working.h"
 
 namespace rung::rungc {
 
@@ -69,7 +70,7 @@ int sayWrote(int status, const std::string& out, const SourceOptions& options) {
 }
 
 int writeFile(const std::string& text, const std::string& out) {
-  const std::string wrong = host::replaceFile(out, text);
+  const std::string wrong = runtime::replaceFile(out, text);
   return wrong.empty() ? kOk : environmentError(wrong);
 }
 
@@ -141,7 +142,7 @@ const frontend::Dialect* dialectOf(const SourceManager& sources, std::span<const
 // Those of --config; the project's have been checked with their places.
 int checkNamedConfig(const frontend::Dialect& dialect, const ConfigPairs& config) {
   int status = kOk;
-  for (const compiler::ConfigProblem& problem : compiler::checkConfiguration(dialect, config, ""))
+  for (const compiler::ConfigProblem& problem : scenario::checkConfiguration(dialect, config))
     status = usageError("--config " + problem.text);
   return status;
 }
@@ -168,7 +169,7 @@ std::optional<std::vector<FileId>> addSources(SourceManager& sources, const Sour
   }
   if (options.project) {
     compile.includePaths = options.project->includePaths;
-    compile.configPlaces = project::placesOf(*options.project, compile.config, sources);
+    compile.configPlaces = compiler::placesOf(*options.project, compile.config, sources);
   }
   const frontend::Dialect* dialect = dialectOf(sources, files.value(), options);
   if (dialect != nullptr) status = checkNamedConfig(*dialect, *pairs);
@@ -186,13 +187,13 @@ std::optional<compiler::Compiled> compileFiles(SourceManager& sources, const Sou
   if (!files) return std::nullopt;
   Diagnostics diagnostics;
   std::optional<compiler::Compiled> compiled = [&] {
-    const console::Working working("compiling");
+    const scenario::Working working("compiling");
     return compiler::compile(sources, *files, request, diagnostics);
   }();
   if (compiled) checkNames(*compiled, sources, request.options, diagnostics);
   if (compiled && warnsOfNames)
-    xref::reportOddNames(sources, compiled->source->analysis(), *compiled->layout, *compiled->uses,
-                         compiled->dialect->shownSpaces, diagnostics);
+    report::reportOddNames(sources, compiled->source->analysis(), *compiled->layout, *compiled->uses,
+                           compiled->dialect->shownSpaces, diagnostics);
   if (compiled) compiled->warnings = diagnostics.warningCount();
   if (diagnostics.hasErrors()) compiled.reset();
   printDiagnostics(diagnostics, sources, options);

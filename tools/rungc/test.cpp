@@ -7,7 +7,6 @@
 #include <thread>
 #include <unistd.h>
 
-#include "tools/console/progress.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/coverage.h"
 #include "tools/rungc/file_watch.h"
@@ -15,6 +14,7 @@
 #include "tools/rungc/scenario_files.h"
 #include "tools/rungc/scenario_trace.h"
 #include "tools/rungc/test_pool.h"
+#include "tools/scenario/progress.h"
 
 namespace rung::rungc {
 namespace {
@@ -54,7 +54,7 @@ std::string summary(const std::vector<TestCase>& tests, size_t selected, double 
 
 Outcome runOnce(const std::vector<std::string>& files, const TestOptions& options, const scenario::RunOptions& run) {
   Outcome outcome;
-  console::Progress progress(stdout);
+  scenario::Progress progress(stdout);
   const bool color = wantsColor(options.color, STDOUT_FILENO);
   const auto finished = [&](TestCase test) {
     progress.clear();

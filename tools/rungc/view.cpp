@@ -5,8 +5,8 @@
 #include <span>
 
 #include "ir/support/diag/source.h"
-#include "tools/console/working.h"
 #include "tools/rungc/commands.h"
+#include "tools/scenario/working.h"
 #include "tools/view/drawn_program.h"
 #include "tools/view/html.h"
 #include "tools/view/program.h"
@@ -29,7 +29,7 @@ struct ViewOptions {
 void fillIn(ViewOptions& options) {
   if (!options.source.project) return;
   if (options.title.empty()) options.title = options.source.project->name;
-  if (options.out.empty()) options.out = project::productOf(*options.source.project, ".html");
+  if (options.out.empty()) options.out = compiler::productOf(*options.source.project, ".html");
 }
 
 bool isPage(const ViewOptions& options) { return options.out.ends_with(".html"); }
@@ -81,7 +81,7 @@ int run(ViewOptions options) {
   if (!files) return status;
   Diagnostics diagnostics;
   const auto text = [&] {
-    const console::Working working("drawing");
+    const scenario::Working working("drawing");
     return render(sources, *files, options, compile, diagnostics);
   }();
   printDiagnostics(diagnostics, sources, options.source);

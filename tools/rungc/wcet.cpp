@@ -4,11 +4,11 @@
 #include <memory>
 #include <optional>
 
-#include "tools/compiler/engines.h"
-#include "tools/console/working.h"
+#include "compiler/engines.h"
+#include "tools/report/wcet_measure.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/run_scenario.h"
-#include "tools/wcet/measure.h"
+#include "tools/scenario/working.h"
 
 namespace rung::rungc {
 namespace {
@@ -21,15 +21,15 @@ struct WcetOptions {
 
 // Gives the exit status; what is wrong is printed.
 int findBounds(const WcetOptions& options, const ConfigPairs& config, const compiler::Compiled& compiled,
-               codegen::JitEngine& engine, wcet::Bounds& bounds) {
-  const console::Working working("measuring");
-  bounds = wcet::boundsOf(compiled, engine);
+               codegen::JitEngine& engine, report::Bounds& bounds) {
+  const scenario::Working working("measuring");
+  bounds = report::boundsOf(compiled, engine);
   if (options.scenarioFile.empty()) return kOk;
-  const wcet::Drive drive{.name = options.scenarioFile,
-                          .config = config,
-                          .connects = options.scenario.connects,
-                          .statements = options.scenario.statements};
-  const Result<void> done = wcet::measure(compiled, engine, drive, bounds);
+  const report::Drive drive{.name = options.scenarioFile,
+                            .config = config,
+                            .connects = options.scenario.connects,
+                            .statements = options.scenario.statements};
+  const Result<void> done = report::measure(compiled, engine, drive, bounds);
   if (done.ok()) return kOk;
   fmt::print(stderr, "rungc: {}\n", done.error());
   return kWrong;
@@ -49,13 +49,13 @@ int runWcet(const WcetOptions& options) {
   diagnostics.json = false; // standard output is the bounds'
   const std::optional<compiler::Compiled> compiled = compileSources(sources, diagnostics, request, status);
   if (!compiled) return status;
-  const Result<std::unique_ptr<codegen::JitEngine>> engine = wcet::compileWithLengths(*compiled);
+  const Result<std::unique_ptr<codegen::JitEngine>> engine = report::compileWithLengths(*compiled);
   if (!engine.ok()) return environmentError(engine.error());
-  wcet::Bounds bounds;
+  report::Bounds bounds;
   status = findBounds(options, *config, *compiled, *engine.value(), bounds);
   if (status != kOk) return status;
   const rung_program& program = engine.value()->program();
-  std::cout << (options.source.json ? wcet::jsonOf(bounds, program) : wcet::textOf(bounds, program));
+  std::cout << (options.source.json ? report::jsonOf(bounds, program) : report::textOf(bounds, program));
   return kOk;
 }
 

@@ -5,8 +5,8 @@
 
 #include "ir/image/program_image.h"
 #include "rtlib/nc/names/names.h"
+#include "tools/report/odd_names.h"
 #include "tools/rungc/commands.h"
-#include "tools/xref/odd_names.h"
 
 namespace rung::rungc {
 namespace {
@@ -18,11 +18,12 @@ struct XrefOptions {
   std::string format = "text";
 };
 
-std::optional<std::vector<xref::Entry>> placesOf(const xref::CrossReference& reference, const XrefOptions& options) {
-  std::vector<xref::Entry> entries;
+std::optional<std::vector<report::Entry>> placesOf(const report::CrossReference& reference,
+                                                   const XrefOptions& options) {
+  std::vector<report::Entry> entries;
   for (const std::string& name : options.places) {
     const auto place = nc::resolve(reference.program(), name);
-    if (!place || place->kind == host::RefKind::Constant) {
+    if (!place || place->kind == runtime::RefKind::Constant) {
       fmt::print(stderr, "rungc: '{}' is not a variable of the program; write a symbol or an address of the dialect\n",
                  name);
       return std::nullopt;
@@ -33,8 +34,8 @@ std::optional<std::vector<xref::Entry>> placesOf(const xref::CrossReference& ref
 }
 
 // What the sources declare or a rung of them uses; the rest is the control's and the compiler's own.
-bool isOfProgram(const rung_program& program, const xref::Entry& entry) {
-  return entry.declared || std::ranges::any_of(entry.accesses, [&](const xref::Access& access) {
+bool isOfProgram(const rung_program& program, const report::Entry& entry) {
+  return entry.declared || std::ranges::any_of(entry.accesses, [&](const report::RungAccess& access) {
            return program.rungs[access.rung].number != 0;
          });
 }
@@ -45,16 +46,16 @@ int run(const XrefOptions& options) {
   const auto compiled = compileSources(sources, options.source, {.keepSource = true}, status);
   if (!compiled) return status;
   const ir::ProgramImage image(*compiled->layout, compiled->codeHash);
-  const xref::CrossReference reference(image.program(), *compiled->uses, compiled->dialect->shownSpaces);
+  const report::CrossReference reference(image.program(), *compiled->uses, compiled->dialect->shownSpaces);
   const bool listed = !options.places.empty();
   auto entries = listed ? placesOf(reference, options) : reference.all();
   if (!entries) return kWrong;
-  xref::markOdd(sources, compiled->source->analysis(), reference, *entries);
+  report::markOdd(sources, compiled->source->analysis(), reference, *entries);
   if (options.odd)
-    std::erase_if(*entries, [](const xref::Entry& entry) { return entry.odd.empty(); });
+    std::erase_if(*entries, [](const report::Entry& entry) { return entry.odd.empty(); });
   else if (!listed)
-    std::erase_if(*entries, [&](const xref::Entry& entry) { return !isOfProgram(image.program(), entry); });
-  const auto show = options.format == "json" ? xref::shownAsJson : xref::shownAsText;
+    std::erase_if(*entries, [&](const report::Entry& entry) { return !isOfProgram(image.program(), entry); });
+  const auto show = options.format == "json" ? report::shownAsJson : report::shownAsText;
   return writeOutput(show(reference, *entries, listed));
 }
 

@@ -35,7 +35,7 @@ std::vector<ir::BitRange> placesOf(const ir::Uses& uses) {
   return merged(std::move(places));
 }
 
-rt::Place bitAt(const host::Instance& instance, const ir::BitRange& place, uint32_t bit) {
+core::Place bitAt(const runtime::Instance& instance, const ir::BitRange& place, uint32_t bit) {
   const uint32_t at = place.first + bit;
   return instance.memory().locateBit(place.space.index, at / 8, at % 8);
 }
@@ -121,8 +121,9 @@ int64_t Changes::timeOf(uint64_t scan) const {
   return pace.us + static_cast<int64_t>(scan - pace.first) * pace.step;
 }
 
-std::optional<size_t> Changes::indexOf(const host::Instance& instance, const ir::BitRange& place, uint32_t bit) const {
-  const rt::Place at = bitAt(instance, place, bit);
+std::optional<size_t> Changes::indexOf(const runtime::Instance& instance, const ir::BitRange& place,
+                                       uint32_t bit) const {
+  const core::Place at = bitAt(instance, place, bit);
   if (at.outside()) return std::nullopt;
   const auto after = std::ranges::upper_bound(spans_, at.offset(), {}, &Span::offset);
   if (after == spans_.begin()) return std::nullopt;
@@ -131,7 +132,7 @@ std::optional<size_t> Changes::indexOf(const host::Instance& instance, const ir:
   return size_t{span.copy + at.offset() - span.offset} * 8 + at.bit();
 }
 
-std::optional<Changes::Scan> Changes::last(const host::Instance& instance, const ir::BitRange& place) const {
+std::optional<Changes::Scan> Changes::last(const runtime::Instance& instance, const ir::BitRange& place) const {
   uint32_t scan = 0;
   for (uint32_t bit = 0; bit < place.count; ++bit) {
     const std::optional<size_t> index = indexOf(instance, place, bit);
@@ -141,7 +142,7 @@ std::optional<Changes::Scan> Changes::last(const host::Instance& instance, const
   return scan == 0 ? Scan{} : Scan{scan, timeOf(scan)};
 }
 
-bool Changes::pending(const host::Instance& instance, const ir::BitRange& place) const {
+bool Changes::pending(const runtime::Instance& instance, const ir::BitRange& place) const {
   for (uint32_t bit = 0; bit < place.count; ++bit) {
     const std::optional<size_t> index = indexOf(instance, place, bit);
     const bool before = index && (copy_[*index / 8] >> (*index % 8) & 1) != 0;

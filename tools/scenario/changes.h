@@ -24,9 +24,9 @@ public:
   Scan begin() const { return begin_; }
   // The last scan that ended with another value than the one before it; number 0: none since the beginning. Nothing for
   // places that rungs do not use.
-  std::optional<Scan> last(const host::Instance& instance, const ir::BitRange& place) const;
+  std::optional<Scan> last(const runtime::Instance& instance, const ir::BitRange& place) const;
   // Whether the place was written after the last scan, by a `set`.
-  bool pending(const host::Instance& instance, const ir::BitRange& place) const;
+  bool pending(const runtime::Instance& instance, const ir::BitRange& place) const;
 
 private:
   struct Span { // of the memory block
@@ -46,7 +46,7 @@ private:
   void noteTime(uint64_t scan, int64_t us);
   int64_t timeOf(uint64_t scan) const;
   // Index of the bit in scans_; nothing when it is not watched.
-  std::optional<size_t> indexOf(const host::Instance& instance, const ir::BitRange& place, uint32_t bit) const;
+  std::optional<size_t> indexOf(const runtime::Instance& instance, const ir::BitRange& place, uint32_t bit) const;
 
   std::vector<Span> spans_; // ascending
   std::vector<uint8_t> copy_;

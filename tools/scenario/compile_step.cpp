@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fmt/format.h>
 
+#include "compiler/configuration.h"
 #include "ir/support/diag_render.h"
-#include "ir/support/similar.h"
-#include "tools/compiler/configuration.h"
-#include "tools/xref/odd_names.h"
+#include "rtlib/text/similar.h"
+#include "tools/report/odd_names.h"
 
 namespace rung::scenario {
 namespace {
@@ -34,7 +34,9 @@ std::string listOf(const std::vector<Reported>& reported, Severity severity) {
   return text.empty() ? "none" : text;
 }
 
-std::string similarCode(std::string_view code) { return didYouMean(mostSimilar(code, allDiags(), &DiagInfo::code)); }
+std::string similarCode(std::string_view code) {
+  return text::didYouMean(text::mostSimilar(code, allDiags(), &DiagInfo::code));
+}
 
 const Statement* firstOf(const Scenario& scenario, Kind kind) {
   const auto found = std::ranges::find(scenario.statements, kind, &Statement::kind);
@@ -135,8 +137,8 @@ std::optional<std::vector<FileId>> addFiles(SourceManager& sources, const std::v
 
 // As `rungc check`. What the front end knows refers to the sources, which do not outlive the step.
 void reportNames(compiler::Compiled& program, const SourceManager& sources, Diagnostics& diagnostics) {
-  xref::reportOddNames(sources, program.source->analysis(), *program.layout, *program.uses,
-                       program.dialect->shownSpaces, diagnostics);
+  report::reportOddNames(sources, program.source->analysis(), *program.layout, *program.uses,
+                         program.dialect->shownSpaces, diagnostics);
   program.source.reset();
 }
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/compiler/compile.h"
+#include "compiler/compile.h"
 #include "tools/scenario/scenario.h"
 
 namespace rung::scenario {

@@ -6,7 +6,7 @@
 
 #include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/services.h"
-#include "tools/sim/hex_bytes.h"
+#include "sim/hex_bytes.h"
 
 namespace rung::scenario {
 
@@ -20,18 +20,18 @@ std::optional<std::string> bytesOf(const Value& value, bool isHex) {
   return bytes;
 }
 
-std::string bytesAt(const host::Instance& instance, int64_t argument, bool isText) {
+std::string bytesAt(const runtime::Instance& instance, int64_t argument, bool isText) {
   const nc::technol::ArgumentBytes at = nc::technol::bytesOfArgument(argument);
   std::string bytes;
   for (uint32_t i = 0; i < at.count; ++i) {
-    const auto byte = static_cast<char>(instance.read(host::intRef(at.space, at.first + i, 8)));
+    const auto byte = static_cast<char>(instance.read(runtime::intRef(at.space, at.first + i, 8)));
     if (isText && byte == 0) break;
     bytes += byte;
   }
   return bytes;
 }
 
-void putPart(std::string_view bytes, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+void putPart(std::string_view bytes, const core::ServiceRequest& request, core::ServiceReply& reply) {
   reply.ticket = request.ticket;
   reply.resultCount = RUNG_MAX_SERVICE_ARGS;
   const auto first = static_cast<uint64_t>(request.args[1]) * nc::technol::kDataBytes;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "rtlib/core/queues.h"
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 #include "tools/scenario/scenario.h"
 
 namespace rung::scenario {
@@ -15,13 +15,13 @@ namespace rung::scenario {
 // bytes, the lowest first.
 std::optional<std::string> bytesOf(const Value& value, bool isHex);
 // Those in the memory of a program that an argument names; of a text up to its terminator.
-std::string bytesAt(const host::Instance& instance, int64_t argument, bool isText);
+std::string bytesAt(const runtime::Instance& instance, int64_t argument, bool isText);
 // One part of an answer's bytes, for kDataService.
-void putPart(std::string_view bytes, const rt::ServiceRequest& request, rt::ServiceReply& reply);
+void putPart(std::string_view bytes, const core::ServiceRequest& request, core::ServiceReply& reply);
 
 // A request that a scenario may look at, with the bytes of its arguments as they were when it was made.
 struct Asked {
-  rt::ServiceRequest request;
+  core::ServiceRequest request;
   std::vector<std::string> bytes; // by argument; empty: of a request without bytes
   bool complete = false;          // it has been answered
 };

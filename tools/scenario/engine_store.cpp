@@ -5,11 +5,11 @@
 
 namespace rung::scenario {
 
-Result<host::Engine*> StoredProgram::engine(compiler::EngineKind kind, const compiler::EngineOptions& options) {
+Result<runtime::Engine*> StoredProgram::engine(compiler::EngineKind kind, const compiler::EngineOptions& options) {
   const std::lock_guard lock(mutex_);
   auto found = engines_.find(kind);
   if (found == engines_.end()) {
-    Result<std::unique_ptr<host::Engine>> made = compiler::makeEngine(kind, compiled_, options);
+    Result<std::unique_ptr<runtime::Engine>> made = compiler::makeEngine(kind, compiled_, options);
     if (!made.ok()) return made.failure();
     found = engines_.emplace(kind, std::move(made).value()).first;
   }

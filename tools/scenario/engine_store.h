@@ -6,7 +6,7 @@
 #include <memory>
 #include <mutex>
 
-#include "tools/compiler/engines.h"
+#include "compiler/engines.h"
 
 namespace rung::scenario {
 
@@ -17,12 +17,12 @@ public:
 
   const compiler::Compiled& compiled() const { return compiled_; }
   // Makes the engine when it is asked for first.
-  Result<host::Engine*> engine(compiler::EngineKind kind, const compiler::EngineOptions& options);
+  Result<runtime::Engine*> engine(compiler::EngineKind kind, const compiler::EngineOptions& options);
 
 private:
   compiler::Compiled compiled_;
   std::mutex mutex_; // of what follows: the others wait while one makes the engine that they need, too
-  std::map<compiler::EngineKind, std::unique_ptr<host::Engine>> engines_;
+  std::map<compiler::EngineKind, std::unique_ptr<runtime::Engine>> engines_;
 };
 
 // All programs in it are run with the same EngineOptions.

@@ -9,7 +9,7 @@
 
 namespace rung::scenario {
 
-using host::Ref;
+using runtime::Ref;
 
 std::string setValue(Lane& lane, const Statement& s) {
   const bool quantity = s.name.starts_with("NC.");

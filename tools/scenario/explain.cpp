@@ -6,21 +6,21 @@
 #include <utility>
 
 #include "ir/support/put.h"
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/names/names.h"
+#include "tools/report/place_names.h"
 #include "tools/scenario/values.h"
-#include "tools/xref/place_names.h"
 
 namespace rung::scenario {
 namespace {
 
-using host::Ref;
 using ir::BitRange;
 using ir::Use;
-using xref::bitsOf;
-using xref::refOf;
-using xref::shownName;
-using xref::shownRange;
+using report::bitsOf;
+using report::refOf;
+using report::shownName;
+using report::shownRange;
+using runtime::Ref;
 
 // Bounds of the text; what is left out is counted.
 constexpr size_t kWriters = 3;
@@ -67,7 +67,7 @@ private:
     text_ += "\n" + std::string(static_cast<size_t>(indent), ' ');
     rung::put(text_, format, std::forward<Args>(args)...);
   }
-  std::string rungText(uint32_t rung) const { return host::rungText(program_, rung); }
+  std::string rungText(uint32_t rung) const { return runtime::rungText(program_, rung); }
 
   Forced forcedOf(const BitRange& bits) const;
   std::string forceOf(const Ref& place) const;
@@ -81,7 +81,7 @@ private:
   std::optional<std::string> nameLine(const Use& use) const;
 
   const Session& session_;
-  const host::Instance& instance_;
+  const runtime::Instance& instance_;
   const rung_program& program_;
   const ir::Uses& uses_;
   const Changes& changes_;
@@ -93,8 +93,8 @@ private:
 // A force holds a cell wherever it is copied to and from.
 Forced Explanation::forcedOf(const BitRange& bits) const {
   const auto isForced = [&](uint32_t bit) {
-    const rt::Place at = instance_.memory().locateBit(bits.space.index, bit / 8, bit % 8);
-    return !at.outside() && std::ranges::any_of(instance_.forcedBits(), [&](const rt::ForcedBits& forced) {
+    const core::Place at = instance_.memory().locateBit(bits.space.index, bit / 8, bit % 8);
+    return !at.outside() && std::ranges::any_of(instance_.forcedBits(), [&](const core::ForcedBits& forced) {
       return forced.offset == at.offset() && (forced.mask >> at.bit() & 1) != 0;
     });
   };
@@ -140,8 +140,8 @@ void Explanation::sources(const Ref& place, size_t copies) {
     return sources(source, copies + 1);
   }
   line(4, "{}",
-       xref::isWrittenByControl(program_, uses_, place) ? "written by the control or the machine, by no rung"
-                                                        : "written by no rung");
+       report::isWrittenByControl(program_, uses_, place) ? "written by the control or the machine, by no rung"
+                                                          : "written by no rung");
 }
 
 void Explanation::writer(uint32_t rung, bool computed) {
@@ -190,7 +190,7 @@ void Explanation::reads(int indent, uint32_t rung, size_t most) {
 
 // Nothing for areas that have no names, unless what is there was copied from one that has.
 std::optional<std::string> Explanation::nameLine(const Use& use) const {
-  const std::optional<BitRange> shown = xref::knownPlace(program_, uses_, use.place);
+  const std::optional<BitRange> shown = report::knownPlace(program_, uses_, use.place);
   if (!shown) return std::nullopt;
   if (use.computed) return shownRange(program_, *shown) + ", at a computed address";
   const Ref place = nc::meant(program_, refOf(use));
@@ -207,8 +207,8 @@ std::optional<std::string> Explanation::nameLine(const Use& use) const {
 
 std::string Explainer::why(std::string_view name, bool wantReal) const {
   std::optional<Ref> place = session_.nc().readPlace(session_.instance().program(), name);
-  if (place && wantReal) place = host::asReal(session_.instance().memory(), *place).value_or(*place);
-  if (uses_ == nullptr || !place || place->kind == host::RefKind::Constant) return {};
+  if (place && wantReal) place = runtime::asReal(session_.instance().memory(), *place).value_or(*place);
+  if (uses_ == nullptr || !place || place->kind == runtime::RefKind::Constant) return {};
   const Changes::Scan begin = changes_->begin();
   std::string since =
       replaced_ ? fmt::format("the program took over after {}", scanText(begin.number, begin.us)) : "the start";

@@ -50,7 +50,7 @@ std::string Forces::put(const Lanes& lanes, Values values) {
 }
 
 std::string Forces::set(const Lanes& lanes, const std::string& name, const Value& value) {
-  const host::Instance& instance = lanes[0]->instance();
+  const runtime::Instance& instance = lanes[0]->instance();
   if (instance.faulted()) return "a program that a fault has stopped has no forces";
   if (instance.stopped()) return "a stopped program has no forces";
   Values values = this->values(lanes);

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fmt/format.h>
 
+#include "compiler/project.h"
 #include "ir/support/diag_render.h"
-#include "tools/project/project.h"
 
 namespace rung::scenario {
 namespace {
@@ -31,7 +31,7 @@ Statement statementOf(Kind kind, std::string name) {
 }
 
 // As a scenario writes them: relative to its folder.
-Statement programOf(const project::Project& project, const fs::path& folder) {
+Statement programOf(const compiler::Project& project, const fs::path& folder) {
   Statement statement = statementOf(Kind::Program, "");
   for (const std::string& file : project.files) {
     const fs::path relative = fs::path(file).lexically_relative(folder.empty() ? "." : folder);
@@ -45,11 +45,11 @@ Statement programOf(const project::Project& project, const fs::path& folder) {
 bool takeProject(Scenario& scenario) {
   if (hasProgram(scenario)) return false;
   const fs::path folder = fs::path(scenario.path).parent_path().lexically_normal();
-  const auto file = project::findUpwards(folder.string());
+  const auto file = compiler::findUpwards(folder.string());
   if (!file) return false;
   SourceManager sources;
   Diagnostics diagnostics;
-  const auto project = project::load(sources, *file, diagnostics);
+  const auto project = compiler::load(sources, *file, diagnostics);
   if (!project) {
     scenario.problems.push_back(
         {scenario.path, 1, "the project file has mistakes:\n" + renderText(diagnostics, sources)});
@@ -57,7 +57,7 @@ bool takeProject(Scenario& scenario) {
     return true;
   }
   std::vector<Statement> first = {programOf(*project, folder), statementOf(Kind::Dialect, project->dialect)};
-  for (const project::Setting& setting : project->config) {
+  for (const compiler::Setting& setting : project->config) {
     if (configures(scenario, setting.key)) continue;
     first.push_back(statementOf(Kind::Config, setting.key));
     first.back().value.kind = ValueKind::Text;

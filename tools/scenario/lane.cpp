@@ -12,17 +12,17 @@ namespace {
 constexpr ptrdiff_t kMostUnread = 50'000; // entries of the log; a session of hours must not fill the memory
 
 // A shared object is machine code, whatever made it.
-compiler::EngineKind kindOf(const host::Engine& engine) {
+compiler::EngineKind kindOf(const runtime::Engine& engine) {
   return compiler::engineFromName(engine.name()).value_or(compiler::EngineKind::Jit);
 }
 
-void serveWith(rung::Image& image, const host::Engine& engine, const compiler::GetCompiled& compiled) {
+void serveWith(rung::Image& image, const runtime::Engine& engine, const compiler::GetCompiled& compiled) {
   if (compiled) check(compiler::serveImage(image.handle(), compiled, kindOf(engine), {}));
 }
 
 } // namespace
 
-Lane::Lane(host::Engine& engine, std::string folder, sim::Clock clock)
+Lane::Lane(runtime::Engine& engine, std::string folder, sim::Clock clock)
     : engine_(&engine),
       machine_(engine.program(), engine.context(), sim::makeSimulatedNc(engine.program().dialect), clock) {
   nc().setFolder(std::move(folder));
@@ -39,7 +39,7 @@ void Lane::powerOn(nc::PowerOn kind) {
   requests_.clear();
 }
 
-std::string Lane::replace(host::Engine& next, const compiler::GetCompiled& compiled, ReplaceReport& report) try {
+std::string Lane::replace(runtime::Engine& next, const compiler::GetCompiled& compiled, ReplaceReport& report) try {
   const rung_program& former = instance().program();
   rung::Image image = sim::imageOf(next.program(), next.context());
   serveWith(image, next, compiled);
@@ -69,7 +69,7 @@ void Lane::takeLog() {
 }
 
 void Lane::ignore() {
-  rt::ServiceRequest request;
+  core::ServiceRequest request;
   while (instance().services().take(request)) instance().services().complete(nc::refuse(instance().program(), request));
   unreadLog_.clear();
 }

@@ -5,24 +5,24 @@
 #include <string_view>
 #include <vector>
 
-#include "rtlib/host/engine.h"
-#include "tools/compiler/code_maker.h"
+#include "compiler/code_maker.h"
+#include "rtlib/load/engine.h"
+#include "sim/machine.h"
 #include "tools/scenario/replace_report.h"
 #include "tools/scenario/requests.h"
-#include "tools/sim/machine.h"
 
 namespace rung::scenario {
 
 class Lane {
 public:
   // Files that the NC's configuration names lie in `folder`. The engine outlives the lane.
-  Lane(host::Engine& engine, std::string folder, sim::Clock clock);
+  Lane(runtime::Engine& engine, std::string folder, sim::Clock clock);
 
   std::string_view engineName() const { return engine_->name(); }
   sim::Machine& machine() { return machine_; }
   // The program from inside.
-  host::Instance& instance() { return machine_.inside(); }
-  const host::Instance& instance() const { return machine_.inside(); }
+  runtime::Instance& instance() { return machine_.inside(); }
+  const runtime::Instance& instance() const { return machine_.inside(); }
   sim::SimulatedNc& nc() { return machine_.nc(); }
   const sim::SimulatedNc& nc() const { return machine_.nc(); }
   Requests& requests() { return requests_; }
@@ -35,7 +35,7 @@ public:
   void powerOn(nc::PowerOn kind);
   // Another program of the same dialect takes over from the running one. "" or why it cannot, and nothing has happened;
   // its engine outlives the lane.
-  std::string replace(host::Engine& next, const compiler::GetCompiled& compiled, ReplaceReport& report);
+  std::string replace(runtime::Engine& next, const compiler::GetCompiled& compiled, ReplaceReport& report);
   // Runs the NC and the program: a scan, a slot, the fast part or a slice.
   using Advance = void (sim::Machine::*)();
   void advance(Advance how);
@@ -52,7 +52,7 @@ public:
 private:
   void takeLog();
 
-  host::Engine* engine_;
+  runtime::Engine* engine_;
   sim::Machine machine_;
   Requests requests_;
   std::vector<std::string> unreadLog_;

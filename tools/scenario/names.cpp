@@ -7,9 +7,9 @@
 #include <unordered_set>
 #include <utility>
 
-#include "ir/support/similar.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/nc/signals.h"
+#include "rtlib/text/similar.h"
 #include "tools/scenario/statements.h"
 
 namespace rung::scenario {
@@ -23,26 +23,26 @@ bool namesValue(Kind kind) {
 
 } // namespace
 
-Result<Reading> readName(const host::Instance& instance, const sim::SimulatedNc& nc, std::string_view name,
+Result<Reading> readName(const runtime::Instance& instance, const sim::SimulatedNc& nc, std::string_view name,
                          bool wantReal) {
   if (name.starts_with(kQuantity)) {
     if (const auto quantity = nc.quantity(name.substr(kQuantity.size()))) return realReading(*quantity);
     return failure(fmt::format("the simulated NC has no variable '{}'", name));
   }
-  if (const std::optional<host::Ref> place = nc.readPlace(instance.program(), name))
+  if (const std::optional<runtime::Ref> place = nc.readPlace(instance.program(), name))
     return readValue(instance, nc.control(), *place, wantReal);
   if (const std::optional<sim::NcCell> cell = nc.readCell(name)) return cellReading(*cell, wantReal);
   return failure(unknownName(instance.program(), nc, name));
 }
 
-NamedValue::NamedValue(std::string name, const host::Instance& instance, const sim::SimulatedNc& nc)
+NamedValue::NamedValue(std::string name, const runtime::Instance& instance, const sim::SimulatedNc& nc)
     : name_(std::move(name)), place_(nc.readPlace(instance.program(), name_)) {}
 
-void NamedValue::locate(const host::Instance& instance, const sim::SimulatedNc& nc) {
+void NamedValue::locate(const runtime::Instance& instance, const sim::SimulatedNc& nc) {
   place_ = nc.readPlace(instance.program(), name_);
 }
 
-std::optional<Reading> NamedValue::read(const host::Instance& instance, const sim::SimulatedNc& nc) const {
+std::optional<Reading> NamedValue::read(const runtime::Instance& instance, const sim::SimulatedNc& nc) const {
   if (place_) return readValue(instance, nc.control(), *place_, false);
   if (name_.starts_with(kQuantity))
     return realReading(nc.quantity(std::string_view(name_).substr(kQuantity.size())).value_or(0));
@@ -68,7 +68,8 @@ std::vector<std::string> namesOf(const rung_program& program, const sim::Simulat
 std::string unknownName(const rung_program& program, const sim::SimulatedNc& nc, std::string_view name) {
   if (std::string problem = nc.cellProblem(name); !problem.empty()) return problem;
   const std::vector<std::string> names = namesOf(program, nc);
-  return fmt::format("'{}' is not a name of this program{}", name, didYouMean(mostSimilar(nc::headOf(name), names)));
+  return fmt::format("'{}' is not a name of this program{}", name,
+                     text::didYouMean(text::mostSimilar(nc::headOf(name), names)));
 }
 
 std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& program,
@@ -96,7 +97,8 @@ std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& 
   return problems;
 }
 
-std::vector<Problem> unfitValues(const Scenario& scenario, const host::Instance& instance, const sim::SimulatedNc& nc) {
+std::vector<Problem> unfitValues(const Scenario& scenario, const runtime::Instance& instance,
+                                 const sim::SimulatedNc& nc) {
   std::vector<Problem> problems;
   for (const Statement& s : scenario.statements) {
     if (s.kind == Kind::Replace) break;
@@ -108,7 +110,7 @@ std::vector<Problem> unfitValues(const Scenario& scenario, const host::Instance&
   return problems;
 }
 
-Result<std::string> printedLine(const Statement& print, const host::Instance& instance, const sim::SimulatedNc& nc,
+Result<std::string> printedLine(const Statement& print, const runtime::Instance& instance, const sim::SimulatedNc& nc,
                                 uint64_t scans) {
   std::string line = fmt::format("{:.3f} ms, scan {}:", static_cast<double>(instance.nowUs()) / 1000, scans);
   bool first = true;

@@ -6,10 +6,10 @@
 #include <optional>
 #include <sstream>
 
+#include "compiler/file_kind.h"
 #include "ir/support/utf8.h"
 #include "rtlib/text/end_of_file.h"
 #include "rtlib/text/regular_file.h"
-#include "tools/project/file_kind.h"
 #include "tools/scenario/in_project.h"
 #include "tools/scenario/scenario.h"
 #include "tools/scenario/statements.h"
@@ -131,8 +131,8 @@ Scenario parse(std::string path, std::string_view text) {
 }
 
 std::string notAScenario(const std::string& path) {
-  const std::string other = project::otherKind(path, project::FileKind::Scenario);
-  if (other.empty() || project::kindOfFile(path) != project::FileKind::Program) return other;
+  const std::string other = compiler::otherKind(path, compiler::FileKind::Scenario);
+  if (other.empty() || compiler::kindOfFile(path) != compiler::FileKind::Program) return other;
   return fmt::format("{}; a scenario is a file of its own that begins with: program {}", other,
                      fs::path(path).filename().string());
 }

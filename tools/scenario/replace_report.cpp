@@ -20,11 +20,11 @@ std::string inWords(const std::string& name) {
   return plain ? name : '"' + name + '"';
 }
 
-bool same(const host::StateChange& a, const host::StateChange& b) {
+bool same(const runtime::StateChange& a, const runtime::StateChange& b) {
   return a.kind == b.kind && a.slot == b.slot && a.name == b.name && a.formerName == b.formerName;
 }
 
-std::string listOf(const std::vector<host::StateChange>& changes) {
+std::string listOf(const std::vector<runtime::StateChange>& changes) {
   if (changes.empty()) return "none";
   std::string list;
   for (size_t i = 0; i < std::min(changes.size(), kListed); ++i) list += (i == 0 ? "" : ", ") + textOf(changes[i]);
@@ -34,16 +34,16 @@ std::string listOf(const std::vector<host::StateChange>& changes) {
 
 } // namespace
 
-std::optional<host::ChangeKind> changeKindFromName(std::string_view name) {
-  const auto* found = std::ranges::find(host::kChangeKinds, name);
-  if (found == std::end(host::kChangeKinds)) return std::nullopt;
-  return static_cast<host::ChangeKind>(found - std::begin(host::kChangeKinds));
+std::optional<runtime::ChangeKind> changeKindFromName(std::string_view name) {
+  const auto* found = std::ranges::find(runtime::kChangeKinds, name);
+  if (found == std::end(runtime::kChangeKinds)) return std::nullopt;
+  return static_cast<runtime::ChangeKind>(found - std::begin(runtime::kChangeKinds));
 }
 
-std::string textOf(const host::StateChange& change) {
-  std::string text(host::kChangeKinds[static_cast<size_t>(change.kind)]);
+std::string textOf(const runtime::StateChange& change) {
+  std::string text(runtime::kChangeKinds[static_cast<size_t>(change.kind)]);
   if (change.slot) text.append(" ").append(kStateWord);
-  if (change.kind == host::ChangeKind::Renamed) text += " " + inWords(change.formerName);
+  if (change.kind == runtime::ChangeKind::Renamed) text += " " + inWords(change.formerName);
   return text + " " + inWords(change.name);
 }
 
@@ -53,11 +53,13 @@ ReplaceReport::ReplaceReport(const rung::Replacement& replacement) {
   keptStates = info.kept_states;
   bound = info.bound;
   for (const rung_change& change : replacement.changes())
-    changes.push_back({static_cast<host::ChangeKind>(change.kind), change.is_state != 0, change.name, change.former});
+    changes.push_back(
+        {static_cast<runtime::ChangeKind>(change.kind), change.is_state != 0, change.name, change.former});
 }
 
-std::string ReplaceReport::take(const host::StateChange& change) {
-  const auto found = std::ranges::find_if(changes, [&](const host::StateChange& other) { return same(change, other); });
+std::string ReplaceReport::take(const runtime::StateChange& change) {
+  const auto found =
+      std::ranges::find_if(changes, [&](const runtime::StateChange& other) { return same(change, other); });
   if (found == changes.end())
     return fmt::format("the report does not contain: {}; it contains: {}", textOf(change), listOf(changes));
   changes.erase(found);
@@ -71,8 +73,8 @@ std::string ReplaceReport::expectNone() const {
 std::vector<std::string> ReplaceReport::lines() const {
   std::vector<std::string> lines = {
       fmt::format("kept {} and {}", counted(keptCells, "variable"), counted(keptStates, "internal state"))};
-  for (const host::StateChange& change : changes)
-    lines.push_back(textOf(change) + (change.kind == host::ChangeKind::Cut ? kCutNote : ""));
+  for (const runtime::StateChange& change : changes)
+    lines.push_back(textOf(change) + (change.kind == runtime::ChangeKind::Cut ? kCutNote : ""));
   lines.push_back("a slice may last " + bound);
   return lines;
 }

@@ -5,21 +5,21 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/refuse.h"
 #include "rtlib/nc/technol/services.h"
 
 namespace rung::scenario {
 
-using host::Instance;
+using runtime::Instance;
 
 namespace {
 
-ServiceSignature signatureOf(const Instance& instance, const rt::ServiceRequest& request) {
-  return ServiceSignature(host::serviceName(instance.program(), request.service));
+ServiceSignature signatureOf(const Instance& instance, const core::ServiceRequest& request) {
+  return ServiceSignature(runtime::serviceName(instance.program(), request.service));
 }
 
-constexpr size_t kMostKept = rt::ServiceQueue::kRecords; // answers whose bytes are still there
+constexpr size_t kMostKept = core::ServiceQueue::kRecords; // answers whose bytes are still there
 
 } // namespace
 
@@ -43,7 +43,7 @@ void Requests::keepBytes(uint32_t ticket, std::string bytes) {
   bytes_.emplace_back(ticket, std::move(bytes));
 }
 
-void Requests::answer(Instance& instance, const ServiceSignature& signature, const rt::ServiceRequest& request,
+void Requests::answer(Instance& instance, const ServiceSignature& signature, const core::ServiceRequest& request,
                       const std::vector<KeyValue>& results) {
   answerBlock(instance, signature, request, results);
   Answer made = answerOf(signature, request, results);
@@ -52,8 +52,8 @@ void Requests::answer(Instance& instance, const ServiceSignature& signature, con
   instance.services().complete(made.reply);
 }
 
-bool Requests::respond(Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
-  if (!bytes_.empty() && host::serviceName(instance.program(), request.service) == nc::technol::kDataService) {
+bool Requests::respond(Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) {
+  if (!bytes_.empty() && runtime::serviceName(instance.program(), request.service) == nc::technol::kDataService) {
     const auto found =
         std::ranges::find(bytes_, static_cast<uint32_t>(request.args[0]), &decltype(bytes_)::value_type::first);
     if (found != bytes_.end()) return putPart(found->second, request, reply), true;
@@ -73,8 +73,8 @@ bool Requests::respond(Instance& instance, const rt::ServiceRequest& request, rt
   return true;
 }
 
-bool Requests::takeUnanswered(Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
-  const std::string_view name = host::serviceName(instance.program(), request.service);
+bool Requests::takeUnanswered(Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) {
+  const std::string_view name = runtime::serviceName(instance.program(), request.service);
   const nc::technol::DeviceService* service = nc::technol::findDeviceService(name);
   if (service == nullptr) return false;
   Asked asked = askedNow(instance, ServiceSignature(name), request);
@@ -91,7 +91,7 @@ bool Requests::takeUnanswered(Instance& instance, const rt::ServiceRequest& requ
 }
 
 // With the bytes that it had when it was made.
-Asked Requests::asAsked(const rt::ServiceRequest& request) {
+Asked Requests::asAsked(const core::ServiceRequest& request) {
   const auto found =
       std::ranges::find_if(queued_, [&](const Asked& asked) { return asked.request.ticket == request.ticket; });
   if (found == queued_.end()) return {.request = request, .bytes = {}};
@@ -104,7 +104,7 @@ void Requests::take(Instance& instance) {
   for (const Claimed& claimed : claimed_)
     answer(instance, signatureOf(instance, claimed.request), claimed.request, claimed.answer.results);
   claimed_.clear();
-  rt::ServiceRequest request;
+  core::ServiceRequest request;
   while (instance.services().take(request)) {
     const ServiceSignature signature = signatureOf(instance, request);
     if (signature.takesNoAnswer()) answer(instance, signature, request, {});
@@ -171,7 +171,7 @@ std::string Requests::reply(Instance& instance, const Statement& s) {
     return !asked.complete && !signatureOf(instance, asked.request).takesNoAnswer();
   });
   if (next == pending.end()) return "no request is pending";
-  const rt::ServiceRequest request = next->request;
+  const core::ServiceRequest request = next->request;
   const ServiceSignature signature = signatureOf(instance, request);
   std::string problem = keyProblem(signature, {}, s.results);
   if (!problem.empty()) return problem;
@@ -185,7 +185,7 @@ std::string Requests::prepare(const Instance& instance, const Statement& s) {
   const rung_program& program = instance.program();
   std::string problem = fmt::format("this program never requests the service {}", s.name);
   for (uint32_t i = 0; i < program.service_count; ++i) {
-    const ServiceSignature signature(host::serviceName(program, i));
+    const ServiceSignature signature(runtime::serviceName(program, i));
     if (!signature.isNamed(s.name)) continue;
     problem = keyProblem(signature, s.keys, s.results);
     if (!problem.empty()) continue;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "tools/compiler/configuration.h"
+#include "compiler/configuration.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/explain.h"
 #include "tools/scenario/names.h"
@@ -128,7 +128,7 @@ private:
 
   bool start() {
     for (compiler::EngineKind kind : engines()) {
-      host::Engine* engine = engineOf(*program_, kind);
+      runtime::Engine* engine = engineOf(*program_, kind);
       if (engine == nullptr) return false;
       session_.addEngine(*engine);
       for (NamedProgram& named : named_) {
@@ -152,8 +152,8 @@ private:
   }
 
   // Null when it cannot be made.
-  host::Engine* engineOf(StoredProgram& program, compiler::EngineKind kind) {
-    const Result<host::Engine*> engine = program.engine(kind, options_.engine);
+  runtime::Engine* engineOf(StoredProgram& program, compiler::EngineKind kind) {
+    const Result<runtime::Engine*> engine = program.engine(kind, options_.engine);
     if (engine.ok()) return engine.value();
     result_.environment = engine.error();
     return nullptr;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/compiler/engines.h"
+#include "compiler/engines.h"
 #include "tools/scenario/engine_store.h"
 #include "tools/scenario/scenario.h"
 #include "tools/scenario/session.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ir/support/result.h"
-#include "rtlib/host/state_transfer.h"
+#include "rtlib/change/state_transfer.h"
 #include "rtlib/text/number.h"
 
 namespace rung::scenario {
@@ -91,7 +91,7 @@ struct Statement {
   bool on = true;                // ExpectMessage
   std::vector<KeyValue> keys;    // Print: names as keys, texts as values without a key
   std::vector<KeyValue> results; // Prepare: after ->
-  host::StateChange change;      // ExpectChange
+  runtime::StateChange change;   // ExpectChange
 };
 
 struct Problem {

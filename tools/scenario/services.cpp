@@ -8,7 +8,7 @@
 #include <optional>
 #include <sstream>
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "rtlib/nc/technol/code_page.h"
@@ -20,7 +20,7 @@
 
 namespace rung::scenario {
 
-using host::Instance;
+using runtime::Instance;
 using Form = ServiceSignature::Form;
 
 namespace {
@@ -49,18 +49,18 @@ std::optional<BlockKey> blockKey(const ServiceSignature& signature, std::string_
 // The buffer of a request, read from and written to the memory of the program.
 class Buffer {
 public:
-  Buffer(const Instance& instance, const ServiceSignature& signature, const rt::ServiceRequest& request)
-      : space_(host::findSpace(instance.program(), nc::nct::kBlockSpace)),
+  Buffer(const Instance& instance, const ServiceSignature& signature, const core::ServiceRequest& request)
+      : space_(runtime::findSpace(instance.program(), nc::nct::kBlockSpace)),
         first_(static_cast<uint32_t>(request.args[signature.argument("block")])) {
     for (uint32_t i = 0; i < words_.size(); ++i) words_[i] = static_cast<uint32_t>(instance.read(place(i)));
   }
   nc::nct::Block block() { return nc::nct::Block(words_); }
   void writeTo(Instance& instance) const {
-    for (uint32_t i = 0; i < words_.size(); ++i) host::writeRaw(instance.memory(), place(i), words_[i]);
+    for (uint32_t i = 0; i < words_.size(); ++i) runtime::writeRaw(instance.memory(), place(i), words_[i]);
   }
 
 private:
-  host::Ref place(uint32_t word) const { return host::intRef(space_, (first_ + word) * 4, 32); }
+  runtime::Ref place(uint32_t word) const { return runtime::intRef(space_, (first_ + word) * 4, 32); }
 
   uint32_t space_;
   uint32_t first_;
@@ -84,7 +84,7 @@ std::string blockDifference(const ServiceSignature& signature, nc::nct::Block bl
 // ---- arguments -----------------------------------------------------------------------------------------------------
 
 // Bits of an argument that count.
-uint64_t maskOf(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view key) {
+uint64_t maskOf(const ServiceSignature& signature, const core::ServiceRequest& request, std::string_view key) {
   const int length = signature.argument("length");
   if (length < 0 || static_cast<uint32_t>(length) >= request.argCount || !text::equalsIgnoringCase(key, "data"))
     return UINT64_MAX;
@@ -123,7 +123,7 @@ std::string bytesDifference(const ServiceSignature& signature, std::string_view 
 }
 
 std::string argumentDifference(const ServiceSignature& signature, const Asked& asked, int index, const KeyValue& key) {
-  const rt::ServiceRequest& request = asked.request;
+  const core::ServiceRequest& request = asked.request;
   const int64_t found = request.args[index];
   if (isScopeName(signature, key)) return scopeDifference(signature, found, key);
   const Form form = signature.formOfArgument(index);
@@ -226,7 +226,7 @@ std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyV
 
 // ---- requests and replies ------------------------------------------------------------------------------------------
 
-Asked askedNow(const Instance& instance, const ServiceSignature& signature, const rt::ServiceRequest& request) {
+Asked askedNow(const Instance& instance, const ServiceSignature& signature, const core::ServiceRequest& request) {
   Asked asked{.request = request, .bytes = {}};
   for (int i = 0; i < signature.argumentCount(); ++i) {
     const Form form = signature.formOfArgument(i);
@@ -239,7 +239,7 @@ Asked askedNow(const Instance& instance, const ServiceSignature& signature, cons
 
 std::string requestDifference(const ServiceSignature& signature, const Asked& asked, std::string_view service,
                               const std::vector<KeyValue>& keys, const Instance* instance) {
-  const rt::ServiceRequest& request = asked.request;
+  const core::ServiceRequest& request = asked.request;
   if (!signature.isNamed(service)) return fmt::format("the next request is {}, expected {}", signature.name(), service);
   std::optional<Buffer> buffer;
   for (const KeyValue& key : keys) {
@@ -261,20 +261,20 @@ std::string requestDifference(const ServiceSignature& signature, const Asked& as
 
 namespace {
 
-void setResult(rt::ServiceReply& reply, int index, int64_t value) {
+void setResult(core::ServiceReply& reply, int index, int64_t value) {
   if (index < 0 || index >= static_cast<int>(RUNG_MAX_SERVICE_ARGS)) return;
   reply.results[index] = value;
   reply.resultCount = std::max(reply.resultCount, static_cast<uint32_t>(index) + 1);
 }
 
-int64_t argumentOr(const ServiceSignature& signature, const rt::ServiceRequest& request, std::string_view name,
+int64_t argumentOr(const ServiceSignature& signature, const core::ServiceRequest& request, std::string_view name,
                    int64_t otherwise) {
   const int index = signature.argument(name);
   return index < 0 || static_cast<uint32_t>(index) >= request.argCount ? otherwise : request.args[index];
 }
 
 // Bytes are at most as many as were asked for.
-void setBytes(const ServiceSignature& signature, const rt::ServiceRequest& request, const KeyValue& key,
+void setBytes(const ServiceSignature& signature, const core::ServiceRequest& request, const KeyValue& key,
               Answer& answer) {
   answer.bytes = bytesOf(key.value, text::equalsIgnoringCase(key.key, "data")).value_or("");
   const auto most = static_cast<uint64_t>(argumentOr(signature, request, "Len", INT64_MAX));
@@ -283,7 +283,7 @@ void setBytes(const ServiceSignature& signature, const rt::ServiceRequest& reque
 }
 
 // What a device says of itself where the scenario does not.
-void setLengths(const ServiceSignature& signature, const rt::ServiceRequest& request, Answer& answer) {
+void setLengths(const ServiceSignature& signature, const core::ServiceRequest& request, Answer& answer) {
   const auto size = static_cast<int64_t>(answer.bytes.size());
   setResult(answer.reply, signature.result("Len"),
             signature.dataResult() >= 0 ? size : argumentOr(signature, request, "Len", 0));
@@ -292,7 +292,7 @@ void setLengths(const ServiceSignature& signature, const rt::ServiceRequest& req
 
 } // namespace
 
-Answer answerOf(const ServiceSignature& signature, const rt::ServiceRequest& request,
+Answer answerOf(const ServiceSignature& signature, const core::ServiceRequest& request,
                 const std::vector<KeyValue>& results) {
   Answer answer;
   answer.reply.ticket = request.ticket;
@@ -312,7 +312,7 @@ Answer answerOf(const ServiceSignature& signature, const rt::ServiceRequest& req
   return answer;
 }
 
-void answerBlock(Instance& instance, const ServiceSignature& signature, const rt::ServiceRequest& request,
+void answerBlock(Instance& instance, const ServiceSignature& signature, const core::ServiceRequest& request,
                  const std::vector<KeyValue>& results) {
   if (!signature.hasBlock()) return;
   Buffer buffer(instance, signature, request);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rtlib/core/queues.h"
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 #include "tools/scenario/device_bytes.h"
 #include "tools/scenario/scenario.h"
 
@@ -66,21 +66,22 @@ std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyV
 // "" when the request is this service with these arguments; keys that are not given are not compared. `data` of a
 // request that has a `length` compares modulo so many bytes. Words of a block are those in the instance's memory.
 std::string requestDifference(const ServiceSignature& signature, const Asked& asked, std::string_view service,
-                              const std::vector<KeyValue>& keys, const host::Instance* instance = nullptr);
+                              const std::vector<KeyValue>& keys, const runtime::Instance* instance = nullptr);
 // The bytes of its arguments, read now.
-Asked askedNow(const host::Instance& instance, const ServiceSignature& signature, const rt::ServiceRequest& request);
+Asked askedNow(const runtime::Instance& instance, const ServiceSignature& signature,
+               const core::ServiceRequest& request);
 
 // An answer; `bytes` are those of the result that is a text or bytes.
 struct Answer {
-  rt::ServiceReply reply;
+  core::ServiceReply reply;
   std::string bytes;
 };
 // Results in the order of the signature; `error=1` gives the state Error. A length that is not given is that of the
 // bytes, or the one that was asked for.
-Answer answerOf(const ServiceSignature& signature, const rt::ServiceRequest& request,
+Answer answerOf(const ServiceSignature& signature, const core::ServiceRequest& request,
                 const std::vector<KeyValue>& results);
 // Writes the words among the results into the request's block, before it is completed.
-void answerBlock(host::Instance& instance, const ServiceSignature& signature, const rt::ServiceRequest& request,
+void answerBlock(runtime::Instance& instance, const ServiceSignature& signature, const core::ServiceRequest& request,
                  const std::vector<KeyValue>& results);
 
 } // namespace rung::scenario

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "rtlib/host/compare.h"
+#include "rtlib/change/compare.h"
 #include "rtlib/nc/names/names.h"
 #include "tools/scenario/expectations.h"
 #include "tools/scenario/names.h"
@@ -34,7 +34,7 @@ bool belongsToStart(Kind kind) {
 
 // ---- start ---------------------------------------------------------------------------------------------------------
 
-void Session::addEngine(host::Engine& engine) { lanes_.push_back(std::make_unique<Lane>(engine, folder_, clock_)); }
+void Session::addEngine(runtime::Engine& engine) { lanes_.push_back(std::make_unique<Lane>(engine, folder_, clock_)); }
 
 void Session::setCompiled(const compiler::GetCompiled& compiled) {
   for (const std::unique_ptr<Lane>& lane : lanes_) lane->serve(compiled);
@@ -74,7 +74,7 @@ void Session::addObserver(Observer& observer) {
 // The engines must agree after every scan.
 std::string Session::difference() const {
   for (size_t i = 1; i < lanes_.size(); ++i)
-    if (const auto found = host::firstDifference(instance(), lanes_[i]->instance(), nc::describe))
+    if (const auto found = runtime::firstDifference(instance(), lanes_[i]->instance(), nc::describe))
       return fmt::format("engines disagree (a bug in Rung): {} and {}: {}", lanes_[0]->engineName(),
                          lanes_[i]->engineName(), *found);
   return {};
@@ -99,11 +99,11 @@ std::string Session::afterScan() {
   return problem;
 }
 
-host::RealTimeStats Session::runRealTime() {
+runtime::RealTimeStats Session::runRealTime() {
   Lane& lane = *lanes_[0];
   lane.nc().setRealTime();
   const auto slice = [&lane] { lane.advance(&sim::Machine::slice); };
-  return host::runRealTime(lane.instance(), slice, [&] {
+  return runtime::runRealTime(lane.instance(), slice, [&] {
     scans_ += lane.instance().atListStart() ? 1 : 0;
     afterScan();
     return !lane.instance().faulted() && !interrupted();

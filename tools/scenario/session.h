@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "ir/analysis/uses.h"
-#include "rtlib/host/realtime.h"
+#include "rtlib/run/realtime.h"
 #include "tools/scenario/forces.h"
 #include "tools/scenario/lane.h"
 #include "tools/scenario/scenario.h"
@@ -28,9 +28,9 @@ class Session;
 
 // A program that takes the place of the running one, or runs beside it.
 struct NextProgram {
-  std::vector<host::Engine*> engines; // one for each of the session's, in their order; they outlive the session
-  const ir::Uses* uses = nullptr;     // outlives the session; null: the program was not compiled here
-  compiler::GetCompiled compiled;     // what it gives outlives the session
+  std::vector<runtime::Engine*> engines; // one for each of the session's, in their order; they outlive the session
+  const ir::Uses* uses = nullptr;        // outlives the session; null: the program was not compiled here
+  compiler::GetCompiled compiled;        // what it gives outlives the session
 };
 
 // "scan 12, 0.120 s".
@@ -61,7 +61,7 @@ public:
   Session& operator=(const Session&) = delete;
 
   // Before the start. The engines outlive the session; "" or what is wrong.
-  void addEngine(host::Engine& engine);
+  void addEngine(runtime::Engine& engine);
   std::string config(std::string_view key, std::string_view value);
   std::string connect(std::string_view source, std::string_view destination);
   // Switches the program on. Throws rung::Error where retained memory cannot be taken. What is wrong: connections whose
@@ -84,12 +84,12 @@ public:
   // Nobody will look at requests and at the log: after every scan, requests are refused and the log is dropped.
   void setUnattended() { unattended_ = true; }
   // On the machine's clock, slice by slice, with the first engine: until the program stops or the interrupt says so.
-  host::RealTimeStats runRealTime();
+  runtime::RealTimeStats runRealTime();
 
   // Of the first engine.
   sim::Machine& machine() { return lanes_[0]->machine(); }
-  host::Instance& instance() { return lanes_[0]->instance(); }
-  const host::Instance& instance() const { return lanes_[0]->instance(); }
+  runtime::Instance& instance() { return lanes_[0]->instance(); }
+  const runtime::Instance& instance() const { return lanes_[0]->instance(); }
   sim::SimulatedNc& nc() { return lanes_[0]->nc(); }
   const sim::SimulatedNc& nc() const { return lanes_[0]->nc(); }
   int64_t nowUs() const { return instance().nowUs(); }

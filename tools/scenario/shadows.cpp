@@ -58,7 +58,7 @@ std::string listOf(const std::vector<rung_difference>& differences) {
 
 } // namespace
 
-std::string Shadows::begin(const Lanes& lanes, const std::vector<host::Engine*>& engines) try {
+std::string Shadows::begin(const Lanes& lanes, const std::vector<runtime::Engine*>& engines) try {
   end();
   std::vector<InLane> inLanes;
   for (size_t i = 0; i < lanes.size(); ++i) {

@@ -15,7 +15,7 @@ public:
   using Lanes = std::vector<std::unique_ptr<Lane>>;
 
   // From now on, in the place of one that runs. `engines`: by lane; they outlive it. "" or why it cannot.
-  std::string begin(const Lanes& lanes, const std::vector<host::Engine*>& engines);
+  std::string begin(const Lanes& lanes, const std::vector<runtime::Engine*>& engines);
   void end() { inLanes_.clear(); }
 
   // After every scan: the shadow does what that has recorded.

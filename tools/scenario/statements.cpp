@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "ir/support/ascii.h"
-#include "ir/support/similar.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "rtlib/text/similar.h"
 #include "tools/scenario/replace_report.h"
 #include "tools/scenario/words.h"
 
@@ -25,7 +24,7 @@ constexpr Synonym kSynonyms[] = {{"wait", "run"},     {"sleep", "run"},    {"del
                                  {"step", "scan"},    {"cycle", "scan"},   {"echo", "print"},    {"show", "print"},
                                  {"log", "print"},    {"load", "program"}, {"import", "include"}};
 
-bool startsWithDigit(std::string_view text) { return !text.empty() && isDigit(text[0]); }
+bool startsWithDigit(std::string_view text) { return !text.empty() && text::isDigit(text[0]); }
 
 // Statements that decide how the program is compiled and started.
 bool shapesStart(Kind kind) {
@@ -329,7 +328,7 @@ bool LineParser::expectChange() {
   if (!known)
     return fail(fmt::format("expected new, removed, moved, retyped, released, cut or renamed, found '{}'", kind));
   s_.change.kind = *known;
-  if (*known == host::ChangeKind::Renamed)
+  if (*known == runtime::ChangeKind::Renamed)
     return takeWord(s_.change.formerName, "the former name") && takeWord(s_.change.name, "the new name");
   s_.change.slot = next_ + 1 < words_.size() && word() == kStateWord && !words_[next_].quoted;
   if (s_.change.slot) ++next_;
@@ -341,7 +340,7 @@ std::string LineParser::unknown() {
   std::string_view meant;
   for (const Synonym& synonym : kSynonyms)
     if (synonym.word == word) meant = synonym.statement;
-  if (meant.empty()) meant = mostSimilar(word, kRows, [](const Row& row) { return row.form.word; });
+  if (meant.empty()) meant = text::mostSimilar(word, kRows, [](const Row& row) { return row.form.word; });
   if (meant.empty() && (word.starts_with(';') || word.starts_with("//")))
     return fmt::format("unknown statement '{}'; a comment begins with '#'", word);
   if (meant.empty() && words_.size() > 1 && words_[1].text == "=") meant = "set";

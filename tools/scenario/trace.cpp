@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <sstream>
 
+#include "tools/report/place_names.h"
+#include "tools/report/used_places.h"
 #include "tools/scenario/names.h"
-#include "tools/xref/place_names.h"
-#include "tools/xref/used_places.h"
 
 namespace rung::scenario {
 
@@ -16,8 +16,8 @@ namespace {
 bool isQuantity(std::string_view name) { return name.starts_with("NC."); }
 
 // The area of the place; "NC" for what lies in no memory.
-const char* areaOf(const rung_program& program, const std::optional<host::Ref>& place) {
-  return place && place->kind != host::RefKind::Constant ? program.spaces[place->space].name : "NC";
+const char* areaOf(const rung_program& program, const std::optional<runtime::Ref>& place) {
+  return place && place->kind != runtime::RefKind::Constant ? program.spaces[place->space].name : "NC";
 }
 
 } // namespace
@@ -34,8 +34,8 @@ std::vector<std::string> defaultTraceNames(const rung_program& program, const ir
     if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   };
   if (uses != nullptr) {
-    for (const xref::UsedPlace& place : xref::usedPlaces(program, *uses))
-      add(xref::writtenName(program, xref::refOf(place.use)));
+    for (const report::UsedPlace& place : report::usedPlaces(program, *uses))
+      add(report::writtenName(program, report::refOf(place.use)));
     return names;
   }
   for (uint32_t i = 0; i < program.symbol_count; ++i)
@@ -43,7 +43,7 @@ std::vector<std::string> defaultTraceNames(const rung_program& program, const ir
   return names;
 }
 
-std::string Trace::nameProblem(const std::vector<std::string>& names, const host::Instance& instance,
+std::string Trace::nameProblem(const std::vector<std::string>& names, const runtime::Instance& instance,
                                const sim::SimulatedNc& nc) {
   for (const std::string& name : names) {
     if (isQuantity(name)) continue; // some exist only once they have been set
@@ -54,7 +54,7 @@ std::string Trace::nameProblem(const std::vector<std::string>& names, const host
 }
 
 Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::vector<std::string>& names,
-                                           const host::Instance& instance, const sim::SimulatedNc& nc) {
+                                           const runtime::Instance& instance, const sim::SimulatedNc& nc) {
   const rung_program& program = instance.program();
   std::vector<Source> sources;
   std::vector<TracedName> traced;
@@ -78,7 +78,7 @@ void Trace::replaced(const Session& session, const NextProgram&) {
   for (Source& source : sources_) source.value.locate(session.instance(), session.nc());
 }
 
-void Trace::sample(const host::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan) {
+void Trace::sample(const runtime::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan) {
   values_.clear();
   for (const Source& source : sources_) {
     std::optional<Reading> value = source.value.read(instance, nc);

@@ -29,16 +29,16 @@ std::vector<std::string> defaultTraceNames(const rung_program& program, const ir
 class Trace final : public Observer {
 public:
   // "" when all names are variables of the program or cells of the NC. Quantities of the NC are 0 until they exist.
-  static std::string nameProblem(const std::vector<std::string>& names, const host::Instance& instance,
+  static std::string nameProblem(const std::vector<std::string>& names, const runtime::Instance& instance,
                                  const sim::SimulatedNc& nc);
   // Begins the file with the values of now. The names have no problem.
   static Result<std::unique_ptr<Trace>> open(const std::string& path, const std::vector<std::string>& names,
-                                             const host::Instance& instance, const sim::SimulatedNc& nc);
+                                             const runtime::Instance& instance, const sim::SimulatedNc& nc);
 
   void scanned(const Session& session) override { sample(session.instance(), session.nc(), session.scans()); }
   // Names that the new program does not have, or with values of another kind, have none from now on.
   void replaced(const Session& session, const NextProgram& next) override;
-  void sample(const host::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan);
+  void sample(const runtime::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan);
   // Ends the file; "" or why it could not be written.
   std::string finish();
 

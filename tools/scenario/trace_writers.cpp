@@ -4,16 +4,16 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "rtlib/host/vcd.h"
+#include "rtlib/record/vcd.h"
 
 namespace rung::scenario {
 namespace {
 
 // ---- VCD ---------------------------------------------------------------------------------------------------------
 
-static_assert(static_cast<int>(ValueKind::Int) == static_cast<int>(host::VcdKind::Integer) &&
-              static_cast<int>(ValueKind::Real) == static_cast<int>(host::VcdKind::Real) &&
-              static_cast<int>(ValueKind::Text) == static_cast<int>(host::VcdKind::Text));
+static_assert(static_cast<int>(ValueKind::Int) == static_cast<int>(runtime::VcdKind::Integer) &&
+              static_cast<int>(ValueKind::Real) == static_cast<int>(runtime::VcdKind::Real) &&
+              static_cast<int>(ValueKind::Text) == static_cast<int>(runtime::VcdKind::Text));
 
 class VcdTrace final : public TraceWriter {
 public:
@@ -21,21 +21,21 @@ public:
   ~VcdTrace() override { vcd_.end(); }
 
   void begin(std::string_view program, std::span<const TracedName> names) override {
-    std::vector<host::VcdName> shown;
+    std::vector<runtime::VcdName> shown;
     for (const TracedName& name : names)
-      shown.push_back({name.name, name.scope, static_cast<host::VcdKind>(name.kind), name.width});
+      shown.push_back({name.name, name.scope, static_cast<runtime::VcdKind>(name.kind), name.width});
     vcd_.begin(program, shown);
   }
   void sample(int64_t us, uint64_t, std::span<const std::optional<Reading>> values) override {
     shown_.clear();
     for (const std::optional<Reading>& value : values)
-      shown_.push_back(value ? host::VcdValue{true, value->integer, value->real, value->text} : host::VcdValue{});
+      shown_.push_back(value ? runtime::VcdValue{true, value->integer, value->real, value->text} : runtime::VcdValue{});
     vcd_.sample(us, shown_);
   }
 
 private:
-  host::VcdWriter vcd_;
-  std::vector<host::VcdValue> shown_;
+  runtime::VcdWriter vcd_;
+  std::vector<runtime::VcdValue> shown_;
 };
 
 // ---- CSV (RFC 4180) ----------------------------------------------------------------------------------------------

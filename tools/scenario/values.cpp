@@ -11,9 +11,9 @@
 
 namespace rung::scenario {
 
-using host::Instance;
-using host::Ref;
-using host::RefKind;
+using runtime::Instance;
+using runtime::Ref;
+using runtime::RefKind;
 
 namespace {
 
@@ -105,7 +105,7 @@ Reading readValue(const Instance& instance, const nc::Control& control, const Re
     return reading;
   }
   if (wantReal && place.kind == RefKind::Int)
-    if (const auto real = host::asReal(instance.memory(), place)) return realReading(instance.readReal(*real));
+    if (const auto real = runtime::asReal(instance.memory(), place)) return realReading(instance.readReal(*real));
   if (place.kind == RefKind::Real || wantReal) return realReading(instance.readReal(place));
   Reading reading;
   reading.integer = instance.read(place);
@@ -126,7 +126,7 @@ std::string numberProblem(const Instance& instance, const Ref& place, const Valu
     return fmt::format("a bit takes 0 or 1, not {}", value.text);
   if (place.kind == RefKind::Real) return {};
   if (value.kind == ValueKind::Int) return widthProblem(value, place.kind == RefKind::Bit ? 1 : place.width);
-  if (host::asReal(instance.memory(), place)) return {};
+  if (runtime::asReal(instance.memory(), place)) return {};
   return fmt::format("this name is an integer of {} bits, so it cannot be {}: expected a whole number, or a name of 64 "
                      "bits, which a real has",
                      place.width, value.text);
@@ -135,7 +135,7 @@ std::string numberProblem(const Instance& instance, const Ref& place, const Valu
 // Where a real is written; nothing where the value is an integer.
 std::optional<Ref> realPlace(const Instance& instance, const Ref& place, const Value& value) {
   if (place.kind == RefKind::Real) return place;
-  return value.kind == ValueKind::Real ? host::asReal(instance.memory(), place) : std::nullopt;
+  return value.kind == ValueKind::Real ? runtime::asReal(instance.memory(), place) : std::nullopt;
 }
 
 } // namespace

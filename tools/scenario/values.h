@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "ir/support/result.h"
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 #include "rung/runtime.h"
+#include "sim/simulated_nc.h"
 #include "tools/scenario/scenario.h"
-#include "tools/sim/simulated_nc.h"
 
 namespace rung::scenario {
 
@@ -23,7 +23,8 @@ struct Reading {
 };
 
 // `wantReal`: two words or eight bytes are read as one double.
-Reading readValue(const host::Instance& instance, const nc::Control& control, const host::Ref& place, bool wantReal);
+Reading readValue(const runtime::Instance& instance, const nc::Control& control, const runtime::Ref& place,
+                  bool wantReal);
 std::string show(const Reading& reading);
 // Without the hexadecimal form: "65535 (-1)".
 std::string showShort(const Reading& reading);
@@ -35,13 +36,13 @@ std::string cellProblem(const sim::NcCell& now, const Value& value);
 int64_t signedOf(const Reading& integer);
 
 // "", or why a place that can be written cannot hold the value.
-std::string valueProblem(const host::Instance& instance, const host::Ref& place, const Value& value);
+std::string valueProblem(const runtime::Instance& instance, const runtime::Ref& place, const Value& value);
 // The cell of this name, at this place, with the value, for whoever forces it. The name outlives the result.
-Result<rung_forced_cell> forcedCell(const host::Instance& instance, const std::string& name, const host::Ref& place,
-                                    const Value& value);
+Result<rung_forced_cell> forcedCell(const runtime::Instance& instance, const std::string& name,
+                                    const runtime::Ref& place, const Value& value);
 
 // Each gives "" or what is wrong.
-std::string writeValue(host::Instance& instance, const nc::Control& control, const host::Ref& place,
+std::string writeValue(runtime::Instance& instance, const nc::Control& control, const runtime::Ref& place,
                        const Value& value);
 std::string checkValue(const Reading& reading, const Statement& expect);
 std::string checkRange(const Reading& reading, const Statement& expect);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "ir/support/ascii.h"
 #include "rtlib/text/bit_word.h"
+#include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
 namespace rung::scenario {
@@ -23,7 +23,7 @@ constexpr double kLongestUs = 9e15; // far from the end of 64 bits
 // The length of the number before the unit.
 size_t numberLength(std::string_view text) {
   size_t length = text.size();
-  while (length > 0 && !isDigit(text[length - 1]) && text[length - 1] != '.') --length;
+  while (length > 0 && !text::isDigit(text[length - 1]) && text[length - 1] != '.') --length;
   return length;
 }
 

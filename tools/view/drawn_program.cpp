@@ -5,15 +5,16 @@
 
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/dialects/gsk/language.h"
-#include "tools/xref/module_reference.h"
+#include "tools/report/module_reference.h"
 
 namespace rung::view {
 namespace {
 
-std::optional<network::LadderForm> laddersOf(const frontend::Dialect& dialect, SourceManager& sources,
-                                             std::span<const FileId> files, Diagnostics& diagnostics) {
-  if (&dialect == &gsk::kGsk) return network::ladderForm(gsk::kLanguage, sources, files, diagnostics);
-  return network::LadderForm{{files.begin(), files.end()}, {}, {}};
+std::optional<frontend::network::LadderForm> laddersOf(const frontend::Dialect& dialect, SourceManager& sources,
+                                                       std::span<const FileId> files, Diagnostics& diagnostics) {
+  if (&dialect == &frontend::gsk::kGsk)
+    return frontend::network::ladderForm(frontend::gsk::kLanguage, sources, files, diagnostics);
+  return frontend::network::LadderForm{{files.begin(), files.end()}, {}, {}};
 }
 
 } // namespace
@@ -31,7 +32,7 @@ std::optional<Program> drawnProgram(SourceManager& sources, std::span<const File
   if (!ladders) return std::nullopt;
   Diagnostics unheard; // the same program: all of it has been reported
   if (!std::ranges::equal(ladders->files, files)) program = dialect.check(sources, ladders->files, options, unheard);
-  const xref::ModuleReference reference(*module, dialect.shownSpaces);
+  const report::ModuleReference reference(*module, dialect.shownSpaces);
   return readProgram(sources, {.dialect = &dialect,
                                .files = ladders->files,
                                .analysis = &program->analysis(),

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "ir/support/allowance.h"
-#include "ir/support/ascii.h"
 #include "rtlib/nc/names/names.h"
-#include "tools/xref/place_names.h"
+#include "rtlib/text/letters.h"
+#include "tools/report/place_names.h"
 
 namespace rung::view {
 namespace {
@@ -14,13 +14,13 @@ namespace {
 // Whether an address is written as a number, as those of NCT are.
 bool isNumber(std::string_view address) {
   const std::string_view cell = nc::headOf(address);
-  return !cell.empty() && isDigit(cell.front());
+  return !cell.empty() && text::isDigit(cell.front());
 }
 
 } // namespace
 
 Names::Names(const frontend::Dialect& dialect, const frontend::Analysis& analysis,
-             const xref::CrossReference& reference)
+             const report::CrossReference& reference)
     : analysis_(analysis), reference_(reference) {
   addDefinitions();
   addSignals(dialect);
@@ -49,18 +49,18 @@ void Names::addSignals(const frontend::Dialect& dialect) {
 }
 
 std::optional<ir::BitRange> Names::placeOf(const frontend::NamedPlace& place) const {
-  return xref::rangeOf(reference_.program(), place);
+  return report::rangeOf(reference_.program(), place);
 }
 
 std::string Names::textOf(const ir::BitRange& place) const {
-  return nc::address(reference_.program(), xref::refAt(place));
+  return nc::address(reference_.program(), report::refAt(place));
 }
 
 const Named& Names::at(const ir::BitRange& place) {
   const std::string address = textOf(place);
   const auto [found, isNew] = places_.try_emplace(fmt::format("{} {}", address, place.count));
   if (!isNew) return found->second;
-  const xref::Entry entry = reference_.of(xref::refAt(place));
+  const report::Entry entry = reference_.of(report::refAt(place));
   found->second = {.address = {},
                    .comment = {},
                    .key = address,
@@ -84,18 +84,18 @@ Named Names::of(const frontend::Definition& definition) {
   return named;
 }
 
-std::string_view Names::valueOf(const Word& operand) const {
+std::string_view Names::valueOf(const frontend::Word& operand) const {
   const frontend::Definition* name = analysis_.nameAt(operand.range);
   return name != nullptr && name->isConstant() ? name->value : operand.text;
 }
 
-Named Names::find(const Word& operand) {
+Named Names::find(const frontend::Word& operand) {
   Named named = lookUp(operand);
   if (named.address == operand.text) named.address.clear(); // an address says nothing of itself
   return named;
 }
 
-Named Names::lookUp(const Word& operand) {
+Named Names::lookUp(const frontend::Word& operand) {
   if (const auto declared = declared_.find(operand.range.begin); declared != declared_.end())
     return of(analysis_.definitions()[declared->second]);
   const frontend::OperandUse* use = analysis_.operandAt(operand.range);

@@ -8,7 +8,7 @@
 
 #include "frontend/dialects/dialect.h"
 #include "frontend/syntax/word_lexer.h"
-#include "tools/xref/cross_reference.h"
+#include "tools/report/cross_reference.h"
 
 namespace rung::view {
 
@@ -24,14 +24,14 @@ struct Named {
 class Names {
 public:
   // All must outlive it. `analysis` is of the text that is drawn, `reference` of the program that it compiles to.
-  Names(const frontend::Dialect& dialect, const frontend::Analysis& analysis, const xref::CrossReference& reference);
+  Names(const frontend::Dialect& dialect, const frontend::Analysis& analysis, const report::CrossReference& reference);
 
   // Of an operand of the text, and of a name where it is declared.
-  Named find(const Word& operand);
+  Named find(const frontend::Word& operand);
   // The label or subprogram that an operand is; null when it is none.
-  const frontend::TargetUse* targetAt(const Word& operand) const { return analysis_.targetAt(operand.range); }
+  const frontend::TargetUse* targetAt(const frontend::Word& operand) const { return analysis_.targetAt(operand.range); }
   // What a constant means: its value as declared, otherwise the text itself.
-  std::string_view valueOf(const Word& operand) const;
+  std::string_view valueOf(const frontend::Word& operand) const;
 
 private:
   struct Known {
@@ -44,10 +44,10 @@ private:
   std::string textOf(const ir::BitRange& place) const;
   const Named& at(const ir::BitRange& place);
   Named of(const frontend::Definition& definition);
-  Named lookUp(const Word& operand);
+  Named lookUp(const frontend::Word& operand);
 
   const frontend::Analysis& analysis_;
-  const xref::CrossReference& reference_;
+  const report::CrossReference& reference_;
   std::map<std::string, Known> byAddress_; // the first name of a place; declared ones come first
   std::map<SourcePos, uint32_t> declared_; // where: the definition
   std::map<std::string, Named> places_;    // that were asked for, by address and length

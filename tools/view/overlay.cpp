@@ -126,8 +126,8 @@ Listing listingOf(const SourceManager& sources, std::span<const FileId> files, s
     const auto file = readable.find(path);
     const auto [text, isNew] = listing.texts.try_emplace(path);
     if (!isNew || file == readable.end()) return;
-    LineReader lines(sources, file->second);
-    for (SourceLine line; lines.next(line);) text->second.emplace_back(line.text);
+    frontend::LineReader lines(sources, file->second);
+    for (frontend::SourceLine line; lines.next(line);) text->second.emplace_back(line.text);
   };
   for (const TableRow& row : listing.rows) add(row.place.file);
   std::ranges::for_each(names, add);

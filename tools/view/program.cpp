@@ -23,10 +23,10 @@
 namespace rung::view {
 namespace {
 
-using ladder::Declaration;
-using ladder::DeclarationKind;
-using ladder::LadderFile;
-using ladder::StatementKind;
+using frontend::ladder::Declaration;
+using frontend::ladder::DeclarationKind;
+using frontend::ladder::LadderFile;
+using frontend::ladder::StatementKind;
 
 constexpr size_t kUsesShown = 8;    // of a coil, at the right rail
 constexpr size_t kWritersShown = 1; // of a contact
@@ -61,7 +61,7 @@ public:
     std::vector<Use> uses;
   };
 
-  explicit UseList(const xref::CrossReference& reference) : index_(reference) {}
+  explicit UseList(const report::CrossReference& reference) : index_(reference) {}
 
   // The index of the entry; kNone for what is not counted.
   uint32_t add(const Named& named, std::string_view name, Use use) {
@@ -111,23 +111,23 @@ struct Sides {
 class Reader : private SheetListener {
 public:
   Reader(const SourceManager& sources, const Input& input)
-      : sources_(sources), input_(input), isGsk_(input.dialect == &gsk::kGsk),
+      : sources_(sources), input_(input), isGsk_(input.dialect == &frontend::gsk::kGsk),
         names_(*input.dialect, *input.analysis, *input.reference), uses_(*input.reference) {}
   Program run();
 
 private:
   void readTexts();
   void readFile(const LadderFile& file);
-  void readStatement(const LadderFile& file, const ladder::Statement& statement);
+  void readStatement(const LadderFile& file, const frontend::ladder::Statement& statement);
   void readDeclaration(const Declaration& declaration);
-  void readRung(const LadderFile& file, const ladder::Rung& rung, std::string_view remark);
+  void readRung(const LadderFile& file, const frontend::ladder::Rung& rung, std::string_view remark);
   bool isHint(std::string_view text) const;
   void comment(std::string_view text);
   void flushComments(const Place& place);
   Link onUse(const OperandUse& use) override;
   Link onTarget(const frontend::TargetUse& target, uint32_t row) override;
-  void beginModule(const ladder::Module& module, std::string_view remark, const Place& place);
-  void titleFromSection(Block& block, const ladder::Module& module);
+  void beginModule(const frontend::ladder::Module& module, std::string_view remark, const Place& place);
+  void titleFromSection(Block& block, const frontend::ladder::Module& module);
   void splitUses();
   CrossReference readersOf(uint32_t entry) const;
   CrossReference writersOf(uint32_t entry, std::string_view lead, uint32_t without, size_t most) const;
@@ -145,7 +145,7 @@ private:
   uint32_t indexOf(FileId file) const;
   Place placeOf(const LadderFile& file, uint32_t line) const;
   Place placeOf(SourcePos pos) const;
-  Place placeOfRung(const LadderFile& file, const ladder::Rung& rung) const;
+  Place placeOfRung(const LadderFile& file, const frontend::ladder::Rung& rung) const;
   Place placeOfElement(SourcePos drawn) const;
   bool converted() const { return input_.files != input_.authors; }
 
@@ -205,7 +205,7 @@ Place Reader::placeOf(SourcePos pos) const {
   return {indexOf(sources_.fileOf(pos)), at.line, at.column};
 }
 
-Place Reader::placeOfRung(const LadderFile& file, const ladder::Rung& rung) const {
+Place Reader::placeOfRung(const LadderFile& file, const frontend::ladder::Rung& rung) const {
   if (!converted()) return placeOf(file, rung.firstLine);
   return placeOf(input_.origins.rungs[program_.figures.size()].begin);
 }
@@ -214,13 +214,13 @@ Place Reader::placeOfElement(SourcePos drawn) const {
   if (!converted()) return placeOf(drawn);
   const auto elements = input_.origins.elements;
   const auto at = std::lower_bound(elements.begin(), elements.end(), drawn,
-                                   [](const network::Origin& one, SourcePos pos) { return one.drawn < pos; });
+                                   [](const frontend::network::Origin& one, SourcePos pos) { return one.drawn < pos; });
   return at == elements.end() || at->drawn != drawn ? Place{} : placeOf(at->written);
 }
 
 // A conversion's hint at what only a command list can say is not a comment of the author.
 bool Reader::isHint(std::string_view text) const {
-  return converted() && network::parseBlocksHint(gsk::kLanguage, text);
+  return converted() && frontend::network::parseBlocksHint(frontend::gsk::kLanguage, text);
 }
 
 void Reader::comment(std::string_view text) {
@@ -254,16 +254,17 @@ void Reader::readDeclaration(const Declaration& declaration) {
                        .comment = withoutAllowances(declaration.comment)});
 }
 
-void Reader::readRung(const LadderFile& file, const ladder::Rung& rung, std::string_view remark) {
+void Reader::readRung(const LadderFile& file, const frontend::ladder::Rung& rung, std::string_view remark) {
   const auto index = static_cast<uint32_t>(program_.figures.size());
   Figure figure;
   figure.number = index + 1;
   figure.title = rung.comment;
   figure.place = placeOfRung(file, rung);
   if (!remark.empty()) figure.comments.emplace_back(remark);
-  for (const ladder::Comment& comment : rung.comments)
+  for (const frontend::ladder::Comment& comment : rung.comments)
     if (comment.alone && !isHint(comment.text)) figure.comments.emplace_back(comment.text);
-  const ladder::Drawing drawing = ladder::readDrawing(sources_, file.file, rung, input_.dialect->findBox);
+  const frontend::ladder::Drawing drawing =
+      frontend::ladder::readDrawing(sources_, file.file, rung, input_.dialect->findBox);
   const auto placeOf = [this](SourcePos drawn) { return placeOfElement(drawn); };
   program_.figures.push_back(std::move(figure));
   Sheet sheet = buildSheet({input_.dialect->findBox, names_, texts_, placeOf, isGsk_}, drawing, *this);
@@ -311,7 +312,7 @@ std::string_view withoutName(std::string_view title, std::string_view name) {
 
 // The section just before a module, or the last line of comment before a subprogram of GSK, says what it is. The
 // section is not another one then. Before a level comments speak of the program.
-void Reader::titleFromSection(Block& block, const ladder::Module& module) {
+void Reader::titleFromSection(Block& block, const frontend::ladder::Module& module) {
   if (program_.blocks.empty()) return;
   const Block& before = program_.blocks.back();
   if (before.kind == Block::Kind::Section) {
@@ -324,9 +325,9 @@ void Reader::titleFromSection(Block& block, const ladder::Module& module) {
   }
 }
 
-void Reader::beginModule(const ladder::Module& module, std::string_view remark, const Place& place) {
+void Reader::beginModule(const frontend::ladder::Module& module, std::string_view remark, const Place& place) {
   std::string name;
-  for (const Word& word : module.name) name.append(name.empty() ? "" : " ").append(word.text);
+  for (const frontend::Word& word : module.name) name.append(name.empty() ? "" : " ").append(word.text);
   Block block{.kind = Block::Kind::Module, .text = name, .comment = std::string(remark), .place = place};
   titleFromSection(block, module);
   if (!isGsk_) {
@@ -334,13 +335,13 @@ void Reader::beginModule(const ladder::Module& module, std::string_view remark, 
   } else if (const frontend::TargetUse* subprogram = names_.targetAt(module.name.back())) {
     block.text = fmt::format("Subprogram {}", module.name.back().text);
     subprograms_.emplace_back(program_.blocks.size(), targets_.idOf(*subprogram));
-  } else if (const auto level = gsk::kLanguage.findLevel(name)) {
+  } else if (const auto level = frontend::gsk::kLanguage.findLevel(name)) {
     block.text = fmt::format("Level {}", *level + 1);
   }
   program_.blocks.push_back(std::move(block));
 }
 
-void Reader::readStatement(const LadderFile& file, const ladder::Statement& statement) {
+void Reader::readStatement(const LadderFile& file, const frontend::ladder::Statement& statement) {
   switch (statement.kind) {
   case StatementKind::Comment: return comment(file.comments[statement.index].text);
   case StatementKind::Blank:
@@ -368,7 +369,7 @@ void Reader::readFile(const LadderFile& file) {
   comments_.clear();
   if (input_.files.size() > 1)
     add(Block::Kind::File, program_.files[indexOf(file.file)].name, {}, {indexOf(file.file), 0, 0});
-  for (const ladder::Statement& statement : file.statements) readStatement(file, statement);
+  for (const frontend::ladder::Statement& statement : file.statements) readStatement(file, statement);
   flushComments({});
 }
 
@@ -504,7 +505,7 @@ void Reader::addNameTables() {
 Program Reader::run() {
   Diagnostics unheard; // reported when the program was compiled
   for (FileId file : input_.files)
-    files_.push_back(ladder::parseLadder(sources_, file, unheard, input_.dialect->findBox));
+    files_.push_back(frontend::ladder::parseLadder(sources_, file, unheard, input_.dialect->findBox));
   nameFiles();
   RUNG_CHECK(!unheard.hasErrors(), "the program has been compiled");
   program_.control = input_.dialect->title;

@@ -9,8 +9,8 @@
 #include "frontend/dialects/dialect.h"
 #include "frontend/ladder/text/ladder_file.h"
 #include "frontend/network/convert/convert.h"
+#include "tools/report/cross_reference.h"
 #include "tools/view/sheet.h"
-#include "tools/xref/cross_reference.h"
 
 namespace rung::view {
 
@@ -98,17 +98,17 @@ struct Program {
 // Where the author wrote what a converted file has: its rungs in their order, its elements by where they are drawn.
 struct Origins {
   std::span<const SourceRange> rungs;
-  std::span<const network::Origin> elements;
+  std::span<const frontend::network::Origin> elements;
 };
 
 struct Input {
   const frontend::Dialect* dialect = nullptr;
-  std::vector<FileId> files;                       // ladder text without errors
-  const frontend::Analysis* analysis = nullptr;    // of `files`
-  const xref::CrossReference* reference = nullptr; // of what they compile to
-  std::span<const ir::MessageText> messages;       // of the same
-  Origins origins;                                 // where `files` is a conversion
-  std::vector<FileId> authors;                     // the files that the reader knows
+  std::vector<FileId> files;                         // ladder text without errors
+  const frontend::Analysis* analysis = nullptr;      // of `files`
+  const report::CrossReference* reference = nullptr; // of what they compile to
+  std::span<const ir::MessageText> messages;         // of the same
+  Origins origins;                                   // where `files` is a conversion
+  std::vector<FileId> authors;                       // the files that the reader knows
 };
 
 Program readProgram(const SourceManager& sources, const Input& input);

@@ -10,13 +10,13 @@
 
 namespace rung::view {
 
-using ladder::Comment;
-using ladder::Drawing;
-using ladder::Element;
-using ladder::ElementKind;
-using ladder::kNone;
-using ladder::Token;
-using ladder::TokenKind;
+using frontend::ladder::Comment;
+using frontend::ladder::Drawing;
+using frontend::ladder::Element;
+using frontend::ladder::ElementKind;
+using frontend::ladder::kNone;
+using frontend::ladder::Token;
+using frontend::ladder::TokenKind;
 
 namespace {
 
@@ -26,9 +26,10 @@ bool isTableWord(std::string_view text) { return text::equalsIgnoringCase(text, 
 // The letters in a contact or coil.
 std::string markOf(const Element& element, std::string_view operand) {
   std::string mark;
-  if (element.kind == ElementKind::Coil && element.coil == ladder::CoilKind::Set) mark = "S";
-  if (element.kind == ElementKind::Coil && element.coil == ladder::CoilKind::Reset) mark = "R";
-  if (element.negated || (element.kind == ElementKind::Coil && element.coil == ladder::CoilKind::Negated)) mark = "/";
+  if (element.kind == ElementKind::Coil && element.coil == frontend::ladder::CoilKind::Set) mark = "S";
+  if (element.kind == ElementKind::Coil && element.coil == frontend::ladder::CoilKind::Reset) mark = "R";
+  if (element.negated || (element.kind == ElementKind::Coil && element.coil == frontend::ladder::CoilKind::Negated))
+    mark = "/";
   if (element.edge == '@') mark += 'P';
   if (element.edge == '%') mark += 'N';
   if (operand.starts_with('!')) mark += 'I';
@@ -72,7 +73,7 @@ private:
   uint32_t elementCell(uint32_t element, uint32_t line);
   void addContact(Cell& cell, const Element& element);
   void addBox(Cell& cell, const Element& element);
-  Operand operandOf(const Word& word, const frontend::OperandInfo* info, uint32_t row);
+  Operand operandOf(const frontend::Word& word, const frontend::OperandInfo* info, uint32_t row);
   void findClosing();
   std::string remarkOf(uint32_t line) const;
   std::string_view messageOf(const std::string& number) const {
@@ -184,7 +185,7 @@ uint32_t SheetDrawing::elementCell(uint32_t element, uint32_t line) {
 }
 
 void SheetDrawing::addContact(Cell& cell, const Element& element) {
-  const Word& word = drawing_.operands[element.operands.first];
+  const frontend::Word& word = drawing_.operands[element.operands.first];
   const bool coil = element.kind == ElementKind::Coil;
   const Named named = context_.names.find(word);
   cell.kind = coil ? Cell::Kind::Coil : Cell::Kind::Contact;
@@ -198,7 +199,7 @@ void SheetDrawing::addContact(Cell& cell, const Element& element) {
       listener_.onUse({.named = named, .operand = word.text, .writes = coil, .coil = coil, .row = cell.firstRow});
 }
 
-Operand SheetDrawing::operandOf(const Word& word, const frontend::OperandInfo* info, uint32_t row) {
+Operand SheetDrawing::operandOf(const frontend::Word& word, const frontend::OperandInfo* info, uint32_t row) {
   using frontend::Access;
   Operand operand{info == nullptr ? "" : std::string(info->name), std::string(word.text), {}, {}, {}};
   if (word.quoted) {
@@ -234,7 +235,7 @@ void SheetDrawing::addBox(Cell& cell, const Element& element) {
   size_t place = 0;
   bool table = false;
   for (uint32_t i = 0; i < element.operands.count; ++i) {
-    const Word& word = drawing_.operands[element.operands.first + i];
+    const frontend::Word& word = drawing_.operands[element.operands.first + i];
     if (context_.hasTables && isTableWord(word.text)) {
       table = true;
       cell.operands.push_back({"table", "", "", "", {}});

@@ -33,7 +33,7 @@ public:
 using Texts = std::unordered_map<std::string, std::string>;
 
 struct SheetContext {
-  ladder::FindBox findBox;
+  frontend::ladder::FindBox findBox;
   Names& names;
   const Texts& texts;
   std::function<Place(SourcePos drawn)> placeOf; // of an element
@@ -43,6 +43,6 @@ struct SheetContext {
 // A message's number as its key in the list of uses.
 std::string messageKey(std::string_view number);
 
-Sheet buildSheet(const SheetContext& context, const ladder::Drawing& drawing, SheetListener& listener);
+Sheet buildSheet(const SheetContext& context, const frontend::ladder::Drawing& drawing, SheetListener& listener);
 
 } // namespace rung::view

@@ -6,14 +6,14 @@
 
 #include <fmt/format.h>
 
-#include "ir/support/ascii.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::view {
 namespace {
 
 // What a path may have in a link as it is.
 bool isPlain(char c) {
-  return isDigit(c) || isLetter(c) || std::string_view("/._-~").find(c) != std::string_view::npos;
+  return text::isDigit(c) || text::isLetter(c) || std::string_view("/._-~").find(c) != std::string_view::npos;
 }
 
 std::string encoded(std::string_view path) {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tools/xref/place_search.h"
+#include "tools/report/place_search.h"
 
 namespace rung::view {
 
@@ -11,12 +11,12 @@ void UseIndex::settle() {
   if (longest_ != 0) return;
   longest_ = 1;
   for (const Drawn& drawn : drawn_) longest_ = std::max(longest_, drawn.place.count);
-  std::ranges::stable_sort(drawn_, {}, [](const Drawn& drawn) { return xref::startOf(drawn.place); });
+  std::ranges::stable_sort(drawn_, {}, [](const Drawn& drawn) { return report::startOf(drawn.place); });
 }
 
 std::vector<Use> UseIndex::drawnAt(const ir::BitRange& place) const {
   std::vector<Use> uses;
-  xref::forEachAt(
+  report::forEachAt(
       place, drawn_, longest_, [](const Drawn& drawn) { return drawn.place; },
       [&](const Drawn& drawn) { uses.push_back(drawn.use); });
   return uses;
@@ -28,7 +28,7 @@ std::vector<Use> UseIndex::of(const ir::BitRange& place) {
   std::vector<Use> uses = drawnAt(place);
   std::ranges::sort(uses);
   const size_t drawn = uses.size();
-  for (const xref::Access& access : reference_.accessesOf(place)) {
+  for (const report::RungAccess& access : reference_.accessesOf(place)) {
     const uint32_t rung = reference_.program().rungs[access.rung].number;
     const auto first =
         std::ranges::lower_bound(uses.begin(), uses.begin() + static_cast<ptrdiff_t>(drawn), rung, {}, &Use::rung);

@@ -10,7 +10,7 @@ class UseIndex {
 public:
   // `reference` must outlive it. It knows what no operand says: the cells between the two ends of an array, a
   // counter's own.
-  explicit UseIndex(const xref::CrossReference& reference) : reference_(reference) {}
+  explicit UseIndex(const report::CrossReference& reference) : reference_(reference) {}
 
   // A use as drawn. All of them come before the first question.
   void add(const ir::BitRange& place, Use use) { drawn_.push_back({place, use}); }
@@ -25,7 +25,7 @@ private:
   void settle();
   std::vector<Use> drawnAt(const ir::BitRange& place) const;
 
-  const xref::CrossReference& reference_;
+  const report::CrossReference& reference_;
   std::vector<Drawn> drawn_;
   uint32_t longest_ = 0; // bits of a use; 0: not settled yet
 };

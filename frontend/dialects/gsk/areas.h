@@ -5,7 +5,7 @@
 
 #include "frontend/network/address.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 // R1000-R1099 belong to the control (man. l.740); the first six are the result registers (P4, P22).
 inline constexpr uint32_t kSystemRelays = 1000;
@@ -56,4 +56,4 @@ inline constexpr network::Area kA = named('A');
 
 } // namespace areas
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -11,7 +11,7 @@
 #include "rtlib/nc/config_key.h"
 #include "rtlib/text/number.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 constexpr uint64_t kMaxParts = 1000; // 8 s
@@ -120,4 +120,4 @@ std::vector<Preset> presetsOf(const frontend::CompileOptions& options) {
   return result;
 }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -9,7 +9,7 @@
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/read/signals.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 // In every slot Level 1 runs, and then one part of Level 2 (P3).
 inline constexpr uint32_t kSlotUs = 8000;
@@ -41,4 +41,4 @@ constexpr network::Address counterValue(int64_t number) {
   return {areas::kC, static_cast<uint32_t>(4 * (number - 1) + 2)};
 }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -14,7 +14,7 @@
 #include "ir/support/diag/nct.h"
 #include "rtlib/nc/gsk/signals.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 std::vector<ir::MessageText> configuredMessages(SourceManager& sources, FileId program,
@@ -101,4 +101,4 @@ const frontend::Dialect kGsk = {
     .explain = &explainWord,
 };
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -2,8 +2,8 @@
 #pragma once
 #include "frontend/dialects/dialect.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 extern const frontend::Dialect kGsk;
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -7,7 +7,7 @@
 #include "ir/support/diag/gsk.h"
 #include "rtlib/nc/gsk/signals.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 namespace {
 
@@ -46,4 +46,4 @@ const network::Language kLanguage = {
     .foreign = kForeignWords,
 };
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -2,8 +2,8 @@
 #pragma once
 #include "frontend/network/language.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 extern const network::Language kLanguage;
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -20,7 +20,7 @@
 #include "rtlib/nc/gsk/window_functions.h"
 #include "rtlib/nc/notes.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 using frontend::ReferencePage;
@@ -204,4 +204,4 @@ void addReference(ReferencePage& page) {
   signals(page);
 }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -3,9 +3,9 @@
 #pragma once
 #include "frontend/table/reference.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 // Areas, limits, pins, warnings, window functions, PLC axis commands, signals.
 void addReference(frontend::ReferencePage& page);
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

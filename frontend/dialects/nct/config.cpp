@@ -8,7 +8,7 @@
 #include "rtlib/nc/config_key.h"
 #include "rtlib/nc/nct/signals.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 const nc::ConfigKey& rowOf(const char* key) { return *nc::findConfigKey(nc::nctConfigKeys(), key); }
@@ -62,4 +62,4 @@ Config readConfig(const frontend::CompileOptions& options, Diagnostics& diagnost
   return config;
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -4,7 +4,7 @@
 
 #include "frontend/dialects/dialect.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 inline constexpr uint32_t kWords = 10000;   // addresses 0000 to 9999, l.283
 inline constexpr uint32_t kFlagsWord = 0;   // FLAGS, l.723
@@ -25,4 +25,4 @@ struct Config {
 // Reports values that make no sense.
 Config readConfig(const frontend::CompileOptions& options, Diagnostics& diagnostics);
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -21,7 +21,7 @@
 #include "rtlib/nc/nct/messages.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 using frontend::CompileOptions;
@@ -133,7 +133,7 @@ private:
       const SourceRange range = join(statement.name.front().range, statement.name.back().range);
       DiagBuilder report = diagnostics_.report(diag::UnknownModule, range);
       report << sources_.text(range) << "MAIN or INT0";
-      suggest(report, range, likeliest(sources_.text(range), std::array{"MAIN", "INT0"}));
+      suggest(report, range, text::likeliest(sources_.text(range), std::array{"MAIN", "INT0"}));
       nameless_ = true;
       return reported_;
     }
@@ -238,4 +238,4 @@ const frontend::Dialect kNct = {
     .textName = textName,
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -8,10 +8,10 @@
 
 #include "frontend/dialects/dialect.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 inline constexpr uint32_t kButtonTexts = 1000;
 
 extern const frontend::Dialect kNct;
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

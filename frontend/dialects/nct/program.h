@@ -9,7 +9,7 @@
 #include "frontend/dialects/nct/rows/instructions.h"
 #include "frontend/ladder/text/ladder_file.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 struct TypedElement {
   const ladder::Element* element = nullptr;
@@ -66,4 +66,4 @@ private:
   }
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

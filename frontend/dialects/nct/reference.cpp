@@ -15,7 +15,7 @@
 #include "rtlib/nc/nct/windows.h"
 #include "rtlib/nc/notes.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 using frontend::ReferencePage;
@@ -233,4 +233,4 @@ void addReference(ReferencePage& page) {
   signals(page);
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -6,7 +6,7 @@
 
 #include "frontend/table/reference.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 // Memory, pins, warnings, services of the NC, signals.
 void addReference(frontend::ReferencePage& page);
@@ -14,4 +14,4 @@ void addReference(frontend::ReferencePage& page);
 // A signal of the NC, a flag, a quantity of SCP, a function such as "MW 70"; "" for anything else.
 std::string explainWord(std::string_view word);
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -12,7 +12,7 @@
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 // What the elements of a signal belong to; groups are those of signals.csv.
@@ -152,4 +152,4 @@ std::string explainWord(std::string_view word) {
          explainQuantity(name) + explainFunction(word);
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

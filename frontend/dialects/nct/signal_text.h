@@ -6,7 +6,7 @@
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "rtlib/nc/nct/signals.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 // What an index of so many words leads to from the signal's place, where that is another signal; else null.
 const nc::Signal* signalAfter(const nc::Signal& signal, int64_t words);
@@ -15,4 +15,4 @@ std::string indexText(const nc::Signal& signal);     // "#0 to #31 (axis)"; "-" 
 std::string placeText(const nc::Signal& signal);     // "MKBTNS0.05"; "-" for words and bits of words without name
 std::string parameterText(const nc::nct::ScopeParameter& parameter);
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

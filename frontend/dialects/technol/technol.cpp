@@ -14,7 +14,7 @@
 #include "ir/support/diag/technol.h"
 #include "rtlib/nc/technol/signals.h"
 
-namespace rung::frontend {
+namespace rung::frontend::technol {
 namespace {
 
 constexpr std::string_view kExtensions[] = {".plc"};
@@ -125,4 +125,4 @@ const Dialect kTechnol = {
     .listing = technol::listing,
 };
 
-} // namespace rung::frontend
+} // namespace rung::frontend::technol

@@ -3,8 +3,8 @@
 
 #include "frontend/dialects/dialect.h"
 
-namespace rung::frontend {
+namespace rung::frontend::technol {
 
 extern const Dialect kTechnol;
 
-} // namespace rung::frontend
+} // namespace rung::frontend::technol

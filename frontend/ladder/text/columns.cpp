@@ -12,7 +12,7 @@
 #include "frontend/ladder/text/drawing.h"
 #include "ir/support/utf8.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 constexpr uint32_t kStart = 3;    // the first column after "|--"
@@ -198,4 +198,4 @@ std::string Columns::text(Atoms line) const {
 
 std::optional<std::vector<std::string>> layOut(const Drawing& drawing) { return Columns(drawing).run(); }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

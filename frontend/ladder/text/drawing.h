@@ -11,7 +11,7 @@
 
 #include "frontend/ladder/text/ladder_file.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 
 inline constexpr uint32_t kNone = UINT32_MAX;
 
@@ -88,4 +88,4 @@ void wireUp(Drawing& drawing, Rung& rung, Diagnostics& diagnostics);
 /// Offset of the first character in [begin, end) that is not printable ASCII, or end.
 size_t findUnprintable(std::string_view text, size_t begin, size_t end);
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -9,7 +9,7 @@
 
 #include "frontend/ladder/text/drawing.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 /// The element's text from `at` on to the end of the wire on its right; and how long that wire is.
@@ -85,11 +85,11 @@ void fix(DiagBuilder& report, const SourceManager& sources, SourceRange range, s
 }
 
 void suggest(DiagBuilder& report, const SourceManager& sources, std::span<const SourceRange> places,
-             const Likely& likely) {
+             const text::Likely& likely) {
   if (likely.certain)
     meantAt(report, sources, places, likely.word);
   else
     report.meant({}, likely.word);
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -4,9 +4,9 @@
 #include <string_view>
 
 #include "ir/support/diagnostics.h"
-#include "ir/support/similar.h"
+#include "rtlib/text/similar.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 
 /// "did you mean WORD?" and the fix that puts it into the place of `range`, as DiagBuilder::meant. In a drawing the
 /// wire on the right of the element becomes longer or shorter, so that what follows keeps its column; without room
@@ -18,9 +18,9 @@ void fix(DiagBuilder& report, const SourceManager& sources, SourceRange range, s
 /// The same of a word that may be misspelt, and is at all these places, in their order: with a fix of all of them, and
 /// only where nothing else can have been meant.
 void suggest(DiagBuilder& report, const SourceManager& sources, std::span<const SourceRange> places,
-             const Likely& likely);
-inline void suggest(DiagBuilder& report, const SourceManager& sources, SourceRange range, const Likely& likely) {
+             const text::Likely& likely);
+inline void suggest(DiagBuilder& report, const SourceManager& sources, SourceRange range, const text::Likely& likely) {
   suggest(report, sources, {&range, 1}, likely);
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -7,7 +7,7 @@
 #include "frontend/syntax/page.h"
 #include "ir/support/check.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 constexpr Table kNames; // symbol, const
@@ -145,4 +145,4 @@ std::optional<std::string> format(const SourceManager& sources, FileId file, Fin
   return text;
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -2,7 +2,7 @@
 #pragma once
 #include <string_view>
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 
 struct Keyword {
   std::string_view word;
@@ -29,4 +29,4 @@ inline constexpr Keyword kForeignKeywords[] = {
     {"subroutine", kBeginsSubprogram},
 };
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

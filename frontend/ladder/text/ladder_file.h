@@ -9,7 +9,7 @@
 #include "frontend/ladder/rung.h"
 #include "frontend/table/instruction.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 
 /// `module WORDS`, e.g. "MAIN" or "SUB" "P1".
 struct Module {
@@ -71,4 +71,4 @@ std::vector<std::string_view> boxWords(std::string_view drawing);
 /// The name after `dialect`, when that is the first statement of the text; empty otherwise. Reports nothing.
 std::string_view peekDialect(const SourceManager& sources, FileId file);
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "ir/support/ascii.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 constexpr std::string_view kOpen = "a contact [x]";
@@ -93,4 +92,4 @@ bool isListLine(std::span<const Word> words) {
   return !words.empty() && !words[0].quoted && !drawnFor(words[0].text).empty();
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

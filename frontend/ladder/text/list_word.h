@@ -5,7 +5,7 @@
 
 #include "frontend/syntax/word_lexer.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 
 /// "a closed contact [/x] in series" for ANDN, in any case of letters; empty for a word that is none.
 std::string_view drawnFor(std::string_view listWord);
@@ -17,4 +17,4 @@ inline constexpr std::string_view kListNote =
     "this is a line of an instruction list, and the file is read as ladder text, in which contacts and coils are drawn "
     "below a `rung` statement: |--[x]--[/y]--(z)";
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

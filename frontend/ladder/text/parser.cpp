@@ -15,7 +15,7 @@
 #include "ir/support/meant.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 constexpr WordRules kRules{};
@@ -144,7 +144,7 @@ void Parser::reportUnknown(const Word& keyword) {
   else if (keyword.text.ends_with(':'))
     report.note("a label is a box in a rung of its own; `rungc explain` with the dialect lists the boxes");
   else
-    suggest(report, keyword.range, likeliest(keyword.text, kKeywords, &Keyword::word));
+    suggest(report, keyword.range, text::likeliest(keyword.text, kKeywords, &Keyword::word));
 }
 
 /// Splits the line; false when its words are not even words.
@@ -319,4 +319,4 @@ std::string_view peekDialect(const SourceManager& sources, FileId file) {
   return {};
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

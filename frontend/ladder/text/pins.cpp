@@ -5,7 +5,7 @@
 #include "ir/support/diag/ladder.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 /// A box and its pin lines so far.
@@ -133,4 +133,4 @@ void groupPins(Drawing& drawing, FindBox findBox, Diagnostics& diagnostics) {
   PinGrouper(drawing, findBox, diagnostics).run();
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -2,7 +2,7 @@
 #include "frontend/ladder/text/drawing.h"
 #include "ir/support/check.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 
 Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, FindBox findBox) {
   Drawing drawing;
@@ -21,4 +21,4 @@ Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung,
   return drawing;
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -4,7 +4,7 @@
 
 #include "frontend/ladder/text/drawing.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 class RightRail {
@@ -71,4 +71,4 @@ void RightRail::shorten(DrawnLine& line) const {
 
 void dropRightRail(Drawing& drawing) { RightRail(drawing).drop(); }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -13,7 +13,7 @@
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 constexpr std::string_view kContactForms = "[x], with '/', '@' or '%' before x, which is one operand without blanks";
@@ -432,4 +432,4 @@ size_t findUnprintable(std::string_view text, size_t begin, size_t end) {
   return static_cast<size_t>(found - text.begin());
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

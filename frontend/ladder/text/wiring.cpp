@@ -7,7 +7,7 @@
 #include "frontend/ladder/text/drawing.h"
 #include "ir/support/diag/ladder.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 constexpr uint32_t kRailNode = 0;
@@ -358,4 +358,4 @@ void Wiring::checkNets() {
 
 void wireUp(Drawing& drawing, Rung& rung, Diagnostics& diagnostics) { Wiring(drawing, rung, diagnostics).run(); }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -11,7 +11,7 @@
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/structure.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 // The number of a label or subprogram, when it was right.
@@ -365,4 +365,4 @@ void Analysis::checkNumbers() {
 
 void analyse(Context& context, Program& program, bool incomplete) { Analysis(context, program, incomplete).run(); }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -3,7 +3,7 @@
 #include "frontend/network/program.h"
 #include "frontend/network/read/context.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // Resolves labels, regions and calls, and reports what is wrong with them. `incomplete`: see UnitAssembler.
 void analyse(Context& context, Program& program, bool incomplete);
@@ -11,4 +11,4 @@ void analyse(Context& context, Program& program, bool incomplete);
 // Part of analyse(): bits that several coils write. For programs without errors; `calleesFirst` has all units.
 void checkCoils(Context& context, const Program& program, const std::vector<uint32_t>& calleesFirst);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

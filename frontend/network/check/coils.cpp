@@ -19,7 +19,7 @@
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/nct.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 using Bit = uint32_t; // area, byte and bit, in the order of memory
@@ -294,4 +294,4 @@ void checkCoils(Context& context, const Program& program, const std::vector<uint
   CoilCheck(context, program).run(calleesFirst);
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

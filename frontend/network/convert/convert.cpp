@@ -12,10 +12,8 @@
 #include "ir/support/check.h"
 #include "ir/support/diag/gsk.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
-
-using convert::SourceProgram;
 
 bool sameCommand(const Written& a, const Written& b) { return a.command == b.command && a.operand == b.operand; }
 
@@ -45,7 +43,7 @@ std::vector<Origin> originsOf(const Program& program, const Program& converted) 
 
 // What a program was converted to, read again.
 Program readBack(const Language& language, SourceManager& sources, FileId file, const Program& program) {
-  Program again = convert::readSource(language, sources, std::span(&file, 1)).program;
+  Program again = readSource(language, sources, std::span(&file, 1)).program;
   RUNG_CHECK(std::ranges::equal(program.units, again.units, sameUnit), "a converted program is the same program");
   return again;
 }
@@ -54,8 +52,8 @@ Program readBack(const Language& language, SourceManager& sources, FileId file, 
 bool checkDrawings(const Language& language, const Program& program, Diagnostics& diagnostics) {
   for (const Unit& unit : program.units) {
     for (const Network& network : withoutEnd(unit)) {
-      const convert::DrawingSize size = convert::sizeOf(language, network);
-      if (size.lines * size.columns > convert::kMaxDrawing)
+      const DrawingSize size = sizeOf(language, network);
+      if (size.lines * size.columns > kMaxDrawing)
         diagnostics.report(diag::DrawingTooLarge, network.range) << size.lines << size.columns;
     }
   }
@@ -65,9 +63,9 @@ bool checkDrawings(const Language& language, const Program& program, Diagnostics
 } // namespace
 
 std::optional<std::string> convertProgram(const Language& language, SourceManager& sources,
-                                          std::span<const FileId> files, convert::Form to, Diagnostics& diagnostics) {
-  const bool toList = to == convert::Form::List;
-  const SourceProgram source = convert::readSource(language, sources, files);
+                                          std::span<const FileId> files, Form to, Diagnostics& diagnostics) {
+  const bool toList = to == Form::List;
+  const SourceProgram source = readSource(language, sources, files);
   if (!toList && !checkDrawings(language, source.program, diagnostics)) return std::nullopt;
   std::string text = toList ? writeList(language, source) : writeLadder(language, source);
   SourceManager converted;
@@ -80,7 +78,7 @@ std::optional<LadderForm> ladderForm(const Language& language, SourceManager& so
                                      Diagnostics& diagnostics) {
   if (std::ranges::all_of(files, [&](FileId file) { return isLadder(language, sources, file); }))
     return LadderForm{{files.begin(), files.end()}, {}, {}};
-  const SourceProgram source = convert::readSource(language, sources, files);
+  const SourceProgram source = readSource(language, sources, files);
   if (!checkDrawings(language, source.program, diagnostics)) return std::nullopt;
   LadderForm form;
   for (const Unit& unit : source.program.units)
@@ -90,4 +88,4 @@ std::optional<LadderForm> ladderForm(const Language& language, SourceManager& so
   return form;
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

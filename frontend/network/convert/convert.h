@@ -8,12 +8,12 @@
 
 #include "frontend/network/convert/gap_writer.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // The files of one program without errors in the form `to`. Nothing when a network is too large to be drawn; that
 // is in `diagnostics`.
 std::optional<std::string> convertProgram(const Language& language, SourceManager& sources,
-                                          std::span<const FileId> files, convert::Form to, Diagnostics& diagnostics);
+                                          std::span<const FileId> files, Form to, Diagnostics& diagnostics);
 
 // An element of a conversion begins at `drawn`; its author wrote it at `written`.
 struct Origin {
@@ -33,4 +33,4 @@ struct LadderForm {
 std::optional<LadderForm> ladderForm(const Language& language, SourceManager& sources, std::span<const FileId> files,
                                      Diagnostics& diagnostics);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

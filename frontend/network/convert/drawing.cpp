@@ -19,7 +19,7 @@
 #include "frontend/network/read/drawn_comments.h"
 #include "ir/support/check.h"
 
-namespace rung::network::convert {
+namespace rung::frontend::network {
 namespace {
 
 using Group = SpTree::Kind;
@@ -322,4 +322,4 @@ Drawing Painter::run() {
 DrawingSize sizeOf(const Language& language, const Network& network) { return Painter(language, network).size(); }
 Drawing draw(const Language& language, const Network& network) { return Painter(language, network).run(); }
 
-} // namespace rung::network::convert
+} // namespace rung::frontend::network

@@ -6,7 +6,7 @@
 
 #include "frontend/network/read/drawn_comments.h"
 
-namespace rung::network::convert {
+namespace rung::frontend::network {
 
 struct Drawing {
   std::vector<std::string> lines;
@@ -24,4 +24,4 @@ inline constexpr uint64_t kMaxDrawing = 200'000'000;
 DrawingSize sizeOf(const Language& language, const Network& network);
 Drawing draw(const Language& language, const Network& network);
 
-} // namespace rung::network::convert
+} // namespace rung::frontend::network

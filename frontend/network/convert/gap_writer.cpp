@@ -7,7 +7,7 @@
 
 #include "frontend/network/read/title.h"
 
-namespace rung::network::convert {
+namespace rung::frontend::network {
 namespace {
 
 using Kind = Item::Kind;
@@ -20,11 +20,11 @@ std::string commandText(const Language& language, Command command, std::string_v
   return operand.empty() ? std::string(name) : fmt::format("{:<4} {}", name, operand);
 }
 
-void Page::declaration(const Item& item) {
+void GapPage::declaration(const Item& item) {
   lines_.row(kNames, {item.kind == Kind::Symbol ? "symbol" : "const", item.text, item.value}, remark(item.comment));
 }
 
-void Page::gap(const Gap& gap) {
+void GapPage::gap(const Gap& gap) {
   for (const Item& item : gap) {
     switch (item.kind) {
     case Kind::Comment: comment(item.text); break;
@@ -85,4 +85,4 @@ Gap protect(Gap gap, std::string_view title) {
   return gap;
 }
 
-} // namespace rung::network::convert
+} // namespace rung::frontend::network

@@ -7,7 +7,7 @@
 #include "frontend/network/program.h"
 #include "frontend/syntax/page.h"
 
-namespace rung::network::convert {
+namespace rung::frontend::network {
 
 enum class Form : uint8_t { List, Ladder };
 
@@ -16,9 +16,9 @@ inline constexpr size_t kCommentColumn = 18; // of a list
 std::string commandText(const Language& language, Command command, std::string_view operand);
 
 // The text of a program, laid out as `rungc format` does.
-class Page {
+class GapPage {
 public:
-  Page(const Language& language, Form form)
+  GapPage(const Language& language, Form form)
       : language_(language), form_(form), lines_({}, form == Form::List ? kCommentColumn : 0) {}
   void line(std::string_view text, std::string_view comment = {}) { lines_.line(std::string(text), remark(comment)); }
   void comment(std::string_view text) { lines_.comment(text.empty() ? ";" : std::string("; ").append(text)); }
@@ -34,7 +34,7 @@ private:
 
   const Language& language_;
   Form form_;
-  rung::Page lines_;
+  Page lines_;
 };
 
 // Blank lines at both ends gone, others single, sections apart.
@@ -44,4 +44,4 @@ Gap protect(Gap gap, std::string_view title);
 // The comment that the rule of titles finds; nullopt where there is none.
 std::optional<size_t> titleIn(const Gap& gap);
 
-} // namespace rung::network::convert
+} // namespace rung::frontend::network

@@ -11,7 +11,7 @@
 #include "frontend/network/read/drawn_comments.h"
 #include "frontend/network/read/gaps.h"
 
-namespace rung::network::convert {
+namespace rung::frontend::network {
 namespace {
 
 using Kind = Item::Kind;
@@ -29,7 +29,7 @@ private:
 
   const Language& language_;
   const SourceProgram& source_;
-  Page page_{language_, Form::Ladder};
+  GapPage page_{language_, Form::Ladder};
 };
 
 void LadderWriter::begin(const Unit& unit) {
@@ -117,4 +117,4 @@ std::string writeLadder(const Language& language, const SourceProgram& source) {
   return LadderWriter(language, source).run();
 }
 
-} // namespace rung::network::convert
+} // namespace rung::frontend::network

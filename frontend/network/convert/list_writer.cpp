@@ -5,7 +5,7 @@
 #include "frontend/network/convert/writers.h"
 #include "frontend/network/read/gaps.h"
 
-namespace rung::network::convert {
+namespace rung::frontend::network {
 namespace {
 
 class ListWriter {
@@ -33,7 +33,7 @@ private:
 
   const Language& language_;
   const SourceProgram& source_;
-  Page page_{language_, Form::List};
+  GapPage page_{language_, Form::List};
   Gap pending_; // what the first level begins with: it has no command of its own
 };
 
@@ -91,4 +91,4 @@ std::string writeList(const Language& language, const SourceProgram& source) {
   return ListWriter(language, source).run();
 }
 
-} // namespace rung::network::convert
+} // namespace rung::frontend::network

@@ -8,7 +8,7 @@
 #include "frontend/network/read/reading.h"
 #include "ir/support/check.h"
 
-namespace rung::network::convert {
+namespace rung::frontend::network {
 namespace {
 
 using Kind = Item::Kind;
@@ -55,4 +55,4 @@ SourceProgram readSource(const Language& language, SourceManager& sources, std::
   return source;
 }
 
-} // namespace rung::network::convert
+} // namespace rung::frontend::network

@@ -4,7 +4,7 @@
 
 #include "frontend/network/program.h"
 
-namespace rung::network::convert {
+namespace rung::frontend::network {
 
 struct SourceProgram {
   const SourceManager& sources;
@@ -15,4 +15,4 @@ struct SourceProgram {
 
 SourceProgram readSource(const Language& language, SourceManager& sources, std::span<const FileId> files);
 
-} // namespace rung::network::convert
+} // namespace rung::frontend::network

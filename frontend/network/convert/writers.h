@@ -4,9 +4,9 @@
 
 #include "frontend/network/convert/source_program.h"
 
-namespace rung::network::convert {
+namespace rung::frontend::network {
 
 std::string writeList(const Language& language, const SourceProgram& source);
 std::string writeLadder(const Language& language, const SourceProgram& source);
 
-} // namespace rung::network::convert
+} // namespace rung::frontend::network

@@ -1,7 +1,7 @@
 // Ends, jumps, calls and the common line (§7.1, §7.16-7.18).
 #include "frontend/network/lower/lower_control.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // JMPE, COME, LBL: places only.
 void lowerMark(Lowering&) {}
@@ -25,4 +25,4 @@ void lowerLeave(Lowering& f) {
 
 void lowerCommonLine(Lowering& f) { f.b.slotStore(f.commonLine(), f.act()); }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -2,7 +2,7 @@
 #pragma once
 #include "frontend/network/lower/lower_function.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 void lowerMark(Lowering& f);
 void lowerEnd(Lowering& f);
@@ -11,4 +11,4 @@ void lowerCall(Lowering& f);
 void lowerLeave(Lowering& f);
 void lowerCommonLine(Lowering& f);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -7,7 +7,7 @@
 
 #include "frontend/network/lower/lower_module.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 ir::ValueId isIn(ir::RungBuilder& b, ir::ValueId number, uint64_t set) {
   const ir::ValueId bits = b.constant(ir::Type::I64, static_cast<int64_t>(set));
@@ -101,4 +101,4 @@ ir::RoutineId Lowering::callee() const { return routine_.level->routines[network
 ir::SlotId Lowering::commonLine() { return module_.slot(fmt::format("{}com", slotPrefix_), ir::Type::Bit, 0, true); }
 ir::SlotId Lowering::leaveTarget() { return module_.leaveTarget(); }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

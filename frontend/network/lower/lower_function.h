@@ -10,7 +10,7 @@
 #include "frontend/network/program.h"
 #include "ir/core/builder.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 class ModuleLowering;
 struct LevelState;
@@ -93,4 +93,4 @@ private:
   ir::ValueId output_{};
 };
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -9,7 +9,7 @@
 #include "ir/support/hash.h"
 #include "rung/types.hpp"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 // Runs of bytes that are copied together although some between them are not needed.
@@ -303,4 +303,4 @@ ir::SpaceId ModuleLowering::hiddenSpace(const std::string& name, uint32_t bytes)
   return at->second;
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

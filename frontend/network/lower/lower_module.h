@@ -12,7 +12,7 @@
 #include "frontend/network/read/context.h"
 #include "ir/core/marks.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // How the control runs programs of the language.
 struct Execution {
@@ -143,4 +143,4 @@ private:
   std::vector<LevelState> levels_;
 };
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -6,7 +6,7 @@
 #include "frontend/network/lower/lower_module.h"
 #include "rung/types.hpp"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 // The lines of a network as written.
@@ -146,4 +146,4 @@ void ModuleLowering::addLeave(RoutineContext& routine, ir::Rung& rung, uint32_t 
   b.switchTo(target, std::move(targets));
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -2,7 +2,7 @@
 #pragma once
 #include "frontend/network/row.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 class Lowering;
 
@@ -18,4 +18,4 @@ struct LoweredRow : Row {
 // All rows of a language whose programs are lowered are such.
 inline const LoweredRow& loweredRow(const Row& row) { return static_cast<const LoweredRow&>(row); }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -8,7 +8,7 @@
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 using Group = SpTree::Kind;
@@ -180,4 +180,4 @@ std::optional<std::vector<SpTree>> treesOf(std::span<const Logic> commands) {
   return builder.take();
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -10,7 +10,7 @@
 #include "frontend/network/program.h"
 #include "frontend/network/read/series_parallel.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 struct CanonicalStep {
   Logic kind = Logic::Load;
@@ -38,4 +38,4 @@ std::optional<std::vector<CanonicalStep>> withBlocks(const std::vector<Canonical
 // The words of a comment.
 std::vector<std::string_view> wordsIn(std::string_view comment);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -7,7 +7,7 @@
 #include "frontend/network/read/list_reader.h"
 #include "frontend/network/read/network_builder.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 // The command of a comment line; nullopt for any other comment.
@@ -54,4 +54,4 @@ std::vector<Written> conditionIn(const Context& context, std::span<const ladder:
   return result;
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -14,11 +14,11 @@
 #include "frontend/network/program.h"
 #include "frontend/network/read/context.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 inline constexpr std::string_view kConditionComment = "condition:";
 
 // That of a module in the comments directly after it: one command a line, with the range of the comment.
 std::vector<Written> conditionIn(const Context& context, std::span<const ladder::Comment> comments);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

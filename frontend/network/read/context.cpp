@@ -8,17 +8,16 @@
 
 #include "frontend/ladder/text/fix.h"
 #include "frontend/network/read/list_syntax.h"
-#include "ir/support/ascii.h"
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
-#include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "rtlib/text/similar.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
-bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_'; }
+bool isNameChar(char c) { return text::isLetter(c) || text::isDigit(c) || c == '_'; }
 
 bool isCommand(const Language& language, std::string_view text) {
   const auto isIt = [&](std::string_view name) { return text::equalsIgnoringCase(name, text); };
@@ -36,7 +35,7 @@ bool isNumbered(const Language& language, std::string_view text) {
 
 // A name that cannot be taken for something else (P12).
 bool isFreeName(const Language& language, std::string_view text) {
-  if (text.empty() || !isLetter(text[0]) || !std::all_of(text.begin(), text.end(), isNameChar)) return false;
+  if (text.empty() || !text::isLetter(text[0]) || !std::all_of(text.begin(), text.end(), isNameChar)) return false;
   return !isNumbered(language, text) && !splitAddress(language, text) && !isCommand(language, text);
 }
 
@@ -88,18 +87,18 @@ Found findAddress(Context& context, const Word& word) {
 void suggestName(const Context& context, std::span<const UndeclaredName> uses, DiagBuilder& report) {
   if (!context.diagnostics.suggests()) return;
   const UndeclaredName& use = uses.front();
-  const Likely similar = likeliest(use.name, context.names.ofKind(use.kind), &UserName::name);
+  const text::Likely similar = text::likeliest(use.name, context.names.ofKind(use.kind), &UserName::name);
   const bool isOneKind = std::ranges::count(uses, use.kind, &UndeclaredName::kind) == std::ssize(uses);
   ladder::suggest(report, context.sources, frontend::placesOf(uses), {similar.word, similar.certain && isOneKind});
   if (!similar.word.empty() || use.kind != UserName::Kind::Symbol) return;
   const nc::SignalTable& signals = context.language.signals();
-  if (const nc::Signal* signal = nc::findSignal(signals, mostSimilar(use.name, signals, &nc::Signal::symbol)))
+  if (const nc::Signal* signal = nc::findSignal(signals, text::mostSimilar(use.name, signals, &nc::Signal::symbol)))
     report.note(fmt::format("did you mean {} ({}, {})?", signal->symbol,
                             textOf(context.language, addressOf(context.language, *signal)), signal->meaning));
 }
 
 // Of an instruction, perhaps one of another control that is like none of these.
-void suggestInstruction(const Context& context, SourceRange range, const Likely& similar, DiagBuilder& report) {
+void suggestInstruction(const Context& context, SourceRange range, const text::Likely& similar, DiagBuilder& report) {
   ladder::suggest(report, context.sources, range, similar);
   if (similar.word.empty())
     report.note(fmt::format("`rungc explain {}` lists the instructions by what they do", context.language.name));
@@ -109,7 +108,7 @@ void suggestInstruction(const Context& context, SourceRange range, const Likely&
 bool isOtherAddress(std::string_view text) {
   if (text.starts_with('%')) text.remove_prefix(1);
   const size_t letters = std::min(text.find_first_not_of("BDEIMQWXbdeimqwx"), text.size());
-  return letters >= 1 && letters <= 2 && letters < text.size() && isDigit(text[letters]);
+  return letters >= 1 && letters <= 2 && letters < text.size() && text::isDigit(text[letters]);
 }
 
 std::string areasText(const Language& language) {
@@ -123,7 +122,7 @@ std::string areasText(const Language& language) {
 bool isNegated(std::string_view operand) {
   return text::equalsIgnoringCase(operand, "NOT") ||
          (operand.size() > 1 && std::string_view("-/!~").find(operand[0]) != std::string_view::npos &&
-          isLetter(operand[1]));
+          text::isLetter(operand[1]));
 }
 
 // Negated, or one of several with commas: another command alone would not do for it.
@@ -142,11 +141,11 @@ bool noteNegation(const Language& language, std::string_view operand, DiagBuilde
 
 // K100, H1F and #100 of other controls.
 bool noteLetter(std::string_view constant, DiagBuilder& report) {
-  if (constant.size() < 2 || !isDigit(constant[1])) return false;
+  if (constant.size() < 2 || !text::isDigit(constant[1])) return false;
   const char mark = text::upper(constant[0]);
   const std::string_view digits = constant.substr(1);
   const bool isDecimal = std::ranges::all_of(digits, isDigit);
-  const bool isHex = std::ranges::all_of(digits, [](char c) { return hexDigit(c) >= 0; });
+  const bool isHex = std::ranges::all_of(digits, [](char c) { return text::hexDigit(c) >= 0; });
   if (isDecimal && (mark == 'K' || mark == '#'))
     report.note(fmt::format("a number is written without '{}': {}", constant[0], digits));
   else if (isHex && (mark == 'H' || mark == '#'))
@@ -338,7 +337,7 @@ void reportUnknownCommand(Context& context, std::span<const Word> words) {
     return;
   }
   if (!context.diagnostics.suggests()) return;
-  Likely similar = likeliest(word.text, language.commands);
+  text::Likely similar = text::likeliest(word.text, language.commands);
   if (frontend::isModified(word.text, similar.word)) similar = {};
   suggestInstruction(context, word.range, {similar.word, similar.certain && fits(similar.word)}, report);
 }
@@ -356,7 +355,7 @@ void reportUnknownFunction(Context& context, std::string_view name, SourceRange 
   const auto mnemonicOf = [](const Row* row) { return row->info.mnemonic; };
   const frontend::ForeignWord* foreign = frontend::findForeign(context.language.foreign, name);
   if (foreign != nullptr && !foreign->same) return frontend::explainForeign(report, range, *foreign, false);
-  Likely similar = likeliest(name, context.language.rows | std::views::filter(isFunction), mnemonicOf);
+  text::Likely similar = text::likeliest(name, context.language.rows | std::views::filter(isFunction), mnemonicOf);
   if (frontend::isModified(name, similar.word)) similar = {};
   suggestInstruction(context, range, similar, report);
 }
@@ -447,4 +446,4 @@ std::optional<Address> readBit(Context& context, const Word& word, frontend::Acc
   return bit;
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -15,7 +15,7 @@
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // A name that the program declares, or a signal that it uses.
 struct UserName {
@@ -118,4 +118,4 @@ struct CoilTraits { // see frontend::OperandUse
 // for a bit that the program may not write.
 std::optional<Address> readBit(Context& context, const Word& word, frontend::Access access, CoilTraits coil = {});
 
-} // namespace rung::network
+} // namespace rung::frontend::network

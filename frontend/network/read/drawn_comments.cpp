@@ -11,7 +11,7 @@
 #include "frontend/network/read/gaps.h"
 #include "rtlib/text/blanks.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 // A parameter by the name of its operand, a table row by its number.
@@ -152,4 +152,4 @@ void attachComments(const Language& language, const ladder::Rung& rung, Network&
   }
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -12,7 +12,7 @@
 #include "frontend/ladder/text/ladder_file.h"
 #include "frontend/network/program.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // The commands of the first and the last element of a line; kNone where it has none.
 struct LineEnds {
@@ -45,4 +45,4 @@ std::optional<std::vector<Logic>> blocksIn(const Language& language, const ladde
 // Gives the comments of a rung to the network that it draws, but for a hint that was heeded.
 void attachComments(const Language& language, const ladder::Rung& rung, Network& network);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

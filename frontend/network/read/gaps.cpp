@@ -9,7 +9,7 @@
 #include "frontend/network/read/title.h"
 #include "rtlib/text/blanks.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 using Kind = Item::Kind;
 
@@ -93,4 +93,4 @@ std::vector<std::string> Gaps::takeComments(Gap& network) {
   return comments;
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -3,7 +3,7 @@
 #include "frontend/network/gap.h"
 #include "frontend/syntax/word_lexer.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // A comment as an item has it: control characters become blanks, blanks at the ends go.
 std::string clean(std::string_view text);
@@ -47,4 +47,4 @@ private:
   Gap gap_;
 };
 
-} // namespace rung::network
+} // namespace rung::frontend::network

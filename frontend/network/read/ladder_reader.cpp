@@ -19,7 +19,7 @@
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 using frontend::Access;
@@ -473,4 +473,4 @@ void readLadder(Context& context, const ladder::LadderFile& file, UnitAssembler&
   LadderReader(context, file, units).read();
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -4,10 +4,10 @@
 #include "frontend/network/read/context.h"
 #include "frontend/network/read/units.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 ladder::LadderFile parseLadderFile(Context& context, FileId file);
 void readLadderDeclarations(Context& context, const ladder::LadderFile& file);
 void readLadder(Context& context, const ladder::LadderFile& file, UnitAssembler& units);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -6,7 +6,7 @@
 #include "ir/support/diag/source.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 class ListReader {
@@ -161,4 +161,4 @@ SourceRange lastLineOf(const SourceManager& sources, FileId file) {
   return sources.range(file, begin == std::string_view::npos ? 0 : begin + 1, last + 1);
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -10,7 +10,7 @@
 #include "ir/support/diag/operand.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 std::string_view wantedOperand(Command command) {
@@ -110,4 +110,4 @@ bool checkOperands(const Language& language, Diagnostics& diagnostics, Command c
   return false;
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

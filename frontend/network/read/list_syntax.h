@@ -8,7 +8,7 @@
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/diagnostics.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // Comments begin with ';', there are no quoted texts.
 inline constexpr WordRules kListRules = {.comment = ';', .quotes = "", .separators = ""};
@@ -27,4 +27,4 @@ size_t operandCount(Command command);
 // Whether a word begins a comment of other languages.
 bool looksLikeComment(std::string_view word);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

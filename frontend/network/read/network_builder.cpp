@@ -9,7 +9,7 @@
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/structure.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 constexpr std::string_view kNumbers[] = {"no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"};
@@ -255,4 +255,4 @@ void NetworkBuilder::finish() {
   network_ = Network{};
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -9,7 +9,7 @@
 #include "frontend/network/program.h"
 #include "frontend/network/read/context.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 struct Place {
   SourceRange range;
@@ -74,4 +74,4 @@ private:
 bool checkFunction(Context& context, const std::vector<Word>& parameters, const std::vector<Word>& table,
                    Function& function);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -8,7 +8,7 @@
 #include "ir/support/diag/operand.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 using frontend::Access;
@@ -269,4 +269,4 @@ bool checkFunction(Context& context, const std::vector<Word>& parameters, const 
   return function.row->hasTable ? check.checkTable(table, good) : good;
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -4,7 +4,7 @@
 #include "frontend/network/read/ladder_reader.h"
 #include "frontend/network/read/list_reader.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // By the name; where it does not say, ladder text is what has modules or rungs.
 bool isLadder(const Language& language, const SourceManager& sources, FileId file) {
@@ -42,4 +42,4 @@ bool Reading::read() {
   return !units_.incomplete();
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -7,7 +7,7 @@
 #include "frontend/network/read/context.h"
 #include "frontend/network/read/units.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // Ladder text; the others are command lists.
 bool isLadder(const Language& language, const SourceManager& sources, FileId file);
@@ -31,4 +31,4 @@ private:
   FileId last_;
 };
 
-} // namespace rung::network
+} // namespace rung::frontend::network

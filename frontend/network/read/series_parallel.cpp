@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 using ladder::Element;
@@ -191,4 +191,4 @@ SpTree Reduction::flatten(uint32_t root) const {
 
 std::optional<SpTree> decompose(const ladder::Rung& rung, NetId target) { return Reduction(rung, target).run(); }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -8,7 +8,7 @@
 
 #include "frontend/ladder/rung.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 struct SpTree {
   enum class Kind : uint8_t { Contact, Series, Parallel };
@@ -25,4 +25,4 @@ struct SpTree {
 // everything that drives it must be contacts. Time is linear in the contacts but for the sorting of branches.
 std::optional<SpTree> decompose(const ladder::Rung& rung, ladder::NetId target);
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -3,14 +3,14 @@
 
 #include <algorithm>
 
-#include "ir/support/ascii.h"
+#include "rtlib/text/letters.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 namespace {
 
 bool isDecoration(std::string_view text) {
-  return std::ranges::none_of(text,
-                              [](char c) { return isDigit(c) || isLetter(c) || static_cast<signed char>(c) < 0; });
+  return std::ranges::none_of(
+      text, [](char c) { return text::isDigit(c) || text::isLetter(c) || static_cast<signed char>(c) < 0; });
 }
 
 } // namespace
@@ -32,4 +32,4 @@ void TitleRule::comment(std::string_view text) {
   inBlock_ = true;
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

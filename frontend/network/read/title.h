@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // `section "text"` in a comment of a command list is ladder text's statement: its text.
 std::optional<std::string_view> sectionIn(std::string_view comment);
@@ -25,4 +25,4 @@ private:
   bool inBlock_ = false; // the line above was a comment with words
 };
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -9,7 +9,7 @@
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/structure.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 void UnitAssembler::add(Network&& network) {
   sawList_ = true;
@@ -206,4 +206,4 @@ void UnitAssembler::finish(SourceRange anywhere) {
   }
 }
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -6,7 +6,7 @@
 #include "frontend/network/program.h"
 #include "frontend/network/read/context.h"
 
-namespace rung::network {
+namespace rung::frontend::network {
 
 // Sorts networks into units. Command lists bring their own ends (§1.2); ladder modules name their unit.
 class UnitAssembler {
@@ -67,4 +67,4 @@ private:
   std::vector<bool> moduleOpened_; // by level
 };
 
-} // namespace rung::network
+} // namespace rung::frontend::network

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/gsk/gsk_control.h"
 #include "rtlib/nc/control/message_number.h"
 #include "rtlib/nc/control/nct/nct_control.h"
@@ -14,7 +14,7 @@
 
 namespace rung::nc {
 
-void Control::prepare(host::Instance& instance, PowerOn kind) {
+void Control::prepare(runtime::Instance& instance, PowerOn kind) {
   if (kind == PowerOn::Cold)
     instance.coldStart();
   else
@@ -22,22 +22,22 @@ void Control::prepare(host::Instance& instance, PowerOn kind) {
   Control::onReplace(instance);
 }
 
-void Control::exchangePlaces(host::Instance& instance, std::unique_ptr<Places>& places) noexcept {
+void Control::exchangePlaces(runtime::Instance& instance, std::unique_ptr<Places>& places) noexcept {
   places_.swap(places);
   if (places_) usePlaces(instance, *places_);
 }
 
-void Control::onReplace(host::Instance& instance) {
+void Control::onReplace(runtime::Instance& instance) {
   std::unique_ptr<Places> places = locate(instance.program());
   exchangePlaces(instance, places);
 }
 
-bool Control::respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) {
+bool Control::respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) {
   reply = refuse(instance.program(), request);
   return true;
 }
 
-std::optional<host::Ref> Control::readPlace(const rung_program& program, std::string_view name) const {
+std::optional<runtime::Ref> Control::readPlace(const rung_program& program, std::string_view name) const {
   return resolve(program, name, [&](std::string_view unknown) { return signal(program, unknown); });
 }
 
@@ -54,7 +54,7 @@ size_t putMessageNumber(uint32_t number, int32_t channel, int32_t index, std::sp
 size_t Control::describe(const rung_program& program, const rung_message& message, std::span<char> out) const noexcept {
   size_t size = putMessageNumber(message.number, message.channel, message.index, out);
   if (size < out.size()) out[size++] = ' ';
-  const std::string_view text = host::messageText(program, message.number).substr(0, out.size() - size);
+  const std::string_view text = runtime::messageText(program, message.number).substr(0, out.size() - size);
   std::ranges::copy(text, out.subspan(size).begin());
   return size + text.size();
 }

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "rtlib/host/instance.h"
 #include "rtlib/nc/control/functions.h"
 #include "rtlib/nc/control/shown_message.h"
+#include "rtlib/run/instance.h"
 
 namespace rung::nc {
 
@@ -27,26 +27,26 @@ public:
   virtual ~Places() = default;
 };
 
-class Control : public host::ScheduleHooks {
+class Control : public runtime::ScheduleHooks {
 public:
   // The program is switched on in two steps, so that others can prepare memory in between. `prepare`: memory, presets
   // and signals of the control; a warm start keeps what the dialect keeps. `start`: what the control runs before the
   // first scan.
-  virtual void prepare(host::Instance& instance, PowerOn kind);
-  virtual void start(host::Instance& instance) { (void)instance; }
-  void powerOn(host::Instance& instance, PowerOn kind) {
+  virtual void prepare(runtime::Instance& instance, PowerOn kind);
+  virtual void start(runtime::Instance& instance) { (void)instance; }
+  void powerOn(runtime::Instance& instance, PowerOn kind) {
     prepare(instance, kind);
     start(instance);
   }
 
   // A regular power-off: what the control runs before it. True: the program has to be scanned on while `endsLater`, but
   // not longer than that.
-  virtual bool beginPowerOff(host::Instance& instance) { return (void)instance, false; }
-  virtual bool endsLater(const host::Instance& instance) const { return (void)instance, false; }
+  virtual bool beginPowerOff(runtime::Instance& instance) { return (void)instance, false; }
+  virtual bool endsLater(const runtime::Instance& instance) const { return (void)instance, false; }
   static constexpr uint32_t kMostLastScans = 500;
   // All of it at once, with scans of the host.
   template <class Scan>
-  void powerOff(host::Instance& instance, Scan scan) {
+  void powerOff(runtime::Instance& instance, Scan scan) {
     if (!beginPowerOff(instance)) return;
     for (uint32_t i = 0; i < kMostLastScans && !instance.faulted() && endsLater(instance); ++i) scan();
   }
@@ -55,28 +55,28 @@ public:
   virtual std::unique_ptr<Places> locate(const rung_program& program) const { return (void)program, nullptr; }
   // Another program has taken over, between two passes: `places`, of that program, are what the control uses from now
   // on; it gets those of the former one. Allocates nothing.
-  void exchangePlaces(host::Instance& instance, std::unique_ptr<Places>& places) noexcept;
+  void exchangePlaces(runtime::Instance& instance, std::unique_ptr<Places>& places) noexcept;
   // The same for a host that has not looked them up beforehand.
-  void onReplace(host::Instance& instance) override;
+  void onReplace(runtime::Instance& instance) override;
 
   // Before a scan, a slot or a slice, where a host moves a real machine: it has written its signals.
-  virtual void beforeSlice(host::Instance& instance) { (void)instance; }
+  virtual void beforeSlice(runtime::Instance& instance) { (void)instance; }
   // After a scan, a slot or a slice.
-  virtual void afterSlice(host::Instance& instance) { (void)instance; }
+  virtual void afterSlice(runtime::Instance& instance) { (void)instance; }
 
   // No CNC is there to answer: see refuse.h.
-  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override;
+  bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) override;
 
   // The place that a name of the program or of the NC's interface refers to for somebody who reads it, and for the NC
   // or the machine that writes it. Nothing when the name is unknown.
-  virtual std::optional<host::Ref> readPlace(const rung_program& program, std::string_view name) const;
-  virtual std::optional<host::Ref> writePlace(const rung_program& program, std::string_view name) const {
+  virtual std::optional<runtime::Ref> readPlace(const rung_program& program, std::string_view name) const;
+  virtual std::optional<runtime::Ref> writePlace(const rung_program& program, std::string_view name) const {
     return readPlace(program, name);
   }
 
   // Whether the control itself writes there, again and again or once for all, so that no other's value lasts:
   // constants, clocks. `place`: of writePlace.
-  virtual bool writesItself(const rung_program& program, const host::Ref& place) const {
+  virtual bool writesItself(const rung_program& program, const runtime::Ref& place) const {
     return (void)program, (void)place, false;
   }
 
@@ -87,16 +87,16 @@ public:
   virtual rung_message outward(const rung_message& message) const noexcept { return message; }
   // A message that the host has taken from the program's queue, and those that the operator sees now.
   virtual void accept(const rung_message& message) { (void)message; }
-  virtual std::vector<ShownMessage> messages(const host::Instance& instance) const {
+  virtual std::vector<ShownMessage> messages(const runtime::Instance& instance) const {
     return (void)instance, std::vector<ShownMessage>();
   }
   // Whether the operator sees these now, and no others; texts are neither made nor compared. Allocates nothing.
-  virtual bool shows(const host::Instance& instance, std::span<const ShownMessage> these) const noexcept {
+  virtual bool shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept {
     return (void)instance, these.empty();
   }
   // For programs whose messages are bits: the next one that has come or gone since the last call, in `message`. False:
   // there is none. Between two passes; allocates nothing.
-  virtual bool nextChange(const host::Instance& instance, rung_message& message) noexcept {
+  virtual bool nextChange(const runtime::Instance& instance, rung_message& message) noexcept {
     return (void)instance, (void)message, false;
   }
   // The line of a log: the message's number as the dialect writes it, and its text. Gives the characters written; what
@@ -135,15 +135,15 @@ public:
   // disk.
   virtual bool savesOnRequest() const { return false; }
   virtual void setStored(bool stored) { (void)stored; }
-  virtual bool asksToSave(const host::Instance& instance) const { return (void)instance, false; }
-  virtual void saved(host::Instance& instance) { (void)instance; }
+  virtual bool asksToSave(const runtime::Instance& instance) const { return (void)instance, false; }
+  virtual void saved(runtime::Instance& instance) { (void)instance; }
 
 protected:
   // Another program has taken over: these are its places, which stay until there are others. Allocates nothing.
-  virtual void usePlaces(host::Instance& instance, Places& places) noexcept { (void)instance, (void)places; }
+  virtual void usePlaces(runtime::Instance& instance, Places& places) noexcept { (void)instance, (void)places; }
 
   // The NC's signals by their predeclared names; asked for what the program's own table does not hold.
-  virtual std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const {
+  virtual std::optional<runtime::Ref> signal(const rung_program& program, std::string_view name) const {
     return (void)program, (void)name, std::nullopt;
   }
 

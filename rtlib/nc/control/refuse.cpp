@@ -15,7 +15,7 @@ bool isOf(const char* service, const char* name) noexcept {
 
 } // namespace
 
-rt::ServiceReply refuse(const rung_program& program, const rt::ServiceRequest& request) noexcept {
+core::ServiceReply refuse(const rung_program& program, const core::ServiceRequest& request) noexcept {
   const char* const service = request.service < program.service_count ? program.services[request.service] : "";
   const bool reads = isOf(service, "windr");
   if (!reads && !isOf(service, "windw")) return {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};

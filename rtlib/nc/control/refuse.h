@@ -6,6 +6,6 @@ namespace rung::nc {
 
 // GSK's window requests end with code 6, "not provided" (man. l.8668-8676); all others with an error, of which NCT's MR
 // and MW make execution code 1 and MACR, MACW, SCP and MOVCMND the flag FL_ER. Allocates nothing.
-rt::ServiceReply refuse(const rung_program& program, const rt::ServiceRequest& request) noexcept;
+core::ServiceReply refuse(const rung_program& program, const core::ServiceRequest& request) noexcept;
 
 } // namespace rung::nc

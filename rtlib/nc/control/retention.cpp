@@ -3,11 +3,11 @@
 
 namespace rung::nc {
 
-Retention::Retention(Control& control, host::Instance& instance, const std::string& file, host::RetainTake take,
-                     const host::Outside& outside)
+Retention::Retention(Control& control, runtime::Instance& instance, const std::string& file, runtime::RetainTake take,
+                     const runtime::Outside& outside)
     : control_(&control), instance_(&instance),
       memory_(instance.program(), file,
-              control.savesOnRequest() ? host::RetainWhen::OnRequest : host::RetainWhen::Always, take, outside) {
+              control.savesOnRequest() ? runtime::RetainWhen::OnRequest : runtime::RetainWhen::Always, take, outside) {
   control.setStored(true);
 }
 

@@ -3,16 +3,16 @@
 #include <optional>
 #include <string>
 
-#include "rtlib/host/retained_memory.h"
 #include "rtlib/nc/control/control.h"
+#include "rtlib/retain/retained_memory.h"
 
 namespace rung::nc {
 
 class Retention {
 public:
   // Control and instance outlive this. FILE of FILE.a and FILE.b. `take`: as RetainedMemory has it.
-  Retention(Control& control, host::Instance& instance, const std::string& file,
-            host::RetainTake take = &host::takeRetainedOf, const host::Outside& outside = {});
+  Retention(Control& control, runtime::Instance& instance, const std::string& file,
+            runtime::RetainTake take = &runtime::takeRetainedOf, const runtime::Outside& outside = {});
 
   // Before the power-on: how the program is switched on. Nothing, and `error` says why: the files cannot be used.
   // `report`: what the operator should know of them, or "".
@@ -25,9 +25,9 @@ public:
   std::string finish() { return memory_.finish(*instance_); }
 
   // How saving goes: for any thread, without a lock.
-  const host::RetainedMemory& memory() const { return memory_; }
+  const runtime::RetainedMemory& memory() const { return memory_; }
   // As RetainedMemory has them.
-  void programChanged(std::unique_ptr<host::RetainLane>& lane) noexcept { memory_.programChanged(lane); }
+  void programChanged(std::unique_ptr<runtime::RetainLane>& lane) noexcept { memory_.programChanged(lane); }
   void settle() { memory_.settle(); }
   // Not in a scan: waits for what was offered.
   bool flush() { return memory_.flush(); }
@@ -37,8 +37,8 @@ public:
 
 private:
   Control* control_;
-  host::Instance* instance_;
-  host::RetainedMemory memory_;
+  runtime::Instance* instance_;
+  runtime::RetainedMemory memory_;
 };
 
 } // namespace rung::nc

@@ -26,20 +26,20 @@ public:
   // The symbol of this name; null when there is none.
   virtual const rung_symbol* symbol(const rung_program& program, std::string_view name) const;
   // A name that is not a symbol, of at least one character: NAME:bytes, NAME[n], CELL.n, NAME+n.
-  virtual std::optional<host::Ref> takeApart(NameSearch& search, std::string_view name) const;
+  virtual std::optional<runtime::Ref> takeApart(NameSearch& search, std::string_view name) const;
 
   // The kind of number that the dialect has in a cell of this width.
-  virtual host::Ref meant(const host::Ref& place) const { return place; }
+  virtual runtime::Ref meant(const runtime::Ref& place) const { return place; }
   // Of a place in one of the program's spaces: AREA+n, AREA+n.b.
-  virtual std::string address(const rung_program& program, const host::Ref& place) const;
-  virtual std::string cellAddress(const rung_program& program, const host::Ref& place) const {
+  virtual std::string address(const rung_program& program, const runtime::Ref& place) const;
+  virtual std::string cellAddress(const rung_program& program, const runtime::Ref& place) const {
     return address(program, place);
   }
-  virtual std::string placeName(const rung_program& program, const host::Ref& place) const;
+  virtual std::string placeName(const rung_program& program, const runtime::Ref& place) const;
 
 protected:
   // The symbol with the fewest bytes that a bit or the first byte of the place is a part of; null when there is none.
-  static const rung_symbol* shortestAt(const rung_program& program, const host::Ref& place);
+  static const rung_symbol* shortestAt(const rung_program& program, const runtime::Ref& place);
 };
 
 // One look-up of a name, and what the grammars take names apart with. The program and the fallback outlive it.
@@ -49,33 +49,33 @@ public:
       : program_(program), grammar_(grammar), fallback_(fallback), memory_(program, nullptr) {}
 
   // A symbol, a signal of the control, or what the grammar makes of the name.
-  std::optional<host::Ref> find(std::string_view name);
+  std::optional<runtime::Ref> find(std::string_view name);
 
   const rung_program& program() const { return program_; }
   uint32_t space(std::string_view name) const;
   // The place itself, or nothing when it lies outside of its space.
-  std::optional<host::Ref> inSpace(const std::optional<host::Ref>& ref) const;
+  std::optional<runtime::Ref> inSpace(const std::optional<runtime::Ref>& ref) const;
   // Bit `digits` of the cell `name`.
-  std::optional<host::Ref> bitIn(std::string_view name, std::string_view digits);
+  std::optional<runtime::Ref> bitIn(std::string_view name, std::string_view digits);
   // One cell of so many bytes (1, 2, 4 or the longest) that begins where the integer does.
-  std::optional<host::Ref> widened(std::optional<host::Ref> ref, std::optional<uint32_t> bytes) const;
+  std::optional<runtime::Ref> widened(std::optional<runtime::Ref> ref, std::optional<uint32_t> bytes) const;
   // The same at NAME or NAME+n; there need be no room for a cell of NAME's own length.
-  std::optional<host::Ref> ofBytes(std::string_view name, std::optional<uint32_t> bytes);
+  std::optional<runtime::Ref> ofBytes(std::string_view name, std::optional<uint32_t> bytes);
 
-  // The real that begins where the cell does, as host::asReal.
-  std::optional<host::Ref> real(const std::optional<host::Ref>& ref) const;
+  // The real that begins where the cell does, as runtime::asReal.
+  std::optional<runtime::Ref> real(const std::optional<runtime::Ref>& ref) const;
 
   // Texts and reals as integers, the form that has a width; nothing of a bit or a constant.
-  static std::optional<host::Ref> inBytes(std::optional<host::Ref> ref);
+  static std::optional<runtime::Ref> inBytes(std::optional<runtime::Ref> ref);
   static bool allDigits(std::string_view text);
 
 private:
-  std::optional<host::Ref> nested(std::string_view name);
+  std::optional<runtime::Ref> nested(std::string_view name);
 
   const rung_program& program_;
   const NameGrammar& grammar_;
   const NameFallback& fallback_;
-  rt::Memory memory_; // for its bounds only
+  core::Memory memory_; // for its bounds only
   int depth_ = 0;
 };
 

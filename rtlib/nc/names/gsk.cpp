@@ -5,8 +5,8 @@
 
 namespace rung::nc {
 
-using host::Ref;
-using host::RefKind;
+using runtime::Ref;
+using runtime::RefKind;
 
 namespace {
 
@@ -22,7 +22,7 @@ public:
       return search.bitIn(name.substr(0, dot), name.substr(dot + 1));
     const std::optional<uint32_t> byte = text::numberIn<uint32_t>(name.substr(1));
     if (!byte) return std::nullopt;
-    return search.inSpace(host::intRef(search.space(name.substr(0, 1)), *byte, 8));
+    return search.inSpace(runtime::intRef(search.space(name.substr(0, 1)), *byte, 8));
   }
 
   std::string address(const rung_program& program, const Ref& place) const override {

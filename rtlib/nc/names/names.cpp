@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/names/grammar.h"
 #include "rtlib/nc/names/gsk.h"
 #include "rtlib/nc/names/nct.h"
@@ -15,8 +15,8 @@
 
 namespace rung::nc {
 
-using host::Ref;
-using host::RefKind;
+using runtime::Ref;
+using runtime::RefKind;
 
 namespace {
 
@@ -35,7 +35,7 @@ const NameGrammar& grammarOf(const rung_program& program) {
 }
 
 uint32_t bytesOf(const rung_symbol& symbol) {
-  const Ref ref = host::refOf(symbol);
+  const Ref ref = runtime::refOf(symbol);
   return ref.kind == RefKind::Bit ? (ref.bit + ref.count + 7) / 8 : ref.width / 8u * ref.count;
 }
 
@@ -63,7 +63,7 @@ std::string addressBy(const NameGrammar& grammar, const rung_program& program, c
 // ---- grammar of a dialect that has none of its own ---------------------------------------------------------------
 
 const rung_symbol* NameGrammar::symbol(const rung_program& program, std::string_view name) const {
-  return host::findSymbol(program, name);
+  return runtime::findSymbol(program, name);
 }
 
 std::optional<Ref> NameGrammar::takeApart(NameSearch& search, std::string_view name) const {
@@ -72,7 +72,7 @@ std::optional<Ref> NameGrammar::takeApart(NameSearch& search, std::string_view n
   if (const size_t bracket = name.rfind('['); name.back() == ']' && bracket != std::string_view::npos) {
     const std::optional<Ref> array = search.find(name.substr(0, bracket));
     const std::optional<uint32_t> index = text::numberIn<uint32_t>(name.substr(bracket + 1, name.size() - bracket - 2));
-    return array && index ? search.inSpace(host::element(*array, *index)) : std::nullopt;
+    return array && index ? search.inSpace(runtime::element(*array, *index)) : std::nullopt;
   }
   if (const size_t dot = name.rfind('.'); dot != std::string_view::npos)
     return search.bitIn(name.substr(0, dot), name.substr(dot + 1));
@@ -94,7 +94,7 @@ std::string NameGrammar::address(const rung_program& program, const Ref& place) 
 
 std::string NameGrammar::placeName(const rung_program& program, const Ref& place) const {
   for (const rung_symbol& symbol : std::span(program.symbols, program.symbol_count)) {
-    Ref own = host::refOf(symbol);
+    Ref own = runtime::refOf(symbol);
     own.readonly = place.readonly;
     if (own == place && isShown(program, symbol)) return symbol.name;
   }
@@ -116,7 +116,7 @@ const rung_symbol* NameGrammar::shortestAt(const rung_program& program, const Re
 
 std::optional<Ref> NameSearch::find(std::string_view name) {
   if (name.empty() || depth_ >= kMostNested) return std::nullopt;
-  if (const rung_symbol* symbol = grammar_.symbol(program_, name)) return host::refOf(*symbol);
+  if (const rung_symbol* symbol = grammar_.symbol(program_, name)) return runtime::refOf(*symbol);
   const bool addressFirst = grammar_.addressFirst();
   if (addressFirst)
     if (std::optional<Ref> ref = nested(name)) return ref;
@@ -132,7 +132,7 @@ std::optional<Ref> NameSearch::nested(std::string_view name) {
   return ref;
 }
 
-uint32_t NameSearch::space(std::string_view name) const { return host::findSpace(program_, name); }
+uint32_t NameSearch::space(std::string_view name) const { return runtime::findSpace(program_, name); }
 
 std::optional<Ref> NameSearch::inSpace(const std::optional<Ref>& ref) const {
   if (!ref || !memory_.contains(ref->space, ref->byte, std::max(1u, ref->width / 8u))) return std::nullopt;
@@ -143,7 +143,7 @@ std::optional<Ref> NameSearch::bitIn(std::string_view name, std::string_view dig
   const std::optional<uint32_t> bit = text::numberIn<uint32_t>(digits);
   std::optional<Ref> cell = bit ? find(name) : std::nullopt;
   if (bit && !cell) cell = ofBytes(name, *bit < 8 ? 1 : *bit < 16 ? 2 : *bit < 32 ? 4 : 8); // NAME+n at a space's end
-  return cell ? host::bitOf(*cell, *bit) : std::nullopt;
+  return cell ? runtime::bitOf(*cell, *bit) : std::nullopt;
 }
 
 std::optional<Ref> NameSearch::widened(std::optional<Ref> ref, std::optional<uint32_t> bytes) const {
@@ -165,7 +165,7 @@ std::optional<Ref> NameSearch::ofBytes(std::string_view name, std::optional<uint
 }
 
 std::optional<Ref> NameSearch::real(const std::optional<Ref>& ref) const {
-  return ref ? host::asReal(memory_, *ref) : std::nullopt;
+  return ref ? runtime::asReal(memory_, *ref) : std::nullopt;
 }
 
 std::optional<Ref> NameSearch::inBytes(std::optional<Ref> ref) {

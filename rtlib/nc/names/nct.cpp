@@ -1,16 +1,16 @@
 // REAL.NAME, !NAME, BASE,#n, WORD.bb, signals, and four digits (see nct.h).
 #include "rtlib/nc/names/nct.h"
 
-#include "rtlib/host/overwritten.h"
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/nct/signals.h"
+#include "rtlib/run/overwritten.h"
 #include "rtlib/text/name_parts.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nc {
 
-using host::Ref;
-using host::RefKind;
+using runtime::Ref;
+using runtime::RefKind;
 
 namespace {
 
@@ -92,16 +92,16 @@ public:
       return shifted(search, search.find(name.substr(0, comma)), name.substr(comma + 1));
     if (const size_t dot = name.rfind('.'); dot != std::string_view::npos)
       return name.size() - dot == 3 ? search.bitIn(name.substr(0, dot), name.substr(dot + 1)) : std::nullopt;
-    if (name == kFlags) return search.inSpace(host::intRef(search.space(kMemory), 0, 32));
+    if (name == kFlags) return search.inSpace(runtime::intRef(search.space(kMemory), 0, 32));
     if (const std::optional<Ref> signal = nctSignalPlace(search.program(), name)) return search.inSpace(signal);
     const std::optional<uint32_t> word = text::numberIn<uint32_t>(name);
     if (!word || name.size() != 4) return std::nullopt;
-    return search.inSpace(host::intRef(search.space(kMemory), 4 * *word, 32));
+    return search.inSpace(runtime::intRef(search.space(kMemory), 4 * *word, 32));
   }
 
   // Two words are a double (man. 6.3.2): nothing else moves or computes 64 bits.
   Ref meant(const Ref& place) const override {
-    return place.kind == RefKind::Int && place.width == 64 ? host::realRef(place.space, place.byte) : place;
+    return place.kind == RefKind::Int && place.width == 64 ? runtime::realRef(place.space, place.byte) : place;
   }
 
   std::string address(const rung_program& program, const Ref& place) const override {
@@ -126,10 +126,10 @@ public:
   }
 
   std::string placeName(const rung_program& program, const Ref& place) const override {
-    if (place.kind == RefKind::Real) return realName(placeName(program, host::intRef(place.space, place.byte, 32)));
-    if (place.space != host::findSpace(program, kTimeSliceMemory)) return NameGrammar::placeName(program, place);
+    if (place.kind == RefKind::Real) return realName(placeName(program, runtime::intRef(place.space, place.byte, 32)));
+    if (place.space != runtime::findSpace(program, kTimeSliceMemory)) return NameGrammar::placeName(program, place);
     Ref copy = place;
-    copy.space = host::findSpace(program, kMemory);
+    copy.space = runtime::findSpace(program, kMemory);
     return "!" + NameGrammar::placeName(program, copy);
   }
 
@@ -140,17 +140,17 @@ private:
 } // namespace
 
 Ref nctTimeSlicePlace(const rung_program& program, const Ref& place) {
-  if (place.byte < kFirstNcByte || place.space != host::findSpace(program, kMemory)) return place;
-  return host::Overwritten(program).source(place).value_or(place);
+  if (place.byte < kFirstNcByte || place.space != runtime::findSpace(program, kMemory)) return place;
+  return runtime::Overwritten(program).source(place).value_or(place);
 }
 
 std::optional<Ref> nctSignalPlace(const rung_program& program, std::string_view name) {
   const Signal* found = findSignal(nctSignals(), name);
-  const uint32_t memory = host::findSpace(program, kMemory);
+  const uint32_t memory = runtime::findSpace(program, kMemory);
   if (found == nullptr || memory == RUNG_NONE) return std::nullopt;
-  if (found->type == SignalType::Bit) return host::bitRef(memory, found->byteOffset, found->bit);
-  Ref place = found->type == SignalType::Real ? host::realRef(memory, found->byteOffset)
-                                              : host::intRef(memory, found->byteOffset, 32);
+  if (found->type == SignalType::Bit) return runtime::bitRef(memory, found->byteOffset, found->bit);
+  Ref place = found->type == SignalType::Real ? runtime::realRef(memory, found->byteOffset)
+                                              : runtime::intRef(memory, found->byteOffset, 32);
   place.count = found->count;
   return place;
 }

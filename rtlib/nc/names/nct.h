@@ -10,9 +10,9 @@ const NameGrammar& nctNames();
 
 // Where a place of "M" is for the NC: in the time-slice memory where the program has its words twice, else the same
 // place. Words 0000 and 0001 are the program's in both.
-host::Ref nctTimeSlicePlace(const rung_program& program, const host::Ref& place);
+runtime::Ref nctTimeSlicePlace(const rung_program& program, const runtime::Ref& place);
 
 // A signal of the NC by its name, in "M": all its elements, the first of them for a bit.
-std::optional<host::Ref> nctSignalPlace(const rung_program& program, std::string_view name);
+std::optional<runtime::Ref> nctSignalPlace(const rung_program& program, std::string_view name);
 
 } // namespace rung::nc

@@ -5,14 +5,14 @@
 #include <string>
 #include <utility>
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/text/name_parts.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nc {
 
-using host::Ref;
-using host::RefKind;
+using runtime::Ref;
+using runtime::RefKind;
 
 namespace {
 
@@ -34,7 +34,7 @@ std::optional<uint32_t> takeType(std::string_view& name) {
 // A bit symbol after the dot means its number in its byte (technol.md 4.1).
 std::optional<Ref> weighted(const std::optional<Ref>& cell, const std::optional<Ref>& weight) {
   if (!cell || !weight || weight->kind != RefKind::Bit || cell->kind == RefKind::Constant) return std::nullopt;
-  Ref ref = host::bitRef(cell->space, cell->byte, weight->bit);
+  Ref ref = runtime::bitRef(cell->space, cell->byte, weight->bit);
   ref.readonly = cell->readonly;
   return ref;
 }
@@ -54,10 +54,10 @@ public:
   uint32_t longestCell() const override { return 8; }
 
   const rung_symbol* symbol(const rung_program& program, std::string_view name) const override {
-    if (const rung_symbol* exact = host::findSymbol(program, name)) return exact;
+    if (const rung_symbol* exact = runtime::findSymbol(program, name)) return exact;
     if (name.size() < kSignificant || name.find_first_of(".[") != std::string_view::npos) return nullptr;
     const std::string_view head = name.substr(0, kSignificant);
-    const rung_symbol* symbol = host::firstSymbolFrom(program, head);
+    const rung_symbol* symbol = runtime::firstSymbolFrom(program, head);
     return symbol != nullptr && std::string_view(symbol->name).starts_with(head) ? symbol : nullptr;
   }
 
@@ -80,7 +80,7 @@ public:
   std::string address(const rung_program& program, const Ref& place) const override {
     const rung_symbol* symbol = shortestAt(program, place);
     if (symbol == nullptr) return NameGrammar::address(program, place);
-    const Ref whole = host::refOf(*symbol);
+    const Ref whole = runtime::refOf(*symbol);
     const std::string name = symbol->name;
     const auto element = [&](uint32_t index) {
       return whole.count > 1 ? name + "[" + std::to_string(index) + "]" : name;
@@ -101,7 +101,7 @@ public:
     const rung_symbol* symbol = shortestAt(program, place);
     const std::string text = address(program, place);
     if (symbol == nullptr || place.kind == RefKind::Bit || place.kind == RefKind::Text) return text;
-    const Ref cells = host::refOf(*symbol);
+    const Ref cells = runtime::refOf(*symbol);
     const uint32_t distance = place.byte - symbol->byte;
     const bool isNumber = cells.kind == RefKind::Int || cells.kind == RefKind::Real;
     if (isNumber && place.kind == cells.kind && place.width == cells.width && distance % (cells.width / 8) == 0)

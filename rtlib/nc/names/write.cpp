@@ -7,7 +7,7 @@ namespace rung::nc {
 
 namespace {
 
-std::string lost(const rung_program& program, const host::Ref& ref, const std::optional<host::Ref>& copied) {
+std::string lost(const rung_program& program, const runtime::Ref& ref, const std::optional<runtime::Ref>& copied) {
   if (!copied) return {};
   const std::string lasting = placeName(program, *copied);
   return "a value written to " + placeName(program, ref) + " is lost: " + lasting +
@@ -16,15 +16,15 @@ std::string lost(const rung_program& program, const host::Ref& ref, const std::o
 
 } // namespace
 
-std::string write(host::Instance& instance, const host::Ref& ref, uint64_t value) {
+std::string write(runtime::Instance& instance, const runtime::Ref& ref, uint64_t value) {
   return lost(instance.program(), ref, instance.write(ref, value));
 }
 
-std::string writeReal(host::Instance& instance, const host::Ref& ref, double value) {
+std::string writeReal(runtime::Instance& instance, const runtime::Ref& ref, double value) {
   return lost(instance.program(), ref, instance.writeReal(ref, value));
 }
 
-std::string writeText(host::Instance& instance, const host::Ref& ref, std::string_view text) {
+std::string writeText(runtime::Instance& instance, const runtime::Ref& ref, std::string_view text) {
   return lost(instance.program(), ref, instance.writeText(ref, text));
 }
 

@@ -20,4 +20,6 @@ inline constexpr uint32_t kConfigurationHead = 2; // words before the identifier
 inline constexpr uint32_t kConfigurationWords = RUNG_MAX_SERVICE_ARGS - kConfigurationHead;
 inline constexpr uint32_t kConfigurationBytes = kConfigurationWords * 8; // longest identifier, and a part of a text
 
+inline constexpr uint32_t kMaxAxes = 16; // of a control, l.8085
+
 } // namespace rung::nc

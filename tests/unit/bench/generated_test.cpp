@@ -7,11 +7,11 @@
 #include <string>
 
 #include "codegen/cpp/cpp_emitter.h"
+#include "compiler/compile.h"
+#include "compiler/engines.h"
 #include "ir/support/diag_render.h"
 #include "ir/support/temporary_folder.h"
 #include "tools/bench/generated/side.h"
-#include "tools/compiler/compile.h"
-#include "tools/compiler/engines.h"
 
 namespace rung {
 namespace {
@@ -36,13 +36,13 @@ public:
       error_ = engine.error();
   }
   const std::string& error() const { return error_; }
-  host::Engine& engine() { return *engine_; }
+  runtime::Engine& engine() { return *engine_; }
 
 private:
   SourceManager sources_;
   Diagnostics diagnostics_;
   std::optional<compiler::Compiled> compiled_;
-  std::unique_ptr<host::Engine> engine_;
+  std::unique_ptr<runtime::Engine> engine_;
   std::string error_;
 };
 

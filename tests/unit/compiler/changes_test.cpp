@@ -9,15 +9,15 @@
 #include <random>
 #include <thread>
 
+#include "compiler/recompiler.h"
+#include "compiler/tiered.h"
 #include "ir/support/hash.h"
-#include "rtlib/host/forcing.h"
-#include "rtlib/host/instance.h"
-#include "rtlib/host/replacement.h"
+#include "rtlib/change/forcing.h"
+#include "rtlib/change/replacement.h"
+#include "rtlib/run/instance.h"
 #include "tests/random/random.h"
 #include "tests/support/differential.h"
 #include "tests/support/long_run.h"
-#include "tools/compiler/recompiler.h"
-#include "tools/compiler/tiered.h"
 
 namespace rung::compiler {
 namespace {
@@ -51,7 +51,7 @@ struct Variant {
 
   EngineKind kind;
   Compiled compiled;
-  std::unique_ptr<host::Engine> engine;
+  std::unique_ptr<runtime::Engine> engine;
 };
 
 enum class What : uint8_t { Force, EndForces, Replace, Restart, Halt };
@@ -59,16 +59,16 @@ enum class What : uint8_t { Force, EndForces, Replace, Restart, Halt };
 struct Event {
   What what = What::EndForces;
   uint32_t variant = 0; // Replace
-  std::vector<host::ForcedCell> cells;
+  std::vector<runtime::ForcedCell> cells;
   uint64_t scan = 0; // before which it happened
   bool done = false;
 };
 
 // An event, ready for a program of one kind of engine.
 struct Prepared {
-  std::optional<host::Forcing> forcing;
+  std::optional<runtime::Forcing> forcing;
   std::unique_ptr<ForcedCode> code;
-  std::unique_ptr<host::Replacement> replacement;
+  std::unique_ptr<runtime::Replacement> replacement;
 };
 
 // The programs of one kind of engine, and one instance.
@@ -95,8 +95,8 @@ public:
     }
     if (event.what == What::Replace) {
       const Variant& next = *variants_[event.variant];
-      prepared.replacement =
-          std::make_unique<host::Replacement>(now.program(), host::Runnable{next.program(), next.engine->context()});
+      prepared.replacement = std::make_unique<runtime::Replacement>(
+          now.program(), runtime::Runnable{next.program(), next.engine->context()});
     }
     return prepared;
   }
@@ -106,7 +106,7 @@ public:
     switch (event.what) {
     case What::Force: return instance_->force(*prepared.forcing);
     case What::EndForces: instance_->endForces(); return true;
-    case What::Replace: return instance_->replace(*prepared.replacement) == host::ReplaceResult::Replaced;
+    case What::Replace: return instance_->replace(*prepared.replacement) == runtime::ReplaceResult::Replaced;
     case What::Restart: instance_->coldStart(); return true;
     case What::Halt: return instance_->halt(instance_->program().faults[0]);
     }
@@ -116,7 +116,7 @@ public:
   // Of all that can be seen.
   uint64_t scan(uint64_t number) {
     for (uint32_t byte = 0; byte < std::min(8u, instance_->program().spaces[0].byte_count); ++byte)
-      EXPECT_EQ(instance_->write(host::intRef(0, byte, 8), number * 13 + uint64_t{byte} * 7), std::nullopt);
+      EXPECT_EQ(instance_->write(runtime::intRef(0, byte, 8), number * 13 + uint64_t{byte} * 7), std::nullopt);
     instance_->scan();
     const auto block = std::as_const(*instance_).block();
     std::string seen(reinterpret_cast<const char*>(block.data()), block.size());
@@ -129,7 +129,7 @@ public:
 private:
   std::vector<std::unique_ptr<Variant>> variants_;
   std::vector<std::unique_ptr<Prepared>> prepared_;
-  std::optional<host::Instance> instance_;
+  std::optional<runtime::Instance> instance_;
 };
 
 Event randomEvent(Random& random, const rung_program& program) {
@@ -143,8 +143,8 @@ Event randomEvent(Random& random, const rung_program& program) {
     const uint32_t bytes = program.spaces[space].byte_count;
     if (bytes < 8) continue;
     const auto byte = static_cast<uint32_t>(random() % (bytes - 7));
-    const host::Ref ref = random() % 2 == 0 ? host::bitRef(space, byte, static_cast<uint32_t>(random() % 8))
-                                            : host::intRef(space, byte, 16);
+    const runtime::Ref ref = random() % 2 == 0 ? runtime::bitRef(space, byte, static_cast<uint32_t>(random() % 8))
+                                               : runtime::intRef(space, byte, 16);
     event.cells.push_back({.ref = ref, .bits = random()});
   }
   return event;
@@ -187,7 +187,7 @@ void runSeed(uint64_t seed, Counts& counts) {
   for (Event& event : events) {
     event = randomEvent(random, tested.program(running));
     if (event.what == What::Replace && event.variant == running) event.variant = (running + 1) % kVariants;
-    const host::Forcing asked(tested.program(running), nullptr, event.cells);
+    const runtime::Forcing asked(tested.program(running), nullptr, event.cells);
     if (!asked.problem().empty()) event = {.what = What::EndForces};
     Mail post{&event, &tested.prepare(event, running)};
     mail.store(&post, std::memory_order_release);

@@ -1,14 +1,14 @@
 // Code with forced cells, of random programs: every engine does what the interpreter does without the optimiser, and
 // the forced bits are as they should be after every rung.
+#include "compiler/recompiler.h"
 #include "tests/support/long_run.h"
-#include "tools/compiler/recompiler.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "rtlib/host/compare.h"
-#include "rtlib/host/forcing.h"
+#include "rtlib/change/compare.h"
+#include "rtlib/change/forcing.h"
 #include "rtlib/nc/names/names.h"
 #include "tests/random/random.h"
 #include "tests/support/differential.h"
@@ -23,22 +23,22 @@ using Random = std::mt19937_64;
 uint32_t below(Random& random, size_t limit) { return static_cast<uint32_t>(random() % limit); }
 
 // Bits and words anywhere in the spaces.
-std::vector<host::ForcedCell> randomCells(Random& random, const rung_program& program) {
-  std::vector<host::ForcedCell> cells;
+std::vector<runtime::ForcedCell> randomCells(Random& random, const rung_program& program) {
+  std::vector<runtime::ForcedCell> cells;
   for (uint32_t i = 0; i < 6; ++i) {
     const uint32_t space = below(random, program.space_count);
     const uint32_t bytes = program.spaces[space].byte_count;
     if (bytes < 8) continue;
     const uint32_t byte = below(random, bytes - 7);
     constexpr uint32_t kWidths[] = {8, 16, 32, 64};
-    const host::Ref ref = random() % 3 != 0 ? host::bitRef(space, byte, below(random, 8))
-                                            : host::intRef(space, byte, kWidths[random() % 4]);
+    const runtime::Ref ref = random() % 3 != 0 ? runtime::bitRef(space, byte, below(random, 8))
+                                               : runtime::intRef(space, byte, kWidths[random() % 4]);
     cells.push_back({.ref = ref, .bits = random()});
   }
   return cells;
 }
 
-void expectHeld(const host::Instance& instance, const host::Forcing& forcing) {
+void expectHeld(const runtime::Instance& instance, const runtime::Forcing& forcing) {
   for (const rung_forced_byte& byte : forcing.bytes())
     ASSERT_EQ(instance.memory().readByte(byte.space, byte.byte) & byte.mask, byte.value)
         << "byte " << byte.byte << " of space " << byte.space;
@@ -50,7 +50,7 @@ struct Running {
       : compiled(testing::compiledFromBuilt(module, layout, optimise)), engine(makeEngine(kind, compiled, {}).value()),
         kind(kind), instance(*engine) {}
 
-  void force(std::span<const host::ForcedCell> cells) {
+  void force(std::span<const runtime::ForcedCell> cells) {
     forcing.emplace(instance.program(), engine->context(), cells);
     Result<std::unique_ptr<ForcedCode>> made =
         makeForcedCode(compiled, kind, {}, instance.program(), engine->context(), forcing->bytes());
@@ -61,25 +61,25 @@ struct Running {
   }
 
   Compiled compiled;
-  std::unique_ptr<host::Engine> engine;
+  std::unique_ptr<runtime::Engine> engine;
   EngineKind kind;
-  host::Instance instance;
-  std::optional<host::Forcing> forcing;
+  runtime::Instance instance;
+  std::optional<runtime::Forcing> forcing;
   std::unique_ptr<ForcedCode> code;
 };
 
 // Changes the inputs, the first space, with values that depend on the scan alone.
-void changeInputs(host::Instance& instance, uint64_t seed, int scan) {
+void changeInputs(runtime::Instance& instance, uint64_t seed, int scan) {
   for (uint32_t byte = 0; byte < std::min(8u, instance.program().spaces[0].byte_count); ++byte)
     EXPECT_EQ(
-        instance.write(host::intRef(0, byte, 8), seed * 31 + uint64_t{byte} * 7 + static_cast<uint64_t>(scan) * 13),
+        instance.write(runtime::intRef(0, byte, 8), seed * 31 + uint64_t{byte} * 7 + static_cast<uint64_t>(scan) * 13),
         std::nullopt);
 }
 
 class ForcedCodeOf : public ::testing::TestWithParam<EngineKind> {};
 
 // A program with forced cells from the second scan on, beside the interpreter's without the optimiser.
-void compareForced(const ir::Module& module, EngineKind kind, std::span<const host::ForcedCell> cells, uint64_t seed,
+void compareForced(const ir::Module& module, EngineKind kind, std::span<const runtime::ForcedCell> cells, uint64_t seed,
                    const ir::LayoutOptions& layout, uint32_t& forcedAtEnd) {
   ir::Module other = module; // so that the layouts differ, and spaces are compared instead of bytes of memory
   other.slots.push_back({.type = ir::Type::I64, .key = "of the reference alone"});
@@ -96,7 +96,7 @@ void compareForced(const ir::Module& module, EngineKind kind, std::span<const ho
       if (running->instance.forced()) expectHeld(running->instance, *running->forcing);
       EXPECT_EQ(running->instance.forced(), scan >= 1 && !running->instance.faulted());
     }
-    const auto found = host::firstDifference(reference.instance, tested.instance, nc::describe);
+    const auto found = runtime::firstDifference(reference.instance, tested.instance, nc::describe);
     ASSERT_FALSE(found) << "scan " << scan << ": " << *found;
     if (::testing::Test::HasFatalFailure()) return;
   }
@@ -104,9 +104,9 @@ void compareForced(const ir::Module& module, EngineKind kind, std::span<const ho
 }
 
 // Of the cells, as they are asked for; its program is gone then.
-bool canBeForced(const ir::Module& module, std::span<const host::ForcedCell> cells, uint32_t& withCode) {
+bool canBeForced(const ir::Module& module, std::span<const runtime::ForcedCell> cells, uint32_t& withCode) {
   const Running reference(module, EngineKind::Interp, false);
-  const host::Forcing asked(reference.instance.program(), nullptr, cells);
+  const runtime::Forcing asked(reference.instance.program(), nullptr, cells);
   withCode += asked.needsCode() ? 1 : 0;
   return asked.problem().empty() && !cells.empty();
 }
@@ -119,7 +119,7 @@ TEST_P(ForcedCodeOf, RandomPrograms) {
     SCOPED_TRACE(seed);
     const ir::Module module = ir::randomModule(seed, {.traps = seed % 4 == 0});
     Random random(seed);
-    const std::vector<host::ForcedCell> cells =
+    const std::vector<runtime::ForcedCell> cells =
         randomCells(random, Running(module, EngineKind::Interp, false).instance.program());
     if (!canBeForced(module, cells, withCode)) continue;
     compareForced(module, GetParam(), cells, seed, {}, forcedAtEnd);
@@ -139,10 +139,10 @@ TEST_P(ForcedCodeOf, KnownCells) {
     SCOPED_TRACE(seed);
     ir::Module module = ir::randomModule(seed, {.rungs = 12, .ops = 8, .traps = false, .known = true});
     Random random(seed);
-    std::vector<host::ForcedCell> cells;
+    std::vector<runtime::ForcedCell> cells;
     for (uint32_t bit = 0; bit < ir::kKnownCells; ++bit)
       if (random() % 2 != 0)
-        cells.push_back({.ref = host::bitRef(ir::kKnownSpace.index, 0, bit), .bits = random() % 4 != 0 ? 1u : 0u});
+        cells.push_back({.ref = runtime::bitRef(ir::kKnownSpace.index, 0, bit), .bits = random() % 4 != 0 ? 1u : 0u});
     if (!canBeForced(module, cells, withCode)) continue;
     compareForced(module, GetParam(), cells, seed, {.cut = {.maxChunkRungs = 3}}, forcedAtEnd);
     if (HasFatalFailure()) return;
@@ -161,8 +161,8 @@ public:
     if (instance != nullptr && forcing != nullptr && instance->forced()) expectHeld(*instance, *forcing);
     ++rungs;
   }
-  const host::Instance* instance = nullptr;
-  const host::Forcing* forcing = nullptr;
+  const runtime::Instance* instance = nullptr;
+  const runtime::Forcing* forcing = nullptr;
   uint32_t rungs = 0;
 };
 
@@ -172,8 +172,8 @@ TEST(ForcedCode, HoldsTheBitsAfterEveryRung) {
     SCOPED_TRACE(seed);
     Running running(ir::randomModule(seed, {}), EngineKind::Interp, true);
     Random random(seed);
-    const std::vector<host::ForcedCell> cells = randomCells(random, running.instance.program());
-    if (!host::Forcing(running.instance.program(), nullptr, cells).problem().empty() || cells.empty()) continue;
+    const std::vector<runtime::ForcedCell> cells = randomCells(random, running.instance.program());
+    if (!runtime::Forcing(running.instance.program(), nullptr, cells).problem().empty() || cells.empty()) continue;
     Looker* looker = nullptr;
     EngineOptions options;
     options.observer = [&](const Compiled&) {

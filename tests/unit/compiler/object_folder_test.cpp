@@ -1,12 +1,12 @@
 // Shared objects that are kept in a folder: when one is built, and when it is taken from there.
-#include "tools/compiler/object_folder.h"
+#include "compiler/object_folder.h"
 
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/host/seal.h"
+#include "rtlib/load/seal.h"
 
 namespace rung::compiler {
 namespace {
@@ -19,7 +19,7 @@ protected:
       ++built_;
       return "the object of " + std::string(identity);
     });
-    return file.ok() ? std::string(host::readSealed(file.value()).image) : file.error();
+    return file.ok() ? std::string(runtime::readSealed(file.value()).image) : file.error();
   }
   std::string kept() const { return (scratch_ / "code").string(); }
   std::filesystem::path onlyFile() const { return std::filesystem::directory_iterator(kept())->path(); }

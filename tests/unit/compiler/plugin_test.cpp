@@ -1,5 +1,5 @@
 // Plug-ins: one that is not there, one of another build, and LLVM's back end, which is loaded when it is needed.
-#include "rtlib/host/plugin.h"
+#include "rtlib/load/plugin.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -37,13 +37,13 @@ TEST(Plugin, LlvmIsLoadedWhenItIsNeeded) {
 }
 
 TEST(Plugin, ThatIsNotThere) {
-  const host::Plugin plugin("no-such.so", "any");
+  const runtime::Plugin plugin("no-such.so", "any");
   EXPECT_FALSE(plugin.ok());
   EXPECT_THAT(plugin.problem(), HasSubstr("/lib/rung/no-such.so: cannot open shared object file"));
 }
 
 TEST(Plugin, OfAnotherBuildIsRefused) {
-  const host::Plugin plugin(codegen::kLlvmPlugin, "another build");
+  const runtime::Plugin plugin(codegen::kLlvmPlugin, "another build");
   EXPECT_FALSE(plugin.ok());
   EXPECT_THAT(plugin.problem(),
               EndsWith("rung-llvm.so: it is of another build than this program; install both together"));

@@ -1,10 +1,10 @@
 // What `rungc explain` says to somebody who has no manual.
-#include "tools/compiler/reference.h"
+#include "compiler/reference.h"
 
 #include <gtest/gtest.h>
 #include <regex>
 
-#include "tools/compiler/manual_lines.h"
+#include "compiler/manual_lines.h"
 
 namespace rung::compiler {
 namespace {

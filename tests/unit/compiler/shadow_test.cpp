@@ -1,6 +1,6 @@
 // Random programs beside themselves, with another memory layout and other code: they never do otherwise, whatever the
 // machine, the host and its answers do.
-#include "rtlib/host/shadow.h"
+#include "rtlib/change/shadow.h"
 
 #include <gtest/gtest.h>
 
@@ -9,18 +9,18 @@
 
 #include "ir/interp/interp.h"
 #include "ir/transforms/pipeline.h"
-#include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"
+#include "rtlib/run/instance.h"
 #include "tests/random/random.h"
 
-namespace rung::host {
+namespace rung::runtime {
 namespace {
 
 using Random = std::mt19937_64;
 
 // Answers some requests at once, and leaves the others to whoever takes them later.
 struct Answering final : ScheduleHooks {
-  bool respond(Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+  bool respond(Instance&, const core::ServiceRequest& request, core::ServiceReply& reply) override {
     shadow->requested(request);
     ++requests;
     if (request.ticket % 3 != 0) return false;
@@ -33,7 +33,7 @@ struct Answering final : ScheduleHooks {
 };
 
 void answerSome(Random& random, Instance& instance) {
-  rt::ServiceRequest request;
+  core::ServiceRequest request;
   while (random() % 4 != 0 && instance.services().take(request))
     (void)instance.services().complete(
         {.ticket = request.ticket, .resultCount = 1, .results = {static_cast<int64_t>(random() % 100)}});
@@ -89,4 +89,4 @@ TEST(RandomShadow, DoesWhatTheProgramDoes) {
 }
 
 } // namespace
-} // namespace rung::host
+} // namespace rung::runtime

@@ -1,6 +1,6 @@
 // Programs whose code is exchanged while they run: they do what the interpreter does, whatever code they have.
+#include "compiler/tiered.h"
 #include "tests/support/long_run.h"
-#include "tools/compiler/tiered.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,13 +10,13 @@
 #include <random>
 #include <unistd.h>
 
-#include "rtlib/host/compare.h"
-#include "rtlib/host/forcing.h"
-#include "rtlib/host/instance.h"
+#include "compiler/recompiler.h"
+#include "rtlib/change/compare.h"
+#include "rtlib/change/forcing.h"
 #include "rtlib/nc/names/names.h"
+#include "rtlib/run/instance.h"
 #include "tests/random/random.h"
 #include "tests/support/differential.h"
-#include "tools/compiler/recompiler.h"
 
 namespace rung::compiler {
 namespace {
@@ -31,20 +31,21 @@ struct Both {
         tested(*engine) {}
 
   void scan(uint64_t seed, uint64_t scan) {
-    for (host::Instance* instance : {&expected, &tested}) {
+    for (runtime::Instance* instance : {&expected, &tested}) {
       for (uint32_t byte = 0; byte < std::min(8u, instance->program().spaces[0].byte_count); ++byte)
-        EXPECT_EQ(instance->write(host::intRef(0, byte, 8), seed * 31 + uint64_t{byte} * 7 + scan * 13), std::nullopt);
+        EXPECT_EQ(instance->write(runtime::intRef(0, byte, 8), seed * 31 + uint64_t{byte} * 7 + scan * 13),
+                  std::nullopt);
       instance->scan();
     }
-    const auto found = host::firstDifference(expected, tested, nc::describe);
+    const auto found = runtime::firstDifference(expected, tested, nc::describe);
     ASSERT_FALSE(found) << "scan " << scan << ": " << *found;
   }
 
   Compiled compiled;
   ir::InterpEngine reference;
-  host::Instance expected;
+  runtime::Instance expected;
   std::unique_ptr<TieredEngine> engine;
-  host::Instance tested;
+  runtime::Instance tested;
 };
 
 TEST(Tiered, RandomProgramsWhileTheirCodeArrives) {
@@ -95,14 +96,14 @@ TEST(Tiered, ForcesStayWhileCodeArrives) {
   for (uint64_t seed = 200; seed < 200 + testing::howMany(10, 30); ++seed) {
     SCOPED_TRACE(seed);
     Both both(ir::randomModule(seed, {}));
-    const host::ForcedCell cell{.ref = host::intRef(1 + static_cast<uint32_t>(seed) % 2, 0, 8), .bits = 0x5A};
-    host::Forcing forcing(both.tested.program(), both.engine->context(), {&cell, 1});
+    const runtime::ForcedCell cell{.ref = runtime::intRef(1 + static_cast<uint32_t>(seed) % 2, 0, 8), .bits = 0x5A};
+    runtime::Forcing forcing(both.tested.program(), both.engine->context(), {&cell, 1});
     if (!forcing.problem().empty() || !forcing.needsCode()) continue;
     const auto code = makeForcedCode(both.compiled, EngineKind::Tiered, {}, both.tested.program(),
                                      both.engine->context(), forcing.bytes());
     ASSERT_TRUE(code.ok()) << code.error();
     forcing.setCode(code.value()->code());
-    host::Forcing reference(both.expected.program(), both.reference.context(), {&cell, 1});
+    runtime::Forcing reference(both.expected.program(), both.reference.context(), {&cell, 1});
     const auto other = makeForcedCode(both.compiled, EngineKind::Interp, {}, both.expected.program(),
                                       both.reference.context(), reference.bytes());
     ASSERT_TRUE(other.ok());

@@ -9,10 +9,10 @@
 #include "codegen/cpp/table_writer.h"
 #include "ir/core/builder.h"
 #include "ir/core/long_rungs.h"
-#include "rtlib/host/instance.h"
-#include "rtlib/host/sealing.h"
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/sealing.h"
+#include "rtlib/load/so_engine.h"
 #include "rtlib/nc/names/names.h"
+#include "rtlib/run/instance.h"
 
 namespace rung::codegen {
 namespace {
@@ -84,13 +84,13 @@ TEST_P(BuiltWith, RunsCallsAndTraps) {
   options.compiler = GetParam();
   const Result<std::string> built = buildCppSharedObject(emitCpp(layout, 42, {}), options);
   ASSERT_TRUE(built.ok()) << built.error();
-  std::string error = host::replaceFile(path, host::sealed(built.value()));
-  const auto engine = host::SoEngine::open(path, error);
+  std::string error = runtime::replaceFile(path, runtime::sealed(built.value()));
+  const auto engine = runtime::SoEngine::open(path, error);
   std::filesystem::remove(path); // it is loaded
   ASSERT_NE(engine, nullptr) << error;
   EXPECT_EQ(engine->program().code_hash, 42u);
   EXPECT_EQ(engine->program().layout_hash, layout.memory().hash());
-  host::Instance instance(engine->program());
+  runtime::Instance instance(engine->program());
   instance.scan();
   EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "Y0.0")), 0u);
   EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.0"), 1), std::nullopt);
@@ -139,11 +139,11 @@ TEST_P(BuiltWith, ALongRungIsBuiltInStretches) {
   options.compiler = GetParam();
   const Result<std::string> built = buildCppSharedObject(text, options);
   ASSERT_TRUE(built.ok()) << built.error();
-  std::string error = host::replaceFile(path, host::sealed(built.value()));
-  const auto engine = host::SoEngine::open(path, error);
+  std::string error = runtime::replaceFile(path, runtime::sealed(built.value()));
+  const auto engine = runtime::SoEngine::open(path, error);
   std::filesystem::remove(path); // it is loaded
   ASSERT_NE(engine, nullptr) << error;
-  host::Instance instance(engine->program());
+  runtime::Instance instance(engine->program());
   for (const bool on : {true, false}) {
     EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.0"), 1), std::nullopt);
     EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.1"), on), std::nullopt);

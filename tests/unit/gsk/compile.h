@@ -7,7 +7,7 @@
 #include "frontend/dialects/gsk/gsk.h"
 #include "ir/support/diag_render.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 
 struct Compiled {
   SourceManager sources;
@@ -56,4 +56,4 @@ inline std::string listed(const Codes& codes) {
   return text;
 }
 
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

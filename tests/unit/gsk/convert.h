@@ -6,9 +6,9 @@
 #include "frontend/network/convert/convert.h"
 #include "tests/unit/gsk/compile.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 
-using network::convert::Form;
+using frontend::network::Form;
 
 struct Converted {
   std::optional<std::string> text;
@@ -21,7 +21,7 @@ inline Converted convertFiles(const std::vector<File>& texts, Form to) {
   for (const File& file : texts) files.push_back(state.sources.addBuffer(file.name, file.text));
   Converted result;
   if (kGsk.compile(state.sources, files, {}, state.diagnostics) != nullptr)
-    result.text = network::convertProgram(kLanguage, state.sources, files, to, state.diagnostics);
+    result.text = frontend::network::convertProgram(kLanguage, state.sources, files, to, state.diagnostics);
   result.codes = state.codes();
   return result;
 }
@@ -38,4 +38,4 @@ inline std::string toList(const std::string& ladder) {
   return result.text.value_or("");
 }
 
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

@@ -9,10 +9,10 @@
 #include "tests/unit/gsk/convert.h"
 #include "tests/unit/gsk/program_generator.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 namespace {
 
-using network::Command;
+using frontend::network::Command;
 
 const uint64_t kPrograms = rung::testing::howMany(500, 2000);
 
@@ -24,14 +24,14 @@ std::string commandsOf(const std::string& list) {
   LineWords words;
   std::string result;
   for (SourceLine line; lines.next(line);) {
-    splitWords(line, network::kListRules, words);
-    const auto statement = network::statementOf(words);
+    splitWords(line, frontend::network::kListRules, words);
+    const auto statement = frontend::network::statementOf(words);
     if (statement.empty()) continue;
-    const Command command = *network::findCommand(kLanguage, statement[0].text);
+    const Command command = *frontend::network::findCommand(kLanguage, statement[0].text);
     if (command >= Command::Dialect) continue;
     result += kLanguage.nameOf(command);
     for (const Word& word : statement.subspan(1)) {
-      const auto number = command == Command::Function ? network::parseDigits(word.text) : std::nullopt;
+      const auto number = command == Command::Function ? frontend::network::parseDigits(word.text) : std::nullopt;
       result += ' ';
       result += number ? kLanguage.findFunction(*number)->info.mnemonic : word.text;
     }
@@ -123,4 +123,4 @@ TEST(GskConvertProperty, AFormInItselfIsANormalForm) {
 }
 
 } // namespace
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

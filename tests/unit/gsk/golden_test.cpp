@@ -7,7 +7,7 @@
 #include "tests/support/golden.h"
 #include "tests/unit/gsk/compile.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 namespace {
 
 TEST(GskGolden, AllPrograms) {
@@ -24,4 +24,4 @@ TEST(GskGolden, AllPrograms) {
 }
 
 } // namespace
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

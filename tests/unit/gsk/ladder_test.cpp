@@ -5,7 +5,7 @@
 #include "frontend/network/read/ladder_reader.h"
 #include "tests/unit/gsk/compile.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 namespace {
 
 // The command list of a rung, on one line; the errors where it has any.
@@ -13,14 +13,14 @@ std::string listOf(const std::string& drawing) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FileId file = sources.addBuffer("test.lad", "dialect gsk\nmodule LEVEL2\nrung\n" + drawing);
-  network::Context context{.language = kLanguage, .sources = sources, .diagnostics = diagnostics};
-  network::Program program(kLanguage);
-  network::UnitAssembler units(context, program);
-  const ladder::LadderFile parsed = network::parseLadderFile(context, file);
-  network::readLadder(context, parsed, units);
+  frontend::network::Context context{.language = kLanguage, .sources = sources, .diagnostics = diagnostics};
+  frontend::network::Program program(kLanguage);
+  frontend::network::UnitAssembler units(context, program);
+  const frontend::ladder::LadderFile parsed = frontend::network::parseLadderFile(context, file);
+  frontend::network::readLadder(context, parsed, units);
   if (diagnostics.hasErrors()) return renderText(diagnostics, sources);
   std::string text;
-  for (const network::Network& network : program.units[kLanguage.mainLevel()].networks)
+  for (const frontend::network::Network& network : program.units[kLanguage.mainLevel()].networks)
     text += commandText(kLanguage, network);
   for (char& c : text)
     if (c == '\n') c = ';';
@@ -257,4 +257,4 @@ TEST(GskLadderErrors, OperandsOfALostRungAreChecked) {
 }
 
 } // namespace
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

@@ -3,7 +3,7 @@
 
 #include "tests/unit/gsk/compile.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 namespace {
 
 // A program with an empty Level 1; the text begins in line 2.
@@ -267,4 +267,4 @@ TEST(GskList, HintsHowToMend) {
 }
 
 } // namespace
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

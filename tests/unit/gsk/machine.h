@@ -5,11 +5,11 @@
 #include "ir/interp/interp.h"
 #include "ir/shape/layout.h"
 #include "ir/verify/verify.h"
-#include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"
+#include "rtlib/run/instance.h"
 #include "tests/unit/gsk/compile.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 
 class Machine {
 public:
@@ -22,7 +22,7 @@ public:
     EXPECT_TRUE(errors.empty()) << ir::render(*program_->module, errors);
     layout_ = std::make_unique<ir::Layout>(*program_->module, ir::LayoutOptions{});
     engine_ = std::make_unique<ir::InterpEngine>(*layout_, 0);
-    instance_ = std::make_unique<host::Instance>(*engine_);
+    instance_ = std::make_unique<runtime::Instance>(*engine_);
   }
 
   uint64_t get(const std::string& name) const { return instance_->read(ref(name)); }
@@ -30,20 +30,20 @@ public:
   void scan(int count = 1) {
     for (int i = 0; i < count; ++i) instance_->scan();
   }
-  host::Instance& instance() { return *instance_; }
+  runtime::Instance& instance() { return *instance_; }
   const ir::Module& module() const { return *program_->module; }
 
 private:
-  host::Ref ref(const std::string& name) const {
+  runtime::Ref ref(const std::string& name) const {
     const auto found = nc::resolve(instance_->program(), name);
     if (!found) ADD_FAILURE() << name;
-    return found.value_or(host::Ref{});
+    return found.value_or(runtime::Ref{});
   }
 
   std::unique_ptr<Compiled> program_;
   std::unique_ptr<ir::Layout> layout_;
   std::unique_ptr<ir::InterpEngine> engine_;
-  std::unique_ptr<host::Instance> instance_;
+  std::unique_ptr<runtime::Instance> instance_;
 };
 
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

@@ -7,7 +7,7 @@
 #include "ir/support/temporary_folder.h"
 #include "tests/unit/gsk/compile.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 namespace {
 
 class Messages : public ::testing::Test {
@@ -47,4 +47,4 @@ TEST_F(Messages, MistakesHaveTheirPlace) {
 TEST_F(Messages, AFileThatIsNotThere) { EXPECT_EQ(compileWith("", "other.txt")->codes(), Codes{"- file-not-found"}); }
 
 } // namespace
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

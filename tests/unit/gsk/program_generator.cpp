@@ -7,7 +7,7 @@
 
 #include "frontend/dialects/gsk/rows/operand_kinds.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 namespace {
 
 std::vector<std::string> linesOf(std::string_view text) {
@@ -177,7 +177,7 @@ void ProgramGenerator::network() {
   }
   for (;;) {
     const Row& row = allRows()[below(static_cast<uint32_t>(allRows().size()))];
-    if (row.info.number >= 0 && row.control == network::Control::Plain) return function(row);
+    if (row.info.number >= 0 && row.control == frontend::network::Control::Plain) return function(row);
   }
 }
 
@@ -234,4 +234,4 @@ std::string ProgramGenerator::decorated(const std::string& ladder) {
   return result;
 }
 
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

@@ -8,7 +8,7 @@
 
 #include "frontend/dialects/gsk/rows/instructions.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 
 class ProgramGenerator {
 public:
@@ -54,4 +54,4 @@ private:
   bool inJmp_ = false;
 };
 
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

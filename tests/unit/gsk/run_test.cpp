@@ -2,7 +2,7 @@
 #include "frontend/dialects/gsk/rows/instructions.h"
 #include "tests/unit/gsk/machine.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 namespace {
 
 Machine listMachine(const std::string& text, const frontend::CompileOptions& options = {}) {
@@ -21,7 +21,7 @@ TEST(GskRun, ManualExampleOfOrder) { // l.419-422
 TEST(GskRun, EveryFunctionRuns) {
   std::string text = "FUNC 0\n";
   for (const Row& row : allRows()) {
-    if (row.info.number < 0 || row.lower == nullptr || row.control != network::Control::Plain) continue;
+    if (row.info.number < 0 || row.lower == nullptr || row.control != frontend::network::Control::Plain) continue;
     // By itself first, so that a bad example is told by its name and keeps none of the others from running.
     const std::string example = std::string(row.info.example) + "\n";
     const auto alone = compileList("FUNC 0\n" + example + "FUNC 1\n");
@@ -159,4 +159,4 @@ TEST(GskRun, FileOfALadderAndAListTogether) {
 }
 
 } // namespace
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

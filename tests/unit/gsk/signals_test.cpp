@@ -10,7 +10,7 @@
 #include "rtlib/nc/gsk/signals.h"
 #include "tests/unit/gsk/compile.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 namespace {
 
 // The CSV itself, read a second time: address, bit, symbol, direction, type.
@@ -45,7 +45,7 @@ std::vector<CsvRow> csvRows() {
 }
 
 // T00 to T31 are addresses of area T.
-bool isAddress(const CsvRow& row) { return network::splitAddress(kLanguage, row.symbol).has_value(); }
+bool isAddress(const CsvRow& row) { return frontend::network::splitAddress(kLanguage, row.symbol).has_value(); }
 
 // Reads `operand`, and writes it where the row may be written.
 void appendUses(const CsvRow& row, const std::string& operand, std::string& text) {
@@ -171,4 +171,4 @@ TEST(Signals, ExplainKnowsNamesAndAddresses) {
 }
 
 } // namespace
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

@@ -3,7 +3,7 @@
 
 #include "tests/unit/gsk/compile.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 namespace {
 
 std::string codes(const std::string& text) { return listed(compileList(text)->codes()); }
@@ -243,4 +243,4 @@ TEST(GskRecovery, ABrokenRungHidesWhatItsBoxesMayBe) {
 }
 
 } // namespace
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

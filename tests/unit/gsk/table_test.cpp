@@ -10,7 +10,7 @@
 #include "frontend/dialects/gsk/rows/operand_kinds.h"
 #include "tests/unit/gsk/compile.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 namespace {
 
 using frontend::InstructionInfo;
@@ -111,7 +111,8 @@ struct Call {
 std::vector<const Row*> plainRows() {
   std::vector<const Row*> rows;
   for (const Row& row : allRows())
-    if (row.info.number >= 0 && row.lower != nullptr && row.control == network::Control::Plain) rows.push_back(&row);
+    if (row.info.number >= 0 && row.lower != nullptr && row.control == frontend::network::Control::Plain)
+      rows.push_back(&row);
   return rows;
 }
 
@@ -178,4 +179,4 @@ TEST(GskTable, FunctionsThatAreNotBuiltSaySo) {
 }
 
 } // namespace
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

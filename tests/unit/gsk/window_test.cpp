@@ -6,7 +6,7 @@
 #include "rtlib/nc/gsk/window_functions.h"
 #include "tests/unit/gsk/machine.h"
 
-namespace rung::gsk::test {
+namespace rung::frontend::gsk::test {
 namespace {
 
 using namespace nc::gsk;
@@ -75,8 +75,8 @@ Machine windowMachine(const char* instruction) {
       compileList(std::string("FUNC 0\nLD R0.0\nFUNC ") + instruction + "\nPRM D100\nPRM R10\nOUT R0.1\nFUNC 1\n"));
 }
 
-rt::ServiceRequest taken(Machine& m) {
-  rt::ServiceRequest request;
+core::ServiceRequest taken(Machine& m) {
+  core::ServiceRequest request;
   EXPECT_TRUE(m.instance().services().take(request));
   return request;
 }
@@ -121,9 +121,9 @@ TEST(GskWindow, LateAnswerAfterARestartIsThrownAway) {
     m.scan();
     return taken(m);
   };
-  const rt::ServiceRequest old = ask();
+  const core::ServiceRequest old = ask();
   m.instance().warmStart();
-  const rt::ServiceRequest young = ask();
+  const core::ServiceRequest young = ask();
   m.instance().services().complete({.ticket = old.ticket, .resultCount = 2, .results = {0, 99}});
   m.scan(3);
   EXPECT_EQ(m.get("R0.1"), 0u);
@@ -165,4 +165,4 @@ TEST(GskWindow, DeclaredWhereUsed) {
 }
 
 } // namespace
-} // namespace rung::gsk::test
+} // namespace rung::frontend::gsk::test

@@ -5,7 +5,7 @@
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
 #include "ir/core/parts.h"
-#include "rtlib/host/compare.h"
+#include "rtlib/change/compare.h"
 #include "rtlib/nc/names/names.h"
 #include "tests/random/random.h"
 #include "tests/unit/ir_interp/machine.h"
@@ -417,14 +417,14 @@ TEST(InterpHost, ServicesAreAskedAndPolled) {
     store.i64 D[2], %8)");
   m->scan();
   EXPECT_EQ(m.value("D", 4, 4), uint64_t{RUNG_SERVICE_PENDING});
-  rt::ServiceRequest request;
+  core::ServiceRequest request;
   ASSERT_TRUE(m->services().take(request));
   EXPECT_EQ(request.service, 0u);
   EXPECT_EQ(request.argCount, 2u);
   EXPECT_EQ(request.args[0], -4);
   EXPECT_EQ(request.args[1], 5);
   EXPECT_EQ(m.value("D", 0, 4), request.ticket);
-  rt::ServiceReply reply;
+  core::ServiceReply reply;
   reply.ticket = request.ticket;
   reply.resultCount = 2;
   reply.results[1] = -99;
@@ -471,7 +471,7 @@ TEST(InterpHost, CountsOperations) {
   Module module = moduleFromText(text);
   const Layout layout(module, {});
   InterpEngine engine(layout, 1, Counting::Operations);
-  host::Instance instance(engine);
+  runtime::Instance instance(engine);
   instance.scan();
   EXPECT_EQ(instance.profile()[0].total, 4u) << "load, if, store, goto";
   EXPECT_EQ(instance.profile()[1].total, 7u) << "loop, and three times add and endloop";
@@ -486,7 +486,7 @@ TEST(InterpDeathTest, NeedsItsContext) {
   const Module module = moduleForOp(OpCode::Now);
   const Layout layout(module, {});
   InterpEngine engine(layout, 1);
-  host::Instance instance(engine.program());
+  runtime::Instance instance(engine.program());
   EXPECT_DEATH(instance.scan(), "rung_ctx::engine");
 }
 
@@ -506,7 +506,7 @@ TEST(InterpModules, LayoutDoesNotShow) {
     for (int scan = 0; scan < 4; ++scan) {
       a->scan();
       b->scan();
-      const auto difference = host::firstDifference(*a, *b, nc::describe);
+      const auto difference = runtime::firstDifference(*a, *b, nc::describe);
       ASSERT_FALSE(difference) << "seed " << seed << ", scan " << scan << ": " << *difference;
     }
   }

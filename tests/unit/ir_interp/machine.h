@@ -8,7 +8,7 @@
 #include "ir/interp/interp.h"
 #include "ir/text/text.h"
 #include "ir/verify/verify.h"
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 
 namespace rung::ir {
 
@@ -25,11 +25,11 @@ inline Module moduleFromText(std::string_view text, Mode mode = Mode::Final) {
 
 class Machine {
 public:
-  explicit Machine(Module module, const LayoutOptions& options = {}, host::ScheduleHooks* hooks = nullptr)
+  explicit Machine(Module module, const LayoutOptions& options = {}, runtime::ScheduleHooks* hooks = nullptr)
       : module_(std::move(module)), layout_(module_, options), engine_(layout_, 1), instance_(engine_, hooks) {}
 
-  host::Instance& operator*() { return instance_; }
-  host::Instance* operator->() { return &instance_; }
+  runtime::Instance& operator*() { return instance_; }
+  runtime::Instance* operator->() { return &instance_; }
   const Layout& layout() const { return layout_; }
   const Module& module() const { return module_; }
   void observe(std::unique_ptr<RungObserver> observer) { engine_.setObserver(std::move(observer)); }
@@ -50,7 +50,7 @@ private:
   const Module module_;
   const Layout layout_;
   InterpEngine engine_;
-  host::Instance instance_;
+  runtime::Instance instance_;
 };
 
 } // namespace rung::ir

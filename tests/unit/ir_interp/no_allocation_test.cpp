@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/interp/interp.h"
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 #include "tests/random/random.h"
 #include "tests/support/count_allocations.h"
 
@@ -15,7 +15,7 @@ TEST(Interpreter, AllocatesNothingWhileItRuns) {
     const Layout layout(module, {});
     InterpEngine engine(layout, 0);
     ASSERT_FALSE(engine.allocates());
-    host::Instance instance(engine);
+    runtime::Instance instance(engine);
     const int allocations = test::allocationsOf([&] {
       for (int scan = 0; scan < 8; ++scan) instance.scan();
     });

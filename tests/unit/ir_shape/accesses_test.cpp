@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ir/interp/interp.h"
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 #include "tests/random/random.h"
 
 namespace rung::ir {
@@ -61,8 +61,8 @@ TEST(Accesses, ARunReadsNothingElse) {
     const Layout layout(module, {});
     for (uint32_t task = 0; task < module.tasks.size(); ++task) {
       InterpEngine engine(layout, 1);
-      host::Instance plain(engine);
-      host::Instance other(engine);
+      runtime::Instance plain(engine);
+      runtime::Instance other(engine);
       Marks unread(plain.program());
       unread.addSpaces();
       unread.removeReads(plain.program().tasks[task]);
@@ -97,10 +97,10 @@ TEST(Accesses, SpansAreAscendingAndApart) {
 }
 
 // With it each run of a row is done by itself.
-class Watch : public host::TaskWatch {
+class Watch : public runtime::TaskWatch {
 public:
-  void begins(const host::Instance&, uint32_t) override {}
-  void ended(const host::Instance&, uint32_t) override {}
+  void begins(const runtime::Instance&, uint32_t) override {}
+  void ended(const runtime::Instance&, uint32_t) override {}
 };
 
 // Each in the state after the others, at one time: the runner leaves out the rest of a row whose task changes nothing
@@ -116,8 +116,8 @@ TEST(Accesses, ARowOfRunsIsWhatTheRunsAreOneByOne) {
                    {.op = RUNG_STEP_RUN, .task = module.mainTask, .arg = kTimes}};
     const Layout layout(module, {});
     InterpEngine engine(layout, 1);
-    host::Instance row(engine);
-    host::Instance single(engine);
+    runtime::Instance row(engine);
+    runtime::Instance single(engine);
     promised += row.program().tasks[module.mainTask.index].change_count != 0 ? 1 : 0;
     single.setTaskWatch(&watch);
     for (int scan = 0; scan < 3; ++scan) {

@@ -14,9 +14,9 @@
 #include "ir/transforms/passes.h"
 #include "ir/transforms/pipeline.h"
 #include "ir/verify/verify.h"
-#include "rtlib/host/compare.h"
-#include "rtlib/host/instance.h"
+#include "rtlib/change/compare.h"
 #include "rtlib/nc/names/names.h"
+#include "rtlib/run/instance.h"
 #include "tests/random/random.h"
 #include "tests/unit/ir_transforms/passes_testing.h"
 
@@ -131,9 +131,9 @@ TEST(Settled, RungsAreLeftOut) {
 constexpr int kScans = 5;
 
 // Answers every second request at once.
-class Answers final : public host::ScheduleHooks {
+class Answers final : public runtime::ScheduleHooks {
 public:
-  bool respond(host::Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+  bool respond(runtime::Instance&, const core::ServiceRequest& request, core::ServiceReply& reply) override {
     if (request.ticket % 2 == 0) return false;
     reply.ticket = request.ticket;
     reply.state = RUNG_SERVICE_DONE;
@@ -152,14 +152,14 @@ struct Running {
   Layout layout;
   Answers answers;
   InterpEngine engine;
-  host::Instance instance;
+  runtime::Instance instance;
 };
 
 // Every second scan the machine changes the inputs; they are the first space.
-void changeInputs(host::Instance& instance, uint64_t seed, int scan) {
+void changeInputs(runtime::Instance& instance, uint64_t seed, int scan) {
   const uint32_t bytes = std::min(8u, instance.program().spaces[0].byte_count);
   for (uint32_t byte = 0; byte < bytes; ++byte)
-    EXPECT_EQ(instance.write(host::intRef(0, byte, 8),
+    EXPECT_EQ(instance.write(runtime::intRef(0, byte, 8),
                              (seed * 31 + uint64_t{byte} * 7 + static_cast<uint64_t>(scan / 2) * 13) & 255),
               std::nullopt);
 }
@@ -186,7 +186,7 @@ std::string difference(Module before, Module after, uint64_t seed) {
       changeInputs(running->instance, seed, scan);
       running->instance.scan();
     }
-    if (const auto found = host::firstDifference(a.instance, b.instance, nc::describe))
+    if (const auto found = runtime::firstDifference(a.instance, b.instance, nc::describe))
       return fmt::format("scan {}: {}", scan, *found);
     b.module.slots.resize(a.module.slots.size() - 1);
     if (const std::string found = slotDifference(b, a); !found.empty()) return fmt::format("scan {}: {}", scan, found);

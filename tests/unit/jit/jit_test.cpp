@@ -16,8 +16,8 @@
 #include <fmt/format.h>
 
 #include "ir/core/builder.h"
-#include "rtlib/host/instance.h"
 #include "rtlib/nc/names/names.h"
+#include "rtlib/run/instance.h"
 #include "tests/unit/llvm/sample_module.h"
 
 namespace rung::codegen {
@@ -62,7 +62,7 @@ TEST_P(JitLevels, RunsCallsAndTraps) {
     EXPECT_EQ(engine->program().layout_hash, layout.memory().hash());
   } // the engine needs neither
   EXPECT_EQ(engine->name(), "jit");
-  host::Instance instance(engine->program());
+  runtime::Instance instance(engine->program());
   EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.0"), 1), std::nullopt);
   instance.scan();
   EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "LAMP")), 1u);
@@ -83,7 +83,7 @@ TEST(Jit, ManyPiecesOnTwoThreads) {
   const auto engine = compiled(layout, {.code = {.level = LlvmLevel::Fast, .target = {}}, .threads = 2});
   ASSERT_NE(engine, nullptr);
   EXPECT_GT(engine->report().modules, 2u);
-  host::Instance instance(engine->program());
+  runtime::Instance instance(engine->program());
   for (uint32_t i = 0; i < kRungs; i += 3) instance.memory().writeBit(3, i / 8, i % 8, true);
   instance.scan();
   ASSERT_FALSE(instance.faulted()) << instance.faultText();
@@ -114,7 +114,7 @@ protected:
     const auto engine = compiled(layout_, {.code = code, .cacheFolder = folder_.string()}, codeHash);
     if (engine == nullptr) return 1000;
     EXPECT_EQ(engine->report().cacheTrouble, "");
-    host::Instance instance(engine->program());
+    runtime::Instance instance(engine->program());
     EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.0"), 1), std::nullopt);
     instance.scan();
     EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D4:2")), 1u);

@@ -3,7 +3,7 @@
 
 #include "ladder_testing.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 TEST(Drawing, Latch) {
@@ -294,4 +294,4 @@ TEST(Drawing, PlacesOfElementsOperandsAndPins) {
 }
 
 } // namespace
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

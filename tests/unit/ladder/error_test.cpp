@@ -3,7 +3,7 @@
 
 #include "ladder_testing.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 std::string errorsOf(const std::string& drawing) { return parseDrawing(drawing).errors(); }
@@ -169,4 +169,4 @@ TEST(DrawingErrors, WhatCanBeReadStays) {
 }
 
 } // namespace
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -5,7 +5,7 @@
 
 #include "frontend/ladder/rung.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 using testing::ElementsAre;
@@ -75,4 +75,4 @@ TEST(Graph, PowerComesFromTheRailAndLeadsToAnElement) {
 }
 
 } // namespace
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

@@ -6,7 +6,7 @@
 
 #include "frontend/ladder/text/ladder_file.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 
 /// The rows of a few boxes, in the manner of a dialect's table.
 inline const frontend::InstructionInfo* testBox(std::string_view mnemonic) {
@@ -55,4 +55,4 @@ inline std::string elementsOf(const std::string& drawing, FindBox findBox = test
   return dump.substr(dump.find('\n') + 1);
 }
 
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

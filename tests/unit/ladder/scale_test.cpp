@@ -3,7 +3,7 @@
 
 #include "ladder_testing.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 TEST(Scale, HundredThousandRungs) {
@@ -66,4 +66,4 @@ TEST(Scale, RubbishOfManyKinds) {
 }
 
 } // namespace
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

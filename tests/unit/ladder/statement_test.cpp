@@ -3,7 +3,7 @@
 
 #include "ladder_testing.h"
 
-namespace rung::ladder {
+namespace rung::frontend::ladder {
 namespace {
 
 /// All statements of a file in order, one a line.
@@ -211,4 +211,4 @@ TEST(StatementErrors, TextThatIsNotUtf8IsNotReadAtAll) {
 }
 
 } // namespace
-} // namespace rung::ladder
+} // namespace rung::frontend::ladder

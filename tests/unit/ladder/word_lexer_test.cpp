@@ -6,11 +6,11 @@
 namespace rung {
 namespace {
 
-std::string wordsOf(std::string_view text, const WordRules& rules = {}) {
-  LineWords words;
+std::string wordsOf(std::string_view text, const frontend::WordRules& rules = {}) {
+  frontend::LineWords words;
   splitWords({1, text, SourcePos{1}}, rules, words);
   std::string result;
-  for (const Word& word : words.words)
+  for (const frontend::Word& word : words.words)
     result += word.quoted ? "<" + std::string(word.text) + ">" : "[" + std::string(word.text) + "]";
   if (words.hasComment) result += ";" + std::string(words.comment);
   if (words.unterminatedQuote) result += " unterminated";
@@ -47,8 +47,8 @@ TEST(WordLexer, SeparatorsAreWords) {
 }
 
 TEST(WordLexer, RangesIncludeQuotes) {
-  LineWords words;
-  const SourceLine line{1, "ab \"cd\" ;e", SourcePos{100}};
+  frontend::LineWords words;
+  const frontend::SourceLine line{1, "ab \"cd\" ;e", SourcePos{100}};
   splitWords(line, {}, words);
   EXPECT_EQ(words.words[0].range, (SourceRange{{100}, {102}}));
   EXPECT_EQ(words.words[1].range, (SourceRange{{103}, {107}}));
@@ -58,8 +58,8 @@ TEST(WordLexer, RangesIncludeQuotes) {
 TEST(LineReader, TakesBothLineEndsAndSkipsAByteOrderMark) {
   SourceManager sources;
   const FileId file = sources.addBuffer("f", "\xEF\xBB\xBFone\r\n\ntwo");
-  LineReader reader(sources, file);
-  SourceLine line;
+  frontend::LineReader reader(sources, file);
+  frontend::SourceLine line;
   ASSERT_TRUE(reader.next(line));
   EXPECT_EQ(line.text, "one");
   EXPECT_EQ(sources.text({line.begin, line.at(3)}), "one");
@@ -74,9 +74,9 @@ TEST(LineReader, TakesBothLineEndsAndSkipsAByteOrderMark) {
 TEST(CheckEncoding, FindsBytesThatAreNoText) {
   SourceManager sources;
   Diagnostics diags;
-  EXPECT_TRUE(checkEncoding(sources, sources.addBuffer("good", "; caf\u00E9"), diags));
-  EXPECT_FALSE(checkEncoding(sources, sources.addBuffer("latin", "a\n; caf\xE9"), diags));
-  EXPECT_FALSE(checkEncoding(sources, sources.addBuffer("binary", std::string("ab\0c", 4)), diags));
+  EXPECT_TRUE(frontend::checkEncoding(sources, sources.addBuffer("good", "; caf\u00E9"), diags));
+  EXPECT_FALSE(frontend::checkEncoding(sources, sources.addBuffer("latin", "a\n; caf\xE9"), diags));
+  EXPECT_FALSE(frontend::checkEncoding(sources, sources.addBuffer("binary", std::string("ab\0c", 4)), diags));
   ASSERT_EQ(diags.errorCount(), 2u);
   const LineCol at = sources.lineCol(diags.reported()[0].range.begin);
   EXPECT_EQ(at, (LineCol{"latin", 2, 6}));

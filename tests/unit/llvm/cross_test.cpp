@@ -13,7 +13,7 @@
 #include "codegen/llvm/llvm_emitter.h"
 #include "ir/core/op_info.h"
 #include "ir/interp/interp.h"
-#include "rtlib/host/file.h"
+#include "rtlib/load/file.h"
 #include "tests/random/random.h"
 #include "tests/support/saboteur.h"
 #include "tests/unit/llvm/mini_host.h"
@@ -68,7 +68,7 @@ protected:
     options.target = GetParam().target;
     const Result<std::string> built = buildLlvmSharedObject(layout, 1, options);
     if (!built.ok()) return {built.error()};
-    if (std::string wrong = host::replaceFile(file("program.so"), built.value()); !wrong.empty()) return {wrong};
+    if (std::string wrong = runtime::replaceFile(file("program.so"), built.value()); !wrong.empty()) return {wrong};
     const Processor& to = GetParam();
     if (std::system(fmt::format(kRun, to.emulator, to.tools, file("mini_host"), file("program.so"), kScans, file("out"))
                         .c_str()) != 0)

@@ -15,10 +15,10 @@
 #include "ir/core/builder.h"
 #include "ir/core/ops.h"
 #include "ir/support/check.h"
-#include "rtlib/host/instance.h"
-#include "rtlib/host/sealing.h"
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/sealing.h"
+#include "rtlib/load/so_engine.h"
 #include "rtlib/nc/names/names.h"
+#include "rtlib/run/instance.h"
 #include "tests/random/random.h"
 #include "tests/unit/llvm/sample_module.h"
 
@@ -191,12 +191,12 @@ TEST(LlvmSharedObject, RunsCallsAndTraps) {
   const TemporaryFile file("rung_llvm_test.so");
   const Result<std::string> built = buildLlvmSharedObject(layout, 42, {});
   ASSERT_TRUE(built.ok()) << built.error();
-  std::string error = host::replaceFile(file.path, host::sealed(built.value()));
-  const auto engine = host::SoEngine::open(file.path, error);
+  std::string error = runtime::replaceFile(file.path, runtime::sealed(built.value()));
+  const auto engine = runtime::SoEngine::open(file.path, error);
   ASSERT_NE(engine, nullptr) << error;
   EXPECT_EQ(engine->program().code_hash, 42u);
   EXPECT_EQ(engine->program().layout_hash, layout.memory().hash());
-  host::Instance instance(engine->program());
+  runtime::Instance instance(engine->program());
   EXPECT_EQ(instance.read(*nc::resolve(instance.program(), "D6")), 7u) << "an initial value";
   EXPECT_EQ(instance.write(*nc::resolve(instance.program(), "X0.0"), 1), std::nullopt);
   instance.scan();
@@ -248,7 +248,7 @@ TEST(LlvmSharedObject, ForEveryTarget) {
       std::memcpy(&kind, bytes.data() + offsetof(Elf64_Ehdr, e_machine),
                   sizeof kind); // at the same place in 32-bit files
       EXPECT_EQ(kind, machine.elfMachine);
-      const host::ElfObject object = host::readElf(bytes);
+      const runtime::ElfObject object = runtime::readElf(bytes);
       EXPECT_EQ(object.problem, "");
       EXPECT_THAT(machine.target, testing::StartsWith(object.machine));
       EXPECT_THAT(object.exported, testing::ElementsAre(RUNG_PROGRAM_SYMBOL));

@@ -11,7 +11,7 @@
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using namespace rung::nc;
 using rung::test::TestProgram;
 

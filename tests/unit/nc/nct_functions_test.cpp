@@ -35,7 +35,7 @@ protected:
       program_.scan.push_back({RUNG_STEP_HOOK, RUNG_NONE, 0});
     }
     program_.scan.push_back({RUNG_STEP_RUN, 0, 1});
-    instance_ = std::make_unique<host::Instance>(program_.link(), &control_);
+    instance_ = std::make_unique<runtime::Instance>(program_.link(), &control_);
     control_.powerOn(*instance_, PowerOn::Cold);
     signals_ = nct::SignalMemory(*instance_);
     for (uint32_t channel : {0u, 1u}) atRest(channel);
@@ -47,9 +47,9 @@ protected:
                              "CP_M8ACK", "CP_SACK", "CP_TACK", "CP_AUX1ACK", "CP_FIN"})
       set(name, true, channel);
   }
-  void set(const char* name, bool value, uint32_t channel = 0) { signals_.set(BitSignal(name), channel, value); }
-  bool get(const char* name, uint32_t channel = 0) { return signals_.get(BitSignal(name), channel); }
-  int32_t word(const char* name, uint32_t channel = 0) { return signals_.get(WordSignal(name), channel); }
+  void set(const char* name, bool value, uint32_t channel = 0) { signals_.set(nct::BitSignal(name), channel, value); }
+  bool get(const char* name, uint32_t channel = 0) { return signals_.get(nct::BitSignal(name), channel); }
+  int32_t word(const char* name, uint32_t channel = 0) { return signals_.get(nct::WordSignal(name), channel); }
 
   NctFunctions& functions(uint32_t channel = 0) { return *control_.functions(channel); }
   void slices(uint32_t count) {
@@ -73,7 +73,7 @@ protected:
 
   NctControl control_;
   test::TestProgram program_;
-  std::unique_ptr<host::Instance> instance_;
+  std::unique_ptr<runtime::Instance> instance_;
   nct::SignalMemory signals_;
 };
 

@@ -1,7 +1,7 @@
 // A control beside a program that another one replaces: a function that is under way is finished by the new program.
 #include <gtest/gtest.h>
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/gsk/gsk_control.h"
 #include "rtlib/nc/control/nct/nct_control.h"
 #include "tests/unit/rtlib/test_program.h"
@@ -9,8 +9,8 @@
 namespace rung::nc {
 namespace {
 
-using host::Replacement;
-using host::ReplaceResult;
+using runtime::Replacement;
+using runtime::ReplaceResult;
 
 uint32_t nothing(uint8_t*, rung_ctx* ctx, uint32_t) { return test::popChunk(ctx); }
 
@@ -34,11 +34,11 @@ TEST(ControlReplace, GskFinishesItsFunction) {
   buildGsk(one, 0, RUNG_REPR_PACKED);
   buildGsk(two, 256, RUNG_REPR_BYTE_PER_BIT);
   GskControl control;
-  host::Instance instance(one.program, &control);
+  runtime::Instance instance(one.program, &control);
   control.powerOn(instance, PowerOn::Cold);
   Functions& functions = *control.functions(0);
   const auto byte = [&](const char* area, uint32_t number) {
-    return instance.memory().readByte(host::findSpace(instance.program(), area), number);
+    return instance.memory().readByte(runtime::findSpace(instance.program(), area), number);
   };
   ASSERT_TRUE(functions.start(FunctionKind::M, 5));
   functions.step();
@@ -46,7 +46,7 @@ TEST(ControlReplace, GskFinishesItsFunction) {
   ASSERT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
   EXPECT_EQ(byte("F", 10), 5);
   EXPECT_EQ(byte("F", 7) & 1, 1) << "the strobe MF";
-  const uint32_t g = host::findSpace(two.program, "G");
+  const uint32_t g = runtime::findSpace(two.program, "G");
   functions.step();
   instance.memory().writeBit(g, 4, 3, true); // FIN
   functions.step();
@@ -72,7 +72,7 @@ TEST(ControlReplace, NctFinishesItsFunction) {
   buildNct(one, 0);
   buildNct(two, 4000);
   NctControl control;
-  host::Instance instance(one.program, &control);
+  runtime::Instance instance(one.program, &control);
   control.powerOn(instance, PowerOn::Cold);
   Functions& functions = *control.functions(0);
   const auto signals = [&] { return nct::SignalMemory(instance); };

@@ -21,14 +21,14 @@ protected:
     test.addSymbol("BUTTON", m, 4, RUNG_TYPE_BIT, 3);
     test.addSymbol("FREE", m, 0, RUNG_TYPE_I32);
     test.addBeginCopy(task, {RUNG_COPY_ALL, 36, 4, 0, 4});
-    real = host::realRef(m, 0);
-    realCopy = host::realRef(ts, 0);
+    real = runtime::realRef(m, 0);
+    realCopy = runtime::realRef(ts, 0);
     instance.emplace(test.link());
   }
-  host::Ref at(std::string_view name) const { return nc::resolve(test.program, name).value(); }
+  runtime::Ref at(std::string_view name) const { return nc::resolve(test.program, name).value(); }
   test::TestProgram test;
-  host::Ref real, realCopy;
-  std::optional<host::Instance> instance;
+  runtime::Ref real, realCopy;
+  std::optional<runtime::Instance> instance;
 };
 
 TEST_F(WrittenByName, IsRefusedWithTheNameToWrite) {
@@ -49,8 +49,8 @@ TEST_F(WrittenByName, RealsAndTextsToo) {
             "a value written to REAL.FREE is lost: REAL.!FREE is copied over it before the program reads it; write "
             "REAL.!FREE");
   EXPECT_EQ(nc::writeReal(*instance, realCopy, 1.5), "");
-  host::Ref text = at("FREE");
-  text.kind = host::RefKind::Text;
+  runtime::Ref text = at("FREE");
+  text.kind = runtime::RefKind::Text;
   text.width = 8;
   text.count = 4;
   EXPECT_EQ(nc::writeText(*instance, text, "abcd"), "");

@@ -11,7 +11,7 @@
 
 #include "tests/unit/nct/machines.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 namespace {
 
 enum Flag : uint32_t { kEr = 1, kUf = 2, kOf = 4, kCy = 8, kGt = 16, kEq = 32, kLt = 64 };
@@ -309,4 +309,4 @@ TEST(ArithmeticProperty, ArraysMoveAsOneRowOfBits) {
 }
 
 } // namespace
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

@@ -3,7 +3,7 @@
 
 #include "tests/unit/nct/support.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 namespace {
 
 // One rung; its drawing is line 4 of the file. "": nothing is reported.
@@ -510,4 +510,4 @@ TEST(NctDiagnostics, Configuration) {
 }
 
 } // namespace
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

@@ -7,7 +7,7 @@
 #include "ir/transforms/passes.h"
 #include "tests/support/golden.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 TEST(NctGolden, AllPrograms) {
@@ -32,4 +32,4 @@ TEST(NctGolden, AllPrograms) {
 }
 
 } // namespace
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -5,10 +5,10 @@
 
 #include "ir/support/check.h"
 #include "ir/support/diag_render.h"
-#include "rtlib/host/compare.h"
+#include "rtlib/change/compare.h"
 #include "rtlib/nc/names/names.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 
 using compiler::EngineKind;
 
@@ -16,22 +16,23 @@ Machine::Machine(const compiler::Compiled& compiled, EngineKind kind) : name_(co
   auto engine = compiler::makeEngine(kind, compiled, {});
   RUNG_CHECK(engine.ok(), engine.error().c_str());
   engine_ = std::move(engine.value());
-  instance_ = std::make_unique<host::Instance>(*engine_);
-  memory_ = host::findSpace(instance_->program(), "M");
-  slice_ = host::findSpace(instance_->program(), "TS");
+  instance_ = std::make_unique<runtime::Instance>(*engine_);
+  memory_ = runtime::findSpace(instance_->program(), "M");
+  slice_ = runtime::findSpace(instance_->program(), "TS");
 }
 
 uint32_t Machine::word(uint32_t number) const {
-  return static_cast<uint32_t>(instance_->read(host::intRef(memory_, number * 4, 32)));
+  return static_cast<uint32_t>(instance_->read(runtime::intRef(memory_, number * 4, 32)));
 }
 
 uint32_t Machine::slice(uint32_t number) const {
-  return static_cast<uint32_t>(instance_->read(host::intRef(slice_, number * 4, 32)));
+  return static_cast<uint32_t>(instance_->read(runtime::intRef(slice_, number * 4, 32)));
 }
 
 void Machine::setWord(uint32_t number, uint32_t value) {
-  host::writeRaw(instance_->memory(), host::intRef(memory_, number * 4, 32), value);
-  if (number >= 2 && number < kNcEnd) host::writeRaw(instance_->memory(), host::intRef(slice_, number * 4, 32), value);
+  runtime::writeRaw(instance_->memory(), runtime::intRef(memory_, number * 4, 32), value);
+  if (number >= 2 && number < kNcEnd)
+    runtime::writeRaw(instance_->memory(), runtime::intRef(slice_, number * 4, 32), value);
 }
 
 double Machine::real(uint32_t number) const {
@@ -68,9 +69,9 @@ std::vector<EngineKind> Machines::interpreterAndJit() { return {EngineKind::Inte
 
 std::string Machines::difference() const {
   for (const Machine& machine : machines_)
-    if (const auto found = host::firstDifference(machines_.front().instance(), machine.instance(), nc::describe))
+    if (const auto found = runtime::firstDifference(machines_.front().instance(), machine.instance(), nc::describe))
       return machine.name() + ": " + *found;
   return {};
 }
 
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

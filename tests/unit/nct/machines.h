@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/compiler/engines.h"
+#include "compiler/engines.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 
 class Machine {
 public:
@@ -23,13 +23,13 @@ public:
   void scan(); // a cycle: T_PLC passes
   void fast(); // a time slice: INT0 alone
   int64_t nowUs() const { return instance_->nowUs(); }
-  const host::Instance& instance() const { return *instance_; }
-  host::Instance& instance() { return *instance_; }
+  const runtime::Instance& instance() const { return *instance_; }
+  runtime::Instance& instance() { return *instance_; }
   const std::string& name() const { return name_; }
 
 private:
-  std::unique_ptr<host::Engine> engine_;
-  std::unique_ptr<host::Instance> instance_;
+  std::unique_ptr<runtime::Engine> engine_;
+  std::unique_ptr<runtime::Instance> instance_;
   std::string name_;
   uint32_t memory_ = 0;
   uint32_t slice_ = 0;
@@ -52,4 +52,4 @@ private:
   std::vector<Machine> machines_;
 };
 
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "compiler/engines.h"
 #include "ir/support/diag_render.h"
-#include "tools/compiler/engines.h"
-#include "tools/sim/machine.h"
+#include "sim/machine.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 namespace {
 
 using nc::nct::fillText;
@@ -96,10 +96,10 @@ public:
   uint32_t lost() { return program().messages().lost(); }
 
 private:
-  host::Instance& program() { return machine_->inside(); }
+  runtime::Instance& program() { return machine_->inside(); }
 
   compiler::Compiled compiled_;
-  std::unique_ptr<host::Engine> engine_;
+  std::unique_ptr<runtime::Engine> engine_;
   std::unique_ptr<sim::Machine> machine_;
 };
 
@@ -112,7 +112,7 @@ std::string boxes(const char* mnemonic, const char* bit, uint32_t number, uint32
   return text;
 }
 
-constexpr uint32_t kRoom = rt::kMessageCapacity;
+constexpr uint32_t kRoom = core::kMessageCapacity;
 
 TEST(MessageQueue, WhatFoundNoRoomIsNotShown) {
   Bench b(boxes("MSG", "7000.00", 1, kRoom + 44, 7100));
@@ -161,4 +161,4 @@ TEST(MessageQueue, ALostDeletionIsMadeUpFor) {
 }
 
 } // namespace
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

@@ -9,7 +9,7 @@
 
 #include "tests/unit/nct/machines.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 namespace {
 
 // Words of the program below.
@@ -226,4 +226,4 @@ TEST(ReachProperty, NoIndexRegisterLeadsOutsideTheResult) {
 }
 
 } // namespace
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

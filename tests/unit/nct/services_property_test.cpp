@@ -13,7 +13,7 @@
 #include "rtlib/nc/nct/service_functions.h"
 #include "tests/unit/nct/machines.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 namespace {
 
 constexpr uint32_t kEnables = 7000; // bit n: EN of box n
@@ -128,27 +128,27 @@ bool BoxModel::begin(Memory& memory, bool& failed, std::optional<Request>& asked
 }
 
 // One engine's requests, in their order.
-std::vector<rt::ServiceRequest> takeAll(host::Instance& instance) {
-  std::vector<rt::ServiceRequest> all;
-  rt::ServiceRequest request;
+std::vector<core::ServiceRequest> takeAll(runtime::Instance& instance) {
+  std::vector<core::ServiceRequest> all;
+  core::ServiceRequest request;
   while (instance.services().take(request)) all.push_back(request);
   return all;
 }
 
-host::Ref bufferWord(const host::Instance& instance, const rt::ServiceRequest& request, uint32_t n) {
-  const uint32_t space = host::findSpace(instance.program(), nc::nct::kBlockSpace);
-  return host::intRef(space, (static_cast<uint32_t>(request.args[2]) + n) * 4, 32);
+runtime::Ref bufferWord(const runtime::Instance& instance, const core::ServiceRequest& request, uint32_t n) {
+  const uint32_t space = runtime::findSpace(instance.program(), nc::nct::kBlockSpace);
+  return runtime::intRef(space, (static_cast<uint32_t>(request.args[2]) + n) * 4, 32);
 }
 
-void writeAnswer(host::Instance& instance, const rt::ServiceRequest& request, const Answer& answer) {
+void writeAnswer(runtime::Instance& instance, const core::ServiceRequest& request, const Answer& answer) {
   std::vector<uint32_t> words(nc::nct::kBlockStride);
   for (uint32_t n = 0; n < words.size(); ++n)
     words[n] = static_cast<uint32_t>(instance.read(bufferWord(instance, request, n)));
   nc::nct::Block block(words);
   for (const auto& [n, value] : answer.words) block.setWord(n, static_cast<int32_t>(value));
   for (uint32_t n = 0; n < words.size(); ++n)
-    host::writeRaw(instance.memory(), bufferWord(instance, request, n), words[n]);
-  rt::ServiceReply reply{.ticket = request.ticket, .resultCount = 1};
+    runtime::writeRaw(instance.memory(), bufferWord(instance, request, n), words[n]);
+  core::ServiceReply reply{.ticket = request.ticket, .resultCount = 1};
   reply.results[0] = answer.code;
   EXPECT_TRUE(instance.services().complete(reply));
 }
@@ -165,7 +165,7 @@ private:
   // A request that every engine has made and nobody has answered.
   struct Open {
     uint32_t box;
-    std::vector<rt::ServiceRequest> byMachine;
+    std::vector<core::ServiceRequest> byMachine;
   };
   uint32_t below(uint32_t n) { return std::uniform_int_distribution<uint32_t>(0, n - 1)(random_); }
   void set(uint32_t word, uint32_t value) {
@@ -212,7 +212,7 @@ void Protocol::answerSome() {
 }
 
 void Protocol::checkRequests(const std::vector<std::pair<uint32_t, BoxModel::Request>>& expected) {
-  std::vector<std::vector<rt::ServiceRequest>> taken;
+  std::vector<std::vector<core::ServiceRequest>> taken;
   for (Machine& machine : machines_.all()) {
     taken.push_back(takeAll(machine.instance()));
     ASSERT_EQ(taken.back().size(), expected.size()) << machine.name();
@@ -269,22 +269,22 @@ TEST(NctServices, FollowTheProtocolWhateverTheTiming) {
 }
 
 TEST(NctServices, WaitForRoomInTheQueue) {
-  constexpr uint32_t kMany = rt::ServiceQueue::kMaxPending + 6;
+  constexpr uint32_t kMany = core::ServiceQueue::kMaxPending + 6;
   std::string text;
   for (uint32_t n = 0; n < kMany; ++n)
     text += fmt::format("rung\n|--[7000.00]--{{MW {} #61}}--({}.00)\n", 8000 + 4 * n, 7100 + n);
   Machines machines(text, Machines::interpreterAndJit());
   for (Machine& machine : machines.all()) {
-    host::Instance& instance = machine.instance();
+    runtime::Instance& instance = machine.instance();
     machine.setWord(7000, 1);
     for (uint32_t n = 0; n < kMany; ++n) machine.setWord(8000 + 4 * n + 1, 1);
     instance.scan();
-    std::vector<rt::ServiceRequest> requests = takeAll(instance);
-    ASSERT_EQ(requests.size(), rt::ServiceQueue::kMaxPending);
+    std::vector<core::ServiceRequest> requests = takeAll(instance);
+    ASSERT_EQ(requests.size(), core::ServiceQueue::kMaxPending);
     EXPECT_EQ(instance.services().refused(), 6u);
     instance.scan();
     ASSERT_TRUE(takeAll(instance).empty());
-    for (const rt::ServiceRequest& request : requests) writeAnswer(instance, request, {.code = 60, .words = {}});
+    for (const core::ServiceRequest& request : requests) writeAnswer(instance, request, {.code = 60, .words = {}});
     instance.scan();
     EXPECT_TRUE(machine.bit(7100, 0));
     EXPECT_EQ(machine.word(8000), 60u);
@@ -292,7 +292,7 @@ TEST(NctServices, WaitForRoomInTheQueue) {
     requests = takeAll(instance);
     ASSERT_EQ(requests.size(), 6u);
     EXPECT_EQ(requests.back().args[1], 8000 + 4 * (kMany - 1));
-    for (const rt::ServiceRequest& request : requests) writeAnswer(instance, request, {.code = 0, .words = {}});
+    for (const core::ServiceRequest& request : requests) writeAnswer(instance, request, {.code = 0, .words = {}});
     instance.scan();
     for (uint32_t n = 0; n < kMany; ++n) EXPECT_TRUE(machine.bit(7100 + n, 0)) << n;
     instance.scan();
@@ -301,9 +301,9 @@ TEST(NctServices, WaitForRoomInTheQueue) {
 }
 
 // A host without an NC: at once, or when it comes to it.
-class Refusing final : public host::ScheduleHooks {
+class Refusing final : public runtime::ScheduleHooks {
 public:
-  bool respond(host::Instance& instance, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+  bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) override {
     reply = nc::refuse(instance.program(), request);
     return true;
   }
@@ -321,7 +321,7 @@ TEST(NctServices, EndWhereNobodyAnswers) {
       if (!later) machine.instance().setHooks(&hooks);
       const auto scan = [&] {
         machine.instance().scan();
-        for (const rt::ServiceRequest& request : takeAll(machine.instance()))
+        for (const core::ServiceRequest& request : takeAll(machine.instance()))
           machine.instance().services().complete(nc::refuse(machine.instance().program(), request));
       };
       machine.setWord(7101, 3);
@@ -368,4 +368,4 @@ TEST(NctServices, AxisCommandsAreRefusedAtOnce) {
 }
 
 } // namespace
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

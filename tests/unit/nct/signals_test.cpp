@@ -8,7 +8,7 @@
 #include "rtlib/nc/nct/signals.h"
 #include "tests/unit/nct/support.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 namespace {
 
 using ::testing::IsEmpty;
@@ -143,4 +143,4 @@ TEST(NctSignals, AllAreExplained) {
 }
 
 } // namespace
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

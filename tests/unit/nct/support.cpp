@@ -6,7 +6,7 @@
 #include "frontend/dialects/nct/nct.h"
 #include "ir/support/diag_render.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 
 std::vector<std::string> Compiled::codes() const {
   std::vector<std::string> codes;
@@ -35,4 +35,4 @@ Compiled compileMain(std::string_view body, const Options& options) {
   return compileFile("dialect nct\nmodule MAIN\n" + std::string(body), options);
 }
 
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

@@ -6,7 +6,7 @@
 
 #include "frontend/dialects/dialect.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 
 struct Compiled {
   std::unique_ptr<ir::Module> module;
@@ -25,4 +25,4 @@ Compiled compileFile(std::string text, const Options& options = {});
 Compiled compileMain(std::string_view body, const Options& options = {});
 inline constexpr int kBodyLine = 3;
 
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

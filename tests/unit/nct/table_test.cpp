@@ -11,7 +11,7 @@
 #include "ir/verify/verify.h"
 #include "tests/unit/nct/support.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 namespace {
 
 using frontend::OperandInfo;
@@ -317,4 +317,4 @@ TEST(NctTable, FindsBoxesOnly) {
 }
 
 } // namespace
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

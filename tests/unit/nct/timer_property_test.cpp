@@ -8,7 +8,7 @@
 
 #include "tests/unit/nct/machines.h"
 
-namespace rung::nct::test {
+namespace rung::frontend::nct::test {
 namespace {
 
 constexpr uint32_t kInput = 7000, kOutputs = 7001, kPreset = 7002, kRegisters = 7010, kFixedPreset = 23;
@@ -75,4 +75,4 @@ TEST(TimerProperty, TimersOfInt0CountTimeSlices) {
 }
 
 } // namespace
-} // namespace rung::nct::test
+} // namespace rung::frontend::nct::test

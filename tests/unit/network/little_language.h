@@ -8,7 +8,7 @@
 #include "frontend/network/operand_kind.h"
 #include "ir/support/diag/gsk.h"
 
-namespace rung::network::test {
+namespace rung::frontend::network::test {
 
 inline constexpr AreaInfo kAreas[] = {
     {.letter = 'I', .bytes = 4, .use = AreaUse::Input, .doc = "inputs"},
@@ -151,4 +151,4 @@ private:
   Language language_ = kLittle;
 };
 
-} // namespace rung::network::test
+} // namespace rung::frontend::network::test

@@ -10,7 +10,7 @@
 #include "ir/text/text.h"
 #include "tests/unit/network/little_language.h"
 
-namespace rung::network::test {
+namespace rung::frontend::network::test {
 namespace {
 
 constexpr Execution kExecution{
@@ -95,4 +95,4 @@ TEST(NetworkLower, AUnitOfTwoLevelsIsLoweredForEach) {
 }
 
 } // namespace
-} // namespace rung::network::test
+} // namespace rung::frontend::network::test

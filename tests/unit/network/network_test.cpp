@@ -13,10 +13,9 @@
 #include "tests/support/words.h"
 #include "tests/unit/network/little_language.h"
 
-namespace rung::network::test {
+namespace rung::frontend::network::test {
 namespace {
 
-using convert::Form;
 using rung::test::joined;
 using rung::test::lacking;
 using testing::HasSubstr;
@@ -259,4 +258,4 @@ TEST(Network, FormatsItsLists) {
 }
 
 } // namespace
-} // namespace rung::network::test
+} // namespace rung::frontend::network::test

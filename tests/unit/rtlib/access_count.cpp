@@ -9,8 +9,8 @@
 
 namespace {
 
-using rung::rt::Memory;
-using rung::rt::Place;
+using rung::core::Memory;
+using rung::core::Place;
 
 constexpr size_t kPlaces = 16;
 using Places = std::array<Place, kPlaces>;

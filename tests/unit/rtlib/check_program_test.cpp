@@ -1,13 +1,13 @@
 // checkProgram: each thing that can be wrong with the tables is found and named.
 #include <gtest/gtest.h>
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "tests/support/words.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
-using rung::host::checkProgram;
+using rung::runtime::checkProgram;
 using rung::test::lacking;
 using rung::test::TestProgram;
 

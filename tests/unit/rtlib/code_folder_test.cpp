@@ -1,5 +1,5 @@
 // A folder of machine code is used only when nobody else could have put files there.
-#include "rtlib/host/code_folder.h"
+#include "rtlib/load/code_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 

@@ -1,5 +1,5 @@
 // Every kind of difference between two instances is found and named.
-#include "rtlib/host/compare.h"
+#include "rtlib/change/compare.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 namespace {
 
-using namespace rung::host;
-using namespace rung::rt;
+using namespace rung::runtime;
+using namespace rung::core;
 using rung::test::TestProgram;
 
 std::string shown(const rung_program& program, const Ref& place) {

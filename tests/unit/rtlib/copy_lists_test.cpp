@@ -1,17 +1,17 @@
 // What of border copies is needed: what rungs touch, and in masks what they write.
-#include "rtlib/host/copy_lists.h"
+#include "rtlib/run/copy_lists.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numeric>
 
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using rung::test::TestProgram;
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -52,7 +52,7 @@ protected:
 
 TEST_F(CopiesShortOfWhatNoRungTouches, HaveItsPieces) {
   const CopyLists lists(test.link(), false);
-  const rung::rt::NeededCopies copies = lists.views();
+  const rung::core::NeededCopies copies = lists.views();
   EXPECT_THAT(ends(copies.of(copies.tasks[task].begin)), ElementsAre(std::pair(448u, 64u), std::pair(960u, 64u)));
   EXPECT_THAT(ends(copies.leftOut), ElementsAre(std::pair(0u, 448u), std::pair(512u, 448u), std::pair(1024u, 976u)));
   EXPECT_TRUE(copies.leavesOut(447, 2));
@@ -63,7 +63,7 @@ TEST_F(CopiesShortOfWhatNoRungTouches, HaveItsPieces) {
 
 TEST_F(CopiesShortOfWhatNoRungTouches, HaveMasksWhereTheyAreWritten) {
   const CopyLists lists(test.link(), false);
-  const rung::rt::NeededCopies copies = lists.views();
+  const rung::core::NeededCopies copies = lists.views();
   const auto end = copies.of(copies.tasks[task].end);
   EXPECT_THAT(ends(end), ElementsAre(std::pair(kOut + 960, 64u)));
   EXPECT_EQ(end[0].mask, kMask + 960);
@@ -72,7 +72,7 @@ TEST_F(CopiesShortOfWhatNoRungTouches, HaveMasksWhereTheyAreWritten) {
 TEST_F(CopiesShortOfWhatNoRungTouches, JoinWhatIsNear) {
   test.reads[0] = {kM + 840, 1}; // two pieces before that of byte 1000
   const CopyLists lists(test.link(), false);
-  const rung::rt::NeededCopies copies = lists.views();
+  const rung::core::NeededCopies copies = lists.views();
   EXPECT_THAT(ends(copies.of(copies.tasks[task].begin)), ElementsAre(std::pair(832u, 192u)));
 }
 

@@ -1,5 +1,5 @@
 // The reader of ELF files, on what linkers make and on damage.
-#include "rtlib/host/elf_file.h"
+#include "rtlib/load/elf_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;

@@ -1,5 +1,5 @@
 // Files appear under their name whole, or not at all.
-#include "rtlib/host/file.h"
+#include "rtlib/load/file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 

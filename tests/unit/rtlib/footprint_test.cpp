@@ -1,5 +1,5 @@
 // What of a program is touched before a scan, and that touching only reads.
-#include "rtlib/host/footprint.h"
+#include "rtlib/run/footprint.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "rtlib/host/realtime.h"
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/so_engine.h"
+#include "rtlib/run/realtime.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using rung::test::TestProgram;
 
 constexpr int64_t kSecond = 1'000'000'000;

@@ -1,5 +1,5 @@
 // An instance as the scenario runner and the controls use it.
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 namespace {
 
-using namespace rung::host;
-using namespace rung::rt;
+using namespace rung::runtime;
+using namespace rung::core;
 using rung::test::TestProgram;
 
 // Space R: byte 0 counts scans, byte 1 is retained, byte 2 has an initial value, byte 3 is an output.

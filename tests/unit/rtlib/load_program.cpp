@@ -4,7 +4,7 @@
 #include <sys/fsuid.h>
 #include <unistd.h>
 
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/so_engine.h"
 
 int main(int argc, char** argv) {
   if (argc < 2) return 2;
@@ -13,10 +13,10 @@ int main(int argc, char** argv) {
     if (setresuid(0, 0, started) != 0) return 2;
     setfsuid(started);
   }
-  rung::host::SoOptions options{.mayLackSeal = true};
+  rung::runtime::SoOptions options{.mayLackSeal = true};
   if (argc > 2) options.keysFolder = argv[2];
   std::string error;
-  const auto engine = rung::host::SoEngine::open(argv[1], error, options);
+  const auto engine = rung::runtime::SoEngine::open(argv[1], error, options);
   std::puts(engine != nullptr ? "loaded" : error.c_str());
   setfsuid(geteuid()); // what an instrumented build writes at its end goes to root's folder
   return engine != nullptr ? 0 : 1;

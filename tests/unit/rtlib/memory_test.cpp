@@ -9,13 +9,13 @@
 #include <limits>
 
 #include "rtlib/core/place_list.h"
-#include "rtlib/host/ref.h"
+#include "rtlib/load/ref.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
-using namespace rung::host;
-using namespace rung::rt;
+using namespace rung::runtime;
+using namespace rung::core;
 using rung::test::TestProgram;
 
 // Space 0: bytes 0..3 packed at 0, 4..5 expanded at 64, 6..9 packed at 4. Space 1: 16 packed bytes at 128.

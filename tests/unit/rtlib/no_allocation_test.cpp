@@ -9,17 +9,16 @@
 #include <filesystem>
 #include <mutex>
 
-#include "rtlib/host/instance.h"
-#include "rtlib/host/retained_memory.h"
-#include "rtlib/profile/collector.h"
+#include "rtlib/retain/retained_memory.h"
+#include "rtlib/run/instance.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/count_system_calls.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
-using namespace rung::host;
-using namespace rung::rt;
+using namespace rung::runtime;
+using namespace rung::core;
 using rung::test::allocationsOf;
 using rung::test::TestProgram;
 
@@ -110,19 +109,6 @@ TEST(NoAllocation, NeitherStartNorScan) {
   EXPECT_EQ(count, 0);
   EXPECT_TRUE(instance.faulted());
   EXPECT_GT(instance.messages().lost() + instance.services().refused(), 0u); // overflow allocates nothing either
-}
-
-TEST(NoAllocation, NorReadingCounters) {
-  std::vector<rung_prof> counters(3);
-  rung::profile::Collector collector(3, 20);
-  const int count = allocationsOf([&] {
-    collector.started(counters);
-    for (uint64_t i = 0; i < 1000; ++i) {
-      counters[i % 3] = {i, i * i * i, 0, 0};
-      collector.scanned(counters);
-    }
-  });
-  EXPECT_EQ(count, 0);
 }
 
 // A place in the saver's work where it stops until it is let go.

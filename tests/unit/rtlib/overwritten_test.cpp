@@ -1,14 +1,14 @@
 // Places that input copies overwrite: found whatever their representation, and not written.
-#include "rtlib/host/overwritten.h"
+#include "rtlib/run/overwritten.h"
 
 #include <gtest/gtest.h>
 
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using rung::test::TestProgram;
 
 class OverwrittenPlaces : public testing::Test {

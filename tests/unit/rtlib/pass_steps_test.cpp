@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace rung::rt {
+namespace rung::core {
 namespace {
 
 using Steps = std::vector<rung_step>;
@@ -50,4 +50,4 @@ TEST(PassSteps, SumsThatFitAlone) {
 }
 
 } // namespace
-} // namespace rung::rt
+} // namespace rung::core

@@ -1,5 +1,5 @@
 // Look-ups in the tables of a program.
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using rung::test::TestProgram;
 
 TEST(ProgramInfo, LookUps) {

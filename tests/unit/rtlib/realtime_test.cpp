@@ -1,5 +1,5 @@
 // The loop on the machine's clock, and what a thread asks of the system for it.
-#include "rtlib/host/realtime.h"
+#include "rtlib/run/realtime.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using rung::test::TestProgram;
 
 class RealTimeTest : public testing::Test {

@@ -1,18 +1,18 @@
 // One program takes over from another while it runs.
-#include "rtlib/host/replacement.h"
+#include "rtlib/change/replacement.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
 using namespace rung;
-using namespace rung::host;
+using namespace rung::runtime;
 using test::TestProgram;
 
 // COUNT and KEPT move by 16 bytes from one program to the other; SUM and DIFFERENCE belong to one of them.
@@ -122,7 +122,7 @@ TEST_F(ReplacementTest, RequestsThatWaitKeepTheirMeaning) {
   Replacement replacement(one.program, {two.program});
   instance.runTask("ASK");
   EXPECT_EQ(instance.replace(replacement), ReplaceResult::RequestsWait) << "its READ would be a WRITE";
-  rt::ServiceRequest request;
+  core::ServiceRequest request;
   ASSERT_TRUE(instance.services().take(request));
   EXPECT_EQ(instance.replace(replacement), ReplaceResult::Replaced);
   EXPECT_EQ(instance.services().poll(request.ticket), uint32_t{RUNG_SERVICE_PENDING}) << "tickets continue";

@@ -12,11 +12,11 @@
 #include <random>
 #include <thread>
 
-#include "rtlib/host/retain.h"
+#include "rtlib/retain/retain.h"
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 namespace fs = std::filesystem;
 using Bytes = std::vector<uint8_t>;
 

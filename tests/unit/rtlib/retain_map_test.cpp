@@ -1,14 +1,14 @@
 // Images by address: they survive another layout, and do not survive another set of kept addresses.
-#include "rtlib/host/retain_map.h"
+#include "rtlib/retain/retain_map.h"
 
 #include <gtest/gtest.h>
 
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using rung::test::TestProgram;
 using Bytes = std::vector<uint8_t>;
 

@@ -1,5 +1,5 @@
 // The retained image on disk: generations, every kind of damage, and the saving thread.
-#include "rtlib/host/retain.h"
+#include "rtlib/retain/retain.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using rung::test::TestProgram;
 using testing::HasSubstr;
 namespace fs = std::filesystem;

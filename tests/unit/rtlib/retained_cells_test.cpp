@@ -1,5 +1,5 @@
 // Retained cells from one program to another: by name and by address; and descriptions, good and bad ones.
-#include "rtlib/host/retained_cells.h"
+#include "rtlib/retain/retained_cells.h"
 
 #include <zlib.h>
 
@@ -9,14 +9,14 @@
 #include <functional>
 #include <random>
 
-#include "rtlib/host/program_info.h"
-#include "rtlib/host/retain_map.h"
-#include "rtlib/host/retained_take.h"
+#include "rtlib/load/program_info.h"
+#include "rtlib/retain/retain_map.h"
+#include "rtlib/retain/retained_take.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using rung::test::TestProgram;
 using testing::ElementsAre;
 using testing::IsEmpty;

@@ -1,6 +1,6 @@
 // What a host does with the retained memory: whole scans alone reach the disk, and a request is answered when its bytes
 // are there.
-#include "rtlib/host/retained_memory.h"
+#include "rtlib/retain/retained_memory.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using rung::test::TestProgram;
 using testing::HasSubstr;
 namespace fs = std::filesystem;

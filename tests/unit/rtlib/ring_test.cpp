@@ -8,7 +8,7 @@
 
 namespace {
 
-using rung::rt::FixedRing;
+using rung::core::FixedRing;
 
 TEST(Ring, KeepsOrderAcrossTheEnd) {
   FixedRing<int, 4> ring;
@@ -70,7 +70,7 @@ TEST(Ring, DroppedElementsAreNotSeen) {
 
 TEST(Ring, UsesStorageOfTheCaller) {
   int storage[2] = {};
-  rung::rt::Ring<int> ring(storage, 2);
+  rung::core::Ring<int> ring(storage, 2);
   EXPECT_TRUE(ring.push(7));
   EXPECT_TRUE(ring.push(8));
   EXPECT_FALSE(ring.push(9));

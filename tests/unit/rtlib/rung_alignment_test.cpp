@@ -1,9 +1,9 @@
 // Sequences side by side.
-#include "rtlib/host/rung_alignment.h"
+#include "rtlib/change/rung_alignment.h"
 
 #include <gmock/gmock.h>
 
-namespace rung::host {
+namespace rung::runtime {
 namespace {
 
 using testing::ElementsAre;
@@ -36,4 +36,4 @@ TEST(Alignment, DividesAtPairs) {
 }
 
 } // namespace
-} // namespace rung::host
+} // namespace rung::runtime

@@ -14,7 +14,7 @@
 
 namespace {
 
-using namespace rung::rt;
+using namespace rung::core;
 using rung::test::callChunk;
 using rung::test::popChunk;
 using rung::test::TestProgram;

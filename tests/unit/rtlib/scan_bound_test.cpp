@@ -1,5 +1,5 @@
 // The bound of a slice, measured on a program that does not run to its end.
-#include "rtlib/host/scan_bound.h"
+#include "rtlib/run/scan_bound.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using rung::test::TestProgram;
 
 TEST(ScanBound, OfAChunkThatIsHeavierThanTheBudget) {

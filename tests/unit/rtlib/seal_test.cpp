@@ -1,12 +1,12 @@
 // Seals and signatures: what holds, and that every change shows.
-#include "rtlib/host/sealing.h"
+#include "rtlib/load/sealing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using testing::HasSubstr;
 
 const std::string kImage = "an image of some bytes";

@@ -8,7 +8,7 @@
 
 namespace {
 
-using namespace rung::rt;
+using namespace rung::core;
 
 class Services : public testing::Test {
 protected:

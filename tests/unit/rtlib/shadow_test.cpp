@@ -1,16 +1,16 @@
 // A program runs beside another one, on what that one reads and is answered.
-#include "rtlib/host/shadow.h"
+#include "rtlib/change/shadow.h"
 
 #include <gtest/gtest.h>
 
-#include "rtlib/host/forcing.h"
-#include "rtlib/host/instance.h"
+#include "rtlib/change/forcing.h"
+#include "rtlib/run/instance.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
 using namespace rung;
-using namespace rung::host;
+using namespace rung::runtime;
 using test::TestProgram;
 
 // X (0) is an input, Y (1) an output, TICKET (4..7) memory; SERVICE results come to Y.
@@ -56,7 +56,7 @@ void build(TestProgram& program, rung_chunk_fn main) {
 
 // Answers at once what is asked for by an even number, and lets the shadow know of all.
 struct Answering final : ScheduleHooks {
-  bool respond(Instance&, const rt::ServiceRequest& request, rt::ServiceReply& reply) override {
+  bool respond(Instance&, const core::ServiceRequest& request, core::ServiceReply& reply) override {
     if (shadow != nullptr) shadow->requested(request);
     if (request.args[0] % 2 != 0) return false;
     reply.resultCount = 1;
@@ -194,7 +194,7 @@ TEST(Shadow, GetsTheAnswersOfTheRunningProgram) {
   Pair pair(&ask<0>, &ask<0>);
   uint8_t x = 0;
   const auto answer = [&] { // what nobody has answered at once
-    rt::ServiceRequest request;
+    core::ServiceRequest request;
     while (pair.instance->services().take(request))
       (void)pair.instance->services().complete(
           {.ticket = request.ticket, .resultCount = 1, .results = {request.args[0] + 50}});

@@ -1,5 +1,5 @@
 // Loading shared objects; the programs are in so/*.c, so the ABI is used from plain C too.
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/so_engine.h"
 
 #include <dlfcn.h>
 #include <gmock/gmock.h>
@@ -13,12 +13,12 @@
 #include <unistd.h>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/host/instance.h"
-#include "rtlib/host/sealing.h"
+#include "rtlib/load/sealing.h"
+#include "rtlib/run/instance.h"
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 

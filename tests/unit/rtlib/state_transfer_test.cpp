@@ -1,5 +1,5 @@
 // What a new program finds of the old one's state.
-#include "rtlib/host/state_transfer.h"
+#include "rtlib/change/state_transfer.h"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +7,15 @@
 #include <random>
 #include <set>
 
-#include "rtlib/host/program_info.h"
-#include "rtlib/host/ref.h"
+#include "rtlib/load/program_info.h"
+#include "rtlib/load/ref.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {
 
 using namespace rung;
-using host::StateChange;
-using host::StateTransfer;
+using runtime::StateChange;
+using runtime::StateTransfer;
 using test::TestProgram;
 
 // A program with its memory.
@@ -23,17 +23,17 @@ struct Running {
   TestProgram program;
   std::vector<uint8_t> block;
 
-  rt::Memory memory() { return {program.program, block.data()}; }
+  core::Memory memory() { return {program.program, block.data()}; }
   uint64_t read(const char* name) {
-    return host::readRaw(memory(), host::refOf(*host::findSymbol(program.program, name)));
+    return runtime::readRaw(memory(), runtime::refOf(*runtime::findSymbol(program.program, name)));
   }
   void write(const char* name, uint64_t value) {
-    host::writeRaw(memory(), host::refOf(*host::findSymbol(program.program, name)), value);
+    runtime::writeRaw(memory(), runtime::refOf(*runtime::findSymbol(program.program, name)), value);
   }
   // Initial contents: every byte of the block is `fill`.
   void start(uint8_t fill = 0) {
     program.memorySize = 1024;
-    EXPECT_EQ(host::checkProgram(program.link()), "");
+    EXPECT_EQ(runtime::checkProgram(program.link()), "");
     block.assign(program.memorySize, fill);
   }
 };
@@ -447,7 +447,7 @@ TEST(TransferProperty, EveryBitIsWhereTheRulesSay) {
       eachBit(symbol, [&](auto bit) { ++names[bit], touched.insert(bit); });
     for (const rung_symbol& symbol : old.program.symbols) eachBit(symbol, [&](auto bit) { touched.insert(bit); });
     for (const rung_symbol& symbol : fresh.program.symbols) {
-      const rung_symbol* former = host::findSymbol(old.program.program, symbol.name);
+      const rung_symbol* former = runtime::findSymbol(old.program.program, symbol.name);
       bool alone = true;
       eachBit(symbol, [&](auto bit) { alone = alone && names[bit] == 1; });
       if (former == nullptr || former->type != symbol.type || !alone) continue;

@@ -1,5 +1,5 @@
 // Whose code runs: the rules as a table, and the folder of public keys.
-#include "rtlib/host/trust.h"
+#include "rtlib/load/trust.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,12 +8,12 @@
 #include <unistd.h>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/host/file.h"
-#include "rtlib/host/sealing.h"
+#include "rtlib/load/file.h"
+#include "rtlib/load/sealing.h"
 
 namespace {
 
-using namespace rung::host;
+using namespace rung::runtime;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 

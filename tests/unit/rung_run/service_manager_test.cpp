@@ -1,5 +1,5 @@
 // What a service manager hears of rung-run: a socket of the test in its place.
-#include "tools/rung-run/service_manager.h"
+#include "machine/rung-run/service_manager.h"
 
 #include <gmock/gmock.h>
 #include <sys/socket.h>

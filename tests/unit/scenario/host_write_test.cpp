@@ -1,10 +1,10 @@
 // What a host writes by name to a program of each dialect reaches the program, or is refused with the name to write.
 #include <gtest/gtest.h>
 
+#include "compiler/engines.h"
 #include "ir/support/diag_render.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/nc/names/write.h"
-#include "tools/compiler/engines.h"
 
 namespace rung {
 namespace {
@@ -58,16 +58,16 @@ protected:
     compiled_ = compiler::compile(sources_, std::span(&file, 1), request, diagnostics);
     ASSERT_TRUE(compiled_) << renderText(diagnostics, sources_);
     engine_ = compiler::makeEngine(compiler::EngineKind::Interp, *compiled_, {}).value();
-    instance_ = std::make_unique<host::Instance>(*engine_);
+    instance_ = std::make_unique<runtime::Instance>(*engine_);
   }
-  host::Ref at(std::string_view name) const { return nc::resolve(instance_->program(), name).value(); }
+  runtime::Ref at(std::string_view name) const { return nc::resolve(instance_->program(), name).value(); }
   uint64_t read(std::string_view name) const { return instance_->read(at(name)); }
   std::string write(std::string_view name, uint64_t value) { return nc::write(*instance_, at(name), value); }
 
   SourceManager sources_;
   std::optional<compiler::Compiled> compiled_;
-  std::unique_ptr<host::Engine> engine_;
-  std::unique_ptr<host::Instance> instance_;
+  std::unique_ptr<runtime::Engine> engine_;
+  std::unique_ptr<runtime::Instance> instance_;
 };
 
 TEST_F(HostWrite, NctInputsAreWrittenInTheTimeSliceMemory) {

@@ -121,7 +121,7 @@ TEST(ScenarioParser, ChangesOfAReplacement) {
   EXPECT_EQ(replace.kind, Kind::Replace);
   EXPECT_EQ(replace.words, (std::vector<std::string>{"a.lad", "b c.lad"}));
   const auto change = [](const std::string& line) { return parseStatement("expect_change " + line).value().change; };
-  EXPECT_EQ(change("moved COUNT").kind, host::ChangeKind::Moved);
+  EXPECT_EQ(change("moved COUNT").kind, runtime::ChangeKind::Moved);
   EXPECT_EQ(change("moved COUNT").name, "COUNT");
   EXPECT_EQ(change("renamed LAMP BEACON").formerName, "LAMP");
   EXPECT_EQ(change("renamed LAMP BEACON").name, "BEACON");

@@ -15,7 +15,7 @@ Statement statement(const std::string& line) { return parse("t.scn", "program a\
 
 TEST(ScenarioServices, ArgumentsGoByName) {
   const ServiceSignature windr("WINDR function length -> end data");
-  rt::ServiceRequest request;
+  core::ServiceRequest request;
   request.argCount = 2;
   request.args[0] = 5;
   request.args[1] = 4;
@@ -25,7 +25,7 @@ TEST(ScenarioServices, ArgumentsGoByName) {
   EXPECT_NE(requestDifference(windr, {.request = request}, "windr", statement("expect_call windr colour=2").keys)
                 .find("no argument"),
             std::string::npos);
-  const rt::ServiceReply reply = answerOf(windr, {.ticket = 9}, statement("reply data=77").results).reply;
+  const core::ServiceReply reply = answerOf(windr, {.ticket = 9}, statement("reply data=77").results).reply;
   EXPECT_EQ(reply.ticket, 9u);
   EXPECT_EQ(reply.resultCount, 2u);
   EXPECT_EQ(reply.results[1], 77);
@@ -35,7 +35,7 @@ TEST(ScenarioServices, ArgumentsGoByName) {
 
 TEST(ScenarioServices, DataCompareModuloTheLength) {
   const ServiceSignature windw("windw function length data -> end");
-  rt::ServiceRequest request;
+  core::ServiceRequest request;
   request.argCount = 3;
   request.args[0] = 0x105;
   request.args[1] = 2;
@@ -59,7 +59,7 @@ TEST(ScenarioServices, DataCompareModuloTheLength) {
 
 TEST(ScenarioServices, RealsTravelAsTheirBits) {
   const ServiceSignature macw("MACW variable channel value:f ->");
-  rt::ServiceRequest request;
+  core::ServiceRequest request;
   request.argCount = 3;
   request.args[0] = 500;
   request.args[2] = std::bit_cast<int64_t>(3.0);
@@ -87,7 +87,7 @@ TEST(ScenarioServices, WithoutAnArrowNoAnswerIsTaken) {
 
 TEST(ScenarioServices, QuantitiesOfScpGoByTheirNames) {
   const ServiceSignature scp("SCP symbol p1 p2 -> value:f");
-  rt::ServiceRequest request;
+  core::ServiceRequest request;
   request.argCount = 3;
   request.args[0] = *nc::nct::findScopeSymbol("ActPosAx");
   request.args[1] = 2;

@@ -1,8 +1,8 @@
 // The session: it goes on after a statement that failed, calls its observers, and can be interrupted.
 #include <gtest/gtest.h>
 
-#include "tools/compiler/compile.h"
-#include "tools/compiler/engines.h"
+#include "compiler/compile.h"
+#include "compiler/engines.h"
 #include "tools/scenario/session.h"
 
 namespace rung::scenario {
@@ -38,7 +38,7 @@ protected:
   }
 
   compiler::Compiled compiled_;
-  std::vector<std::unique_ptr<host::Engine>> engines_;
+  std::vector<std::unique_ptr<runtime::Engine>> engines_;
   Session session_{"."};
 };
 

@@ -14,11 +14,11 @@
 #include <sstream>
 
 #include "ir/support/temporary_folder.h"
+#include "sim/nct/channels.h"
 #include "tests/support/cases.h"
 #include "tests/unit/sim/gsk_machine.h"
 #include "tests/unit/sim/technol_machine.h"
 #include "tools/scenario/values.h"
-#include "tools/sim/nct/channels.h"
 
 namespace rung::sim {
 namespace {

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <unistd.h>
 
+#include "compiler/compile.h"
+#include "compiler/engines.h"
 #include "tests/support/words.h"
-#include "tools/compiler/compile.h"
-#include "tools/compiler/engines.h"
 #include "tools/scenario/trace.h"
 
 namespace rung::scenario {
@@ -75,7 +75,7 @@ protected:
 
   std::filesystem::path folder_;
   compiler::Compiled compiled_;
-  std::unique_ptr<host::Engine> engine_;
+  std::unique_ptr<runtime::Engine> engine_;
   Session session_{"."};
 };
 

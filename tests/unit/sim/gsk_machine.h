@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "rtlib/nc/names/names.h"
+#include "sim/machine.h"
 #include "tests/unit/rtlib/test_program.h"
-#include "tools/sim/machine.h"
 
 namespace rung::sim::test {
 
@@ -35,13 +35,13 @@ public:
   }
   Machine& machine() const { return *machine_; }
   SimulatedNc& nc() const { return machine_->nc(); }
-  host::Instance& instance() const { return machine_->inside(); }
+  runtime::Instance& instance() const { return machine_->inside(); }
 
 private:
-  host::Ref place(const char* name) {
+  runtime::Ref place(const char* name) {
     const auto found = nc::resolve(instance().program(), name);
     EXPECT_TRUE(found) << name;
-    return found.value_or(host::Ref{});
+    return found.value_or(runtime::Ref{});
   }
 
   rung::test::TestProgram program_;

@@ -39,7 +39,7 @@ TEST(GskNoAllocation, SlotsOfAProgram) {
   machine.set("G7.2", 0);
   const int64_t macro[] = {9, 4, 100, 0};
   const int64_t position[] = {27, 4, 0, 1};
-  const rung::rt::Memory memory = machine.instance().memory();
+  const rung::core::Memory memory = machine.instance().memory();
   EXPECT_EQ(allocationsOf([&] {
               for (int i = 0; i < 200; ++i) {
                 machine.instance().services().request(0, macro, 4);

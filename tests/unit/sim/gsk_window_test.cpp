@@ -17,7 +17,7 @@ class Window : public testing::Test {
 protected:
   // A low-speed request takes more than two slots (l.8512).
   Answer ask(uint32_t service, std::vector<int64_t> args) {
-    rt::ServiceQueue& queue = machine_.instance().services();
+    core::ServiceQueue& queue = machine_.instance().services();
     const uint32_t ticket = queue.request(service, args.data(), static_cast<uint32_t>(args.size()));
     queue.deliver();
     if (queue.poll(ticket) != RUNG_SERVICE_DONE) {
@@ -126,7 +126,7 @@ TEST_F(Window, InterfaceVariablesAreSignals) {
 TEST(ProtectedWindow, WritesEndWithSeven) {
   GskMachine machine(Config{{"nc", "simulated"}, {"protect", "on"}});
   const int64_t args[] = {2, 4, 0, 0, 10000};
-  rt::ServiceQueue& queue = machine.instance().services();
+  core::ServiceQueue& queue = machine.instance().services();
   const uint32_t ticket = queue.request(1, args, 5);
   machine.slot(4);
   queue.deliver();
@@ -137,7 +137,7 @@ TEST(ProtectedWindow, WritesEndWithSeven) {
 
 TEST(ScriptedWindow, HighSpeedIsNotProvidedLowSpeedWaits) {
   GskMachine machine(Config{});
-  rt::ServiceQueue& queue = machine.instance().services();
+  core::ServiceQueue& queue = machine.instance().services();
   const int64_t high[] = {17, 4, 0, 1};
   const uint32_t ticket = queue.request(0, high, 4);
   EXPECT_EQ(queue.waiting(), 0u);

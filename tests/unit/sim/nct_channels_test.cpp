@@ -4,11 +4,11 @@
 
 #include <random>
 
-#include "tools/sim/nct/axes.h"
-#include "tools/sim/nct/channels.h"
-#include "tools/sim/nct/macros.h"
-#include "tools/sim/nct/spindles.h"
-#include "tools/sim/nct/tool_management.h"
+#include "sim/nct/axes.h"
+#include "sim/nct/channels.h"
+#include "sim/nct/macros.h"
+#include "sim/nct/spindles.h"
+#include "sim/nct/tool_management.h"
 
 namespace rung::sim::nct {
 namespace {

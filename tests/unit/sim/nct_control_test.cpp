@@ -11,8 +11,8 @@
 
 #include "rtlib/nc/nct/parameters.h"
 #include "rtlib/nc/nct/scope_symbols.h"
+#include "sim/retained_tables.h"
 #include "tests/unit/sim/nct_machine.h"
-#include "tools/sim/retained_tables.h"
 
 namespace {
 
@@ -246,7 +246,7 @@ TEST_F(NctKept, ADamagedImageLeavesTheOlderOne) {
 TEST_F(NctKept, AnImageOfAnotherSizeIsNotTaken) {
   std::string error;
   const std::vector<uint8_t> bytes(10);
-  ASSERT_TRUE(rung::host::RetainStore(file_ + ".nc", 0x52554E474E430001, 10).save(bytes, error)) << error;
+  ASSERT_TRUE(rung::runtime::RetainStore(file_ + ".nc", 0x52554E474E430001, 10).save(bytes, error)) << error;
   session(false, [](NctMachine& machine) { expectMark(machine, 0); });
   EXPECT_NE(report_, "");
 }

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "rtlib/nc/nct/operand_block.h"
+#include "sim/machine.h"
 #include "tests/unit/rtlib/test_program.h"
-#include "tools/sim/machine.h"
 
 namespace rung::sim::test {
 
@@ -75,13 +75,13 @@ public:
 
   Machine& machine() { return *machine_; }
   SimulatedNc& nc() { return machine_->nc(); }
-  host::Instance& instance() { return machine_->inside(); }
+  runtime::Instance& instance() { return machine_->inside(); }
 
 private:
-  host::Ref place(const char* name, bool write) {
+  runtime::Ref place(const char* name, bool write) {
     const auto found = write ? nc().writePlace(instance().program(), name) : nc().readPlace(instance().program(), name);
     EXPECT_TRUE(found) << name;
-    return found.value_or(host::Ref{});
+    return found.value_or(runtime::Ref{});
   }
 
   rung::test::TestProgram program_;

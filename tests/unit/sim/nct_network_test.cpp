@@ -2,8 +2,8 @@
 // time, partners outside of the model.
 #include <gtest/gtest.h>
 
+#include "sim/nct/socket.h"
 #include "tests/unit/sim/nct_machine.h"
-#include "tools/sim/nct/socket.h"
 
 namespace {
 

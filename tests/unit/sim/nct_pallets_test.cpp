@@ -5,9 +5,9 @@
 #include <random>
 
 #include "rtlib/nc/nct/service_functions.h"
+#include "sim/nct/channels.h"
+#include "sim/nct/pallet_management.h"
 #include "tests/unit/sim/nct_block.h"
-#include "tools/sim/nct/channels.h"
-#include "tools/sim/nct/pallet_management.h"
 
 namespace rung::sim::nct {
 namespace {

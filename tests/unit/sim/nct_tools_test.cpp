@@ -7,8 +7,8 @@
 #include <set>
 
 #include "rtlib/nc/nct/service_functions.h"
+#include "sim/nct/tool_management.h"
 #include "tests/unit/sim/nct_block.h"
-#include "tools/sim/nct/tool_management.h"
 
 namespace rung::sim::nct {
 namespace {

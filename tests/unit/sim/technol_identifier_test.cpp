@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "rtlib/nc/control/technol/identifier.h"
-#include "tools/sim/technol/module_cells.h"
+#include "sim/technol/module_cells.h"
 
 namespace rung::sim::technol {
 namespace {

@@ -6,8 +6,8 @@
 #include "rtlib/nc/technol/exchange.h"
 #include "rtlib/nc/technol/services.h"
 #include "rtlib/nc/technol/signals.h"
+#include "sim/machine.h"
 #include "tests/unit/rtlib/test_program.h"
-#include "tools/sim/machine.h"
 
 namespace rung::sim {
 
@@ -61,11 +61,11 @@ public:
   uint32_t ask(Service service, std::initializer_list<int64_t> args) {
     return inside().services().request(service, args.begin(), static_cast<uint32_t>(args.size()));
   }
-  host::Instance& inside() { return machine_->inside(); }
+  runtime::Instance& inside() { return machine_->inside(); }
   SimulatedNc& nc() { return machine_->nc(); }
   void scan() { machine_->scan(); }
   std::string event(const char* name, const std::vector<NcArgument>& keys) {
-    return machine_->operate([&](SimulatedNc& nc, host::Instance& inside) { return nc.event(inside, name, keys); });
+    return machine_->operate([&](SimulatedNc& nc, runtime::Instance& inside) { return nc.event(inside, name, keys); });
   }
 
 private:

@@ -39,7 +39,7 @@ TEST(TechnolNoAllocation, DevicesAtWork) {
                           {"RTM.Axis[3].Pos6_Ax", "ECAT.FREE.Outputs.Place"}});
   EXPECT_TRUE(machine.nc().connectionProblems().empty());
   const auto place = [&](const char* cell) { return nc::technol::locateSignal(machine.inside().program(), cell); };
-  const rt::Place port = place("P1IN"), character = place("DISPTOC1.TOC_CHAR1"), init = place("flEdrvInit0");
+  const core::Place port = place("P1IN"), character = place("DISPTOC1.TOC_CHAR1"), init = place("flEdrvInit0");
   constexpr int64_t kFeed = int64_t{6000} << 16; // 6000 mm/min
   for (const char* cell : {"VAZBA_4", "MP4PI"}) nc::technol::writeCell(machine.inside(), cell, 1);
   machine.ask(kInit, {4, 0});

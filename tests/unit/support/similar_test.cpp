@@ -1,5 +1,5 @@
 // Which known word a misspelt one is like.
-#include "ir/support/similar.h"
+#include "rtlib/text/similar.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace rung {
 namespace {
 
 std::string_view best(std::string_view word, std::initializer_list<std::string_view> candidates) {
-  return mostSimilar(word, candidates);
+  return text::mostSimilar(word, candidates);
 }
 
 TEST(Similar, OneChange) {

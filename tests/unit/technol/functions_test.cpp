@@ -77,8 +77,8 @@ TEST_F(TechnolHandshake, AnotherProgramFinishesTheBlock) {
   ir::InterpEngine engine(layout, 2);
   EXPECT_THAT(functions().start(M, 3), Optional(0u));
   scan(3);
-  host::Replacement replacement(engine_->program(), {engine.program(), engine.context()});
-  ASSERT_EQ(instance_->replace(replacement), host::ReplaceResult::Replaced);
+  runtime::Replacement replacement(engine_->program(), {engine.program(), engine.context()});
+  ASSERT_EQ(instance_->replace(replacement), runtime::ReplaceResult::Replaced);
   EXPECT_EQ(get("STATUS_RESTART"), 1u);
   EXPECT_EQ(get("INITS"), 1u);
   scan(3);
@@ -89,7 +89,7 @@ TEST_F(TechnolHandshake, AnotherProgramFinishesTheBlock) {
   set("GO2", 1);
   scan();
   EXPECT_FALSE(functions().busy(0));
-  ASSERT_EQ(instance_->replace(replacement), host::ReplaceResult::Replaced); // the engine of the other one ends
+  ASSERT_EQ(instance_->replace(replacement), runtime::ReplaceResult::Replaced); // the engine of the other one ends
   EXPECT_EQ(get("DONES"), 1u);
 }
 

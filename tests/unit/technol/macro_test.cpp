@@ -65,7 +65,7 @@ TEST_F(TechnolInclude, IsFoundInAnyCaseAndBesideTheProgramFirst) {
     Diagnostics diagnostics;
     file("main.plc", programText({.data = "T_INCLUDE SUB\\OUTER.INC\nA: DS WHERE\n"}));
     const std::vector<FileId> files = {sources.addFile(path("main.plc")).value()};
-    const auto module = frontend::kTechnol.compile(sources, files, {}, diagnostics);
+    const auto module = frontend::technol::kTechnol.compile(sources, files, {}, diagnostics);
     return module ? module->spaces[1].units : 0;
   };
   EXPECT_EQ(where(), 1u);

@@ -32,11 +32,11 @@ std::vector<std::string> reported(const Compilation& c, Severity severity) {
 }
 
 // Interface cells that the program does not use are found by their place in the block.
-std::optional<host::Ref> interfaceCell(std::string_view name) {
+std::optional<runtime::Ref> interfaceCell(std::string_view name) {
   const nc::Signal* s = nc::findSignal(nc::technolSignals(), name, "I");
   if (!s) return std::nullopt;
-  if (s->type == nc::SignalType::Bit) return host::bitRef(0, s->byteOffset, s->bit);
-  return host::intRef(0, s->byteOffset, nc::elementBytes(s->type) * 8);
+  if (s->type == nc::SignalType::Bit) return runtime::bitRef(0, s->byteOffset, s->bit);
+  return runtime::intRef(0, s->byteOffset, nc::elementBytes(s->type) * 8);
 }
 
 } // namespace
@@ -59,7 +59,7 @@ Compilation compile(const std::vector<std::string>& files, const frontend::Compi
   Compilation c{std::make_unique<SourceManager>(), std::make_unique<Diagnostics>(), nullptr};
   std::vector<FileId> ids;
   for (size_t i = 0; i < files.size(); ++i) ids.push_back(c.sources->addBuffer(std::to_string(i), files[i]));
-  c.module = frontend::kTechnol.compile(*c.sources, ids, options, *c.diagnostics);
+  c.module = frontend::technol::kTechnol.compile(*c.sources, ids, options, *c.diagnostics);
   if (c.module) {
     const auto errors = ir::verify(*c.module, ir::Mode::Built);
     EXPECT_TRUE(errors.empty()) << ir::render(*c.module, errors);
@@ -73,7 +73,7 @@ Machine::Machine(const std::vector<std::string>& files, const frontend::CompileO
   RUNG_CHECK(compilation_.module != nullptr, "the program of a test does not compile");
   layout_ = std::make_unique<ir::Layout>(*compilation_.module, ir::LayoutOptions{});
   engine_ = std::make_unique<ir::InterpEngine>(*layout_, 1);
-  instance_ = std::make_unique<host::Instance>(*engine_, this);
+  instance_ = std::make_unique<runtime::Instance>(*engine_, this);
   start();
 }
 
@@ -83,25 +83,25 @@ void Machine::scan(int times) {
   for (int i = 0; i < times; ++i) instance_->scan();
 }
 
-host::Ref Machine::resolve(std::string_view name) const {
+runtime::Ref Machine::resolve(std::string_view name) const {
   const auto ref = nc::resolve(instance_->program(), name, interfaceCell);
   EXPECT_TRUE(ref) << name;
-  return ref.value_or(host::Ref{});
+  return ref.value_or(runtime::Ref{});
 }
 
 int64_t Machine::get(std::string_view name) const {
-  const host::Ref ref = resolve(name);
-  return ref.width == 1 ? static_cast<int64_t>(instance_->read(ref)) : host::readSigned(instance_->memory(), ref);
+  const runtime::Ref ref = resolve(name);
+  return ref.width == 1 ? static_cast<int64_t>(instance_->read(ref)) : runtime::readSigned(instance_->memory(), ref);
 }
 
 double Machine::real(std::string_view name) const {
-  return instance_->readReal(*host::asReal(instance_->memory(), resolve(name)));
+  return instance_->readReal(*runtime::asReal(instance_->memory(), resolve(name)));
 }
 void Machine::set(std::string_view name, int64_t value) {
   EXPECT_EQ(instance_->write(resolve(name), static_cast<uint64_t>(value)), std::nullopt);
 }
 void Machine::setReal(std::string_view name, double value) {
-  EXPECT_EQ(instance_->writeReal(*host::asReal(instance_->memory(), resolve(name)), value), std::nullopt);
+  EXPECT_EQ(instance_->writeReal(*runtime::asReal(instance_->memory(), resolve(name)), value), std::nullopt);
 }
 
 std::vector<std::string> Machine::messages() {
@@ -119,7 +119,7 @@ std::vector<std::string> Machine::messages() {
   return lines;
 }
 
-void Machine::onHook(host::Instance& instance, uint32_t work) {
+void Machine::onHook(runtime::Instance& instance, uint32_t work) {
   if (work != 1) return;
   if (blockInit) {
     instance.runTask("BLOCK_INIT");

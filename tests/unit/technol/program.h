@@ -8,7 +8,7 @@
 #include "frontend/dialects/technol/technol.h"
 #include "ir/interp/interp.h"
 #include "ir/shape/layout.h"
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 
 namespace rung::technol_test {
 
@@ -35,7 +35,7 @@ inline Compilation compileMain(std::string main, std::string data = {}) {
 }
 
 // A running program. The block modules run at hook 1 while `block` says so.
-class Machine : public host::ScheduleHooks {
+class Machine : public runtime::ScheduleHooks {
 public:
   explicit Machine(const std::vector<std::string>& files, const frontend::CompileOptions& options = {});
   explicit Machine(const Parts& parts) : Machine(std::vector<std::string>{programText(parts)}) {}
@@ -44,7 +44,7 @@ public:
   void start();
   void scan(int times = 1);
   bool run(std::string_view task) { return instance_->runTask(task); }
-  host::Instance& instance() { return *instance_; }
+  runtime::Instance& instance() { return *instance_; }
 
   int64_t get(std::string_view name) const; // signed
   double real(std::string_view name) const;
@@ -53,17 +53,17 @@ public:
   // "number/persistent/subid/par1" of each message since the last call, `-` in front of a removal.
   std::vector<std::string> messages();
 
-  void onHook(host::Instance& instance, uint32_t work) override;
+  void onHook(runtime::Instance& instance, uint32_t work) override;
   bool blockInit = false; // MODULE_BLOCK_INIT runs until it has run through
   bool blockDone = false;
 
 private:
-  host::Ref resolve(std::string_view name) const;
+  runtime::Ref resolve(std::string_view name) const;
 
   Compilation compilation_;
   std::unique_ptr<ir::Layout> layout_;
   std::unique_ptr<ir::InterpEngine> engine_;
-  std::unique_ptr<host::Instance> instance_;
+  std::unique_ptr<runtime::Instance> instance_;
 };
 
 } // namespace rung::technol_test

@@ -17,7 +17,7 @@ protected:
     if (!compilation_.module) throw std::runtime_error(compilation_.text());
     layout_ = std::make_unique<ir::Layout>(*compilation_.module, ir::LayoutOptions{});
     engine_ = std::make_unique<ir::InterpEngine>(*layout_, 1);
-    instance_ = std::make_unique<host::Instance>(*engine_, &control_);
+    instance_ = std::make_unique<runtime::Instance>(*engine_, &control_);
     control_.powerOn(*instance_, nc::PowerOn::Cold);
   }
 
@@ -30,13 +30,13 @@ protected:
   Compilation compilation_;
   std::unique_ptr<ir::Layout> layout_;
   std::unique_ptr<ir::InterpEngine> engine_;
-  std::unique_ptr<host::Instance> instance_;
+  std::unique_ptr<runtime::Instance> instance_;
 
 private:
-  host::Ref place(std::string_view name) {
+  runtime::Ref place(std::string_view name) {
     const auto found = control_.readPlace(instance_->program(), name);
     EXPECT_TRUE(found) << name;
-    return found.value_or(host::Ref{});
+    return found.value_or(runtime::Ref{});
   }
 };
 

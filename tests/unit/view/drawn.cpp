@@ -18,8 +18,8 @@
 namespace rung::view::test {
 namespace {
 
-using ladder::Element;
-using ladder::ElementKind;
+using frontend::ladder::Element;
+using frontend::ladder::ElementKind;
 
 struct Box {
   int left, top, right, bottom;
@@ -47,7 +47,7 @@ bool inside(const Box& a, const Box& b) {
 }
 
 // Elements in the order in which they stand in the source, as their shapes do.
-std::vector<const Element*> inSource(const ladder::Rung& rung, bool boxes) {
+std::vector<const Element*> inSource(const frontend::ladder::Rung& rung, bool boxes) {
   std::vector<const Element*> elements;
   for (const Element& element : rung.elements)
     if ((element.kind == ElementKind::Box) == boxes) elements.push_back(&element);
@@ -151,9 +151,10 @@ std::unique_ptr<Drawn> drawProgram(std::unique_ptr<Drawn> drawn, const std::vect
   drawn->program = std::move(*program);
   drawn->module = dialect.compile(drawn->sources, files, {}, drawn->diagnostics);
   FileId first = files[0];
-  if (&dialect == &gsk::kGsk)
-    first = network::ladderForm(gsk::kLanguage, drawn->sources, files, drawn->diagnostics)->files[0];
-  drawn->ladders.push_back(ladder::parseLadder(drawn->sources, first, drawn->diagnostics, dialect.findBox));
+  if (&dialect == &frontend::gsk::kGsk)
+    first =
+        frontend::network::ladderForm(frontend::gsk::kLanguage, drawn->sources, files, drawn->diagnostics)->files[0];
+  drawn->ladders.push_back(frontend::ladder::parseLadder(drawn->sources, first, drawn->diagnostics, dialect.findBox));
   return drawn;
 }
 
@@ -181,12 +182,12 @@ std::unique_ptr<Drawn> drawRung(const std::string& drawing) {
   return draw("t.lad", "dialect nct\nmodule MAIN\nrung\n" + drawing);
 }
 
-std::string wrongTexts(const ladder::Rung& rung, const Picture& picture) {
+std::string wrongTexts(const frontend::ladder::Rung& rung, const Picture& picture) {
   std::multiset<std::string> wanted;
   std::multiset<std::string> found;
   for (const Element& element : rung.elements) {
     if (element.kind == ElementKind::Box) wanted.insert("box " + std::string(element.mnemonic));
-    for (const Word& word : rung.operandsOf(element)) wanted.insert(std::string(word.text));
+    for (const frontend::Word& word : rung.operandsOf(element)) wanted.insert(std::string(word.text));
   }
   wanted.erase("TABLE");
   wanted.erase("table");
@@ -237,12 +238,12 @@ std::string overlaps(const Picture& picture) {
   return wrong;
 }
 
-std::string wrongWires(const ladder::Rung& rung, const Picture& picture) {
+std::string wrongWires(const frontend::ladder::Rung& rung, const Picture& picture) {
   Joined joined(picture);
   SameNets nets;
-  nets.add(ladder::kRail.index, joined.rail(), "the rail");
+  nets.add(frontend::ladder::kRail.index, joined.rail(), "the rail");
   std::string wrong = joined.crossed() ? "two wires cross\n" : "";
-  const auto port = [&](ladder::NetId net, Point point, std::string_view name) {
+  const auto port = [&](frontend::ladder::NetId net, Point point, std::string_view name) {
     if (!joined.has(point))
       wrong += fmt::format("nothing at {},{} for {}\n", point.x, point.y, name);
     else if (net.valid())

@@ -16,10 +16,10 @@ struct Drawn {
   SourceManager sources;
   Diagnostics diagnostics;
   std::unique_ptr<ir::Module> module;
-  std::vector<ladder::LadderFile> ladders; // as the drawings were read from them
+  std::vector<frontend::ladder::LadderFile> ladders; // as the drawings were read from them
   Program program;
 
-  const ladder::Rung& rung(size_t figure) const { return ladders[0].rungs[figure]; }
+  const frontend::ladder::Rung& rung(size_t figure) const { return ladders[0].rungs[figure]; }
 };
 // The name tells the dialect as it does for the compiler: "a.lad", "a.pmc".
 std::unique_ptr<Drawn> draw(const std::string& name, const std::string& text);
@@ -29,9 +29,9 @@ std::unique_ptr<Drawn> drawFiles(const std::vector<std::string>& paths);
 std::unique_ptr<Drawn> drawRung(const std::string& drawing);
 
 // Each gives nothing when all is well.
-std::string wrongTexts(const ladder::Rung& rung, const Picture& picture); // every element and operand once
-std::string overlaps(const Picture& picture);                             // of texts, boxes and symbols
-std::string wrongWires(const ladder::Rung& rung, const Picture& picture); // what is joined, and nothing else
+std::string wrongTexts(const frontend::ladder::Rung& rung, const Picture& picture); // every element and operand once
+std::string overlaps(const Picture& picture);                                       // of texts, boxes and symbols
+std::string wrongWires(const frontend::ladder::Rung& rung, const Picture& picture); // what is joined, and nothing else
 std::string outOfBounds(const Picture& picture);
 
 } // namespace rung::view::test

@@ -122,7 +122,7 @@ TEST(ViewProperty, Grids) {
 
 TEST(ViewProperty, Lists) {
   for (uint64_t seed = 1; seed <= kLists; ++seed) {
-    const auto drawn = draw("list.pmc", gsk::test::ProgramGenerator(seed).list());
+    const auto drawn = draw("list.pmc", frontend::gsk::test::ProgramGenerator(seed).list());
     ASSERT_NE(drawn, nullptr);
     check(*drawn, fmt::format("seed {}", seed));
     if (HasFatalFailure()) return;

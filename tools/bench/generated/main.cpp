@@ -32,8 +32,8 @@
 
 #include <fmt/format.h>
 
-#include "rtlib/host/realtime.h"
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/so_engine.h"
+#include "rtlib/run/realtime.h"
 #include "tools/bench/generated/peer.h"
 #include "tools/bench/generated/side.h"
 #include "tools/bench/generated/structured_text.h"
@@ -92,9 +92,9 @@ bench::BitForm bitForm(const std::string& text) {
   return text == "byte" ? bench::BitForm::Byte : bench::BitForm::Packed;
 }
 
-std::unique_ptr<host::SoEngine> load(const std::string& path) {
+std::unique_ptr<runtime::SoEngine> load(const std::string& path) {
   std::string error;
-  auto engine = host::SoEngine::open(path, error, {.loaded = host::Loaded::WithProcess, .mayLackSeal = true});
+  auto engine = runtime::SoEngine::open(path, error, {.loaded = runtime::Loaded::WithProcess, .mayLackSeal = true});
   if (!engine) throw std::runtime_error(error);
   return engine;
 }
@@ -117,13 +117,13 @@ struct Forms {
     return all;
   }
   void checkFault() const {
-    const host::Instance& running = ours().instance();
+    const runtime::Instance& running = ours().instance();
     if (running.faulted()) throw std::runtime_error("the program has stopped: " + running.faultText());
   }
 
   bench::Work of;
   bench::Program program;
-  std::unique_ptr<host::SoEngine> engine;
+  std::unique_ptr<runtime::SoEngine> engine;
   std::vector<std::unique_ptr<bench::Side>> sides;
 };
 
@@ -216,10 +216,10 @@ void printList(const std::vector<std::vector<double>>& lists) {
 
 // A sleep that ends early, and what a host does then until it is time.
 void sleepAndTouch(const bench::Ours& ours) {
-  const int64_t due = host::monotonicNs() + std::chrono::nanoseconds(kSleep).count();
-  host::sleepUntil(due - kEarlyNs);
+  const int64_t due = runtime::monotonicNs() + std::chrono::nanoseconds(kSleep).count();
+  runtime::sleepUntil(due - kEarlyNs);
   ours.touch(due);
-  host::waitAwake(due);
+  runtime::waitAwake(due);
 }
 
 // Three lists for each form, ours first: hot, after a sleep, after other work and a sleep. The last list is of ours

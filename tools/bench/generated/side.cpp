@@ -14,16 +14,16 @@ namespace {
 
 Failure missing(const std::string& name) { return failure(fmt::format("the program has no place {}", name)); }
 
-bool find(const rung_program& program, rt::Memory memory, const std::vector<std::string>& names, bool real,
-          std::vector<rt::Place>& places, std::string& unknown) {
+bool find(const rung_program& program, core::Memory memory, const std::vector<std::string>& names, bool real,
+          std::vector<core::Place>& places, std::string& unknown) {
   for (const std::string& name : names) {
-    std::optional<host::Ref> ref = nc::resolve(program, name);
-    if (ref && real) ref = host::asReal(memory, *ref);
+    std::optional<runtime::Ref> ref = nc::resolve(program, name);
+    if (ref && real) ref = runtime::asReal(memory, *ref);
     if (!ref) {
       unknown = name;
       return false;
     }
-    places.push_back(host::locate(memory, *ref));
+    places.push_back(runtime::locate(memory, *ref));
   }
   return true;
 }
@@ -37,11 +37,11 @@ std::vector<T> copied(const uint8_t* from, size_t count) {
 
 } // namespace
 
-Ours::Ours(host::Engine& engine) : instance_(engine), footprint_(engine.program(), true) {}
+Ours::Ours(runtime::Engine& engine) : instance_(engine), footprint_(engine.program(), true) {}
 
-Result<std::unique_ptr<Ours>> Ours::make(host::Engine& engine, const Program& program) {
+Result<std::unique_ptr<Ours>> Ours::make(runtime::Engine& engine, const Program& program) {
   std::unique_ptr<Ours> ours(new Ours(engine));
-  const rt::Memory memory = ours->instance_.memory();
+  const core::Memory memory = ours->instance_.memory();
   const rung_program& image = ours->instance_.program();
   std::string unknown;
   if (!find(image, memory, program.bits, false, ours->bits_, unknown) ||
@@ -50,14 +50,14 @@ Result<std::unique_ptr<Ours>> Ours::make(host::Engine& engine, const Program& pr
       !find(image, memory, program.reals, true, ours->reals_, unknown))
     return missing(unknown);
   for (const std::string& name : program.bits) {
-    const host::Ref ref = *nc::resolve(image, name);
-    const std::optional<host::Ref> lasting = ours->instance_.write(ref, 0);
-    ours->inputs_.push_back(host::locate(memory, lasting.value_or(ref)));
+    const runtime::Ref ref = *nc::resolve(image, name);
+    const std::optional<runtime::Ref> lasting = ours->instance_.write(ref, 0);
+    ours->inputs_.push_back(runtime::locate(memory, lasting.value_or(ref)));
   }
   for (const auto& [name, value] : program.constants) {
-    const std::optional<host::Ref> ref = nc::resolve(image, name);
+    const std::optional<runtime::Ref> ref = nc::resolve(image, name);
     if (!ref) return missing(name);
-    ours->constants_.emplace_back(host::locate(memory, *ref), value);
+    ours->constants_.emplace_back(runtime::locate(memory, *ref), value);
   }
   ours->leaveOut();
   return ours;
@@ -66,9 +66,9 @@ Result<std::unique_ptr<Ours>> Ours::make(host::Engine& engine, const Program& pr
 // As the runtime's library does, which knows what its host looks at.
 void Ours::leaveOut() {
   constexpr uint32_t kBytes = 8; // of a place, at most
-  const rt::NeededCopies& copies = instance_.neededCopies();
-  for (const std::vector<rt::Place>* places : {&bits_, &words_, &tables_, &reals_})
-    for (const rt::Place& place : *places)
+  const core::NeededCopies& copies = instance_.neededCopies();
+  for (const std::vector<core::Place>* places : {&bits_, &words_, &tables_, &reals_})
+    for (const core::Place& place : *places)
       if (copies.leavesOut(place.offset(), kBytes)) return;
   instance_.setNeededCopiesOnly(true);
 }
@@ -80,7 +80,7 @@ void Ours::writeConstants() {
 
 void Ours::begin(const Machine& machine) {
   writeConstants();
-  const rt::Memory memory = instance_.memory();
+  const core::Memory memory = instance_.memory();
   for (size_t i = 0; i < machine.inputs().size(); ++i) memory.write(inputs_[i], machine.inputs()[i] ? 1 : 0);
   for (size_t i = 0; i < machine.words().size(); ++i) memory.write(words_[i], machine.words()[i]);
   for (size_t i = 0; i < machine.reals().size(); ++i) memory.writeReal(reals_[i], machine.reals()[i]);
@@ -88,13 +88,13 @@ void Ours::begin(const Machine& machine) {
 
 void Ours::beginWith(bool condition) {
   writeConstants();
-  for (const rt::Place& place : inputs_) instance_.memory().write(place, condition ? 1 : 0);
+  for (const core::Place& place : inputs_) instance_.memory().write(place, condition ? 1 : 0);
 }
 
 void Ours::apply(const Change& change) {
-  const rt::Memory memory = instance_.memory();
+  const core::Memory memory = instance_.memory();
   for (uint32_t i = 0; i < change.bitCount; ++i) {
-    const rt::Place& place = inputs_[change.bits[i]];
+    const core::Place& place = inputs_[change.bits[i]];
     memory.write(place, memory.read(place) ^ 1);
   }
   if (change.hasWords)
@@ -103,12 +103,12 @@ void Ours::apply(const Change& change) {
 }
 
 Values Ours::values() const {
-  const rt::Memory memory = instance_.memory();
+  const core::Memory memory = instance_.memory();
   Values values;
-  for (const rt::Place& place : bits_) values.bits.push_back(memory.read(place) != 0);
-  for (const rt::Place& place : words_) values.words.push_back(static_cast<uint32_t>(memory.read(place)));
-  for (const rt::Place& place : tables_) values.tables.push_back(static_cast<uint32_t>(memory.read(place)));
-  for (const rt::Place& place : reals_) values.reals.push_back(std::bit_cast<uint64_t>(memory.readReal(place)));
+  for (const core::Place& place : bits_) values.bits.push_back(memory.read(place) != 0);
+  for (const core::Place& place : words_) values.words.push_back(static_cast<uint32_t>(memory.read(place)));
+  for (const core::Place& place : tables_) values.tables.push_back(static_cast<uint32_t>(memory.read(place)));
+  for (const core::Place& place : reals_) values.reals.push_back(std::bit_cast<uint64_t>(memory.readReal(place)));
   return values;
 }
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ir/support/result.h"
-#include "rtlib/host/footprint.h"
-#include "rtlib/host/instance.h"
+#include "rtlib/run/footprint.h"
+#include "rtlib/run/instance.h"
 #include "tools/bench/generated/form.h"
 #include "tools/bench/generated/machine.h"
 #include "tools/bench/generated/straight.h"
@@ -35,26 +35,26 @@ public:
 class Ours final : public Side {
 public:
   // Fails where the program lacks one of the places.
-  static Result<std::unique_ptr<Ours>> make(host::Engine& engine, const Program& program);
+  static Result<std::unique_ptr<Ours>> make(runtime::Engine& engine, const Program& program);
   void begin(const Machine& machine) override;
   void apply(const Change& change) override;
   void scan() noexcept override { instance_.scan(); }
   Values values() const override;
   void beginWith(bool condition); // of a program without a machine: all of its bits
-  host::Instance& instance() { return instance_; }
+  runtime::Instance& instance() { return instance_; }
   // What a scan reads, until the clock has come to that.
   void touch(int64_t untilNs) const noexcept { footprint_.touch(instance_.block().data(), untilNs); }
 
 private:
-  explicit Ours(host::Engine& engine);
+  explicit Ours(runtime::Engine& engine);
   void leaveOut();
   void writeConstants();
 
-  host::Instance instance_;
-  host::Footprint footprint_;
-  std::vector<rt::Place> inputs_; // where what the machine writes lasts
-  std::vector<rt::Place> bits_, words_, tables_, reals_;
-  std::vector<std::pair<rt::Place, uint64_t>> constants_;
+  runtime::Instance instance_;
+  runtime::Footprint footprint_;
+  std::vector<core::Place> inputs_; // where what the machine writes lasts
+  std::vector<core::Place> bits_, words_, tables_, reals_;
+  std::vector<std::pair<core::Place, uint64_t>> constants_;
 };
 
 class Straight final : public Side {

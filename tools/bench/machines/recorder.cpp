@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "compiler/engines.h"
 #include "tools/bench/machines/replay.h"
-#include "tools/compiler/engines.h"
 
 namespace rung::bench {
 
@@ -14,14 +14,14 @@ struct Recorder::Beside {
       : session(of), engine(engineOf(program)), image(sim::imageOf(engine->program(), engine->context())),
         replay(image), inSlots(of.nc().control().runsInSlots()) {}
 
-  static std::unique_ptr<host::Engine> engineOf(const compiler::Compiled& program) {
+  static std::unique_ptr<runtime::Engine> engineOf(const compiler::Compiled& program) {
     auto engine = compiler::makeEngine(compiler::EngineKind::Interp, program, {});
     if (!engine.ok()) throw std::runtime_error(engine.error());
     return std::move(engine).value();
   }
 
   scenario::Session& session;
-  std::unique_ptr<host::Engine> engine;
+  std::unique_ptr<runtime::Engine> engine;
   rung::Image image;
   Replay replay;
   bool inSlots;
@@ -34,7 +34,7 @@ struct Recorder::Beside {
 namespace {
 
 // The bytes that differ, in runs. What the compiler hides is the program's own.
-std::vector<Writes> differences(const host::Instance& from, const host::Instance& to) {
+std::vector<Writes> differences(const runtime::Instance& from, const runtime::Instance& to) {
   std::vector<Writes> all;
   const rung_program& program = to.program();
   for (uint32_t space = 0; space < program.space_count; ++space) {
@@ -76,7 +76,7 @@ void Recorder::scanned(const scenario::Session& session) {
     beside_->problem = "the scenario runs other parts than whole scans";
 }
 
-void Recorder::begins(const host::Instance& instance, uint32_t task) {
+void Recorder::begins(const runtime::Instance& instance, uint32_t task) {
   const bool partBegins = beside_->inSlots ? task == instance.program().fast_task : !beside_->within;
   if (!partBegins || beside_->ended || !beside_->problem.empty()) return;
   beside_->within = true;

@@ -10,7 +10,7 @@ namespace rung::bench {
 // Looks on while the scenario runs, and has the same program beside it without the simulation: what that one needs to
 // begin each part with the same memory is what the machine has written. Where the scenario switches the program on
 // again, the recording ends.
-class Recorder final : public scenario::Observer, public host::TaskWatch {
+class Recorder final : public scenario::Observer, public runtime::TaskWatch {
 public:
   // Throws std::runtime_error where the program cannot be run by itself.
   Recorder(scenario::Session& session, const compiler::Compiled& program);
@@ -24,8 +24,8 @@ public:
 
   void started(scenario::Session& session) override;
   void scanned(const scenario::Session& session) override;
-  void begins(const host::Instance& instance, uint32_t task) override;
-  void ended(const host::Instance&, uint32_t) override {}
+  void begins(const runtime::Instance& instance, uint32_t task) override;
+  void ended(const runtime::Instance&, uint32_t) override {}
 
 private:
   struct Beside;

@@ -4,11 +4,11 @@
 #include <stdexcept>
 
 #include "ir/support/hash.h"
-#include "rtlib/runtime/instance.h"
+#include "rtlib/api/instance.h"
 
 namespace rung::bench {
 Replay::Replay(const rung::Image& image)
-    : instance_(image), inside_(runtime::insideOf(*instance_.handle())),
+    : instance_(image), inside_(api::insideOf(*instance_.handle())),
       runPart_(instance_.handle()->control->runsInSlots() ? &rung_instance_slot : &rung_instance_scan) {
   instance_.powerOn(rung::Power::Cold);
 }

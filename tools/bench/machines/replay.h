@@ -3,7 +3,7 @@
 #pragma once
 #include <cstdint>
 
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 #include "rung/runtime.hpp"
 #include "tools/bench/machines/recording.h"
 
@@ -21,14 +21,14 @@ public:
   uint64_t hash() const;
   // Takes what a host would take between two parts.
   void drain();
-  const host::Instance& inside() const { return inside_; }
+  const runtime::Instance& inside() const { return inside_; }
 
 private:
   uint64_t hashOfAll() const;
   uint32_t spaceOf(const std::string& name) const;
 
   rung::Instance instance_;
-  host::Instance& inside_;
+  runtime::Instance& inside_;
   int32_t (*runPart_)(rung_instance*);
 };
 

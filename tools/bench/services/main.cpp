@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "rtlib/host/so_engine.h"
+#include "rtlib/load/so_engine.h"
 #include "tools/scenario/session.h"
 
 namespace {
@@ -21,9 +21,9 @@ void check(const std::string& problem) {
   if (!problem.empty()) throw std::runtime_error(problem);
 }
 
-std::unique_ptr<host::SoEngine> load(const std::string& program) {
+std::unique_ptr<runtime::SoEngine> load(const std::string& program) {
   std::string error;
-  auto engine = host::SoEngine::open(program, error);
+  auto engine = runtime::SoEngine::open(program, error);
   check(error);
   return engine;
 }

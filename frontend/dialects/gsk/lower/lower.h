@@ -12,7 +12,7 @@
 #include "frontend/network/lower/lower_function.h"
 #include "frontend/network/read/context.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 using network::isIn;
 using network::Lowering;
@@ -59,4 +59,4 @@ void lowerPositionRange(Lowering& f);
 std::unique_ptr<ir::Module> lowerProgram(const network::Program& program, network::Context& context,
                                          std::span<const FileId> files, const frontend::CompileOptions& options);
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

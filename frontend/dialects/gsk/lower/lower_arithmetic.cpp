@@ -2,7 +2,7 @@
 // overflows.
 #include "frontend/dialects/gsk/lower/lower.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 using ir::Type;
@@ -100,4 +100,4 @@ void lowerBcd(Lowering& f) {
   });
 }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

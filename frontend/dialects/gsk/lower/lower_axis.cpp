@@ -2,7 +2,7 @@
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "rtlib/nc/gsk/axis_commands.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 using ir::Type;
@@ -101,4 +101,4 @@ void AxisLowering::run() {
 
 void lowerAxisControl(Lowering& f) { AxisLowering(f).run(); }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

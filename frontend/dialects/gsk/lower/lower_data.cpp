@@ -1,7 +1,7 @@
 // Transfers, decoding, comparison, bit logic, shift and parity (§7.3, §7.7, §7.8, §7.10, §7.14, §7.15).
 #include "frontend/dialects/gsk/lower/lower.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 using ir::Type;
 using ir::ValueId;
@@ -107,4 +107,4 @@ void lowerCoincidence(Lowering& f) {
                   [&] { return f.b.eq(f.operand(1, f.dataType()), f.load(f.dataType(), f.param(2).address)); });
 }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -3,7 +3,7 @@
 
 #include "frontend/dialects/gsk/lower/lower.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 using ir::Type;
@@ -71,4 +71,4 @@ void lowerPositionRange(Lowering& f) {
   });
 }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -6,7 +6,7 @@
 #include "ir/support/diag/gsk.h"
 #include "rtlib/nc/faults.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 constexpr network::Execution kExecution{.slotUs = kSlotUs,
@@ -72,4 +72,4 @@ std::unique_ptr<ir::Module> lowerProgram(const network::Program& program, networ
   return lowering.take();
 }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -5,7 +5,7 @@
 
 #include "frontend/dialects/gsk/lower/lower.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 using ir::Type;
@@ -147,4 +147,4 @@ void lowerIndexedMove(Lowering& f) {
   });
 }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -2,7 +2,7 @@
 #include "frontend/dialects/gsk/config.h"
 #include "frontend/dialects/gsk/lower/lower.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 using ir::Type;
@@ -117,4 +117,4 @@ void lowerCounter(Lowering& f) {
 // P39: the memory belongs to the instruction.
 void lowerEdge(Lowering& f) { f.setOutput(frontend::pulse(f.b, f.slot("edge", Type::Bit), f.act(), f.variant())); }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

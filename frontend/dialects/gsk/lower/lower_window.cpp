@@ -6,7 +6,7 @@
 #include "frontend/lower/request.h"
 #include "rtlib/nc/gsk/window_functions.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 using ir::Type;
@@ -34,7 +34,7 @@ private:
   ir::SlotId ticket() { return f_.slot("ticket", Type::I32); }
   ir::SlotId length() { return f_.slot("length", Type::I16); }
   // One for all low-speed functions of the program. The one that has taken it has a state that is not idle: whoever
-  // replaces the program knows from its key what an instruction that is gone has held (rtlib/host/state_transfer.h).
+  // replaces the program knows from its key what an instruction that is gone has held (rtlib/change/state_transfer.h).
   static constexpr const char* kLock = "@window/lock";
   ir::SlotId lock() { return f_.shared(kLock, Type::Bit); }
   ir::SlotId state() { return f_.slot(std::string("state") + kLock, Type::I8); }
@@ -246,4 +246,4 @@ void WindowLowering::finish(const Step& step) {
 
 void lowerWindow(Lowering& f) { WindowLowering(f).run(); }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

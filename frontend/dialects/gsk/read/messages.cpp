@@ -16,7 +16,7 @@
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/source.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 constexpr uint64_t kMessages = 256;
@@ -120,4 +120,4 @@ void checkTexts(const network::Program& program, const std::vector<ir::MessageTe
       }
 }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -9,7 +9,7 @@
 #include "ir/support/diagnostics.h"
 #include "ir/support/source.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 // `path` is relative to the folder of `program`. Reports what is wrong; what is right is in the result, by number.
 std::vector<ir::MessageText> readMessages(SourceManager& sources, FileId program, std::string_view path,
@@ -18,4 +18,4 @@ std::vector<ir::MessageText> readMessages(SourceManager& sources, FileId program
 // Warns of messages that coils ask for and that have no text, each at the first coil.
 void checkTexts(const network::Program& program, const std::vector<ir::MessageText>& texts, Diagnostics& diagnostics);
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

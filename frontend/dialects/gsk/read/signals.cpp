@@ -12,7 +12,7 @@
 #include "rtlib/nc/notes.h"
 #include "rtlib/text/letters.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 uint32_t bytesOf(const nc::Signal& signal) { return std::max(1u, nc::elementBytes(signal.type)); }
@@ -103,4 +103,4 @@ std::string explainWord(std::string_view word) {
   return text;
 }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

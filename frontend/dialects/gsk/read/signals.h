@@ -7,7 +7,7 @@
 
 #include "frontend/network/read/context.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 // The milling control GSK25iMc or the turning control GSK25iTc.
 enum class Machine : uint8_t { Any, Mill, Turn };
@@ -19,4 +19,4 @@ void watchSignals(network::Context& context, Machine machine);
 // "" when it is neither.
 std::string explainWord(std::string_view word);
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

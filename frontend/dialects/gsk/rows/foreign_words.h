@@ -3,7 +3,7 @@
 #pragma once
 #include "frontend/sema/foreign_word.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 inline constexpr std::string_view kBegins = "LD where a block begins, AND after it";
 inline constexpr std::string_view kBeginsClosed = "LDI where a block begins, ANI after it";
@@ -146,4 +146,4 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"XOR", "the function EOR on bytes; on bits LD, ANI, LDI, AND, ORB"},
 };
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -12,7 +12,7 @@
 #include "frontend/dialects/gsk/rows/rows_timing.h"
 #include "frontend/table/rows.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 namespace {
 
 using frontend::InstructionInfo;
@@ -61,4 +61,4 @@ const InstructionInfo* findBox(std::string_view mnemonic) {
 std::span<const network::Row* const> networkRows() { return kNetworkRows; }
 std::span<const InstructionInfo* const> instructionInfos() { return kInfos; }
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

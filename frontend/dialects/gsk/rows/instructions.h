@@ -6,7 +6,7 @@
 
 #include "frontend/network/lower/lowered_row.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 using Row = network::LoweredRow;
 using network::LowerFn;
@@ -19,4 +19,4 @@ const frontend::InstructionInfo* findBox(std::string_view mnemonic);
 std::span<const network::Row* const> networkRows();
 std::span<const frontend::InstructionInfo* const> instructionInfos();
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

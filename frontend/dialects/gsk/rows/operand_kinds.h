@@ -4,7 +4,7 @@
 #include "frontend/network/operand_kind.h"
 #include "ir/support/diag/gsk.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 using network::Length;
 using network::OperandClass;
@@ -62,4 +62,4 @@ inline constexpr OperandKind kRecord{{"record", "address of the first of as many
 
 } // namespace kinds
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -8,7 +8,7 @@
 #include "frontend/dialects/gsk/rows/operand_kinds.h"
 #include "frontend/network/lower/lower_control.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 using frontend::Access;
 using frontend::OperandInfo;
@@ -77,4 +77,4 @@ constexpr Row rowOf(Row shape, int number, std::string_view mnemonic, std::strin
 }
 inline constexpr OperandInfo kBitRead = in("bit", kinds::kBit);
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

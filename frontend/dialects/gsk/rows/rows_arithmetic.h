@@ -2,7 +2,7 @@
 #pragma once
 #include "frontend/dialects/gsk/rows/row_parts.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 constexpr Row arithmeticShape(std::string_view first, std::string_view second, LowerFn lower) {
   return {{.info = {.group = "arithmetic",
@@ -93,4 +93,4 @@ inline constexpr Row kArithmeticRows[] = {
      &lowerNot},
 };
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -2,7 +2,7 @@
 #pragma once
 #include "frontend/dialects/gsk/rows/row_parts.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 inline constexpr Row kBasicRows[] = {
     basic("LD", "normally open contact, new block", kBitRead, "4.1, l.820", "Pushes the bit onto the stack register."),
@@ -42,4 +42,4 @@ inline constexpr Row kBasicRows[] = {
      &lowerEnd},
 };
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -2,7 +2,7 @@
 #pragma once
 #include "frontend/dialects/gsk/rows/row_parts.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 inline constexpr std::string_view kAfterEnd2 = "the part after END2";
 
@@ -84,4 +84,4 @@ inline constexpr Row kControlRows[] = {
           "5.44, l.3069", "Returns to the caller.", "FUNC 43"),
 };
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

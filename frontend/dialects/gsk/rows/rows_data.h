@@ -3,7 +3,7 @@
 #pragma once
 #include "frontend/dialects/gsk/rows/row_parts.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 constexpr Row moveShape(const OperandKind& kind) {
   return {{.info = {.group = "transfers", .pins = {kAct}, .operands = {in("source", kind), out("target", kind)}}},
@@ -133,4 +133,4 @@ inline constexpr Row kDataRows[] = {
      &lowerIndexedMove},
 };
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

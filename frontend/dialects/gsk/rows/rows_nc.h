@@ -5,7 +5,7 @@
 #include "rtlib/nc/gsk/axis_commands.h"
 #include "rtlib/nc/gsk/window_functions.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 // The fixed part of a window block and the shortest data; how long the data are is known when the program runs.
 inline constexpr uint32_t kWindowBlockBytes = nc::gsk::kWindowDataAt + 1;
@@ -95,4 +95,4 @@ inline constexpr Row kNcRows[] = {
      &lowerPositionRange},
 };
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -3,7 +3,7 @@
 #pragma once
 #include "frontend/dialects/gsk/rows/row_parts.h"
 
-namespace rung::gsk {
+namespace rung::frontend::gsk {
 
 constexpr Row timerShape(OperandList operands, Row::Numbers numbers = Row::Numbers::Free) {
   return {
@@ -106,4 +106,4 @@ inline constexpr Row kTimingRows[] = {
      &lowerCodeTable},
 };
 
-} // namespace rung::gsk
+} // namespace rung::frontend::gsk

@@ -17,7 +17,7 @@
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/structure.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 using frontend::Access;
@@ -165,7 +165,7 @@ void RungChecker::reportUnknown(const ladder::Element& element, std::span<const 
   if (const frontend::ForeignWord* foreign = frontend::findForeign(foreignWords(), element.mnemonic))
     return explainForeign(report, element, *foreign, numbersOf(operands));
   if (!diagnostics_.suggests()) return;
-  Likely likely = likeliest(element.mnemonic, allRows() | std::views::filter(isBox), mnemonicOf);
+  text::Likely likely = text::likeliest(element.mnemonic, allRows() | std::views::filter(isBox), mnemonicOf);
   const std::string_view doubles = numbersOf(operands).doubles ? doublesOf(likely.word) : std::string_view();
   if (!doubles.empty()) likely = {doubles, false};
   ladder::suggest(report, symbols_.sources(), element.mnemonicRange, likely);
@@ -517,4 +517,4 @@ void RungChecker::warnInt0Only(const Operand& operand) {
     if (concerns(signal)) diagnostics_.report(diag::Int0OnlySignal, operand.source->range) << operand.source->text;
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -6,7 +6,7 @@
 #include "frontend/dialects/nct/program.h"
 #include "frontend/sema/foreign_word.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 // "Each output once" (l.233), over all modules.
 class OutputReservations {
@@ -73,4 +73,4 @@ private:
   const nc::Signal* fastClock_;          // N_P2MS
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

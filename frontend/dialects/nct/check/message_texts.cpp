@@ -10,7 +10,7 @@
 #include "ir/support/diag/nct.h"
 #include "rtlib/nc/nct/messages.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 TextKind checkText(const Word& text, Diagnostics& diagnostics) {
   TextKind kind = TextKind::Plain;
@@ -85,4 +85,4 @@ void checkMessageNumbers(std::initializer_list<const TypedModule*> modules, cons
     if (!shown.contains(number)) diagnostics.report(diag::MessageUnused, text.range) << number;
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

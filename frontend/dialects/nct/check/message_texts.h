@@ -5,7 +5,7 @@
 
 #include "frontend/dialects/nct/program.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 enum class TextKind : uint8_t { Plain, Integer, Real, Bad };
 
@@ -25,4 +25,4 @@ void checkMessages(const TypedModule& module, const TextKinds& texts, Diagnostic
 void checkMessageNumbers(std::initializer_list<const TypedModule*> modules, const TextKinds& texts,
                          Diagnostics& diagnostics);
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

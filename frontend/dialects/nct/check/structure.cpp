@@ -10,9 +10,9 @@
 #include "frontend/sema/call_graph.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/structure.h"
-#include "ir/support/similar.h"
+#include "rtlib/text/similar.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 // A JMP or SBS.
@@ -24,7 +24,7 @@ struct Reference {
 
 constexpr std::string_view kStructural[] = {"END", "JMP", "JME", "SBS", "SBN", "RET"};
 
-bool looksStructural(std::string_view mnemonic) { return !mostSimilar(mnemonic, kStructural).empty(); }
+bool looksStructural(std::string_view mnemonic) { return !text::mostSimilar(mnemonic, kStructural).empty(); }
 
 // Something in the rung could not be read that might have been an END, a jump, a label or a subroutine's beginning or
 // end.
@@ -322,4 +322,4 @@ std::vector<bool> evaluatedOncePerRun(const TypedModule& module) {
   return once;
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

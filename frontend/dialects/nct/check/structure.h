@@ -3,7 +3,7 @@
 #pragma once
 #include "frontend/dialects/nct/program.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 // A file's part of a module that begins with a subroutine and is before the part with END goes after all
 // others: such a file holds subroutines, and files may be named in any order.
@@ -15,4 +15,4 @@ void checkStructure(TypedModule& module, const SourceManager& sources, Diagnosti
 // over it. A fault, which stops the program, is the one exception.
 std::vector<bool> evaluatedOncePerRun(const TypedModule& module);
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -10,7 +10,7 @@
 #include "ir/core/memory_use.h"
 #include "rtlib/nc/faults.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 constexpr uint32_t kMainBudget = 1'000'000; // executed instructions (2.1, proposal)
@@ -235,4 +235,4 @@ std::unique_ptr<ir::Module> buildModule(const Program& program, Symbols& symbols
   return module;
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -6,7 +6,7 @@
 #include "frontend/dialects/nct/program.h"
 #include "ir/core/module.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 // What the source says beside rungs.
 struct Texts {
@@ -17,4 +17,4 @@ std::unique_ptr<ir::Module> buildModule(const Program& program, Symbols& symbols
                                         const SourceManager& sources, std::span<const FileId> files,
                                         const frontend::CompileOptions& options);
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

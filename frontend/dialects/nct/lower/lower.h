@@ -13,7 +13,7 @@
 #include "ir/core/builder.h"
 #include "ir/core/given_numbers.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 // Makes the state slots of a routine's elements. Their keys name the element itself, so that they stay the same
 // whatever changes around it: routine, instruction and operands, with a number where several are alike.
@@ -210,4 +210,4 @@ void checkWriteFunction(std::span<const Operand> operands, const Config& config,
 void checkMacro(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
 void checkScope(std::span<const Operand> operands, const Config& config, Diagnostics& diagnostics);
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

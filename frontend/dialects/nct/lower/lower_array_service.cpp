@@ -12,7 +12,7 @@
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/service_functions.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::RungBuilder;
 using ir::SlotId;
@@ -257,4 +257,4 @@ void checkWriteFunction(std::span<const Operand> operands, const Config&, Diagno
   checkFunction(operands[1], FunctionAccess::Write, diagnostics);
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

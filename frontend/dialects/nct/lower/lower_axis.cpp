@@ -4,7 +4,7 @@
 #include "rtlib/nc/nct/axis_codes.h"
 #include "rtlib/nc/nct/signals.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::RungBuilder;
 using ir::Type;
@@ -66,4 +66,4 @@ ValueId lowerAxisCommand(Lowering& box) {
   });
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -3,7 +3,7 @@
 
 #include "frontend/dialects/nct/lower/lower.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::RungBuilder;
 using ir::SlotId;
@@ -99,4 +99,4 @@ ValueId lowerPulse(Lowering& box) {
   return {};
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -1,7 +1,7 @@
 // Comparisons of integers (man. §6.12): CMP, which sets flags, and the contacts CLT to CGT.
 #include "frontend/dialects/nct/lower/lower.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::RungBuilder;
 using ir::ValueId;
@@ -35,4 +35,4 @@ ValueId lowerCompareContact(Lowering& box) {
   return box.pass(b.and_(holds, valid));
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

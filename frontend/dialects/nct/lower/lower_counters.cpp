@@ -1,7 +1,7 @@
 // CNT and CNTR (man. §6.5).
 #include "frontend/dialects/nct/lower/lower.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::RungBuilder;
 using ir::ValueId;
@@ -56,4 +56,4 @@ ValueId lowerCounter(Lowering& box) {
   return guarded(box, valid, [&] { return b.choose(box.power(kClear), [&] { return put(start); }, step); });
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -5,7 +5,7 @@
 #include "frontend/dialects/nct/lower/lower.h"
 #include "ir/core/ops.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::OpCode;
 using ir::RungBuilder;
@@ -241,4 +241,4 @@ ValueId lowerFloatContact(Lowering& box) {
   return box.pass(b.and_(holds, valid));
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

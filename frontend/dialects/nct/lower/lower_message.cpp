@@ -6,7 +6,7 @@
 #include "frontend/dialects/nct/lower/lower.h"
 #include "rtlib/nc/nct/messages.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::RungBuilder;
 using ir::Type;
@@ -96,4 +96,4 @@ private:
 
 ValueId lowerMessage(Lowering& box) { return MessageLowering(box).run(); }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -8,7 +8,7 @@
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "rtlib/nc/nct/signals.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::RungBuilder;
 using ir::SlotId;
@@ -251,4 +251,4 @@ void checkScope(std::span<const Operand> operands, const Config& config, Diagnos
   check(symbol.param2, operands[3]);
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -12,7 +12,7 @@
 #include "ir/support/hash.h"
 #include "rung/types.hpp"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 using ir::ValueId;
@@ -261,4 +261,4 @@ ir::RoutineId lowerModule(LoweringContext& context, const TypedModule& module) {
   return routines.front();
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

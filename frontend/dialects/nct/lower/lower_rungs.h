@@ -9,7 +9,7 @@
 #include "ir/core/marks.h"
 #include "ir/core/module.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 // What all modules of a program share while they are lowered.
 struct LoweringContext {
@@ -27,4 +27,4 @@ struct LoweringContext {
 // Adds the routines of the module; the first of them is the entry.
 ir::RoutineId lowerModule(LoweringContext& context, const TypedModule& module);
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

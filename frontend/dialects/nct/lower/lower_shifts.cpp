@@ -2,7 +2,7 @@
 #include "frontend/dialects/nct/lower/lower.h"
 #include "ir/core/ops.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::OpCode;
 using ir::RungBuilder;
@@ -160,4 +160,4 @@ ValueId lowerArray(Lowering& box) {
   });
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

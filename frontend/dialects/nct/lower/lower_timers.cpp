@@ -5,7 +5,7 @@
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::RungBuilder;
 using ir::SlotId;
@@ -153,4 +153,4 @@ void checkTimer(std::span<const Operand> operands, const Config&, Diagnostics& d
         << set.source->text << "0 to " + std::to_string(limit);
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

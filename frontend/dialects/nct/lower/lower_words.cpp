@@ -1,7 +1,7 @@
 // Moving, logic and integer arithmetic (man. §6.3, §6.8, §6.9).
 #include "frontend/dialects/nct/lower/lower.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::RungBuilder;
 using ir::Type;
@@ -130,4 +130,4 @@ ValueId lowerDiv(Lowering& box) {
   });
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -5,7 +5,7 @@
 
 #include "ir/support/check.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using ir::Type;
 using ir::ValueId;
@@ -277,4 +277,4 @@ ValueId Memory::bitAddress(const Place& place) {
   return place.bitNo.valid() ? b_.add(word, place.bitNo) : word;
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -8,7 +8,7 @@
 #include "frontend/dialects/nct/read/operand.h"
 #include "ir/core/builder.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 // The flags are the bits of word 0000 in the order of the manual's chapter 5 (l.725-777).
 enum Flag : uint8_t { kFlagEr, kFlagUf, kFlagOf, kFlagCy, kFlagGt, kFlagEq, kFlagLt };
@@ -114,4 +114,4 @@ private:
   WrittenRange& written_;
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

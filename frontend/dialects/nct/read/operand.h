@@ -6,7 +6,7 @@
 
 #include "frontend/syntax/word_lexer.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 struct Symbol; // symbols.h
 
@@ -45,4 +45,4 @@ struct Operand {
   const Word* source = nullptr;
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -9,7 +9,6 @@
 #include "frontend/dialects/nct/rows/instructions.h"
 #include "frontend/ladder/text/fix.h"
 #include "frontend/sema/foreign_word.h"
-#include "ir/support/ascii.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/meant.h"
@@ -17,7 +16,7 @@
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 constexpr std::string_view kDecimalRange = "-2147483648 to 2147483647";
@@ -27,7 +26,7 @@ constexpr std::string_view kRealRange = "the range of a double";
 bool allDigits(std::string_view text) { return !text.empty() && std::ranges::all_of(text, isDigit); }
 
 bool allHex(std::string_view text) {
-  return !text.empty() && std::ranges::all_of(text, [](char c) { return hexDigit(c) >= 0; });
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return text::hexDigit(c) >= 0; });
 }
 
 // A number without the sign that constants begin with, with its own sign or without.
@@ -131,7 +130,7 @@ struct ConstantReader {
     const size_t point = digits.find('.');
     if (point == std::string_view::npos || digits.size() < 2) return malformed();
     for (size_t i = 0; i < digits.size(); ++i)
-      if (i != point && !isDigit(digits[i])) return malformed();
+      if (i != point && !text::isDigit(digits[i])) return malformed();
     const std::string padded = "0" + std::string(digits) + "0"; // a digit on both sides of the point
     const auto value = text::realIn(padded);
     if (!value) return tooLarge(kRealRange);
@@ -207,7 +206,7 @@ private:
   }
 
   bool readBase(std::string_view base, bool bitFollows) {
-    if (!base.empty() && isDigit(base[0])) {
+    if (!base.empty() && text::isDigit(base[0])) {
       const std::optional<uint32_t> n = number(base);
       word64_ = n.value_or(0);
       return n.has_value();
@@ -246,7 +245,7 @@ private:
   }
 
   bool readRegister(std::string_view text, uint32_t& out) {
-    if (!text.empty() && isDigit(text[0])) {
+    if (!text.empty() && text::isDigit(text[0])) {
       const std::optional<uint32_t> n = number(text);
       out = n.value_or(0);
       return n.has_value();
@@ -266,7 +265,7 @@ private:
       diagnostics_.report(diag::ConstantFormat, rangeOf(word_, text)) << text;
       return false;
     }
-    if (text.empty() || isDigit(text[0])) return readRegister(text, result_.address.indexRegister);
+    if (text.empty() || text::isDigit(text[0])) return readRegister(text, result_.address.indexRegister);
     const Symbol* found = symbol(text);
     if (found == nullptr) return false;
     if (found->kind == SymbolKind::Bit) return mismatch(text, found->kind, "a word or a constant");
@@ -296,7 +295,7 @@ bool isConstantText(std::string_view text) { return text.starts_with('#') || tex
 
 // A lone name of a constant; null when it is anything else. Says nothing.
 const Symbol* constantSymbol(std::string_view text, Symbols& symbols) {
-  if (text.empty() || isDigit(text[0]) || text.find_first_of(".:,") != std::string_view::npos) return nullptr;
+  if (text.empty() || text::isDigit(text[0]) || text.find_first_of(".:,") != std::string_view::npos) return nullptr;
   const Symbol* found = symbols.find(text);
   return found != nullptr && found->kind == SymbolKind::Constant ? found : nullptr;
 }
@@ -387,11 +386,11 @@ Operand parseOperand(const Word& word, Symbols& symbols, Diagnostics& diagnostic
     DiagBuilder report = diagnostics.report(diag::ConstantFormat, rangeOf(word, text));
     report << text;
     noteConstant(report, text, symbols.sources(), rangeOf(word, text));
-    if (!isDigit(text[0]) && text.size() > 1 && (isLetter(text[1]) || text[1] == '_'))
+    if (!text::isDigit(text[0]) && text.size() > 1 && (text::isLetter(text[1]) || text[1] == '_'))
       report.note("a name begins with a letter or _; a closed contact is written [/x]");
     return operand;
   }
-  operand.fromSymbol = !text.empty() && !isDigit(text[0]);
+  operand.fromSymbol = !text.empty() && !text::isDigit(text[0]);
   if (const Symbol* named = constantSymbol(text, symbols)) {
     symbols.use(text, rangeOf(word, text));
     operand.form = Form::Constant;
@@ -420,7 +419,7 @@ Operand parseScopeSymbol(const Word& word, Diagnostics& diagnostics) {
   }
   DiagBuilder report = diagnostics.report(diag::UnknownScopeSymbol, word.range);
   report << word.text;
-  suggest(report, word.range, likeliest(word.text, symbols, &nc::nct::ScopeSymbol::name));
+  suggest(report, word.range, text::likeliest(word.text, symbols, &nc::nct::ScopeSymbol::name));
   return operand;
 }
 
@@ -456,4 +455,4 @@ std::optional<uint32_t> parseLabel(const Word& word, Symbols& symbols, Diagnosti
   return std::nullopt;
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

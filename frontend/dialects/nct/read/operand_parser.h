@@ -6,7 +6,7 @@
 #include "frontend/dialects/nct/read/operand.h"
 #include "frontend/dialects/nct/read/symbols.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 // The characters of `part`, a piece of word.text, in the source.
 SourceRange rangeOf(const Word& word, std::string_view part);
@@ -39,4 +39,4 @@ std::optional<uint32_t> parseLabel(const Word& word, Symbols& symbols, Diagnosti
 // "a word", "a bit", "a constant": for messages.
 std::string_view describe(SymbolKind kind);
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

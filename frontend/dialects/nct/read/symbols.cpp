@@ -9,14 +9,14 @@
 
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "frontend/ladder/text/fix.h"
-#include "ir/support/ascii.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/source.h"
-#include "ir/support/similar.h"
+#include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
+#include "rtlib/text/similar.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 // Declarations that refer to each other, one after the other; bounds the recursion.
@@ -30,10 +30,10 @@ struct Alias {
 constexpr Alias kAliases[] = {{"AP_DISP", "AP_DISPD"}, {"SP_SENDD", "SP_SEND"}};
 
 constexpr std::string_view kNameRule = "a name has letters, digits and _, and begins with a letter or _";
-bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_'; }
+bool isNameChar(char c) { return text::isLetter(c) || text::isDigit(c) || c == '_'; }
 
 bool isName(std::string_view text) {
-  return !text.empty() && !isDigit(text[0]) && std::ranges::all_of(text, isNameChar);
+  return !text.empty() && !text::isDigit(text[0]) && std::ranges::all_of(text, isNameChar);
 }
 
 // What a designation of IEC 81346 or another bad name may become: K1 of -K1, _1M1 of 1M1; empty when that is not a
@@ -46,14 +46,14 @@ std::string likeName(std::string_view text) {
     else if (!name.empty())
       name += '_';
   }
-  if (!name.empty() && isDigit(name[0])) name.insert(0, "_");
+  if (!name.empty() && text::isDigit(name[0])) name.insert(0, "_");
   return isName(name) ? name : std::string();
 }
 
 // An address as IEC 61131, FANUC and Siemens write it, without its '%': I1, X8, QX0, MW100.
 bool isOtherAddress(std::string_view text) {
   const size_t letters = std::min(text.find_first_not_of("ABDEIMQWXYabdeimqwxy"), text.size());
-  return letters >= 1 && letters <= 2 && letters < text.size() && isDigit(text[letters]);
+  return letters >= 1 && letters <= 2 && letters < text.size() && text::isDigit(text[letters]);
 }
 
 // INP0.5, OUT12: a bit or a word of the control's inputs and outputs whose numbers lack zeros, and what is meant.
@@ -166,14 +166,14 @@ void Symbols::explain(DiagBuilder& report, std::span<const UndeclaredName> uses)
     report.note(fmt::format("inputs and outputs are numbered with three digits, their bits with two: {}", meant));
     return;
   }
-  const Likely similar = similarTo(name);
+  const text::Likely similar = similarTo(name);
   ladder::suggest(report, sources_, frontend::placesOf(uses), similar);
   if (isOtherAddress(name)) report.note(kAddresses);
   noteConstant(report, name, sources_, {});
   if (!isName(name)) report.note(kNameRule);
   // (S7001.00) is a coil of the name S7001.
   const bool glued = name.size() > 1 && (name[0] == 'S' || name[0] == 'R') && !use.whole.empty() &&
-                     (isDigit(name[1]) || find(name.substr(1)) != nullptr);
+                     (text::isDigit(name[1]) || find(name.substr(1)) != nullptr);
   const bool coloned = (name == "S" || name == "R") && use.whole.size() > 2 && use.whole[1] == ':';
   if (glued || coloned)
     report.note(fmt::format("set and reset have a blank: ({} {})", name[0], use.whole.substr(coloned ? 2 : 1)));
@@ -186,10 +186,10 @@ void Symbols::explain(DiagBuilder& report, std::span<const UndeclaredName> uses)
 }
 
 // Names of the program come first.
-Likely Symbols::similarTo(std::string_view name) const {
-  const Likely own = likeliest(name, all(), &Symbol::name);
+text::Likely Symbols::similarTo(std::string_view name) const {
+  const text::Likely own = text::likeliest(name, all(), &Symbol::name);
   if (!own.word.empty()) return own;
-  Similar similar(name);
+  text::Similar similar(name);
   for (const nc::Signal& signal : nc::nctSignals()) similar.offer(signal.symbol);
   similar.offer(kFlagsName);
   return {similar.best(), similar.certain()};
@@ -289,4 +289,4 @@ void Symbols::resolveAddress(Symbol& symbol) {
     diagnostics_.report(diag::SymbolInNcArea, value.range) << symbol.name << value.text;
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

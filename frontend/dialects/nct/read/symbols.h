@@ -9,10 +9,10 @@
 #include "frontend/dialects/nct/read/operand.h"
 #include "frontend/ladder/text/ladder_file.h"
 #include "frontend/sema/symbol_table.h"
-#include "ir/support/similar.h"
 #include "rtlib/nc/nct/signals.h"
+#include "rtlib/text/similar.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 inline constexpr std::string_view kFlagsName = "FLAGS";
 // Bits of FLAGS; the order of the manual's chapter 5 (l.725-777).
@@ -80,7 +80,7 @@ private:
   void resolveAddress(Symbol& symbol);
   void explain(DiagBuilder& report, std::span<const UndeclaredName> uses);
   // The known name that is most like a misspelt one; empty when none is close.
-  Likely similarTo(std::string_view name) const;
+  text::Likely similarTo(std::string_view name) const;
 
   static constexpr uint8_t kInput = 1;
   const Config& config_;
@@ -90,4 +90,4 @@ private:
   int depth_ = 0;                  // of declarations that refer to each other
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

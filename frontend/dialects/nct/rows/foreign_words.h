@@ -3,7 +3,7 @@
 #pragma once
 #include "frontend/sema/foreign_word.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 inline constexpr std::string_view kUseAdd = "ADD, whose result comes first";
 inline constexpr std::string_view kUseSub = "SUB, whose result comes first";
@@ -135,4 +135,4 @@ inline constexpr frontend::ForeignWord kForeignWords[] = {
     {"WXOR", "XOR, whose result comes first"},
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -9,7 +9,7 @@
 #include "frontend/dialects/nct/rows/rows_nc.h"
 #include "frontend/table/rows.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 namespace {
 
 using frontend::InstructionInfo;
@@ -73,4 +73,4 @@ const Row& coilRow(int coilKind) {
   return kRows[kByKind[coilKind]];
 }
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

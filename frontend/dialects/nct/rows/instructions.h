@@ -11,7 +11,7 @@
 #include "ir/core/builder.h"
 #include "ir/support/diagnostics.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 struct Lowering; // lower.h
 
@@ -57,4 +57,4 @@ std::string_view doublesOf(std::string_view mnemonic);
 // Boxes of other controls.
 std::span<const frontend::ForeignWord> foreignWords();
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -3,7 +3,7 @@
 #include "frontend/dialects/nct/read/operand.h"
 #include "frontend/table/instruction.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 // How the word of an operand is read.
 enum class OperandClass : uint8_t { Value, Label, Scope, Text };
@@ -62,4 +62,4 @@ inline constexpr OperandKind kText{{"text", "A text in quotes.", "\"Spindle\""},
 
 } // namespace kinds
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

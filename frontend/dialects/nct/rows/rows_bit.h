@@ -4,7 +4,7 @@
 #include "frontend/dialects/nct/rows/instructions.h"
 #include "frontend/dialects/nct/rows/operand_kinds.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 using frontend::Access;
 using frontend::Output;
@@ -93,4 +93,4 @@ inline constexpr Row kBitRows[] = {
      .flow = Flow::Section},
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

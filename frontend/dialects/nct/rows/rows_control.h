@@ -2,7 +2,7 @@
 #pragma once
 #include "frontend/dialects/nct/rows/rows_float.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 constexpr Row controlShape(std::string_view operand, Placement placement, Flow flow) {
   Row row{.info = {.group = "program-control",
@@ -32,4 +32,4 @@ inline constexpr Row kControlRows[] = {
           "With power the subroutine ends.", "|--[N_ON]--{RET}"),
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

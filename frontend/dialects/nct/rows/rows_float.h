@@ -2,7 +2,7 @@
 #pragma once
 #include "frontend/dialects/nct/rows/rows_word.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 constexpr Row floatBinaryShape(std::string_view first, std::string_view second, LowerFn lower) {
   return {.info = {.group = "float",
@@ -123,4 +123,4 @@ inline constexpr Row kFloatRows[] = {
           "Power passes when Value > Data. A NaN: FL_ER, no power.", "|--{FLGT 7000 *5.0}--(7002.00)", kGreater),
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

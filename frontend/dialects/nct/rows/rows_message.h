@@ -2,7 +2,7 @@
 #pragma once
 #include "frontend/dialects/nct/rows/rows_float.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 constexpr Row messageShape(const OperandKind& variableKind) {
   return {.info = {.group = "message",
@@ -41,4 +41,4 @@ inline constexpr Row kMessageRows[] = {
           "As REM, with a double.", "|--[FAULT]--{REMF #20 #0 #0 *1.5}--(R FAULT)", kMessageToLog | kMessageOfReal),
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -3,7 +3,7 @@
 #include "frontend/dialects/nct/rows/rows_float.h"
 #include "rtlib/nc/nct/axis_codes.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 constexpr Row macroShape(frontend::FixedList<O, 8> operands) {
   return {.info = {.group = "nc-service",
@@ -85,4 +85,4 @@ inline constexpr Row kNcRows[] = {
           "As MR, handing data to the NC.", "|--[GO]--{MW 7000 #11}--(R GO)", kWriteArray),
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

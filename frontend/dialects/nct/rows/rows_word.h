@@ -3,7 +3,7 @@
 #pragma once
 #include "frontend/dialects/nct/rows/rows_bit.h"
 
-namespace rung::nct {
+namespace rung::frontend::nct {
 
 inline constexpr frontend::PinInfo kEnable{"EN", "enables the instruction in every cycle"};
 
@@ -168,4 +168,4 @@ inline constexpr Row kWordRows[] = {
           "|--[N_ON]--{DIV 7000 7001 #3}"),
 };
 
-} // namespace rung::nct
+} // namespace rung::frontend::nct

@@ -4,8 +4,8 @@
 #include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/technol.h"
-#include "ir/support/similar.h"
 #include "rtlib/text/letters.h"
+#include "rtlib/text/similar.h"
 
 #include <algorithm>
 #include <ranges>
@@ -31,9 +31,9 @@ const PrefixName* prefixNamed(std::string_view name) {
 }
 
 // Of those that begin with the same letter, or of the others.
-Likely similarPrefix(std::string_view name, bool sameLetter) {
+text::Likely similarPrefix(std::string_view name, bool sameLetter) {
   const auto fits = [&](const PrefixName& p) { return (p.name[0] == text::upper(name[0])) == sameLetter; };
-  return likeliest(name, kPrefixes | std::views::filter(fits), &PrefixName::name);
+  return text::likeliest(name, kPrefixes | std::views::filter(fits), &PrefixName::name);
 }
 
 const PrefixName& prefixOf(uint8_t prefix) {
@@ -189,7 +189,7 @@ uint8_t OperandParser::takePrefix(std::span<const Token>& tokens) {
 bool OperandParser::misspeltPrefix(std::span<const Token> tokens) {
   if (tokens.size() < 3 || tokens[0].kind != TokenKind::Name || !tokens[1].is('.')) return false;
   if (symbols_.find(tokens[0].text, file_) != kNone) return false;
-  Likely meant = similarPrefix(tokens[0].text, true);
+  text::Likely meant = similarPrefix(tokens[0].text, true);
   if (meant.word.empty()) meant = similarPrefix(tokens[0].text, false);
   if (!meant.word.empty()) symbols_.noteUndefined(tokens[0], file_, {.meant = meant});
   return !meant.word.empty();

@@ -6,7 +6,6 @@
 
 #include "frontend/sema/foreign_word.h"
 #include "frontend/syntax/bad_character.h"
-#include "ir/support/ascii.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/diag/technol.h"
 #include "rtlib/text/letters.h"
@@ -15,32 +14,33 @@
 namespace rung::frontend::technol {
 namespace {
 
-bool isNameChar(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '?' || c == '@'; }
+bool isNameChar(char c) { return text::isLetter(c) || text::isDigit(c) || c == '_' || c == '?' || c == '@'; }
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\f'; }
-bool isHexDigit(char c) { return hexDigit(c) >= 0; }
+bool isHexDigit(char c) { return text::hexDigit(c) >= 0; }
 bool isPunct(char c) { return std::string_view(":,.+-()[]$<>").find(c) != std::string_view::npos; }
 
 // End of the number that begins at `first`.
 size_t numberEnd(std::string_view text, size_t first) {
   size_t i = first;
-  while (i < text.size() && isDigit(text[i])) ++i;
-  const bool point = i + 1 < text.size() && text[i] == '.' && isDigit(text[i + 1]);
+  while (i < text.size() && text::isDigit(text[i])) ++i;
+  const bool point = i + 1 < text.size() && text[i] == '.' && text::isDigit(text[i + 1]);
   if (!point) {
     while (i < text.size() && isNameChar(text[i])) ++i;
     return i;
   }
   ++i;
-  while (i < text.size() && isDigit(text[i])) ++i;
+  while (i < text.size() && text::isDigit(text[i])) ++i;
   if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
     size_t e = i + 1;
     if (e < text.size() && (text[e] == '+' || text[e] == '-')) ++e;
-    if (e < text.size() && isDigit(text[e])) {
+    if (e < text.size() && text::isDigit(text[e])) {
       i = e;
-      while (i < text.size() && isDigit(text[i])) ++i;
+      while (i < text.size() && text::isDigit(text[i])) ++i;
     }
   }
   // 1.5X and 1.2.3 are one bad number each.
-  while (i < text.size() && (isNameChar(text[i]) || (text[i] == '.' && i + 1 < text.size() && isDigit(text[i + 1]))))
+  while (i < text.size() &&
+         (isNameChar(text[i]) || (text[i] == '.' && i + 1 < text.size() && text::isDigit(text[i + 1]))))
     ++i;
   return i;
 }
@@ -58,7 +58,7 @@ bool noteNumber(std::string_view word, SourceRange range, DiagBuilder& report) {
   if (!number) return false;
   const bool isHex = number->base == 16;
   const std::string here =
-      (isHex && !isDigit(number->digits[0]) ? "0" : "") + std::string(number->digits) + (isHex ? "h" : "b");
+      (isHex && !text::isDigit(number->digits[0]) ? "0" : "") + std::string(number->digits) + (isHex ? "h" : "b");
   if (parseNumber(here)) report.meant(range, here);
   return true;
 }
@@ -138,7 +138,7 @@ bool tokenize(const SourceLine& line, std::vector<Token>& out, Diagnostics& diag
       continue;
     }
     size_t end = i;
-    if (isDigit(c)) {
+    if (text::isDigit(c)) {
       end = numberEnd(text, i);
     } else {
       while (end < text.size() && isNameChar(text[end])) ++end;
@@ -148,7 +148,7 @@ bool tokenize(const SourceLine& line, std::vector<Token>& out, Diagnostics& diag
       reportWord(line, i, word, diagnostics);
       return false;
     }
-    out.push_back({text.substr(i, end - i), line.at(i), isDigit(c) ? TokenKind::Number : TokenKind::Name});
+    out.push_back({text.substr(i, end - i), line.at(i), text::isDigit(c) ? TokenKind::Number : TokenKind::Name});
     i = end;
   }
   return true;
@@ -170,11 +170,11 @@ static bool isTooLarge(std::string_view text) {
   const int base = last == 'H' ? 16 : last == 'B' ? 2 : 10;
   const std::string_view digits = base == 10 ? text : text.substr(0, text.size() - 1);
   return !digits.empty() && !parseNumber(text) &&
-         std::ranges::all_of(digits, [&](char c) { return hexDigit(c) >= 0 && hexDigit(c) < base; });
+         std::ranges::all_of(digits, [&](char c) { return text::hexDigit(c) >= 0 && text::hexDigit(c) < base; });
 }
 
 std::optional<Number> parseNumber(std::string_view text) {
-  if (text.empty() || !isDigit(text[0])) return std::nullopt;
+  if (text.empty() || !text::isDigit(text[0])) return std::nullopt;
   if (text.find('.') != std::string_view::npos) {
     const auto real = text::numberIn<double>(text);
     return real ? std::optional(Number{.isReal = true, .real = *real}) : std::nullopt;

@@ -128,7 +128,7 @@ void MacroSet::control(std::span<const Token> operands, SourceRange at) {
     c_.report(diag::SyntaxError, rangeOf(program_.sources, operands, at)) << "POS or PRE" << "something else";
 }
 
-void MacroSet::offer(Similar& similar) const {
+void MacroSet::offer(text::Similar& similar) const {
   for (const Macro& macro : macros_) similar.offer(macro.name.text);
 }
 

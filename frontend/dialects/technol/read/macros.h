@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "frontend/dialects/technol/read/read_context.h"
-#include "ir/support/similar.h"
+#include "rtlib/text/similar.h"
 
 namespace rung::frontend::technol {
 
@@ -48,7 +48,7 @@ public:
   // Null when there is none.
   const Macro* find(std::string_view name) const;
   // All names, to find the one that was meant.
-  void offer(Similar& similar) const;
+  void offer(text::Similar& similar) const;
   // The lines of one use; nothing after a report.
   bool expand(const Macro& macro, std::span<const Token> operands, SourceRange at, std::vector<Macro::Line>& out);
 

@@ -152,7 +152,7 @@ const Row* FileReader::unknown(uint32_t& first, uint32_t& count) {
     if (const std::string both = word + (word.ends_with('_') ? "" : "_") + std::string(tokens[1].text); findRow(both))
       word = both;
   const bool parted = word != token.text;
-  Similar similar(word);
+  text::Similar similar(word);
   for (const Row& row : allRows()) similar.offer(row.info.mnemonic);
   macros_.offer(similar);
   DiagBuilder report = c_.report(diag::UnknownInstruction, token.range());

@@ -250,17 +250,17 @@ std::string_view describe(const Symbol& symbol) {
   return describe(symbol.type);
 }
 
-static Likely similarMember(std::string_view name, const char* structure) {
+static text::Likely similarMember(std::string_view name, const char* structure) {
   if (structure == nullptr || *structure == 0) return {};
   const std::string_view type(structure);
   const size_t prefix = (type == "BLK" ? "BLK[]." : std::string(type) + ".").size();
   const auto isMember = [&](const nc::Signal& signal) { return type == signal.area; };
-  return likeliest(name, nc::technolSignals() | std::views::filter(isMember),
-                   [&](const nc::Signal& signal) { return std::string_view(signal.symbol).substr(prefix); });
+  return text::likeliest(name, nc::technolSignals() | std::views::filter(isMember),
+                         [&](const nc::Signal& signal) { return std::string_view(signal.symbol).substr(prefix); });
 }
 
-static Likely similarOfControl(std::string_view name) {
-  Similar similar(name);
+static text::Likely similarOfControl(std::string_view name) {
+  text::Similar similar(name);
   for (const nc::Signal& signal : nc::technolSignals())
     if (std::string_view(signal.area) == "I" || std::string_view(signal.area) == "W") similar.offer(signal.symbol);
   for (const Predefined& constant : kPredefined) similar.offer(constant.name);
@@ -270,7 +270,7 @@ static Likely similarOfControl(std::string_view name) {
 void Symbols::reportUndefined() {
   reportUndeclared(diagnostics_, diag::UndefinedSymbol, [&](DiagBuilder& report, std::span<const UndefinedName> uses) {
     const UndefinedName& first = uses.front();
-    const Likely meant = similar(first);
+    const text::Likely meant = similar(first);
     suggestAt(report, placesOf(uses), {meant.word, meant.certain && isMeantByAll(uses, meant.word)});
     if (meant.word.empty() && looksLikeNumber(first.name))
       report.note("as a number: 0" + std::string(first.name));
@@ -287,22 +287,22 @@ bool Symbols::isMeantByAll(std::span<const UndefinedName> uses, std::string_view
     const bool isAlike = use.file == first.file && use.hint.structure == first.hint.structure &&
                          use.hint.meant.word == first.hint.meant.word;
     if (isAlike) return true;
-    const Likely meant = similar(use);
+    const text::Likely meant = similar(use);
     return meant.certain && meant.word == word;
   });
 }
 
 // The visible name that is most like a misspelt one; "" when none is close. Members of the structure come first, then
 // the program's own names, then those of the control, bits of bytes among them.
-Likely Symbols::similar(const UndefinedName& use) const {
+text::Likely Symbols::similar(const UndefinedName& use) const {
   if (!use.hint.meant.word.empty()) return use.hint.meant;
   if (!diagnostics_.suggests()) return {};
-  if (const Likely member = similarMember(use.name, use.hint.structure); !member.word.empty()) return member;
+  if (const text::Likely member = similarMember(use.name, use.hint.structure); !member.word.empty()) return member;
   const auto isVisible = [&](const Symbol& symbol) {
     const bool isWritten = symbol.name.find(kUseMark) == std::string_view::npos;
     return isWritten && !symbol.predeclared && (!symbol.local || symbol.file == use.file);
   };
-  const Likely own = likeliest(use.name, all() | std::views::filter(isVisible), &Symbol::name);
+  const text::Likely own = text::likeliest(use.name, all() | std::views::filter(isVisible), &Symbol::name);
   return !own.word.empty() ? own : similarOfControl(use.name);
 }
 

@@ -12,8 +12,8 @@
 
 #include "frontend/dialects/technol/records.h"
 #include "frontend/sema/symbol_table.h"
-#include "ir/support/similar.h"
 #include "rtlib/nc/signal.h"
+#include "rtlib/text/similar.h"
 
 namespace rung::frontend::technol {
 
@@ -45,7 +45,7 @@ std::span<const Predefined> predefinedConstants();
 // What is known of a name that is not declared.
 struct NameHint {
   const char* structure = nullptr; // of the control, where it is looked for as a member
-  Likely meant;                    // what it may have been; without a word: to be looked for
+  text::Likely meant;              // what it may have been; without a word: to be looked for
   bool isBit = false;              // it is used as one
 };
 
@@ -90,7 +90,7 @@ private:
   void checkName(const Symbol& symbol);
   void checkPredeclared(const Symbol& symbol);
   uint32_t enterPredeclared(std::string_view name);
-  Likely similar(const UndefinedName& use) const;
+  text::Likely similar(const UndefinedName& use) const;
   bool isMeantByAll(std::span<const UndefinedName> uses, std::string_view word) const;
   void reportIncludedAgain(std::string_view name);
 

@@ -34,7 +34,7 @@ void GskAskedAxes::powerOn() {
 }
 
 // Who comes back finds the axes stopped, and gets the order to leave them so.
-void GskAskedAxes::step(const gsk::SignalsIo& io, rt::ServiceQueue& services, bool served) {
+void GskAskedAxes::step(const gsk::SignalsIo& io, core::ServiceQueue& services, bool served) {
   io_ = &io;
   services_ = &services;
   isServed_ = served;

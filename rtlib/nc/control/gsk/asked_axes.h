@@ -16,7 +16,7 @@ public:
   // Whatever the axes do is nothing that the program has ordered.
   void powerOn();
   // A slot, before the program. `served`: somebody carries commands out.
-  void step(const gsk::SignalsIo& io, rt::ServiceQueue& services, bool served);
+  void step(const gsk::SignalsIo& io, core::ServiceQueue& services, bool served);
 
   std::optional<uint32_t> groupOf(uint32_t axis) const override { return axes_[axis].group; }
   bool begin(uint8_t axes, const GskAxisGroups::Command& command) override;
@@ -45,7 +45,7 @@ private:
   uint8_t lost_ = 0;    // of these, those that the program had moved
   bool isServed_ = true;
   const gsk::SignalsIo* io_ = nullptr; // of the slot; so is the next
-  rt::ServiceQueue* services_ = nullptr;
+  core::ServiceQueue* services_ = nullptr;
 };
 
 } // namespace rung::nc

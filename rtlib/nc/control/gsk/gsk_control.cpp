@@ -5,31 +5,31 @@
 #include <bit>
 #include <cstring>
 
+#include "rtlib/change/written_bits.h"
 #include "rtlib/core/bits.h"
-#include "rtlib/host/program_info.h"
-#include "rtlib/host/written_bits.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/text/number.h"
 
 namespace rung::nc {
 namespace {
 
-std::vector<uint8_t> readArea(const host::Instance& instance, const char* area) {
-  const uint32_t space = host::findSpace(instance.program(), area);
+std::vector<uint8_t> readArea(const runtime::Instance& instance, const char* area) {
+  const uint32_t space = runtime::findSpace(instance.program(), area);
   std::vector<uint8_t> bytes(space == RUNG_NONE ? 0 : instance.program().spaces[space].byte_count);
   for (uint32_t i = 0; i < bytes.size(); ++i) bytes[i] = instance.memory().readByte(space, i);
   return bytes;
 }
 
-void writeArea(host::Instance& instance, const char* area, const std::vector<uint8_t>& bytes) {
-  const uint32_t space = host::findSpace(instance.program(), area);
+void writeArea(runtime::Instance& instance, const char* area, const std::vector<uint8_t>& bytes) {
+  const uint32_t space = runtime::findSpace(instance.program(), area);
   for (uint32_t i = 0; i < bytes.size(); ++i) instance.memory().writeByte(space, i, bytes[i]);
 }
 
 constexpr uint32_t kMostMessageBytes = GskControl::kMostMessageBytes;
 
 struct GskPlaces final : Places {
-  explicit GskPlaces(const rung_program& program) : areas(program), messages(host::findSpace(program, "A")) {
+  explicit GskPlaces(const rung_program& program) : areas(program), messages(runtime::findSpace(program, "A")) {
     if (messages == RUNG_NONE) return;
     const rung_space& space = program.spaces[messages];
     messageBytes = std::min(space.byte_count, kMostMessageBytes);
@@ -40,7 +40,7 @@ struct GskPlaces final : Places {
                         .offset = range.offset,
                         .expanded = range.repr == RUNG_REPR_BYTE_PER_BIT});
       for (uint32_t i = 0; i < pieces.back().size(); ++i)
-        written.push_back(host::writtenBits(program, range.offset + i));
+        written.push_back(runtime::writtenBits(program, range.offset + i));
     }
   }
   gsk::Areas areas;
@@ -68,7 +68,7 @@ bool forShown(const uint8_t* block, std::span<const gsk::MessageBytes> pieces, S
       uint64_t bits = 0;
       std::memcpy(&bits, block + piece.offset + at, std::min(kWord, size - at));
       if (bits == 0) continue;
-      if (piece.expanded) bits = rt::packBits(block + piece.offset + at);
+      if (piece.expanded) bits = core::packBits(block + piece.offset + at);
       for (uint32_t number = 8 * (piece.first + (piece.expanded ? at / 8 : at)) + 1; bits != 0; bits &= bits - 1)
         if (!see(number + static_cast<uint32_t>(std::countr_zero(bits)))) return false;
     }
@@ -82,7 +82,7 @@ std::unique_ptr<Places> GskControl::locate(const rung_program& program) const {
   return std::make_unique<GskPlaces>(program);
 }
 
-void GskControl::usePlaces(host::Instance& instance, Places& places) noexcept {
+void GskControl::usePlaces(runtime::Instance& instance, Places& places) noexcept {
   const auto& own = static_cast<const GskPlaces&>(places);
   io_.emplace(instance, own.areas);
   functions_.use(*io_);
@@ -93,7 +93,7 @@ void GskControl::usePlaces(host::Instance& instance, Places& places) noexcept {
   endOthers(instance.block().data(), own);
 }
 
-void GskControl::prepare(host::Instance& instance, PowerOn kind) {
+void GskControl::prepare(runtime::Instance& instance, PowerOn kind) {
   const std::vector<uint8_t> machine = readArea(instance, "X");
   const std::vector<uint8_t> cnc = readArea(instance, "F");
   Control::prepare(instance, kind);
@@ -123,7 +123,7 @@ void GskControl::see(const uint8_t* block) noexcept {
   hasSeen_ = true;
 }
 
-bool GskControl::nextChange(const host::Instance& instance, rung_message& message) noexcept {
+bool GskControl::nextChange(const runtime::Instance& instance, rung_message& message) noexcept {
   if (isAsSeen(instance.block().data())) return false;
   for (uint32_t byte = 0; byte < messageBytes_; ++byte) {
     const uint8_t bits = instance.memory().readByte(messageArea_, byte);
@@ -139,16 +139,16 @@ bool GskControl::nextChange(const host::Instance& instance, rung_message& messag
   return false;
 }
 
-std::vector<ShownMessage> GskControl::messages(const host::Instance& instance) const {
+std::vector<ShownMessage> GskControl::messages(const runtime::Instance& instance) const {
   std::vector<ShownMessage> shown;
   forShown(instance.block().data(), messagePieces_, [&](uint32_t number) {
-    shown.push_back({number, 0, 0, 0, false, std::string(host::messageText(instance.program(), number))});
+    shown.push_back({number, 0, 0, 0, false, std::string(runtime::messageText(instance.program(), number))});
     return true;
   });
   return shown;
 }
 
-bool GskControl::shows(const host::Instance& instance, std::span<const ShownMessage> these) const noexcept {
+bool GskControl::shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept {
   size_t count = 0;
   const bool same = forShown(instance.block().data(), messagePieces_, [&](uint32_t number) {
     if (count == these.size() || these[count].number != number) return false;
@@ -161,27 +161,27 @@ bool GskControl::shows(const host::Instance& instance, std::span<const ShownMess
 namespace {
 
 // NC.MPOS.N, the machine position of axis N in 0.001 mm: a program has it where it reads positions (PSGNL, PSGN2).
-std::optional<host::Ref> position(const rung_program& program, std::string_view number) {
+std::optional<runtime::Ref> position(const rung_program& program, std::string_view number) {
   constexpr uint32_t kBytes = 4;
-  const uint32_t space = host::findSpace(program, "@MPOS");
+  const uint32_t space = runtime::findSpace(program, "@MPOS");
   const uint32_t axis = text::numberIn<uint32_t>(number).value_or(0);
   if (space == RUNG_NONE || axis == 0 || axis > program.spaces[space].byte_count / kBytes) return std::nullopt;
-  return host::intRef(space, kBytes * (axis - 1), 8 * kBytes);
+  return runtime::intRef(space, kBytes * (axis - 1), 8 * kBytes);
 }
 
 } // namespace
 
-std::optional<host::Ref> GskControl::signal(const rung_program& program, std::string_view name) const {
+std::optional<runtime::Ref> GskControl::signal(const rung_program& program, std::string_view name) const {
   constexpr std::string_view kPositions = "NC.MPOS.";
   if (name.starts_with(kPositions)) return position(program, name.substr(kPositions.size()));
   const Signal* found = findSignal(gskSignals(), name);
   if (found == nullptr) return std::nullopt;
-  const uint32_t space = host::findSpace(program, found->area);
+  const uint32_t space = runtime::findSpace(program, found->area);
   if (space == RUNG_NONE) return std::nullopt;
-  if (found->type == SignalType::Bit) return host::bitRef(space, found->byteOffset, found->bit);
+  if (found->type == SignalType::Bit) return runtime::bitRef(space, found->byteOffset, found->bit);
   const uint32_t bytes = elementBytes(found->type);
   if (bytes == 0) return std::nullopt;
-  return host::intRef(space, found->byteOffset, bytes * 8);
+  return runtime::intRef(space, found->byteOffset, bytes * 8);
 }
 
 } // namespace rung::nc

@@ -27,19 +27,19 @@ class GskControl final : public Control {
 public:
   static constexpr uint32_t kMostMessageBytes = 256; // of the A area
   // X and F belong to the machine and the CNC: switching the PLC off and on does not change them (inventory §18).
-  void prepare(host::Instance& instance, PowerOn kind) override;
+  void prepare(runtime::Instance& instance, PowerOn kind) override;
   std::unique_ptr<Places> locate(const rung_program& program) const override;
   // Message number 8·byte + bit + 1 is shown while its A bit is 1 (P57).
-  std::vector<ShownMessage> messages(const host::Instance& instance) const override;
-  bool shows(const host::Instance& instance, std::span<const ShownMessage> these) const noexcept override;
-  bool nextChange(const host::Instance& instance, rung_message& message) noexcept override;
+  std::vector<ShownMessage> messages(const runtime::Instance& instance) const override;
+  bool shows(const runtime::Instance& instance, std::span<const ShownMessage> these) const noexcept override;
+  bool nextChange(const runtime::Instance& instance, rung_message& message) noexcept override;
   // The second level is cut into slots of 8 ms.
   bool runsInSlots() const override { return true; }
   GskFunctions* functions(uint32_t channel) override { return channel == 0 ? &functions_ : nullptr; }
   // Axes that no group was given for are left alone, with the signals of their groups.
   bool setAxisGroup(uint32_t axis, uint32_t group) override { return axes_.setGroup(axis, group); }
   void setServed(bool served) override { served_ = served; }
-  void beforeSlice(host::Instance& instance) override {
+  void beforeSlice(runtime::Instance& instance) override {
     if (axes_.any() && io_) axes_.step(*io_, instance.services(), served_);
   }
   const char* ownService() const override { return gsk::kAxisRequest; }
@@ -47,8 +47,8 @@ public:
   const gsk::SignalsIo* signals() const { return io_ ? &*io_ : nullptr; }
 
 protected:
-  void usePlaces(host::Instance& instance, Places& places) noexcept override;
-  std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
+  void usePlaces(runtime::Instance& instance, Places& places) noexcept override;
+  std::optional<runtime::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:
   // The bytes of the A area are those of the last look: then none of its bits has changed.

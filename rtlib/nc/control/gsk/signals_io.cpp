@@ -3,12 +3,12 @@
 
 #include <span>
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 
 namespace rung::nc::gsk {
 
 Area::Area(const rung_program& program, std::string_view name) {
-  const uint32_t number = host::findSpace(program, name);
+  const uint32_t number = runtime::findSpace(program, name);
   if (number == RUNG_NONE) return;
   const rung_space& space = program.spaces[number];
   places_.resize(space.byte_count);

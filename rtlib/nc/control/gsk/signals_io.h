@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "rtlib/core/bits.h"
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 
 namespace rung::nc::gsk {
 
@@ -52,11 +52,11 @@ private:
     return size <= places_.size() && byte <= places_.size() - size;
   }
   static uint8_t readByte(const uint8_t* block, Place place) noexcept {
-    return place.expanded ? rt::packBits(block + place.offset) : block[place.offset];
+    return place.expanded ? core::packBits(block + place.offset) : block[place.offset];
   }
   static void writeByte(uint8_t* block, Place place, uint8_t value) noexcept {
     if (place.expanded)
-      rt::unpackBits(value, block + place.offset);
+      core::unpackBits(value, block + place.offset);
     else
       block[place.offset] = value;
   }
@@ -72,7 +72,7 @@ struct Areas {
 
 class SignalsIo {
 public:
-  SignalsIo(host::Instance& instance, const Areas& areas) : block_(instance.block().data()), areas_(&areas) {}
+  SignalsIo(runtime::Instance& instance, const Areas& areas) : block_(instance.block().data()), areas_(&areas) {}
 
   bool x(uint32_t byte, uint32_t bit) const { return areas_->x.bit(block_, byte, bit); }
   bool g(uint32_t byte, uint32_t bit) const { return areas_->g.bit(block_, byte, bit); }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/message_number.h"
 
 namespace rung::nc::nct {
@@ -21,7 +21,7 @@ size_t roomFor(std::string_view text) {
 }
 
 std::string filled(const rung_program& program, const rung_message& message) {
-  const std::string_view text = host::messageText(program, message.number);
+  const std::string_view text = runtime::messageText(program, message.number);
   std::string out(roomFor(text), '\0');
   out.resize(fillText(text, message, out));
   return out;
@@ -32,7 +32,7 @@ std::string filled(const rung_program& program, const rung_message& message) {
 size_t logLine(const rung_program& program, const rung_message& message, std::span<char> out) noexcept {
   size_t size = putMessageNumber(message.number, message.channel, message.index, out);
   if (size < out.size()) out[size++] = ' ';
-  return size + fillText(host::messageText(program, message.number), message, out.subspan(size));
+  return size + fillText(runtime::messageText(program, message.number), message, out.subspan(size));
 }
 
 // ---- cells -------------------------------------------------------------------------------------------------------
@@ -51,7 +51,7 @@ void widen(std::vector<Entry>& used, std::vector<Entry>& other) noexcept {
 
 Messages::Places::Places(const rung_program& program) : cells(program, kMessageSpace) {
   // More than one a box only between a loss in the queue and its discovery.
-  const size_t room = cells.bytes / (size_t{kMessageWords} * 4) + rt::kMessageCapacity;
+  const size_t room = cells.bytes / (size_t{kMessageWords} * 4) + core::kMessageCapacity;
   list.reserve(room);
   cleared.reserve(room);
   sorted.reserve(room);
@@ -65,7 +65,7 @@ void Messages::powerOn() {
   changed_ = true;
 }
 
-void Messages::use(host::Instance& instance, Places& places) noexcept {
+void Messages::use(runtime::Instance& instance, Places& places) noexcept {
   cells_ = instance.block().subspan(places.cells.offset, places.cells.bytes);
   widen(list_, places.list);
   widen(cleared_, places.cleared);
@@ -125,7 +125,7 @@ void Messages::dropUnwanted() {
   changed_ = true;
 }
 
-void Messages::endGone(host::Instance& instance) noexcept {
+void Messages::endGone(runtime::Instance& instance) noexcept {
   for (const Entry& entry : list_) {
     if (isWanted(entry.code)) continue;
     rung_message end = entry.message;

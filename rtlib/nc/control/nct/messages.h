@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "rtlib/host/instance.h"
 #include "rtlib/nc/control/nct/signal_memory.h"
 #include "rtlib/nc/control/shown_message.h"
 #include "rtlib/nc/nct/messages.h"
+#include "rtlib/run/instance.h"
 
 namespace rung::nc::nct {
 
@@ -41,7 +41,7 @@ public:
   void powerOn();
   // Of the program that runs now. Whichever has more room stays here. Messages that no box of it wants are cleared, by
   // messages of the program: after a power-on there are none.
-  void use(host::Instance& instance, Places& places) noexcept;
+  void use(runtime::Instance& instance, Places& places) noexcept;
   // What the program sent.
   void accept(const rung_message& message);
   // The operator's buttons: CANCEL takes the message on top, others the selected one or all of them. False: the
@@ -65,7 +65,7 @@ private:
   void setShown(uint32_t box, bool shown);
   bool isShown(uint32_t code) const;
   bool isWanted(uint32_t code) const noexcept;
-  void endGone(host::Instance& instance) noexcept;
+  void endGone(runtime::Instance& instance) noexcept;
   void remove(uint32_t code);
   void registered(uint32_t code);
   void dropUnwanted();

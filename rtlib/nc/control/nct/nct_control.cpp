@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/names/nct.h"
 #include "rtlib/nc/nct/messages.h"
 #include "rtlib/nc/nct/signals.h"
@@ -30,7 +30,7 @@ struct NctPlaces final : Places {
 } // namespace
 
 // N_SIMU stays 0: the software does not run on the manufacturer's simulator (man. l.7927).
-void NctControl::prepare(host::Instance& instance, PowerOn kind) {
+void NctControl::prepare(runtime::Instance& instance, PowerOn kind) {
   messages_.powerOn(); // those of the time before have ended: none is cleared
   Control::prepare(instance, kind);
   timeSlices_ = cycles_ = 0;
@@ -44,7 +44,7 @@ std::unique_ptr<Places> NctControl::locate(const rung_program& program) const {
 }
 
 // Between two passes, so the next time slice is the first of a cycle.
-void NctControl::usePlaces(host::Instance& instance, Places& places) noexcept {
+void NctControl::usePlaces(runtime::Instance& instance, Places& places) noexcept {
   auto& of = static_cast<NctPlaces&>(places);
   ts_ = nct::SignalMemory(instance, of.timeSlice);
   slicesOfCycle_ = of.slicesOfCycle;
@@ -62,9 +62,9 @@ void NctControl::writeConstants() {
   }
 }
 
-void NctControl::start(host::Instance& instance) {
-  const uint32_t memory = host::findSpace(instance.program(), "M");
-  const uint32_t slice = host::findSpace(instance.program(), "TS");
+void NctControl::start(runtime::Instance& instance) {
+  const uint32_t memory = runtime::findSpace(instance.program(), "M");
+  const uint32_t slice = runtime::findSpace(instance.program(), "TS");
   if (memory == RUNG_NONE || slice == RUNG_NONE) return;
   const uint32_t end = areaBytes(nctSignals(), "M");
   for (uint32_t byte = kFirstNcByte; byte < end; ++byte)
@@ -72,7 +72,7 @@ void NctControl::start(host::Instance& instance) {
 }
 
 // The first time slice of a scan begins a PLC cycle; one that is run by itself belongs to none.
-void NctControl::onHook(host::Instance& instance, uint32_t) {
+void NctControl::onHook(runtime::Instance& instance, uint32_t) {
   using Slice = nct::Messages::Slice;
   if (instance.atListStart())
     now_ = Slice::Alone;
@@ -91,21 +91,21 @@ void NctControl::beginCycle(nct::SignalWord& common) {
   common.set(cycleClock_, cycles_++ % 2 != 0);
 }
 
-void NctControl::afterSlice(host::Instance& instance) {
+void NctControl::afterSlice(runtime::Instance& instance) {
   if (instance.atListStart()) messages_.endCycle();
 }
 
-std::optional<host::Ref> NctControl::writePlace(const rung_program& program, std::string_view name) const {
-  const std::optional<host::Ref> place = readPlace(program, name);
+std::optional<runtime::Ref> NctControl::writePlace(const rung_program& program, std::string_view name) const {
+  const std::optional<runtime::Ref> place = readPlace(program, name);
   return place ? std::optional(nctTimeSlicePlace(program, *place)) : std::nullopt;
 }
 
 // What a program takes for granted (man. 7.12, l.7892-7901); N_NCREADY and N_NVRAMOK a host may know better.
-bool NctControl::writesItself(const rung_program& program, const host::Ref& place) const {
+bool NctControl::writesItself(const rung_program& program, const runtime::Ref& place) const {
   constexpr std::string_view kOwn[] = {"N_ON", "N_OFF", "N_FIRSTCC", "N_P2MS", "N_P2T", "N_P100MS", "N_P1S", "N_P1M"};
-  const auto first = [](const host::Ref& ref) { return uint64_t{8} * ref.byte + ref.bit; };
+  const auto first = [](const runtime::Ref& ref) { return uint64_t{8} * ref.byte + ref.bit; };
   return std::ranges::any_of(kOwn, [&](std::string_view name) {
-    const std::optional<host::Ref> own = writePlace(program, name);
+    const std::optional<runtime::Ref> own = writePlace(program, name);
     return own && own->space == place.space && first(place) <= first(*own) &&
            first(*own) < first(place) + uint64_t{place.width} * place.count;
   });

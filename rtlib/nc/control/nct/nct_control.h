@@ -10,25 +10,25 @@ namespace rung::nc {
 
 class NctControl final : public Control {
 public:
-  void prepare(host::Instance& instance, PowerOn kind) override;
+  void prepare(runtime::Instance& instance, PowerOn kind) override;
   std::unique_ptr<Places> locate(const rung_program& program) const override;
   // At power-on both memories hold what the NC says.
-  void start(host::Instance& instance) override;
+  void start(runtime::Instance& instance) override;
 
   // Before every time slice, while NC inputs go to the time-slice memory.
-  void onHook(host::Instance& instance, uint32_t work) override;
-  void afterSlice(host::Instance& instance) override;
+  void onHook(runtime::Instance& instance, uint32_t work) override;
+  void afterSlice(runtime::Instance& instance) override;
   // The time slice that runs now.
   nct::Messages::Slice slice() const { return now_; }
 
   // The NC and the hardware write the time-slice memory; the program sees it at the next synchronisation.
-  std::optional<host::Ref> writePlace(const rung_program& program, std::string_view name) const override;
+  std::optional<runtime::Ref> writePlace(const rung_program& program, std::string_view name) const override;
 
   void accept(const rung_message& message) override { messages_.accept(message); }
-  std::vector<ShownMessage> messages(const host::Instance& instance) const override {
+  std::vector<ShownMessage> messages(const runtime::Instance& instance) const override {
     return messages_.shown(instance.program());
   }
-  bool shows(const host::Instance&, std::span<const ShownMessage> these) const noexcept override {
+  bool shows(const runtime::Instance&, std::span<const ShownMessage> these) const noexcept override {
     return messages_.shows(these);
   }
   // The text has its numbers filled in.
@@ -42,12 +42,12 @@ public:
     return channel < functions_.size() ? &functions_[channel] : nullptr;
   }
 
-  bool writesItself(const rung_program& program, const host::Ref& place) const override;
+  bool writesItself(const rung_program& program, const runtime::Ref& place) const override;
 
   void reportRetainedLost() override { retainedLost_ = true; }
 
 protected:
-  void usePlaces(host::Instance& instance, Places& places) noexcept override;
+  void usePlaces(runtime::Instance& instance, Places& places) noexcept override;
 
 private:
   // Clock signals with their periods, 50 % duty (man. 7.12, l.7892-7896).

@@ -10,7 +10,7 @@ constexpr int32_t kFirstSpindle = 1; // CN_SSEL, 1 to 16 (man. l.10592)
 
 } // namespace
 
-void NctFunctions::powerOn(host::Instance& instance) {
+void NctFunctions::powerOn(runtime::Instance& instance) {
   instance_ = &instance;
   phases_ = {};
   strobes_ = 0;

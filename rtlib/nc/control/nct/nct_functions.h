@@ -8,9 +8,9 @@
 #pragma once
 #include <array>
 
-#include "rtlib/host/instance.h"
 #include "rtlib/nc/control/functions.h"
 #include "rtlib/nc/control/nct/signal_memory.h"
+#include "rtlib/run/instance.h"
 
 namespace rung::nc {
 
@@ -27,7 +27,7 @@ public:
   explicit NctFunctions(uint32_t channel) : channel_(channel) {} // from 0
 
   // At power-on: the instance outlives the calls of Functions.
-  void powerOn(host::Instance& instance);
+  void powerOn(runtime::Instance& instance);
   // The signals of the program that runs now.
   void use(const nct::SignalMemory& signals) { signals_ = signals; }
 
@@ -56,7 +56,7 @@ private:
   void selectSpindle() const;
 
   uint32_t channel_;
-  const host::Instance* instance_ = nullptr;
+  const runtime::Instance* instance_ = nullptr;
   nct::SignalMemory signals_;
   std::array<Phase, kLines> phases_ = {};
   uint32_t strobes_ = 0; // one bit a line

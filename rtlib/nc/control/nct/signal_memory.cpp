@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/nct/signals.h"
 
 namespace rung::nc::nct {
@@ -29,7 +29,7 @@ uint32_t BitSignal::masks(std::span<const BitSignal> signals) {
 }
 
 PackedSpace::PackedSpace(const rung_program& program, std::string_view name) {
-  const uint32_t number = host::findSpace(program, name);
+  const uint32_t number = runtime::findSpace(program, name);
   if (number == RUNG_NONE) return;
   const rung_space& space = program.spaces[number];
   if (space.range_count != 1 || space.ranges[0].repr != RUNG_REPR_PACKED) return;
@@ -49,13 +49,13 @@ double SignalMemory::real(uint32_t address) const {
   return value;
 }
 
-PlcMemory::PlcMemory(host::Instance& instance)
-    : program_(&instance.program()), block_(instance.block().data()), space_(host::findSpace(instance.program(), "M")),
-      plcNvram_(SignalMemory(instance).words()) {}
+PlcMemory::PlcMemory(runtime::Instance& instance)
+    : program_(&instance.program()), block_(instance.block().data()),
+      space_(runtime::findSpace(instance.program(), "M")), plcNvram_(SignalMemory(instance).words()) {}
 
 uint64_t PlcMemory::read(uint32_t address, uint32_t bytes) const {
   if (space_ == RUNG_NONE || address >= kWords) return 0;
-  return rt::Memory(*program_, block_).read(space_, address * 4, bytes);
+  return core::Memory(*program_, block_).read(space_, address * 4, bytes);
 }
 
 int32_t PlcMemory::word(uint32_t address) const { return static_cast<int32_t>(read(address, 4)); }
@@ -66,7 +66,7 @@ bool PlcMemory::bit(uint32_t address, uint32_t bit) const { return bit < 32 && (
 
 void PlcMemory::setWord(uint32_t address, int32_t value) const {
   if (space_ == RUNG_NONE || address >= kWords) return;
-  rt::Memory(*program_, block_).write(space_, address * 4, 4, static_cast<uint32_t>(value));
+  core::Memory(*program_, block_).write(space_, address * 4, 4, static_cast<uint32_t>(value));
 }
 
 } // namespace rung::nc::nct

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 
 namespace rung::nc::nct {
 
@@ -62,9 +62,9 @@ inline constexpr std::string_view kTimeSliceSpace = "TS"; // the compiler keeps 
 class SignalMemory {
 public:
   SignalMemory() = default;
-  explicit SignalMemory(host::Instance& instance)
+  explicit SignalMemory(runtime::Instance& instance)
       : SignalMemory(instance, PackedSpace(instance.program(), kTimeSliceSpace)) {}
-  SignalMemory(host::Instance& instance, const PackedSpace& timeSlice)
+  SignalMemory(runtime::Instance& instance, const PackedSpace& timeSlice)
       : area_(instance.block().data() + timeSlice.offset), size_(timeSlice.bytes) {}
 
   bool get(const BitSignal& signal, uint32_t index = 0) const { return signal.in(wordOf(signal, index)); }
@@ -144,7 +144,7 @@ public:
   static constexpr uint32_t kWords = 10000;
 
   PlcMemory() = default;
-  explicit PlcMemory(host::Instance& instance);
+  explicit PlcMemory(runtime::Instance& instance);
 
   uint32_t plcNvram() const { return plcNvram_; } // where the user's words begin
   bool contains(int64_t address, int64_t words) const {

@@ -5,9 +5,9 @@
 
 namespace rung::nc::technol {
 
-rt::Place Backup::locate(const rung_program& program) { return locateSignal(program, "REQ_BACKUP_MEM"); }
+core::Place Backup::locate(const rung_program& program) { return locateSignal(program, "REQ_BACKUP_MEM"); }
 
-void Backup::afterMain(host::Instance& instance) {
+void Backup::afterMain(runtime::Instance& instance) {
   if (!stored_) saved(instance);
 }
 

@@ -1,7 +1,7 @@
 // REQ_BACKUP_MEM: the program asks that PLC_MEM_BACKUP be saved now; the control resets the bit when it is done (man.
 // l.7549-7568, l.13500-13518).
 #pragma once
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 
 namespace rung::nc::technol {
 
@@ -10,15 +10,15 @@ public:
   // Whether the host keeps the memory on disk; without it there is nothing to wait for.
   void setStored(bool stored) { stored_ = stored; }
   // The place of REQ_BACKUP_MEM in a program; in the one that runs now.
-  static rt::Place locate(const rung_program& program);
-  void use(const rt::Place& request) { request_ = request; }
-  void afterMain(host::Instance& instance);
-  bool asked(const host::Instance& instance) const { return instance.memory().read(request_) != 0; }
-  void saved(host::Instance& instance) { instance.memory().write(request_, 0); }
+  static core::Place locate(const rung_program& program);
+  void use(const core::Place& request) { request_ = request; }
+  void afterMain(runtime::Instance& instance);
+  bool asked(const runtime::Instance& instance) const { return instance.memory().read(request_) != 0; }
+  void saved(runtime::Instance& instance) { instance.memory().write(request_, 0); }
 
 private:
   bool stored_ = false;
-  rt::Place request_;
+  core::Place request_;
 };
 
 } // namespace rung::nc::technol

@@ -1,7 +1,7 @@
 // The supervisor of part-program blocks (see blocks.h).
 #include "rtlib/nc/control/technol/blocks.h"
 
-#include "rtlib/host/program_info.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/technol/signals.h"
 
@@ -17,13 +17,15 @@ bool lastsOneBlock(std::string_view name) { return name.starts_with("ZM") || nam
 // The mode and G00, G33 of a block stay until the next start (man. l.6752-6780).
 constexpr std::string_view kUntilNextStart[] = {"AUTPI", "REFPI", "CAPI", "G00PI", "G33PI"};
 
-uint64_t get(const host::Instance& instance, const rt::Place& place) { return instance.memory().read(place); }
-void put(host::Instance& instance, const rt::Place& place, uint64_t value) { instance.memory().write(place, value); }
+uint64_t get(const runtime::Instance& instance, const core::Place& place) { return instance.memory().read(place); }
+void put(runtime::Instance& instance, const core::Place& place, uint64_t value) {
+  instance.memory().write(place, value);
+}
 
 } // namespace
 
-std::optional<host::Ref> commandCell(const host::Instance& instance, std::string_view name) {
-  const std::optional<host::Ref> place = signalPlace(instance.program(), name);
+std::optional<runtime::Ref> commandCell(const runtime::Instance& instance, std::string_view name) {
+  const std::optional<runtime::Ref> place = signalPlace(instance.program(), name);
   return place ? place : cellPlace(instance.program(), name);
 }
 
@@ -36,8 +38,8 @@ const Blocks::Places Blocks::kNothing{};
 
 Blocks::Places::Places(const rung_program& program) {
   for (const std::string_view name : kUntilNextStart) untilNextStart.push_back(locateSignal(program, name));
-  queue = host::findSpace(program, "BLK");
-  const auto task = [&](std::string_view name) { return host::findTask(program, name); };
+  queue = runtime::findSpace(program, "BLK");
+  const auto task = [&](std::string_view name) { return runtime::findTask(program, name); };
   init = {task("BLOCK_INIT"), locateCell(program, "@BLOCK_INIT.CONT"), locateCell(program, "@BLOCK_INIT.DONE")};
   done = {task("BLOCK_DONE"), locateCell(program, "@BLOCK_DONE.CONT"), locateCell(program, "@BLOCK_DONE.DONE")};
   initPending = locateCell(program, "@INIT.PENDING");
@@ -48,21 +50,21 @@ Blocks::Places::Places(const rung_program& program) {
   positionReached = locateSignal(program, "PO_POL");
   stopDone = locateSignal(program, "PO_STOP");
   annulment = locateSignal(program, "CAPI");
-  const rt::Memory memory(program, nullptr); // for its places only
+  const core::Memory memory(program, nullptr); // for its places only
   for (const Signal& signal : technolSignals()) {
     const std::string_view name = signal.symbol;
     if (std::string_view(signal.area) != "I" || signal.type != SignalType::Bit || signal.direction != Direction::In)
       continue;
     const auto place = placeOf(program, signal);
     if (!place) continue;
-    if (lastsOneBlock(name)) lastOneBlock.push_back(host::locate(memory, *place));
-    if (name.starts_with("PO_OS")) motionBits.push_back(host::locate(memory, *place));
+    if (lastsOneBlock(name)) lastOneBlock.push_back(runtime::locate(memory, *place));
+    if (name.starts_with("PO_OS")) motionBits.push_back(runtime::locate(memory, *place));
   }
 }
 
-bool Blocks::start(host::Instance& instance, std::span<const CommandValue> values) {
+bool Blocks::start(runtime::Instance& instance, std::span<const CommandValue> values) {
   if (busy()) return false;
-  for (const rt::Place& place : places_->untilNextStart) put(instance, place, 0);
+  for (const core::Place& place : places_->untilNextStart) put(instance, place, 0);
   for (const CommandValue& value : values) {
     if (value.isReal)
       instance.memory().writeReal(value.place, value.real);
@@ -75,14 +77,14 @@ bool Blocks::start(host::Instance& instance, std::span<const CommandValue> value
   return true;
 }
 
-bool Blocks::reached(host::Instance& instance) {
+bool Blocks::reached(runtime::Instance& instance) {
   if (phase_ == Phase::Idle || phase_ == Phase::Done) return false;
   reached_ = true;
   if (phase_ == Phase::Motion) endMotion(instance);
   return true;
 }
 
-void Blocks::annul(host::Instance& instance) {
+void Blocks::annul(runtime::Instance& instance) {
   if (busy()) finish(instance);
   put(instance, places_->stopDone, 0);
   const CommandValue mode[] = {{.place = places_->annulment, .integer = 1}};
@@ -92,12 +94,12 @@ void Blocks::annul(host::Instance& instance) {
 
 // Not before all initialisation is done (man. l.2571-2576), nor while the program forbids or delays it (man.
 // l.6456-6467).
-bool Blocks::mayStart(const host::Instance& instance) const {
+bool Blocks::mayStart(const runtime::Instance& instance) const {
   return get(instance, places_->initPending) == 0 && get(instance, places_->startDisable) == 0 &&
          get(instance, places_->startSuspend) == 0;
 }
 
-void Blocks::enter(host::Instance& instance, Phase phase) {
+void Blocks::enter(runtime::Instance& instance, Phase phase) {
   phase_ = phase;
   first_ = true;
   switch (phase) {
@@ -109,7 +111,7 @@ void Blocks::enter(host::Instance& instance, Phase phase) {
   }
 }
 
-void Blocks::supervise(host::Instance& instance) {
+void Blocks::supervise(runtime::Instance& instance) {
   if (phase_ == Phase::Starting && mayStart(instance)) {
     put(instance, places_->blockInProgress, 1);
     enter(instance, Phase::Init);
@@ -123,7 +125,7 @@ void Blocks::supervise(host::Instance& instance) {
 }
 
 // True when the module ran through. It starts at its beginning with every block.
-bool Blocks::pass(host::Instance& instance, const Module& module) {
+bool Blocks::pass(runtime::Instance& instance, const Module& module) {
   if (first_) {
     put(instance, module.cont, 0);
     put(instance, module.done, 0);
@@ -132,14 +134,14 @@ bool Blocks::pass(host::Instance& instance, const Module& module) {
   return instance.runTask(module.task) && get(instance, module.done) != 0;
 }
 
-void Blocks::endMotion(host::Instance& instance) {
+void Blocks::endMotion(runtime::Instance& instance) {
   put(instance, places_->positionReached, 1);
-  for (const rt::Place& bit : places_->motionBits) put(instance, bit, 0);
+  for (const core::Place& bit : places_->motionBits) put(instance, bit, 0);
 }
 
-void Blocks::finish(host::Instance& instance) {
+void Blocks::finish(runtime::Instance& instance) {
   put(instance, places_->blockInProgress, 0);
-  for (const rt::Place& bit : places_->lastOneBlock) put(instance, bit, 0);
+  for (const core::Place& bit : places_->lastOneBlock) put(instance, bit, 0);
   if (places_->queue != RUNG_NONE)
     for (uint32_t byte = 0; byte < instance.program().spaces[places_->queue].byte_count; ++byte)
       instance.memory().writeByte(places_->queue, byte, 0);

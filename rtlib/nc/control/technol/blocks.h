@@ -7,16 +7,16 @@
 #include <string_view>
 #include <vector>
 
-#include "rtlib/host/instance.h"
+#include "rtlib/run/instance.h"
 
 namespace rung::nc::technol {
 
 // A cell of the command block by its name. Nothing when the name is unknown.
-std::optional<host::Ref> commandCell(const host::Instance& instance, std::string_view name);
+std::optional<runtime::Ref> commandCell(const runtime::Instance& instance, std::string_view name);
 
 // What a block puts into a cell of the command block.
 struct CommandValue {
-  rt::Place place;
+  core::Place place;
   bool isReal = false; // else `integer`; an integer cell gets a real rounded
   int64_t integer = 0;
   double real = 0;
@@ -26,7 +26,7 @@ class Blocks {
   // A block module: its task, the state in which it waits, whether it has run through.
   struct Module {
     uint32_t task = RUNG_NONE;
-    rt::Place cont, done;
+    core::Place cont, done;
   };
 
 public:
@@ -39,11 +39,11 @@ public:
   private:
     friend class Blocks;
     Module init, done;
-    rt::Place initPending, startDisable, startSuspend, statusRestart, blockInProgress, positionReached, stopDone,
+    core::Place initPending, startDisable, startSuspend, statusRestart, blockInProgress, positionReached, stopDone,
         annulment;
-    std::vector<rt::Place> lastOneBlock; // zero again at the end of the block
-    std::vector<rt::Place> motionBits;   // PO_OS...
-    std::vector<rt::Place> untilNextStart;
+    std::vector<core::Place> lastOneBlock; // zero again at the end of the block
+    std::vector<core::Place> motionBits;   // PO_OS...
+    std::vector<core::Place> untilNextStart;
     uint32_t queue = RUNG_NONE; // the space of the queue of command blocks
   };
 
@@ -53,26 +53,26 @@ public:
   void use(const Places& places) { places_ = &places; }
 
   // False: a block is under way already.
-  bool start(host::Instance& instance, std::span<const CommandValue> values);
+  bool start(runtime::Instance& instance, std::span<const CommandValue> values);
   // The programmed position has been reached; while MODULE_BLOCK_INIT runs: the block has no motion. False: no block is
   // in motion.
-  bool reached(host::Instance& instance);
+  bool reached(runtime::Instance& instance);
   bool busy() const { return phase_ != Phase::Idle; }
   // MODULE_BLOCK_INIT has run through: the axes may move.
   bool inMotion() const { return phase_ == Phase::Motion; }
   // Central annulment: the block under way is given up where it is, and a block in that mode, without motion, follows
   // (man. l.6748-6761, 10826). Programs that hold a block wait for it (l.5180-5183, 6444-6447). A stop ends with it.
-  void annul(host::Instance& instance);
+  void annul(runtime::Instance& instance);
   // One pass, between MODULE_INPUT and MODULE_MAIN; where nothing waits the modules follow each other in it.
-  void supervise(host::Instance& instance);
+  void supervise(runtime::Instance& instance);
 
 private:
   enum class Phase : uint8_t { Idle, Starting, Init, Motion, Done };
-  bool mayStart(const host::Instance& instance) const;
-  void enter(host::Instance& instance, Phase phase);
-  bool pass(host::Instance& instance, const Module& module);
-  void endMotion(host::Instance& instance);
-  void finish(host::Instance& instance);
+  bool mayStart(const runtime::Instance& instance) const;
+  void enter(runtime::Instance& instance, Phase phase);
+  bool pass(runtime::Instance& instance, const Module& module);
+  void endMotion(runtime::Instance& instance);
+  void finish(runtime::Instance& instance);
 
   static const Places kNothing;
 

@@ -11,12 +11,10 @@
 namespace rung::nc::technol {
 namespace {
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
 // After a '[': the digits of an index without leading zeros; nothing where there is no index. "" is zero.
 std::optional<std::string_view> digitsOfIndex(std::string_view rest) {
   size_t end = 0;
-  while (end < rest.size() && isDigit(rest[end])) ++end;
+  while (end < rest.size() && text::isDigit(rest[end])) ++end;
   if (end == 0 || end == rest.size() || rest[end] != ']') return std::nullopt;
   const size_t first = std::min(rest.find_first_not_of('0'), end);
   return rest.substr(first, end - first);

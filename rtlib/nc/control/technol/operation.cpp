@@ -35,7 +35,7 @@ void Operation::reset() {
   homed_ = 0;
 }
 
-void Operation::beforePass(host::Instance& instance) {
+void Operation::beforePass(runtime::Instance& instance) {
   const bool moves = get(instance, places_->moves) && !get(instance, places_->byHand);
   const bool runs = moves || get(instance, places_->runs);
   const bool stopped = get(instance, places_->stopped);
@@ -50,14 +50,14 @@ void Operation::beforePass(host::Instance& instance) {
   endHoming(instance);
 }
 
-void Operation::send(host::Instance& instance, PlcEvent event) const {
+void Operation::send(runtime::Instance& instance, PlcEvent event) const {
   places_->onEvent.run(instance, static_cast<uint64_t>(event), false);
 }
 
 // STOPPI is the program's to take back; the control resets the others (l.6402-6414, 11022-11030), which the host sees
 // for a pass.
-void Operation::takeRequests(host::Instance& instance) {
-  const rt::Memory memory = instance.memory();
+void Operation::takeRequests(runtime::Instance& instance) {
+  const core::Memory memory = instance.memory();
   const bool key = get(instance, places_->stop);
   const bool request = get(instance, places_->stopRequest);
   const bool emergency = get(instance, places_->emergencyRequest);
@@ -74,7 +74,7 @@ void Operation::takeRequests(host::Instance& instance) {
 }
 
 // Where nothing runs there is nothing to stop (l.6494-6496).
-void Operation::stop(host::Instance& instance, PlcEvent request) {
+void Operation::stop(runtime::Instance& instance, PlcEvent request) {
   if (get(instance, places_->stopDone) || !runs_) return;
   asked_ = false;
   send(instance, request);
@@ -82,13 +82,13 @@ void Operation::stop(host::Instance& instance, PlcEvent request) {
   send(instance, PlcEvent::Stop);
 }
 
-void Operation::askForStart(host::Instance& instance) {
+void Operation::askForStart(runtime::Instance& instance) {
   instance.memory().write(places_->startSuspend, 0);
   asked_ = true;
   send(instance, PlcEvent::StartRequest);
 }
 
-void Operation::start(host::Instance& instance) {
+void Operation::start(runtime::Instance& instance) {
   if (!runs_ && !get(instance, places_->stopDone)) asked_ = false; // given up
   if (!asked_ || get(instance, places_->startDisable) || get(instance, places_->startSuspend)) return;
   asked_ = false;
@@ -97,10 +97,10 @@ void Operation::start(host::Instance& instance) {
 }
 
 // A motion is one block from where the host begins it to where it ends; the host's kind of motion stays in the block.
-void Operation::follow(host::Instance& instance, bool moves) {
+void Operation::follow(runtime::Instance& instance, bool moves) {
   if (moves_ && !blocks_.busy()) moves_ = false; // given up by an annulment
   if (moves && !moves_) {
-    const rt::Memory memory = instance.memory();
+    const core::Memory memory = instance.memory();
     const CommandValue values[] = {
         {.place = places_->automatic, .integer = 1},
         {.place = places_->rapid, .integer = static_cast<int64_t>(memory.read(places_->rapid))},
@@ -112,18 +112,18 @@ void Operation::follow(host::Instance& instance, bool moves) {
 
 // The program asks for a reference by HOMING_START_REQ, or for its zero point by HOMING_REQ, until the axis has it
 // (l.6643-6652).
-void Operation::endHoming(host::Instance& instance) {
-  const rt::Memory memory = instance.memory();
+void Operation::endHoming(runtime::Instance& instance) {
+  const core::Memory memory = instance.memory();
   const uint64_t homed = memory.read(places_->homed);
   if (homed == homed_) return;
   const uint64_t others = ~(homed & ~homed_);
-  for (const rt::Place& request : {places_->homingRequest, places_->zeroRequest})
+  for (const core::Place& request : {places_->homingRequest, places_->zeroRequest})
     memory.write(request, memory.read(request) & others);
   homed_ = homed;
 }
 
-void Operation::afterSlice(host::Instance& instance) const {
-  const rt::Memory memory = instance.memory();
+void Operation::afterSlice(runtime::Instance& instance) const {
+  const core::Memory memory = instance.memory();
   const bool free = get(instance, places_->byHand) ? get(instance, places_->handEnabled)
                                                    : blocks_.inMotion() && !asked_ && !get(instance, places_->stopDone);
   for (const Places::Axis& axis : places_->axes)

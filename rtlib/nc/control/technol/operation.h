@@ -32,15 +32,15 @@ public:
   private:
     friend class Operation;
     struct Axis {
-      rt::Place allowed, enabled; // MPxPI, MPx
+      core::Place allowed, enabled; // MPxPI, MPx
     };
-    rt::Place runs, stopped, moves, byHand; // of the host
-    rt::Place rapid, thread;                // G00PI, G33PI
-    rt::Place stop, stopRequest, emergencyRequest;
-    rt::Place startDisable, startSuspend, stopDone;
-    rt::Place handEnabled, handSelect, handCancel;
-    rt::Place homed, homingRequest, zeroRequest;
-    rt::Place automatic; // AUTPI
+    core::Place runs, stopped, moves, byHand; // of the host
+    core::Place rapid, thread;                // G00PI, G33PI
+    core::Place stop, stopRequest, emergencyRequest;
+    core::Place startDisable, startSuspend, stopDone;
+    core::Place handEnabled, handSelect, handCancel;
+    core::Place homed, homingRequest, zeroRequest;
+    core::Place automatic; // AUTPI
     std::array<Axis, kAxes> axes;
     Procedure onEvent;
   };
@@ -52,19 +52,21 @@ public:
   void use(const Places& places) { places_ = &places; }
 
   // Before a pass, when the host has written its signals.
-  void beforePass(host::Instance& instance);
+  void beforePass(runtime::Instance& instance);
   // After a slice, for a host that has called beforePass.
-  void afterSlice(host::Instance& instance) const;
+  void afterSlice(runtime::Instance& instance) const;
 
 private:
-  void send(host::Instance& instance, PlcEvent event) const;
-  void takeRequests(host::Instance& instance);
-  void stop(host::Instance& instance, PlcEvent request);
-  void askForStart(host::Instance& instance);
-  void start(host::Instance& instance);
-  void follow(host::Instance& instance, bool moves);
-  void endHoming(host::Instance& instance);
-  bool get(const host::Instance& instance, const rt::Place& place) const { return instance.memory().read(place) != 0; }
+  void send(runtime::Instance& instance, PlcEvent event) const;
+  void takeRequests(runtime::Instance& instance);
+  void stop(runtime::Instance& instance, PlcEvent request);
+  void askForStart(runtime::Instance& instance);
+  void start(runtime::Instance& instance);
+  void follow(runtime::Instance& instance, bool moves);
+  void endHoming(runtime::Instance& instance);
+  bool get(const runtime::Instance& instance, const core::Place& place) const {
+    return instance.memory().read(place) != 0;
+  }
 
   static const Places kNothing;
 

@@ -13,39 +13,39 @@ const ProgramLife::Places ProgramLife::kNothing{};
 ProgramLife::Places::Places(const rung_program& program)
     : done(program, "DONE"), donePending(locateCell(program, "@DONE.PENDING")) {}
 
-void ProgramLife::powerOn(host::Instance& instance) {
+void ProgramLife::powerOn(runtime::Instance& instance) {
   stopping_ = false;
   instance.setStopped(false);
   runWith(instance, "INIT", kPower, false);
 }
 
-bool ProgramLife::donePending(const host::Instance& instance) const {
+bool ProgramLife::donePending(const runtime::Instance& instance) const {
   return instance.memory().read(places_->donePending) != 0;
 }
 
 // A program that is stopped has had its shutdown.
-bool ProgramLife::powerOff(host::Instance& instance) {
+bool ProgramLife::powerOff(runtime::Instance& instance) {
   if (instance.stopped()) return false;
   places_->done.run(instance, kPower, false);
   return donePending(instance);
 }
 
-void ProgramLife::start(host::Instance& instance) {
+void ProgramLife::start(runtime::Instance& instance) {
   stopping_ = false;
   instance.setStopped(false);
   runWith(instance, "INIT", kCommand, false);
 }
 
-void ProgramLife::stop(host::Instance& instance) {
+void ProgramLife::stop(runtime::Instance& instance) {
   if (instance.stopped() || stopping_) return;
   places_->done.run(instance, kCommand, false);
   stopping_ = true;
   afterScan(instance);
 }
 
-void ProgramLife::clear(host::Instance& instance) { runWith(instance, "CLEAR", 0, false); }
+void ProgramLife::clear(runtime::Instance& instance) { runWith(instance, "CLEAR", 0, false); }
 
-void ProgramLife::afterScan(host::Instance& instance) {
+void ProgramLife::afterScan(runtime::Instance& instance) {
   if (!stopping_ || donePending(instance)) return;
   stopping_ = false;
   instance.setStopped(true);

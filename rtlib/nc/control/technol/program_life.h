@@ -16,24 +16,24 @@ public:
   private:
     friend class ProgramLife;
     Procedure done;
-    rt::Place donePending;
+    core::Place donePending;
   };
 
   // Those of the program that runs now, which outlive their use.
   void use(const Places& places) { places_ = &places; }
 
   // After the reset of the memory. DR = 0 informs MODULE_INIT that the control was switched on.
-  void powerOn(host::Instance& instance);
+  void powerOn(runtime::Instance& instance);
   // MODULE_DONE with DR = 0. True while the program has to run on, because MODULE_DONE_FINISHED is pending.
-  bool powerOff(host::Instance& instance);
-  bool donePending(const host::Instance& instance) const;
+  bool powerOff(runtime::Instance& instance);
+  bool donePending(const runtime::Instance& instance) const;
 
   // The commands START PLC and STOP PLC, DR = 1; CLEAR.
-  void start(host::Instance& instance);
-  void stop(host::Instance& instance);
-  void clear(host::Instance& instance);
+  void start(runtime::Instance& instance);
+  void stop(runtime::Instance& instance);
+  void clear(runtime::Instance& instance);
   // The program stops when the end of its shutdown is no longer pending.
-  void afterScan(host::Instance& instance);
+  void afterScan(runtime::Instance& instance);
 
 private:
   static const Places kNothing;

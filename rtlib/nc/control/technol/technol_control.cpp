@@ -20,12 +20,12 @@ struct TechnolPlaces final : Places {
   technol::Operation::Places operation;
   TechnolFunctions::Places functions;
   technol::ProgramLife::Places life;
-  rt::Place backup;
+  core::Place backup;
 };
 
 } // namespace
 
-void TechnolControl::prepare(host::Instance& instance, PowerOn kind) {
+void TechnolControl::prepare(runtime::Instance& instance, PowerOn kind) {
   Control::prepare(instance, kind);
   messages_.clear();
   blocks_.reset();
@@ -37,7 +37,7 @@ std::unique_ptr<Places> TechnolControl::locate(const rung_program& program) cons
   return std::make_unique<TechnolPlaces>(program);
 }
 
-void TechnolControl::usePlaces(host::Instance& instance, Places& places) noexcept {
+void TechnolControl::usePlaces(runtime::Instance& instance, Places& places) noexcept {
   const auto& of = static_cast<const TechnolPlaces&>(places);
   blocks_.use(of.blocks);
   operation_.use(of.operation);
@@ -46,21 +46,21 @@ void TechnolControl::usePlaces(host::Instance& instance, Places& places) noexcep
   backup_.use(of.backup);
 }
 
-void TechnolControl::onHook(host::Instance& instance, uint32_t work) {
+void TechnolControl::onHook(runtime::Instance& instance, uint32_t work) {
   if (work == kHookAfterInput) blocks_.supervise(instance);
   if (work == kHookAfterMain) backup_.afterMain(instance);
 }
 
 uint32_t TechnolControl::works() const { return 1u << kHookAfterInput | 1u << kHookAfterMain; }
 
-void TechnolControl::onFault(host::Instance& instance) { technol::runWith(instance, "HALT", 0, false); }
+void TechnolControl::onFault(runtime::Instance& instance) { technol::runWith(instance, "HALT", 0, false); }
 
-void TechnolControl::beforeSlice(host::Instance& instance) {
+void TechnolControl::beforeSlice(runtime::Instance& instance) {
   driven_ = true;
   if (instance.atListStart() && !instance.stopped()) operation_.beforePass(instance);
 }
 
-void TechnolControl::afterSlice(host::Instance& instance) {
+void TechnolControl::afterSlice(runtime::Instance& instance) {
   if (driven_) operation_.afterSlice(instance);
   if (instance.atListStart()) life_.afterScan(instance);
 }
@@ -93,7 +93,7 @@ std::string TechnolControl::memoryText(std::string_view shown, uint32_t bytes) c
   return nc::memoryText(shown).substr(0, bytes - 1u);
 }
 
-std::optional<host::Ref> TechnolControl::signal(const rung_program& program, std::string_view name) const {
+std::optional<runtime::Ref> TechnolControl::signal(const rung_program& program, std::string_view name) const {
   return technol::signalPlace(program, name);
 }
 

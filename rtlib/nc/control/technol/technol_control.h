@@ -13,21 +13,21 @@ namespace rung::nc {
 
 class TechnolControl final : public Control {
 public:
-  void prepare(host::Instance& instance, PowerOn kind) override;
-  void start(host::Instance& instance) override { life_.powerOn(instance); }
+  void prepare(runtime::Instance& instance, PowerOn kind) override;
+  void start(runtime::Instance& instance) override { life_.powerOn(instance); }
 
-  void onHook(host::Instance& instance, uint32_t work) override;
+  void onHook(runtime::Instance& instance, uint32_t work) override;
   uint32_t works() const override;
-  void onFault(host::Instance& instance) override;
+  void onFault(runtime::Instance& instance) override;
   std::unique_ptr<Places> locate(const rung_program& program) const override;
-  void beforeSlice(host::Instance& instance) override;
-  void afterSlice(host::Instance& instance) override;
+  void beforeSlice(runtime::Instance& instance) override;
+  void afterSlice(runtime::Instance& instance) override;
 
   bool define(const DefinedMessage& message) override;
   rung_message outward(const rung_message& message) const noexcept override { return messages_.outward(message); }
   void accept(const rung_message& message) override { messages_.accept(message); }
-  std::vector<ShownMessage> messages(const host::Instance&) const override { return messages_.shown(); }
-  bool shows(const host::Instance&, std::span<const ShownMessage> these) const noexcept override {
+  std::vector<ShownMessage> messages(const runtime::Instance&) const override { return messages_.shown(); }
+  bool shows(const runtime::Instance&, std::span<const ShownMessage> these) const noexcept override {
     return messages_.shows(these);
   }
   size_t describe(const rung_program& program, const rung_message& message,
@@ -43,8 +43,8 @@ public:
 
   bool savesOnRequest() const override { return true; }
   void setStored(bool stored) override { backup_.setStored(stored); }
-  bool asksToSave(const host::Instance& instance) const override { return backup_.asked(instance); }
-  void saved(host::Instance& instance) override { backup_.saved(instance); }
+  bool asksToSave(const runtime::Instance& instance) const override { return backup_.asked(instance); }
+  void saved(runtime::Instance& instance) override { backup_.saved(instance); }
 
   // What the operator and the part program do.
   technol::ProgramLife& life() { return life_; }
@@ -52,12 +52,12 @@ public:
   const technol::Messages& list() const { return messages_; }
   technol::Blocks& blocks() { return blocks_; }
 
-  bool beginPowerOff(host::Instance& instance) override { return life_.powerOff(instance); }
-  bool endsLater(const host::Instance& instance) const override { return life_.donePending(instance); }
+  bool beginPowerOff(runtime::Instance& instance) override { return life_.powerOff(instance); }
+  bool endsLater(const runtime::Instance& instance) const override { return life_.donePending(instance); }
 
 protected:
-  void usePlaces(host::Instance& instance, Places& places) noexcept override;
-  std::optional<host::Ref> signal(const rung_program& program, std::string_view name) const override;
+  void usePlaces(runtime::Instance& instance, Places& places) noexcept override;
+  std::optional<runtime::Ref> signal(const rung_program& program, std::string_view name) const override;
 
 private:
   technol::Blocks blocks_;

@@ -22,8 +22,8 @@ class TechnolFunctions final : public Functions {
   enum class Key : uint8_t { None, Waits, Pressed };
 
   struct Group {
-    rt::Place changed, code;           // ZMMxPI; PBxx
-    rt::Place blockChanged, blockCode; // BLK[0].Mx, BLK[0].M[x]
+    core::Place changed, code;           // ZMMxPI; PBxx
+    core::Place blockChanged, blockCode; // BLK[0].Mx, BLK[0].M[x]
   };
 
 public:
@@ -35,21 +35,21 @@ public:
 
   private:
     friend class TechnolFunctions;
-    rt::Place automatic; // AUTPI
+    core::Place automatic; // AUTPI
     std::array<Group, kGroups + 1> groups;
-    std::array<rt::Place, kDecoded> decoded;
-    rt::Place speedChanged, speed;
-    rt::Place toolChanged, blockToolChanged, blockTool;
+    std::array<core::Place, kDecoded> decoded;
+    core::Place speedChanged, speed;
+    core::Place toolChanged, blockToolChanged, blockTool;
     technol::Procedure onCommand;
-    rt::Place hChanged, blockHChanged, hCode, blockH;
-    std::array<rt::Place, 4> toolDigits;
+    core::Place hChanged, blockHChanged, hCode, blockH;
+    std::array<core::Place, 4> toolDigits;
   };
 
   // The blocks outlive it.
   explicit TechnolFunctions(technol::Blocks& blocks);
 
   // Those of the program that runs now, which outlive their use; so does the instance.
-  void use(host::Instance& instance, const Places& places) {
+  void use(runtime::Instance& instance, const Places& places) {
     instance_ = &instance;
     places_ = &places;
   }
@@ -73,8 +73,8 @@ private:
     std::array<technol::CommandValue, kMostValues> all;
     uint32_t count = 0;
 
-    void add(const rt::Place& place, int64_t value) { all[count++] = {.place = place, .integer = value}; }
-    void addReal(const rt::Place& place, double value) {
+    void add(const core::Place& place, int64_t value) { all[count++] = {.place = place, .integer = value}; }
+    void addReal(const core::Place& place, double value) {
       all[count++] = {.place = place, .isReal = true, .real = value};
     }
   };
@@ -88,7 +88,7 @@ private:
   static const Places kNothing;
 
   technol::Blocks& blocks_;
-  host::Instance* instance_ = nullptr;
+  runtime::Instance* instance_ = nullptr;
   const Places* places_ = &kNothing;
   std::array<uint8_t, kMostM + 1> groupOfM_ = {}; // by code
   Key key_ = Key::None;

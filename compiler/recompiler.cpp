@@ -1,0 +1,83 @@
+// Chunks with forced cells (see recompiler.h).
+#include "compiler/recompiler.h"
+
+#include "codegen/jit/jit_code.h"
+#include "compiler/forced_program.h"
+#include "compiler/tiered.h"
+#include "ir/interp/interp.h"
+
+namespace rung::compiler {
+namespace {
+
+class InterpretedCode final : public ForcedCode {
+public:
+  InterpretedCode(const Compiled& source, const EngineOptions& options, const rung_program& running,
+                  std::span<const rung_forced_byte> forced)
+      : program_(source, forced), engine_(program_.layout, running.code_hash, countingOf(options)) {
+    if (options.observer) engine_.setObserver(options.observer(source));
+    code_ = {engine_.program().chunk_fns, engine_.context()};
+  }
+
+private:
+  ForcedProgram program_;
+  ir::InterpEngine engine_;
+};
+
+class NativeCode final : public ForcedCode {
+public:
+  NativeCode(const rung_program& running, void* engine)
+      : functions_(running.chunk_count), isChanged_(running.chunk_count) {
+    code_ = {functions_.data(), engine};
+  }
+  ~NativeCode() override {
+    if (tiers_ != nullptr) tiers_->unfollow(functions_);
+  }
+
+  Result<void> change(const ForcedProgram& program, std::span<const uint32_t> chunks,
+                      const codegen::JitOptions& options) {
+    for (const uint32_t chunk : chunks) isChanged_[chunk] = true;
+    Result<std::unique_ptr<codegen::JitCode>> code = codegen::makeJitCode(options);
+    if (!code.ok()) return code.failure();
+    changed_ = std::move(code).value();
+    const auto take = [&](uint32_t chunk, rung_chunk_fn function) { functions_[chunk] = function; };
+    return changed_->compile(program.layout, 0, chunks, take, nullptr);
+  }
+
+  // The other chunks: as the program has them, or will have them.
+  void keep(const rung_chunk_fn* functions) {
+    for (size_t chunk = 0; chunk < functions_.size(); ++chunk)
+      if (!isChanged_[chunk]) functions_[chunk] = functions[chunk];
+  }
+  void keep(std::shared_ptr<TierTables> tiers) {
+    tiers_ = std::move(tiers);
+    tiers_->follow(functions_, isChanged_);
+  }
+
+private:
+  std::unique_ptr<codegen::JitCode> changed_;
+  std::vector<rung_chunk_fn> functions_; // by chunk
+  std::vector<bool> isChanged_;
+  std::shared_ptr<TierTables> tiers_;
+};
+
+} // namespace
+
+Result<std::unique_ptr<ForcedCode>> makeForcedCode(const Compiled& source, EngineKind kind,
+                                                   const EngineOptions& options, const rung_program& running,
+                                                   void* engine, std::span<const rung_forced_byte> forced) {
+  if (kind == EngineKind::Interp)
+    return std::unique_ptr<ForcedCode>(std::make_unique<InterpretedCode>(source, options, running, forced));
+  const ForcedProgram program(source, forced);
+  auto code = std::make_unique<NativeCode>(running, engine);
+  codegen::JitOptions jit = jitOptionsOf(options);
+  jit.cacheFolder.clear();
+  const Result<void> changed = code->change(program, program.chunksUnlike(*source.module), jit);
+  if (!changed.ok()) return changed.failure();
+  if (kind == EngineKind::Tiered)
+    code->keep(static_cast<const TieredEngine*>(engine)->tables());
+  else
+    code->keep(running.chunk_fns);
+  return std::unique_ptr<ForcedCode>(std::move(code));
+}
+
+} // namespace rung::compiler

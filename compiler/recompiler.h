@@ -1,0 +1,27 @@
+// Other code for a program that is compiled already: its chunks with cells that are held at values.
+#pragma once
+#include <memory>
+#include <span>
+
+#include "compiler/engines.h"
+#include "rtlib/core/runner.h"
+
+namespace rung::compiler {
+
+// Code for all chunks of a program: its own, but for those that would write forced bits.
+class ForcedCode {
+public:
+  virtual ~ForcedCode() = default;
+  const core::Code& code() const { return code_; }
+
+protected:
+  core::Code code_;
+};
+
+// `compiled` has been kept as it was built. `running` is the program whose code is replaced, and `engine` what its
+// chunks find in their context; both outlive the result. `forced`: in the order of space and byte, each once.
+Result<std::unique_ptr<ForcedCode>> makeForcedCode(const Compiled& compiled, EngineKind kind,
+                                                   const EngineOptions& options, const rung_program& running,
+                                                   void* engine, std::span<const rung_forced_byte> forced);
+
+} // namespace rung::compiler

@@ -1,0 +1,13 @@
+// From packed forces to a program file, in memory: the program with chunks that leave the forced bits as they are.
+#pragma once
+#include <string_view>
+
+#include "machine/compile/outcome.h"
+
+namespace rung::compile {
+
+// Opens no file; the linker writes to standard output (see buildLlvmSharedObjectByOutput). The file that is made
+// carries no IR.
+Outcome compileForces(std::string_view packed);
+
+} // namespace rung::compile

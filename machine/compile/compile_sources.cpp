@@ -1,0 +1,72 @@
+// See compile_sources.h.
+#include "machine/compile/compile_sources.h"
+
+#include <vector>
+
+#include "codegen/llvm/llvm_emitter.h"
+#include "compiler/compile.h"
+#include "compiler/configuration.h"
+#include "compiler/kept_ir.h"
+#include "ir/support/diag_render.h"
+#include "machine/compile/sources.h"
+#include "rtlib/load/sealing.h"
+
+namespace rung::compile {
+namespace {
+
+compiler::CompileRequest requestOf(const Sources& sources) {
+  compiler::CompileRequest request;
+  request.dialect = sources.dialect;
+  request.name = sources.name;
+  request.options.config = sources.config;
+  request.options.includePaths = sources.includePaths;
+  request.instrument = sources.profile;
+  request.keepBuilt = true;
+  return request;
+}
+
+// As `rungc build`.
+void checkNames(const compiler::Compiled& compiled, const SourceManager& sources, Diagnostics& diagnostics) {
+  const std::vector<std::pair<std::string, std::string>> pairs(compiled.options.config.begin(),
+                                                               compiled.options.config.end());
+  for (const compiler::ConfigProblem& problem : compiler::checkNamesOfProgram(*compiled.dialect, sources, pairs))
+    compiler::report(problem, *compiled.dialect, {}, diagnostics);
+}
+
+std::string reportOf(const Diagnostics& diagnostics, const SourceManager& sources) {
+  std::string report = renderText(diagnostics, sources) + closingLine(diagnostics);
+  constexpr std::string_view kCut = "\n(more has been left out)\n";
+  if (report.size() <= kMostReport - kCut.size()) return report;
+  report.resize(kMostReport - kCut.size());
+  return report.append(kCut);
+}
+
+Outcome compile(const Sources& given) {
+  SourceManager sources(given.texts);
+  std::vector<FileId> files;
+  for (const std::string& name : given.files) files.push_back(sources.addFile(name).value());
+  Diagnostics diagnostics;
+  const auto compiled = compiler::compile(sources, files, requestOf(given), diagnostics);
+  if (compiled) checkNames(*compiled, sources, diagnostics);
+  std::string report = reportOf(diagnostics, sources);
+  if (!compiled || diagnostics.hasErrors())
+    return {.verdict = kVerdictErrors, .report = std::move(report), .image = {}};
+  codegen::LlvmOptions options;
+  options.debugInfo = false;
+  Result<std::string> object = codegen::buildLlvmSharedObjectByOutput(*compiled->layout, compiled->codeHash, options);
+  if (object.ok()) object = compiler::withIr(object.value(), *compiled);
+  if (!object.ok()) return failed(object.error());
+  return {.verdict = kVerdictCompiled, .report = std::move(report), .image = runtime::sealed(object.value())};
+}
+
+} // namespace
+
+Outcome compileSources(std::string_view packed) {
+  return outcomeOf([&] {
+    std::string problem;
+    const std::optional<Sources> given = unpacked(packed, problem);
+    return given ? compile(*given) : failed(std::move(problem));
+  });
+}
+
+} // namespace rung::compile

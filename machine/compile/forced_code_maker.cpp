@@ -1,0 +1,116 @@
+// See forced_code_maker.h.
+#include "machine/compile/forced_code_maker.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+#include "machine/compile/forces.h"
+#include "machine/compile/limits.h"
+
+namespace rung::compile {
+namespace {
+
+using Shared = std::shared_ptr<ForcedCodeMaker>;
+
+bool same(const rung_forced_byte& a, const rung_forced_byte& b) {
+  return a.space == b.space && a.byte == b.byte && a.mask == b.mask && a.value == b.value;
+}
+
+std::string sizeOf(const rung_program& program) {
+  return std::to_string(program.chunk_count) + " chunks and " + std::to_string(program.memory_size) +
+         " bytes of memory";
+}
+
+// Throws where this code cannot take the place of the program's.
+void checkSame(const rung_program& made, const rung_program& program) {
+  if (made.chunk_count != program.chunk_count || made.memory_size != program.memory_size)
+    throw std::runtime_error("the compiler process made code of " + sizeOf(made) + ", expected " + sizeOf(program));
+  if (made.layout_hash != program.layout_hash || made.code_hash != program.code_hash)
+    throw std::runtime_error("the compiler process made code of another program");
+}
+
+// All of the file that has been loaded.
+std::string loadedFile(const rung_image* image) {
+  std::string file = fileOf(image, kMostImage);
+  if (file.empty())
+    throw std::runtime_error("its file cannot be read, or has more than " + std::to_string(kMostImage) + " bytes");
+  return file;
+}
+
+} // namespace
+
+// Chunk functions of a compiled program need nothing but their arguments.
+struct ForcedCodeMaker::Made {
+  Image image;
+};
+
+void ForcedCodeMaker::serve(const Image& image) {
+  auto maker = std::make_unique<Shared>(shared_from_this());
+  auto described = sized<rung_code_maker>();
+  described.force = [](void* user, const rung_image* of, void*, const rung_forced_byte* forced, uint32_t count,
+                       rung_forced_code* code, char* problem, size_t problemBytes) {
+    const rung_program& program = *rung_image_program(of);
+    try {
+      if ((*static_cast<Shared*>(user))->force(of, program, {forced, count}, *code)) return int32_t{RUNG_OK};
+      std::snprintf(problem, problemBytes, "%s is being compiled with the forced variables", program.name);
+      return int32_t{RUNG_LATER};
+    } catch (const std::exception& thrown) {
+      std::snprintf(problem, problemBytes, "rungs of %s write a variable that is to be forced: %s", program.name,
+                    thrown.what());
+      return int32_t{RUNG_REFUSED};
+    }
+  };
+  described.release = [](void* user) { delete static_cast<Shared*>(user); };
+  described.user = maker.get();
+  const int32_t status = rung_image_serve(image.handle(), &described);
+  if (status == RUNG_WRONG_STATE) return; // it has been before
+  check(status);
+  [[maybe_unused]] const Shared* images = maker.release();
+}
+
+void ForcedCodeMaker::abandon() {
+  const std::lock_guard lock(mutex_);
+  compilation_.reset();
+}
+
+bool ForcedCodeMaker::isWanted(const Wanted& other) const {
+  return wanted_.codeHash == other.codeHash && wanted_.layoutHash == other.layoutHash &&
+         std::ranges::equal(wanted_.bytes, other.bytes, same);
+}
+
+void ForcedCodeMaker::begin(const rung_image* image, Wanted wanted) {
+  if (wanted.bytes.size() > kMostForcedBytes)
+    throw std::runtime_error("found " + std::to_string(wanted.bytes.size()) + " forced bytes, expected at most " +
+                             std::to_string(kMostForcedBytes));
+  const std::string file = loadedFile(image);
+  wanted_ = std::move(wanted);
+  compilation_ = std::make_unique<Compilation>(
+      packed(Forces{
+          .codeHash = wanted_.codeHash, .layoutHash = wanted_.layoutHash, .bytes = wanted_.bytes, .program = file}),
+      Compilation::Input::Forces);
+}
+
+bool ForcedCodeMaker::force(const rung_image* image, const rung_program& program,
+                            std::span<const rung_forced_byte> forced, rung_forced_code& code) {
+  Wanted wanted{program.code_hash, program.layout_hash, {forced.begin(), forced.end()}};
+  const std::lock_guard lock(mutex_);
+  if (compilation_ == nullptr || !isWanted(wanted)) {
+    compilation_.reset(); // it ends before the next one begins
+    begin(image, std::move(wanted));
+  }
+  if (compilation_->state() == Compilation::State::Running) return false;
+  const std::unique_ptr<Compilation> done = std::exchange(compilation_, nullptr);
+  if (done->state() != Compilation::State::Compiled) throw std::runtime_error(done->report());
+  auto made = std::make_unique<Made>(Image::ofMemory(done->image(), "the code with the forced variables"));
+  checkSame(made->image.program(), program);
+  code = {.chunk_fns = made->image.program().chunk_fns,
+          .engine = nullptr,
+          .release = [](void* owner) { delete static_cast<Made*>(owner); },
+          .owner = made.get()};
+  [[maybe_unused]] const Made* codes = made.release();
+  return true;
+}
+
+} // namespace rung::compile

@@ -1,0 +1,34 @@
+// What came of a compilation, for the host.
+#pragma once
+#include <exception>
+#include <fmt/format.h>
+#include <new>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "ir/support/check.h"
+#include "machine/compile/limits.h"
+
+namespace rung::compile {
+
+struct Outcome {
+  std::string_view verdict; // machine/compile/limits.h
+  std::string report;
+  std::string image; // sealed, of a program that is compiled
+};
+
+inline Outcome failed(std::string why) { return {.verdict = kVerdictFailed, .report = std::move(why), .image = {}}; }
+
+// Runs what gives an outcome, and may throw.
+template <class Compile>
+Outcome outcomeOf(Compile compile) try {
+  const ThrowingChecks throwing;
+  return compile();
+} catch (const std::bad_alloc&) {
+  return failed(fmt::format("the program needs more than {} MB to be compiled", kMostMemory >> 20));
+} catch (const std::exception& error) { // of the compiler itself
+  return failed(error.what());
+}
+
+} // namespace rung::compile

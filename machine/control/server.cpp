@@ -1,0 +1,165 @@
+// See server.h.
+#include "machine/control/server.h"
+
+#include <poll.h>
+#include <pwd.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "machine/control/place.h"
+
+namespace rung::control {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const std::string& path) {
+  throw std::runtime_error("cannot listen at " + path + ": " + std::strerror(errno));
+}
+
+std::string nameOf(uid_t user) {
+  std::array<char, 4096> buffer{};
+  passwd entry{};
+  passwd* found = nullptr;
+  if (getpwuid_r(user, &entry, buffer.data(), buffer.size(), &found) == 0 && found != nullptr) return found->pw_name;
+  return std::to_string(user);
+}
+
+std::string textOf(const json& line) { return line.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+// Stacks of hosts are small, and JSON is written recursively.
+bool isDeep(std::string_view line) {
+  constexpr int kMostLevels = 8;
+  int levels = 0;
+  bool inText = false;
+  for (size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (inText && c == '\\')
+      ++i;
+    else if (c == '"')
+      inText = !inText;
+    else if (!inText && (c == '[' || c == '{') && ++levels > kMostLevels)
+      return true;
+    else if (!inText && (c == ']' || c == '}'))
+      --levels;
+  }
+  return false;
+}
+
+json problemOf(const std::string& text) { return {{"ok", false}, {"error", text}}; }
+
+} // namespace
+
+Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(user), handler_(handler) {
+  if (const std::string wrong = wrongHostName(host); !wrong.empty()) throw std::runtime_error(wrong);
+  path_ = socketPath(prepareFolder(user), host);
+  const sockaddr_un address = socketAddress(path_);
+  if (const std::string another = socketOf(user, host); isServed(another))
+    throw std::runtime_error(another + ": another host is called " + host + "; choose another name");
+  unlink(path_.c_str()); // of a host that was killed
+  socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (socket_ < 0) refuse(path_);
+  // Whoever may use the folder may connect; then the user is asked for.
+  if (bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      chmod(path_.c_str(), 0600) != 0 || listen(socket_, static_cast<int>(kMostPeers)) != 0) {
+    close(socket_);
+    refuse(path_);
+  }
+}
+
+Server::~Server() {
+  close(socket_);
+  unlink(path_.c_str());
+}
+
+void Server::serve(std::chrono::milliseconds wait) {
+  std::vector<pollfd> waiting = {{std::exchange(pauses_, false) ? -1 : socket_, POLLIN, 0}};
+  const bool hasRequests = std::ranges::any_of(clients_, &Client::hasRequest);
+  if (hasRequests) wait = std::chrono::milliseconds(0);
+  for (const Client& client : clients_) {
+    const int events = (client.waits ? POLLRDHUP : POLLIN) | (client.connection.wantsToSend() ? POLLOUT : 0);
+    waiting.push_back({client.connection.socket(), static_cast<short>(events), 0});
+  }
+  if (poll(waiting.data(), waiting.size(), static_cast<int>(wait.count())) <= 0 && !hasRequests) return;
+  auto event = waiting.begin() + 1;
+  for (Client& client : clients_) {
+    if ((event->revents & POLLOUT) != 0) client.connection.sendMore();
+    const bool isCalled = (event->revents & ~POLLOUT) != 0;
+    if (isCalled && client.waits)
+      client.connection.end("the client did not wait for its answer");
+    else if (isCalled || client.hasRequest())
+      read(client);
+    ++event;
+  }
+  if (waiting.front().revents != 0) accept();
+  forget();
+}
+
+void Server::accept() {
+  const int made = accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  pauses_ = made < 0 && errno != EAGAIN && errno != ECONNABORTED;
+  if (made < 0) return;
+  Client client{{.number = ++lastPeer_}, Connection(made, Connection::kLongestRequest)};
+  ucred who{};
+  socklen_t size = sizeof who;
+  const bool known = getsockopt(made, SOL_SOCKET, SO_PEERCRED, &who, &size) == 0;
+  client.peer.user = who.uid;
+  client.peer.process = who.pid;
+  client.peer.name = nameOf(who.uid);
+  if (!known || (who.uid != user_ && who.uid != 0))
+    return client.connection.send(problemOf("only the user who has started the host, and root, may use it").dump());
+  if (clients_.size() == kMostPeers)
+    return client.connection.send(
+        problemOf("the host serves " + std::to_string(kMostPeers) + " others already").dump());
+  client.connection.send(handler_.greeting().dump());
+  clients_.push_back(std::move(client));
+}
+
+// A line at a time: others ask, too.
+void Server::read(Client& client) {
+  client.connection.receive();
+  const std::optional<std::string> line = client.connection.line();
+  if (!line) return;
+  if (isDeep(*line)) return client.connection.send(problemOf("found more than 8 levels in the request").dump());
+  const json request = json::parse(*line, nullptr, false);
+  const json answer = request.is_discarded() ? problemOf("found a line that is not JSON, expected an object")
+                                             : handler_.answer(client.peer, request);
+  client.waits = answer.is_null();
+  if (!client.waits) client.connection.send(textOf(answer));
+}
+
+void Server::forget() {
+  for (auto client = clients_.begin(); client != clients_.end();) {
+    if (client->connection.ended()) {
+      handler_.gone(client->peer);
+      client = clients_.erase(client);
+    } else {
+      ++client;
+    }
+  }
+}
+
+void Server::send(uint32_t peer, const json& event) {
+  for (Client& client : clients_)
+    if (client.peer.number == peer) client.connection.send(textOf(event));
+}
+
+void Server::answer(uint32_t peer, const json& answer) {
+  for (Client& client : clients_)
+    if (client.peer.number == peer) client.waits = false;
+  send(peer, answer);
+}
+
+} // namespace rung::control

@@ -1,0 +1,181 @@
+// See services.h.
+#include "machine/control/services.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "machine/control/values.h"
+
+namespace rung::control {
+namespace {
+
+using host::Outcome;
+using nlohmann::json;
+
+constexpr uint32_t kHighestLine = 99'999'999;
+
+uint32_t numberOf(const json& request, const char* key, uint32_t most) {
+  const auto found = request.find(key);
+  if (found == request.end() || !found->is_number_unsigned() || *found > most)
+    throw Refused(std::string("found no number \"") + key + "\" from 0 to " + std::to_string(most) +
+                  " in the request, expected one");
+  return found->get<uint32_t>();
+}
+
+double realOf(const json& value, const char* key) {
+  const bool good = value.is_number() && std::isfinite(value.get<double>());
+  if (!good) throw Refused(std::string("found ") + value.dump() + " for \"" + key + "\", expected a number");
+  return value.get<double>();
+}
+
+Outcome outcomeOf(const json& request) {
+  const json word = request.value("outcome", json());
+  const auto* known = word.is_string() ? std::ranges::find(host::kOutcomeNames, word.get<std::string>())
+                                       : std::end(host::kOutcomeNames);
+  if (known != std::end(host::kOutcomeNames)) return static_cast<Outcome>(known - host::kOutcomeNames);
+  std::string names;
+  for (const std::string_view name : host::kOutcomeNames) names += (names.empty() ? "" : ", ") + std::string(name);
+  throw Refused("found " + word.dump() + " for \"outcome\", expected one of " + names);
+}
+
+std::vector<double> positionsOf(const json& request) {
+  const auto found = request.find("machine");
+  if (found == request.end() || !found->is_array() || found->size() > host::kMostAxes)
+    throw Refused("found no list \"machine\" of at most " + std::to_string(host::kMostAxes) +
+                  " numbers in the request, expected one");
+  std::vector<double> positions;
+  for (const json& position : *found) positions.push_back(realOf(position, "machine"));
+  return positions;
+}
+
+json eventOf(uint32_t ticket, const host::Operation& o) {
+  json event = {
+      {"event", "service"},   {"ticket", ticket},   {"quantity", host::kQuantityNames[static_cast<size_t>(o.quantity)]},
+      {"channel", o.channel}, {"number", o.number}, {"axis", o.axis}};
+  if (o.write) event["value"] = o.value;
+  if (o.quantity == host::Quantity::AxisMove) {
+    event["way"] = host::kWayNames[static_cast<size_t>(o.way)];
+    event["speed"] = o.speed;
+    if (o.untilOver) event["until"] = "over";
+  }
+  return event;
+}
+
+} // namespace
+
+json Services::serve(const Peer& peer, const json& request) {
+  constexpr uint32_t kMostMs = 60'000;
+  if (provider_ != 0 && provider_ != peer.number)
+    throw Refused("another client already serves this program; end its connection first");
+  aliveNs_ = request.contains("alive_ms") ? int64_t{numberOf(request, "alive_ms", kMostMs)} * 1'000'000 : 0;
+  provider_ = peer.number;
+  heard(peer);
+  box_.live().served.store(true, std::memory_order_release);
+  if (isLost_) reports_.emplace_back("the program is served again");
+  return {{"again", std::exchange(isLost_, false)}};
+}
+
+void Services::heard(const Peer& peer) {
+  if (peer.number == provider_) heardNs_ = box_.clock().nowNs();
+}
+
+void Services::checkProvider(const Peer& peer) const {
+  if (peer.number != provider_) throw Refused("this connection does not serve the program; \"serve\" begins it");
+}
+
+json Services::live(const Peer& peer, const json& request) {
+  checkProvider(peer);
+  const std::vector<double> positions = positionsOf(request);
+  const uint32_t line = numberOf(request, "line", kHighestLine);
+  host::Live& live = box_.live();
+  for (size_t i = 0; i < positions.size(); ++i) live.machine[i].store(positions[i], std::memory_order_relaxed);
+  live.axes.store(static_cast<uint32_t>(positions.size()), std::memory_order_relaxed);
+  live.line.store(line, std::memory_order_relaxed);
+  live.known.store(true, std::memory_order_release);
+  return json::object();
+}
+
+json Services::served(const Peer& peer, const json& request) {
+  checkProvider(peer);
+  const uint32_t ticket = numberOf(request, "ticket", UINT32_MAX);
+  const auto found = waiting_.find(ticket);
+  if (found == waiting_.end())
+    throw Refused("no request with ticket " + std::to_string(ticket) + " waits: it is answered, or was too late");
+  const host::Request& asked = found->second.request;
+  host::NcAnswer answer{.outcome = outcomeOf(request)};
+  if (answer.outcome == Outcome::Done && asked.reads()) answer.value = realOf(request.value("value", json()), "value");
+  box_.answer(host::replyOf(asked, answer));
+  waiting_.erase(found);
+  return json::object();
+}
+
+// Nobody answers what waits.
+void Services::gone(const Peer& peer) {
+  if (peer.number == provider_) lose("the connection has ended");
+}
+
+void Services::lose(const std::string& why) {
+  provider_ = 0;
+  isLost_ = true;
+  reports_.push_back("the program is no longer served: " + why);
+  host::Live& live = box_.live();
+  live.served.store(false, std::memory_order_release);
+  live.known.store(false, std::memory_order_release);
+  for (const auto& [ticket, waiting] : waiting_) refuse(waiting.request);
+  waiting_.clear();
+}
+
+void Services::work(Sink& sink) {
+  if (provider_ != 0) checkService(sink);
+  refuseLate();
+  host::Request request;
+  while (box_.nextRequest(request)) pass(sink, std::exchange(request, {}));
+}
+
+// A provider that serves no more learns of it before anything moves again.
+void Services::checkService(Sink& sink) {
+  const int64_t silentNs = box_.clock().nowNs() - heardNs_;
+  if (!box_.live().served.load(std::memory_order_acquire)) { // the program was restarted: what waits is not its own
+    sink.send(std::exchange(provider_, 0), {{"event", "unserved"}});
+    box_.live().known.store(false, std::memory_order_release);
+    waiting_.clear();
+  } else if (aliveNs_ != 0 && silentNs > aliveNs_) {
+    sink.send(provider_, {{"event", "unserved"}});
+    lose("the client was silent for " + std::to_string(silentNs / 1'000'000) + " ms");
+  }
+}
+
+void Services::pass(Sink& sink, host::Request request) {
+  rung_reply refusal{};
+  const std::optional<host::Operation> operation = host::operationOf(request, refusal);
+  if (!operation) {
+    box_.answer(refusal);
+    return;
+  }
+  if (!box_.live().served.load(std::memory_order_relaxed))
+    return refuse(request); // it has gone since the program asked
+  const uint32_t ticket = request.given.ticket;
+  const int64_t end = box_.clock().nowNs() + std::chrono::nanoseconds(kPatience).count();
+  waiting_[ticket] = {std::move(request), operation->untilOver ? std::numeric_limits<int64_t>::max() : end};
+  sink.send(provider_, eventOf(ticket, *operation));
+}
+
+void Services::refuseLate() {
+  const int64_t now = box_.clock().nowNs();
+  std::erase_if(waiting_, [&](const auto& entry) {
+    const bool late = entry.second.endNs <= now;
+    if (late) refuse(entry.second.request);
+    return late;
+  });
+}
+
+// As the control does where nobody serves (rtlib/nc/control/refuse.h).
+void Services::refuse(const host::Request& request) {
+  box_.answer({.size = sizeof(rung_reply), .ticket = request.given.ticket, .error = 1});
+}
+
+} // namespace rung::control

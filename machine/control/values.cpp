@@ -1,0 +1,91 @@
+// See values.h.
+#include "machine/control/values.h"
+
+#include <cmath>
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+
+#include "rtlib/text/number.h"
+#include "rung/types.hpp"
+
+namespace rung::control {
+
+using nlohmann::json;
+
+std::string typeName(uint32_t type) {
+  switch (type) {
+  case RUNG_TYPE_BIT: return "bit";
+  case RUNG_TYPE_F64: return "real";
+  case RUNG_TYPE_TEXT: return "text";
+  default: return "i" + std::to_string(elementBits(type));
+  }
+}
+
+json toJson(uint32_t type, rung_value value) {
+  switch (type) {
+  case RUNG_TYPE_BIT: return value.integer != 0;
+  case RUNG_TYPE_I8: return static_cast<uint8_t>(value.integer);
+  case RUNG_TYPE_I16: return static_cast<int16_t>(value.integer);
+  case RUNG_TYPE_I32: return static_cast<int32_t>(value.integer);
+  case RUNG_TYPE_F64:
+    if (std::isnan(value.real)) return "nan";
+    if (std::isinf(value.real)) return value.real < 0 ? "-inf" : "inf";
+    return value.real;
+  default: return value.integer;
+  }
+}
+
+namespace {
+
+// Of a text in the place of a number: those that JSON cannot hold, as they are written.
+text::WrittenNumber writtenIn(const json& value) {
+  return value.is_string() ? text::writtenNumber(value.get<std::string>()) : text::WrittenNumber{};
+}
+
+std::string rangeOf(uint32_t bits) {
+  const int64_t least = -static_cast<int64_t>((uint64_t{1} << (bits - 1)) - 1) - 1;
+  return std::to_string(least) + " to " + std::to_string(UINT64_MAX >> (64 - bits));
+}
+
+} // namespace
+
+rung_value fromJson(uint32_t type, const json& value, const std::string& name) {
+  const auto refuse = [&](const std::string& expected) {
+    throw Refused("found " + value.dump() + " for " + name + ", expected " + expected);
+  };
+  const text::WrittenNumber written = writtenIn(value);
+  if (written.form == text::NumberForm::OutOfRange)
+    throw Refused("no variable can hold " + value.get<std::string>() + ", given for " + name);
+  rung_value made{};
+  if (type == RUNG_TYPE_BIT) {
+    if (value.is_boolean())
+      made.integer = value.get<bool>() ? 1 : 0;
+    else if (value.is_number_integer() && (value == 0 || value == 1))
+      made.integer = value == 1 ? 1 : 0;
+    else
+      refuse("true or false, because it is a bit");
+    return made;
+  }
+  if (type == RUNG_TYPE_F64) {
+    if (!value.is_number() && written.form != text::NumberForm::TooLong) refuse("a number");
+    made.real = value.is_number() ? value.get<double>() : written.real;
+    return made;
+  }
+  const uint32_t bits = elementBits(type);
+  if (written.form == text::NumberForm::TooLong)
+    throw Refused("found " + value.get<std::string>() + " for " + name + ", expected " + rangeOf(bits));
+  if (!value.is_number_integer()) refuse("an integer, because the variable has " + std::to_string(bits) + " bits");
+  if (value.is_number_unsigned()) {
+    const auto number = value.get<uint64_t>();
+    if (bits < 64 && number >> bits != 0) refuse("at most " + std::to_string((uint64_t{1} << bits) - 1));
+    std::memcpy(&made.integer, &number, sizeof number);
+    return made;
+  }
+  made.integer = value.get<int64_t>();
+  if (bits < 64 && made.integer < -(int64_t{1} << (bits - 1)))
+    refuse("at least " + std::to_string(-(int64_t{1} << (bits - 1))));
+  return made;
+}
+
+} // namespace rung::control

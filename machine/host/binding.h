@@ -1,0 +1,47 @@
+// The entries of a mapping file with their names looked up in a program: what is to be bound to its cells.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "machine/host/mapping_file.h"
+#include "rung/runtime.h"
+
+namespace rung::host {
+
+struct PinLink {
+  uint32_t pin = 0; // in File::pins; the first of `bits`
+  PinType type = PinType::Bit;
+  Direction direction = Direction::In;
+  std::string name;
+  double scale = 1;            // float: the program's units in one of HAL's
+  bool words = false;          // the real that words of the program hold
+  std::vector<uint32_t> bits;  // pins of a cell's bits, from the lowest one on: the cell is of type U32 then
+  std::optional<double> value; // of a parameter, at the start
+};
+
+struct ConstLink {
+  PinType type = PinType::Bit;
+  std::string name;
+  double value = 0;
+  bool words = false;
+};
+
+struct Binding {
+  std::vector<PinLink> links;
+  std::vector<ConstLink> constants;
+  std::vector<std::string> warnings; // as `errors`: what works, but hardly as it is meant
+};
+
+// Every name that does not exist or does not suit its entry is one text in `errors`, "PATH:LINE:COLUMN: what is wrong";
+// so are functions that the control does not hand over. `program`: the tables of the instance's image.
+Binding bindMap(const File& map, rung_instance* instance, const rung_program& program,
+                std::vector<std::string>& errors);
+
+// The same for the new program of a replacement, whose tables `program` is: without what concerns the control, which
+// stays.
+Binding bindMap(const File& map, rung_instance* instance, const rung_replacement* replacement,
+                const rung_program& program, std::vector<std::string>& errors);
+
+} // namespace rung::host

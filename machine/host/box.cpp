@@ -1,0 +1,461 @@
+// The scan: pins in, due slices of the schedule, pins out.
+#include "machine/host/box.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "machine/host/message_texts.h"
+
+namespace rung::host {
+namespace {
+
+Value constant(PinType type, double value) noexcept {
+  switch (type) {
+  case PinType::Bit: return {.bit = value != 0};
+  case PinType::S32: return {.s32 = static_cast<int32_t>(value)};
+  case PinType::U32: return {.u32 = static_cast<uint32_t>(value)};
+  case PinType::Float: return {.real = value};
+  }
+  return {};
+}
+
+Value bitsOf(const std::vector<uint32_t>& numbers, const Pins& pins) noexcept {
+  Value value{.u32 = 0};
+  for (size_t i = 0; i < numbers.size(); ++i) value.u32 |= uint32_t{pins[numbers[i]].bit} << i;
+  return value;
+}
+
+int32_t readProfile(const rung_instance* plc, Order& order) noexcept {
+  const uint32_t wanted = std::exchange(order.count, 0);
+  int32_t status = RUNG_OK;
+  while (order.count < wanted && status == RUNG_OK) {
+    rung_profile& profile = order.profiles[order.count];
+    profile.size = sizeof profile;
+    status = rung_instance_profile(plc, order.index + order.count, &profile);
+    if (status == RUNG_OK) ++order.count;
+  }
+  return status;
+}
+
+} // namespace
+
+Box::Box(const Image& image, File map, const Options& options)
+    : map_(std::move(map)), options_{.size = sizeof options_,
+                                     .user = this,
+                                     .log = &Box::log,
+                                     .request = &Box::request,
+                                     .catch_up = options.catchUp},
+      plc_(options.newInstance ? options.newInstance(image, options_) : Instance(image, &options_)),
+      kept_(!options.retain.empty()), reset_(options.reset), pins_(map_.pins), clock_(*options.clock) {
+  if (kept_) check(rung_instance_keep(plc_.handle(), options.retain.c_str()));
+}
+
+// No exception may go through the library, which is one of C.
+void Box::log(void* box, int32_t level, const char* text) try {
+  if (level != RUNG_LOG_INFO) static_cast<Box*>(box)->logged_.emplace_back(text);
+} catch (const std::bad_alloc&) {
+  static_cast<Box*>(box)->logged_.clear(); // room for what comes next
+}
+
+int32_t Box::request(void* box, rung_instance*, const rung_request* request, rung_reply* reply) {
+  return atOnce(*request, static_cast<Box*>(box)->live_, *reply);
+}
+
+std::unique_ptr<Box> Box::make(const Image& image, File map, const Options& options, std::vector<std::string>& errors,
+                               std::vector<std::string>& warnings) {
+  std::unique_ptr<Box> box(new Box(image, std::move(map), options));
+  box->binding_ = bindMap(box->map_, box->plc_.handle(), *rung_image_program(image.handle()), errors);
+  defineMessages(box->map_, box->plc_.handle(), errors);
+  if (!errors.empty()) return nullptr;
+  box->bindValues();
+  box->functions_ = std::make_unique<FunctionQueue>(box->map_, box->plc_.handle());
+  std::string problem;
+  const int32_t status = box->start(problem);
+  warnings = std::move(box->logged_);
+  for (const Pin& pin : box->map_.pins)
+    if (pin.holds) warnings.push_back("pin " + pin.name + " holds its last value while the program does not run");
+  if (status < RUNG_OK) throw Error(status, problem.c_str());
+  return box;
+}
+
+// Constants in every slice, too: neither a restart nor the control can undo them.
+void Box::bindValues() {
+  values_.resize(binding_.links.size());
+  constants_.resize(binding_.constants.size());
+  for (size_t i = 0; i < values_.size(); ++i) {
+    const PinLink& link = binding_.links[i];
+    if (toProgram(link.direction)) {
+      bind(link, values_[i], RUNG_TO_PROGRAM, link.scale);
+      toProgram_.push_back(i);
+      feeds_.push_back({link.name, "pin " + map_.pins[link.pin].name, {}});
+      for (const uint32_t pin : link.bits) feeds_.back().bits.push_back(map_.pins[pin].name);
+    }
+    if (fromProgram(link.direction)) {
+      bind(link, values_[i], RUNG_FROM_PROGRAM, link.scale);
+      fromProgram_.push_back(i);
+    }
+  }
+  for (size_t i = 0; i < constants_.size(); ++i) {
+    const ConstLink& link = binding_.constants[i];
+    constants_[i] = constant(link.type, link.value);
+    bind(link, constants_[i], RUNG_TO_PROGRAM, 1);
+    feeds_.push_back({link.name, "a constant of the mapping file", {}});
+  }
+}
+
+template <class Link>
+void Box::bind(const Link& link, Value& value, rung_direction direction, double scale) {
+  constexpr rung_host_type kTypes[] = {RUNG_HOST_BOOL, RUNG_HOST_I32, RUNG_HOST_U32, RUNG_HOST_F64}; // by PinType
+  const uint32_t words = link.words ? uint32_t{RUNG_BOUND_REAL} : 0;
+  const rung_variable variable{link.name.c_str(), &value, kTypes[static_cast<size_t>(link.type)], direction | words,
+                               scale};
+  check(rung_instance_bind(plc_.handle(), &variable, 1));
+}
+
+// A fault at the power-on shows in the first step.
+int32_t Box::start(std::string& problem) {
+  hasRun_ = false;
+  const int32_t status = rung_instance_power_on(plc_.handle(), kept_ ? RUNG_WARM : RUNG_COLD);
+  if (status < RUNG_OK) problem = rung_error_text();
+  const bool first = !pins_.connected();
+  for (const size_t link : toProgram_) beginWith(link, first);
+  if (!first) pins_.write();
+  return status;
+}
+
+// What both sides write begins with the program's value; a parameter keeps a person's.
+void Box::beginWith(size_t index, bool first) noexcept {
+  const PinLink& link = binding_.links[index];
+  const bool parameter = link.direction == Direction::Parameter && first;
+  if (parameter && link.value)
+    values_[index] = constant(link.type, *link.value);
+  else if (parameter || link.direction == Direction::Io)
+    values_[index] = valueInProgram(link);
+  else
+    return;
+  if (!first) setPins(link, values_[index]);
+}
+
+Value Box::valueInProgram(const PinLink& link) noexcept {
+  rung_cell cell = 0;
+  rung_cell_info info{};
+  info.size = sizeof info;
+  rung_value value{};
+  const int32_t access = link.words ? RUNG_WRITE | RUNG_REAL : RUNG_WRITE;
+  if (rung_instance_find(plc_.handle(), link.name.c_str(), access, &cell) != RUNG_OK ||
+      rung_instance_cell(plc_.handle(), cell, &info) != RUNG_OK ||
+      rung_instance_read(plc_.handle(), cell, 0, 1, &value) != RUNG_OK)
+    return {};
+  if (link.type != PinType::Float) return constant(link.type, static_cast<double>(value.integer));
+  const double real = info.type == RUNG_TYPE_F64 ? value.real : static_cast<double>(value.integer);
+  return {.real = real / link.scale};
+}
+
+void Box::connect(const PinCell* cells, const PinAccess& access) noexcept {
+  pins_.connect(cells, access);
+  clearPins();
+  for (const size_t i : toProgram_)
+    if (binding_.links[i].direction != Direction::In) setPins(binding_.links[i], values_[i]);
+  pins_.write();
+}
+
+std::string Box::stopText(const rung_fault_info& fault) const {
+  rung_program_info program{};
+  program.size = sizeof program;
+  rung_instance_program(plc_.handle(), &program);
+  const bool isOthers = program.faulted != 0;
+  std::string text = isOthers ? "the program " + std::string(program.faulted_name) : "the program";
+  text += " has stopped: " + std::string(fault.text) + "; output pins have their safe values until " + reset_;
+  if (isOthers) text += "; then " + std::string(program.name) + " runs";
+  return text;
+}
+
+// Once for each.
+void Box::reportFault() {
+  const std::optional<rung_fault_info> info = reported_ ? std::nullopt : fault(); // or the scan thread has it
+  if (!info) return;
+  reported_ = true;
+  reports_.push_back(stopText(*info));
+}
+
+void Box::restart() {
+  if (state_.load(std::memory_order_acquire) != State::Restarting) return;
+  reportFault();
+  functions_->restart();
+  live_.served.store(false, std::memory_order_release); // who serves has orders of the program that has stopped
+  std::string problem;
+  const bool started = start(problem) >= RUNG_OK;
+  if (!started) reports_.push_back(problem);
+  restartProblem_ = started ? "" : problem;
+  std::ranges::move(logged_, std::back_inserter(reports_));
+  logged_.clear();
+  if (started) ++restarts_;
+  reports_.emplace_back(started ? "the program has been restarted" : "the program cannot be restarted");
+  reported_ = !started;
+  state_.store(started ? State::Running : State::Stopped, std::memory_order_release);
+}
+
+// When it begins to fail, why it fails for another reason, and when it is good again.
+void Box::reportSaving() {
+  char text[512] = "";
+  if (rung_instance_unsaved(plc_.handle(), text, sizeof text) != RUNG_OK) text[0] = '\0';
+  if (unsaved_ == text) return;
+  unsaved_ = text;
+  reports_.push_back(unsaved_.empty() ? "the retained memory is written again"
+                                      : "the retained memory is not written: " + unsaved_);
+}
+
+bool Box::serve(std::vector<std::string>& reports) {
+  const runtime::Alone::In service(serves_);
+  restart();
+  if (state_.load(std::memory_order_acquire) == State::Stopped) reportFault();
+  if (kept_) reportSaving();
+  std::ranges::move(reports_, std::back_inserter(reports));
+  return !std::exchange(reports_, {}).empty();
+}
+
+Answer Box::order(Order& order, std::chrono::milliseconds time) {
+  const runtime::Alone::In service(serves_);
+  if (ended()) return {RUNG_WRONG_STATE, "the program has been switched off"};
+  Answer answer = orders_.give(order, time, clock_, [this] { restart(); });
+  if (order.kind != Order::Kind::Restart || !answer.ok()) return answer;
+  restart();
+  if (restartProblem_.empty()) return answer;
+  return {RUNG_FAILED, "the program cannot be restarted: " + restartProblem_};
+}
+
+namespace {
+
+// Where a name is in one program or the other; nothing: it is gone.
+std::optional<rung_cell_info> placeOf(rung_instance* plc, const rung_replacement* in, const PinLink& link) {
+  rung_cell_info info{};
+  info.size = sizeof info;
+  int64_t value = 0;
+  const int32_t access = toProgram(link.direction) ? RUNG_WRITE : RUNG_READ;
+  if (rung_instance_describe(plc, in, link.name.c_str(), access, &info, &value) != RUNG_OK) return std::nullopt;
+  return info;
+}
+
+bool isSamePlace(const rung_cell_info& a, const rung_cell_info& b) {
+  return a.space == b.space && a.byte == b.byte && a.bit == b.bit && a.type == b.type;
+}
+
+} // namespace
+
+Box::Losses Box::lossesBy(const rung_replacement* replacement, const rung_program& next) const {
+  Losses losses = lossesBy(replacement);
+  bindMap(map_, plc_.handle(), replacement, next, losses.mistakes);
+  return losses;
+}
+
+Box::Losses Box::lossesBy(const rung_replacement* replacement) const {
+  Losses losses;
+  for (size_t i = 0; i < binding_.links.size(); ++i) {
+    const PinLink& link = binding_.links[i];
+    const std::optional<rung_cell_info> now = placeOf(plc_.handle(), nullptr, link);
+    const std::optional<rung_cell_info> later = placeOf(plc_.handle(), replacement, link);
+    if (!now || (later && isSamePlace(*now, *later))) continue;
+    losses.moved.push_back("pin " + map_.pins[link.pin].name + ": " + link.name +
+                           (later ? " moves from " + std::string(now->address) + " to " + later->address
+                                  : ", at " + std::string(now->address) + ", is gone"));
+    rung_cell cell = 0;
+    if (toProgram(link.direction) && rung_instance_find(plc_.handle(), link.name.c_str(), RUNG_WRITE, &cell) == RUNG_OK)
+      losses.dead.push_back(cell); // bound, and so never released
+  }
+  return losses;
+}
+
+std::string Box::close() {
+  std::string error;
+  const int32_t status = rung_instance_power_off(plc_.handle());
+  if (status < RUNG_OK && status != RUNG_WRONG_STATE) error = rung_error_text(); // it may be off
+  if (pins_.connected()) clearPins();
+  return error;
+}
+
+bool Box::ends() noexcept {
+  ending_ = true;
+  if (restarting()) return false;
+  if (rung_instance_begin_power_off(plc_.handle()) == RUNG_LATER) return false;
+  ended_.store(true, std::memory_order_release);
+  // What the control runs first may have faulted: `serve` reports that as any other fault.
+  if (running() && (state().flags & RUNG_STATE_FAULTED) != 0) stop();
+  return true;
+}
+
+StepResult Box::step(int64_t ns, bool reset) noexcept {
+  const runtime::Alone::In scan(scans_);
+  if (!beginStep(ns, reset)) return StepResult::Waiting;
+  const StepResult result = run(ns, &rung_instance_run_due);
+  sliceBegun_ = false;
+  return result;
+}
+
+StepResult Box::stepFast(int64_t ns, bool reset) noexcept {
+  const runtime::Alone::In scan(scans_);
+  if (!beginStep(ns, reset)) return StepResult::Waiting;
+  const StepResult result = run(ns, &rung_instance_run_due_fast);
+  sliceBegun_ = result == StepResult::Ran;
+  return result;
+}
+
+// False: the program does not run.
+bool Box::beginStep(int64_t ns, bool reset) noexcept {
+  const bool resets = reset && restartable_ && !ending_;
+  const bool asked = resets && !wasReset_;
+  wasReset_ = resets;
+  orders_.take([this](Order& order) { return obey(order); });
+  const State state = state_.load(std::memory_order_acquire);
+  if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
+  if (state == State::Stopped) rung_instance_sample(plc_.handle());
+  if (state != State::Running) return false;
+  if (!map_.axisGroups.empty())
+    rung_instance_serving(plc_.handle(), live_.served.load(std::memory_order_acquire) ? 1 : 0);
+  pins_.read();
+  functions_->sample(pins_, ns);
+  return true;
+}
+
+// Functions begin where a slice does, and so do inputs.
+StepResult Box::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcept {
+  const rung_state before = state();
+  if (before.wait_ns <= ns && !sliceBegun_) {
+    functions_->advance(pins_);
+    readPins();
+  }
+  const int32_t status = due(plc_.handle(), ns);
+  if (status == RUNG_FAULTED) {
+    clearPins();
+    stop();
+    return StepResult::Failed;
+  }
+  const bool wasDue = before.wait_ns <= ns;
+  hasRun_ = hasRun_ || (wasDue && (before.flags & RUNG_STATE_STOPPED) == 0);
+  if (wasDue && hasRun_) writePins(); // one that was stopped before its first slice has not written any
+  pins_.write();
+  return wasDue ? StepResult::Ran : StepResult::Waiting;
+}
+
+// By a fault. Its text, which takes memory, is for `serve`: the struct ends before it.
+void Box::stop() noexcept {
+  rung_fault_info info{};
+  info.size = offsetof(rung_fault_info, text);
+  if (rung_instance_fault(plc_.handle(), &info) == RUNG_OK) faultLine_.store(info.line, std::memory_order_relaxed);
+  state_.store(State::Stopped, std::memory_order_release);
+}
+
+rung_state Box::state() const noexcept {
+  rung_state state{};
+  state.size = sizeof state;
+  rung_instance_state(plc_.handle(), &state);
+  return state;
+}
+
+std::optional<rung_fault_info> Box::fault() const noexcept {
+  rung_fault_info info{};
+  info.size = sizeof info;
+  return rung_instance_fault(plc_.handle(), &info) == RUNG_OK ? std::optional(info) : std::nullopt;
+}
+
+void Box::readPins() noexcept {
+  for (const size_t i : toProgram_) {
+    const PinLink& link = binding_.links[i];
+    values_[i] = link.bits.empty() ? pins_[link.pin] : bitsOf(link.bits, pins_);
+  }
+}
+
+void Box::writePins() noexcept {
+  for (const size_t i : fromProgram_) setPins(binding_.links[i], values_[i]);
+}
+
+void Box::setPins(const PinLink& link, const Value& value) noexcept {
+  if (link.bits.empty()) return pins_.set(link.pin, value);
+  for (size_t bit = 0; bit < link.bits.size(); ++bit) pins_.set(link.bits[bit], {.bit = (value.u32 >> bit & 1) != 0});
+}
+
+void Box::clearPins() noexcept {
+  for (uint32_t i = 0; i < map_.pins.size(); ++i) {
+    const Pin& pin = map_.pins[i];
+    if (fromProgram(pin.direction) && !pin.holds && !pin.ofHost) pins_.set(i, constant(pin.type, pin.safe));
+  }
+  pins_.write();
+}
+
+bool Box::nextMessage(rung_message_info& message) const noexcept {
+  message.size = sizeof message;
+  return rung_instance_next_message(plc_.handle(), &message) == RUNG_OK;
+}
+
+bool Box::nextRequest(Request& request) const {
+  request.given.size = sizeof request.given;
+  if (rung_instance_next_request(plc_.handle(), &request.given) != RUNG_OK) return false;
+  request.service = request.given.service;
+  return true;
+}
+
+OrderSlot::Outcome Box::obey(Order& order) noexcept {
+  using Kind = Order::Kind;
+  const State now = state_.load(std::memory_order_acquire);
+  if (now == State::Restarting) return {RUNG_LATER, "the program is being restarted"};
+  if (order.kind == Kind::Restart) {
+    if (ending_) return {RUNG_WRONG_STATE, "the program is being switched off"};
+    if (now == State::Running)
+      return {RUNG_WRONG_STATE, (state().flags & RUNG_STATE_STOPPED) != 0
+                                    ? "the operator has stopped the program; start continues it"
+                                    : "the program is running; a reset is needed only after a fault"};
+    if (!restartable_) return {RUNG_LATER, "axes of the program are still moving"};
+    state_.store(State::Restarting, std::memory_order_release);
+    return {};
+  }
+  if (now == State::Stopped && (order.kind == Kind::Stop || order.kind == Kind::Start))
+    return {RUNG_WRONG_STATE, "a fault has stopped the program: a reset restarts it"};
+  const int32_t status = obeyRunning(order);
+  if (status == RUNG_OK || status == RUNG_EMPTY) return {status};
+  const bool isOff = now == State::Stopped && (state().flags & RUNG_STATE_ON) == 0; // a restart has failed
+  if (status == RUNG_FAULTED || isOff) return {status, "a fault has stopped the program: a reset restarts it"};
+  return {status == RUNG_WRONG_THREAD ? int32_t{RUNG_LATER} : status, rung_error_text()}; // who serves it has it
+}
+
+// An input that nobody feeds any more keeps nothing that permits something. Where the new program cannot take over now,
+// its pin feeds it again before the next slice.
+int32_t Box::replace(Order& order) noexcept {
+  const rung_value none{};
+  if (order.dead != nullptr)
+    for (const rung_cell cell : *order.dead) rung_instance_write(plc_.handle(), cell, 0, 1, &none);
+  const int32_t status = rung_instance_replace(plc_.handle(), order.replacement);
+  order.state = state();
+  return status;
+}
+
+int32_t Box::obeyRunning(Order& order) noexcept {
+  rung_instance* plc = plc_.handle();
+  switch (order.kind) {
+  case Order::Kind::State:
+    order.state = state();
+    order.functions = functions_->state();
+    return RUNG_OK;
+  case Order::Kind::Write: {
+    order.state = state();
+    const int32_t status = rung_instance_read(plc, order.cell, 0, 1, &order.former);
+    return status != RUNG_OK ? status : rung_instance_write(plc, order.cell, 0, 1, &order.value);
+  }
+  case Order::Kind::Forced:
+    order.force.size = sizeof order.force;
+    return rung_instance_forced(plc, order.index, &order.force);
+  case Order::Kind::Force: return rung_instance_force(plc, order.forces);
+  case Order::Kind::Replace: return replace(order);
+  case Order::Kind::Shadow: return rung_instance_shadow(plc, order.shadow);
+  case Order::Kind::Stop: return rung_instance_stop(plc);
+  case Order::Kind::Start: return rung_instance_start(plc);
+  case Order::Kind::Profile: return readProfile(plc, order);
+  case Order::Kind::ClearProfile: return rung_instance_clear_profile(plc);
+  case Order::Kind::Act: return order.act(order.actor), RUNG_OK;
+  case Order::Kind::Restart: break; // obey
+  }
+  return RUNG_EMPTY;
+}
+
+} // namespace rung::host

@@ -1,0 +1,236 @@
+// The mapping file: which HAL pins there are, and which names of the PLC program they refer to. It is TOML;
+// docs/mapping-file.md describes its tables. This is the file alone; binding.h looks the names up in a program.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rung/runtime.h"
+
+namespace rung::host {
+
+enum class PinType : uint8_t { Bit, S32, U32, Float };
+
+inline constexpr std::string_view kFunctionKinds[] = {"M", "S", "T", "B", "H", "key"}; // by rung_function_kind
+
+// Line and column are from 1; columns count characters.
+struct Position {
+  uint32_t line = 1;
+  uint32_t column = 1;
+  uint32_t file = 0; // in File::paths
+  bool operator==(const Position&) const = default;
+};
+
+enum class Direction : uint8_t {
+  In,        // HAL to the program
+  Out,       // the program to HAL
+  Io,        // both: each takes what the other has written last
+  Parameter, // a person's, to the program
+};
+
+inline bool toProgram(Direction direction) { return direction != Direction::Out; }
+inline bool fromProgram(Direction direction) { return direction == Direction::Out || direction == Direction::Io; }
+
+// A HAL pin or parameter to make. One that is named in several places is made once.
+struct Pin {
+  std::string name;
+  PinType type = PinType::Bit;
+  Direction direction = Direction::In;
+  Position at;         // the first of these places
+  double safe = 0;     // the value where the program does not run: before its first scan, after a fault, at the end
+  bool holds = false;  // it keeps its last value then instead
+  bool ofHost = false; // the host itself reads and writes it, also where the program does not run
+};
+
+// in, out, io, param: the pin and the name are the same quantity.
+struct Link {
+  uint32_t pin = 0; // in File::pins
+  std::string name;
+  double scale = 1; // float: the program's units in one of HAL's; not 0, finite
+  // Not empty: pins for the bits of the cell from its lowest one on, `pin` is the first.
+  std::vector<uint32_t> bits;
+  std::optional<double> value; // of a parameter, at the start; else, and of io pins, what the program has then
+  Position at;                 // of the name
+};
+
+// A name of a pin with other mistakes: it is looked up, too, so that all mistakes are said at once.
+struct NamedOnly {
+  std::string where; // its key, for messages
+  std::string name;
+  Position at;
+  Direction direction = Direction::In;
+};
+
+// true and false are bits; integers are S32 where they are negative and U32 otherwise.
+struct Constant {
+  PinType type = PinType::Bit;
+  std::string name;
+  double value = 0; // holds every 32-bit integer exactly; finite
+  Position at;
+};
+
+// A pin at a level that it has not had before.
+struct Edge {
+  uint32_t pin = 0; // in File::pins
+  bool rising = true;
+};
+
+// send: an edge of a pin hands a function to the program.
+struct Send {
+  Edge edge;
+  rung_function_kind kind = RUNG_FUNCTION_M;
+  uint32_t channel = 0; // of the control, from 0; the map counts from 1
+  int32_t code = 0;
+  std::optional<uint32_t> codePin; // instead of `code`
+  std::optional<uint32_t> donePin;
+  Position at;
+};
+
+// m-groups: the group that the machine has an M function in.
+struct Group {
+  uint32_t code = 0;
+  uint32_t group = 0;
+  Position at; // of the code
+};
+
+// PlcErrors: a file of the control's own that has the texts of messages.
+struct MessageFile {
+  std::string path;
+  Position at;
+};
+
+// axis-groups: the signals by which the program commands an axis; both count from 0.
+struct AxisGroup {
+  uint32_t axis = 0;
+  uint32_t group = 0;
+  Position at; // of the axis
+};
+
+// rungctl: what may be done from outside while the program runs.
+enum class Remote : uint8_t { Set, Force, Reload, Start, Stop, Reset, Profile, Serve };
+inline constexpr std::string_view kRemoteNames[] = {"set",  "force", "reload",  "start",
+                                                    "stop", "reset", "profile", "serve"}; // by Remote
+
+// rungctl: a cell that is neither set nor forced.
+struct Protected {
+  std::string name;
+  Position at;
+};
+
+// Where the value of a pin is on the other side of a connection.
+enum class Area : uint8_t { Coil, DiscreteInput, HoldingRegister, InputRegister, Memory };
+
+// How it is written there.
+enum class Format : uint8_t {
+  Bit, // a byte of memory: 0 or 1
+  S16, // a register
+  U16,
+  S32, // two registers, or four bytes of memory
+  U32,
+  F32,
+  F64, // eight bytes of memory
+};
+uint32_t registersOf(Format format); // 1 or 2
+uint32_t bytesOf(Format format);     // of memory; 0: it is for registers alone
+
+struct ConnectedPin {
+  uint32_t pin = 0; // in File::pins
+  Area area = Area::Coil;
+  uint32_t place = 0; // of Modbus from 0, of memory in bytes
+  Format format = Format::Bit;
+  bool lowFirst = false; // of two registers the first has the lower bits
+  double safe = 0;       // of an input: its value while the connection is silent
+  bool holds = false;    // it keeps its last value then instead
+  Position at;           // of the place
+};
+
+// modbus-client, modbus-server, shared-memory: a way by which values of pins come and go. rung-run serves them.
+struct Connection {
+  enum class Kind : uint8_t { ModbusClient, ModbusServer, SharedMemory };
+  Kind kind = Kind::ModbusClient;
+  std::string host = "127.0.0.1"; // an IP address: of the device, or where the server listens
+  uint16_t port = 502;
+  uint8_t unit = 1;                  // of the device
+  std::string name;                  // of the shared memory
+  int64_t periodNs = 10'000'000;     // of a client and of shared memory, between two exchanges
+  int64_t timeoutNs = 1'000'000'000; // after which a silent connection counts as lost
+  uint32_t connections = 8;          // that a server accepts at a time
+  uint32_t requests = 1000;          // that a server answers in a second, of each of them
+  std::optional<uint32_t> statusPin; // in File::pins: an input bit, on while the connection is not lost
+  std::vector<ConnectedPin> pins;
+  Position at;
+
+  // "modbus-client 192.168.0.10:502"
+  std::string title() const;
+};
+std::string_view kindName(Connection::Kind kind); // the table
+
+// devices: what a TECHNOL program's services are on this machine (machine/io). The host knows which keys and
+// values it takes; paths are from the folder of the file.
+struct DeviceSetting {
+  enum class Kind : uint8_t {
+    Can,  // a channel and its interface
+    Com,  // a port and its device
+    Axis, // one that the program positions, and what the names of its pins begin with
+    SharedFile,
+    Config, // a key of the control's configuration and its value
+  };
+  Kind kind = Kind::Config;
+  std::string key;
+  std::string value;
+  Position at; // of the value
+};
+
+// Everything in the order of the files, where one is included.
+struct File {
+  std::vector<std::string> paths; // the file, and those that it includes
+  std::vector<Pin> pins;
+  std::vector<Link> links;
+  std::vector<NamedOnly> namedOnly;
+  std::vector<Constant> constants;
+  std::vector<Send> sends;
+  std::vector<Group> groups;
+  std::vector<MessageFile> messageFiles;
+  std::vector<AxisGroup> axisGroups;
+  bool allowed[std::size(kRemoteNames)] = {}; // by Remote
+  std::vector<Protected> never;
+  std::vector<Connection> connections;
+  std::vector<DeviceSetting> devices;
+  std::vector<Edge> aborts;          // reset, emergency stop: every function ends
+  int64_t timeoutNs = 0;             // of a function; 0: none
+  std::optional<Position> highSpeed; // where the high-speed handshake is asked for
+
+  // "PATH:LINE:COLUMN: what"
+  std::string message(Position at, std::string_view what) const;
+};
+
+// The text of a file; throws std::exception, whose text says why there is none: "cannot read PATH: …".
+using ReadFile = std::function<std::string(const std::string& path)>;
+
+// Whether a path is one of a mapping file by its name, as a program's is not.
+bool isNamedAsMap(std::string_view path);
+
+// From the disk: regular files of at most 1 MB.
+std::string readFromDisk(const std::string& path);
+
+// Every mistake is one entry of `errors`, PATH:LINE:COLUMN with what was found, what was expected and how to fix it, in
+// the order of the files; the entries without mistakes are in the result. Where a text is not TOML, nothing is in it,
+// and there is one error, the first of its syntax. Included files are read by `read`.
+File parseMap(std::string_view text, const std::string& path, std::vector<std::string>& errors,
+              const ReadFile& read = readFromDisk);
+// The same for a file that is read, too.
+File loadMap(const std::string& path, std::vector<std::string>& errors, const ReadFile& read = readFromDisk);
+
+// For hosts that serve no connections: each is a mistake.
+void refuseConnections(const File& map, std::string_view host, std::vector<std::string>& errors);
+// For hosts that move no axes: each is a mistake.
+void refuseAxes(const File& map, std::string_view host, std::vector<std::string>& errors);
+
+std::string_view pinTypeName(PinType type);
+std::string_view tableName(Direction direction); // "in"
+
+} // namespace rung::host

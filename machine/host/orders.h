@@ -1,0 +1,106 @@
+// What another thread asks of the thread that scans a program, which does it between two slices: a slot for one order
+// at a time, in which neither waits for the other.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "machine/host/function_state.h"
+#include "rtlib/run/clock.h"
+#include "rung/runtime.h"
+
+namespace rung::host {
+
+struct Order {
+  enum class Kind : uint8_t {
+    State,   // the instance's state, and that of functions
+    Write,   // `value` into `cell`; `former` is what was there, `state` the instance's state then
+    Forced,  // the force in effect number `index`
+    Force,   // `forces` are in effect from now on; null: none
+    Replace, // by the program of `replacement`; the instance's state then
+    Shadow,  // `shadow` begins; null: it ends
+    Stop,
+    Start,
+    Restart, // after a fault
+    Act,     // `act` does it, with `actor`
+    Profile, // the counters of the rungs from `index` on, `count` of them at most, into `profiles`; `count`: of how
+             // many
+    ClearProfile,
+  };
+  Kind kind = Kind::State;
+  rung_cell cell = 0;
+  rung_value value{};
+  uint32_t index = 0;
+  uint32_t count = 0;
+  rung_forces* forces = nullptr;
+  rung_replacement* replacement = nullptr;
+  const std::vector<rung_cell>* dead = nullptr; // with that: inputs of the running program that become 0; the caller's
+  rung_shadow* shadow = nullptr;
+  void (*act)(void* actor) = nullptr;
+  void* actor = nullptr;
+  rung_profile* profiles = nullptr; // the caller's
+  // Results.
+  rung_value former{};
+  rung_state state{};
+  FunctionState functions;
+  rung_force_info force{};
+};
+
+// What became of an order.
+struct Answer {
+  int32_t status = RUNG_OK; // enum rung_status; RUNG_FAILED also where nobody scans
+  std::string problem;      // a sentence, unless it is done
+  bool ok() const { return status == RUNG_OK || status == RUNG_EMPTY; }
+};
+
+class OrderSlot {
+public:
+  // The status of an order, and the sentence that goes with it, where it is not done.
+  struct Outcome {
+    int32_t status = RUNG_OK;
+    const char* problem = ""; // until the order is answered
+  };
+
+  // For all threads but the scan's, which may wait here for each other. Results are in `order`. What the scan thread
+  // cannot do now it tries again, until the time is over: then the order is withdrawn, and has done nothing. Between
+  // two looks, `meanwhile` does what others may wait for.
+  template <class Meanwhile>
+  Answer give(Order& order, std::chrono::nanoseconds time, runtime::Clock& clock, Meanwhile meanwhile) {
+    constexpr int64_t kLookNs = 200'000;
+    const std::lock_guard lock(giving_);
+    post(order);
+    for (const int64_t end = clock.nowNs() + time.count(); !isDone() && clock.nowNs() < end;) {
+      clock.sleep(kLookNs);
+      meanwhile();
+    }
+    return take(order);
+  }
+
+  // The scan thread, between two slices: `obey` does the order and gives an Outcome.
+  template <class Obey>
+  void take(Obey obey) noexcept {
+    int expected = kPosted;
+    if (!state_.compare_exchange_strong(expected, kTaken, std::memory_order_acquire)) return;
+    keep(obey(order_));
+    state_.store(status_ == RUNG_LATER ? kPosted : kDone, std::memory_order_release);
+  }
+
+private:
+  static constexpr int kFree = 0, kPosted = 1, kTaken = 2, kDone = 3;
+  void post(const Order& order);
+  bool isDone() const noexcept { return state_.load(std::memory_order_acquire) == kDone; }
+  Answer take(Order& order);
+  void keep(const Outcome& outcome) noexcept;
+  bool withdraw() noexcept;
+
+  std::mutex giving_;
+  std::atomic<int> state_{kFree};
+  Order order_;
+  int32_t status_ = RUNG_OK;
+  char problem_[512] = "";
+};
+
+} // namespace rung::host

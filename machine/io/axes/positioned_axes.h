@@ -1,0 +1,95 @@
+// The axes of this machine that positioning units of a program move (man. ch. 19). Each is a drive that is given a
+// place in every step and says where it is; between the orders of the program and these places is the trapezoid that
+// simulated axes have, too.
+#pragma once
+#include <array>
+#include <atomic>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "machine/io/axes/position_requests.h"
+
+namespace rung::io {
+
+// Of the drive of an axis; mm (degrees).
+struct DriveInputs {
+  double position = 0;  // where the axis is
+  bool homed = false;   // commands and `position` count from the same place
+  bool enabled = false; // the drive goes where it is commanded
+  bool fault = false;
+};
+struct DriveOutputs {
+  double position = 0; // commanded
+  bool enable = false; // VAZBA_x: the position loop is to be closed (l.6306)
+};
+
+class PositionedAxes final : public PositionTarget {
+public:
+  // ---- before start
+  void add(uint32_t axis);
+  static bool takes(std::string_view attribute);
+  // "" or what is wrong; the axis may be added later.
+  std::string set(uint32_t axis, std::string_view attribute, std::string_view value);
+  bool has(int64_t axis) const { return axis >= 1 && axis <= kMaxAxes && io::has(added_, index(axis)); }
+  AxisMask added() const { return added_; }
+
+  // ---- the scan; nothing waits, allocates or locks
+  void powerOn() noexcept;
+  // `inputs` of now, of the axes that were added; what they are to do is in `outputs` then.
+  void step(int64_t ns) noexcept;
+  DriveInputs& inputs(uint32_t axis) { return axes_[axis - 1].in; }
+  DriveOutputs outputs(uint32_t axis) const;
+  // At the end of a pass: what the program wants until the next.
+  void take(const core::Memory& memory, const AxisCells& cells) noexcept;
+  // Before MODULE_INPUT.
+  void show(const core::Memory& memory, const AxisCells& cells) noexcept;
+  // They brake, and continue when the program orders it (fault, HALT, its end).
+  void brake() noexcept { units_.brakeAll(); }
+  bool atRest() const noexcept;
+  // No drive needs to be enabled any more.
+  void open() noexcept { loops_ = 0; }
+  // AX_SPI: a spindle until the next power-on.
+  void becomeSpindle(uint32_t axis) noexcept;
+
+  void posInit(int64_t axis, int64_t space, bool loopClosed) override;
+  PositioningUnits::Mode posMode(int64_t axis, int32_t length, uint16_t acceleration) override;
+  PositioningUnits::State posControl(int64_t axis, uint32_t feed, bool mp) override;
+  void posReset(int64_t axis) override;
+
+  // ---- any one thread but the scan's: a sentence for each refusal and loss that is new
+  void report(std::vector<std::string>& lines);
+
+private:
+  // What keeps a unit from an axis.
+  enum class Obstacle : uint8_t { None, NotHomed, NotEnabled, Fault, TooFar, Open, Spindle, NoUnit };
+  static constexpr size_t kObstacles = 8;
+  using Masks = std::array<std::atomic<AxisMask>, kObstacles>;
+
+  struct Axis : DrivenAxis {
+    double maxDifference = 0.01;    // of a place that is reached; mm
+    double followingErrorLimit = 0; // mm; 0: nobody looks
+    bool spindle = false;
+    bool begun = false; // a place has come
+    DriveInputs in;
+  };
+  static uint32_t index(int64_t axis) { return static_cast<uint32_t>(axis - 1); }
+  static Obstacle obstacleOf(const Axis& axis);
+  static bool follows(Obstacle obstacle) { return obstacle != Obstacle::NotHomed && obstacle != Obstacle::NotEnabled; }
+  void step(Axis& axis, uint32_t number, int64_t ns) noexcept;
+  void note(Masks& masks, Obstacle obstacle, uint32_t number) noexcept;
+  void forget(uint32_t number) noexcept;
+  static void reportNew(const Masks& masks, std::array<AxisMask, kObstacles>& reported, std::string_view what,
+                        std::vector<std::string>& lines);
+
+  std::array<Axis, kMaxAxes> axes_ = {};
+  PositioningUnits units_;
+  AxisPermits permits_;
+  AxisReport report_;
+  AxisMask added_ = 0;
+  AxisMask loops_ = 0;       // VAZBA_x at the end of the last pass
+  Masks refused_{}, lost_{}; // since the last POS_INIT that has succeeded
+  std::array<AxisMask, kObstacles> refusedReported_{}, lostReported_{};
+};
+
+} // namespace rung::io

@@ -1,0 +1,74 @@
+// A CAN interface of the machine by SocketCAN. A thread of its own moves frames between the descriptor and two rings;
+// the scan's thread sees the rings alone and makes no system call.
+//
+// The descriptor may be any that takes and gives one `struct can_frame` at a time, which is how a socket pair tests it.
+#pragma once
+#include <atomic>
+#include <string>
+#include <thread>
+
+#include "machine/io/can/port.h"
+#include "rtlib/core/ring.h"
+
+struct can_frame; // NOLINT(readability-identifier-naming): of the kernel
+
+namespace rung::io {
+
+class SocketCan final : public CanPort {
+public:
+  static constexpr uint32_t kToBus = 128, kFromBus = 256;
+
+  // Since the beginning.
+  struct Counts {
+    uint64_t sent = 0, received = 0;
+    uint64_t lost = 0;     // received while the program took none
+    uint64_t full = 0;     // attempts to send that found the interface's queue full
+    uint64_t errors = 0;   // error frames
+    uint64_t timeouts = 0; // of those, ones that report a time-out of the transmission, or that nobody acknowledges it
+  };
+
+  SocketCan() = default;
+  ~SocketCan() override { close(); }
+
+  // Serves an interface, "can0". It may be switched off, and come and go: it is opened again as often as needed. "" or
+  // why this machine cannot serve it at all.
+  std::string open(const std::string& interface);
+  // Serves a descriptor, which is closed at the end. When its other side is gone it stays down.
+  void adopt(int descriptor);
+  void close();
+
+  BusState state() const override { return state_.load(std::memory_order_acquire); }
+  bool transmit(const CanPacket& packet) override;
+  bool receive(CanPacket& packet) override { return fromBus_.pop(packet); }
+
+  Counts counts() const;
+
+private:
+  void start();
+  void run();
+  bool reopen();
+  void lose();
+  bool moveOut();
+  bool moveIn();
+  void takeIn(const can_frame& frame);
+  void takeError(uint32_t classes);
+
+  std::string interface_; // "": an adopted descriptor
+  int descriptor_ = -1;   // of the thread, from the start to the end of it
+  bool hasPending_ = false;
+  struct Order {
+    CanPacket packet;
+    uint32_t loss = 0; // how often the bus had been lost before it
+  };
+  Order pending_; // taken from the ring, and refused by the interface so far
+  std::thread thread_;
+
+  std::atomic<bool> stop_ = false;
+  std::atomic<BusState> state_ = BusState::Inactive;
+  std::atomic<uint64_t> sent_ = 0, received_ = 0, full_ = 0, errors_ = 0, timeouts_ = 0;
+  std::atomic<uint32_t> losses_ = 0;
+  core::FixedRing<Order, kToBus> toBus_;
+  core::FixedRing<CanPacket, kFromBus> fromBus_;
+};
+
+} // namespace rung::io

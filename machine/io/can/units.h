@@ -1,0 +1,84 @@
+// The control's side of its units on the CAN bus: INOUT08, KLA50 and EPU panels, handwheels (man. ch. 9). It starts
+// them, sends their outputs and takes their inputs by SYNC and PDOs, reads and writes their objects by SDO, keeps the
+// structure INOUTS of each, and notices errors and time-outs. It knows packets, so the units may be simulated or real.
+//
+// The identifiers of PDOs are those of l.4370-4383, their bytes those of unit_mapping.h; TPDO2 is ANL0 to ANL7. A unit
+// reports errors by emergency packets.
+#pragma once
+#include <vector>
+
+#include "machine/io/can/unit.h"
+
+namespace rung::io {
+
+inline constexpr uint32_t kInputPorts = 128, kOutputPorts = 96, kHandwheels = 2;
+
+// CAN_IO_..., CAN_MAT_..., CAN_TOC_...: the lowest board of the group that has the error; number 0: none
+// (man. l.3616-3651).
+struct GroupCodes {
+  uint8_t errorCode = 0, errorNumber = 0;     // _ERROR_CODE, register 1001h; _ERROR_NUM
+  uint8_t timeoutCode = 0, timeoutNumber = 0; // _TIMEOUT_CODE, 1; _TIMEOUT_NUM
+
+  bool operator==(const GroupCodes&) const = default;
+};
+
+// What the program wants.
+struct UnitOrders {
+  std::array<uint8_t, kOutputPorts> out{};                   // PxOUT, x from 0
+  std::array<std::array<uint8_t, 8>, kHandwheels> display{}; // DISPTOCn, TOC_DISPLS
+  std::array<bool, kHandwheels> displayBusy{};               // BUSY_DISPTOCn: the program is filling it
+};
+
+// What the program gets.
+struct UnitStates {
+  std::array<uint8_t, kInputPorts> in{};                  // PxIN from x = 1; of ports without a unit 0
+  std::array<uint8_t, kOutputPorts> errors{};             // ERRLI_PxOUT; the program resets bits of it, too
+  std::array<std::array<uint8_t, 2>, kHandwheels> keys{}; // PTLTOC_Pn, PTLTOC_Pn_2
+  std::array<GroupCodes, kUnitGroups> groups{};
+  bool zeroed = false; // a serious error of a unit: all outputs are 0 (man. l.3674)
+};
+
+class CanUnits {
+public:
+  // Before the first tick. Units of a group; SYNC every so many milliseconds, 1 to 15 (man. l.3268-3271).
+  void configure(uint32_t group, uint32_t units);
+  void setControl(uint32_t group, uint32_t board, uint8_t control);
+  void setSyncPeriod(uint32_t ms) { syncPeriod_ = ms; }
+  uint32_t count(uint32_t group) const;
+  bool isEmpty() const { return units_.empty(); }
+
+  // At a power-on.
+  void reset();
+  // A millisecond before the first tick, without process data: units get their mapping and are started. A control whose
+  // program waits for that has nothing of it in its scans.
+  void prepare(CanPort& port);
+  bool areStarted() const;
+  // A millisecond. Of `states`, `errors` is read, too.
+  void tick(const UnitOrders& orders, UnitStates& states, CanPort& port);
+  // The oldest message that nobody took.
+  bool takeMessage(UnitMessage& message) { return messages_.pop(message); }
+  // A packet has come. True: the control alone was meant, the program does not get it.
+  bool take(const CanPacket& packet);
+
+  // Null: the group or the board is not configured. Boards from 1.
+  const Inouts* find(uint32_t group, uint32_t board) const;
+  // CAN_SYSIO_READ and CAN_SYSIO_WRITE. False: there is no such unit, or no such item.
+  bool read(uint32_t group, uint32_t board, InoutsItem item, uint32_t& value) const;
+  bool write(uint32_t group, uint32_t board, InoutsItem item, uint32_t value);
+
+private:
+  void synchronize(const UnitOrders& orders, CanPort& port);
+  void output(const UnitOrders& orders, UnitStates& states);
+  static void show(const CanUnit& unit, UnitStates& states);
+  // In `units_`, from 1; 0: there is no such unit.
+  uint32_t numberOf(uint32_t group, uint32_t board) const;
+
+  std::vector<CanUnit> units_;                                // by group and board
+  std::array<uint8_t, kCanNode + 1> numbers_{};               // of units in `units_` by node, from 1; 0: no unit
+  std::array<std::array<uint8_t, 8>, kHandwheels> display_{}; // as they were when the program was not filling them
+  UnitMessages messages_;
+  uint32_t syncPeriod_ = 1, sinceSync_ = 0;
+  bool started_ = false;
+};
+
+} // namespace rung::io

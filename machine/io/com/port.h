@@ -1,0 +1,66 @@
+// A serial port as a program sees it (TECHNOL manual 23.3.2, l.21042-21199): a queue each way and a state. The program
+// is the scan thread; the line, simulated or real, may be another thread. Nothing waits, allocates or locks.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "machine/io/com/settings.h"
+#include "rtlib/core/ring.h"
+
+namespace rung::io::com {
+
+// Of COM_CONTROL STATE (l.21189-21198).
+enum PortState : uint32_t {
+  kPortError = 1,       // PLC_COM_ERROR
+  kNotConfigured = 2,   // PLC_COM_REQ
+  kSendOverflow = 4,    // PLC_COM_SEND_OVER
+  kReceiveOverflow = 8, // PLC_COM_RECV_OVER
+};
+
+class Port {
+public:
+  static constexpr uint32_t kQueueBytes = 1024; // each way
+
+  // Before the program runs. A port that is not active refuses all but `takeState`.
+  void configure(const Settings& settings) { settings_ = settings; }
+  const Settings& settings() const { return settings_; }
+
+  // ---- program ---------------------------------------------------------------------------------------------------
+  // At a power-on: nothing was received, overflows are forgotten. What is to be sent, and an error, are the line's.
+  void powerOn() noexcept;
+  // False: no room, or not active.
+  bool send(uint8_t byte) noexcept { return send(std::span(&byte, 1)); }
+  // All or nothing; the line gets them at once, so that it can send them without a gap (l.21102).
+  bool send(std::span<const uint8_t> bytes) noexcept;
+  std::optional<uint8_t> receive() noexcept;
+  bool clear() noexcept; // what was received
+  // Bytes that can be received; nothing: not active.
+  std::optional<uint32_t> received() const noexcept;
+  // A sum of PortState. The overflows are forgotten by it.
+  uint32_t takeState() noexcept;
+
+  // ---- line ------------------------------------------------------------------------------------------------------
+  // Bytes that are to be sent; none while a block is being put in.
+  uint32_t toSend() const noexcept;
+  // Takes the oldest one, after toSend.
+  bool takeToSend(uint8_t& byte) noexcept { return toLine_.pop(byte); }
+  void dropToSend() noexcept;
+  // A byte has come; it is lost where there is no room.
+  void deliver(uint8_t byte) noexcept { fromLine_.push(byte & settings_.mask()); }
+  void setError(bool isWrong) noexcept { error_.store(isWrong, std::memory_order_relaxed); }
+  // Bytes that were lost, as there was no room for them. Any thread.
+  uint32_t lostBytes() const noexcept { return fromLine_.lost(); }
+  bool hasError() const noexcept { return error_.load(std::memory_order_relaxed); }
+
+private:
+  Settings settings_;
+  core::FixedRing<uint8_t, kQueueBytes> toLine_, fromLine_;
+  std::atomic<bool> filling_{false}; // a block is being put into toLine_
+  std::atomic<bool> error_{false};
+  bool sendOverflow_ = false;
+  uint32_t lostSeen_ = 0; // of the bytes that fromLine_ has refused
+};
+
+} // namespace rung::io::com

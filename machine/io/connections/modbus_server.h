@@ -1,0 +1,62 @@
+// A server of Modbus TCP: clients read the outputs and write the inputs of a connection. A client that sends half a
+// message, floods, or takes no answers costs the others nothing.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <memory>
+
+#include <modbus.h>
+
+#include "machine/io/connections/exchange.h"
+#include "machine/io/connections/modbus_image.h"
+#include "machine/io/connections/service.h"
+#include "machine/io/connections/socket.h"
+
+namespace rung::io {
+
+class ModbusServer final : public Service {
+public:
+  // Listens from now on. Throws std::runtime_error where it cannot.
+  ModbusServer(const host::Connection& connection, Exchange& exchange);
+  void run(const std::atomic<bool>& ending) noexcept override;
+
+private:
+  struct Client {
+    Socket socket;
+    int64_t heardNs = 0;    // of its last whole message, or of its beginning
+    int64_t refilledNs = 0; // when `allowance` was last added to
+    double allowance = 1;   // requests that may be answered now
+    size_t size = 0;        // bytes of a message that have come
+    bool ended = false;
+    std::array<uint8_t, kLongestMessage> bytes{};
+  };
+  struct Free {
+    void operator()(modbus_t* context) const noexcept { modbus_free(context); }
+  };
+
+  void turn();
+  int waitFor() const;
+  void accept(int64_t now);
+  void makeRoom(int64_t now);
+  void serve(Client& client, int events, int64_t now); // of poll
+  void refill(Client& client, int64_t now) const;
+  void receive(Client& client, int64_t now);
+  bool hasMessage(const Client& client) const;
+  void answer(Client& client, int64_t now);
+  bool reply(const Client& client, int length, int64_t now);
+  void published(bool wrote, int64_t now);
+
+  uint32_t mostClients_;
+  double requestsPerNs_;
+  double burst_; // requests at once
+  Exchange& exchange_;
+  ModbusImage image_;
+  std::unique_ptr<modbus_t, Free> context_;
+  Socket listening_;
+  std::list<Client> clients_;
+  int64_t writtenNs_ = 0;
+};
+
+} // namespace rung::io

@@ -1,0 +1,153 @@
+// A request of a TECHNOL program to a device, while it is answered, and the bytes of answers that programs fetch
+// afterwards (rtlib/nc/technol/services.h). The device may be simulated or real. Nothing here allocates.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "rtlib/core/queues.h"
+#include "rtlib/nc/technol/services.h"
+#include "rtlib/run/instance.h"
+
+namespace rung::io {
+
+// Where the bytes of answers go.
+class AnswerRoom {
+public:
+  static constexpr uint32_t kMost = nc::technol::kMostArgumentBytes; // of one answer
+
+  // For the bytes of an answer, at most so many.
+  virtual std::span<uint8_t> make(uint32_t ticket, uint32_t count) = 0;
+
+protected:
+  ~AnswerRoom() = default;
+};
+
+// Bytes of the latest answers, by their tickets.
+class AnswerBytes final : public AnswerRoom {
+public:
+  AnswerBytes() : bytes_(std::make_unique<std::array<uint8_t, kRoom>>()) {}
+
+  // The oldest answers lose theirs.
+  std::span<uint8_t> make(uint32_t ticket, uint32_t count) override {
+    count = std::min(count, kMost);
+    if (kRoom - end_ < count) end_ = 0;
+    Entry& entry = entries_[next_++ % entries_.size()] = {.ticket = ticket, .first = end_, .count = count};
+    end_ += count;
+    return {bytes_->data() + entry.first, count};
+  }
+  // Answers kDataService.
+  void fetch(const core::ServiceRequest& request, core::ServiceReply& reply) const {
+    reply.resultCount = RUNG_MAX_SERVICE_ARGS;
+    const auto first = static_cast<uint64_t>(request.args[1]) * nc::technol::kDataBytes;
+    for (const Entry& entry : entries_) {
+      if (entry.ticket != static_cast<uint32_t>(request.args[0]) || first >= entry.count) continue;
+      const uint64_t count = std::min<uint64_t>(entry.count - first, nc::technol::kDataBytes);
+      for (uint64_t i = 0; i < count; ++i)
+        reply.results[i / 8] |= static_cast<int64_t>(uint64_t{(*bytes_)[entry.first + first + i]} << i % 8 * 8);
+      return;
+    }
+  }
+  void clear() { entries_ = {}, end_ = 0; }
+
+private:
+  static constexpr uint32_t kRoom = 1u << 18;
+  struct Entry {
+    uint32_t ticket = 0; // 0: none
+    uint32_t first = 0;
+    uint32_t count = 0;
+  };
+  std::array<Entry, core::ServiceQueue::kRecords> entries_ = {}; // as long as a ticket is known
+  size_t next_ = 0;
+  uint32_t end_ = 0;
+  std::unique_ptr<std::array<uint8_t, kRoom>> bytes_;
+};
+
+// What a service asks for: an enumeration's value by the names in its order, the first of which is that of None.
+template <class Order, size_t Count>
+Order orderOf(const std::string_view (&names)[Count], std::string_view service) {
+  const auto* found = std::ranges::find(names, service);
+  return static_cast<Order>(found == std::end(names) ? 0 : found - names);
+}
+
+class DeviceCall {
+public:
+  // Within the program's instruction.
+  DeviceCall(const runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply,
+             AnswerRoom& room)
+      : instance_(&instance), request_(request), reply_(reply), room_(room) {
+    begin();
+  }
+  // Later, and not in the scan: `given` are the program's bytes, of the one argument that means some.
+  DeviceCall(std::span<const uint8_t> given, const core::ServiceRequest& request, core::ServiceReply& reply,
+             AnswerRoom& room)
+      : given_(given), request_(request), reply_(reply), room_(room) {
+    begin();
+  }
+
+  // Within the instruction.
+  core::Memory memory() const { return instance_->memory(); }
+  const core::ServiceRequest& request() const { return request_; }
+  uint32_t argCount() const { return request_.argCount; }
+  int64_t arg(uint32_t number) const { return request_.args[number]; }
+  int64_t argOr(uint32_t number, int64_t otherwise) const {
+    return arg(number) == nc::technol::kNotGiven ? otherwise : arg(number);
+  }
+  // A number that a device has in 32 bits without a sign; what does not fit is UINT32_MAX.
+  uint32_t number(uint32_t at) const {
+    return arg(at) < 0 || arg(at) > UINT32_MAX ? UINT32_MAX : static_cast<uint32_t>(arg(at));
+  }
+  double real(uint32_t at) const { return std::bit_cast<double>(arg(at)); }
+  // The program's bytes, in `room`, as many as fit.
+  std::span<const uint8_t> bytes(uint32_t at, std::span<uint8_t> room) const {
+    const nc::technol::ArgumentBytes from = nc::technol::bytesOfArgument(arg(at));
+    if (instance_ == nullptr) return given_.first(std::min(given_.size(), room.size()));
+    const auto count = std::min<uint32_t>(from.count, static_cast<uint32_t>(room.size()));
+    const core::Memory memory = instance_->memory();
+    for (uint32_t i = 0; i < count; ++i) room[i] = memory.readByte(from.space, from.first + i);
+    return room.first(count);
+  }
+  // Up to a terminator.
+  std::string_view text(uint32_t at, std::span<uint8_t> room) const {
+    const std::span<const uint8_t> all = bytes(at, room);
+    const auto end = std::ranges::find(all, 0);
+    return {reinterpret_cast<const char*>(all.data()), static_cast<size_t>(end - all.begin())};
+  }
+
+  void set(uint32_t result, int64_t value) { reply_.results[result] = value; }
+  int64_t result(uint32_t number) const { return reply_.results[number]; }
+  void setReal(uint32_t result, double value) { set(result, std::bit_cast<int64_t>(value)); }
+  // Room for bytes of the answer, whose number becomes the result.
+  std::span<uint8_t> makeBytes(uint32_t result, uint32_t count) {
+    const std::span<uint8_t> made = room_.make(request_.ticket, count);
+    set(result, static_cast<int64_t>(made.size()));
+    return made;
+  }
+  void setBytes(uint32_t result, std::span<const uint8_t> bytes) {
+    const std::span<uint8_t> made = makeBytes(result, static_cast<uint32_t>(bytes.size()));
+    std::ranges::copy(bytes.first(made.size()), made.begin());
+  }
+  // It is not carried out.
+  void refuse() { reply_.state = RUNG_SERVICE_ERROR; }
+  // The answer comes later, by the instance's queue.
+  void wait() { reply_.state = RUNG_SERVICE_PENDING; }
+
+private:
+  void begin() {
+    reply_.ticket = request_.ticket;
+    reply_.state = RUNG_SERVICE_DONE;
+    reply_.resultCount = RUNG_MAX_SERVICE_ARGS;
+  }
+
+  const runtime::Instance* instance_ = nullptr; // null: later
+  std::span<const uint8_t> given_;
+  const core::ServiceRequest& request_;
+  core::ServiceReply& reply_;
+  AnswerRoom& room_;
+};
+
+} // namespace rung::io

@@ -1,0 +1,52 @@
+// What an operator should know of the devices, when it changes: a sentence each. Not for the scan, which never waits
+// for the caller.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "machine/io/com/tty_thread.h"
+#include "machine/io/devices_around.h"
+
+namespace rung::io {
+
+class DeviceReport {
+public:
+  DeviceReport(Devices& devices, const com::TtyThread& tty) : devices_(devices), tty_(tty) {}
+
+  // Since the last call. What is lost, and what a drive or a unit says again, is said once a second at most.
+  std::vector<std::string> next();
+
+private:
+  struct Channel {
+    BusState state = BusState::Active;
+    uint64_t lost = 0, full = 0, timeouts = 0;
+    bool isFull = false, isUnheard = false;
+  };
+  void states(std::vector<std::string>& lines);
+  void orders(std::vector<std::string>& lines);
+  void messages(std::vector<std::string>& lines, int64_t now);
+  void losses(std::vector<std::string>& lines);
+  void ports(std::vector<std::string>& lines);
+
+  Devices& devices_;
+  const com::TtyThread& tty_;
+  template <class Message>
+  struct Said {
+    Message message;
+    int64_t untilNs = 0; // until then it is not said again
+  };
+  using SaidOfUnits = std::array<Said<UnitMessage>, kMostUnits[0]>;
+  template <class Message>
+  static void say(const Message& message, Said<Message>& said, int64_t now, std::vector<std::string>& lines);
+  std::array<Channel, CanController::kChannels> channels_;
+  std::array<Said<DriveMessage>, kMostDrives> saidOfDrives_; // of each the last
+  std::array<SaidOfUnits, kUnitGroups> saidOfUnits_;
+  std::vector<std::string> portProblems_;
+  std::array<uint32_t, com::kMostPorts> portLosses_{};
+  int64_t nextLossesNs_ = 0;
+  bool areasReported_ = false;
+};
+
+} // namespace rung::io

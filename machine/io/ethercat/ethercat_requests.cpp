@@ -1,0 +1,135 @@
+// Requests to EtherCAT (see ethercat_requests.h).
+#include "machine/io/ethercat/ethercat_requests.h"
+
+#include <iterator>
+
+#include "rtlib/nc/control/technol/cells.h"
+
+namespace rung::io {
+
+using ethercat::Master;
+using ethercat::StateBits;
+using ethercat::Station;
+
+namespace {
+
+using Room = std::array<uint8_t, ethercat::kMostMailboxBytes>;
+
+uint8_t byteOf(const DeviceCall& call, uint32_t at) { return static_cast<uint8_t>(call.arg(at)); }
+uint16_t wordOf(const DeviceCall& call, uint32_t at) { return static_cast<uint16_t>(call.arg(at)); }
+
+// Master, Slave, Index, Subindex, Len
+Master::Ticket upload(Master& master, Station at, const DeviceCall& call) {
+  return master.upload(at, wordOf(call, 2), byteOf(call, 3), call.number(4));
+}
+// Master, Slave, Index, Subindex, Val, Len
+Master::Ticket download(Master& master, Station at, const DeviceCall& call) {
+  Room room;
+  return master.download(at, wordOf(call, 2), byteOf(call, 3), call.bytes(4, room));
+}
+// Master, Slave, DrNo, ElemFl, IDN, Len
+Master::Ticket readIdn(Master& master, Station at, const DeviceCall& call) {
+  return master.readIdn(at, byteOf(call, 2), byteOf(call, 3), wordOf(call, 4), call.number(5));
+}
+// Master, Slave, DrNo, ElemFl, IDN, Val, Len
+Master::Ticket writeIdn(Master& master, Station at, const DeviceCall& call) {
+  Room room;
+  return master.writeIdn(at, byteOf(call, 2), byteOf(call, 3), wordOf(call, 4), call.bytes(5, room));
+}
+Master::Ticket command(Master& master, Station at, const DeviceCall& call) {
+  return master.command(at, call.number(2));
+}
+
+// 0: the master does not take it.
+Master::Ticket ask(Master& master, EthercatOrder order, const DeviceCall& call) {
+  const Station at = {call.number(0), call.number(1)};
+  switch (order) {
+  case EthercatOrder::None: break;
+  case EthercatOrder::ReadObject: return upload(master, at, call);
+  case EthercatOrder::WriteObject: return download(master, at, call);
+  case EthercatOrder::ReadIdn: return readIdn(master, at, call);
+  case EthercatOrder::WriteIdn: return writeIdn(master, at, call);
+  case EthercatOrder::Command: return command(master, at, call);
+  }
+  return 0;
+}
+
+bool writes(EthercatOrder order) { return order == EthercatOrder::WriteObject || order == EthercatOrder::WriteIdn; }
+
+// Results: DR, Len, of what reads the number of its data, of an IDN its elements.
+enum Result : uint32_t { kCode, kLength, kRest, kMostResults = 4 };
+
+} // namespace
+
+EthercatOrder ethercatOrder(std::string_view service) {
+  constexpr std::string_view kOrders[] = {
+      "", "ECAT_COE_READ", "ECAT_COE_WRITE", "ECAT_SOE_READ", "ECAT_SOE_WRITE", "ECAT_COMMAND"};
+  return orderOf<EthercatOrder>(kOrders, service);
+}
+
+void EthercatCalls::clear() {
+  for (Pending& pending : pending_) {
+    if (pending.ticket != 0) master_.forget(pending.asked);
+    pending = {};
+  }
+}
+
+void EthercatCalls::begin(EthercatOrder order, DeviceCall& call) {
+  Pending* free = std::ranges::find(pending_, 0u, &Pending::ticket);
+  const bool room = free != std::end(pending_);
+  const Master::Ticket asked = room ? ask(master_, order, call) : 0;
+  if (asked == 0) return call.set(kCode, ethercat::kTimedOut);
+  *free = {.ticket = call.request().ticket, .asked = asked, .writes = writes(order)};
+  call.wait();
+}
+
+bool EthercatCalls::finish(runtime::Instance& instance, AnswerBytes& bytes) {
+  bool any = false;
+  for (Pending& pending : pending_) {
+    if (pending.ticket == 0) continue;
+    const ethercat::Answer answer = master_.poll(pending.asked);
+    if (!answer.isDone) continue;
+    core::ServiceReply reply{.ticket = pending.ticket, .resultCount = kMostResults};
+    reply.results[kCode] = answer.code;
+    reply.results[kLength] = answer.length;
+    if (!pending.writes) reply.results[kRest] = static_cast<int64_t>(answer.data.size());
+    reply.results[pending.writes ? kRest : kRest + 1] = answer.elements;
+    std::ranges::copy(answer.data, bytes.make(pending.ticket, static_cast<uint32_t>(answer.data.size())).begin());
+    instance.services().complete(reply);
+    master_.forget(pending.asked);
+    pending = {};
+    any = true;
+  }
+  return any;
+}
+
+namespace {
+
+struct Bit {
+  const char* name;
+  bool StateBits::* member;
+};
+constexpr Bit kStateBits[] = {{"flEcatBootStrapReq", &StateBits::bootstrapRequest},
+                              {"flEcatInitReq", &StateBits::initRequest},
+                              {"flEcatPreOperationalReq", &StateBits::preOperationalRequest},
+                              {"flEcatSafeOperationalReq", &StateBits::safeOperationalRequest},
+                              {"flEcatOperationalReq", &StateBits::operationalRequest},
+                              {"flEcatStartCyclicOperation", &StateBits::startCyclicOperation},
+                              {"flEcatOperational", &StateBits::isOperational}};
+
+} // namespace
+
+StatePlaces::StatePlaces(const rung_program& program) {
+  static_assert(std::size(kStateBits) == std::tuple_size_v<decltype(bits_)>);
+  for (uint32_t i = 0; i < bits_.size(); ++i) bits_[i] = nc::technol::locateSignal(program, kStateBits[i].name);
+}
+
+void StatePlaces::read(const core::Memory& memory, StateBits& bits) const {
+  for (uint32_t i = 0; i < bits_.size(); ++i) bits.*kStateBits[i].member = memory.read(bits_[i]) != 0;
+}
+
+void StatePlaces::write(const core::Memory& memory, const StateBits& bits) const {
+  for (uint32_t i = 0; i < bits_.size(); ++i) memory.write(bits_[i], bits.*kStateBits[i].member ? 1 : 0);
+}
+
+} // namespace rung::io

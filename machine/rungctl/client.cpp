@@ -1,0 +1,143 @@
+// See client.h.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "machine/rungctl/client.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "machine/control/controller.h"
+#include "machine/control/place.h"
+
+namespace rung::rungctl {
+
+using nlohmann::json;
+
+namespace {
+
+// Who listens there: somebody else could have made the folder first. "" of the user himself, and of root.
+std::string strangerOf(int made) {
+  ucred who{};
+  socklen_t size = sizeof who;
+  if (getsockopt(made, SOL_SOCKET, SO_PEERCRED, &who, &size) != 0)
+    return "does not identify its owner, and is not used";
+  if (geteuid() == 0 || who.uid == geteuid() || who.uid == 0) return {};
+  return "belongs to user " + std::to_string(who.uid) + ", and is not used";
+}
+
+// -1 with errno: nobody listens there.
+int connected(const std::string& path) {
+  const sockaddr_un address = control::socketAddress(path);
+  const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    const int problem = errno;
+    close(made);
+    errno = problem;
+    return -1;
+  }
+  if (const std::string wrong = strangerOf(made); !wrong.empty()) {
+    close(made);
+    throw std::runtime_error("the host at " + path + " " + wrong);
+  }
+  return made;
+}
+
+Reached reachedBy(std::string host, int made) {
+  return {std::move(host), control::Connection(made, control::Connection::kLongestAnswer)};
+}
+
+Reached reach(const std::string& host) {
+  std::string problem;
+  for (const std::string& folder : control::socketFolders(geteuid())) {
+    const std::string path = control::socketPath(folder, host);
+    if (const int made = connected(path); made >= 0) return reachedBy(host, made);
+    if (problem.empty()) problem = "cannot reach a host at " + path + ": " + std::strerror(errno);
+  }
+  throw std::runtime_error(problem + "; is it running, and started by you?");
+}
+
+// A host is connected with once: to look first whether it is there would make it serve two.
+Reached reachTheOnlyOne() {
+  std::vector<Reached> reached;
+  for (control::Place& place : control::placesOf(geteuid()))
+    if (const int made = connected(place.path); made >= 0) reached.push_back(reachedBy(std::move(place.host), made));
+  if (reached.size() == 1) return std::move(reached.front());
+  if (reached.empty())
+    throw std::runtime_error(
+        fmt::format("no host is running: no socket is in {}", fmt::join(control::socketFolders(geteuid()), " or ")));
+  std::vector<std::string> hosts;
+  for (Reached& one : reached) hosts.push_back(std::move(one.host));
+  std::ranges::sort(hosts);
+  throw std::runtime_error(
+      fmt::format("several hosts are running; choose one with --host: {}", fmt::join(hosts, ", ")));
+}
+
+} // namespace
+
+Client::Client(const std::string& host) : Client(host.empty() ? reachTheOnlyOne() : reach(host)) {}
+
+Client::Client(Reached reached) : host_(std::move(reached.host)), connection_(std::move(reached.connection)) {
+  const std::optional<json> first = next(kAnswer);
+  if (!first) throw std::runtime_error("the host " + host_ + " does not answer");
+  if (first->contains("error")) throw std::runtime_error((*first)["error"].get<std::string>());
+  greeting_ = *first;
+  if (greeting_.value("rung", "") != "host" || greeting_.value("protocol", 0) != control::Controller::kProtocol)
+    throw std::runtime_error("the host " + host_ + " speaks another protocol: " + greeting_.dump());
+}
+
+json Client::ask(const json& request, std::chrono::milliseconds patience) {
+  connection_.send(request.dump());
+  while (const std::optional<json> line = next(patience)) {
+    if (!line->contains("event")) return *line;
+    events_.push_back(*line);
+  }
+  throw std::runtime_error(interrupted_ ? "interrupted before the host " + host_ + " answered"
+                                        : "the host " + host_ + " does not answer");
+}
+
+std::optional<json> Client::event(const volatile int& stop) {
+  constexpr std::chrono::milliseconds kTurn(100);
+  std::optional<json> found;
+  while (stop == 0 && !found) found = event(kTurn);
+  return found;
+}
+
+std::optional<json> Client::event(std::chrono::milliseconds patience) {
+  if (!events_.empty()) {
+    json first = std::move(events_.front());
+    events_.pop_front();
+    return first;
+  }
+  std::optional<json> line = next(patience);
+  if (line && line->contains("event")) return line;
+  if (connection_.ended()) throw std::runtime_error("the host " + host_ + " has ended");
+  return std::nullopt;
+}
+
+// The next line, nothing within that time; or the host has gone.
+std::optional<json> Client::next(std::chrono::milliseconds wait) {
+  while (true) {
+    if (const std::optional<std::string> line = connection_.line()) {
+      json parsed = json::parse(*line, nullptr, false);
+      if (parsed.is_object()) return parsed;
+      throw std::runtime_error("the host " + host_ + " sent a line that is not a JSON object");
+    }
+    if (connection_.ended()) return std::nullopt;
+    pollfd waiting{connection_.socket(), POLLIN, 0};
+    const int ready = poll(&waiting, 1, static_cast<int>(wait.count()));
+    interrupted_ = ready < 0 && errno == EINTR;
+    if (ready <= 0) return std::nullopt;
+    connection_.receive();
+  }
+}
+
+} // namespace rung::rungctl

@@ -1,0 +1,527 @@
+// rungctl: looks at and changes a program that runs in a host, by the host's socket (docs/control-protocol.md).
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "machine/command-line/usage.h"
+#include "machine/compile/compilation.h"
+#include "machine/control/log.h"
+#include "machine/control/place.h"
+#include "machine/rungctl/client.h"
+#include "machine/rungctl/relay.h"
+#include "machine/rungctl/reload.h"
+#include "machine/rungctl/trace.h"
+#include "machine/rungctl/words.h"
+#include "rtlib/text/bit_word.h"
+#include "rtlib/text/number.h"
+
+namespace {
+
+using namespace rung;
+using namespace rung::rungctl;
+using nlohmann::json;
+
+volatile int gStop = 0; // of SIGINT and SIGTERM
+
+// As in scenarios; what JSON cannot hold stays a text, which the host takes or refuses with what it expected.
+json valueOf(const std::string& text) {
+  if (const std::optional<bool> bit = text::bitWord(text)) return *bit;
+  const text::WrittenNumber number = text::writtenNumber(text);
+  if (number.form == text::NumberForm::Real && std::isfinite(number.real)) return number.real;
+  if (number.form != text::NumberForm::Whole) return text;
+  return number.negative ? json(static_cast<int64_t>(number.bits())) : json(number.magnitude);
+}
+
+// What rung-run adds: its clock and its connections.
+std::string clockOf(const json& answer) {
+  if (!answer.contains("clock")) return {};
+  const json& clock = answer["clock"];
+  const auto figure = [&](const char* key) { return clock.value(key, 0.0); };
+  std::string text = fmt::format(
+      "since the host started, every {:.0f} us: {} steps, {} overruns, from step to step {:.1f} to {:.1f} us\n"
+      "start late: 99% within {:.1f} us, 99.9% within {:.1f} us, the latest {:.1f} us\n"
+      "a step took {:.1f} us on average; the longest:",
+      figure("period_us"), clock.value("steps", uint64_t{0}), clock.value("overruns", uint64_t{0}),
+      figure("shortest_period_us"), figure("longest_period_us"), figure("late_99_us"), figure("late_999_us"),
+      figure("latest_us"), figure("mean_us"));
+  for (const json& step : clock.value("worst", json::array()))
+    text += fmt::format("{} {:.1f} us (at {:.3f} s)", text.ends_with(')') ? "," : "", step.value("us", 0.0),
+                        step.value("at_s", 0.0));
+  return text + "\n";
+}
+
+std::string connectionsOf(const json& answer) {
+  std::string text;
+  for (const json& one : answer.value("connections", json::array())) {
+    const std::string problem = one.value("problem", "");
+    text += fmt::format("{}: {}, {} exchanges, lost {} times{}\n", shown(one["name"]),
+                        one.value("alive", false) ? "connected" : "silent", one.value("exchanges", uint64_t{0}),
+                        one.value("losses", uint64_t{0}), problem.empty() ? "" : "; the last problem: " + problem);
+  }
+  return text;
+}
+
+std::string stopOf(const json& answer) {
+  const std::string fault = answer.value("fault", "");
+  const std::string faulty = answer.value("fault_of", "");
+  const std::string problem = answer.value("restart_problem", "");
+  return fmt::format("stopped by a fault{}: {}\n{}", faulty.empty() ? "" : " of " + faulty + ", which was running then",
+                     fault, problem.empty() ? "" : "the last restart has failed: " + problem + "\n");
+}
+
+// M, S and T functions on their way to the program: a line each, the oldest first.
+std::string functionsOf(const json& answer) {
+  std::string text;
+  const json functions = answer.value("functions", json::object());
+  const json oldest = functions.value("oldest", json::array());
+  for (const json& one : oldest) {
+    const uint64_t channel = one.value("channel", uint64_t{1});
+    text += fmt::format("{}{}{}: {} for {:.3f} s{}\n", shown(one["function"]), one["code"].dump(),
+                        channel == 1 ? "" : fmt::format(" in channel {}", channel),
+                        one.value("begun", false) ? "not finished by the program" : "waits for its turn",
+                        static_cast<double>(one.value("us", int64_t{0})) / 1e6,
+                        one.value("late", false) ? ", longer than the timeout of the mapping file" : "");
+  }
+  const auto count = functions.value("count", uint64_t{0});
+  if (count > oldest.size()) text += fmt::format("and {} more functions\n", count - oldest.size());
+  const auto lost = functions.value("lost", uint64_t{0});
+  if (lost != 0) text += fmt::format("functions lost since the host started: {}\n", lost);
+  return text;
+}
+
+std::string runningOf(const json& answer) {
+  return fmt::format("{}: {} scans, {} missed{}; program time {:.3f} s{}\n",
+                     answer.value("stopped", false) ? "stopped by the operator" : "running",
+                     answer.value("passes", uint64_t{0}), answer.value("missed", uint64_t{0}),
+                     answer.value("restarts", uint64_t{0}) != 0 ? " since the last reset" : "",
+                     static_cast<double>(answer.value("us", int64_t{0})) / 1e6,
+                     answer.value("unsaved", false) ? "; the retained memory cannot be written" : "");
+}
+
+int status(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "status"}});
+  std::string text = fmt::format("host {}, program {}, dialect {}\n", shown(answer["host"]), shown(answer["program"]),
+                                 shown(answer["dialect"]));
+  if (answer.value("powered_off", false))
+    text += "switched off: the program has ended regularly\n";
+  else if (answer.contains("not_run"))
+    text += "it does not run: " + shown(answer["not_run"]) + "\n";
+  else if (!answer.value("scanned", false))
+    text += "not scanned: the thread of the host does not run\n";
+  else if (answer.value("faulted", false))
+    text += stopOf(answer);
+  else
+    text += runningOf(answer);
+  print(words, answer, text + functionsOf(answer) + clockOf(answer) + connectionsOf(answer));
+  return cli::kOk;
+}
+
+// "2026-11-29 14:38:04 - 14:38:09  message 3 DOOR IS OPEN"
+std::string entryOf(const json& entry) {
+  constexpr size_t kDate = 11; // "2026-11-29 "
+  const std::string came = control::dateText(entry.value("came", int64_t{0}));
+  std::string went;
+  if (entry.value("on", false))
+    went = "- on now";
+  else if (entry.contains("went"))
+    went = "- " + control::dateText(entry["went"].get<int64_t>());
+  else if (entry.value("kind", "") == "message")
+    went = "- ?";
+  if (went.starts_with("- " + came.substr(0, kDate))) went.erase(2, kDate);
+  std::string text = fmt::format("{} {:<10}  {}", came, went, shown(entry["text"]));
+  if (const auto times = entry.value("times", uint64_t{1}); times != 1) text += fmt::format(" ({} times)", times);
+  return text + (entry.value("cut", false) ? ", still on when the host ended\n" : "\n");
+}
+
+int messages(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "messages"}, {"follow", words.follow}, {"history", words.all}});
+  std::string text;
+  for (const json& entry : answer["entries"])
+    if (!words.on || entry.value("on", false)) text += entryOf(entry);
+  print(words, answer, text);
+  while (words.follow && gStop == 0 && std::cout) {
+    const std::optional<json> event = client.event(gStop);
+    if (event) print(words, *event, shown((*event)["text"]) + (event->value("event", "") == "gone" ? " has gone" : ""));
+  }
+  return cli::kOk;
+}
+
+int get(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "get"}, {"names", words.names}});
+  std::string text;
+  for (const std::string& name : words.names) text += fmt::format("{} = {}\n", name, shown(answer["values"][name]));
+  print(words, answer, text);
+  return cli::kOk;
+}
+
+// Of a watched name, which has none after a program without that name has taken over.
+std::string changeOf(const json& name, const json& value) {
+  const std::string text = name["name"].get<std::string>();
+  return value.is_null() ? text + " is gone" : text + " = " + shown(value);
+}
+
+int watch(Client& client, const Words& words) {
+  const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", words.all}});
+  if (words.common.asJson) print(words, begun, "");
+  json last = json::array();
+  while (gStop == 0 && std::cout) {
+    const std::optional<json> event = client.event(gStop);
+    if (!event || event->value("event", "") != "values") continue;
+    std::string text;
+    for (size_t i = 0; i < words.names.size(); ++i)
+      if (i >= last.size() || last[i] != (*event)["values"][i])
+        text += fmt::format("{:.3f} {}\n", static_cast<double>(event->value("us", int64_t{0})) / 1e6,
+                            changeOf(begun["names"][i], (*event)["values"][i]));
+    last = (*event)["values"];
+    print(words, *event, text);
+  }
+  return cli::kOk;
+}
+
+// What the program has done until now and has not arrived yet: a busy machine lets this process wait.
+void addRest(Client& client, const Words& words, rungctl::Trace& trace) {
+  using std::chrono::milliseconds;
+  // 0 where no pass ends any more.
+  const uint64_t newest = client.ask({{"do", "get"}, {"names", words.names}}).value("pass", uint64_t{0});
+  const milliseconds patience(newest == 0 ? 0 : 2000);
+  while (newest == 0 || trace.lastPass() < newest) {
+    const std::optional<json> event = client.event(patience);
+    if (!event) return;
+    if (event->value("event", "") == "values") trace.add(*event);
+  }
+}
+
+// Until its time is over or somebody ends it. What came before the host has gone is in the trace, too; then why.
+std::string fill(Client& client, const Words& words, rungctl::Trace& trace) try {
+  constexpr std::chrono::milliseconds kTurn(100); // it ends in time where no pass comes, too
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(words.seconds);
+  while (gStop == 0 && (words.seconds == 0 || std::chrono::steady_clock::now() < end))
+    if (const std::optional<json> event = client.event(kTurn); event && event->value("event", "") == "values")
+      trace.add(*event);
+  addRest(client, words, trace);
+  return {};
+} catch (const std::runtime_error& problem) {
+  return gStop == 0 ? problem.what() : ""; // who ends it twice does not wait for the rest
+}
+
+int trace(Client& client, const Words& words) {
+  std::ofstream file(words.file, std::ios::binary);
+  if (!file) return fail("cannot write " + words.file, cli::kEnvironment);
+  const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", true}});
+  rungctl::Trace trace(file, client.greeting().value("program", ""), begun["names"]);
+  file.flush(); // its head shows a reader that no pass is missed from now on
+  const std::string problem = fill(client, words, trace);
+  trace.end();
+  if (!file.flush()) return fail("cannot write " + words.file, cli::kEnvironment);
+  print(words, {{"ok", true}, {"passes", trace.passes()}},
+        fmt::format("wrote {}: {} {}", words.file, trace.passes(), trace.passes() == 1 ? "scan" : "scans"));
+  return problem.empty() ? int{cli::kOk} : fail(problem);
+}
+
+int set(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "set"}, {"name", words.name}, {"value", valueOf(words.value)}});
+  std::string text = fmt::format("{} = {} (was {})", words.name, shown(answer["value"]), shown(answer["former"]));
+  if (answer.contains("note")) text += "\n" + answer["note"].get<std::string>();
+  print(words, answer, text);
+  return cli::kOk;
+}
+
+// NAME KEY=VALUE…: numbers are numbers, all else is text.
+int event(Client& client, const Words& words) {
+  json keys = json::object();
+  for (const std::string& word : words.names) {
+    const size_t equals = word.find('=');
+    if (equals == std::string::npos || equals == 0)
+      return fail("event: found " + word + ", expected KEY=VALUE", cli::kUsage);
+    const json value = valueOf(word.substr(equals + 1));
+    keys[word.substr(0, equals)] = value.is_number() ? value : json(word.substr(equals + 1));
+  }
+  print(words, asked(client, {{"do", "event"}, {"name", words.name}, {"keys", keys}}), "done");
+  return cli::kOk;
+}
+
+// The host may have to make code first.
+constexpr std::chrono::seconds kForce(compile::Compilation::kMostSeconds + 10);
+
+int force(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "force"}, {"name", words.name}, {"value", valueOf(words.value)}}, kForce);
+  print(words, answer, fmt::format("{} is forced to {}", words.name, shown(answer["value"])));
+  return cli::kOk;
+}
+
+int unforce(Client& client, const Words& words) {
+  if (words.all == !words.name.empty()) return fail("unforce: expected a NAME or --all", cli::kUsage);
+  json request = {{"do", "unforce"}, {"all", words.all}};
+  if (!words.all) request["name"] = words.name;
+  const json answer = asked(client, request, kForce);
+  std::string text;
+  for (const json& name : answer["names"]) text += shown(name) + " is no longer forced\n";
+  print(words, answer, text.empty() ? "nothing was forced" : text);
+  return cli::kOk;
+}
+
+int forced(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "forced"}});
+  std::string text;
+  for (const json& force : answer["forced"])
+    text += fmt::format("{} = {}, by {}\n", shown(force["name"]), shown(force["value"]), shown(force["owner"]));
+  print(words, answer, text.empty() ? "nothing is forced" : text);
+  return cli::kOk;
+}
+
+int simple(Client& client, const Words& words, const char* command, const char* text) {
+  print(words, asked(client, {{"do", command}}), text);
+  return cli::kOk;
+}
+
+// A pin, its value, and what it is for.
+int map(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "map"}});
+  std::string text;
+  size_t width = 0;
+  const auto pinOf = [](const json& pin) {
+    return shown(pin["name"]) + (pin.contains("value") ? " = " + shown(pin["value"]) : "");
+  };
+  for (const json& pin : answer["pins"]) width = std::max(width, pinOf(pin).size());
+  for (const json& pin : answer["pins"]) {
+    std::vector<std::string> uses;
+    for (const json& use : pin["uses"]) uses.push_back(shown(use));
+    text += fmt::format("{:<5} {:<5} {:<{}}  {} ({}:{})\n", shown(pin["table"]), shown(pin["type"]), pinOf(pin), width,
+                        fmt::join(uses, ", "), shown(pin["file"]), pin["line"].dump());
+  }
+  print(words, answer, text.empty() ? "the mapping file has no pins" : text);
+  return cli::kOk;
+}
+
+std::string placeOf(const json& rung) {
+  const std::string title = shown(rung["title"]);
+  const std::string file = shown(rung["file"]);
+  const std::string place = fmt::format("{}:{}", file, rung["line"].dump());
+  return title.empty() ? place : place + "  " + title;
+}
+
+std::string profileText(const json& answer) {
+  const double whole = answer["time_ns"].get<double>();
+  std::string text = "  rung  executions   share    mean ns     max ns  place\n";
+  for (const json& rung : answer["rungs"]) {
+    const double time = rung["time_ns"].get<double>();
+    const auto executions = rung["executions"].get<uint64_t>();
+    text += fmt::format("{:>6} {:>11} {:>6.1f}% {:>10.1f} {:>10.1f}  {}\n", rung["rung"].dump(), executions,
+                        whole > 0 ? 100 * time / whole : 0, time / static_cast<double>(executions),
+                        rung["max_ns"].get<double>(), placeOf(rung));
+  }
+  const size_t ran = answer["ran"].get<size_t>();
+  if (ran > answer["rungs"].size()) text += fmt::format("  ... and {} more\n", ran - answer["rungs"].size());
+  if (const double outside = answer["outside_ns"].get<double>(); outside > 0)
+    text += fmt::format(
+        "     - {:>11} {:>6.1f}% {:>10} {:>10}  outside of the rungs: clock of timers, starts and ends of modules\n",
+        "", 100 * outside / whole, "", "");
+  return text + fmt::format("{} of {} rungs have run\n", ran, answer["count"].dump());
+}
+
+int profile(Client& client, const Words& words) {
+  const json answer = asked(client, {{"do", "profile"}, {"top", words.top}, {"by", words.by}});
+  if (words.reset) asked(client, {{"do", "clear-profile"}});
+  print(words, answer, profileText(answer) + (words.reset ? "the counters start again from 0\n" : ""));
+  return cli::kOk;
+}
+
+int serve(Client& client, const Words& words) {
+  json request = {{"do", "serve"}};
+  constexpr double kMsInS = 1000;
+  if (words.seconds > 0) request["alive_ms"] = static_cast<unsigned>(words.seconds * kMsInS);
+  std::cout << asked(client, request).dump() << std::endl;
+  rungctl::relay(client.connection(), STDIN_FILENO, std::cout, gStop);
+  return cli::kOk;
+}
+
+int hosts(const Words& words) try {
+  const std::vector<std::string> names = control::hostsOf(geteuid());
+  std::string text;
+  for (const std::string& name : names) text += name + "\n";
+  print(words, json(names), text.empty() ? "no host is running" : text);
+  return cli::kOk;
+} catch (const std::exception& problem) {
+  return fail(problem.what());
+}
+
+class Commands {
+public:
+  Commands(cli::CommandLine& app, int& status) : app_(app), status_(status) { addCommon(app.root(), before_); }
+
+  using Run = std::function<int(Client&, const Words&)>;
+  // Adds one; `words` gives it its own words.
+  void add(const char* name, const char* description, const std::function<void(cli::Command&, Words&)>& words,
+           Run run) {
+    cli::Command command = app_.add(name, description);
+    auto taken = std::make_shared<Words>();
+    words(command, *taken);
+    addCommon(command, taken->common);
+    command.onRun([this, taken, run = std::move(run)] {
+      taken->common.asJson = taken->common.asJson || before_.asJson;
+      if (taken->common.host.empty()) taken->common.host = before_.host;
+      status_ = begin(*taken, run);
+    });
+  }
+  void addHosts() {
+    cli::Command command = app_.add("hosts", "List running hosts");
+    auto taken = std::make_shared<Words>();
+    command.flag("--json", taken->common.asJson, "Print the list as JSON");
+    command.onRun([this, taken] {
+      taken->common.asJson = taken->common.asJson || before_.asJson;
+      status_ = hosts(*taken);
+    });
+  }
+
+private:
+  static void addCommon(cli::Command command, Common& common) {
+    command.option("--host", common.host, "Name of the host; default: the only running one");
+    command.flag("--json", common.asJson, "Print the answer as JSON");
+  }
+  static int begin(const Words& words, const Run& run) try {
+    Client client(words.common.host);
+    return run(client, words);
+  } catch (const std::exception& problem) {
+    return fail(problem.what());
+  }
+
+  cli::CommandLine& app_;
+  int& status_;
+  Common before_; // the command
+};
+
+// NOLINTNEXTLINE(readability-function-size): a command after the other
+void addAll(Commands& commands) {
+  const auto none = [](cli::Command&, Words&) {};
+  const auto names = [](cli::Command& command, Words& words) {
+    command.option("NAME", words.names, "Variables: names or addresses of the program").required();
+  };
+  const auto oneValue = [](cli::Command& command, Words& words) {
+    command.option("NAME", words.name, "Variable: a name or an address of the program").required();
+    command.option("VALUE", words.value, "on, off, true, false or a number; also 0x1F").required();
+  };
+  commands.addHosts();
+  commands.add("status", "Show whether the program runs, its scans and its faults", none, status);
+  commands.add(
+      "messages", "Show messages of the program with their times, and faults and restarts",
+      [](cli::Command& command, Words& words) {
+        command.flag("-f,--follow", words.follow, "Keep printing new messages until Ctrl+C");
+        command.flag("--on", words.on, "Show only messages that are on now");
+        command.flag("--history", words.all, "Include messages from before the start of the host, up to 1000");
+      },
+      messages);
+  commands.add("get", "Show values at the end of a scan", names, get);
+  commands.add(
+      "watch", "Show values whenever they change, until Ctrl+C",
+      [&](cli::Command& command, Words& words) {
+        names(command, words);
+        command.flag("--all", words.all, "Show every scan, instead of about 50 a second");
+      },
+      watch);
+  commands.add(
+      "trace", "Record values of every scan in a VCD file for wave viewers",
+      [&](cli::Command& command, Words& words) {
+        names(command, words);
+        command.option("-o,--output", words.file, "File to write, FILE.vcd").required();
+        command.option("--for", words.seconds, "Seconds to record; default: until Ctrl+C").between(0.001, 1e6);
+      },
+      trace);
+  commands.add("set", "Write a value to a variable once", oneValue, set);
+  commands.add(
+      "event", "Trigger an event of the control that rung-run simulates",
+      [](cli::Command& command, Words& words) {
+        command.option("NAME", words.name, "Name of the event, as in scenarios").required();
+        command.option("KEY=VALUE", words.names, "Parameters of the event");
+      },
+      event);
+  commands.add("force", "Force a variable to a value", oneValue, force);
+  commands.add(
+      "unforce", "Release a forced variable",
+      [](cli::Command& command, Words& words) {
+        command.option("NAME", words.name, "Variable to release, by the name under which it was forced");
+        command.flag("--all", words.all, "Release all forced variables");
+      },
+      unforce);
+  commands.add("forced", "List forced variables", none, forced);
+  commands.add(
+      "reload", "Replace the running program between two scans",
+      [](cli::Command& command, Words& words) {
+        command
+            .option("FILE", words.files,
+                    "Compiled program (.so), or source files in order, or a project folder, which the host compiles")
+            .required();
+        command.flag("--profile", words.profile, "With sources: count and time every rung");
+        command
+            .option("--shadow", words.shadow,
+                    "First run it as a shadow beside the running program for this many scans, and compare outputs")
+            .between(1u, 100000u);
+        command.flag("--yes", words.yes, "Reload even if state is lost or outputs differ");
+        command.flag("--late", words.late, "Reload even if a slice may take longer than its period");
+      },
+      [](Client& client, const Words& words) { return reload(client, words, gStop); });
+  commands.add("rollback",
+               "Return to the program before the last reload; a second rollback returns to the reloaded one", none,
+               rollback);
+  commands.add("stop", "Stop the program; its outputs stay as they are", none,
+               [](Client& client, const Words& words) { return simple(client, words, "stop", "stopped"); });
+  commands.add("start", "Continue a stopped program", none,
+               [](Client& client, const Words& words) { return simple(client, words, "start", "running"); });
+  commands.add("reset", "Restart the program after a fault", none,
+               [](Client& client, const Words& words) { return simple(client, words, "reset", "restarted"); });
+  commands.add("map", "Show the pins of the mapping file with their values", none, map);
+  commands.add(
+      "profile", "Show the time of each rung of a program built with --profile",
+      [](cli::Command& command, Words& words) {
+        command.option("--by", words.by, "Sort rungs by total time or by longest execution")
+            .oneOf({"time", "longest"})
+            .showDefault();
+        command.option("--top", words.top, "Number of rungs to show").between(1u, 10000u).showDefault();
+        command.flag("--reset", words.reset, "Reset the counters afterwards");
+      },
+      profile);
+  commands.add(
+      "serve", "Answer the program's requests to its CNC: protocol lines on standard input and output",
+      [](cli::Command& command, Words& words) {
+        command
+            .option("--alive", words.seconds, "Seconds of silence after which the host considers this connection dead")
+            .between(0.1, 60.0);
+      },
+      serve);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  struct sigaction action{};
+  action.sa_handler = [](int) { gStop = 1; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  cli::CommandLine app(
+      {.name = "rungctl",
+       .description = "Monitor and change a PLC program running in LinuxCNC or rung-run",
+       .exitStatus = "0 ok, 1 the host refuses or is not running, 2 wrong usage, 3 a file cannot be read or written",
+       .guide = "docs/rungctl.md",
+       .seeAlso = {"rung-run(1)", "rung_hal(9)", "rungc(1)"}});
+  int status = cli::kOk;
+  Commands commands(app, status);
+  addAll(commands);
+  cli::addUsage(app, status);
+  const std::optional<int> decided = app.run(argc, argv, [&app](const cli::WrongWords& words) {
+    std::cerr << cli::wrongUsage(app, words);
+    return cli::kUsage;
+  });
+  return decided.value_or(status);
+}

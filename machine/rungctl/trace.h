@@ -1,0 +1,31 @@
+// The passes of a watch as a value change dump.
+#pragma once
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "rtlib/record/vcd.h"
+
+namespace rung::rungctl {
+
+class Trace {
+public:
+  // `names` is the answer to `watch`. The stream outlives the trace.
+  Trace(std::ostream& out, const std::string& program, const nlohmann::json& names);
+  void add(const nlohmann::json& event);
+  void end() { vcd_.end(); }
+  uint64_t passes() const { return passes_; }
+  uint64_t lastPass() const { return lastPass_; } // 0 before the first
+
+private:
+  runtime::VcdWriter vcd_;
+  std::vector<runtime::VcdValue> values_;
+  uint64_t lost_ = 0;
+  uint64_t passes_ = 0;
+  uint64_t lastPass_ = 0;
+};
+
+} // namespace rung::rungctl

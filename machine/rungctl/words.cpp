@@ -1,0 +1,33 @@
+// See words.h.
+#include "machine/rungctl/words.h"
+
+#include <iostream>
+#include <stdexcept>
+
+#include "rtlib/text/controls.h"
+
+namespace rung::rungctl {
+
+using nlohmann::json;
+
+int fail(const std::string& message, int status) {
+  std::cerr << "rungctl: " << text::withoutControls(message, "\n\t") << '\n';
+  return status;
+}
+
+json asked(Client& client, const json& request, std::chrono::milliseconds patience) {
+  json answer = client.ask(request, patience);
+  if (!answer.value("ok", false)) throw std::runtime_error(answer.value("error", "the host refuses"));
+  return answer;
+}
+
+std::string shown(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+void print(const Words& words, const json& answer, const std::string& text) {
+  if (words.common.asJson)
+    std::cout << answer.dump() << std::endl;
+  else if (!text.empty())
+    std::cout << text << (text.ends_with('\n') ? "" : "\n") << std::flush;
+}
+
+} // namespace rung::rungctl

@@ -1,0 +1,51 @@
+// The words of a command, and what every command does with them: it asks, prints and fails.
+#pragma once
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "machine/command-line/usage.h"
+#include "machine/rungctl/client.h"
+
+namespace rung::rungctl {
+
+// What all commands take.
+struct Common {
+  std::string host;
+  bool asJson = false;
+};
+
+// A command, its words, and what it does with a host.
+struct Words {
+  Common common;
+  std::vector<std::string> names;
+  std::string name;
+  std::string value;
+  std::string file;
+  std::vector<std::string> files;
+  double seconds = 0;
+  bool all = false;
+  bool follow = false;
+  bool on = false;
+  unsigned shadow = 0; // passes
+  bool yes = false;
+  bool late = false;
+  unsigned top = 20;
+  std::string by = "time";
+  bool reset = false;
+  bool profile = false; // of sources
+};
+
+// Says why on standard error; gives the status.
+int fail(const std::string& message, int status = cli::kWrong);
+// The answer, where it is good; throws std::runtime_error with the host's sentence.
+nlohmann::json asked(Client& client, const nlohmann::json& request,
+                     std::chrono::milliseconds patience = Client::kAnswer);
+// A text without quotes.
+std::string shown(const nlohmann::json& value);
+// With --json the answer, else the text.
+void print(const Words& words, const nlohmann::json& answer, const std::string& text);
+
+} // namespace rung::rungctl

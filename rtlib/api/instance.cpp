@@ -1,0 +1,278 @@
+// Making, ending and switching on and off; who is inside; what the schedule calls (see instance.h).
+#include "rtlib/api/instance.h"
+
+#include <pthread.h>
+
+#include "rtlib/api/error.h"
+#include "rtlib/api/running.h"
+#include "rtlib/api/shadow.h"
+#include "rtlib/api/structs.h"
+#include "rtlib/load/program_info.h"
+
+namespace rung::api {
+
+// ---- who is inside -----------------------------------------------------------------------------------------------
+
+rung_instance* instanceOf(const rung_instance* handle) noexcept {
+  return const_cast<rung_instance*>(checked(handle, kInstanceMark));
+}
+
+Call::Call(const rung_instance* handle, When when) noexcept : instance_(instanceOf(handle)) {
+  if (instance_ == nullptr) {
+    status_ = failHandle("an instance");
+    return;
+  }
+  const auto self = static_cast<uintptr_t>(pthread_self());
+  uintptr_t other = 0;
+  if (instance_->inside.compare_exchange_strong(other, self, std::memory_order_acquire)) {
+    entered_ = true;
+    if (when == When::On && !instance_->on)
+      status_ = fail(RUNG_WRONG_STATE, "the program is not switched on: call rung_instance_power_on");
+  } else if (other != self) {
+    status_ = fail(RUNG_WRONG_THREAD, "another thread is inside a call for this instance");
+  } else if (when != When::Always) {
+    status_ = failCallback();
+  }
+  if (ok()) instance_->bringInWhatIsSeen();
+}
+
+bool isInCallback(const rung_instance& instance) noexcept {
+  return instance.inside.load(std::memory_order_relaxed) == static_cast<uintptr_t>(pthread_self());
+}
+
+int32_t failCallback() noexcept { return fail(RUNG_WRONG_STATE, "a callback of the instance may only read it"); }
+
+// ---- the schedule ------------------------------------------------------------------------------------------------
+
+// What the control shows, it has heard of: messages of the time before come first.
+void Hooks::onHook(runtime::Instance& running, uint32_t work) {
+  takeMessages(instance_);
+  instance_.around->onHook(running, work);
+}
+
+uint32_t Hooks::works() const { return instance_.around->works(); }
+
+void Hooks::onFault(runtime::Instance& running) { instance_.around->onFault(running); }
+
+void Hooks::onLatch(runtime::Instance& running, uint32_t task) {
+  instance_.now().blockPlan.latch(running.block().data(), task);
+}
+
+bool Hooks::respond(runtime::Instance& running, const core::ServiceRequest& request, core::ServiceReply& reply) {
+  if (request.service != nc::Control::kOwnService) shadowRequest(instance_, request);
+  const rung_instance_options& options = instance_.options;
+  int32_t answer = (options.flags & RUNG_QUEUE_REQUESTS) != 0 ? RUNG_QUEUE : RUNG_REFUSE;
+  if (options.request != nullptr) {
+    const rung_request asked = shown(request, *instance_.control);
+    rung_reply given{.size = sizeof given, .ticket = request.ticket};
+    answer = options.request(options.user, &instance_, &asked, &given);
+    if (answer == RUNG_ANSWER) reply = taken(given);
+    reply.ticket = request.ticket;
+  }
+  if (answer == RUNG_ANSWER) return true;
+  return answer != RUNG_QUEUE && instance_.around->respond(running, request, reply);
+}
+
+// ---- power -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+void log(const rung_instance& instance, rung_log_level level, const std::string& text) {
+  if (instance.options.log != nullptr && !text.empty())
+    instance.options.log(instance.options.user, level, text.c_str());
+}
+
+// What is on disk of the time before comes first: after a fault that is the last whole scan.
+// Where that cannot be written, the program stays off, and what is to be written stays for the next try.
+int32_t takeKept(rung_instance& instance, nc::PowerOn& kind) {
+  std::string report, error;
+  std::optional<nc::PowerOn> found;
+  {
+    const std::lock_guard lock(instance.retentionChanges);
+    if (instance.retention)
+      if (const std::string unsaved = instance.retention->finish(); !unsaved.empty())
+        return fail(RUNG_FAILED, "%s", unsaved.c_str());
+    instance.retention.reset();
+    instance.retention = std::make_unique<nc::Retention>(*instance.control, instance.running, instance.keptFile,
+                                                         &runtime::takeRetainedOf, instance.outside);
+    found = instance.retention->load(report, error);
+    if (!found) instance.retention.reset();
+  }
+  log(instance, RUNG_LOG_WARNING, report);
+  if (!found) return fail(RUNG_FAILED, "%s", error.c_str());
+  if (kind == nc::PowerOn::Warm) kind = *found;
+  return RUNG_OK;
+}
+
+int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
+  instance.on = false;
+  clearOutputs(instance); // until the first slice ends, and where a fault prevents it
+  endShadow(instance);
+  if (!instance.keptFile.empty()) {
+    if (const int32_t status = takeKept(instance, kind); status != RUNG_OK) return status;
+  } else if (!instance.wasOn) {
+    kind = nc::PowerOn::Cold;
+  }
+  instance.running.setStopped(false);
+  instance.running.clearProfile();
+  instance.around->powerOn(instance.running, kind);
+  takeMessages(instance);
+  settleForces(instance);
+  instance.pace.restart();
+  instance.functionChannels = 0;
+  instance.passes = 0;
+  instance.passNs = instance.lastPassNs = instance.worstPassNs = 0;
+  instance.on = instance.wasOn = true;
+  instance.ending = false;
+  instance.faultReported = false;
+  if (Generation* faulted = instance.faulted.exchange(nullptr); faulted != nullptr) faulted->forget();
+  reportFault(instance);
+  return statusOf(instance);
+}
+
+// Begins the power-off where that has not been. Whether the program still has to be scanned for it.
+bool needsLastScans(rung_instance& instance) noexcept {
+  nc::Control& control = *instance.control;
+  if (!instance.ending) {
+    const bool needs = !instance.running.faulted() && control.beginPowerOff(instance.running);
+    instance.ending = true;
+    instance.lastPass = instance.passes + (needs ? nc::Control::kMostLastScans : 0);
+    takeMessages(instance);
+  }
+  return instance.passes < instance.lastPass && !instance.running.faulted() && control.endsLater(instance.running);
+}
+
+int32_t powerOff(rung_instance& instance) {
+  // A fault in the last scans spoils what is retained.
+  if (instance.retention && !instance.running.faulted()) (void)instance.retention->finish();
+  while (needsLastScans(instance)) {
+    do runPart(instance, [&] { instance.running.slice(); });
+    while (!instance.running.atListStart() && !instance.running.faulted());
+  }
+  instance.on = false;
+  clearOutputs(instance);
+  const std::string error = instance.retention ? instance.retention->finish() : std::string();
+  return error.empty() ? int32_t{RUNG_OK} : fail(RUNG_FAILED, "%s", error.c_str());
+}
+
+} // namespace
+} // namespace rung::api
+
+using namespace rung;
+using namespace rung::api;
+
+namespace {
+
+runtime::PaceOptions paceOf(const rung_instance_options& given) noexcept {
+  runtime::PaceOptions options;
+  if (given.catch_up != 0) options.catchUp = given.catch_up;
+  if (given.most_overruns != 0) options.mostOverruns = given.most_overruns == RUNG_NONE ? 0 : given.most_overruns;
+  return options;
+}
+
+} // namespace
+
+rung_instance::rung_instance(std::shared_ptr<const Image> from, const rung_instance_options& given,
+                             std::unique_ptr<Surroundings> surroundings, bool alone)
+    : options(given), dialect(from->program.dialect), around(std::move(surroundings)), control(&around->control()),
+      controlAlone(alone), hooks(*this),
+      running({from->program, from->engine, static_cast<uint8_t*>(given.memory), serviceNames.of(from->program)},
+              &hooks),
+      pace(running, paceOf(given)) {
+  generations.enter(*generations.add(*around, std::move(from), running.copyLists()));
+  control->onReplace(running); // a replacement before the first power-on gets places in exchange
+  beginLeavingOut();
+}
+
+rung_instance::~rung_instance() = default;
+
+namespace rung::api {
+
+int32_t newInstance(rung_image* image, const rung_instance_options* options, std::unique_ptr<Surroundings> around,
+                    rung_instance** instance) {
+  const rung_image* handle = checked(image, kImageMark);
+  if (handle == nullptr) return failHandle("an image");
+  if (instance == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the instance is null");
+  rung_instance_options given{};
+  if (!takeStruct(options, given)) return failSize("rung_instance_options");
+  constexpr uint32_t kFlags = RUNG_MEASURE | RUNG_QUEUE_REQUESTS | RUNG_SAVE_AT_ONCE;
+  if ((given.flags & ~kFlags) != 0)
+    return fail(RUNG_BAD_ARGUMENT, "the flags %u are not all those of enum rung_instance_flags", given.flags);
+  if (const int32_t status = checkMemory(handle->image->program, given.memory, given.memory_bytes); status != RUNG_OK)
+    return status;
+  return contained([&] {
+    const bool alone = around == nullptr;
+    if (alone) around = controlAlone(handle->image->program.dialect);
+    *instance = new rung_instance(handle->image, given, std::move(around), alone);
+    return int32_t{RUNG_OK};
+  });
+}
+
+} // namespace rung::api
+
+int32_t rung_instance_new(rung_image* image, const rung_instance_options* options, rung_instance** instance) {
+  return newInstance(image, options, nullptr, instance);
+}
+
+int32_t rung_instance_free(rung_instance* instance) {
+  if (instance == nullptr) return RUNG_OK;
+  {
+    const Call call(instance);
+    if (!call.ok()) return call.status();
+  }
+  release(instance);
+  return RUNG_OK;
+}
+
+int32_t rung_instance_power_on(rung_instance* instance, int32_t power) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (power != RUNG_COLD && power != RUNG_WARM)
+    return fail(RUNG_BAD_ARGUMENT, "the power-on is RUNG_COLD or RUNG_WARM, not %d", power);
+  return contained([&] { return powerOn(*call, power == RUNG_WARM ? nc::PowerOn::Warm : nc::PowerOn::Cold); });
+}
+
+int32_t rung_instance_begin_power_off(rung_instance* instance) {
+  const Call call(instance, When::On);
+  if (!call.ok()) return call.status();
+  return needsLastScans(*call) ? RUNG_LATER : RUNG_OK;
+}
+
+int32_t rung_instance_power_off(rung_instance* instance) {
+  const Call call(instance, When::On);
+  if (!call.ok()) return call.status();
+  return contained([&] { return powerOff(*call); });
+}
+
+int32_t rung_instance_keep(rung_instance* instance, const char* path) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (path == nullptr || *path == 0) return fail(RUNG_BAD_ARGUMENT, "retained memory needs the name of a file");
+  if (call->wasOn) return fail(RUNG_WRONG_STATE, "where retained memory is kept is said before the first power-on");
+  return contained([&] {
+    call->keptFile = path;
+    return int32_t{RUNG_OK};
+  });
+}
+
+int32_t rung_instance_unsaved(const rung_instance* instance, char* text, size_t bytes) {
+  rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
+  if (text == nullptr || bytes == 0) return fail(RUNG_BAD_ARGUMENT, "the place for the text is null or has no bytes");
+  return contained([&] {
+    const std::lock_guard lock(handle->retentionChanges);
+    if (!handle->retention || !handle->retention->memory().failing()) return int32_t{RUNG_EMPTY};
+    text[handle->retention->memory().problem({text, bytes - 1})] = 0;
+    return int32_t{RUNG_OK};
+  });
+}
+
+int32_t rung_instance_flush(rung_instance* instance) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (!call->retention) return fail(RUNG_WRONG_STATE, "no retained memory is kept: see rung_instance_keep");
+  return contained([&] {
+    if (call->retention->flush()) return int32_t{RUNG_OK};
+    return fail(RUNG_FAILED, "%s", call->retention->memory().problem().c_str());
+  });
+}

@@ -1,0 +1,268 @@
+// The schedule by its parts, and its state (see running.h).
+#include "rtlib/api/running.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+
+#include "rtlib/api/error.h"
+#include "rtlib/api/structs.h"
+#include "rtlib/api/variables.h"
+#include "rtlib/load/program_info.h"
+
+namespace rung::api {
+
+namespace {
+
+// A function that the host begins before the next slice begins with that one, like those that the steps were for.
+void stepFunctions(rung_instance& instance) noexcept {
+  for (uint32_t left = instance.functionChannels; left != 0; left &= left - 1)
+    instance.control->functions(static_cast<uint32_t>(std::countr_zero(left)))->step();
+  instance.running.hold();
+}
+
+void endSlice(rung_instance& instance) noexcept {
+  instance.around->afterPart(instance.running);
+  instance.running.hold();
+  if (instance.retention && !instance.retention->afterSlice() && (instance.options.flags & RUNG_SAVE_AT_ONCE) != 0) {
+    (void)instance.retention->flush();
+    (void)instance.retention->afterSlice();
+  }
+}
+
+void takeChanges(rung_instance& instance) noexcept {
+  rung_message message{};
+  while (instance.control->nextChange(instance.running, message)) say(instance, message);
+}
+
+void sampleWatches(rung_instance& instance) noexcept {
+  instance.bringInWhatIsSeen(); // their cells may be new
+  instance.watches.sample(instance);
+}
+
+void endPass(rung_instance& instance) noexcept {
+  takeChanges(instance);
+  ++instance.passes;
+  sampleWatches(instance);
+  instance.lastPassNs = instance.passNs;
+  instance.worstPassNs = std::max(instance.worstPassNs, instance.passNs);
+  instance.passNs = 0;
+}
+
+} // namespace
+
+// The rest of a slice has the inputs that it has begun with.
+void beforePart(rung_instance& instance) noexcept {
+  if (instance.running.withinSlice()) return;
+  instance.structs.takeAll();
+  if (!instance.inputs.empty()) readInputs(instance); // most hosts bind none
+  instance.now().blockPlan.readRest(instance.running.block().data());
+  instance.around->beforePart(instance.running);
+}
+
+void afterPart(rung_instance& instance) noexcept {
+  runtime::Instance& running = instance.running;
+  takeMessages(instance);
+  const bool sliceEnds = !running.withinSlice() || running.faulted();
+  if (sliceEnds) endSlice(instance);
+  if (running.faulted()) {
+    settleForces(instance);
+    clearOutputs(instance);
+    sampleWatches(instance);
+    putFormerBack(instance);
+    reportFault(instance);
+    return;
+  }
+  if (!instance.outputs.empty()) writeOutputs(instance);
+  instance.now().blockPlan.write(running.block().data());
+  if (running.atListStart()) endPass(instance);
+  if (sliceEnds) stepFunctions(instance);
+}
+
+void reportFault(rung_instance& instance) noexcept {
+  if (!instance.running.faulted() || instance.faultReported) return;
+  instance.faultReported = true;
+  if (instance.options.fault != nullptr) instance.options.fault(instance.options.user, &instance);
+}
+
+int32_t checkMemory(const rung_program& program, const void* memory, size_t bytes) noexcept {
+  if (memory == nullptr) return RUNG_OK;
+  const uint32_t needed = std::max(program.memory_size, core::Memory::kLeastBlock);
+  if (bytes < needed)
+    return fail(RUNG_BAD_ARGUMENT, "the memory block has %zu bytes, the program needs %u", bytes, needed);
+  if (reinterpret_cast<uintptr_t>(memory) % program.memory_align != 0)
+    return fail(RUNG_BAD_ARGUMENT, "the memory block is not aligned to %u bytes", program.memory_align);
+  return RUNG_OK;
+}
+
+namespace {
+
+constexpr int64_t kHourNs = 3'600'000'000'000;
+
+template <class Part>
+int32_t runCall(rung_instance* handle, Part part) noexcept {
+  const Call call(handle, When::On);
+  if (!call.ok()) return call.status();
+  if (!call->running.faulted()) runPart(*call, [&] { part(call->running); });
+  return statusOf(*call);
+}
+
+// `run` does what is due once the time has passed.
+template <class Run>
+int32_t runElapsed(rung_instance* handle, int64_t elapsedNs, Run run) noexcept {
+  const Call call(handle, When::On);
+  if (!call.ok()) return call.status();
+  if (elapsedNs < 0 || elapsedNs > kHourNs)
+    return fail(RUNG_BAD_ARGUMENT, "the elapsed time is 0 to 3600000000000 ns, not %lld",
+                static_cast<long long>(elapsedNs));
+  if (!call->pace.hasPeriod())
+    return fail(RUNG_WRONG_STATE, "the program's schedule has no period: run it by rung_instance_scan");
+  call->pace.elapse(elapsedNs);
+  run(*call);
+  return statusOf(*call);
+}
+
+} // namespace
+} // namespace rung::api
+
+using namespace rung;
+using namespace rung::api;
+
+int32_t rung_instance_slice(rung_instance* instance) {
+  return runCall(instance, [](runtime::Instance& running) { running.slice(); });
+}
+int32_t rung_instance_scan(rung_instance* instance) {
+  return runCall(instance, [](runtime::Instance& running) { running.scan(); });
+}
+int32_t rung_instance_slot(rung_instance* instance) {
+  return runCall(instance, [](runtime::Instance& running) { running.slot(); });
+}
+int32_t rung_instance_fast(rung_instance* instance) {
+  return runCall(instance, [](runtime::Instance& running) { running.fast(); });
+}
+
+int32_t rung_instance_run_due(rung_instance* instance, int64_t elapsed_ns) {
+  return runElapsed(instance, elapsed_ns, [](rung_instance& due) {
+    while (!due.running.faulted() && due.pace.take()) runPart(due, [&] { due.running.slice(); });
+    if (due.pace.overloaded() && !due.running.faulted()) runPart(due, [&] { due.running.haltOverrun(); });
+  });
+}
+
+int32_t rung_instance_run_due_fast(rung_instance* instance, int64_t elapsed_ns) {
+  return runElapsed(instance, elapsed_ns, [](rung_instance& due) {
+    if (due.running.fastAhead() && due.pace.take()) runPart(due, [&] { due.running.sliceToFast(); });
+  });
+}
+
+int32_t rung_instance_sample(rung_instance* instance) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  call->bringInWhatIsSeen();
+  call->watches.sampleNew(*call);
+  return RUNG_OK;
+}
+
+int32_t rung_instance_limit(rung_instance* instance, int64_t ns) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  if (ns < 0 || ns > kHourNs)
+    return fail(RUNG_BAD_ARGUMENT, "the limit is 0 to 3600000000000 ns, not %lld", static_cast<long long>(ns));
+  call->running.setTimeLimit({.ns = ns, .nowNs = &runtime::monotonicNs});
+  return RUNG_OK;
+}
+
+int32_t rung_instance_touch(const rung_instance* instance, int64_t until_ns) {
+  const Call call(instance);
+  if (call.ok()) call->now().image->footprint.touch(call->running.block().data(), until_ns);
+  return call.status();
+}
+
+int32_t rung_instance_stop(rung_instance* instance) {
+  const Call call(instance);
+  if (!call.ok()) return call.status();
+  call->running.setStopped(true);
+  settleForces(*call);
+  return RUNG_OK;
+}
+
+int32_t rung_instance_start(rung_instance* instance) {
+  const Call call(instance);
+  if (call.ok()) call->running.setStopped(false);
+  return call.status();
+}
+
+namespace {
+
+uint32_t flagsOf(const rung_instance& instance) noexcept {
+  uint32_t flags = 0;
+  if (instance.on) flags |= RUNG_STATE_ON;
+  if (instance.running.stopped()) flags |= RUNG_STATE_STOPPED;
+  if (instance.running.faulted()) flags |= RUNG_STATE_FAULTED;
+  if (instance.running.atListStart()) flags |= RUNG_STATE_AT_START;
+  if (instance.retention && instance.retention->memory().failing()) flags |= RUNG_STATE_UNSAVED;
+  return flags;
+}
+
+} // namespace
+
+int32_t rung_instance_state(const rung_instance* instance, rung_state* state) {
+  const Call call(instance, When::Always);
+  if (!call.ok()) return call.status();
+  const runtime::Instance& running = call->running;
+  const runtime::RetainedMemory* kept = call->retention ? &call->retention->memory() : nullptr;
+  return giveStruct(state, rung_state{.flags = flagsOf(*call),
+                                      .generation = running.generation(),
+                                      .due_us = running.sliceDelayUs(),
+                                      .now_us = running.nowUs(),
+                                      .wait_ns = call->pace.untilNextNs(),
+                                      .passes = call->passes,
+                                      .missed = call->pace.missed(),
+                                      .last_ns = call->lastPassNs,
+                                      .worst_ns = call->worstPassNs,
+                                      .lost_messages = running.messages().lost() + call->messages.lost(),
+                                      .refused_requests = running.services().refused(),
+                                      .stray_replies = running.services().stray(),
+                                      .program = call->now().number,
+                                      .saves = kept != nullptr ? kept->saved() : 0,
+                                      .failed_saves = kept != nullptr ? kept->failed() : 0});
+}
+
+int32_t rung_instance_program(const rung_instance* instance, rung_program_info* program) {
+  const rung_instance* handle = instanceOf(instance);
+  if (handle == nullptr) return failHandle("an instance");
+  rung_program_info out{};
+  handle->generations.look([&](const Generation& running) {
+    out.number = running.number;
+    putText(out.name, running.program().name);
+    const Generation* faulted = handle->faulted.load(std::memory_order_acquire);
+    if (faulted == nullptr || faulted == &running) return;
+    out.faulted = faulted->number;
+    putText(out.faulted_name, faulted->program().name);
+  });
+  return giveStruct(program, out);
+}
+
+int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info) {
+  const Call call(instance, When::Always);
+  if (!call.ok()) return call.status();
+  if (!call->running.faulted()) return RUNG_EMPTY;
+  return contained([&] {
+    const Generation* faulted = call->faulted;
+    const rung_program& program = faulted != nullptr ? faulted->program() : call->running.program();
+    const rung_fault& fault = faulted != nullptr ? call->fault : call->running.fault();
+    rung_fault_info out{.line = fault.line, .code = "", .file = "", .task = ""};
+    if (fault.code < program.fault_count) out.code = program.faults[fault.code];
+    if (fault.code == core::kOverrunFault) out.code = "overrun";
+    if (fault.code == core::kMaxTimeFault) out.code = "max-time";
+    if (fault.task < program.task_count) out.task = program.tasks[fault.task].name;
+    if (fault.rung < program.rung_count) {
+      const rung_rung_info& rung = program.rungs[fault.rung];
+      out.rung = rung.number;
+      if (rung.file < program.file_count) out.file = program.files[rung.file];
+      if (out.line == 0) out.line = rung.first_line;
+    }
+    if (info != nullptr && info->size > offsetof(rung_fault_info, text))
+      putText(out.text, runtime::faultText(program, fault));
+    return giveStruct(info, out);
+  });
+}

@@ -1,0 +1,33 @@
+// Names to cells, and the values of cells.
+#pragma once
+#include "rtlib/api/instance.h"
+
+namespace rung::api {
+
+// A status, and a sentence where it is an error.
+int32_t findCell(rung_instance& instance, const rung_program& program, const char* name, int32_t access,
+                 rung_cell& cell);
+// The program that runs has no place of this name.
+int32_t failName(const rung_program& program, const char* name) noexcept;
+
+// A bit as 0 or 1, an integer extended by its sign.
+inline int64_t valueOf(const core::Memory& memory, const core::Place& place) noexcept {
+  return place.width() == 1 ? static_cast<int64_t>(memory.read(place)) : memory.readSigned(place);
+}
+
+inline rung_value valueAt(const core::Memory& memory, const core::Place& place) noexcept {
+  rung_value value;
+  if (place.real)
+    value.real = memory.readReal(place);
+  else
+    value.integer = valueOf(memory, place);
+  return value;
+}
+
+// Of the first element.
+inline rung_value firstValue(const core::Memory& memory, const LocatedCell& cell) noexcept {
+  if (cell.ref.kind == runtime::RefKind::Constant) return {.integer = cell.ref.constant};
+  return valueAt(memory, cell.place);
+}
+
+} // namespace rung::api

@@ -1,0 +1,78 @@
+// Cells that other threads look at: what the scan thread leaves for them at the end of a pass, without waiting.
+#pragma once
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "rtlib/api/handles.h"
+#include "rtlib/api/scan_use.h"
+#include "rtlib/record/latest.h"
+
+namespace rung::api {
+
+// What is known of a sample, beside its values.
+struct SampleHead {
+  uint64_t generation = 0;
+  uint64_t pass = 0;
+  uint64_t nowUs = 0;
+};
+
+// The watches of an instance.
+class Watches {
+public:
+  // Any thread. False: there are too many.
+  bool add(rung_watch& watch);
+  void remove(rung_watch& watch); // the scan thread does not touch it any more
+
+  // Scan thread, at the end of a pass.
+  void sample(const rung_instance& instance) noexcept {
+    if (count_.load(std::memory_order_relaxed) != 0) sampleEach(instance, false);
+  }
+  // Those that have no sample yet.
+  void sampleNew(const rung_instance& instance) noexcept {
+    if (count_.load(std::memory_order_relaxed) != 0) sampleEach(instance, true);
+  }
+
+private:
+  void sampleEach(const rung_instance& instance, bool onlyNew) noexcept;
+
+  std::mutex changes_;
+  std::atomic<uint32_t> count_{0};
+  ScanUse sampling_;
+  std::array<std::atomic<rung_watch*>, RUNG_MOST_WATCHES> watches_{};
+};
+
+} // namespace rung::api
+
+struct rung_watch {
+  rung_watch(rung_instance& of, std::vector<rung_cell> watched, uint32_t depth);
+  ~rung_watch(); // no thread looks at it any more
+
+  // Scan thread.
+  void take(const rung_instance& from, const rung::api::SampleHead& head) noexcept;
+  // Any thread. RUNG_EMPTY: no sample yet, or none that waits; RUNG_LATER: interrupted again and again.
+  int32_t newest(rung_value* values, rung_sample& sample) const noexcept;
+  int32_t next(rung_value* values, rung_sample& sample) noexcept;
+
+  bool keepsPasses() const noexcept { return depth_ != 0; }
+  bool isNew() const noexcept { return newest_.empty(); }
+
+  uint32_t mark = rung::api::kWatchMark;
+  rung_instance& instance;
+  std::vector<rung_cell> cells;
+
+private:
+  static constexpr size_t kHeadWords = 3;
+  size_t words() const noexcept { return kHeadWords + cells.size(); }
+
+  std::vector<uint64_t> scratch_; // the scan thread's: head and values of this pass
+  rung::runtime::Latest newest_;
+  // Samples that wait, of one writer and one reader.
+  uint32_t depth_;
+  std::vector<uint64_t> ring_;
+  std::atomic<uint64_t> written_{0};
+  std::atomic<uint64_t> taken_{0};
+  std::atomic<uint64_t> lost_{0};
+};

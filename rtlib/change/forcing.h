@@ -1,0 +1,64 @@
+// Cells that a person holds at a value while a program runs: which bits of its memory these are, and whether its own
+// code would write them. Made and looked at outside real time; Instance::force puts it in effect.
+//
+// A cell that is copied at the border of a task (an input and what a task reads of it, an output and its image) is
+// forced wherever it is copied to and from.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "rtlib/core/runner.h"
+#include "rtlib/load/ref.h"
+
+namespace rung::runtime {
+
+struct ForcedCell {
+  Ref ref;                    // a Bit, Int or Real; of an array its first element
+  uint64_t bits = 0;          // the value; of an integer its lowest bits
+  std::string_view name = {}; // for messages
+};
+
+class Forcing {
+public:
+  // Of a program that runs with its own code, whose chunks find `engine` in their context. The program outlives it.
+  Forcing(const rung_program& program, void* engine, std::span<const ForcedCell> cells);
+
+  // Why the cells cannot be forced together; "" when they can.
+  const std::string& problem() const { return problem_; }
+  // By space and byte.
+  const std::vector<rung_forced_byte>& bytes() const { return bytes_; }
+  // Whether the program's own code may write some of them: other code is needed then.
+  bool needsCode() const { return needsCode_; }
+  // Code for all chunks that leaves the forced bits as they are.
+  void setCode(const core::Code& code) { code_ = code; }
+
+  const core::Code& code() const { return code_; }
+  std::span<const core::ForcedBits> held() const { return held_; }
+
+private:
+  struct Bits {
+    uint8_t mask = 0;
+    uint8_t value = 0;
+  };
+  void add(const ForcedCell& cell);
+  void addByte(std::string_view name, uint32_t space, uint32_t byte, uint8_t mask, uint8_t value);
+  void hold(std::string_view name, uint32_t offset, Bits bit);
+  void nameBytes();
+  bool isWritten(uint32_t offset, uint8_t mask) const;
+
+  const rung_program& program_;
+  std::string problem_;
+  std::map<uint32_t, Bits> bits_;                               // by offset in the block
+  std::map<std::pair<uint32_t, uint8_t>, std::string> holders_; // by offset and mask: which force holds the bit
+  std::vector<core::ForcedBits> held_;
+  std::vector<rung_forced_byte> bytes_;
+  bool needsCode_ = false;
+  core::Code code_;
+};
+
+} // namespace rung::runtime

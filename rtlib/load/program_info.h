@@ -1,0 +1,53 @@
+// Look-ups in the tables of a rung_program, and its check at the gate: a program that passes checkProgram can be run
+// without further checks of its tables.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "rung/program.h"
+
+namespace rung::runtime {
+
+class MappedFile;
+
+// What is wrong with the tables, and in which entry; "" when nothing is. Takes time in proportion to the tables, and
+// allocates. What code does is not checked: a program can still write anywhere.
+//
+// `file`: where its tables, texts and code have to be; null: the caller vouches for that.
+std::string checkProgram(const rung_program& program, const MappedFile* file = nullptr);
+
+// Indices by name; RUNG_NONE when there is none.
+uint32_t findSpace(const rung_program& program, std::string_view name);
+uint32_t findTask(const rung_program& program, std::string_view name);
+uint32_t findService(const rung_program& program, std::string_view name);
+
+// Symbols by their exact name; the first whose name is not less than `name` (in the order of bytes, the table's). Null
+// when there is none.
+const rung_symbol* findSymbol(const rung_program& program, std::string_view name);
+const rung_symbol* firstSymbolFrom(const rung_program& program, std::string_view name);
+
+// The byte of a space that lies at an offset of the memory block, or whose bits do; nothing for a slot of the compiler.
+struct LogicalByte {
+  uint32_t space = RUNG_NONE;
+  uint32_t byte = 0;
+};
+std::optional<LogicalByte> byteAt(const rung_program& program, uint32_t offset);
+
+std::string_view serviceName(const rung_program& program, uint32_t service); // "" when there is none
+std::string_view messageText(const rung_program& program, uint32_t number);  // "" when there is none
+
+// The sum of the ADVANCE steps of a list.
+uint64_t advanceUs(std::span<const rung_step> steps);
+// Time of one pass of the scan list: its ADVANCE steps, else the main task's period.
+uint64_t scanPeriodUs(const rung_program& program);
+
+// `rung 3 "title", main.pmc:12`, of what is not drawn `LEVEL1, main.pmc:12`; line 0 means the rung's first line.
+std::string rungText(const rung_program& program, uint32_t rung, uint32_t line = 0);
+inline constexpr std::string_view kOverrunText = "overrun: this machine is too slow for the program";
+// `dead-loop (rung 3 "title", main.pmc:12)`; "" when there is no fault.
+std::string faultText(const rung_program& program, const rung_fault& fault);
+
+} // namespace rung::runtime

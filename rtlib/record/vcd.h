@@ -1,0 +1,52 @@
+// Value change dump: what wave viewers show (IEEE 1364, clause 18). Texts are a kind of its own that GTKWave knows.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rung::runtime {
+
+enum class VcdKind : uint8_t { Integer, Real, Text };
+
+struct VcdName {
+  std::string name;
+  std::string scope; // a group of names
+  VcdKind kind = VcdKind::Integer;
+  uint32_t width = 1; // of an integer, in bits
+};
+
+struct VcdValue {
+  bool known = false;   // the name is there now
+  uint64_t integer = 0; // its lowest bits
+  double real = 0;
+  std::string_view text;
+};
+
+class VcdWriter {
+public:
+  explicit VcdWriter(std::ostream& out) : out_(out) {}
+  // Once, before the samples.
+  void begin(std::string_view program, std::span<const VcdName> names);
+  // The values of all names at a time that is not before the last one.
+  void sample(int64_t us, std::span<const VcdValue> values);
+  // A remark at the place of the next sample.
+  void comment(std::string_view text);
+  // The last sample ends the picture, even if nothing has changed in it.
+  void end();
+
+private:
+  void writeScope(const std::string& scope);
+  void stamp(int64_t us);
+
+  std::ostream& out_;
+  std::vector<VcdName> names_;
+  std::vector<std::string> last_;
+  std::optional<int64_t> time_;
+  int64_t end_ = 0;
+};
+
+} // namespace rung::runtime

@@ -1,0 +1,254 @@
+// Start-up, schedule and retained memory of an instance. After construction nothing here allocates.
+#include "rtlib/run/instance.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+namespace rung::runtime {
+
+Instance::Instance(const Runnable& runnable, ScheduleHooks* hooks)
+    : loaded_(runnable), hooks_(hooks), ctx_(std::make_unique<rung_ctx>()), port_(std::make_unique<core::HostPort>()),
+      runner_(runnable.program, loaded_.block.get(), *ctx_, loaded_.parts.data(), runnable.engine,
+              loaded_.steps.data()) {
+  ctx_->host = &core::hostApi();
+  ctx_->host_data = port_.get();
+  ctx_->prof = loaded_.counters();
+  setRunnerHooks();
+  port_->services.setResponder({&respondHook, this});
+  port_->services.setServices(loaded_.services, program().service_count);
+  coldStart();
+}
+
+// ---- writing -----------------------------------------------------------------------------------------------------
+
+std::optional<Ref> Instance::write(const Ref& ref, uint64_t value) {
+  const std::optional<Ref> copied = loaded_.overwritten.source(ref);
+  if (!copied) writeRaw(memory(), ref, value);
+  hold();
+  return copied;
+}
+
+std::optional<Ref> Instance::writeReal(const Ref& ref, double value) {
+  const std::optional<Ref> copied = loaded_.overwritten.source(ref);
+  if (!copied) runtime::writeReal(memory(), ref, value);
+  hold();
+  return copied;
+}
+
+std::optional<Ref> Instance::writeText(const Ref& ref, std::string_view text) {
+  const std::optional<Ref> copied = loaded_.overwritten.source(ref);
+  if (!copied) runtime::writeText(memory(), ref, text);
+  hold();
+  return copied;
+}
+
+// ---- hooks -------------------------------------------------------------------------------------------------------
+
+void Instance::stepHook(void* self, uint32_t work) {
+  auto& instance = *static_cast<Instance*>(self);
+  if (instance.hooks_ != nullptr) instance.hooks_->onHook(instance, work);
+}
+
+void Instance::faultHook(void* self) {
+  auto& instance = *static_cast<Instance*>(self);
+  if (instance.hooks_ != nullptr) instance.hooks_->onFault(instance);
+}
+
+void Instance::taskHook(void* self, uint32_t task, bool begins) {
+  const auto& instance = *static_cast<const Instance*>(self);
+  if (begins)
+    instance.taskWatch_->begins(instance, task);
+  else
+    instance.taskWatch_->ended(instance, task);
+}
+
+void Instance::latchHook(void* self, uint32_t task) {
+  auto& instance = *static_cast<Instance*>(self);
+  instance.hooks_->onLatch(instance, task);
+}
+
+void Instance::setRunnerHooks() {
+  runner_.setHooks({.step = &stepHook,
+                    .fault = &faultHook,
+                    .data = this,
+                    .task = taskWatch_ == nullptr ? nullptr : &taskHook,
+                    .latch = latching_ && hooks_ != nullptr ? &latchHook : nullptr,
+                    .works = hooks_ != nullptr ? hooks_->works() : 0});
+}
+
+void Instance::setTaskWatch(TaskWatch* watch) {
+  taskWatch_ = watch;
+  setRunnerHooks();
+  useCopies();
+}
+
+void Instance::setLatching(bool latching) {
+  latching_ = latching;
+  setRunnerHooks();
+}
+
+// ---- border copies -----------------------------------------------------------------------------------------------
+
+void Instance::setNeededCopiesOnly(bool only) noexcept {
+  if (only == neededCopiesOnly_) return;
+  neededCopiesOnly_ = only;
+  useCopies();
+}
+
+void Instance::useCopies() noexcept {
+  const bool only = neededCopiesOnly_ && taskWatch_ == nullptr;
+  if (!only) bringInLeftOut();
+  runner_.setCopies(only ? &loaded_.neededCopies : nullptr);
+}
+
+void Instance::bringInLeftOut() noexcept {
+  if (runner_.copies() == nullptr) return;
+  loaded_.neededCopies.copyLeftOut(loaded_.block.get());
+  hold();
+}
+
+// ---- requests ----------------------------------------------------------------------------------------------------
+
+bool Instance::respondHook(void* self, const core::ServiceRequest& request, core::ServiceReply& reply) {
+  auto& instance = *static_cast<Instance*>(self);
+  return instance.hooks_ != nullptr && instance.hooks_->respond(instance, request, reply);
+}
+
+// ---- start -------------------------------------------------------------------------------------------------------
+
+void Instance::resetRun() {
+  runner_.reset();
+  port_->messages.drop();
+  port_->services.restart();
+}
+
+void Instance::coldStart() {
+  loaded_.clear();
+  resetRun();
+}
+
+void Instance::warmStart() {
+  copyRetained(loaded_.retained);
+  loaded_.clear();
+  resetRun();
+  restoreRetained(loaded_.retained);
+}
+
+void Instance::copyRetained(std::span<uint8_t> to) const {
+  size_t at = 0;
+  for (uint32_t i = 0; i < program().retain_count && at + program().retains[i].size <= to.size(); ++i) {
+    std::memcpy(to.data() + at, loaded_.block.get() + program().retains[i].offset, program().retains[i].size);
+    at += program().retains[i].size;
+  }
+}
+
+bool Instance::restoreRetained(std::span<const uint8_t> from) {
+  if (from.size() != loaded_.retained.size()) return false;
+  size_t at = 0;
+  for (uint32_t i = 0; i < program().retain_count; ++i) {
+    std::memcpy(loaded_.block.get() + program().retains[i].offset, from.data() + at, program().retains[i].size);
+    at += program().retains[i].size;
+  }
+  return true;
+}
+
+void Instance::clearProfile() { std::fill(loaded_.profile.begin(), loaded_.profile.end(), rung_prof{}); }
+
+// ---- another program ---------------------------------------------------------------------------------------------
+
+namespace {
+
+// The same fault in the tables of another program. What that does not have is left open.
+rung_fault translated(const rung_fault& fault, const rung_program& from, const rung_program& to) {
+  if (fault.code == RUNG_NONE) return fault;
+  const bool isHosts = fault.code == core::kOverrunFault || fault.code == core::kMaxTimeFault;
+  rung_fault out = {isHosts ? fault.code : core::kUndescribedFault, RUNG_NONE, fault.line, RUNG_NONE};
+  for (uint32_t i = 0; fault.code < from.fault_count && i < to.fault_count; ++i)
+    if (std::strcmp(from.faults[fault.code], to.faults[i]) == 0) out.code = i;
+  for (uint32_t i = 0; fault.rung < from.rung_count && i < to.rung_count; ++i)
+    if (from.rungs[fault.rung].key == to.rungs[i].key) out.rung = i;
+  if (fault.task < from.task_count) out.task = findTask(to, from.tasks[fault.task].name);
+  return out;
+}
+
+} // namespace
+
+bool Instance::servicesAgree(const rung_program& next) const {
+  if (port_->services.waiting() == 0) return true;
+  const rung_program& now = program();
+  if (now.service_count > next.service_count) return false;
+  for (uint32_t i = 0; i < now.service_count; ++i)
+    if (std::strcmp(now.services[i], next.services[i]) != 0) return false;
+  return true;
+}
+
+ReplaceResult Instance::replace(Replacement& replacement, OwnContents own) {
+  const rung_program& former = program();
+  if (&replacement.transfer().from() != &former) return ReplaceResult::OtherProgram;
+  if (!faulted()) { // after a fault the next that comes is a power-on, for which nothing waits
+    if (!atListStart()) return ReplaceResult::WithinPass;
+    if (!servicesAgree(replacement.next())) return ReplaceResult::RequestsWait;
+    if (replacement.transfer().waiting(loaded_.block.get()) != nullptr) return ReplaceResult::MechanismWaits;
+  }
+  bringInLeftOut(); // the next program may look at it
+  replacement.exchange(loaded_, own);
+  runner_.setProgram(program(), loaded_.block.get(), loaded_.parts.data(), loaded_.engine, loaded_.steps.data());
+  ctx_->fault = translated(ctx_->fault, former, program());
+  ctx_->prof = loaded_.counters();
+  port_->services.setServices(loaded_.services, program().service_count);
+  clearProfile();
+  ++generation_;
+  if (hooks_ != nullptr) hooks_->onReplace(*this);
+  return ReplaceResult::Replaced;
+}
+
+// ---- run ---------------------------------------------------------------------------------------------------------
+
+void Instance::scan() {
+  port_->services.deliver();
+  runner_.scan();
+}
+
+void Instance::slot() {
+  port_->services.deliver();
+  runner_.slot();
+}
+
+void Instance::fast() {
+  port_->services.deliver();
+  runner_.fast();
+}
+
+void Instance::slice() {
+  port_->services.deliver();
+  runner_.slice();
+}
+
+void Instance::sliceToFast() {
+  port_->services.deliver();
+  runner_.sliceToFast();
+}
+
+void Instance::runFor(int64_t us) {
+  const int64_t end = nowUs() + us;
+  int64_t before = nowUs() - 1;
+  while (nowUs() < end && nowUs() > before && !faulted()) { // a schedule that takes no time ends it too
+    before = nowUs();
+    scan();
+  }
+}
+
+bool Instance::runTask(uint32_t task) { return runner_.runTask(task); }
+
+bool Instance::runTask(std::string_view name) { return runner_.runTask(findTask(program(), name)); }
+
+bool Instance::halt(std::string_view fault) {
+  for (uint32_t i = 0; i < program().fault_count; ++i)
+    if (fault == program().faults[i]) return runner_.halt(i);
+  return false;
+}
+
+bool Instance::haltOverrun() { return runner_.halt(core::kOverrunFault); }
+
+} // namespace rung::runtime

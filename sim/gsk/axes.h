@@ -1,0 +1,71 @@
+// The axes of the simulated CNC: positions in 0.0001 mm (or degrees), reference points, travel limits and the signals
+// of motion. Whoever moves an axis calls `move`; `beginSlot` and `writeSignals` bracket a slot.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "rtlib/nc/control/gsk/signals_io.h"
+#include "sim/gsk/alarms.h"
+#include "sim/gsk/tables.h"
+
+namespace rung::sim::gsk {
+
+inline constexpr uint32_t kAxes = 8;
+inline constexpr uint32_t kSlotMs = 8;
+inline constexpr double kUnitsPerMm = 10000;
+
+// Units that a speed in mm/min covers in one slot.
+constexpr double unitsPerSlot(double mmPerMin) { return mmPerMin * kUnitsPerMm * kSlotMs / 60000.0; }
+
+struct Axis {
+  int64_t machine = 0;
+  int64_t commanded = 0; // continues while the machine is locked (l.5305)
+  int64_t relative = 0;
+  double rest = 0;       // of a unit, of the motion under way
+  bool moving = false;   // a command is being executed, even if interlock holds it (l.4127)
+  bool negative = false; // of the last motion (l.4164)
+  bool referenced = false;
+  bool blockedPositive = false; // over-travel, until reset (l.3613)
+  bool blockedNegative = false;
+  std::array<bool, 4> atReference = {}; // returned to, and not left since
+};
+
+class Axes {
+public:
+  // Names in order, "XYZ"; their number is the number of axes.
+  std::string names = "XYZ";
+  // Whether *+L, *-L (G114, G116) are wired.
+  bool limitSwitches = false;
+
+  uint32_t count() const { return static_cast<uint32_t>(names.size()); }
+  Axis& operator[](uint32_t axis) { return axes_[axis]; }
+  const Axis& operator[](uint32_t axis) const { return axes_[axis]; }
+
+  void beginSlot(const nc::gsk::SignalsIo& io, Alarms& alarms);
+  void writeSignals(const nc::gsk::SignalsIo& io, const Tables& tables, bool rapid) const;
+
+  // Moves by `delta`; the machine does not move under machine lock.
+  void move(uint32_t axis, int64_t delta);
+  // Towards `target` (in terms of `commanded`) by at most `units`; true when it is there.
+  bool moveTowards(uint32_t axis, int64_t target, double units);
+  void startMotion(uint32_t axis, bool negative);
+  bool mayMove(uint32_t axis, bool negative) const;
+  void place(uint32_t axis, int64_t machine);
+  // The machine coordinate of reference point 1-4 (l.5109); the first is the origin.
+  static int64_t reference(const Tables& tables, uint32_t axis, uint32_t point);
+  void arriveAtReference(uint32_t axis, uint32_t point);
+  void clearOverTravel();
+  bool locked() const { return locked_; }
+
+private:
+  uint32_t switches(const Tables& tables) const;
+
+  std::array<Axis, kAxes> axes_;
+  bool locked_ = false;
+  bool interlocked_ = false;
+  uint8_t noPositive_ = 0;
+  uint8_t noNegative_ = 0;
+};
+
+} // namespace rung::sim::gsk

@@ -1,0 +1,204 @@
+// Automatic run of the simulated CNC (see operation.h). The reading of a block is in block_motion.cpp.
+#include "sim/gsk/operation.h"
+
+#include <cmath>
+
+#include "sim/gsk/operation_run.h"
+
+namespace rung::sim::gsk {
+
+Mode modeOf(const nc::gsk::SignalsIo& io) {
+  switch (io.gByte(43) & 0x17) { // INC, MD3, MD2, MD1
+  case 0x00: return Mode::Mdi;
+  case 0x01: return Mode::Auto;
+  case 0x02: return Mode::Edit;
+  case 0x03: return Mode::Handle;
+  case 0x04: return Mode::Jog;
+  case 0x05: return Mode::Zero;
+  case 0x06: return Mode::Dnc;
+  case 0x14: return Mode::Step;
+  default: return Mode::None;
+  }
+}
+
+void Operation::load(PartProgram program) {
+  stored_.insert_or_assign(program.number, program);
+  program_ = std::move(program);
+  if (runMode_ != Mode::Mdi) next_ = 0;
+}
+
+void Operation::loadMdi(PartProgram program) {
+  mdi_ = std::move(program);
+  if (runMode_ == Mode::Mdi) next_ = 0;
+}
+
+bool Operation::select(uint32_t number, bool mdi) {
+  const auto found = stored_.find(number);
+  if (found == stored_.end()) return false;
+  (mdi ? mdi_ : program_) = found->second;
+  next_ = 0;
+  return true;
+}
+
+void Operation::step(const nc::gsk::SignalsIo& io, Machine& machine) {
+  Run run{io, machine};
+  speed_ = 0;
+  followMode(run);
+  followButtons(run);
+  functions_.step(io);
+  progress(run);
+  writeSignals(io);
+}
+
+void Operation::idle(const nc::gsk::SignalsIo& io) {
+  mode_ = modeOf(io);
+  startWasOn_ = io.g(7, 2);
+  speed_ = 0;
+  writeSignals(io);
+}
+
+void Operation::powerOff() {
+  Operation fresh;
+  fresh.program_ = std::move(program_);
+  fresh.stored_ = std::move(stored_);
+  *this = std::move(fresh);
+}
+
+// Leaving the automatic modes holds the feed; another automatic mode lets the block end.
+void Operation::followMode(Run& run) {
+  mode_ = modeOf(run.io);
+  if (state_ != RunState::Start || mode_ == runMode_) return;
+  if (runsPrograms(mode_))
+    stopAfterBlock_ = true;
+  else
+    state_ = RunState::Hold;
+}
+
+void Operation::followButtons(Run& run) {
+  const bool startOn = run.io.g(7, 2); // ST, effective when it falls (l.5181)
+  const bool pressed = startWasOn_ && !startOn;
+  startWasOn_ = startOn;
+  const bool hold = !run.io.g(8, 5); // *SP
+  if (state_ == RunState::Start && (hold || run.machine.alarms.any())) state_ = RunState::Hold;
+  if (!pressed || hold || run.machine.alarms.any() || !runsPrograms(mode_) || state_ == RunState::Start) return;
+  if (mode_ != runMode_ && inBlock_) return; // a block of another mode waits for reset
+  if (mode_ != runMode_ || (state_ == RunState::Reset && !inBlock_)) next_ = 0;
+  runMode_ = mode_;
+  if (running()->blocks.empty()) return;
+  state_ = RunState::Start;
+  stopAfterBlock_ = false;
+}
+
+void Operation::progress(Run& run) {
+  if (state_ == RunState::Reset || state_ == RunState::Suspended) return;
+  const bool moves = state_ == RunState::Start;
+  bool moved = false;
+  // A block without motion and codes takes no time; a motion takes at least a slot.
+  for (size_t blocks = 0; blocks <= running()->blocks.size(); ++blocks) {
+    if (!inBlock_ && (!moves || !beginBlock(run))) break;
+    if (moves && !moved && (moving() || dwellMs_ > 0)) {
+      advance(run);
+      moved = true;
+    }
+    if (!blockDone(run)) return;
+    finishBlock(run);
+    if (state_ != RunState::Start) return;
+  }
+  if (!inBlock_ && state_ == RunState::Hold) state_ = RunState::Suspended; // l.5165
+}
+
+bool Operation::beginBlock(Run& run) {
+  const PartProgram& program = *running();
+  while (next_ < program.blocks.size() && program.blocks[next_].skipped && run.io.g(44, 0)) ++next_; // BDT l.5437
+  if (next_ >= program.blocks.size()) {
+    end();
+    return false;
+  }
+  const bool guarded = run.machine.tables.parameterBit(kParamGuard, 0);
+  if (guarded && !run.io.g(8, 3)) return false; // *BSL l.5557
+  const Modal before = modal_;
+  prepare(run, program.blocks[next_]);
+  const bool cutting = moveCount_ != 0 && !moves_[0].rapid;
+  if (guarded && cutting && !run.io.g(8, 1)) { // *CSL l.5569
+    modal_ = before;
+    return false;
+  }
+  if (run.machine.alarms.any()) {
+    modal_ = before;
+    state_ = RunState::Hold;
+    return false;
+  }
+  sequence_ = program.blocks[next_].sequence != 0 ? program.blocks[next_].sequence : sequence_;
+  ++next_;
+  inBlock_ = true;
+  move_ = 0;
+  if (run.io.g(5, 6)) codes_.lock(); // AFL
+  if (codes_.any()) codes_.start(functions_, run.io, run.machine.tables.parameterBit(kParamGuard, 7));
+  if (codes_.s) run.machine.spindle.command(*codes_.s);
+  return true;
+}
+
+bool Operation::blockDone(Run& run) {
+  if (moving() || dwellMs_ > 0 || functions_.busy()) return false;
+  if (!externalPending_) return true;
+  externalPending_ = false;
+  AuxiliaryCodes external;
+  external.external = true;
+  external.start(functions_, run.io, false);
+  functions_.step(run.io); // EF follows the positioning at once
+  return false;
+}
+
+void Operation::finishBlock(Run& run) {
+  inBlock_ = false;
+  Tables& tables = run.machine.tables;
+  if (codes_.t) tables.set(Table::Tool, 1, 0, *codes_.t * kTableScale);
+  bool stop = stopAfterBlock_ || run.io.g(46, 1); // SBK l.5381
+  for (uint32_t m : codes_.m) {
+    if (m == 6) tables.set(Table::Tool, 0, 0, tables.get(Table::Tool, 1));
+    if (m == 0 || (m == 1 && run.io.g(8, 2))) stop = true;
+    if (m == 2 || m == 30) return end();
+  }
+  if (stop && state_ == RunState::Start) state_ = RunState::Suspended;
+  if (next_ >= running()->blocks.size()) end();
+}
+
+// The program has ended: back to its beginning, reset state.
+void Operation::end() {
+  state_ = RunState::Reset;
+  next_ = 0;
+}
+
+void Operation::reset(const nc::gsk::SignalsIo& io, Machine& machine) {
+  functions_.abort(io);
+  if (state_ != RunState::Reset || inBlock_)
+    for (uint32_t i = 0; i < kAxes; ++i)
+      if (!machine.isPlcAxis(i)) machine.axes[i].moving = false;
+  modal_ = {.path = {.inch = modal_.path.inch, .feed = modal_.path.feed}};
+  moveCount_ = move_ = 0;
+  dwellMs_ = 0;
+  inBlock_ = externalPending_ = stopAfterBlock_ = false;
+  state_ = RunState::Reset;
+  next_ = 0;
+}
+
+void Operation::writeSignals(const nc::gsk::SignalsIo& io) const {
+  io.setF(0, 7, state_ != RunState::Reset); // Table 5-1
+  io.setF(0, 5, state_ == RunState::Start);
+  io.setF(0, 4, state_ == RunState::Hold);
+  io.setF(1, 3, inBlock_ && !moving() && dwellMs_ <= 0 && functions_.busy()); // DEN l.5875
+  io.setF(2, 7, io.g(46, 7));                                                 // MDRN l.5367
+  io.setF(2, 6, inBlock_ && state_ == RunState::Start && moving() && !moves_[move_].rapid);
+  io.setF(2, 0, modal_.path.inch); // l.4106
+  io.setF(4, 4, io.g(5, 6));
+  io.setF(4, 3, io.g(46, 1));
+  io.setF(4, 1, io.g(44, 1));
+  io.setF(4, 0, io.g(44, 0));
+  constexpr Mode kEcho[] = {Mode::Step, Mode::Handle, Mode::Jog,  Mode::Mdi,
+                            Mode::Dnc,  Mode::Auto,   Mode::Edit, Mode::Zero}; // F3 l.3783
+  uint8_t echo = 0;
+  for (uint32_t i = 0; i < 8; ++i) echo = static_cast<uint8_t>(echo | (kEcho[i] == mode_ ? 1 << i : 0));
+  io.setFByte(3, echo);
+}
+
+} // namespace rung::sim::gsk

@@ -1,0 +1,105 @@
+// Modes and the automatic run of the simulated CNC: cycle start, feed hold, single block, the blocks of a part program
+// with their motion and auxiliary functions (man. chapters 1.5, V, VI).
+#pragma once
+#include <array>
+#include <map>
+#include <optional>
+
+#include "sim/gsk/auxiliary.h"
+#include "sim/gsk/machine.h"
+#include "sim/gsk/part_program.h"
+#include "sim/path_modes.h"
+
+namespace rung::sim::gsk {
+
+enum class Mode : uint8_t { None, Mdi, Auto, Edit, Handle, Jog, Zero, Dnc, Step };
+
+// G43 (l.3755-3765).
+Mode modeOf(const nc::gsk::SignalsIo& io);
+inline bool runsPrograms(Mode mode) { return mode == Mode::Mdi || mode == Mode::Auto || mode == Mode::Dnc; }
+
+enum class RunState : uint8_t { Reset, Start, Hold, Suspended };
+
+// One straight motion of all axes of a block.
+struct PathMove {
+  std::array<int64_t, kAxes> start = {};
+  std::array<int64_t, kAxes> target = {};
+  bool rapid = true;
+  uint32_t reference = 0; // reference point 1-4 that the axes of `arrives` reach
+  uint8_t arrives = 0;
+  double done = 0; // 0-1
+  bool begun = false;
+};
+
+struct Modal {
+  PathModes path;
+  bool cutting = false;    // G1
+  bool external = false;   // G81 until G80 or a code of group 01
+  uint32_t workOffset = 1; // G54
+  uint32_t h = 0, d = 0;
+  int lengthSign = 0; // G43 is 1
+};
+
+class Operation {
+public:
+  Operation() { codes_.m.reserve(3); } // of a block
+  void load(PartProgram program);
+  void loadMdi(PartProgram program);
+  bool select(uint32_t number, bool mdi); // a program loaded before
+  void step(const nc::gsk::SignalsIo& io, Machine& machine);
+  void idle(const nc::gsk::SignalsIo& io); // a slot of reset: modes and confirmations only
+  void reset(const nc::gsk::SignalsIo& io, Machine& machine);
+  void powerOff(); // programs stay, nothing runs
+
+  Mode mode() const { return mode_; }
+  RunState state() const { return state_; }
+  uint32_t programNumber() const { return program_.number; }
+  uint32_t sequence() const { return sequence_; }
+  double speed() const { return speed_; }                       // mm/min along the path, in the last slot
+  double absolute(const Machine& machine, uint32_t axis) const; // mm, workpiece coordinates
+
+private:
+  struct Run; // what one step needs
+  void followMode(Run& run);
+  void followButtons(Run& run);
+  void progress(Run& run);
+  bool beginBlock(Run& run);
+  void prepare(Run& run, const Block& block);
+  void modalCode(Run& run, int tenths, double p);
+  void prepareMotion(Run& run, const std::array<std::optional<double>, kAxes>& words, int special, uint32_t p);
+  void advance(Run& run);
+  bool blockDone(Run& run);
+  void finishBlock(Run& run);
+  void end();
+  bool moving() const { return move_ < moveCount_; }
+  double pathStep(Run& run, const PathMove& move);
+  int64_t shift(const Machine& machine, uint32_t axis) const;
+  void writeSignals(const nc::gsk::SignalsIo& io) const;
+
+  PartProgram program_;
+  PartProgram mdi_;
+  std::map<uint32_t, PartProgram> stored_; // by O
+  const PartProgram* running() const { return runMode_ == Mode::Mdi ? &mdi_ : &program_; }
+
+  Mode mode_ = Mode::None;
+  Mode runMode_ = Mode::Auto;
+  RunState state_ = RunState::Reset;
+  bool startWasOn_ = false;
+  bool stopAfterBlock_ = false;
+  size_t next_ = 0;
+  uint32_t sequence_ = 0;
+
+  // The block under way.
+  bool inBlock_ = false;
+  Modal modal_;
+  AuxiliaryCodes codes_;
+  std::array<PathMove, 2> moves_; // of a block: over an intermediate point to a reference point
+  size_t moveCount_ = 0;
+  size_t move_ = 0; // under way
+  double dwellMs_ = 0;
+  bool externalPending_ = false;
+  nc::GskFunctions functions_{nc::GskFunctions::Answer::ByLevel};
+  double speed_ = 0;
+};
+
+} // namespace rung::sim::gsk

@@ -1,0 +1,36 @@
+// Part programs of the simulated CNC: the text of `event program` and `event mdi`, read into blocks.
+//
+//   block := ["/"] { word | "(" comment ")" | "#" number "=" value }
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/part_program.h"
+
+namespace rung::sim::gsk {
+
+struct Word {
+  char letter = 0; // '#': assignment to `variable`
+  uint32_t variable = 0;
+  ProgramValue value;
+};
+
+struct Block {
+  bool skipped = false;  // "/"
+  uint32_t sequence = 0; // N, 0: none
+  std::vector<Word> words;
+
+  bool empty() const { return sequence == 0 && words.empty(); }
+};
+
+struct PartProgram {
+  uint32_t number = 0; // O
+  std::vector<Block> blocks;
+};
+
+// "" and the program, or what is wrong with the text. `axes`: the letters of the axes.
+std::string readPartProgram(std::string_view text, std::string_view axes, bool manyM, PartProgram& program);
+
+} // namespace rung::sim::gsk

@@ -1,0 +1,82 @@
+// Spindles of the simulated CNC (see spindle.h).
+#include "sim/gsk/spindle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rung::sim::gsk {
+namespace {
+
+constexpr double kRampPerSlot = 60;      // r/min
+constexpr uint32_t kOrientingSlots = 12; // about 100 ms
+constexpr double kPlcSpeedRange = 4096;  // l.7393
+
+double plcSpeed(const nc::gsk::SignalsIo& io, const Tables& tables, uint32_t word) {
+  return tables.parameterReal(kParamMaxSpindle) * (io.gWord(word) & 0xFFF) / kPlcSpeedRange;
+}
+
+} // namespace
+
+void Spindle::Motor::step(double target) {
+  const double difference = target - actual;
+  actual = std::fabs(difference) <= kRampPerSlot ? target : actual + std::copysign(kRampPerSlot, difference);
+}
+
+void Spindle::Motor::orient(bool ordered) {
+  orienting = ordered && actual == 0 ? std::min(orienting + 1, kOrientingSlots) : 0;
+}
+
+bool Spindle::Motor::oriented() const { return orienting == kOrientingSlots; }
+
+// Unsigned speed in order of precedence: gear shift, PLC, S code with override; limited by the gear in use.
+double Spindle::firstTarget(const nc::gsk::SignalsIo& io, const Tables& tables) const {
+  if (io.g(29, 5)) return tables.parameterReal(kParamGearSpeed); // SOR l.6406
+  if (io.g(33, 7)) return plcSpeed(io, tables, 32);              // SSND l.7369
+  double speed = commanded_ * (io.gByte(30) / 100.0);            // SOV l.6290
+  if (tables.parameterBit(kParamGearKind, 6)) {
+    const uint32_t gear = (io.gByte(28) >> 1) & 3; // l.6434
+    const double most = tables.parameterReal(kParamGearMax + gear);
+    if (most > 0) speed = std::min(speed, most);
+  }
+  const double most = tables.parameterReal(kParamMaxSpindle);
+  return most > 0 ? std::min(speed, most) : speed;
+}
+
+// GR1O-GR4O by the switching speeds (l.6377-6388); without them there are no gears.
+void Spindle::writeGear(const nc::gsk::SignalsIo& io, const Tables& tables) const {
+  uint32_t gear = 0;
+  bool shifts = false;
+  for (uint32_t i = 0; i < 3; ++i) {
+    const double border = tables.parameterReal(kParamGearSwitch + i);
+    shifts = shifts || border > 0;
+    if (border > 0 && commanded_ > border) gear = i + 1;
+  }
+  for (uint32_t i = 0; i < 4; ++i)
+    io.setF(34, i, shifts && !tables.parameterBit(kParamGearKind, 6) && i == gear && commanded_ != 0);
+}
+
+void Spindle::step(const nc::gsk::SignalsIo& io, const Tables& tables, bool positioning) {
+  const bool orient = io.g(70, 6);                             // ORCM l.6451
+  const bool enabled = io.g(29, 6) && !orient && !positioning; // *SSTP l.6272
+  const double speed = enabled ? firstTarget(io, tables) : 0;
+  const double target = io.g(33, 5) ? -speed : speed; // SGN l.6294
+  one_.step(target);
+  one_.orient(orient);
+  const double speed2 = io.g(35, 7) && !io.g(74, 6) ? plcSpeed(io, tables, 34) : 0;
+  two_.step(io.g(35, 5) ? -speed2 : speed2);
+  two_.orient(io.g(74, 6));
+
+  writeGear(io, tables);
+  io.setF(1, 4, enabled && speed != 0); // ENB l.6314
+  io.setF(45, 1, one_.actual == 0);
+  io.setF(45, 3, speed != 0 && one_.actual == target); // SAR l.6334
+  io.setF(45, 7, one_.oriented());
+  io.setF(49, 1, two_.actual == 0);
+  io.setF(49, 3, speed2 != 0 && std::fabs(two_.actual) == speed2);
+  io.setF(49, 7, two_.oriented());
+  io.setFWord(40, static_cast<uint16_t>(std::lround(std::fabs(one_.actual))));
+  io.setFWord(202, static_cast<uint16_t>(std::lround(std::fabs(two_.actual))));
+  io.setFByte(68, io.g(16, 0) ? static_cast<uint8_t>(one_.actual == 0 ? 0 : 20) : 0); // l.7423: no load is modelled
+}
+
+} // namespace rung::sim::gsk

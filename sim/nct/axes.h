@@ -1,0 +1,163 @@
+// The axes of the machine: positions, motions on the commands of MOVCMND (man. 6.15), by hand (jog, increments, hand
+// wheels, reference point) and for part programs, and the signals AN_…, AP_… (man. 7.13). Motions have no ramps: an
+// axis moves with its speed or is at rest. Positions are in the unit of the machine (mm, degrees), speeds in units per
+// minute.
+//
+// A machine position is that of the command; the encoder follows by kLag of the velocity.
+#pragma once
+#include <array>
+
+#include "rtlib/nc/nct/axis_codes.h"
+#include "sim/nct/axis_signals.h"
+#include "sim/nct/topic.h"
+
+namespace rung::sim::nct {
+
+inline constexpr double kLag = 0.02;           // s: by which the measured position lags the command
+inline constexpr double kPulsesPerUnit = 1000; // of an axis' encoder
+inline constexpr int32_t kHandwheels = 4;
+
+struct AxisCommand {
+  enum class Kind : uint8_t { None, Move, Incremental, Dwell, DwellTurns, Jog, Handwheel };
+  Kind kind = Kind::None;
+  bool rapid = false;
+  bool perRevolution = false;
+  bool machine = false;     // `distance` is a machine position; else in the current coordinate system
+  bool toReference = false; // ends with AN_RPE=1
+  double distance = 0;      // target, way, seconds or revolutions
+  double speed = 0;         // per minute or revolution; 0 with Jog: by N0316
+};
+
+class Axes final : public Topic {
+public:
+  explicit Axes(Links& links);
+
+  // Axes count from 0. An axis exists if N0002 Axis Assign > 0 and AN_DETCHA=0 (l.8467).
+  bool exists(uint32_t axis) const;
+  bool plcOwns(uint32_t axis) const; // AP_PLCR=1 and AN_PLCA=1
+  double machinePosition(uint32_t axis) const { return axes_[axis].position; }
+  double measuredPosition(uint32_t axis) const { return axes_[axis].position - lag(axis); }
+  double velocity(uint32_t axis) const { return axes_[axis].velocity; } // units/s
+  double lag(uint32_t axis) const { return axes_[axis].velocity * kLag; }
+  // The channel that the axis is assigned to, from 0.
+  uint32_t channelOf(uint32_t axis) const;
+
+  // MOVCMND. Refused: FL_ER (l.3118-3124); Full: the single-block buffer holds a command.
+  enum class Load : uint8_t { Accepted, Full, Refused };
+  Load load(int64_t axis, int64_t code, double speed, double distance);
+
+  // For part programs: an absolute machine position; `perMinute` 0 is rapid traverse. Under way until done, with the
+  // overrides, holds and disables of its channel and axis.
+  void moveTo(uint32_t axis, double target, double perMinute);
+  bool moving(uint32_t axis) const { return axes_[axis].program.kind != AxisCommand::Kind::None; }
+  void setProgramHold(uint32_t channel, bool hold) { programHold_[channel] = hold; }
+  void cancel(uint32_t axis);
+  // The workpiece's zero point in machine coordinates.
+  double zeroPoint(uint32_t axis) const { return axes_[axis].zeroPoint; }
+
+  bool serves(bool write, uint32_t function) const override;
+  std::optional<int32_t> service(uint32_t function, Block& block) override;
+  Handled config(std::string_view key, std::string_view value) override;
+  std::span<const std::string_view> events() const override {
+    static constexpr std::string_view kEvents[] = {"handwheel", "axis_alarm"};
+    return kEvents;
+  }
+  Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
+  std::optional<double> quantity(std::string_view name) const override;
+  Handled setQuantity(std::string_view name, double value) override;
+  void powerOn(nc::PowerOn kind) override;
+  void cycle() override;
+  void timeSlice() override;
+  void keep(Kept& kept) override;
+
+private:
+  struct Axis {
+    double position = 0;
+    double zeroPoint = 0;
+    double velocity = 0;
+    double target = 0;      // of `active` or `program`, once it has been taken
+    double rest = 0;        // of a dwell: seconds or revolutions
+    double lubrication = 0; // way since the last request
+    AxisCommand active;     // of the PLC, in the interpolator
+    AxisCommand buffer;     // of the PLC
+    AxisCommand program;    // of a part program
+    double lockedAt = 0;    // measured position under axis lock
+    double steps = 0;       // increments and pulses still to move
+    bool referenced = false;
+    bool referenceEnd = false;
+    bool locked = false;
+    bool alarm = false;
+    bool detached = false;
+    bool wantsPositive = false;
+    bool wantsNegative = false;
+    bool wantsRapid = false;
+    int32_t jogBefore = 0;
+  };
+  enum class Pace : uint8_t { Feed, Rapid };
+
+  bool get(const BitSignal& signal, uint32_t axis) const { return links().signals.get(signal, axis); }
+  void set(const BitSignal& signal, uint32_t axis, bool value) const { links().signals.set(signal, axis, value); }
+  int32_t parameter(const ParameterPlace& place, uint32_t axis) const { return links().parameters->dword(place, axis); }
+  double real(const ParameterPlace& place, uint32_t axis) const { return links().parameters->real(place, axis); }
+  bool option(const ParameterPlace& place, uint32_t bit, uint32_t axis) const {
+    return links().parameters->bit(place, bit, axis);
+  }
+
+  // axes.cpp
+  bool assigned(uint32_t axis) const { return parameter(parameters_.assign, axis) > 0; }
+  void readParameters();
+  bool rotary(uint32_t axis) const;
+  void name(std::string_view names);
+
+  // axis_handshakes.cpp: requests and acknowledgements, positions as signals; once a PLC cycle
+  void acknowledge(uint32_t axis);
+  struct Coupling {
+    const BitSignal &request, &slave, &master;
+    const ParameterPlace& masterNumber;
+  };
+  void acknowledge(uint32_t axis, uint32_t asked, uint32_t answers, const Coupling& coupling);
+  bool free(uint32_t axis) const;
+  void writePositionSignals(uint32_t axis);
+  void writeSwitches();
+  bool atStrokeLimit(uint32_t axis, bool positive) const;
+
+  // axis_motion.cpp: every time slice
+  void stepPlc(uint32_t axis);
+  void reset(uint32_t axis);
+  void take(uint32_t axis);
+  bool execute(uint32_t axis, const AxisCommand& command);
+  bool dwell(uint32_t axis, double perSecond);
+  void stepProgram(uint32_t axis);
+  void stepManual(uint32_t axis);
+  void stepIncrement(uint32_t axis, uint32_t channel);
+  void stepReference(uint32_t axis);
+  void moveSteps(uint32_t axis, double perMinute);
+  double jogSpeed(uint32_t axis) const;
+  double manualSpeed(uint32_t axis) const;
+  double spindleSpeed(uint32_t axis) const;
+  int32_t jogDirection(uint32_t axis) const;
+  int32_t pulsesFor(uint32_t axis) const;
+  double increment(uint32_t axis) const { return links().signals.get(signals_.increment, channelOf(axis)); }
+  bool moveTowards(uint32_t axis, double target, double perMinute, Pace pace);
+  bool mayMove(uint32_t axis, bool positive, Pace pace) const;
+  double strokeLimit(uint32_t axis, bool positive) const;
+  void shift(uint32_t axis, double way);
+  void follow(uint32_t master, double way);
+  void writeMotionSignals(uint32_t axis);
+
+  std::array<Axis, nc::nct::kAxes> axes_{};
+  std::array<bool, nc::nct::kChannels> programHold_{};
+  std::array<int32_t, kHandwheels> pulses_{}; // turned since the last time slice
+  std::array<int32_t, kHandwheels> turned_{}; // HWMOVE of this one
+  double rapid_ = 10000;                      // units/min
+  double jog_ = 1000;                         // units/min, where N0316 does not take the table
+  bool absolute_ = true;                      // encoders
+  AxisSignals signals_;
+  AxisParameters parameters_;
+  uint32_t assigned_ = 0; // a bit each; by the parameters of `revision_`, as the next
+  uint32_t switches_ = 0; // those that have an axis
+  uint32_t revision_ = 0;
+  std::vector<ParameterPlace> switchAxis_, switchLow_, switchHigh_; // N1101…, N1133…, N1165…
+};
+
+} // namespace rung::sim::nct

@@ -1,0 +1,237 @@
+// Modes, conditions, start and stop of a channel (see channel.h). Execution of blocks: channel_run.cpp.
+#include "sim/nct/channel.h"
+
+#include <algorithm>
+
+#include "sim/nct/macros.h"
+#include "sim/nct/spindles.h"
+#include "sim/nct/tool_management.h"
+
+namespace rung::sim::nct {
+
+Channel::Channel(Links& links, uint32_t number, const ChannelSignals& signals, const ChannelParameters& parameters)
+    : links_(links), channel_(number), signals_(signals), parameters_(parameters), handover_(links, number),
+      automaticRun_(ChannelMotion(links, number, signals, parameters)),
+      otherRun_(ChannelMotion(links, number, signals, parameters)) {}
+
+void Channel::powerOn() {
+  clear(automaticRun_);
+  clear(otherRun_);
+  automaticRun_.motion.reset(true);
+  otherRun_.motion.reset(true);
+  handover_.dropStrobes();
+  mode_ = wanted_ = Mode::Jog;
+  toggles_ = {};
+  askedBefore_ = optionsBefore_ = 0;
+  machineOn_ = false;
+  start_ = stop_ = interrupted_ = restart_ = return_ = fresh_ = false;
+  sequence_ = 0;
+  hasEntered_ = false;
+}
+
+void Channel::clear(Run& run) {
+  run.motion.cancel();
+  run.next = 0;
+  run.issued = run.open = 0;
+  run.waiting = -1;
+  run.active = run.stopAfter = run.endAfter = false;
+}
+
+void Channel::reset() {
+  start_ = stop_ = interrupted_ = restart_ = return_ = false;
+  hasEntered_ = false;
+  handover_.dropStrobes();
+  clear(automaticRun_);
+  clear(otherRun_);
+  automaticRun_.motion.reset(false);
+  otherRun_.motion.reset(false);
+}
+
+void Channel::forgetInterruption() {
+  if (!interrupted_) return;
+  interrupted_ = restart_ = return_ = false;
+  clear(automaticRun_);
+}
+
+bool Channel::waitsForOthers() const { return running() && !get(signals_.noWait); }
+
+const ChannelProgram* Channel::program() const {
+  if (automatic()) return selected_;
+  return (mode_ == Mode::Mdi || manual()) && hasEntered_ ? &entered_ : nullptr;
+}
+
+uint32_t Channel::blocksAhead() const {
+  const ChannelProgram* under = running() ? program() : nullptr;
+  const size_t blocks = under == nullptr ? 0 : under->blocks.size();
+  return blocks > run().next ? static_cast<uint32_t>(blocks) - run().next : 0;
+}
+
+std::string Channel::enter(std::string_view blocks) {
+  if (mode_ != Mode::Mdi && !manual()) return "blocks are entered in MDI, jog, incremental jog and handwheel mode";
+  if (running()) return "the channel is executing";
+  ChannelProgram program;
+  if (std::string wrong = readChannelProgram(blocks, program); !wrong.empty()) return wrong;
+  if (manual() && program.blocks.size() != 1) return "the manual modes execute a single block";
+  if (std::string wrong = check(program); !wrong.empty()) return wrong;
+  if (mode_ == Mode::Mdi && links_.signals.get(signals_.mdiForbidden)) return {}; // l.8137
+  entered_ = std::move(program);
+  hasEntered_ = true;
+  return {};
+}
+
+// Words that the channel knows.
+std::string Channel::check(const ChannelProgram& program) const {
+  for (const ProgramBlock& block : program.blocks)
+    for (const ProgramWord& word : block.words) {
+      const bool known = std::string_view("GMSTFPR").find(word.letter) != std::string_view::npos;
+      const bool auxiliary = std::ranges::any_of(parameters_.auxiliary, [&](const ParameterPlace& place) {
+        return links_.parameters->dword(place, channel_) == word.letter;
+      });
+      if (!known && !auxiliary && run().motion.axisOf(word.letter) < 0)
+        return std::string("the channel has no address ") + word.letter;
+    }
+  return {};
+}
+
+// ---- requests ----------------------------------------------------------------------------------------------------
+
+// The machine is switched off: emergency stop (l.9551).
+void Channel::followMachine() {
+  const bool on = links_.signals.get(signals_.machineOn);
+  if (machineOn_ && !on && running()) leave();
+  machineOn_ = on;
+}
+
+// An offset measurement holds the channel in jog mode (l.10053, l.10076).
+void Channel::followModes(uint32_t asked) {
+  const bool measuring = signals_.lengthMeasuring.in(asked) || signals_.offsetMeasuring.in(asked);
+  const uint32_t rising = asked & ~askedBefore_ & signals_.modeRequests;
+  for (uint32_t i = 0; i < kModes && rising != 0; ++i)
+    if (signals_.modeRequest[i].in(rising) && !measuring) wanted_ = static_cast<Mode>(i);
+  if (measuring) wanted_ = Mode::Jog;
+  // Override and stop disabled: the change waits (l.9789).
+  if (wanted_ == mode_ || (start_ && run().motion.overrideDisabled())) return;
+  changeMode(wanted_);
+}
+
+void Channel::changeMode(Mode mode) {
+  if (running()) leave();
+  hasEntered_ = false;
+  mode_ = mode;
+}
+
+// An automatic run is interrupted, everything else forgotten (l.9789-9793).
+void Channel::leave() {
+  Run& current = run();
+  handover_.dropStrobes();
+  start_ = stop_ = false;
+  if (!automatic()) return clear(current);
+  interrupted_ = true;
+  current.open = current.active ? handover_.unacknowledged(current.issued) : 0;
+  current.motion.interrupt();
+}
+
+// Not in the modes that execute programs (l.9800-9905).
+void Channel::followToggles(uint32_t options) {
+  const uint32_t rising = options & ~optionsBefore_ & signals_.toggleRequests;
+  for (uint32_t i = 0; i < kToggles && rising != 0; ++i)
+    if (signals_.toggleRequest[i].in(rising) && !automatic() && mode_ != Mode::Mdi) toggles_[i] = !toggles_[i];
+}
+
+void Channel::followConditions(uint32_t asked, uint32_t options) {
+  uint32_t bits =
+      signals_.wheelOffset.as(signals_.wheelOffsetRequest.in(asked) && (automatic() || mode_ == Mode::Mdi)) |
+      signals_.misaligned.as(signals_.misalignedRequest.in(asked) && manual());
+  // N3200: 1 head-head, 2 head-table, 3 table-table; others are not five-axis machines.
+  const int32_t mechanics = links_.parameters->dword(parameters_.mechanics, channel_);
+  const bool head = mechanics == 1 || mechanics == 2, table = mechanics == 2 || mechanics == 3;
+  const bool able[] = {head, head, head || table, table};
+  for (uint32_t i = 0; i < 4; ++i)
+    bits |= signals_.toolMode[i].as(signals_.toolRequest[i].in(asked) && manual() && able[i]);
+  links_.signals.setBits(signals_.wheelOffset, channel_, signals_.conditions, bits);
+  if (!interrupted_) restart_ = return_ = false;
+  if (interrupted_ && signals_.restartRequest.in(options)) restart_ = true, return_ = false;
+  if (interrupted_ && signals_.returnRequest.in(options)) return_ = true, restart_ = false;
+}
+
+void Channel::followStop(uint32_t asked) {
+  if (!signals_.stopRequest.in(asked) || !start_ || run().motion.overrideDisabled()) return;
+  start_ = false;
+  stop_ = true;
+}
+
+void Channel::followStart(uint32_t asked) {
+  const bool starts = signals_.startRequest.in(asked & ~askedBefore_);
+  if (!starts || start_ || signals_.stopRequest.in(asked) || program() == nullptr) return;
+  start_ = true;
+  if (stop_) {
+    stop_ = false;
+    return;
+  }
+  if (automatic() && interrupted_) return goOn();
+  clear(run());
+  run().motion.begin();
+}
+
+// Functions without acknowledge are handed over again (l.9566).
+void Channel::goOn() {
+  Run& current = run();
+  interrupted_ = false;
+  if (!current.active) return;
+  current.motion.resume(restart_, return_);
+  restart_ = return_ = false;
+  if (current.open != 0) issue(current.open);
+}
+
+void Channel::issue(uint32_t mask) {
+  handover_.issue(run().functions, mask, turning_);
+  fresh_ = true;
+}
+
+// ---- the cycle ---------------------------------------------------------------------------------------------------
+
+void Channel::cycle(const ChannelProgram* selected, int64_t us) {
+  selected_ = selected;
+  fresh_ = false;
+  handover_.dropStrobes();
+  set(signals_.partsDone, false);
+  const uint32_t asked = links_.signals.wordOf(signals_.startRequest, channel_);
+  const uint32_t options = links_.signals.wordOf(signals_.singleBlock, channel_);
+  followMachine();
+  followModes(asked);
+  followToggles(options);
+  followConditions(asked, options);
+  followStop(asked);
+  followStart(asked);
+  askedBefore_ = asked;
+  optionsBefore_ = options;
+  run().motion.cycle(start_, us);
+  countTime(us);
+  advance();
+  timeSlice();
+  showState();
+}
+
+// Started, with a feed, with an override above 0 and a turning spindle (l.4432-4434).
+void Channel::countTime(int64_t us) const {
+  const ChannelMotion& motion = run().motion;
+  if (start_ && motion.machining() && links_.spindles->speed(motion.spindle()) != 0)
+    links_.tools->countTime(motion.spindle(), us);
+}
+
+void Channel::showState() {
+  const SignalMemory& signals = links_.signals;
+  const ChannelSignals& s = signals_;
+  uint32_t state = s.mode[static_cast<size_t>(mode_)].mask() | s.start.as(start_) | s.stop.as(stop_) |
+                   s.restart.as(restart_) | s.returning.as(return_);
+  for (uint32_t i = 0; i < kToggles; ++i) state |= s.toggle[i].as(toggles_[i]);
+  signals.setBits(s.start, channel_, s.stateBits, state);
+  signals.setBits(s.interrupted, channel_, s.runBits,
+                  s.interrupted.as(interrupted_) | s.waiting.as(run().waiting >= 0) |
+                      s.buffered.as(mode_ == Mode::Mdi || program() != nullptr)); // l.9543-9547
+  const bool moves = signals.get(s.feedOverride, channel_) != 0;
+  signals.setBits(s.stopped, channel_, s.motionBits,
+                  s.stopped.as(!start_ || !moves) | s.empty.as(!running() || !run().motion.moving()));
+}
+
+} // namespace rung::sim::nct

@@ -1,0 +1,109 @@
+// What a channel's part program does besides handing over functions: modal codes, motions of its axes, dwells, and the
+// signals that report them (man. l.9578-9730). Axes of a block start and end together; circles are chords.
+#pragma once
+#include <array>
+
+#include "sim/nct/channel_program.h"
+#include "sim/nct/channel_signals.h"
+#include "sim/nct/topic.h"
+#include "sim/path_modes.h"
+
+namespace rung::sim::nct {
+
+class ChannelMotion {
+public:
+  ChannelMotion(Links& links, uint32_t channel, const ChannelSignals& signals, const ChannelParameters& parameters)
+      : links_(links), channel_(channel), signals_(signals), parameters_(parameters) {}
+
+  // Modal codes as after power-on: G0, G90, G94, G97; G20 and G21 stay (`powerOn`: G21).
+  void reset(bool powerOn);
+  // A program begins: the axes are where they are.
+  void begin();
+  // Motion and dwell of a block. `locked`: the axes do not move, but the time passes (machine lock, test).
+  void prepare(const ProgramBlock& block, bool locked);
+  bool done() const { return next_ >= count_ && dwellUs_ <= 0 && !checking_; }
+
+  // Before a PLC cycle, while the program runs; writes the signals of the block under way.
+  void cycle(bool running, int64_t us);
+  // Before a time slice: holds the axes that may not move.
+  void timeSlice(bool running) const;
+
+  // The block's motion ends; `resume` continues it, from where it began or from where it was interrupted.
+  void interrupt();
+  void resume(bool toStart, bool toInterruption);
+  void cancel();
+
+  double value(const ProgramValue& value) const;
+  uint32_t spindle() const; // that machines, from 0: CP_SINP, else N0604
+  bool overrideDisabled() const { return overrideOff_ || (under() & kThread) != 0 || (under() & kTap) != 0; }
+  bool moving() const { return next_ < count_; }
+  bool machining() const;                           // with a feed that may move
+  int32_t axisOf(char letter) const;                // of the channel, from 0; negative: none
+  bool takesSpeed(const ProgramBlock& block) const; // S is the surface speed of G96 or the limit of G92
+
+private:
+  // Of a waypoint.
+  static constexpr uint32_t kFeed = 1 << 0;
+  static constexpr uint32_t kThread = 1 << 1;
+  static constexpr uint32_t kThreadCycle = 1 << 2;
+  static constexpr uint32_t kTap = 1 << 3;
+  static constexpr uint32_t kRigid = 1 << 4;
+  static constexpr uint32_t kReference = 1 << 5;
+  static constexpr uint32_t kSkip = 1 << 6;
+  static constexpr uint32_t kExact = 1 << 7; // G9, G61, or positioning with N1337 #0 PCH
+
+  using Position = std::array<double, nc::nct::kAxes>;
+  struct Waypoint {
+    Position target{};
+    uint32_t axes = 0; // mask
+    uint32_t flags = 0;
+  };
+  static constexpr uint32_t kWaypoints = 6;
+
+  struct Words { // of one block
+    Position target{};
+    uint32_t axes = 0;
+    bool machine = false, reference = false, skip = false, exact = false, dwell = false;
+    double time = 0, speedLimit = -1, height = 0;
+  };
+  Words read(const ProgramBlock& block);
+  void takeCode(int tenths, Words& words);
+  void takeAxis(char letter, double value, Words& words);
+  void plan(const Words& words);
+  void planDrilling(const Words& words);
+  void add(uint32_t axes, const Position& target, uint32_t flags);
+  void start();
+  void command(const Waypoint& waypoint) const;
+  double feed() const;
+  bool arrived(const Waypoint& waypoint) const;
+  uint32_t under() const { return next_ < count_ ? way_[next_].flags : 0; }
+  double way(const Waypoint& waypoint) const;
+  void showSignals() const;
+  void showSurfaceSpeed() const;
+
+  Links& links_;
+  uint32_t channel_;
+  const ChannelSignals& signals_;
+  const ChannelParameters& parameters_;
+
+  // Modal
+  int motion_ = 0; // tenths of the G code
+  PathModes modes_;
+  bool surface_ = false, exactStop_ = false, overrideOff_ = false;
+  bool polygon_ = false, gearBox_ = false, highSpeed_ = false;
+  double surfaceSpeed_ = 0, speedLimit_ = 0;
+
+  Position commanded_{}; // machine coordinates, at the end of the blocks so far
+  Position blockStart_{};
+  Position interruption_{};
+  std::array<Waypoint, kWaypoints> way_{};
+  uint32_t count_ = 0;
+  uint32_t next_ = 0;
+  bool started_ = false; // the axes have their commands
+  bool locked_ = false;
+  bool checking_ = false; // CN_POSCHK
+  double restUs_ = 0;     // of a locked motion
+  int64_t dwellUs_ = 0;
+};
+
+} // namespace rung::sim::nct

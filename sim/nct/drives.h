@@ -1,0 +1,63 @@
+// The drives: data for the display that the program hands over with MW 81 (man. 6.24), what SCP's NCTDriveMess reads,
+// and the status signals DN_… of the drives that an axis or a spindle has (man. 7.7).
+#pragma once
+#include <array>
+
+#include "sim/nct/parameters.h"
+#include "sim/nct/seen_signals.h"
+#include "sim/nct/topic.h"
+
+namespace rung::sim::nct {
+
+inline constexpr uint32_t kDrives = 48;
+// 0 speed [1/min], 1 current [A], 2 load [%], 3 bus voltage [V], 4 temperature [°C], 5 power [kW] (l.3383, l.4230).
+inline constexpr uint32_t kDriveData = 6;
+
+class Drives final : public Topic {
+public:
+  using Topic::Topic;
+
+  // `drive` from 1. What the program handed over, or else what the drive itself says.
+  double datum(uint32_t drive, uint32_t datum) const;
+
+  bool serves(bool write, uint32_t function) const override;
+  std::optional<int32_t> service(uint32_t function, Block& block) override;
+  std::span<const std::string_view> events() const override {
+    static constexpr std::string_view kEvents[] = {"drive"};
+    return kEvents;
+  }
+  Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
+  std::optional<double> quantity(std::string_view name) const override;
+  void powerOn(nc::PowerOn kind) override;
+  void timeSlice() override;
+
+private:
+  struct Drive {
+    std::array<double, kDriveData> given{};
+    std::array<bool, kDriveData> isGiven{};
+    uint32_t errors = 0; // DN_ERR
+  };
+  void readAddresses();
+  bool addressed(uint32_t drive) const;
+  double speed(uint32_t drive) const;
+
+  std::array<Drive, kDrives> drives_{};
+  std::array<bool, kDrives> addressed_{}; // by the parameters of `revision_`
+  uint32_t revision_ = 0;
+  SeenSignals seen_{WordSignal("DP_CTRL"), WordSignal("DN_STAT"), WordSignal("DN_ERR")};
+  ParameterPlace axisAddress_{501};
+  ParameterPlace spindleAddress_{601};
+  BitSignal enable1_{"DP_ENA1"};
+  BitSignal enable2_{"DP_ENA2"};
+  BitSignal table1_{"DP_PRM1"};
+  BitSignal table2_{"DP_PRM2"};
+  BitSignal clearError_{"DP_ERRCLR"};
+  BitSignal enabled_{"DN_ENA"};
+  BitSignal ready_{"DN_RDY"};
+  BitSignal activeTable1_{"DN_PRM1"};
+  BitSignal activeTable2_{"DN_PRM2"};
+  WordSignal errors_{"DN_ERR"};
+  uint32_t written_ = BitSignal::masks({enabled_, ready_, activeTable1_, activeTable2_});
+};
+
+} // namespace rung::sim::nct

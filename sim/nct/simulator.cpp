@@ -1,0 +1,210 @@
+// The dispatcher of the simulated NCT control (see simulator.h).
+#include "sim/nct/simulator.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "rtlib/load/program_info.h"
+#include "sim/relocation.h"
+
+namespace rung::sim::nct {
+
+Simulator::Simulator()
+    : topics_{&parameters_, &nvram_,   &machineOn_, &wiring_,   &spindles_,         &axes_,  &macros_, &screen_,
+              &network_,    &mailbox_, &drives_,    &channels_, &programSelection_, &tools_, &pallets_},
+      waiting_(core::ServiceQueue::kMaxPending) {}
+
+Links Simulator::makeLinks() {
+  Links links;
+  links.parameters = &parameters_;
+  links.channels = &channels_;
+  links.axes = &axes_;
+  links.spindles = &spindles_;
+  links.macros = &macros_;
+  links.drives = &drives_;
+  links.tools = &tools_;
+  links.pallets = &pallets_;
+  return links;
+}
+
+Handled Simulator::config(std::string_view key, std::string_view value) {
+  for (Topic* topic : topics_)
+    if (Handled handled = topic->config(key, value)) return handled;
+  return std::nullopt;
+}
+
+std::vector<std::string_view> Simulator::events() const {
+  std::vector<std::string_view> names;
+  for (const Topic* topic : topics_) names.insert(names.end(), topic->events().begin(), topic->events().end());
+  return names;
+}
+
+Handled Simulator::event(std::string_view name, const std::vector<NcArgument>& keys) {
+  for (Topic* topic : topics_)
+    if (std::ranges::find(topic->events(), name) != topic->events().end()) return topic->event(name, keys);
+  return std::nullopt;
+}
+
+std::optional<double> Simulator::quantity(std::string_view name) const {
+  for (const Topic* topic : topics_)
+    if (const auto value = topic->quantity(name)) return value;
+  return std::nullopt;
+}
+
+Handled Simulator::setQuantity(std::string_view name, double value) {
+  for (Topic* topic : topics_)
+    if (Handled handled = topic->setQuantity(name, value)) return handled;
+  return std::nullopt;
+}
+
+void Simulator::keep(Kept& kept) {
+  for (Topic* topic : topics_) topic->keep(kept);
+}
+
+void Simulator::deliver() {
+  for (Topic* topic : topics_) topic->powerOn(nc::PowerOn::Cold);
+}
+
+// ---- time --------------------------------------------------------------------------------------------------------
+
+void Simulator::attach(runtime::Instance& instance, const SignalMemory& signals) {
+  program_ = &instance.program();
+  findServices(*program_);
+  links_.signals = signals;
+  links_.memory = PlcMemory(instance);
+  blocks_ = {};
+  const uint32_t space = runtime::findSpace(instance.program(), nc::nct::kBlockSpace);
+  if (space == RUNG_NONE) return;
+  const rung_space& blocks = instance.program().spaces[space];
+  if (blocks.range_count == 1 && blocks.ranges[0].repr == RUNG_REPR_PACKED)
+    blocks_ = instance.block().subspan(blocks.ranges[0].offset, blocks.byte_count);
+}
+
+void Simulator::powerOn(runtime::Instance& instance, const SignalMemory& signals, nc::PowerOn kind) {
+  attach(instance, signals);
+  waitingCount_ = 0;
+  links_.nowUs = sliceUs_ = instance.nowUs();
+  links_.sliceUs = 0;
+  for (Topic* topic : topics_) {
+    topic->dropRequests();
+    topic->powerOn(kind);
+  }
+}
+
+void Simulator::programChanged(runtime::Instance& instance, const SignalMemory& signals) {
+  if (program_ == nullptr) return; // the NC is not simulated
+  const Relocation relocation(*program_, instance.program());
+  for (uint32_t i = 0; i < waitingCount_; ++i) relocation.renumber(waiting_[i].request);
+  attach(instance, signals);
+}
+
+void Simulator::timeSlice(runtime::Instance& instance, bool cycle) {
+  links_.sliceUs = instance.nowUs() - sliceUs_;
+  links_.nowUs = sliceUs_ = instance.nowUs();
+  if (cycle)
+    for (Topic* topic : topics_) topic->cycle();
+  for (Topic* topic : topics_) topic->timeSlice();
+}
+
+// ---- services ----------------------------------------------------------------------------------------------------
+
+// "MR function address block -> code": the name is before its arguments.
+void Simulator::findServices(const rung_program& program) {
+  constexpr std::pair<std::string_view, Service> kNames[] = {{"MR", Service::Mr},     {"MW", Service::Mw},
+                                                             {"MACR", Service::Macr}, {"MACW", Service::Macw},
+                                                             {"SCP", Service::Scp},   {"MOVCMND", Service::Movcmnd}};
+  services_.assign(program.service_count, Service::Other);
+  for (uint32_t i = 0; i < program.service_count; ++i) {
+    std::string_view name = runtime::serviceName(program, i);
+    name = name.substr(0, name.find(' '));
+    for (const auto& [known, service] : kNames)
+      if (name == known) services_[i] = service;
+  }
+}
+
+Simulator::Service Simulator::serviceOf(const core::ServiceRequest& request) const {
+  return request.service < services_.size() ? services_[request.service] : Service::Other;
+}
+
+// MACR, MACW, SCP, MOVCMND (man. 6.15-6.17). A refusal is FL_ER=1 in the box.
+Simulator::Outcome Simulator::answer(Service service, const int64_t* args, core::ServiceReply& reply) {
+  const auto give = [&](std::optional<double> value) {
+    if (!value) return Outcome::Refused;
+    reply.resultCount = 1;
+    reply.results[0] = std::bit_cast<int64_t>(*value);
+    return Outcome::Done;
+  };
+  switch (service) {
+  case Service::Other:
+  case Service::Mr:
+  case Service::Mw: return Outcome::Refused;
+  case Service::Macr: return give(macros_.read(args[0], args[1]));
+  case Service::Macw:
+    return macros_.write(args[0], args[1], std::bit_cast<double>(args[2])) ? Outcome::Done : Outcome::Refused;
+  case Service::Scp: return give(scope_.read(args[0], args[1], args[2]));
+  case Service::Movcmnd:
+    switch (axes_.load(args[0], args[1], std::bit_cast<double>(args[2]), std::bit_cast<double>(args[3]))) {
+    case Axes::Load::Accepted: return Outcome::Done;
+    case Axes::Load::Full: return Outcome::Later;
+    case Axes::Load::Refused: return Outcome::Refused;
+    }
+  }
+  return Outcome::Refused;
+}
+
+bool Simulator::respond(const core::ServiceRequest& request, core::ServiceReply& reply) {
+  const Service service = serviceOf(request);
+  if (service == Service::Other || service == Service::Mr || service == Service::Mw) return false;
+  reply = {.ticket = request.ticket};
+  const Outcome outcome = answer(service, request.args, reply);
+  if (outcome == Outcome::Refused) reply.state = RUNG_SERVICE_ERROR;
+  return outcome != Outcome::Later;
+}
+
+std::optional<int32_t> Simulator::execute(const core::ServiceRequest& request) {
+  const bool write = serviceOf(request) == Service::Mw;
+  const auto function = static_cast<uint32_t>(request.args[0]);
+  const uint64_t first = static_cast<uint64_t>(request.args[2]) * 4;
+  if (first > blocks_.size() || sizeof words_ > blocks_.size() - first) return 1;
+  uint8_t* buffer = blocks_.data() + first;
+  std::memcpy(words_.data(), buffer, sizeof words_);
+  Block block(words_);
+  for (Topic* topic : topics_) {
+    if (!topic->serves(write, function)) continue;
+    const std::optional<int32_t> code = topic->service(function, block);
+    std::memcpy(buffer, words_.data(), sizeof words_);
+    return code;
+  }
+  return 1; // man. l.3465
+}
+
+void Simulator::betweenScans(runtime::Instance& instance) {
+  links_.nowUs = instance.nowUs();
+  while (waitingCount_ < waiting_.size() && instance.services().take(waiting_[waitingCount_].request))
+    waiting_[waitingCount_++].sinceUs = links_.nowUs;
+  uint32_t left = 0;
+  for (uint32_t i = 0; i < waitingCount_; ++i) {
+    const core::ServiceRequest& request = waiting_[i].request;
+    links_.requestAgeUs = links_.nowUs - waiting_[i].sinceUs;
+    core::ServiceReply reply{.ticket = request.ticket};
+    Outcome outcome = Outcome::Done;
+    const Service service = serviceOf(request);
+    if (service == Service::Mr || service == Service::Mw) {
+      const std::optional<int32_t> code = execute(request);
+      reply.resultCount = 1;
+      reply.results[0] = code.value_or(0);
+      if (!code) outcome = Outcome::Later;
+    } else {
+      outcome = answer(service, request.args, reply);
+    }
+    if (outcome == Outcome::Refused) reply.state = RUNG_SERVICE_ERROR;
+    if (outcome == Outcome::Later)
+      waiting_[left++] = waiting_[i];
+    else
+      instance.services().complete(reply);
+  }
+  waitingCount_ = left;
+}
+
+} // namespace rung::sim::nct

@@ -1,0 +1,100 @@
+// The simulated NCT control beside a PLC program (`config nc simulated`): it holds the topics, gives each request of MR
+// and MW to the one that serves it, between two scans, and answers MACR, MACW, SCP and MOVCMND within the cycle.
+// A new topic is a member here and an entry of topics_, in the order in which they work.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "sim/nct/axes.h"
+#include "sim/nct/channels.h"
+#include "sim/nct/drives.h"
+#include "sim/nct/machine_on.h"
+#include "sim/nct/macros.h"
+#include "sim/nct/mailbox.h"
+#include "sim/nct/network.h"
+#include "sim/nct/nvram.h"
+#include "sim/nct/pallet_management.h"
+#include "sim/nct/parameters.h"
+#include "sim/nct/program_selection.h"
+#include "sim/nct/scope.h"
+#include "sim/nct/screen.h"
+#include "sim/nct/spindles.h"
+#include "sim/nct/tool_management.h"
+#include "sim/nct/wiring.h"
+
+namespace rung::sim::nct {
+
+class Simulator {
+public:
+  Simulator();
+
+  // Nothing: no topic knows it.
+  Handled config(std::string_view key, std::string_view value);
+  std::vector<std::string_view> events() const;
+  Handled event(std::string_view name, const std::vector<NcArgument>& keys);
+  std::optional<double> quantity(std::string_view name) const;
+  Handled setQuantity(std::string_view name, double value);
+
+  // The program's memory has been started; `signals` are the control's.
+  void powerOn(runtime::Instance& instance, const SignalMemory& signals, nc::PowerOn kind);
+  // Another program has taken over: requests that are at work are answered to it.
+  void programChanged(runtime::Instance& instance, const SignalMemory& signals);
+  // Before every time slice; `cycle`: it is the first one of a PLC cycle.
+  void timeSlice(runtime::Instance& instance, bool cycle);
+  // MACR, MACW, SCP, MOVCMND; false: another service.
+  bool respond(const core::ServiceRequest& request, core::ServiceReply& reply);
+  // Takes the requests of MR and MW and answers what can be answered, oldest first; one that is still at work does not
+  // hold up the others.
+  void betweenScans(runtime::Instance& instance);
+  void setRealTime() { links_.realTime = true; }
+
+  void keep(Kept& kept);
+  // The tables of a control as it is delivered, with the configuration.
+  void deliver();
+
+private:
+  enum class Service : uint8_t { Other, Mr, Mw, Macr, Macw, Scp, Movcmnd };
+  void attach(runtime::Instance& instance, const SignalMemory& signals);
+  void findServices(const rung_program& program);
+  Service serviceOf(const core::ServiceRequest& request) const;
+  // The execution code of a request; nothing: still at work.
+  std::optional<int32_t> execute(const core::ServiceRequest& request);
+  // The services of one cycle; nothing: not now.
+  enum class Outcome : uint8_t { Done, Refused, Later };
+  Outcome answer(Service service, const int64_t* args, core::ServiceReply& reply);
+
+  Links makeLinks();
+
+  Links links_ = makeLinks(); // before all topics: they use it when they are made
+  Parameters parameters_{links_};
+  Nvram nvram_{links_};
+  MachineOn machineOn_{links_};
+  Wiring wiring_{links_};
+  Spindles spindles_{links_};
+  Axes axes_{links_};
+  Macros macros_{links_};
+  Screen screen_{links_};
+  Drives drives_{links_};
+  Scope scope_{links_};
+  Network network_{links_};
+  Mailbox mailbox_{links_};
+  Channels channels_{links_};
+  ProgramSelection programSelection_{links_};
+  ToolManagement tools_{links_};
+  PalletManagement pallets_{links_};
+  std::vector<Topic*> topics_; // in the order in which they work
+
+  const rung_program* program_ = nullptr; // that is switched on; null: none yet
+  std::vector<Service> services_;         // by rung_program::services
+  std::span<uint8_t> blocks_;             // the space @MB
+  struct Waiting {
+    core::ServiceRequest request;
+    int64_t sinceUs = 0;
+  };
+  std::vector<Waiting> waiting_; // oldest first; room for all that can be pending
+  uint32_t waitingCount_ = 0;
+  int64_t sliceUs_ = 0;                                 // the clock at the last time slice
+  std::array<uint32_t, nc::nct::kBlockStride> words_{}; // the block that is being worked on
+};
+
+} // namespace rung::sim::nct

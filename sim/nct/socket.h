@@ -1,0 +1,43 @@
+// Non-blocking sockets of the simulated network. They stay on the loopback: whatever address a program gives, nothing
+// leaves this machine. Errors are those of Windows Sockets.
+#pragma once
+#include "sim/nct/line.h"
+
+namespace rung::sim::nct {
+
+class Socket {
+public:
+  Socket() = default;
+  ~Socket() { close(); }
+  Socket(Socket&& other) noexcept;
+  Socket& operator=(Socket&& other) noexcept;
+
+  // Each gives 0 or an error; then the socket is closed.
+  int32_t openUdp(Endpoint own);
+  int32_t listen(Endpoint own);
+  // Connects in the background: `connected` says when.
+  int32_t connect(Endpoint own, Endpoint to);
+  // Nothing: still connecting.
+  std::optional<int32_t> connected();
+  // A connection that has come in, closed when there is none.
+  Socket accept();
+  void close();
+  bool isOpen() const { return fd_ >= 0; }
+
+  // Waits for data, a connection or room; at most `ms`.
+  bool readable(int ms) const;
+  bool writable(int ms) const;
+
+  // A datagram, what is beyond the end of `to` is lost; or what the stream has, at most `to`.
+  Received receive(std::span<uint8_t> to, bool peek = false);
+  Sent send(std::span<const uint8_t> from);
+  Sent sendTo(std::span<const uint8_t> from, Endpoint to);
+
+  uint16_t port() const; // own
+
+private:
+  int32_t open(int type, Endpoint own);
+  int fd_ = -1;
+};
+
+} // namespace rung::sim::nct

@@ -1,0 +1,123 @@
+// The axes of the simulated TECHNOL control with all that moves them: spindles, SPI_AX, positioning units, references,
+// manual motion (man. chapters 12, 13.1, 15, 19, 20). It knows nothing of the program's memory: cells come and go as
+// plain structs (axis_cells.h). Axes and ports are numbered from 1. After configuring nothing allocates but what gives
+// texts.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "machine/io/axes/positioning_unit.h"
+#include "sim/technol/devices/manual_motion.h"
+#include "sim/technol/devices/reference.h"
+#include "sim/technol/devices/spindle_positioning.h"
+#include "sim/technol/devices/spindles.h"
+
+namespace rung::sim::technol {
+
+using io::kLastSpace;
+using io::PositioningUnits;
+
+class Axes {
+public:
+  // An input bit that is 1 while an axis is physically within low … high (mm).
+  struct Switch {
+    uint64_t bit = 0; // as the caller calls it
+    uint32_t axis = 0;
+    double low = 0, high = 0;
+  };
+
+  // Keys `axes` and `axis.N.ATTRIBUTE`. "" or what is wrong.
+  std::string configure(std::string_view key, std::string_view value);
+  // `switch.BIT AXIS LOW HIGH`; several of one bit count together.
+  std::string addSwitch(uint64_t bit, std::string_view value);
+  std::span<const Switch> switches() const { return switches_; }
+  bool isClosed(const Switch& contact) const;
+  // What is configured for axes that do not exist; "": nothing.
+  std::string configurationProblem() const;
+
+  uint32_t count() const { return static_cast<uint32_t>(letters_.size()); }
+  std::string_view letters() const { return letters_; }
+  bool exists(uint32_t axis) const { return axis >= 1 && axis <= count(); }
+
+  // Power-up, cold and warm start. STOP PLC changes nothing: motions continue with the last orders.
+  void powerUp();
+  void startPlc() { manual_.lock(false); }
+  // Fault, HALT, after MODULE_HALT: units brake, manual motion ends; the caller puts 0 into SU_OUT_PLC.
+  void fault();
+
+  // A millisecond. The cells of the scan before are in both; `requests` is written to.
+  void tick(const AxisInputs& in, AxisRequests& requests);
+  // The cells of now; also what an order changes at once (PO_OSxPI of SPI_AX).
+  void show(AxisOutputs& out) const;
+
+  // Instructions. Out of range, for an axis that does not exist: nothing happens, and a complaint is there.
+  void analogPort(int64_t port);
+  AnalogOutput analog(int64_t value) { return spindles_.put(value); }
+  AnalogOutput analogOnSpindle(int64_t value, int64_t axis, int64_t spi); // ANALOG val,axis[,spi]; not given: 0
+  AnalogOutput analogSpi(int64_t value, int64_t axis);
+  AnalogOutput axSpi(int64_t axis, SpindleRole role);
+  void spiMain(int64_t axis);
+  // True: POLOHV_x is to be 1 at once.
+  bool spiAx(int64_t axis, const SpindlePositioningOrder& order);
+  void regul(int64_t axis, int64_t set); // of axes 1-6
+  // VAZBA_x of now.
+  void posInit(int64_t axis, int64_t space, bool loopClosed);
+  PositioningUnits::Mode posMode(int64_t axis, int32_t length, uint16_t acceleration);
+  PositioningUnits::State posControl(int64_t axis, uint32_t feed, bool mp);
+  void posReset(int64_t axis);
+
+  // The operator. "" or what is wrong.
+  void stop(bool emergency) { operatorStop_ = emergency ? Stop::Emergency : Stop::Normal; }
+  std::string reference(std::string_view type, AxisMask axes);
+  void autman(bool on) { manual_.panel.switchManual(on); }
+  std::string rtm(std::string_view command, bool pressed);
+  // The same; of another part of the control: nothing happens, without a message.
+  void key(std::string_view command, bool pressed);
+  void handwheel(int64_t pulses, uint32_t wheel = 1) { manual_.panel.turn(pulses, wheel); } // of 1 or 2
+
+  // For the log, the oldest first; false: there is none.
+  bool takeComplaint(Complaint& complaint) { return complaints_.take(complaint); }
+
+  // Quantities of an axis that exists: NC.MPOS, NC.TRUE, NC.SPEED, NC.SPINDLE, NC.MAINSPINDLE, NC.REGUL; outputs of
+  // ports in units of 10 V.
+  double measured(uint32_t axis) const { return axes_[axis - 1].measured(); }
+  double physical(uint32_t axis) const { return axes_[axis - 1].physical(); }
+  double speedPerMinute(uint32_t axis) const { return axes_[axis - 1].speedPerMinute(); }
+  uint32_t spindleRole(uint32_t axis) const { return spindles_.role(axes_[axis - 1], axis); }
+  uint32_t mainSpindle() const { return spindles_.main(); }
+  uint32_t regulator(uint32_t axis) const { return spindles_.regulator(axis); }
+  double output(uint32_t port) const { return spindles_.output(port); }
+  void setMeasured(uint32_t axis, double value) { axes_[axis - 1].setMeasured(value); }
+  void setPhysical(uint32_t axis, double place) { axes_[axis - 1].setPhysical(place); }
+
+private:
+  std::span<Axis> existing() { return {axes_.data(), count()}; }
+  std::span<const Axis> existing() const { return {axes_.data(), count()}; }
+  Stop takeStop(const AxisInputs& in, AxisRequests& requests);
+  bool inRange(std::string_view instruction, int64_t axis);
+  bool usable(std::string_view instruction, int64_t axis);
+  void dropPositioning(uint32_t index);
+  double mainRevolutions() const;
+
+  std::string letters_ = "XYZC";
+  std::vector<Switch> switches_;
+  std::map<uint32_t, std::string> configured_; // axes that a key names, with the first one
+  std::array<Axis, kMaxAxes> axes_ = {};
+  std::array<SpindlePositioning, kMaxAxes> positioning_ = {};
+  Spindles spindles_;
+  PositioningUnits units_;
+  Reference reference_;
+  ManualMotion manual_;
+  Complaints complaints_;
+  Stop operatorStop_ = Stop::None;
+  bool stopPiWas_ = false;
+  AxisMask aborted_ = 0;     // whose POLOHV_x an order has ended
+  AxisMask blockMotion_ = 0; // of the last tick
+};
+
+} // namespace rung::sim::technol

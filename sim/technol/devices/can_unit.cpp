@@ -1,0 +1,240 @@
+// A simulated unit (see can_unit.h).
+#include "sim/technol/devices/can_unit.h"
+
+#include <algorithm>
+
+namespace rung::sim::technol {
+namespace {
+
+using namespace io;
+
+constexpr uint32_t kDeviceType = 0x00030191; // inputs and outputs of CiA 401
+constexpr uint32_t kMaker = 1;
+constexpr std::string_view kNames[kUnitGroups] = {"INOUT08", "KLA50", "TOC"};
+constexpr uint16_t kPotentiometer = 0x6404;
+constexpr uint8_t kEverySync = 1, kMostSyncs = 240, kAtRequest = 252; // types of transmission (l.4699-4703)
+constexpr uint8_t kLastOfDisplay = 19;
+constexpr PdoFields kDefaultOutputs = {{{kWriteOutput, 1},
+                                        {kWriteOutput, 2},
+                                        {kWriteOutput, 3},
+                                        {kWriteOutput, 4},
+                                        kNoField,
+                                        kNoField,
+                                        kNoField,
+                                        kNoField}};
+constexpr PdoFields kDefaultInputs = {
+    {{kReadInput, 1}, {kReadInput, 2}, {kReadInput, 3}, {kReadInput, 4}, kNoField, kNoField, kNoField, kNoField}};
+
+sdo::Object fieldOf(uint32_t mapping) {
+  return {static_cast<uint16_t>(mapping >> 16), static_cast<uint8_t>(mapping >> 8)};
+}
+
+bool isMapping(sdo::Object place) {
+  return (place.index == kRpdoMapping || place.index == kTpdoMapping) && place.subindex != 0;
+}
+
+// Subindices of fields that a PDO may have.
+struct Fields {
+  uint16_t pdo = 0, index = 0;
+  uint8_t first = 0, last = 0;
+};
+constexpr Fields kFields[] = {{kRpdoMapping, kUnusedField, 0, 0},
+                              {kRpdoMapping, kWriteOutput, 1, 4},
+                              {kRpdoMapping, kDisplay, kDisplayRow, kLastOfDisplay},
+                              {kTpdoMapping, kUnusedField, 0, 0},
+                              {kTpdoMapping, kReadInput, 1, 4},
+                              {kTpdoMapping, kMatrixInput, 1, 4},
+                              {kTpdoMapping, kEncoderCounter, 1, 3},
+                              {kTpdoMapping, kWheelKeys, 1, 2}};
+
+// Only fields of eight bits (l.4705-4709).
+bool isMappable(uint16_t pdo, uint32_t mapping) {
+  const sdo::Object field = fieldOf(mapping);
+  return mapping == mappingOf(field) && std::any_of(std::begin(kFields), std::end(kFields), [&](const Fields& known) {
+           return known.pdo == pdo && known.index == field.index && field.subindex >= known.first &&
+                  field.subindex <= known.last;
+         });
+}
+
+// Error codes of emergencies (CiA 301, CiA 401).
+constexpr uint16_t kNoError = 0, kGenericError = 0x1000, kShortedOutputs = 0x2300;
+
+} // namespace
+
+SimulatedUnit::SimulatedUnit(uint32_t group, uint32_t board)
+    : group_(group), board_(board), node_(nodeOf(group, board)) {
+  if (group == kHandwheel) display_.resize(1);
+  objects_.add({sdo::kDeviceType, 4, kDeviceType});
+  objects_.add({sdo::kErrorRegister, 1});
+  objects_.add({sdo::kVendor, 4, kMaker});
+  for (uint8_t i = 1; i <= kUnitOutputs; ++i) {
+    objects_.add({{kShortedOutput, i}, 1});
+    objects_.add({{kWriteOutput, i}, 1});
+  }
+  for (uint8_t i = 1; i <= kUnitInputs; ++i) objects_.add({{kReadInput, i}, 1});
+  for (uint8_t i = 1; i <= 8; ++i) objects_.add({{kPotentiometer, i}, 1});
+  for (const sdo::Object place : {kTpdo2Type, kWheelMode}) objects_.add({place, 1, 0, ObjectAccess::ReadWrite});
+  objects_.add({kTpdo2Id, 4, 0, ObjectAccess::ReadWrite});
+  objects_.add({kMatrixOutputs, 2, 0, ObjectAccess::ReadWrite});
+  for (const uint16_t pdo : {kRpdoMapping, kTpdoMapping}) {
+    objects_.add({{pdo, 0}, 1, kPdoFields});
+    for (uint8_t i = 1; i <= kPdoFields; ++i) objects_.add({{pdo, i}, 4, 0, ObjectAccess::ReadWrite});
+  }
+  for (uint8_t i = 1; group == kHandwheel && i <= kLastOfDisplay; ++i)
+    objects_.add({{kDisplay, i}, 1, 0, ObjectAccess::ReadWrite});
+  setDefaults();
+}
+
+void SimulatedUnit::setDefaults() {
+  rpdo_ = kDefaultOutputs;
+  tpdo_ = kDefaultInputs;
+  for (uint8_t i = 0; i < kPdoFields; ++i) {
+    objects_.set({kRpdoMapping, static_cast<uint8_t>(i + 1)}, mappingOf(rpdo_[i]));
+    objects_.set({kTpdoMapping, static_cast<uint8_t>(i + 1)}, mappingOf(tpdo_[i]));
+  }
+  sendsAnalogue_ = group_ == kInOut08;
+  objects_.set(kTpdo2Id, kTpdo2 + node_ + (sendsAnalogue_ ? 0 : kNotValid));
+  objects_.set(kTpdo2Type, kEverySync);
+  objects_.set(kWheelMode, 0);
+  objects_.set(kMatrixOutputs, 0);
+}
+
+void SimulatedUnit::power() {
+  wires_.error = 0;
+  wires_.shorts = {};
+  wires_.silent = false;
+  operational_ = false;
+  received_ = shown_ = {};
+  outputs_ = {};
+  reported_ = 0;
+  reportedShorts_ = {};
+  for (HandwheelDisplay& display : display_) display.clear();
+  setDefaults();
+}
+
+// The unit switches shorted outputs off by itself (man. l.4511-4517).
+uint8_t SimulatedUnit::output(uint32_t port) const { return outputs_[port] & ~wires_.shorts[port]; }
+
+uint8_t SimulatedUnit::errorRegister() const {
+  const bool shorted = std::any_of(wires_.shorts.begin(), wires_.shorts.end(), [](uint8_t bits) { return bits != 0; });
+  const auto error = static_cast<uint8_t>(wires_.error | (shorted ? kErrorShort : 0));
+  return error == 0 ? 0 : error | kErrorAny;
+}
+
+void SimulatedUnit::tick(NodePackets& answers) {
+  if (wires_.silent) return;
+  const uint8_t now = errorRegister();
+  if (now == reported_ && wires_.shorts == reportedShorts_) return;
+  reported_ = now;
+  reportedShorts_ = wires_.shorts;
+  const uint16_t code = now == 0 ? kNoError : (now & kErrorShort) != 0 ? kShortedOutputs : kGenericError;
+  CanPacket packet{.id = static_cast<uint16_t>(kEmergency + node_), .length = kCanDataBytes};
+  putNumber(packet.data, 2, code);
+  packet.data[2] = now;
+  answers.push(packet);
+}
+
+void SimulatedUnit::receive(const CanPacket& packet, NodePackets& answers) {
+  if (wires_.silent) return;
+  if (isNodeCommandFor(packet, node_)) {
+    operational_ = packet.data[0] == kStartNode;
+  } else if (packet.id == kSync) {
+    if (!operational_) return;
+    takeOver();
+    sendInputs(answers);
+  } else if (packet.id == kRpdo1 + node_) {
+    std::copy_n(packet.data, received_.size(), received_.begin());
+  } else if (packet.id == kSdoRequest + node_) {
+    answer(packet, answers);
+  }
+}
+
+// Bytes of RPDO1 go where they are mapped; a display that nobody has mapped shows nothing.
+void SimulatedUnit::takeOver() {
+  for (uint32_t i = 0; i < kPdoFields; ++i) {
+    const sdo::Object field = rpdo_[i];
+    if (field.index == kWriteOutput && field.subindex <= kUnitOutputs) outputs_[field.subindex - 1u] = received_[i];
+    if (field.index != kDisplay) continue;
+    const auto* const shown = std::find(kWheelOutputFields.begin(), kWheelOutputFields.end(), field);
+    const auto place = static_cast<size_t>(shown - kWheelOutputFields.begin());
+    if (place < shown_.size()) shown_[place] = received_[i];
+  }
+  for (HandwheelDisplay& display : display_) display.show(shown_);
+}
+
+uint8_t SimulatedUnit::input(sdo::Object field) const {
+  const uint32_t number = field.subindex - 1u;
+  switch (field.index) {
+  case kReadInput: return wires_.in[number];
+  case kMatrixInput: return wires_.keys[number];
+  case kWheelKeys: return objects_.value(kWheelMode) != 0 ? wires_.in[number] : 0;
+  case kEncoderCounter: return number < wires_.encoders.size() ? static_cast<uint8_t>(wires_.encoders[number]) : 0;
+  default: return 0;
+  }
+}
+
+void SimulatedUnit::sendInputs(NodePackets& answers) const {
+  CanPacket inputs{.id = static_cast<uint16_t>(kTpdo1 + node_), .length = kCanDataBytes};
+  for (uint32_t i = 0; i < kPdoFields; ++i) inputs.data[i] = input(tpdo_[i]);
+  answers.push(inputs);
+  if (!sendsAnalogue_) return;
+  CanPacket analogue{.id = static_cast<uint16_t>(kTpdo2 + node_), .length = kCanDataBytes};
+  std::copy(wires_.analogue.begin(), wires_.analogue.end(), analogue.data);
+  answers.push(analogue);
+}
+
+void SimulatedUnit::refresh() {
+  objects_.set(sdo::kErrorRegister, errorRegister());
+  for (uint8_t i = 0; i < kUnitOutputs; ++i) {
+    const auto subindex = static_cast<uint8_t>(i + 1);
+    objects_.set({kShortedOutput, subindex}, wires_.shorts[i]);
+    objects_.set({kWriteOutput, subindex}, outputs_[i]);
+  }
+  for (uint8_t i = 0; i < kUnitInputs; ++i) objects_.set({kReadInput, static_cast<uint8_t>(i + 1)}, wires_.in[i]);
+  for (uint8_t i = 0; i < 8; ++i) objects_.set({kPotentiometer, static_cast<uint8_t>(i + 1)}, wires_.analogue[i]);
+}
+
+// The name is longer than four bytes: its length comes first, then it comes in one segment.
+void SimulatedUnit::answer(const CanPacket& request, NodePackets& answers) {
+  const std::string_view name = kNames[group_ - 1];
+  if ((sdo::command(request) & 0xEF) == sdo::kReadSegment) {
+    CanPacket segment{.id = static_cast<uint16_t>(kSdoAnswer + node_), .length = kCanDataBytes};
+    segment.data[0] = static_cast<uint8_t>((7 - name.size()) << 1 | 1);
+    std::copy(name.begin(), name.end(), segment.data + 1);
+    answers.push(segment);
+    return;
+  }
+  if (sdo::command(request) == sdo::kRead && sdo::object(request) == sdo::kName) {
+    const auto length = static_cast<uint32_t>(name.size());
+    answers.push(sdo::packet(kSdoAnswer + node_, sdo::kSegmented, sdo::kName, length));
+    return;
+  }
+  if (const uint32_t code = refusal(request)) {
+    answers.push(sdo::abort(node_, sdo::object(request), code));
+    return;
+  }
+  refresh();
+  const CanObject* written = nullptr;
+  answers.push(objects_.answer(node_, request, written));
+  if (written != nullptr) takeWritten(*written);
+}
+
+// 0: none by what the value means.
+uint32_t SimulatedUnit::refusal(const CanPacket& request) const {
+  if (!sdo::isWrite(request)) return 0;
+  const sdo::Object place = sdo::object(request);
+  const uint32_t value = sdo::value(request);
+  if (place == kTpdo2Type && value != kAtRequest && (value < kEverySync || value > kMostSyncs)) return sdo::kWrongValue;
+  if (!isMapping(place)) return 0;
+  if (operational_) return sdo::kWrongState;
+  return isMappable(place.index, value) ? 0 : sdo::kNotMappable;
+}
+
+void SimulatedUnit::takeWritten(const CanObject& object) {
+  if (object.place == kTpdo2Id) sendsAnalogue_ = (object.value & kNotValid) == 0;
+  if (!isMapping(object.place)) return;
+  PdoFields& pdo = object.place.index == kRpdoMapping ? rpdo_ : tpdo_;
+  pdo[object.place.subindex - 1u] = fieldOf(object.value);
+}
+
+} // namespace rung::sim::technol

@@ -1,0 +1,72 @@
+// A simulated unit on CAN channel 2: INOUT08, KLA50 or EPU panel, handwheel (man. 9.2, 9.6). The control's side of it
+// is io::CanUnit. 1600h and 1A00h, written while it is not operational, say what the bytes of RPDO1 and TPDO1 are;
+// by default they are outputs and inputs (l.4805-4858).
+#pragma once
+#include "machine/io/can/bounded_queue.h"
+#include "machine/io/can/unit.h"
+#include "machine/io/can/unit_mapping.h"
+#include "sim/technol/devices/can_objects.h"
+#include "sim/technol/devices/handwheel_display.h"
+
+namespace rung::sim::technol {
+
+using NodePackets = io::BoundedQueue<io::CanPacket, 512>;
+
+// What is wired to a unit, and what is wrong with it.
+struct UnitWires {
+  std::array<uint8_t, io::kUnitInputs> in{};           // IP0 to IP3; IP0 and IP1 of a handwheel are its keys
+  std::array<uint8_t, 8> analogue{};                   // 6404h: potentiometers, 0 left end, 0FFh right end (l.4459)
+  std::array<uint8_t, 4> keys{0xFF, 0xFF, 0xFF, 0xFF}; // 2108h: pressed keys of a matrix, 0FFh none (l.4567)
+  std::array<uint16_t, 2> encoders{};                  // 210Dh (l.4607)
+  std::array<uint8_t, io::kUnitOutputs> shorts{};      // shorted outputs of OP0 to OP2
+  uint8_t error = 0;                                   // error register 1001h without bits 0 and 1 (l.3655-3668)
+  bool silent = false;
+};
+
+class SimulatedUnit {
+public:
+  SimulatedUnit(uint32_t group, uint32_t board);
+
+  uint32_t group() const { return group_; }
+  uint32_t board() const { return board_; } // from 1
+  uint8_t node() const { return node_; }
+  UnitWires& wires() { return wires_; }
+  const UnitWires& wires() const { return wires_; }
+  // What is at the terminals OP0 to OP2.
+  uint8_t output(uint32_t port) const;
+  // Null: it is not a handwheel.
+  const HandwheelDisplay* display() const { return display_.empty() ? nullptr : display_.data(); }
+
+  // At a power-on. What is wired stays, what was wrong is gone.
+  void power();
+  void receive(const io::CanPacket& packet, NodePackets& answers);
+  // A millisecond.
+  void tick(NodePackets& answers);
+
+private:
+  void setDefaults();
+  uint8_t errorRegister() const;
+  void takeOver();
+  uint8_t input(io::sdo::Object field) const;
+  uint32_t refusal(const io::CanPacket& request) const;
+  void takeWritten(const CanObject& object);
+  void answer(const io::CanPacket& request, NodePackets& answers);
+  void sendInputs(NodePackets& answers) const;
+  void refresh();
+
+  uint32_t group_, board_;
+  uint8_t node_;
+  UnitWires wires_;
+  CanObjects objects_{io::sdo::kNoSuchObject};
+  std::vector<HandwheelDisplay> display_; // one, of a handwheel
+  bool operational_ = false;
+  bool sendsAnalogue_ = false; // TPDO2 after each SYNC, by object 1801h-1
+  io::PdoFields rpdo_{}, tpdo_{};
+  std::array<uint8_t, 8> received_{}; // RPDO1, taken over with SYNC
+  std::array<uint8_t, 8> shown_{};    // TOC_DISPLS
+  std::array<uint8_t, io::kUnitOutputs> outputs_{};
+  uint8_t reported_ = 0; // error register and shorts of the last emergency
+  std::array<uint8_t, io::kUnitOutputs> reportedShorts_{};
+};
+
+} // namespace rung::sim::technol

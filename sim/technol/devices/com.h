@@ -1,0 +1,73 @@
+// The simulated serial ports (TECHNOL manual 23.3): what a program sends leaves a port at its speed, what comes from
+// outside is in its queue at once.
+#pragma once
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "machine/io/com/port.h"
+
+namespace rung::sim::technol {
+
+// One port's line.
+class ComLine {
+public:
+  static constexpr uint32_t kSentBytes = 65536; // that have left, until somebody has seen them
+
+  explicit ComLine(io::com::Port& port) : port_(port) {}
+
+  void makeRoom() { sent_.resize(kSentBytes); }
+  void powerOn();
+  // One millisecond.
+  void tick();
+  // While the line has an error it rests: nothing leaves it, and what comes is lost.
+  void receive(std::span<const uint8_t> bytes);
+
+  // What has left the port and was not seen, from the oldest byte on. When there are more than kSentBytes, the oldest
+  // are lost.
+  uint32_t sent() const { return sentCount_; }
+  uint8_t sentByte(uint32_t number) const { return sent_[(sentFirst_ + number) % kSentBytes]; }
+  // True: the oldest are these, and count as seen.
+  bool takeSent(std::span<const uint8_t> expected);
+
+private:
+  void leave();
+
+  io::com::Port& port_;
+  uint64_t progress_ = 0; // of the byte that is being sent, in thousandths of a bit
+  std::vector<uint8_t> sent_;
+  uint32_t sentFirst_ = 0, sentCount_ = 0;
+};
+
+class ComPorts {
+public:
+  static constexpr uint32_t kMost = io::com::kMostPorts;
+
+  // Keys COM[1].Active, COM[1].ComSpeed … "" or what is wrong.
+  static bool owns(std::string_view key) { return io::com::isPortKey(key); }
+  std::string configure(std::string_view key, std::string_view value);
+
+  void powerOn();
+  void tick();
+
+  io::com::Port& port(uint32_t number) { return units_[number].port; }
+  // Null: no port of this number.
+  io::com::Port* find(uint32_t number) { return number < kMost ? &units_[number].port : nullptr; }
+  ComLine& line(uint32_t number) { return units_[number].line; }
+  // Events: "" or what is wrong.
+  std::string receive(uint32_t number, std::span<const uint8_t> bytes);
+  std::string setError(uint32_t number, bool isWrong);
+
+private:
+  struct Unit {
+    io::com::Port port;
+    ComLine line{port};
+  };
+  std::string inactive(uint32_t number) const;
+
+  std::array<Unit, kMost> units_;
+};
+
+} // namespace rung::sim::technol

@@ -1,0 +1,100 @@
+// The simulated EtherCAT net (TECHNOL manual, chapter 26): a master with slaves that the configuration describes. It is
+// the io::ethercat::Master of the instructions ECAT_…, serves the request bits flEcat…Req and the process image.
+//
+// A mailbox answers 5 ms after it was asked, or after 1 s with kTimedOut where the slave is silent. Without slaves
+// there is no master. Configuring may allocate, all else does not.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "machine/io/ethercat/master.h"
+#include "machine/io/ethercat/state_requests.h"
+#include "sim/technol/devices/ethercat_image.h"
+#include "sim/technol/devices/ethercat_requests.h"
+#include "sim/technol/devices/ethercat_slaves.h"
+#include "sim/technol/devices/ethercat_states.h"
+
+namespace rung::sim::technol {
+
+class EtherCat final : public io::ethercat::Master {
+public:
+  using Station = io::ethercat::Station;
+  static constexpr uint32_t kMailboxMs = 5;
+  static constexpr uint32_t kTimeoutMs = 1000;
+  static constexpr uint32_t kMostDelayMs = 3'600'000;
+
+  EtherCat() = default;
+  EtherCat(const EtherCat&) = delete;
+  EtherCat& operator=(const EtherCat&) = delete;
+
+  // Keys of the configuration: ethercat.…, EtherCATOPViaPLC, EtherCATDelayOP. "" or what is wrong.
+  static bool owns(std::string_view key);
+  std::string configure(std::string_view key, std::string_view value);
+
+  // All starts anew, tickets are forgotten. With EtherCATOPViaPLC = 0 the master is in OPERATIONAL after it, or
+  // EtherCATDelayOP later (l.17741-17755, l.17910-17916).
+  void powerOn();
+  // One millisecond.
+  void tick(io::ethercat::StateBits& bits);
+
+  // Of the instructions (see master.h). Answers are there after a tick.
+  Ticket upload(Station station, uint16_t index, uint8_t subindex, uint32_t most) noexcept override;
+  Ticket download(Station station, uint16_t index, uint8_t subindex, std::span<const uint8_t> data) noexcept override;
+  Ticket readIdn(Station station, uint8_t drive, uint8_t elements, uint16_t idn, uint32_t most) noexcept override;
+  Ticket writeIdn(Station station, uint8_t drive, uint8_t elements, uint16_t idn,
+                  std::span<const uint8_t> data) noexcept override;
+  Ticket command(Station station, uint32_t command) noexcept override;
+  io::ethercat::Answer poll(Ticket ticket) const noexcept override;
+  void forget(Ticket ticket) noexcept override { requests_.forget(ticket); }
+  EthercatState state() const noexcept override { return exists() ? states_.master() : EthercatState::Unknown; }
+
+  bool exists() const { return slaves_.count() != 0; }
+  EthercatImage& image() { return image_; }
+  const EthercatImage& image() const { return image_; }
+
+  // Events; "" or what is wrong.
+  std::string setError(uint32_t slave, uint32_t code); // what its mailbox answers from now on; 0: as usual
+  std::string setSilent(uint32_t slave, bool isSilent);
+  std::string fault(uint32_t slave, uint32_t code); // of a CiA 402 drive: 603Fh
+  void setLink(bool isUp) { states_.setLink(isUp); }
+
+  // Quantities. An object by its numbers, whatever its access; nothing or false: there is none.
+  std::optional<uint64_t> object(uint32_t slave, uint32_t index, uint32_t sub) const;
+  std::optional<uint64_t> idn(uint32_t slave, uint32_t idn, uint32_t drive) const;
+  bool setObject(uint32_t slave, uint32_t index, uint32_t sub, uint64_t value);
+  bool setIdn(uint32_t slave, uint32_t idn, uint32_t drive, uint64_t value);
+  std::optional<EthercatState> slaveState(uint32_t slave) const;
+
+private:
+  std::string configureSlave(std::string_view place, std::string_view value);
+  std::string configureAttribute(uint32_t slave, std::string_view attribute, std::string_view value);
+  std::string configureObject(std::string_view place, std::string_view value);
+  std::string configureEntry(uint32_t slave, std::string_view place, std::string_view value);
+  std::string setName(uint32_t slave, std::string_view name);
+  std::string setMotor(uint32_t slave, std::string_view value);
+  std::string setRefused(uint32_t slave, std::string_view value);
+  std::string unknownSlave(uint32_t slave) const;
+
+  Ticket begin(const Station& station, EthercatRequest::Kind kind, uint32_t index, uint32_t sub, uint32_t elements,
+               uint32_t most, std::span<const uint8_t> data) noexcept;
+  void startLater();
+  void serveAnswers();
+  void serveChange();
+  EthercatRequest* changeUnderWay();
+  std::optional<uint32_t> answerOf(EthercatRequest& request);
+  std::optional<uint32_t> mailboxAnswer(EthercatRequest& request);
+  uint32_t exchange(EthercatRequest& request);
+
+  EthercatSlaves slaves_;
+  EthercatStates states_{slaves_};
+  EthercatImage image_{slaves_, states_};
+  EthercatRequests requests_;
+  io::ethercat::StateRequests stateRequests_{*this};
+  uint32_t commandTicket_ = 0; // whose change of state is under way
+  bool byProgram_ = false;     // EtherCATOPViaPLC
+  uint32_t delayMs_ = 0;       // EtherCATDelayOP
+  uint32_t startInMs_ = 0;     // until the master goes to OPERATIONAL by itself; 0: it does not
+};
+
+} // namespace rung::sim::technol

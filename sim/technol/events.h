@@ -1,0 +1,27 @@
+// Events for which the control calls a procedure of the program, if it has one (man. l.1609-1644).
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "sim/simulated_nc.h"
+
+namespace rung::sim::technol {
+
+// The number of a PLC constant by its identifier.
+using ConstantOf = std::function<std::optional<int64_t>(std::string_view)>;
+
+// What _ON_CMD has in DR for the code of a command, which has 32 bits.
+constexpr uint64_t commandRegister(int64_t code) {
+  return static_cast<uint64_t>(static_cast<int64_t>(static_cast<int32_t>(code)));
+}
+
+// The names of the events that callEvent knows.
+std::vector<std::string_view> programEvents();
+// PLCEVENT_... calls _ON_EVENT, PLCCOMMAND calls _ON_CMD. "" or why not; nothing where the name is not such an event.
+std::optional<std::string> callEvent(runtime::Instance& instance, std::string_view name,
+                                     std::span<const NcArgument> keys, const ConstantOf& constantOf);
+
+} // namespace rung::sim::technol

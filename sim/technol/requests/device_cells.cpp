@@ -1,0 +1,257 @@
+// Names of what lies in the devices and not in the program's memory (see simulated_devices.h; inventory of the
+// services, 15.5, 15.6).
+#include <bit>
+
+#include "rtlib/nc/control/technol/identifier.h"
+#include "rtlib/nc/technol/code_page.h"
+#include "rtlib/text/hex.h"
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
+#include "sim/technol/requests/simulated_devices.h"
+#include "sim/technol/requests/unit_cells.h"
+
+namespace rung::sim::technol {
+namespace {
+
+constexpr std::string_view kLineCount = "LinesCount", kSelectedLine = "SelLine"; // of a table
+
+// SA0+n:w, w 1, 2, 4 or 8.
+struct AreaCell {
+  uint32_t area = 0, offset = 0, width = 0;
+};
+bool isAreaName(std::string_view name) {
+  return text::takePrefixIgnoringCase(name, "SA") && name.size() > 1 && name[0] >= '0' && name[0] <= '9' &&
+         name[1] == '+';
+}
+std::optional<AreaCell> areaCell(std::string_view name) {
+  if (!isAreaName(name)) return std::nullopt;
+  name.remove_prefix(2);
+  const size_t colon = name.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  const auto area = text::numberIn<uint32_t>(name.substr(0, 1)),
+             offset = text::numberIn<uint32_t>(name.substr(2, colon - 2)),
+             width = text::numberIn<uint32_t>(name.substr(colon + 1));
+  const bool fits = area && offset && width && (*width == 1 || *width == 2 || *width == 4 || *width == 8) &&
+                    *offset + *width <= io::SharedAreas::kAreaBytes && *area < io::SharedAreas::kAreas;
+  return fits ? std::optional(AreaCell{*area, *offset, *width}) : std::nullopt;
+}
+
+// PlcTable0[2].Feed, PlcTable0.LinesCount, PlcTable0.SelLine.
+struct TableCell {
+  uint32_t table = 0;
+  std::optional<uint32_t> line;
+  std::string_view column;
+};
+std::optional<TableCell> tableCell(std::string_view name) {
+  if (!text::takePrefixIgnoringCase(name, "PlcTable")) return std::nullopt;
+  const size_t end = name.find_first_of("[.");
+  const auto table = text::numberIn<uint32_t>(name.substr(0, end));
+  if (!table || end == std::string_view::npos) return std::nullopt;
+  TableCell cell{.table = *table, .line = {}, .column = {}};
+  name.remove_prefix(end);
+  if (name.front() == '[') {
+    const size_t close = name.find(']');
+    cell.line = close == std::string_view::npos ? std::nullopt : text::numberIn<uint32_t>(name.substr(1, close - 1));
+    if (!cell.line) return std::nullopt;
+    name.remove_prefix(close + 1);
+  }
+  if (name.empty() || name.front() != '.') return std::nullopt;
+  cell.column = name.substr(1);
+  return cell;
+}
+
+// KnobSelAx0, Pos6ShiftAx0 …: what panels show of the axes (l.10926-10937).
+std::optional<NcCell> panelCell(const AxisOutputs& out, std::string_view name) {
+  const bool shift = text::takePrefixIgnoringCase(name, "Pos6ShiftAx");
+  if (!shift && !text::takePrefixIgnoringCase(name, "KnobSelAx")) return std::nullopt;
+  const auto axis = text::numberIn<uint32_t>(name);
+  if (!axis || *axis >= kMaxAxes) return std::nullopt;
+  if (shift) return NcCell{.isReal = true, .bits = std::bit_cast<uint64_t>(out.shiftMm[*axis])};
+  return NcCell{.width = 8, .bits = out.knobSelected[*axis]};
+}
+
+// What panels show of SHIFT and the handwheel: cells of the program (l.10940-10944), as the last pass has left them.
+std::optional<NcCell> shownCell(const AxisInputs& in, const AxisRequests& requests, std::string_view name) {
+  if (text::equalsIgnoringCase(name, "ReqShift")) return NcCell{.width = 1, .bits = requests.shiftSelected ? 1u : 0u};
+  if (text::equalsIgnoringCase(name, "ActShift")) return NcCell{.width = 1, .bits = requests.shiftActive ? 1u : 0u};
+  if (text::equalsIgnoringCase(name, "KnobStep")) return NcCell{.width = 16, .bits = requests.knobStep};
+  if (text::equalsIgnoringCase(name, "ShiftEnable")) return NcCell{.width = 8, .bits = in.shiftEnable};
+  return std::nullopt;
+}
+
+// DISPTOC1.Shown[0][16]: row and column in pixels.
+struct ShownAt {
+  uint32_t wheel = 0; // from 1
+  uint32_t row = 0, column = 0;
+};
+std::optional<ShownAt> shownAt(std::string_view name) {
+  if (!text::takePrefixIgnoringCase(name, "DISPTOC") || name.empty()) return std::nullopt;
+  const auto wheel = text::numberIn<uint32_t>(name.substr(0, 1));
+  name.remove_prefix(1);
+  if (!wheel || *wheel < 1 || *wheel > io::kHandwheels || !text::takePrefixIgnoringCase(name, ".Shown"))
+    return std::nullopt;
+  const auto row = nc::technol::takeIndex(name), column = nc::technol::takeIndex(name);
+  if (!row || !column || !name.empty()) return std::nullopt;
+  return ShownAt{*wheel, *row, *column};
+}
+
+} // namespace
+
+std::optional<NcCell> SimulatedDevices::readCell(std::string_view name) const {
+  if (const auto at = areaCell(name)) {
+    const auto bytes = const_cast<io::SharedAreas&>(areas_).bytes(at->area).subspan(at->offset, at->width);
+    NcCell cell{.width = at->width * 8, .untyped = true};
+    for (uint32_t i = 0; i < at->width; ++i) cell.bits |= uint64_t{bytes[i]} << 8 * i;
+    return cell;
+  }
+  if (const auto cell = simulated_ ? panelCell(axisOutputs_, name) : std::nullopt) return cell;
+  if (const auto cell = simulated_ ? shownCell(axisInputs_, axisRequests_, name) : std::nullopt) return cell;
+  if (const auto at = shownAt(name)) {
+    const HandwheelDisplay* display = displayOf(at->wheel);
+    if (display == nullptr || !HandwheelDisplay::isPixel(at->row, at->column)) return std::nullopt;
+    return NcCell{.isText = true, .text = nc::shownText(display->text(at->row, at->column))};
+  }
+  if (const auto unit = UnitCell::named(name))
+    return simulated_ && unit->problem(can_).empty() ? std::optional(unit->read(can_)) : std::nullopt;
+  if (const auto value = readModule(name)) return value;
+  return readTable(name);
+}
+
+// Of modules: what devices give. Cells have the rest, and this where it is connected (module_cells.h).
+std::optional<NcCell> SimulatedDevices::readModule(std::string_view name) const {
+  const std::string identifier = nc::technol::canonical(nc::memoryText(name));
+  const nc::technol::Reference reference = nc::technol::withoutBit(identifier);
+  auto whole = readElement(reference.base);
+  if (!whole || !reference.bit) return whole;
+  const bool hasBit = !whole->isReal && *reference.bit < whole->width;
+  return hasBit ? std::optional(NcCell{.width = 1, .bits = whole->bits >> *reference.bit & 1}) : std::nullopt;
+}
+
+// An input of the simulated net, or what axes and servos give.
+std::optional<NcCell> SimulatedDevices::readElement(std::string_view identifier) const {
+  if (const uint32_t entry = inputOfNet(identifier); entry != RUNG_NONE)
+    return NcCell{.width = 8 * ethercat_.image().bytesOf(entry), .bits = ethercat_.image().read(entry)};
+  const auto element = givenElement(identifier);
+  if (!element) return std::nullopt;
+  const auto bits = givenAt(element->point, axisOutputs_, axes_.count(), servoCells_);
+  if (!bits) return std::nullopt;
+  return NcCell{.isReal = element->type == nc::ExchangeType::Real, .width = widthOf(element->type), .bits = *bits};
+}
+
+uint32_t SimulatedDevices::inputOfNet(std::string_view identifier) const {
+  const EthercatImage& image = ethercat_.image();
+  const uint32_t entry = simulated_ ? image.find(identifier) : RUNG_NONE;
+  return entry != RUNG_NONE && image[entry].isInput ? entry : RUNG_NONE;
+}
+
+std::optional<ModuleElement> SimulatedDevices::givenElement(std::string_view identifier) const {
+  std::string problem;
+  const auto element = simulated_ ? moduleElement(identifier, problem) : std::nullopt;
+  const bool isGiven = element && givenAt(element->point, axisOutputs_, axes_.count(), servoCells_);
+  return isGiven ? element : std::nullopt;
+}
+
+std::string SimulatedDevices::givenProblem(std::string_view identifier) const {
+  if (inputOfNet(identifier) != RUNG_NONE)
+    return "it is what the device gives: `set NC.ETHERCAT.DEVICE.INDEX.SUB` sets the object";
+  const auto element = givenElement(identifier);
+  if (!element) return {};
+  if (element->point.kind == ModulePoint::Kind::Servo) return "it is what the servo gives";
+  return "it is where the axis is: `set NC.TRUE." + std::to_string(element->point.number + 1) + "` moves it";
+}
+
+const HandwheelDisplay* SimulatedDevices::displayOf(uint32_t wheel) const {
+  const SimulatedUnit* unit = simulated_ ? can_.unit(io::kHandwheel, wheel) : nullptr;
+  return unit == nullptr ? nullptr : unit->display();
+}
+
+std::optional<NcCell> SimulatedDevices::readTable(std::string_view name) const {
+  const auto at = tableCell(name);
+  if (!at || !tables_.exists(at->table)) return std::nullopt;
+  uint32_t number = 0;
+  if (!at->line) {
+    const bool lines = text::equalsIgnoringCase(at->column, kLineCount);
+    if (!lines && !text::equalsIgnoringCase(at->column, kSelectedLine)) return std::nullopt;
+    lines ? tables_.lineCount(at->table, number) : tables_.selectedLine(at->table, number);
+    return NcCell{.width = 32, .bits = number};
+  }
+  if (tables_.columnIndex(at->table, nc::memoryText(at->column), number) != io::TableError::None) return std::nullopt;
+  int32_t integer = 0;
+  if (tables_.getInt(at->table, *at->line, number, integer) == io::TableError::None)
+    return NcCell{.width = 32, .bits = static_cast<uint32_t>(integer)};
+  double real = 0;
+  if (tables_.getReal(at->table, *at->line, number, real) == io::TableError::None)
+    return NcCell{.isReal = true, .bits = std::bit_cast<uint64_t>(real)};
+  std::string_view text;
+  if (tables_.getText(at->table, *at->line, number, text) == io::TableError::None)
+    return NcCell{.isText = true, .text = nc::shownText(text)};
+  std::span<const uint8_t> bytes;
+  if (tables_.getBinary(at->table, *at->line, number, bytes) == io::TableError::None)
+    return NcCell{.isText = true, .text = text::hexOf(bytes)};
+  return std::nullopt;
+}
+
+std::optional<std::string> SimulatedDevices::writeCell(std::string_view name, const NcCell& value) {
+  if (const auto at = areaCell(name)) {
+    if (value.isText) return "a shared area holds numbers, not a text";
+    const auto bytes = areas_.bytes(at->area).subspan(at->offset, at->width);
+    for (uint32_t i = 0; i < at->width; ++i) bytes[i] = static_cast<uint8_t>(value.bits >> 8 * i);
+    return std::string();
+  }
+  const std::string identifier = nc::technol::canonical(nc::memoryText(name));
+  if (std::string problem = givenProblem(nc::technol::withoutBit(identifier).base); !problem.empty()) return problem;
+  if (shownAt(name)) return "what the display shows is written by the program, to DISPTOC1 and DISPTOC2";
+  if (const auto unit = UnitCell::named(name)) {
+    if (!simulated_ || !unit->problem(can_).empty()) return std::nullopt;
+    return unit->write(can_, canInputs_, value);
+  }
+  return writeTable(name, value);
+}
+
+std::optional<std::string> SimulatedDevices::writeTable(std::string_view name, const NcCell& value) {
+  const auto at = tableCell(name);
+  if (!at || !tables_.exists(at->table)) return std::nullopt;
+  if (at->line && value.isText) return tables_.edit(at->table, *at->line, at->column, value.text);
+  const double number =
+      value.isReal ? std::bit_cast<double>(value.bits) : static_cast<double>(static_cast<int64_t>(value.bits));
+  if (at->line) return tables_.edit(at->table, *at->line, at->column, number);
+  if (!text::equalsIgnoringCase(at->column, kSelectedLine)) return std::nullopt;
+  const bool isLine = !value.isText && number >= 0 && number < io::PlcTables::kMostLines;
+  return isLine ? tables_.selectByOperator(at->table, static_cast<uint32_t>(number)) : "a line is a number from 0";
+}
+
+std::string SimulatedDevices::displayProblem(uint32_t wheel) const {
+  if (displayOf(wheel) == nullptr)
+    return "there is no such handwheel; `config CAN[1].KnobCnt " + std::to_string(wheel) + "` adds it";
+  return "a display has the rows 0 to " + std::to_string(HandwheelDisplay::kRows - 1) + " and the columns 0 to " +
+         std::to_string(HandwheelDisplay::kColumns - 1);
+}
+
+std::string SimulatedDevices::cellProblem(std::string_view name) const {
+  if (isAreaName(name) && !areaCell(name))
+    return "a cell of a shared area is SA0+OFFSET:WIDTH or SA1+OFFSET:WIDTH, of 1, 2, 4 or 8 bytes within " +
+           std::to_string(io::SharedAreas::kAreaBytes);
+  const auto unit = UnitCell::named(name);
+  const auto shown = shownAt(name);
+  if ((unit || shown) && !simulated_) return "it is there with `config nc simulated`";
+  if (unit) return unit->problem(can_);
+  if (shown) return displayProblem(shown->wheel);
+  const auto at = tableCell(name);
+  if (!at) return {};
+  const std::string table = "PLC table " + std::to_string(at->table);
+  if (!tables_.exists(at->table)) return "there is no " + table;
+  uint32_t number = 0;
+  if (!at->line) return table + " has " + std::string(kLineCount) + " and " + std::string(kSelectedLine);
+  if (tables_.columnIndex(at->table, nc::memoryText(at->column), number) != io::TableError::None)
+    return table + " has no column '" + std::string(at->column) + "'";
+  return tables_.lineProblem(at->table, *at->line);
+}
+
+bool SimulatedDevices::cellMayCome(std::string_view name) const {
+  const auto at = tableCell(name);
+  uint32_t number = 0;
+  return at && at->line && *at->line < io::PlcTables::kMostLines &&
+         tables_.columnIndex(at->table, nc::memoryText(at->column), number) == io::TableError::None;
+}
+
+} // namespace rung::sim::technol

@@ -1,0 +1,184 @@
+// Rungs, names, contents, messages and configuration of two versions (see difference.h).
+#include "tools/report/difference.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <map>
+
+#include "rtlib/nc/names/names.h"
+#include "rtlib/text/letters.h"
+#include "tools/report/difference_cells.h"
+#include "tools/report/difference_contents.h"
+#include "tools/report/difference_pairs.h"
+
+namespace rung::report {
+namespace {
+
+using ir::Module;
+using ir::Symbol;
+
+ChangeKind kindOf(runtime::RungKind kind) {
+  return kind == runtime::RungKind::Moved ? ChangeKind::Moved : ChangeKind::Changed;
+}
+
+ShownRung shown(const DrawnRung& drawn) { return {.rung = drawn.rung, .routine = drawn.routine}; }
+
+// Those that are gone come after what they followed.
+void compareRungs(const PairedRungs& paired, Difference& out) {
+  const std::vector<DrawnRung>&before = paired.before(), &after = paired.after();
+  std::vector<bool> isThere(before.size(), false);
+  for (const PairedRungs::Pair& pair : paired.pairs()) isThere[pair.before] = true;
+  size_t b = 0;
+  const auto removedUpTo = [&](size_t end) {
+    for (; b < end; ++b)
+      if (!isThere[b]) out.rungs.push_back({ChangeKind::Removed, shown(before[b]), {}, {}});
+  };
+  auto pair = paired.pairs().begin();
+  for (uint32_t a = 0; a < after.size(); ++a) {
+    if (pair == paired.pairs().end() || pair->after != a) {
+      out.rungs.push_back({ChangeKind::Added, {}, shown(after[a]), {}});
+      continue;
+    }
+    if (pair->kind != runtime::RungKind::Moved) removedUpTo(pair->before);
+    if (pair->kind == runtime::RungKind::Same && pair->ways.empty())
+      ++out.same;
+    else
+      out.rungs.push_back({pair->ways.empty() ? kindOf(pair->kind) : ChangeKind::Changed, shown(before[pair->before]),
+                           shown(after[a]), pair->ways});
+    ++pair;
+  }
+  removedUpTo(before.size());
+}
+
+// ---- names, contents, messages, configuration ---------------------------------------------------------------------
+
+// Of names whose addresses the compiler gives out the type.
+std::string meaningOf(const rung_program& program, const Symbol& symbol) {
+  if (!symbol.space.valid()) return fmt::format("constant {}", symbol.value);
+  constexpr std::string_view kTypes[] = {"", "bit", "byte", "16 bits", "32 bits", "64 bits", "real"};
+  const std::string type(symbol.type < std::size(kTypes) ? kTypes[symbol.type] : "");
+  const std::string count = symbol.count > 1 ? fmt::format(" × {}", symbol.count) : "";
+  if ((program.spaces[symbol.space.index].flags & RUNG_SPACE_ALLOCATED) != 0) return type + count;
+  const runtime::Ref place = symbol.type == RUNG_TYPE_BIT ? runtime::bitRef(symbol.space.index, symbol.byte, symbol.bit)
+                                                          : runtime::intRef(symbol.space.index, symbol.byte, 8);
+  return nc::address(program, place) + (symbol.type == RUNG_TYPE_BIT ? "" : " " + type) + count;
+}
+
+using Texts = std::map<std::string, std::string>;
+
+Texts namesOf(const Version& version) {
+  Texts names;
+  for (const Symbol& symbol : version.module.symbols)
+    if ((symbol.flags & RUNG_SYMBOL_HIDDEN) == 0 && !version.controlNames.contains(text::upper(symbol.name)))
+      names.emplace(symbol.name, meaningOf(version.program, symbol));
+  return names;
+}
+
+std::map<uint32_t, std::string> messagesOf(const Module& module) {
+  std::map<uint32_t, std::string> messages;
+  for (const ir::MessageText& message : module.messages) messages.emplace(message.number, message.text);
+  return messages;
+}
+
+std::string textOf(const std::string& text) { return text; }
+std::string textOf(const Setting& setting) { return setting.text; }
+
+// Calls `visit` with key, former and new value of all that differ; null where there is none.
+template <class Values, class Visit>
+void eachChange(const Values& before, const Values& after, Visit visit) {
+  auto b = before.begin();
+  auto a = after.begin();
+  while (b != before.end() || a != after.end()) {
+    const bool gone = a == after.end() || (b != before.end() && b->first < a->first);
+    const bool isNew = !gone && (b == before.end() || a->first < b->first);
+    if (gone)
+      visit(b->first, &b->second, nullptr);
+    else if (isNew)
+      visit(a->first, nullptr, &a->second);
+    else if (!(b->second == a->second))
+      visit(a->first, &b->second, &a->second);
+    if (!isNew) ++b;
+    if (!gone) ++a;
+  }
+}
+
+template <class Value>
+NameChange changeOf(std::string name, const Value* before, const Value* after) {
+  const ChangeKind kind = before == nullptr  ? ChangeKind::Added
+                          : after == nullptr ? ChangeKind::Removed
+                                             : ChangeKind::Changed;
+  return {kind, std::move(name), before != nullptr ? textOf(*before) : "", after != nullptr ? textOf(*after) : ""};
+}
+
+std::vector<NameChange> compareNames(const Version& before, const Version& after, const FormerNames& former) {
+  std::vector<NameChange> changes;
+  eachChange(namesOf(before), namesOf(after),
+             [&](const std::string& name, const std::string* old, const std::string* now) {
+               changes.push_back(changeOf(name, old, now));
+             });
+  std::ranges::move(compareBits(before, after, former), std::back_inserter(changes));
+  std::ranges::stable_sort(changes, {}, &NameChange::name);
+  return changes;
+}
+
+// A variable that only one version has counts by what it begins with.
+std::vector<NameChange> compareContents(const Version& before, const Version& after) {
+  std::vector<NameChange> changes;
+  const Texts names[] = {namesOf(before), namesOf(after)};
+  const auto isNamed = [&](int version, const std::string& cell) {
+    return names[version].contains(cell.substr(0, cell.rfind('['))) || names[version].contains(cell);
+  };
+  eachChange(initialContents(before.program), initialContents(after.program),
+             [&](const auto& cell, const std::string* old, const std::string* now) {
+               const std::string zero = zeroLike(old != nullptr ? *old : *now);
+               if (old == nullptr && isNamed(0, cell.first)) old = &zero;
+               if (now == nullptr && isNamed(1, cell.first)) now = &zero;
+               const std::string& only = old != nullptr ? *old : *now;
+               if ((old != nullptr && now != nullptr) || only != zero)
+                 changes.push_back(changeOf(cell.first, old, now));
+             });
+  return changes;
+}
+
+std::vector<NameChange> compareMessages(const Module& before, const Module& after, const Options& options) {
+  std::vector<NameChange> changes;
+  if (!options.messages) return changes;
+  eachChange(messagesOf(before), messagesOf(after),
+             [&](uint32_t number, const std::string* old, const std::string* now) {
+               const std::string name = options.textName != nullptr ? options.textName(number) : "";
+               changes.push_back(changeOf(name.empty() ? fmt::format("{}", number) : name, old, now));
+             });
+  return changes;
+}
+
+std::vector<NameChange> compareSettings(const Settings& before, const Settings& after) {
+  std::vector<NameChange> changes;
+  eachChange(before, after, [&](const std::string& key, const Setting* old, const Setting* now) {
+    NameChange change = changeOf(key, old, now);
+    if (old != nullptr && now != nullptr && old->meaning == now->meaning) change.after += " with other contents";
+    changes.push_back(std::move(change));
+  });
+  return changes;
+}
+
+} // namespace
+
+std::string_view nameOf(ChangeKind kind) {
+  constexpr std::string_view kNames[] = {"added", "removed", "changed", "moved"};
+  return kNames[static_cast<int>(kind)];
+}
+
+Difference compare(const Version& before, const Version& after, const Options& options) {
+  Difference difference;
+  const FormerNames former = formerNames(before, after);
+  compareRungs(PairedRungs(before, after, former), difference);
+  difference.names = compareNames(before, after, former);
+  difference.contents = compareContents(before, after);
+  difference.messages = compareMessages(before.module, after.module, options);
+  difference.settings = compareSettings(before.settings, after.settings);
+  difference.lines = compareLines(before, after, former);
+  return difference;
+}
+
+} // namespace rung::report

@@ -1,0 +1,50 @@
+// The rungs of two versions side by side, and where they lead.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rtlib/change/rung_alignment.h"
+#include "tools/report/difference.h"
+#include "tools/report/difference_cells.h"
+#include "tools/report/difference_meaning.h"
+
+namespace rung::report {
+
+// Rungs are aligned by what they mean where they are; a subroutine by another name is the same if most of its rungs are
+// (runtime::alignRungs does the rest). Two rungs that are the same lead to the same where the rungs that they lead to
+// are a pair, or the first ones from there on that both versions have: a rung that comes or goes after a label changes
+// no jump to it.
+class PairedRungs {
+public:
+  PairedRungs(const Version& before, const Version& after, const FormerNames& former);
+
+  struct Pair {
+    uint32_t before = 0; // in the list of drawn rungs
+    uint32_t after = 0;
+    runtime::RungKind kind = runtime::RungKind::Same;
+    std::vector<OtherWay> ways; // of rungs that mean the same
+  };
+
+  const std::vector<DrawnRung>& before() const { return before_; }
+  const std::vector<DrawnRung>& after() const { return after_; }
+  const std::vector<Pair>& pairs() const { return pairs_; } // ascending by `after`
+
+private:
+  void pairRoutines(const Version& before, const Version& after);
+  void findKept();
+  bool leadsAlike(const Exit& before, const Exit& after) const;
+  std::vector<OtherWay> waysOf(const Version& before, const Version& after, const Pair& pair) const;
+
+  const std::vector<DrawnRung> before_;
+  const std::vector<DrawnRung> after_;
+  std::vector<uint32_t> routineBefore_;          // of each routine of the new version the former one; RUNG_NONE: none
+  std::vector<uint32_t> homeBefore_, homeAfter_; // the routine of each drawn rung
+  std::vector<Pair> pairs_;
+  std::vector<uint32_t> pairOf_; // of each rung after, the rung before; RUNG_NONE: none
+  // Of each rung the first from it on, in its routine, that both versions have in their order, by its number before;
+  // RUNG_NONE: the end.
+  std::vector<uint32_t> keptBefore_, keptAfter_;
+};
+
+} // namespace rung::report

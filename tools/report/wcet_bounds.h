@@ -1,0 +1,75 @@
+// The longest that a run of each task may take: in steps, as budgets count them, in machine instructions, in calls of
+// the host's functions, and in time on this machine; and the heaviest way with its rungs.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "codegen/jit/jit_engine.h"
+#include "compiler/compile.h"
+#include "ir/analysis/heaviest.h"
+#include "rtlib/run/scan_bound.h"
+#include "tools/report/wcet_host_functions.h"
+
+namespace rung::report {
+
+struct HostCalls {
+  HostFunction function;
+  uint64_t count = 0;
+  double ns() const { return static_cast<double>(count) * function.ns; }
+};
+
+// What was seen in runs of a task, of a cut one: of its parts.
+struct Seen {
+  uint64_t runs = 0;
+  uint64_t steps = 0; // of the heaviest
+  double ns = 0;      // of the longest, each with the shortest of its times in several runs of the scenario
+};
+
+struct TaskBound {
+  std::string name;
+  uint32_t periodUs = 0; // 0: only when the schedule or the control starts it
+  uint32_t parts = 1;    // of a cut task all that follows is that of the part that has most of it
+  uint32_t budget = 0;
+  ir::HeaviestWay way;
+  uint64_t steps = 0;                   // of the way, or where that is less of the budget, which ends circles
+  std::optional<uint64_t> instructions; // of the program's code, without those of the host's functions
+  std::string noInstructions;           // why there are none
+  std::vector<HostCalls> calls;         // most of each function that a run may call
+  double codeNs = 0;                    // without border copies
+  std::optional<Seen> seen;
+
+  double callsNs() const;
+  double ns() const { return codeNs + callsNs(); }
+};
+
+// Of a program that was compiled.
+struct Bounds {
+  std::string program;
+  std::vector<std::string> routines; // by id
+  std::vector<TaskBound> tasks;
+  runtime::ScanBound slice; // the bound of a replacement: of all, border copies included
+  std::string measured;     // by what Seen was measured; "": nothing was
+};
+
+// The program's code as the bounds hold for it, once for both: its length, and how fast it is.
+Result<std::unique_ptr<codegen::JitEngine>> compileWithLengths(const compiler::Compiled& compiled);
+Bounds boundsOf(const compiler::Compiled& compiled, codegen::JitEngine& machineCode);
+
+// Numbers that follow one another.
+struct Stretch {
+  uint32_t first = 0;
+  uint32_t last = 0;
+  bool operator==(const Stretch&) const = default;
+};
+std::vector<Stretch> stretches(const std::vector<uint32_t>& numbers);
+// Of rungs as drawn; what is not drawn is left out.
+std::vector<Stretch> drawnStretches(const std::vector<uint32_t>& rungs, const rung_program& program);
+
+std::string textOf(const Bounds& bounds, const rung_program& program);
+// docs/wcet-format.md
+std::string jsonOf(const Bounds& bounds, const rung_program& program);
+
+} // namespace rung::report

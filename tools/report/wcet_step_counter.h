@@ -1,0 +1,49 @@
+// The steps of runs of tasks, where the interpreter runs them: of whole ones, and of parts of cut tasks.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "ir/analysis/rung_costs.h"
+#include "ir/interp/interp.h"
+#include "rtlib/run/instance.h"
+
+namespace rung::report {
+
+class StepCounter final : public runtime::TaskWatch {
+public:
+  struct Count {
+    uint64_t runs = 0;
+    uint64_t most = 0; // steps of a run
+  };
+
+  explicit StepCounter(size_t tasks) : counts_(tasks) {}
+
+  // For the interpreter of the program with this cut, which this outlives.
+  std::unique_ptr<ir::RungObserver> observer(const ir::Cut& cut) { return std::make_unique<Weigher>(cut, steps_); }
+  // By task.
+  const std::vector<Count>& counts() const { return counts_; }
+
+  void begins(const runtime::Instance&, uint32_t) override { steps_ = 0; }
+  void ended(const runtime::Instance&, uint32_t task) override {
+    ++counts_[task].runs;
+    counts_[task].most = std::max(counts_[task].most, steps_);
+  }
+
+private:
+  class Weigher final : public ir::RungObserver {
+  public:
+    Weigher(const ir::Cut& cut, uint64_t& steps) : weights_(ir::rungWeights(cut)), steps_(steps) {}
+    void rungRan(uint32_t number, std::span<const uint64_t>) override { steps_ += weights_[number]; }
+
+  private:
+    std::vector<uint64_t> weights_;
+    uint64_t& steps_;
+  };
+
+  uint64_t steps_ = 0; // of the run
+  std::vector<Count> counts_;
+};
+
+} // namespace rung::report

@@ -1,0 +1,13 @@
+// Warnings that a declaration's comment takes back.
+#pragma once
+#include "frontend/sema/analysis.h"
+#include "ir/support/allowance.h"
+#include "ir/support/diagnostics.h"
+
+namespace rung::report {
+
+inline bool isAllowed(const frontend::Definition& definition, Diag code) {
+  return allows(definition.comment, diagInfo(code).code);
+}
+
+} // namespace rung::report

@@ -1,0 +1,301 @@
+// Lines that a person types at a running program (see console.h).
+#include "tools/scenario/console.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <utility>
+
+#include "rtlib/nc/faults.h"
+#include "rtlib/text/similar.h"
+#include "tools/scenario/compile_step.h"
+#include "tools/scenario/names.h"
+#include "tools/scenario/words.h"
+
+namespace rung::scenario {
+
+namespace {
+
+// What the words after a statement's first one name.
+Names namesOf(std::string_view statement, size_t index) {
+  if (statement == "print") return Names::Values;
+  if (statement == "unforce") return Names::Values;
+  if (statement == "replace" || statement == "shadow") return Names::Files;
+  if (index != 1) return Names::None;
+  if (statement == "set" || statement == "force" || statement == "expect" || statement == "expect_range")
+    return Names::Values;
+  if (statement == "expect_call" || statement == "expect_no_call" || statement == "prepare") return Names::Services;
+  if (statement == "include") return Names::Files;
+  if (statement == "plc") return Names::PlcCommands;
+  return statement == "block" ? Names::BlockCommands : Names::None;
+}
+
+// Of the program's start: they have nothing to do at a prompt.
+bool isForPrompt(const StatementForm& form) {
+  constexpr std::string_view kStart[] = {"program", "dialect",      "config",         "connect",
+                                         "period",  "expect_error", "expect_warning", "allow_errors"};
+  return std::ranges::find(kStart, form.word) == std::end(kStart);
+}
+
+// By blanks; the last word may be empty.
+std::vector<std::string> typedWords(std::string_view line) {
+  std::vector<std::string> words(1);
+  for (const char c : line) {
+    if (c != ' ' && c != '\t')
+      words.back() += c;
+    else if (words.size() > 1 || !words.back().empty())
+      if (!words.back().empty()) words.emplace_back();
+  }
+  return words;
+}
+
+std::string formLine(const StatementForm& form) { return fmt::format("  {:<42} {}", form.form, form.meaning); }
+
+bool writeText(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  return bool(out);
+}
+
+} // namespace
+
+std::string faultLine(const runtime::Instance& instance) {
+  const std::string text = instance.faultText();
+  const nc::Fault* fault = nc::findFault(instance.program().dialect, text);
+  if (fault == nullptr) return "the program stopped with a fault: " + text;
+  const std::string_view name = nc::shortName(*fault);
+  const bool quoted = name.find(' ') != std::string_view::npos;
+  return fmt::format("the program stopped with a fault: {}; try `rungc explain {}`", text,
+                     quoted ? fmt::format("\"{}\"", name) : std::string(name));
+}
+
+std::span<const Console::Command> Console::commands() {
+  static constexpr Command kCommands[] = {
+      {{"toggle", "toggle NAME", "inverts a bit"}, Names::Values, &Console::toggle},
+      {{"watch", "watch [NAME…]", "prints their changes; without names: lists the watched ones"},
+       Names::Values,
+       &Console::watch},
+      {{"unwatch", "unwatch NAME…", "stops watching them"}, Names::Values, &Console::unwatch},
+      {{"why", "why NAME", "the rungs that write it, and what they read"}, Names::Values, &Console::why},
+      {{"forces", "forces", "lists the forced variables"}, Names::None, &Console::forces},
+      {{"messages", "messages", "the messages on the screen"}, Names::None, &Console::messages},
+      {{"save", "save FILE.scn", "saves the session as a scenario"}, Names::Files, &Console::save},
+      {{"help", "help [WORD]", "all statements, or one"}, Names::Statements, &Console::help},
+      {{"quit", "quit", "ends the run, as does Ctrl-D"}, Names::None, &Console::quit},
+  };
+  return kCommands;
+}
+
+std::vector<std::string> Console::words() {
+  std::vector<std::string> words;
+  for (const StatementForm& form : statementForms())
+    if (isForPrompt(form)) words.emplace_back(form.word);
+  for (const Command& command : commands()) words.emplace_back(command.form.word);
+  return words;
+}
+
+Console::Console(Session& session, Watch& watch, Recording& recording, const Explainer& explainer, Print print)
+    : session_(session), watch_(watch), recording_(recording), explainer_(explainer), print_(std::move(print)),
+      completion_(session, words()) {}
+
+std::string Console::prompt() const {
+  return fmt::format("scan {}, {:.3f} s> ", session_.scans(), static_cast<double>(session_.nowUs()) / 1e6);
+}
+
+Outcome Console::fail(const std::string& message) {
+  print_(message);
+  return Outcome::Failed;
+}
+
+// ---- lines ---------------------------------------------------------------------------------------------------------
+
+Outcome Console::execute(std::string_view line) {
+  const Outcome outcome = executeLine(line);
+  reportFault();
+  return outcome;
+}
+
+Outcome Console::executeLine(std::string_view line) {
+  std::vector<ScenarioWord> split;
+  if (const std::string problem = splitLine(line, split); !problem.empty()) return fail(problem);
+  if (split.empty()) return Outcome::Done;
+  std::vector<std::string> rest;
+  for (size_t i = 1; i < split.size(); ++i) rest.push_back(split[i].text);
+  const std::string& first = split[0].text;
+  for (const Command& command : commands())
+    if (command.form.word == first || (first == "exit" && command.form.word == "quit"))
+      return (this->*command.run)(rest);
+  const Result<Statement> statement = parseStatement(line);
+  if (!statement.ok()) return unreadable(first, rest.empty(), statement.error());
+  if (statement.value().kind == Kind::Include) return include(statement.value().name);
+  return execute(statement.value());
+}
+
+// A name alone shows its value.
+Outcome Console::unreadable(const std::string& word, bool alone, const std::string& problem) {
+  if (alone) {
+    const auto reading = readName(session_.instance(), session_.nc(), word, false);
+    if (reading.ok()) {
+      print_(fmt::format("{} = {}", word, show(reading.value())));
+      return Outcome::Done;
+    }
+  }
+  if (!problem.starts_with("unknown statement") || problem.find("did you mean") != std::string::npos)
+    return fail(problem);
+  const std::vector<std::string> known = words();
+  const std::string_view meant = text::mostSimilar(word, known);
+  return fail(problem + (meant.empty() ? "; help lists them" : text::didYouMean(meant)));
+}
+
+Outcome Console::execute(const Statement& statement) {
+  const uint64_t scans = session_.scans();
+  const int64_t us = session_.nowUs();
+  const std::optional<Problem> problem = session_.execute(statement);
+  watch_.look(session_);
+  for (const std::string& line : session_.shadowNews()) print_(line);
+  const bool named = statement.kind == Kind::Expect || statement.kind == Kind::ExpectRange;
+  if (problem) {
+    const std::string text = problem->file.empty() ? problem->message : textOf(*problem);
+    return fail(text + (named ? explainer_.why(statement.name, wantsReal(statement)) : ""));
+  }
+  const bool typed = statement.file.empty();
+  if (typed && isExpectation(statement.kind)) print_("ok");
+  if (typed && statement.kind == Kind::Replace)
+    for (const std::string& line : session_.report().lines()) print_(line);
+  return record(statement, scans, us);
+}
+
+Outcome Console::record(const Statement& s, uint64_t scansBefore, int64_t usBefore) {
+  const uint64_t scans = session_.scans() - scansBefore;
+  const int64_t us = session_.nowUs() - usBefore;
+  const bool counts = s.kind == Kind::Scan || s.kind == Kind::Fast || s.kind == Kind::Slot;
+  if (counts && scans < s.count) {
+    recording_.add(fmt::format("{} {}", s.text.substr(0, s.text.find_first_of(" \t")), scans));
+    return Outcome::Interrupted;
+  }
+  if (s.kind == Kind::Run && us < s.microseconds) {
+    recording_.add(us > 0 ? fmt::format("run {}us", us) : fmt::format("scan {}", scans));
+    return Outcome::Interrupted;
+  }
+  if (s.kind == Kind::Replace || s.kind == Kind::Shadow)
+    recordProgram(s);
+  else
+    recording_.add(s.text);
+  return Outcome::Done;
+}
+
+void Console::recordProgram(const Statement& s) {
+  const std::vector<std::string> files = programPaths(s);
+  const bool object = files.size() == 1 && files[0].ends_with(".so");
+  const std::string word = s.text.substr(0, s.text.find_first_of(" \t"));
+  recording_.addProgram(
+      word, files, object ? fmt::format("a scenario names sources, not a shared object: {} its sources", word) : "");
+}
+
+void Console::reportFault() {
+  const bool faulted = session_.instance().faulted();
+  if (faulted && !faultReported_) print_(faultLine(session_.instance()) + "; cold_start and warm_start restart it");
+  faultReported_ = faulted;
+}
+
+Outcome Console::include(const std::string& file) {
+  const Result<Scenario> read = readStatements(file);
+  if (!read.ok()) return fail(read.error());
+  for (const Problem& problem : read.value().problems) print_(textOf(problem));
+  if (!read.value().problems.empty()) return Outcome::Failed;
+  for (const Statement& statement : read.value().statements)
+    if (const Outcome outcome = execute(statement); outcome != Outcome::Done) return outcome;
+  return Outcome::Done;
+}
+
+std::vector<std::string> Console::completions(std::string_view line) {
+  const std::vector<std::string> typed = typedWords(line);
+  if (typed.size() == 1) return completion_.of(Names::Statements, typed[0]);
+  for (const Command& command : commands())
+    if (command.form.word == typed[0]) return completion_.of(command.names, typed.back());
+  return completion_.of(namesOf(typed[0], typed.size() - 1), typed.back());
+}
+
+// ---- commands ------------------------------------------------------------------------------------------------------
+
+Outcome Console::toggle(std::span<const std::string> words) {
+  if (words.size() != 1) return fail("expected one name (the command is: toggle NAME)");
+  const std::string& name = words[0];
+  const std::optional<runtime::Ref> place = session_.nc().writePlace(session_.instance().program(), name);
+  if (!place) return fail(unknownName(session_.instance().program(), session_.nc(), name));
+  if (place->kind != runtime::RefKind::Bit) return fail(fmt::format("{0} is not a bit; write: set {0} VALUE", name));
+  return executeLine(fmt::format("set {} {}", name, session_.instance().read(*place) == 0 ? 1 : 0));
+}
+
+Outcome Console::watch(std::span<const std::string> words) {
+  if (words.empty()) {
+    const std::vector<std::string> names = watch_.names();
+    print_(names.empty() ? "nothing is watched" : fmt::format("{}", fmt::join(names, " ")));
+  }
+  Outcome outcome = Outcome::Done;
+  for (const std::string& name : words)
+    if (const std::string problem = watch_.add(name, session_); !problem.empty()) outcome = fail(problem);
+  watch_.look(session_);
+  return outcome;
+}
+
+Outcome Console::unwatch(std::span<const std::string> words) {
+  if (words.empty()) return fail("expected names (the command is: unwatch NAME…)");
+  for (const std::string& name : words)
+    if (!watch_.remove(name)) return fail(fmt::format("{} is not watched", name));
+  return Outcome::Done;
+}
+
+Outcome Console::messages(std::span<const std::string> words) {
+  if (!words.empty()) return fail("expected no more words (the command is: messages)");
+  const std::vector<nc::ShownMessage> shown = session_.nc().control().messages(session_.instance());
+  for (const nc::ShownMessage& message : shown) print_(session_.nc().control().text(message));
+  if (shown.empty()) print_("no messages");
+  return Outcome::Done;
+}
+
+Outcome Console::forces(std::span<const std::string>) {
+  const Forces::Values& values = session_.forces();
+  for (const auto& [name, value] : values) print_(fmt::format("{} = {}", name, value.text));
+  if (values.empty()) print_("nothing is forced");
+  return Outcome::Done;
+}
+
+Outcome Console::why(std::span<const std::string> words) {
+  if (words.size() != 1) return fail("expected one name (the command is: why NAME)");
+  const auto reading = readName(session_.instance(), session_.nc(), words[0], false);
+  if (!reading.ok()) return fail(reading.error());
+  if (!explainer_.knowsProgram()) return fail("a shared object does not say which rungs write a name; run its sources");
+  print_(fmt::format("{} is {}{}", words[0], show(reading.value()), explainer_.why(words[0])));
+  return Outcome::Done;
+}
+
+Outcome Console::save(std::span<const std::string> words) {
+  if (words.size() != 1 || !words[0].ends_with(".scn"))
+    return fail("expected the name of a scenario (the command is: save FILE.scn)");
+  const Result<std::string> text = recording_.scenario(words[0], session_, watch_.names());
+  if (!text.ok()) return fail(text.error());
+  if (!writeText(words[0], text.value())) return fail(fmt::format("cannot write '{}'", words[0]));
+  const Scenario saved = parse(words[0], text.value());
+  print_(fmt::format("wrote {}: `rungc test {}` runs it{}", words[0], words[0],
+                     expectsNothing(saved) ? "; it expects nothing yet: watch or expect what it is to check" : ""));
+  return Outcome::Done;
+}
+
+Outcome Console::help(std::span<const std::string> words) {
+  bool found = false;
+  const auto offer = [&](const StatementForm& form) {
+    if (!words.empty() && form.word != words[0]) return;
+    print_(formLine(form));
+    found = true;
+  };
+  for (const StatementForm& form : statementForms())
+    if (isForPrompt(form)) offer(form);
+  for (const Command& command : commands()) offer(command.form);
+  return found ? Outcome::Done : fail(fmt::format("'{}' is not a statement; help lists them", words[0]));
+}
+
+Outcome Console::quit(std::span<const std::string>) { return Outcome::Quit; }
+
+} // namespace rung::scenario

@@ -1,20 +1,13 @@
 // Calibration (see profile_clock.h).
 #include "rtlib/record/profile_clock.h"
 
-#include <ctime>
-
 #include "rtlib/core/ticks.h"
 #include "rtlib/record/histogram.h"
+#include "rtlib/run/realtime.h"
 #include "rung/program.h"
 
 namespace rung::runtime {
 namespace {
-
-int64_t monotonicNs() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
 
 double nsPerTick() {
   constexpr int64_t kMeasureNs = 10'000'000;

@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 MAP = None
 # docs/architecture.md states it.
 MOST = 248_000
-ARCHIVES = ("rung_rt_core", "rung_host", "rung_nc_names", "rung_nc_control")
+ARCHIVES = ("rung_core", "rung_rtlib", "rung_nc_names", "rung_nc_control")
 TEXT = (".text", ".rodata", ".eh_frame", ".gcc_except_table")
 
 

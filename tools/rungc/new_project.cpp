@@ -37,7 +37,7 @@ std::string placeOf(const TemplateFile& file, std::string_view dialect) {
   return file.path.substr(0, slash) == dialect ? std::string(file.path.substr(slash + 1)) : std::string();
 }
 
-bool writeFile(const fs::path& path, const std::string& text) {
+bool writeTemplate(const fs::path& path, const std::string& text) {
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
   std::ofstream file(path, std::ios::binary);
@@ -60,7 +60,7 @@ Result<std::vector<std::string>> makeProject(std::string_view dialect, const std
     const std::string place = placeOf(file, dialect);
     if (place.empty()) continue;
     written.push_back((root / place).lexically_normal().string());
-    if (!writeFile(written.back(), filled(file.text, name)))
+    if (!writeTemplate(written.back(), filled(file.text, name)))
       return failure(fmt::format("cannot write '{}'", written.back()));
   }
   return written;

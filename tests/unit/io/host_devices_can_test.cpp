@@ -139,7 +139,7 @@ TEST_F(OrdersAtTheBus, EndWithoutTheirBufferAndProcedure) {
   EXPECT_TRUE(soonReports("does not have its buffer and its procedure"));
 }
 
-struct Drives : Bus {
+struct HostDrives : Bus {
   void beginDrives() {
     ASSERT_EQ(devices.configure("CAN[0].Drives", "2"), "");
     devices.adoptCan(1, ends_[0]);
@@ -148,7 +148,7 @@ struct Drives : Bus {
 };
 
 // Messages of the control (man. l.9649-9653), each as it comes, and one that is repeated not again within a second.
-TEST_F(Drives, EmergenciesAndTimeOutsAreReported) {
+TEST_F(HostDrives, EmergenciesAndTimeOutsAreReported) {
   beginDrives();
   for (int i = 0; i < 3; ++i) put(0x82, {0x11, 0x86, 1, 0, 0, 0, 0, 0});
   put(0x81, {0x34, 0x12, 1, 0, 0, 0, 0, 0});

@@ -12,9 +12,8 @@
 #include "compiler/engines.h"
 #include "compiler/kept_ir.h"
 #include "ir/support/diag_render.h"
-#include "rtlib/api/handles.h"
-#include "rtlib/api/structs.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/api/error.h"
+#include "rtlib/load/seal.h"
 #include "rung/compiler.h"
 #include "rung/runtime.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "compiler/contained.h"
 #include "compiler/recompiler.h"
-#include "rtlib/api/structs.h"
+#include "rtlib/api/error.h"
 
 namespace rung::compiler {
 namespace {

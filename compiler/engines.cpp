@@ -14,7 +14,7 @@
 #include "ir/support/put.h"
 #include "ir/support/temporary_folder.h"
 #include "ir/text/text.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 #include "rtlib/load/so_engine.h"
 
 namespace rung::compiler {

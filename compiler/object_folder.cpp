@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "rtlib/load/code_folder.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
+#include "rtlib/load/trust.h"
 
 namespace rung::compiler {
 namespace {

@@ -1,6 +1,6 @@
 // Shared objects that engines were made of before, in the folder of the JIT's cache: compiling one takes far longer
 // than what a scenario does with it. A file is named by the digest of all that makes it and has a seal: a damaged one
-// counts as absent, as does one that others could have written (rtlib/load/code_folder.h).
+// counts as absent, as does one that others could have written (rtlib/load/trust.h).
 #pragma once
 #include <functional>
 #include <string>

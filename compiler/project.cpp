@@ -1,12 +1,16 @@
-// Reading the project file (see project.h).
+// Reading the project file.
 #include "compiler/project.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fmt/format.h>
-
-#include <toml++/toml.h>
+#include <string_view>
+#include <system_error>
+#include <vector>
 
 #include "frontend/dialects/dialect.h"
 #include "ir/support/diag/project.h"
@@ -17,6 +21,7 @@
 #include "rtlib/text/toml.h"
 
 namespace rung::compiler {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -287,6 +292,104 @@ std::map<std::string, SourceRange> placesOf(const Project& project, const std::m
       places[setting.key] = sources.range(file.value(), setting.begin, setting.end);
   }
   return places;
+}
+
+// Where a project file lies, and whether a file is part of its project.
+
+namespace fs = std::filesystem;
+
+std::optional<std::string> findUpwards(const std::string& folder) {
+  std::error_code error;
+  fs::path above = fs::absolute(folder.empty() ? "." : folder, error).lexically_normal();
+  if (!above.has_filename()) above = above.parent_path(); // written with a slash at its end
+  for (fs::path shown = folder;; shown /= "..", above = above.parent_path()) {
+    const fs::path file = (shown / kFileName).lexically_normal();
+    if (fs::is_regular_file(file, error)) return file.string();
+    if (above == above.root_path()) return std::nullopt;
+  }
+}
+
+std::string productOf(const Project& project, std::string_view ending) {
+  return (fs::path(project.folder) / (project.name + std::string(ending))).lexically_normal().string();
+}
+
+bool hasFile(const Project& project, const std::string& file) {
+  std::error_code error;
+  return std::any_of(project.files.begin(), project.files.end(),
+                     [&](const std::string& own) { return fs::equivalent(own, file, error); });
+}
+
+// Files by patterns.
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What matches `part` and the parts after it in this folder.
+void match(const fs::path& folder, fs::path::const_iterator part, fs::path::const_iterator end,
+           std::vector<std::string>& found) {
+  std::error_code error;
+  if (part == end) {
+    if (fs::is_regular_file(folder, error)) found.push_back(folder.string());
+    return;
+  }
+  const auto next = std::next(part);
+  if (!isPattern(part->string())) return match((folder / *part).lexically_normal(), next, end, found);
+  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
+    const fs::path name = entry.path().filename();
+    if (fnmatch(part->c_str(), name.c_str(), FNM_PERIOD) == 0) match(folder / name, next, end, found);
+  }
+}
+
+} // namespace
+
+bool isPattern(std::string_view text) { return text.find_first_of("*?[") != std::string_view::npos; }
+
+std::vector<std::string> matchPattern(const std::string& folder, std::string_view pattern) {
+  const fs::path parts(pattern);
+  std::vector<std::string> found;
+  match(parts.is_absolute() ? fs::path() : fs::path(folder), parts.begin(), parts.end(), found);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+namespace {
+
+struct Kind {
+  std::string_view name;
+  std::string_view use; // of the file {0}
+};
+
+// In the order of FileKind.
+constexpr Kind kKinds[] = {{"a file of another kind", ""},
+                           {"a program", "`rungc check {0}` checks it"},
+                           {"a compiled program", "`rungc run {0}` runs it"},
+                           {"a scenario", "`rungc test {0}` runs it"},
+                           {"a mapping file", "`rungc map --check {0} PROGRAM` checks it"},
+                           {"a binding file", "`rungc bind --members {0}` connects its members"},
+                           {"a project file", "`rungc check --project {0}` checks its program"}};
+
+const Kind& infoOf(FileKind kind) { return kKinds[static_cast<size_t>(kind)]; }
+
+} // namespace
+
+FileKind kindOfFile(const std::string& path) {
+  const std::filesystem::path name = std::filesystem::path(path).filename();
+  const std::string extension = name.extension().string();
+  if (extension == ".so") return FileKind::Compiled;
+  if (extension == ".scn") return FileKind::Scenario;
+  if (extension == ".map") return FileKind::Map;
+  if (extension == ".bind") return FileKind::Binding;
+  if (extension == ".toml" && name != kFileName) return FileKind::Project; // rung.toml means its program
+  const std::vector<std::string_view> programs = frontend::programExtensions();
+  return std::ranges::find(programs, extension) != programs.end() ? FileKind::Program : FileKind::Other;
+}
+
+std::string otherKind(const std::string& path, FileKind wanted) {
+  const FileKind kind = kindOfFile(path);
+  if (kind == wanted || kind == FileKind::Other) return {};
+  return fmt::format("'{}' is {}, not {}: {}", path, infoOf(kind).name, infoOf(wanted).name,
+                     fmt::format(fmt::runtime(infoOf(kind).use), path));
 }
 
 } // namespace rung::compiler

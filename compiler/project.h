@@ -54,4 +54,12 @@ bool hasFile(const Project& project, const std::string& file);
 std::vector<std::string> matchPattern(const std::string& folder, std::string_view pattern);
 bool isPattern(std::string_view text);
 
+// What a file is by its name, for commands that were given one of another kind.
+
+enum class FileKind { Other, Program, Compiled, Scenario, Map, Binding, Project };
+
+FileKind kindOfFile(const std::string& path);
+// "" or, where the name says that the file is of another kind, that and which command takes it.
+std::string otherKind(const std::string& path, FileKind wanted);
+
 } // namespace rung::compiler

@@ -1,12 +1,17 @@
-// Chunks with forced cells (see recompiler.h).
+// Chunks with forced cells.
 #include "compiler/recompiler.h"
 
+#include <algorithm>
+
 #include "codegen/jit/jit_code.h"
-#include "compiler/forced_program.h"
 #include "compiler/tiered.h"
 #include "ir/interp/interp.h"
+#include "ir/shape/cut.h"
+#include "ir/transforms/force.h"
+#include "ir/transforms/pipeline.h"
 
 namespace rung::compiler {
+
 namespace {
 
 class InterpretedCode final : public ForcedCode {
@@ -78,6 +83,35 @@ Result<std::unique_ptr<ForcedCode>> makeForcedCode(const Compiled& source, Engin
   else
     code->keep(running.chunk_fns);
   return std::unique_ptr<ForcedCode>(std::move(code));
+}
+
+namespace {
+
+bool sameCode(const ir::Rung& a, const ir::Rung& b) {
+  return a.ops == b.ops && a.args == b.args && a.transfer == b.transfer;
+}
+
+ir::Module changed(const Compiled& source, std::span<const rung_forced_byte> forced) {
+  ir::Module module = *source.built;
+  ir::forceBits(module, forced);
+  ir::runPasses(module, source.passes);
+  return module;
+}
+
+} // namespace
+
+ForcedProgram::ForcedProgram(const Compiled& source, std::span<const rung_forced_byte> forced)
+    : module(changed(source, forced)), layout(source.layout->over(module)) {}
+
+std::vector<uint32_t> ForcedProgram::chunksUnlike(const ir::Module& other) const {
+  std::vector<uint32_t> unlike;
+  for (uint32_t i = 0; i < layout.cut().chunks().size(); ++i) {
+    const ir::Chunk& chunk = layout.cut().chunks()[i];
+    const auto here = module.at(chunk.routine).rungs.begin() + chunk.firstRung;
+    const auto there = other.at(chunk.routine).rungs.begin() + chunk.firstRung;
+    if (!std::equal(here, here + chunk.rungCount, there, sameCode)) unlike.push_back(i);
+  }
+  return unlike;
 }
 
 } // namespace rung::compiler

@@ -1,4 +1,4 @@
-// The text of part programs (see part_program.h).
+// The text of part programs.
 #include "sim/part_program.h"
 
 #include <algorithm>

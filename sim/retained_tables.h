@@ -1,8 +1,11 @@
 // The tables that a simulated NC keeps, on disk beside the program's retained memory: FILE.nc.a and FILE.nc.b (see
 // rtlib/retain/retain.h: written in turn and replaced as a whole, so that a crash leaves the older image).
 #pragma once
+#include <cstdint>
 #include <memory>
 
+#include "rtlib/change/relocation.h"
+#include "rtlib/core/queues.h"
 #include "rtlib/retain/retain.h"
 #include "sim/simulated_nc.h"
 
@@ -31,6 +34,19 @@ private:
   std::unique_ptr<runtime::RetainStore> store_; // until load has handed it to the saver
   std::chrono::milliseconds period_;
   std::unique_ptr<runtime::RetainSaver> saver_; // null: nothing is kept
+};
+
+// What a machine has kept of a program's places and requests, in another program that has taken its place.
+
+class Relocation : public runtime::Relocation {
+public:
+  using runtime::Relocation::Relocation;
+
+  // RUNG_NONE: the other program does not ask for this service.
+  uint32_t service(uint32_t number) const;
+  // A request that has been taken and is not yet answered: its service, and where its operand block lies. The service
+  // is RUNG_NONE afterwards where the other program does not wait for the answer.
+  void renumber(core::ServiceRequest& request) const;
 };
 
 } // namespace rung::sim

@@ -11,7 +11,7 @@
 #include "codegen/llvm/code_version.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "codegen/llvm/module_part.h"
-#include "rtlib/load/code_folder.h"
+#include "rtlib/load/trust.h"
 
 namespace rung::codegen {
 

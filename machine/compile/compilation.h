@@ -1,14 +1,14 @@
 // Compiles sources in a process of its own, which the host starts, in which nothing of the host's can be reached
 // (docs/security.md). What it does wrong harms that process alone.
 #pragma once
-#include <sys/types.h>
-
 #include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include <sys/types.h>
 
 namespace rung::compile {
 
@@ -63,5 +63,13 @@ private:
   bool ending_ = false;
   std::thread worker_;
 };
+
+// The program that a host starts to compile sources, rung-compile.
+
+// Its path. An unprivileged process (rtlib/load/trust.h) takes the one of the environment variable RUNG_COMPILE, if
+// that is set, or else one beside its own program, where a build has it, or where an installation below the prefix of
+// that program has it. Empty, and `problem` says why: it is not there, or others than root, or the process's own user,
+// could have changed it.
+std::string compilerProgram(std::string& problem);
 
 } // namespace rung::compile

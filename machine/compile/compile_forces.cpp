@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "codegen/llvm/llvm_emitter.h"
-#include "compiler/forced_program.h"
 #include "compiler/kept_ir.h"
+#include "compiler/recompiler.h"
 #include "ir/verify/verify.h"
-#include "machine/compile/forces.h"
-#include "rtlib/load/sealing.h"
+#include "machine/compile/forced_code_maker.h"
+#include "rtlib/load/seal.h"
 
 namespace rung::compile {
 namespace {

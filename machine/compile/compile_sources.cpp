@@ -9,7 +9,7 @@
 #include "compiler/kept_ir.h"
 #include "ir/support/diag_render.h"
 #include "machine/compile/sources.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 
 namespace rung::compile {
 namespace {

@@ -3,11 +3,15 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "machine/compile/compilation.h"
+#include "machine/compile/sources.h"
+#include "rung/program.h"
 #include "rung/runtime.hpp"
 
 namespace rung::compile {
@@ -40,5 +44,22 @@ private:
   Wanted wanted_;
   std::unique_ptr<Compilation> compilation_; // of it
 };
+
+// The forces of a program on their way to a compiler process: which bits are held, and the file of the program that
+// runs, which carries its IR.
+
+inline constexpr size_t kMostForcedBytes = 4096;
+inline constexpr size_t kMostPackedForces = kMostImage + (size_t{1} << 20);
+
+struct Forces {
+  uint64_t codeHash = 0; // of the program that runs, as its tables have them
+  uint64_t layoutHash = 0;
+  std::vector<rung_forced_byte> bytes; // in the order of space and byte, each once
+  std::string_view program;            // the file
+};
+
+std::string packed(const Forces& forces);
+// Nothing, and `problem` says why, where they are not packed forces. The file may be any bytes; it is those of `bytes`.
+std::optional<Forces> unpackedForces(std::string_view bytes, std::string& problem);
 
 } // namespace rung::compile

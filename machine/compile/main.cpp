@@ -15,9 +15,9 @@
 #include "machine/compile/collect.h"
 #include "machine/compile/compile_forces.h"
 #include "machine/compile/compile_sources.h"
-#include "machine/compile/forces.h"
-#include "machine/compile/limits.h"
+#include "machine/compile/forced_code_maker.h"
 #include "machine/compile/sandbox.h"
+#include "machine/compile/sources.h"
 #include "rtlib/load/file.h"
 
 namespace {

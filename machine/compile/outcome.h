@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "ir/support/check.h"
-#include "machine/compile/limits.h"
+#include "machine/compile/sources.h"
 
 namespace rung::compile {
 
 struct Outcome {
-  std::string_view verdict; // machine/compile/limits.h
+  std::string_view verdict; // machine/compile/sources.h
   std::string report;
   std::string image; // sealed, of a program that is compiled
 };

@@ -2,10 +2,12 @@
 #include "machine/compile/sources.h"
 
 #include <algorithm>
+#include <stdexcept>
 
-#include "machine/compile/bytes.h"
+#include "machine/compile/compilation.h"
 
 namespace rung::compile {
+
 namespace {
 
 constexpr std::string_view kHead = "rung-sources 1\n";
@@ -84,6 +86,16 @@ std::optional<Sources> unpacked(std::string_view bytes, std::string& problem) {
   }
   problem = known && reader.atEnd() ? problemOf(sources) : "found bytes that are not sources, or not all of them";
   return problem.empty() ? std::optional(std::move(sources)) : std::nullopt;
+}
+
+Image compiledImage(const std::string& path, uid_t user, std::string& warnings) {
+  Compilation compilation({path}, user);
+  const Compilation::State state = compilation.wait();
+  if (state == Compilation::State::Errors) throw std::runtime_error(compilation.report()); // each with its file
+  if (state != Compilation::State::Compiled)
+    throw std::runtime_error("cannot compile " + path + ": " + compilation.report());
+  warnings = compilation.report();
+  return Image::ofMemory(compilation.image(), path);
 }
 
 } // namespace rung::compile

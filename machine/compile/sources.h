@@ -1,12 +1,17 @@
 // The sources of a program on their way to a compiler process: the texts of all its files, the included ones among
 // them, and how they are to be compiled. As bytes (docs/control-protocol.md) they go through sockets and pipes.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <sys/types.h>
+
+#include "rung/runtime.hpp"
 
 namespace rung::compile {
 
@@ -26,5 +31,65 @@ struct Sources {
 std::string packed(const Sources& sources);
 // Nothing, and `problem` says why, where they are not packed sources, or too many files.
 std::optional<Sources> unpacked(std::string_view bytes, std::string& problem);
+
+// Numbers and texts in what a compiler process is given.
+
+// The low byte first.
+inline void putNumber(std::string& out, uint64_t number, unsigned bytes) {
+  for (unsigned i = 0; i < bytes; ++i) out += static_cast<char>(number >> i * 8 & 0xFF);
+}
+
+// The bytes that are left, and whether all were there that were taken.
+class ByteReader {
+public:
+  explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
+  bool atEnd() const { return rest_.empty(); }
+  bool good() const { return good_; }
+  std::string_view rest() const { return rest_; }
+  std::string_view take(size_t count) {
+    good_ = good_ && count <= rest_.size();
+    const std::string_view taken = rest_.substr(0, good_ ? count : 0);
+    rest_.remove_prefix(taken.size());
+    return taken;
+  }
+  uint64_t takeNumber(unsigned bytes) {
+    uint64_t number = 0;
+    unsigned shift = 0;
+    for (const char byte : take(bytes)) {
+      number |= uint64_t{static_cast<uint8_t>(byte)} << shift;
+      shift += 8;
+    }
+    return number;
+  }
+
+private:
+  std::string_view rest_;
+  bool good_ = true;
+};
+
+// What a host and its compiler process agree on.
+
+// Open files of the process besides its standard output and error, which lead nowhere.
+inline constexpr int kInputFile = 0;  // the packed sources, or forces
+inline constexpr int kAnswerFile = 3; // a line with the verdict, then what it is about
+inline constexpr int kImageFile = 4;  // a memory file for the program
+
+inline constexpr std::string_view kForcesWord = "--forces"; // an argument: the input is packed forces
+
+inline constexpr std::string_view kVerdictCompiled = "compiled"; // and warnings
+inline constexpr std::string_view kVerdictErrors = "errors";     // as rungc prints them
+inline constexpr std::string_view kVerdictFailed = "failed";     // a sentence
+inline constexpr std::string_view kVerdictSources = "sources";   // packed: of files that were to be read
+
+inline constexpr size_t kMostReport = size_t{256} << 10; // bytes of warnings and errors
+inline constexpr unsigned kMostProcessorSeconds = 30;
+inline constexpr size_t kMostMemory = size_t{2} << 30; // address space
+inline constexpr size_t kMostImage = size_t{64} << 20; // bytes of a program's file, and of each file that it writes
+
+// The program of a host at its start: a compiled one, or sources that are compiled first.
+
+// Compiles a source file, or a project (its folder or project file), in a process of its own that reads it with the
+// rights of `user`; waits for that. `warnings` gets what rungc would print. Throws std::runtime_error with all errors.
+Image compiledImage(const std::string& path, uid_t user, std::string& warnings);
 
 } // namespace rung::compile

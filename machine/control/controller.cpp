@@ -11,7 +11,7 @@
 
 #include "machine/control/profile.h"
 #include "machine/control/values.h"
-#include "machine/host/meant_name.h"
+#include "machine/host/mapping_file.h"
 #include "rtlib/text/controls.h"
 #include "rung/types.hpp"
 

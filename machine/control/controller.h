@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "machine/control/history.h"
-#include "machine/control/history_file.h"
 #include "machine/control/log.h"
 #include "machine/control/programs.h"
 #include "machine/control/server.h"

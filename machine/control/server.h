@@ -1,18 +1,65 @@
-// The socket of a host: its user, and root, may send requests, one JSON object a line (docs/control-protocol.md).
+// Lines between two processes, of a bounded length, without waiting.
 #pragma once
-#include <sys/types.h>
-
 #include <chrono>
 #include <cstdint>
 #include <list>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json_fwd.hpp>
-
-#include "machine/control/connection.h"
-#include "machine/control/sink.h"
+#include <sys/types.h>
 
 namespace rung::control {
+
+class Connection {
+public:
+  static constexpr size_t kLongestRequest = size_t{64} << 10;
+  static constexpr size_t kLongestAnswer = size_t{4} << 20; // and the most that waits until the other side takes it
+
+  // Of a socket, which it closes; `longest` is the longest line that it takes.
+  Connection(int socket, size_t longest) : socket_(socket), longest_(longest) {}
+  Connection(Connection&& other) noexcept;
+  Connection& operator=(Connection&& other) noexcept;
+  ~Connection();
+
+  int socket() const { return socket_; }
+  // The other side has gone, or breaks the rules: `problem` says which. No more is read or sent.
+  bool ended() const { return ended_; }
+  const std::string& problem() const { return problem_; }
+  bool wantsToSend() const { return !ended_ && !out_.empty(); }
+
+  // Takes what has come.
+  void receive();
+  bool hasLine() const { return in_.find('\n') != std::string::npos; }
+  // The next whole line, without its end.
+  std::optional<std::string> line();
+  // A line; sent as far as the other side takes it.
+  void send(std::string_view line);
+  void sendMore();
+  // After what is sent.
+  void end(std::string problem);
+
+private:
+  int socket_ = -1;
+  size_t longest_;
+  bool ended_ = false;
+  std::string problem_;
+  std::string in_, out_;
+};
+
+// Where a host's answers and events go: to the clients of a socket, or to a test.
+
+class Sink {
+public:
+  virtual ~Sink() = default;
+  // To one of those who have asked; to nobody where that one has gone.
+  virtual void send(uint32_t peer, const nlohmann::json& event) = 0;
+  // The answer that a handler has not given before. Until then nothing else that the client sends is looked at.
+  virtual void answer(uint32_t peer, const nlohmann::json& answer) = 0;
+};
+
+// The socket of a host: its user, and root, may send requests, one JSON object a line (docs/control-protocol.md).
 
 // Who asks, as the system knows them.
 struct Peer {

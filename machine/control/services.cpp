@@ -173,7 +173,7 @@ void Services::refuseLate() {
   });
 }
 
-// As the control does where nobody serves (rtlib/nc/control/refuse.h).
+// As the control does where nobody serves (rtlib/nc/control/control.h).
 void Services::refuse(const host::Request& request) {
   box_.answer({.size = sizeof(rung_reply), .ticket = request.given.ticket, .error = 1});
 }

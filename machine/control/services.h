@@ -10,7 +10,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "machine/control/server.h"
-#include "machine/control/sink.h"
 #include "machine/host/box.h"
 #include "machine/host/services.h"
 

@@ -9,8 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "machine/host/mapping_mistake.h"
-#include "machine/host/meant_name.h"
+#include "machine/host/mapping_file.h"
 #include "rtlib/text/name_parts.h"
 #include "rtlib/text/number.h"
 #include "rung/types.hpp"

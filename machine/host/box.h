@@ -16,10 +16,8 @@
 #include "machine/host/function_queue.h"
 #include "machine/host/mapping_file.h"
 #include "machine/host/orders.h"
-#include "machine/host/pin_cell.h"
 #include "machine/host/pins.h"
 #include "machine/host/services.h"
-#include "rtlib/run/alone.h"
 #include "rtlib/run/clock.h"
 #include "rung/runtime.hpp"
 

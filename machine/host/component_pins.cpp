@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "machine/host/mapping_mistake.h"
+#include "machine/host/mapping_file.h"
 
 namespace rung::host {
 

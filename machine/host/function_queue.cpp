@@ -1,4 +1,4 @@
-// The queue of functions on their way to the program (see function_queue.h).
+// The queue of functions on their way to the program.
 #include "machine/host/function_queue.h"
 
 #include <algorithm>

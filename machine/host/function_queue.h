@@ -1,20 +1,37 @@
+// What an operator wants to know of the M, S and T functions that are on their way to a program.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "machine/host/mapping_file.h"
+#include "machine/host/pins.h"
+#include "rung/runtime.h"
+
+namespace rung::host {
+
+struct FunctionState {
+  static constexpr uint32_t kMost = 8;
+  struct Function {
+    rung_function_kind kind = RUNG_FUNCTION_M;
+    uint32_t channel = 0; // from 0
+    uint32_t code = 0;
+    int64_t ageNs = 0;  // since its pin caused it
+    bool begun = false; // the program has it; else it waits for its turn
+    bool late = false;  // it takes longer than the map's time
+  };
+  std::array<Function, kMost> oldest; // the first of them
+  uint32_t count = 0;                 // of all
+  uint32_t lost = 0;                  // since the start
+};
+
 // M, S and T functions for programs that expect the handshake of their NC, while HAL has levels: an edge of a pin
 // queues a function, the dialect's handshake hands it to the program, and the acknowledge pin comes on when the program
 // has finished it; it falls with the pin that caused the function.
 //
 // Functions of one kind and channel begin in their order. What else they wait for is the dialect's rule: a function
 // begins as soon as the handshake takes it.
-#pragma once
-#include <cstdint>
-#include <optional>
-#include <vector>
-
-#include "machine/host/function_state.h"
-#include "machine/host/mapping_file.h"
-#include "machine/host/pins.h"
-#include "rung/runtime.h"
-
-namespace rung::host {
 
 class FunctionQueue {
 public:

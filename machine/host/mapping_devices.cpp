@@ -1,7 +1,7 @@
 // The table [devices] (see devices.h).
 #include "machine/host/mapping_devices.h"
 
-#include "rtlib/nc/technol/configuration.h"
+#include "rtlib/nc/technol/services.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 

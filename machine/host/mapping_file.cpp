@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <toml++/toml.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 #include <iterator>
 #include <stdexcept>
 #include <utility>
-
-#include <toml++/toml.h>
 
 #include "machine/host/mapping_connections.h"
 #include "machine/host/mapping_devices.h"
@@ -23,6 +22,7 @@
 #include "rtlib/text/toml.h"
 
 namespace rung::host {
+
 namespace {
 
 constexpr PinType kPinTypes[] = {PinType::Bit, PinType::S32, PinType::U32, PinType::Float};

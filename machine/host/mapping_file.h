@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "rtlib/text/name_parts.h"
+#include "rtlib/text/similar.h"
 #include "rung/runtime.h"
 
 namespace rung::host {
@@ -232,5 +234,29 @@ void refuseAxes(const File& map, std::string_view host, std::vector<std::string>
 
 std::string_view pinTypeName(PinType type);
 std::string_view tableName(Direction direction); // "in"
+
+// What is wrong with an entry of a file that refers to a program.
+
+// In the order of a message.
+struct Mistake {
+  std::string found;
+  std::string expected;
+  std::string fix;
+
+  std::string text() const { return "found " + found + ", expected " + expected + "; " + fix; }
+};
+
+// What was meant by a name that a program does not have.
+
+// The name with the symbol that it may have meant, which the program may have; "" when none is close.
+template <class Symbols, class NameOf = std::identity>
+std::string meantName(std::string_view name, Symbols&& symbols, NameOf nameOf = {}) {
+  const std::string_view head = text::headOf(name);
+  const std::string_view symbol = text::mostSimilar(head, symbols, nameOf);
+  if (symbol.empty()) return {};
+  std::string meant(name);
+  meant.replace(static_cast<size_t>(head.data() - name.data()), head.size(), symbol);
+  return meant;
+}
 
 } // namespace rung::host

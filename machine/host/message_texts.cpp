@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "machine/host/control_files.h"
-#include "machine/host/mapping_mistake.h"
+#include "machine/host/mapping_file.h"
 
 namespace rung::host {
 namespace {

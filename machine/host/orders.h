@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "machine/host/function_state.h"
+#include "machine/host/function_queue.h"
 #include "rtlib/run/clock.h"
 #include "rung/runtime.h"
 

@@ -2,6 +2,7 @@
 #include "machine/host/pins.h"
 
 namespace rung::host {
+
 namespace {
 
 Value readVariable(PinType type, const PinCell& cell) noexcept {

@@ -1,7 +1,5 @@
-// See translate.h.
+// See services.h.
 #include "machine/host/services.h"
-
-#include "machine/host/services_dialects.h"
 
 namespace rung::host {
 

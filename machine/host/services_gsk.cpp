@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "machine/host/services_dialects.h"
+#include "machine/host/services.h"
 #include "rtlib/nc/gsk/axis_commands.h"
 #include "rtlib/nc/gsk/window_functions.h"
 

@@ -6,7 +6,7 @@
 #include <bit>
 #include <string_view>
 
-#include "machine/host/services_dialects.h"
+#include "machine/host/services.h"
 #include "rtlib/nc/nct/scope_symbols.h"
 
 namespace rung::host::nct {

@@ -4,14 +4,21 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "rtlib/core/queues.h"
+#include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/services.h"
 #include "rtlib/run/instance.h"
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
+#include "rung/program.h"
 
 namespace rung::io {
 
@@ -149,5 +156,40 @@ private:
   core::ServiceReply& reply_;
   AnswerRoom& room_;
 };
+
+// Which device a service of a program is for, and what of it.
+
+enum class DeviceKind : uint8_t { None, Data, Tables, ReadArea, WriteArea, Axes, Com, Can, Ethercat };
+
+struct DeviceOrder {
+  DeviceKind device = DeviceKind::None;
+  uint8_t order = 0; // TableOrder, AxisOrder, ComOrder, CanRequest or EthercatOrder
+};
+
+// By the signature of a service, as rung_program::services has it.
+DeviceOrder deviceOrder(std::string_view signature);
+// By the program's numbers of its services.
+std::vector<DeviceOrder> deviceOrders(const rung_program& program);
+
+// Parts of configuration keys and their values.
+
+// Nothing where the text is not a number within these limits.
+inline std::optional<uint32_t> numberBetween(std::string_view text, int64_t least, int64_t most) {
+  const auto number = nc::technol::integerOf(text);
+  return number && *number >= least && *number <= most ? std::optional(static_cast<uint32_t>(*number)) : std::nullopt;
+}
+
+// The number after a prefix, in any case, of the key: PlcTableDef3.
+inline std::optional<uint32_t> numberAfter(std::string_view key, std::string_view prefix) {
+  return text::takePrefixIgnoringCase(key, prefix) ? text::numberIn<uint32_t>(key) : std::nullopt;
+}
+
+// The text up to the character, which both go away from `text`; all of it where the character is not there.
+inline std::string_view takeUntil(std::string_view& text, char end) {
+  const size_t at = std::min(text.find(end), text.size());
+  const std::string_view part = text.substr(0, at);
+  text.remove_prefix(std::min(at + 1, text.size()));
+  return part;
+}
 
 } // namespace rung::io

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "machine/io/com/tty_thread.h"
-#include "machine/io/devices_around.h"
+#include "machine/io/com/tty_line.h"
+#include "machine/io/host_devices.h"
 
 namespace rung::io {
 

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <string>
 
-#include "machine/host/pin_cell.h"
+#include "machine/host/pins.h"
 
 // The version is announced; until it has come, this is a name that only the headers with references define.
 #if defined(HAL_API_VERSION) || defined(HAL_BOOL)

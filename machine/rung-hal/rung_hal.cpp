@@ -23,12 +23,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "machine/compile/image.h"
+#include "machine/compile/sources.h"
 #include "machine/control/controller.h"
 #include "machine/control/server.h"
 #include "machine/host/box.h"
 #include "machine/host/component_pins.h"
-#include "machine/io/analog/analog_pins.h"
+#include "machine/io/analog/analog.h"
 #include "machine/io/host_devices.h"
 #include "machine/rung-hal/hal_api.h"
 #include "machine/rung-hal/user_rights.h"

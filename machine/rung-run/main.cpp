@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "machine/command-line/usage.h"
-#include "machine/compile/image.h"
+#include "machine/compile/sources.h"
 #include "machine/control/controller.h"
 #include "machine/control/log.h"
 #include "machine/control/place.h"

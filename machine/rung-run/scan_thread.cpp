@@ -1,6 +1,8 @@
 // See scan_thread.h.
 #include "machine/rung-run/scan_thread.h"
 
+#include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace rung::rung_run {
@@ -51,6 +53,77 @@ void ScanThread::step(int64_t due, int64_t& last) noexcept {
   times_.add(
       {.beginNs = begin - begunNs_, .periodNs = period, .lateNs = late, .tookNs = runtime::monotonicNs() - begin},
       late >= options_.periodNs);
+}
+
+namespace {
+
+constexpr auto kRelaxed = std::memory_order_relaxed;
+constexpr size_t kParts = 4; // classes of lateness from a power of two to the next
+
+// Only the scan thread writes: no exchange is needed.
+void raise(std::atomic<int64_t>& most, int64_t value) noexcept {
+  if (value > most.load(kRelaxed)) most.store(value, kRelaxed);
+}
+
+} // namespace
+
+size_t StepTimes::classOf(int64_t ns) noexcept {
+  const uint64_t value = ns <= 0 ? 0 : static_cast<uint64_t>(ns);
+  if (value < kParts) return value;
+  const auto power = static_cast<size_t>(std::bit_width(value)) - 1;
+  return (power - 1) * kParts + (value >> (power - 2)) - kParts;
+}
+
+// The first value above those of a class.
+int64_t StepTimes::endOf(size_t number) noexcept {
+  if (number < kParts) return static_cast<int64_t>(number) + 1;
+  const size_t power = number / kParts + 1;
+  return static_cast<int64_t>((number % kParts + kParts + 1) << (power - 2));
+}
+
+void StepTimes::add(const Step& step, bool isOverrun) noexcept {
+  steps_.fetch_add(1, kRelaxed);
+  if (isOverrun) overruns_.fetch_add(1, kRelaxed);
+  if (step.periodNs < shortest_.load(kRelaxed)) shortest_.store(step.periodNs, kRelaxed);
+  raise(longest_, step.periodNs);
+  raise(latest_, step.lateNs);
+  sum_.fetch_add(step.tookNs, kRelaxed);
+  late_[std::min(classOf(step.lateNs), kClasses - 1)].fetch_add(1, kRelaxed);
+  addWorst(step);
+}
+
+void StepTimes::addWorst(const Step& step) noexcept {
+  int64_t took = step.tookNs, begin = step.beginNs;
+  for (WorstStep& worst : worst_) {
+    if (took <= worst.tookNs.load(kRelaxed)) continue;
+    took = worst.tookNs.exchange(took, kRelaxed);
+    begin = worst.beginNs.exchange(begin, kRelaxed);
+  }
+}
+
+int64_t StepTimes::lateOf(uint64_t steps, double share) const {
+  const auto wanted = static_cast<uint64_t>(static_cast<double>(steps) * share);
+  uint64_t sum = 0;
+  for (size_t i = 0; i < kClasses; ++i) {
+    sum += late_[i].load(kRelaxed);
+    if (sum >= wanted) return std::min(endOf(i), latest_.load(kRelaxed));
+  }
+  return latest_.load(kRelaxed);
+}
+
+StepFigures StepTimes::figures() const {
+  StepFigures now{.steps = steps_.load(kRelaxed), .overruns = overruns_.load(kRelaxed)};
+  if (now.steps == 0) return now;
+  now.shortestPeriodNs = shortest_.load(kRelaxed);
+  now.longestPeriodNs = longest_.load(kRelaxed);
+  now.late99Ns = lateOf(now.steps, 0.99);
+  now.late999Ns = lateOf(now.steps, 0.999);
+  now.latestNs = latest_.load(kRelaxed);
+  now.meanNs = sum_.load(kRelaxed) / static_cast<int64_t>(now.steps);
+  for (const WorstStep& worst : worst_)
+    if (const int64_t took = worst.tookNs.load(kRelaxed); took != 0)
+      now.worst.push_back({took, worst.beginNs.load(kRelaxed)});
+  return now;
 }
 
 } // namespace rung::rung_run

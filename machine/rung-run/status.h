@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "machine/io/connections/connections.h"
-#include "machine/rung-run/step_times.h"
+#include "machine/rung-run/scan_thread.h"
 
 namespace rung::rung_run {
 

@@ -2,12 +2,13 @@
 #pragma once
 #include <chrono>
 #include <deque>
+#include <iosfwd>
 #include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
-#include "machine/control/connection.h"
+#include "machine/control/server.h"
 
 namespace rung::rungctl {
 
@@ -45,5 +46,11 @@ private:
   std::deque<nlohmann::json> events_;
   bool interrupted_ = false; // the last wait, by a signal
 };
+
+// Lines of the protocol between another program and a host, as they are.
+
+// From `in` to the host and from the host to `out`, until one of them ends or `stop` is not 0. Throws
+// std::runtime_error where a line is longer than a request may be.
+void relay(control::Connection& host, int in, std::ostream& out, const volatile int& stop);
 
 } // namespace rung::rungctl

@@ -21,7 +21,6 @@
 #include "machine/control/log.h"
 #include "machine/control/place.h"
 #include "machine/rungctl/client.h"
-#include "machine/rungctl/relay.h"
 #include "machine/rungctl/reload.h"
 #include "machine/rungctl/trace.h"
 #include "machine/rungctl/words.h"

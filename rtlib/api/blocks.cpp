@@ -8,7 +8,7 @@
 #include "rtlib/api/error.h"
 #include "rtlib/api/values.h"
 #include "rtlib/core/bits.h"
-#include "rtlib/run/overwritten.h"
+#include "rtlib/run/loaded_program.h"
 
 namespace rung::api {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "rtlib/run/overwritten.h"
+#include "rtlib/run/loaded_program.h"
 
 namespace rung::api {
 

@@ -13,8 +13,7 @@
 #include <vector>
 
 #include "rtlib/api/surroundings.h"
-#include "rtlib/core/needed_copies.h"
-#include "rtlib/core/place_list.h"
+#include "rtlib/core/memory.h"
 #include "rung/runtime.h"
 
 namespace rung::api {

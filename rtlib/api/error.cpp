@@ -1,12 +1,11 @@
-// The sentence of each thread (see error.h).
+// The sentence of each thread.
 #include "rtlib/api/error.h"
 
 #include <cstdarg>
 #include <cstdio>
 
-#include "rtlib/api/structs.h"
-
 namespace rung::api {
+
 namespace {
 
 // Within the memory that the dynamic linker reserves for every thread: the first use allocates nothing.

@@ -1,10 +1,15 @@
 // How the functions of a library of C report what was wrong: a status, and a sentence for the thread. Each library has
 // sentences of its own.
 #pragma once
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <new>
+#include <span>
+#include <string_view>
 
+#include "rtlib/text/utf8.h"
 #include "rung/runtime.h"
 
 namespace rung::api {
@@ -24,6 +29,92 @@ int32_t contained(Body body) noexcept {
   } catch (const std::exception& thrown) {
     return fail(RUNG_FAILED, "%s", thrown.what());
   }
+}
+
+// Handles as a library of C gives them away: each is marked with its kind as long as it is alive.
+
+inline constexpr uint32_t kImageMark = 0x52494D47;
+inline constexpr uint32_t kInstanceMark = 0x52494E53;
+inline constexpr uint32_t kReplacementMark = 0x5252504C;
+inline constexpr uint32_t kWatchMark = 0x52574154;
+inline constexpr uint32_t kTraceMark = 0x52545243;
+inline constexpr uint32_t kShadowMark = 0x52534857;
+inline constexpr uint32_t kForcesMark = 0x52465243;
+inline constexpr uint32_t kCompilationMark = 0x52434D50;
+
+// The handle, where it is one; else null.
+template <class Handle>
+Handle* checked(Handle* handle, uint32_t mark) noexcept {
+  const bool aligned = reinterpret_cast<uintptr_t>(handle) % alignof(Handle) == 0;
+  return handle != nullptr && aligned && handle->mark == mark ? handle : nullptr;
+}
+
+// A freed handle is not one: as far as its memory has no other use yet.
+template <class Handle>
+void release(Handle* handle) {
+  *const_cast<volatile uint32_t*>(&handle->mark) = 0;
+  delete handle;
+}
+
+inline int32_t failHandle(const char* name) noexcept {
+  return fail(RUNG_BAD_HANDLE, "the handle is not that of %s: null, of another kind, or freed before", name);
+}
+
+// What the function that ends a handle does. Null is allowed.
+template <class Handle>
+int32_t endHandle(Handle* handle, uint32_t mark, const char* name) {
+  if (handle == nullptr) return RUNG_OK;
+  if (checked(handle, mark) == nullptr) return failHandle(name);
+  release(handle);
+  return RUNG_OK;
+}
+
+// The structs of rung/runtime.h between a host and a library of different age: `size` says what the host knows.
+
+inline int32_t failSize(const char* name) noexcept {
+  return fail(
+      RUNG_BAD_ARGUMENT,
+      "%s is null, its field `size` is not set to the size of the struct, or a field is set that this library does "
+      "not know",
+      name);
+}
+
+// A host knows no field, or knows them up to one of them: the size of a struct of any version is a multiple of its
+// alignment, so no field is cut.
+template <class Struct>
+bool hasSize(const Struct* host) noexcept {
+  constexpr uint32_t kMost = 1 << 16;
+  return host->size >= 2 * sizeof(uint32_t) && host->size <= kMost && host->size % alignof(Struct) == 0;
+}
+
+// What the host gives; null: as `to` has it. False: its size cannot be right, or it asks for something that this
+// library does not know.
+template <class Struct>
+bool takeStruct(const Struct* host, Struct& to) noexcept {
+  if (host == nullptr) return true;
+  if (!hasSize(host)) return false;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(host);
+  for (size_t i = sizeof to; i < host->size; ++i)
+    if (bytes[i] != 0) return false;
+  std::memcpy(&to, host, std::min<size_t>(host->size, sizeof to));
+  return true;
+}
+
+// What the host gets: as much of it as it knows, and zeros where it knows more.
+template <class Struct>
+int32_t giveStruct(Struct* host, const Struct& from) noexcept {
+  if (host == nullptr || !hasSize(host)) return failSize("the struct for the result");
+  const uint32_t size = host->size;
+  const size_t known = std::min<size_t>(size, sizeof from);
+  std::memcpy(host, &from, known);
+  std::memset(reinterpret_cast<char*>(host) + known, 0, size - known);
+  host->size = size;
+  return RUNG_OK;
+}
+
+// The characters that fit, ended by 0.
+inline void putText(std::span<char> to, std::string_view from) noexcept {
+  *std::ranges::copy(text::wholeCharacters(from, to.size() - 1), to.begin()).out = 0;
 }
 
 } // namespace rung::api

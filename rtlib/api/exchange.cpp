@@ -3,7 +3,6 @@
 
 #include "rtlib/api/error.h"
 #include "rtlib/api/running.h"
-#include "rtlib/api/structs.h"
 #include "rtlib/load/program_info.h"
 
 namespace rung::api {

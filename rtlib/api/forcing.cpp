@@ -8,7 +8,6 @@
 #include "rtlib/api/error.h"
 #include "rtlib/api/replacing.h"
 #include "rtlib/api/running.h"
-#include "rtlib/api/structs.h"
 #include "rtlib/change/forcing.h"
 
 using namespace rung;

@@ -11,8 +11,7 @@
 
 #include "rtlib/api/error.h"
 #include "rtlib/api/instance.h"
-#include "rtlib/api/structs.h"
-#include "rtlib/api/variables.h"
+#include "rtlib/api/values.h"
 #include "rtlib/load/program_info.h"
 
 namespace rung::api {

@@ -4,9 +4,8 @@
 #include <pthread.h>
 
 #include "rtlib/api/error.h"
+#include "rtlib/api/replacing.h"
 #include "rtlib/api/running.h"
-#include "rtlib/api/shadow.h"
-#include "rtlib/api/structs.h"
 #include "rtlib/load/program_info.h"
 
 namespace rung::api {

@@ -7,15 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "rtlib/api/generation.h"
 #include "rtlib/api/host_struct.h"
-#include "rtlib/api/scan_use.h"
-#include "rtlib/api/service_names.h"
+#include "rtlib/api/image.h"
 #include "rtlib/api/surroundings.h"
 #include "rtlib/api/watch.h"
 #include "rtlib/core/ring.h"
 #include "rtlib/nc/control/control.h"
-#include "rtlib/nc/control/retention.h"
 #include "rtlib/run/instance.h"
 #include "rtlib/run/pace.h"
 

@@ -16,4 +16,11 @@ int32_t checkDialect(const rung_instance& instance, const rung_program& program)
 int32_t failLater(const rung_instance& instance, runtime::ReplaceResult result,
                   const runtime::StateTransfer& transfer) noexcept;
 
+// What the rest of an instance needs of its shadow.
+
+// The running program makes a request.
+void shadowRequest(rung_instance& instance, const core::ServiceRequest& request) noexcept;
+// The instance has a shadow no longer.
+void endShadow(rung_instance& instance) noexcept;
+
 } // namespace rung::api

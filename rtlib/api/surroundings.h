@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "rtlib/nc/control/control.h"
+#include "rtlib/run/clock.h"
 #include "rtlib/run/instance.h"
-#include "rtlib/run/outside.h"
 #include "rung/runtime.h"
 
 namespace rung::api {

@@ -1,11 +1,9 @@
-// From cells to bits, and where these are copied (see forcing.h).
+// From cells to bits, and where these are copied.
 #include "rtlib/change/forcing.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "rtlib/change/copied_bytes.h"
-#include "rtlib/change/written_bits.h"
 #include "rtlib/load/program_info.h"
 
 namespace rung::runtime {

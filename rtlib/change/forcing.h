@@ -4,7 +4,9 @@
 // A cell that is copied at the border of a task (an input and what a task reads of it, an output and its image) is
 // forced wherever it is copied to and from.
 #pragma once
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -14,6 +16,7 @@
 
 #include "rtlib/core/runner.h"
 #include "rtlib/load/ref.h"
+#include "rung/program.h"
 
 namespace rung::runtime {
 
@@ -60,5 +63,28 @@ private:
   bool needsCode_ = false;
   core::Code code_;
 };
+
+// Where a byte of the memory block is copied to and from at the borders of tasks.
+
+// Calls visit(offset) for each byte that this one is copied to or from.
+template <class Visit>
+void forCopiesOf(const rung_program& program, uint32_t offset, Visit visit) {
+  for (uint32_t i = 0; i < program.copy_count; ++i) {
+    const rung_copy& copy = program.copies[i];
+    if (offset - copy.from < copy.size) visit(offset - copy.from + copy.to);
+    if (offset - copy.to < copy.size) visit(offset - copy.to + copy.from);
+  }
+}
+
+// Which bits of the memory block a program's own code may write.
+
+// Those of one byte. Allocates nothing.
+inline uint8_t writtenBits(const rung_program& program, uint32_t offset) {
+  const std::span<const rung_written> writes(program.writes, program.write_count);
+  const auto after = std::ranges::upper_bound(writes, offset, {}, &rung_written::offset);
+  if (after == writes.begin()) return 0;
+  const rung_written& written = *std::prev(after);
+  return offset - written.offset < written.size ? written.mask : uint8_t{0};
+}
 
 } // namespace rung::runtime

@@ -1,3 +1,31 @@
+// Whether two instances of one program, run by different engines, are in the same state: memory, clock, fault, messages
+// that wait, service requests and tickets. Profile counters do not count.
+#pragma once
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rtlib/change/state_transfer.h"
+#include "rtlib/core/queues.h"
+#include "rtlib/core/runner.h"
+#include "rtlib/run/instance.h"
+#include "rtlib/run/loaded_program.h"
+
+namespace rung::runtime {
+
+// How a reader would write a bit, or the byte that an integer of 8 bits lies in.
+using DescribePlace = std::string (*)(const rung_program& program, const Ref& place);
+
+// The first difference, with the place described ("D10 (COUNT): 3 here, 4 there"); nothing when there is none. Layouts
+// may differ; then only the spaces are compared, not the compiler's own slots.
+std::optional<std::string> firstDifference(const Instance& here, const Instance& there, DescribePlace describe);
+
 // A program that is to take over runs beside the one that it would replace, on what that one reads and is answered, and
 // where its outputs differ is reported: before anything is replaced.
 //
@@ -11,24 +39,6 @@
 // What the machine, the NC and the host have written shows as what changed in memory between two runs; the shadow gets
 // it at the same place in time, by name and address as a replacement would. So the schedules must be the same. What a
 // person forces in the running program has its value in the shadow, too, before and after each run.
-#pragma once
-#include <array>
-#include <atomic>
-#include <cstdint>
-#include <map>
-#include <memory>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "rtlib/change/compare.h"
-#include "rtlib/change/state_transfer.h"
-#include "rtlib/core/queues.h"
-#include "rtlib/core/runner.h"
-#include "rtlib/run/instance.h"
-#include "rtlib/run/loaded_program.h"
-
-namespace rung::runtime {
 
 enum class ShadowState : uint8_t {
   Prepared, // not begun

@@ -8,12 +8,11 @@
 #include <string_view>
 #include <tuple>
 
-#include "rtlib/change/copied_bytes.h"
-#include "rtlib/change/instruction_state.h"
+#include "rtlib/change/forcing.h"
 #include "rtlib/change/rung_alignment.h"
 #include "rtlib/core/memory.h"
 #include "rtlib/load/program_info.h"
-#include "rtlib/run/overwritten.h"
+#include "rtlib/run/loaded_program.h"
 #include "rung/types.hpp"
 
 namespace rung::runtime {

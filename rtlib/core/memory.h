@@ -1,14 +1,40 @@
-// The memory block of an instance as the dialect addresses it: logical bytes and bits of spaces, whatever their
-// representation. Everything that is not generated code reads and writes through this (or through places found by it).
+// A place of the memory block that was looked up once: what is read and written in every scan. Memory makes it and
+// reads and writes through it (memory.h); it holds for the life of the program.
 #pragma once
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <span>
 
-#include "rtlib/core/place.h"
 #include "rung/program.h"
 
 namespace rung::core {
+
+// A bit, or an integer or real of up to eight bytes. Its bits lie together in the eight bytes of the block at `window`,
+// whatever its width and alignment: a load, a mask and a shift find it. Integers with bits in bytes of their own lie
+// apart, and are put together byte by byte. A default Place is outside all spaces: it reads 0, and writing it does
+// nothing.
+struct Place {
+  uint64_t mask = 0;          // in the window; 0: outside, or apart
+  uint64_t one = 0;           // the lowest bit in the window: a product with it is a shift
+  uint32_t window = 0;        // offset in the block
+  uint8_t shift = 0;          // of the lowest bit in the window
+  uint8_t above = 0;          // bits of the window above the highest
+  uint8_t unused = 0;         // shift + above
+  bool real = false;          // the bits of a double
+  uint32_t space = RUNG_NONE; // of a place that lies apart, where it begins; else RUNG_NONE
+  uint32_t byte = 0;
+
+  bool apart() const noexcept { return space != RUNG_NONE; }
+  bool outside() const noexcept { return mask == 0 && !apart(); }
+  uint32_t width() const noexcept { return 64u - unused; } // in bits; of one that is not outside
+  // The byte of the block that holds the lowest bit, and its number in it; of one that has a mask.
+  uint32_t offset() const noexcept { return window + shift / 8u; }
+  uint32_t bit() const noexcept { return shift % 8u; }
+};
+
+// The memory block of an instance as the dialect addresses it: logical bytes and bits of spaces, whatever their
+// representation. Everything that is not generated code reads and writes through this (or through places found by it).
 
 class Memory {
 public:
@@ -78,6 +104,72 @@ private:
 
   const rung_program* program_;
   uint8_t* block_;
+};
+
+// All the values that a machine exchanges with a program in one direction: read or written by one call, from or to an
+// array of 64-bit words.
+
+// How the word holds the value of a place.
+enum class ValueForm : uint8_t {
+  Raw,    // the bits of the place, zero-extended
+  Signed, // sign-extended; written as Raw
+  Real,   // the bits of a double, in units of `scale` each; an integer place is converted
+};
+
+struct ListedPlace {
+  Place place;
+  ValueForm form = ValueForm::Raw;
+  double scale = 1; // the program's units in one of the machine's; not 0
+};
+
+// As many values as places.
+inline void readPlaces(Memory memory, std::span<const ListedPlace> places, std::span<uint64_t> values) noexcept {
+  for (size_t i = 0; i < places.size(); ++i) {
+    const ListedPlace& from = places[i];
+    switch (from.form) {
+    case ValueForm::Raw: values[i] = memory.read(from.place); break;
+    case ValueForm::Signed: values[i] = static_cast<uint64_t>(memory.readSigned(from.place)); break;
+    case ValueForm::Real: values[i] = std::bit_cast<uint64_t>(memory.readReal(from.place) / from.scale); break;
+    }
+  }
+}
+
+inline void writePlaces(Memory memory, std::span<const ListedPlace> places, std::span<const uint64_t> values) noexcept {
+  for (size_t i = 0; i < places.size(); ++i) {
+    const ListedPlace& to = places[i];
+    if (to.form == ValueForm::Real)
+      memory.writeReal(to.place, std::bit_cast<double>(values[i]) * to.scale);
+    else
+      memory.write(to.place, values[i]);
+  }
+}
+
+// The border copies of tasks short of the bytes that no rung touches: an NC's area has thousands of bytes, and a
+// program looks at few of them. Who looks at the memory from outside needs what is left out, too.
+
+struct NeededCopies {
+  struct Range { // in `copies`
+    uint32_t first = 0;
+    uint32_t count = 0;
+  };
+  struct Task {
+    Range begin, end;
+  };
+
+  std::span<const rung_copy> of(const Range& range) const noexcept { return copies.subspan(range.first, range.count); }
+  // One of the bytes is left out.
+  bool leavesOut(uint32_t offset, uint32_t size) const noexcept {
+    for (const rung_copy& copy : leftOut)
+      if (offset < copy.to + copy.size && copy.to < offset + size) return true;
+    return false;
+  }
+  void copyLeftOut(uint8_t* memory) const noexcept {
+    for (const rung_copy& copy : leftOut) std::memcpy(memory + copy.to, memory + copy.from, copy.size);
+  }
+
+  std::span<const rung_copy> copies;
+  std::span<const Task> tasks; // as in the program
+  std::span<const rung_copy> leftOut;
 };
 
 } // namespace rung::core

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <span>
 
-#include "rtlib/core/needed_copies.h"
+#include "rtlib/core/memory.h"
 #include "rtlib/core/pass_steps.h"
 #include "rung/program.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "rtlib/core/memory.h"
-#include "rtlib/load/mapped_file.h"
+#include "rtlib/load/file.h"
 #include "rtlib/load/program_info.h"
 #include "rung/types.hpp"
 

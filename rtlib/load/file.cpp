@@ -1,5 +1,13 @@
-// Written under a name of its own, then renamed (see file.h).
+// Written under a name of its own, then renamed.
 #include "rtlib/load/file.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <link.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -8,12 +16,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
-#include <sys/random.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <system_error>
+#include <utility>
 
 namespace rung::runtime {
+
 namespace {
 
 // Of a link, the file that it leads to.
@@ -128,6 +135,155 @@ std::string replaceFile(const std::string& path, std::string_view bytes, const W
   if (!why.empty() && ::stat(folderOf(path).c_str(), &there) != 0 && errno == ENOENT)
     why = "the folder " + folderOf(path) + " does not exist";
   return why.empty() ? "" : "cannot write '" + path + "': " + why;
+}
+
+// Opening, reading, replacing and locking.
+
+namespace {
+
+constexpr int kNotRegular = EBADFD; // no call here gives it
+
+std::string cannotWrite(const std::string& path, int code) { return "cannot write " + path + ": " + fileProblem(code); }
+
+} // namespace
+
+File openDiskFile(const std::string& path, int flags) {
+  File file(::open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644));
+  struct stat status{};
+  if (!file.ok() || (::fstat(file.fd(), &status) == 0 && S_ISREG(status.st_mode))) return file;
+  file.close();
+  errno = kNotRegular;
+  return file;
+}
+
+std::string fileProblem(int code) {
+  if (code == ELOOP) return "it is a symbolic link";
+  if (code == kNotRegular) return "it is not a regular file";
+  return std::generic_category().message(code);
+}
+
+bool replaceDiskFile(const std::string& path, std::span<const uint8_t> bytes, std::string& error) {
+  const std::string temporary = path + ".tmp";
+  // A crash may have left it; whatever is there is not written through.
+  if (::unlink(temporary.c_str()) != 0 && errno != ENOENT) {
+    error = cannotWrite(temporary, errno);
+    return false;
+  }
+  File file = openDiskFile(temporary, O_WRONLY | O_CREAT | O_EXCL);
+  if (!file.ok()) {
+    error = cannotWrite(temporary, errno);
+    return false;
+  }
+  const std::string wrong =
+      finishReplacing(AT_FDCWD, std::move(file), temporary, path,
+                      {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {.lasts = true});
+  if (!wrong.empty()) error = "cannot write " + path + ": " + wrong;
+  return wrong.empty();
+}
+
+// A file of its own, because a lock belongs to the file and not to its name: one on a file that is replaced would be
+// gone with the first replacement. It is never removed, so all lock the same one.
+DiskLock lockDiskFile(const std::string& path) {
+  DiskLock lock;
+  lock.file = openDiskFile(path, O_RDWR); // NFS locks only what may be written
+  lock.made = !lock.file.ok() && errno == ENOENT;
+  if (lock.made) lock.file = openDiskFile(path, O_RDWR | O_CREAT);
+  if (!lock.file.ok()) {
+    lock.error = cannotWrite(path, errno);
+    return lock;
+  }
+  while (::flock(lock.file.fd(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EINTR) continue;
+    if (errno != EWOULDBLOCK) lock.error = "cannot lock " + path + ": " + fileProblem(errno);
+    lock.file.close();
+    break;
+  }
+  return lock;
+}
+
+namespace {
+
+class SystemDisk final : public Disk {
+public:
+  bool read(const std::string& path, size_t most, std::string& bytes, std::string& problem) override {
+    const File file = openDiskFile(path, O_RDONLY);
+    if (!file.ok() && errno == ENOENT) return false;
+    problem = file.ok() ? readAll(file.fd(), most, bytes) : fileProblem(errno);
+    return true;
+  }
+  bool replace(const std::string& path, std::span<const uint8_t> bytes, std::string& error) override {
+    return replaceDiskFile(path, bytes, error);
+  }
+  std::unique_ptr<Lock> lock(const std::string& path, bool& made, std::string& error) override {
+    DiskLock lock = lockDiskFile(path);
+    made = lock.made;
+    error = std::move(lock.error);
+    return lock.file.ok() ? std::make_unique<Held>(std::move(lock.file)) : nullptr;
+  }
+
+private:
+  class Held final : public Lock {
+  public:
+    explicit Held(File file) : file_(std::move(file)) {}
+
+  private:
+    File file_;
+  };
+};
+
+} // namespace
+
+Disk& systemDisk() noexcept {
+  static SystemDisk disk;
+  return disk;
+}
+
+// Segments of a loaded library.
+
+MappedFile::MappedFile(void* library) {
+  link_map* map = nullptr;
+  if (dlinfo(library, RTLD_DI_LINKMAP, &map) != 0) return;
+  struct Search {
+    MappedFile& file;
+    ElfW(Addr) base;
+    const ElfW(Dyn) * dynamic;
+  } search{*this, map->l_addr, map->l_ld};
+  dl_iterate_phdr(
+      [](dl_phdr_info* info, size_t, void* data) {
+        auto& wanted = *static_cast<Search*>(data);
+        bool isIt = false;
+        for (size_t i = 0; i < info->dlpi_phnum; ++i)
+          isIt = isIt || (info->dlpi_phdr[i].p_type == PT_DYNAMIC &&
+                          info->dlpi_addr + info->dlpi_phdr[i].p_vaddr == reinterpret_cast<uintptr_t>(wanted.dynamic));
+        for (size_t i = 0; isIt && i < info->dlpi_phnum; ++i) {
+          const auto& segment = info->dlpi_phdr[i];
+          if (segment.p_type != PT_LOAD || (segment.p_flags & PF_R) == 0) continue;
+          const uintptr_t begin = info->dlpi_addr + segment.p_vaddr;
+          wanted.file.segments_.push_back({begin, begin + segment.p_memsz, (segment.p_flags & PF_X) != 0});
+        }
+        return isIt ? 1 : 0;
+      },
+      &search);
+}
+
+MappedFile::MappedFile(const void* begin, uint64_t bytes, bool isCode)
+    : segments_{{reinterpret_cast<uintptr_t>(begin), reinterpret_cast<uintptr_t>(begin) + bytes, isCode}} {}
+
+const MappedFile::Segment* MappedFile::segmentOf(const void* address, uint64_t bytes) const noexcept {
+  const auto at = reinterpret_cast<uintptr_t>(address);
+  for (const Segment& segment : segments_)
+    if (at >= segment.begin && at <= segment.end && bytes <= segment.end - at) return &segment;
+  return nullptr;
+}
+
+bool MappedFile::holdsCode(const void* address) const noexcept {
+  const Segment* segment = segmentOf(address, 1);
+  return segment != nullptr && segment->isCode;
+}
+
+bool MappedFile::holdsText(const char* text) const noexcept {
+  const Segment* segment = segmentOf(text, 1);
+  return segment != nullptr && std::memchr(text, 0, segment->end - reinterpret_cast<uintptr_t>(text)) != nullptr;
 }
 
 } // namespace rung::runtime

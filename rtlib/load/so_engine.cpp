@@ -10,7 +10,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "rtlib/load/mapped_file.h"
+#include "rtlib/load/file.h"
 #include "rtlib/load/program_info.h"
 
 namespace rung::runtime {

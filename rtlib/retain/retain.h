@@ -15,9 +15,9 @@
 #include <thread>
 #include <vector>
 
-#include "rtlib/load/disk_file.h"
+#include "rtlib/load/file.h"
 #include "rtlib/record/published_text.h"
-#include "rtlib/retain/retain_map.h"
+#include "rtlib/retain/retained_cells.h"
 #include "rtlib/run/instance.h"
 
 namespace rung::runtime {

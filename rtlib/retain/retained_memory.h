@@ -1,16 +1,40 @@
+// The retained memory that another program has left: the cells of this one are found there by name and by address, as
+// when it takes over from a running one.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rtlib/change/state_transfer.h"
+#include "rtlib/retain/retain.h"
+#include "rtlib/run/clock.h"
+
+namespace rung::runtime {
+
+// `initial` and the result are images of the description `now`, `image` is one of `former`. What `former` does not have
+// is as in `initial`.
+struct RetainedTaken {
+  bool good = false; // a description is none, the dialect is another, or an image has another size
+  std::vector<uint8_t> image;
+  std::vector<StateChange> changes;
+  std::string otherDialect; // of `former`, where that is why; else ""
+};
+RetainedTaken takeRetained(std::string_view now, std::string_view former, std::span<const uint8_t> image,
+                           std::span<const uint8_t> initial);
+
+// The image of another program, as it was found, becomes one of this program, whose map that is; or stays not found.
+// The report says what becomes of the cells.
+using RetainTake = void (*)(const rung_program& program, const RetainMap& map, RetainImage& image);
+void takeRetainedOf(const rung_program& program, const RetainMap& map, RetainImage& image);
+
 // The retained memory of a running program on disk, as a host uses it: taken at the start, saved while the program
 // runs, and at its end. Files: FILE.a and FILE.b (see retain.h), by the dialect's addresses (see retain_map.h);
 // what another program has left there, by name and address (see retained_take.h).
 //
 // Only whole scans are saved: what a fault leaves of the scan that it stopped never reaches the disk.
-#pragma once
-#include <memory>
-
-#include "rtlib/retain/retain.h"
-#include "rtlib/retain/retained_take.h"
-#include "rtlib/run/outside.h"
-
-namespace rung::runtime {
 
 enum class RetainWhen : uint8_t {
   Always,    // after every scan

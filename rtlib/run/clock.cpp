@@ -1,4 +1,4 @@
-// The clock of the system (see clock.h).
+// The clock of the system.
 #include "rtlib/run/clock.h"
 
 #include <chrono>
@@ -8,6 +8,7 @@
 #include "rtlib/run/realtime.h"
 
 namespace rung::runtime {
+
 namespace {
 
 class SystemClock final : public Clock {

@@ -1,14 +1,58 @@
-// A program beside the memory that one instance of it needs: what another program replaces.
+// The lists of core::NeededCopies for one program, made of its tables. Allocates when it is made.
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "rtlib/core/memory.h"
 #include "rtlib/core/runner.h"
-#include "rtlib/run/copy_lists.h"
-#include "rtlib/run/overwritten.h"
+#include "rtlib/load/ref.h"
+#include "rung/program.h"
 
 namespace rung::runtime {
+
+class CopyLists {
+public:
+  // `whole`: nothing is left out.
+  CopyLists(const rung_program& program, bool whole);
+
+  core::NeededCopies views() const noexcept { return {.copies = copies_, .tasks = tasks_, .leftOut = leftOut_}; }
+
+private:
+  using Bytes = std::vector<bool>; // of the memory block
+
+  void findTouched(const rung_program& program);
+  core::NeededCopies::Range add(std::span<const rung_copy> copies);
+  void addWhole(const rung_copy& copy);
+  void addMasked(const rung_copy& copy);
+
+  uint32_t least_; // bytes: shorter copies stay whole
+  Bytes written_;  // by chunks
+  Bytes touched_;  // or read, by chunks or copies
+  std::vector<rung_copy> copies_;
+  std::vector<core::NeededCopies::Task> tasks_;
+  std::vector<rung_copy> leftOut_;
+};
+
+// Places that the input copies of a task overwrite before the program reads them: what a host writes there is lost, and
+// lasts where the copy comes from.
+
+class Overwritten {
+public:
+  explicit Overwritten(const rung_program& program) : program_(&program) {} // which outlives it
+
+  // The place that is copied over `ref`; nothing when a value written to `ref` lasts. Allocates nothing.
+  std::optional<Ref> source(const Ref& ref) const;
+
+private:
+  const rung_copy* over(uint32_t offset) const;
+
+  const rung_program* program_;
+};
+
+// A program beside the memory that one instance of it needs: what another program replaces.
 
 // What an instance runs. All outlive it; the program has passed checkProgram.
 struct Runnable {

@@ -45,7 +45,7 @@ bool isSlip(std::string_view a, std::string_view b) {
 
 } // namespace
 
-Similar::Similar(std::string_view word) : word_(text::upper(word)), bound_(word.size() <= kShortWord ? 2 : 3) {}
+Similar::Similar(std::string_view word) : word_(upper(word)), bound_(word.size() <= kShortWord ? 2 : 3) {}
 
 // Damerau's distance with three rows of the table.
 size_t Similar::distance(std::string_view candidate) const {
@@ -57,9 +57,9 @@ size_t Similar::distance(std::string_view candidate) const {
     const Row& above = rows[(i - 1) % 3];
     row[0] = i;
     for (size_t j = 1; j <= candidate.size(); ++j) {
-      const char a = word_[i - 1], b = text::upper(candidate[j - 1]);
+      const char a = word_[i - 1], b = upper(candidate[j - 1]);
       row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a == b ? 0u : 1u)});
-      const bool exchanged = i > 1 && j > 1 && a == text::upper(candidate[j - 2]) && word_[i - 2] == b;
+      const bool exchanged = i > 1 && j > 1 && a == upper(candidate[j - 2]) && word_[i - 2] == b;
       if (exchanged) row[j] = std::min(row[j], rows[(i + 1) % 3][j - 2] + 1);
     }
   }
@@ -82,7 +82,7 @@ void Similar::offer(std::string_view candidate) {
   hasRival_ = false;
 }
 
-bool Similar::certain() const { return !best_.empty() && !hasRival_ && isSlip(word_, text::upper(best_)); }
+bool Similar::certain() const { return !best_.empty() && !hasRival_ && isSlip(word_, upper(best_)); }
 
 std::string didYouMean(std::string_view word) {
   return word.empty() ? "" : "; did you mean " + std::string(word) + "?";

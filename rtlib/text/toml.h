@@ -52,7 +52,7 @@ inline Wrong findWrong(std::string_view text) {
 
 // Throws toml::parse_error. `path` is for its places.
 inline toml::table parse(std::string_view text, std::string_view path = {}) {
-  text = text::upToEndOfFile(text);
+  text = upToEndOfFile(text);
   const Wrong wrong = findWrong(text);
   if (wrong.text == nullptr) return toml::parse(text, path);
   toml::source_position place{1, 1};

@@ -2,7 +2,6 @@
 #pragma once
 #include <algorithm>
 
-#include "sim/gsk/alarms.h"
 #include "sim/gsk/axes.h"
 #include "sim/gsk/spindle.h"
 #include "sim/gsk/tables.h"

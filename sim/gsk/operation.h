@@ -1,16 +1,31 @@
-// Modes and the automatic run of the simulated CNC: cycle start, feed hold, single block, the blocks of a part program
-// with their motion and auxiliary functions (man. chapters 1.5, V, VI).
+// What a block of a part program asks of the PLC: its auxiliary functions M, S, T, B (man. §7, l.5732-6131).
 #pragma once
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <vector>
 
-#include "sim/gsk/auxiliary.h"
+#include "rtlib/nc/control/gsk/gsk_functions.h"
 #include "sim/gsk/machine.h"
 #include "sim/gsk/part_program.h"
-#include "sim/path_modes.h"
+#include "sim/part_program.h"
 
 namespace rung::sim::gsk {
+
+struct AuxiliaryCodes {
+  std::vector<uint32_t> m; // at most three
+  std::optional<uint32_t> s, t, b;
+  bool external = false; // EF of G81 (l.9450)
+  // AFL lets only M00, M01, M02, M30 through (l.5947-5952).
+  void lock();
+  bool any() const { return !m.empty() || s || t || b || external; }
+  // All of them in one slot; no other function is under way. Those beside the external one use the common answer.
+  void start(nc::GskFunctions& functions, const nc::gsk::SignalsIo& io, bool highSpeed) const;
+};
+
+// Modes and the automatic run of the simulated CNC: cycle start, feed hold, single block, the blocks of a part program
+// with their motion and auxiliary functions (man. chapters 1.5, V, VI).
 
 enum class Mode : uint8_t { None, Mdi, Auto, Edit, Handle, Jog, Zero, Dnc, Step };
 
@@ -100,6 +115,39 @@ private:
   bool externalPending_ = false;
   nc::GskFunctions functions_{nc::GskFunctions::Answer::ByLevel};
   double speed_ = 0;
+};
+
+// What the files of Operation share.
+
+struct Operation::Run {
+  const nc::gsk::SignalsIo& io;
+  Machine& machine;
+};
+
+// Manual motion of the simulated CNC: jog, single step, hand wheels, return to the reference point (man. chapters III,
+// IV).
+
+class Manual {
+public:
+  double jogSpeed = 2000; // mm/min at 100 %; the manual names no parameter
+
+  // Pulses of hand wheel 1 or 2, signed; they move the axis in hand-wheel mode and are lost elsewhere.
+  void turnWheel(uint32_t wheel, int64_t pulses) { pulses_[wheel - 1] += pulses; }
+  void step(const nc::gsk::SignalsIo& io, Machine& machine, Mode mode);
+  void stop(Machine& machine);
+
+private:
+  void jog(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t axis, bool negative);
+  void wheel(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t number);
+  void returnToReference(const nc::gsk::SignalsIo& io, Machine& machine, uint32_t axis);
+
+  std::array<int64_t, 2> pulses_ = {};
+  std::array<int64_t, kAxes> target_ = {}; // of steps and wheels, where `pending_`
+  std::array<bool, kAxes> pending_ = {};
+  uint8_t positiveWas_ = 0;
+  uint8_t negativeWas_ = 0;
+  uint8_t driven_ = 0; // axes that this part moves
+  Mode mode_ = Mode::None;
 };
 
 } // namespace rung::sim::gsk

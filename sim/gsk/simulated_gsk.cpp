@@ -7,12 +7,12 @@
 
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/config_key.h"
+#include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/gsk/gsk_control.h"
-#include "rtlib/nc/control/refuse.h"
 #include "rtlib/nc/gsk/window_functions.h"
 #include "sim/gsk/simulator.h"
 #include "sim/keys.h"
-#include "sim/relocation.h"
+#include "sim/retained_tables.h"
 #include "sim/simulated_nc.h"
 
 namespace rung::sim {

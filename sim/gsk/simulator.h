@@ -6,12 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/gsk/external_data.h"
 #include "sim/gsk/machine.h"
-#include "sim/gsk/manual.h"
 #include "sim/gsk/operation.h"
 #include "sim/gsk/plc_axes.h"
-#include "sim/gsk/spindle_positioning.h"
+#include "sim/gsk/spindle.h"
 #include "sim/gsk/window.h"
 
 namespace rung::sim::gsk {

@@ -1,10 +1,11 @@
-// Spindles of the simulated CNC (see spindle.h).
+// Spindles of the simulated CNC.
 #include "sim/gsk/spindle.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace rung::sim::gsk {
+
 namespace {
 
 constexpr double kRampPerSlot = 60;      // r/min
@@ -77,6 +78,63 @@ void Spindle::step(const nc::gsk::SignalsIo& io, const Tables& tables, bool posi
   io.setFWord(40, static_cast<uint16_t>(std::lround(std::fabs(one_.actual))));
   io.setFWord(202, static_cast<uint16_t>(std::lround(std::fabs(two_.actual))));
   io.setFByte(68, io.g(16, 0) ? static_cast<uint8_t>(one_.actual == 0 ? 0 : 20) : 0); // l.7423: no load is modelled
+}
+
+// Spindle positioning.
+
+namespace {
+
+constexpr uint32_t kEnter = 18, kLeave = 23;
+
+bool commanded(const nc::gsk::SignalsIo& io, uint32_t code) { return io.f(7, 0) && io.fDword(10) == code; }
+
+} // namespace
+
+void SpindlePositioning::step(const nc::gsk::SignalsIo& io) {
+  advance(io);
+  positioning_ = phase_ != Phase::Rotating && phase_ != Phase::LeaveReleased;
+  io.setF(39, 0, positioning_);                                              // MSPOS
+  io.setF(38, 1, phase_ == Phase::Release || phase_ == Phase::LeaveRelease); // SUCLP
+  io.setF(38, 0, phase_ == Phase::Clamp);                                    // SCLP
+}
+
+void SpindlePositioning::advance(const nc::gsk::SignalsIo& io) {
+  const bool stopped = io.g(28, 6);   // SPSTP
+  const bool released = !io.g(28, 4); // *SUCPF
+  const bool clamped = !io.g(28, 5);  // *SCPF
+  switch (phase_) {
+  case Phase::Rotating:
+    if (commanded(io, kEnter) && stopped) phase_ = Phase::StopTaken;
+    return;
+  case Phase::StopTaken:
+    if (!stopped) phase_ = Phase::Release;
+    return;
+  case Phase::Release:
+    if (released) phase_ = Phase::Released;
+    return;
+  case Phase::Released:
+    orienting_ = kOrientingSlots;
+    if (!released) phase_ = Phase::Orient;
+    return;
+  case Phase::Orient:
+    if (--orienting_ == 0) phase_ = Phase::Clamp;
+    return;
+  case Phase::Clamp:
+    if (clamped) phase_ = Phase::Clamped;
+    return;
+  case Phase::Clamped:
+    if (!clamped) phase_ = Phase::Positioned;
+    return;
+  case Phase::Positioned:
+    if (commanded(io, kLeave) && stopped) phase_ = Phase::LeaveRelease;
+    return;
+  case Phase::LeaveRelease:
+    if (released) phase_ = Phase::LeaveReleased;
+    return;
+  case Phase::LeaveReleased:
+    if (!released) phase_ = Phase::Rotating;
+    return;
+  }
 }
 
 } // namespace rung::sim::gsk

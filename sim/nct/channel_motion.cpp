@@ -7,7 +7,7 @@
 
 #include "sim/nct/axes.h"
 #include "sim/nct/bits.h"
-#include "sim/nct/macros.h"
+#include "sim/nct/parameters.h"
 #include "sim/nct/spindles.h"
 
 namespace rung::sim::nct {

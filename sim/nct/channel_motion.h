@@ -3,10 +3,9 @@
 #pragma once
 #include <array>
 
-#include "sim/nct/channel_program.h"
-#include "sim/nct/channel_signals.h"
+#include "sim/nct/channel_functions.h"
 #include "sim/nct/topic.h"
-#include "sim/path_modes.h"
+#include "sim/part_program.h"
 
 namespace rung::sim::nct {
 

@@ -1,4 +1,4 @@
-// The network in memory (see memory_line.h).
+// The network in memory.
 #include "sim/nct/memory_line.h"
 
 #include <algorithm>

@@ -1,12 +1,14 @@
-// The parameters of the control (see parameters.h).
+// The parameters of the control.
 #include "sim/nct/parameters.h"
 
 #include <cmath>
 #include <cstdlib>
 
+#include "sim/nct/channels.h"
 #include "sim/nct/checksum.h"
 
 namespace rung::sim::nct {
+
 namespace {
 
 constexpr uint32_t kReadDword = 31;
@@ -195,6 +197,181 @@ Handled Parameters::setQuantity(std::string_view name, double value) {
   changed();
   writeConstants();
   return wrong;
+}
+
+// Macro variables.
+
+namespace {
+
+constexpr uint32_t kFromPlc = 1000;
+constexpr uint32_t kToPlc = 1100;
+constexpr uint32_t kBits = 32; // then the double word, then three doubles
+
+uint32_t asWord(double value) {
+  return std::abs(value) < 4294967296.0 ? static_cast<uint32_t>(static_cast<int64_t>(value)) : 0;
+}
+
+// Variable `n` of one of the two groups: its bits, its double word, its doubles.
+double groupRead(const SignalMemory& signals, const WordSignal& bits, const RealSignal (&reals)[3], uint32_t n,
+                 uint32_t channel) {
+  const auto word = static_cast<uint32_t>(signals.get(bits, channel));
+  if (n < kBits) return word >> n & 1;
+  return n == kBits ? word : signals.get(reals[n - kBits - 1], channel);
+}
+
+} // namespace
+
+std::optional<double> Macros::read(int64_t variable, int64_t channel) const {
+  if (variable < kFirst || variable > kLast || channel < 0 || channel >= nc::nct::kChannels) return std::nullopt;
+  return const_cast<Macros*>(this)->place(static_cast<uint32_t>(variable), static_cast<uint32_t>(channel));
+}
+
+bool Macros::write(int64_t variable, int64_t channel, double value) {
+  if (!read(variable, channel)) return false;
+  place(static_cast<uint32_t>(variable), static_cast<uint32_t>(channel)) = value;
+  return true;
+}
+
+std::optional<double> Macros::programRead(uint32_t variable, uint32_t channel) const {
+  if (channel >= nc::nct::kChannels) return std::nullopt;
+  if (variable >= kFromPlc && variable <= kFromPlc + kBits + 3)
+    return groupRead(links().signals, bitsToProgram_, toProgram_, variable - kFromPlc, channel);
+  if (variable >= kToPlc && variable <= kToPlc + kBits + 3)
+    return groupRead(links().signals, bitsToPlc_, toPlc_, variable - kToPlc, channel);
+  return read(variable, channel);
+}
+
+bool Macros::programWrite(uint32_t variable, uint32_t channel, double value) {
+  if (channel >= nc::nct::kChannels) return false;
+  if (variable >= kFirst && variable <= kLast) {
+    place(variable, channel) = value;
+    return true;
+  }
+  if (variable < kToPlc || variable > kToPlc + kBits + 3) return false;
+  const SignalMemory& signals = links().signals;
+  const uint32_t n = variable - kToPlc;
+  const auto word = static_cast<uint32_t>(signals.get(bitsToPlc_, channel));
+  const uint32_t mask = n < kBits ? uint32_t{1} << n : 0;
+  if (n < kBits)
+    signals.set(bitsToPlc_, channel, static_cast<int32_t>(value != 0 ? word | mask : word & ~mask));
+  else if (n == kBits)
+    signals.set(bitsToPlc_, channel, static_cast<int32_t>(asWord(value)));
+  else
+    signals.set(toPlc_[n - kBits - 1], channel, value);
+  return true;
+}
+
+std::optional<double> Macros::quantity(std::string_view name) const {
+  const auto key = numbersAfter(name, "MACRO.");
+  if (!key || key->size() != 2 || (*key)[0] < 1) return std::nullopt;
+  return programRead((*key)[1], (*key)[0] - 1);
+}
+
+Handled Macros::setQuantity(std::string_view name, double value) {
+  const auto key = numbersAfter(name, "MACRO.");
+  if (!key) return std::nullopt;
+  if (key->size() != 2 || (*key)[0] < 1 || !programWrite((*key)[1], (*key)[0] - 1, value))
+    return "NC.MACRO.C.N: channel 1 to 8, variable 100 to 999 or 1100 to 1135";
+  return "";
+}
+
+void Macros::powerOn(nc::PowerOn kind) {
+  volatile_ = {};
+  if (kind == nc::PowerOn::Cold) kept_ = {};
+}
+
+void Macros::keep(Kept& kept) { kept.value(kept_); }
+
+// MR 10 and MW 11.
+
+namespace {
+
+constexpr uint32_t kRead = 10;
+constexpr uint32_t kWrite = 11;
+
+uint32_t sumOf(const std::array<int32_t, kNvramWords>& words) { return nct::checksum(std::span<const int32_t>(words)); }
+
+} // namespace
+
+Nvram::Nvram(Links& links) : Topic(links), checksum_(sumOf(words_)) {}
+
+bool Nvram::serves(bool write, uint32_t function) const { return function == (write ? kWrite : kRead); }
+
+// The codes in the order of the manual (l.3586-3598, 3627-3636), but for the checksum: a request that is wrong in
+// itself is answered as that. A destination that reaches beyond word 9999 is the PLC address' error (11).
+std::optional<int32_t> Nvram::service(uint32_t function, Block& block) {
+  if (block.amount() != 3) return 2;
+  const int32_t first = block.word(2);
+  const int32_t address = block.word(3);
+  const int32_t count = block.word(4);
+  if (first < 0 || first >= kNvramWords) return 10;
+  const PlcMemory& memory = links().memory;
+  if (address < 0 || static_cast<uint32_t>(address) < memory.plcNvram()) return 11;
+  if (count < 1 || count > kNvramWords - first) return 12;
+  if (!memory.contains(address, count)) return 11;
+  if (function == kRead && sumOf(words_) != checksum_) return 4;
+  auto place = static_cast<uint32_t>(address);
+  for (int32_t& word : std::span(words_).subspan(static_cast<size_t>(first), static_cast<size_t>(count))) {
+    if (function == kRead)
+      memory.setWord(place, word);
+    else
+      word = memory.word(place);
+    ++place;
+  }
+  if (function == kWrite) checksum_ = sumOf(words_); // l.3606: the code follows the new checksum
+  return 0;
+}
+
+Handled Nvram::event(std::string_view name, const std::vector<NcArgument>& keys) {
+  if (std::string wrong = unknownKey(name, keys, {}); !wrong.empty()) return wrong;
+  words_[0] ^= 1;
+  return "";
+}
+
+std::optional<double> Nvram::quantity(std::string_view name) const {
+  const auto key = numbersAfter(name, "NVRAM.");
+  if (!key || key->size() != 1 || (*key)[0] >= words_.size()) return std::nullopt;
+  return words_[(*key)[0]];
+}
+
+Handled Nvram::setQuantity(std::string_view name, double value) {
+  const auto key = numbersAfter(name, "NVRAM.");
+  if (!key) return std::nullopt;
+  if (key->size() != 1 || (*key)[0] >= words_.size()) return "NC.NVRAM has the words 0 to 1023";
+  words_[(*key)[0]] = static_cast<int32_t>(static_cast<int64_t>(value));
+  checksum_ = sumOf(words_);
+  return "";
+}
+
+void Nvram::powerOn(nc::PowerOn kind) {
+  if (kind == nc::PowerOn::Warm) return;
+  words_ = {};
+  checksum_ = sumOf(words_);
+}
+
+void Nvram::keep(Kept& kept) {
+  kept.value(words_);
+  kept.value(checksum_);
+}
+
+// MW 40.
+
+bool ProgramSelection::serves(bool write, uint32_t function) const { return write && function == 40; }
+
+// Code 2 is printed as "not 1", the amount as "always 2" (l.3905-3925). A request waits while a program runs, CN_START
+// or CN_STOP (l.5890): its output is not TRUE until then (l.3899). Word 3 is printed as 0 after the execution
+// (l.3919). The codes of other functions (6.29) are taken for what this one's table leaves out: 41 for the channel.
+std::optional<int32_t> ProgramSelection::service(uint32_t, Block& block) {
+  if (block.amount() != 2) return 2;
+  const int32_t number = block.word(2);
+  const int32_t channel = block.word(3);
+  if (channel < 1 || channel > static_cast<int32_t>(nc::nct::kChannels)) return 41;
+  const auto index = static_cast<uint32_t>(channel) - 1;
+  if (links().signals.get(start_, index) || links().signals.get(stop_, index)) return std::nullopt;
+  if (!links().channels->hasProgram(number)) return 40;
+  links().channels->select(index, number);
+  block.setWord(3, 0);
+  return 0;
 }
 
 } // namespace rung::sim::nct

@@ -1,6 +1,7 @@
 // The parameters of the control: MR 31, 32, MW 34, 35 (man. 6.20) and the PLC constants in the NC area (man. 7.11).
 // Other topics read what concerns them. A warm start keeps what the program wrote.
 #pragma once
+#include <array>
 #include <vector>
 
 #include "rtlib/nc/nct/parameters.h"
@@ -72,6 +73,84 @@ private:
   std::vector<BitSignal> constantBits_; // N_P00 to N_P77
   WordSignal constantWords_{"N_PDW1"};
   RealSignal constantReals_{"N_PDB1"};
+};
+
+// The common macro variables of the channels, #100-#499 volatile, #500-#999 kept (man. 6.16), and the variables that
+// are signals: #1000-#1035 from the PLC, #1100-#1135 to it (man. 7.15).
+
+class Macros final : public Topic {
+public:
+  using Topic::Topic;
+
+  // MACR and MACW: variables 100 to 999, channels from 0. Nothing, false: wrong variable or channel. That P_MAC forbids
+  // writing (l.8121) is the instruction's own check: it sees the bit of this very cycle.
+  std::optional<double> read(int64_t variable, int64_t channel) const;
+  bool write(int64_t variable, int64_t channel, double value);
+
+  // As a part program sees them: #100-#999, #1000-#1035 (read only), #1100-#1135.
+  std::optional<double> programRead(uint32_t variable, uint32_t channel) const;
+  bool programWrite(uint32_t variable, uint32_t channel, double value);
+
+  std::optional<double> quantity(std::string_view name) const override;
+  Handled setQuantity(std::string_view name, double value) override;
+  void powerOn(nc::PowerOn kind) override;
+  void keep(Kept& kept) override;
+
+private:
+  static constexpr uint32_t kFirst = 100;
+  static constexpr uint32_t kFirstKept = 500;
+  static constexpr uint32_t kLast = 999;
+  static constexpr uint32_t kVolatile = kFirstKept - kFirst;
+  static constexpr uint32_t kKeptVariables = kLast - kFirstKept + 1;
+
+  double& place(uint32_t variable, uint32_t channel) {
+    return variable < kFirstKept ? volatile_[channel][variable - kFirst] : kept_[channel][variable - kFirstKept];
+  }
+
+  std::array<std::array<double, kVolatile>, nc::nct::kChannels> volatile_{};
+  std::array<std::array<double, kKeptVariables>, nc::nct::kChannels> kept_{};
+  WordSignal bitsToProgram_{"CP_1032"};
+  RealSignal toProgram_[3] = {RealSignal("CP_1033"), RealSignal("CP_1034"), RealSignal("CP_1035")};
+  WordSignal bitsToPlc_{"CN_1132"};
+  RealSignal toPlc_[3] = {RealSignal("CN_1133"), RealSignal("CN_1134"), RealSignal("CN_1135")};
+};
+
+// The 1024 non-volatile double words of controls that do not keep PLCNVRAM by themselves: MR 10 and MW 11 (man. 6.19).
+
+inline constexpr int32_t kNvramWords = 1024;
+
+class Nvram final : public Topic {
+public:
+  explicit Nvram(Links& links);
+
+  bool serves(bool write, uint32_t function) const override;
+  std::optional<int32_t> service(uint32_t function, Block& block) override;
+  std::span<const std::string_view> events() const override {
+    static constexpr std::string_view kEvents[] = {"damage_nvram"};
+    return kEvents;
+  }
+  Handled event(std::string_view name, const std::vector<NcArgument>& keys) override;
+  std::optional<double> quantity(std::string_view name) const override;
+  Handled setQuantity(std::string_view name, double value) override;
+  void powerOn(nc::PowerOn kind) override;
+  void keep(Kept& kept) override;
+
+private:
+  std::array<int32_t, kNvramWords> words_{};
+  uint32_t checksum_ = 0;
+};
+
+// MW 40: a part program, by its number, for execution in automatic mode (man. 6.21).
+
+class ProgramSelection final : public Topic {
+public:
+  using Topic::Topic;
+  bool serves(bool write, uint32_t function) const override;
+  std::optional<int32_t> service(uint32_t function, Block& block) override;
+
+private:
+  BitSignal start_{"CN_START"};
+  BitSignal stop_{"CN_STOP"};
 };
 
 } // namespace rung::sim::nct

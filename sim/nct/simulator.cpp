@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "rtlib/load/program_info.h"
-#include "sim/relocation.h"
+#include "sim/retained_tables.h"
 
 namespace rung::sim::nct {
 

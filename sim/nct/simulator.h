@@ -9,18 +9,13 @@
 #include "sim/nct/channels.h"
 #include "sim/nct/drives.h"
 #include "sim/nct/machine_on.h"
-#include "sim/nct/macros.h"
-#include "sim/nct/mailbox.h"
 #include "sim/nct/network.h"
-#include "sim/nct/nvram.h"
-#include "sim/nct/pallet_management.h"
+#include "sim/nct/pallets.h"
 #include "sim/nct/parameters.h"
-#include "sim/nct/program_selection.h"
 #include "sim/nct/scope.h"
 #include "sim/nct/screen.h"
 #include "sim/nct/spindles.h"
 #include "sim/nct/tool_management.h"
-#include "sim/nct/wiring.h"
 
 namespace rung::sim::nct {
 

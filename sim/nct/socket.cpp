@@ -1,4 +1,4 @@
-// Sockets on the loopback (see socket.h).
+// Sockets on the loopback.
 #include "sim/nct/socket.h"
 
 #include <arpa/inet.h>
@@ -11,6 +11,7 @@
 #include <utility>
 
 namespace rung::sim::nct {
+
 namespace {
 
 constexpr uint32_t kLoopback = 0x7F000000; // 127.0.0.0/8
@@ -162,6 +163,40 @@ uint16_t Socket::port() const {
   socklen_t size = sizeof own;
   if (fd_ < 0 || ::getsockname(fd_, generic(own), &size) != 0) return 0;
   return ntohs(own.sin_port);
+}
+
+// Sockets at 127.0.0.1.
+
+namespace {
+
+constexpr uint32_t kHome = 0x7F000001;
+
+} // namespace
+
+int32_t SocketLine::openUdp(uint16_t port) {
+  close();
+  return socket_.openUdp({kHome, port});
+}
+
+int32_t SocketLine::listen(uint16_t port) {
+  close();
+  return listener_.listen({kHome, port});
+}
+
+int32_t SocketLine::connect(Endpoint to, int settleMs) {
+  close();
+  const int32_t error = socket_.connect({kHome, 0}, to);
+  if (error == 0 && settleMs > 0) socket_.writable(settleMs);
+  return error;
+}
+
+void SocketLine::accept() {
+  if (!socket_.isOpen()) socket_ = listener_.accept();
+}
+
+void SocketLine::close() {
+  listener_.close();
+  socket_.close();
 }
 
 } // namespace rung::sim::nct

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "rtlib/nc/nct/parameters.h"
-#include "sim/nct/tool_tables.h"
+#include "sim/nct/tool_table.h"
 
 namespace rung::sim::nct {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/nct/cartridge_search.h"
 #include "sim/nct/parameters.h"
 #include "sim/nct/tool_life.h"
+#include "sim/nct/tool_table.h"
 #include "sim/nct/topic.h"
 
 namespace rung::sim::nct {

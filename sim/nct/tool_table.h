@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/nct/kept.h"
@@ -110,6 +111,178 @@ public:
 
 private:
   std::vector<ToolRow> rows_ = std::vector<ToolRow>(1); // row 0 is nobody's
+};
+
+// The cartridge management table (man. 6.26.2, l.4443-4497): which tool, by its data number, is in which pot.
+// Cartridges 1-4 are magazines, 10 * s is spindle s and 10 * s + 1 its standby cartridge, both of one pot.
+//
+// Invariant: a data number is in one pot at most.
+
+inline constexpr uint32_t kMagazines = 4;
+
+// A cartridge of the chain type is a ring of one row; the pots of a matrix are counted row by row.
+struct CartridgeShape {
+  uint32_t number = 0;
+  uint32_t firstPot = 1;
+  uint32_t columns = 1;
+  uint32_t rows = 1;
+  bool matrix = false;
+
+  uint32_t pots() const { return columns * rows; }
+  bool magazine() const { return number <= kMagazines; }
+};
+
+struct PotPlace {
+  uint32_t cartridge = 0;
+  uint32_t pot = 0;
+  bool operator==(const PotPlace&) const = default;
+};
+
+class CartridgeTable {
+public:
+  // All pots are empty. `shapes` in the order of the table's rows, each number once; data numbers go from 1 to
+  // `dataNumbers`. Nothing else allocates.
+  void build(std::span<const CartridgeShape> shapes, uint32_t dataNumbers);
+  void clear();
+
+  uint32_t size() const { return static_cast<uint32_t>(pots_.size()); } // rows of the table: serial numbers 1 to size
+  PotPlace place(uint32_t serial) const;
+
+  const CartridgeShape* find(uint32_t cartridge) const;
+  bool hasPot(PotPlace place) const { return index(place).has_value(); }
+
+  // 0: no tool, or no such pot.
+  uint32_t dataNumber(PotPlace place) const;
+  // A pot that holds the number already gives it away.
+  void put(PotPlace place, uint32_t dataNumber);
+  void exchange(PotPlace first, PotPlace second);
+  std::optional<PotPlace> placeOf(uint32_t dataNumber) const;
+  void take(uint32_t dataNumber); // out of its pot
+  void keep(Kept& kept);
+
+private:
+  struct Cartridge {
+    CartridgeShape shape;
+    uint32_t first = 0; // of its pots in pots_
+  };
+  std::optional<uint32_t> index(PotPlace place) const;
+  void write(uint32_t index, uint32_t dataNumber);
+
+  std::vector<Cartridge> cartridges_;
+  std::vector<uint32_t> pots_;   // data numbers
+  std::vector<uint32_t> serial_; // by data number: row of its pot, from 1; 0: in none
+};
+
+// The order in which pots and pallet places are searched: numbers in a ring, in one direction or both (MR 101, man.
+// l.4690; MR 308, man. l.5779).
+
+enum class SearchDirection : uint8_t { Both, Positive, Negative };
+
+constexpr SearchDirection searchDirection(int32_t word) {
+  return word == 1 ? SearchDirection::Positive : word == 2 ? SearchDirection::Negative : SearchDirection::Both;
+}
+// Of a magazine that turns there: 1 or 2.
+constexpr int32_t rotationWord(SearchDirection direction) { return direction == SearchDirection::Negative ? 2 : 1; }
+
+// The nearest to `start` of `count` places (from 0, a ring) that `fits`, the start itself first; of two at the same
+// distance the one in positive direction. With it the direction to turn to: Positive or Negative.
+template <class Fits>
+std::optional<std::pair<uint32_t, SearchDirection>> nearestPlace(uint32_t start, uint32_t count,
+                                                                 SearchDirection direction, Fits fits) {
+  for (uint32_t step = 0; step < count; ++step) {
+    const uint32_t up = (start + step) % count;
+    const uint32_t down = (start + count - step) % count;
+    if (direction != SearchDirection::Negative && fits(up)) return std::pair{up, SearchDirection::Positive};
+    if (direction != SearchDirection::Positive && fits(down)) return std::pair{down, SearchDirection::Negative};
+  }
+  return std::nullopt;
+}
+
+// The tool pattern table (man. 6.26.3, l.4498-4612): how much room the figures of oversize tools take around their pot,
+// in half pots. Figure 0 and rows that were never written take one pot.
+
+struct ToolPattern {
+  uint32_t left = 0; // towards lower pot numbers
+  uint32_t right = 0;
+  uint32_t up = 0; // towards lower rows; matrix-type cartridges only
+  uint32_t down = 0;
+  bool round = false; // geometry B: the corners stay empty
+};
+
+class PatternTable {
+public:
+  static constexpr uint32_t kRows = 20; // l.4543
+
+  static bool has(uint32_t figure) { return figure >= 1 && figure <= kRows; }
+  const ToolPattern& row(uint32_t figure) const { return rows_[figure <= kRows ? figure : 0]; }
+  void set(uint32_t figure, const ToolPattern& pattern) {
+    if (has(figure)) rows_[figure] = pattern;
+  }
+  void clear() { rows_.fill({}); }
+  void keep(Kept& kept) { kept.value(rows_); }
+
+private:
+  std::array<ToolPattern, kRows + 1> rows_{};
+};
+
+// The three tables of the tool management (man. 6.26.1-6.26.3). They are one for all channels.
+//
+// Invariant: a data number in a pot is a row of the tool table.
+
+// What the NC finds for a T code (l.4362-4372, 10742-10772).
+struct ToolPick {
+  bool expired = false;    // CN_TLLE: tools of the type are expired or broken, none is left (l.9733)
+  uint32_t dataNumber = 0; // 0: none that can be searched is in a pot
+  PotPlace place;          // of it, else 0, 0
+};
+
+struct ToolTables {
+  ToolTable tools;
+  CartridgeTable cartridges;
+  PatternTable patterns;
+
+  // Room in the cartridges; normal tools, figure 0 and no tool take one pot (l.4374-4380).
+  const ToolPattern& patternOf(uint32_t dataNumber) const;
+
+  // Of the tools with this type number in a pot that can be searched, the one with the greatest life counter, of equal
+  // ones the lowest data number.
+  ToolPick pick(int32_t type) const;
+  // No tool with this type number can be searched, and one has expired or is broken.
+  bool groupExpired(int32_t type) const;
+
+  // The row becomes free and its pot empty.
+  void remove(uint32_t dataNumber);
+};
+
+// Search of an empty pot for a tool (man. 6.26.3 and 6.26.5, l.4498-4718). Room is counted in cells of half a pot: a
+// chain-type cartridge is a ring of cells, a matrix a field with two cells a pot in either direction. A tool fits where
+// none of its cells is another tool's; half a pot that is left over takes no tool, but it takes the half of a
+// neighbour.
+
+struct PotSearch {
+  uint32_t cartridge = 0;
+  uint32_t start = 0; // a pot of it
+  SearchDirection direction = SearchDirection::Both;
+  uint32_t tool = 0; // data number of the tool that looks for a place: its own cells are free; 0: takes one pot
+};
+
+struct PotFound {
+  uint32_t pot = 0;
+  SearchDirection rotation = SearchDirection::Positive; // of the magazine, never Both
+};
+
+class PotFinder {
+public:
+  // For the largest magazine of the table; `find` does not allocate.
+  void reserve(const CartridgeTable& table);
+  // The nearest empty pot in the direction, the start first; of two at the same distance the one in positive direction.
+  // Pot numbers wrap round. Only magazines are searched (l.4672).
+  std::optional<PotFound> find(const ToolTables& tables, const PotSearch& search);
+
+private:
+  void markTools(const ToolTables& tables, const CartridgeShape& shape, uint32_t moving);
+
+  std::vector<uint8_t> taken_; // cells
 };
 
 } // namespace rung::sim::nct

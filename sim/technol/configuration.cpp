@@ -7,8 +7,7 @@
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/nc/control/technol/values.h"
 #include "rtlib/nc/technol/code_page.h"
-#include "rtlib/nc/technol/configuration.h"
-#include "rtlib/nc/technol/licences.h"
+#include "rtlib/nc/technol/services.h"
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 

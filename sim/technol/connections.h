@@ -1,20 +1,143 @@
-// The connections of logical inputs and outputs, and the configuration of mapped ones (man. ch. 10, 27): a table of
-// wires, made when the program has declared what it has.
+// One connection as it is served: from where, to where, how the value changes on the way. Made before the program runs;
+// copying allocates nothing and looks nothing up.
 #pragma once
 #include <compare>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "machine/host/control_files.h"
+#include "rtlib/change/relocation.h"
+#include "rtlib/nc/technol/exchange.h"
+#include "rtlib/run/instance.h"
 #include "sim/technol/module_cells.h"
-#include "sim/technol/shared_variables.h"
-#include "sim/technol/wire.h"
 
 namespace rung::sim::technol {
+
+// A place that a connection begins or ends at: a bit, a number or a text.
+struct Pin {
+  enum class Kind : uint8_t {
+    Memory,  // the number or bit at `located`, which is `place`
+    Text,    // at `place`
+    Cell,    // of a module
+    CellBit, // a bit of a module's cell
+  };
+  Kind kind = Kind::Memory;
+  nc::ExchangeType type = nc::ExchangeType::Bit;
+  uint8_t bit = 0;   // of the cell
+  uint32_t cell = 0; // its number
+  core::Place located;
+  runtime::Ref place;
+};
+inline bool isOfModule(const Pin& pin) { return pin.kind == Pin::Kind::Cell || pin.kind == Pin::Kind::CellBit; }
+inline bool isMemoryBit(const Pin& pin) { return pin.kind == Pin::Kind::Memory && pin.type == nc::ExchangeType::Bit; }
+Pin pinAt(const rung_program& program, const runtime::Ref& place, nc::ExchangeType type);
+
+// (min(max(x, least), most) + before) * scale + after, then held between low and high.
+struct Stage {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double least = -kInfinity, most = kInfinity;
+  double before = 0, scale = 1, after = 0;
+  double low = -kInfinity, high = kInfinity;
+  bool operator==(const Stage&) const = default;
+};
+
+struct Wire {
+  static constexpr size_t kStages = 3;
+  Pin from, to;
+  bool invert = false;
+  bool joins = false;    // ORed to what another wire has put there
+  bool isShared = false; // its end is one that others join or have set
+  bool isBit = false;    // from a bit of the memory to another: most are
+  uint8_t stageCount = 0;
+  Stage stages[kStages];
+  nc::ExchangePeriod period = nc::ExchangePeriod::Slow;
+  uint64_t target = kNoTarget; // the element of a DEF_IN that it ends in
+  bool whole = true;           // and not in a bit of it
+
+  static constexpr uint64_t kNoTarget = UINT64_MAX;
+  static uint64_t targetOf(uint32_t space, uint32_t byte) { return uint64_t{space} << 32 | byte; }
+};
+
+class WireMemory {
+public:
+  WireMemory(runtime::Instance& instance, ModuleCells& cells) : memory_(instance.memory()), cells_(&cells) {}
+  void copy(const Wire& wire) const;
+  // The value that would be copied, in the bits of the wire's end; not of texts.
+  uint64_t valueOf(const Wire& wire) const;
+
+private:
+  uint64_t read(const Pin& pin) const;
+  void write(const Pin& pin, uint64_t bits) const;
+  void copyText(const Wire& wire) const;
+
+  core::Memory memory_;
+  ModuleCells* cells_;
+};
+
+// The variables of a running program that its control knows by names: mapped and logical inputs and outputs, and what
+// SHARE_VAR and SHARE_BIT share (man. ch. 10, 18.2, 27). The program declares them while it starts.
+
+struct SharedVariable {
+  std::string name; // as the program writes it
+  nc::ExchangeKind kind = nc::ExchangeKind::Variable;
+  nc::ExchangeType type = nc::ExchangeType::Uns8;
+  nc::ExchangePeriod period = nc::ExchangePeriod::Slow;
+  uint32_t count = 1; // elements, or bytes of a text
+  uint32_t space = 0, byte = 0, bit = 0;
+  std::optional<runtime::Ref> least, most; // of SHARE_VAR: reals
+
+  // What the program takes from the control; a screen may write it.
+  bool isInput() const {
+    return kind == nc::ExchangeKind::MapIn || kind == nc::ExchangeKind::MapAin || kind == nc::ExchangeKind::DefIn;
+  }
+  bool isMapped() const { return nc::isMapped(kind); }
+  bool isLogical() const { return kind == nc::ExchangeKind::DefIn || kind == nc::ExchangeKind::DefOut; }
+  bool isText() const { return nc::isText(type); }
+};
+
+// The place of an element.
+runtime::Ref placeOf(const SharedVariable& variable, uint32_t element);
+
+class SharedVariables {
+public:
+  SharedVariables() { all_.reserve(kUsual); }
+  void clear();
+  // False where the name has another meaning already, or the place is not in the program's memory. `isNew` says
+  // whether something has changed.
+  bool define(const rung_program& program, SharedVariable variable, bool& isNew);
+
+  // In another program; those that it does not have are dropped.
+  void relocate(const runtime::Relocation& relocation);
+
+  const std::vector<SharedVariable>& all() const { return all_; }
+  // By a canonical identifier of a DEF_IN or DEF_OUT.
+  const SharedVariable* logical(nc::ExchangeKind kind, std::string_view identifier) const;
+  // By the name that a screen uses: of any kind, with the index of an element and `.Bit[k]` after it, as `PLC.Input.`
+  // or `PLC.Output.` identifier or the identifier alone.
+  std::optional<runtime::Ref> find(std::string_view name, bool toWrite) const;
+  // Of MAP_* and DEF_*: the variable that holds the place, and which of its elements.
+  const SharedVariable* at(const runtime::Ref& place, uint32_t& element) const;
+
+private:
+  static constexpr size_t kUsual = 1024; // more than that allocate when they are defined
+  const SharedVariable* byName(std::string_view name, bool toWrite) const;
+
+  std::vector<SharedVariable> all_;
+  // By kind (see cpp) and canonical identifier.
+  std::unordered_map<std::string, uint32_t> byKey_;
+};
+
+// What kDefineService declares.
+std::optional<SharedVariable> variableOf(const core::ServiceRequest& request);
+
+// The connections of logical inputs and outputs, and the configuration of mapped ones (man. ch. 10, 27): a table of
+// wires, made when the program has declared what it has.
 
 class Connections {
 public:

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "rtlib/core/queues.h"
+#include "rtlib/run/instance.h"
 #include "sim/simulated_nc.h"
 
 namespace rung::sim::technol {
@@ -23,5 +25,11 @@ std::vector<std::string_view> programEvents();
 // PLCEVENT_... calls _ON_EVENT, PLCCOMMAND calls _ON_CMD. "" or why not; nothing where the name is not such an event.
 std::optional<std::string> callEvent(runtime::Instance& instance, std::string_view name,
                                      std::span<const NcArgument> keys, const ConstantOf& constantOf);
+
+// What an answer that comes later than its instruction does in the interface: SPI_AX ends with POLOHV_x, CAN_AX_SEND
+// with CAN_AX_BUSY and the packet of the drive (man. l.7964, l.9474-9493).
+
+// Between two scans.
+void showLateAnswer(runtime::Instance& instance, const core::ServiceRequest& request, std::string_view bytes);
 
 } // namespace rung::sim::technol

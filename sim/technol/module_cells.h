@@ -11,7 +11,7 @@
 
 #include "rtlib/nc/technol/exchange.h"
 #include "sim/simulated_nc.h"
-#include "sim/technol/devices/ethercat_image.h"
+#include "sim/technol/devices/ethercat_slaves.h"
 
 namespace rung::sim::technol {
 

@@ -9,14 +9,12 @@
 #include "rtlib/nc/control/technol/cells.h"
 #include "rtlib/nc/control/technol/technol_control.h"
 #include "rtlib/nc/faults.h"
-#include "rtlib/nc/technol/configuration.h"
-#include "rtlib/nc/technol/licences.h"
+#include "rtlib/nc/technol/services.h"
 #include "rtlib/text/letters.h"
 #include "sim/simulated_nc.h"
 #include "sim/technol/configuration.h"
 #include "sim/technol/events.h"
 #include "sim/technol/exchange.h"
-#include "sim/technol/late_answers.h"
 #include "sim/technol/requests/simulated_devices.h"
 
 namespace rung::sim {

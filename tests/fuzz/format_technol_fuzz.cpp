@@ -3,7 +3,7 @@
 #include "tests/fuzz/format_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  rung::fuzz::formatBytes(rung::frontend::kTechnol, ".plc", '\x01',
+  rung::fuzz::formatBytes(rung::frontend::technol::kTechnol, ".plc", '\x01',
                           std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }

@@ -14,7 +14,7 @@
 #include <span>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/load/mapped_file.h"
+#include "rtlib/load/file.h"
 #include "rtlib/load/program_info.h"
 #include "rtlib/load/so_engine.h"
 #include "tests/fuzz/mutations.h"

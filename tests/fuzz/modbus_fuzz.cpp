@@ -12,7 +12,6 @@
 
 #include "ir/support/check.h"
 #include "machine/io/connections/modbus_image.h"
-#include "machine/io/connections/registers.h"
 #include "machine/io/connections/socket.h"
 #include "tests/support/faultless_map.h"
 

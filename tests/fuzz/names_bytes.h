@@ -7,7 +7,7 @@
 
 #include "ir/support/check.h"
 #include "tests/fuzz/split_files.h"
-#include "tools/report/module_reference.h"
+#include "tools/report/cross_reference.h"
 #include "tools/report/odd_names.h"
 #include "tools/view/drawn_program.h"
 #include "tools/view/html.h"

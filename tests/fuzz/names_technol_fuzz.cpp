@@ -4,7 +4,7 @@
 #include "tests/fuzz/names_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  rung::fuzz::nameBytes(rung::frontend::kTechnol, ".plc", '\x01',
+  rung::fuzz::nameBytes(rung::frontend::technol::kTechnol, ".plc", '\x01',
                         std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }

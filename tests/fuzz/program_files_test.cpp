@@ -8,7 +8,7 @@
 #include <random>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 #include "rtlib/load/so_engine.h"
 #include "tests/fuzz/mutations.h"
 

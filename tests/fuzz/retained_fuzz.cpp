@@ -20,7 +20,7 @@
 #include "ir/support/check.h"
 #include "ir/support/temporary_folder.h"
 #include "rtlib/retain/retain.h"
-#include "rtlib/retain/retained_take.h"
+#include "rtlib/retain/retained_memory.h"
 
 namespace {
 

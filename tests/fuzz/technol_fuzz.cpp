@@ -3,6 +3,6 @@
 #include "tests/fuzz/compile_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  rung::fuzz::compileBytes(rung::frontend::kTechnol, ".plc", '\x01', data, size);
+  rung::fuzz::compileBytes(rung::frontend::technol::kTechnol, ".plc", '\x01', data, size);
   return 0;
 }

@@ -14,8 +14,8 @@
 #include "machine/control/controller.h"
 #include "machine/control/log.h"
 #include "machine/host/box.h"
-#include "machine/io/connections/exchange.h"
-#include "rtlib/load/disk_file.h"
+#include "machine/io/connections/connections.h"
+#include "rtlib/load/file.h"
 #include "rtlib/run/clock.h"
 #include "tests/host-sim/programs.h"
 

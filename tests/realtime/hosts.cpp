@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "machine/host/box.h"
-#include "rtlib/nc/control/retention.h"
+#include "rtlib/nc/control/control.h"
 #include "rtlib/run/realtime.h"
 #include "tests/realtime/guard.h"
 #include "tests/realtime/places.h"

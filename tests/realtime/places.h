@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "machine/host/mapping_file.h"
-#include "rtlib/core/place_list.h"
+#include "rtlib/core/memory.h"
 #include "rtlib/nc/control/control.h"
 
 namespace rung::test {

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <string>
 
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 #include "tests/replace/programs.h"
 #include "tests/support/cpp_program.h"
 

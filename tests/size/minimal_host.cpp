@@ -9,7 +9,6 @@
 
 #include "rtlib/load/so_engine.h"
 #include "rtlib/nc/control/control.h"
-#include "rtlib/nc/control/retention.h"
 
 using namespace rung;
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "ir/text/text.h"
-#include "rtlib/change/compare.h"
+#include "rtlib/change/shadow.h"
 #include "rtlib/nc/names/names.h"
 
 namespace rung::testing {

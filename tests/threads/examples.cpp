@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 #include "tests/support/cpp_program.h"
 
 namespace rung::test {

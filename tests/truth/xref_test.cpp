@@ -17,7 +17,7 @@
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/nc/signals.h"
-#include "rtlib/run/overwritten.h"
+#include "rtlib/run/loaded_program.h"
 #include "rtlib/text/letters.h"
 #include "tests/truth/programs.h"
 #include "tools/report/cross_reference.h"

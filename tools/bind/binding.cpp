@@ -8,7 +8,7 @@
 #include <ranges>
 #include <span>
 
-#include "machine/host/mapping_mistake.h"
+#include "machine/host/mapping_file.h"
 #include "rtlib/text/similar.h"
 #include "rung/runtime.hpp"
 #include "rung/types.hpp"

@@ -1,14 +1,16 @@
 // See generate.h.
 #include "tools/bind/generate.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <iterator>
 #include <set>
 
-#include "tools/bind/claim.h"
+#include "tools/bind/member.h"
 
 namespace rung::bind {
+
 namespace {
 
 using codegen::HostLayout;
@@ -229,6 +231,23 @@ private:
 
 std::string generate(const Binding& binding, const HostLayout& layout, const Names& names) {
   return Writer(binding, layout, names).write();
+}
+
+std::string templateOf(const codegen::HostLayout& layout) {
+  std::string text =
+      fmt::format("# {}: its members, and where they lie. Move those that the program reads below [in], "
+                  "those that\n# it writes below [out], and give each the program's name.\n[in]\n\n[out]\n\n",
+                  layout.name);
+  forEachNumber(layout, [&](const std::string& path, const Member& member) {
+    std::string type = member.is->type;
+    for (const uint64_t length : member.lengths) type += fmt::format("[{}]", length);
+    if (member.is->bits != 0) type += fmt::format(" : {}", member.is->bits);
+    const std::string place =
+        member.is->bits == 0 ? fmt::format("{}", member.bit / 8) : fmt::format("{}.{}", member.bit / 8, member.bit % 8);
+    text += fmt::format("# {} = \"\" # {} at {}\n",
+                        path.find('[') == std::string::npos ? path : fmt::format("\"{}\"", path), type, place);
+  });
+  return text;
 }
 
 } // namespace rung::bind

@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "codegen/clang/layout.h"
 #include "tools/bind/binding.h"
 
 namespace rung::bind {
@@ -12,5 +13,10 @@ struct Names {
 };
 
 std::string generate(const Binding& binding, const codegen::HostLayout& layout, const Names& names);
+
+// A first binding file for a struct.
+
+// All numbers of the struct in comments, each as the line that binds it.
+std::string templateOf(const codegen::HostLayout& layout);
 
 } // namespace rung::bind

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "codegen/clang/layout.h"
+#include "ir/support/result.h"
 
 namespace rung::bind {
 
@@ -26,5 +27,21 @@ std::variant<Member, std::string> findMember(const codegen::HostLayout& layout, 
 // Every number in the struct with its path, of arrays as a whole but for arrays of structs; those in unions, too.
 void forEachNumber(const codegen::HostLayout& layout,
                    const std::function<void(const std::string& path, const Member& member)>& see);
+
+// For which layouts of a host's structs a program is compiled: what `rungc build --binding` takes from the files that
+// rungc bind has made.
+
+struct Claim {
+  std::string name; // of the struct
+  std::string text; // rung_layout::text
+};
+
+uint64_t hashOf(std::string_view text);
+
+// A comment of C with the claim, which claimIn finds again.
+std::string claimText(std::string_view name, std::string_view text);
+
+// Fails where the file is not one of rungc bind, or was changed by hand.
+Result<Claim> claimIn(std::string_view file);
 
 } // namespace rung::bind

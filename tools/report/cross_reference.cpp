@@ -1,5 +1,8 @@
-// Places and the rungs that use them (see cross_reference.h).
+// Places and the rungs that use them.
 #include "tools/report/cross_reference.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -7,10 +10,13 @@
 #include <tuple>
 #include <utility>
 
+#include "ir/support/put.h"
+#include "rtlib/load/program_info.h"
+#include "rtlib/nc/names/names.h"
 #include "tools/report/place_names.h"
-#include "tools/report/place_search.h"
 
 namespace rung::report {
+
 namespace {
 
 using ir::BitRange;
@@ -120,6 +126,163 @@ std::vector<RungAccess> CrossReference::perhaps(const Ref& place) const {
     if (!overlap(use.place, bits) && reaches(use, bits)) addRungAccess(accesses, use.access);
   std::ranges::stable_sort(accesses, {}, &RungAccess::rung);
   return accesses;
+}
+
+std::vector<UsedPlace> usedPlaces(const rung_program& program, const ir::Uses& uses) {
+  std::vector<UsedPlace> all;
+  for (uint32_t rung = 0; rung < uses.rungCount(); ++rung)
+    for (ir::Use use : uses.of(rung)) {
+      const std::optional<ir::BitRange> known = knownPlace(program, uses, use.place);
+      if (use.computed || !known) continue;
+      use.place = *known;
+      all.push_back({use, !use.writes, use.writes});
+    }
+  const auto order = [](const UsedPlace& place) {
+    const ir::BitRange& bits = place.use.place;
+    return std::tuple(bits.space.index, bits.first, bits.count, static_cast<int>(place.use.type));
+  };
+  std::ranges::sort(all, {}, order);
+  std::vector<UsedPlace> places;
+  for (const UsedPlace& place : all) {
+    if (places.empty() || order(places.back()) != order(place)) places.push_back(place);
+    places.back().read |= place.read;
+    places.back().written |= place.written;
+  }
+  return places;
+}
+
+PlaceSet::PlaceSet(std::vector<ir::BitRange> places) {
+  const auto order = [](const ir::BitRange& bits) { return std::pair(bits.space.index, bits.first); };
+  std::ranges::sort(places, {}, order);
+  for (const ir::BitRange& bits : places) {
+    const bool touches = !places_.empty() && places_.back().space == bits.space &&
+                         bits.first <= places_.back().first + places_.back().count;
+    if (!touches) places_.push_back(bits);
+    ir::BitRange& last = places_.back();
+    last.count = std::max(last.count, bits.first + bits.count - last.first);
+  }
+}
+
+bool PlaceSet::meets(const ir::BitRange& place) const {
+  const auto order = [](const ir::BitRange& bits) { return std::pair(bits.space.index, bits.first); };
+  const auto after =
+      std::ranges::lower_bound(places_, std::pair(place.space.index, place.first + place.count), {}, order);
+  return after != places_.begin() && ir::overlap(*std::prev(after), place);
+}
+
+PlaceSet writtenPlaces(const std::vector<UsedPlace>& places) {
+  std::vector<ir::BitRange> written;
+  for (const UsedPlace& place : places)
+    if (place.written) written.push_back(place.use.place);
+  return PlaceSet(std::move(written));
+}
+
+// A cross reference for people.
+
+namespace {
+
+// "as D20 to D23", "as 7000, indexed": where the rung's access is not the entry's own place.
+std::string formOf(const rung_program& program, const Entry& entry, const RungAccess& access) {
+  const std::string_view indexed = access.indexed ? ", indexed" : "";
+  if (access.as == bitsOf(entry.place)) return std::string(indexed);
+  const rung_space& space = program.spaces[access.as.space.index];
+  const auto addressAt = [&](uint32_t bit) {
+    const uint32_t byte = bit / 8;
+    if (access.as.count == 1) return nc::address(program, runtime::bitRef(access.as.space.index, byte, bit % 8));
+    return nc::address(program, runtime::intRef(access.as.space.index, byte - byte % space.unit_bytes, 8));
+  };
+  const std::string from = addressAt(access.as.first);
+  const std::string to = addressAt(access.as.first + access.as.count - 1);
+  return fmt::format(", as {}{}{}", from, from == to ? "" : " to " + to, indexed);
+}
+
+void addAccesses(const rung_program& program, const Entry& entry, bool RungAccess::* kind, std::string_view title,
+                 std::string_view otherwise, std::string& out) {
+  bool any = false;
+  for (const RungAccess& access : entry.accesses) {
+    if (!(access.*kind)) continue;
+    put(out, "  {:<8} {}{}\n", any ? "" : title, runtime::rungText(program, access.rung),
+        formOf(program, entry, access));
+    any = true;
+  }
+  if (!any) put(out, "  {:<8} {}\n", title, otherwise);
+}
+
+void addPerhaps(const CrossReference& reference, const Entry& entry, std::string& out) {
+  for (const RungAccess& access : reference.perhaps(entry.place))
+    put(out, "  perhaps  {} {}{}\n", access.reads ? access.writes ? "read and written by" : "read by" : "written by",
+        runtime::rungText(reference.program(), access.rung), formOf(reference.program(), entry, access));
+}
+
+} // namespace
+
+std::string shownAsText(const CrossReference& reference, const std::vector<Entry>& entries, bool perhaps) {
+  const rung_program& program = reference.program();
+  std::string out;
+  for (const Entry& entry : entries) {
+    if (!out.empty()) out += '\n';
+    put(out, "{}{}{}\n", shownName(program, entry.place), entry.odd.empty() ? "" : ": ", entry.odd);
+    addAccesses(program, entry, &RungAccess::writes, "written",
+                entry.controlWrites ? "by the control or the machine" : "–", out);
+    addAccesses(program, entry, &RungAccess::reads, "read", entry.controlReads ? "by the control or the machine" : "–",
+                out);
+    if (perhaps) addPerhaps(reference, entry, out);
+  }
+  return out;
+}
+
+// A cross reference for other programs.
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// With the length of a cell where only that says which of several places at one name it is.
+std::string addressOf(const rung_program& program, const runtime::Ref& place) {
+  return nc::hasAddresses(program) ? nc::address(program, place) : nc::cellAddress(program, place);
+}
+
+Json accessJson(const rung_program& program, const RungAccess& access) {
+  const rung_rung_info& rung = program.rungs[access.rung];
+  const bool added = rung.file == RUNG_NONE; // by the compiler
+  Json json = {{"rung", rung.number}, {"file", added ? "" : program.files[rung.file]}, {"line", rung.first_line}};
+  const uint32_t byte = access.as.first / 8;
+  const uint32_t space = access.as.space.index;
+  const bool bit = access.as.count == 1;
+  json["address"] =
+      nc::address(program, bit ? runtime::bitRef(space, byte, access.as.first % 8) : runtime::intRef(space, byte, 8));
+  json["bits"] = access.as.count;
+  if (access.indexed) json["indexed"] = true;
+  return json;
+}
+
+Json accessesJson(const rung_program& program, const std::vector<RungAccess>& accesses, bool RungAccess::* kind) {
+  Json list = Json::array();
+  for (const RungAccess& access : accesses)
+    if (access.*kind) list.push_back(accessJson(program, access));
+  return list;
+}
+
+} // namespace
+
+std::string shownAsJson(const CrossReference& reference, const std::vector<Entry>& entries, bool perhaps) {
+  const rung_program& program = reference.program();
+  Json list = Json::array();
+  for (const Entry& entry : entries) {
+    Json json = {{"name", symbolAt(program, entry.place)}, {"address", addressOf(program, entry.place)}};
+    json["written"] = accessesJson(program, entry.accesses, &RungAccess::writes);
+    json["read"] = accessesJson(program, entry.accesses, &RungAccess::reads);
+    if (entry.controlWrites) json["control_writes"] = true;
+    if (entry.controlReads) json["control_reads"] = true;
+    if (!entry.odd.empty()) json["odd"] = entry.odd;
+    if (perhaps) {
+      const std::vector<RungAccess> others = reference.perhaps(entry.place);
+      json["perhaps_written"] = accessesJson(program, others, &RungAccess::writes);
+      json["perhaps_read"] = accessesJson(program, others, &RungAccess::reads);
+    }
+    list.push_back(std::move(json));
+  }
+  return list.dump(2) + "\n";
 }
 
 } // namespace rung::report

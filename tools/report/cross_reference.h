@@ -3,13 +3,19 @@
 // an operand of four bytes is a use of all of them, an alias one of the place it names, and a latch one of what it was
 // copied from.
 #pragma once
+#include <algorithm>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "ir/analysis/uses.h"
+#include "ir/core/memory_use.h"
+#include "ir/image/program_image.h"
 #include "rtlib/load/ref.h"
+#include "rung/program.h"
 
 namespace rung::report {
 
@@ -74,5 +80,62 @@ private:
 // index may lead there, which takes time in proportion to the program for each entry.
 std::string shownAsText(const CrossReference& reference, const std::vector<Entry>& entries, bool perhaps);
 std::string shownAsJson(const CrossReference& reference, const std::vector<Entry>& entries, bool perhaps);
+
+// The cross reference of a module, with all that it refers to.
+
+class ModuleReference {
+public:
+  // `module` and `shown` (see CrossReference) must outlive it.
+  ModuleReference(const ir::Module& module, std::span<const std::string_view> shown)
+      : layout_(module, {}), image_(layout_, 0), uses_(module), reference_(image_.program(), uses_, shown) {}
+  ModuleReference(const ModuleReference&) = delete; // the parts refer to each other
+  ModuleReference& operator=(const ModuleReference&) = delete;
+
+  const CrossReference& get() const { return reference_; }
+
+private:
+  const ir::Layout layout_;
+  const ir::ProgramImage image_;
+  const ir::Uses uses_;
+  const CrossReference reference_;
+};
+
+// The places that a program's rungs use, as a person would list them.
+
+struct UsedPlace {
+  ir::Use use; // one of them
+  bool read = false;
+  bool written = false;
+};
+
+// At fixed addresses, each once and in their order; what a latch holds counts as a use of what it was copied from.
+std::vector<UsedPlace> usedPlaces(const rung_program& program, const ir::Uses& uses);
+
+// Bits of places, to ask of others whether they share one.
+class PlaceSet {
+public:
+  explicit PlaceSet(std::vector<ir::BitRange> places);
+  bool meets(const ir::BitRange& place) const;
+
+private:
+  std::vector<ir::BitRange> places_; // ascending, none touches the next
+};
+PlaceSet writtenPlaces(const std::vector<UsedPlace>& places);
+
+// Finds what lies at a place in a list that is sorted by place.
+
+// What such a list is sorted by first.
+inline std::pair<uint32_t, uint32_t> startOf(const ir::BitRange& place) { return {place.space.index, place.first}; }
+
+// Calls `visit` with each item of `sorted` that has a bit in common with `place`, in their order. `placeOf` is an
+// item's place; none has more than `longest` bits.
+template <class Items, class PlaceOf, class Visit>
+void forEachAt(const ir::BitRange& place, const Items& sorted, uint32_t longest, PlaceOf placeOf, Visit visit) {
+  const std::pair earliest{place.space.index, place.first - std::min(place.first, longest)};
+  const std::pair end{place.space.index, place.first + place.count};
+  const auto start = [&](const auto& item) { return startOf(placeOf(item)); };
+  for (auto at = std::ranges::lower_bound(sorted, earliest, {}, start); at != sorted.end() && start(*at) < end; ++at)
+    if (ir::overlap(placeOf(*at), place)) visit(*at);
+}
 
 } // namespace rung::report

@@ -10,10 +10,9 @@
 #include "ir/image/program_image.h"
 #include "ir/support/diag/structure.h"
 #include "ir/support/meant.h"
+#include "tools/report/cross_reference.h"
 #include "tools/report/overlaps.h"
 #include "tools/report/place_names.h"
-#include "tools/report/place_search.h"
-#include "tools/report/used_places.h"
 #include "tools/report/xref_allowed.h"
 
 namespace rung::report {

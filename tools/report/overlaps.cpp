@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "ir/support/diag/structure.h"
+#include "tools/report/cross_reference.h"
 #include "tools/report/place_names.h"
-#include "tools/report/place_search.h"
 #include "tools/report/xref_allowed.h"
 
 namespace rung::report {

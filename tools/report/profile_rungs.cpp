@@ -1,10 +1,15 @@
-// Rows, their order and their sums (see profile.h).
+// Rows, their order and their sums.
 #include "tools/report/profile_rungs.h"
 
 #include <algorithm>
+#include <cinttypes>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <map>
 
 namespace rung::report {
+
 namespace {
 
 Row describe(const rung_program& program, uint32_t rung) {
@@ -110,6 +115,113 @@ std::vector<Sum> sums(const ProfileReport& report, SumBy by) {
   setShares(sums, report);
   sortByMeasure(sums, report.order);
   return sums;
+}
+
+// Tables for a terminal.
+
+namespace {
+
+constexpr const char* kOutside = "outside of the rungs: clock of timers, starts and ends of modules";
+
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
+  char text[256];
+  va_list values;
+  va_start(values, pattern);
+  std::vsnprintf(text, sizeof text, pattern, values);
+  va_end(values);
+  return text;
+}
+
+std::string moreText(size_t count, uint32_t limit) {
+  return limit == 0 || count <= limit ? "" : "  ... and " + std::to_string(count - limit) + " more\n";
+}
+
+size_t shownOf(size_t count, uint32_t limit) { return limit == 0 ? count : std::min<size_t>(count, limit); }
+
+std::string rungLine(const Row& row) {
+  return format("%6" PRIu32 " %11" PRIu64 " %12" PRIu64 " %6.1f%% %8.1f %8.1f %8.1f %8.1f  ", row.number,
+                row.executions, row.operations, row.share * 100, row.minNs, row.medianNs, row.meanNs, row.p99Ns) +
+         row.file + ":" + std::to_string(row.line) + (row.title.empty() ? "" : "  " + row.title) + "\n";
+}
+
+// One line for all rungs of the compiler: their times are not those of one rung.
+std::string addedLine(const std::vector<Row>& added) {
+  Row sum;
+  for (const Row& row : added) {
+    sum.executions += row.executions;
+    sum.operations += row.operations;
+    sum.share += row.share;
+  }
+  return format("     - %11" PRIu64 " %12" PRIu64 " %6.1f%% %8s %8s %8s %8s  ", sum.executions, sum.operations,
+                sum.share * 100, "-", "-", "-", "-") +
+         kOutside + "\n";
+}
+
+} // namespace
+
+std::string placeText(const Row& row) {
+  std::string text = row.number != 0 ? "rung " + std::to_string(row.number) : row.routine;
+  if (!row.title.empty()) text += " \"" + row.title + "\"";
+  return row.file.empty() ? text : text + ", " + row.file + ":" + std::to_string(row.line);
+}
+
+std::string rungTable(const ProfileReport& report, uint32_t limit) {
+  std::string text = "  rung  executions   operations   share   min ns   median     mean      p99  place\n";
+  const size_t shown = shownOf(report.rows.size(), limit);
+  for (size_t i = 0; i < shown; ++i) text += rungLine(report.rows[i]);
+  text += moreText(report.rows.size(), limit);
+  return report.added.empty() ? text : text + addedLine(report.added);
+}
+
+std::string sumTable(const std::vector<Sum>& sums, const char* what, uint32_t limit) {
+  std::string text = "   ran of    executions   operations   share      time us  ";
+  text += std::string(what) + "\n";
+  const size_t shown = shownOf(sums.size(), limit);
+  for (size_t i = 0; i < shown; ++i) {
+    const Sum& sum = sums[i];
+    text += format("%6" PRIu32 " %-5" PRIu32 " %11" PRIu64 " %12" PRIu64 " %6.1f%% %12.1f  ", sum.ran, sum.rungs,
+                   sum.executions, sum.operations, sum.share * 100, sum.time / 1000) +
+            (sum.name.empty() ? kOutside : sum.name) + "\n";
+  }
+  return text + moreText(sums.size(), limit);
+}
+
+// Differences of counters.
+
+namespace {
+
+uint64_t roundedAbove0(double value) { return value <= 0 ? 0 : static_cast<uint64_t>(std::llround(value)); }
+
+} // namespace
+
+// What the counter has counted since it was last taken, without any cost; it may be less than nothing.
+double ProfileCollector::take(size_t rung, const rung_prof& counter) noexcept {
+  rung_prof& last = last_[rung];
+  const uint64_t executions = counter.count - last.count;
+  const double value = static_cast<double>(counter.total - last.total) - cost_ * static_cast<double>(executions);
+  last = counter;
+  rungs_[rung].executions += executions;
+  rungs_[rung].total += value;
+  return value;
+}
+
+void ProfileCollector::started(std::span<const rung_prof> counters) noexcept {
+  std::fill(last_.begin(), last_.end(), rung_prof{});
+  for (size_t i = 0; i < rungs_.size() && i < counters.size(); ++i) take(i, counters[i]);
+}
+
+void ProfileCollector::scanned(std::span<const rung_prof> counters) noexcept {
+  ++scans_;
+  scanTotal_ = 0;
+  for (size_t i = 0; i < rungs_.size() && i < counters.size(); ++i) {
+    scan_[i] = 0;
+    if (counters[i].count == last_[i].count) continue;
+    const double value = take(i, counters[i]);
+    scan_[i] = roundedAbove0(value);
+    scanTotal_ += scan_[i];
+    ++rungs_[i].scans;
+    rungs_[i].perScan.add(roundedAbove0(value + cost_));
+  }
 }
 
 } // namespace rung::report

@@ -1,19 +1,31 @@
-// The longest that a run of each task may take: in steps, as budgets count them, in machine instructions, in calls of
-// the host's functions, and in time on this machine; and the heaviest way with its rungs.
+// The functions of the host that programs call (rung_host_api), and what a call costs on this machine.
 #pragma once
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "codegen/jit/jit_engine.h"
 #include "compiler/compile.h"
 #include "ir/analysis/heaviest.h"
+#include "ir/core/op_code.h"
 #include "rtlib/run/scan_bound.h"
-#include "tools/report/wcet_host_functions.h"
 
 namespace rung::report {
+
+struct HostFunction {
+  ir::OpCode operation{}; // that calls it; its name is that of the function
+  double ns = 0;          // of a call
+};
+
+// Of the runtime's queues, empty and full: the dearest of many calls, each with the fastest of its times. What a
+// control does that answers within a request is not in them.
+std::vector<HostFunction> measureHostFunctions();
+
+// The longest that a run of each task may take: in steps, as budgets count them, in machine instructions, in calls of
+// the host's functions, and in time on this machine; and the heaviest way with its rungs.
 
 struct HostCalls {
   HostFunction function;
@@ -71,5 +83,38 @@ std::vector<Stretch> drawnStretches(const std::vector<uint32_t>& rungs, const ru
 std::string textOf(const Bounds& bounds, const rung_program& program);
 // docs/wcet-format.md
 std::string jsonOf(const Bounds& bounds, const rung_program& program);
+
+// The most that a run of a task may cost, in anything that rungs cost.
+
+class TaskCost {
+public:
+  // `circles`: as HeaviestWay has them. The cut outlives this.
+  TaskCost(const ir::Cut& cut, ir::TaskId task, const std::vector<std::vector<uint32_t>>& circles);
+
+  // Whether a run may come to the chunk.
+  bool reaches(const ir::Chunk& chunk) const { return uses_[chunk.routine.index] != Use::None; }
+  // `costs`: by rung number (ir/analysis/rung_costs.h). Of a cut task: of the part that costs most.
+  uint64_t most(std::span<const uint64_t> costs) const;
+
+private:
+  enum class Use : uint8_t {
+    None,
+    Once,  // it is called outside of circles only
+    Again, // from within one, too
+  };
+  bool isRepeated(const ir::Chunk& chunk) const;
+  uint64_t runsOf(ir::RoutineId routine, std::vector<std::optional<uint64_t>>& known) const;
+  uint64_t costOf(const ir::Chunk& chunk, std::span<const uint64_t> costs) const;
+  uint64_t allowed(std::span<const uint64_t> costs, bool repeatedOnly) const;
+  uint64_t outsideOfCircles(std::span<const uint64_t> costs) const;
+  template <class Visit>
+  void forCalls(ir::RoutineId routine, Visit visit) const;
+
+  const ir::Cut& cut_;
+  ir::TaskId task_;
+  bool hasCircles_;
+  std::vector<bool> inCircle_; // by rung number
+  std::vector<Use> uses_;      // by routine
+};
 
 } // namespace rung::report

@@ -12,7 +12,6 @@
 #include "machine/host/mapping_file.h"
 #include "tools/bind/binding.h"
 #include "tools/bind/generate.h"
-#include "tools/bind/template.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/opened_program.h"
 

@@ -10,11 +10,11 @@
 #include "compiler/kept_ir.h"
 #include "ir/text/text.h"
 #include "machine/host/mapping_file.h"
-#include "rtlib/load/sealing.h"
-#include "tools/bind/claim.h"
+#include "rtlib/load/seal.h"
+#include "tools/bind/member.h"
 #include "tools/report/profile_branches.h"
 #include "tools/rungc/commands.h"
-#include "tools/scenario/working.h"
+#include "tools/scenario/prompt.h"
 
 namespace rung::rungc {
 namespace {

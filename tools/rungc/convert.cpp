@@ -9,7 +9,7 @@
 #include "frontend/network/convert/convert.h"
 #include "ir/support/diag/source.h"
 #include "tools/rungc/commands.h"
-#include "tools/scenario/working.h"
+#include "tools/scenario/prompt.h"
 
 namespace rung::rungc {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "compiler/manual_lines.h"
+#include "compiler/reference.h"
 #include "frontend/ladder/text/keywords.h"
 #include "frontend/syntax/word_lexer.h"
 #include "ir/support/put.h"
@@ -16,7 +16,7 @@
 #include "rtlib/text/blanks.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
-#include "tools/report/module_reference.h"
+#include "tools/report/cross_reference.h"
 #include "tools/report/odd_names.h"
 #include "tools/report/place_names.h"
 #include "tools/rungc/commands.h"

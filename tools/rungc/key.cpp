@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "rtlib/load/file.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 #include "rtlib/load/trust.h"
 #include "tools/rungc/commands.h"
 

@@ -3,16 +3,15 @@
 #include <memory>
 #include <optional>
 
-#include "compiler/file_kind.h"
+#include "compiler/project.h"
 #include "machine/host/binding.h"
 #include "machine/host/component_pins.h"
 #include "machine/host/map_template.h"
-#include "machine/host/map_template_sides.h"
-#include "machine/host/mapping_mistake.h"
+#include "machine/host/mapping_file.h"
 #include "machine/host/message_texts.h"
 #include "rung/runtime.hpp"
+#include "tools/report/cross_reference.h"
 #include "tools/report/place_names.h"
-#include "tools/report/used_places.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/opened_program.h"
 

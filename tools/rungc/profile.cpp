@@ -12,9 +12,8 @@
 #include "tools/report/profile_text.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/profile_page.h"
-#include "tools/rungc/scenario_files.h"
 #include "tools/rungc/scenarios.h"
-#include "tools/scenario/working.h"
+#include "tools/scenario/prompt.h"
 
 namespace rung::rungc {
 namespace {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "compiler/configuration.h"
-#include "compiler/file_kind.h"
+#include "compiler/project.h"
 #include "tools/rungc/commands.h"
 #include "tools/scenario/configuration.h"
 

@@ -21,10 +21,8 @@
 #include "tools/rungc/scenarios.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/console.h"
-#include "tools/scenario/progress.h"
 #include "tools/scenario/prompt.h"
 #include "tools/scenario/trace.h"
-#include "tools/scenario/working.h"
 
 namespace rung::rungc {
 namespace {

@@ -1,9 +1,20 @@
-// What the commands that run scenarios share (see scenarios.h).
+// What the commands that run scenarios share.
 #include "tools/rungc/scenarios.h"
 
-#include <chrono>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
+#include <pugixml.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iterator>
 #include <sstream>
+
+#include "ir/support/utf8.h"
+#include "tools/rungc/commands.h"
+#include "tools/scenario/scenario.h"
 
 namespace rung::rungc {
 
@@ -54,6 +65,142 @@ void printResult(const TestCase& test, bool color) {
   if (result.passed && result.expectsNothing)
     fmt::print("  {}: {}: it expects nothing, so it passes whatever the program does; add an expect statement\n",
                test.path, painted("warning", "1;35"));
+}
+
+// Which scenarios a command runs.
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Files = std::vector<std::string>;
+
+std::optional<Files> scenariosBelow(const std::string& folder, int& status) {
+  Files found;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    std::error_code none;
+    if (at->path().extension() == ".scn" && !at->is_directory(none))
+      found.push_back(at->path().lexically_normal().string());
+  }
+  if (error || found.empty()) {
+    status = usageError(error ? fmt::format("cannot read the folder '{}': {}", folder, error.message())
+                              : fmt::format("there is no scenario (*.scn) in or below '{}'", folder));
+    return std::nullopt;
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+std::optional<Files> ofProject(const std::string& named, int& status) {
+  const auto project = openProject(named, {}, status);
+  if (!project) return std::nullopt;
+  if (!project->scenarios.empty()) return project->scenarios;
+  status = usageError(fmt::format("{} has no scenario: no file matches its key scenarios", project->file));
+  return std::nullopt;
+}
+
+std::optional<Files> oneFile(const std::string& name, int& status) {
+  const std::string problem = scenario::notAScenario(name);
+  if (problem.empty()) return Files{name};
+  status = usageError(problem);
+  return std::nullopt;
+}
+
+bool matches(const std::string& path, const std::string& filter) {
+  if (filter.find_first_of("*?[") == std::string::npos) return path.find(filter) != std::string::npos;
+  const std::string name = fs::path(path).filename().string();
+  return fnmatch(filter.c_str(), path.c_str(), 0) == 0 || fnmatch(filter.c_str(), name.c_str(), 0) == 0;
+}
+
+} // namespace
+
+std::optional<std::vector<std::string>> scenarioFiles(const std::vector<std::string>& names, int& status) {
+  if (names.empty()) return ofProject("", status);
+  std::vector<std::string> files;
+  for (const std::string& name : names) {
+    std::error_code none;
+    std::optional<std::vector<std::string>> found;
+    const bool isFolder = fs::is_directory(name, none);
+    if (isFolder ? fs::is_regular_file(fs::path(name) / compiler::kFileName, none) : namesProject(name))
+      found = ofProject(name, status);
+    else
+      found = isFolder ? scenariosBelow(name, status) : oneFile(name, status);
+    if (!found) return std::nullopt;
+    std::ranges::move(*found, std::back_inserter(files));
+  }
+  return files;
+}
+
+std::vector<std::string> filtered(const std::vector<std::string>& files, const std::vector<std::string>& filters) {
+  std::vector<std::string> out;
+  std::ranges::copy_if(files, std::back_inserter(out), [&](const std::string& file) {
+    return filters.empty() || std::ranges::any_of(filters, [&](const std::string& f) { return matches(file, f); });
+  });
+  return out;
+}
+
+// JUnit XML by pugixml.
+
+namespace {
+
+// XML 1.0 has neither control characters nor U+FFFE and U+FFFF; texts of scenarios and programs may hold anything.
+std::string inXml(std::string_view text) {
+  std::string out;
+  for (size_t at = 0; at < text.size();) {
+    const CodePoint character = decodeUtf8(text, at);
+    const uint32_t c = character.value;
+    if (!character.valid || c == 0xFFFE || c == 0xFFFF)
+      out += "\uFFFD";
+    else if (c < ' ' && c != '\n' && c != '\t')
+      out += '?';
+    else
+      out += text.substr(at, character.length);
+    at += character.length;
+  }
+  return out;
+}
+
+void addText(pugi::xml_node parent, const char* name, std::string_view text) {
+  parent.append_child(name).text().set(inXml(text).c_str());
+}
+
+void addFailure(pugi::xml_node parent, const scenario::RunResult& result) {
+  std::string text = result.environment;
+  for (const scenario::Problem& problem : result.problems) text += (text.empty() ? "" : "\n") + textOf(problem);
+  const char* name = result.environment.empty() ? "failure" : "error";
+  addText(parent, name, text);
+  parent.last_child().append_attribute("message") = inXml(text.substr(0, text.find('\n'))).c_str();
+}
+
+void addCase(pugi::xml_node suite, const TestCase& test) {
+  pugi::xml_node element = suite.append_child("testcase");
+  element.append_attribute("classname") = "rungc";
+  element.append_attribute("name") = inXml(test.path).c_str();
+  element.append_attribute("time") = fmt::format("{:.6f}", test.seconds).c_str();
+  if (!test.result.passed) addFailure(element, test.result);
+  if (!test.result.printed.empty())
+    addText(element, "system-out", fmt::format("{}", fmt::join(test.result.printed, "\n")));
+}
+
+} // namespace
+
+std::string junitXml(const std::vector<TestCase>& tests) {
+  const auto failed = [](const TestCase& t) { return !t.result.passed && t.result.environment.empty(); };
+  const auto notRun = [](const TestCase& t) { return !t.result.passed && !t.result.environment.empty(); };
+  pugi::xml_document document;
+  pugi::xml_node declaration = document.append_child(pugi::node_declaration);
+  declaration.append_attribute("version") = "1.0";
+  declaration.append_attribute("encoding") = "UTF-8";
+  pugi::xml_node suite = document.append_child("testsuite");
+  suite.append_attribute("name") = "rungc";
+  suite.append_attribute("tests") = tests.size();
+  suite.append_attribute("failures") = std::ranges::count_if(tests, failed);
+  suite.append_attribute("errors") = std::ranges::count_if(tests, notRun);
+  for (const TestCase& test : tests) addCase(suite, test);
+  std::ostringstream out;
+  document.save(out, "  ", pugi::format_default, pugi::encoding_utf8);
+  return std::move(out).str();
 }
 
 } // namespace rung::rungc

@@ -10,7 +10,7 @@
 
 #include "rtlib/load/elf_file.h"
 #include "rtlib/load/file.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 #include "rtlib/load/trust.h"
 #include "rtlib/text/regular_file.h"
 #include "rung/program.h"

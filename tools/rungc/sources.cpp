@@ -16,7 +16,7 @@
 #include "tools/report/odd_names.h"
 #include "tools/rungc/commands.h"
 #include "tools/scenario/configuration.h"
-#include "tools/scenario/working.h"
+#include "tools/scenario/prompt.h"
 
 namespace rung::rungc {
 

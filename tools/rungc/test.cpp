@@ -10,11 +10,10 @@
 #include "tools/rungc/commands.h"
 #include "tools/rungc/coverage.h"
 #include "tools/rungc/file_watch.h"
-#include "tools/rungc/junit.h"
-#include "tools/rungc/scenario_files.h"
 #include "tools/rungc/scenario_trace.h"
+#include "tools/rungc/scenarios.h"
 #include "tools/rungc/test_pool.h"
-#include "tools/scenario/progress.h"
+#include "tools/scenario/prompt.h"
 
 namespace rung::rungc {
 namespace {

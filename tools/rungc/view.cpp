@@ -6,11 +6,11 @@
 
 #include "ir/support/diag/source.h"
 #include "tools/rungc/commands.h"
-#include "tools/scenario/working.h"
+#include "tools/scenario/prompt.h"
 #include "tools/view/drawn_program.h"
 #include "tools/view/html.h"
+#include "tools/view/names.h"
 #include "tools/view/program.h"
-#include "tools/view/source_links.h"
 #include "tools/view/svg.h"
 
 namespace rung::rungc {

@@ -8,7 +8,7 @@
 #include "tools/report/wcet_measure.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/run_scenario.h"
-#include "tools/scenario/working.h"
+#include "tools/scenario/prompt.h"
 
 namespace rung::rungc {
 namespace {

@@ -1,9 +1,10 @@
-// The compiling part of a scenario (see compile_step.h).
+// The compiling part of a scenario.
 #include "tools/scenario/compile_step.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fmt/format.h>
 
 #include "compiler/configuration.h"
 #include "ir/support/diag_render.h"
@@ -11,6 +12,7 @@
 #include "tools/report/odd_names.h"
 
 namespace rung::scenario {
+
 namespace {
 
 struct Reported {
@@ -199,6 +201,34 @@ CompileStep compileNext(const Scenario& scenario, const Statement& s, const fron
   if (!step.program)
     step.problems.push_back(problemAt(s, "the program has errors:\n" + renderText(diagnostics, sources)));
   return step;
+}
+
+// Engines of programs that several scenarios run.
+
+Result<runtime::Engine*> StoredProgram::engine(compiler::EngineKind kind, const compiler::EngineOptions& options) {
+  const std::lock_guard lock(mutex_);
+  auto found = engines_.find(kind);
+  if (found == engines_.end()) {
+    Result<std::unique_ptr<runtime::Engine>> made = compiler::makeEngine(kind, compiled_, options);
+    if (!made.ok()) return made.failure();
+    found = engines_.emplace(kind, std::move(made).value()).first;
+  }
+  return found->second.get();
+}
+
+std::shared_ptr<StoredProgram> EngineStore::enter(compiler::Compiled compiled) {
+  const std::lock_guard lock(mutex_);
+  const auto found =
+      std::find_if(programs_.begin(), programs_.end(), [&](const std::shared_ptr<StoredProgram>& stored) {
+        return stored->compiled().codeHash == compiled.codeHash;
+      });
+  if (found != programs_.end()) {
+    programs_.splice(programs_.begin(), programs_, found);
+  } else {
+    programs_.push_front(std::make_shared<StoredProgram>(std::move(compiled)));
+    if (programs_.size() > kPrograms) programs_.pop_back();
+  }
+  return programs_.front();
 }
 
 } // namespace rung::scenario

@@ -1,15 +1,22 @@
-// Lines that a person types at a running program (see console.h).
+// Lines that a person types at a running program.
 #include "tools/scenario/console.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <utility>
 
+#include "frontend/dialects/dialect.h"
+#include "rtlib/load/program_info.h"
 #include "rtlib/nc/faults.h"
+#include "rtlib/text/letters.h"
 #include "rtlib/text/similar.h"
+#include "rtlib/text/utf8.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/names.h"
+#include "tools/scenario/requests.h"
 #include "tools/scenario/words.h"
 
 namespace rung::scenario {
@@ -297,5 +304,245 @@ Outcome Console::help(std::span<const std::string> words) {
 }
 
 Outcome Console::quit(std::span<const std::string>) { return Outcome::Quit; }
+
+// Watched names and messages.
+
+namespace {
+
+std::string atTime(const Session& session, const std::string& what) {
+  return fmt::format("{:>12.3f} ms  {}", static_cast<double>(session.nowUs()) / 1000.0, what);
+}
+
+} // namespace
+
+std::string Watch::add(const std::string& name, const Session& session) {
+  const Result<Reading> reading = readName(session.instance(), session.nc(), name, false);
+  if (!reading.ok()) return reading.error();
+  if (std::ranges::find(watched_, name, [](const Watched& w) { return w.value.name(); }) == watched_.end())
+    watched_.push_back({{name, session.instance(), session.nc()}, ""});
+  return {};
+}
+
+bool Watch::remove(const std::string& name) {
+  return std::erase_if(watched_, [&](const Watched& w) { return w.value.name() == name; }) > 0;
+}
+
+std::vector<std::string> Watch::names() const {
+  std::vector<std::string> names;
+  for (const Watched& watched : watched_) names.push_back(watched.value.name());
+  return names;
+}
+
+void Watch::replaced(const Session& session, const NextProgram&) {
+  for (Watched& watched : watched_) watched.value.locate(session.instance(), session.nc());
+  otherTexts_ = true;
+}
+
+void Watch::look(const Session& session) {
+  for (Watched& watched : watched_) {
+    const std::optional<Reading> reading = watched.value.read(session.instance(), session.nc());
+    std::string now = reading ? " = " + showShort(*reading) : " is gone";
+    if (now == watched.last) continue;
+    print_(atTime(session, watched.value.name() + now));
+    watched.last = std::move(now);
+  }
+  printMessages(session);
+}
+
+void Watch::printMessages(const Session& session) {
+  const nc::Control& control = session.nc().control();
+  if (!std::exchange(otherTexts_, false) && control.shows(session.instance(), shown_)) return;
+  std::vector<nc::ShownMessage> now = control.messages(session.instance());
+  const auto has = [](const std::vector<nc::ShownMessage>& list, const nc::ShownMessage& message) {
+    return std::ranges::find(list, message) != list.end();
+  };
+  for (const nc::ShownMessage& message : shown_)
+    if (!has(now, message)) print_(atTime(session, control.text(message) + " is gone"));
+  for (const nc::ShownMessage& message : now)
+    if (!has(shown_, message)) print_(atTime(session, control.text(message)));
+  shown_ = std::move(now);
+}
+
+// A session as a scenario.
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folderOf(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+bool isSetting(const compiler::Project& project, const std::string& key, const std::string& value) {
+  return std::ranges::any_of(project.config,
+                             [&](const compiler::Setting& s) { return s.key == key && s.value == value; });
+}
+
+std::string relativeTo(const fs::path& folder, const std::string& file) {
+  std::error_code none;
+  const fs::path relative = fs::proximate(file, folder, none);
+  return none ? file : relative.string();
+}
+
+// As a word, or the last words, of a statement.
+std::string asWord(const std::string& text) {
+  const bool plain = !text.starts_with('#') && text.find_first_of(" \t") == std::string::npos;
+  return plain ? text : '"' + text + '"';
+}
+
+// Files that the control reads lie relative to the scenario; those of the compiler relative to the program.
+std::string configValue(const std::string& dialect, const std::string& key, const std::string& value,
+                        const fs::path& folder) {
+  const frontend::Dialect* known = frontend::findDialect(dialect);
+  const nc::ConfigKey* row = known == nullptr ? nullptr : nc::findConfigKey(known->configKeys, key);
+  const bool file = row != nullptr && row->form == nc::ConfigForm::File && row->reader == nc::ConfigReader::Control;
+  return file ? relativeTo(folder, value) : value;
+}
+
+// "" for a value that a scenario cannot write: a text that contains a quotation mark.
+std::string expectationOf(const std::string& name, const Reading& reading) {
+  switch (reading.kind) {
+  case ValueKind::Int: return fmt::format("expect {} {}", name, reading.integer);
+  case ValueKind::Real: return fmt::format("expect {} {}", name, reading.real);
+  case ValueKind::Text: break;
+  }
+  const bool writable = reading.text.find_first_of("\"\n\r") == std::string::npos;
+  return writable ? fmt::format("expect {} \"{}\"", name, reading.text) : std::string();
+}
+
+std::string withoutRung(std::string_view fault) { // the rung and the file in brackets may change
+  return std::string(fault.substr(0, fault.find(" (")));
+}
+
+} // namespace
+
+void Recording::add(std::string statement) { statements_.push_back({std::move(statement)}); }
+
+void Recording::addProgram(std::string word, std::vector<std::string> files, const std::string& notAScenario) {
+  if (start_.notAScenario.empty()) start_.notAScenario = notAScenario;
+  statements_.push_back({std::move(word), std::move(files)});
+}
+
+const compiler::Project* Recording::ownProject(const std::string& folder) const {
+  if (!start_.project || start_.programs != start_.project->files) return nullptr;
+  const auto found = compiler::findUpwards(fs::absolute(folder).lexically_normal().string());
+  std::error_code none;
+  return found && fs::equivalent(*found, start_.project->file, none) ? &*start_.project : nullptr;
+}
+
+void Recording::writeStart(const std::string& path, const std::string& dialect, std::string& text) const {
+  const fs::path folder = folderOf(path);
+  const compiler::Project* project = ownProject(folder.string());
+  if (project == nullptr) {
+    text += "program";
+    for (const std::string& program : start_.programs) text += " " + asWord(relativeTo(folder, program));
+    text += fmt::format("\ndialect {}\n", dialect);
+  }
+  for (const auto& [key, value] : start_.config)
+    if (project == nullptr || !isSetting(*project, key, value))
+      text += fmt::format("config {} {}\n", key, asWord(configValue(dialect, key, value, folder)));
+  if (start_.periodUs > 0) text += fmt::format("period {}us\n", start_.periodUs);
+  for (const std::string& connect : start_.connects) text += connect + "\n";
+}
+
+Result<std::string> Recording::scenario(const std::string& path, const Session& session,
+                                        const std::vector<std::string>& watched) const {
+  if (!start_.notAScenario.empty()) return failure(start_.notAScenario);
+  if (start_.project && !start_.project->includePaths.empty() && ownProject(folderOf(path).string()) == nullptr)
+    return failure(fmt::format("the program needs the include folders of {}: save the scenario in the folder of the "
+                               "project, and run the program of the project",
+                               start_.project->file));
+  std::string text = "# Written by the prompt of rungc run.\n";
+  writeStart(path, session.instance().program().dialect, text);
+  for (const Done& done : statements_) {
+    text += done.statement;
+    for (const std::string& file : done.files) text += " " + asWord(relativeTo(folderOf(path), file));
+    text += "\n";
+  }
+  for (const std::string& name : watched) {
+    const Result<Reading> reading = readName(session.instance(), session.nc(), name, false);
+    if (const std::string line = reading.ok() ? expectationOf(name, reading.value()) : ""; !line.empty())
+      text += line + "\n";
+  }
+  if (!session.unexpectedFault().empty())
+    text += fmt::format("expect_fault {}\n", withoutRung(session.instance().faultText()));
+  return text;
+}
+
+// Completion of words.
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> beginning(std::string_view word, const std::vector<std::string>& candidates) {
+  std::vector<std::string> found;
+  std::ranges::copy_if(candidates, std::back_inserter(found),
+                       [&](const std::string& candidate) { return text::startsWithIgnoringCase(candidate, word); });
+  return found;
+}
+
+std::vector<std::string> services(const rung_program& program) {
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < program.service_count; ++i)
+    names.push_back(ServiceSignature(runtime::serviceName(program, i)).name());
+  return names;
+}
+
+// Those of the folder that the word names so far; folders end in a slash.
+std::vector<std::string> files(std::string_view word) {
+  const fs::path folder = fs::path(word).parent_path();
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end; at.increment(error)) {
+    std::error_code none;
+    names.push_back((folder / at->path().filename()).string() + (at->is_directory(none) ? "/" : ""));
+  }
+  return names;
+}
+
+std::string_view withoutQuote(std::string_view word) { return word.starts_with('"') ? word.substr(1) : word; }
+
+// Names with blanks, as a statement takes them.
+std::vector<std::string> inQuotes(std::vector<std::string> names) {
+  for (std::string& name : names)
+    if (name.find(' ') != std::string::npos) name = '"' + name + '"';
+  return names;
+}
+
+} // namespace
+
+const std::vector<std::string>& Completion::values() {
+  const runtime::Instance& instance = session_.instance();
+  if (values_.empty() || generation_ != instance.generation()) values_ = namesOf(instance.program(), session_.nc());
+  generation_ = instance.generation();
+  return values_;
+}
+
+std::vector<std::string> Completion::of(Names names, std::string_view word) {
+  std::vector<std::string> found;
+  switch (names) {
+  case Names::None: return {};
+  case Names::Values: found = beginning(word, values()); break;
+  case Names::Services: found = beginning(word, services(session_.instance().program())); break;
+  case Names::Statements: found = beginning(word, statements_); break;
+  case Names::Files: found = inQuotes(beginning(withoutQuote(word), files(withoutQuote(word)))); break;
+  case Names::PlcCommands: found = beginning(word, {"clear", "start", "stop"}); break;
+  case Names::BlockCommands: found = beginning(word, {"done", "start"}); break;
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+std::string commonStart(const std::vector<std::string>& words) {
+  std::string common = words.empty() ? std::string() : words[0];
+  for (const std::string& word : words) {
+    size_t same = static_cast<size_t>(std::ranges::mismatch(common, word).in1 - common.begin());
+    while (same > 0 && same < word.size() && text::isUtf8Continuation(word[same])) --same; // not within a character
+    common.resize(same);
+  }
+  return common;
+}
 
 } // namespace rung::scenario

@@ -1,19 +1,121 @@
-// What a person types at a running program: every statement of a scenario, and commands that only look. Each line is
-// executed at once; what was done can be saved as a scenario.
+// Prints what watched names become, which messages come and go, each with the time, and the lines of print statements.
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "tools/scenario/completion.h"
+#include "compiler/project.h"
+#include "ir/support/result.h"
 #include "tools/scenario/explain.h"
-#include "tools/scenario/recording.h"
+#include "tools/scenario/names.h"
 #include "tools/scenario/session.h"
-#include "tools/scenario/watch.h"
 
 namespace rung::scenario {
+
+using Print = std::function<void(const std::string& line)>; // a line without its end, or several
+
+class Watch final : public Observer {
+public:
+  explicit Watch(Print print) : print_(std::move(print)) {}
+
+  // "" or why the name cannot be watched. Its first value is printed at the next look.
+  std::string add(const std::string& name, const Session& session);
+  // False: it is not watched.
+  bool remove(const std::string& name);
+  std::vector<std::string> names() const;
+
+  void scanned(const Session& session) override { look(session); }
+  void replaced(const Session& session, const NextProgram& next) override;
+  void printed(const std::string& line) override { print_(line); }
+  // Prints what has changed since the last look.
+  void look(const Session& session);
+
+private:
+  struct Watched {
+    NamedValue value;
+    std::string last;
+  };
+  void printMessages(const Session& session);
+
+  Print print_;
+  std::vector<Watched> watched_;
+  std::vector<nc::ShownMessage> shown_;
+  bool otherTexts_ = false; // perhaps: another program has taken over
+};
+
+// What was done to a running program, written as a scenario that does it again.
+
+// How the program was made and started. Paths can be opened from the working directory.
+struct Start {
+  std::vector<std::string> programs;
+  std::vector<std::pair<std::string, std::string>> config; // those of the project first
+  std::vector<std::string> connects;                       // statements of a scenario
+  int64_t periodUs = 0;                                    // that a scenario chose; 0: the program's own
+  std::optional<compiler::Project> project;                // that the files belong to
+  std::string notAScenario;                                // not empty: why no scenario can start it so
+};
+
+class Recording {
+public:
+  explicit Recording(Start start) : start_(std::move(start)) {}
+
+  const Start& start() const { return start_; }
+  // A statement that did what it says, as a scenario writes it.
+  void add(std::string statement);
+  // A statement about another program, whose files these are; paths can be opened from the working directory.
+  // `notAScenario`: not empty, why no scenario can do that.
+  void addProgram(std::string word, std::vector<std::string> files, const std::string& notAScenario);
+
+  // The scenario, as the file of this path: what was added, then what the watched names hold now and the fault that has
+  // stopped the program. Fails when no scenario can do the same.
+  Result<std::string> scenario(const std::string& path, const Session& session,
+                               const std::vector<std::string>& watched) const;
+
+private:
+  // The project that a scenario in this folder runs this program by, without naming it; null: it has to name it.
+  const compiler::Project* ownProject(const std::string& folder) const;
+  void writeStart(const std::string& path, const std::string& dialect, std::string& text) const;
+
+  struct Done {
+    std::string statement; // with `files`: its word alone
+    std::vector<std::string> files = {};
+  };
+  Start start_;
+  std::vector<Done> statements_;
+};
+
+// What the last word of a line at the prompt can become.
+
+// What a word of a statement or command names.
+enum class Names : uint8_t { None, Values, Services, Statements, Files, PlcCommands, BlockCommands };
+
+class Completion {
+public:
+  // `statements`: the words of all statements and commands. The session outlives this and has started.
+  Completion(const Session& session, std::vector<std::string> statements)
+      : session_(session), statements_(std::move(statements)) {}
+
+  // Sorted; case does not matter. Those that the word begins, or nothing.
+  std::vector<std::string> of(Names names, std::string_view word);
+
+private:
+  const std::vector<std::string>& values();
+
+  const Session& session_;
+  std::vector<std::string> statements_;
+  std::vector<std::string> values_; // looked up when they are asked for first
+  uint32_t generation_ = 0;         // of the instance, then
+};
+
+// The first part that all of them share.
+std::string commonStart(const std::vector<std::string>& words);
+
+// What a person types at a running program: every statement of a scenario, and commands that only look. Each line is
+// executed at once; what was done can be saved as a scenario.
 
 enum class Outcome : uint8_t { Done, Failed, Interrupted, Quit };
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <sstream>
 
-#include "compiler/file_kind.h"
+#include "compiler/project.h"
 #include "ir/support/utf8.h"
 #include "rtlib/text/end_of_file.h"
 #include "rtlib/text/regular_file.h"

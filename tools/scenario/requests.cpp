@@ -1,13 +1,25 @@
-// Requests to services and their answers (see requests.h).
+// Requests to services and their answers.
 #include "tools/scenario/requests.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <optional>
+#include <sstream>
 #include <utility>
 
 #include "rtlib/load/program_info.h"
-#include "rtlib/nc/control/refuse.h"
+#include "rtlib/nc/control/control.h"
+#include "rtlib/nc/nct/operand_block.h"
+#include "rtlib/nc/nct/scope_symbols.h"
+#include "rtlib/nc/technol/code_page.h"
 #include "rtlib/nc/technol/services.h"
+#include "rtlib/text/hex.h"
+#include "rtlib/text/letters.h"
+#include "rtlib/text/number.h"
+#include "tools/scenario/values.h"
 
 namespace rung::scenario {
 
@@ -193,6 +205,316 @@ std::string Requests::prepare(const Instance& instance, const Statement& s) {
     return problem;
   }
   return problem;
+}
+
+// Requests to services.
+
+using runtime::Instance;
+using Form = ServiceSignature::Form;
+
+namespace {
+
+int64_t rawOf(const Value& value) {
+  return value.kind == ValueKind::Real ? std::bit_cast<int64_t>(value.real) : value.integer;
+}
+
+// ---- words of operand blocks ---------------------------------------------------------------------------------------
+
+struct BlockKey {
+  uint32_t word = 0;
+  bool isReal = false;
+};
+
+// "w4" and "d4".
+std::optional<BlockKey> blockKey(const ServiceSignature& signature, std::string_view key) {
+  if (!signature.hasBlock() || key.size() < 2 || (text::lower(key[0]) != 'w' && text::lower(key[0]) != 'd'))
+    return std::nullopt;
+  BlockKey parsed{.isReal = text::lower(key[0]) == 'd'};
+  parsed.word = text::numberIn<uint32_t>(key.substr(1)).value_or(0);
+  const uint32_t last = parsed.isReal ? nc::nct::kBlockWords - 2 : nc::nct::kBlockWords - 1;
+  return parsed.word >= 1 && parsed.word <= last ? std::optional(parsed) : std::nullopt;
+}
+
+// The buffer of a request, read from and written to the memory of the program.
+class Buffer {
+public:
+  Buffer(const Instance& instance, const ServiceSignature& signature, const core::ServiceRequest& request)
+      : space_(runtime::findSpace(instance.program(), nc::nct::kBlockSpace)),
+        first_(static_cast<uint32_t>(request.args[signature.argument("block")])) {
+    for (uint32_t i = 0; i < words_.size(); ++i) words_[i] = static_cast<uint32_t>(instance.read(place(i)));
+  }
+  nc::nct::Block block() { return nc::nct::Block(words_); }
+  void writeTo(Instance& instance) const {
+    for (uint32_t i = 0; i < words_.size(); ++i) runtime::writeRaw(instance.memory(), place(i), words_[i]);
+  }
+
+private:
+  runtime::Ref place(uint32_t word) const { return runtime::intRef(space_, (first_ + word) * 4, 32); }
+
+  uint32_t space_;
+  uint32_t first_;
+  std::array<uint32_t, nc::nct::kBlockStride> words_{};
+};
+
+std::string blockDifference(const ServiceSignature& signature, nc::nct::Block block, BlockKey at, const KeyValue& key) {
+  if (at.isReal) {
+    const double found = block.real(at.word);
+    return found == key.value.real
+               ? std::string()
+               : fmt::format("{}: {} is {}, expected {}", signature.name(), key.key, found, key.value.text);
+  }
+  const int32_t found = block.word(at.word);
+  if (text::fitsBits(key.value.number, 32) && static_cast<uint32_t>(found) == static_cast<uint32_t>(key.value.integer))
+    return {};
+  return fmt::format("{}: {} is {} (0x{:X}), expected {}", signature.name(), key.key, found,
+                     static_cast<uint32_t>(found), key.value.text);
+}
+
+// ---- arguments -----------------------------------------------------------------------------------------------------
+
+// Bits of an argument that count.
+uint64_t maskOf(const ServiceSignature& signature, const core::ServiceRequest& request, std::string_view key) {
+  const int length = signature.argument("length");
+  if (length < 0 || static_cast<uint32_t>(length) >= request.argCount || !text::equalsIgnoringCase(key, "data"))
+    return UINT64_MAX;
+  const int64_t bytes = request.args[length];
+  return bytes > 0 && bytes < 8 ? (uint64_t{1} << (8 * bytes)) - 1 : UINT64_MAX;
+}
+
+// A quantity of SCP goes by its name: the argument `symbol` is its index.
+bool isScopeName(const ServiceSignature& signature, const KeyValue& key) {
+  return key.value.kind == ValueKind::Text && text::equalsIgnoringCase(key.key, "symbol") && signature.isNamed("SCP");
+}
+
+std::string scopeDifference(const ServiceSignature& signature, int64_t found, const KeyValue& key) {
+  const auto wanted = nc::nct::findScopeSymbol(key.value.text);
+  if (!wanted) return fmt::format("'{}' is not a symbol of SCP", key.value.text);
+  if (found == *wanted) return {};
+  const auto symbols = nc::nct::scopeSymbols();
+  const bool known = found >= 0 && static_cast<size_t>(found) < symbols.size();
+  return fmt::format("{}: symbol is {}, expected {}", signature.name(),
+                     known ? symbols[static_cast<size_t>(found)].name : "unknown", key.value.text);
+}
+
+// A word that a program writes for a number.
+int64_t wantedOf(const Value& value) {
+  const auto word = value.kind == ValueKind::Text ? nc::technol::deviceWord(value.text) : std::nullopt;
+  return word.value_or(rawOf(value));
+}
+
+// A number is compared in as many bytes as there are.
+std::string bytesDifference(const ServiceSignature& signature, std::string_view found, const KeyValue& key) {
+  auto wanted = bytesOf(key.value, text::equalsIgnoringCase(key.key, "data"));
+  if (wanted && key.value.kind != ValueKind::Text) wanted->resize(std::min(wanted->size(), found.size()));
+  return wanted == found ? std::string()
+                         : fmt::format("{}: {} is {} (\"{}\"), expected {}", signature.name(), key.key,
+                                       text::hexInPairs(found), nc::shownText(found), key.value.text);
+}
+
+std::string argumentDifference(const ServiceSignature& signature, const Asked& asked, int index, const KeyValue& key) {
+  const core::ServiceRequest& request = asked.request;
+  const int64_t found = request.args[index];
+  if (isScopeName(signature, key)) return scopeDifference(signature, found, key);
+  const Form form = signature.formOfArgument(index);
+  if (form == Form::Text || form == Form::Bytes)
+    return bytesDifference(
+        signature, static_cast<size_t>(index) < asked.bytes.size() ? asked.bytes[static_cast<size_t>(index)] : "", key);
+  if (form == Form::Real) {
+    const double real = std::bit_cast<double>(found);
+    return real == key.value.real && key.value.kind != ValueKind::Text
+               ? std::string()
+               : fmt::format("{}: {} is {}, expected {}", signature.name(), key.key, real, key.value.text);
+  }
+  if (found == nc::technol::kNotGiven)
+    return fmt::format("{}: {} is not given, expected {}", signature.name(), key.key, key.value.text);
+  const uint64_t difference = static_cast<uint64_t>(found) ^ static_cast<uint64_t>(wantedOf(key.value));
+  return (difference & maskOf(signature, request, key.key)) == 0
+             ? std::string()
+             : fmt::format("{}: {} is {}, expected {}", signature.name(), key.key, found, key.value.text);
+}
+
+std::string unknownArgument(const ServiceSignature& signature, std::string_view key) {
+  return fmt::format("{} has no argument '{}': it has {}", signature.name(), key, signature.argumentNames());
+}
+
+} // namespace
+
+// ---- signatures ----------------------------------------------------------------------------------------------------
+
+ServiceSignature::ServiceSignature(std::string_view text) {
+  std::istringstream in{std::string(text)};
+  in >> name_;
+  for (std::string word; in >> word;) {
+    if (word == "->") {
+      takesNoAnswer_ = false;
+      continue;
+    }
+    const Form form = word.ends_with(":f")   ? Form::Real
+                      : word.ends_with(":s") ? Form::Text
+                      : word.ends_with(":b") ? Form::Bytes
+                                             : Form::Integer;
+    if (form != Form::Integer) word.resize(word.size() - 2);
+    (takesNoAnswer_ ? arguments_ : results_).push_back({word, form});
+  }
+}
+
+bool ServiceSignature::isNamed(std::string_view name) const { return text::equalsIgnoringCase(name_, name); }
+int ServiceSignature::argument(std::string_view key) const { return indexOf(arguments_, key); }
+int ServiceSignature::result(std::string_view key) const { return indexOf(results_, key); }
+
+int ServiceSignature::indexOf(const std::vector<Name>& names, std::string_view key) {
+  for (size_t i = 0; i < names.size(); ++i)
+    if (text::equalsIgnoringCase(names[i].text, key)) return static_cast<int>(i);
+  return text::equalsIgnoringCase(key, "data") || text::equalsIgnoringCase(key, "Val") ? dataOf(names) : -1;
+}
+
+int ServiceSignature::dataOf(const std::vector<Name>& names) {
+  const auto found =
+      std::ranges::find_if(names, [](const Name& name) { return name.form == Form::Text || name.form == Form::Bytes; });
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+std::string ServiceSignature::namesOf(const std::vector<Name>& names) const {
+  std::string all;
+  const auto add = [&](std::string_view name) {
+    if (!all.empty()) all += ", ";
+    all += name;
+  };
+  for (const Name& name : names)
+    if (name.text != "block") add(name.text);
+  if (hasBlock()) add("wN, dN");
+  return all;
+}
+std::string ServiceSignature::argumentNames() const { return namesOf(arguments_); }
+std::string ServiceSignature::resultNames() const {
+  const std::string names = namesOf(results_);
+  return names.empty() ? "error" : names + ", error";
+}
+
+bool namesWords(const ServiceSignature& signature, const std::vector<KeyValue>& keys) {
+  return std::ranges::any_of(
+      keys, [&](const KeyValue& key) { return signature.argument(key.key) < 0 && blockKey(signature, key.key); });
+}
+
+std::string keyProblem(const ServiceSignature& signature, const std::vector<KeyValue>& arguments,
+                       const std::vector<KeyValue>& results) {
+  for (const KeyValue& key : arguments) {
+    if (signature.argument(key.key) < 0 && !blockKey(signature, key.key)) return unknownArgument(signature, key.key);
+    if (isScopeName(signature, key) && !nc::nct::findScopeSymbol(key.value.text))
+      return fmt::format("'{}' is not a symbol of SCP", key.value.text);
+  }
+  for (const KeyValue& key : results) {
+    const std::optional<BlockKey> word = blockKey(signature, key.key);
+    if (key.key != "error" && signature.result(key.key) < 0 && !word)
+      return fmt::format("{} has no result '{}': it has {}", signature.name(), key.key, signature.resultNames());
+    if (word && !word->isReal && !text::fitsBits(key.value.number, 32))
+      return fmt::format("{} is one word: expected an integer of 32 bits, not {}", key.key, key.value.text);
+  }
+  return {};
+}
+
+// ---- requests and replies ------------------------------------------------------------------------------------------
+
+Asked askedNow(const Instance& instance, const ServiceSignature& signature, const core::ServiceRequest& request) {
+  Asked asked{.request = request, .bytes = {}};
+  for (int i = 0; i < signature.argumentCount(); ++i) {
+    const Form form = signature.formOfArgument(i);
+    if (form != Form::Text && form != Form::Bytes) continue;
+    asked.bytes.resize(static_cast<size_t>(i) + 1);
+    asked.bytes.back() = bytesAt(instance, request.args[i], form == Form::Text);
+  }
+  return asked;
+}
+
+std::string requestDifference(const ServiceSignature& signature, const Asked& asked, std::string_view service,
+                              const std::vector<KeyValue>& keys, const Instance* instance) {
+  const core::ServiceRequest& request = asked.request;
+  if (!signature.isNamed(service)) return fmt::format("the next request is {}, expected {}", signature.name(), service);
+  std::optional<Buffer> buffer;
+  for (const KeyValue& key : keys) {
+    std::string difference;
+    const int index = signature.argument(key.key);
+    const std::optional<BlockKey> word = blockKey(signature, key.key);
+    if (index >= 0 && static_cast<uint32_t>(index) < request.argCount) {
+      difference = argumentDifference(signature, asked, index, key);
+    } else if (word && instance != nullptr) {
+      if (!buffer) buffer.emplace(*instance, signature, request);
+      difference = blockDifference(signature, buffer->block(), *word, key);
+    } else {
+      difference = unknownArgument(signature, key.key);
+    }
+    if (!difference.empty()) return difference;
+  }
+  return {};
+}
+
+namespace {
+
+void setResult(core::ServiceReply& reply, int index, int64_t value) {
+  if (index < 0 || index >= static_cast<int>(RUNG_MAX_SERVICE_ARGS)) return;
+  reply.results[index] = value;
+  reply.resultCount = std::max(reply.resultCount, static_cast<uint32_t>(index) + 1);
+}
+
+int64_t argumentOr(const ServiceSignature& signature, const core::ServiceRequest& request, std::string_view name,
+                   int64_t otherwise) {
+  const int index = signature.argument(name);
+  return index < 0 || static_cast<uint32_t>(index) >= request.argCount ? otherwise : request.args[index];
+}
+
+// Bytes are at most as many as were asked for.
+void setBytes(const ServiceSignature& signature, const core::ServiceRequest& request, const KeyValue& key,
+              Answer& answer) {
+  answer.bytes = bytesOf(key.value, text::equalsIgnoringCase(key.key, "data")).value_or("");
+  const auto most = static_cast<uint64_t>(argumentOr(signature, request, "Len", INT64_MAX));
+  if (answer.bytes.size() > most) answer.bytes.resize(most);
+  setResult(answer.reply, signature.dataResult(), static_cast<int64_t>(answer.bytes.size()));
+}
+
+// What a device says of itself where the scenario does not.
+void setLengths(const ServiceSignature& signature, const core::ServiceRequest& request, Answer& answer) {
+  const auto size = static_cast<int64_t>(answer.bytes.size());
+  setResult(answer.reply, signature.result("Len"),
+            signature.dataResult() >= 0 ? size : argumentOr(signature, request, "Len", 0));
+  setResult(answer.reply, signature.result("ElemFl"), argumentOr(signature, request, "ElemFl", 0));
+}
+
+} // namespace
+
+Answer answerOf(const ServiceSignature& signature, const core::ServiceRequest& request,
+                const std::vector<KeyValue>& results) {
+  Answer answer;
+  answer.reply.ticket = request.ticket;
+  for (const KeyValue& key : results)
+    if (const int index = signature.result(key.key); index >= 0 && index == signature.dataResult())
+      setBytes(signature, request, key, answer);
+  setLengths(signature, request, answer);
+  for (const KeyValue& key : results) {
+    const int index = signature.result(key.key);
+    if (key.key == "error")
+      answer.reply.state = key.value.integer != 0 ? RUNG_SERVICE_ERROR : answer.reply.state;
+    else if (index >= 0 && index != signature.dataResult())
+      setResult(answer.reply, index,
+                signature.formOfResult(index) == Form::Real ? std::bit_cast<int64_t>(key.value.real)
+                                                            : rawOf(key.value));
+  }
+  return answer;
+}
+
+void answerBlock(Instance& instance, const ServiceSignature& signature, const core::ServiceRequest& request,
+                 const std::vector<KeyValue>& results) {
+  if (!signature.hasBlock()) return;
+  Buffer buffer(instance, signature, request);
+  nc::nct::Block block = buffer.block();
+  for (const KeyValue& key : results) {
+    const std::optional<BlockKey> word = blockKey(signature, key.key);
+    if (!word) continue;
+    if (word->isReal)
+      block.setReal(word->word, key.value.real);
+    else
+      block.setWord(word->word, static_cast<int32_t>(key.value.integer));
+  }
+  buffer.writeTo(instance);
 }
 
 } // namespace rung::scenario

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compiler/engines.h"
-#include "tools/scenario/engine_store.h"
+#include "tools/scenario/compile_step.h"
 #include "tools/scenario/scenario.h"
 #include "tools/scenario/session.h"
 

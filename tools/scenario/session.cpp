@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "rtlib/change/compare.h"
+#include "rtlib/change/shadow.h"
 #include "rtlib/nc/names/names.h"
 #include "tools/scenario/expectations.h"
 #include "tools/scenario/names.h"

@@ -8,7 +8,7 @@
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "rtlib/text/similar.h"
-#include "tools/scenario/replace_report.h"
+#include "tools/scenario/lane.h"
 #include "tools/scenario/words.h"
 
 namespace rung::scenario {

@@ -5,7 +5,7 @@
 
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/dialects/gsk/language.h"
-#include "tools/report/module_reference.h"
+#include "tools/report/cross_reference.h"
 
 namespace rung::view {
 namespace {

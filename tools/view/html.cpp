@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "ir/support/put.h"
-#include "tools/view/contents.h"
 #include "tools/view/html_page.h"
 #include "tools/view/html_runs.h"
 #include "tools/view/layout.h"
 #include "tools/view/pieces.h"
+#include "tools/view/program.h"
 #include "tools/view/svg.h"
 
 namespace rung::view {

@@ -1,14 +1,20 @@
-// Names, addresses and their comments (see names.h).
+// Names, addresses and their comments.
 #include "tools/view/names.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
 #include "ir/support/allowance.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/text/letters.h"
+#include "tools/report/cross_reference.h"
 #include "tools/report/place_names.h"
 
 namespace rung::view {
+
 namespace {
 
 // Whether an address is written as a number, as those of NCT are.
@@ -118,6 +124,94 @@ Named Names::lookUp(const frontend::Word& operand) {
   named.key += use->computed;
   named.place.reset();
   return named;
+}
+
+uint32_t Targets::idOf(const frontend::TargetUse& use) {
+  const auto [found, fresh] = ids_.emplace(std::pair(use.scope, use.number), static_cast<uint32_t>(targets_.size()));
+  if (fresh) targets_.emplace_back();
+  return found->second;
+}
+
+void Targets::ask(uint32_t id, uint32_t rung) {
+  std::vector<uint32_t>& callers = targets_[id].callers;
+  if (callers.empty() || callers.back() != rung) callers.push_back(rung);
+}
+
+namespace {
+
+// What a path may have in a link as it is.
+bool isPlain(char c) {
+  return text::isDigit(c) || text::isLetter(c) || std::string_view("/._-~").find(c) != std::string_view::npos;
+}
+
+std::string encoded(std::string_view path) {
+  std::string out;
+  for (char c : path) isPlain(c) ? void(out += c) : void(out += fmt::format("%{:02X}", static_cast<unsigned char>(c)));
+  return out;
+}
+
+void replace(std::string& text, std::string_view what, std::string_view with) {
+  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+    text.replace(at, what.size(), with);
+}
+
+} // namespace
+
+LinkTo sourceLinks(std::string_view page, std::string_view link) {
+  std::error_code unreadable; // a path that cannot be made whole stays as it is
+  const std::filesystem::path folder = std::filesystem::absolute(page, unreadable).parent_path().lexically_normal();
+  return [folder, link = std::string(link), known = std::map<std::string, std::string>()](const SourceFile& file,
+                                                                                          uint32_t line) mutable {
+    std::string& whole = known[file.path]; // without the line yet
+    if (whole.empty()) {
+      std::error_code bad;
+      const auto path = std::filesystem::absolute(file.path, bad).lexically_normal();
+      whole = link;
+      replace(whole, "{file}", encoded(path.lexically_relative(folder).generic_string()));
+      replace(whole, "{path}", encoded(path.generic_string()));
+    }
+    std::string result = whole;
+    replace(result, "{line}", std::to_string(line));
+    return result;
+  };
+}
+
+// Uses as drawn, and those that only the program knows.
+
+void UseIndex::settle() {
+  if (longest_ != 0) return;
+  longest_ = 1;
+  for (const Drawn& drawn : drawn_) longest_ = std::max(longest_, drawn.place.count);
+  std::ranges::stable_sort(drawn_, {}, [](const Drawn& drawn) { return report::startOf(drawn.place); });
+}
+
+std::vector<Use> UseIndex::drawnAt(const ir::BitRange& place) const {
+  std::vector<Use> uses;
+  report::forEachAt(
+      place, drawn_, longest_, [](const Drawn& drawn) { return drawn.place; },
+      [&](const Drawn& drawn) { uses.push_back(drawn.use); });
+  return uses;
+}
+
+// What an operand says goes before what the program does with the place.
+std::vector<Use> UseIndex::of(const ir::BitRange& place) {
+  settle();
+  std::vector<Use> uses = drawnAt(place);
+  std::ranges::sort(uses);
+  const size_t drawn = uses.size();
+  for (const report::RungAccess& access : reference_.accessesOf(place)) {
+    const uint32_t rung = reference_.program().rungs[access.rung].number;
+    const auto first =
+        std::ranges::lower_bound(uses.begin(), uses.begin() + static_cast<ptrdiff_t>(drawn), rung, {}, &Use::rung);
+    const bool isDrawn = first != uses.begin() + static_cast<ptrdiff_t>(drawn) && first->rung == rung;
+    if (rung == 0 || isDrawn || access.indexed) continue;
+    if (access.reads) uses.push_back({rung, false});
+    if (access.writes) uses.push_back({rung, true});
+  }
+  std::ranges::sort(uses);
+  const auto again = std::ranges::unique(uses);
+  uses.erase(again.begin(), again.end());
+  return uses;
 }
 
 } // namespace rung::view

@@ -5,10 +5,14 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "frontend/dialects/dialect.h"
+#include "frontend/sema/analysis.h"
 #include "frontend/syntax/word_lexer.h"
 #include "tools/report/cross_reference.h"
+#include "tools/view/html.h"
+#include "tools/view/program.h"
 
 namespace rung::view {
 
@@ -51,6 +55,59 @@ private:
   std::map<std::string, Known> byAddress_; // the first name of a place; declared ones come first
   std::map<SourcePos, uint32_t> declared_; // where: the definition
   std::map<std::string, Named> places_;    // that were asked for, by address and length
+};
+
+// Where jumps and calls lead: the rungs that begin a subprogram or carry a label, and those that ask for it.
+
+class Targets {
+public:
+  struct Target {
+    uint32_t rung = 0; // its number; 0: no rung is known
+    std::vector<uint32_t> callers;
+  };
+
+  uint32_t idOf(const frontend::TargetUse& use);
+  void define(uint32_t id, uint32_t rung) { targets_[id].rung = rung; }
+  void ask(uint32_t id, uint32_t rung);
+  const Target& at(uint32_t id) const { return targets_[id]; }
+
+private:
+  std::map<std::pair<std::string_view, uint32_t>, uint32_t> ids_; // by scope and number
+  std::vector<Target> targets_;
+};
+
+// Links from a page to the lines of the sources.
+
+// From the lines of a source to it as seen from the folder of the page.
+inline constexpr std::string_view kSourceLink = "{file}#L{line}";
+
+// `link` with {file}, the source as seen from the folder of `page`; {path}, the whole path of the source; {line}.
+LinkTo sourceLinks(std::string_view page, std::string_view link);
+
+// Which rungs of a drawing use a place, whatever its operands look like.
+
+class UseIndex {
+public:
+  // `reference` must outlive it. It knows what no operand says: the cells between the two ends of an array, a
+  // counter's own.
+  explicit UseIndex(const report::CrossReference& reference) : reference_(reference) {}
+
+  // A use as drawn. All of them come before the first question.
+  void add(const ir::BitRange& place, Use use) { drawn_.push_back({place, use}); }
+  // By rung, each side once.
+  std::vector<Use> of(const ir::BitRange& place);
+
+private:
+  struct Drawn {
+    ir::BitRange place;
+    Use use;
+  };
+  void settle();
+  std::vector<Use> drawnAt(const ir::BitRange& place) const;
+
+  const report::CrossReference& reference_;
+  std::vector<Drawn> drawn_;
+  uint32_t longest_ = 0; // bits of a use; 0: not settled yet
 };
 
 } // namespace rung::view

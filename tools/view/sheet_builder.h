@@ -8,7 +8,6 @@
 #include "frontend/ladder/text/drawing.h"
 #include "tools/view/names.h"
 #include "tools/view/sheet.h"
-#include "tools/view/targets.h"
 
 namespace rung::view {
 

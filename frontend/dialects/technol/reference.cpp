@@ -6,8 +6,8 @@
 
 #include "frontend/dialects/technol/read/symbols.h"
 #include "ir/support/diag/technol.h"
-#include "rtlib/nc/notes.h"
-#include "rtlib/nc/technol/licences.h"
+#include "rtlib/nc/faults.h"
+#include "rtlib/nc/technol/services.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"
 

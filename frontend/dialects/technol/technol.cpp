@@ -22,12 +22,12 @@ constexpr std::string_view kShownSpaces[] = {"IO"}; // variables of MAP_* and DE
 
 uint32_t periodOf(const CompileOptions& options, Diagnostics& diagnostics) {
   const auto found = options.config.find("period_us");
-  if (found == options.config.end()) return technol::kDefaultPeriodUs;
+  if (found == options.config.end()) return kDefaultPeriodUs;
   const nc::ConfigKey& row = *nc::findConfigKey(nc::technolConfigKeys(), "period_us");
   if (nc::wrongValue(row, row.key, found->second).empty()) return static_cast<uint32_t>(nc::wholeNumber(found->second));
   diagnostics.report(diag::OperandRange, options.placeOf("period_us"))
       << "period_us " + found->second << nc::takesOf(row);
-  return technol::kDefaultPeriodUs;
+  return kDefaultPeriodUs;
 }
 
 // "X Y Z A" of "XYZA".
@@ -44,13 +44,13 @@ public:
   TechnolProgram(SourceManager& sources, std::span<const FileId> files, const CompileOptions& options,
                  Diagnostics& diagnostics)
       : files_(files.begin(), files.end()), options_(options), source_(sources), symbols_(diagnostics) {
-    technol::ReadOptions reading{.includePaths = options.includePaths};
+    ReadOptions reading{.includePaths = options.includePaths};
     if (const auto folder = options.config.find("system_folder"); folder != options.config.end())
       reading.systemFolder = folder->second;
-    technol::readProgram({sources, reading, diagnostics, source_, declarations_, symbols_}, files);
+    readProgram({sources, reading, diagnostics, source_, declarations_, symbols_}, files);
     period_ = periodOf(options, diagnostics);
-    typed_.emplace(technol::checkProgram(source_, declarations_, symbols_, axisNamesOf(options), diagnostics));
-    analysis_ = technol::analysisOf(*typed_);
+    typed_.emplace(checkProgram(source_, declarations_, symbols_, axisNamesOf(options), diagnostics));
+    analysis_ = analysisOf(*typed_);
   }
 
   const Analysis& analysis() const override { return analysis_; }
@@ -60,23 +60,23 @@ public:
     module->name = source_.sources.name(files_[0]);
     module->dialect = "technol";
     for (const FileId file : files_) module->files.emplace_back(source_.sources.name(file));
-    technol::addSpaces(declarations_, *module);
-    technol::Walk walk(*typed_, *module, period_, options_.marks, options_.given);
-    const technol::LoweredProgram lowered = walk.run();
-    technol::addTasks(declarations_, lowered, walk.emitter(), period_);
-    technol::addSymbols(*typed_, *module, options_.given != nullptr);
-    technol::numberRungs(source_, *module);
+    addSpaces(declarations_, *module);
+    Walk walk(*typed_, *module, period_, options_.marks, options_.given);
+    const LoweredProgram lowered = walk.run();
+    addTasks(declarations_, lowered, walk.emitter(), period_);
+    addSymbols(*typed_, *module, options_.given != nullptr);
+    numberRungs(source_, *module);
     return module;
   }
 
 private:
   const std::vector<FileId> files_;
   const CompileOptions options_;
-  technol::SourceProgram source_;
-  technol::Declarations declarations_;
-  technol::Symbols symbols_;
-  uint32_t period_ = technol::kDefaultPeriodUs;
-  std::optional<technol::TypedProgram> typed_;
+  SourceProgram source_;
+  Declarations declarations_;
+  Symbols symbols_;
+  uint32_t period_ = kDefaultPeriodUs;
+  std::optional<TypedProgram> typed_;
   Analysis analysis_;
 };
 
@@ -91,13 +91,12 @@ std::vector<std::string> included(SourceManager& sources, std::span<const FileId
   std::set<std::string_view> seen;
   for (const FileId file : files) seen.insert(sources.name(file));
   Diagnostics unheard;
-  technol::SourceProgram program(sources);
-  technol::Declarations declarations;
-  technol::Symbols symbols(unheard);
+  SourceProgram program(sources);
+  Declarations declarations;
+  Symbols symbols(unheard);
   const auto before = static_cast<uint32_t>(sources.fileCount());
   // Adds the files that it reads.
-  technol::readProgram({sources, {.includePaths = options.includePaths}, unheard, program, declarations, symbols},
-                       files);
+  readProgram({sources, {.includePaths = options.includePaths}, unheard, program, declarations, symbols}, files);
   std::vector<std::string> names;
   for (uint32_t i = before; i < sources.fileCount(); ++i)
     if (const std::string_view name = sources.name(FileId{i}); seen.insert(name).second) names.emplace_back(name);
@@ -113,16 +112,16 @@ const Dialect kTechnol = {
     .title = "TECHNOL, PLC836 of the MEFI CNC8x9",
     .extensions = kExtensions,
     .configKeys = nc::technolConfigKeys(),
-    .instructions = technol::instructionInfos(),
+    .instructions = instructionInfos(),
     .signals = nc::technolSignals,
     .shownSpaces = kShownSpaces,
     .isBuilt = isBuilt,
     .check = check,
-    .format = technol::format,
+    .format = format,
     .included = included,
-    .reference = technol::addReference,
-    .explain = technol::explainWord,
-    .listing = technol::listing,
+    .reference = addReference,
+    .explain = explainWord,
+    .listing = listing,
 };
 
 } // namespace rung::frontend::technol

@@ -88,7 +88,7 @@ std::string_view drawnFor(std::string_view listWord) {
 }
 
 bool isListLine(std::span<const Word> words) {
-  if (words.size() > 1 && std::ranges::all_of(words[0].text, isDigit)) words = words.subspan(1);
+  if (words.size() > 1 && std::ranges::all_of(words[0].text, text::isDigit)) words = words.subspan(1);
   return !words.empty() && !words[0].quoted && !drawnFor(words[0].text).empty();
 }
 

@@ -144,7 +144,7 @@ bool noteLetter(std::string_view constant, DiagBuilder& report) {
   if (constant.size() < 2 || !text::isDigit(constant[1])) return false;
   const char mark = text::upper(constant[0]);
   const std::string_view digits = constant.substr(1);
-  const bool isDecimal = std::ranges::all_of(digits, isDigit);
+  const bool isDecimal = std::ranges::all_of(digits, text::isDigit);
   const bool isHex = std::ranges::all_of(digits, [](char c) { return text::hexDigit(c) >= 0; });
   if (isDecimal && (mark == 'K' || mark == '#'))
     report.note(fmt::format("a number is written without '{}': {}", constant[0], digits));

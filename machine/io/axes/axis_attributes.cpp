@@ -1,4 +1,4 @@
-// Attributes of an axis by name (see axis_attributes.h).
+// Attributes of an axis by name.
 #include "machine/io/axes/axis_attributes.h"
 
 #include <algorithm>
@@ -6,11 +6,11 @@
 #include <iterator>
 #include <limits>
 
-#include "machine/io/axes/axis_mask.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 
 namespace rung::io {
+
 namespace {
 
 constexpr std::string_view kKey = "axis.";

@@ -1,9 +1,13 @@
 // What the configuration of the control says of an axis (man. l.11475-11610). Places in mm (degrees), speeds in mm/min
 // (degrees/min), accelerations in mm/s² (degrees/s²).
 #pragma once
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
+
+#include "rtlib/nc/technol/services.h"
 
 namespace rung::io {
 
@@ -49,5 +53,50 @@ struct AxisKey {
 bool isAxisKey(std::string_view key);
 // "" or what is wrong.
 std::string readAxisKey(std::string_view key, AxisKey& read);
+
+// Axes of a control are numbered from 1. A mask has a bit an axis: axis n is bit n - 1.
+
+using nc::kMaxAxes;
+
+using AxisMask = uint16_t;
+
+constexpr bool has(AxisMask mask, uint32_t index) { return (mask >> index & 1) != 0; }
+constexpr AxisMask bitOf(uint32_t index) { return static_cast<AxisMask>(1u << index); }
+constexpr void clearBit(AxisMask& mask, uint32_t index) { mask = static_cast<AxisMask>(mask & ~bitOf(index)); }
+constexpr void setBit(AxisMask& mask, uint32_t index) { mask = static_cast<AxisMask>(mask | bitOf(index)); }
+
+// What allows axes to move: cells of the program, as masks. What is not said otherwise is as after MODULE_INIT.
+
+struct AxisPermits {
+  AxisMask enabled = 0xFFFF;              // MPxPI l.6177
+  AxisMask limitPlus = 0, limitMinus = 0; // KHx0, KHx1 l.6674
+};
+
+// What keeps an axis from moving in a direction.
+enum class Hold : uint8_t { None, Disabled, Limit };
+
+constexpr bool atLimit(const AxisPermits& in, uint32_t index, bool negative) {
+  return has(negative ? in.limitMinus : in.limitPlus, index);
+}
+constexpr Hold holdOf(const AxisPermits& in, uint32_t index, bool negative, AxisMask enabled) {
+  if (atLimit(in, index, negative)) return Hold::Limit;
+  return has(enabled, index) ? Hold::None : Hold::Disabled;
+}
+
+// What the cells of axes report of their motions and positions; only axes that exist have any.
+
+struct AxisReport {
+  AxisMask motion = 0;                           // PO_OSxPI
+  AxisMask negative = 0;                         // SM_POxPI
+  std::array<int64_t, kMaxAxes> positionEx = {}; // B_POL_EX, POSITION_POSk_EX (k < 6): 1/65536 µm
+  std::array<int32_t, 6> positionShort = {};     // B_POL: 1/8 µm
+
+  // Axis `index` + 1 is there, in mm (degrees).
+  void place(uint32_t index, double position) {
+    positionEx[index] = std::llround(position * 1000 * 65536);
+    if (index < positionShort.size())
+      positionShort[index] = static_cast<int32_t>(std::llround(position * 8000)); // wraps as the cell does
+  }
+};
 
 } // namespace rung::io

@@ -1,9 +1,10 @@
-// The drives as the control sees them (see drives.h).
+// The drives as the control sees them.
 #include "machine/io/can/drives.h"
 
 #include "rtlib/text/hex.h"
 
 namespace rung::io {
+
 namespace {
 
 // Control words and states of CiA 402.

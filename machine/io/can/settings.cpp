@@ -6,7 +6,7 @@
 #include <span>
 
 #include "machine/host/xml_reader.h"
-#include "machine/io/key_text.h"
+#include "machine/io/device_call.h"
 #include "rtlib/nc/control/technol/identifier.h"
 #include "rtlib/text/letters.h"
 

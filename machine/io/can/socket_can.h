@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "machine/io/can/port.h"
+#include "machine/io/can/channel.h"
 #include "rtlib/core/ring.h"
 
 struct can_frame; // NOLINT(readability-identifier-naming): of the kernel

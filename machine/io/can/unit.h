@@ -1,15 +1,37 @@
+// What the control says about a unit on the CAN bus. The manual has no numbers for that (l.9615-9653 are of drives).
+#pragma once
+#include <string>
+
+#include "machine/io/can/channel.h"
+#include "machine/io/can/drives.h"
+
+namespace rung::io {
+
+struct UnitMessage {
+  enum class Kind : uint8_t {
+    Silent,     // time-out
+    Answers,    // again
+    Error,      // `code` is its error register 1001h
+    SilentSdo,  // it does not answer the request for `object`
+    RefusesSdo, // nor carry it out: `code` is that of the abort (CiA 301)
+  };
+  Kind kind = Kind::Silent;
+  uint8_t group = 0, board = 0; // from 1
+  sdo::Object object;
+  uint32_t code = 0;
+
+  bool operator==(const UnitMessage&) const = default;
+};
+using UnitMessages = BoundedQueue<UnitMessage, 64>; // of more the newest are lost
+
+// As the log has it.
+std::string textOf(const UnitMessage& message);
+
 // The control's side of one unit on the CAN bus: its structure INOUTS, its errors and time-outs, and what is asked of
 // it by SDO (man. l.3502-3678, l.4074-4263). All units together are CanUnits (units.h).
 //
 // A unit that is new, has come back after a silence or says that it has booted is taken out of the exchange of process
 // data, gets the mapping of its PDOs (unit_mapping.h), in which alone CiA 301 lets it change, and is started.
-#pragma once
-#include "machine/io/can/inouts.h"
-#include "machine/io/can/port.h"
-#include "machine/io/can/sdo.h"
-#include "machine/io/can/unit_message.h"
-
-namespace rung::io {
 
 // Groups are 1 INOUT08, 2 KLA50 and EPU, 3 handwheel (man. l.3287-3291).
 inline constexpr uint32_t kUnitGroups = 3, kInOut08 = 1, kPanel = 2, kHandwheel = 3;
@@ -106,5 +128,68 @@ private:
   sdo::Object aborted_, saidAborted_;
   enum class Segment : uint8_t { None, Due, Asked } segment_ = Segment::None; // of a text that is longer than 4 bytes
 };
+
+// Objects of units (man. l.4390-4463, l.4567-4663); those that every node has are in sdo.h.
+
+inline constexpr sdo::Object kTpdo2Id{0x1801, 1}, kTpdo2Type{0x1801, 2}; // COB-ID and type of transmission (CiA 301)
+inline constexpr uint32_t kNotValid = 0x8000'0000;                       // of a COB-ID: the PDO is not sent
+inline constexpr uint16_t kRpdoMapping = 0x1600, kTpdoMapping = 0x1A00;  // subindices 1 to 8
+
+inline constexpr uint16_t kShortedOutput = 0x2101, kMatrixInput = 0x2108, kEncoderCounter = 0x210D, kDisplay = 0x210F,
+                          kWheelKeys = 0x2111, kReadInput = 0x6000, kWriteOutput = 0x6200;
+inline constexpr sdo::Object kMatrixOutputs{0x2109, 0}, kWheelMode{0x2110, 0};
+// Subindices of the display (man. l.4620-4663).
+inline constexpr uint8_t kDisplayInitialise = 1, kDisplayEnable = 2, kDisplayRow = 6, kDisplayColumn = 7,
+                         kDisplayMask = 8, kDisplayInversion = 9, kDisplaySize = 10, kDisplayCount = 11,
+                         kDisplayCharacter = 12;
+
+// What the bytes of the process data of units are. The units have eight fields of eight bits in RPDO1 and in TPDO1,
+// whose number is fixed, and fields without use have to be mapped, too (man. l.4705-4714, l.4780-4790); the control
+// maps them by the objects 1600h and 1A00h. TPDO2 is fixed: what the unit's analogue inputs are.
+//
+// The manual names the objects (unit_objects.h) and the structures of programs (l.4074-4185, l.7492-7503), but not
+// which byte is what: the control decides that.
+
+inline constexpr uint32_t kPdoFields = 8;
+
+inline constexpr uint16_t kUnusedField = 0x0005; // the unsigned byte of CiA 301 that is mapped where nothing is
+
+// The value of a mapping object: index, subindex, bits.
+constexpr uint32_t mappingOf(sdo::Object field) { return uint32_t{field.index} << 16 | field.subindex << 8 | 8u; }
+
+using PdoFields = std::array<sdo::Object, kPdoFields>;
+
+inline constexpr sdo::Object kNoField{kUnusedField, 0};
+
+// OUT0 to OUT2.
+inline constexpr PdoFields kOutputFields = {
+    {{kWriteOutput, 1}, {kWriteOutput, 2}, {kWriteOutput, 3}, kNoField, kNoField, kNoField, kNoField, kNoField}};
+// IN0 to IN3, TL0 to TL3.
+inline constexpr PdoFields kInputFields = {{{kReadInput, 1},
+                                            {kReadInput, 2},
+                                            {kReadInput, 3},
+                                            {kReadInput, 4},
+                                            {kMatrixInput, 1},
+                                            {kMatrixInput, 2},
+                                            {kMatrixInput, 3},
+                                            {kMatrixInput, 4}}};
+// TOC_DISPLS (man. l.7492-7503).
+inline constexpr PdoFields kWheelOutputFields = {{{kDisplay, kDisplayRow},
+                                                  {kDisplay, kDisplayColumn},
+                                                  {kDisplay, kDisplayCharacter},
+                                                  {kDisplay, kDisplayCharacter + 1},
+                                                  {kDisplay, kDisplayCharacter + 2},
+                                                  {kDisplay, kDisplayCharacter + 3},
+                                                  {kDisplay, kDisplaySize},
+                                                  {kDisplay, kDisplayInversion}}};
+// IN0, IN1; the low bytes of IRC0 and IRC1, for a field has no more bits.
+inline constexpr PdoFields kWheelInputFields = {{{kWheelKeys, 1},
+                                                 {kWheelKeys, 2},
+                                                 {kEncoderCounter, 1},
+                                                 {kEncoderCounter, 2},
+                                                 kNoField,
+                                                 kNoField,
+                                                 kNoField,
+                                                 kNoField}};
 
 } // namespace rung::io

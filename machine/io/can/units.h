@@ -5,6 +5,7 @@
 // The identifiers of PDOs are those of l.4370-4383, their bytes those of unit_mapping.h; TPDO2 is ANL0 to ANL7. A unit
 // reports errors by emergency packets.
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "machine/io/can/unit.h"
@@ -80,5 +81,24 @@ private:
   uint32_t syncPeriod_ = 1, sinceSync_ = 0;
   bool started_ = false;
 };
+
+// What the control asks of a unit by SDO: sets of requests, a bit each. Of those that wait the lowest comes first.
+
+namespace requests {
+
+inline constexpr uint32_t kShorts = 0b111;          // 2101h:1-3 (man. l.3674-3678)
+inline constexpr uint32_t kRegister = 1 << 3;       // 1001h
+inline constexpr uint32_t kWheelMode = 1 << 4;      // 2110h: the keys of a handwheel work (man. l.4647-4663)
+inline constexpr uint32_t kMappingAt = 5;           // the first bit of
+inline constexpr uint32_t kMapping = 0xFFFF << 5;   // 1600h:1-8, 1A00h:1-8
+inline constexpr uint32_t kAnalogue = 1 << 21;      // 1801h:1: whether TPDO2 is sent
+inline constexpr uint32_t kModes = 0b11 << 21;      // that, and 2109h, by which the matrix works
+inline constexpr uint32_t kDisplay = 0b1111 << 23;  // of a handwheel
+inline constexpr uint32_t kIdentity = 0b1111 << 27; // 1018h, 1008h, 1009h, 100Ah (man. l.4079-4082)
+
+// What a unit needs before it takes part in the exchange of process data.
+inline constexpr uint32_t kBeforeStart = kWheelMode | kMapping | kAnalogue;
+
+} // namespace requests
 
 } // namespace rung::io

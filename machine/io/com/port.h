@@ -1,15 +1,54 @@
-// A serial port as a program sees it (TECHNOL manual 23.3.2, l.21042-21199): a queue each way and a state. The program
-// is the scan thread; the line, simulated or real, may be another thread. Nothing waits, allocates or locks.
+// How a serial port is set: the attributes of ComChannel (TECHNOL manual 23.3.1, l.21000-21040).
 #pragma once
 #include <atomic>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
-#include "machine/io/com/settings.h"
+#include "machine/io/device_call.h"
 #include "rtlib/core/ring.h"
 
-namespace rung::io::com {
+namespace rung::io {
+
+namespace com {
+
+inline constexpr uint32_t kMostPorts = 16; // numbers 0 to 15
+
+enum class Parity : uint8_t { None, Odd, Even, Mark, Space };
+
+struct Settings {
+  bool isActive = false;
+  uint32_t physical = 0; // PhysicalComNo, 1 is the first; 0: not given
+  uint32_t speed = 115200;
+  uint32_t dataBits = 8;
+  uint32_t stopBits = 2;
+  Parity parity = Parity::None;
+
+  // An attribute and its value, in any case. "" or what is wrong.
+  std::string set(std::string_view attribute, std::string_view value);
+  // Start, data, parity and stop bits.
+  uint32_t bitsOfByte() const { return 1 + dataBits + (parity == Parity::None ? 0 : 1) + stopBits; }
+  uint8_t mask() const { return dataBits == 7 ? 0x7F : 0xFF; }
+};
+
+// "COM[1].ComSpeed": the number of the port, and its attribute in capitals.
+struct PortKey {
+  uint32_t number = 0;
+  std::string attribute;
+};
+// Whether the key is one of a serial port, right or wrong.
+bool isPortKey(std::string_view key);
+// "" or what is wrong with it.
+std::string readPortKey(std::string_view key, PortKey& port);
+
+} // namespace com
+
+// A serial port as a program sees it (TECHNOL manual 23.3.2, l.21042-21199): a queue each way and a state. The program
+// is the scan thread; the line, simulated or real, may be another thread. Nothing waits, allocates or locks.
+
+namespace com {
 
 // Of COM_CONTROL STATE (l.21189-21198).
 enum PortState : uint32_t {
@@ -63,4 +102,15 @@ private:
   uint32_t lostSeen_ = 0; // of the bytes that fromLine_ has refused
 };
 
-} // namespace rung::io::com
+} // namespace com
+
+// COM_*: serial ports (man. ch. 23.3).
+
+// What a request asks for; None: no such service.
+enum class ComOrder : uint8_t { None, Send, SendText, Receive, Control };
+ComOrder comOrder(std::string_view service);
+inline uint32_t comOf(const DeviceCall& call) { return call.number(0); }
+// Of the port that the request is for; null: no port of this number.
+void answerCom(com::Port* port, ComOrder order, DeviceCall& call);
+
+} // namespace rung::io

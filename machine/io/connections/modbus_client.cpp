@@ -12,7 +12,7 @@
 #include <span>
 #include <tuple>
 
-#include "machine/io/connections/registers.h"
+#include "machine/io/connections/modbus_image.h"
 #include "rtlib/run/realtime.h"
 
 namespace rung::io {

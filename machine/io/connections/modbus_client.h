@@ -7,8 +7,7 @@
 
 #include <modbus.h>
 
-#include "machine/io/connections/exchange.h"
-#include "machine/io/connections/service.h"
+#include "machine/io/connections/connections.h"
 
 namespace rung::io {
 

@@ -9,9 +9,8 @@
 
 #include <modbus.h>
 
-#include "machine/io/connections/exchange.h"
+#include "machine/io/connections/connections.h"
 #include "machine/io/connections/modbus_image.h"
-#include "machine/io/connections/service.h"
 #include "machine/io/connections/socket.h"
 
 namespace rung::io {

@@ -14,7 +14,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "machine/io/connections/registers.h"
+#include "machine/io/connections/modbus_image.h"
 #include "rtlib/run/realtime.h"
 
 namespace rung::io {

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "machine/io/connections/exchange.h"
-#include "machine/io/connections/service.h"
+#include "machine/io/connections/connections.h"
 #include "machine/io/connections/socket.h"
 
 namespace rung::io {

@@ -1,8 +1,9 @@
-// Requests to EtherCAT (see ethercat_requests.h).
+// Requests to EtherCAT.
 #include "machine/io/ethercat/ethercat_requests.h"
 
 #include <iterator>
 
+#include "machine/io/ethercat/master.h"
 #include "rtlib/nc/control/technol/cells.h"
 
 namespace rung::io {
@@ -131,5 +132,97 @@ void StatePlaces::read(const core::Memory& memory, StateBits& bits) const {
 void StatePlaces::write(const core::Memory& memory, const StateBits& bits) const {
   for (uint32_t i = 0; i < bits_.size(); ++i) memory.write(bits_[i], bits.*kStateBits[i].member ? 1 : 0);
 }
+
+// Requested states of the master.
+
+namespace ethercat {
+
+namespace {
+
+struct Request {
+  bool StateBits::* bit;
+  State state;
+};
+constexpr Request kRequests[] = {{&StateBits::initRequest, State::Init},
+                                 {&StateBits::bootstrapRequest, State::Bootstrap},
+                                 {&StateBits::preOperationalRequest, State::PreOperational},
+                                 {&StateBits::safeOperationalRequest, State::SafeOperational},
+                                 {&StateBits::operationalRequest, State::Operational}};
+
+} // namespace
+
+void StateRequests::reset(bool byProgram) noexcept {
+  if (ticket_ != 0) master_.forget(ticket_);
+  ticket_ = current_ = next_ = 0;
+  byProgram_ = byProgram;
+  startSeen_ = start_ = false;
+}
+
+// The bit stays set after the start, so that its rise alone counts.
+void StateRequests::tick(StateBits& bits) noexcept {
+  if (byProgram_ && bits.startCyclicOperation && !startSeen_) start_ = true;
+  startSeen_ = bits.startCyclicOperation;
+  finish(bits);
+  if (ticket_ == 0) begin(bits);
+  bits.isOperational = master_.state() == State::Operational;
+}
+
+void StateRequests::finish(StateBits& bits) noexcept {
+  if (ticket_ == 0) return;
+  const Answer answer = master_.poll(ticket_);
+  if (!answer.isDone) return;
+  master_.forget(ticket_);
+  ticket_ = 0;
+  const bool reached = answer.code == kDone;
+  next_ = reached ? 0 : current_ + 1;
+  if (current_ == kStart) start_ = false;
+  if (reached && current_ != kStart) bits.*kRequests[current_].bit = false;
+}
+
+bool StateRequests::isWanted(uint32_t request, const StateBits& bits) const noexcept {
+  return request == kStart ? start_ : bits.*kRequests[request].bit;
+}
+
+void StateRequests::begin(const StateBits& bits) noexcept {
+  for (uint32_t i = 0; i <= kStart; ++i) {
+    current_ = (next_ + i) % (kStart + 1);
+    if (!isWanted(current_, bits)) continue;
+    const State target = current_ == kStart ? State::Operational : kRequests[current_].state;
+    ticket_ = master_.command({}, static_cast<uint32_t>(target));
+    return;
+  }
+}
+
+} // namespace ethercat
+
+// A host without an EtherCAT master.
+
+namespace ethercat {
+
+namespace {
+
+class NoMaster final : public Master {
+public:
+  Ticket upload(Station, uint16_t, uint8_t, uint32_t) noexcept override { return kTicket; }
+  Ticket download(Station, uint16_t, uint8_t, std::span<const uint8_t>) noexcept override { return kTicket; }
+  Ticket readIdn(Station, uint8_t, uint8_t, uint16_t, uint32_t) noexcept override { return kTicket; }
+  Ticket writeIdn(Station, uint8_t, uint8_t, uint16_t, std::span<const uint8_t>) noexcept override { return kTicket; }
+  Ticket command(Station, uint32_t) noexcept override { return kTicket; }
+  Answer poll(Ticket) const noexcept override { return {.isDone = true, .code = kNoMaster}; }
+  void forget(Ticket) noexcept override {}
+  State state() const noexcept override { return State::Unknown; }
+
+private:
+  static constexpr Ticket kTicket = 1;
+};
+
+} // namespace
+
+Master& noMaster() noexcept {
+  static NoMaster none;
+  return none;
+}
+
+} // namespace ethercat
 
 } // namespace rung::io

@@ -21,9 +21,6 @@
 
 namespace rung::io {
 
-using host::TableData;
-using host::TableDefinition;
-
 // What DR is after PLCT_*.
 enum class TableError : uint8_t {
   None = 0,
@@ -42,7 +39,7 @@ public:
   static constexpr uint32_t kTables = 256; // TabIdx is a BYTE (l.18716)
   // An operator may add that many lines to those that the file had.
   static constexpr uint32_t kMoreLines = 256;
-  static constexpr uint32_t kMostLines = host::kMostLines;
+  static constexpr uint32_t kMostLines = io::kMostLines;
   // The texts and binary elements of a table may have that many bytes more than in the file.
   static constexpr uint32_t kMoreTextBytes = 1u << 16;
   // Of all tables together: 65535 lines of 63 REALs.

@@ -95,7 +95,7 @@ std::string TableFiles::saveNow(PlcTables& tables) const {
   for (const auto& [number, file] : files_) {
     const std::optional<TableData> data = tables.isDirty(number) ? tables.contents(number) : std::nullopt;
     if (!data) continue;
-    const std::string text = host::tableDataText(*data);
+    const std::string text = tableDataText(*data);
     const std::string failed = runtime::replaceFile(file.path, text, {.mode = modeOf(file.path), .lasts = true});
     addLine(wrong, failed);
     if (failed.empty()) tables.stored(number);

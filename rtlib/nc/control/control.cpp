@@ -1,4 +1,4 @@
-// What the controls of all dialects have in common (see control.h).
+// What the controls of all dialects have in common.
 #include "rtlib/nc/control/control.h"
 
 #include <algorithm>
@@ -6,10 +6,9 @@
 
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/control/gsk/gsk_control.h"
-#include "rtlib/nc/control/message_number.h"
 #include "rtlib/nc/control/nct/nct_control.h"
-#include "rtlib/nc/control/refuse.h"
 #include "rtlib/nc/control/technol/technol_control.h"
+#include "rtlib/nc/gsk/window_functions.h"
 #include "rtlib/nc/names/names.h"
 
 namespace rung::nc {
@@ -72,6 +71,53 @@ std::unique_ptr<Control> makeControl(std::string_view dialect) {
   if (dialect == "nct") return std::make_unique<NctControl>();
   if (dialect == "technol") return std::make_unique<TechnolControl>();
   return std::make_unique<Control>();
+}
+
+// Load and save.
+
+Retention::Retention(Control& control, runtime::Instance& instance, const std::string& file, runtime::RetainTake take,
+                     const runtime::Outside& outside)
+    : control_(&control), instance_(&instance),
+      memory_(instance.program(), file,
+              control.savesOnRequest() ? runtime::RetainWhen::OnRequest : runtime::RetainWhen::Always, take, outside) {
+  control.setStored(true);
+}
+
+std::optional<PowerOn> Retention::load(std::string& report, std::string& error) {
+  const bool found = memory_.load(*instance_, report, error);
+  if (!error.empty()) return std::nullopt;
+  if (memory_.lost()) control_->reportRetainedLost();
+  return found ? PowerOn::Warm : PowerOn::Cold;
+}
+
+bool Retention::afterSlice() noexcept {
+  const bool asked = control_->asksToSave(*instance_);
+  const bool saved = memory_.offer(*instance_, asked);
+  if (saved) control_->saved(*instance_);
+  return saved || !asked;
+}
+
+// The refusal of a request.
+
+namespace {
+
+// "windr function length … -> end data": the name is before its arguments. Other services differ in the first letters.
+bool isOf(const char* service, const char* name) noexcept {
+  for (; *name != '\0'; ++service, ++name)
+    if (*service != *name) return false;
+  return *service == ' ' || *service == '\0';
+}
+
+} // namespace
+
+core::ServiceReply refuse(const rung_program& program, const core::ServiceRequest& request) noexcept {
+  const char* const service = request.service < program.service_count ? program.services[request.service] : "";
+  const bool reads = isOf(service, "windr");
+  if (!reads && !isOf(service, "windw")) return {.ticket = request.ticket, .state = RUNG_SERVICE_ERROR};
+  return {.ticket = request.ticket,
+          .state = RUNG_SERVICE_DONE,
+          .resultCount = reads ? 2u : 1u,
+          .results = {gsk::kWindowNotProvided}};
 }
 
 } // namespace rung::nc

@@ -1,10 +1,8 @@
-// What the software of a CNC does around its PLC program, whatever the machine: power-on and power-off, signals that
-// the program takes for granted (clocks, first cycle, "ready"), messages, retained cells, names. One class a dialect
-// (gsk/, nct/, technol/). A host that drives a real machine and the simulation alike put it beside the program.
-//
-// A control belongs to one instance and to its thread. What runs while the program is scanned (the hooks, accept,
-// describe, afterSlice) allocates nothing, takes no lock and never blocks; the rest is for start, end and the operator.
+// M, S, T and further functions of a part program, and keys, on their way from the NC to the PLC program, by the
+// dialect's own handshake. A simulated NC and a host that drives a machine hand functions over by the same class.
+// Everything here is for the scan thread and allocates nothing.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,11 +11,85 @@
 #include <string_view>
 #include <vector>
 
-#include "rtlib/nc/control/functions.h"
-#include "rtlib/nc/control/shown_message.h"
+#include "rtlib/core/queues.h"
+#include "rtlib/retain/retained_memory.h"
 #include "rtlib/run/instance.h"
 
 namespace rung::nc {
+
+// B: the second auxiliary function; Key: one of the panel that is pressed and released.
+enum class FunctionKind : uint8_t { M, S, T, B, H, Key };
+inline constexpr std::string_view kFunctionKinds[] = {"M", "S", "T", "B", "H", "key"}; // by FunctionKind
+
+// The functions of one channel of the control (Control::functions). They are ready once the program is switched on; a
+// power-on leaves none under way.
+class Functions {
+public:
+  virtual ~Functions() = default;
+
+  // From now on the program finishes every kind of function by a signal of its own, so that kinds do not wait for each
+  // other. False: the dialect has no such mode.
+  virtual bool useHighSpeed() { return false; }
+  // The machine has this M function in a group of its choice, from now on. False: the dialect has no such group, or the
+  // function has its group for good.
+  virtual bool setGroup(uint32_t code, uint32_t group) { return (void)code, (void)group, false; }
+  // False: the dialect has no signals for this kind of function, or none that hold the code.
+  virtual bool carries(FunctionKind kind, uint32_t code) const = 0;
+
+  // Hands a function over that the signals carry; gives the line that it is on, which is its own until it is finished.
+  // Nothing: the signals that it needs are in use, or it is not the time for it; try again before a later slice.
+  virtual std::optional<uint32_t> start(FunctionKind kind, uint32_t code) = 0;
+  // Before every slice of the program.
+  virtual void step() = 0;
+  // The program has not finished the function on this line, of which there may be none.
+  virtual bool busy(uint32_t line) const = 0;
+  // Reset, emergency stop: what is under way ends at once, unanswered.
+  virtual void abort() = 0;
+};
+
+// How people write a message's number.
+
+inline constexpr size_t kMessageNumber = 64; // characters: more than any has
+
+// The number as the program has it, and which message of that number it is: "12", "12 (channel 1, index 0)". Gives the
+// characters written; what does not fit is cut off. Allocates nothing.
+size_t putMessageNumber(uint32_t number, int32_t channel, int32_t index, std::span<char> out) noexcept;
+
+// A message of the program as the control shows it to its operator.
+
+struct ShownMessage {
+  uint32_t number = 0;
+  int32_t channel = 0;
+  int32_t index = 0;
+  int64_t value = 0; // the bits of a double when `real`; TECHNOL: par1
+  bool real = false;
+  std::string text;
+  uint32_t par2 = 0, par3 = 0; // TECHNOL
+  bool operator==(const ShownMessage&) const = default;
+  // The same message with the same values: then a program has one text for both.
+  bool isSameButText(const ShownMessage& other) const {
+    return number == other.number && channel == other.channel && index == other.index && value == other.value &&
+           real == other.real && par2 == other.par2 && par3 == other.par3;
+  }
+};
+
+// What the machine's configuration says of one message.
+struct DefinedMessage {
+  uint32_t number = 0;
+  bool lasts = false;      // it is shown until the program ends it, else until the operator confirms it
+  bool loggedOnly = false; // it is not shown
+  std::string text;        // %d, %x and %X are places for the values of the message
+};
+
+// Characters that Control::describe may write; longer texts are cut off.
+inline constexpr size_t kMessageLine = 400;
+
+// What the software of a CNC does around its PLC program, whatever the machine: power-on and power-off, signals that
+// the program takes for granted (clocks, first cycle, "ready"), messages, retained cells, names. One class a dialect
+// (gsk/, nct/, technol/). A host that drives a real machine and the simulation alike put it beside the program.
+//
+// A control belongs to one instance and to its thread. What runs while the program is scanned (the hooks, accept,
+// describe, afterSlice) allocates nothing, takes no lock and never blocks; the rest is for start, end and the operator.
 
 enum class PowerOn : uint8_t { Cold, Warm };
 
@@ -153,5 +225,46 @@ private:
 
 // By rung_program::dialect; a plain control for a dialect that has none of its own.
 std::unique_ptr<Control> makeControl(std::string_view dialect);
+
+// The retained memory of a program on disk, as its control wants it: what every host does that is given a file for it.
+
+class Retention {
+public:
+  // Control and instance outlive this. FILE of FILE.a and FILE.b. `take`: as RetainedMemory has it.
+  Retention(Control& control, runtime::Instance& instance, const std::string& file,
+            runtime::RetainTake take = &runtime::takeRetainedOf, const runtime::Outside& outside = {});
+
+  // Before the power-on: how the program is switched on. Nothing, and `error` says why: the files cannot be used.
+  // `report`: what the operator should know of them, or "".
+  std::optional<PowerOn> load(std::string& report, std::string& error);
+  // Scan thread, after every slice and Control::afterSlice; never waits. False: the program asks for saving, and that
+  // is not on disk yet.
+  bool afterSlice() noexcept;
+  // After the last scan; before the power-off too, because a fault in the scans that it needs spoils them. "" or why
+  // the last whole scan is not on disk.
+  std::string finish() { return memory_.finish(*instance_); }
+
+  // How saving goes: for any thread, without a lock.
+  const runtime::RetainedMemory& memory() const { return memory_; }
+  // As RetainedMemory has them.
+  void programChanged(std::unique_ptr<runtime::RetainLane>& lane) noexcept { memory_.programChanged(lane); }
+  void settle() { memory_.settle(); }
+  // Not in a scan: waits for what was offered.
+  bool flush() { return memory_.flush(); }
+  // As RetainSaver has them.
+  void look() noexcept { memory_.look(); }
+  void abandon() noexcept { memory_.abandon(); }
+
+private:
+  Control* control_;
+  runtime::Instance* instance_;
+  runtime::RetainedMemory memory_;
+};
+
+// The answer where no CNC is there to give one: a program must not wait for ever.
+
+// GSK's window requests end with code 6, "not provided" (man. l.8668-8676); all others with an error, of which NCT's MR
+// and MW make execution code 1 and MACR, MACW, SCP and MOVCMND the flag FL_ER. Allocates nothing.
+core::ServiceReply refuse(const rung_program& program, const core::ServiceRequest& request) noexcept;
 
 } // namespace rung::nc

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "rtlib/nc/notes.h"
+#include "rtlib/nc/faults.h"
 
 namespace rung::nc {
 

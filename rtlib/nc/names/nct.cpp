@@ -3,7 +3,7 @@
 
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/nct/signals.h"
-#include "rtlib/run/overwritten.h"
+#include "rtlib/run/loaded_program.h"
 #include "rtlib/text/name_parts.h"
 #include "rtlib/text/number.h"
 

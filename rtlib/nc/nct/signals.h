@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "rtlib/nc/notes.h"
+#include "rtlib/nc/faults.h"
 
 namespace rung::nc {
 

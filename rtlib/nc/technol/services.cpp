@@ -1,4 +1,4 @@
-// The services of devices (see services.h).
+// The services of devices.
 #include "rtlib/nc/technol/services.h"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include "rtlib/text/letters.h"
 
 namespace rung::nc::technol {
+
 namespace {
 
 constexpr bool kWaits = true;

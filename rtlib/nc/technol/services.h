@@ -13,7 +13,9 @@
 
 #include "rung/program.h"
 
-namespace rung::nc::technol {
+namespace rung::nc {
+
+namespace technol {
 
 // What is known of a service besides its name. A name among `results` with ":f" after it is a real, with ":s" a text,
 // with ":b" bytes; of both the result is their number.
@@ -68,4 +70,55 @@ inline constexpr std::string_view kDataService =
     "@DATA ticket part -> w0 w1 w2 w3 w4 w5 w6 w7 w8 w9 w10 w11 w12 w13 w14 w15";
 inline constexpr uint32_t kDataBytes = RUNG_MAX_SERVICE_ARGS * 8;
 
-} // namespace rung::nc::technol
+} // namespace technol
+
+// How a TECHNOL program asks its control for the configuration and the constants of the machine (man. ch. 16): one
+// service that the control answers at once. A request names what is wanted and by which identifier; a text comes in
+// parts.
+
+enum class ConfigurationKind : uint8_t { Integer, Real, Text, Binary, Bit, Constant };
+
+// Arguments: kind, number of the part, identifier, eight characters a word, filled up with zeros.
+// Results: 1 where it was found, bytes of the whole text, then a value (the bits of a real) or the part of the text.
+inline constexpr std::string_view kConfigurationService =
+    "@CNF_GET kind part id0 id1 id2 id3 id4 id5 id6 id7 id8 id9 id10 id11 id12 id13 -> found length v0 v1 v2 v3 v4 v5 "
+    "v6 v7 v8 v9 v10 v11 v12 v13";
+inline constexpr uint32_t kConfigurationHead = 2; // words before the identifier and the value
+inline constexpr uint32_t kConfigurationWords = RUNG_MAX_SERVICE_ARGS - kConfigurationHead;
+inline constexpr uint32_t kConfigurationBytes = kConfigurationWords * 8; // longest identifier, and a part of a text
+
+inline constexpr uint32_t kMaxAxes = 16; // of a control, l.8085
+
+// The licences of the hardware key that LDR_LIC asks for (man. l.7631-7655): what the program writes, what a
+// configuration sets, and the bits of the host cell @LICENCES, in this order from bit 0.
+
+inline constexpr std::string_view kLicences =
+    "HwKeyConnected FeaturePlc0 FeaturePlc1 FeaturePlc2 FeaturePlc3 FeaturePlc4 "
+    "FeaturePlc5 FeaturePlc6 FeaturePlc7 FeaturePlc8 FeaturePlc9";
+inline constexpr std::string_view kLicenceCell = "@LICENCES";
+
+// How the message of a TECHNOL program travels to the control (man. ch. 14): in one rung_message, so that none of its
+// values can get lost alone. Compiler, model and hosts read it here.
+
+namespace technol {
+
+// number: the message's number, a WORD, with these marks above it; index: subid; value: par1 and above it par2;
+// channel: par3. The op is Clear where the program removes a persistent message, else ShowLog.
+inline constexpr uint32_t kMessageNumber = 0xFFFF;
+inline constexpr uint32_t kPersistentWanted = 1u << 16; // `set` was given, or a bit both begins and ends the message
+inline constexpr uint32_t kByBit = 1u << 17;            // of EDEF
+
+struct MessageValues {
+  uint32_t number, subId, par[3];
+  bool operator==(const MessageValues&) const = default;
+};
+inline MessageValues valuesOf(const rung_message& message) {
+  const auto both = static_cast<uint64_t>(message.value);
+  return {message.number & kMessageNumber,
+          static_cast<uint32_t>(message.index),
+          {static_cast<uint32_t>(both), static_cast<uint32_t>(both >> 32), static_cast<uint32_t>(message.channel)}};
+}
+
+} // namespace technol
+
+} // namespace rung::nc

@@ -11,10 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "machine/io/axes/positioning_unit.h"
+#include "machine/io/axes/motion.h"
 #include "sim/technol/devices/manual_motion.h"
 #include "sim/technol/devices/reference.h"
-#include "sim/technol/devices/spindle_positioning.h"
 #include "sim/technol/devices/spindles.h"
 
 namespace rung::sim::technol {

@@ -1,9 +1,10 @@
-// One axis (see axis.h).
+// One axis.
 #include "sim/technol/devices/axis.h"
 
 #include <cmath>
 
 namespace rung::sim::technol {
+
 namespace {
 
 constexpr double kNear = 1e-9; // a pulse under the axis is not ahead of it

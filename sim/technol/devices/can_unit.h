@@ -1,14 +1,50 @@
+// The objects of a simulated unit or drive, and its answers to SDO requests for them (CiA 301).
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "machine/io/can/channel.h"
+#include "machine/io/can/drives.h"
+#include "machine/io/can/unit.h"
+#include "sim/technol/devices/keyboards.h"
+
+namespace rung::sim::technol {
+
+enum class ObjectAccess : uint8_t { ReadWrite, ReadOnly, WriteOnly };
+
+struct CanObject {
+  io::sdo::Object place;
+  uint32_t bytes = 4; // 1, 2, 4
+  uint32_t value = 0;
+  ObjectAccess access = ObjectAccess::ReadOnly;
+};
+
+class CanObjects {
+public:
+  // `noSubindex`: the code of an abort where the index has other subindices.
+  explicit CanObjects(uint32_t noSubindex) : noSubindex_(noSubindex) {}
+  // In place of one that is there.
+  void add(const CanObject& object);
+  const CanObject* find(io::sdo::Object place) const;
+  uint32_t value(io::sdo::Object place) const;
+  // Nothing happens where there is no such object.
+  void set(io::sdo::Object place, uint32_t value);
+
+  // The answer to a request; `written` is the object that it wrote, or null.
+  io::CanPacket answer(uint32_t node, const io::CanPacket& request, const CanObject*& written);
+
+private:
+  CanObject* find(io::sdo::Object place);
+  uint32_t missing(uint16_t index) const;
+
+  uint32_t noSubindex_;
+  std::vector<CanObject> objects_;
+};
+
 // A simulated unit on CAN channel 2: INOUT08, KLA50 or EPU panel, handwheel (man. 9.2, 9.6). The control's side of it
 // is io::CanUnit. 1600h and 1A00h, written while it is not operational, say what the bytes of RPDO1 and TPDO1 are;
 // by default they are outputs and inputs (l.4805-4858).
-#pragma once
-#include "machine/io/can/bounded_queue.h"
-#include "machine/io/can/unit.h"
-#include "machine/io/can/unit_mapping.h"
-#include "sim/technol/devices/can_objects.h"
-#include "sim/technol/devices/handwheel_display.h"
-
-namespace rung::sim::technol {
 
 using NodePackets = io::BoundedQueue<io::CanPacket, 512>;
 
@@ -67,6 +103,52 @@ private:
   std::array<uint8_t, io::kUnitOutputs> outputs_{};
   uint8_t reported_ = 0; // error register and shorts of the last emergency
   std::array<uint8_t, io::kUnitOutputs> reportedShorts_{};
+};
+
+// A simulated drive on CAN channel 1: Kollmorgen (or Berger-Lahr), by the states of CiA 402, or Unidrive (man. 13.14).
+
+class SimulatedDrive {
+public:
+  explicit SimulatedDrive(uint32_t number);
+
+  uint8_t node() const { return node_; }
+  void setType(io::DriveType type) { type_ = type; }
+  // Objects of the configuration; they have their values again after a power-on.
+  void addObject(const CanObject& object);
+  const CanObjects& objects() const { return objects_; }
+
+  void power();
+  void receive(const io::CanPacket& packet, NodePackets& answers);
+
+  // ---- what a scenario does with it
+
+  // An emergency with this error code. `holds`: its cause stays, so that it cannot be reset. 0: the cause is gone.
+  void fault(uint16_t code, bool holds, NodePackets& answers);
+  void setManufacturerStatus(uint16_t status) { manufacturer_ = status; }
+  void setSilent(bool silent) { silent_ = silent; }
+
+private:
+  enum class State : uint8_t { SwitchOnDisabled, ReadyToSwitchOn, SwitchedOn, Enabled, Fault };
+
+  void control(uint16_t word, NodePackets& answers);
+  void follow(uint16_t word);
+  void resetFault();
+  uint16_t status() const;
+  void sendStatus(NodePackets& answers) const;
+  void refresh();
+  void answer(const io::CanPacket& request, NodePackets& answers);
+
+  uint8_t node_;
+  io::DriveType type_ = io::DriveType::Kollmorgen;
+  CanObjects objects_{io::sdo::kNoSuchSubindex};
+  std::vector<CanObject> configured_;
+  bool operational_ = false, silent_ = false;
+  State state_ = State::SwitchOnDisabled;
+  uint16_t word_ = 0;     // control word; of a Unidrive the bits that its masks let in
+  uint16_t received_ = 0; // RPDO1, taken over with SYNC
+  uint16_t code_ = 0;     // of the fault
+  bool holds_ = false;
+  uint16_t manufacturer_ = 0;
 };
 
 } // namespace rung::sim::technol

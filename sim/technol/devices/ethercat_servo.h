@@ -1,6 +1,4 @@
-// EtherCAT drives as the control's servos order them (TECHNOL manual 13.18, 13.19, l.10216-10807): what the request
-// bits flEdrv…N do to the control word of a drive, by its status word, and the position and velocity that are asked of
-// it.
+// How the increments of a servo count: attributes of the element Servo (TECHNOL manual, l.8547-8573, l.10150-10191).
 #pragma once
 #include <array>
 #include <cmath>
@@ -9,9 +7,31 @@
 #include <string_view>
 
 #include "sim/technol/devices/ds402_drive.h"
-#include "sim/technol/devices/servo_measure.h"
 
 namespace rung::sim::technol {
+
+class ServoMeasure {
+public:
+  // ServoType, MeasConstNumerator, MeasConstDenominator, in any case. "" or what is wrong.
+  std::string set(std::string_view name, std::string_view value);
+  static bool has(std::string_view name);
+
+  // Increments a micrometre (1/1000 degree). In the trajectory mode (ServoType 28, 29) they are micrometres * 65536 *
+  // numerator / denominator, else increments * numerator / denominator are micrometres; without both they are equal. A
+  // constant of 0 is not given, a negative one turns the direction.
+  double incrementsPerMicrometre() const { return incrementsPerMicrometre_; }
+
+private:
+  double computed() const;
+
+  static constexpr int32_t kTrajectoryCoe = 28, kTrajectorySoe = 29;
+  int32_t type_ = 0, numerator_ = 0, denominator_ = 0;
+  double incrementsPerMicrometre_ = 1; // scans need it
+};
+
+// EtherCAT drives as the control's servos order them (TECHNOL manual 13.18, 13.19, l.10216-10807): what the request
+// bits flEdrv…N do to the control word of a drive, by its status word, and the position and velocity that are asked of
+// it.
 
 // bEdrvStateN (l.10352; the numbers are not printed there).
 enum class ServoState : uint8_t { Done = 0, Init = 1, On = 2, Enable = 3 };

@@ -1,11 +1,13 @@
-// Simulated EtherCAT slaves (see ethercat_slaves.h).
+// Simulated EtherCAT slaves.
 #include "sim/technol/devices/ethercat_slaves.h"
 
 #include <algorithm>
 
+#include "rtlib/nc/control/technol/identifier.h"
 #include "rung/program.h"
 
 namespace rung::sim::technol {
+
 namespace {
 
 using namespace io::ethercat;
@@ -179,6 +181,178 @@ uint32_t EthercatSlaves::writeIdn(uint32_t slave, uint32_t drive, uint32_t eleme
   if (wrong == kDone) wrong = wrongValue(object, value);
   if (wrong == kDone) object.value = value;
   return wrong;
+}
+
+// States of master and slaves.
+
+namespace {
+
+using namespace io::ethercat;
+
+// The state that one step leads to. Nothing: there is no such change.
+std::optional<State> nextState(State from, State target) {
+  if (from == target) return from;
+  if (target == State::Bootstrap) return from == State::Init ? std::optional(target) : std::nullopt;
+  if (from == State::Bootstrap) return target == State::Init ? std::optional(target) : std::nullopt;
+  if (target < from) return target;
+  if (from == State::Init) return State::PreOperational;
+  return from == State::PreOperational ? State::SafeOperational : State::Operational;
+}
+
+} // namespace
+
+void EthercatStates::powerOn() {
+  master_ = target_ = State::Init;
+  slave_.reset();
+  stepMs_ = silentMs_ = 0;
+  link_ = true;
+}
+
+void EthercatStates::start(State target) {
+  begin(target, std::nullopt);
+  for (Step made = step(); !made.isDone && !made.isRefused && !made.isSilent;) made = step();
+}
+
+void EthercatStates::begin(State target, std::optional<uint32_t> slave) {
+  target_ = target;
+  slave_ = slave;
+  stepMs_ = silentMs_ = 0;
+}
+
+// ---- one step ----------------------------------------------------------------------------------------------------
+
+EthercatStates::Step EthercatStates::stepOf(EthercatSlave& slave, State goal) {
+  if (slave.state == goal) return {};
+  if (slave.isSilent) return {.isSilent = true, .isDone = false};
+  const std::optional<State> next = nextState(slave.state, goal);
+  if (!next || *next == slave.refused) return {.isRefused = true, .isDone = false};
+  slave.state = *next;
+  return {.isDone = slave.state == goal};
+}
+
+// Slaves that go along are in the goal also where another refuses it: by their states it can be found.
+EthercatStates::Step EthercatStates::allTo(State goal) {
+  Step all;
+  for (uint32_t i = 0; i < slaves_.count(); ++i) {
+    const Step one = stepOf(slaves_[i], goal);
+    all.isRefused |= one.isRefused;
+    all.isSilent |= one.isSilent;
+    all.isDone &= one.isDone;
+  }
+  return all;
+}
+
+EthercatStates::Step EthercatStates::step() {
+  if (slave_) return stepOf(slaves_[*slave_], target_);
+  const std::optional<State> goal = nextState(master_, target_);
+  if (!goal) return {.isRefused = true, .isDone = false};
+  Step made = allTo(*goal);
+  if (made.isDone) master_ = *goal;
+  made.isDone &= master_ == target_;
+  return made;
+}
+
+// ---- changes -----------------------------------------------------------------------------------------------------
+
+std::optional<uint32_t> EthercatStates::tick() {
+  if (!link_) return kNoSlave;
+  if (++stepMs_ < kStepMs) return std::nullopt;
+  const Step made = step();
+  if (made.isRefused) return kStateRefused;
+  if (made.isDone) return kDone;
+  silentMs_ = made.isSilent ? silentMs_ + stepMs_ : 0;
+  stepMs_ = 0;
+  return silentMs_ >= kTimeoutMs ? std::optional<uint32_t>(kTimedOut) : std::nullopt;
+}
+
+void EthercatStates::setLink(bool isUp) {
+  link_ = isUp;
+  if (isUp) return;
+  master_ = State::Init;
+  for (uint32_t i = 0; i < slaves_.count(); ++i) slaves_[i].state = State::Init;
+}
+
+bool EthercatStates::givesInputs(uint32_t slave) const {
+  const auto exchanges = [](State state) { return state == State::SafeOperational || state == State::Operational; };
+  return link_ && exchanges(master_) && exchanges(slaves_[slave].state) && !slaves_[slave].isSilent;
+}
+
+bool EthercatStates::takesOutputs(uint32_t slave) const {
+  return givesInputs(slave) && master_ == State::Operational && slaves_[slave].state == State::Operational;
+}
+
+// Process image.
+
+namespace {
+
+// The one way to write it. In keys of the configuration a blank is written `_`.
+std::string nameOf(std::string_view text) {
+  std::string name = nc::technol::canonical(text);
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+} // namespace
+
+void EthercatImage::add(uint32_t slave, bool isInput, std::string_view name, uint32_t object) {
+  Entry made{.slave = slave, .isInput = isInput, .name = nameOf(name), .object = object};
+  for (Entry& entry : entries_)
+    if (entry.slave == slave && entry.isInput == isInput && entry.name == made.name) {
+      entry = std::move(made);
+      return;
+    }
+  entries_.push_back(std::move(made));
+}
+
+// Names may contain dots; so whole identifiers are compared.
+uint32_t EthercatImage::find(std::string_view identifier) const {
+  const std::string wanted = nameOf(identifier);
+  for (uint32_t i = 0; i < count(); ++i) {
+    const Entry& entry = entries_[i];
+    const std::string group = entry.isInput ? ".INPUTS." : ".OUTPUTS.";
+    const std::string& slave = slaves_[entry.slave].name;
+    if (!slave.empty() && wanted == "ECAT." + nameOf(slave) + group + entry.name) return i;
+  }
+  return RUNG_NONE;
+}
+
+bool EthercatImage::isOfSlave(std::string_view identifier) const {
+  const std::string wanted = nameOf(identifier);
+  for (uint32_t i = 0; i < slaves_.count(); ++i) {
+    const std::string slave = "ECAT." + nameOf(slaves_[i].name) + ".";
+    if (!slaves_[i].name.empty() && (wanted.starts_with(slave + "INPUTS.") || wanted.starts_with(slave + "OUTPUTS.")))
+      return true;
+  }
+  return false;
+}
+
+void EthercatImage::write(uint32_t entry, uint64_t value) {
+  if (entries_[entry].isInput) return;
+  entries_[entry].value = value & onesOf(bytesOf(entry));
+  entries_[entry].isWritten = true;
+}
+
+bool EthercatImage::isExchanged(uint32_t entry) const {
+  const Entry& found = entries_[entry];
+  return found.isInput ? states_.givesInputs(found.slave) : states_.takesOutputs(found.slave);
+}
+
+void EthercatImage::powerOn() {
+  for (Entry& entry : entries_) {
+    entry.value = 0;
+    entry.isWritten = false;
+  }
+}
+
+// An output that nobody has written leaves its object as the mailbox or the configuration has set it.
+void EthercatImage::putOutputs() {
+  for (uint32_t i = 0; i < count(); ++i)
+    if (entries_[i].isWritten && isExchanged(i)) slaves_.objectAt(entries_[i].object).value = entries_[i].value;
+}
+
+void EthercatImage::takeInputs() {
+  for (uint32_t i = 0; i < count(); ++i)
+    if (entries_[i].isInput && isExchanged(i)) entries_[i].value = slaves_.objectAt(entries_[i].object).value;
 }
 
 } // namespace rung::sim::technol

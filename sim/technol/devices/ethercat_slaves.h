@@ -1,5 +1,6 @@
 // The simulated EtherCAT slaves: what the configuration says of each, its objects, and what its mailbox answers.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -77,6 +78,95 @@ private:
 
   std::vector<EthercatSlave> slaves_;
   std::vector<EthercatObject> objects_;
+};
+
+// The states of the simulated EtherCAT master and of its slaves (TECHNOL manual 26.3, l.17937-17955). A step takes
+// 10 ms: up through the states between, down at once, BOOTSTRAP only from INIT and to it.
+
+class EthercatStates {
+public:
+  static constexpr uint32_t kStepMs = 10;
+  static constexpr uint32_t kTimeoutMs = 1000; // until a slave that is silent has not answered
+
+  explicit EthercatStates(EthercatSlaves& slaves) : slaves_(slaves) {}
+
+  // At a power-on, after that of the slaves: all are in INIT.
+  void powerOn();
+  // As the control starts its master: at once as far up as the slaves go with it.
+  void start(EthercatState target);
+
+  // A change of the master takes all slaves along; with a number it is one of that slave. One at a time.
+  void begin(EthercatState target, std::optional<uint32_t> slave);
+  // One millisecond of it: its code once it has ended.
+  std::optional<uint32_t> tick();
+  // The cable: without it all are in INIT, and changes end with kNoSlave.
+  void setLink(bool isUp);
+
+  EthercatState master() const { return master_; }
+  bool hasLink() const { return link_; }
+  // Process data that a slave gives and takes.
+  bool givesInputs(uint32_t slave) const;
+  bool takesOutputs(uint32_t slave) const;
+
+private:
+  struct Step {
+    bool isRefused = false;
+    bool isSilent = false; // a slave has not answered
+    bool isDone = true;    // all are there
+  };
+  static Step stepOf(EthercatSlave& slave, EthercatState goal);
+  Step step();
+  Step allTo(EthercatState goal);
+
+  EthercatSlaves& slaves_;
+  EthercatState master_ = EthercatState::Init;
+  EthercatState target_ = EthercatState::Init; // of the change under way
+  std::optional<uint32_t> slave_;              // nothing: the master's
+  uint32_t stepMs_ = 0;
+  uint32_t silentMs_ = 0;
+  bool link_ = true;
+};
+
+// The process image of the simulated EtherCAT net (TECHNOL manual 26.2, l.17763-17786, l.17872-17904): entries of the
+// slaves that connections name ECAT.<slave>.Inputs.<entry> and ECAT.<slave>.Outputs.<entry>, each bound to an object.
+
+class EthercatImage {
+public:
+  struct Entry {
+    uint32_t slave = 0;
+    bool isInput = false; // what the slave gives
+    std::string name;     // as nameOf makes it
+    uint32_t object = 0;  // its number among those of the slaves
+    uint64_t value = 0;
+    bool isWritten = false; // since the power-on, of an output
+  };
+
+  EthercatImage(EthercatSlaves& slaves, const EthercatStates& states) : slaves_(slaves), states_(states) {}
+
+  // Configuration; a later entry of the same name takes its place.
+  void add(uint32_t slave, bool isInput, std::string_view name, uint32_t object);
+  // By the identifier of a connection, in any case, with `_` or a blank. RUNG_NONE: there is none.
+  uint32_t find(std::string_view identifier) const;
+  // The identifier names process data of a slave that has a name, whether or not that entry exists.
+  bool isOfSlave(std::string_view identifier) const;
+  uint32_t count() const { return static_cast<uint32_t>(entries_.size()); }
+  const Entry& operator[](uint32_t entry) const { return entries_[entry]; }
+  uint32_t bytesOf(uint32_t entry) const { return slaves_.objectAt(entries_[entry].object).bytes; }
+  // Inputs are as the slave has given them last; without exchange they stay. Outputs are as they were written.
+  uint64_t read(uint32_t entry) const { return entries_[entry].value; }
+  void write(uint32_t entry, uint64_t value);
+  // Whether the slave exchanges it just now.
+  bool isExchanged(uint32_t entry) const;
+
+  void powerOn();
+  // One millisecond: outputs go to their objects before the drives have worked, inputs come after it.
+  void putOutputs();
+  void takeInputs();
+
+private:
+  EthercatSlaves& slaves_;
+  const EthercatStates& states_;
+  std::vector<Entry> entries_;
 };
 
 } // namespace rung::sim::technol

@@ -1,11 +1,16 @@
-// Manual motion (see manual_motion.h).
+// Manual motion.
 #include "sim/technol/devices/manual_motion.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
+
+#include "rtlib/nc/control/technol/identifier.h"
+#include "rtlib/text/number.h"
 
 namespace rung::sim::technol {
+
 namespace {
 
 constexpr uint32_t kShiftAxes = 6;    // l.10917
@@ -168,6 +173,228 @@ void ManualMotion::show(std::span<const Axis> axes, AxisOutputs& out) const {
   for (uint32_t i = 0; i < axes.size(); ++i) out.shiftMm[i] = axes[i].shift.position();
   for (uint32_t i = 0; i < std::min<size_t>(axes.size(), kShiftAxes); ++i)
     out.shift[i] = static_cast<int32_t>(std::lround(axes[i].shift.position() * 8000));
+}
+
+// Panels of manual motion.
+
+namespace {
+
+void add(AxisMask& mask, AxisMask bits) { mask = static_cast<AxisMask>(mask | bits); }
+void remove(AxisMask& mask, AxisMask bits) { mask = static_cast<AxisMask>(mask & ~bits); }
+
+// The next larger or smaller step of the series.
+uint16_t neighbour(uint16_t step, bool larger) {
+  if (larger) {
+    const auto* const next = std::ranges::upper_bound(kKnobSteps, step);
+    return next == std::end(kKnobSteps) ? step : *next;
+  }
+  const auto* const own = std::ranges::lower_bound(kKnobSteps, step);
+  return own == std::begin(kKnobSteps) ? step : *(own - 1);
+}
+
+} // namespace
+
+void ManualPanel::key(const RtmCommand& command, bool pressed) {
+  if (pressed)
+    press(command);
+  else if (!hold_)
+    release(command);
+}
+
+void ManualPanel::press(const RtmCommand& command) {
+  if (command.manual) manual_ = true;
+  switch (command.kind) {
+  case RtmKind::Move:
+    add(plus_, command.plus);
+    add(minus_, command.minus);
+    if (command.rapid) add(rapidAxes_, static_cast<AxisMask>(command.plus | command.minus));
+    add(moved_, static_cast<AxisMask>(command.plus | command.minus));
+    return;
+  case RtmKind::MoveSelected:
+    moveSelected_ = command.value;
+    selectedRapid_ = command.rapid;
+    return;
+  case RtmKind::Select: choose_ = command.plus; return;
+  case RtmKind::Rapid: rapidKey_ = true; return;
+  case RtmKind::Hold:
+    hold_ = !hold_;
+    if (!hold_) releaseKeys();
+    return;
+  case RtmKind::KnobStep: stepTo_ = command.value; return;
+  case RtmKind::KnobStepBy: stepBy_ += command.value; return;
+  case RtmKind::KnobTurn: return turn(command.value);
+  case RtmKind::KnobEnable:
+  case RtmKind::KnobDisable:
+    wheelsOff_[static_cast<size_t>(command.value) - 1] = command.kind == RtmKind::KnobDisable;
+    return;
+  case RtmKind::MoveOrStep:
+    moveOrStep_ = command.value;
+    moveOrStepHeld_ = true;
+    return;
+  case RtmKind::ShiftToggle: toggleShift_ = !toggleShift_; return;
+  case RtmKind::ShiftSelect: shiftSelect_ = command.value != 0; return;
+  case RtmKind::ActivateToggle: toggleActive_ = !toggleActive_; return;
+  case RtmKind::Activate: shiftActivate_ = command.value != 0; return;
+  }
+}
+
+void ManualPanel::release(const RtmCommand& command) {
+  if (command.kind == RtmKind::Rapid) rapidKey_ = false;
+  if (command.kind == RtmKind::MoveSelected || command.kind == RtmKind::MoveOrStep) {
+    moveSelected_ = 0;
+    selectedRapid_ = moveOrStepHeld_ = false;
+  }
+  if (command.kind != RtmKind::Move) return;
+  remove(plus_, command.plus);
+  remove(minus_, command.minus);
+  remove(rapidAxes_, static_cast<AxisMask>(command.plus | command.minus));
+}
+
+void ManualPanel::releaseKeys() {
+  plus_ = minus_ = rapidAxes_ = 0;
+  moveSelected_ = moveOrStep_ = 0;
+  selectedRapid_ = rapidKey_ = hold_ = moveOrStepHeld_ = false;
+}
+
+void ManualPanel::select(uint32_t axis, bool byKey) {
+  selected_ = axis;
+  selectedByKey_ = byKey && axis != 0;
+}
+
+AxisMask ManualPanel::plus() const { return static_cast<AxisMask>(plus_ | (moveSelected_ > 0 ? selectedBit() : 0)); }
+AxisMask ManualPanel::minus() const { return static_cast<AxisMask>(minus_ | (moveSelected_ < 0 ? selectedBit() : 0)); }
+
+void ManualPanel::settle(const AxisInputs& in, AxisRequests& requests) {
+  const auto first = [](AxisMask axes) { return axes == 0 ? 0 : static_cast<uint32_t>(std::countr_zero(axes)) + 1; };
+  // A key of motion selects the axis for the handwheel as well, but for AUTMAN_WHEEL_DIS (l.11047).
+  if (moved_ != 0 && !in.noWheelSelect) select(first(moved_), false);
+  if (choose_ != 0) {
+    const bool again = in.selectToggles && selecting() && selected_ == first(choose_); // AUTMAN_KNOB_TOGGLE l.11050
+    select(again ? 0 : first(choose_), true);
+  }
+  moved_ = choose_ = 0;
+  if (requests.shiftSelected)
+    stepBy_ += moveOrStep_;
+  else if (moveOrStep_ != 0 && moveOrStepHeld_)
+    moveSelected_ = moveOrStep_;
+  moveOrStep_ = 0;
+  if (stepTo_ != 0) requests.knobStep = static_cast<uint16_t>(stepTo_);
+  for (; stepBy_ != 0; stepBy_ += stepBy_ < 0 ? 1 : -1) requests.knobStep = neighbour(requests.knobStep, stepBy_ > 0);
+  stepTo_ = 0;
+  if (toggleShift_) requests.shiftSelected = !requests.shiftSelected;
+  if (shiftSelect_) requests.shiftSelected = *shiftSelect_;
+  if (toggleActive_) requests.shiftActive = !requests.shiftActive;
+  if (shiftActivate_) requests.shiftActive = *shiftActivate_;
+  if (!requests.shiftSelected && (toggleShift_ || shiftSelect_)) requests.shiftActive = false;
+  toggleShift_ = toggleActive_ = false;
+  shiftSelect_ = shiftActivate_ = std::nullopt;
+}
+
+// Commands of keys.
+
+namespace {
+
+using nc::technol::takePrefix;
+
+struct Fixed {
+  std::string_view name;
+  RtmKind kind;
+  int32_t value;
+};
+constexpr Fixed kFixed[] = {
+    {"RAPIDTRAVERSE", RtmKind::Rapid, 0},
+    {"HOLD", RtmKind::Hold, 0},
+    {"KNOB_STEP_UP", RtmKind::KnobStepBy, 1},
+    {"KNOB_STEP_DOWN", RtmKind::KnobStepBy, -1},
+    {"KNOB_INC", RtmKind::KnobTurn, 1},
+    {"KNOB_DEC", RtmKind::KnobTurn, -1},
+    {"SHIFT_REQ", RtmKind::ShiftToggle, 0},
+    {"SHIFT_ACT", RtmKind::ActivateToggle, 0},
+    {"SHIFT_ENABLE", RtmKind::ShiftSelect, 1},
+    {"SHIFT_DISABLE", RtmKind::ShiftSelect, 0},
+    {"SHIFT_ACTIVATE", RtmKind::Activate, 1},
+    {"SHIFT_DEACTIVATE", RtmKind::Activate, 0},
+    {"KNOB_ENABLE1", RtmKind::KnobEnable, 1},
+    {"KNOB_ENABLE2", RtmKind::KnobEnable, 2},
+    {"KNOB_DISABLE1", RtmKind::KnobDisable, 1},
+    {"KNOB_DISABLE2", RtmKind::KnobDisable, 2},
+    {"MOVE_KNOB_STEP_UP", RtmKind::MoveOrStep, 1},
+    {"MOVENEG_KNOB_STEP_DOWN", RtmKind::MoveOrStep, -1},
+};
+
+// 00 to 15.
+std::optional<AxisMask> takeNumber(std::string_view& text) {
+  if (text.size() < 2) return std::nullopt;
+  const auto number = text::numberIn<uint32_t>(text.substr(0, 2));
+  if (!number || *number >= kMaxAxes) return std::nullopt;
+  text.remove_prefix(2);
+  return bitOf(*number);
+}
+
+std::optional<AxisMask> takeLetter(std::string_view& text, std::string_view letters) {
+  if (text.empty() || text[0] < 'X' || text[0] > 'Z') return std::nullopt;
+  const size_t index = letters.find(text[0]);
+  text.remove_prefix(1);
+  return index < kMaxAxes ? bitOf(static_cast<uint32_t>(index)) : AxisMask{0};
+}
+
+void addDirection(std::string_view& text, AxisMask axes, RtmCommand& command) {
+  AxisMask& mask = takePrefix(text, "NEG") ? command.minus : command.plus;
+  mask = static_cast<AxisMask>(mask | axes);
+}
+
+// What follows MOVE: 03NEGRT, X, XNEGY, NEGRT.
+std::optional<RtmCommand> move(std::string_view text, std::string_view letters, RtmCommand command) {
+  if (const auto axes = takeNumber(text)) {
+    addDirection(text, *axes, command);
+  } else {
+    bool any = false;
+    while (const auto letter = takeLetter(text, letters)) {
+      any = true;
+      addDirection(text, *letter, command);
+    }
+    if (!any) command.kind = RtmKind::MoveSelected;
+    if (!any) command.value = takePrefix(text, "NEG") ? -1 : 1;
+  }
+  command.rapid = takePrefix(text, "RT");
+  if (!text.empty()) return std::nullopt;
+  return command;
+}
+
+std::optional<RtmCommand> select(std::string_view text, std::string_view letters, RtmCommand command) {
+  const auto number = takeNumber(text);
+  const auto axes = number ? number : takeLetter(text, letters);
+  if (!axes || !text.empty()) return std::nullopt;
+  command.kind = RtmKind::Select;
+  command.plus = *axes;
+  return command;
+}
+
+std::optional<RtmCommand> knobStep(std::string_view text, RtmCommand command) {
+  const auto step = text::numberIn<int32_t>(text);
+  if (!step || std::ranges::find(kKnobSteps, *step) == std::end(kKnobSteps)) return std::nullopt;
+  command.kind = RtmKind::KnobStep;
+  command.value = *step;
+  return command;
+}
+
+} // namespace
+
+std::optional<RtmCommand> rtmCommand(std::string_view name, std::string_view letters) {
+  RtmCommand command;
+  if (!takePrefix(name, "RTMID_")) return std::nullopt;
+  command.manual = takePrefix(name, "I");
+  if (!takePrefix(name, "MMM_")) return std::nullopt;
+  for (const Fixed& fixed : kFixed)
+    if (name == fixed.name) {
+      command.kind = fixed.kind;
+      command.value = fixed.value;
+      return command;
+    }
+  if (takePrefix(name, "MOVE")) return move(name, letters, command);
+  if (takePrefix(name, "SEL")) return select(name, letters, command);
+  if (takePrefix(name, "KNOB_STEP")) return knobStep(name, command);
+  return std::nullopt;
 }
 
 } // namespace rung::sim::technol

@@ -1,12 +1,102 @@
-// Manual motion AUTMAN with its handwheel, and SHIFT (man. chapter 20).
+// Commands of keys to the real-time part of the control (RtmCommand, man. l.17360-17630): those that order manual
+// motion, preselect an axis, set the step of the handwheel, and SHIFT.
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string_view>
+#include <utility>
 
-#include "sim/technol/devices/manual_panel.h"
+#include "sim/technol/devices/axis.h"
 
 namespace rung::sim::technol {
+
+enum class RtmKind : uint8_t {
+  Move,         // keys of axes
+  MoveSelected, // keys for the axis that is preselected
+  MoveOrStep,   // MOVE_KNOB_STEP_UP, MOVENEG_KNOB_STEP_DOWN: those, or in SHIFT steps of the handwheel
+  Select,
+  Rapid,       // RAPIDTRAVERSE
+  Hold,        // HOLD: keys stay pressed, on and off
+  KnobStep,    // KNOB_STEP1 to KNOB_STEP1000
+  KnobStepBy,  // KNOB_STEP_UP, KNOB_STEP_DOWN
+  KnobTurn,    // KNOB_INC, KNOB_DEC
+  KnobEnable,  // KNOB_ENABLE1, KNOB_ENABLE2
+  KnobDisable, // KNOB_DISABLE1, KNOB_DISABLE2
+  ShiftToggle, // SHIFT_REQ
+  ShiftSelect, // SHIFT_ENABLE, SHIFT_DISABLE
+  ActivateToggle,
+  Activate, // SHIFT_ACTIVATE, SHIFT_DEACTIVATE
+};
+
+// The steps of the handwheel in µm (l.17576).
+inline constexpr uint16_t kKnobSteps[] = {1, 2, 5, 10, 20, 50, 100, 200, 500, 1000};
+
+struct RtmCommand {
+  RtmKind kind = RtmKind::Move;
+  bool manual = false;          // IMMM: manual motion is switched on as well
+  AxisMask plus = 0, minus = 0; // of Move, Select (plus)
+  bool rapid = false;           // ...RT
+  int32_t value = 0;            // step in µm; +1 or -1 for up, inc, plus and down, dec, minus; 1 on, 0 off; a wheel
+};
+
+// Axes by their number from 0 (MOVE03), or by letter X, Y, Z among `letters`; a letter that is not there moves nothing.
+std::optional<RtmCommand> rtmCommand(std::string_view name, std::string_view letters);
+
+// What the operator does on panels during manual motion: keys, the preselected axis, the handwheel (man.
+// l.17360-17630). Orders come between ticks and are settled in the next one, when the cells of the program are known.
+
+class ManualPanel {
+public:
+  void reset() { *this = ManualPanel(); }
+  void key(const RtmCommand& command, bool pressed);
+  // Handwheel 1 or 2.
+  void turn(int64_t pulses, uint32_t wheel = 1) {
+    if (!wheelsOff_[wheel - 1]) pulses_ += pulses;
+  }
+  // The operator's switch of manual motion: what it was put to since the last tick.
+  void switchManual(bool on) { manual_ = on; }
+  std::optional<bool> takeManual() { return std::exchange(manual_, std::nullopt); }
+
+  // At the beginning of a tick: steps of the handwheel, SHIFT, the preselection.
+  void settle(const AxisInputs& in, AxisRequests& requests);
+  void releaseKeys();
+  // Pulses since the last tick.
+  int64_t takePulses() { return std::exchange(pulses_, 0); }
+
+  AxisMask plus() const;
+  AxisMask minus() const;
+  bool rapid() const { return rapidKey_ || selectedRapid_ || rapidAxes_ != 0; }
+  // The axis for the handwheel, from 1; 0 none.
+  uint32_t selected() const { return selected_; }
+  // By a key of selection, not along with a motion.
+  bool selecting() const { return selected_ != 0 && selectedByKey_; }
+  void select(uint32_t axis, bool byKey);
+
+private:
+  void press(const RtmCommand& command);
+  void release(const RtmCommand& command);
+  AxisMask selectedBit() const { return selected_ == 0 ? AxisMask{0} : bitOf(selected_ - 1); }
+
+  AxisMask plus_ = 0, minus_ = 0, rapidAxes_ = 0;
+  int32_t moveSelected_ = 0; // +1, -1
+  bool selectedRapid_ = false, rapidKey_ = false;
+  bool hold_ = false; // keys stay pressed
+  uint32_t selected_ = 0;
+  bool selectedByKey_ = false;
+  int64_t pulses_ = 0;
+  std::optional<bool> manual_;
+  AxisMask choose_ = 0, moved_ = 0; // since the last tick: keys of selection, keys of motion
+  int32_t stepTo_ = 0, stepBy_ = 0;
+  int32_t moveOrStep_ = 0; // +1, -1 since the last tick
+  bool moveOrStepHeld_ = false;
+  std::array<bool, 2> wheelsOff_ = {}; // by KNOB_DISABLE1, KNOB_DISABLE2
+  std::optional<bool> shiftSelect_, shiftActivate_;
+  bool toggleShift_ = false, toggleActive_ = false;
+};
+
+// Manual motion AUTMAN with its handwheel, and SHIFT (man. chapter 20).
 
 class ManualMotion {
 public:

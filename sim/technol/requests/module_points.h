@@ -1,11 +1,21 @@
 // The cells of modules at which simulated devices work (module_cells.h): process data of EtherCAT slaves, servos with
 // EtherCAT drives, positions and increments of axes.
 #pragma once
+#include <array>
+#include <iterator>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "sim/technol/devices/axis_cells.h"
-#include "sim/technol/devices/ethercat_image.h"
+#include "rtlib/core/memory.h"
+#include "rtlib/nc/control/technol/cells.h"
+#include "rtlib/run/instance.h"
+#include "sim/technol/devices/axes.h"
+#include "sim/technol/devices/axis.h"
 #include "sim/technol/devices/ethercat_servo.h"
+#include "sim/technol/devices/ethercat_slaves.h"
+#include "sim/technol/devices/keyboards.h"
 #include "sim/technol/module_cells.h"
 
 namespace rung::sim::technol {
@@ -21,5 +31,77 @@ void takeOutputs(const ModuleCells& cells, EthercatImage& image, EthercatServos:
 // After them: inputs of the net, and what axes and servos give.
 void giveInputs(ModuleCells& cells, const EthercatImage& image, const EthercatServos::Cells& servos,
                 const AxisOutputs& axes, uint32_t axisCount);
+
+// Elements of the real-time manager that are cells of the program under another name (kSharedElements).
+
+class SharedPoints {
+public:
+  SharedPoints() = default; // a program that has nothing
+  explicit SharedPoints(const rung_program& program);
+
+  // Before the devices: what a connection or a scenario has put at an element goes into the program's cell.
+  void take(const core::Memory& memory, const ModuleCells& cells) const;
+  // After them: elements are as the program's cells.
+  void give(const core::Memory& memory, ModuleCells& cells) const;
+
+private:
+  static constexpr uint32_t kMembers = 16;
+  const core::Place& placeOf(const ModulePoint& point) const { return places_[point.part][point.number]; }
+
+  std::array<std::array<core::Place, kMembers>, std::size(kSharedElements)> places_;
+};
+
+// The cells and the procedure of a program that belong to keyboards (man. ch. 11, l.16936-16961, l.1614-1626).
+
+class KeyboardPlaces {
+public:
+  KeyboardPlaces() = default; // a program that has nothing
+  explicit KeyboardPlaces(const rung_program& program);
+
+  // TL1W to TL4W, TL1K, TL2K, TL1P.
+  void write(const core::Memory& memory, const Keyboards& keyboards) const;
+  // _ON_CMD. A program that is stopped takes no part.
+  void runCommand(runtime::Instance& instance, int64_t code, bool pressed) const;
+
+private:
+  static constexpr uint32_t kShown = 7, kMembers = 5;
+  std::array<std::array<core::Place, kMembers>, kShown> cells_;
+  nc::technol::Procedure onCommand_;
+};
+
+// The machine around the devices, as far as its inputs only say where an axis is or repeat other bits (inventory of the
+// services, 15.1):
+//   config switch.P1IN.2 1 -1000 -5      1 while axis 1 is physically within -1000 to -5 mm
+//   config follow.P1IN.0 P0OUT.3@100ms   the same 100 ms later; /P0OUT.3 its opposite. Shorter changes do not come
+//   through
+
+class InputWiring {
+public:
+  // "" or what is wrong; nothing: another key.
+  std::optional<std::string> configure(std::string_view key, std::string_view value, Axes& axes);
+  void locate(const rung_program& program);
+  // Everything has been as it is for long.
+  void powerOn(const core::Memory& memory);
+  // Before MODULE_INPUT, `us` after the last time.
+  void pass(const core::Memory& memory, const Axes& axes, int64_t us);
+
+private:
+  struct Bit {
+    std::string name; // NAME, or NAME.n of a cell
+    core::Place place;
+  };
+  struct Wire {
+    Bit input, source;
+    bool inverted = false;
+    int64_t delayUs = 0;
+    bool level = false; // of the source, since sinceUs
+    int64_t sinceUs = 0;
+  };
+  std::string follow(std::string_view key, std::string_view input, std::string_view value);
+
+  std::vector<Bit> switches_; // their places are the axes' handles
+  std::vector<Wire> wires_;
+  int64_t nowUs_ = 0;
+};
 
 } // namespace rung::sim::technol

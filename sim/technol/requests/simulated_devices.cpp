@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "machine/io/channel_file.h"
-#include "machine/io/key_text.h"
+#include "machine/io/device_call.h"
 #include "rtlib/load/program_info.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"

@@ -11,24 +11,20 @@
 
 #include "machine/host/control_files.h"
 #include "machine/io/can/can_requests.h"
-#include "machine/io/com/com_requests.h"
-#include "machine/io/device_order.h"
+#include "machine/io/com/port.h"
+#include "machine/io/device_call.h"
 #include "machine/io/ethercat/ethercat_requests.h"
 #include "machine/io/tables/table_files.h"
 #include "machine/io/tables/table_requests.h"
 #include "sim/simulated_nc.h"
-#include "sim/technol/devices/can_devices.h"
+#include "sim/technol/devices/can_bus.h"
 #include "sim/technol/devices/com.h"
 #include "sim/technol/devices/ethercat.h"
 #include "sim/technol/events.h"
 #include "sim/technol/module_cells.h"
 #include "sim/technol/requests/axis_requests.h"
-#include "sim/technol/requests/event_keys.h"
-#include "sim/technol/requests/input_wiring.h"
-#include "sim/technol/requests/keyboard_places.h"
+#include "sim/technol/requests/device_events.h"
 #include "sim/technol/requests/module_points.h"
-#include "sim/technol/requests/servo_places.h"
-#include "sim/technol/requests/shared_points.h"
 
 namespace rung::sim::technol {
 

@@ -1,5 +1,5 @@
 // Forces on their way: what comes back is what was sent, and nothing else is taken for forces.
-#include "machine/compile/forces.h"
+#include "machine/compile/forced_code_maker.h"
 
 #include <gmock/gmock.h>
 

@@ -7,8 +7,8 @@
 
 #include <random>
 
-#include "rtlib/change/compare.h"
 #include "rtlib/change/forcing.h"
+#include "rtlib/change/shadow.h"
 #include "rtlib/nc/names/names.h"
 #include "tests/random/random.h"
 #include "tests/support/differential.h"

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 #include <regex>
 
-#include "compiler/manual_lines.h"
-
 namespace rung::compiler {
 namespace {
 

@@ -11,8 +11,8 @@
 #include <unistd.h>
 
 #include "compiler/recompiler.h"
-#include "rtlib/change/compare.h"
 #include "rtlib/change/forcing.h"
+#include "rtlib/change/shadow.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/run/instance.h"
 #include "tests/random/random.h"

@@ -1,5 +1,5 @@
 // The history on disk: what a crash, a disk that cannot be written, or somebody else's file does to it.
-#include "machine/control/history_file.h"
+#include "machine/control/history.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include "codegen/cpp/table_writer.h"
 #include "ir/core/builder.h"
 #include "ir/core/long_rungs.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 #include "rtlib/load/so_engine.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/run/instance.h"

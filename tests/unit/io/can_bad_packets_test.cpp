@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "machine/io/can/controller.h"
-#include "machine/io/can/unit_mapping.h"
+#include "machine/io/can/unit.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "sim/technol/devices/can_devices.h"
+#include "sim/technol/devices/can_bus.h"
 
 namespace rung::test {
 

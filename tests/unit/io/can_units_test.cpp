@@ -1,7 +1,7 @@
 // INOUT08, panels and handwheels on CAN channel 2 (man. ch. 9).
 #include <gmock/gmock.h>
 
-#include "machine/io/can/unit_mapping.h"
+#include "machine/io/can/unit.h"
 #include "rtlib/nc/technol/signals.h"
 #include "tests/unit/io/can_rig.h"
 

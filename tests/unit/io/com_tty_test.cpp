@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "machine/io/com/tty_thread.h"
+#include "machine/io/com/tty_line.h"
 #include "tests/support/patience.h"
 
 namespace {

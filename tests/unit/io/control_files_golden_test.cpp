@@ -18,14 +18,14 @@ std::string mistakesOf(ControlFileKind kind, const std::string& text) {
 }
 
 std::string mistakesOfDefinition(const std::string& text) {
-  TableDefinition found{.id = "before"};
+  io::TableDefinition found{.id = "before"};
   std::string mistakes = parseTableDefinition("f", text, found);
   EXPECT_EQ(mistakes.empty(), found.id != "before");
   return mistakes;
 }
 
 std::string mistakesOfData(const std::string& text) {
-  TableData found{.definition = "before"};
+  io::TableData found{.definition = "before"};
   std::string mistakes = parseTableData("f", text, found);
   EXPECT_EQ(mistakes.empty(), found.definition != "before");
   return mistakes;

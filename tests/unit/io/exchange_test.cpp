@@ -1,5 +1,5 @@
 // Inputs and outputs of one connection: the newest values, and safe ones while the other side is silent.
-#include "machine/io/connections/exchange.h"
+#include "machine/io/connections/connections.h"
 #include "tests/support/faultless_map.h"
 
 #include <gmock/gmock.h>

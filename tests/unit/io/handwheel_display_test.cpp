@@ -1,5 +1,5 @@
 // The display of a handwheel panel (man. 8.4.3).
-#include "sim/technol/devices/handwheel_display.h"
+#include "sim/technol/devices/keyboards.h"
 
 #include <gtest/gtest.h>
 

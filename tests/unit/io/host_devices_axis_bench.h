@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "machine/host/pin_cell.h"
+#include "machine/host/pins.h"
 #include "tests/support/faultless_map.h"
 #include "tests/unit/io/host_devices_bench.h"
 

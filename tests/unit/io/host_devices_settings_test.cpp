@@ -3,7 +3,7 @@
 
 #include "ir/support/temporary_folder.h"
 #include "machine/host/binding.h"
-#include "machine/io/analog/analog_pins.h"
+#include "machine/io/analog/analog.h"
 #include "tests/support/faultless_map.h"
 #include "tests/unit/io/host_devices_bench.h"
 

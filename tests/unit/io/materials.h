@@ -25,13 +25,13 @@ inline constexpr std::string_view kThreeLines = R"(<PLCTable>
 
 inline io::TableDefinition definitionOf(std::string_view text) {
   io::TableDefinition definition;
-  EXPECT_EQ(host::parseTableDefinition("d", text, definition), "");
+  EXPECT_EQ(io::parseTableDefinition("d", text, definition), "");
   return definition;
 }
 
 inline io::TableData dataOf(std::string_view text) {
   io::TableData data;
-  EXPECT_EQ(host::parseTableData("t", text, data), "");
+  EXPECT_EQ(io::parseTableData("t", text, data), "");
   return data;
 }
 

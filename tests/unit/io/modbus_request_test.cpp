@@ -1,5 +1,5 @@
 // Requests as bytes: how long a message is, and what a wrong one is answered.
-#include "machine/io/connections/modbus_request.h"
+#include "machine/io/connections/modbus_image.h"
 
 #include <gtest/gtest.h>
 

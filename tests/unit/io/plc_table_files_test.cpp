@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 // l.18312-18325: columns after the Definition; here the whole of it.
 TEST(PlcTableFiles, Definition) {
-  TableDefinition found;
+  io::TableDefinition found;
   EXPECT_EQ(parseTableDefinition("Sample.PlcTDef", R"(<?xml version="1.0"?>
 <PLCTableDef>
 <Definition>
@@ -37,7 +37,8 @@ TEST(PlcTableFiles, Definition) {
   EXPECT_EQ(found.place, "Sample.PlcTDef:4:1");
   ASSERT_EQ(found.columns.size(), 4u);
   const char* const ids[] = {"MaterialThickness", "Count", "Name", "Klíč"};
-  const ColumnType types[] = {ColumnType::Real, ColumnType::Int, ColumnType::Text, ColumnType::Binary};
+  const io::ColumnType types[] = {io::ColumnType::Real, io::ColumnType::Int, io::ColumnType::Text,
+                                  io::ColumnType::Binary};
   for (size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(found.columns[i].id, ids[i]);
     EXPECT_EQ(found.columns[i].type, types[i]);
@@ -53,7 +54,7 @@ std::string data(std::string_view lines) {
 }
 
 std::string dataMistakes(std::string_view text) {
-  TableData found{.definition = "before"};
+  io::TableData found{.definition = "before"};
   std::string mistakes = parseTableData("f", text, found);
   EXPECT_EQ(mistakes.empty(), found.definition != "before");
   return mistakes;
@@ -61,7 +62,7 @@ std::string dataMistakes(std::string_view text) {
 
 // l.18383-18412.
 TEST(PlcTableFiles, Data) {
-  TableData found;
+  io::TableData found;
   EXPECT_EQ(parseTableData("Sample1.PlcT", R"(<PLCTable>
 <Definition>
 <DefinitionID>Materials</DefinitionID>
@@ -91,7 +92,7 @@ TEST(PlcTableFiles, Data) {
 }
 
 TEST(PlcTableFiles, ATextInWindows1250) {
-  TableData found;
+  io::TableData found;
   EXPECT_EQ(parseTableData("f",
                            "<?xml version='1.0' encoding='windows-1250'?>" +
                                data("<Line No='0'><Col ColID='N'>\xF8\xE8</Col></Line>"),
@@ -109,8 +110,8 @@ TEST(PlcTableFiles, TruncatedAnywhereIsAMistake) {
 
 TEST(PlcTableFiles, FilesThatAreNot) {
   const std::string folder = std::filesystem::temp_directory_path().string();
-  TableDefinition found;
-  TableData contents;
+  io::TableDefinition found;
+  io::TableData contents;
   EXPECT_EQ(readTableDefinition(folder, found), folder + ": cannot be read: it is a folder");
   EXPECT_THAT(readTableData(folder + "/there-is-no-such-file", contents), HasSubstr("cannot be read"));
 }
@@ -118,11 +119,12 @@ TEST(PlcTableFiles, FilesThatAreNot) {
 // ---- writing --------------------------------------------------------------------------------------------------------
 
 TEST(PlcTableFiles, WhatIsWritten) {
-  const TableData contents{.definition = "Mate<rials",
-                           .lineCount = 2,
-                           .selected = 1,
-                           .lines = {{.number = 0, .elements = {{"Feed", "1000", {}}, {"A\"B", "", {}}}, .place = {}},
-                                     {.number = 1, .elements = {{"Feed", " a\r\n&", {}}}, .place = {}}}};
+  const io::TableData contents{
+      .definition = "Mate<rials",
+      .lineCount = 2,
+      .selected = 1,
+      .lines = {{.number = 0, .elements = {{"Feed", "1000", {}}, {"A\"B", "", {}}}, .place = {}},
+                {.number = 1, .elements = {{"Feed", " a\r\n&", {}}}, .place = {}}}};
   const std::string text = R"(<?xml version="1.0" encoding="utf-8"?>
 <PLCTable>
   <Definition>
@@ -140,14 +142,14 @@ TEST(PlcTableFiles, WhatIsWritten) {
 </PLCTable>
 )";
   EXPECT_EQ(tableDataText(contents), text);
-  TableData again;
+  io::TableData again;
   EXPECT_EQ(parseTableData("f", text, again), "");
   EXPECT_EQ(tableDataText(again), text);
   EXPECT_EQ(again.lines[1].elements[0].value, " a\r\n&");
 }
 
 TEST(PlcTableFiles, LineZeroIsNotWrittenAsSelected) {
-  EXPECT_THAT(tableDataText({.definition = "D", .lineCount = 2}), testing::Not(HasSubstr("SelLine")));
+  EXPECT_THAT(io::tableDataText({.definition = "D", .lineCount = 2}), testing::Not(HasSubstr("SelLine")));
 }
 
 } // namespace

@@ -21,7 +21,7 @@ protected:
     return bytes;
   }
   static std::string textOf(const PlcTables& tables, uint32_t table) {
-    return host::tableDataText(*tables.contents(table));
+    return io::tableDataText(*tables.contents(table));
   }
 
   PlcTables tables_;

@@ -89,10 +89,10 @@ TEST(PlcTablesLoad, WhatIsWrittenIsReadAgain) {
   for (const double real : reals) {
     EXPECT_EQ(tables.setReal(0, 1, 0, real), TableError::None);
     EXPECT_EQ(tables.select(0, 2), TableError::None);
-    const std::string text = host::tableDataText(*tables.contents(0));
+    const std::string text = io::tableDataText(*tables.contents(0));
     PlcTables again;
     EXPECT_EQ(again.load(0, definitionOf(test::kMaterials), dataOf(text)), "");
-    EXPECT_EQ(host::tableDataText(*again.contents(0)), text);
+    EXPECT_EQ(io::tableDataText(*again.contents(0)), text);
     std::string_view found;
     EXPECT_EQ(again.getText(0, 1, 2, found), TableError::None);
     EXPECT_EQ(found, everything);

@@ -1,5 +1,5 @@
 // Values as registers and as bytes: every format both ways, limits, and what is not a number.
-#include "machine/io/connections/registers.h"
+#include "machine/io/connections/modbus_image.h"
 
 #include <gtest/gtest.h>
 

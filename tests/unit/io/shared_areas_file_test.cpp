@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "ir/support/temporary_folder.h"
-#include "machine/io/shared/shared_areas_layout.h"
+#include "machine/io/shared/shared_areas.h"
 
 namespace rung::io {
 namespace {

@@ -8,8 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "machine/io/shared/shared_areas_layout.h"
-
 namespace rung::io {
 namespace {
 

@@ -5,7 +5,7 @@
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
 #include "ir/core/parts.h"
-#include "rtlib/change/compare.h"
+#include "rtlib/change/shadow.h"
 #include "rtlib/nc/names/names.h"
 #include "tests/random/random.h"
 #include "tests/unit/ir_interp/machine.h"

@@ -14,7 +14,7 @@
 #include "ir/transforms/passes.h"
 #include "ir/transforms/pipeline.h"
 #include "ir/verify/verify.h"
-#include "rtlib/change/compare.h"
+#include "rtlib/change/shadow.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/run/instance.h"
 #include "tests/random/random.h"

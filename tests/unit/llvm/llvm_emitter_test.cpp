@@ -15,7 +15,7 @@
 #include "ir/core/builder.h"
 #include "ir/core/ops.h"
 #include "ir/support/check.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 #include "rtlib/load/so_engine.h"
 #include "rtlib/nc/names/names.h"
 #include "rtlib/run/instance.h"

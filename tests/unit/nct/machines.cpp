@@ -5,7 +5,7 @@
 
 #include "ir/support/check.h"
 #include "ir/support/diag_render.h"
-#include "rtlib/change/compare.h"
+#include "rtlib/change/shadow.h"
 #include "rtlib/nc/names/names.h"
 
 namespace rung::frontend::nct::test {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "rtlib/nc/control/refuse.h"
+#include "rtlib/nc/control/control.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/service_functions.h"
 #include "tests/unit/nct/machines.h"

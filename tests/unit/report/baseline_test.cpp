@@ -1,10 +1,8 @@
 // A profile against an older one: rungs are found again, and what changed is in one list at most.
-#include "tools/report/profile_baseline.h"
+#include "tools/report/profile_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "tools/report/profile_text.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "ir/core/builder.h"
 #include "ir/core/eval.h"
 #include "ir/core/op_info.h"
-#include "tools/report/coverage_expression.h"
+#include "tools/report/coverage_collector.h"
 
 namespace rung::report {
 namespace {

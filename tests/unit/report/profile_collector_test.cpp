@@ -1,5 +1,5 @@
 // What happened in each scan, out of counters that only grow.
-#include "tools/report/profile_collector.h"
+#include "tools/report/profile_rungs.h"
 
 #include <gtest/gtest.h>
 

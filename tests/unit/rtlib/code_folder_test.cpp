@@ -1,5 +1,5 @@
 // A folder of machine code is used only when nobody else could have put files there.
-#include "rtlib/load/code_folder.h"
+#include "rtlib/load/trust.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

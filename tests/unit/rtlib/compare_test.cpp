@@ -1,5 +1,5 @@
 // Every kind of difference between two instances is found and named.
-#include "rtlib/change/compare.h"
+#include "rtlib/change/shadow.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What of border copies is needed: what rungs touch, and in masks what they write.
-#include "rtlib/run/copy_lists.h"
+#include "rtlib/run/loaded_program.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

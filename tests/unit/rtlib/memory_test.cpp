@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "rtlib/core/place_list.h"
 #include "rtlib/load/ref.h"
 #include "tests/unit/rtlib/test_program.h"
 

@@ -1,5 +1,5 @@
 // Places that input copies overwrite: found whatever their representation, and not written.
-#include "rtlib/run/overwritten.h"
+#include "rtlib/run/loaded_program.h"
 
 #include <gtest/gtest.h>
 

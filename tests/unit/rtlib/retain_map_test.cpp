@@ -1,5 +1,5 @@
 // Images by address: they survive another layout, and do not survive another set of kept addresses.
-#include "rtlib/retain/retain_map.h"
+#include "rtlib/retain/retained_cells.h"
 
 #include <gtest/gtest.h>
 

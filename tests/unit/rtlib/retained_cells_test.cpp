@@ -10,8 +10,7 @@
 #include <random>
 
 #include "rtlib/load/program_info.h"
-#include "rtlib/retain/retain_map.h"
-#include "rtlib/retain/retained_take.h"
+#include "rtlib/retain/retained_memory.h"
 #include "tests/unit/rtlib/test_program.h"
 
 namespace {

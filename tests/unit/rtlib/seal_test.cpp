@@ -1,5 +1,5 @@
 // Seals and signatures: what holds, and that every change shows.
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "ir/support/temporary_folder.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 #include "rtlib/run/instance.h"
 
 namespace {

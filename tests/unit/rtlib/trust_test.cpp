@@ -9,7 +9,7 @@
 
 #include "ir/support/temporary_folder.h"
 #include "rtlib/load/file.h"
-#include "rtlib/load/sealing.h"
+#include "rtlib/load/seal.h"
 
 namespace {
 

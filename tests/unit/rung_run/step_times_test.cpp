@@ -1,5 +1,5 @@
 // The figures of a scan thread: what steps show of themselves.
-#include "machine/rung-run/step_times.h"
+#include "machine/rung-run/scan_thread.h"
 
 #include <gtest/gtest.h>
 

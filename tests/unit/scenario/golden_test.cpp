@@ -6,8 +6,8 @@
 
 #include "ir/support/temporary_folder.h"
 #include "tests/support/cases.h"
+#include "tools/scenario/requests.h"
 #include "tools/scenario/runner.h"
-#include "tools/scenario/services.h"
 
 namespace rung::scenario {
 namespace {

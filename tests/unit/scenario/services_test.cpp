@@ -6,7 +6,7 @@
 
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "tests/support/words.h"
-#include "tools/scenario/services.h"
+#include "tools/scenario/requests.h"
 
 namespace rung::scenario {
 namespace {

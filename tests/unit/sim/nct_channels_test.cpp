@@ -6,7 +6,7 @@
 
 #include "sim/nct/axes.h"
 #include "sim/nct/channels.h"
-#include "sim/nct/macros.h"
+#include "sim/nct/parameters.h"
 #include "sim/nct/spindles.h"
 #include "sim/nct/tool_management.h"
 

@@ -6,7 +6,7 @@
 
 #include "rtlib/nc/nct/service_functions.h"
 #include "sim/nct/channels.h"
-#include "sim/nct/pallet_management.h"
+#include "sim/nct/pallets.h"
 #include "tests/unit/sim/nct_block.h"
 
 namespace rung::sim::nct {

@@ -39,7 +39,7 @@ TEST(Similar, NothingInCommonIsNoLikeness) {
 }
 
 bool certain(std::string_view word, std::initializer_list<std::string_view> candidates) {
-  return likeliest(word, candidates).certain;
+  return text::likeliest(word, candidates).certain;
 }
 
 TEST(Similar, SlipsOfTheHandAreCertain) {

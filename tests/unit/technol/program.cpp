@@ -7,7 +7,7 @@
 #include "ir/support/diag_render.h"
 #include "ir/verify/verify.h"
 #include "rtlib/nc/names/names.h"
-#include "rtlib/nc/technol/messages.h"
+#include "rtlib/nc/technol/services.h"
 #include "rtlib/nc/technol/signals.h"
 
 namespace rung::technol_test {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/view/drawn.h"
-#include "tools/view/contents.h"
 #include "tools/view/html.h"
-#include "tools/view/source_links.h"
+#include "tools/view/names.h"
+#include "tools/view/program.h"
 #include "tools/view/svg.h"
 
 namespace rung::view::test {

@@ -23,7 +23,7 @@ constexpr std::string_view kDecimalRange = "-2147483648 to 2147483647";
 constexpr std::string_view kHexRange = "0 to FFFFFFFF";
 constexpr std::string_view kRealRange = "the range of a double";
 
-bool allDigits(std::string_view text) { return !text.empty() && std::ranges::all_of(text, isDigit); }
+bool allDigits(std::string_view text) { return !text.empty() && std::ranges::all_of(text, text::isDigit); }
 
 bool allHex(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) { return text::hexDigit(c) >= 0; });

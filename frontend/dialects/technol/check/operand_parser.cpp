@@ -350,7 +350,7 @@ bool OperandParser::noWord(std::string_view words, const OperandInfo& info, std:
   if (tokens.size() != 1) return syntax("a " + wanted, tokens);
   const bool unknown = tokens[0].kind == TokenKind::Name && symbols_.find(tokens[0].text, file_) == kNone;
   if (!unknown) return wrongKind(out, "no " + wanted, "a " + wanted);
-  Similar meant(tokens[0].text);
+  text::Similar meant(tokens[0].text);
   forEachWord(words, [&](std::string_view word, int64_t) { meant.offer(word); });
   symbols_.noteUndefined(tokens[0], file_, {.meant = {meant.best(), meant.certain()}});
   return false;

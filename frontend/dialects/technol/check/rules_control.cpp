@@ -3,8 +3,8 @@
 #include "frontend/dialects/technol/check/rules.h"
 
 #include "ir/support/diag/technol.h"
-#include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/exchange.h"
+#include "rtlib/nc/technol/services.h"
 
 namespace rung::frontend::technol {
 

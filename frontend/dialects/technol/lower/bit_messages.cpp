@@ -3,7 +3,7 @@
 
 #include "frontend/dialects/technol/lower/message_parts.h"
 #include "rtlib/nc/faults.h"
-#include "rtlib/nc/technol/messages.h"
+#include "rtlib/nc/technol/services.h"
 
 namespace rung::frontend::technol {
 

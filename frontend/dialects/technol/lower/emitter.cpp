@@ -2,7 +2,7 @@
 #include "frontend/dialects/technol/lower/emitter.h"
 
 #include "rtlib/nc/faults.h"
-#include "rtlib/nc/technol/licences.h"
+#include "rtlib/nc/technol/services.h"
 
 namespace rung::frontend::technol {
 

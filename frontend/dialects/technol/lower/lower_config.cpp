@@ -8,7 +8,7 @@
 #include "frontend/dialects/technol/lower/putting.h"
 #include "frontend/dialects/technol/lower/texts.h"
 
-#include "rtlib/nc/technol/configuration.h"
+#include "rtlib/nc/technol/services.h"
 
 namespace rung::frontend::technol {
 

@@ -4,7 +4,7 @@
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/lower/lowering.h"
 #include "frontend/dialects/technol/lower/message_parts.h"
-#include "rtlib/nc/technol/messages.h"
+#include "rtlib/nc/technol/services.h"
 
 namespace rung::frontend::technol {
 

@@ -1,4 +1,4 @@
-// A message of the program as operations give it to the control (see rtlib/nc/technol/messages.h).
+// A message of the program as operations give it to the control (see rtlib/nc/technol/services.h).
 #pragma once
 
 #include "frontend/dialects/technol/lower/memory.h"

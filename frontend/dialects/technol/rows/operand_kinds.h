@@ -8,7 +8,6 @@
 
 #include "frontend/dialects/technol/records.h"
 #include "rtlib/nc/technol/exchange.h"
-#include "rtlib/nc/technol/licences.h"
 #include "rtlib/nc/technol/services.h"
 #include "rtlib/text/letters.h"
 

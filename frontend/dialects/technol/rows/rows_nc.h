@@ -4,8 +4,8 @@
 #include "frontend/dialects/technol/check/rules.h"
 #include "frontend/dialects/technol/lower/lower.h"
 #include "frontend/dialects/technol/rows/row_parts.h"
-#include "rtlib/nc/technol/configuration.h"
 #include "rtlib/nc/technol/exchange.h"
+#include "rtlib/nc/technol/services.h"
 
 namespace rung::frontend::technol {
 

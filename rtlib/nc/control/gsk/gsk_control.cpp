@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstring>
 
-#include "rtlib/change/written_bits.h"
+#include "rtlib/change/forcing.h"
 #include "rtlib/core/bits.h"
 #include "rtlib/load/program_info.h"
 #include "rtlib/nc/gsk/signals.h"

@@ -9,7 +9,7 @@
 #include <array>
 #include <optional>
 
-#include "rtlib/nc/control/functions.h"
+#include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/gsk/signals_io.h"
 
 namespace rung::nc {

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "rtlib/load/program_info.h"
-#include "rtlib/nc/control/message_number.h"
+#include "rtlib/nc/control/control.h"
 
 namespace rung::nc::nct {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/nct/signal_memory.h"
-#include "rtlib/nc/control/shown_message.h"
 #include "rtlib/nc/nct/messages.h"
 #include "rtlib/run/instance.h"
 

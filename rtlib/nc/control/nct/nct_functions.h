@@ -8,7 +8,7 @@
 #pragma once
 #include <array>
 
-#include "rtlib/nc/control/functions.h"
+#include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/nct/signal_memory.h"
 #include "rtlib/run/instance.h"
 

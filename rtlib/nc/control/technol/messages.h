@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "rtlib/nc/control/shown_message.h"
-#include "rtlib/nc/technol/messages.h"
+#include "rtlib/nc/control/control.h"
+#include "rtlib/nc/technol/services.h"
 
 namespace rung::nc::technol {
 

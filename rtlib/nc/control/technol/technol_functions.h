@@ -7,7 +7,7 @@
 #pragma once
 #include <array>
 
-#include "rtlib/nc/control/functions.h"
+#include "rtlib/nc/control/control.h"
 #include "rtlib/nc/control/technol/blocks.h"
 #include "rtlib/nc/control/technol/cells.h"
 

@@ -9,8 +9,8 @@
 #include "compiler/compile.h"
 #include "compiler/configuration.h"
 #include "compiler/contained.h"
+#include "compiler/embedded_ir.h"
 #include "compiler/engines.h"
-#include "compiler/kept_ir.h"
 #include "ir/support/diag_render.h"
 #include "rtlib/api/error.h"
 #include "rtlib/load/seal.h"
@@ -90,8 +90,8 @@ int32_t takeSettings(const rung_compile_options& options, CompileRequest& reques
 }
 
 int32_t checkSettings(const SourceManager& sources, std::span<const FileId> files, const CompileRequest& request) {
-  Diagnostics unheard; // the compilation reports it
-  const frontend::Dialect* dialect = chooseDialect(sources, files, request.dialect, unheard);
+  Diagnostics discarded; // the compilation reports it
+  const frontend::Dialect* dialect = chooseDialect(sources, files, request.dialect, discarded);
   if (dialect == nullptr) return RUNG_OK;
   for (const auto& [key, value] : request.options.config)
     if (const auto problem = checkSetting(*dialect, key, value))

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "frontend/dialects/dialect.h"
-#include "ir/analysis/odds.h"
+#include "ir/analysis/branch_weights.h"
 #include "ir/analysis/uses.h"
 #include "ir/shape/layout.h"
 #include "ir/support/diagnostics.h"
@@ -45,16 +45,16 @@ struct Compiled {
   std::vector<FileId> files;
   std::string project; // the name of the request
   const frontend::Dialect* dialect = nullptr;
-  std::unique_ptr<ir::Module> built;  // as the dialect made it, where that was asked for
-  std::unique_ptr<ir::Module> shape;  // what the layout follows from (ir::runPasses)
-  std::unique_ptr<ir::Module> module; // final, optimised
-  ir::PassOptions passes;             // between the two
-  ir::OddsResult odds;                // of the branches of the request
-  std::unique_ptr<ir::Layout> layout; // of the shape, over the module
-  ir::Marks marks;                    // where they were asked for
-  ir::GivenNumbers given;             // of `built`, for a comparison
-  frontend::CompileOptions options;   // of the request
-  std::unique_ptr<ir::Uses> uses;     // of the module as the dialect made it
+  std::unique_ptr<ir::Module> built;     // as the dialect made it, where that was asked for
+  std::unique_ptr<ir::Module> shape;     // what the layout follows from (ir::runPasses)
+  std::unique_ptr<ir::Module> module;    // final, optimised
+  ir::PassOptions passes;                // between the two
+  ir::BranchWeightsResult branchWeights; // of the branches of the request
+  std::unique_ptr<ir::Layout> layout;    // of the shape, over the module
+  ir::Marks marks;                       // where they were asked for
+  ir::GivenNumbers given;                // of `built`, for a comparison
+  frontend::CompileOptions options;      // of the request
+  std::unique_ptr<ir::Uses> uses;        // of the module as the dialect made it
   // Where it was asked for: for its analysis alone, as it has been built; the sources must outlive it.
   std::unique_ptr<const frontend::CheckedProgram> source;
   uint64_t codeHash = 0; // ir::hashOf the module

@@ -78,7 +78,7 @@ Result<std::string> cppObject(const Compiled& compiled, const EngineOptions& opt
 std::string llvmIdentity(const Compiled& compiled, const EngineOptions& options) {
   std::string identity =
       fmt::format("llvm {} {} {} {}\n", codegen::codeVersion(), RUNG_ABI_VERSION, options.optimise, options.debugger);
-  for (const ir::Chunk& chunk : compiled.layout->cut().chunks())
+  for (const ir::Chunk& chunk : compiled.layout->partition().chunks())
     put(identity, "chunk {} {} {}\n", chunk.routine.index, chunk.firstRung, chunk.rungCount);
   return identity + compiled.layout->memory().text() + ir::print(compiled.layout->module());
 }

@@ -6,7 +6,7 @@
 #include "codegen/jit/jit_code.h"
 #include "compiler/tiered.h"
 #include "ir/interp/interp.h"
-#include "ir/shape/cut.h"
+#include "ir/shape/partition.h"
 #include "ir/transforms/force.h"
 #include "ir/transforms/pipeline.h"
 
@@ -76,7 +76,7 @@ Result<std::unique_ptr<ForcedCode>> makeForcedCode(const Compiled& source, Engin
   auto code = std::make_unique<NativeCode>(running, engine);
   codegen::JitOptions jit = jitOptionsOf(options);
   jit.cacheFolder.clear();
-  const Result<void> changed = code->change(program, program.chunksUnlike(*source.module), jit);
+  const Result<void> changed = code->change(program, program.changedChunks(*source.module), jit);
   if (!changed.ok()) return changed.failure();
   if (kind == EngineKind::Tiered)
     code->keep(static_cast<const TieredEngine*>(engine)->tables());
@@ -103,15 +103,15 @@ ir::Module changed(const Compiled& source, std::span<const rung_forced_byte> for
 ForcedProgram::ForcedProgram(const Compiled& source, std::span<const rung_forced_byte> forced)
     : module(changed(source, forced)), layout(source.layout->over(module)) {}
 
-std::vector<uint32_t> ForcedProgram::chunksUnlike(const ir::Module& other) const {
-  std::vector<uint32_t> unlike;
-  for (uint32_t i = 0; i < layout.cut().chunks().size(); ++i) {
-    const ir::Chunk& chunk = layout.cut().chunks()[i];
+std::vector<uint32_t> ForcedProgram::changedChunks(const ir::Module& other) const {
+  std::vector<uint32_t> distinct;
+  for (uint32_t i = 0; i < layout.partition().chunks().size(); ++i) {
+    const ir::Chunk& chunk = layout.partition().chunks()[i];
     const auto here = module.at(chunk.routine).rungs.begin() + chunk.firstRung;
     const auto there = other.at(chunk.routine).rungs.begin() + chunk.firstRung;
-    if (!std::equal(here, here + chunk.rungCount, there, sameCode)) unlike.push_back(i);
+    if (!std::equal(here, here + chunk.rungCount, there, sameCode)) distinct.push_back(i);
   }
-  return unlike;
+  return distinct;
 }
 
 } // namespace rung::compiler

@@ -38,7 +38,7 @@ struct ForcedProgram {
   ForcedProgram& operator=(const ForcedProgram&) = delete;
 
   // Those whose rungs are not those of `other`.
-  std::vector<uint32_t> chunksUnlike(const ir::Module& other) const;
+  std::vector<uint32_t> changedChunks(const ir::Module& other) const;
 
   ir::Module module;
   ir::Layout layout;

@@ -238,11 +238,11 @@ bool isFault(const nc::Fault& fault, const std::string& word) {
   return text == word || (text.starts_with(word) && (text[word.size()] == ':' || word.starts_with(text)));
 }
 
-// What an entry's pieces add up to, one empty line between two.
+// What an entry's units add up to, one empty line between two.
 class Collected {
 public:
-  void add(std::string_view piece) {
-    if (!piece.empty()) text_ += (text_.empty() ? "" : "\n") + std::string(piece);
+  void add(std::string_view unit) {
+    if (!unit.empty()) text_ += (text_.empty() ? "" : "\n") + std::string(unit);
   }
   std::string take() { return std::move(text_); }
 

@@ -46,7 +46,7 @@ void TierTables::unfollow(std::span<rung_chunk_fn> table) {
 TieredEngine::TieredEngine(const Compiled& compiled, const codegen::JitOptions& options, ir::Counting counting)
     : layout_(*compiled.layout), codeHash_(compiled.codeHash), options_(options),
       interpreter_(*compiled.layout, compiled.codeHash, counting),
-      tables_(std::make_shared<TierTables>(compiled.layout->cut().chunks().size(), &interpret)),
+      tables_(std::make_shared<TierTables>(compiled.layout->partition().chunks().size(), &interpret)),
       program_(interpreter_.program()) {
   options_.threads = std::max(1u, std::thread::hardware_concurrency());
   program_.chunk_fns = tables_->functions();
@@ -71,7 +71,7 @@ Result<std::unique_ptr<TieredEngine>> TieredEngine::make(const Compiled& compile
 // Whether the interpreter does.
 bool TieredEngine::keepsPeriod() {
   bound_ = runtime::measureBound({.program = program_, .engine = this});
-  return !interpreter_.allocates() && !bound_.circles && bound_.fits();
+  return !interpreter_.allocates() && !bound_.loops && bound_.fits();
 }
 
 Result<void> TieredEngine::begin(Pace pace) {
@@ -99,7 +99,7 @@ Result<std::unique_ptr<codegen::JitCode>> TieredEngine::codeOf(codegen::LlvmLeve
 }
 
 Result<void> TieredEngine::compile(codegen::JitCode& code, std::atomic<uint32_t>& done) {
-  std::vector<uint32_t> all(layout_.cut().chunks().size());
+  std::vector<uint32_t> all(layout_.partition().chunks().size());
   std::iota(all.begin(), all.end(), 0);
   const auto take = [&](uint32_t chunk, rung_chunk_fn function) {
     tables_->set(chunk, function);

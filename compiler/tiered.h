@@ -3,7 +3,7 @@
 // running program nothing.
 //
 // Where the interpreter may need more than the period of the schedule, because the program is long or may go in
-// circles, or memory from the heap, the program begins with machine code that is compiled fast, and whoever makes the
+// loops, or memory from the heap, the program begins with machine code that is compiled fast, and whoever makes the
 // engine waits for that. On a virtual clock, where no time passes meanwhile, it begins in the interpreter in any case.
 #pragma once
 #include <atomic>

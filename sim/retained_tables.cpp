@@ -30,7 +30,7 @@ bool RetainedTables::load(std::string& report, std::string& error) {
   if (!store_->save(now, error)) return false;
   const auto pack = [](std::span<const uint8_t> raw, std::span<uint8_t> to) { std::ranges::copy(raw, to.begin()); };
   saver_ = std::make_unique<runtime::RetainSaver>(
-      std::move(store_), std::make_unique<runtime::RetainLane>(kFormat, size_, size_, pack), period_);
+      std::move(store_), std::make_unique<runtime::RetainChannel>(kFormat, size_, size_, pack), period_);
   return image.found;
 }
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "rtlib/api/surroundings.h"
+#include "rtlib/api/environment.h"
 
 namespace rung::sim {
 
@@ -54,7 +54,7 @@ public:
                               core::ServiceReply& reply) = 0;
 };
 
-class SimulatedNc : public api::Surroundings {
+class SimulatedNc : public api::Environment {
 public:
   // Files named by `config` without a full path are in this folder; without one, in the working folder.
   void setFolder(std::string folder) { folder_ = std::move(folder); }

@@ -65,7 +65,7 @@ void writeChunk(const Layout& layout, uint32_t number, const PlaceNames& names, 
     if (plan.isTarget[i - plan.chunk.firstRung]) out += rungLabel(i) + ":\n";
     out += "{\n";
     const std::string file = rung.begin.file.valid() ? cppString(layout.module().files[rung.begin.file.index]) : "\"\"";
-    writer.write(rung, layout.cut().rungNumber(plan.chunk.routine, i),
+    writer.write(rung, layout.partition().rungNumber(plan.chunk.routine, i),
                  std::string_view(file).substr(1, file.size() - 2));
     writer.writeExit(plan.exit(i));
     out += "}\n";
@@ -79,10 +79,10 @@ std::string emitCpp(const Layout& layout, uint64_t codeHash, const CppOptions& o
   std::string out;
   const PlaceNames names(layout.module());
   writeHead(layout, options, out);
-  for (uint32_t i = 0; i < layout.cut().chunks().size(); ++i) writeChunk(layout, i, names, options, out);
+  for (uint32_t i = 0; i < layout.partition().chunks().size(); ++i) writeChunk(layout, i, names, options, out);
   out += "\n#line 1 \"rung_tables\"";
   put(out, "\nstatic const rung_chunk_fn {}[] = {{\n", kChunkTable);
-  for (size_t i = 0; i < layout.cut().chunks().size(); ++i) put(out, "    chunk_{},\n", i);
+  for (size_t i = 0; i < layout.partition().chunks().size(); ++i) put(out, "    chunk_{},\n", i);
   out += "};\n";
   const ProgramImage image(layout, codeHash);
   writeTables(image.program(), kChunkTable, out);

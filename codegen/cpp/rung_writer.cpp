@@ -291,7 +291,7 @@ void RungWriter::openIf(const Op& op, size_t index) {
     const ValueId id{end.result.index + i};
     statement(fmt::format("{} {};", cppType(typeOf(*rung_, id)), v(id)));
   }
-  constexpr std::string_view kHints[] = {"", "[[likely]] ", "[[unlikely]] "}; // by Odds
+  constexpr std::string_view kHints[] = {"", "[[likely]] ", "[[unlikely]] "}; // by BranchWeights
   statement(fmt::format("if ({}) {}{{", a(op, 0), kHints[op.ref]));
   ++indent_;
 }

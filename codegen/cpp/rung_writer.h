@@ -6,8 +6,8 @@
 
 #include "codegen/cpp/cpp_emitter.h"
 #include "ir/core/regions.h"
-#include "ir/shape/cut.h"
 #include "ir/shape/memory_layout.h"
+#include "ir/shape/partition.h"
 
 namespace rung::codegen {
 

@@ -1,4 +1,4 @@
-// The longest path: loops become nodes, the innermost first, and what is left has no circles (see code_paths.h).
+// The longest path: loops become nodes, the innermost first, and what is left has no loops (see code_paths.h).
 #include "codegen/jit/code_paths.h"
 
 #include <algorithm>

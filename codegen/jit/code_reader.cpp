@@ -29,7 +29,7 @@ uint64_t paddingAfter(const llvm::MachineBasicBlock& block) {
 // generation makes no loop of its own and repeats none more often.
 class CodeReader final : public llvm::MachineFunctionPass {
 public:
-  explicit CodeReader(PieceCode& code) : MachineFunctionPass(kId), code_(code) {
+  explicit CodeReader(CodeUnitCode& code) : MachineFunctionPass(kId), code_(code) {
     llvm::PassRegistry& registry = *llvm::PassRegistry::getPassRegistry();
     llvm::initializeScalarEvolutionWrapperPassPass(registry);
     llvm::initializeLoopInfoWrapperPassPass(registry);
@@ -45,7 +45,7 @@ public:
   }
 
   bool doInitialization(llvm::Module& module) override {
-    const llvm::Constant* table = module.getNamedGlobal(kPieceTable)->getInitializer();
+    const llvm::Constant* table = module.getNamedGlobal(kCodeUnitTable)->getInitializer();
     for (unsigned i = 0; const llvm::Constant* chunk = table->getAggregateElement(i); ++i)
       code_.chunks.push_back(chunk->stripPointerCasts()->getName().str());
     return false;
@@ -126,7 +126,7 @@ private:
     return calls;
   }
 
-  PieceCode& code_;
+  CodeUnitCode& code_;
   // Of the function in hand.
   const llvm::MachineLoopInfo* machineLoops_ = nullptr;
   const llvm::LoopInfo* loops_ = nullptr;
@@ -140,6 +140,6 @@ char CodeReader::kId = 0;
 
 } // namespace
 
-std::unique_ptr<llvm::FunctionPass> makeCodeReader(PieceCode& code) { return std::make_unique<CodeReader>(code); }
+std::unique_ptr<llvm::FunctionPass> makeCodeReader(CodeUnitCode& code) { return std::make_unique<CodeReader>(code); }
 
 } // namespace rung::codegen

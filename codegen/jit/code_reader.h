@@ -12,13 +12,13 @@
 
 namespace rung::codegen {
 
-// The code of a piece as graphs.
-struct PieceCode {
+// The code of a unit as graphs.
+struct CodeUnitCode {
   std::vector<std::string> chunks; // names of their functions
   std::map<std::string, FunctionCode> functions;
 };
 
 // For generateCode: fills `code`, which outlives it. What the host's functions do is not in it.
-std::unique_ptr<llvm::FunctionPass> makeCodeReader(PieceCode& code);
+std::unique_ptr<llvm::FunctionPass> makeCodeReader(CodeUnitCode& code);
 
 } // namespace rung::codegen

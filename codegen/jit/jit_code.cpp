@@ -1,4 +1,4 @@
-// Compiles pieces of a program to objects and links them into the process (see jit_code.h).
+// Compiles units of a program to objects and links them into the process (see jit_code.h).
 #include "codegen/jit/jit_code.h"
 
 #include <atomic>
@@ -13,10 +13,10 @@
 #include <llvm/ExecutionEngine/Orc/TargetProcess/JITLoaderGDB.h>
 
 #include "codegen/jit/code_reader.h"
+#include "codegen/jit/code_units.h"
 #include "codegen/jit/object_cache.h"
-#include "codegen/jit/pieces.h"
-#include "codegen/llvm/piece_numbers.h"
-#include "ir/shape/cut.h"
+#include "codegen/llvm/code_unit_numbers.h"
+#include "ir/shape/partition.h"
 #include "ir/support/check.h"
 #include "ir/support/contained.h"
 #include "rtlib/run/realtime.h"
@@ -29,31 +29,31 @@ namespace {
 
 std::string textOf(llvm::Error error) { return llvm::toString(std::move(error)); }
 
-// Compiles or finds all pieces, and links each.
+// Compiles or finds all units, and links each.
 class Compiler {
 public:
   Compiler(const Layout& layout, uint64_t codeHash, const JitOptions& options, std::string_view machine,
            std::span<const uint32_t> chunks, JitReport& report)
-      : layout_(layout), codeHash_(codeHash), options_(options), pieces_(cutPieces(layout.cut(), chunks)),
+      : layout_(layout), codeHash_(codeHash), options_(options), units_(partitionIntoUnits(layout.partition(), chunks)),
         cache_(options.cacheFolder), report_(report) {
-    report_ = {.modules = static_cast<uint32_t>(pieces_.size())};
-    if (options.lengths) report_.lengths.resize(layout.cut().chunks().size());
+    report_ = {.modules = static_cast<uint32_t>(units_.size())};
+    if (options.lengths) report_.lengths.resize(layout.partition().chunks().size());
     shareMembers();
     if (options.cacheFolder.empty()) return;
     const CacheKeys keys(layout, codeHash, options.code, machine);
-    for (ModulePart& piece : pieces_) piece.key = keys.of(piece);
+    for (ModulePart& unit : units_) unit.key = keys.of(unit);
   }
 
   Result<void> run(llvm::orc::LLJIT& jit, const JitCode::Take& take, const std::atomic<bool>* stop) {
     const auto work = [&] {
       while (stop == nullptr || !stop->load(std::memory_order_relaxed)) {
         const size_t i = next_++;
-        if (i >= pieces_.size()) return;
-        doPiece(pieces_[i], jit, take);
+        if (i >= units_.size()) return;
+        doUnit(units_[i], jit, take);
       }
     };
     std::vector<std::thread> helpers;
-    for (uint32_t i = 1; i < std::min<size_t>(options_.threads, pieces_.size()); ++i)
+    for (uint32_t i = 1; i < std::min<size_t>(options_.threads, units_.size()); ++i)
       helpers.emplace_back([&] {
         runtime::becomeHelper();
         work();
@@ -68,54 +68,54 @@ private:
   void shareMembers() {
     if (!options_.code.debugInfo) return;
     const auto members = std::make_shared<const std::vector<MemoryMember>>(memoryMembers(layout_.memory()));
-    for (ModulePart& piece : pieces_) piece.members = members;
+    for (ModulePart& unit : units_) unit.members = members;
   }
 
-  // What fails within the compiler or LLVM ends the piece, and not the process.
-  Result<std::string> compiled(const ModulePart& piece) {
-    PieceCode code;
+  // What fails within the compiler or LLVM ends the unit, and not the process.
+  Result<std::string> compiled(const ModulePart& unit) {
+    CodeUnitCode code;
     Result<std::string> object = contained([&] {
-      return compilePiece(layout_, codeHash_, options_.code, piece, options_.lengths ? makeCodeReader(code) : nullptr);
+      return compileUnit(layout_, codeHash_, options_.code, unit, options_.lengths ? makeCodeReader(code) : nullptr);
     });
     CodeLengths lengths(std::move(code.functions));
     for (size_t c = 0; c < code.chunks.size(); ++c)
-      report_.lengths[piece.firstChunk + c] = lengths.of(code.chunks[c]); // no other piece has it
+      report_.lengths[unit.firstChunk + c] = lengths.of(code.chunks[c]); // no other unit has it
     return object;
   }
 
-  void doPiece(const ModulePart& piece, llvm::orc::LLJIT& jit, const JitCode::Take& take) {
-    std::optional<std::string> found = cache_.find(piece);
-    Result<std::string> object = found ? std::move(*found) : compiled(piece);
-    const Result<void> kept = object.ok() && !found ? cache_.keep(piece, object.value()) : Result<void>();
+  void doUnit(const ModulePart& unit, llvm::orc::LLJIT& jit, const JitCode::Take& take) {
+    std::optional<std::string> found = cache_.find(unit);
+    Result<std::string> object = found ? std::move(*found) : compiled(unit);
+    const Result<void> kept = object.ok() && !found ? cache_.keep(unit, object.value()) : Result<void>();
     const std::lock_guard lock(mutex_);
     if (found) ++report_.fromCache;
     if (!kept.ok()) report_.cacheTrouble = kept.error();
-    const Result<void> linked = object.ok() ? link(piece, object.value(), jit, take) : object.failure();
+    const Result<void> linked = object.ok() ? link(unit, object.value(), jit, take) : object.failure();
     if (!linked.ok()) trouble_ = linked.error();
   }
 
-  // Each piece by itself: all have the same names.
-  Result<void> link(const ModulePart& piece, const std::string& object, llvm::orc::LLJIT& jit,
+  // Each unit by itself: all have the same names.
+  Result<void> link(const ModulePart& unit, const std::string& object, llvm::orc::LLJIT& jit,
                     const JitCode::Take& take) const {
-    const std::string name = fmt::format("chunks from {}", piece.firstChunk);
+    const std::string name = fmt::format("chunks from {}", unit.firstChunk);
     llvm::Expected<llvm::orc::JITDylib&> library = jit.createJITDylib(name);
     if (!library) return failure(textOf(library.takeError()));
-    if (llvm::Error error = defineNumbers(piece, jit, *library)) return failure(textOf(std::move(error)));
+    if (llvm::Error error = defineNumbers(unit, jit, *library)) return failure(textOf(std::move(error)));
     auto bytes = llvm::MemoryBuffer::getMemBufferCopy(object, name);
     if (llvm::Error error = jit.addObjectFile(*library, std::move(bytes))) return failure(textOf(std::move(error)));
-    llvm::Expected<llvm::orc::ExecutorAddr> table = jit.lookup(*library, kPieceTable);
+    llvm::Expected<llvm::orc::ExecutorAddr> table = jit.lookup(*library, kCodeUnitTable);
     if (!table) return failure(textOf(table.takeError()));
     const auto* functions = table->toPtr<const rung_chunk_fn*>();
-    for (uint32_t c = 0; c < piece.chunkCount; ++c) take(piece.firstChunk + c, functions[c]);
+    for (uint32_t c = 0; c < unit.chunkCount; ++c) take(unit.firstChunk + c, functions[c]);
     return {};
   }
 
-  llvm::Error defineNumbers(const ModulePart& piece, llvm::orc::LLJIT& jit, llvm::orc::JITDylib& library) const {
-    const PieceNumbers numbers(layout_.cut(), piece);
+  llvm::Error defineNumbers(const ModulePart& unit, llvm::orc::LLJIT& jit, llvm::orc::JITDylib& library) const {
+    const CodeUnitNumbers numbers(layout_.partition(), unit);
     llvm::orc::SymbolMap symbols;
     for (uint32_t i = 0; const uint32_t value : numbers.values())
-      symbols[jit.mangleAndIntern(PieceNumbers::name(i++))] = {llvm::orc::ExecutorAddr(value),
-                                                               llvm::JITSymbolFlags::Exported};
+      symbols[jit.mangleAndIntern(CodeUnitNumbers::name(i++))] = {llvm::orc::ExecutorAddr(value),
+                                                                  llvm::JITSymbolFlags::Exported};
     if (symbols.empty()) return llvm::Error::success();
     return library.define(llvm::orc::absoluteSymbols(std::move(symbols)));
   }
@@ -123,7 +123,7 @@ private:
   const Layout& layout_;
   uint64_t codeHash_;
   const JitOptions& options_;
-  std::vector<ModulePart> pieces_;
+  std::vector<ModulePart> units_;
   ObjectCache cache_;
   std::atomic<size_t> next_{0};
   std::mutex mutex_; // of what follows, and of linking

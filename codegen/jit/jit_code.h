@@ -23,13 +23,13 @@ struct JitOptions {
 };
 
 struct JitReport {
-  uint32_t modules = 0;            // pieces that the program was compiled in
+  uint32_t modules = 0;            // units that the program was compiled in
   uint32_t fromCache = 0;          // of them
-  std::string cacheTrouble;        // why a piece could not be kept; the code is good all the same
+  std::string cacheTrouble;        // why a unit could not be kept; the code is good all the same
   std::vector<CodeLength> lengths; // with JitOptions::lengths: by chunk of the layout
 };
 
-// Machine code of chunks, for the pieces of a program one after the other.
+// Machine code of chunks, for the units of a program one after the other.
 class JitCode {
 public:
   // One thread at a time calls it, any of those that compile.
@@ -37,7 +37,7 @@ public:
 
   virtual ~JitCode() = default;
 
-  // `chunks`: ascending, each once in the life of the code. Those of a piece are taken once the piece is there, and
+  // `chunks`: ascending, each once in the life of the code. Those of a unit are taken once the unit is there, and
   // stay as long as the code, also after a failure. Ends early, and with success, when `stop` (which may be null) says
   // so. `codeHash`: of the whole program, for the cache.
   virtual Result<void> compile(const ir::Layout& layout, uint64_t codeHash, std::span<const uint32_t> chunks,

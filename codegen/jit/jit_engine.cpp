@@ -11,7 +11,8 @@ namespace rung::codegen {
 using namespace ir;
 
 struct JitEngine::State {
-  State(const Layout& layout, uint64_t codeHash) : image(layout, codeHash), functions(layout.cut().chunks().size()) {}
+  State(const Layout& layout, uint64_t codeHash)
+      : image(layout, codeHash), functions(layout.partition().chunks().size()) {}
 
   ProgramImage image;
   std::unique_ptr<JitCode> code;
@@ -28,7 +29,7 @@ Result<std::unique_ptr<JitEngine>> compileJit(const Layout& layout, uint64_t cod
   if (!code.ok()) return code.failure();
   auto state = std::make_unique<JitEngine::State>(layout, codeHash);
   state->code = std::move(code).value();
-  std::vector<uint32_t> all(layout.cut().chunks().size());
+  std::vector<uint32_t> all(layout.partition().chunks().size());
   std::iota(all.begin(), all.end(), 0);
   const auto take = [&](uint32_t chunk, rung_chunk_fn function) { state->functions[chunk] = function; };
   const Result<void> compiled = state->code->compile(layout, codeHash, all, take, nullptr);

@@ -8,10 +8,10 @@
 #include <llvm/Object/ObjectFile.h>
 #include <llvm/Support/SHA256.h>
 
-#include "codegen/llvm/piece_numbers.h"
+#include "codegen/llvm/code_unit_numbers.h"
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
-#include "ir/shape/cut.h"
+#include "ir/shape/partition.h"
 #include "ir/support/put.h"
 #include "ir/text/text.h"
 
@@ -22,26 +22,26 @@ CacheKey sha256(std::string_view bytes) {
   return llvm::SHA256::hash({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
 }
 
-// All of a piece that its code depends on, but for where it is in its program (PieceNumbers) and for the memory that it
-// does not touch.
-class PieceText {
+// All of a unit that its code depends on, but for where it is in its program (CodeUnitNumbers) and for the memory that
+// it does not touch.
+class CodeUnitText {
 public:
-  PieceText(const ir::Layout& layout, const ModulePart& piece)
-      : layout_(layout), cut_(layout.cut()), numbers_(layout.cut(), piece) {
-    for (uint32_t i = 0; i < piece.chunkCount; ++i) putChunk(cut_.chunks()[piece.firstChunk + i]);
+  CodeUnitText(const ir::Layout& layout, const ModulePart& unit)
+      : layout_(layout), partition_(layout.partition()), numbers_(layout.partition(), unit) {
+    for (uint32_t i = 0; i < unit.chunkCount; ++i) putChunk(partition_.chunks()[unit.firstChunk + i]);
   }
   std::string take() { return std::move(text_); }
 
 private:
-  using Kind = PieceNumbers::Kind;
+  using Kind = CodeUnitNumbers::Kind;
 
   // The rungs of a chunk, and where they go with which extra weight.
   void putChunk(const ir::Chunk& chunk) {
     put(text_, "chunk {}\n", chunk.rungCount);
     first_ = chunk.firstRung;
     for (uint32_t i = chunk.firstRung; i < chunk.firstRung + chunk.rungCount; ++i) {
-      putRung(cut_.module().at(chunk.routine).rungs[i], cut_.rungNumber(chunk.routine, i));
-      putExit(ir::exitOf(cut_, chunk.routine, i));
+      putRung(partition_.module().at(chunk.routine).rungs[i], partition_.rungNumber(chunk.routine, i));
+      putExit(ir::exitOf(partition_, chunk.routine, i));
     }
   }
 
@@ -54,7 +54,7 @@ private:
       putAttribute(op);
       for (int i = 0; i < op.argCount; ++i) put(text_, " {}", ir::arg(rung, op, i).index);
       if (op.code == ir::OpCode::Trap) put(text_, " @{}", numbers_.index(Kind::Line, lineOf(rung, op)));
-      if (PieceNumbers::namesRung(op.code)) put(text_, " #{}", numbers_.index(Kind::Rung, number));
+      if (CodeUnitNumbers::namesRung(op.code)) put(text_, " #{}", numbers_.index(Kind::Rung, number));
       text_ += '\n';
     }
     put(text_, "{} {}\n", rung.transfer.cond.index, rung.transfer.value.index);
@@ -69,7 +69,7 @@ private:
     case ir::Attr::Window:
       put(text_, " {} window", op.ref);
       if (op.count != 0)
-        put(text_, " {} {}", memory.byte(ir::SpaceId{op.ref}, byte), cut_.module().spaces[op.ref].unitBytes);
+        put(text_, " {} {}", memory.byte(ir::SpaceId{op.ref}, byte), partition_.module().spaces[op.ref].unitBytes);
       return;
     case ir::Attr::Place:
       if (op.type == ir::Type::Bit) {
@@ -99,14 +99,14 @@ private:
   }
 
   const ir::Layout& layout_;
-  const ir::Cut& cut_;
-  PieceNumbers numbers_;
+  const ir::Partition& partition_;
+  CodeUnitNumbers numbers_;
   uint32_t first_ = 0; // of the chunk in hand
   std::string text_;
 };
 
 // What the object says of itself; nothing when it is not an object or says nothing.
-std::optional<PieceIdentity> identityIn(std::string_view object) {
+std::optional<CodeUnitIdentity> identityIn(std::string_view object) {
   const llvm::MemoryBufferRef bytes({object.data(), object.size()}, "");
   llvm::Expected<std::unique_ptr<llvm::object::ObjectFile>> file = llvm::object::ObjectFile::createObjectFile(bytes);
   if (!file) {
@@ -120,12 +120,12 @@ std::optional<PieceIdentity> identityIn(std::string_view object) {
     return std::optional<Value>();
   };
   for (const llvm::object::SymbolRef& symbol : (*file)->symbols()) {
-    if (valueOf(symbol.getName()) != llvm::StringRef(kPieceIdentity)) continue;
+    if (valueOf(symbol.getName()) != llvm::StringRef(kCodeUnitIdentity)) continue;
     const auto section = valueOf(symbol.getSection());
     const auto offset = valueOf(symbol.getValue());
     if (!section || *section == (*file)->section_end() || !offset) return std::nullopt;
     const auto contents = valueOf((*section)->getContents());
-    PieceIdentity identity{};
+    CodeUnitIdentity identity{};
     if (!contents || *offset > contents->size() || contents->size() - *offset < sizeof identity) return std::nullopt;
     std::memcpy(&identity, contents->data() + *offset, sizeof identity);
     return identity;
@@ -144,37 +144,37 @@ CacheKeys::CacheKeys(const ir::Layout& layout, uint64_t codeHash, const LlvmOpti
     : layout_(layout), debugInfo_(options.debugInfo) {
   std::string text = fmt::format("{} {} {} {} {}\n", version, machine, RUNG_ABI_VERSION,
                                  static_cast<int>(options.level), options.debugInfo);
-  // Debug information has all names and where the pieces are.
+  // Debug information has all names and where the units are.
   if (debugInfo_) text += fmt::format("{:x}\n", codeHash) + layout.memory().text() + ir::print(layout.module());
   whole_ = sha256(text);
 }
 
-CacheKey CacheKeys::of(const ModulePart& piece) const {
-  std::string text = fmt::format("{} {}\n", llvm::toHex(whole_, true), debugInfo_ ? piece.firstChunk : 0);
-  return sha256(text + PieceText(layout_, piece).take());
+CacheKey CacheKeys::of(const ModulePart& unit) const {
+  std::string text = fmt::format("{} {}\n", llvm::toHex(whole_, true), debugInfo_ ? unit.firstChunk : 0);
+  return sha256(text + CodeUnitText(layout_, unit).take());
 }
 
 ObjectCache::ObjectCache(const std::string& folder) {
   if (!folder.empty()) folder_ = runtime::CodeFolder::open(folder, problem_);
 }
 
-std::string ObjectCache::name(const ModulePart& piece) { return llvm::toHex(piece.key, true) + ".o"; }
+std::string ObjectCache::name(const ModulePart& unit) { return llvm::toHex(unit.key, true) + ".o"; }
 
-std::optional<std::string> ObjectCache::find(const ModulePart& piece) const {
-  std::optional<std::string> bytes = folder_ ? folder_->read(name(piece)) : std::nullopt;
+std::optional<std::string> ObjectCache::find(const ModulePart& unit) const {
+  std::optional<std::string> bytes = folder_ ? folder_->read(name(unit)) : std::nullopt;
   const size_t sealSize = cacheSeal({}).size();
   if (!bytes || bytes->size() < sealSize) return std::nullopt;
   const std::string_view object(bytes->data(), bytes->size() - sealSize);
   if (cacheSeal(object) != std::string_view(*bytes).substr(object.size())) return std::nullopt;
-  if (identityIn(object) != PieceIdentity{piece.key, piece.chunkCount}) return std::nullopt;
+  if (identityIn(object) != CodeUnitIdentity{unit.key, unit.chunkCount}) return std::nullopt;
   bytes->resize(object.size());
   return bytes;
 }
 
-Result<void> ObjectCache::keep(const ModulePart& piece, std::string_view object) const {
+Result<void> ObjectCache::keep(const ModulePart& unit, std::string_view object) const {
   if (!problem_.empty()) return failure(problem_);
   if (!folder_) return {};
-  std::string wrong = folder_->write(name(piece), std::string(object) + cacheSeal(object));
+  std::string wrong = folder_->write(name(unit), std::string(object) + cacheSeal(object));
   return wrong.empty() ? Result<void>() : failure(std::move(wrong));
 }
 

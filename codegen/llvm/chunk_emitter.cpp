@@ -20,7 +20,7 @@ namespace rung::codegen {
 using namespace ir;
 
 ChunkEmitter::ChunkEmitter(llvm::Module& target, const Layout& layout, const LlvmOptions& options, DebugInfo* debug,
-                           const PieceNumbers* numbers)
+                           const CodeUnitNumbers* numbers)
     : target_(target), layout_(layout), module_(layout.module()), options_(options), debug_(debug), numbers_(numbers),
       abi_(target.getContext()), builder_(target.getContext()),
       extendsWords_(llvm::Triple(target.getTargetTriple()).isRISCV64()) {
@@ -33,7 +33,7 @@ llvm::Function* ChunkEmitter::emit(uint32_t chunk) {
   if (plan.addsWeight) builder_.CreateStore(num(0), scratch(extra_, builder_.getInt32Ty()));
   for (uint32_t i = plan.chunk.firstRung; i < plan.endRung(); ++i) {
     if (!beginRung(i)) continue;
-    emitRung(plan.routine.rungs[i], layout_.cut().rungNumber(plan.chunk.routine, i));
+    emitRung(plan.routine.rungs[i], layout_.partition().rungNumber(plan.chunk.routine, i));
     emitExit(plan.exit(i));
   }
   return function_;
@@ -86,8 +86,8 @@ void ChunkEmitter::setLine(uint32_t line) {
 }
 
 // The number as the address of a symbol, which the linker puts in.
-llvm::GlobalVariable* ChunkEmitter::symbol(PieceNumbers::Kind kind, uint32_t number) {
-  const std::string name = PieceNumbers::name(numbers_->index(kind, number));
+llvm::GlobalVariable* ChunkEmitter::symbol(CodeUnitNumbers::Kind kind, uint32_t number) {
+  const std::string name = CodeUnitNumbers::name(numbers_->index(kind, number));
   if (llvm::GlobalVariable* known = target_.getNamedGlobal(name)) return known;
   auto* made =
       new llvm::GlobalVariable(target_, builder_.getInt8Ty(), true, llvm::GlobalValue::ExternalLinkage, nullptr, name);
@@ -98,7 +98,7 @@ llvm::GlobalVariable* ChunkEmitter::symbol(PieceNumbers::Kind kind, uint32_t num
   return made;
 }
 
-llvm::Constant* ChunkEmitter::number(PieceNumbers::Kind kind, uint32_t number) {
+llvm::Constant* ChunkEmitter::number(CodeUnitNumbers::Kind kind, uint32_t number) {
   if (numbers_ == nullptr) return builder_.getInt32(number);
   return llvm::ConstantExpr::getPtrToInt(symbol(kind, number), builder_.getInt32Ty());
 }
@@ -172,10 +172,10 @@ ChunkEmitter::Value* ChunkEmitter::throughMemory(Value* value) {
 void ChunkEmitter::openIf(const Op& op) {
   llvm::BasicBlock* then = block("then");
   llvm::BasicBlock* other = block("else");
-  llvm::MDBuilder odds(builder_.getContext());
+  llvm::MDBuilder branchWeights(builder_.getContext());
   llvm::MDNode* weights = nullptr;
-  if (op.ref == kMostly) weights = odds.createLikelyBranchWeights();
-  if (op.ref == kSeldom) weights = odds.createUnlikelyBranchWeights();
+  if (op.ref == kMostly) weights = branchWeights.createLikelyBranchWeights();
+  if (op.ref == kSeldom) weights = branchWeights.createUnlikelyBranchWeights();
   builder_.CreateCondBr(isSet(arg(op, 0)), then, other, weights);
   regions_.push_back({.opener = &op, .head = builder_.GetInsertBlock(), .other = other, .end = other});
   builder_.SetInsertPoint(then);
@@ -282,7 +282,7 @@ void ChunkEmitter::message(const Op& op) {
   set(AbiTypes::kIndex, arg(op, 2));
   set(AbiTypes::kValue, real ? builder_.CreateBitCast(value, builder_.getInt64Ty()) : value);
   set(AbiTypes::kReal, num(real ? 1 : 0));
-  set(AbiTypes::kRung, number(PieceNumbers::Kind::Rung, number_));
+  set(AbiTypes::kRung, number(CodeUnitNumbers::Kind::Rung, number_));
   callHost(AbiTypes::kMessage, builder_.getVoidTy(), {space});
 }
 
@@ -297,23 +297,23 @@ ChunkEmitter::Value* ChunkEmitter::serviceRequest(const Op& op) {
 void ChunkEmitter::trap(const Op& op) {
   llvm::BasicBlock* fault = block("fault");
   llvm::BasicBlock* go = block("go");
-  llvm::MDBuilder odds(builder_.getContext());
-  builder_.CreateCondBr(isSet(arg(op, 0)), fault, go, odds.createUnlikelyBranchWeights());
+  llvm::MDBuilder branchWeights(builder_.getContext());
+  builder_.CreateCondBr(isSet(arg(op, 0)), fault, go, branchWeights.createUnlikelyBranchWeights());
   builder_.SetInsertPoint(fault);
   Value* record = ctxField(AbiTypes::kFault);
   const auto set = [&](AbiTypes::FaultField field, Value* value) {
     builder_.CreateStore(value, builder_.CreateStructGEP(abi_.fault, record, field));
   };
   set(AbiTypes::kFaultCode, num(op.ref));
-  set(AbiTypes::kFaultRung, number(PieceNumbers::Kind::Rung, number_));
-  set(AbiTypes::kFaultLine, number(PieceNumbers::Kind::Line, lineOf(*rung_, op)));
+  set(AbiTypes::kFaultRung, number(CodeUnitNumbers::Kind::Rung, number_));
+  set(AbiTypes::kFaultLine, number(CodeUnitNumbers::Kind::Line, lineOf(*rung_, op)));
   builder_.CreateRet(num(RUNG_PC_FAULT));
   builder_.SetInsertPoint(go);
 }
 
 ChunkEmitter::Value* ChunkEmitter::profOfRung() {
   Value* counters = builder_.CreateLoad(builder_.getPtrTy(), ctxField(AbiTypes::kProf));
-  return builder_.CreateInBoundsGEP(abi_.prof, counters, number(PieceNumbers::Kind::Rung, number_));
+  return builder_.CreateInBoundsGEP(abi_.prof, counters, number(CodeUnitNumbers::Kind::Rung, number_));
 }
 
 // In order: what comes before has been done when the counter is read, and what follows has not begun. Otherwise a rung
@@ -391,7 +391,7 @@ void ChunkEmitter::goTo(const Destination& to) {
   } else if (to.chunk == RUNG_NONE) {
     returnToCaller();
   } else {
-    returnValue(number(PieceNumbers::Kind::Chunk, to.chunk));
+    returnValue(number(CodeUnitNumbers::Kind::Chunk, to.chunk));
   }
 }
 
@@ -409,7 +409,7 @@ void ChunkEmitter::pushReturn(uint32_t chunk) {
   Value* spField = ctxField(AbiTypes::kSp);
   Value* sp = builder_.CreateLoad(builder_.getInt32Ty(), spField);
   Value* index = builder_.CreateZExt(sp, builder_.getInt64Ty());
-  builder_.CreateStore(number(PieceNumbers::Kind::Chunk, chunk),
+  builder_.CreateStore(number(CodeUnitNumbers::Kind::Chunk, chunk),
                        builder_.CreateInBoundsGEP(builder_.getInt32Ty(), ctxField(AbiTypes::kStack), index));
   builder_.CreateStore(builder_.CreateAdd(sp, num(1)), spField);
 }
@@ -427,7 +427,7 @@ void ChunkEmitter::emitSwitch(const Exit& exit) {
   llvm::Type* type = areSymbols ? static_cast<llvm::Type*>(builder_.getPtrTy()) : builder_.getInt32Ty();
   std::vector<llvm::Constant*> chunks;
   for (const Destination& to : exit.targets)
-    chunks.push_back(areSymbols ? static_cast<llvm::Constant*>(symbol(PieceNumbers::Kind::Chunk, to.chunk))
+    chunks.push_back(areSymbols ? static_cast<llvm::Constant*>(symbol(CodeUnitNumbers::Kind::Chunk, to.chunk))
                                 : builder_.getInt32(to.chunk));
   llvm::Constant* table = llvm::ConstantArray::get(llvm::ArrayType::get(type, chunks.size()), chunks);
   auto* variable =
@@ -438,7 +438,7 @@ void ChunkEmitter::emitSwitch(const Exit& exit) {
   returnValue(areSymbols ? builder_.CreatePtrToInt(chunk, builder_.getInt32Ty()) : chunk);
 }
 
-// After an if with the condition of the jump its two regions go their ways without meeting.
+// After an if with the condition of the jump its two regions go their paths without meeting.
 bool ChunkEmitter::leaveFromRegions(const Exit& exit) {
   const bool same = join_ && join_->cond == exit.cond && join_->end == builder_.GetInsertBlock() && join_->end->empty();
   if (!same) return false;

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "codegen/llvm/abi_types.h"
+#include "codegen/llvm/code_unit_numbers.h"
 #include "codegen/llvm/debug_info.h"
 #include "codegen/llvm/llvm_module.h"
-#include "codegen/llvm/piece_numbers.h"
 #include "codegen/plan/chunk_plan.h"
 #include "ir/core/long_rungs.h"
 
@@ -17,10 +17,10 @@ namespace rung::codegen {
 
 class ChunkEmitter {
 public:
-  // `debug` may be null: no debug information. `numbers`: of the piece that all chunks are of; null: they are the whole
+  // `debug` may be null: no debug information. `numbers`: of the unit that all chunks are of; null: they are the whole
   // program's, and numbers are in the code.
   ChunkEmitter(llvm::Module& target, const ir::Layout& layout, const LlvmOptions& options, DebugInfo* debug,
-               const PieceNumbers* numbers);
+               const CodeUnitNumbers* numbers);
 
   llvm::Function* emit(uint32_t chunk);
 
@@ -100,8 +100,8 @@ private:
   bool leaveFromRegions(const ir::Exit& exit);
   void pushReturn(uint32_t chunk);
 
-  llvm::GlobalVariable* symbol(PieceNumbers::Kind kind, uint32_t number);
-  llvm::Constant* number(PieceNumbers::Kind kind, uint32_t number);
+  llvm::GlobalVariable* symbol(CodeUnitNumbers::Kind kind, uint32_t number);
+  llvm::Constant* number(CodeUnitNumbers::Kind kind, uint32_t number);
 
   Value* arg(const ir::Op& op, int i) const { return values_[ir::arg(*rung_, op, i).index]; }
   llvm::Type* type(ir::Type type) const;
@@ -125,7 +125,7 @@ private:
   const ir::Module& module_;
   const LlvmOptions& options_;
   DebugInfo* debug_;
-  const PieceNumbers* numbers_;
+  const CodeUnitNumbers* numbers_;
   AbiTypes abi_;
   llvm::IRBuilder<> builder_;
   bool extendsWords_;         // the ABI wants 32-bit arguments and results sign-extended

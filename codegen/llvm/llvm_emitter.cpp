@@ -16,7 +16,7 @@ Result<std::string> withModule(const ir::Layout& layout, uint64_t codeHash, cons
   if (!machine.ok()) return machine.failure();
   llvm::LLVMContext context;
   context.setDiscardValueNames(!names);
-  const ModulePart whole{.chunkCount = static_cast<uint32_t>(layout.cut().chunks().size())};
+  const ModulePart whole{.chunkCount = static_cast<uint32_t>(layout.partition().chunks().size())};
   Result<std::unique_ptr<llvm::Module>> module =
       buildModule(context, *machine.value(), layout, codeHash, options, whole);
   if (!module.ok()) return module.failure();

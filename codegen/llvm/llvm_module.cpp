@@ -22,8 +22,8 @@
 #include <llvm/Transforms/Utils/Local.h>
 
 #include "codegen/llvm/chunk_emitter.h"
+#include "codegen/llvm/code_unit_numbers.h"
 #include "codegen/llvm/embedded.h"
-#include "codegen/llvm/piece_numbers.h"
 #include "codegen/llvm/table_constants.h"
 #include "ir/image/program_image.h"
 
@@ -96,11 +96,11 @@ void addFlags(llvm::Module& module, const llvm::TargetMachine& machine) {
     module.addModuleFlag(llvm::Module::Error, "target-abi", llvm::MDString::get(module.getContext(), abi));
 }
 
-llvm::GlobalVariable* addChunkTable(llvm::Module& module, const std::vector<llvm::Constant*>& functions, bool isPiece) {
+llvm::GlobalVariable* addChunkTable(llvm::Module& module, const std::vector<llvm::Constant*>& functions, bool isUnit) {
   auto* type = llvm::ArrayType::get(llvm::PointerType::getUnqual(module.getContext()), functions.size());
-  const auto linkage = isPiece ? llvm::GlobalValue::ExternalLinkage : llvm::GlobalValue::PrivateLinkage;
+  const auto linkage = isUnit ? llvm::GlobalValue::ExternalLinkage : llvm::GlobalValue::PrivateLinkage;
   return new llvm::GlobalVariable(module, type, true, linkage, llvm::ConstantArray::get(type, functions),
-                                  isPiece ? kPieceTable : "chunks");
+                                  isUnit ? kCodeUnitTable : "chunks");
 }
 
 void addIdentity(llvm::Module& module, const ModulePart& part) {
@@ -108,7 +108,8 @@ void addIdentity(llvm::Module& module, const ModulePart& part) {
   llvm::Constant* value =
       llvm::ConstantStruct::getAnon({llvm::ConstantDataArray::get(context, part.key),
                                      llvm::ConstantInt::get(llvm::Type::getInt32Ty(context), part.chunkCount)});
-  new llvm::GlobalVariable(module, value->getType(), true, llvm::GlobalValue::ExternalLinkage, value, kPieceIdentity);
+  new llvm::GlobalVariable(module, value->getType(), true, llvm::GlobalValue::ExternalLinkage, value,
+                           kCodeUnitIdentity);
 }
 
 } // namespace
@@ -123,14 +124,14 @@ Result<std::unique_ptr<llvm::Module>> buildModule(llvm::LLVMContext& context, co
     debug.emplace(*module, layout.module(),
                   part.members != nullptr ? *part.members : ir::memoryMembers(layout.memory()),
                   options.level == LlvmLevel::Opt);
-  std::optional<PieceNumbers> numbers;
-  if (part.isPiece) numbers.emplace(layout.cut(), part);
+  std::optional<CodeUnitNumbers> numbers;
+  if (part.isUnit) numbers.emplace(layout.partition(), part);
   ChunkEmitter emitter(*module, layout, options, debug ? &*debug : nullptr, numbers ? &*numbers : nullptr);
   std::vector<llvm::Constant*> functions;
   for (uint32_t i = 0; i < part.chunkCount; ++i) functions.push_back(emitter.emit(part.firstChunk + i));
   if (debug) debug->finish();
-  llvm::GlobalVariable* table = addChunkTable(*module, functions, part.isPiece);
-  if (!part.isPiece) {
+  llvm::GlobalVariable* table = addChunkTable(*module, functions, part.isUnit);
+  if (!part.isUnit) {
     const ir::ProgramImage image(layout, codeHash);
     addProgramTables(*module, image.program(), table);
   } else {

@@ -22,8 +22,8 @@ llvm::GetElementPtrInst* addressOf(llvm::Value& value) {
   return isPlace ? address : nullptr;
 }
 
-// Where the block is to be cut. Room on the stack comes first, and stays in the first block. Addresses do not count:
-// they are part of the instructions that use them, and each block has its own.
+// Where the block is to be cut. Room on the stack comes first, and stays in the first block. Addresses do not
+// count: they are part of the instructions that use them, and each block has its own.
 std::vector<llvm::Instruction*> cutsOf(llvm::BasicBlock& block) {
   std::vector<llvm::Instruction*> cuts;
   uint32_t count = 0;

@@ -147,11 +147,11 @@ namespace {
 
 // Whether the bits of `cut`, sign and all, are not those of `wide`, as the flag that processors have for it: where that
 // is a sum, a difference or a product of numbers that are as wide as what `cut` has kept. Null: it is not.
-llvm::Value* overflow(llvm::IRBuilder<>& builder, llvm::Value* cut, llvm::Value* wide) {
+llvm::Value* overflow(llvm::IRBuilder<>& builder, llvm::Value* partition, llvm::Value* wide) {
   using namespace llvm::PatternMatch;
   const auto* result = llvm::dyn_cast<llvm::BinaryOperator>(wide);
-  if (result == nullptr || !match(cut, m_SExt(m_Trunc(m_Specific(wide))))) return nullptr;
-  llvm::Type* kept = llvm::cast<llvm::SExtInst>(cut)->getSrcTy();
+  if (result == nullptr || !match(partition, m_SExt(m_Trunc(m_Specific(wide))))) return nullptr;
+  llvm::Type* kept = llvm::cast<llvm::SExtInst>(partition)->getSrcTy();
   if (wide->getType()->getIntegerBitWidth() < 2 * kept->getIntegerBitWidth()) return nullptr;
   llvm::Intrinsic::ID operation = 0;
   if (result->getOpcode() == llvm::Instruction::Add) operation = llvm::Intrinsic::sadd_with_overflow;

@@ -24,11 +24,11 @@ bool hostReadsDuring(const Rung& rung) {
 } // namespace
 
 ChunkPlan planOf(const Layout& layout, uint32_t number) {
-  const Chunk& chunk = layout.cut().chunks()[number];
+  const Chunk& chunk = layout.partition().chunks()[number];
   const Routine& routine = layout.module().at(chunk.routine);
   ChunkPlan plan{.chunk = chunk, .routine = routine, .exits = {}, .isTarget = std::vector<bool>(chunk.rungCount)};
   for (uint32_t i = chunk.firstRung; i < plan.endRung(); ++i) {
-    const Exit& exit = plan.exits.emplace_back(exitOf(layout.cut(), chunk.routine, i));
+    const Exit& exit = plan.exits.emplace_back(exitOf(layout.partition(), chunk.routine, i));
     forDestinations(exit, [&](const Destination& to) { plan.addsWeight = plan.addsWeight || to.extra != 0; });
     const auto jumpsTo = [&](const Destination& to) {
       if (to.inside()) plan.isTarget[to.rung - chunk.firstRung] = true;

@@ -41,9 +41,9 @@ int main(int argc, char** argv) {
   block.buttons[0] = 0x42;
   for (int ms = 0; ms < 40; ++ms)
     if (failed(rung_instance_run_due(plc, 1000000))) return 1;
-  uint32_t torn = 0;
-  rung_instance_torn(plc, &block, &torn);
-  printf("lamps %02x %02x; no whole copy for %u slices\n", block.lamps[0], block.lamps[1], torn);
+  uint32_t inconsistent = 0;
+  rung_instance_inconsistent(plc, &block, &inconsistent);
+  printf("lamps %02x %02x; no whole copy for %u slices\n", block.lamps[0], block.lamps[1], inconsistent);
   if (failed(rung_instance_power_off(plc))) return 1;
   rung_instance_free(plc), rung_image_close(image);
   return 0;

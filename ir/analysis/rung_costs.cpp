@@ -10,12 +10,12 @@ namespace rung::ir {
 namespace {
 
 template <class CostOf>
-std::vector<uint64_t> byNumber(const Cut& cut, CostOf costOf) {
-  std::vector<uint64_t> costs(cut.rungCount());
-  const std::vector<Routine>& routines = cut.module().routines;
+std::vector<uint64_t> byNumber(const Partition& partition, CostOf costOf) {
+  std::vector<uint64_t> costs(partition.rungCount());
+  const std::vector<Routine>& routines = partition.module().routines;
   for (uint32_t r = 0; r < routines.size(); ++r)
     for (uint32_t i = 0; i < routines[r].rungs.size(); ++i)
-      costs[cut.rungNumber(RoutineId{r}, i)] = costOf(routines[r].rungs[i]);
+      costs[partition.rungNumber(RoutineId{r}, i)] = costOf(routines[r].rungs[i]);
   return costs;
 }
 
@@ -44,12 +44,12 @@ uint64_t mostIn(const Rung& rung, OpCode operation) {
 
 } // namespace
 
-std::vector<uint64_t> rungWeights(const Cut& cut) {
-  return byNumber(cut, [](const Rung& rung) { return std::max(1u, rung.weight); });
+std::vector<uint64_t> rungWeights(const Partition& partition) {
+  return byNumber(partition, [](const Rung& rung) { return std::max(1u, rung.weight); });
 }
 
-std::vector<uint64_t> mostOperations(const Cut& cut, OpCode operation) {
-  return byNumber(cut, [operation](const Rung& rung) { return mostIn(rung, operation); });
+std::vector<uint64_t> mostOperations(const Partition& partition, OpCode operation) {
+  return byNumber(partition, [operation](const Rung& rung) { return mostIn(rung, operation); });
 }
 
 } // namespace rung::ir

@@ -1,15 +1,15 @@
-// What rungs cost, by their numbers: what ways (heaviest.h) add up.
+// What rungs cost, by their numbers: what paths (longest.h) add up.
 #pragma once
 #include <cstdint>
 #include <vector>
 
-#include "ir/shape/cut.h"
+#include "ir/shape/partition.h"
 
 namespace rung::ir {
 
 // The steps that budgets count.
-std::vector<uint64_t> rungWeights(const Cut& cut);
+std::vector<uint64_t> rungWeights(const Partition& partition);
 // How often a run of the rung does the operation at most.
-std::vector<uint64_t> mostOperations(const Cut& cut, OpCode operation);
+std::vector<uint64_t> mostOperations(const Partition& partition, OpCode operation);
 
 } // namespace rung::ir

@@ -76,8 +76,8 @@ Range signedCompare(Type type, const Range& a, const Range& b, Range (*compare)(
 }
 
 // Two that are one number each are evaluated.
-Range unlike(const Range& a, const Range& b) { return a.high < b.low || b.high < a.low ? kTrue : kEither; }
-Range like(const Range& a, const Range& b) { return unlike(a, b) == kTrue ? kFalse : kEither; }
+Range distinct(const Range& a, const Range& b) { return a.high < b.low || b.high < a.low ? kTrue : kEither; }
+Range like(const Range& a, const Range& b) { return distinct(a, b) == kTrue ? kFalse : kEither; }
 
 Range chosen(const Range& cond, const Range& a, const Range& b) {
   if (cond.isOne()) return cond.low != 0 ? a : b;
@@ -118,7 +118,7 @@ Range rangeOf(const OpInfo& info, Type type, Type first, const Range* args) {
   case OpCode::ShrU: return b.isOne() ? shiftedRight(type, a, b.low) : Range{0, a.high};
   case OpCode::PopCount: return {0, bitWidth(type)};
   case OpCode::Eq: return like(a, b);
-  case OpCode::Ne: return unlike(a, b);
+  case OpCode::Ne: return distinct(a, b);
   case OpCode::LtU: return less(a, b);
   case OpCode::LeU: return lessOrEqual(a, b);
   case OpCode::LtS: return signedCompare(type, a, b, less);

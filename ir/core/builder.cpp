@@ -158,8 +158,8 @@ void RungBuilder::slotStore(SlotId slot, ValueId value) {
   append(OpCode::SlotStore, typeOf(value), {&value, 1}).ref = slot.index;
 }
 
-void RungBuilder::if_(ValueId cond, Odds odds) {
-  append(OpCode::If, Type::None, {&cond, 1}).ref = odds;
+void RungBuilder::if_(ValueId cond, BranchWeights branchWeights) {
+  append(OpCode::If, Type::None, {&cond, 1}).ref = branchWeights;
   yieldTypes_.emplace_back();
 }
 

@@ -101,15 +101,15 @@ public:
   void slotStore(SlotId slot, ValueId value);
   ValueId now();
 
-  // Regions. `yields` of both branches must agree in number and types; endIf gives the results. `odds`: of the
+  // Regions. `yields` of both branches must agree in number and types; endIf gives the results. `branchWeights`: of the
   // condition.
-  void if_(ValueId cond, Odds odds = kEven);
+  void if_(ValueId cond, BranchWeights branchWeights = kEven);
   void else_(std::span<const ValueId> yields = {});
   std::vector<ValueId> endIf(std::span<const ValueId> yields = {});
   // `body` adds the operations of a region without results. An invalid condition: they always run.
   template <class Body>
-  void when(ValueId cond, Body body, Odds odds = kEven) {
-    if (cond.valid()) if_(cond, odds);
+  void when(ValueId cond, Body body, BranchWeights branchWeights = kEven) {
+    if (cond.valid()) if_(cond, branchWeights);
     body();
     if (cond.valid()) endIf();
   }
@@ -125,11 +125,11 @@ public:
   // Each branch adds its operations and gives its value, or a std::array or a struct of nothing but values; gives that
   // of the branch which runs.
   template <class Yes, class No>
-  auto choose(ValueId cond, Yes yes, No no, Odds odds = kEven) {
+  auto choose(ValueId cond, Yes yes, No no, BranchWeights branchWeights = kEven) {
     using Result = decltype(yes());
     static_assert(sizeof(Result) % sizeof(ValueId) == 0);
     using Values = std::array<ValueId, sizeof(Result) / sizeof(ValueId)>; // NOLINT(bugprone-sizeof-expression): or one
-    if_(cond, odds);
+    if_(cond, branchWeights);
     Values values = std::bit_cast<Values>(yes());
     else_(values);
     const Values others = std::bit_cast<Values>(no());

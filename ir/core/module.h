@@ -1,7 +1,7 @@
 // The module: everything that the engines know of a program. Plain data; built with builder.h, checked by ir/verify.
 //
 // Invariants (ir/verify holds them): ids are in range; a rung's values are defined before use and never cross the rung;
-// regions (if/else/endif, loop/endloop) nest; routines do not call each other in a circle; every operation is total.
+// regions (if/else/endif, loop/endloop) nest; routines do not call each other in a loop; every operation is total.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -117,7 +117,7 @@ struct Continuation {
   SlotId slot; // invalid: in the space
   SpaceId space;
   uint32_t byte = 0;
-  std::vector<std::string> points; // unlike each other
+  std::vector<std::string> points; // distinct each other
 };
 
 // The enum rung_type of a type; None is the byte that a name without a type names.

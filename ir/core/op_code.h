@@ -8,7 +8,7 @@ namespace rung::ir {
 enum class OpCode : uint8_t; // those of ops.def
 
 // How often the condition of an if is 1 where it is reached. Only the order of the code depends on it.
-enum Odds : uint8_t {
+enum BranchWeights : uint8_t {
   kEven = 0, // nothing is known
   kMostly = 1,
   kSeldom = 2,

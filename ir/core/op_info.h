@@ -30,17 +30,17 @@ enum class Constraint : uint8_t {
 // What follows the operands, and which fields of Op carry it.
 enum class Attr : uint8_t {
   None,
-  Literal,   // imm: the constant's bits
-  Place,     // ref: space, imm: bit offset of the accessed bit or first byte in the space
-  Window,    // ref: space, imm: bit offset of element 0, count: elements that may be addressed
-  Slot,      // ref: slot
-  Count,     // count: iterations
-  MessageOp, // ref: enum rung_message_op
-  Service,   // ref: service
-  ResultNo,  // imm: index of the result
-  Fault,     // ref: fault
-  Text,      // ref: text in Rung::notes
-  Odds,      // ref: enum Odds
+  Literal,       // imm: the constant's bits
+  Place,         // ref: space, imm: bit offset of the accessed bit or first byte in the space
+  Window,        // ref: space, imm: bit offset of element 0, count: elements that may be addressed
+  Slot,          // ref: slot
+  Count,         // count: iterations
+  MessageOp,     // ref: enum rung_message_op
+  Service,       // ref: service
+  ResultNo,      // imm: index of the result
+  Fault,         // ref: fault
+  Text,          // ref: text in Rung::notes
+  BranchWeights, // ref: enum BranchWeights
 };
 
 enum Effect : uint8_t {

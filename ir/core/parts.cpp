@@ -68,8 +68,8 @@ uint32_t countParts(const std::vector<uint64_t>& sums, uint64_t most) {
   return count;
 }
 
-// The least possible weight of the heaviest part.
-uint64_t leastHeaviest(const std::vector<PartPiece>& pieces, const std::vector<uint64_t>& sums, uint32_t parts) {
+// The least possible weight of the longest part.
+uint64_t leastLongest(const std::vector<PartPiece>& pieces, const std::vector<uint64_t>& sums, uint32_t parts) {
   uint64_t low = 0;
   for (const PartPiece& piece : pieces) low = std::max(low, piece.weight);
   uint64_t high = std::max(low, sums.back());
@@ -105,7 +105,7 @@ std::vector<uint32_t> cutParts(const std::vector<PartPiece>& pieces, uint32_t pa
   std::vector<uint32_t> borders;
   if (parts < 2) return borders;
   const std::vector<uint64_t> sums = sumsOf(pieces);
-  const uint64_t most = leastHeaviest(pieces, sums, parts);
+  const uint64_t most = leastLongest(pieces, sums, parts);
   const std::vector<uint32_t> earliest = earliestBorders(sums, parts, most);
   uint32_t begin = 0;
   for (uint32_t k = 1; k < parts; ++k) {
@@ -130,8 +130,8 @@ void cutTask(const Module& module, Task& task, uint32_t parts) {
   for (const uint32_t piece : cutParts(pieces, parts)) task.borders.push_back(pieces[piece].firstRung);
 }
 
-uint64_t heaviestPart(const std::vector<PartPiece>& pieces, uint32_t parts) {
-  return leastHeaviest(pieces, sumsOf(pieces), std::max(parts, 1u));
+uint64_t longestPart(const std::vector<PartPiece>& pieces, uint32_t parts) {
+  return leastLongest(pieces, sumsOf(pieces), std::max(parts, 1u));
 }
 
 uint32_t partsNeeded(const std::vector<PartPiece>& pieces, uint64_t most) {

@@ -20,15 +20,15 @@ struct PartPiece {
 // The pieces of a routine in order, never empty.
 std::vector<PartPiece> partPieces(const Module& module, RoutineId routine);
 
-// The first pieces of parts 2, 3, …: the heaviest part is as light as can be, and among such cuts each border lies
+// The first pieces of parts 2, 3, …: the longest part is as light as can be, and among such cuts each border lies
 // nearest to its share of the whole. Fewer borders than parts - 1 when there are not so many pieces.
 std::vector<uint32_t> cutParts(const std::vector<PartPiece>& pieces, uint32_t parts);
 
 // Cuts the run of `task` into `parts`: its `parts` and `borders`.
 void cutTask(const Module& module, Task& task, uint32_t parts);
 
-// The weight of the heaviest part of that cut.
-uint64_t heaviestPart(const std::vector<PartPiece>& pieces, uint32_t parts);
+// The weight of the longest part of that partition.
+uint64_t longestPart(const std::vector<PartPiece>& pieces, uint32_t parts);
 // The smallest number of parts of which none is heavier than `most`; 0 when one piece alone is.
 uint32_t partsNeeded(const std::vector<PartPiece>& pieces, uint64_t most);
 

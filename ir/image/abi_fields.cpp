@@ -66,24 +66,23 @@ constexpr FieldInfo kChunkFields[] = {RUNG_FIELD(rung_chunk, first_rung, U32), R
                                       RUNG_FIELD(rung_chunk, weight, U32)};
 constexpr StructInfo kChunk{"rung_chunk", sizeof(rung_chunk), kChunkFields};
 
-constexpr FieldInfo kRungFields[] = {
-    RUNG_FIELD(rung_rung_info, title, Text),     RUNG_FIELD(rung_rung_info, file, U32),
-    RUNG_FIELD(rung_rung_info, first_line, U32), RUNG_FIELD(rung_rung_info, last_line, U32),
-    RUNG_FIELD(rung_rung_info, routine, U32),    RUNG_FIELD(rung_rung_info, key, U64),
-    RUNG_FIELD(rung_rung_info, number, U32),     RUNG_FIELD(rung_rung_info, copy, U32)};
-constexpr StructInfo kRung{"rung_rung_info", sizeof(rung_rung_info), kRungFields};
+constexpr FieldInfo kRungFields[] = {RUNG_FIELD(rung_info, title, Text),     RUNG_FIELD(rung_info, file, U32),
+                                     RUNG_FIELD(rung_info, first_line, U32), RUNG_FIELD(rung_info, last_line, U32),
+                                     RUNG_FIELD(rung_info, routine, U32),    RUNG_FIELD(rung_info, key, U64),
+                                     RUNG_FIELD(rung_info, number, U32),     RUNG_FIELD(rung_info, copy, U32)};
+constexpr StructInfo kRung{"rung_info", sizeof(rung_info), kRungFields};
 
 constexpr FieldInfo kTaskFields[] = {
-    RUNG_FIELD(rung_task, name, Text),          RUNG_FIELD(rung_task, entry, U32),
-    RUNG_FIELD(rung_task, period_us, U32),      RUNG_FIELD(rung_task, budget, U32),
-    RUNG_FIELD(rung_task, budget_fault, U32),   RUNG_FIELD(rung_task, begin_first, U32),
-    RUNG_FIELD(rung_task, begin_count, U32),    RUNG_FIELD(rung_task, end_first, U32),
-    RUNG_FIELD(rung_task, end_count, U32),      RUNG_FIELD(rung_task, part_first, U32),
-    RUNG_FIELD(rung_task, part_count, U32),     RUNG_FIELD(rung_task, heaviest, U32),
-    RUNG_FIELD(rung_task, circles, U32),        RUNG_FIELD(rung_task, read_first, U32),
-    RUNG_FIELD(rung_task, read_count, U32),     RUNG_FIELD(rung_task, change_first, U32),
-    RUNG_FIELD(rung_task, change_count, U32),   RUNG_FIELD(rung_task, straight_chunk, U32),
-    RUNG_FIELD(rung_task, straight_weight, U32)};
+    RUNG_FIELD(rung_task, name, Text),           RUNG_FIELD(rung_task, entry, U32),
+    RUNG_FIELD(rung_task, period_us, U32),       RUNG_FIELD(rung_task, budget, U32),
+    RUNG_FIELD(rung_task, budget_fault, U32),    RUNG_FIELD(rung_task, begin_first, U32),
+    RUNG_FIELD(rung_task, begin_count, U32),     RUNG_FIELD(rung_task, end_first, U32),
+    RUNG_FIELD(rung_task, end_count, U32),       RUNG_FIELD(rung_task, part_first, U32),
+    RUNG_FIELD(rung_task, part_count, U32),      RUNG_FIELD(rung_task, longest, U32),
+    RUNG_FIELD(rung_task, loops, U32),           RUNG_FIELD(rung_task, read_first, U32),
+    RUNG_FIELD(rung_task, read_count, U32),      RUNG_FIELD(rung_task, change_first, U32),
+    RUNG_FIELD(rung_task, change_count, U32),    RUNG_FIELD(rung_task, loop_free_chunk, U32),
+    RUNG_FIELD(rung_task, loop_free_weight, U32)};
 constexpr StructInfo kTask{"rung_task", sizeof(rung_task), kTaskFields};
 
 constexpr FieldInfo kStepFields[] = {RUNG_FIELD(rung_step, op, U32), RUNG_FIELD(rung_step, task, U32),

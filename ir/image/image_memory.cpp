@@ -57,7 +57,7 @@ private:
           if (attr != Attr::Place && attr != Attr::Window) continue;
           const auto place = places.find({op.ref, static_cast<uint32_t>(op.imm / 8)});
           if (place == places.end()) continue;
-          place->second.rung = std::min(place->second.rung, layout_.cut().rungNumber(RoutineId{r}, i));
+          place->second.rung = std::min(place->second.rung, layout_.partition().rungNumber(RoutineId{r}, i));
           if (attr == Attr::Place) place->second.bytes = std::max(place->second.bytes, byteWidth(op.type));
         }
     return places;
@@ -87,7 +87,7 @@ private:
       for (uint32_t i = 0; i < module_.routines[r].rungs.size(); ++i)
         for (const Op& op : module_.routines[r].rungs[i].ops)
           if (op.code == OpCode::SlotLoad || op.code == OpCode::SlotStore)
-            first[op.ref] = std::min(first[op.ref], layout_.cut().rungNumber(RoutineId{r}, i));
+            first[op.ref] = std::min(first[op.ref], layout_.partition().rungNumber(RoutineId{r}, i));
     return first;
   }
 

@@ -19,12 +19,12 @@ public:
 
 private:
   void addRungs() {
-    tables_.rungs.resize(layout_.cut().rungCount());
-    std::vector<const std::string*> homes(layout_.cut().rungCount());
+    tables_.rungs.resize(layout_.partition().rungCount());
+    std::vector<const std::string*> homes(layout_.partition().rungCount());
     for (uint32_t r = 0; r < module_.routines.size(); ++r) {
       for (uint32_t i = 0; i < module_.routines[r].rungs.size(); ++i) {
         const Rung& rung = module_.routines[r].rungs[i];
-        const uint32_t number = layout_.cut().rungNumber(RoutineId{r}, i);
+        const uint32_t number = layout_.partition().rungNumber(RoutineId{r}, i);
         homes[number] = &homeOf(module_.routines[r], rung);
         tables_.rungs[number] = {rung.title.empty() ? "" : tables_.text(rung.title),
                                  rung.begin.file.index,

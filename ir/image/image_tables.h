@@ -33,7 +33,7 @@ struct ImageTables {
   std::vector<rung_step> fast;
   std::vector<rung_step> slices;
   // What people read.
-  std::vector<rung_rung_info> rungs;
+  std::vector<rung_info> rungs;
   std::vector<const char*> routines;
   std::vector<const char*> files;
   std::vector<const char*> faults;

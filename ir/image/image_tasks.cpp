@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "ir/analysis/heaviest.h"
+#include "ir/analysis/longest_path.h"
 #include "ir/shape/accesses.h"
 #include "ir/support/check.h"
 #include "rung/types.hpp"
@@ -30,7 +30,7 @@ private:
       const Task& task = module_.tasks[i];
       rung_task out{};
       out.name = tables_.text(task.name);
-      out.entry = layout_.cut().entry(task.entry);
+      out.entry = layout_.partition().entry(task.entry);
       out.period_us = task.periodUs;
       out.budget = task.budget;
       out.budget_fault = task.budgetFault.index;
@@ -41,16 +41,16 @@ private:
       addCopies(task.end);
       out.end_count = static_cast<uint32_t>(tables_.copies.size()) - out.end_first;
       out.part_first = static_cast<uint32_t>(tables_.partEnds.size());
-      const std::vector<uint32_t>& ends = layout_.cut().partEnds(TaskId{i});
+      const std::vector<uint32_t>& ends = layout_.partition().partEnds(TaskId{i});
       tables_.partEnds.insert(tables_.partEnds.end(), ends.begin(), ends.end());
       // A short program gives fewer borders than parts: the parts after the last border are empty.
       tables_.partEnds.insert(tables_.partEnds.end(), task.parts - ends.size(), RUNG_PC_DONE);
       out.part_count = task.parts;
-      const HeaviestRun heaviest = heaviestRun(layout_.shape(), TaskId{i});
-      out.heaviest = heaviest.weight;
-      out.circles = heaviest.circles ? 1 : 0;
-      out.straight_chunk = heaviest.straight.chunk;
-      out.straight_weight = heaviest.straight.weight;
+      const LongestRun longest = longestRun(layout_.shape(), TaskId{i});
+      out.longest = longest.weight;
+      out.loops = longest.loops ? 1 : 0;
+      out.loop_free_chunk = longest.straight.chunk;
+      out.loop_free_weight = longest.straight.weight;
       append(readBytes(layout_.memory(), TaskId{i}), tables_.reads, out.read_first, out.read_count);
       if (!module_.instrumented) // what is measured changes its counters, too
         append(changedWords(layout_.memory(), TaskId{i}), tables_.changes, out.change_first, out.change_count);
@@ -66,9 +66,9 @@ private:
   }
 
   void addChunks() {
-    for (const Chunk& chunk : layout_.cut().chunks())
+    for (const Chunk& chunk : layout_.partition().chunks())
       tables_.chunks.push_back(
-          {layout_.cut().rungNumber(chunk.routine, chunk.firstRung), chunk.rungCount, chunk.weight});
+          {layout_.partition().rungNumber(chunk.routine, chunk.firstRung), chunk.rungCount, chunk.weight});
   }
 
   void addSteps(const std::vector<Step>& steps, std::vector<rung_step>& out) {

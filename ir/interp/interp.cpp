@@ -42,14 +42,14 @@ Destination leave(const Exit& exit, std::span<const uint64_t> values, rung_ctx& 
 
 InterpEngine::InterpEngine(const Layout& layout, uint64_t codeHash, Counting counting)
     : layout_(layout), counting_(counting), image_(layout, codeHash),
-      functions_(layout.cut().chunks().size(), &chunkFunction), exits_(layout.cut().rungCount()),
-      regions_(layout.cut().rungCount()) {
+      functions_(layout.partition().chunks().size(), &chunkFunction), exits_(layout.partition().rungCount()),
+      regions_(layout.partition().rungCount()) {
   image_.program().chunk_fns = functions_.data();
   const std::vector<Routine>& routines = layout.module().routines;
   for (uint32_t r = 0; r < routines.size(); ++r)
     for (uint32_t i = 0; i < routines[r].rungs.size(); ++i) {
-      const uint32_t number = layout.cut().rungNumber(RoutineId{r}, i);
-      exits_[number] = exitOf(layout.cut(), RoutineId{r}, i);
+      const uint32_t number = layout.partition().rungNumber(RoutineId{r}, i);
+      exits_[number] = exitOf(layout.partition(), RoutineId{r}, i);
       if (!findRegions(routines[r].rungs[i], regions_[number])) regions_[number].clear();
       mostValues_ = std::max(mostValues_, routines[r].rungs[i].values.size());
       for (const Op& op : routines[r].rungs[i].ops) mostArgs_ = std::max<size_t>(mostArgs_, op.argCount);
@@ -64,7 +64,7 @@ uint32_t InterpEngine::chunkFunction(uint8_t* mem, rung_ctx* ctx, uint32_t chunk
 }
 
 uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) const {
-  const Chunk& place = layout_.cut().chunks()[chunk];
+  const Chunk& place = layout_.partition().chunks()[chunk];
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): cleared a rung at a time
   std::array<uint64_t, kOnStack> few;
   std::vector<uint64_t> many;
@@ -74,7 +74,7 @@ uint32_t InterpEngine::runChunk(uint8_t* mem, rung_ctx& ctx, uint32_t chunk) con
   Destination next{.rung = place.firstRung};
   while (next.inside()) {
     const Rung& rung = layout_.module().at(place.routine).rungs[next.rung];
-    const uint32_t number = layout_.cut().rungNumber(place.routine, next.rung);
+    const uint32_t number = layout_.partition().rungNumber(place.routine, next.rung);
     const std::span<uint64_t> values = room.first(rung.values.size());
     std::ranges::fill(values, uint64_t{0});
     RungRun run(layout_.memory(), rung, number, regions_[number], mem, ctx, values, room.last(mostArgs_), counting_,

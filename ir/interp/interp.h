@@ -12,8 +12,8 @@
 #include "ir/core/memory_use.h"
 #include "ir/core/regions.h"
 #include "ir/image/program_image.h"
-#include "ir/shape/cut.h"
 #include "ir/shape/layout.h"
+#include "ir/shape/partition.h"
 #include "rtlib/load/engine.h"
 
 namespace rung::ir {

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "ir/shape/cut.h"
 #include "ir/shape/memory_layout.h"
+#include "ir/shape/partition.h"
 
 namespace rung::ir {
 

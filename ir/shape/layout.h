@@ -3,13 +3,13 @@
 #pragma once
 #include <utility>
 
-#include "ir/shape/cut.h"
 #include "ir/shape/memory_layout.h"
+#include "ir/shape/partition.h"
 
 namespace rung::ir {
 
 struct LayoutOptions {
-  CutOptions cut;
+  PartitionOptions partition;
   bool expandBits = true; // false: everything is packed
 };
 
@@ -20,7 +20,7 @@ class Layout {
 public:
   // `shape` has passed the verifier and outlives the layout. The code is the shape itself.
   Layout(const Module& shape, const LayoutOptions& options)
-      : memory_(shape, options.expandBits), shape_(shape, options.cut), code_(shape_) {}
+      : memory_(shape, options.expandBits), shape_(shape, options.partition), code_(shape_) {}
 
   // The same memory and the same chunks, for the code of `module`, which outlives the result. A rung with an exit that
   // the shape does not have stops the process.
@@ -28,16 +28,16 @@ public:
 
   const Module& module() const { return code_.module(); }
   const MemoryLayout& memory() const { return memory_; }
-  const Cut& cut() const { return code_; }    // of the code: what engines run
-  const Cut& shape() const { return shape_; } // of the shape: what tables are made from
+  const Partition& partition() const { return code_; } // of the code: what engines run
+  const Partition& shape() const { return shape_; }    // of the shape: what tables are made from
 
 private:
-  Layout(MemoryLayout memory, Cut shape, Cut code)
+  Layout(MemoryLayout memory, Partition shape, Partition code)
       : memory_(std::move(memory)), shape_(std::move(shape)), code_(std::move(code)) {}
 
   MemoryLayout memory_;
-  Cut shape_;
-  Cut code_;
+  Partition shape_;
+  Partition code_;
 };
 
 } // namespace rung::ir

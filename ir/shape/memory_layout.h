@@ -1,5 +1,5 @@
 // Where every byte of a program's memory lies. Computed once from a program's shape and obeyed by every engine and by
-// the host; nothing else decides how a space is represented. How control is cut has no part in it (cut.h).
+// the host; nothing else decides how a space is represented. How control is cut has no part in it (partition.h).
 //
 // Representation. A logical byte of a space is *expanded* (a byte a bit, see RUNG_REPR_BYTE_PER_BIT) when every access
 // to it in the whole program is a fixed bit access, no non-bit symbol names it, it has no initial value, and the space

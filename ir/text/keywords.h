@@ -41,7 +41,7 @@ inline constexpr Keyword kMessageOps[] = {{"clear", RUNG_MESSAGE_CLEAR},
                                           {"show", RUNG_MESSAGE_SHOW},
                                           {"show_log", RUNG_MESSAGE_SHOW_LOG},
                                           {"log", RUNG_MESSAGE_LOG}};
-inline constexpr Keyword kOdds[] = {{"mostly", kMostly}, {"seldom", kSeldom}};
+inline constexpr Keyword kWeights[] = {{"mostly", kMostly}, {"seldom", kSeldom}};
 
 // Null when there is none.
 constexpr const Keyword* findKeyword(std::span<const Keyword> list, std::string_view word) {

@@ -277,8 +277,8 @@ std::string Printer::attribute(const Rung& rung, const Op& op) const {
   case Attr::Service: return services_.text(op.ref);
   case Attr::ResultNo: return std::to_string(op.imm);
   case Attr::Fault: return faults_.text(op.ref);
-  case Attr::Odds: {
-    const Keyword* keyword = findKeyword(kOdds, op.ref);
+  case Attr::BranchWeights: {
+    const Keyword* keyword = findKeyword(kWeights, op.ref);
     return keyword != nullptr ? std::string(keyword->word) : std::string();
   }
   case Attr::Text: return op.ref < rung.notes.size() ? inQuotes(rung.notes[op.ref]) : fmt::format("#{}", op.ref);

@@ -159,10 +159,11 @@ bool RungParser::parseAttribute(Op& op) {
   case Attr::Service: op.ref = parseReference(scanner_, names_.services, "service"); break;
   case Attr::ResultNo: op.imm = scanner_.i64(); break;
   case Attr::Fault: op.ref = parseReference(scanner_, names_.faults, "fault"); break;
-  case Attr::Odds: {
-    const Keyword* odds = std::ranges::find_if(kOdds, [&](const Keyword& k) { return scanner_.acceptWord(k.word); });
-    if (odds == std::end(kOdds)) return false;
-    op.ref = odds->value;
+  case Attr::BranchWeights: {
+    const Keyword* branchWeights =
+        std::ranges::find_if(kWeights, [&](const Keyword& k) { return scanner_.acceptWord(k.word); });
+    if (branchWeights == std::end(kWeights)) return false;
+    op.ref = branchWeights->value;
     break;
   }
   case Attr::Text:

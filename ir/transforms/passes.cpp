@@ -31,9 +31,9 @@ constexpr Pass kPasses[] = {
     {.name = "transient",
      .doc = "Removes stores to transient slots that no rung reads afterwards.",
      .overRungs = &removeTransientStores},
-    {.name = "guard",
+    {.name = "versions",
      .doc = "Adds versions of a rung for the likely values of its indices, each with fixed addresses.",
-     .overRungs = &guardIndices},
+     .overRungs = &versionRanges},
     {.name = "instrument", .doc = "Counts and times each rung.", .overModule = &instrumentRungs, .last = true},
 };
 

@@ -17,7 +17,7 @@ constexpr std::string_view kOptimising[] = {
     // before dead stores to registers leaves fewer readers of those.
     "fold", "reuse", "fold", "dead", "transient", "dead",
     // The versions that guards add are new rungs.
-    "guard", "fold", "reuse", "fold", "dead"};
+    "versions", "fold", "reuse", "fold", "dead"};
 constexpr size_t kShapePasses = 2;
 
 void verifyNow(const Module& module) {

@@ -92,8 +92,8 @@ ValueId RungRewriter::putConstant(const Op& op, Type type, uint64_t bits) {
   return added.result;
 }
 
-void RungRewriter::openIf(const Op& at, ValueId cond, Odds odds) {
-  appendOther(at, OpCode::If, Type::None, {&cond, 1}).ref = odds;
+void RungRewriter::openIf(const Op& at, ValueId cond, BranchWeights branchWeights) {
+  appendOther(at, OpCode::If, Type::None, {&cond, 1}).ref = branchWeights;
 }
 
 void RungRewriter::turnElse(const Op& at, std::span<const ValueId> yields) {

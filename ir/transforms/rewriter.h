@@ -32,7 +32,7 @@ public:
   ValueId putConstant(const Op& op, Type type, uint64_t bits);
 
   // An if around what is written between these. The results of its end are what the values `old` mean then.
-  void openIf(const Op& at, ValueId cond, Odds odds = kEven);
+  void openIf(const Op& at, ValueId cond, BranchWeights branchWeights = kEven);
   void turnElse(const Op& at, std::span<const ValueId> yields);
   void closeIf(const Op& at, std::span<const ValueId> yields, std::span<const ValueId> old);
 

@@ -205,7 +205,7 @@ void checkRoutines(ModuleCheck& check) {
     if (check.module.routines[i].rungs.empty()) check.fail(Rule::Routines, "there is no rung", RoutineId{i});
 }
 
-// Depth-first over the calls, without recursion: a circle of 100,000 routines must not overflow our own stack.
+// Depth-first over the calls, without recursion: a loop of 100,000 routines must not overflow our own stack.
 class CallWalk {
 public:
   explicit CallWalk(ModuleCheck& check) : check_(check), depth_(check.module.routines.size(), kUnseen) {}
@@ -256,7 +256,7 @@ private:
   void follow(Frame& top, uint32_t callee) {
     const auto op = static_cast<uint32_t>(check_.module.routines[top.routine].rungs[top.rung].ops.size());
     if (depth_[callee] == kOpen)
-      return check_.fail(Rule::Calls, "routines call each other in a circle", RoutineId{top.routine}, top.rung, op);
+      return check_.fail(Rule::Calls, "routines call each other in a loop", RoutineId{top.routine}, top.rung, op);
     top.depth = std::max(top.depth, depth_[callee] + 1);
     // Reported where it is first exceeded; callers above see the limit again, and not the error.
     if (top.depth <= kLimit) return;

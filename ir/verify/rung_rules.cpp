@@ -308,8 +308,8 @@ void RungCheck::host() {
       if (argType(op, k) != Type::I64)
         fail(Rule::Host, i, fmt::format("argument {} is {}", k, typeName(argType(op, k))));
   });
-  eachOp(Attr::Odds, [&](const Op& op, size_t i) {
-    if (op.ref > kSeldom) fail(Rule::Form, i, "there are no such odds");
+  eachOp(Attr::BranchWeights, [&](const Op& op, size_t i) {
+    if (op.ref > kSeldom) fail(Rule::Form, i, "there are no such branchWeights");
   });
   eachOp(Attr::Fault, [&](const Op& op, size_t i) {
     if (op.ref >= module_.faults.size()) fail(Rule::Host, i, "the fault does not exist");

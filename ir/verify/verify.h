@@ -15,7 +15,7 @@
 //   Schedule  Main and fast task exist (Built: may be missing); steps are known; run and part have a task, others
 //             none.
 //   Routines  At least one rung.
-//   Calls     No circle, and never deeper than the stack of return addresses.
+//   Calls     No loop, and never deeper than the stack of return addresses.
 // Rung; the first rule that a rung breaks ends the check of that rung
 //   Header    The file exists, lines are in order, the weight is at least 1.
 //   Form      Each operation has a type, as many operands and results as its row says, and nothing in fields that its

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "codegen/llvm/llvm_emitter.h"
-#include "compiler/kept_ir.h"
+#include "compiler/embedded_ir.h"
 #include "compiler/recompiler.h"
 #include "ir/verify/verify.h"
 #include "machine/compile/forced_code_maker.h"

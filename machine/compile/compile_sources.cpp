@@ -6,7 +6,7 @@
 #include "codegen/llvm/llvm_emitter.h"
 #include "compiler/compile.h"
 #include "compiler/configuration.h"
-#include "compiler/kept_ir.h"
+#include "compiler/embedded_ir.h"
 #include "ir/support/diag_render.h"
 #include "machine/compile/sources.h"
 #include "rtlib/load/seal.h"

@@ -17,7 +17,6 @@
 
 namespace rung::control {
 
-using host::Order;
 using nlohmann::json;
 
 namespace {
@@ -173,7 +172,7 @@ struct Controller::ForceChange {
   std::string refused = {};    // why it will not be done any more
 };
 
-const Controller::Command Controller::kCommands[] = {
+const Controller::Row Controller::kRows[] = {
     {"status", std::nullopt, &Controller::status},
     {"messages", std::nullopt, &Controller::messages},
     {"get", std::nullopt, &Controller::get},
@@ -201,9 +200,9 @@ const Controller::Command Controller::kCommands[] = {
     {"served", host::Remote::Serve, &Controller::served},
 };
 
-Controller::Controller(std::string host, host::Box& box, const Image& image, Log& log,
+Controller::Controller(std::string host, host::PlcHost& plc, const Image& image, Log& log,
                        std::unique_ptr<Programs> programs)
-    : host_(std::move(host)), box_(box), services_(box), dialect_(image.program().dialect), log_(log),
+    : host_(std::move(host)), plc_(plc), services_(plc), dialect_(image.program().dialect), log_(log),
       programs_(std::move(programs)) {
   programs_->serveForces(image);
   learnSymbols(image.program());
@@ -211,7 +210,7 @@ Controller::Controller(std::string host, host::Box& box, const Image& image, Log
 
 Controller::~Controller() {
   programs_->abandon();
-  history_.end(box_.clock().dateS());
+  history_.end(plc_.clock().dateS());
 }
 
 json Controller::greeting() {
@@ -224,15 +223,15 @@ json Controller::answer(const Peer& peer, const json& request) {
   try {
     if (!request.is_object()) throw Refused("found " + std::string(request.type_name()) + ", expected an object");
     const std::string wanted = textOf(request, "do");
-    const auto* command = std::ranges::find(kCommands, wanted, &Command::name);
-    if (command == std::end(kCommands)) throw Refused("found \"" + wanted + "\", expected a command of this protocol");
-    if (command->permission && !box_.map().allowed[static_cast<size_t>(*command->permission)]) {
+    const auto* command = std::ranges::find(kRows, wanted, &Row::name);
+    if (command == std::end(kRows)) throw Refused("found \"" + wanted + "\", expected a command of this protocol");
+    if (command->permission && !plc_.map().allowed[static_cast<size_t>(*command->permission)]) {
       const std::string right(host::kRemoteNames[static_cast<size_t>(*command->permission)]);
       throw Refused("\"" + right + "\" is not allowed here; for it the mapping file needs [rungctl] allow = [\"" +
                     right + "\"]");
     }
     const bool changes = command->permission && *command->permission != host::Remote::Serve;
-    if (changes && box_.ending()) throw Refused("the program is being switched off");
+    if (changes && plc_.ending()) throw Refused("the program is being switched off");
     services_.heard(peer);
     answer = (this->*command->run)(peer, request);
     if (answer.is_null()) {
@@ -250,7 +249,7 @@ json Controller::answer(const Peer& peer, const json& request) {
 void Controller::gone(const Peer& peer) {
   watching_.erase(peer.number);
   std::erase(following_, peer.number);
-  desk_.gone(peer);
+  compiler_.gone(peer);
   services_.gone(peer);
   if (shadow_ != nullptr && shadowsFor_ == peer.number) {
     try {
@@ -268,7 +267,7 @@ void Controller::gone(const Peer& peer) {
 
 rung_program_info Controller::running() const {
   auto info = sized<rung_program_info>();
-  check(rung_instance_program(box_.instance(), &info));
+  check(rung_instance_program(plc_.instance(), &info));
   return info;
 }
 
@@ -295,23 +294,23 @@ json Controller::status(const Peer&, const json&) {
   json out = {{"host", host_}, {"program", program.name}, {"dialect", dialect_}};
   if (program.faulted != 0) out["fault_of"] = program.faulted_name;
   if (addToStatus_) addToStatus_(out);
-  Order order{.kind = Order::Kind::State};
-  const host::Answer answer = box_.order(order);
+  host::Command order{.kind = host::Command::Kind::State};
+  const host::CommandResult answer = plc_.post(order);
   out["scanned"] = answer.ok();
-  out["powered_off"] = box_.ended();
+  out["powered_off"] = plc_.ended();
   if (!answer.ok()) return out;
   const uint32_t flags = order.state.flags;
   out["passes"] = order.state.passes;
   out["missed"] = order.state.missed;
-  out["restarts"] = box_.restarts();
+  out["restarts"] = plc_.restarts();
   out["functions"] = jsonOf(order.functions);
   out["us"] = order.state.now_us;
   out["stopped"] = (flags & RUNG_STATE_STOPPED) != 0;
   out["unsaved"] = (flags & RUNG_STATE_UNSAVED) != 0;
   out["faulted"] = (flags & RUNG_STATE_FAULTED) != 0;
-  if (!box_.restartProblem().empty()) out["restart_problem"] = box_.restartProblem();
+  if (!plc_.restartProblem().empty()) out["restart_problem"] = plc_.restartProblem();
   const bool faulted = (flags & RUNG_STATE_FAULTED) != 0; // a fault of after the order is of another moment
-  if (const std::optional<rung_fault_info> fault = faulted ? box_.fault() : std::nullopt) {
+  if (const std::optional<rung_fault_info> fault = faulted ? plc_.fault() : std::nullopt) {
     out["fault"] = fault->text;
     out["file"] = fault->file;
     out["line"] = fault->line;
@@ -363,10 +362,10 @@ json Controller::messages(const Peer& peer, const json& request) {
 
 void Controller::serveProgram(Sink* sink) {
   std::vector<std::string> reports;
-  const bool isStopped = !box_.running(); // a restart is done in this turn
-  box_.serve(reports);
-  if (std::exchange(restarts_, box_.restarts()) != box_.restarts())
-    for (const std::string& text : history_.goAll(box_.clock().dateS())) tellFollowers(sink, "gone", text, false);
+  const bool isStopped = !plc_.running(); // a restart is done in this turn
+  plc_.serve(reports);
+  if (std::exchange(restarts_, plc_.restarts()) != plc_.restarts())
+    for (const std::string& text : history_.goAll(plc_.clock().dateS())) tellFollowers(sink, "gone", text, false);
   for (const std::string& text : reports) report(text, sink);
   if (isStopped && !heldNames_.empty())
     report("the forces of " + joined(std::exchange(heldNames_, {}), ", ") + " have ended", sink);
@@ -376,7 +375,7 @@ void Controller::serveProgram(Sink* sink) {
 }
 
 void Controller::keepHistory(Sink* sink) {
-  const std::string problem = historyFile_ == nullptr ? "" : historyFile_->tick(box_.clock().dateS());
+  const std::string problem = historyFile_ == nullptr ? "" : historyFile_->tick(plc_.clock().dateS());
   if (!problem.empty()) report(problem, sink);
 }
 
@@ -384,12 +383,12 @@ void Controller::keepHistory(Sink* sink) {
 void Controller::passMessages(Sink* sink) {
   constexpr int kMostMessages = 64;
   rung_message_info message{};
-  for (int i = 0; i < kMostMessages && box_.nextMessage(message); ++i) pass(message, sink);
+  for (int i = 0; i < kMostMessages && plc_.nextMessage(message); ++i) pass(message, sink);
 }
 
 void Controller::pass(const rung_message_info& message, Sink* sink) {
   const History::Key key{message.number, message.channel, message.index};
-  const int64_t now = box_.clock().dateS();
+  const int64_t now = plc_.clock().dateS();
   if (message.op == RUNG_MESSAGE_CLEAR) {
     if (const std::string text = history_.go(key, now); !text.empty()) tellFollowers(sink, "gone", text, false);
     return;
@@ -406,21 +405,21 @@ void Controller::pass(const rung_message_info& message, Sink* sink) {
 }
 
 void Controller::report(const std::string& text, Sink* sink) {
-  if (log_.line(text)) history_.happen(text, box_.clock().dateS());
+  if (log_.line(text)) history_.happen(text, plc_.clock().dateS());
   tellFollowers(sink, "message", text, false);
 }
 
 // `logged`: for the log alone, not for the operator.
 void Controller::tellFollowers(Sink* sink, const char* event, const std::string& text, bool logged) {
   if (sink == nullptr) return;
-  const std::string line = lineOf(box_.clock().dateS(), text);
+  const std::string line = lineOf(plc_.clock().dateS(), text);
   for (const uint32_t peer : following_) sink->send(peer, {{"event", event}, {"text", line}, {"logged", logged}});
 }
 
 rung_cell_info Controller::describe(const std::string& name, int32_t access) const {
   auto info = sized<rung_cell_info>();
   int64_t value = 0;
-  const int32_t status = rung_instance_describe(box_.instance(), nullptr, name.c_str(), access, &info, &value);
+  const int32_t status = rung_instance_describe(plc_.instance(), nullptr, name.c_str(), access, &info, &value);
   if (status == RUNG_NOT_FOUND) {
     const std::string problem = rung_error_text(); // looking for the name that was meant makes others
     throw Refused(problem + text::didYouMean(meantBy(name)));
@@ -434,7 +433,7 @@ rung_cell_info Controller::describe(const std::string& name, int32_t access) con
 std::string Controller::meantBy(const std::string& name) const {
   for (const std::vector<std::string>& symbols : {symbols_, formerSymbols_})
     if (std::string meant = host::meantName(name, symbols);
-        !meant.empty() && cellInfo(box_.instance(), meant, RUNG_READ))
+        !meant.empty() && cellInfo(plc_.instance(), meant, RUNG_READ))
       return meant;
   return {};
 }
@@ -447,11 +446,11 @@ void Controller::learnSymbols(const rung_program& program) {
 }
 
 Controller::FoundCells Controller::find(const std::vector<std::string>& names, int32_t access) const {
-  FoundCells all(box_.instance());
+  FoundCells all(plc_.instance());
   for (const std::string& name : names) {
     all.infos.push_back(describe(name, access));
     rung_cell cell = 0;
-    check(rung_instance_find(box_.instance(), name.c_str(), access, &cell));
+    check(rung_instance_find(plc_.instance(), name.c_str(), access, &cell));
     all.cells.push_back(cell);
   }
   return all;
@@ -460,7 +459,7 @@ Controller::FoundCells Controller::find(const std::vector<std::string>& names, i
 json Controller::watch(const Peer& peer, const json& request) {
   const std::vector<std::string> names = namesOf(request);
   const FoundCells found = find(names, RUNG_READ);
-  watching_[peer.number] = std::make_unique<Watching>(box_.instance(), found, flagOf(request, "all"));
+  watching_[peer.number] = std::make_unique<Watching>(plc_.instance(), found, flagOf(request, "all"));
   json described = json::array();
   for (size_t i = 0; i < names.size(); ++i)
     described.push_back(
@@ -471,7 +470,7 @@ json Controller::watch(const Peer& peer, const json& request) {
 std::string Controller::whyNoScanEnds() {
   const std::optional<rung_state> now = stateNow();
   if (!now) return "the scan thread does not run";
-  if (const std::optional<rung_fault_info> fault = box_.running() ? std::nullopt : box_.fault())
+  if (const std::optional<rung_fault_info> fault = plc_.running() ? std::nullopt : plc_.fault())
     return std::string("the program has not finished a scan: it is stopped by a fault: ") + fault->text;
   if ((now->flags & RUNG_STATE_STOPPED) != 0)
     return "the program has not finished a scan since it was switched on: it is stopped by the operator";
@@ -481,15 +480,15 @@ std::string Controller::whyNoScanEnds() {
 // The values at the end of a scan.
 json Controller::get(const Peer&, const json& request) {
   const std::vector<std::string> names = namesOf(request);
-  if (box_.ended()) throw Refused("the program has been switched off");
+  if (plc_.ended()) throw Refused("the program has been switched off");
   const FoundCells found = find(names, RUNG_READ);
-  Watching once(box_.instance(), found, false);
+  Watching once(plc_.instance(), found, false);
   auto sample = sized<rung_sample>();
-  const int64_t end = box_.clock().nowNs() + std::chrono::nanoseconds(host::Box::kPatience).count();
+  const int64_t end = plc_.clock().nowNs() + std::chrono::nanoseconds(host::PlcHost::kPatience).count();
   while (rung_watch_newest(once.watch, once.values.data(), &sample) != RUNG_OK) {
-    if (box_.clock().nowNs() >= end) throw Refused(whyNoScanEnds());
-    Order look{.kind = Order::Kind::State}; // waits for a step of the scan thread
-    box_.order(look);
+    if (plc_.clock().nowNs() >= end) throw Refused(whyNoScanEnds());
+    host::Command look{.kind = host::Command::Kind::State}; // waits for a step of the scan thread
+    plc_.post(look);
   }
   json values = json::object();
   for (size_t i = 0; i < names.size(); ++i) values[names[i]] = toJson(once.types[i], once.values[i]);
@@ -561,21 +560,21 @@ json jsonOf(host::PinType type, const host::Value& value) {
 // Empty: no thread scans the program.
 std::vector<host::Value> Controller::pinValues() {
   struct {
-    const host::Box& box;
+    const host::PlcHost& plc;
     std::vector<host::Value> values;
-  } looking{box_, std::vector<host::Value>(box_.pins().size())};
-  Order look{.kind = Order::Kind::Act,
-             .act =
-                 [](void* actor) {
-                   auto& what = *static_cast<decltype(looking)*>(actor);
-                   what.box.lookAtPins(what.values);
-                 },
-             .actor = &looking};
-  return box_.order(look).ok() ? looking.values : std::vector<host::Value>();
+  } looking{plc_, std::vector<host::Value>(plc_.pins().size())};
+  host::Command look{.kind = host::Command::Kind::Act,
+                     .act =
+                         [](void* actor) {
+                           auto& what = *static_cast<decltype(looking)*>(actor);
+                           what.plc.lookAtPins(what.values);
+                         },
+                     .actor = &looking};
+  return plc_.post(look).ok() ? looking.values : std::vector<host::Value>();
 }
 
 json Controller::map(const Peer&, const json&) {
-  const host::File& map = box_.map();
+  const host::File& map = plc_.map();
   const std::vector<host::Value> values = pinValues();
   json pins = json::array();
   for (uint32_t i = 0; i < map.pins.size(); ++i) {
@@ -596,10 +595,10 @@ json Controller::map(const Peer&, const json&) {
   return {{"files", map.paths}, {"pins", pins}, {"allow", allowed}, {"never", never}};
 }
 
-json Controller::profile(const Peer&, const json& request) { return profileOf(box_, request); }
+json Controller::profile(const Peer&, const json& request) { return profileOf(plc_, request); }
 
 json Controller::clearProfile(const Peer& peer, const json&) {
-  return simple(Order::Kind::ClearProfile, peer, "clear the profile");
+  return simple(host::Command::Kind::ClearProfile, peer, "clear the profile");
 }
 
 // ---- changing ------------------------------------------------------------------------------------------------------
@@ -613,7 +612,7 @@ void Controller::logChange(const Peer& peer, const std::string& text) {
 std::vector<Controller::Range> Controller::rangesOf(const std::string& name) const {
   std::vector<Range> ranges;
   for (const int32_t access : {RUNG_READ, RUNG_WRITE}) {
-    const std::optional<rung_cell_info> info = cellInfo(box_.instance(), name, access);
+    const std::optional<rung_cell_info> info = cellInfo(plc_.instance(), name, access);
     if (!info || info->space == RUNG_NONE) continue;
     constexpr uint64_t kBitsOfAByte = 8;
     ranges.push_back({info->space, info->byte * kBitsOfAByte + info->bit,
@@ -625,7 +624,7 @@ std::vector<Controller::Range> Controller::rangesOf(const std::string& name) con
 // By where the names are in the program that runs: a reload may have moved them.
 void Controller::refuseProtected(const std::string& name) const {
   const std::vector<Range> wanted = rangesOf(name);
-  for (const host::Protected& cell : box_.map().never) {
+  for (const host::Protected& cell : plc_.map().never) {
     const std::vector<Range> kept = rangesOf(cell.name);
     if (kept.empty()) throw Refused("whether " + name + " is protected is not known: " + cell.name + " is not found");
     if (shareOf(cell.name, wanted) != Share::None)
@@ -647,7 +646,7 @@ Controller::Share Controller::shareOf(const std::string& name, const std::vector
 }
 
 // Of the pins for the bits of a cell those that write what is wanted; all of them where none has a bit of it.
-std::string Controller::writerOf(const host::Box::Feed& feed, const std::vector<Range>& wanted) const {
+std::string Controller::writerOf(const host::PlcHost::Feed& feed, const std::vector<Range>& wanted) const {
   if (feed.bits.empty()) return feed.by;
   std::vector<std::string> pins;
   for (const Range& held : rangesOf(feed.name))
@@ -672,7 +671,7 @@ std::string Controller::refuseWithoutEffect(const std::string& name) {
                                           : " is forced as " + std::string(force.name) + " to ") +
                     shown(force.type, force.value) + ": it stays so");
   std::string kept;
-  for (const host::Box::Feed& feed : box_.feeds()) {
+  for (const host::PlcHost::Feed& feed : plc_.feeds()) {
     const Share share = shareOf(feed.name, wanted);
     if (share == Share::All)
       throw Refused(name + " is written before every slice by " + writerOf(feed, wanted) +
@@ -684,8 +683,8 @@ std::string Controller::refuseWithoutEffect(const std::string& name) {
              : "part of " + name + " is written before every slice, so setting it has no effect there: " + kept;
 }
 
-Order Controller::give(Order order, std::chrono::milliseconds time) {
-  const host::Answer answer = box_.order(order, time);
+host::Command Controller::give(host::Command order, std::chrono::milliseconds time) {
+  const host::CommandResult answer = plc_.post(order, time);
   if (!answer.ok()) throw Refused(answer.problem);
   return order;
 }
@@ -698,7 +697,7 @@ json Controller::set(const Peer& peer, const json& request) {
   refuseProtected(name);
   std::string note = refuseWithoutEffect(name);
   const rung_value value = fromJson(type, request["value"], name);
-  const Order done = give({.kind = Order::Kind::Write, .cell = found.cells.front(), .value = value});
+  const host::Command done = give({.kind = host::Command::Kind::Write, .cell = found.cells.front(), .value = value});
   logChange(peer, "set " + name + " from " + shown(type, done.former) + " to " + shown(type, value));
   json answer = {{"name", name}, {"former", toJson(type, done.former)}, {"value", toJson(type, value)}};
   if ((done.state.flags & RUNG_STATE_FAULTED) != 0)
@@ -718,7 +717,7 @@ json Controller::event(const Peer& peer, const json& request) {
     const json& keys;
     std::string problem;
   } doing{simulation_, textOf(request, "name"), keys, ""};
-  give({.kind = Order::Kind::Act,
+  give({.kind = host::Command::Kind::Act,
         .act =
             [](void* actor) {
               auto& what = *static_cast<decltype(doing)*>(actor);
@@ -733,8 +732,8 @@ json Controller::event(const Peer& peer, const json& request) {
 std::vector<rung_force_info> Controller::forcesInEffect() {
   std::vector<rung_force_info> list;
   for (uint32_t i = 0; i < kMostForces; ++i) {
-    Order order{.kind = Order::Kind::Forced, .index = i};
-    const host::Answer answer = box_.order(order);
+    host::Command order{.kind = host::Command::Kind::Forced, .index = i};
+    const host::CommandResult answer = plc_.post(order);
     if (!answer.ok()) throw Refused(answer.problem);
     if (answer.status == RUNG_EMPTY) break;
     list.push_back(order.force);
@@ -761,12 +760,12 @@ std::optional<Controller::Forces> Controller::prepared(const ForceChange& change
     cells.push_back({cell.name.c_str(), cell.owner.c_str(), cell.value, RUNG_READ, 0});
   rung_forces* made = nullptr;
   const int32_t status =
-      check(rung_forces_new(box_.instance(), nullptr, cells.data(), static_cast<uint32_t>(cells.size()), &made));
+      check(rung_forces_new(plc_.instance(), nullptr, cells.data(), static_cast<uint32_t>(cells.size()), &made));
   return status == RUNG_LATER ? std::nullopt : std::optional<Forces>(made);
 }
 
 void Controller::putInEffect(const ForceChange& change, Forces forces) {
-  give({.kind = Order::Kind::Force, .forces = forces.get()});
+  give({.kind = host::Command::Kind::Force, .forces = forces.get()});
   forces_ = std::move(forces); // the former set has ended
   heldNames_.clear();
   for (const HeldCell& cell : change.cells) heldNames_.push_back(cell.name);
@@ -792,7 +791,7 @@ void Controller::refusePending(const std::string& why) {
 
 void Controller::finishPending(Sink& sink) {
   if (pending_ == nullptr) return;
-  if (pending_->refused.empty() && !box_.running())
+  if (pending_->refused.empty() && !plc_.running())
     refusePending("the program has stopped in the meantime; all forces have ended");
   json answer = pending_->answer;
   try {
@@ -817,7 +816,7 @@ json Controller::force(const Peer& peer, const json& request) {
   const uint32_t type = describe(name, RUNG_READ).type;
   refuseProtected(name);
   refuseWhilePending();
-  if (!box_.running()) throw Refused("a fault has stopped the program: a reset restarts it");
+  if (!plc_.running()) throw Refused("a fault has stopped the program: a reset restarts it");
   const rung_value value = fromJson(type, request["value"], name);
   std::vector<HeldCell> before = heldCells();
   std::vector<HeldCell> cells = {{name, peer.name, value}};
@@ -864,21 +863,21 @@ json Controller::forced(const Peer&, const json&) {
   return {{"forced", list}};
 }
 
-json Controller::sources(const Peer& peer, const json& request) { return desk_.sources(peer, request); }
+json Controller::sources(const Peer& peer, const json& request) { return compiler_.sources(peer, request); }
 
 json Controller::compile(const Peer& peer, const json& request) {
-  json answer = desk_.compile(peer, request);
+  json answer = compiler_.compile(peer, request);
   logChange(peer, "compile " + answer["bytes"].dump() + " bytes of sources");
   return answer;
 }
 
-json Controller::compiled(const Peer& peer, const json& request) { return desk_.compiled(peer, request); }
+json Controller::compiled(const Peer& peer, const json& request) { return compiler_.compiled(peer, request); }
 
 // A file, or what has been compiled for this client.
 Controller::NextProgram Controller::nextProgram(const Peer& peer, const json& request) {
   NextProgram next;
   if (flagOf(request, "compiled")) {
-    next.image = &desk_.image(peer);
+    next.image = &compiler_.image(peer);
     next.text = std::string(next.image->program().name) + ", compiled here from sources";
   } else {
     next.text = programOf(request);
@@ -931,13 +930,14 @@ json Controller::putInPlace(rung_replacement* replacement, const std::vector<run
   json ended = json::array();
   for (const HeldCell& cell : heldCells()) ended.push_back(cell.name);
   constexpr std::chrono::seconds kTime(3);
-  const Order done = give({.kind = Order::Kind::Replace, .replacement = replacement, .dead = &dead}, kTime);
+  const host::Command done =
+      give({.kind = host::Command::Kind::Replace, .replacement = replacement, .dead = &dead}, kTime);
   forces_.reset();
   refusePending(why);
   report["ended_forces"] = ended;
   report["stopped"] = (done.state.flags & RUNG_STATE_STOPPED) != 0; // by the operator, as the program before
-  if (box_.running() && (done.state.flags & RUNG_STATE_STOPPED) == 0) waitForPass(done.state.passes);
-  report["waits"] = !box_.running(); // for a reset
+  if (plc_.running() && (done.state.flags & RUNG_STATE_STOPPED) == 0) waitForPass(done.state.passes);
+  report["waits"] = !plc_.running(); // for a reset
   auto info = sized<rung_replacement_info>();
   check(rung_replacement_report(replacement, &info));
   report["put_back"] = info.next == 0; // by a fault, already
@@ -948,7 +948,7 @@ json Controller::putInPlace(rung_replacement* replacement, const std::vector<run
 void Controller::waitForPass(uint64_t passes) {
   constexpr int64_t kMostNs = 300'000'000, kLookNs = 1'000'000;
   constexpr uint32_t kEnd = RUNG_STATE_FAULTED | RUNG_STATE_STOPPED;
-  for (const int64_t end = box_.clock().nowNs() + kMostNs; box_.clock().nowNs() < end; box_.clock().sleep(kLookNs)) {
+  for (const int64_t end = plc_.clock().nowNs() + kMostNs; plc_.clock().nowNs() < end; plc_.clock().sleep(kLookNs)) {
     const std::optional<rung_state> now = stateNow();
     if (!now || (now->flags & kEnd) != 0 || now->passes != passes) return;
   }
@@ -959,9 +959,9 @@ json Controller::reload(const Peer& peer, const json& request) {
   const Image& image = next.get();
   programs_->serveForces(image);
   rung_replacement* made = nullptr;
-  check(rung_replacement_new(box_.instance(), image.handle(), nullptr, 0, &made));
+  check(rung_replacement_new(plc_.instance(), image.handle(), nullptr, 0, &made));
   std::unique_ptr<rung_replacement, EndReplacement> replacement(made);
-  const host::Box::Losses pins = box_.lossesBy(made, image.program());
+  const host::PlcHost::Losses pins = plc_.lossesBy(made, image.program());
   if (!pins.mistakes.empty())
     throw Refused("the mapping file does not fit the new program:\n" + joined(pins.mistakes, "\n") +
                   "\nnothing has changed");
@@ -989,7 +989,7 @@ json Controller::reload(const Peer& peer, const json& request) {
 // Its end is an order, too: the scan thread writes into it.
 void Controller::endShadow() {
   if (shadow_ == nullptr) return;
-  give({.kind = Order::Kind::Shadow, .shadow = nullptr});
+  give({.kind = host::Command::Kind::Shadow, .shadow = nullptr});
   shadow_.reset();
 }
 
@@ -1004,12 +1004,12 @@ json Controller::shadow(const Peer& peer, const json& request) {
   const NextProgram next = nextProgram(peer, request);
   endShadow();
   rung_shadow* made = nullptr;
-  check(rung_shadow_new(box_.instance(), next.get().handle(), passes->get<uint32_t>(), kShadowRoom, &made));
+  check(rung_shadow_new(plc_.instance(), next.get().handle(), passes->get<uint32_t>(), kShadowRoom, &made));
   shadow_.reset(made);
   shadowsFor_ = peer.number;
   compared_ = nullptr;
   constexpr std::chrono::seconds kTime(3);
-  give({.kind = Order::Kind::Shadow, .shadow = made}, kTime);
+  give({.kind = host::Command::Kind::Shadow, .shadow = made}, kTime);
   logChange(peer, "shadow " + next.text + " for " + std::to_string(passes->get<uint32_t>()) + " scans");
   return json::object();
 }
@@ -1059,15 +1059,15 @@ void Controller::finishShadow(json report) {
 
 // Nothing where nobody scans the program.
 std::optional<rung_state> Controller::stateNow() {
-  Order look{.kind = Order::Kind::State};
-  return box_.order(look).ok() ? std::optional(look.state) : std::nullopt;
+  host::Command look{.kind = host::Command::Kind::State};
+  return plc_.post(look).ok() ? std::optional(look.state) : std::nullopt;
 }
 
 json Controller::rollback(const Peer& peer, const json&) {
   if (replacement_ == nullptr)
     throw Refused("no program has been reloaded, so there is no former program to return to");
   std::string lost;
-  const host::Box::Losses pins = box_.lossesBy(replacement_.get());
+  const host::PlcHost::Losses pins = plc_.lossesBy(replacement_.get());
   json report = reportOf(replacement_.get(), lost);
   auto info = sized<rung_replacement_info>();
   check(rung_replacement_report(replacement_.get(), &info));
@@ -1080,14 +1080,14 @@ json Controller::rollback(const Peer& peer, const json&) {
   return report;
 }
 
-json Controller::simple(Order::Kind kind, const Peer& peer, const char* what) {
+json Controller::simple(host::Command::Kind kind, const Peer& peer, const char* what) {
   give({.kind = kind});
   logChange(peer, what);
   return json::object();
 }
 
 json Controller::stop(const Peer& peer, const json&) {
-  give({.kind = Order::Kind::Stop});
+  give({.kind = host::Command::Kind::Stop});
   if (shadow_ != nullptr) { // nothing more comes that could be compared
     json report = shadowReport();
     report["state"] = "stopped";
@@ -1097,9 +1097,9 @@ json Controller::stop(const Peer& peer, const json&) {
   refusePending("the program has been stopped in the meantime; all forces have ended");
   return json::object();
 }
-json Controller::start(const Peer& peer, const json&) { return simple(Order::Kind::Start, peer, "start"); }
+json Controller::start(const Peer& peer, const json&) { return simple(host::Command::Kind::Start, peer, "start"); }
 
-json Controller::reset(const Peer& peer, const json&) { return simple(Order::Kind::Restart, peer, "reset"); }
+json Controller::reset(const Peer& peer, const json&) { return simple(host::Command::Kind::Restart, peer, "reset"); }
 
 json Controller::serve(const Peer& peer, const json& request) { return services_.serve(peer, request); }
 json Controller::live(const Peer& peer, const json& request) { return services_.live(peer, request); }

@@ -9,27 +9,27 @@
 
 #include <nlohmann/json.hpp>
 
+#include "machine/control/compile_service.h"
 #include "machine/control/history.h"
 #include "machine/control/log.h"
 #include "machine/control/programs.h"
 #include "machine/control/server.h"
 #include "machine/control/services.h"
-#include "machine/control/source_desk.h"
-#include "machine/host/box.h"
+#include "machine/host/plc_host.h"
 #include "rung/runtime.hpp"
 
 namespace rung::control {
 
-// For the thread that serves the box; orders go to the scan thread, which it waits for.
+// For the thread that serves the plc; orders go to the scan thread, which it waits for.
 class Controller final : public Handler {
 public:
   static constexpr int kProtocol = 1;
 
-  // `image` is what the box began with. `log`, which outlives this, gets what the program and its host report, and
+  // `image` is what the plc began with. `log`, which outlives this, gets what the program and its host report, and
   // every change that somebody has made.
-  Controller(std::string host, host::Box& box, const Image& image, Log& log,
+  Controller(std::string host, host::PlcHost& plc, const Image& image, Log& log,
              std::unique_ptr<Programs> programs = programsOfMachine());
-  ~Controller() override; // before the box
+  ~Controller() override; // before the plc
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
 
@@ -47,7 +47,7 @@ public:
   nlohmann::json answer(const Peer& peer, const nlohmann::json& request) override;
   void gone(const Peer& peer) override;
 
-  // In each turn of the thread, before the requests of clients: what the box needs from time to time and reports then,
+  // In each turn of the thread, before the requests of clients: what the plc needs from time to time and reports then,
   // and what the program has shown. Each line goes to the log, is kept for those who ask later, and is sent to those
   // who follow. `sink`: null where there are no clients.
   void serveProgram(Sink* sink);
@@ -69,12 +69,12 @@ private:
     }
   };
   enum class Share : uint8_t { None, Part, All };
-  struct Command {
+  struct Row {
     const char* name = nullptr;
     std::optional<host::Remote> permission; // that the mapping file must give
     nlohmann::json (Controller::*run)(const Peer&, const nlohmann::json&) = nullptr;
   };
-  static const Command kCommands[];
+  static const Row kRows[];
 
   nlohmann::json status(const Peer& peer, const nlohmann::json& request);
   nlohmann::json messages(const Peer& peer, const nlohmann::json& request);
@@ -110,7 +110,7 @@ private:
   std::vector<Range> rangesOf(const std::string& name) const;
   void refuseProtected(const std::string& name) const;
   std::string refuseWithoutEffect(const std::string& name);
-  std::string writerOf(const host::Box::Feed& feed, const std::vector<Range>& wanted) const;
+  std::string writerOf(const host::PlcHost::Feed& feed, const std::vector<Range>& wanted) const;
   std::string whyNoScanEnds();
   std::vector<host::Value> pinValues();
   std::string endedForces();
@@ -118,7 +118,7 @@ private:
   void finishShadow(nlohmann::json report);
   void waitForPass(uint64_t passes);
   Share shareOf(const std::string& name, const std::vector<Range>& wanted) const;
-  host::Order give(host::Order order, std::chrono::milliseconds time = host::Box::kPatience);
+  host::Command give(host::Command order, std::chrono::milliseconds time = host::PlcHost::kPatience);
   struct NextProgram { // that a request names
     std::optional<Image> opened;
     const Image* image = nullptr;
@@ -152,11 +152,11 @@ private:
   void endShadow();
   nlohmann::json shadowReport();
   void report(const std::string& text, Sink* sink);
-  nlohmann::json simple(host::Order::Kind kind, const Peer& peer, const char* what);
+  nlohmann::json simple(host::Command::Kind kind, const Peer& peer, const char* what);
   void logChange(const Peer& peer, const std::string& text);
 
   std::string host_;
-  host::Box& box_;
+  host::PlcHost& plc_;
   Services services_;
   std::string dialect_;
   std::vector<std::string> symbols_, formerSymbols_; // of the last program that was given, and of the one before
@@ -166,10 +166,10 @@ private:
   std::vector<std::string> heldNames_; // cells that are forced, as far as this thread has heard
   History history_;
   std::unique_ptr<HistoryFile> historyFile_;               // null: it is in memory alone
-  uint32_t restarts_ = 0;                                  // of the box, when messages were noted
+  uint32_t restarts_ = 0;                                  // of the plc, when messages were noted
   std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
   std::vector<uint32_t> following_;                        // messages
-  SourceDesk desk_;
+  CompileService compiler_;
   std::unique_ptr<Programs> programs_;
   std::unique_ptr<ForceChange> pending_; // for whose code the compiler is at work
   Forces forces_;

@@ -12,7 +12,7 @@
 namespace rung::control {
 namespace {
 
-using host::Order;
+using host::Command;
 using nlohmann::json;
 
 constexpr uint32_t kMostRungs = 10'000; // of an answer
@@ -38,14 +38,15 @@ Wanted wantedOf(const json& request) {
 }
 
 // All rungs of the program's tables. Their counters are not those of one pass: the program continues meanwhile.
-std::vector<rung_profile> countersOf(host::Box& box) {
+std::vector<rung_profile> countersOf(host::PlcHost& plc) {
   std::vector<rung_profile> all;
   int32_t status = RUNG_OK;
   while (status == RUNG_OK) {
     const auto first = static_cast<uint32_t>(all.size());
     all.resize(first + kAtOnce);
-    Order order{.kind = Order::Kind::Profile, .index = first, .count = kAtOnce, .profiles = all.data() + first};
-    const host::Answer answer = box.order(order);
+    host::Command order{
+        .kind = host::Command::Kind::Profile, .index = first, .count = kAtOnce, .profiles = all.data() + first};
+    const host::CommandResult answer = plc.post(order);
     if (!answer.ok()) throw Refused(answer.problem);
     all.resize(first + order.count);
     status = answer.status;
@@ -60,9 +61,9 @@ json rowOf(const rung_profile& rung) {
 
 } // namespace
 
-json profileOf(host::Box& box, const json& request) {
+json profileOf(host::PlcHost& plc, const json& request) {
   const Wanted wanted = wantedOf(request);
-  std::vector<rung_profile> rungs = countersOf(box);
+  std::vector<rung_profile> rungs = countersOf(plc);
   double time = 0;
   double outside = 0; // what the compiler made: in no drawing
   for (const rung_profile& rung : rungs) (rung.rung == 0 ? outside : time) += rung.total_ns;

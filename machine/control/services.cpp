@@ -74,13 +74,13 @@ json Services::serve(const Peer& peer, const json& request) {
   aliveNs_ = request.contains("alive_ms") ? int64_t{numberOf(request, "alive_ms", kMostMs)} * 1'000'000 : 0;
   provider_ = peer.number;
   heard(peer);
-  box_.live().served.store(true, std::memory_order_release);
+  plc_.live().served.store(true, std::memory_order_release);
   if (isLost_) reports_.emplace_back("the program is served again");
   return {{"again", std::exchange(isLost_, false)}};
 }
 
 void Services::heard(const Peer& peer) {
-  if (peer.number == provider_) heardNs_ = box_.clock().nowNs();
+  if (peer.number == provider_) heardNs_ = plc_.clock().nowNs();
 }
 
 void Services::checkProvider(const Peer& peer) const {
@@ -91,7 +91,7 @@ json Services::live(const Peer& peer, const json& request) {
   checkProvider(peer);
   const std::vector<double> positions = positionsOf(request);
   const uint32_t line = numberOf(request, "line", kHighestLine);
-  host::Live& live = box_.live();
+  host::Live& live = plc_.live();
   for (size_t i = 0; i < positions.size(); ++i) live.machine[i].store(positions[i], std::memory_order_relaxed);
   live.axes.store(static_cast<uint32_t>(positions.size()), std::memory_order_relaxed);
   live.line.store(line, std::memory_order_relaxed);
@@ -108,7 +108,7 @@ json Services::served(const Peer& peer, const json& request) {
   const host::Request& asked = found->second.request;
   host::NcAnswer answer{.outcome = outcomeOf(request)};
   if (answer.outcome == Outcome::Done && asked.reads()) answer.value = realOf(request.value("value", json()), "value");
-  box_.answer(host::replyOf(asked, answer));
+  plc_.answer(host::replyOf(asked, answer));
   waiting_.erase(found);
   return json::object();
 }
@@ -122,7 +122,7 @@ void Services::lose(const std::string& why) {
   provider_ = 0;
   isLost_ = true;
   reports_.push_back("the program is no longer served: " + why);
-  host::Live& live = box_.live();
+  host::Live& live = plc_.live();
   live.served.store(false, std::memory_order_release);
   live.known.store(false, std::memory_order_release);
   for (const auto& [ticket, waiting] : waiting_) refuse(waiting.request);
@@ -133,15 +133,15 @@ void Services::work(Sink& sink) {
   if (provider_ != 0) checkService(sink);
   refuseLate();
   host::Request request;
-  while (box_.nextRequest(request)) pass(sink, std::exchange(request, {}));
+  while (plc_.nextRequest(request)) pass(sink, std::exchange(request, {}));
 }
 
 // A provider that serves no more learns of it before anything moves again.
 void Services::checkService(Sink& sink) {
-  const int64_t silentNs = box_.clock().nowNs() - heardNs_;
-  if (!box_.live().served.load(std::memory_order_acquire)) { // the program was restarted: what waits is not its own
+  const int64_t silentNs = plc_.clock().nowNs() - heardNs_;
+  if (!plc_.live().served.load(std::memory_order_acquire)) { // the program was restarted: what waits is not its own
     sink.send(std::exchange(provider_, 0), {{"event", "unserved"}});
-    box_.live().known.store(false, std::memory_order_release);
+    plc_.live().known.store(false, std::memory_order_release);
     waiting_.clear();
   } else if (aliveNs_ != 0 && silentNs > aliveNs_) {
     sink.send(provider_, {{"event", "unserved"}});
@@ -153,19 +153,19 @@ void Services::pass(Sink& sink, host::Request request) {
   rung_reply refusal{};
   const std::optional<host::Operation> operation = host::operationOf(request, refusal);
   if (!operation) {
-    box_.answer(refusal);
+    plc_.answer(refusal);
     return;
   }
-  if (!box_.live().served.load(std::memory_order_relaxed))
+  if (!plc_.live().served.load(std::memory_order_relaxed))
     return refuse(request); // it has gone since the program asked
   const uint32_t ticket = request.given.ticket;
-  const int64_t end = box_.clock().nowNs() + std::chrono::nanoseconds(kPatience).count();
+  const int64_t end = plc_.clock().nowNs() + std::chrono::nanoseconds(kPatience).count();
   waiting_[ticket] = {std::move(request), operation->untilOver ? std::numeric_limits<int64_t>::max() : end};
   sink.send(provider_, eventOf(ticket, *operation));
 }
 
 void Services::refuseLate() {
-  const int64_t now = box_.clock().nowNs();
+  const int64_t now = plc_.clock().nowNs();
   std::erase_if(waiting_, [&](const auto& entry) {
     const bool late = entry.second.endNs <= now;
     if (late) refuse(entry.second.request);
@@ -175,7 +175,7 @@ void Services::refuseLate() {
 
 // As the control does where nobody serves (rtlib/nc/control/control.h).
 void Services::refuse(const host::Request& request) {
-  box_.answer({.size = sizeof(rung_reply), .ticket = request.given.ticket, .error = 1});
+  plc_.answer({.size = sizeof(rung_reply), .ticket = request.given.ticket, .error = 1});
 }
 
 } // namespace rung::control

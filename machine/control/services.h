@@ -10,17 +10,17 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "machine/control/server.h"
-#include "machine/host/box.h"
+#include "machine/host/plc_host.h"
 #include "machine/host/services.h"
 
 namespace rung::control {
 
-// For the thread that serves the box. What nobody answers in time is refused as where no CNC is there.
+// For the thread that serves the plc. What nobody answers in time is refused as where no CNC is there.
 class Services {
 public:
   static constexpr std::chrono::seconds kPatience{5};
 
-  explicit Services(host::Box& box) : box_(box) {}
+  explicit Services(host::PlcHost& plc) : plc_(plc) {}
 
   // The commands of docs/control-protocol.md; they throw Refused.
   nlohmann::json serve(const Peer& peer, const nlohmann::json& request);
@@ -47,7 +47,7 @@ private:
   void refuseLate();
   void refuse(const host::Request& request);
 
-  host::Box& box_;
+  host::PlcHost& plc_;
   void lose(const std::string& why);
   uint32_t provider_ = 0; // its number as a peer; 0: there is none
   int64_t aliveNs_ = 0;   // that it may be silent; 0: for any time

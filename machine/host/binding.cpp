@@ -234,13 +234,13 @@ private:
 
   std::string dialect() const { return program_.dialect; }
 
-  bool carries(uint32_t channel, uint32_t kind, uint32_t code = 0) const {
+  bool supports(uint32_t channel, uint32_t kind, uint32_t code = 0) const {
     return rung_instance_carries_function(instance_, channel, static_cast<int32_t>(kind), code) == RUNG_OK;
   }
   // One kind at least.
   bool hasChannel(uint32_t channel) const {
     for (uint32_t kind = 0; kind < std::size(kFunctionKinds); ++kind)
-      if (carries(channel, kind)) return true;
+      if (supports(channel, kind)) return true;
     return false;
   }
 
@@ -263,11 +263,11 @@ private:
 
   void checkKind(const Send& send) {
     const std::string kind(kFunctionKinds[send.kind]);
-    if (!carries(send.channel, send.kind))
+    if (!supports(send.channel, send.kind))
       fail(send.at, "send.function",
            {inQuotes(kind), kindsOf(send.channel) + ", the functions of the dialect " + dialect(),
             "remove the table, and connect its signals in [in] and [out]"});
-    else if (!send.codePin && !carries(send.channel, send.kind, static_cast<uint32_t>(send.code)))
+    else if (!send.codePin && !supports(send.channel, send.kind, static_cast<uint32_t>(send.code)))
       fail(send.at, "send.code",
            {kind + std::to_string(send.code),
             "at most " + kind + std::to_string(mostOf(send)) + ", what the signals of the dialect " + dialect() +
@@ -279,14 +279,14 @@ private:
   uint32_t mostOf(const Send& send) const {
     uint32_t most = 0;
     for (uint32_t step = uint32_t{1} << 31; step != 0; step /= 2)
-      if (carries(send.channel, send.kind, most + step)) most += step;
+      if (supports(send.channel, send.kind, most + step)) most += step;
     return most;
   }
 
   std::string kindsOf(uint32_t channel) const {
     std::string kinds;
     for (uint32_t kind = 0; kind < std::size(kFunctionKinds); ++kind)
-      if (carries(channel, kind)) kinds += (kinds.empty() ? "" : ", ") + inQuotes(kFunctionKinds[kind]);
+      if (supports(channel, kind)) kinds += (kinds.empty() ? "" : ", ") + inQuotes(kFunctionKinds[kind]);
     return kinds;
   }
 
@@ -333,7 +333,7 @@ private:
     if (place && place->space == RUNG_NONE) fail(cell.at, entry.where, mistakeOf(Misfit::Constant, *place, entry));
   }
 
-  // A constant says what is meant, unlike a pin, whose value is rounded.
+  // A constant says what is meant, distinct a pin, whose value is rounded.
   bool isWhole(const Entry& constant, const Place& place) {
     const bool isReal = place.isReal() || place.type == RUNG_TYPE_BIT || inWords(constant);
     if (isReal || constant.value == std::floor(constant.value)) return true;

@@ -155,16 +155,16 @@ private:
     return list.empty() ? "" : "[" + name + "]\n" + rows(list, before) + '\n';
   }
 
-  bool carries(rung_function_kind kind) const {
+  bool supports(rung_function_kind kind) const {
     return rung_instance_carries_function(instance_, 0, kind, 0) == RUNG_OK;
   }
 
   std::string functions() const {
-    if (!carries(RUNG_FUNCTION_M)) return {};
+    if (!supports(RUNG_FUNCTION_M)) return {};
     std::string text =
         "# M, S and T functions: an edge of a pin hands one to the program.\n"
         "#\n# [[send]]\n# pin = \"spindle-forward\"\n# edge = \"rise\"\n# function = \"M\"\n# code = 3\n";
-    if (carries(RUNG_FUNCTION_T))
+    if (supports(RUNG_FUNCTION_T))
       text += "#\n# [[send]]\n# pin = \"tool-prepare\"\n# edge = \"rise\"\n# function = \"T\"\n"
               "# code = \"tool-number\"\n# done = \"tool-prepared\"\n";
     return text + "#\n# [[abort]]\n# pin = \"estop\"\n# edge = \"rise\"\n";

@@ -239,7 +239,7 @@ Instance HostDevices::instance(const Image& image, const rung_instance_options& 
   machine_->openChannels();
   machine_->openPorts();
   rung_instance* instance = nullptr;
-  check(api::newInstance(image.handle(), &options, std::make_unique<DevicesAround>(machine_->devices, program),
+  check(api::newInstance(image.handle(), &options, std::make_unique<DevicesEnvironment>(machine_->devices, program),
                          &instance));
   return Instance(instance);
 }
@@ -291,7 +291,7 @@ std::vector<std::string> HostDevices::report() { return machine_->report.next();
 
 using namespace io;
 
-struct DevicesAround::Places final : nc::Places {
+struct DevicesEnvironment::Places final : nc::Places {
   explicit Places(const rung_program& of)
       : program(of), services(deviceOrders(of)), can(of), states(of), outputs(of), axes(of) {}
 
@@ -303,26 +303,26 @@ struct DevicesAround::Places final : nc::Places {
   AxisCells axes;
 };
 
-DevicesAround::DevicesAround(Devices& devices, const rung_program& program)
+DevicesEnvironment::DevicesEnvironment(Devices& devices, const rung_program& program)
     : devices_(devices), control_(nc::makeControl(program.dialect)), places_(locate(program)),
       ethercat_(*devices.master), states_(*devices.master) {}
 
-std::unique_ptr<nc::Places> DevicesAround::locate(const rung_program& program) const {
+std::unique_ptr<nc::Places> DevicesEnvironment::locate(const rung_program& program) const {
   return std::make_unique<Places>(program);
 }
 
-const DevicesAround::Places& DevicesAround::places() const { return static_cast<const Places&>(*places_); }
+const DevicesEnvironment::Places& DevicesEnvironment::places() const { return static_cast<const Places&>(*places_); }
 
-void DevicesAround::exchangePlaces(std::unique_ptr<nc::Places>& places) noexcept {
+void DevicesEnvironment::exchangePlaces(std::unique_ptr<nc::Places>& places) noexcept {
   places_.swap(places);
   const auto& former = static_cast<const Places&>(*places);
   devices_.can.relocate(former.can, this->places().can, runtime::Relocation(former.program, this->places().program));
 }
 
-uint32_t DevicesAround::works() const { return control_->works() | 1u << nc::kHookBeforeInput; }
+uint32_t DevicesEnvironment::works() const { return control_->works() | 1u << nc::kHookBeforeInput; }
 
 // MODULE_INIT may give orders to devices already.
-void DevicesAround::powerOn(runtime::Instance& instance, nc::PowerOn kind) {
+void DevicesEnvironment::powerOn(runtime::Instance& instance, nc::PowerOn kind) {
   control_->prepare(instance, kind);
   for (com::Port& port : devices_.ports) port.powerOn();
   devices_.can.powerOn();
@@ -334,24 +334,24 @@ void DevicesAround::powerOn(runtime::Instance& instance, nc::PowerOn kind) {
   control_->start(instance);
 }
 
-void DevicesAround::beforePart(runtime::Instance& instance) {
+void DevicesEnvironment::beforePart(runtime::Instance& instance) {
   control_->beforeSlice(instance);
   if (instance.stopped()) devices_.can.dropPackets(instance, places().can);
 }
 
-void DevicesAround::afterPart(runtime::Instance& instance) {
+void DevicesEnvironment::afterPart(runtime::Instance& instance) {
   control_->afterSlice(instance);
   if (!instance.atListStart() || instance.faulted()) return;
   devices_.can.take(instance.memory(), places().can);
   devices_.axes.positioned().take(instance.memory(), places().axes);
 }
 
-void DevicesAround::onHook(runtime::Instance& instance, uint32_t work) {
+void DevicesEnvironment::onHook(runtime::Instance& instance, uint32_t work) {
   if (work == nc::kHookBeforeInput) beforeInput(instance);
   control_->onHook(instance, work);
 }
 
-void DevicesAround::beforeInput(runtime::Instance& instance) {
+void DevicesEnvironment::beforeInput(runtime::Instance& instance) {
   tickMaster(instance.memory());
   bool answered = devices_.tables.takeAnswers(instance.services(), bytes_);
   answered = ethercat_.finish(instance, bytes_) || answered;
@@ -360,7 +360,7 @@ void DevicesAround::beforeInput(runtime::Instance& instance) {
   devices_.axes.positioned().show(instance.memory(), places().axes);
 }
 
-void DevicesAround::tickMaster(const core::Memory& memory) {
+void DevicesEnvironment::tickMaster(const core::Memory& memory) {
   if (devices_.master == &ethercat::noMaster()) return;
   places().states.read(memory, stateBits_);
   states_.tick(stateBits_);
@@ -368,7 +368,7 @@ void DevicesAround::tickMaster(const core::Memory& memory) {
 }
 
 // What MODULE_HALT still orders counts, but no drive stays enabled (inventory of the services, 1.5).
-void DevicesAround::onFault(runtime::Instance& instance) {
+void DevicesEnvironment::onFault(runtime::Instance& instance) {
   control_->onFault(instance);
   devices_.can.take(instance.memory(), places().can);
   devices_.can.disableDrives();
@@ -378,13 +378,13 @@ void DevicesAround::onFault(runtime::Instance& instance) {
 // ---- requests ------------------------------------------------------------------------------------------------------
 
 // Without such a device the control refuses.
-bool DevicesAround::respond(runtime::Instance& instance, const core::ServiceRequest& request,
-                            core::ServiceReply& reply) {
+bool DevicesEnvironment::respond(runtime::Instance& instance, const core::ServiceRequest& request,
+                                 core::ServiceReply& reply) {
   return answer(instance, request, reply) || control_->respond(instance, request, reply);
 }
 
-bool DevicesAround::answer(runtime::Instance& instance, const core::ServiceRequest& request,
-                           core::ServiceReply& reply) {
+bool DevicesEnvironment::answer(runtime::Instance& instance, const core::ServiceRequest& request,
+                                core::ServiceReply& reply) {
   if (request.service >= places().services.size()) return false;
   const DeviceOrder order = places().services[request.service];
   DeviceCall call(instance, request, reply, bytes_);
@@ -402,18 +402,18 @@ bool DevicesAround::answer(runtime::Instance& instance, const core::ServiceReque
   return false;
 }
 
-com::Port* DevicesAround::portOf(const DeviceCall& call) {
+com::Port* DevicesEnvironment::portOf(const DeviceCall& call) {
   const uint32_t number = comOf(call);
   return number < devices_.ports.size() ? &devices_.ports[number] : nullptr;
 }
 
-bool DevicesAround::askTable(TableOrder order, DeviceCall& call) {
+bool DevicesEnvironment::askTable(TableOrder order, DeviceCall& call) {
   if (devices_.tables.isEmpty() || !devices_.tables.ask(order, call)) return false;
   call.wait();
   return true;
 }
 
-bool DevicesAround::noteArea(const DeviceCall& call) {
+bool DevicesEnvironment::noteArea(const DeviceCall& call) {
   if (call.result(1) == static_cast<int64_t>(AreaResult::Broken)) devices_.areasBroken = true;
   return true;
 }

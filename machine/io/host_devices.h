@@ -23,7 +23,7 @@
 #include "machine/io/ethercat/master.h"
 #include "machine/io/shared/shared_areas.h"
 #include "machine/io/tables/table_service.h"
-#include "rtlib/api/surroundings.h"
+#include "rtlib/api/environment.h"
 #include "rung/runtime.hpp"
 
 namespace rung::io {
@@ -104,10 +104,10 @@ struct Devices {
   std::atomic<bool> areasBroken{false};
 };
 
-class DevicesAround final : public api::Surroundings {
+class DevicesEnvironment final : public api::Environment {
 public:
   // They have the devices of a program of this dialect, whose first one is `program`.
-  DevicesAround(Devices& devices, const rung_program& program);
+  DevicesEnvironment(Devices& devices, const rung_program& program);
 
   nc::Control& control() override { return *control_; }
   const nc::Control& control() const override { return *control_; }

@@ -26,8 +26,8 @@
 #include "machine/compile/sources.h"
 #include "machine/control/controller.h"
 #include "machine/control/server.h"
-#include "machine/host/box.h"
 #include "machine/host/component_pins.h"
+#include "machine/host/plc_host.h"
 #include "machine/io/analog/analog.h"
 #include "machine/io/host_devices.h"
 #include "machine/rung-hal/hal_api.h"
@@ -71,8 +71,8 @@ enum Function : size_t { kScan, kFast };
 struct PlcInstance {
   std::string prefix;
   std::optional<Image> image;
-  std::unique_ptr<io::HostDevices> devices; // of a TECHNOL program; it outlives the box
-  std::unique_ptr<host::Box> box;
+  std::unique_ptr<io::HostDevices> devices; // of a TECHNOL program; it outlives the host
+  std::unique_ptr<host::PlcHost> host;
   host::PinCell* ownCells = nullptr; // in HAL's memory, by OwnPin
   host::PinCell* cells = nullptr;    // in HAL's memory
   bool hasPins = false;              // all of them
@@ -81,8 +81,8 @@ struct PlcInstance {
   // The threads that HAL calls its functions in, 0: it has not yet. A program is one thread's: where they differ, it is
   // apart for good, and does not run.
   std::array<std::atomic<pthread_t>, 2> callers{};
-  std::atomic<bool> apart{false};
-  bool apartReported = false;
+  std::atomic<bool> conflict{false};
+  bool conflictReported = false;
   bool fastCalled = false;  // since the scan before
   bool poweringOff = false; // since pin power-off has come on
   std::atomic<int64_t> periodNs{0};
@@ -177,8 +177,8 @@ Image imageOf(const Request& request) {
 
 // A TECHNOL program has the devices of its map around it, and pins for its axes and analogue outputs; none: the control
 // alone.
-host::Box::NewInstance withDevices(PlcInstance& c, const Image& image, host::File& map,
-                                   std::vector<std::string>& errors) {
+host::PlcHost::NewInstance withDevices(PlcInstance& c, const Image& image, host::File& map,
+                                       std::vector<std::string>& errors) {
   if (std::string_view(image.program().dialect) != "technol") return {};
   c.devices = std::make_unique<io::HostDevices>();
   c.devices->set(map, errors);
@@ -187,7 +187,7 @@ host::Box::NewInstance withDevices(PlcInstance& c, const Image& image, host::Fil
   return [&c](const Image& of, const rung_instance_options& with) { return c.devices->instance(of, with); };
 }
 
-std::string apartText(const PlcInstance& c) {
+std::string conflictText(const PlcInstance& c) {
   return c.prefix + ".fast and " + c.prefix + ".scan are in different threads, but share the memory of one program; " +
          "add both to one thread (addf) and restart";
 }
@@ -205,26 +205,26 @@ bool loadProgram(PlcInstance& c, const Request& request) {
   std::vector<std::string> warnings;
   host::File mapping = host::loadMap(request.map, errors);
   host::refuseConnections(mapping, "LinuxCNC, where HAL connects the pins", errors);
-  const host::Box::NewInstance newInstance = withDevices(c, *image, mapping, errors);
-  // Mistakes of the text and of names at once; a box is only made for a faultless map.
+  const host::PlcHost::NewInstance newInstance = withDevices(c, *image, mapping, errors);
+  // Mistakes of the text and of names at once; a host is only made for a faultless map.
   try {
     if (!mapping.paths.empty())
-      c.box = host::Box::make(*image, std::move(mapping),
-                              {.retain = request.retain != nullptr ? request.retain : "", .newInstance = newInstance},
-                              errors, warnings);
+      c.host = host::PlcHost::make(
+          *image, std::move(mapping),
+          {.retain = request.retain != nullptr ? request.retain : "", .newInstance = newInstance}, errors, warnings);
   } catch (const Error& error) {
     errors.emplace_back(error.what());
   }
   if (c.devices != nullptr) std::ranges::move(c.devices->warnings(), std::back_inserter(warnings));
   for (const std::string& warning : warnings) complain("%s: %s\n", kModule, warning.c_str());
   for (const std::string& wrong : errors) complain("%s: %s\n", kModule, wrong.c_str());
-  if (c.box == nullptr) return false;
+  if (c.host == nullptr) return false;
   c.log = std::make_unique<control::Log>(
-      c.box->clock(), [&c](const std::string& line) { rtapi_print("%s: %s\n", c.prefix.c_str(), line.c_str()); });
-  c.controller = std::make_unique<control::Controller>(c.prefix, *c.box, *image, *c.log);
+      c.host->clock(), [&c](const std::string& line) { rtapi_print("%s: %s\n", c.prefix.c_str(), line.c_str()); });
+  c.controller = std::make_unique<control::Controller>(c.prefix, *c.host, *image, *c.log);
   if (request.retain != nullptr) c.controller->keepHistory(std::string(request.retain) + ".messages");
   c.controller->addToStatus([&c](nlohmann::json& status) {
-    if (c.apart.load()) status["not_run"] = apartText(c);
+    if (c.conflict.load()) status["not_run"] = conflictText(c);
   });
   return true;
 }
@@ -268,7 +268,7 @@ bool makeMapped(const PlcInstance& c, const Pin& pin, host::PinCell& cell) {
 }
 
 bool makePins(PlcInstance& c) {
-  const std::vector<host::Pin>& pins = c.box->pins();
+  const std::vector<host::Pin>& pins = c.host->pins();
   const auto cells = [](size_t count) {
     return static_cast<host::PinCell*>(hal_malloc(static_cast<long>(count * sizeof(host::PinCell))));
   };
@@ -283,7 +283,7 @@ bool makePins(PlcInstance& c) {
   for (size_t i = 0; i < pins.size() && ok; ++i) ok = makeMapped(c, pins[i], c.cells[i]);
   if (!ok) return false;
   c.hasPins = true;
-  c.box->connect(c.cells, hal::kAccess);
+  c.host->connect(c.cells, hal::kAccess);
   if (c.devices != nullptr) c.devices->connectAxes(c.cells, hal::kAccess);
   return true;
 }
@@ -293,32 +293,32 @@ host::StepResult runFunction(PlcInstance& c, Function function, long periodNs) {
   const bool reset = hal::bit(c.own(OwnPin::Reset));
   const bool hasElapsed = c.fastCalled;
   c.fastCalled = function == kFast;
-  if (function == kFast) return c.box->stepFast(periodNs, reset);
-  return c.box->step(hasElapsed ? 0 : periodNs, reset);
+  if (function == kFast) return c.host->stepFast(periodNs, reset);
+  return c.host->step(hasElapsed ? 0 : periodNs, reset);
 }
 
 // Axes are at rest before their program is restarted, which takes a while.
 void stepDevices(PlcInstance& c, long periodNs) {
-  if (c.devices == nullptr || c.box->restarting()) return;
+  if (c.devices == nullptr || c.host->restarting()) return;
   c.devices->step(periodNs);
-  c.box->setRestartable(c.devices->axesAtRest());
+  c.host->setRestartable(c.devices->axesAtRest());
 }
 
 void runStep(PlcInstance& c, Function function, long periodNs) {
   constexpr int64_t kNsInUs = 1000;
   if (function == kScan) stepDevices(c, periodNs);
-  // While it is restarted, the box belongs to another thread.
-  if (!c.box->restarting()) c.box->setTimeLimit(int64_t{hal::u32(c.own(OwnPin::MaxTime))} * kNsInUs);
+  // While it is restarted, the host belongs to another thread.
+  if (!c.host->restarting()) c.host->setTimeLimit(int64_t{hal::u32(c.own(OwnPin::MaxTime))} * kNsInUs);
   const host::StepResult result = runFunction(c, function, periodNs);
-  const bool runs = c.box->running();
-  hal::setU32(c.own(OwnPin::FaultLine), c.box->faultLine()); // before `fault`, for which others wait
+  const bool runs = c.host->running();
+  hal::setU32(c.own(OwnPin::FaultLine), c.host->faultLine()); // before `fault`, for which others wait
   hal::setBit(c.own(OwnPin::Fault), !runs);
-  hal::setBit(c.own(OwnPin::Serving), runs && c.box->live().served.load(std::memory_order_acquire));
-  hal::setBit(c.own(OwnPin::FunctionsBusy), runs && c.box->functions().busy());
-  hal::setBit(c.own(OwnPin::FunctionsTimeout), runs && c.box->functions().late());
-  if (runs) hal::setU32(c.own(OwnPin::FunctionsLost), c.box->functions().lost());
+  hal::setBit(c.own(OwnPin::Serving), runs && c.host->live().served.load(std::memory_order_acquire));
+  hal::setBit(c.own(OwnPin::FunctionsBusy), runs && c.host->functions().busy());
+  hal::setBit(c.own(OwnPin::FunctionsTimeout), runs && c.host->functions().late());
+  if (runs) hal::setU32(c.own(OwnPin::FunctionsLost), c.host->functions().lost());
   if (result != host::StepResult::Ran) return; // after a fault the instance is the service's
-  const rung_state state = c.box->state();
+  const rung_state state = c.host->state();
   hal::setU32(c.own(OwnPin::Scans), static_cast<uint32_t>(state.passes));
   hal::setU32(c.own(OwnPin::Missed), static_cast<uint32_t>(state.missed));
 }
@@ -326,8 +326,8 @@ void runStep(PlcInstance& c, Function function, long periodNs) {
 // The program has had its regular end: nothing of it runs any more, and its axes come to rest.
 bool isPoweredOff(PlcInstance& c, Function function, long periodNs) {
   c.poweringOff = c.poweringOff || hal::bit(c.own(OwnPin::PowerOff));
-  if (!c.poweringOff || !c.box->ends()) return false;
-  c.box->clearPins();
+  if (!c.poweringOff || !c.host->powerOffDone()) return false;
+  c.host->clearPins();
   hal::setBit(c.own(OwnPin::Serving), false);
   hal::setBit(c.own(OwnPin::FunctionsBusy), false);
   hal::setBit(c.own(OwnPin::FunctionsTimeout), false);
@@ -336,16 +336,16 @@ bool isPoweredOff(PlcInstance& c, Function function, long periodNs) {
   return true;
 }
 
-bool isApart(PlcInstance& c, Function function) {
+bool threadsConflict(PlcInstance& c, Function function) {
   const pthread_t self = pthread_self();
   c.callers[function].store(self);
   const pthread_t other = c.callers[function == kScan ? kFast : kScan].load();
-  if (other != 0 && other != self) c.apart.store(true);
-  return c.apart.load();
+  if (other != 0 && other != self) c.conflict.store(true);
+  return c.conflict.load();
 }
 
-void stayApart(PlcInstance& c) {
-  c.box->clearPins();
+void rejectSecondThread(PlcInstance& c) {
+  c.host->clearPins();
   hal::setBit(c.own(OwnPin::Fault), true);
 }
 
@@ -353,8 +353,9 @@ void call(PlcInstance& c, Function function, long periodNs) {
   c.periodNs.store(periodNs, std::memory_order_relaxed);
   c.inside.fetch_add(1);
   if (!c.ending->load()) {
-    if (isApart(c, function)) {
-      if (function == kScan) stayApart(c); // again and again: the other thread may have been about to end its call
+    if (threadsConflict(c, function)) {
+      if (function == kScan)
+        rejectSecondThread(c); // again and again: the other thread may have been about to end its call
     } else if (!isPoweredOff(c, function, periodNs)) {
       runStep(c, function, periodNs);
     }
@@ -366,10 +367,10 @@ void call(PlcInstance& c, Function function, long periodNs) {
 void scan(void* argument, long periodNs) { call(*static_cast<PlcInstance*>(argument), kScan, periodNs); }
 void fast(void* argument, long periodNs) { call(*static_cast<PlcInstance*>(argument), kFast, periodNs); }
 
-void reportApart(PlcInstance& c) {
-  if (!c.apart.load() || c.apartReported) return;
-  c.apartReported = true;
-  complain("%s: the program does not run: %s\n", kModule, apartText(c).c_str());
+void reportConflict(PlcInstance& c) {
+  if (!c.conflict.load() || c.conflictReported) return;
+  c.conflictReported = true;
+  complain("%s: the program does not run: %s\n", kModule, conflictText(c).c_str());
 }
 
 void reportDevices(PlcInstance& c) {
@@ -378,7 +379,7 @@ void reportDevices(PlcInstance& c) {
 }
 
 void serveOnce(PlcInstance& c) {
-  reportApart(c);
+  reportConflict(c);
   c.controller->serveProgram(c.server.get());
   reportDevices(c);
 }
@@ -466,7 +467,7 @@ void endScans(Component& c) {
 void closeProgram(PlcInstance& c) {
   if (!c.controller) return;                // it was not loaded
   guarded([&] { return serveOnce(c), 0; }); // a fault of the last moment
-  const std::string error = c.box->close();
+  const std::string error = c.host->close();
   if (c.devices != nullptr) c.devices->end();
   reportDevices(c);
   guarded([&] { return c.controller->serveProgram(nullptr), 0; }); // what it has said at last

@@ -20,7 +20,7 @@
 #include "machine/control/controller.h"
 #include "machine/control/log.h"
 #include "machine/control/place.h"
-#include "machine/host/box.h"
+#include "machine/host/plc_host.h"
 #include "machine/io/connections/connections.h"
 #include "machine/io/host_devices.h"
 #include "machine/rung-run/config_pairs.h"
@@ -78,11 +78,12 @@ void catchSignals() {
 // One program with its pins, which rungctl can see: what is between its start and its end.
 class Run {
 public:
-  Run(const Options& options, const Image& image, std::unique_ptr<host::Box> box, rung_run::Simulation* simulation,
+  Run(const Options& options, const Image& image, std::unique_ptr<host::PlcHost> host, rung_run::Simulation* simulation,
       io::HostDevices& devices)
-      : devices_(devices), box_(std::move(box)), pins_(*box_), connections_(box_->map()), log_(box_->clock(), write),
-        controller_(options.name, *box_, image, log_), server_(options.name, getuid(), controller_),
-        scans_(*box_, pins_, connections_, devices,
+      : devices_(devices), host_(std::move(host)), pins_(*host_), connections_(host_->map()),
+        log_(host_->clock(), write), controller_(options.name, *host_, image, log_),
+        server_(options.name, getuid(), controller_),
+        scans_(*host_, pins_, connections_, devices,
                {.periodNs = int64_t{options.periodUs} * 1000,
                 .earlyNs = int64_t{options.earlyUs} * 1000,
                 .thread = {.priority = options.priority, .lockMemory = options.lockMemory}}) {
@@ -114,7 +115,7 @@ private:
     server_.serve(kTurn);
     report();
     controller_.serveClients(server_);
-    manager_.feed(scans_.steps(), box_->clock().nowNs());
+    manager_.feed(scans_.steps(), host_->clock().nowNs());
   }
 
   void report() {
@@ -128,7 +129,7 @@ private:
     manager_.stopping();
     guarded([&] { waitForEnd(); });
     guarded([&] { controller_.serveProgram(&server_); }); // a fault of the last moment
-    guarded([&] { error = box_->close(); });
+    guarded([&] { error = host_->close(); });
     guarded([&] { devices_.end(); });
     guarded([&] { controller_.serveProgram(&server_); });
     guarded([&] { report(); });
@@ -144,11 +145,11 @@ private:
   // A restart may be under way, which the steps wait for.
   void waitForEnd() {
     constexpr int64_t kSoonNs = 500'000'000;
-    const int64_t begun = box_->clock().nowNs();
+    const int64_t begun = host_->clock().nowNs();
     bool said = false;
     for (scans_.beginEnd(); !scans_.hasEnded();) {
       guarded([&] { turn(); });
-      if (said || box_->clock().nowNs() - begun < kSoonNs) continue;
+      if (said || host_->clock().nowNs() - begun < kSoonNs) continue;
       guarded([&] { log_.always("the program is being switched off: its last scans run"); });
       said = true;
     }
@@ -166,7 +167,7 @@ private:
   }
 
   io::HostDevices& devices_;
-  std::unique_ptr<host::Box> box_;
+  std::unique_ptr<host::PlcHost> host_;
   rung_run::Pins pins_;
   io::Connections connections_;
   control::Log log_;
@@ -204,9 +205,9 @@ bool namesDevices(const Options& options) {
 bool isOfTechnol(const Image& image) { return std::string_view(image.program().dialect) == "technol"; }
 
 // What the program has around it besides its pins; none: the control alone.
-host::Box::NewInstance surroundingsOf(const Options& options, const Image& image, const host::File& map,
-                                      std::vector<std::string>& errors,
-                                      std::unique_ptr<rung_run::Simulation>& simulation, io::HostDevices& devices) {
+host::PlcHost::NewInstance surroundingsOf(const Options& options, const Image& image, const host::File& map,
+                                          std::vector<std::string>& errors,
+                                          std::unique_ptr<rung_run::Simulation>& simulation, io::HostDevices& devices) {
   if (options.simulate) {
     simulation = rung_run::loadSimulation(image.program().dialect, options.config);
     return [&simulation](const Image& of, const rung_instance_options& with) { return simulation->instance(of, with); };
@@ -245,27 +246,27 @@ int run(const Options& options) try {
   host::File map = host::loadMap(options.map, errors);
   std::unique_ptr<rung_run::Simulation> simulation;
   io::HostDevices devices;
-  const host::Box::NewInstance newInstance = surroundingsOf(options, image, map, errors, simulation, devices);
+  const host::PlcHost::NewInstance newInstance = surroundingsOf(options, image, map, errors, simulation, devices);
   const bool hasMap = !map.paths.empty();
-  std::unique_ptr<host::Box> box;
+  std::unique_ptr<host::PlcHost> host;
   std::string problem; // of the machine
   try {
     if (hasMap)
-      box = host::Box::make(
+      host = host::PlcHost::make(
           image, std::move(map),
           {.retain = options.retain, .newInstance = newInstance, .catchUp = options.catchUp, .reset = "rungctl reset"},
           errors, warnings);
   } catch (const Error& error) {
     problem = error.what();
   }
-  if (box != nullptr && simulation != nullptr) std::ranges::move(simulation->problems(), std::back_inserter(warnings));
+  if (host != nullptr && simulation != nullptr) std::ranges::move(simulation->problems(), std::back_inserter(warnings));
   std::ranges::move(devices.warnings(), std::back_inserter(warnings));
   for (const std::string& text : warnings) print(text);
   for (const std::string& text : errors) print(text);
   if (!problem.empty()) print(problem);
-  if (box == nullptr) return hasMap && problem.empty() ? cli::kWrong : cli::kEnvironment;
-  box->setTimeLimit(int64_t{options.maxTimeUs} * 1000);
-  return Run(options, image, std::move(box), simulation.get(), devices).run();
+  if (host == nullptr) return hasMap && problem.empty() ? cli::kWrong : cli::kEnvironment;
+  host->setTimeLimit(int64_t{options.maxTimeUs} * 1000);
+  return Run(options, image, std::move(host), simulation.get(), devices).run();
 } catch (const rung_run::WrongOption& wrong) {
   print(wrong.what());
   return cli::kUsage;

@@ -3,22 +3,22 @@
 #include <cstdint>
 #include <vector>
 
-#include "machine/host/box.h"
+#include "machine/host/plc_host.h"
 
 namespace rung::rung_run {
 
 class Pins {
 public:
-  // Connects the box, which ends after it.
-  explicit Pins(host::Box& box) : values_(box.pins().size()) {
+  // Connects the host, which ends after it.
+  explicit Pins(host::PlcHost& host) : values_(host.pins().size()) {
     for (Value& value : values_) cells_.push_back({.any = &value});
-    cells_.push_back({}); // a box without pins has cells, too
-    box.connect(cells_.data());
+    cells_.push_back({}); // a host without pins has cells, too
+    host.connect(cells_.data());
   }
   Pins(const Pins&) = delete;
   Pins& operator=(const Pins&) = delete;
 
-  // In the order of the map, and one more.
+  // In the command of the map, and one more.
   const host::PinCell* cells() const noexcept { return cells_.data(); }
 
 private:

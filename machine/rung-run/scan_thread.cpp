@@ -24,7 +24,7 @@ void ScanThread::run(std::promise<std::string> begun) {
   begun.set_value(realTime.problem());
   if (!realTime.problem().empty()) return;
   int64_t last = begunNs_ = runtime::monotonicNs();
-  for (int64_t due = last + options_.periodNs; !(ending_ && box_.ends()); due += options_.periodNs) {
+  for (int64_t due = last + options_.periodNs; !(ending_ && host_.powerOffDone()); due += options_.periodNs) {
     waitFor(due);
     step(due, last);
     // Periods that have passed meanwhile are over: the next step catches up what is due.
@@ -38,7 +38,7 @@ void ScanThread::run(std::promise<std::string> begun) {
 void ScanThread::waitFor(int64_t due) const noexcept {
   runtime::sleepUntil(due - options_.earlyNs);
   if (options_.earlyNs == 0) return;
-  box_.touch(due);
+  host_.prefetch(due);
   runtime::waitAwake(due);
 }
 
@@ -46,8 +46,8 @@ void ScanThread::step(int64_t due, int64_t& last) noexcept {
   const int64_t begin = runtime::monotonicNs();
   const int64_t period = begin - std::exchange(last, begin);
   connections_.readInputs(pins_.cells(), begin);
-  if (!box_.restarting()) devices_.step(period);
-  box_.step(period);
+  if (!host_.restarting()) devices_.step(period);
+  host_.step(period);
   connections_.writeOutputs(pins_.cells());
   const int64_t late = begin - due;
   times_.add(

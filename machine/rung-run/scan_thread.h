@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "machine/host/box.h"
+#include "machine/host/plc_host.h"
 #include "machine/io/connections/connections.h"
 #include "machine/io/host_devices.h"
 #include "machine/rung-run/pins.h"
@@ -66,8 +66,8 @@ private:
   std::array<WorstStep, kWorst> worst_{}; // the longest first
 };
 
-// The thread that scans a program on the machine's clock: a step of the box at each multiple of the period, between the
-// newest inputs of its connections and their outputs.
+// The thread that scans a program on the machine's clock: a step of the host at each multiple of the period, between
+// the newest inputs of its connections and their outputs.
 
 struct ScanOptions {
   int64_t periodNs = 1'000'000;
@@ -77,9 +77,9 @@ struct ScanOptions {
 
 class ScanThread {
 public:
-  ScanThread(host::Box& box, const Pins& pins, io::Connections& connections, io::HostDevices& devices,
+  ScanThread(host::PlcHost& host, const Pins& pins, io::Connections& connections, io::HostDevices& devices,
              const ScanOptions& options)
-      : box_(box), pins_(pins), connections_(connections), devices_(devices), options_(options) {}
+      : host_(host), pins_(pins), connections_(connections), devices_(devices), options_(options) {}
   ~ScanThread() { end(); }
   ScanThread(const ScanThread&) = delete;
   ScanThread& operator=(const ScanThread&) = delete;
@@ -88,7 +88,7 @@ public:
   std::string start();
   // When the program needs no more steps; a few at most, unless it waits for its machine.
   void end();
-  // The same in two: it may be that it waits for the thread that serves the box.
+  // The same in two: it may be that it waits for the thread that serves the host.
   void beginEnd() noexcept { ending_ = true; }
   bool hasEnded() const noexcept { return ended_; }
 
@@ -101,7 +101,7 @@ private:
   void waitFor(int64_t due) const noexcept;
   void step(int64_t due, int64_t& last) noexcept;
 
-  host::Box& box_;
+  host::PlcHost& host_;
   const Pins& pins_;
   io::Connections& connections_;
   io::HostDevices& devices_;

@@ -23,8 +23,8 @@ bool isScheduled(const rung_program& program, uint32_t task) {
 
 } // namespace
 
-BlockPlace locateBlock(const Surroundings& around, const rung_program& program, const HostBlock& block) {
-  const std::optional<runtime::Ref> ref = around.writePlace(program, block.name); // as the machine sees it
+BlockPlace locateBlock(const Environment& environment, const rung_program& program, const HostBlock& block) {
+  const std::optional<runtime::Ref> ref = environment.writePlace(program, block.name); // as the machine sees it
   if (!ref) return {};
   const auto wrong = [](BlockState state) { return BlockPlace{.state = state}; };
   if (ref->kind == runtime::RefKind::Constant) return wrong(BlockState::Constant);
@@ -43,8 +43,8 @@ BlockPlace locateBlock(const Surroundings& around, const rung_program& program, 
 
 // ---- one program -------------------------------------------------------------------------------------------------
 
-void BlockPlan::add(const Surroundings& around, const HostBlock& block) {
-  const BlockPlace place = locateBlock(around, *program_, block);
+void BlockPlan::add(const Environment& environment, const HostBlock& block) {
+  const BlockPlace place = locateBlock(environment, *program_, block);
   if (!block.input)
     addOutput(block, place);
   else if (place.state == BlockState::Good)
@@ -130,17 +130,17 @@ void BlockPlan::clear() const noexcept {
 
 // ---- all programs ------------------------------------------------------------------------------------------------
 
-void HostBlocks::add(const Surroundings& around, const std::vector<HostBlock>& blocks) {
+void HostBlocks::add(const Environment& environment, const std::vector<HostBlock>& blocks) {
   const std::lock_guard lock(mutex_);
   for (const HostBlock& block : blocks) {
-    for (BlockPlan* plan : plans_) plan->add(around, block);
+    for (BlockPlan* plan : plans_) plan->add(environment, block);
     blocks_.push_back(block);
   }
 }
 
-void HostBlocks::join(const Surroundings& around, BlockPlan& plan) {
+void HostBlocks::join(const Environment& environment, BlockPlan& plan) {
   const std::lock_guard lock(mutex_);
-  for (const HostBlock& block : blocks_) plan.add(around, block);
+  for (const HostBlock& block : blocks_) plan.add(environment, block);
   plans_.push_back(&plan);
 }
 
@@ -179,12 +179,12 @@ int32_t failBlock(const rung_instance& instance, const HostBlock& block, BlockSt
 } // namespace
 
 int32_t checkPlace(const rung_instance& instance, const HostBlock& block) {
-  const BlockState state = locateBlock(*instance.around, instance.running.program(), block).state;
+  const BlockState state = locateBlock(*instance.environment, instance.running.program(), block).state;
   return state == BlockState::Good ? int32_t{RUNG_OK} : failBlock(instance, block, state);
 }
 
 void addBlocks(rung_instance& instance, const std::vector<HostBlock>& given) {
-  instance.generations.blocks.add(*instance.around, given);
+  instance.generations.blocks.add(*instance.environment, given);
   if (std::ranges::any_of(given, &HostBlock::input)) instance.running.setLatching(true);
 }
 

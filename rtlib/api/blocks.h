@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rtlib/api/surroundings.h"
+#include "rtlib/api/environment.h"
 #include "rtlib/core/memory.h"
 #include "rung/runtime.h"
 
@@ -35,7 +35,7 @@ struct BlockPlace {
   uint32_t space = RUNG_NONE;
   uint32_t byte = 0;
 };
-BlockPlace locateBlock(const Surroundings& around, const rung_program& program, const HostBlock& block);
+BlockPlace locateBlock(const Environment& environment, const rung_program& program, const HostBlock& block);
 
 // The blocks in one program. Copying allocates nothing.
 class BlockPlan {
@@ -44,7 +44,7 @@ public:
   BlockPlan(const rung_program& program, const core::NeededCopies& copies)
       : program_(&program), copies_(copies), reads_(program.task_count) {}
 
-  void add(const Surroundings& around, const HostBlock& block);
+  void add(const Environment& environment, const HostBlock& block);
 
   // What a run of the task reads; and what no task of the schedule reads, which others may look at.
   void latch(uint8_t* memory, uint32_t task) const noexcept { copyIn(reads_[task], memory); }
@@ -82,9 +82,9 @@ private:
 class HostBlocks {
 public:
   // Adds to every plan. The instance of the plans' programs does not run meanwhile.
-  void add(const Surroundings& around, const std::vector<HostBlock>& blocks);
+  void add(const Environment& environment, const std::vector<HostBlock>& blocks);
   // From now on the plan has all blocks.
-  void join(const Surroundings& around, BlockPlan& plan);
+  void join(const Environment& environment, BlockPlan& plan);
   void leave(BlockPlan& plan);
 
 private:

@@ -32,12 +32,12 @@ int formOf(rung_type type) { return type == RUNG_TYPE_F64 ? 1 : type == RUNG_TYP
 
 } // namespace
 
-LocatedCell locateCell(const Surroundings& around, const rung_program& program, const CellName& name,
+LocatedCell locateCell(const Environment& environment, const rung_program& program, const CellName& name,
                        const rung_type* as) {
   LocatedCell cell;
   cell.writes = (name.access & RUNG_WRITE) != 0;
   std::optional<runtime::Ref> ref =
-      cell.writes ? around.writePlace(program, name.name) : around.readPlace(program, name.name);
+      cell.writes ? environment.writePlace(program, name.name) : environment.readPlace(program, name.name);
   if (!ref) return cell;
   if ((name.access & RUNG_REAL) != 0) ref = realOf(program, *ref);
   cell.state = CellState::Retyped;
@@ -50,7 +50,7 @@ LocatedCell locateCell(const Surroundings& around, const rung_program& program, 
   if (!cell.writes) return cell;
   if (ref->kind == runtime::RefKind::Constant) cell.state = CellState::Constant;
   if (runtime::Overwritten(program).source(*ref)) cell.state = CellState::Overwritten;
-  if (around.control().writesItself(program, *ref)) cell.state = CellState::Controls;
+  if (environment.control().writesItself(program, *ref)) cell.state = CellState::Controls;
   return cell;
 }
 
@@ -98,23 +98,24 @@ bool CellNames::takeNumber(rung_cell& cell) {
   return true;
 }
 
-bool CellNames::find(const Surroundings& around, const rung_program& program, const CellName& name, CellState& state,
-                     rung_cell& cell) {
+bool CellNames::find(const Environment& environment, const rung_program& program, const CellName& name,
+                     CellState& state, rung_cell& cell) {
   const std::lock_guard lock(mutex_);
   if (const auto known = numbers_.find(name); known != numbers_.end()) {
     cell = known->second;
-    state = locateCell(around, program, name, &entries_[cell].type).state;
+    state = locateCell(environment, program, name, &entries_[cell].type).state;
     if (state == CellState::Good) ++entries_[cell].users;
     return true;
   }
-  const LocatedCell found = locateCell(around, program, name);
+  const LocatedCell found = locateCell(environment, program, name);
   state = found.state;
   if (state != CellState::Good) return true;
   if (!takeNumber(cell)) return false;
   numbers_.emplace(name, cell);
   entries_[cell] = {name, found.type, 1};
   for (CellTable* table : tables_)
-    table->set(cell, &table->program() == &program ? found : locateCell(around, table->program(), name, &found.type));
+    table->set(cell,
+               &table->program() == &program ? found : locateCell(environment, table->program(), name, &found.type));
   return true;
 }
 
@@ -133,10 +134,11 @@ bool CellNames::release(rung_cell cell) {
   return true;
 }
 
-std::optional<LocatedCell> CellNames::locate(const Surroundings& around, const rung_program& program, rung_cell cell) {
+std::optional<LocatedCell> CellNames::locate(const Environment& environment, const rung_program& program,
+                                             rung_cell cell) {
   const std::lock_guard lock(mutex_);
   if (!isUsed(cell)) return std::nullopt;
-  return locateCell(around, program, entries_[cell].name, &entries_[cell].type);
+  return locateCell(environment, program, entries_[cell].name, &entries_[cell].type);
 }
 
 std::optional<rung_type> CellNames::typeOf(rung_cell cell) {
@@ -149,10 +151,10 @@ std::string CellNames::nameOf(rung_cell cell) {
   return entries_[cell].name.name;
 }
 
-void CellNames::join(const Surroundings& around, CellTable& table) {
+void CellNames::join(const Environment& environment, CellTable& table) {
   const std::lock_guard lock(mutex_);
   for (const Entry& entry : entries_)
-    table.add(entry.users != 0 ? locateCell(around, table.program(), entry.name, &entry.type) : LocatedCell{});
+    table.add(entry.users != 0 ? locateCell(environment, table.program(), entry.name, &entry.type) : LocatedCell{});
   tables_.push_back(&table);
 }
 

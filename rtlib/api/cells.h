@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "rtlib/api/surroundings.h"
+#include "rtlib/api/environment.h"
 #include "rtlib/core/memory.h"
 #include "rung/runtime.h"
 
@@ -84,7 +84,7 @@ class CellNames {
 public:
   // The cell of this name, which has one more user; it is located in every table. `state` says what is wrong with it in
   // the program: then it is not entered, and gets no user. False: there are too many cells.
-  bool find(const Surroundings& around, const rung_program& program, const CellName& name, CellState& state,
+  bool find(const Environment& environment, const rung_program& program, const CellName& name, CellState& state,
             rung_cell& cell);
   // It has one more user, or one less. False: no cell has this number.
   bool hold(rung_cell cell);
@@ -93,9 +93,9 @@ public:
   std::optional<rung_type> typeOf(rung_cell cell);
   std::string nameOf(rung_cell cell); // of a cell that there is
   // Where it lies in the program; nothing where no cell has this number.
-  std::optional<LocatedCell> locate(const Surroundings& around, const rung_program& program, rung_cell cell);
+  std::optional<LocatedCell> locate(const Environment& environment, const rung_program& program, rung_cell cell);
   // From now on the table has all cells.
-  void join(const Surroundings& around, CellTable& table);
+  void join(const Environment& environment, CellTable& table);
   void leave(CellTable& table);
 
 private:
@@ -115,7 +115,7 @@ private:
 };
 
 // Where the name lies in a program; `as`: what it was when it was found.
-LocatedCell locateCell(const Surroundings& around, const rung_program& program, const CellName& name,
+LocatedCell locateCell(const Environment& environment, const rung_program& program, const CellName& name,
                        const rung_type* as = nullptr);
 
 } // namespace rung::api

@@ -44,7 +44,7 @@ int32_t checkFunction(rung_instance& instance, uint32_t channel, int32_t kind, u
     return fail(RUNG_BAD_ARGUMENT, "%d is not an enum rung_function_kind", kind);
   const nc::Functions* functions = functionsOf(instance, channel);
   if (functions == nullptr) return failChannel(channel);
-  if (functions->carries(static_cast<nc::FunctionKind>(kind), code)) return RUNG_OK;
+  if (functions->supports(static_cast<nc::FunctionKind>(kind), code)) return RUNG_OK;
   const std::string_view name = nc::kFunctionKinds[kind];
   return fail(RUNG_NOT_FOUND, "the dialect has no signals for %.*s%u", static_cast<int>(name.size()), name.data(),
               code);

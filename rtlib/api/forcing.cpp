@@ -79,7 +79,7 @@ int32_t locate(const rung_instance& instance, const rung_program& program, const
   const auto access = static_cast<int32_t>(wanted.access);
   if (access != RUNG_READ && access != RUNG_REAL)
     return fail(RUNG_BAD_ARGUMENT, "a cell is forced with RUNG_READ or RUNG_REAL, not with %d", access);
-  const LocatedCell read = locateCell(*instance.around, program, {wanted.name, access});
+  const LocatedCell read = locateCell(*instance.environment, program, {wanted.name, access});
   if (read.state == CellState::Retyped)
     return fail(RUNG_WRONG_TYPE, "%s has no room for a real of 64 bits", wanted.name);
   if (read.state != CellState::Good)
@@ -89,7 +89,7 @@ int32_t locate(const rung_instance& instance, const rung_program& program, const
   if (read.type == RUNG_TYPE_TEXT || read.ref.kind == runtime::RefKind::Constant)
     return fail(RUNG_WRONG_TYPE, "%s is a text or a constant: it cannot be forced", wanted.name);
   places.push_back({.ref = read.ref, .bits = bitsOf(read, wanted.value), .name = wanted.name});
-  const LocatedCell written = locateCell(*instance.around, program, {wanted.name, RUNG_WRITE | access});
+  const LocatedCell written = locateCell(*instance.environment, program, {wanted.name, RUNG_WRITE | access});
   if (written.state != CellState::Gone && written.state != CellState::Retyped && !(written.ref == read.ref))
     places.push_back({.ref = written.ref, .bits = bitsOf(written, wanted.value), .name = wanted.name});
   force = {.name = wanted.name,

@@ -83,10 +83,10 @@ void HostStruct::take() noexcept {
   for (int i = 0; i < kTries; ++i) {
     if (!copyWhole()) continue;
     for (const auto& [offset, bytes] : ranges_) std::memcpy(whole_.data() + offset, copy_.data() + offset, bytes);
-    torn_ = 0;
+    inconsistent_ = 0;
     return;
   }
-  if (torn_ != UINT32_MAX) ++torn_;
+  if (inconsistent_ != UINT32_MAX) ++inconsistent_;
 }
 
 // ---- checks ------------------------------------------------------------------------------------------------------
@@ -252,13 +252,13 @@ int32_t rung_instance_bind_struct(rung_instance* instance, const rung_layout* la
   return contained([&] { return bindStruct(*call, given, static_cast<uint8_t*>(address)); });
 }
 
-int32_t rung_instance_torn(const rung_instance* instance, const void* address, uint32_t* slices) {
+int32_t rung_instance_inconsistent(const rung_instance* instance, const void* address, uint32_t* slices) {
   const Call call(instance, When::Always);
   if (!call.ok()) return call.status();
   if (slices == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the number is null");
   const HostStruct* found = call->structs.at(address);
   if (found == nullptr || !found->guarded())
     return fail(RUNG_NOT_FOUND, "no struct with counters is bound at this address");
-  *slices = found->torn();
+  *slices = found->inconsistent();
   return RUNG_OK;
 }

@@ -23,7 +23,7 @@ public:
   uint8_t* inputs() { return guarded() ? whole_.data() : address_; }
   // A new copy, where a whole one can be had.
   void take() noexcept;
-  uint32_t torn() const { return torn_; } // slices
+  uint32_t inconsistent() const { return inconsistent_; } // slices
 
 private:
   using Range = std::pair<uint32_t, uint32_t>; // offset, bytes
@@ -34,7 +34,7 @@ private:
   uint8_t* address_;
   std::vector<Range> ranges_; // of its members to the program
   std::vector<uint8_t> copy_, whole_;
-  uint32_t torn_ = 0;
+  uint32_t inconsistent_ = 0;
 };
 
 // What is wrong with a layout; nullptr: nothing. Rows are not looked up in a program.

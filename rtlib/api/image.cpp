@@ -47,13 +47,13 @@ Generation::~Generation() {
   all_.blocks.leave(blockPlan);
 }
 
-std::shared_ptr<Generation> Generations::add(const Surroundings& around, std::shared_ptr<const Image> image,
+std::shared_ptr<Generation> Generations::add(const Environment& environment, std::shared_ptr<const Image> image,
                                              std::shared_ptr<const runtime::CopyLists> lists) {
   const std::lock_guard lock(mutex_);
   letGoLocked();
   auto made = std::make_shared<Generation>(*this, last_ + 1, std::move(image), std::move(lists));
-  names.join(around, made->cells);
-  blocks.join(around, made->blockPlan);
+  names.join(environment, made->cells);
+  blocks.join(environment, made->blockPlan);
   all_.push_back(made);
   ++last_;
   return made;

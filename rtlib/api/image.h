@@ -78,7 +78,7 @@ private:
 class Generations {
 public:
   // For any thread, but not in real time. Lets go what nobody needs any more.
-  std::shared_ptr<Generation> add(const Surroundings& around, std::shared_ptr<const Image> image,
+  std::shared_ptr<Generation> add(const Environment& environment, std::shared_ptr<const Image> image,
                                   std::shared_ptr<const runtime::CopyLists> lists);
   // The one that runs at this moment; it stays alive, and may run no longer.
   std::shared_ptr<Generation> running();

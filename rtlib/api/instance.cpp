@@ -46,12 +46,12 @@ int32_t failCallback() noexcept { return fail(RUNG_WRONG_STATE, "a callback of t
 // What the control shows, it has heard of: messages of the time before come first.
 void Hooks::onHook(runtime::Instance& running, uint32_t work) {
   takeMessages(instance_);
-  instance_.around->onHook(running, work);
+  instance_.environment->onHook(running, work);
 }
 
-uint32_t Hooks::works() const { return instance_.around->works(); }
+uint32_t Hooks::works() const { return instance_.environment->works(); }
 
-void Hooks::onFault(runtime::Instance& running) { instance_.around->onFault(running); }
+void Hooks::onFault(runtime::Instance& running) { instance_.environment->onFault(running); }
 
 void Hooks::onLatch(runtime::Instance& running, uint32_t task) {
   instance_.now().blockPlan.latch(running.block().data(), task);
@@ -69,7 +69,7 @@ bool Hooks::respond(runtime::Instance& running, const core::ServiceRequest& requ
     reply.ticket = request.ticket;
   }
   if (answer == RUNG_ANSWER) return true;
-  return answer != RUNG_QUEUE && instance_.around->respond(running, request, reply);
+  return answer != RUNG_QUEUE && instance_.environment->respond(running, request, reply);
 }
 
 // ---- power -------------------------------------------------------------------------------------------------------
@@ -114,7 +114,7 @@ int32_t powerOn(rung_instance& instance, nc::PowerOn kind) {
   }
   instance.running.setStopped(false);
   instance.running.clearProfile();
-  instance.around->powerOn(instance.running, kind);
+  instance.environment->powerOn(instance.running, kind);
   takeMessages(instance);
   settleForces(instance);
   instance.pace.restart();
@@ -172,13 +172,13 @@ runtime::PaceOptions paceOf(const rung_instance_options& given) noexcept {
 } // namespace
 
 rung_instance::rung_instance(std::shared_ptr<const Image> from, const rung_instance_options& given,
-                             std::unique_ptr<Surroundings> surroundings, bool alone)
-    : options(given), dialect(from->program.dialect), around(std::move(surroundings)), control(&around->control()),
+                             std::unique_ptr<Environment> own, bool alone)
+    : options(given), dialect(from->program.dialect), environment(std::move(own)), control(&environment->control()),
       controlAlone(alone), hooks(*this),
       running({from->program, from->engine, static_cast<uint8_t*>(given.memory), serviceNames.of(from->program)},
               &hooks),
       pace(running, paceOf(given)) {
-  generations.enter(*generations.add(*around, std::move(from), running.copyLists()));
+  generations.enter(*generations.add(*environment, std::move(from), running.copyLists()));
   control->onReplace(running); // a replacement before the first power-on gets places in exchange
   beginLeavingOut();
 }
@@ -187,7 +187,7 @@ rung_instance::~rung_instance() = default;
 
 namespace rung::api {
 
-int32_t newInstance(rung_image* image, const rung_instance_options* options, std::unique_ptr<Surroundings> around,
+int32_t newInstance(rung_image* image, const rung_instance_options* options, std::unique_ptr<Environment> environment,
                     rung_instance** instance) {
   const rung_image* handle = checked(image, kImageMark);
   if (handle == nullptr) return failHandle("an image");
@@ -200,9 +200,9 @@ int32_t newInstance(rung_image* image, const rung_instance_options* options, std
   if (const int32_t status = checkMemory(handle->image->program, given.memory, given.memory_bytes); status != RUNG_OK)
     return status;
   return contained([&] {
-    const bool alone = around == nullptr;
-    if (alone) around = controlAlone(handle->image->program.dialect);
-    *instance = new rung_instance(handle->image, given, std::move(around), alone);
+    const bool alone = environment == nullptr;
+    if (alone) environment = controlAlone(handle->image->program.dialect);
+    *instance = new rung_instance(handle->image, given, std::move(environment), alone);
     return int32_t{RUNG_OK};
   });
 }

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "rtlib/api/environment.h"
 #include "rtlib/api/host_struct.h"
 #include "rtlib/api/image.h"
-#include "rtlib/api/surroundings.h"
 #include "rtlib/api/watch.h"
 #include "rtlib/core/ring.h"
 #include "rtlib/nc/control/control.h"
@@ -34,7 +34,7 @@ struct BoundVariable {
   double scale = 1;
 };
 
-// The place of the surroundings in the schedule, with what the host wants to hear of it.
+// The place of the environment in the schedule, with what the host wants to hear of it.
 class Hooks final : public runtime::ScheduleHooks {
 public:
   explicit Hooks(rung_instance& instance) : instance_(instance) {}
@@ -52,10 +52,10 @@ private:
 
 struct rung_instance {
   rung_instance(std::shared_ptr<const rung::api::Image> program, const rung_instance_options& given,
-                std::unique_ptr<rung::api::Surroundings> surroundings, bool controlAlone);
+                std::unique_ptr<rung::api::Environment> environment, bool controlAlone);
   ~rung_instance();
 
-  // Border copies leave out what no rung touches, until the host finds or binds something there. Surroundings see all
+  // Border copies leave out what no rung touches, until the host finds or binds something there. Environment see all
   // of the memory.
   void beginLeavingOut() noexcept {
     running.setNeededCopiesOnly(controlAlone && !running.neededCopies().leftOut.empty() && !seesLeftOut());
@@ -72,7 +72,7 @@ struct rung_instance {
 
   rung_instance_options options;
   std::string dialect; // of all its programs
-  std::unique_ptr<rung::api::Surroundings> around;
+  std::unique_ptr<rung::api::Environment> environment;
   rung::nc::Control* control; // in `around`
   bool controlAlone;          // there
   rung::api::ServiceNames serviceNames;

@@ -24,11 +24,11 @@ struct rung_replacement {
       : instance(of), former(of.generations.running()),
         replacement(former->program(), {image->program, image->engine, memory, of.serviceNames.of(image->program)},
                     nc::address),
-        places(of.control->locate(image->program)), placesAround(of.around->locate(image->program)),
-        lane(std::make_unique<runtime::RetainLane>(runtime::RetainMap(image->program))) {
+        places(of.control->locate(image->program)), environmentPlaces(of.environment->locate(image->program)),
+        channel(std::make_unique<runtime::RetainChannel>(runtime::RetainMap(image->program))) {
     bound = runtime::measureBound({image->program, image->engine});
     boundText = runtime::boundText(bound, image->program);
-    next = of.generations.add(*of.around, image, replacement.copyLists());
+    next = of.generations.add(*of.environment, image, replacement.copyLists());
   }
   ~rung_replacement() {
     rung_replacement* self = this;
@@ -47,12 +47,12 @@ struct rung_replacement {
   std::shared_ptr<Generation> former, next;
   runtime::Replacement replacement;
   // Of the program that it holds.
-  std::unique_ptr<nc::Places> places;        // of the control
-  std::unique_ptr<nc::Places> placesAround;  // of the surroundings
-  std::unique_ptr<runtime::RetainLane> lane; // what is kept
-  std::atomic<bool> holdsFormer{false};      // `next` runs
-  std::atomic<bool> spent{false};            // a fault of `next` has put `former` back
-  runtime::ScanBound bound;                  // of `next`
+  std::unique_ptr<nc::Places> places;              // of the control
+  std::unique_ptr<nc::Places> environmentPlaces;   // of the environment
+  std::unique_ptr<runtime::RetainChannel> channel; // what is kept
+  std::atomic<bool> holdsFormer{false};            // `next` runs
+  std::atomic<bool> spent{false};                  // a fault of `next` has put `former` back
+  runtime::ScanBound bound;                        // of `next`
   std::string boundText;
   std::atomic<bool> mayBeLate{false};
 };
@@ -82,7 +82,7 @@ namespace {
 rung_rung_change rungChangeOf(const rung_replacement& replacement, const runtime::RungChange& change) noexcept {
   const bool removed = change.after == RUNG_NONE;
   const rung_program& program = replacement.program(removed != replacement.holdsFormer);
-  const rung_rung_info& rung = program.rungs[removed ? change.before : change.after];
+  const rung_info& rung = program.rungs[removed ? change.before : change.after];
   uint32_t kind = change.kind == runtime::RungKind::Moved ? RUNG_RUNG_MOVED : RUNG_RUNG_CHANGED;
   if (change.before == RUNG_NONE) kind = RUNG_RUNG_NEW;
   if (removed) kind = RUNG_RUNG_REMOVED;
@@ -110,12 +110,12 @@ runtime::ReplaceResult exchange(rung_instance& instance, rung_replacement& repla
   if (result != runtime::ReplaceResult::Replaced) return result;
   keepFault(instance, instance.now(), fault);
   instance.control->exchangePlaces(instance.running, replacement.places);
-  instance.around->exchangePlaces(replacement.placesAround);
-  instance.around->programChanged(instance.running, instance.now().program());
+  instance.environment->exchangePlaces(replacement.environmentPlaces);
+  instance.environment->programChanged(instance.running, instance.now().program());
   instance.generations.enter(replacement.held());
   instance.beginLeavingOut();
   settleForces(instance);
-  if (instance.retention) instance.retention->programChanged(replacement.lane);
+  if (instance.retention) instance.retention->programChanged(replacement.channel);
   instance.pace.programChanged();
   replacement.holdsFormer = !replacement.holdsFormer;
   instance.former.store(replacement.holdsFormer ? &replacement : nullptr);

@@ -22,7 +22,7 @@ void stepFunctions(rung_instance& instance) noexcept {
 }
 
 void endSlice(rung_instance& instance) noexcept {
-  instance.around->afterPart(instance.running);
+  instance.environment->afterPart(instance.running);
   instance.running.hold();
   if (instance.retention && !instance.retention->afterSlice() && (instance.options.flags & RUNG_SAVE_AT_ONCE) != 0) {
     (void)instance.retention->flush();
@@ -57,7 +57,7 @@ void beforePart(rung_instance& instance) noexcept {
   instance.structs.takeAll();
   if (!instance.inputs.empty()) readInputs(instance); // most hosts bind none
   instance.now().blockPlan.readRest(instance.running.block().data());
-  instance.around->beforePart(instance.running);
+  instance.environment->beforePart(instance.running);
 }
 
 void afterPart(rung_instance& instance) noexcept {
@@ -130,7 +130,7 @@ namespace {
 
 rung_profile profileOf(const rung_instance& instance, uint32_t index) noexcept {
   const rung_program& program = instance.running.program();
-  const rung_rung_info& rung = program.rungs[index];
+  const rung_info& rung = program.rungs[index];
   const rung_prof& counters = instance.running.profile()[index];
   const runtime::ProfileClock& clock = instance.now().clock;
   const double ticks = static_cast<double>(counters.total) - static_cast<double>(counters.count) * clock.costTicks;
@@ -198,9 +198,9 @@ int32_t rung_instance_limit(rung_instance* instance, int64_t ns) {
   return RUNG_OK;
 }
 
-int32_t rung_instance_touch(const rung_instance* instance, int64_t until_ns) {
+int32_t rung_instance_prefetch(const rung_instance* instance, int64_t until_ns) {
   const Call call(instance);
-  if (call.ok()) call->now().image->footprint.touch(call->running.block().data(), until_ns);
+  if (call.ok()) call->now().image->footprint.prefetch(call->running.block().data(), until_ns);
   return call.status();
 }
 
@@ -283,7 +283,7 @@ int32_t rung_instance_fault(const rung_instance* instance, rung_fault_info* info
     if (fault.code == core::kMaxTimeFault) out.code = "max-time";
     if (fault.task < program.task_count) out.task = program.tasks[fault.task].name;
     if (fault.rung < program.rung_count) {
-      const rung_rung_info& rung = program.rungs[fault.rung];
+      const rung_info& rung = program.rungs[fault.rung];
       out.rung = rung.number;
       if (rung.file < program.file_count) out.file = program.files[rung.file];
       if (out.line == 0) out.line = rung.first_line;

@@ -41,7 +41,7 @@ int32_t failName(const rung_instance& instance, const rung_program& program, con
   if (state == CellState::Constant) return fail(RUNG_WRONG_TYPE, "%s is a constant: it cannot be written", name);
   if (state == CellState::Controls) return fail(RUNG_OVERWRITTEN, "the control itself writes %s: it can be read", name);
   if (state != CellState::Overwritten) return api::failName(program, name);
-  const std::optional<runtime::Ref> place = instance.around->writePlace(program, name);
+  const std::optional<runtime::Ref> place = instance.environment->writePlace(program, name);
   const std::optional<runtime::Ref> source = place ? runtime::Overwritten(program).source(*place) : std::nullopt;
   return fail(RUNG_OVERWRITTEN, "%s is copied from %s before the program reads it: write there", name,
               source ? nc::describe(program, *source).c_str() : "another place");
@@ -106,7 +106,7 @@ const LocatedCell* elementsOf(const rung_instance& instance, rung_cell cell, boo
 int32_t findCell(rung_instance& instance, const rung_program& program, const char* name, int32_t access,
                  rung_cell& cell) {
   CellState state = CellState::Good;
-  if (!instance.generations.names.find(*instance.around, program, {name, access}, state, cell))
+  if (!instance.generations.names.find(*instance.environment, program, {name, access}, state, cell))
     return fail(RUNG_OUT_OF_MEMORY, "an instance has no more than %u cells", CellTable::kMostCells);
   return state == CellState::Good ? int32_t{RUNG_OK} : failName(instance, program, name, state);
 }
@@ -329,7 +329,7 @@ int32_t rung_instance_describe(const rung_instance* instance, const rung_replace
       in = handle->generations.running();
     else if (const int32_t status = nextOf(*handle, replacement, in); status != RUNG_OK)
       return status;
-    const LocatedCell found = locateCell(*handle->around, in->program(), {name, access});
+    const LocatedCell found = locateCell(*handle->environment, in->program(), {name, access});
     if (found.state != CellState::Good) return failName(*handle, in->program(), name, found.state);
     *value = found.ref.kind == runtime::RefKind::Constant ? static_cast<int64_t>(found.ref.constant) : 0;
     return giveStruct(info, infoOf(in->program(), found));
@@ -348,7 +348,7 @@ int32_t rung_instance_cell(const rung_instance* instance, rung_cell cell, rung_c
   return contained([&] {
     const std::shared_ptr<const Generation> running = handle->generations.running();
     const std::optional<LocatedCell> found =
-        handle->generations.names.locate(*handle->around, running->program(), cell);
+        handle->generations.names.locate(*handle->environment, running->program(), cell);
     if (!found) return failCell(cell);
     if (found->state != CellState::Good) return failState(found->state);
     return giveStruct(info, infoOf(running->program(), *found));

@@ -218,7 +218,7 @@ std::vector<RungPair> alignRungs(std::span<const RungMark> before, std::span<con
 std::vector<RungMark> rungMarks(const rung_program& program) {
   std::vector<RungMark> marks;
   for (uint32_t i = 0; i < program.rung_count; ++i) {
-    const rung_rung_info& rung = program.rungs[i];
+    const rung_info& rung = program.rungs[i];
     marks.push_back({program.routines[rung.routine], textOfKey(rung.key, rung.copy), rung.title});
   }
   return marks;

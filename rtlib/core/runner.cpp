@@ -175,10 +175,10 @@ rung_chunk_fn functionOf(const rung_chunk_fn* functions, uint32_t chunk) noexcep
   return std::atomic_ref<rung_chunk_fn>(const_cast<rung_chunk_fn&>(functions[chunk])).load(std::memory_order_acquire);
 }
 
-// The compiler has found that no way through the task uses up its budget. (`heaviest` is never above the budget, so
+// The compiler has found that no way through the task uses up its budget. (`longest` is never above the budget, so
 // one that equals it may be heavier.)
 bool isBounded(const rung_task& task) noexcept {
-  return task.circles == 0 && uint64_t{task.heaviest} * task.part_count < task.budget;
+  return task.loops == 0 && uint64_t{task.longest} * task.part_count < task.budget;
 }
 
 } // namespace
@@ -284,12 +284,12 @@ inline uint32_t Runner::runFrom(uint32_t pc, uint32_t limit, const rung_task& t,
   return isBounded(t) ? runBounded(pc, limit) : runCounted(pc, limit, t, budget);
 }
 
-// As long as control may go in circles; what comes after them is mostly far lighter than what is left of the budget.
+// As long as control may go in loops; what comes after them is mostly far lighter than what is left of the budget.
 uint32_t Runner::runCounted(uint32_t pc, uint32_t limit, const rung_task& task, uint32_t& budget) noexcept {
-  if (task.straight_chunk < limit) {
-    pc = runChunks<false>(pc, task.straight_chunk, task, budget);
+  if (task.loop_free_chunk < limit) {
+    pc = runChunks<false>(pc, task.loop_free_chunk, task, budget);
     if (pc >= program_->chunk_count) return pc;
-    if (task.straight_weight <= budget) return runBounded(pc, limit);
+    if (task.loop_free_weight <= budget) return runBounded(pc, limit);
   }
   return runChunks<false>(pc, limit, task, budget);
 }

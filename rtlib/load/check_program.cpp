@@ -373,7 +373,7 @@ private:
         return failAt("chunk", i, "has code that is not in the file");
     }
     for (uint32_t i = 0; error_.empty() && i < p_.rung_count; ++i) {
-      const rung_rung_info& r = p_.rungs[i];
+      const rung_info& r = p_.rungs[i];
       if (r.title == nullptr) return failAt("rung", i, "has no title, not even \"\"");
       readable("rung", i, r.title);
       if (r.file != RUNG_NONE) index("rung", i, "file", r.file, p_.file_count);
@@ -403,7 +403,7 @@ private:
       checkReads(i);
       piece("task", i, "changes", t.change_first, t.change_count, p_.change_count);
       if (t.change_count > RUNG_MOST_CHANGES) failAt("task", i, "has too many changes");
-      if (t.straight_chunk != RUNG_PC_DONE) index("task", i, "straight chunk", t.straight_chunk, p_.chunk_count);
+      if (t.loop_free_chunk != RUNG_PC_DONE) index("task", i, "straight chunk", t.loop_free_chunk, p_.chunk_count);
       if (t.part_count == 0) failAt("task", i, "has no parts, expected at least 1");
       if (error_.empty()) checkParts(i, t);
     }

@@ -74,7 +74,7 @@ uint64_t scanPeriodUs(const rung_program& program) {
 
 std::string rungText(const rung_program& program, uint32_t rung, uint32_t line) {
   if (rung >= program.rung_count) return "unknown rung";
-  const rung_rung_info& info = program.rungs[rung];
+  const rung_info& info = program.rungs[rung];
   const char* routine = info.routine < program.routine_count ? program.routines[info.routine] : "?";
   std::string text = info.number != 0 ? "rung " + std::to_string(info.number) : routine; // what is not drawn
   if (info.title != nullptr && *info.title != '\0') text += " \"" + std::string(info.title) + "\"";

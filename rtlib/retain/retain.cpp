@@ -157,27 +157,27 @@ bool RetainStore::save(std::span<const uint8_t> bytes, const RetainLayout& layou
 
 // ---- saver -------------------------------------------------------------------------------------------------------
 
-RetainLane::RetainLane(RetainLayout layout, uint32_t rawSize, uint32_t imageSize, Pack pack)
+RetainChannel::RetainChannel(RetainLayout layout, uint32_t rawSize, uint32_t imageSize, Pack pack)
     : layout_(std::move(layout)), imageSize_(imageSize), pack_(std::move(pack)) {
   for (Offer& offer : offers_) offer.raw.resize(rawSize);
 }
 
-RetainLane::RetainLane(const RetainMap& map)
-    : RetainLane(map.layout(), map.rawSize(), map.size(),
-                 [map](std::span<const uint8_t> raw, std::span<uint8_t> image) { map.pack(raw, image); }) {}
+RetainChannel::RetainChannel(const RetainMap& map)
+    : RetainChannel(map.layout(), map.rawSize(), map.size(),
+                    [map](std::span<const uint8_t> raw, std::span<uint8_t> image) { map.pack(raw, image); }) {}
 
-void RetainLane::enter(int64_t saver) noexcept {
+void RetainChannel::enter(int64_t saver) noexcept {
   if (saver_ == saver) return;
   saver_ = saver;
   newest_ = 0;
   for (Offer& offer : offers_) offer.ticket = 0;
 }
 
-RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, std::unique_ptr<RetainLane> lane,
+RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, std::unique_ptr<RetainChannel> channel,
                          std::chrono::milliseconds period)
-    : target_(std::move(target)), begun_(monotonicNs()), lane_(std::move(lane)), current_(lane_.get()),
+    : target_(std::move(target)), begun_(monotonicNs()), channel_(std::move(channel)), current_(channel_.get()),
       period_(period) {
-  lane_->enter(begun_);
+  channel_->enter(begun_);
   if (period.count() != 0) thread_ = std::thread([this] { work(); });
 }
 
@@ -198,21 +198,21 @@ std::string RetainSaver::problem() const {
   return {text.data(), problem(text)};
 }
 
-void RetainSaver::take(RetainLane& lane) {
-  if ((lane.shared_.load(std::memory_order_acquire) & RetainLane::kFresh) != 0)
-    lane.front_ = lane.shared_.exchange(lane.front_, std::memory_order_acq_rel) & ~RetainLane::kFresh;
-  const RetainLane::Offer& offer = lane.offers_[lane.front_];
+void RetainSaver::take(RetainChannel& channel) {
+  if ((channel.shared_.load(std::memory_order_acquire) & RetainChannel::kFresh) != 0)
+    channel.front_ = channel.shared_.exchange(channel.front_, std::memory_order_acq_rel) & ~RetainChannel::kFresh;
+  const RetainChannel::Offer& offer = channel.offers_[channel.front_];
   if (offer.ticket <= pending_.ticket) return;
-  if (pending_.layout.hash != lane.layout_.hash) pending_.layout = lane.layout_;
-  pending_.bytes.assign(lane.imageSize_, 0);
-  lane.pack_(offer.raw, pending_.bytes);
+  if (pending_.layout.hash != channel.layout_.hash) pending_.layout = channel.layout_;
+  pending_.bytes.assign(channel.imageSize_, 0);
+  channel.pack_(offer.raw, pending_.bytes);
   pending_.ticket = offer.ticket;
 }
 
-// The present lane is asked for first: another program may take over meanwhile, and then it is the former one.
+// The present channel is asked for first: another program may take over meanwhile, and then it is the former one.
 void RetainSaver::takeOffered() {
-  RetainLane& current = *current_.load(std::memory_order_acquire);
-  RetainLane* former = former_.load(std::memory_order_acquire);
+  RetainChannel& current = *current_.load(std::memory_order_acquire);
+  RetainChannel* former = former_.load(std::memory_order_acquire);
   if (former != nullptr) take(*former);
   take(current);
 }
@@ -251,7 +251,7 @@ void RetainSaver::look() noexcept {
 
 void RetainSaver::settle() noexcept {
   const std::lock_guard lock(looking_);
-  RetainLane* former = former_.load(std::memory_order_acquire);
+  RetainChannel* former = former_.load(std::memory_order_acquire);
   try {
     takeOffered();
   } catch (const std::exception& thrown) { // out of memory: what was offered last is lost

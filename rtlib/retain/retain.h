@@ -64,14 +64,14 @@ private:
 };
 
 // What the scan thread copies for the saver, of one program: its bytes, and how they become an image.
-class RetainLane {
+class RetainChannel {
 public:
   // How the bytes that were copied in the scan become the image; runs on the saver's thread.
   using Pack = std::function<void(std::span<const uint8_t> raw, std::span<uint8_t> image)>;
 
-  RetainLane(RetainLayout layout, uint32_t rawSize, uint32_t imageSize, Pack pack);
+  RetainChannel(RetainLayout layout, uint32_t rawSize, uint32_t imageSize, Pack pack);
   // Of the retained memory of an instance.
-  explicit RetainLane(const RetainMap& map);
+  explicit RetainChannel(const RetainMap& map);
 
 private:
   friend class RetainSaver;
@@ -103,7 +103,8 @@ class RetainSaver {
 public:
   // Looks for images once a `period`, because waking it would cost the scan thread a system call. 0: it has no thread,
   // and looks where that is asked for.
-  RetainSaver(std::unique_ptr<RetainTarget> target, std::unique_ptr<RetainLane> lane, std::chrono::milliseconds period);
+  RetainSaver(std::unique_ptr<RetainTarget> target, std::unique_ptr<RetainChannel> channel,
+              std::chrono::milliseconds period);
   ~RetainSaver(); // tries to save what was offered last
   RetainSaver(const RetainSaver&) = delete;
   RetainSaver& operator=(const RetainSaver&) = delete;
@@ -112,29 +113,31 @@ public:
   // they grow from 1.
   template <class Copy>
   uint64_t offerFrom(Copy copy) noexcept {
-    RetainLane::Offer& offer = lane_->offers_[lane_->back_];
+    RetainChannel::Offer& offer = channel_->offers_[channel_->back_];
     copy(std::span<uint8_t>(offer.raw));
-    offer.ticket = lane_->newest_ = ++lastTicket_;
-    lane_->back_ =
-        lane_->shared_.exchange(lane_->back_ | RetainLane::kFresh, std::memory_order_acq_rel) & ~RetainLane::kFresh;
+    offer.ticket = channel_->newest_ = ++lastTicket_;
+    channel_->back_ = channel_->shared_.exchange(channel_->back_ | RetainChannel::kFresh, std::memory_order_acq_rel) &
+                      ~RetainChannel::kFresh;
     return lastTicket_;
   }
   uint64_t offer(const Instance& instance) noexcept {
     return offerFrom([&](std::span<uint8_t> to) { instance.copyRetained(to); });
   }
   // The saver has seen what was offered last: a copy is worth its time again.
-  bool taken() const noexcept { return (lane_->shared_.load(std::memory_order_acquire) & RetainLane::kFresh) == 0; }
-  // Another program has taken over: what is offered from now on goes through its lane. What was offered last, of
-  // whichever program of before, is saved all the same, until there is something newer. `lane` gets the former lane; it
-  // must not end before `settle` has returned.
-  void swapLane(std::unique_ptr<RetainLane>& lane) noexcept {
-    lane->enter(begun_);
-    if (lane_->newest_ > formerNewest_) {
-      formerNewest_ = lane_->newest_;
-      former_.store(lane_.get(), std::memory_order_release);
+  bool taken() const noexcept {
+    return (channel_->shared_.load(std::memory_order_acquire) & RetainChannel::kFresh) == 0;
+  }
+  // Another program has taken over: what is offered from now on goes through its channel. What was offered last, of
+  // whichever program of before, is saved all the same, until there is something newer. `channel` gets the former
+  // channel; it must not end before `settle` has returned.
+  void swapChannel(std::unique_ptr<RetainChannel>& channel) noexcept {
+    channel->enter(begun_);
+    if (channel_->newest_ > formerNewest_) {
+      formerNewest_ = channel_->newest_;
+      former_.store(channel_.get(), std::memory_order_release);
     }
-    lane_.swap(lane);
-    current_.store(lane_.get(), std::memory_order_release);
+    channel_.swap(channel);
+    current_.store(channel_.get(), std::memory_order_release);
   }
 
   // Any thread, without a lock.
@@ -147,7 +150,7 @@ public:
 
   // Not in a scan, any thread. Saves what was offered last, where that is not on disk.
   void look() noexcept;
-  // The saver has all that it needs of the lane of before, and uses it no more.
+  // The saver has all that it needs of the channel of before, and uses it no more.
   void settle() noexcept;
   // As `look`. True: what was offered last is on disk.
   bool flush() noexcept {
@@ -166,14 +169,15 @@ private:
   };
   void work();
   void takeOffered();
-  void take(RetainLane& lane);
+  void take(RetainChannel& channel);
   bool save(std::string& error);
 
   std::unique_ptr<RetainTarget> target_;
-  int64_t begun_;                            // in ns: no other saver of the process has the same
-  std::unique_ptr<RetainLane> lane_;         // the scan thread's
-  std::atomic<RetainLane*> former_{nullptr}; // for the saver: one of before with the newest offer, and the present one
-  std::atomic<RetainLane*> current_;
+  int64_t begun_;                          // in ns: no other saver of the process has the same
+  std::unique_ptr<RetainChannel> channel_; // the scan thread's
+  std::atomic<RetainChannel*> former_{
+      nullptr}; // for the saver: one of before with the newest offer, and the present one
+  std::atomic<RetainChannel*> current_;
   uint64_t lastTicket_ = 0, formerNewest_ = 0; // the scan thread's
   std::mutex looking_;                         // held while somebody looks
   Image pending_;

@@ -50,7 +50,7 @@ bool RetainedMemory::load(Instance& instance, std::string& report, std::string& 
   instance.copyRetained(raw);
   map_.pack(raw, now);
   if (!store_->save(now, error)) return false;
-  saver_ = std::make_unique<RetainSaver>(std::move(store_), std::make_unique<RetainLane>(map_), period_);
+  saver_ = std::make_unique<RetainSaver>(std::move(store_), std::make_unique<RetainChannel>(map_), period_);
   return image.found;
 }
 

@@ -62,10 +62,10 @@ public:
   // asks for it. True, once for each request: what was copied after it began is on disk.
   bool offer(const Instance& instance, bool asked) noexcept;
 
-  // Scan thread: another program has taken over, of which `lane` is; it gets that of the former program, which must not
-  // end before `settle` has returned. A request of the former program is asked again by the new one.
-  void programChanged(std::unique_ptr<RetainLane>& lane) noexcept {
-    saver_->swapLane(lane);
+  // Scan thread: another program has taken over, of which `channel` is; it gets that of the former program, which must
+  // not end before `settle` has returned. A request of the former program is asked again by the new one.
+  void programChanged(std::unique_ptr<RetainChannel>& channel) noexcept {
+    saver_->swapChannel(channel);
     request_ = 0;
   }
   void settle() { saver_->settle(); }

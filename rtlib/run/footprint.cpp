@@ -124,13 +124,13 @@ std::span<const uint8_t> codeOf(const rung_program& program) {
   return {reinterpret_cast<const uint8_t*>(sought.address), sought.end - sought.address};
 }
 
-// ---- touching ----
+// ---- prefetching ----
 
-class Toucher {
+class Prefetcher {
 public:
-  explicit Toucher(int64_t untilNs) noexcept : untilNs_(untilNs) {}
+  explicit Prefetcher(int64_t untilNs) noexcept : untilNs_(untilNs) {}
   // False: the time is over.
-  bool touch(std::span<const uint8_t> bytes) noexcept {
+  bool prefetch(std::span<const uint8_t> bytes) noexcept {
     const auto begin = reinterpret_cast<uintptr_t>(bytes.data());
     for (size_t at = 0; at < bytes.size(); at += Footprint::kLine - (begin + at) % Footprint::kLine) {
       if (lines_++ % kLinesALook == 0 && monotonicNs() >= untilNs_) return false;
@@ -154,13 +154,13 @@ Footprint::Footprint(const rung_program& program, bool inFile)
 }
 
 // What is needed first goes first.
-void Footprint::touch(const uint8_t* memory, int64_t untilNs) const noexcept {
-  Toucher toucher(untilNs);
+void Footprint::prefetch(const uint8_t* memory, int64_t untilNs) const noexcept {
+  Prefetcher prefetcher(untilNs);
   for (const std::span<const uint8_t> table : tables_)
-    if (!toucher.touch(table)) return;
+    if (!prefetcher.prefetch(table)) return;
   for (const rung_span& part : memory_)
-    if (!toucher.touch({memory + part.offset, part.size})) return;
-  toucher.touch(code_);
+    if (!prefetcher.prefetch({memory + part.offset, part.size})) return;
+  prefetcher.prefetch(code_);
 }
 
 } // namespace rung::runtime

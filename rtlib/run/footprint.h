@@ -18,7 +18,7 @@ public:
 
   // Reads a byte of each line, once, of an instance whose memory block that is; ends before that where CLOCK_MONOTONIC
   // has come to `untilNs`. Writes nothing, and allocates, locks and calls nothing but the clock.
-  void touch(const uint8_t* memory, int64_t untilNs) const noexcept;
+  void prefetch(const uint8_t* memory, int64_t untilNs) const noexcept;
 
   // Parts of the memory block that a run of a task, a border copy or the compiler's own state may use: ascending, in
   // whole lines but for the end of the block, none touches the next.

@@ -22,7 +22,7 @@ constexpr uint32_t kPieceWeight = 64; // beside which reading the clock is cheap
 struct Slice {
   uint64_t weight = 0;
   int64_t periodNs = 0;
-  bool circles = false;
+  bool loops = false;
 };
 
 uint64_t timesOf(const rung_step& step, const rung_task& task) {
@@ -45,15 +45,15 @@ std::vector<Slice> slicesOf(const rung_program& program) {
     const rung_task& task = program.tasks[step.task];
     Slice& slice = slices.empty() ? before : slices.back();
     const uint64_t times = timesOf(step, task);
-    slice.weight += task.heaviest * times;
-    slice.circles = slice.circles || task.circles != 0;
+    slice.weight += task.longest * times;
+    slice.loops = slice.loops || task.loops != 0;
   }
   if (slices.empty()) {
     before.periodNs = static_cast<int64_t>(scanPeriodUs(program)) * 1000;
     return {before};
   }
   slices.back().weight += before.weight;
-  slices.back().circles = slices.back().circles || before.circles;
+  slices.back().loops = slices.back().loops || before.loops;
   for (size_t i = 0; i < slices.size(); ++i) slices[i].periodNs = delays[(i + 1) % delays.size()];
   return slices;
 }
@@ -190,7 +190,7 @@ ScanBound measureBound(const Runnable& runnable) {
   double fullest = -1;
   for (const Slice& slice : slicesOf(program)) {
     const double ns = static_cast<double>(slice.weight) * dearest.nsPerWeight + static_cast<double>(rest);
-    bound.circles = bound.circles || slice.circles;
+    bound.loops = bound.loops || slice.loops;
     const double full = slice.periodNs == 0 ? 0 : ns / static_cast<double>(slice.periodNs);
     if (full <= fullest) continue;
     fullest = full;
@@ -199,7 +199,7 @@ ScanBound measureBound(const Runnable& runnable) {
              .rung = program.chunk_count == 0 ? uint32_t{RUNG_NONE} : program.chunks[dearest.first].first_rung,
              .ns = static_cast<int64_t>(ns),
              .periodNs = slice.periodNs,
-             .circles = bound.circles};
+             .loops = bound.loops};
   }
   return bound;
 }

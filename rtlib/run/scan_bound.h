@@ -1,4 +1,4 @@
-// How long a slice of a program may last on this machine: the weight of its heaviest way, times the most that a unit of
+// How long a slice of a program may last on this machine: the weight of its longest way, times the most that a unit of
 // weight was found to cost here, and the copies at its borders. Waits for memory and interruptions come on top, as does
 // what the NC's part of the schedule runs by itself. Outside real time.
 #pragma once
@@ -15,7 +15,7 @@ struct ScanBound {
   uint32_t rung = RUNG_NONE; // where that piece begins
   int64_t ns = 0;            // that the slice may last
   int64_t periodNs = 0;      // until the next one is due; 0: the schedule takes no time
-  bool circles = false;      // control may go in circles, which are counted once: the budget alone ends them
+  bool loops = false;        // control may go in loops, which are counted once: the budget alone ends them
 
   bool fits() const { return periodNs == 0 || ns <= periodNs; }
 };

@@ -198,8 +198,8 @@ std::optional<std::pair<uint32_t, SearchDirection>> nearestPlace(uint32_t start,
   return std::nullopt;
 }
 
-// The tool pattern table (man. 6.26.3, l.4498-4612): how much room the figures of oversize tools take around their pot,
-// in half pots. Figure 0 and rows that were never written take one pot.
+// The tool pattern table (man. 6.26.3, l.4498-4612): how much room the figures of oversize tools take around their
+// pot, in half pots. Figure 0 and rows that were never written take one pot.
 
 struct ToolPattern {
   uint32_t left = 0; // towards lower pot numbers

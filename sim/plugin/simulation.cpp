@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "machine/rung-run/simulation_plugin.h"
-#include "rtlib/api/surroundings.h"
+#include "rtlib/api/environment.h"
 #include "rtlib/nc/config_key.h"
 #include "sim/simulated_nc.h"
 

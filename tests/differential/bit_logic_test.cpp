@@ -1,5 +1,5 @@
 // Contacts in series and parallel with negations anywhere, whose result is a coil, several coils, or asked: optimised
-// code has many ways to do these.
+// code has many paths to do these.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -96,7 +96,7 @@ TEST_P(RandomModules, AgreeWithTheInterpreter) {
     if (seed % 2 == 0) ir::runPasses(module, {});
     ir::LayoutOptions layout;
     layout.expandBits = seed % 3 != 0;
-    layout.cut.maxChunkRungs = seed % 5 == 0 ? 1 : 32;
+    layout.partition.maxChunkRungs = seed % 5 == 0 ? 1 : 32;
     if (seed % 4 == 0) // a watchdog that strikes: every engine counts alike
       for (ir::Task& task : module.tasks) task.budget = 20 + static_cast<uint32_t>(seed % 50);
     const bool debugger = seed % 3 == 1;

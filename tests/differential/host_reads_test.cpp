@@ -100,7 +100,7 @@ class HostReads : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(HostReads, WhatTheProgramHasStored) {
   const compiler::Compiled compiled = testing::compiledFrom(askingModule());
-  ASSERT_EQ(compiled.layout->cut().chunks().size(), 1u);
+  ASSERT_EQ(compiled.layout->partition().chunks().size(), 1u);
   compiler::EngineOptions options;
   options.optimise = GetParam().optimise;
   options.cppCompiler = GetParam().compiler;

@@ -44,9 +44,9 @@ protected:
   void SetUp() override { fs::remove_all(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // Pieces that were in the cache, of how many.
+  // Units that were in the cache, of how many.
   std::pair<uint32_t, uint32_t> compare(const Module& module, uint64_t seed) {
-    const compiler::Compiled program = testing::compiledFrom(module, {.cut = {.maxChunkRungs = 12}});
+    const compiler::Compiled program = testing::compiledFrom(module, {.partition = {.maxChunkRungs = 12}});
     auto reference = compiler::makeEngine(compiler::EngineKind::Interp, program, {});
     auto engine = codegen::compileJit(*program.layout, 1,
                                       {.code = {.debugInfo = false, .target = {}}, .cacheFolder = folder_.string()});
@@ -64,7 +64,7 @@ protected:
 
 TEST_F(MovedCode, DoesWhatTheInterpreterDoes) {
   uint32_t found = 0;
-  uint32_t pieces = 0;
+  uint32_t units = 0;
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     Module module = randomModule(seed, kOptions);
     setLines(module);
@@ -73,9 +73,9 @@ TEST_F(MovedCode, DoesWhatTheInterpreterDoes) {
     setLines(module);
     const auto [taken, of] = compare(module, seed);
     found += taken;
-    pieces += of;
+    units += of;
   }
-  EXPECT_GT(found, pieces / 2);
+  EXPECT_GT(found, units / 2);
 }
 
 } // namespace

@@ -365,9 +365,9 @@ void Model::act(const Event& event) {
     world_.reset = false;
     comesOn(regular ? "a power-off" : "a power cut", !regular || isBad);
   } else if (what == "turn") {
-    const bool mayRestart = world_.box().restarting();
+    const bool mayRestart = world_.host().restarting();
     world_.turn();
-    expect(!mayRestart || !world_.box().restarting(), "a restart is not done in the turn that finds it");
+    expect(!mayRestart || !world_.host().restarting(), "a restart is not done in the turn that finds it");
   } else if (what == "leave") {
     world_.leave(1 + static_cast<uint32_t>(event.value) / 4);
   } else if (what == "reload") {
@@ -395,7 +395,7 @@ void Model::requestOther(const Event& event) {
   const uint64_t before = counted_;
   const bool done = ask(event, request).value("ok", false);
   follow();
-  if (what == "reset" && done) expect(world_.box().running() || hasFaulted_, "restarted, and it does not run");
+  if (what == "reset" && done) expect(world_.host().running() || hasFaulted_, "restarted, and it does not run");
   if (what != "set" || event.name != kScans || !done) return;
   adopt(counted_ != before || stopped_); // a program that is stopped is kept, too
 }
@@ -437,7 +437,7 @@ void Model::look() {
 }
 
 void Model::lookAtWho() {
-  expect(world_.box().running() == !faulted_, "the program runs, or not, and the model has it otherwise");
+  expect(world_.host().running() == !faulted_, "the program runs, or not, and the model has it otherwise");
   rung_program_info info{};
   info.size = sizeof info;
   rung_instance_program(world_.instance(), &info);

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "ir/support/check.h"
-#include "rtlib/api/surroundings.h"
+#include "rtlib/api/environment.h"
 #include "rtlib/load/program_info.h"
 
 namespace rung::host_sim {
@@ -112,25 +112,25 @@ void World::switchOn() {
   try {
     host::File map = host::parseMap(kMap, "sim.map", errors);
     exchange_ = std::make_unique<io::Exchange>(map, map.connections.at(0));
-    box_ = host::Box::make(*image_, std::move(map), {.retain = kRetained, .newInstance = newInstance, .clock = this},
-                           errors, warnings);
+    host_ = host::PlcHost::make(*image_, std::move(map),
+                                {.retain = kRetained, .newInstance = newInstance, .clock = this}, errors, warnings);
   } catch (const Error& error) { // a full disk
     errors.emplace_back(error.what());
   }
   for (const std::string& text : warnings) log.push_back("warning: " + text);
   for (const std::string& text : errors) log.push_back("error: " + text);
-  if (box_ == nullptr) return;
+  if (host_ == nullptr) return;
   pins_.clear();
-  for (const host::Pin& pin : box_->pins()) pins_.push_back(pin.name);
+  for (const host::Pin& pin : host_->pins()) pins_.push_back(pin.name);
   values_.assign(pins_.size(), {});
   cells_.clear();
   for (Value& value : values_) cells_.push_back({.any = &value});
-  box_->connect(cells_.data());
+  host_->connect(cells_.data());
   writeRequest();
   far.heardNs = -1;
   tellFar();
   log_ = std::make_unique<control::Log>(*this, [this](const std::string& line) { log.push_back(line); });
-  controller_ = std::make_unique<control::Controller>("sim", *box_, *image_, *log_, std::make_unique<Made>(programs_));
+  controller_ = std::make_unique<control::Controller>("sim", *host_, *image_, *log_, std::make_unique<Made>(programs_));
   dueNs_ = nowNs_ + kPeriodNs;
   ran_ = true;
   faulted_ = 0;
@@ -155,38 +155,39 @@ void World::writeRequest() {
 }
 
 void World::switchOff() {
-  for (int turns = 0; !box_->ends(); ++turns) {
+  for (int turns = 0; !host_->powerOffDone(); ++turns) {
     RUNG_CHECK(turns < 1000, "the power-off never ends");
     turn();
     step();
   }
   scans = false; // its thread has ended
-  const uint32_t restarts = box_->restarts();
+  const uint32_t restarts = host_->restarts();
   const int64_t begin = nowNs_;
   const nlohmann::json answer = ask(1, {{"do", "status"}});
   turn();
-  lastEnd = {
-      .ranAgain = box_->restarts() != restarts, .tookNs = nowNs_ - begin, .saysSo = answer.value("powered_off", false)};
-  const std::string error = box_->close();
+  lastEnd = {.ranAgain = host_->restarts() != restarts,
+             .tookNs = nowNs_ - begin,
+             .saysSo = answer.value("powered_off", false)};
+  const std::string error = host_->close();
   if (!error.empty()) log.push_back("close: " + error);
   controller_.reset();
   log_.reset();
-  box_.reset();
+  host_.reset();
   clients = {};
 }
 
 void World::cutPower() {
-  api::cutPower(*box_->instance());
+  api::cutPower(*host_->instance());
   controller_.reset();
   log_.reset();
-  box_.reset();
+  host_.reset();
   clients = {};
 }
 
 // Orders are obeyed before the program runs.
 void World::step() {
   noteChanges(wholeScans, cell("SCANS")); // a client that waits restarts the program
-  const uint64_t before = box_->state().passes;
+  const uint64_t before = host_->state().passes;
   const uint64_t scansBefore = wholeScans;
   const int64_t cellBefore = cell("SCANS");
   if (far.isThere) {
@@ -195,11 +196,11 @@ void World::step() {
     far.heardNs = nowNs_;
   }
   exchange_->readInputs(cells_.data(), nowNs_);
-  const host::StepResult result = box_->step(kPeriodNs, reset);
+  const host::StepResult result = host_->step(kPeriodNs, reset);
   tellFar();
   ++steps;
   lastStepNs = nowNs_;
-  const rung_state after = box_->state();
+  const rung_state after = host_->state();
   if (result == host::StepResult::Ran && (after.flags & RUNG_STATE_STOPPED) == 0 && after.passes == before + 1)
     ++wholeScans;
   noteChanges(scansBefore, cellBefore);
@@ -209,7 +210,7 @@ void World::noteChanges(uint64_t scansBefore, int64_t cellBefore) {
   rung_program_info info{};
   info.size = sizeof info;
   rung_instance_program(instance(), &info);
-  const bool runs = box_->running();
+  const bool runs = host_->running();
   const bool falls = ran_ && !runs;
   // A program may take over, fail and be put back within one step.
   const uint32_t ranLast = falls && info.faulted != 0 && info.faulted != faulted_ ? info.faulted : info.number;
@@ -240,7 +241,7 @@ void World::turn() {
   noteChanges(wholeScans, cell("SCANS"));
 }
 
-void World::lookForSaving() { api::lookForSaving(*box_->instance()); }
+void World::lookForSaving() { api::lookForSaving(*host_->instance()); }
 
 control::Peer World::peerOf(uint32_t number) const {
   return {.number = number, .user = 0, .process = 1, .name = "sim"};
@@ -277,7 +278,7 @@ void World::setPin(const std::string& name, bool value) { values_[numberOf(name)
 bool World::pin(const std::string& name) const { return values_[numberOf(name)].bit; }
 
 int64_t World::cell(const std::string& name) const {
-  const runtime::Instance& inside = api::insideOf(*box_->instance());
+  const runtime::Instance& inside = api::insideOf(*host_->instance());
   const rung_symbol* symbol = runtime::findSymbol(inside.program(), name);
   if (symbol == nullptr) return -1;
   runtime::Ref ref = runtime::refOf(*symbol);

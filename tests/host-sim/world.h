@@ -1,5 +1,5 @@
 // A host without a machine: its program between pins, the thread that scans it, the one that serves it, its clients and
-// its disk, on a clock that passes when one of them waits. Whatever happens, happens in the order of its calls.
+// its disk, on a clock that passes when one of them waits. Whatever happens, happens in the command of its calls.
 #pragma once
 #include <cstdint>
 #include <deque>
@@ -13,7 +13,7 @@
 
 #include "machine/control/controller.h"
 #include "machine/control/log.h"
-#include "machine/host/box.h"
+#include "machine/host/plc_host.h"
 #include "machine/io/connections/connections.h"
 #include "rtlib/load/file.h"
 #include "rtlib/run/clock.h"
@@ -56,7 +56,7 @@ public:
   void sleep(int64_t ns) override { pass(ns); }
 
   // ---- what may happen
-  bool isOn() const { return box_ != nullptr; }
+  bool isOn() const { return host_ != nullptr; }
   void switchOn();  // the host starts
   void switchOff(); // and ends regularly
   // What the serving thread and a client have made of the last end.
@@ -86,11 +86,11 @@ public:
   bool reset = false; // the pin
   MemoryDisk disk;
   Clients clients;
-  host::Box& box() { return *box_; }
-  rung_instance* instance() { return box_->instance(); }
+  host::PlcHost& host() { return *host_; }
+  rung_instance* instance() { return host_->instance(); }
   // Of the program, whatever its state.
   int64_t cell(const std::string& name) const;
-  // What has become of the program, in the order in which it has.
+  // What has become of the program, in the command in which it has.
   struct Change {
     enum class Kind : uint8_t { Replaced, Fault, Restart };
     Kind kind = Kind::Replaced;
@@ -129,7 +129,7 @@ private:
   uint32_t faulted_ = 0;
   bool ran_ = false;
   std::optional<Image> image_;
-  std::unique_ptr<host::Box> box_;
+  std::unique_ptr<host::PlcHost> host_;
   std::unique_ptr<io::Exchange> exchange_;
   std::unique_ptr<control::Log> log_;
   std::unique_ptr<control::Controller> controller_;

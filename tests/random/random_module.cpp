@@ -116,13 +116,13 @@ private:
       RandomRung filler(random_, options_, builder, slotsOf(firstCounter_));
       filler.fill();
       if (options_.jumps && random_.chance(40)) addTransfer(filler, builder, routine, i, count);
-      setOdds(rung);
+      setBranchWeights(rung);
       module_.routines[routine].rungs.push_back(std::move(rung));
     }
   }
 
   // Each kind, whether it is so or not.
-  static void setOdds(Rung& rung) {
+  static void setBranchWeights(Rung& rung) {
     for (size_t i = 0; i < rung.ops.size(); ++i)
       if (rung.ops[i].code == OpCode::If) rung.ops[i].ref = static_cast<uint32_t>(i % (kSeldom + 1));
   }

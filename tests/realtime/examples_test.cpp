@@ -67,7 +67,7 @@ TEST_P(Example, IsCleanInRealTime) {
   const auto retain = [&](const char* name) { return (folder / name).string(); };
   for (const host::File& map : mapsOf(example, program)) {
     SCOPED_TRACE(map.paths[0]);
-    EXPECT_EXIT(exitWith("box", runInBox(program, map, retain("box"))), testing::ExitedWithCode(0), "box: ");
+    EXPECT_EXIT(exitWith("host", runInBox(program, map, retain("host"))), testing::ExitedWithCode(0), "host: ");
     EXPECT_EXIT(exitWith("apart", runFastApart(program, map)), testing::ExitedWithCode(0), "apart: ");
   }
   EXPECT_EXIT(exitWith("bare", runBare(program, retain("bare"))), testing::ExitedWithCode(0), "bare: ");

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "machine/host/box.h"
+#include "machine/host/plc_host.h"
 #include "rtlib/nc/control/control.h"
 #include "rtlib/run/realtime.h"
 #include "tests/realtime/guard.h"
@@ -140,12 +140,12 @@ Outcome runInBox(const rung_program& program, host::File map, const std::string&
   Outcome outcome;
   std::vector<std::string> errors;
   std::vector<std::string> reports;
-  const std::unique_ptr<host::Box> box =
-      host::Box::make(test::adopted(program), std::move(map), {.retain = retain}, errors, reports);
+  const std::unique_ptr<host::PlcHost> host =
+      host::PlcHost::make(test::adopted(program), std::move(map), {.retain = retain}, errors, reports);
   for (const std::string& error : errors) outcome.problem += error + "\n";
-  if (!box) return outcome;
-  Pins pins(box->pins());
-  box->connect(pins.cells());
+  if (!host) return outcome;
+  Pins pins(host->pins());
+  host->connect(pins.cells());
   Guard guard;
   bool reset = false;
   for (int ms = 0; ms < kRunMs && outcome.problem.empty(); ++ms) {
@@ -153,19 +153,19 @@ Outcome runInBox(const rung_program& program, host::File map, const std::string&
     host::StepResult result;
     {
       const Guarded realTime(guard);
-      if (box->running()) box->setTimeLimit(1000 * kNsInMs);
-      box->touch(runtime::monotonicNs() + kNsInMs); // as rung-run does with --early
-      result = box->step(kNsInMs, reset);
+      if (host->running()) host->setTimeLimit(1000 * kNsInMs);
+      host->prefetch(runtime::monotonicNs() + kNsInMs); // as rung-run does with --early
+      result = host->step(kNsInMs, reset);
     }
     outcome.problem = inSlice(outcome.slices, guard.offences());
     outcome.slices += result == host::StepResult::Ran ? 1 : 0;
     outcome.faults += result == host::StepResult::Failed ? 1 : 0;
-    reset = !box->running() && !reset;
-    box->serve(reports);
+    reset = !host->running() && !reset;
+    host->serve(reports);
     rung_message_info message{};
-    while (box->nextMessage(message)) ++outcome.messages;
+    while (host->nextMessage(message)) ++outcome.messages;
   }
-  const std::string error = box->close();
+  const std::string error = host->close();
   if (outcome.problem.empty()) outcome.problem = error;
   return outcome;
 }
@@ -173,8 +173,8 @@ Outcome runInBox(const rung_program& program, host::File map, const std::string&
 Outcome runFastApart(const rung_program& program, const host::File& map) {
   Outcome outcome;
   std::vector<std::string> reports;
-  const std::unique_ptr<host::Box> whole = host::Box::make(test::adopted(program), map, {}, reports, reports);
-  const std::unique_ptr<host::Box> apart = host::Box::make(test::adopted(program), map, {}, reports, reports);
+  const std::unique_ptr<host::PlcHost> whole = host::PlcHost::make(test::adopted(program), map, {}, reports, reports);
+  const std::unique_ptr<host::PlcHost> apart = host::PlcHost::make(test::adopted(program), map, {}, reports, reports);
   Pins wholePins(whole->pins());
   Pins apartPins(apart->pins());
   whole->connect(wholePins.cells());

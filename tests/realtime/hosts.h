@@ -22,7 +22,7 @@ constexpr int kRunMs = 10'000;
 
 // In LinuxCNC's component, in a thread of 1 ms, with the pins of the map.
 Outcome runInBox(const rung_program& program, host::File map, const std::string& retain);
-// The same with the fast task in a place of its own, beside a box that runs everything in one: pins that differ are a
+// The same with the fast task in a place of its own, beside a host that runs everything in one: pins that differ are a
 // problem.
 Outcome runFastApart(const rung_program& program, const host::File& map);
 // Slice by slice beside its control, as a host of its own does it.

@@ -41,11 +41,11 @@ void build(TestProgram& program, rung_chunk_fn code) {
   program.link();
 }
 
-enum class Host { Box, Bare, Clock };
+enum class Host { PlcHost, Bare, Clock };
 
 Outcome run(Host host, const rung_program& program, const std::string& retain) {
   switch (host) {
-  case Host::Box: return runInBox(program, {}, retain);
+  case Host::PlcHost: return runInBox(program, {}, retain);
   case Host::Bare: return runBare(program, retain);
   case Host::Clock: return runOnClock(program, retain);
   }
@@ -84,10 +84,10 @@ TEST_P(Noticed, InAScan) {
   EXPECT_EXIT(runAndExit(host, offend), [](int status) { return status != 0; }, reportOf(offence));
 }
 
-std::string hostName(Host host) { return host == Host::Box ? "Box" : host == Host::Bare ? "Bare" : "Clock"; }
+std::string hostName(Host host) { return host == Host::PlcHost ? "PlcHost" : host == Host::Bare ? "Bare" : "Clock"; }
 
 INSTANTIATE_TEST_SUITE_P(Guard, Noticed,
-                         testing::Combine(testing::Values(Host::Box, Host::Bare, Host::Clock),
+                         testing::Combine(testing::Values(Host::PlcHost, Host::Bare, Host::Clock),
                                           testing::ValuesIn(Guard::seen())),
                          [](const auto& tested) {
                            return hostName(std::get<0>(tested.param)) + std::string(name(std::get<1>(tested.param)));
@@ -106,7 +106,7 @@ TEST_P(Clean, Program) {
               "^, 1[0-2][0-9][0-9] slices, 1[0-3][0-9] messages");
 }
 
-INSTANTIATE_TEST_SUITE_P(Guard, Clean, testing::Values(Host::Box, Host::Bare, Host::Clock),
+INSTANTIATE_TEST_SUITE_P(Guard, Clean, testing::Values(Host::PlcHost, Host::Bare, Host::Clock),
                          [](const auto& tested) { return hostName(tested.param); });
 
 } // namespace

@@ -6,7 +6,7 @@
 namespace rung::ir {
 
 // Makes every operation with this code wrong, all but `note`, which does nothing: it gives or uses another value, or is
-// done once more or once less. The module keeps its memory, its rungs and the ways out of them, so that the layout of
+// done once more or once less. The module keeps its memory, its rungs and the paths out of them, so that the layout of
 // the right one serves (Layout::over).
 void sabotage(Module& module, OpCode code);
 

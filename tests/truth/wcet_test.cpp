@@ -14,7 +14,7 @@ namespace {
 std::vector<report::StepCounter::Count> countSteps(const compiler::Compiled& compiled, int scans) {
   report::StepCounter counter(compiled.module->tasks.size());
   compiler::EngineOptions options;
-  options.observer = [&](const compiler::Compiled& of) { return counter.observer(of.layout->cut()); };
+  options.observer = [&](const compiler::Compiled& of) { return counter.observer(of.layout->partition()); };
   const auto engine = compiler::makeEngine(compiler::EngineKind::Interp, compiled, options);
   if (!engine.ok()) {
     ADD_FAILURE() << engine.error();
@@ -40,10 +40,10 @@ TEST(Wcet, IsNeverLessThanRunsTake) {
     if (!program) continue;
     const compiler::Compiled& compiled = program->compiled();
     const auto counts = countSteps(compiled, isLarge() ? 200 : 20);
-    const ir::Cut& cut = compiled.layout->cut();
+    const ir::Partition& cut = compiled.layout->partition();
     for (uint32_t t = 0; t < compiled.module->tasks.size(); ++t) {
-      const ir::HeaviestWay way = ir::heaviestWay(cut, ir::TaskId{t}, ir::rungWeights(cut));
-      if (!way.circles.empty() || counts[t].runs == 0) continue;
+      const ir::LongestPath way = ir::longestPath(cut, ir::TaskId{t}, ir::rungWeights(cut));
+      if (!way.loops.empty() || counts[t].runs == 0) continue;
       EXPECT_LE(counts[t].most, way.cost) << compiled.module->tasks[t].name;
       ++bounded;
       close += counts[t].most * 5 >= way.cost * 4 ? 1 : 0;

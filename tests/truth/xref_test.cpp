@@ -76,7 +76,7 @@ private:
     return at->second;
   }
   bool isIn(const Json& list, uint32_t rung) const {
-    const rung_rung_info& info = program().rungs[rung];
+    const rung_info& info = program().rungs[rung];
     const std::string file = info.file == RUNG_NONE ? "" : program().files[info.file];
     return std::ranges::any_of(list, [&](const Json& access) {
       return access["rung"] == info.number && access["line"] == info.first_line && access["file"] == file;
@@ -149,7 +149,7 @@ private:
     const rung_program& program = listing_.program();
     ++found_.held;
     if (listing_.has(rung, place, writes)) return;
-    const rung_rung_info& info = program.rungs[rung];
+    const rung_info& info = program.rungs[rung];
     const std::string file = info.file == RUNG_NONE ? "" : program.files[info.file];
     if (!writes && listing_.has(rung, place, true) &&
         keeps(program, place, lines_.of(file, info.first_line, info.last_line)))
@@ -309,10 +309,9 @@ uint64_t expectNamed(const compiler::Compiled& compiled, Lines lines) {
     BitRange place = withoutMark(program, report::bitsOf(*ref));
     place.count = access["bits"];
     const uint32_t line = access["line"];
-    const auto rung =
-        std::ranges::find_if(std::span(program.rungs, program.rung_count), [&](const rung_rung_info& info) {
-          return info.number == access["rung"] && info.first_line == line;
-        });
+    const auto rung = std::ranges::find_if(std::span(program.rungs, program.rung_count), [&](const rung_info& info) {
+      return info.number == access["rung"] && info.first_line == line;
+    });
     if (rung == std::span(program.rungs, program.rung_count).end()) {
       found.wrong.insert(fmt::format("line {} is that of no rung", line));
       return;

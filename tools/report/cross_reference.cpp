@@ -46,7 +46,7 @@ CrossReference::CrossReference(const rung_program& program, const ir::Uses& uses
   // The first of those that are the same lines: of a subprogram that two levels run.
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> drawn; // by number and last line
   for (uint32_t rung = 0; rung < uses.rungCount(); ++rung) {
-    const rung_rung_info& info = program.rungs[rung];
+    const rung_info& info = program.rungs[rung];
     const uint32_t first =
         info.number == 0 ? rung : drawn.try_emplace({info.number, info.last_line}, rung).first->second;
     for (const ir::RungUse& use : uses.of(rung))
@@ -243,7 +243,7 @@ std::string addressOf(const rung_program& program, const runtime::Ref& place) {
 }
 
 Json accessJson(const rung_program& program, const RungAccess& access) {
-  const rung_rung_info& rung = program.rungs[access.rung];
+  const rung_info& rung = program.rungs[access.rung];
   const bool added = rung.file == RUNG_NONE; // by the compiler
   Json json = {{"rung", rung.number}, {"file", added ? "" : program.files[rung.file]}, {"line", rung.first_line}};
   const uint32_t byte = access.as.first / 8;

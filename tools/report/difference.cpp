@@ -46,11 +46,11 @@ void compareRungs(const PairedRungs& paired, Difference& out) {
       continue;
     }
     if (pair->kind != runtime::RungKind::Moved) removedUpTo(pair->before);
-    if (pair->kind == runtime::RungKind::Same && pair->ways.empty())
+    if (pair->kind == runtime::RungKind::Same && pair->paths.empty())
       ++out.same;
     else
-      out.rungs.push_back({pair->ways.empty() ? kindOf(pair->kind) : ChangeKind::Changed, shown(before[pair->before]),
-                           shown(after[a]), pair->ways});
+      out.rungs.push_back({pair->paths.empty() ? kindOf(pair->kind) : ChangeKind::Changed, shown(before[pair->before]),
+                           shown(after[a]), pair->paths});
     ++pair;
   }
   removedUpTo(before.size());
@@ -223,12 +223,12 @@ Json linesJson(const std::vector<LineChange>& changes) {
 std::string shownAsJson(const Difference& difference, const ir::Module& before, const ir::Module& after) {
   Json rungs = Json::array();
   for (const RungChange& change : difference.rungs) {
-    Json ways = Json::array();
-    for (const OtherWay& way : change.ways) ways.push_back({{"before", way.before}, {"after", way.after}});
+    Json paths = Json::array();
+    for (const OtherWay& way : change.paths) paths.push_back({{"before", way.before}, {"after", way.after}});
     rungs.push_back({{"change", nameOf(change.kind)},
                      {"before", rungJson(before, change.before)},
                      {"after", rungJson(after, change.after)},
-                     {"leads", std::move(ways)}});
+                     {"leads", std::move(paths)}});
   }
   const Json json = {{"rungs", std::move(rungs)},
                      {"same", difference.same},
@@ -274,7 +274,7 @@ void addRung(const RungChange& change, const Module& before, const Module& after
     if (old.rung != nullptr) addLines(*old.rung, '-', out);
     if (now.rung != nullptr) addLines(*now.rung, '+', out);
   }
-  for (const OtherWay& way : change.ways) put(out, "  leads to {}, before: to {}\n", way.after, way.before);
+  for (const OtherWay& way : change.paths) put(out, "  leads to {}, before: to {}\n", way.after, way.before);
 }
 
 void addNames(const std::vector<NameChange>& changes, std::string_view what, std::string& out) {
@@ -294,7 +294,7 @@ void addMessages(const std::vector<NameChange>& changes, std::string& out) {
   }
 }
 
-// "36 → 38, 40 → 42": what is unlike, or all where one version has more of them; the first ones of many.
+// "36 → 38, 40 → 42": what is distinct, or all where one version has more of them; the first ones of many.
 std::string shownLines(const LineChange& change) {
   constexpr size_t kShown = 4;
   std::vector<std::string> parts;

@@ -12,7 +12,7 @@
 
 namespace rung::report {
 
-// What a key of the configuration says. Texts that are unlike may mean the same, so what is compared is beside them.
+// What a key of the configuration says. Texts that are distinct may mean the same, so what is compared is beside them.
 struct Setting {
   std::string text;     // for people
   std::string meaning;  // equal: the same
@@ -50,9 +50,9 @@ struct OtherWay {
 
 struct RungChange {
   ChangeKind kind = ChangeKind::Added;
-  ShownRung before;           // none: added
-  ShownRung after;            // none: removed
-  std::vector<OtherWay> ways; // of a rung that is the same but for where it leads
+  ShownRung before;            // none: added
+  ShownRung after;             // none: removed
+  std::vector<OtherWay> paths; // of a rung that is the same but for where it leads
 };
 
 // A name, a message, a key of the configuration, and what it means.

@@ -150,7 +150,7 @@ private:
 // ---- cells by which control finds its way ------------------------------------------------------------------------
 
 // Where a switch leads by the number in a cell: what is stored there is the number of a way.
-struct Ways {
+struct Paths {
   uint32_t routine = 0;
   const std::vector<uint32_t>* targets = nullptr;
 };
@@ -160,7 +160,7 @@ public:
   explicit WayCells(const Module& module) {
     for (uint32_t r = 0; r < module.routines.size(); ++r)
       for (const Rung& rung : module.routines[r].rungs)
-        if (const Op* op = cellOf(rung)) cells_.try_emplace(cellKey(*op), Ways{r, &rung.transfer.targets});
+        if (const Op* op = cellOf(rung)) cells_.try_emplace(cellKey(*op), Paths{r, &rung.transfer.targets});
   }
 
   // The load by which the rung's switch is decided.
@@ -171,7 +171,7 @@ public:
     return nullptr;
   }
   // Null: nothing goes by what the operation stores.
-  const Ways* storedBy(const Op& op) const {
+  const Paths* storedBy(const Op& op) const {
     if (op.code != OpCode::SlotStore && op.code != OpCode::Store) return nullptr;
     const auto at = cells_.find(cellKey(op));
     return at == cells_.end() ? nullptr : &at->second;
@@ -184,7 +184,7 @@ private:
     return {isSlot, op.ref, isSlot ? 0 : op.imm};
   }
 
-  std::map<Key, Ways> cells_;
+  std::map<Key, Paths> cells_;
 };
 
 // ---- whose state a slot is ---------------------------------------------------------------------------------------
@@ -283,22 +283,22 @@ private:
     out += '\n';
   }
 
-  // Constants that a cell of ways gets, also where a choice is made among several.
+  // Constants that a cell of paths gets, also where a choice is made among several.
   void findExits(const Rung& rung) {
     waysOf_.clear();
     std::unordered_map<uint32_t, const Op*> definitions;
     for (const Op& op : rung.ops)
       if (op.resultCount == 1) definitions.emplace(op.result.index, &op);
     for (const Op& op : rung.ops) {
-      const Ways* ways = ways_.storedBy(op);
-      if (ways == nullptr) continue;
+      const Paths* paths = ways_.storedBy(op);
+      if (paths == nullptr) continue;
       std::vector<ValueId> open{arg(rung, op, 0)};
       while (!open.empty()) {
         const auto at = definitions.find(open.back().index);
         open.pop_back();
         if (at == definitions.end()) continue;
         const Op& source = *at->second;
-        if (source.code == OpCode::Const) waysOf_.emplace(source.result.index, ways);
+        if (source.code == OpCode::Const) waysOf_.emplace(source.result.index, paths);
         if (source.code == OpCode::Select) open.insert(open.end(), {arg(rung, source, 1), arg(rung, source, 2)});
       }
     }
@@ -357,7 +357,7 @@ private:
     case Attr::ResultNo: return put(out, " {}", op.imm);
     case Attr::Count: return put(out, " {}", op.count);
     case Attr::MessageOp: return put(out, " {}", op.ref);
-    case Attr::Odds:
+    case Attr::BranchWeights:
     case Attr::Text:
     case Attr::None: return;
     }
@@ -410,7 +410,7 @@ private:
   std::map<uint32_t, size_t> own_; // its slots by their first uses
   std::map<std::string, size_t> ownCells_;
   std::unordered_map<uint32_t, const GivenNumber*> numbers_;
-  std::unordered_map<uint32_t, const Ways*> waysOf_; // constants that are numbers of ways
+  std::unordered_map<uint32_t, const Paths*> waysOf_; // constants that are numbers of paths
 };
 
 } // namespace

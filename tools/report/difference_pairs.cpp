@@ -82,7 +82,7 @@ PairedRungs::PairedRungs(const Version& before, const Version& after, const Form
   }
   findKept();
   for (Pair& pair : pairs_)
-    if (pair.kind != runtime::RungKind::Changed) pair.ways = waysOf(before, after, pair);
+    if (pair.kind != runtime::RungKind::Changed) pair.paths = waysOf(before, after, pair);
 }
 
 // By the name; what is left by what the rungs in it mean, the nearest relatives first.
@@ -180,13 +180,13 @@ bool PairedRungs::leadsAlike(const Exit& before, const Exit& after) const {
 
 std::vector<OtherWay> PairedRungs::waysOf(const Version& before, const Version& after, const Pair& pair) const {
   const std::vector<Exit>&old = before_[pair.before].exits, &now = after_[pair.after].exits;
-  std::vector<OtherWay> ways;
+  std::vector<OtherWay> paths;
   for (size_t i = 0; i < std::min(old.size(), now.size()); ++i) {
     if (leadsAlike(old[i], now[i])) continue;
     OtherWay way{nameOf(before.module, before_, old[i]), nameOf(after.module, after_, now[i])};
-    if (std::ranges::find(ways, way) == ways.end()) ways.push_back(std::move(way));
+    if (std::ranges::find(paths, way) == paths.end()) paths.push_back(std::move(way));
   }
-  return ways;
+  return paths;
 }
 
 } // namespace rung::report

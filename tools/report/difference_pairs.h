@@ -23,7 +23,7 @@ public:
     uint32_t before = 0; // in the list of drawn rungs
     uint32_t after = 0;
     runtime::RungKind kind = runtime::RungKind::Same;
-    std::vector<OtherWay> ways; // of rungs that mean the same
+    std::vector<OtherWay> paths; // of rungs that mean the same
   };
 
   const std::vector<DrawnRung>& before() const { return before_; }

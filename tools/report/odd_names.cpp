@@ -148,7 +148,7 @@ std::vector<Checker::Line> Checker::linesOf(const std::vector<SourceRange>& oper
 
 bool Checker::isIn(const std::vector<Line>& lines, uint32_t rung) const {
   const rung_program& program = reference_.program();
-  const rung_rung_info& info = program.rungs[rung];
+  const rung_info& info = program.rungs[rung];
   if (info.file == RUNG_NONE) return false;
   const std::string_view file = program.files[info.file];
   const auto at = std::ranges::lower_bound(lines, Line(file, info.first_line));

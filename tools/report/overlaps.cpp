@@ -110,7 +110,7 @@ bool Checker::isNumber(const ir::BitRange& place) const {
 
 // The names, by their definitions, that are used on the line that declares this one.
 std::vector<uint32_t> Checker::waysTo(const Definition& name) const {
-  std::vector<uint32_t> ways;
+  std::vector<uint32_t> paths;
   const auto beginOf = [](const frontend::NameUse& use) { return use.range.begin; };
   const LineCol place = sources_.lineCol(name.range.begin);
   const auto isOnLine = [&](SourcePos position) {
@@ -119,8 +119,8 @@ std::vector<uint32_t> Checker::waysTo(const Definition& name) const {
   };
   for (auto at = std::ranges::lower_bound(analysis_.names(), name.range.begin, {}, beginOf);
        at != analysis_.names().end() && isOnLine(at->range.begin); ++at)
-    ways.push_back(at->definition);
-  return ways;
+    paths.push_back(at->definition);
+  return paths;
 }
 
 bool Checker::isReachedBy(const Definition& name, const Name& other) const {
@@ -153,14 +153,14 @@ void Checker::check(const Name& name) {
   const Name* first = nullptr;
   const Name* before = nullptr; // of the same place
   bool isMeant = false;         // by way of one of them
-  const std::vector<uint32_t> ways = waysTo(definitionOf(name));
+  const std::vector<uint32_t> paths = waysTo(definitionOf(name));
   size_t count = 0;
   forEachAt(
       name.place, names_, longest_, [](const Name& one) { return one.place; },
       [&](const Name& other) {
         if (other.place == name.place) {
           const bool isEarlier = other.definition < name.definition;
-          isMeant |= std::ranges::count(ways, other.definition) != 0;
+          isMeant |= std::ranges::count(paths, other.definition) != 0;
           if (isEarlier && before == nullptr && meets(name, other, diag::SharedTerminal)) before = &other;
           return;
         }

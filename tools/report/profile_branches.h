@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "ir/analysis/odds.h"
+#include "ir/analysis/branch_weights.h"
 #include "ir/interp/interp.h"
 #include "ir/support/result.h"
 

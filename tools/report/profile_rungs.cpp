@@ -13,7 +13,7 @@ namespace rung::report {
 namespace {
 
 Row describe(const rung_program& program, uint32_t rung) {
-  const rung_rung_info& info = program.rungs[rung];
+  const rung_info& info = program.rungs[rung];
   Row row;
   row.rung = rung;
   row.number = info.number;

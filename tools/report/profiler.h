@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "compiler/engines.h"
-#include "ir/analysis/odds.h"
+#include "ir/analysis/branch_weights.h"
 #include "tools/report/profile_rungs.h"
 #include "tools/report/scan_times.h"
 #include "tools/scenario/runner.h"

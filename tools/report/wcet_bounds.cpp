@@ -31,7 +31,7 @@ struct KnownFunction {
 
 // Of a program; costs are those of rungs, by their numbers.
 struct Known {
-  const ir::Cut& cut;
+  const ir::Partition& partition;
   std::vector<codegen::CodeLength> chunks;
   std::vector<uint64_t> weights;
   std::vector<uint64_t> instructions;
@@ -40,48 +40,48 @@ struct Known {
 };
 
 // A chunk's instructions are those of its first rung: it is entered nowhere else.
-std::vector<uint64_t> instructionsOf(const ir::Cut& cut, const std::vector<codegen::CodeLength>& chunks) {
-  std::vector<uint64_t> costs(cut.rungCount(), 0);
+std::vector<uint64_t> instructionsOf(const ir::Partition& partition, const std::vector<codegen::CodeLength>& chunks) {
+  std::vector<uint64_t> costs(partition.rungCount(), 0);
   for (uint32_t c = 0; c < chunks.size(); ++c) {
-    const ir::Chunk& chunk = cut.chunks()[c];
-    costs[cut.rungNumber(chunk.routine, chunk.firstRung)] = chunks[c].instructions;
+    const ir::Chunk& chunk = partition.chunks()[c];
+    costs[partition.rungNumber(chunk.routine, chunk.firstRung)] = chunks[c].instructions;
   }
   return costs;
 }
 
-Known knownOf(const ir::Cut& cut, std::vector<codegen::CodeLength> chunks, double nsPerStep) {
-  Known known{.cut = cut,
+Known knownOf(const ir::Partition& partition, std::vector<codegen::CodeLength> chunks, double nsPerStep) {
+  Known known{.partition = partition,
               .chunks = std::move(chunks),
-              .weights = ir::rungWeights(cut),
+              .weights = ir::rungWeights(partition),
               .instructions = {},
               .functions = {},
               .nsPerStep = nsPerStep};
-  known.instructions = instructionsOf(cut, known.chunks);
+  known.instructions = instructionsOf(partition, known.chunks);
   for (const HostFunction& function : measureHostFunctions())
-    known.functions.push_back({function, ir::mostOperations(cut, function.operation)});
+    known.functions.push_back({function, ir::mostOperations(partition, function.operation)});
   return known;
 }
 
 void boundInstructions(const Known& known, const TaskCost& cost, TaskBound& task) {
   for (uint32_t c = 0; c < known.chunks.size() && task.noInstructions.empty(); ++c)
-    if (cost.reaches(known.cut.chunks()[c])) task.noInstructions = known.chunks[c].unknown;
+    if (cost.reaches(known.partition.chunks()[c])) task.noInstructions = known.chunks[c].unknown;
   if (task.noInstructions.empty()) task.instructions = cost.most(known.instructions);
 }
 
 TaskBound boundTask(const Known& known, ir::TaskId id) {
-  const ir::Task& task = known.cut.module().tasks[id.index];
+  const ir::Task& task = known.partition.module().tasks[id.index];
   TaskBound bound{.name = task.name,
                   .periodUs = task.periodUs,
                   .parts = task.parts,
                   .budget = task.budget,
-                  .way = ir::heaviestWay(known.cut, id, known.weights),
+                  .way = ir::longestPath(known.partition, id, known.weights),
                   .instructions = {},
                   .noInstructions = {},
                   .calls = {},
                   .seen = {}};
-  bound.steps = bound.way.circles.empty() ? std::min<uint64_t>(bound.way.cost, task.budget) : task.budget;
+  bound.steps = bound.way.loops.empty() ? std::min<uint64_t>(bound.way.cost, task.budget) : task.budget;
   bound.codeNs = static_cast<double>(bound.steps) * known.nsPerStep;
-  const TaskCost cost(known.cut, id, bound.way.circles);
+  const TaskCost cost(known.partition, id, bound.way.loops);
   boundInstructions(known, cost, bound);
   for (const KnownFunction& of : known.functions)
     if (const uint64_t most = cost.most(of.most); most > 0) bound.calls.push_back({of.function, most});
@@ -105,7 +105,7 @@ Result<std::unique_ptr<codegen::JitEngine>> compileWithLengths(const compiler::C
 Bounds boundsOf(const compiler::Compiled& compiled, codegen::JitEngine& machineCode) {
   Bounds bounds{.program = compiled.module->name, .routines = {}, .tasks = {}, .slice = {}, .measured = {}};
   bounds.slice = runtime::measureBound({.program = machineCode.program(), .engine = machineCode.context()});
-  const Known known = knownOf(compiled.layout->cut(), machineCode.report().lengths, bounds.slice.nsPerWeight);
+  const Known known = knownOf(compiled.layout->partition(), machineCode.report().lengths, bounds.slice.nsPerWeight);
   for (const ir::Routine& routine : compiled.module->routines) bounds.routines.push_back(routine.name);
   for (uint32_t t = 0; t < compiled.module->tasks.size(); ++t) bounds.tasks.push_back(boundTask(known, ir::TaskId{t}));
   return bounds;
@@ -176,14 +176,14 @@ std::vector<HostFunction> measureHostFunctions() {
   return functions;
 }
 
-// Costs along ways, and of what budgets allow.
+// Costs along paths, and of what budgets allow.
 
-TaskCost::TaskCost(const ir::Cut& cut, ir::TaskId task, const std::vector<std::vector<uint32_t>>& circles)
-    : cut_(cut), task_(task), hasCircles_(!circles.empty()), inCircle_(cut.rungCount(), false),
-      uses_(cut.module().routines.size(), Use::None) {
-  for (const std::vector<uint32_t>& circle : circles)
-    for (const uint32_t rung : circle) inCircle_[rung] = true;
-  const ir::RoutineId entry = cut.module().tasks[task.index].entry;
+TaskCost::TaskCost(const ir::Partition& partition, ir::TaskId task, const std::vector<std::vector<uint32_t>>& loops)
+    : partition_(partition), task_(task), hasLoops_(!loops.empty()), inCircle_(partition.rungCount(), false),
+      uses_(partition.module().routines.size(), Use::None) {
+  for (const std::vector<uint32_t>& loop : loops)
+    for (const uint32_t rung : loop) inCircle_[rung] = true;
+  const ir::RoutineId entry = partition.module().tasks[task.index].entry;
   uses_[entry.index] = Use::Once;
   std::vector<ir::RoutineId> open{entry};
   while (!open.empty()) {
@@ -199,38 +199,38 @@ TaskCost::TaskCost(const ir::Cut& cut, ir::TaskId task, const std::vector<std::v
   }
 }
 
-// A way without circles is known; what circles may run again is bounded by the budget that ends them, and the rest by
+// A way without loops is known; what loops may run again is bounded by the budget that ends them, and the rest by
 // all that there is of it, each chunk once: in which order they come is not known.
 uint64_t TaskCost::most(std::span<const uint64_t> costs) const {
-  if (!hasCircles_) return std::min(ir::heaviestWay(cut_, task_, costs).cost, allowed(costs, false));
-  return std::min(saturatedSum(outsideOfCircles(costs), allowed(costs, true)), allowed(costs, false));
+  if (!hasLoops_) return std::min(ir::longestPath(partition_, task_, costs).cost, allowed(costs, false));
+  return std::min(saturatedSum(outsideOfLoops(costs), allowed(costs, true)), allowed(costs, false));
 }
 
 // Of a run that takes whatever way: a chunk takes its weight from the budget, and no more of the cost for that than the
 // dearest one.
 uint64_t TaskCost::allowed(std::span<const uint64_t> costs, bool repeatedOnly) const {
   double dearest = 0;
-  for (const ir::Chunk& chunk : cut_.chunks())
+  for (const ir::Chunk& chunk : partition_.chunks())
     if (reaches(chunk) && (isRepeated(chunk) || !repeatedOnly))
       dearest = std::max(dearest, static_cast<double>(costOf(chunk, costs)) / chunk.weight);
-  const double most = std::ceil(dearest * cut_.module().tasks[task_.index].budget);
+  const double most = std::ceil(dearest * partition_.module().tasks[task_.index].budget);
   return most >= static_cast<double>(UINT64_MAX) ? UINT64_MAX : static_cast<uint64_t>(most);
 }
 
-uint64_t TaskCost::outsideOfCircles(std::span<const uint64_t> costs) const {
+uint64_t TaskCost::outsideOfLoops(std::span<const uint64_t> costs) const {
   std::vector<std::optional<uint64_t>> runs(uses_.size());
   uint64_t all = 0;
-  for (const ir::Chunk& chunk : cut_.chunks())
+  for (const ir::Chunk& chunk : partition_.chunks())
     if (reaches(chunk) && !isRepeated(chunk))
       all = saturatedSum(all, saturatedProduct(runsOf(chunk.routine, runs), costOf(chunk, costs)));
   return all;
 }
 
-// At most, of a routine that no circle calls; `known`: of others. Calls are nested no deeper than the stack of
+// At most, of a routine that no loop calls; `known`: of others. Calls are nested no deeper than the stack of
 // rung_ctx.
 uint64_t TaskCost::runsOf(ir::RoutineId routine, std::vector<std::optional<uint64_t>>& known) const {
   if (const std::optional<uint64_t>& runs = known[routine.index]) return *runs;
-  uint64_t runs = routine == cut_.module().tasks[task_.index].entry ? 1 : 0;
+  uint64_t runs = routine == partition_.module().tasks[task_.index].entry ? 1 : 0;
   for (uint32_t caller = 0; caller < uses_.size(); ++caller)
     if (uses_[caller] == Use::Once)
       forCalls(ir::RoutineId{caller}, [&](uint32_t, ir::RoutineId callee) {
@@ -243,22 +243,23 @@ uint64_t TaskCost::runsOf(ir::RoutineId routine, std::vector<std::optional<uint6
 bool TaskCost::isRepeated(const ir::Chunk& chunk) const {
   if (uses_[chunk.routine.index] == Use::Again) return true;
   for (uint32_t i = 0; i < chunk.rungCount; ++i)
-    if (inCircle_[cut_.rungNumber(chunk.routine, chunk.firstRung + i)]) return true;
+    if (inCircle_[partition_.rungNumber(chunk.routine, chunk.firstRung + i)]) return true;
   return false;
 }
 
 uint64_t TaskCost::costOf(const ir::Chunk& chunk, std::span<const uint64_t> costs) const {
   uint64_t cost = 0;
   for (uint32_t i = 0; i < chunk.rungCount; ++i)
-    cost = saturatedSum(cost, costs[cut_.rungNumber(chunk.routine, chunk.firstRung + i)]);
+    cost = saturatedSum(cost, costs[partition_.rungNumber(chunk.routine, chunk.firstRung + i)]);
   return cost;
 }
 
 template <class Visit>
 void TaskCost::forCalls(ir::RoutineId routine, Visit visit) const {
-  const std::vector<ir::Rung>& rungs = cut_.module().at(routine).rungs;
+  const std::vector<ir::Rung>& rungs = partition_.module().at(routine).rungs;
   for (uint32_t i = 0; i < rungs.size(); ++i)
-    if (rungs[i].transfer.kind == ir::TransferKind::Call) visit(cut_.rungNumber(routine, i), rungs[i].transfer.callee);
+    if (rungs[i].transfer.kind == ir::TransferKind::Call)
+      visit(partition_.rungNumber(routine, i), rungs[i].transfer.callee);
 }
 
 // Bounds as text for a terminal.
@@ -327,7 +328,7 @@ std::string loopText(const std::vector<uint32_t>& rungs, const rung_program& pro
 
 std::string loopsText(const TaskBound& task, const rung_program& program) {
   std::string text;
-  for (const std::vector<uint32_t>& rungs : task.way.circles)
+  for (const std::vector<uint32_t>& rungs : task.way.loops)
     text += wrapped(fmt::format("  loop: {}", loopText(rungs, program)), "    ");
   if (text.empty()) return text;
   return text + fmt::format("  the budget of {} steps ends the run; with each loop run once, the longest path has {}\n",
@@ -335,7 +336,7 @@ std::string loopsText(const TaskBound& task, const rung_program& program) {
 }
 
 std::string stepsText(const TaskBound& task) {
-  if (!task.way.circles.empty()) return counted(task.budget) + ", the whole budget: the program may loop";
+  if (!task.way.loops.empty()) return counted(task.budget) + ", the whole budget: the program may loop";
   if (task.way.cost > task.budget)
     return fmt::format("{}, the whole budget: the longest path has {}", counted(task.budget), task.way.cost);
   return fmt::format("{} of a budget of {}", counted(task.way.cost), task.budget);
@@ -384,9 +385,9 @@ std::string sliceText(const Bounds& bounds, const rung_program& program) {
   std::string loops;
   double most = 0;
   for (const TaskBound& task : bounds.tasks) {
-    for (const std::vector<uint32_t>& rungs : task.way.circles)
+    for (const std::vector<uint32_t>& rungs : task.way.loops)
       loops += (loops.empty() ? "" : "; ") + loopText(rungs, program);
-    if (!task.way.circles.empty()) most = std::max(most, task.ns());
+    if (!task.way.loops.empty()) most = std::max(most, task.ns());
   }
   const std::string bound = boundText(bounds.slice, program);
   if (loops.empty()) return wrapped("longest slice, including process-image copies: " + bound, "  ");
@@ -444,8 +445,8 @@ Json taskJson(const TaskBound& task, const Bounds& bounds, const rung_program& p
     json["calls"].push_back({{"function", ir::opInfo(calls.function.operation).name},
                              {"count", calls.count},
                              {"call_ns", calls.function.ns}});
-  json["circles"] = Json::array();
-  for (const std::vector<uint32_t>& circle : task.way.circles) json["circles"].push_back(rungsJson(circle, program));
+  json["loops"] = Json::array();
+  for (const std::vector<uint32_t>& loop : task.way.loops) json["loops"].push_back(rungsJson(loop, program));
   json["way"] = Json::array();
   for (const ir::RoutineWay& way : task.way.routines) json["way"].push_back(wayJson(way, bounds, program));
   if (task.seen)
@@ -455,7 +456,7 @@ Json taskJson(const TaskBound& task, const Bounds& bounds, const rung_program& p
 
 // Null where nobody knows: a bound that has each loop once may show that a slice is too long, not that it fits.
 Json fitsJson(const runtime::ScanBound& slice) {
-  if (slice.circles && slice.fits()) return nullptr;
+  if (slice.loops && slice.fits()) return nullptr;
   return slice.fits();
 }
 
@@ -465,7 +466,7 @@ std::string jsonOf(const Bounds& bounds, const rung_program& program) {
   Json json = {{"wcet", 1}, {"program", bounds.program}, {"dialect", program.dialect}};
   json["slice"] = {{"steps", bounds.slice.weight},       {"time_ns", bounds.slice.ns},
                    {"period_ns", bounds.slice.periodNs}, {"step_ns", bounds.slice.nsPerWeight},
-                   {"circles", bounds.slice.circles},    {"fits", fitsJson(bounds.slice)}};
+                   {"loops", bounds.slice.loops},        {"fits", fitsJson(bounds.slice)}};
   if (!bounds.measured.empty()) json["measured_by"] = bounds.measured;
   json["tasks"] = Json::array();
   for (const TaskBound& task : bounds.tasks) json["tasks"].push_back(taskJson(task, bounds, program));

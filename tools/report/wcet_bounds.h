@@ -9,7 +9,7 @@
 
 #include "codegen/jit/jit_engine.h"
 #include "compiler/compile.h"
-#include "ir/analysis/heaviest.h"
+#include "ir/analysis/longest_path.h"
 #include "ir/core/op_code.h"
 #include "rtlib/run/scan_bound.h"
 
@@ -25,7 +25,7 @@ struct HostFunction {
 std::vector<HostFunction> measureHostFunctions();
 
 // The longest that a run of each task may take: in steps, as budgets count them, in machine instructions, in calls of
-// the host's functions, and in time on this machine; and the heaviest way with its rungs.
+// the host's functions, and in time on this machine; and the longest way with its rungs.
 
 struct HostCalls {
   HostFunction function;
@@ -36,7 +36,7 @@ struct HostCalls {
 // What was seen in runs of a task, of a cut one: of its parts.
 struct Seen {
   uint64_t runs = 0;
-  uint64_t steps = 0; // of the heaviest
+  uint64_t steps = 0; // of the longest
   double ns = 0;      // of the longest, each with the shortest of its times in several runs of the scenario
 };
 
@@ -45,8 +45,8 @@ struct TaskBound {
   uint32_t periodUs = 0; // 0: only when the schedule or the control starts it
   uint32_t parts = 1;    // of a cut task all that follows is that of the part that has most of it
   uint32_t budget = 0;
-  ir::HeaviestWay way;
-  uint64_t steps = 0;                   // of the way, or where that is less of the budget, which ends circles
+  ir::LongestPath way;
+  uint64_t steps = 0;                   // of the way, or where that is less of the budget, which ends loops
   std::optional<uint64_t> instructions; // of the program's code, without those of the host's functions
   std::string noInstructions;           // why there are none
   std::vector<HostCalls> calls;         // most of each function that a run may call
@@ -88,8 +88,8 @@ std::string jsonOf(const Bounds& bounds, const rung_program& program);
 
 class TaskCost {
 public:
-  // `circles`: as HeaviestWay has them. The cut outlives this.
-  TaskCost(const ir::Cut& cut, ir::TaskId task, const std::vector<std::vector<uint32_t>>& circles);
+  // `loops`: as LongestPath has them. The cut outlives this.
+  TaskCost(const ir::Partition& partition, ir::TaskId task, const std::vector<std::vector<uint32_t>>& loops);
 
   // Whether a run may come to the chunk.
   bool reaches(const ir::Chunk& chunk) const { return uses_[chunk.routine.index] != Use::None; }
@@ -99,20 +99,20 @@ public:
 private:
   enum class Use : uint8_t {
     None,
-    Once,  // it is called outside of circles only
+    Once,  // it is called outside of loops only
     Again, // from within one, too
   };
   bool isRepeated(const ir::Chunk& chunk) const;
   uint64_t runsOf(ir::RoutineId routine, std::vector<std::optional<uint64_t>>& known) const;
   uint64_t costOf(const ir::Chunk& chunk, std::span<const uint64_t> costs) const;
   uint64_t allowed(std::span<const uint64_t> costs, bool repeatedOnly) const;
-  uint64_t outsideOfCircles(std::span<const uint64_t> costs) const;
+  uint64_t outsideOfLoops(std::span<const uint64_t> costs) const;
   template <class Visit>
   void forCalls(ir::RoutineId routine, Visit visit) const;
 
-  const ir::Cut& cut_;
+  const ir::Partition& partition_;
   ir::TaskId task_;
-  bool hasCircles_;
+  bool hasLoops_;
   std::vector<bool> inCircle_; // by rung number
   std::vector<Use> uses_;      // by routine
 };

@@ -76,7 +76,7 @@ Result<void> measure(const compiler::Compiled& compiled, runtime::Engine& machin
   StepCounter counter(bounds.tasks.size());
   CountSteps steps(counter);
   compiler::EngineOptions options;
-  options.observer = [&](const compiler::Compiled& of) { return counter.observer(of.layout->cut()); };
+  options.observer = [&](const compiler::Compiled& of) { return counter.observer(of.layout->partition()); };
   const Result<std::unique_ptr<runtime::Engine>> interpreter =
       compiler::makeEngine(compiler::EngineKind::Interp, compiled, options);
   if (!interpreter.ok()) return interpreter.failure();

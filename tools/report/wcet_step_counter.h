@@ -20,8 +20,10 @@ public:
 
   explicit StepCounter(size_t tasks) : counts_(tasks) {}
 
-  // For the interpreter of the program with this cut, which this outlives.
-  std::unique_ptr<ir::RungObserver> observer(const ir::Cut& cut) { return std::make_unique<Weigher>(cut, steps_); }
+  // For the interpreter of the program with this partition, which this outlives.
+  std::unique_ptr<ir::RungObserver> observer(const ir::Partition& partition) {
+    return std::make_unique<Weigher>(partition, steps_);
+  }
   // By task.
   const std::vector<Count>& counts() const { return counts_; }
 
@@ -34,7 +36,7 @@ public:
 private:
   class Weigher final : public ir::RungObserver {
   public:
-    Weigher(const ir::Cut& cut, uint64_t& steps) : weights_(ir::rungWeights(cut)), steps_(steps) {}
+    Weigher(const ir::Partition& partition, uint64_t& steps) : weights_(ir::rungWeights(partition)), steps_(steps) {}
     void rungRan(uint32_t number, std::span<const uint64_t>) override { steps_ += weights_[number]; }
 
   private:

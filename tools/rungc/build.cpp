@@ -6,8 +6,8 @@
 
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/llvm/llvm_emitter.h"
+#include "compiler/embedded_ir.h"
 #include "compiler/engines.h"
-#include "compiler/kept_ir.h"
 #include "ir/text/text.h"
 #include "machine/host/mapping_file.h"
 #include "rtlib/load/seal.h"
@@ -67,9 +67,10 @@ std::optional<compiler::Compiled> compileWithProfile(SourceManager& sources, con
     request.branches = &branches;
   }
   std::optional<compiler::Compiled> compiled = compileChecked(sources, options.source, request, status);
-  if (compiled && compiled->odds.unknown != 0)
+  if (compiled && compiled->branchWeights.unknown != 0)
     fmt::print(stderr, "rungc: {}: has no counts for {} of {} rungs with branches (new or changed)\n",
-               options.profileUse, compiled->odds.unknown, compiled->odds.known + compiled->odds.unknown);
+               options.profileUse, compiled->branchWeights.unknown,
+               compiled->branchWeights.known + compiled->branchWeights.unknown);
   return compiled;
 }
 

@@ -10,8 +10,8 @@
 #include <span>
 #include <unistd.h>
 
+#include "compiler/embedded_ir.h"
 #include "compiler/engines.h"
-#include "compiler/kept_ir.h"
 #include "rtlib/load/seal.h"
 #include "rtlib/load/so_engine.h"
 #include "rtlib/nc/config_key.h"

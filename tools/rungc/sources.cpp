@@ -135,8 +135,8 @@ namespace {
 
 const frontend::Dialect* dialectOf(const SourceManager& sources, std::span<const FileId> files,
                                    const SourceOptions& options) {
-  Diagnostics unheard; // who compiles reports it
-  return files.empty() ? nullptr : compiler::chooseDialect(sources, files, options.dialect, unheard);
+  Diagnostics discarded; // who compiles reports it
+  return files.empty() ? nullptr : compiler::chooseDialect(sources, files, options.dialect, discarded);
 }
 
 // Those of --config; the project's have been checked with their places.

@@ -30,8 +30,8 @@ std::optional<Program> drawnProgram(SourceManager& sources, std::span<const File
   if (module == nullptr) return std::nullopt;
   const auto ladders = laddersOf(dialect, sources, files, diagnostics);
   if (!ladders) return std::nullopt;
-  Diagnostics unheard; // the same program: all of it has been reported
-  if (!std::ranges::equal(ladders->files, files)) program = dialect.check(sources, ladders->files, options, unheard);
+  Diagnostics discarded; // the same program: all of it has been reported
+  if (!std::ranges::equal(ladders->files, files)) program = dialect.check(sources, ladders->files, options, discarded);
   const report::ModuleReference reference(*module, dialect.shownSpaces);
   return readProgram(sources, {.dialect = &dialect,
                                .files = ladders->files,

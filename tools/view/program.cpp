@@ -503,11 +503,11 @@ void Reader::addNameTables() {
 }
 
 Program Reader::run() {
-  Diagnostics unheard; // reported when the program was compiled
+  Diagnostics discarded; // reported when the program was compiled
   for (FileId file : input_.files)
-    files_.push_back(frontend::ladder::parseLadder(sources_, file, unheard, input_.dialect->findBox));
+    files_.push_back(frontend::ladder::parseLadder(sources_, file, discarded, input_.dialect->findBox));
   nameFiles();
-  RUNG_CHECK(!unheard.hasErrors(), "the program has been compiled");
+  RUNG_CHECK(!discarded.hasErrors(), "the program has been compiled");
   program_.control = input_.dialect->title;
   readTexts();
   for (const LadderFile& file : files_) readFile(file);

@@ -182,9 +182,9 @@ std::optional<std::string> format(SourceManager& sources, FileId file, Diagnosti
   std::string out = Formatter(sources, *readableFile, diagnostics).run();
   if (diagnostics.errorCount() != before) return std::nullopt;
   if (sources.text(*readableFile) != text) {
-    Diagnostics unheard;
-    out = Formatter(sources, sources.addBuffer(std::string(sources.name(file)), std::string(text)), unheard).run();
-    RUNG_CHECK(!unheard.hasErrors(), "words are the same in all encodings");
+    Diagnostics discarded;
+    out = Formatter(sources, sources.addBuffer(std::string(sources.name(file)), std::string(text)), discarded).run();
+    RUNG_CHECK(!discarded.hasErrors(), "words are the same in all encodings");
   }
   return out;
 }

@@ -90,13 +90,13 @@ std::vector<std::string> included(SourceManager& sources, std::span<const FileId
                                   const CompileOptions& options) {
   std::set<std::string_view> seen;
   for (const FileId file : files) seen.insert(sources.name(file));
-  Diagnostics unheard;
+  Diagnostics discarded;
   SourceProgram program(sources);
   Declarations declarations;
-  Symbols symbols(unheard);
+  Symbols symbols(discarded);
   const auto before = static_cast<uint32_t>(sources.fileCount());
   // Adds the files that it reads.
-  readProgram({sources, {.includePaths = options.includePaths}, unheard, program, declarations, symbols}, files);
+  readProgram({sources, {.includePaths = options.includePaths}, discarded, program, declarations, symbols}, files);
   std::vector<std::string> names;
   for (uint32_t i = before; i < sources.fileCount(); ++i)
     if (const std::string_view name = sources.name(FileId{i}); seen.insert(name).second) names.emplace_back(name);

@@ -119,8 +119,8 @@ std::string meaningOf(const Rung& rung) {
 // Which rungs of `text` are not those of the file.
 std::vector<bool> changedRungs(const LadderFile& file, const std::string& text, FindBox findBox) {
   SourceManager sources;
-  Diagnostics unheard;
-  const LadderFile again = parseLadder(sources, sources.addBuffer("formatted", text), unheard, findBox);
+  Diagnostics discarded;
+  const LadderFile again = parseLadder(sources, sources.addBuffer("formatted", text), discarded, findBox);
   RUNG_CHECK(again.rungs.size() == file.rungs.size(), "no rung is lost");
   std::vector<bool> changed;
   for (size_t i = 0; i < file.rungs.size(); ++i)

@@ -282,10 +282,10 @@ void Parser::finishRung(Rung& rung) {
     drawing_.bad = true;
     rungIsEmpty_ = true;
   }
-  Diagnostics unheard; // what else is wrong with a drawing that could not be read follows from that
+  Diagnostics discarded; // what else is wrong with a drawing that could not be read follows from that
   dropRightRail(drawing_);
-  groupPins(drawing_, findBox_, drawing_.bad ? unheard : diagnostics_);
-  wireUp(drawing_, rung, drawing_.bad ? unheard : diagnostics_);
+  groupPins(drawing_, findBox_, drawing_.bad ? discarded : diagnostics_);
+  wireUp(drawing_, rung, drawing_.bad ? discarded : diagnostics_);
   rung.comments = std::move(drawing_.comments);
   rung.bad = drawing_.bad;
   if (!rung.bad) orderElements(rung, diagnostics_);

@@ -6,17 +6,17 @@ namespace rung::frontend::ladder {
 
 Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, FindBox findBox) {
   Drawing drawing;
-  Diagnostics unheard;
+  Diagnostics discarded;
   const char* const begin = sources.text(file).data();
   for (uint32_t number = rung.firstLine + 1; number <= rung.lastLine; ++number) {
     const std::string_view text = sources.lineText(file, number);
     const size_t first = text.find_first_not_of(' ');
     if (first == std::string_view::npos || text[first] == ';') continue;
     const auto offset = static_cast<size_t>(text.data() - begin);
-    scanDrawingLine({number, text, sources.position(file, offset)}, drawing, unheard);
+    scanDrawingLine({number, text, sources.position(file, offset)}, drawing, discarded);
   }
   dropRightRail(drawing);
-  groupPins(drawing, findBox, unheard);
+  groupPins(drawing, findBox, discarded);
   RUNG_CHECK(!drawing.bad, "the rung was parsed without errors");
   return drawing;
 }

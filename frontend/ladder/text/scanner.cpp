@@ -417,8 +417,8 @@ void scanDrawingLine(const SourceLine& line, Drawing& drawing, Diagnostics& diag
 }
 
 void addUnreadLine(const SourceLine& line, Drawing& drawing) {
-  Diagnostics unheard;
-  LineScanner(line, drawing, unheard).skip();
+  Diagnostics discarded;
+  LineScanner(line, drawing, discarded).skip();
 }
 
 Comment commentFrom(const SourceLine& line, size_t begin) {

@@ -34,8 +34,9 @@ bool isCondition(const Context& context, const std::vector<Written>& commands) {
   }
   const auto trees = treesOf(logic);
   if (!trees || trees->size() != 1) return false;
-  Diagnostics unheard;
-  Context own{.language = context.language, .sources = context.sources, .diagnostics = unheard, .names = context.names};
+  Diagnostics discarded;
+  Context own{
+      .language = context.language, .sources = context.sources, .diagnostics = discarded, .names = context.names};
   return std::all_of(commands.begin(), commands.end(), [&](const Written& written) {
     return isBlock(written.command) || bitOperand(own, Word{written.operand, written.range, false});
   });

@@ -143,7 +143,7 @@ private:
 
 class AxisPins {
 public:
-  // Adds those of an axis to the map, whose box leaves them alone. "" or what is wrong.
+  // Adds those of an axis to the map, whose host leaves them alone. "" or what is wrong.
   std::string add(host::File& map, uint32_t axis, const std::string& prefix);
   // As many cells as the map has pins, in their order; cells and access outlive this.
   void connect(const host::PinCell* cells, const host::PinAccess& access) noexcept;

@@ -176,7 +176,7 @@ typedef struct rung_chunk {
 
 #define RUNG_MOST_TIMER_LIMIT (INT64_MAX >> 16)
 
-typedef struct rung_rung_info {
+typedef struct rung_info {
   const char* title; /* the rung's comment, "" when there is none */
   uint32_t file;     /* in `files`; RUNG_NONE: made by the compiler */
   uint32_t first_line;
@@ -185,7 +185,7 @@ typedef struct rung_rung_info {
   uint64_t key;     /* stable while the rung's text is unchanged */
   uint32_t number;  /* as drawn: from 1, over all files in their order; 0: made by the compiler */
   uint32_t copy;    /* how many rungs before it in its routine have the same text: in the key (rung/types.hpp) */
-} rung_rung_info;
+} rung_info;
 
 /* A part of the program that the host can start: `begin` copies, chunks from `entry` until RUNG_PC_DONE, `end` copies.
  * A task that is cut into parts runs one part a RUNG_STEP_PART, and one run always takes `part_count` of them: when the
@@ -203,14 +203,14 @@ typedef struct rung_task {
   uint32_t end_count;
   uint32_t part_first; /* in `part_ends` */
   uint32_t part_count; /* 1: not cut */
-  uint32_t heaviest;   /* weight of the heaviest run, of a cut task: of its heaviest part; at most `budget` */
-  uint32_t circles;    /* 1: control may go in circles; `heaviest` counts none of them twice, and `budget` ends them */
+  uint32_t longest;    /* weight of the longest run, of a cut task: of its longest part; at most `budget` */
+  uint32_t loops;      /* 1: control may go in loops; `longest` counts none of them twice, and `budget` ends them */
   uint32_t read_first; /* in `reads`: what a run may read of spaces, its `begin` copies included */
   uint32_t read_count;
   uint32_t change_first;    /* in `changes`: where all lies that a run may change. When one changes nothing, the next */
   uint32_t change_count;    /* right after it does not either. 0: nobody promises that, or there is too much of it */
-  uint32_t straight_chunk;  /* from it on, outside of calls, control goes in no circles; RUNG_PC_DONE: nowhere */
-  uint32_t straight_weight; /* of the heaviest way from there, or from a later chunk */
+  uint32_t loop_free_chunk; /* from it on, outside of calls, control goes in no loops; RUNG_PC_DONE: nowhere */
+  uint32_t loop_free_weight; /* of the longest way from there, or from a later chunk */
 } rung_task;
 
 #define RUNG_MOST_CHANGES 16u /* `changes` of a task */
@@ -350,7 +350,7 @@ typedef struct rung_program {
   const rung_span* safe_spans; /* cleared when a fault stops the program */
   const rung_copy* copies;
   const rung_chunk* chunks;
-  const rung_rung_info* rungs;
+  const rung_info* rungs;
   const char* const* routines;
   const char* const* files;
   const rung_task* tasks;

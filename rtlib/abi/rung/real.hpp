@@ -97,13 +97,13 @@ constexpr Coefficients inverseFactorials() noexcept {
   for (u32 n = 1; n < kTerms; ++n) c.at[n] = divSmall(c.at[n - 1], n);
   return c;
 }
-constexpr Coefficients inverseOdds() noexcept {
+constexpr Coefficients inverseWeights() noexcept {
   Coefficients c{};
   for (u32 n = 0; n < kTerms; ++n) c.at[n] = divSmall(kOne, 2 * n + 1);
   return c;
 }
 inline constexpr Coefficients kInverseFactorial = inverseFactorials(); // 1 / n!
-inline constexpr Coefficients kInverseOdd = inverseOdds();             // 1 / (2 n + 1)
+inline constexpr Coefficients kInverseOdd = inverseWeights();          // 1 / (2 n + 1)
 
 // The sum of c[first + step * k] * z^k, k = 0 to terms, with alternating signs or without; z is Q0.128, below 1. There
 // are fewer terms than kTerms, which the loop says for those who look for the longest path through its code.

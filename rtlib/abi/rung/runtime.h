@@ -233,7 +233,7 @@ RUNG_API int32_t rung_instance_limit(rung_instance* instance, int64_t ns);
  * all has been read or CLOCK_MONOTONIC has come to `until_ns`; changes nothing and runs nothing. For hosts that wake
  * some microseconds before a slice is due: the processor has it in its caches then. The code is that of a program in a
  * file of its own. [rt] */
-RUNG_API int32_t rung_instance_touch(const rung_instance* instance, int64_t until_ns);
+RUNG_API int32_t rung_instance_prefetch(const rung_instance* instance, int64_t until_ns);
 
 enum rung_state_flags {
   RUNG_STATE_ON = 1,       /* switched on */
@@ -473,7 +473,7 @@ RUNG_API int32_t rung_instance_bind_struct(rung_instance* instance, const rung_l
 
 /* How many slices in a row, up to now, no whole copy of the struct at this address could be had. RUNG_NOT_FOUND: none
  * with counters is bound there. [rt] */
-RUNG_API int32_t rung_instance_torn(const rung_instance* instance, const void* address, uint32_t* slices);
+RUNG_API int32_t rung_instance_inconsistent(const rung_instance* instance, const void* address, uint32_t* slices);
 
 /* ---- messages -------------------------------------------------------------------------------------------------- */
 
@@ -725,7 +725,7 @@ RUNG_API int32_t rung_replacement_rung(const rung_replacement* replacement, uint
  * power-on, rung_instance_fault still says what happened, and the new one does not come again (RUNG_WRONG_STATE) unless
  * it is prepared anew. Where RUNG_LATER would be given at a fault, the new program stays.
  * RUNG_REFUSED: a slice of the new program may last longer than its period, and the sentence has the figures (see
- * rung_replacement_allow_late). Of jumps that may go in circles each counts once: rung_instance_limit ends them in
+ * rung_replacement_allow_late). Of jumps that may go in loops each counts once: rung_instance_limit ends them in
  * time. RUNG_LATER: within a pass of the schedule, or a mechanism or a service request waits that the new program does
  * not know; RUNG_WRONG_STATE: it was made for another program than the one that runs. [rt] */
 RUNG_API int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replacement);

@@ -104,7 +104,8 @@ constexpr To narrow(From a) noexcept {
     return static_cast<To>(a);
 }
 
-// ---- integers: wrap around --------------------------------------------------------------------------------------
+// ---- integers: wrap environment
+// --------------------------------------------------------------------------------------
 template <class U>
 constexpr U add(U a, U b) noexcept {
   return static_cast<U>(static_cast<u64>(a) + b);

@@ -34,7 +34,7 @@ public:
   // function has its group for good.
   virtual bool setGroup(uint32_t code, uint32_t group) { return (void)code, (void)group, false; }
   // False: the dialect has no signals for this kind of function, or none that hold the code.
-  virtual bool carries(FunctionKind kind, uint32_t code) const = 0;
+  virtual bool supports(FunctionKind kind, uint32_t code) const = 0;
 
   // Hands a function over that the signals carry; gives the line that it is on, which is its own until it is finished.
   // Nothing: the signals that it needs are in use, or it is not the time for it; try again before a later slice.
@@ -84,9 +84,9 @@ struct DefinedMessage {
 // Characters that Control::describe may write; longer texts are cut off.
 inline constexpr size_t kMessageLine = 400;
 
-// What the software of a CNC does around its PLC program, whatever the machine: power-on and power-off, signals that
-// the program takes for granted (clocks, first cycle, "ready"), messages, retained cells, names. One class a dialect
-// (gsk/, nct/, technol/). A host that drives a real machine and the simulation alike put it beside the program.
+// What the software of a CNC does environment its PLC program, whatever the machine: power-on and power-off, signals
+// that the program takes for granted (clocks, first cycle, "ready"), messages, retained cells, names. One class a
+// dialect (gsk/, nct/, technol/). A host that drives a real machine and the simulation alike put it beside the program.
 //
 // A control belongs to one instance and to its thread. What runs while the program is scanned (the hooks, accept,
 // describe, afterSlice) allocates nothing, takes no lock and never blocks; the rest is for start, end and the operator.
@@ -247,7 +247,7 @@ public:
   // How saving goes: for any thread, without a lock.
   const runtime::RetainedMemory& memory() const { return memory_; }
   // As RetainedMemory has them.
-  void programChanged(std::unique_ptr<runtime::RetainLane>& lane) noexcept { memory_.programChanged(lane); }
+  void programChanged(std::unique_ptr<runtime::RetainChannel>& channel) noexcept { memory_.programChanged(channel); }
   void settle() { memory_.settle(); }
   // Not in a scan: waits for what was offered.
   bool flush() { return memory_.flush(); }

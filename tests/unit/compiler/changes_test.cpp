@@ -45,7 +45,7 @@ ir::Module variantOf(ir::Module module, uint32_t variant) {
 
 struct Variant {
   Variant(const ir::Module& module, EngineKind engineKind)
-      : kind(engineKind), compiled(testing::compiledFromBuilt(module, {.cut = {.maxChunkRungs = 4}})),
+      : kind(engineKind), compiled(testing::compiledFromBuilt(module, {.partition = {.maxChunkRungs = 4}})),
         engine(makeEngine(kind, compiled, {}).value()) {}
   const rung_program& program() const { return engine->program(); }
 

@@ -130,7 +130,7 @@ TEST_P(ForcedCodeOf, RandomPrograms) {
 }
 
 // What the optimiser knows of a cell is not so any more where the cell is forced: what it had left out comes back, with
-// its ways out of the rung and its accesses. Several chunks, and of every second program those that rest.
+// its paths out of the rung and its accesses. Several chunks, and of every second program those that rest.
 TEST_P(ForcedCodeOf, KnownCells) {
   const uint64_t seeds = GetParam() == EngineKind::Interp ? 300 : testing::howMany(25, 300);
   uint32_t withCode = 0;
@@ -144,7 +144,7 @@ TEST_P(ForcedCodeOf, KnownCells) {
       if (random() % 2 != 0)
         cells.push_back({.ref = runtime::bitRef(ir::kKnownSpace.index, 0, bit), .bits = random() % 4 != 0 ? 1u : 0u});
     if (!canBeForced(module, cells, withCode)) continue;
-    compareForced(module, GetParam(), cells, seed, {.cut = {.maxChunkRungs = 3}}, forcedAtEnd);
+    compareForced(module, GetParam(), cells, seed, {.partition = {.maxChunkRungs = 3}}, forcedAtEnd);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(withCode, seeds / 2);

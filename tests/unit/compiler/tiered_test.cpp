@@ -26,9 +26,9 @@ using Random = std::mt19937_64;
 // The program as the interpreter runs it, and the same in tiers.
 struct Both {
   explicit Both(const ir::Module& module, const codegen::JitOptions& options = {}, Pace pace = Pace::Period)
-      : compiled(testing::compiledFromBuilt(module, {.cut = {.maxChunkRungs = 4}})), reference(*compiled.layout, 0),
-        expected(reference), engine(TieredEngine::make(compiled, options, ir::Counting::Ticks, pace).value()),
-        tested(*engine) {}
+      : compiled(testing::compiledFromBuilt(module, {.partition = {.maxChunkRungs = 4}})),
+        reference(*compiled.layout, 0), expected(reference),
+        engine(TieredEngine::make(compiled, options, ir::Counting::Ticks, pace).value()), tested(*engine) {}
 
   void scan(uint64_t seed, uint64_t scan) {
     for (runtime::Instance* instance : {&expected, &tested}) {
@@ -168,9 +168,9 @@ TEST(Tiered, WaitsForMachineCodeWhereAProgramMayGoInCircles) {
   for (uint64_t seed = 0; seed < 10; ++seed) {
     const Both both(ir::randomModule(seed, {.rungs = 6}));
     const std::span<const rung_task> tasks(both.tested.program().tasks, both.tested.program().task_count);
-    const bool circles = std::ranges::any_of(tasks, [](const rung_task& task) { return task.circles != 0; });
-    EXPECT_EQ(both.engine->beganInterpreted(), !circles) << seed;
-    circling += circles ? 1 : 0;
+    const bool loops = std::ranges::any_of(tasks, [](const rung_task& task) { return task.loops != 0; });
+    EXPECT_EQ(both.engine->beganInterpreted(), !loops) << seed;
+    circling += loops ? 1 : 0;
   }
   EXPECT_GT(circling, 0u);
 }

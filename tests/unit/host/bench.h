@@ -1,4 +1,4 @@
-// A box and its pins, as HAL would have them.
+// A host and its pins, as HAL would have them.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "machine/host/box.h"
+#include "machine/host/plc_host.h"
 #include "tests/support/adopted_image.h"
 
 namespace rung::host::testing {
@@ -28,16 +28,17 @@ public:
     values.resize(map.pins.size());
     for (PinValue& value : values) cells.push_back({.any = &value});
     try {
-      box = Box::make(test::adopted(program), std::move(map), {.retain = retain, .catchUp = catchUp}, errors, warnings);
+      host = PlcHost::make(test::adopted(program), std::move(map), {.retain = retain, .catchUp = catchUp}, errors,
+                           warnings);
     } catch (const Error& error) {
       errors.emplace_back(error.what());
     }
-    if (box) box->connect(cells.data());
+    if (host) host->connect(cells.data());
   }
 
   PinValue& operator[](std::string_view name) {
     for (size_t i = 0; i < values.size(); ++i)
-      if (box->pins()[i].name == name) return values[i];
+      if (host->pins()[i].name == name) return values[i];
     ADD_FAILURE() << "no pin " << name;
     return values[0];
   }
@@ -45,7 +46,7 @@ public:
   std::vector<rung_message_info> messages() const {
     std::vector<rung_message_info> list;
     rung_message_info message{};
-    while (box->nextMessage(message)) list.push_back(message);
+    while (host->nextMessage(message)) list.push_back(message);
     return list;
   }
   template <class T>
@@ -56,18 +57,18 @@ public:
   }
   // Scans of an 8 ms program.
   void scans(int count) {
-    for (int i = 0; i < count; ++i) EXPECT_EQ(box->step(8 * kMs), StepResult::Ran);
+    for (int i = 0; i < count; ++i) EXPECT_EQ(host->step(8 * kMs), StepResult::Ran);
   }
   // A thread of 1 ms; the program does not stop.
   void run(int64_t ms) {
-    for (int64_t i = 0; i < ms; ++i) EXPECT_NE(box->step(kMs), StepResult::Failed);
+    for (int64_t i = 0; i < ms; ++i) EXPECT_NE(host->step(kMs), StepResult::Failed);
   }
 
   std::vector<std::string> errors;
   std::vector<std::string> warnings;
   std::vector<PinValue> values;
   std::vector<PinCell> cells;
-  std::unique_ptr<Box> box;
+  std::unique_ptr<PlcHost> host;
 };
 
 } // namespace rung::host::testing

@@ -165,11 +165,11 @@ TEST_F(NctBox, AFunctionEndsWithItsAcknowledge) {
   EXPECT_EQ(b["code1"].s32, 6);
   EXPECT_FALSE(b["strobe"].bit);
   EXPECT_FALSE(b["changed"].bit);
-  EXPECT_TRUE(b.box->functions().busy());
+  EXPECT_TRUE(b.host->functions().busy());
   b["arm"].bit = true;
   b.run(30);
   EXPECT_TRUE(b["changed"].bit);
-  EXPECT_FALSE(b.box->functions().busy());
+  EXPECT_FALSE(b.host->functions().busy());
   b["change"].bit = false;
   b.run(1);
   EXPECT_FALSE(b["changed"].bit);
@@ -252,7 +252,7 @@ TEST_F(NctBox, AnAbortEndsAllChannels) {
   b.run(30);
   b["estop"].bit = true;
   b.run(1);
-  EXPECT_FALSE(b.box->functions().busy());
+  EXPECT_FALSE(b.host->functions().busy());
   b["arm"].bit = b["chuck"].bit = true;
   b.run(30);
   EXPECT_FALSE(b["changed"].bit);
@@ -262,9 +262,9 @@ TEST_F(NctBox, AnAbortEndsAllChannels) {
 TEST_F(NctBox, OneThatTakesTooLongShows) {
   b["change"].bit = true;
   b.run(1500);
-  EXPECT_FALSE(b.box->functions().late());
+  EXPECT_FALSE(b.host->functions().late());
   b.run(2);
-  EXPECT_TRUE(b.box->functions().late());
+  EXPECT_TRUE(b.host->functions().late());
 }
 
 TEST_F(NctBox, AStepAllocatesNothing) {
@@ -397,12 +397,12 @@ TEST_F(TechnolBox, AFunctionIsABlock) {
   b.run(60);
   EXPECT_TRUE(b["changing"].bit);
   EXPECT_FALSE(b["changed"].bit);
-  EXPECT_TRUE(b.box->functions().busy());
+  EXPECT_TRUE(b.host->functions().busy());
   b["arm"].bit = true;
   b.run(60);
   EXPECT_FALSE(b["changing"].bit);
   EXPECT_TRUE(b["changed"].bit);
-  EXPECT_FALSE(b.box->functions().busy());
+  EXPECT_FALSE(b.host->functions().busy());
 }
 
 TEST_F(TechnolBox, BlocksFollowEachOther) {
@@ -438,13 +438,13 @@ TEST_F(TechnolBox, AnAbortIsTheCentralAnnulment) {
   EXPECT_EQ(b["annulments"].s32, 1);
   EXPECT_FALSE(b["cw"].bit); // M5
   EXPECT_FALSE(b["changed"].bit);
-  EXPECT_FALSE(b.box->functions().busy());
+  EXPECT_FALSE(b.host->functions().busy());
 }
 
 TEST_F(TechnolBox, OneThatTakesTooLongShows) {
   b["change"].bit = true;
   b.run(1505);
-  EXPECT_TRUE(b.box->functions().late());
+  EXPECT_TRUE(b.host->functions().late());
 }
 
 std::vector<std::string> textsOf(Bench& b) {
@@ -464,19 +464,19 @@ TEST_F(TechnolBox, AnEndThatDoesNotComeIsNotWaitedFor) {
   Bench w{waiting.program(), kTechnolMap};
   ASSERT_THAT(w.errors, IsEmpty());
   w.run(40);
-  EXPECT_FALSE(w.box->ends());
+  EXPECT_FALSE(w.host->powerOffDone());
   w.run(499L * 20);
-  EXPECT_FALSE(w.box->ends());
+  EXPECT_FALSE(w.host->powerOffDone());
   w.run(20);
-  EXPECT_TRUE(w.box->ends());
-  EXPECT_EQ(w.box->close(), "");
+  EXPECT_TRUE(w.host->powerOffDone());
+  EXPECT_EQ(w.host->close(), "");
   Bench answered{waiting.program(), kTechnolMap};
   answered.run(40);
-  EXPECT_FALSE(answered.box->ends());
+  EXPECT_FALSE(answered.host->powerOffDone());
   answered["arm"].bit = true;
   answered.run(20);
-  EXPECT_TRUE(answered.box->ends());
-  EXPECT_TRUE(b.box->ends()) << "a program that does not wait";
+  EXPECT_TRUE(answered.host->powerOffDone());
+  EXPECT_TRUE(b.host->powerOffDone()) << "a program that does not wait";
 }
 
 TEST_F(TechnolBox, AFaultAtTheEndIsReported) {
@@ -487,8 +487,8 @@ TEST_F(TechnolBox, AFaultAtTheEndIsReported) {
   ASSERT_THAT(e.errors, IsEmpty());
   e.run(20);
   std::vector<std::string> reports;
-  EXPECT_TRUE(e.box->ends());
-  EXPECT_TRUE(e.box->serve(reports));
+  EXPECT_TRUE(e.host->powerOffDone());
+  EXPECT_TRUE(e.host->serve(reports));
   EXPECT_THAT(reports, ElementsAre(StartsWith("the program has stopped: ")));
 }
 
@@ -511,7 +511,7 @@ TEST_F(TechnolBox, CodesThatItsCellsDoNotHoldAreCounted) {
   b["number"].s32 = -1;
   b["prepare"].bit = true;
   b.run(60);
-  EXPECT_EQ(b.box->functions().lost(), 1u);
+  EXPECT_EQ(b.host->functions().lost(), 1u);
   EXPECT_FALSE(b["prepared"].bit);
 }
 

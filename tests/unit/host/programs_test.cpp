@@ -89,7 +89,7 @@ protected:
     EXPECT_THAT(b.errors, IsEmpty());
     return b;
   }
-  static std::string reason(const Bench& b) { return b.box->fault()->code; }
+  static std::string reason(const Bench& b) { return b.host->fault()->code; }
 
   CompiledProgram program{"faults.plc", kFaults};
   TemporaryFolder folder;
@@ -102,12 +102,12 @@ TEST_F(TechnolFaults, ModuleHaltRunsInTheScanOfTheFault) {
   EXPECT_THAT(b.messages(&rung_message_info::number), IsEmpty());
   b["fatal"].bit = true;
   StepResult last = StepResult::Ran;
-  for (int ms = 0; ms < 40 && last != StepResult::Failed; ++ms) last = b.box->step(kMs);
+  for (int ms = 0; ms < 40 && last != StepResult::Failed; ++ms) last = b.host->step(kMs);
   EXPECT_EQ(last, StepResult::Failed);
   EXPECT_THAT(reason(b), HasSubstr("halt-status 2"));
   EXPECT_FALSE(b["lamp"].bit);
   EXPECT_THAT(b.messages(&rung_message_info::number), ElementsAre(13u));
-  EXPECT_EQ(b.box->step(kMs), StepResult::Waiting);
+  EXPECT_EQ(b.host->step(kMs), StepResult::Waiting);
   EXPECT_THAT(b.messages(&rung_message_info::number), IsEmpty()); // once
 }
 
@@ -118,17 +118,17 @@ TEST_F(TechnolFaults, InModuleInit) {
     Bench b = start(program.program(), file);
     b["keep"].bit = true;
     b.run(40);
-    EXPECT_EQ(b.box->close(), "");
+    EXPECT_EQ(b.host->close(), "");
   }
   Bench b = start(program.program(), file);
   for (int round = 0; round < 2; ++round) {
-    EXPECT_EQ(b.box->step(kMs), StepResult::Failed);
+    EXPECT_EQ(b.host->step(kMs), StepResult::Failed);
     EXPECT_THAT(reason(b), HasSubstr("halt-status 2"));
     EXPECT_FALSE(b["lamp"].bit);
-    EXPECT_EQ(b.box->state().passes, 0u);
-    b.box->step(kMs, true);
+    EXPECT_EQ(b.host->state().passes, 0u);
+    b.host->step(kMs, true);
     std::vector<std::string> reports;
-    EXPECT_TRUE(b.box->serve(reports));
+    EXPECT_TRUE(b.host->serve(reports));
     EXPECT_THAT(reports, ElementsAre(HasSubstr("halt-status 2"), "the program has been restarted"));
   }
 }
@@ -192,7 +192,7 @@ TEST_F(TechnolBackup, IsSavedWhenTheProgramAsksAndAtTheEnd) {
   {
     Bench b = start();
     EXPECT_EQ(b["starts"].u32, 1u);
-    const uint64_t first = b.box->state().saves;
+    const uint64_t first = b.host->state().saves;
     b["go"].bit = true;
     b.run(20);
     b["go"].bit = false;
@@ -200,10 +200,10 @@ TEST_F(TechnolBackup, IsSavedWhenTheProgramAsksAndAtTheEnd) {
     EXPECT_FALSE(b["saved"].bit);
     ASSERT_TRUE(runUntil(b, [&] { return b["saved"].bit; }));
     EXPECT_FALSE(b["asked"].bit);
-    EXPECT_GT(b.box->state().saves, first);
+    EXPECT_GT(b.host->state().saves, first);
     b["last"].u32 = 0x5A; // MODULE_DONE keeps it
     b.run(20);
-    EXPECT_EQ(b.box->close(), "");
+    EXPECT_EQ(b.host->close(), "");
   }
   Bench b = start();
   EXPECT_THAT(b.warnings, IsEmpty());
@@ -212,13 +212,13 @@ TEST_F(TechnolBackup, IsSavedWhenTheProgramAsksAndAtTheEnd) {
 }
 
 TEST_F(TechnolBackup, DamagedFilesAreReportedAndItStartsCold) {
-  EXPECT_EQ(start().box->close(), "");
+  EXPECT_EQ(start().host->close(), "");
   damage();
   {
     Bench b = start();
     EXPECT_THAT(b.warnings, ElementsAre(HasSubstr("plc.b: too short; starting cold")));
     EXPECT_EQ(b["starts"].u32, 1u);
-    EXPECT_EQ(b.box->close(), "");
+    EXPECT_EQ(b.host->close(), "");
   }
   Bench b = start();
   EXPECT_THAT(b.warnings, IsEmpty());
@@ -226,8 +226,8 @@ TEST_F(TechnolBackup, DamagedFilesAreReportedAndItStartsCold) {
 }
 
 TEST_F(TechnolBackup, OneOfTwoFilesIsEnough) {
-  EXPECT_EQ(start().box->close(), "");
-  EXPECT_EQ(start().box->close(), "");
+  EXPECT_EQ(start().host->close(), "");
+  EXPECT_EQ(start().host->close(), "");
   std::ofstream(file + ".a") << "junk";
   Bench b = start();
   EXPECT_THAT(b.warnings, ElementsAre(HasSubstr(".a")));
@@ -240,7 +240,7 @@ TEST_F(TechnolBackup, AnotherProgramsFilesAreReportedAndItStartsCold) {
     Bench b(other.program(), "", file);
     ASSERT_THAT(b.errors, IsEmpty());
     b.run(16);
-    EXPECT_EQ(b.box->close(), "");
+    EXPECT_EQ(b.host->close(), "");
   }
   Bench b = start();
   EXPECT_EQ(b.warnings.size(), 1u);
@@ -252,20 +252,20 @@ TEST_F(TechnolBackup, AFullDiskMakesTheProgramWait) {
   {
     const FullDisk full(1000);
     b["go"].bit = true;
-    ASSERT_TRUE(runUntil(b, [&] { return b.box->failsToSave(); }));
+    ASSERT_TRUE(runUntil(b, [&] { return b.host->failsToSave(); }));
     b.run(200);
     EXPECT_TRUE(b["asked"].bit);
     EXPECT_FALSE(b["saved"].bit);
   }
   EXPECT_TRUE(runUntil(b, [&] { return b["saved"].bit; })); // tried again and again
-  EXPECT_FALSE(b.box->failsToSave());
-  EXPECT_EQ(b.box->close(), "");
+  EXPECT_FALSE(b.host->failsToSave());
+  EXPECT_EQ(b.host->close(), "");
 }
 
 TEST_F(TechnolBackup, ADiskThatIsFullAtTheEndIsReported) {
   Bench b = start();
   const FullDisk full(1000);
-  EXPECT_THAT(b.box->close(), HasSubstr("cannot write"));
+  EXPECT_THAT(b.host->close(), HasSubstr("cannot write"));
 }
 
 // ---- NCT
@@ -284,8 +284,8 @@ out.slices = { type = "u32", name = "FAST" }
   ASSERT_THAT(b.errors, IsEmpty());
   uint32_t slices = 0;
   for (int ms = 0; ms < 100; ++ms) {
-    slices += b.box->step(kMs) == StepResult::Ran ? 1 : 0;
-    EXPECT_EQ(b.box->state().passes, slices / 5);
+    slices += b.host->step(kMs) == StepResult::Ran ? 1 : 0;
+    EXPECT_EQ(b.host->state().passes, slices / 5);
   }
   EXPECT_EQ(slices, 50u);
   EXPECT_EQ(b["cycles"].u32, 10u);
@@ -294,7 +294,7 @@ out.slices = { type = "u32", name = "FAST" }
   int atOnce = 0;
   int main = 0;
   for (int ms = 1; ms <= 40 && main == 0; ++ms) {
-    b.box->step(kMs);
+    b.host->step(kMs);
     if (atOnce == 0 && b["at-once"].bit) atOnce = ms;
     if (b["main"].bit) main = ms;
   }

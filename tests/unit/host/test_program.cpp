@@ -52,18 +52,18 @@ uint32_t gskScan(uint8_t* mem, rung_ctx* ctx, uint32_t) {
   return RUNG_PC_DONE;
 }
 
-// A message box as the compiler makes it: the code that was sent, and what the NC says of it.
+// A message host as the compiler makes it: the code that was sent, and what the NC says of it.
 void nctMessage(uint8_t* mem, rung_ctx* ctx, bool input) {
-  uint32_t box[2];
-  std::memcpy(box, mem + kMessages, sizeof box);
-  if (input != (box[0] != 0)) {
-    box[0] = input ? 3000705 : 0;
-    box[1] = 0;
-    std::memcpy(mem + kMessages, box, sizeof box);
+  uint32_t host[2];
+  std::memcpy(host, mem + kMessages, sizeof host);
+  if (input != (host[0] != 0)) {
+    host[0] = input ? 3000705 : 0;
+    host[1] = 0;
+    std::memcpy(mem + kMessages, host, sizeof host);
     const rung_message message = {input ? RUNG_MESSAGE_SHOW_LOG : RUNG_MESSAGE_CLEAR, 7, 3, 5, 42, 0, 0};
     ctx->host->message(ctx, &message);
   }
-  setBit(mem, 400 * 4, 1, box[1] != 0);
+  setBit(mem, 400 * 4, 1, host[1] != 0);
 }
 
 uint32_t nctScan(uint8_t* mem, rung_ctx* ctx, uint32_t) {
@@ -109,7 +109,7 @@ constexpr rung_symbol kTechnolSymbols[] = {
 };
 
 constexpr rung_chunk kChunks[] = {{0, 1, 1}};
-constexpr rung_rung_info kRungs[] = {{"all of it", 0, 40, 44, 0, 1, 1, 0}};
+constexpr rung_info kRungs[] = {{"all of it", 0, 40, 44, 0, 1, 1, 0}};
 constexpr const char* kRoutines[] = {"MAIN"};
 constexpr const char* kFiles[] = {"main.pmc"};
 constexpr uint32_t kPartEnds[] = {RUNG_PC_DONE};

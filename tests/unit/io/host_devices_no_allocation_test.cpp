@@ -30,7 +30,7 @@ int allocationsOf(DeviceBench& bench, std::initializer_list<const char*> bits) {
   return all;
 }
 
-TEST(DevicesAroundAProgram, Can) {
+TEST(DevicesOfAProgram, Can) {
   int ends[2];
   ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends), 0);
   DeviceBench bench("can.plc");
@@ -41,7 +41,7 @@ TEST(DevicesAroundAProgram, Can) {
   close(ends[1]);
 }
 
-TEST(DevicesAroundAProgram, Com) {
+TEST(DevicesOfAProgram, Com) {
   int master = -1, slave = -1;
   std::array<char, 64> name{};
   ASSERT_EQ(openpty(&master, &slave, name.data(), nullptr, nullptr), 0);
@@ -53,7 +53,7 @@ TEST(DevicesAroundAProgram, Com) {
   close(master);
 }
 
-TEST(DevicesAroundAProgram, Axes) {
+TEST(DevicesOfAProgram, Axes) {
   rung::test::AxisBench bench("device-units.plc");
   bench.beginWith();
   bench.move(1000);
@@ -63,7 +63,7 @@ TEST(DevicesAroundAProgram, Axes) {
   EXPECT_EQ(allocationsOf(bench, {"TAKE", "BEGIN"}), 0);
 }
 
-TEST(DevicesAroundAProgram, TablesAndAreas) {
+TEST(DevicesOfAProgram, TablesAndAreas) {
   const rung::TemporaryFolder folder;
   const std::string table = folder / "tools.PlcT";
   std::ofstream(table) << rung::test::scenarioProgram("tools.PlcT");

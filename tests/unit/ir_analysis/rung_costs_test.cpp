@@ -14,7 +14,7 @@ uint64_t mostMessages(std::vector<Op> ops) {
   Rung& first = module.routines[0].rungs[0];
   first = {};
   first.ops = std::move(ops);
-  return mostOperations(Cut(module, {}), OpCode::Message)[0];
+  return mostOperations(Partition(module, {}), OpCode::Message)[0];
 }
 
 constexpr Op kMessage{.code = OpCode::Message};

@@ -30,7 +30,7 @@ uint64_t heaviestOf(const std::vector<uint64_t>& weights, const Borders& borders
   return most;
 }
 
-// Tries every cut.
+// Tries every partition.
 uint64_t bestCut(const std::vector<uint64_t>& weights, uint32_t parts, uint32_t first, Borders& borders) {
   if (parts == 1) return heaviestOf(weights, borders);
   uint64_t best = UINT64_MAX;
@@ -59,7 +59,7 @@ TEST(Parts, OneHeavyPieceStandsAlone) {
 TEST(Parts, MorePartsThanPieces) {
   EXPECT_EQ(cutParts(piecesOf({4, 1, 1}), 9), (Borders{1, 2}));
   EXPECT_EQ(cutParts(piecesOf({4}), 3), Borders{});
-  EXPECT_EQ(heaviestPart(piecesOf({4, 1, 1}), 9), 4u);
+  EXPECT_EQ(longestPart(piecesOf({4, 1, 1}), 9), 4u);
 }
 
 TEST(Parts, AsManyAsNeeded) {
@@ -82,7 +82,7 @@ TEST(Parts, NoCutHasALighterHeaviestPart) {
     Borders tried;
     const uint64_t best = bestCut(weights, parts, 1, tried);
     ASSERT_EQ(heaviestOf(weights, borders), best);
-    ASSERT_EQ(heaviestPart(piecesOf(weights), parts), best);
+    ASSERT_EQ(longestPart(piecesOf(weights), parts), best);
     ASSERT_LE(partsNeeded(piecesOf(weights), best), parts);
   }
 }

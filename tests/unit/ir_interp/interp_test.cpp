@@ -216,7 +216,7 @@ uint64_t digitsOf(std::string_view routines, std::string_view inits = {}) {
   uint64_t digits = 0;
   for (const uint32_t chunkRungs : {1u, 2u, 32u}) {
     LayoutOptions options;
-    options.cut.maxChunkRungs = chunkRungs;
+    options.partition.maxChunkRungs = chunkRungs;
     Machine m(moduleFromText(program(routines, inits)), options);
     m->scan();
     EXPECT_FALSE(m->faulted());
@@ -285,10 +285,10 @@ std::string heavy(uint32_t number, uint32_t weight, std::string_view transfer = 
 }
 std::vector<std::pair<uint32_t, uint32_t>> chunksOf(const std::string& rungs, uint32_t maxRungs) {
   LayoutOptions options;
-  options.cut.maxChunkRungs = maxRungs;
+  options.partition.maxChunkRungs = maxRungs;
   const Machine m(moduleFromText(program(routine(rungs))), options);
   std::vector<std::pair<uint32_t, uint32_t>> chunks;
-  for (const Chunk& chunk : m.layout().cut().chunks()) chunks.emplace_back(chunk.firstRung, chunk.weight);
+  for (const Chunk& chunk : m.layout().partition().chunks()) chunks.emplace_back(chunk.firstRung, chunk.weight);
   return chunks;
 }
 using Chunks = std::vector<std::pair<uint32_t, uint32_t>>; // first rung, weight
@@ -324,7 +324,7 @@ TEST(InterpChunks, TheWatchdogCountsWhatIsRun) {
   const std::string rungs = count + heavy(1, 50) + heavy(2, 2, "} goto 0");
   for (const uint32_t chunkRungs : {1u, 64u}) {
     LayoutOptions options;
-    options.cut.maxChunkRungs = chunkRungs;
+    options.partition.maxChunkRungs = chunkRungs;
     Machine light(moduleFromText(program(routine(rungs), "init B[0] 01\n")), options);
     light->scan();
     EXPECT_TRUE(light->faulted());
@@ -496,7 +496,7 @@ TEST(InterpDeathTest, NeedsItsContext) {
 TEST(InterpModules, LayoutDoesNotShow) {
   LayoutOptions packed;
   packed.expandBits = false;
-  packed.cut.maxChunkRungs = 1;
+  packed.partition.maxChunkRungs = 1;
   for (uint64_t seed = 0; seed < 300; ++seed) {
     Module module = randomModule(seed);
     // Parts are cut at chunks and faults of budgets come at chunks.

@@ -1,4 +1,4 @@
-// Routines with one caller: where their rungs come to lie, and what becomes of calls and ways back.
+// Routines with one caller: where their rungs come to lie, and what becomes of calls and paths back.
 #include <gtest/gtest.h>
 
 #include "ir/text/text.h"

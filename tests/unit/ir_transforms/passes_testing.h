@@ -22,7 +22,7 @@ inline void foldConstants(Module& module) { overAll<foldConstants>(module); }
 inline void reuseValues(Module& module) { overAll<reuseValues>(module); }
 inline void removeDeadOps(Module& module) { overAll<removeDeadOps>(module); }
 inline void removeTransientStores(Module& module) { overAll<removeTransientStores>(module); }
-inline void guardIndices(Module& module) { overAll<guardIndices>(module); }
+inline void versionRanges(Module& module) { overAll<versionRanges>(module); }
 
 // One rung: its lines and its transfer, from `}` on ("} goto 2 if %3").
 struct RungText {

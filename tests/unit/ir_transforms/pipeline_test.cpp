@@ -90,7 +90,7 @@ TEST(Settled, IsWhatAPassWouldLeaveAsItIs) {
                              {reuseValues, reuseValues},
                              {removeDeadOps, removeDeadOps},
                              {removeTransientStores, removeTransientStores},
-                             {guardIndices, guardIndices}};
+                             {versionRanges, versionRanges}};
   for (uint64_t seed = 0; seed < 600; ++seed) {
     RandomOptions options;
     options.ops = seed % 3 == 0 ? 60 : 16;
@@ -273,7 +273,8 @@ INSTANTIATE_TEST_SUITE_P(Passes, SameBehaviour,
                                          NamedPass{"Inline", inlineRoutines, true}, NamedPass{"Fold", foldConstants},
                                          NamedPass{"Reuse", reuseValues}, NamedPass{"Dead", removeDeadOps},
                                          NamedPass{"Transient", removeTransientStores},
-                                         NamedPass{"Guard", guardIndices, true}, NamedPass{"All", everything}),
+                                         NamedPass{"RangeVersioning", versionRanges, true},
+                                         NamedPass{"All", everything}),
                          [](const auto& test) { return test.param.name; });
 
 } // namespace

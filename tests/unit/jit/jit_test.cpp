@@ -1,4 +1,4 @@
-// The JIT as an engine, its pieces and threads, and its cache of object files. That it computes what the interpreter
+// The JIT as an engine, its units and threads, and its cache of object files. That it computes what the interpreter
 // computes is the differential tests' matter.
 #include "codegen/jit/jit_engine.h"
 #include "codegen/jit/object_cache.h"
@@ -138,7 +138,7 @@ TEST_F(JitCache, LeavesWhatDiffers) {
   EXPECT_EQ(taken({}, 2), 0u) << "another program";
   EXPECT_EQ(taken({.level = LlvmLevel::Fast}), 0u);
   EXPECT_EQ(taken({.debugInfo = false}), 0u);
-  layout_ = Layout(module_, {.cut = {.maxChunkRungs = 1}});
+  layout_ = Layout(module_, {.partition = {.maxChunkRungs = 1}});
   EXPECT_EQ(taken({}), 0u) << "other chunks";
   EXPECT_EQ(files().size(), 5u);
 }
@@ -204,7 +204,7 @@ TEST_F(JitCacheOfOthers, AnotherProgram) {
 TEST_F(JitCacheOfOthers, AnotherCut) {
   const auto [other, own] = filesOf(
       [&] {
-        layout_ = Layout(module_, {.cut = {.maxChunkRungs = 1}});
+        layout_ = Layout(module_, {.partition = {.maxChunkRungs = 1}});
         taken({});
       },
       [&] {
@@ -238,31 +238,32 @@ TEST_F(JitCacheOfOthers, AnotherIdentity) {
 // What makes code is in the key, each by itself.
 TEST(CacheKeys, CoverWhatMakesCode) {
   Module module = copyModule(64);
-  const Layout layout(module, {.cut = {.maxChunkRungs = 16}});
+  const Layout layout(module, {.partition = {.maxChunkRungs = 16}});
   const ModulePart whole{.chunkCount = 4};
-  const auto keyOf = [&](const Layout& own, const ModulePart& piece, std::string_view version = "1",
-                         std::string_view machine = "m") { return CacheKeys(own, 1, {}, machine, version).of(piece); };
+  const auto keyOf = [&](const Layout& own, const ModulePart& unit, std::string_view version = "1",
+                         std::string_view machine = "m") { return CacheKeys(own, 1, {}, machine, version).of(unit); };
   const CacheKey key = keyOf(layout, whole);
   EXPECT_EQ(keyOf(layout, whole), key);
   EXPECT_NE(keyOf(layout, whole, "2"), key) << "version of the compiler";
   EXPECT_NE(keyOf(layout, whole, "1", "n"), key) << "machine";
   EXPECT_NE(keyOf(layout, {.firstChunk = 2, .chunkCount = 2}), keyOf(layout, {.firstChunk = 1, .chunkCount = 2}));
   EXPECT_NE(keyOf(layout, {.firstChunk = 2, .chunkCount = 2}), keyOf(layout, {.firstChunk = 2, .chunkCount = 1}));
-  EXPECT_NE(keyOf(Layout(module, {.cut = {.maxChunkRungs = 8}}), whole), key) << "other chunks";
-  EXPECT_NE(keyOf(Layout(module, {.cut = {.maxChunkRungs = 16}, .expandBits = false}), whole), key) << "other memory";
+  EXPECT_NE(keyOf(Layout(module, {.partition = {.maxChunkRungs = 8}}), whole), key) << "other chunks";
+  EXPECT_NE(keyOf(Layout(module, {.partition = {.maxChunkRungs = 16}, .expandBits = false}), whole), key)
+      << "other memory";
   module.routines[0].rungs[0].begin.line = 99;
   EXPECT_NE(keyOf(layout, whole), key) << "another text: debug information";
 }
 
-// A rung that is edited changes the key of its own piece alone, where the memory stays as it is.
+// A rung that is edited changes the key of its own unit alone, where the memory stays as it is.
 TEST(CacheKeys, AreThoseOfPieces) {
   Module module = copyModule(64);
   const LlvmOptions code{.debugInfo = false, .target = {}};
   const ModulePart first{.chunkCount = 2};
   const ModulePart second{.firstChunk = 2, .chunkCount = 2};
-  const auto keyOf = [&](const ModulePart& piece) {
-    const Layout layout(module, {.cut = {.maxChunkRungs = 16}});
-    return CacheKeys(layout, 1, code, "m", "1").of(piece);
+  const auto keyOf = [&](const ModulePart& unit) {
+    const Layout layout(module, {.partition = {.maxChunkRungs = 16}});
+    return CacheKeys(layout, 1, code, "m", "1").of(unit);
   };
   const CacheKey before = keyOf(first);
   const CacheKey beforeSecond = keyOf(second);
@@ -282,7 +283,7 @@ TEST(CacheKeys, AreThoseOfPieces) {
   EXPECT_EQ(keyOf(first), withFault) << "a fault names the line, which the linker puts in";
 }
 
-// What is inserted above moves a piece and changes the numbers of its chunks, rungs and lines.
+// What is inserted above moves a unit and changes the numbers of its chunks, rungs and lines.
 TEST(CacheKeys, AreTheSameWhereverThePieceIs) {
   Module module = copyModule(64);
   std::vector<Rung>& rungs = module.routines[0].rungs;
@@ -292,9 +293,9 @@ TEST(CacheKeys, AreTheSameWhereverThePieceIs) {
     b.message(0, b.i32(1), b.i32(0), b.i32(0), b.constant(Type::I64, 0));
   }
   const LlvmOptions code{.debugInfo = false, .target = {}};
-  const auto keyOf = [&](const ModulePart& piece) {
-    const Layout layout(module, {.cut = {.maxChunkRungs = 16}});
-    return CacheKeys(layout, 1, code, "m", "1").of(piece);
+  const auto keyOf = [&](const ModulePart& unit) {
+    const Layout layout(module, {.partition = {.maxChunkRungs = 16}});
+    return CacheKeys(layout, 1, code, "m", "1").of(unit);
   };
   const CacheKey before = keyOf({.firstChunk = 1, .chunkCount = 3});
   const std::vector<Rung> more(rungs.begin(), rungs.begin() + 16);

@@ -96,7 +96,7 @@ TEST_P(Cross, EveryOperation) {
 TEST_P(Cross, RandomProgramsFast) {
   for (uint64_t seed = 1; seed <= 12; ++seed) {
     const Module module = randomModule(seed);
-    const Layout layout(module, {.cut = {.maxChunkRungs = 4}});
+    const Layout layout(module, {.partition = {.maxChunkRungs = 4}});
     EXPECT_EQ(thereLines(layout, {.level = LlvmLevel::Fast}), hereLines(layout)) << "seed " << seed;
   }
 }

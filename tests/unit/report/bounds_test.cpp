@@ -8,7 +8,7 @@ namespace {
 std::vector<StepCounter::Count> countSteps(const compiler::Compiled& compiled, int scans) {
   StepCounter counter(compiled.module->tasks.size());
   compiler::EngineOptions options;
-  options.observer = [&](const compiler::Compiled& of) { return counter.observer(of.layout->cut()); };
+  options.observer = [&](const compiler::Compiled& of) { return counter.observer(of.layout->partition()); };
   const std::unique_ptr<runtime::Engine> engine = engineOf(compiler::EngineKind::Interp, compiled, options);
   runtime::Instance instance(*engine);
   instance.setTaskWatch(&counter);
@@ -28,10 +28,10 @@ TEST(Steps, AreNeverMoreThanTheBound) {
     SCOPED_TRACE(seed);
     const compiler::Compiled compiled = randomProgram(seed, {.ops = 6});
     const std::vector<StepCounter::Count> counts = countSteps(compiled, 12);
-    const ir::Cut& cut = compiled.layout->cut();
+    const ir::Partition& cut = compiled.layout->partition();
     for (uint32_t t = 0; t < compiled.module->tasks.size(); ++t) {
-      const ir::HeaviestWay way = ir::heaviestWay(cut, ir::TaskId{t}, ir::rungWeights(cut));
-      if (!way.circles.empty()) continue;
+      const ir::LongestPath way = ir::longestPath(cut, ir::TaskId{t}, ir::rungWeights(cut));
+      if (!way.loops.empty()) continue;
       EXPECT_LE(counts[t].most, way.cost);
       ++bounded;
       reached += counts[t].most == way.cost ? 1 : 0;

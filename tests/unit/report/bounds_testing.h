@@ -34,7 +34,7 @@ inline compiler::Compiled randomProgram(uint64_t seed, const ir::RandomOptions& 
   ir::Module module = ir::randomModule(seed, options);
   for (ir::Routine& routine : module.routines)
     for (size_t i = 0; i < routine.rungs.size(); ++i) routine.rungs[i].weight = 1 + static_cast<uint32_t>(i * 5 % 4);
-  return testing::compiledFrom(std::move(module), {.cut = {.maxChunkRungs = 4}});
+  return testing::compiledFrom(std::move(module), {.partition = {.maxChunkRungs = 4}});
 }
 
 } // namespace rung::report

@@ -188,7 +188,7 @@ ir::Module copies() {
 }
 
 TEST(Instructions, AreThoseOfTheCodeWhereItHasOneWay) {
-  const Measured of = measured(testing::compiledFrom(copies(), {.cut = {.maxChunkRungs = 8}}), 2);
+  const Measured of = measured(testing::compiledFrom(copies(), {.partition = {.maxChunkRungs = 8}}), 2);
   EXPECT_EQ(of.most[0].instructions, of.bounds.tasks[0].instructions);
   EXPECT_EQ(of.bounds.tasks[0].steps, 40u);
 }

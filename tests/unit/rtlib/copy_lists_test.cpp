@@ -159,8 +159,8 @@ uint32_t touchNothingThatIsCopied(uint8_t* mem, rung_ctx* ctx, uint32_t) {
 }
 
 TEST_F(InstanceThatLeavesOut, LeavesAllOutUntilSomebodyNeedsIt) {
-  test.tasks[task].heaviest = 1; // so that nothing is counted
-  TestProgram next = test;       // needs copies
+  test.tasks[task].longest = 1; // so that nothing is counted
+  TestProgram next = test;      // needs copies
   test.functions[0] = &touchNothingThatIsCopied;
   test.reads = {};
   test.addReads(task, {{kApart, 1}});

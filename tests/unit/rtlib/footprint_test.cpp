@@ -131,7 +131,7 @@ TEST(Footprint, IsReadAndNeverWritten) {
   build(program, static_cast<uint32_t>(sysconf(_SC_PAGESIZE)));
   const Footprint footprint(program.program, true);
   const Pages pages(5);
-  footprint.touch(pages.block(), monotonicNs() + kSecond);
+  footprint.prefetch(pages.block(), monotonicNs() + kSecond);
   EXPECT_THAT(pages.touches(), testing::ElementsAre(0, 1, 3, 4));
 }
 
@@ -140,7 +140,7 @@ TEST(Footprint, IsLeftAloneWhereTheTimeIsOver) {
   build(program, static_cast<uint32_t>(sysconf(_SC_PAGESIZE)));
   const Footprint footprint(program.program, true);
   const Pages pages(5);
-  footprint.touch(pages.block(), monotonicNs());
+  footprint.prefetch(pages.block(), monotonicNs());
   EXPECT_THAT(pages.touches(), testing::IsEmpty());
 }
 
@@ -150,7 +150,7 @@ TEST(Footprint, MayBeginWithinALine) {
   std::vector<uint8_t> block(program.memorySize + 8, 7);
   const std::vector<uint8_t> before = block;
   for (size_t shift = 0; shift <= 8; ++shift)
-    Footprint(program.program, false).touch(block.data() + shift, monotonicNs() + kSecond);
+    Footprint(program.program, false).prefetch(block.data() + shift, monotonicNs() + kSecond);
   EXPECT_EQ(block, before);
 }
 
@@ -171,7 +171,7 @@ TEST(Footprint, HasTheCodeOfASharedObject) {
   EXPECT_FALSE(has(footprint.code(), &done));
   EXPECT_LT(footprint.code().size(), 65536u);
   std::array<uint8_t, 16> block{};
-  footprint.touch(block.data(), monotonicNs() + kSecond);
+  footprint.prefetch(block.data(), monotonicNs() + kSecond);
   EXPECT_EQ(block, (std::array<uint8_t, 16>{}));
 }
 
@@ -196,7 +196,7 @@ TEST(Footprint, OfAProgramWithoutChunks) {
   const Footprint footprint(program.program, true);
   EXPECT_TRUE(footprint.code().empty());
   std::vector<uint8_t> block(program.memorySize);
-  footprint.touch(block.data(), monotonicNs() + kSecond);
+  footprint.prefetch(block.data(), monotonicNs() + kSecond);
 }
 
 } // namespace

@@ -174,7 +174,7 @@ TEST(NoAllocation, NorOfferingRetainedMemory) {
       if (!whileWriting) gate.pass();
       std::copy(raw.begin(), raw.end(), image.begin());
     };
-    RetainSaver saver(std::make_unique<SlowTarget>(disk), std::make_unique<RetainLane>(1, 8, 8, pack),
+    RetainSaver saver(std::make_unique<SlowTarget>(disk), std::make_unique<RetainChannel>(1, 8, 8, pack),
                       std::chrono::milliseconds(1));
     uint64_t taken = 0;
     const auto offer = [&](uint64_t value) {

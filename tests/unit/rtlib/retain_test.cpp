@@ -425,13 +425,13 @@ protected:
     test.link();
     instance = std::make_unique<Instance>(test.program);
   }
-  std::unique_ptr<RetainLane> lane() {
+  std::unique_ptr<RetainChannel> channel() {
     const RetainMap map(test.program);
-    return std::make_unique<RetainLane>(kLayout, map.rawSize(), map.size(),
-                                        [map](auto raw, auto image) { map.pack(raw, image); });
+    return std::make_unique<RetainChannel>(kLayout, map.rawSize(), map.size(),
+                                           [map](auto raw, auto image) { map.pack(raw, image); });
   }
   std::unique_ptr<RetainSaver> saver(int periodMs) {
-    return std::make_unique<RetainSaver>(std::make_unique<RetainStore>(store()), lane(),
+    return std::make_unique<RetainSaver>(std::make_unique<RetainStore>(store()), channel(),
                                          std::chrono::milliseconds(periodMs));
   }
   uint64_t offer(RetainSaver& to, uint32_t value) {
@@ -527,18 +527,18 @@ TEST_F(SaverTest, AFailureIsPublishedAndTriedAgain) {
 TEST_F(SaverTest, WhatIsOfferedGoesThroughTheLaneOfTheProgram) {
   std::unique_ptr<RetainSaver> s = saver(3600 * 1000);
   const auto one = [](std::span<const uint8_t> raw, std::span<uint8_t> image) { image[0] = raw[0]; };
-  auto other = std::make_unique<RetainLane>(kLayout + 1, 2, 1, one);
+  auto other = std::make_unique<RetainChannel>(kLayout + 1, 2, 1, one);
   const auto offerOther = [&](uint8_t value) { s->offerFrom([=](std::span<uint8_t> to) { to[0] = value; }); };
   offer(*s, 1);
   EXPECT_TRUE(s->flush());
   offer(*s, 2);
-  s->swapLane(other);
+  s->swapChannel(other);
   EXPECT_TRUE(s->flush()) << "nothing was offered by the new program";
   EXPECT_EQ(load().bytes, (Bytes{2, 0, 0})) << "what the former one offered last is the newest";
   offerOther(3);
   EXPECT_TRUE(s->flush());
   EXPECT_EQ(store(kLayout + 1, 1).load().bytes, (Bytes{3}));
-  s->swapLane(other);
+  s->swapChannel(other);
   EXPECT_TRUE(s->flush());
   EXPECT_EQ(s->saved(), 3u) << "what the former program offered last is older";
   offer(*s, 4);
@@ -562,13 +562,13 @@ private:
   bool* fails_;
 };
 
-TEST_F(SaverTest, WhatWasOfferedLastIsSavedWithoutItsLane) {
+TEST_F(SaverTest, WhatWasOfferedLastIsSavedWithoutItsChannel) {
   bool fails = true;
   std::vector<Bytes> written;
-  RetainSaver s(std::make_unique<FailsAfterWriting>(written, fails), lane(), std::chrono::milliseconds(0));
+  RetainSaver s(std::make_unique<FailsAfterWriting>(written, fails), channel(), std::chrono::milliseconds(0));
   offer(s, 1);
-  std::unique_ptr<RetainLane> other = lane();
-  s.swapLane(other);
+  std::unique_ptr<RetainChannel> other = channel();
+  s.swapChannel(other);
   s.settle();
   other.reset();
   EXPECT_FALSE(s.flush());
@@ -581,7 +581,7 @@ TEST_F(SaverTest, WithoutPowerNothingIsSaved) {
   bool fails = false;
   std::vector<Bytes> written;
   {
-    RetainSaver s(std::make_unique<FailsAfterWriting>(written, fails), lane(), std::chrono::milliseconds(0));
+    RetainSaver s(std::make_unique<FailsAfterWriting>(written, fails), channel(), std::chrono::milliseconds(0));
     offer(s, 1);
     s.abandon();
   }
@@ -589,14 +589,14 @@ TEST_F(SaverTest, WithoutPowerNothingIsSaved) {
 }
 
 TEST_F(SaverTest, ALaneOfASaverBeforeHoldsNothingNew) {
-  std::unique_ptr<RetainLane> former = lane();
+  std::unique_ptr<RetainChannel> former = channel();
   {
     std::unique_ptr<RetainSaver> s = saver(3600 * 1000);
     for (uint32_t i = 0; i < 100; ++i) offer(*s, 9);
-    s->swapLane(former);
+    s->swapChannel(former);
   }
   std::unique_ptr<RetainSaver> s = saver(3600 * 1000);
-  s->swapLane(former);
+  s->swapChannel(former);
   EXPECT_TRUE(s->flush());
   EXPECT_EQ(s->saved(), 0u);
 }
@@ -604,7 +604,7 @@ TEST_F(SaverTest, ALaneOfASaverBeforeHoldsNothingNew) {
 TEST_F(SaverTest, AfterAFailureTheOldImageIsWrittenAgain) {
   std::vector<Bytes> written;
   bool fails = false;
-  RetainSaver s(std::make_unique<FailsAfterWriting>(written, fails), lane(), std::chrono::hours(1));
+  RetainSaver s(std::make_unique<FailsAfterWriting>(written, fails), channel(), std::chrono::hours(1));
   offer(s, 1);
   EXPECT_TRUE(s.flush());
   fails = true;
@@ -623,7 +623,7 @@ public:
 };
 
 TEST_F(SaverTest, NothingThrownLeavesTheThread) {
-  RetainSaver s(std::make_unique<Throws>(), lane(), std::chrono::milliseconds(1));
+  RetainSaver s(std::make_unique<Throws>(), channel(), std::chrono::milliseconds(1));
   offer(s, 1);
   EXPECT_FALSE(s.flush());
   EXPECT_EQ(s.problem(), std::bad_alloc().what());

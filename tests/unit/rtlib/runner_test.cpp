@@ -206,7 +206,7 @@ TEST_F(RunnerTest, WhatCannotUseUpItsBudgetIsNotCounted) {
   test.addChunk([](uint8_t* mem, rung_ctx* ctx, uint32_t) { return trace(mem, 0), ctx->extra_weight = 50, 1u; }, 3);
   test.addChunk(step<1, RUNG_PC_DONE>, 4);
   const uint32_t bounded = test.addTask("A", 0, 5);
-  test.tasks[bounded].heaviest = 4;
+  test.tasks[bounded].longest = 4;
   const uint32_t counted = test.addTask("B", 1, 5);
   test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 10}, {RUNG_STEP_RUN, bounded, 3}};
   start();
@@ -231,7 +231,7 @@ uint32_t countUp(uint8_t* mem, rung_ctx*, uint32_t) {
 TEST_F(RunnerTest, ARowEndsOnceARunHasChangedNothing) {
   test.addChunk(countUp);
   const uint32_t task = test.addTask("FAST", 0);
-  test.tasks[task].heaviest = 1;
+  test.tasks[task].longest = 1;
   test.addChanges(task, {1});
   test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 10}, {RUNG_STEP_RUN, task, 20}};
   start();
@@ -257,9 +257,9 @@ TEST_F(RunnerTest, WhatComesAfterTheLastCircleIsNotCounted) {
   test.addChunk(step<1, 2>, 3);
   test.addChunk(step<2, RUNG_PC_DONE>, 3);
   const uint32_t task = test.addTask("MAIN", 0, 10);
-  test.tasks[task].circles = 1;
-  test.tasks[task].straight_chunk = 1;
-  test.tasks[task].straight_weight = 4;
+  test.tasks[task].loops = 1;
+  test.tasks[task].loop_free_chunk = 1;
+  test.tasks[task].loop_free_weight = 4;
   start();
   memory[1] = 1;
   EXPECT_TRUE(runner->runTask(task)) << "4 are left";
@@ -269,14 +269,14 @@ TEST_F(RunnerTest, WhatComesAfterTheLastCircleIsNotCounted) {
   EXPECT_EQ(takeTrace(), (Trace{0, 0, 0}));
   runner->reset();
   memory[1] = 9;
-  EXPECT_FALSE(runner->runTask(task)) << "it circles too long";
+  EXPECT_FALSE(runner->runTask(task)) << "it loops too long";
   EXPECT_EQ(takeTrace(), (Trace{0, 0, 0}));
 }
 
 TEST_F(RunnerTest, AFaultEndsWhatIsNotCounted) {
   test.addChunk([](uint8_t* mem, rung_ctx*, uint32_t) { return trace(mem, 0), uint32_t{RUNG_PC_FAULT}; });
   const uint32_t task = test.addTask("A", 0);
-  test.tasks[task].heaviest = 1;
+  test.tasks[task].longest = 1;
   test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 10}, {RUNG_STEP_RUN, task, 3}};
   start();
   runner->scan();
@@ -555,7 +555,7 @@ TEST_F(RunnerTest, HooksRunTasksOutsideTasksOnly) {
   EXPECT_EQ(takeTrace(), (Trace{0, 1}));
 }
 
-// Others are left out, and what was around them is one step.
+// Others are left out, and what was environment them is one step.
 TEST_F(RunnerTest, HooksThatHaveWork) {
   test.addChunk(step<0, RUNG_PC_DONE>);
   test.addTask("MAIN", 0);

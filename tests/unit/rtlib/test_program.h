@@ -47,7 +47,7 @@ struct TestProgram {
   std::vector<const char*> files = {"main.pmc"};
   std::vector<const char*> routines = {"MAIN"};
   std::vector<rung_chunk> chunks;
-  std::vector<rung_rung_info> rungs; // one a chunk, line 10 * number, where link() has to make them
+  std::vector<rung_info> rungs; // one a chunk, line 10 * number, where link() has to make them
   rung_program program{};
 
   // A space with the given ranges, which must cover it.
@@ -84,8 +84,8 @@ struct TestProgram {
     task.entry = entry;
     task.period_us = 8000;
     task.budget = budget;
-    task.heaviest = budget; // so that it is counted
-    task.straight_chunk = RUNG_PC_DONE;
+    task.longest = budget; // so that it is counted
+    task.loop_free_chunk = RUNG_PC_DONE;
     task.part_first = static_cast<uint32_t>(partEnds.size());
     task.part_count = static_cast<uint32_t>(ends.size());
     partEnds.insert(partEnds.end(), ends.begin(), ends.end());

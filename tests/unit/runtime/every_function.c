@@ -50,7 +50,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_fast(plc));
   BAD_HANDLE(rung_instance_limit(plc, 0));
   BAD_HANDLE(rung_instance_sample(plc));
-  BAD_HANDLE(rung_instance_touch(plc, 0));
+  BAD_HANDLE(rung_instance_prefetch(plc, 0));
   BAD_HANDLE(rung_instance_state(plc, &state));
   BAD_HANDLE(rung_instance_fault(plc, &fault));
   BAD_HANDLE(rung_instance_find(plc, "X", RUNG_READ, &cell));
@@ -66,7 +66,7 @@ static void instances(rung_instance* plc) {
   BAD_HANDLE(rung_instance_bind(plc, NULL, 0));
   BAD_HANDLE(rung_instance_bind_blocks(plc, NULL, 0));
   BAD_HANDLE(rung_instance_bind_struct(plc, NULL, NULL));
-  BAD_HANDLE(rung_instance_torn(plc, NULL, NULL));
+  BAD_HANDLE(rung_instance_inconsistent(plc, NULL, NULL));
   BAD_HANDLE(rung_instance_next_message(plc, &message));
   BAD_HANDLE(rung_instance_shown(plc, 0, &message));
   BAD_HANDLE(rung_instance_define_message(plc, 1, 0, "a"));

@@ -74,9 +74,9 @@ TEST(RuntimeInRealTime, NeitherAllocatesNorEntersTheKernel) {
       rung_instance_write_all(p, cells, 2, values); // COUNT was found for reading
       rung_instance_force(p, i % 3 != 0 ? forces.handle() : nullptr), rung_instance_forced(p, 0, &force);
       rung_instance_state(p, &state), rung_instance_limit(p, 0);
-      rung_instance_touch(p, INT64_MAX);
+      rung_instance_prefetch(p, INT64_MAX);
       block.head += i % 2; // torn, now and then
-      rung_instance_torn(p, &block, &reply.ticket);
+      rung_instance_inconsistent(p, &block, &reply.ticket);
       rung_instance_stop(p), rung_instance_start(p);
       while (rung_instance_next_message(p, &message) == RUNG_OK) {
       }

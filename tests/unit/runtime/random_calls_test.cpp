@@ -125,7 +125,8 @@ private:
     case 12: return rung_instance_scan(plc);
     case 13: return rung_instance_slot(plc);
     case 14: return rung_instance_fast(plc);
-    case 15: return chance(50) ? rung_instance_touch(plc, time()) : rung_instance_limit(plc, chance(90) ? 0 : time());
+    case 15:
+      return chance(50) ? rung_instance_prefetch(plc, time()) : rung_instance_limit(plc, chance(90) ? 0 : time());
     case 16: return withStruct<rung_state>([&](rung_state* s) { return rung_instance_state(plc, s); });
     case 17:
       withStruct<rung_program_info>([&](rung_program_info* s) { return rung_instance_program(plc, s); });

@@ -443,12 +443,12 @@ TEST_F(Runtime, TouchingChangesNothing) {
   options.memory = block.data();
   options.memory_bytes = block.size();
   rung::Instance plc(*image_, &options);
-  EXPECT_EQ(rung_instance_touch(plc.handle(), INT64_MAX), RUNG_OK); // before the power-on, too
+  EXPECT_EQ(rung_instance_prefetch(plc.handle(), INT64_MAX), RUNG_OK); // before the power-on, too
   plc.powerOn();
   scan(plc, 3);
   const std::array<uint8_t, 256> before = block;
   for (const int64_t until : {INT64_MIN, int64_t{0}, INT64_MAX})
-    EXPECT_EQ(rung_instance_touch(plc.handle(), until), RUNG_OK);
+    EXPECT_EQ(rung_instance_prefetch(plc.handle(), until), RUNG_OK);
   EXPECT_EQ(block, before);
   EXPECT_EQ(plc.state().passes, 3u);
 }
@@ -545,7 +545,7 @@ TEST_F(Runtime, AProgramThatMayBeLateIsRefused) {
   rung::Instance plc = started();
   rung::test::TestProgram next;
   build(next);
-  next.tasks[0].heaviest = 1'000'000'000;
+  next.tasks[0].longest = 1'000'000'000;
   next.link();
   const rung::Image image = adopted(next);
   rung::Replacement change(plc, image);

@@ -25,7 +25,7 @@ struct NcBlock {
   uint8_t fields[8] = {};
   double feed = 0;
   int32_t flag = 0;
-  int32_t copy = 0; // of `position`: a torn copy shows
+  int32_t copy = 0; // of `position`: a inconsistent copy shows
   uint8_t buttons[4] = {};
   uint8_t lamps[8] = {};
   uint32_t tail = 0;
@@ -164,28 +164,28 @@ TEST_F(Structs, ATornCopyIsNotGivenToTheProgram) {
                   row("BUTTONS", "buttons", offsetof(NcBlock, buttons), 4, 0)},
                  true),
             RUNG_OK);
-  uint32_t torn = 99;
+  uint32_t inconsistent = 99;
   host_.position = 1;
   host_.buttons[0] = 1;
   scan();
   EXPECT_EQ(read<int>("POSITION"), 1);
-  ASSERT_EQ(rung_instance_torn(plc_->handle(), &host_, &torn), RUNG_OK);
-  EXPECT_EQ(torn, 0u);
+  ASSERT_EQ(rung_instance_inconsistent(plc_->handle(), &host_, &inconsistent), RUNG_OK);
+  EXPECT_EQ(inconsistent, 0u);
   ++host_.head; // begins to write
   host_.position = 2;
   host_.buttons[0] = 2;
   for (int i = 0; i < 3; ++i) scan();
   EXPECT_EQ(read<int>("POSITION"), 1);
   EXPECT_EQ(read<int>("BUTTONS"), 1);
-  ASSERT_EQ(rung_instance_torn(plc_->handle(), &host_, &torn), RUNG_OK);
-  EXPECT_EQ(torn, 3u);
+  ASSERT_EQ(rung_instance_inconsistent(plc_->handle(), &host_, &inconsistent), RUNG_OK);
+  EXPECT_EQ(inconsistent, 3u);
   host_.tail = host_.head;
   scan();
   EXPECT_EQ(read<int>("POSITION"), 2);
   EXPECT_EQ(read<int>("BUTTONS"), 2);
-  ASSERT_EQ(rung_instance_torn(plc_->handle(), &host_, &torn), RUNG_OK);
-  EXPECT_EQ(torn, 0u);
-  EXPECT_EQ(rung_instance_torn(plc_->handle(), &torn, &torn), RUNG_NOT_FOUND);
+  ASSERT_EQ(rung_instance_inconsistent(plc_->handle(), &host_, &inconsistent), RUNG_OK);
+  EXPECT_EQ(inconsistent, 0u);
+  EXPECT_EQ(rung_instance_inconsistent(plc_->handle(), &inconsistent, &inconsistent), RUNG_NOT_FOUND);
 }
 
 // As the controller of a machine does, in a thread of its own.

@@ -268,16 +268,16 @@ TEST_F(TechnolHandshake, AKeyIsPressedAndReleased) {
 }
 
 TEST_F(TechnolHandshake, WhatTheCellsDoNotHold) {
-  EXPECT_TRUE(functions().carries(M, 99));
-  EXPECT_FALSE(functions().carries(M, 100));
-  EXPECT_TRUE(functions().carries(T, 99999999));
-  EXPECT_FALSE(functions().carries(T, 100000000));
-  EXPECT_TRUE(functions().carries(S, 6000));
-  EXPECT_FALSE(functions().carries(S, 0xFFFFFFFF)); // below 0
-  EXPECT_FALSE(functions().carries(B, 0));
-  EXPECT_TRUE(functions().carries(H, 99));
-  EXPECT_FALSE(functions().carries(H, 100));
-  EXPECT_TRUE(functions().carries(FunctionKind::Key, 0xFFFFFFFF));
+  EXPECT_TRUE(functions().supports(M, 99));
+  EXPECT_FALSE(functions().supports(M, 100));
+  EXPECT_TRUE(functions().supports(T, 99999999));
+  EXPECT_FALSE(functions().supports(T, 100000000));
+  EXPECT_TRUE(functions().supports(S, 6000));
+  EXPECT_FALSE(functions().supports(S, 0xFFFFFFFF)); // below 0
+  EXPECT_FALSE(functions().supports(B, 0));
+  EXPECT_TRUE(functions().supports(H, 99));
+  EXPECT_FALSE(functions().supports(H, 100));
+  EXPECT_TRUE(functions().supports(FunctionKind::Key, 0xFFFFFFFF));
 }
 
 // Central annulment in each phase: the block goes no further, a block of the mode CA follows (l.5180-5183, 6748-6761).

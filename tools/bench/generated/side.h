@@ -43,7 +43,7 @@ public:
   void beginWith(bool condition); // of a program without a machine: all of its bits
   runtime::Instance& instance() { return instance_; }
   // What a scan reads, until the clock has come to that.
-  void touch(int64_t untilNs) const noexcept { footprint_.touch(instance_.block().data(), untilNs); }
+  void touch(int64_t untilNs) const noexcept { footprint_.prefetch(instance_.block().data(), untilNs); }
 
 private:
   explicit Ours(runtime::Engine& engine);

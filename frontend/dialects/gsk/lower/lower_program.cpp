@@ -56,8 +56,8 @@ uint32_t partsOfLevel2(network::ModuleLowering& lowering, const frontend::Compil
   else if (!given)
     return needed;
   else if (needed > *given)
-    diagnostics.report(diag::PeriodTooShort) << *given * kSlotUs / 1000 << level1 + ir::heaviestPart(pieces, *given)
-                                             << *slotSteps << needed * kSlotUs / 1000;
+    diagnostics.report(diag::PeriodTooShort)
+        << *given * kSlotUs / 1000 << level1 + ir::longestPart(pieces, *given) << *slotSteps << needed * kSlotUs / 1000;
   return parts;
 }
 

@@ -45,8 +45,8 @@ bool areNegated(std::span<const Token> operands) {
 
 // Whether an instruction takes as many operands as there are; of a macro, which has no row, it is not asked.
 bool takesAsMany(const Row* row, std::span<const Token> operands) {
-  Diagnostics unheard;
-  return row == nullptr || countFits(row->info, splitOperands(operands).size(), {}, unheard);
+  Diagnostics discarded;
+  return row == nullptr || countFits(row->info, splitOperands(operands).size(), {}, discarded);
 }
 
 // NAME INSTRUCTION …, or NAME alone, which is not like a word that opens, closes or declares something: a label without

@@ -43,7 +43,7 @@ public:
     setHighSpeed(true);
     return true;
   }
-  bool carries(FunctionKind kind, uint32_t) const override { return kind <= FunctionKind::B; }
+  bool supports(FunctionKind kind, uint32_t) const override { return kind <= FunctionKind::B; }
   // Before the first power-on nothing is taken.
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
   void step() override {

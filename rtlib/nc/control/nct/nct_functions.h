@@ -42,7 +42,7 @@ public:
   // may still be busy with the function that was on it. M codes begin in their order, one a PLC cycle. S and T leave
   // the spindle (CN_SSEL), its range (CN_RNGREQ) and the place of the tool to whoever knows them; spindle 1 and range
   // 11 where those say nothing.
-  bool carries(FunctionKind kind, uint32_t) const override { return kind <= FunctionKind::B; }
+  bool supports(FunctionKind kind, uint32_t) const override { return kind <= FunctionKind::B; }
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
   void step() override;
   bool busy(uint32_t line) const override { return line < kLines && phases_[line] != Phase::Idle; }

@@ -97,7 +97,7 @@ TechnolFunctions::Places::Places(const rung_program& program) {
   blockH = locateSignal(program, "BLK[0].H");
 }
 
-bool TechnolFunctions::carries(FunctionKind kind, uint32_t code) const {
+bool TechnolFunctions::supports(FunctionKind kind, uint32_t code) const {
   switch (kind) {
   case FunctionKind::M:
   case FunctionKind::H: return code <= kMostM;

@@ -61,7 +61,7 @@ public:
   bool setGroup(uint32_t code, uint32_t group) override;
   // M and H up to 99, T up to 99999999: what their BCD cells hold. No B: the command block has no second auxiliary
   // function.
-  bool carries(FunctionKind kind, uint32_t code) const override;
+  bool supports(FunctionKind kind, uint32_t code) const override;
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
   void step() override;
   bool busy(uint32_t line) const override { return line == kKeyLine ? key_ != Key::None : blocks_.busy(); }

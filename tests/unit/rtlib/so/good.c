@@ -19,7 +19,7 @@ static uint32_t count(uint8_t* mem, rung_ctx* ctx, uint32_t chunk) {
 static const rung_range ranges[] = {{0, 4, 0, RUNG_REPR_PACKED}};
 static const rung_space spaces[] = {{"D", 1, 4, 0, 1, ranges}};
 static const rung_chunk chunks[] = {{0, 1, 1}};
-static const rung_rung_info rungs[] = {{"", 0, 1, 1, 0, 0, 1, 0}};
+static const rung_info rungs[] = {{"", 0, 1, 1, 0, 0, 1, 0}};
 static const char* const routines[] = {"MAIN"};
 static const char* const files[] = {"good.lad"};
 static const char* const faults[] = {"dead-loop"};

@@ -1,4 +1,4 @@
-// What another thread asks of the thread that scans a program, which does it between two slices: a slot for one order
+// What another thread asks of the thread that scans a program, which does it between two slices: a slot for one command
 // at a time, in which neither waits for the other.
 #pragma once
 #include <atomic>
@@ -14,7 +14,7 @@
 
 namespace rung::host {
 
-struct Order {
+struct Command {
   enum class Kind : uint8_t {
     State,   // the instance's state, and that of functions
     Write,   // `value` into `cell`; `former` is what was there, `state` the instance's state then
@@ -49,56 +49,56 @@ struct Order {
   rung_force_info force{};
 };
 
-// What became of an order.
-struct Answer {
+// What became of an command.
+struct CommandResult {
   int32_t status = RUNG_OK; // enum rung_status; RUNG_FAILED also where nobody scans
   std::string problem;      // a sentence, unless it is done
   bool ok() const { return status == RUNG_OK || status == RUNG_EMPTY; }
 };
 
-class OrderSlot {
+class CommandSlot {
 public:
-  // The status of an order, and the sentence that goes with it, where it is not done.
+  // The status of an command, and the sentence that goes with it, where it is not done.
   struct Outcome {
     int32_t status = RUNG_OK;
-    const char* problem = ""; // until the order is answered
+    const char* problem = ""; // until the command is answered
   };
 
-  // For all threads but the scan's, which may wait here for each other. Results are in `order`. What the scan thread
-  // cannot do now it tries again, until the time is over: then the order is withdrawn, and has done nothing. Between
+  // For all threads but the scan's, which may wait here for each other. Results are in `command`. What the scan thread
+  // cannot do now it tries again, until the time is over: then the command is withdrawn, and has done nothing. Between
   // two looks, `meanwhile` does what others may wait for.
   template <class Meanwhile>
-  Answer give(Order& order, std::chrono::nanoseconds time, runtime::Clock& clock, Meanwhile meanwhile) {
+  CommandResult give(Command& command, std::chrono::nanoseconds time, runtime::Clock& clock, Meanwhile meanwhile) {
     constexpr int64_t kLookNs = 200'000;
     const std::lock_guard lock(giving_);
-    post(order);
+    post(command);
     for (const int64_t end = clock.nowNs() + time.count(); !isDone() && clock.nowNs() < end;) {
       clock.sleep(kLookNs);
       meanwhile();
     }
-    return take(order);
+    return take(command);
   }
 
-  // The scan thread, between two slices: `obey` does the order and gives an Outcome.
-  template <class Obey>
-  void take(Obey obey) noexcept {
+  // The scan thread, between two slices: `execute` does the command and gives an Outcome.
+  template <class Execute>
+  void take(Execute execute) noexcept {
     int expected = kPosted;
     if (!state_.compare_exchange_strong(expected, kTaken, std::memory_order_acquire)) return;
-    keep(obey(order_));
+    keep(execute(order_));
     state_.store(status_ == RUNG_LATER ? kPosted : kDone, std::memory_order_release);
   }
 
 private:
   static constexpr int kFree = 0, kPosted = 1, kTaken = 2, kDone = 3;
-  void post(const Order& order);
+  void post(const Command& command);
   bool isDone() const noexcept { return state_.load(std::memory_order_acquire) == kDone; }
-  Answer take(Order& order);
+  CommandResult take(Command& command);
   void keep(const Outcome& outcome) noexcept;
   bool withdraw() noexcept;
 
   std::mutex giving_;
   std::atomic<int> state_{kFree};
-  Order order_;
+  Command order_;
   int32_t status_ = RUNG_OK;
   char problem_[512] = "";
 };

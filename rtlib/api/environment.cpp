@@ -1,5 +1,5 @@
-// See surroundings.h.
-#include "rtlib/api/surroundings.h"
+// See environment.h.
+#include "rtlib/api/environment.h"
 
 #include "rtlib/api/instance.h"
 #include "rtlib/api/running.h"
@@ -7,7 +7,7 @@
 namespace rung::api {
 namespace {
 
-class ControlAlone final : public Surroundings {
+class ControlAlone final : public Environment {
 public:
   explicit ControlAlone(std::string_view dialect) : control_(nc::makeControl(dialect)) {}
   nc::Control& control() override { return *control_; }
@@ -21,7 +21,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<Surroundings> controlAlone(std::string_view dialect) { return std::make_unique<ControlAlone>(dialect); }
+std::unique_ptr<Environment> controlAlone(std::string_view dialect) { return std::make_unique<ControlAlone>(dialect); }
 
 runtime::Instance& insideOf(rung_instance& instance) noexcept { return instance.running; }
 
@@ -38,7 +38,7 @@ void cutPower(rung_instance& instance) noexcept {
 void takeMessages(rung_instance& instance) noexcept {
   rung_message message;
   for (uint32_t i = 0; i < core::kMessageCapacity && instance.running.messages().pop(message); ++i) {
-    instance.around->accept(instance.running, message);
+    instance.environment->accept(instance.running, message);
     say(instance, message);
   }
 }

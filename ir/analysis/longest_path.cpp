@@ -1,5 +1,5 @@
-// The longest path through the graph of rungs (see heaviest.h), without recursion: a routine may have 50,000 of them.
-#include "ir/analysis/heaviest.h"
+// The longest path through the graph of rungs (see longest.h), without recursion: a routine may have 50,000 of them.
+#include "ir/analysis/longest_path.h"
 
 #include <algorithm>
 #include <iterator>
@@ -19,14 +19,15 @@ struct Place {
 };
 
 // From any rung to the end of its run, its routine, or a part of its task.
-class Ways {
+class Paths {
 public:
-  // `callees`: the ways through routines that are called; null: these here. Ways end before the chunk `limit` and those
-  // after it.
-  Ways(const Cut& cut, std::span<const uint64_t> costs, Ways* callees, uint32_t limit)
-      : cut_(cut), costs_(costs), callees_(callees), limit_(limit), marks_(cut.rungCount(), Mark::New),
-        longest_(cut.rungCount(), 0), next_(cut.rungCount(), RUNG_NONE), order_(cut.rungCount(), 0),
-        lowest_(cut.rungCount(), 0), leadsToCircle_(cut.rungCount(), 0) {}
+  // `callees`: the paths through routines that are called; null: these here. Paths end before the chunk `limit` and
+  // those after it.
+  Paths(const Partition& partition, std::span<const uint64_t> costs, Paths* callees, uint32_t limit)
+      : partition_(partition), costs_(costs), callees_(callees), limit_(limit),
+        marks_(partition.rungCount(), Mark::New), longest_(partition.rungCount(), 0),
+        next_(partition.rungCount(), RUNG_NONE), order_(partition.rungCount(), 0), lowest_(partition.rungCount(), 0),
+        leadsToCircle_(partition.rungCount(), 0) {}
 
   uint64_t from(Place start) {
     stack_.push_back(start);
@@ -60,19 +61,19 @@ public:
   }
 
   // By number.
-  const std::vector<std::vector<uint32_t>>& circles() const { return circles_; }
-  // Whether some way from there, which has been measured, comes to a circle.
+  const std::vector<std::vector<uint32_t>>& loops() const { return loops_; }
+  // Whether some way from there, which has been measured, comes to a loop.
   bool leadToCircle(Place place) const { return leadsToCircle_[number(place)] != 0; }
 
 private:
   enum class Mark : uint8_t { New, Open, Done };
-  static constexpr uint32_t kClosed = UINT32_MAX; // as an order: its circle, if it is in one, is known
+  static constexpr uint32_t kClosed = UINT32_MAX; // as an order: its loop, if it is in one, is known
 
-  uint32_t number(Place place) const { return cut_.rungNumber(place.routine, place.rung); }
-  const std::vector<Rung>& rungsOf(RoutineId routine) const { return cut_.module().at(routine).rungs; }
+  uint32_t number(Place place) const { return partition_.rungNumber(place.routine, place.rung); }
+  const std::vector<Rung>& rungsOf(RoutineId routine) const { return partition_.module().at(routine).rungs; }
   const Transfer& transferOf(Place place) const { return rungsOf(place.routine)[place.rung].transfer; }
 
-  // The ways from here have to be known first.
+  // The paths from here have to be known first.
   void open(Place place) {
     order_[number(place)] = lowest_[number(place)] = opened_++;
     reached_.push_back(number(place));
@@ -84,7 +85,7 @@ private:
     forNext(place, transfer, need);
   }
 
-  // A way that leads back to a rung that is open closes a circle, and ends there.
+  // A way that leads back to a rung that is open closes a loop, and ends there.
   uint64_t measure(Place place) {
     const Transfer& transfer = transferOf(place);
     uint32_t& best = next_[number(place)];
@@ -101,7 +102,7 @@ private:
     return saturatedSum(most, costs_[number(place)]);
   }
 
-  // Tarjan's components of the graph, of which those with a way back to their rungs are circles.
+  // Tarjan's components of the graph, of which those with a way back to their rungs are loops.
   void closeCircle(Place place) {
     const uint32_t own = number(place);
     const Transfer& transfer = transferOf(place);
@@ -128,7 +129,7 @@ private:
       leadsToCircle_[rung] = 1;
     }
     std::ranges::sort(rungs);
-    circles_.push_back(std::move(rungs));
+    loops_.push_back(std::move(rungs));
   }
 
   // The rungs of the routine where control may be next, after a call: when it has come back.
@@ -136,7 +137,7 @@ private:
   void forNext(Place place, const Transfer& transfer, Visit visit) const {
     const auto go = [&](uint32_t rung) {
       if (rung >= rungsOf(place.routine).size()) return;
-      const Destination to = cut_.destination(place.routine, place.rung, rung);
+      const Destination to = partition_.destination(place.routine, place.rung, rung);
       if (to.inside() || to.chunk < limit_) visit(Place{.routine = place.routine, .rung = rung});
     };
     const bool continues =
@@ -146,50 +147,50 @@ private:
     for (const uint32_t target : transfer.targets) go(target);
   }
 
-  const Cut& cut_;
+  const Partition& partition_;
   std::span<const uint64_t> costs_;
-  Ways* callees_;
+  Paths* callees_;
   uint32_t limit_;
   // By rung number.
   std::vector<Mark> marks_;
   std::vector<uint64_t> longest_;
   std::vector<uint32_t> next_;   // on the longest way, in the same routine; RUNG_NONE: it ends
   std::vector<uint32_t> order_;  // in which rungs were opened
-  std::vector<uint32_t> lowest_; // that can be reached and is not in a circle that is known
+  std::vector<uint32_t> lowest_; // that can be reached and is not in a loop that is known
   std::vector<uint8_t> leadsToCircle_;
   uint32_t opened_ = 0;
-  std::vector<uint32_t> reached_; // numbers of rungs whose circles are not known yet, as they were opened
-  std::vector<std::vector<uint32_t>> circles_;
+  std::vector<uint32_t> reached_; // numbers of rungs whose loops are not known yet, as they were opened
+  std::vector<std::vector<uint32_t>> loops_;
   std::vector<Place> stack_;
 };
 
-// The heaviest part of a task, which may be the whole.
-class TaskWays {
+// The longest part of a task, which may be the whole.
+class TaskPaths {
 public:
-  TaskWays(const Cut& cut, TaskId id, std::span<const uint64_t> costs)
-      : cut_(cut), task_(cut.module().tasks[id.index]), whole_(cut, costs, nullptr, RUNG_NONE) {
+  TaskPaths(const Partition& partition, TaskId id, std::span<const uint64_t> costs)
+      : partition_(partition), task_(partition.module().tasks[id.index]), whole_(partition, costs, nullptr, RUNG_NONE) {
     start_ = {.routine = task_.entry};
     if (task_.parts <= 1)
       cost_ = whole_.from(start_);
     else
-      searchParts(cut.partEnds(id), costs);
-    circles_.insert(circles_.end(), whole_.circles().begin(), whole_.circles().end());
-    std::ranges::sort(circles_); // parts may share one
-    const auto same = std::ranges::unique(circles_);
-    circles_.erase(same.begin(), same.end());
+      searchParts(partition.partEnds(id), costs);
+    loops_.insert(loops_.end(), whole_.loops().begin(), whole_.loops().end());
+    std::ranges::sort(loops_); // parts may share one
+    const auto same = std::ranges::unique(loops_);
+    loops_.erase(same.begin(), same.end());
   }
 
   uint64_t cost() const { return cost_; }
   uint32_t part() const { return part_; }
-  const std::vector<std::vector<uint32_t>>& circles() const { return circles_; }
+  const std::vector<std::vector<uint32_t>>& loops() const { return loops_; }
 
-  // From the last chunk back to where a circle can be reached.
+  // From the last chunk back to where a loop can be reached.
   Straight straight() {
     Straight out;
     if (task_.parts > 1) return out;
     uint64_t most = 0;
-    for (auto c = static_cast<uint32_t>(cut_.chunks().size()); c-- > 0;) {
-      const Chunk& chunk = cut_.chunks()[c];
+    for (auto c = static_cast<uint32_t>(partition_.chunks().size()); c-- > 0;) {
+      const Chunk& chunk = partition_.chunks()[c];
       if (chunk.routine != task_.entry) continue;
       const Place place{.routine = chunk.routine, .rung = chunk.firstRung};
       most = std::max(most, whole_.from(place));
@@ -201,10 +202,10 @@ public:
 
   // Each routine before those that it calls.
   std::vector<RoutineWay> routines() {
-    std::vector<RoutineWay> ways{heaviest_ != nullptr ? heaviest_->wayFrom(start_) : whole_.wayFrom(start_)};
+    std::vector<RoutineWay> paths{longest_ != nullptr ? longest_->wayFrom(start_) : whole_.wayFrom(start_)};
     std::map<uint32_t, uint32_t> callers; // by routine: calls from those whose place in the list is not known yet
     std::map<uint32_t, RoutineWay> found;
-    std::vector<RoutineId> open = calleesOf(ways[0]);
+    std::vector<RoutineId> open = calleesOf(paths[0]);
     while (!open.empty()) {
       const RoutineId routine = open.back();
       open.pop_back();
@@ -214,14 +215,14 @@ public:
       for (const RoutineWay::Call& call : way.calls) ++callers[call.callee.index];
       std::ranges::copy(calleesOf(way), std::back_inserter(open));
     }
-    for (const RoutineWay::Call& call : ways[0].calls) ++callers[call.callee.index];
-    for (size_t i = 0; i < ways.size(); ++i)
-      for (const RoutineWay::Call& call : std::vector(ways[i].calls)) {
+    for (const RoutineWay::Call& call : paths[0].calls) ++callers[call.callee.index];
+    for (size_t i = 0; i < paths.size(); ++i)
+      for (const RoutineWay::Call& call : std::vector(paths[i].calls)) {
         RoutineWay& callee = found[call.callee.index];
-        callee.runs = saturatedSum(callee.runs, ways[i].runs);
-        if (--callers[call.callee.index] == 0) ways.push_back(callee);
+        callee.runs = saturatedSum(callee.runs, paths[i].runs);
+        if (--callers[call.callee.index] == 0) paths.push_back(callee);
       }
-    return ways;
+    return paths;
   }
 
 private:
@@ -236,10 +237,10 @@ private:
     uint32_t begin = 0;
     ends.push_back(RUNG_NONE);
     for (uint32_t i = 0; i < ends.size(); ++i) {
-      auto part = std::make_unique<Ways>(cut_, costs, &whole_, ends[i]);
+      auto part = std::make_unique<Paths>(partition_, costs, &whole_, ends[i]);
       bool best = false; // so far
-      for (uint32_t c = begin; c < std::min<size_t>(ends[i], cut_.chunks().size()); ++c) {
-        const Chunk& chunk = cut_.chunks()[c];
+      for (uint32_t c = begin; c < std::min<size_t>(ends[i], partition_.chunks().size()); ++c) {
+        const Chunk& chunk = partition_.chunks()[c];
         if (chunk.routine != task_.entry) continue;
         const Place start{.routine = chunk.routine, .rung = chunk.firstRung};
         const uint64_t cost = part->from(start);
@@ -249,35 +250,36 @@ private:
         cost_ = cost;
         part_ = i;
       }
-      circles_.insert(circles_.end(), part->circles().begin(), part->circles().end());
-      if (best) heaviest_ = std::move(part);
+      loops_.insert(loops_.end(), part->loops().begin(), part->loops().end());
+      if (best) longest_ = std::move(part);
       begin = ends[i];
     }
   }
 
-  const Cut& cut_;
+  const Partition& partition_;
   const Task& task_;
-  Ways whole_;
-  std::unique_ptr<Ways> heaviest_; // of a cut task
+  Paths whole_;
+  std::unique_ptr<Paths> longest_; // of a cut task
   Place start_;
   uint64_t cost_ = 0;
   uint32_t part_ = 0;
-  std::vector<std::vector<uint32_t>> circles_;
+  std::vector<std::vector<uint32_t>> loops_;
 };
 
 } // namespace
 
-HeaviestRun heaviestRun(const Cut& cut, TaskId task) {
-  const std::vector<uint64_t> weights = rungWeights(cut);
-  TaskWays ways(cut, task, weights);
-  return {.weight = static_cast<uint32_t>(std::min<uint64_t>(ways.cost(), cut.module().tasks[task.index].budget)),
-          .circles = !ways.circles().empty(),
-          .straight = ways.straight()};
+LongestRun longestRun(const Partition& partition, TaskId task) {
+  const std::vector<uint64_t> weights = rungWeights(partition);
+  TaskPaths paths(partition, task, weights);
+  return {.weight =
+              static_cast<uint32_t>(std::min<uint64_t>(paths.cost(), partition.module().tasks[task.index].budget)),
+          .loops = !paths.loops().empty(),
+          .straight = paths.straight()};
 }
 
-HeaviestWay heaviestWay(const Cut& cut, TaskId task, std::span<const uint64_t> costs) {
-  TaskWays ways(cut, task, costs);
-  return {.cost = ways.cost(), .part = ways.part(), .routines = ways.routines(), .circles = ways.circles()};
+LongestPath longestPath(const Partition& partition, TaskId task, std::span<const uint64_t> costs) {
+  TaskPaths paths(partition, task, costs);
+  return {.cost = paths.cost(), .part = paths.part(), .routines = paths.routines(), .loops = paths.loops()};
 }
 
 } // namespace rung::ir

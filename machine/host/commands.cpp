@@ -1,5 +1,5 @@
-// See orders.h.
-#include "machine/host/orders.h"
+// See commands.h.
+#include "machine/host/commands.h"
 
 #include <cassert>
 #include <cstring>
@@ -7,7 +7,7 @@
 
 namespace rung::host {
 
-void OrderSlot::keep(const Outcome& outcome) noexcept {
+void CommandSlot::keep(const Outcome& outcome) noexcept {
   status_ = outcome.status;
   const size_t length = strnlen(outcome.problem, sizeof problem_ - 1);
   std::memcpy(problem_, outcome.problem, length);
@@ -15,7 +15,7 @@ void OrderSlot::keep(const Outcome& outcome) noexcept {
 }
 
 // False: it is done after all.
-bool OrderSlot::withdraw() noexcept {
+bool CommandSlot::withdraw() noexcept {
   for (int expected = kPosted; !state_.compare_exchange_weak(expected, kFree, std::memory_order_acquire);
        expected = kPosted) {
     if (expected == kDone) return false;
@@ -24,21 +24,21 @@ bool OrderSlot::withdraw() noexcept {
   return true;
 }
 
-void OrderSlot::post(const Order& order) {
+void CommandSlot::post(const Command& command) {
   assert(state_.load(std::memory_order_relaxed) == kFree);
-  order_ = order;
+  order_ = command;
   status_ = RUNG_OK;
   problem_[0] = '\0';
   state_.store(kPosted, std::memory_order_release);
 }
 
-Answer OrderSlot::take(Order& order) {
+CommandResult CommandSlot::take(Command& command) {
   if (!isDone() && withdraw()) {
     if (status_ == RUNG_LATER) return {RUNG_LATER, problem_};
     return {RUNG_FAILED, "the scan thread does not run"};
   }
-  order = order_;
-  const Answer answer{status_, problem_};
+  command = order_;
+  const CommandResult answer{status_, problem_};
   state_.store(kFree, std::memory_order_release);
   return answer;
 }

@@ -1,5 +1,5 @@
 // See source_desk.h.
-#include "machine/control/source_desk.h"
+#include "machine/control/compile_service.h"
 
 #include <nlohmann/json.hpp>
 
@@ -32,7 +32,7 @@ std::string pieceOf(const json& request) {
 
 } // namespace
 
-void SourceDesk::begin(uint32_t owner) {
+void CompileService::begin(uint32_t owner) {
   compilation_.reset(); // its process ends
   image_.reset();
   refused_.clear();
@@ -41,18 +41,18 @@ void SourceDesk::begin(uint32_t owner) {
   owner_ = owner;
 }
 
-void SourceDesk::takePlace(const Peer& peer) {
+void CompileService::takePlace(const Peer& peer) {
   const bool busy = compilation_ != nullptr && compilation_->state() == Compilation::State::Running;
   if (owner_ != 0 && owner_ != peer.number && (busy || Clock::now() < lastUse_ + kIdle))
     throw Refused("another client is compiling a program here; try again when it has ended");
   begin(peer.number);
 }
 
-void SourceDesk::require(const Peer& peer) const {
+void CompileService::require(const Peer& peer) const {
   if (owner_ != peer.number) throw Refused("no sources have been sent before; \"sources\" sends them");
 }
 
-json SourceDesk::sources(const Peer& peer, const json& request) {
+json CompileService::sources(const Peer& peer, const json& request) {
   const std::string piece = pieceOf(request);
   if (request.value("first", json(false)) == true)
     takePlace(peer);
@@ -68,7 +68,7 @@ json SourceDesk::sources(const Peer& peer, const json& request) {
   return {{"bytes", packed_.size()}};
 }
 
-json SourceDesk::compile(const Peer& peer, const json&) {
+json CompileService::compile(const Peer& peer, const json&) {
   require(peer);
   if (compilation_ != nullptr) throw Refused("the sources are already being compiled");
   const size_t bytes = packed_.size();
@@ -77,13 +77,13 @@ json SourceDesk::compile(const Peer& peer, const json&) {
   return {{"bytes", bytes}};
 }
 
-void SourceDesk::load() try {
+void CompileService::load() try {
   image_ = Image::ofMemory(compilation_->image(), "the program that was compiled");
 } catch (const Error& error) {
   refused_ = error.what();
 }
 
-json SourceDesk::compiled(const Peer& peer, const json&) {
+json CompileService::compiled(const Peer& peer, const json&) {
   require(peer);
   if (compilation_ == nullptr) throw Refused("the sources have not been compiled; \"compile\" does that");
   lastUse_ = Clock::now();
@@ -94,13 +94,13 @@ json SourceDesk::compiled(const Peer& peer, const json&) {
   return {{"state", nameOf(state)}, {"report", compilation_->report()}};
 }
 
-const Image& SourceDesk::image(const Peer& peer) const {
+const Image& CompileService::image(const Peer& peer) const {
   require(peer);
   if (!image_) throw Refused("no program has been compiled from the sources; \"compiled\" says why");
   return *image_;
 }
 
-void SourceDesk::gone(const Peer& peer) {
+void CompileService::gone(const Peer& peer) {
   if (owner_ == peer.number) begin(0);
 }
 

@@ -1,5 +1,5 @@
-// Odds of ifs from counts of earlier runs.
-#include "ir/analysis/odds.h"
+// BranchWeights of ifs from counts of earlier runs.
+#include "ir/analysis/branch_weights.h"
 
 #include <gtest/gtest.h>
 
@@ -25,9 +25,9 @@ endif)");
   return module;
 }
 
-TEST(Odds, SayHowOftenConditionsAreOne) {
+TEST(BranchWeights, SayHowOftenConditionsAreOne) {
   Module module = threeIfs();
-  const OddsResult result = setOdds(module, {{kKey, {{1000, 950}, {950, 95}, {1000, 500}}}});
+  const BranchWeightsResult result = setBranchWeights(module, {{kKey, {{1000, 950}, {950, 95}, {1000, 500}}}});
   EXPECT_EQ(result.known, 1u);
   EXPECT_EQ(result.unknown, 0u);
   EXPECT_EQ(bodyOf(module), R"(%0:bit = load B[0.0]
@@ -42,9 +42,9 @@ endif
 )");
 }
 
-TEST(Odds, OneIfInTenIsRare) {
+TEST(BranchWeights, OneIfInTenIsRare) {
   Module module = threeIfs();
-  setOdds(module, {{kKey, {{100, 90}, {100, 89}, {0, 0}}}});
+  setBranchWeights(module, {{kKey, {{100, 90}, {100, 89}, {0, 0}}}});
   EXPECT_EQ(bodyOf(module), R"(%0:bit = load B[0.0]
 if mostly, %0
 %1:bit = load B[0.1]
@@ -57,11 +57,11 @@ endif
 )");
 }
 
-TEST(Odds, CountsOfAnotherRungAreNotTaken) {
+TEST(BranchWeights, CountsOfAnotherRungAreNotTaken) {
   Module module = threeIfs();
   const std::string before = bodyOf(module);
   const BranchCounts other{{kKey, {{1000, 0}}}, {kKey + 1, {{1, 0}, {1, 0}, {1, 0}}}};
-  const OddsResult result = setOdds(module, other);
+  const BranchWeightsResult result = setBranchWeights(module, other);
   EXPECT_EQ(result.known, 0u);
   EXPECT_EQ(result.unknown, 1u);
   EXPECT_EQ(bodyOf(module), before);

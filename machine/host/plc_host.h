@@ -1,4 +1,4 @@
-// A PLC program between HAL pins: all that the component does, without RTAPI. Everything is allocated when the box is
+// A PLC program between HAL pins: all that the component does, without RTAPI. Everything is allocated when the host is
 // made; `step` allocates nothing, takes no lock and makes no system call.
 #pragma once
 #include <algorithm>
@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "machine/host/binding.h"
+#include "machine/host/commands.h"
 #include "machine/host/function_queue.h"
 #include "machine/host/mapping_file.h"
-#include "machine/host/orders.h"
 #include "machine/host/pins.h"
 #include "machine/host/services.h"
 #include "rtlib/run/clock.h"
@@ -29,25 +29,25 @@ enum class StepResult : uint8_t {
   Failed, // a fault has stopped the program in this step
 };
 
-class Box {
+class PlcHost {
 public:
   using NewInstance = std::function<Instance(const Image& image, const rung_instance_options& options)>;
   struct Options {
     std::string retain;                              // FILE of FILE.a and FILE.b; "": it starts cold
     NewInstance newInstance = {};                    // of a program that is not in a control alone
-    runtime::Clock* clock = &runtime::systemClock(); // for all but steps; outlives the box
+    runtime::Clock* clock = &runtime::systemClock(); // for all but steps; outlives the host
     uint32_t catchUp = 0;                            // as in rung_instance_options
     const char* reset = "pin reset rises";           // what restarts a program that has stopped, for people
   };
   // Null, and `errors` say why, when the map does not fit the program. Throws rung::Error where it does, but the
   // program cannot be switched on: another process has its retained memory. `warnings`, then, too: what the operator
   // should know of the retained memory.
-  static std::unique_ptr<Box> make(const Image& image, File map, const Options& options,
-                                   std::vector<std::string>& errors, std::vector<std::string>& warnings);
+  static std::unique_ptr<PlcHost> make(const Image& image, File map, const Options& options,
+                                       std::vector<std::string>& errors, std::vector<std::string>& warnings);
   // A regular end, for the thread of the steps between two of them: begins it, and is asked again after each step.
   // True: the program needs no more of them, and has had them with fresh inputs. Nothing is restarted any more; a
   // restart that `serve` has begun is waited for.
-  bool ends() noexcept;
+  bool powerOffDone() noexcept;
   bool ending() const noexcept { return ending_; }                               // any thread
   bool ended() const noexcept { return ended_.load(std::memory_order_acquire); } // any thread
   // After the last step, or where none can come any more: the program's last scans run where they have not, output pins
@@ -55,7 +55,7 @@ public:
   std::string close();
 
   const std::vector<Pin>& pins() const { return map_.pins; }
-  // As many cells as there are pins, in their order; they outlive the box. They get the values that they begin with.
+  // As many cells as there are pins, in their command; they outlive the host. They get the values that they begin with.
   void connect(const PinCell* cells, const PinAccess& access = kVariables) noexcept;
 
   // The clock of the thread advances by `ns`: what is due of the program's schedule runs on fresh inputs. A step that
@@ -76,14 +76,14 @@ public:
   }
   // For the thread of the steps, between two of them: reads what a step reads of the program, as long as
   // CLOCK_MONOTONIC has not come to `untilNs`, so that the next one finds it in the processor's caches.
-  void touch(int64_t untilNs) const noexcept {
-    if (running()) rung_instance_touch(plc_.handle(), untilNs);
+  void prefetch(int64_t untilNs) const noexcept {
+    if (running()) rung_instance_prefetch(plc_.handle(), untilNs);
   }
   // Whether a restart after a fault may begin, before a step: it waits while the host still moves something.
   void setRestartable(bool is) noexcept { restartable_ = is; }
-  // The thread of `serve`; the scan thread does it in its next step (see orders.h). While it waits, a restart that the
-  // scan thread asks for is done.
-  Answer order(Order& order, std::chrono::milliseconds time = kPatience);
+  // The thread of `serve`; the scan thread does it in its next step (see commands.h). While it waits, a restart that
+  // the scan thread asks for is done.
+  CommandResult post(Command& command, std::chrono::milliseconds time = kPatience);
   static constexpr std::chrono::milliseconds kPatience{1000};
   // One thread at a time, any. False: the program has shown nothing since.
   bool nextMessage(rung_message_info& message) const noexcept;
@@ -135,7 +135,7 @@ public:
   const std::string& restartProblem() const noexcept { return restartProblem_; }
 
 private:
-  Box(const Image& image, File map, const Options& options);
+  PlcHost(const Image& image, File map, const Options& options);
 
   // Stopped: by a fault. Restarting: the instance belongs to `serve`.
   enum class State : uint8_t { Running, Stopped, Restarting };
@@ -156,11 +156,11 @@ private:
   StepResult run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcept;
   void readPins() noexcept;
   void writePins() noexcept;
-  OrderSlot::Outcome obey(Order& order) noexcept;
-  int32_t obeyRunning(Order& order) noexcept;
-  int32_t replace(Order& order) noexcept;
-  static void log(void* box, int32_t level, const char* text);
-  static int32_t request(void* box, rung_instance* instance, const rung_request* request, rung_reply* reply);
+  CommandSlot::Outcome execute(Command& command) noexcept;
+  int32_t obeyRunning(Command& command) noexcept;
+  int32_t replace(Command& command) noexcept;
+  static void log(void* host, int32_t level, const char* text);
+  static int32_t request(void* host, rung_instance* instance, const rung_request* request, rung_reply* reply);
 
   File map_;
   std::vector<std::string> logged_;
@@ -175,7 +175,7 @@ private:
   std::vector<Feed> feeds_;
   std::unique_ptr<FunctionQueue> functions_; // once the map is bound
   Pins pins_;
-  OrderSlot orders_;
+  CommandSlot commands_;
   runtime::Clock& clock_;
   bool wasReset_ = false;
   bool restartable_ = true;
@@ -190,7 +190,7 @@ private:
   uint32_t restarts_ = 0;
   std::string restartProblem_;
   runtime::Alone scans_;  // the thread of the steps
-  runtime::Alone serves_; // the thread of `serve` and `order`
+  runtime::Alone serves_; // the thread of `serve` and `command`
   std::atomic<uint32_t> faultLine_{0};
   std::atomic<State> state_{State::Running};
 };

@@ -1,5 +1,5 @@
 // The scan: pins in, due slices of the schedule, pins out.
-#include "machine/host/box.h"
+#include "machine/host/plc_host.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -28,25 +28,25 @@ Value bitsOf(const std::vector<uint32_t>& numbers, const Pins& pins) noexcept {
   return value;
 }
 
-int32_t readProfile(const rung_instance* plc, Order& order) noexcept {
-  const uint32_t wanted = std::exchange(order.count, 0);
+int32_t readProfile(const rung_instance* plc, Command& command) noexcept {
+  const uint32_t wanted = std::exchange(command.count, 0);
   int32_t status = RUNG_OK;
-  while (order.count < wanted && status == RUNG_OK) {
-    rung_profile& profile = order.profiles[order.count];
+  while (command.count < wanted && status == RUNG_OK) {
+    rung_profile& profile = command.profiles[command.count];
     profile.size = sizeof profile;
-    status = rung_instance_profile(plc, order.index + order.count, &profile);
-    if (status == RUNG_OK) ++order.count;
+    status = rung_instance_profile(plc, command.index + command.count, &profile);
+    if (status == RUNG_OK) ++command.count;
   }
   return status;
 }
 
 } // namespace
 
-Box::Box(const Image& image, File map, const Options& options)
+PlcHost::PlcHost(const Image& image, File map, const Options& options)
     : map_(std::move(map)), options_{.size = sizeof options_,
                                      .user = this,
-                                     .log = &Box::log,
-                                     .request = &Box::request,
+                                     .log = &PlcHost::log,
+                                     .request = &PlcHost::request,
                                      .catch_up = options.catchUp},
       plc_(options.newInstance ? options.newInstance(image, options_) : Instance(image, &options_)),
       kept_(!options.retain.empty()), reset_(options.reset), pins_(map_.pins), clock_(*options.clock) {
@@ -54,35 +54,35 @@ Box::Box(const Image& image, File map, const Options& options)
 }
 
 // No exception may go through the library, which is one of C.
-void Box::log(void* box, int32_t level, const char* text) try {
-  if (level != RUNG_LOG_INFO) static_cast<Box*>(box)->logged_.emplace_back(text);
+void PlcHost::log(void* host, int32_t level, const char* text) try {
+  if (level != RUNG_LOG_INFO) static_cast<PlcHost*>(host)->logged_.emplace_back(text);
 } catch (const std::bad_alloc&) {
-  static_cast<Box*>(box)->logged_.clear(); // room for what comes next
+  static_cast<PlcHost*>(host)->logged_.clear(); // room for what comes next
 }
 
-int32_t Box::request(void* box, rung_instance*, const rung_request* request, rung_reply* reply) {
-  return atOnce(*request, static_cast<Box*>(box)->live_, *reply);
+int32_t PlcHost::request(void* host, rung_instance*, const rung_request* request, rung_reply* reply) {
+  return atOnce(*request, static_cast<PlcHost*>(host)->live_, *reply);
 }
 
-std::unique_ptr<Box> Box::make(const Image& image, File map, const Options& options, std::vector<std::string>& errors,
-                               std::vector<std::string>& warnings) {
-  std::unique_ptr<Box> box(new Box(image, std::move(map), options));
-  box->binding_ = bindMap(box->map_, box->plc_.handle(), *rung_image_program(image.handle()), errors);
-  defineMessages(box->map_, box->plc_.handle(), errors);
+std::unique_ptr<PlcHost> PlcHost::make(const Image& image, File map, const Options& options,
+                                       std::vector<std::string>& errors, std::vector<std::string>& warnings) {
+  std::unique_ptr<PlcHost> host(new PlcHost(image, std::move(map), options));
+  host->binding_ = bindMap(host->map_, host->plc_.handle(), *rung_image_program(image.handle()), errors);
+  defineMessages(host->map_, host->plc_.handle(), errors);
   if (!errors.empty()) return nullptr;
-  box->bindValues();
-  box->functions_ = std::make_unique<FunctionQueue>(box->map_, box->plc_.handle());
+  host->bindValues();
+  host->functions_ = std::make_unique<FunctionQueue>(host->map_, host->plc_.handle());
   std::string problem;
-  const int32_t status = box->start(problem);
-  warnings = std::move(box->logged_);
-  for (const Pin& pin : box->map_.pins)
+  const int32_t status = host->start(problem);
+  warnings = std::move(host->logged_);
+  for (const Pin& pin : host->map_.pins)
     if (pin.holds) warnings.push_back("pin " + pin.name + " holds its last value while the program does not run");
   if (status < RUNG_OK) throw Error(status, problem.c_str());
-  return box;
+  return host;
 }
 
 // Constants in every slice, too: neither a restart nor the control can undo them.
-void Box::bindValues() {
+void PlcHost::bindValues() {
   values_.resize(binding_.links.size());
   constants_.resize(binding_.constants.size());
   for (size_t i = 0; i < values_.size(); ++i) {
@@ -107,7 +107,7 @@ void Box::bindValues() {
 }
 
 template <class Link>
-void Box::bind(const Link& link, Value& value, rung_direction direction, double scale) {
+void PlcHost::bind(const Link& link, Value& value, rung_direction direction, double scale) {
   constexpr rung_host_type kTypes[] = {RUNG_HOST_BOOL, RUNG_HOST_I32, RUNG_HOST_U32, RUNG_HOST_F64}; // by PinType
   const uint32_t words = link.words ? uint32_t{RUNG_BOUND_REAL} : 0;
   const rung_variable variable{link.name.c_str(), &value, kTypes[static_cast<size_t>(link.type)], direction | words,
@@ -116,7 +116,7 @@ void Box::bind(const Link& link, Value& value, rung_direction direction, double 
 }
 
 // A fault at the power-on shows in the first step.
-int32_t Box::start(std::string& problem) {
+int32_t PlcHost::start(std::string& problem) {
   hasRun_ = false;
   const int32_t status = rung_instance_power_on(plc_.handle(), kept_ ? RUNG_WARM : RUNG_COLD);
   if (status < RUNG_OK) problem = rung_error_text();
@@ -127,7 +127,7 @@ int32_t Box::start(std::string& problem) {
 }
 
 // What both sides write begins with the program's value; a parameter keeps a person's.
-void Box::beginWith(size_t index, bool first) noexcept {
+void PlcHost::beginWith(size_t index, bool first) noexcept {
   const PinLink& link = binding_.links[index];
   const bool parameter = link.direction == Direction::Parameter && first;
   if (parameter && link.value)
@@ -139,7 +139,7 @@ void Box::beginWith(size_t index, bool first) noexcept {
   if (!first) setPins(link, values_[index]);
 }
 
-Value Box::valueInProgram(const PinLink& link) noexcept {
+Value PlcHost::valueInProgram(const PinLink& link) noexcept {
   rung_cell cell = 0;
   rung_cell_info info{};
   info.size = sizeof info;
@@ -154,7 +154,7 @@ Value Box::valueInProgram(const PinLink& link) noexcept {
   return {.real = real / link.scale};
 }
 
-void Box::connect(const PinCell* cells, const PinAccess& access) noexcept {
+void PlcHost::connect(const PinCell* cells, const PinAccess& access) noexcept {
   pins_.connect(cells, access);
   clearPins();
   for (const size_t i : toProgram_)
@@ -162,7 +162,7 @@ void Box::connect(const PinCell* cells, const PinAccess& access) noexcept {
   pins_.write();
 }
 
-std::string Box::stopText(const rung_fault_info& fault) const {
+std::string PlcHost::stopText(const rung_fault_info& fault) const {
   rung_program_info program{};
   program.size = sizeof program;
   rung_instance_program(plc_.handle(), &program);
@@ -174,18 +174,18 @@ std::string Box::stopText(const rung_fault_info& fault) const {
 }
 
 // Once for each.
-void Box::reportFault() {
+void PlcHost::reportFault() {
   const std::optional<rung_fault_info> info = reported_ ? std::nullopt : fault(); // or the scan thread has it
   if (!info) return;
   reported_ = true;
   reports_.push_back(stopText(*info));
 }
 
-void Box::restart() {
+void PlcHost::restart() {
   if (state_.load(std::memory_order_acquire) != State::Restarting) return;
   reportFault();
   functions_->restart();
-  live_.served.store(false, std::memory_order_release); // who serves has orders of the program that has stopped
+  live_.served.store(false, std::memory_order_release); // who serves has commands of the program that has stopped
   std::string problem;
   const bool started = start(problem) >= RUNG_OK;
   if (!started) reports_.push_back(problem);
@@ -199,7 +199,7 @@ void Box::restart() {
 }
 
 // When it begins to fail, why it fails for another reason, and when it is good again.
-void Box::reportSaving() {
+void PlcHost::reportSaving() {
   char text[512] = "";
   if (rung_instance_unsaved(plc_.handle(), text, sizeof text) != RUNG_OK) text[0] = '\0';
   if (unsaved_ == text) return;
@@ -208,7 +208,7 @@ void Box::reportSaving() {
                                       : "the retained memory is not written: " + unsaved_);
 }
 
-bool Box::serve(std::vector<std::string>& reports) {
+bool PlcHost::serve(std::vector<std::string>& reports) {
   const runtime::Alone::In service(serves_);
   restart();
   if (state_.load(std::memory_order_acquire) == State::Stopped) reportFault();
@@ -217,11 +217,11 @@ bool Box::serve(std::vector<std::string>& reports) {
   return !std::exchange(reports_, {}).empty();
 }
 
-Answer Box::order(Order& order, std::chrono::milliseconds time) {
+CommandResult PlcHost::post(Command& command, std::chrono::milliseconds time) {
   const runtime::Alone::In service(serves_);
   if (ended()) return {RUNG_WRONG_STATE, "the program has been switched off"};
-  Answer answer = orders_.give(order, time, clock_, [this] { restart(); });
-  if (order.kind != Order::Kind::Restart || !answer.ok()) return answer;
+  CommandResult answer = commands_.give(command, time, clock_, [this] { restart(); });
+  if (command.kind != Command::Kind::Restart || !answer.ok()) return answer;
   restart();
   if (restartProblem_.empty()) return answer;
   return {RUNG_FAILED, "the program cannot be restarted: " + restartProblem_};
@@ -245,13 +245,13 @@ bool isSamePlace(const rung_cell_info& a, const rung_cell_info& b) {
 
 } // namespace
 
-Box::Losses Box::lossesBy(const rung_replacement* replacement, const rung_program& next) const {
+PlcHost::Losses PlcHost::lossesBy(const rung_replacement* replacement, const rung_program& next) const {
   Losses losses = lossesBy(replacement);
   bindMap(map_, plc_.handle(), replacement, next, losses.mistakes);
   return losses;
 }
 
-Box::Losses Box::lossesBy(const rung_replacement* replacement) const {
+PlcHost::Losses PlcHost::lossesBy(const rung_replacement* replacement) const {
   Losses losses;
   for (size_t i = 0; i < binding_.links.size(); ++i) {
     const PinLink& link = binding_.links[i];
@@ -268,7 +268,7 @@ Box::Losses Box::lossesBy(const rung_replacement* replacement) const {
   return losses;
 }
 
-std::string Box::close() {
+std::string PlcHost::close() {
   std::string error;
   const int32_t status = rung_instance_power_off(plc_.handle());
   if (status < RUNG_OK && status != RUNG_WRONG_STATE) error = rung_error_text(); // it may be off
@@ -276,7 +276,7 @@ std::string Box::close() {
   return error;
 }
 
-bool Box::ends() noexcept {
+bool PlcHost::powerOffDone() noexcept {
   ending_ = true;
   if (restarting()) return false;
   if (rung_instance_begin_power_off(plc_.handle()) == RUNG_LATER) return false;
@@ -286,7 +286,7 @@ bool Box::ends() noexcept {
   return true;
 }
 
-StepResult Box::step(int64_t ns, bool reset) noexcept {
+StepResult PlcHost::step(int64_t ns, bool reset) noexcept {
   const runtime::Alone::In scan(scans_);
   if (!beginStep(ns, reset)) return StepResult::Waiting;
   const StepResult result = run(ns, &rung_instance_run_due);
@@ -294,7 +294,7 @@ StepResult Box::step(int64_t ns, bool reset) noexcept {
   return result;
 }
 
-StepResult Box::stepFast(int64_t ns, bool reset) noexcept {
+StepResult PlcHost::stepFast(int64_t ns, bool reset) noexcept {
   const runtime::Alone::In scan(scans_);
   if (!beginStep(ns, reset)) return StepResult::Waiting;
   const StepResult result = run(ns, &rung_instance_run_due_fast);
@@ -303,11 +303,11 @@ StepResult Box::stepFast(int64_t ns, bool reset) noexcept {
 }
 
 // False: the program does not run.
-bool Box::beginStep(int64_t ns, bool reset) noexcept {
+bool PlcHost::beginStep(int64_t ns, bool reset) noexcept {
   const bool resets = reset && restartable_ && !ending_;
   const bool asked = resets && !wasReset_;
   wasReset_ = resets;
-  orders_.take([this](Order& order) { return obey(order); });
+  commands_.take([this](Command& command) { return execute(command); });
   const State state = state_.load(std::memory_order_acquire);
   if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
   if (state == State::Stopped) rung_instance_sample(plc_.handle());
@@ -320,7 +320,7 @@ bool Box::beginStep(int64_t ns, bool reset) noexcept {
 }
 
 // Functions begin where a slice does, and so do inputs.
-StepResult Box::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcept {
+StepResult PlcHost::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcept {
   const rung_state before = state();
   if (before.wait_ns <= ns && !sliceBegun_) {
     functions_->advance(pins_);
@@ -340,43 +340,43 @@ StepResult Box::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcep
 }
 
 // By a fault. Its text, which takes memory, is for `serve`: the struct ends before it.
-void Box::stop() noexcept {
+void PlcHost::stop() noexcept {
   rung_fault_info info{};
   info.size = offsetof(rung_fault_info, text);
   if (rung_instance_fault(plc_.handle(), &info) == RUNG_OK) faultLine_.store(info.line, std::memory_order_relaxed);
   state_.store(State::Stopped, std::memory_order_release);
 }
 
-rung_state Box::state() const noexcept {
+rung_state PlcHost::state() const noexcept {
   rung_state state{};
   state.size = sizeof state;
   rung_instance_state(plc_.handle(), &state);
   return state;
 }
 
-std::optional<rung_fault_info> Box::fault() const noexcept {
+std::optional<rung_fault_info> PlcHost::fault() const noexcept {
   rung_fault_info info{};
   info.size = sizeof info;
   return rung_instance_fault(plc_.handle(), &info) == RUNG_OK ? std::optional(info) : std::nullopt;
 }
 
-void Box::readPins() noexcept {
+void PlcHost::readPins() noexcept {
   for (const size_t i : toProgram_) {
     const PinLink& link = binding_.links[i];
     values_[i] = link.bits.empty() ? pins_[link.pin] : bitsOf(link.bits, pins_);
   }
 }
 
-void Box::writePins() noexcept {
+void PlcHost::writePins() noexcept {
   for (const size_t i : fromProgram_) setPins(binding_.links[i], values_[i]);
 }
 
-void Box::setPins(const PinLink& link, const Value& value) noexcept {
+void PlcHost::setPins(const PinLink& link, const Value& value) noexcept {
   if (link.bits.empty()) return pins_.set(link.pin, value);
   for (size_t bit = 0; bit < link.bits.size(); ++bit) pins_.set(link.bits[bit], {.bit = (value.u32 >> bit & 1) != 0});
 }
 
-void Box::clearPins() noexcept {
+void PlcHost::clearPins() noexcept {
   for (uint32_t i = 0; i < map_.pins.size(); ++i) {
     const Pin& pin = map_.pins[i];
     if (fromProgram(pin.direction) && !pin.holds && !pin.ofHost) pins_.set(i, constant(pin.type, pin.safe));
@@ -384,23 +384,23 @@ void Box::clearPins() noexcept {
   pins_.write();
 }
 
-bool Box::nextMessage(rung_message_info& message) const noexcept {
+bool PlcHost::nextMessage(rung_message_info& message) const noexcept {
   message.size = sizeof message;
   return rung_instance_next_message(plc_.handle(), &message) == RUNG_OK;
 }
 
-bool Box::nextRequest(Request& request) const {
+bool PlcHost::nextRequest(Request& request) const {
   request.given.size = sizeof request.given;
   if (rung_instance_next_request(plc_.handle(), &request.given) != RUNG_OK) return false;
   request.service = request.given.service;
   return true;
 }
 
-OrderSlot::Outcome Box::obey(Order& order) noexcept {
-  using Kind = Order::Kind;
+CommandSlot::Outcome PlcHost::execute(Command& command) noexcept {
+  using Kind = Command::Kind;
   const State now = state_.load(std::memory_order_acquire);
   if (now == State::Restarting) return {RUNG_LATER, "the program is being restarted"};
-  if (order.kind == Kind::Restart) {
+  if (command.kind == Kind::Restart) {
     if (ending_) return {RUNG_WRONG_STATE, "the program is being switched off"};
     if (now == State::Running)
       return {RUNG_WRONG_STATE, (state().flags & RUNG_STATE_STOPPED) != 0
@@ -410,9 +410,9 @@ OrderSlot::Outcome Box::obey(Order& order) noexcept {
     state_.store(State::Restarting, std::memory_order_release);
     return {};
   }
-  if (now == State::Stopped && (order.kind == Kind::Stop || order.kind == Kind::Start))
+  if (now == State::Stopped && (command.kind == Kind::Stop || command.kind == Kind::Start))
     return {RUNG_WRONG_STATE, "a fault has stopped the program: a reset restarts it"};
-  const int32_t status = obeyRunning(order);
+  const int32_t status = obeyRunning(command);
   if (status == RUNG_OK || status == RUNG_EMPTY) return {status};
   const bool isOff = now == State::Stopped && (state().flags & RUNG_STATE_ON) == 0; // a restart has failed
   if (status == RUNG_FAULTED || isOff) return {status, "a fault has stopped the program: a reset restarts it"};
@@ -421,39 +421,39 @@ OrderSlot::Outcome Box::obey(Order& order) noexcept {
 
 // An input that nobody feeds any more keeps nothing that permits something. Where the new program cannot take over now,
 // its pin feeds it again before the next slice.
-int32_t Box::replace(Order& order) noexcept {
+int32_t PlcHost::replace(Command& command) noexcept {
   const rung_value none{};
-  if (order.dead != nullptr)
-    for (const rung_cell cell : *order.dead) rung_instance_write(plc_.handle(), cell, 0, 1, &none);
-  const int32_t status = rung_instance_replace(plc_.handle(), order.replacement);
-  order.state = state();
+  if (command.dead != nullptr)
+    for (const rung_cell cell : *command.dead) rung_instance_write(plc_.handle(), cell, 0, 1, &none);
+  const int32_t status = rung_instance_replace(plc_.handle(), command.replacement);
+  command.state = state();
   return status;
 }
 
-int32_t Box::obeyRunning(Order& order) noexcept {
+int32_t PlcHost::obeyRunning(Command& command) noexcept {
   rung_instance* plc = plc_.handle();
-  switch (order.kind) {
-  case Order::Kind::State:
-    order.state = state();
-    order.functions = functions_->state();
+  switch (command.kind) {
+  case Command::Kind::State:
+    command.state = state();
+    command.functions = functions_->state();
     return RUNG_OK;
-  case Order::Kind::Write: {
-    order.state = state();
-    const int32_t status = rung_instance_read(plc, order.cell, 0, 1, &order.former);
-    return status != RUNG_OK ? status : rung_instance_write(plc, order.cell, 0, 1, &order.value);
+  case Command::Kind::Write: {
+    command.state = state();
+    const int32_t status = rung_instance_read(plc, command.cell, 0, 1, &command.former);
+    return status != RUNG_OK ? status : rung_instance_write(plc, command.cell, 0, 1, &command.value);
   }
-  case Order::Kind::Forced:
-    order.force.size = sizeof order.force;
-    return rung_instance_forced(plc, order.index, &order.force);
-  case Order::Kind::Force: return rung_instance_force(plc, order.forces);
-  case Order::Kind::Replace: return replace(order);
-  case Order::Kind::Shadow: return rung_instance_shadow(plc, order.shadow);
-  case Order::Kind::Stop: return rung_instance_stop(plc);
-  case Order::Kind::Start: return rung_instance_start(plc);
-  case Order::Kind::Profile: return readProfile(plc, order);
-  case Order::Kind::ClearProfile: return rung_instance_clear_profile(plc);
-  case Order::Kind::Act: return order.act(order.actor), RUNG_OK;
-  case Order::Kind::Restart: break; // obey
+  case Command::Kind::Forced:
+    command.force.size = sizeof command.force;
+    return rung_instance_forced(plc, command.index, &command.force);
+  case Command::Kind::Force: return rung_instance_force(plc, command.forces);
+  case Command::Kind::Replace: return replace(command);
+  case Command::Kind::Shadow: return rung_instance_shadow(plc, command.shadow);
+  case Command::Kind::Stop: return rung_instance_stop(plc);
+  case Command::Kind::Start: return rung_instance_start(plc);
+  case Command::Kind::Profile: return readProfile(plc, command);
+  case Command::Kind::ClearProfile: return rung_instance_clear_profile(plc);
+  case Command::Kind::Act: return command.act(command.actor), RUNG_OK;
+  case Command::Kind::Restart: break; // execute
   }
   return RUNG_EMPTY;
 }

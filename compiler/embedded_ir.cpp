@@ -1,6 +1,6 @@
 // Packing and unpacking (see kept_ir.h). The section holds the size of the text (8 bytes, low byte first), and the text
 // compressed by zlib: a line with the passes, then the module as its front end built it.
-#include "compiler/kept_ir.h"
+#include "compiler/embedded_ir.h"
 
 #include <array>
 #include <cstring>

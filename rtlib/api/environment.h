@@ -14,7 +14,7 @@
 namespace rung::api {
 
 // Where nothing else is said, the control alone. Hooks, parts and messages are the scan thread's.
-class Surroundings : public runtime::ScheduleHooks {
+class Environment : public runtime::ScheduleHooks {
 public:
   virtual nc::Control& control() = 0;
   virtual const nc::Control& control() const = 0;
@@ -28,7 +28,7 @@ public:
     (void)instance;
     control().accept(message);
   }
-  // Where the surroundings themselves read and write in a program, as nc::Control has it for the control; null: they
+  // Where the environment itself reads and writes in a program, as nc::Control has it for the control; null: they
   // look that up in programChanged, which is not real time then.
   virtual std::unique_ptr<nc::Places> locate(const rung_program& program) const { return (void)program, nullptr; }
   // Another program has taken over, whose places these are; they get those of the former one. Allocates nothing.
@@ -52,13 +52,13 @@ public:
 };
 
 // By rung_program::dialect.
-std::unique_ptr<Surroundings> controlAlone(std::string_view dialect);
+std::unique_ptr<Environment> controlAlone(std::string_view dialect);
 
-// rung_instance_new with these surroundings; null: the control alone.
-int32_t newInstance(rung_image* image, const rung_instance_options* options, std::unique_ptr<Surroundings> around,
+// rung_instance_new with this environment; null: the control alone.
+int32_t newInstance(rung_image* image, const rung_instance_options* options, std::unique_ptr<Environment> environment,
                     rung_instance** instance);
 
-// The program as its surroundings see it, as long as the handle is alive. Running, power, replacing and forcing are the
+// The program as its environment sees it, as long as the handle is alive. Running, power, replacing and forcing are the
 // library's alone.
 runtime::Instance& insideOf(rung_instance& instance) noexcept;
 
@@ -68,7 +68,7 @@ void setOutside(rung_instance& instance, const runtime::Outside& outside);
 void lookForSaving(rung_instance& instance) noexcept;
 void cutPower(rung_instance& instance) noexcept;
 
-// What surroundings do of their own between two calls of the host may send messages: they are taken.
+// What an environment does of its own between two calls of the host may send messages: they are taken.
 void takeMessages(rung_instance& instance) noexcept;
 
 } // namespace rung::api

@@ -1,5 +1,5 @@
-// Odds of ifs from counts (see odds.h).
-#include "ir/analysis/odds.h"
+// BranchWeights of ifs from counts (see branchWeights.h).
+#include "ir/analysis/branch_weights.h"
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint64_t kRare = 10; // of so many at most one
 
-Odds oddsOf(const Branch& branch) {
+BranchWeights weightsOf(const Branch& branch) {
   if (branch.taken <= branch.reached / kRare) return kSeldom; // one that was never reached, too
   return branch.reached - branch.taken <= branch.reached / kRare ? kMostly : kEven;
 }
@@ -19,8 +19,8 @@ bool isIf(const Op& op) { return op.code == OpCode::If; }
 
 } // namespace
 
-OddsResult setOdds(Module& module, const BranchCounts& counts) {
-  OddsResult result;
+BranchWeightsResult setBranchWeights(Module& module, const BranchCounts& counts) {
+  BranchWeightsResult result;
   for (Routine& routine : module.routines)
     for (Rung& rung : routine.rungs) {
       const auto ifs = static_cast<size_t>(std::ranges::count_if(rung.ops, isIf));
@@ -31,7 +31,7 @@ OddsResult setOdds(Module& module, const BranchCounts& counts) {
       if (!same) continue;
       auto branch = found->second.begin();
       for (Op& op : rung.ops)
-        if (isIf(op)) op.ref = oddsOf(*branch++);
+        if (isIf(op)) op.ref = weightsOf(*branch++);
     }
   return result;
 }

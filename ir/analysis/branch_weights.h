@@ -1,4 +1,4 @@
-// How often the branches of a program are taken, as runs of it have shown, and the odds of its ifs by that.
+// How often the branches of a program are taken, as runs of it have shown, and the branchWeights of its ifs by that.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -20,12 +20,12 @@ struct Branch {
 // none.
 using BranchCounts = std::map<uint64_t, std::vector<Branch>>;
 
-struct OddsResult {
+struct BranchWeightsResult {
   size_t known = 0;   // rungs with ifs whose counts are there
   size_t unknown = 0; // without: the rung is new, another one now, or was made by another compiler
 };
 
-// Sets the odds of the ifs of a module that no pass has changed.
-OddsResult setOdds(Module& module, const BranchCounts& counts);
+// Sets the branchWeights of the ifs of a module that no pass has changed.
+BranchWeightsResult setBranchWeights(Module& module, const BranchCounts& counts);
 
 } // namespace rung::ir

@@ -17,7 +17,7 @@ namespace rung::control {
 
 // For the thread that answers requests, which never waits here. The answers are those of docs/control-protocol.md; what
 // cannot be done throws Refused.
-class SourceDesk {
+class CompileService {
 public:
   nlohmann::json sources(const Peer& peer, const nlohmann::json& request);
   nlohmann::json compile(const Peer& peer, const nlohmann::json& request);

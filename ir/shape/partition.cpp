@@ -1,5 +1,5 @@
-// Cutting rungs into chunks (see cut.h).
-#include "ir/shape/cut.h"
+// Cutting rungs into chunks (see partition.h).
+#include "ir/shape/partition.h"
 
 #include <algorithm>
 #include <numeric>
@@ -19,10 +19,11 @@ bool leavesRoutine(TransferKind kind) {
 
 } // namespace
 
-// Fills a Cut step by step.
-class Cutter {
+// Fills a Partition step by step.
+class Partitioner {
 public:
-  Cutter(Cut& cut, const CutOptions& options) : cut_(cut), module_(*cut.module_), options_(options) {}
+  Partitioner(Partition& partition, const PartitionOptions& options)
+      : partition_(partition), module_(*partition.module_), options_(options) {}
 
   void run() {
     numberRungs();
@@ -34,28 +35,28 @@ private:
   void numberRungs() {
     uint32_t number = 0;
     for (const Routine& routine : module_.routines) {
-      cut_.firstRung_.push_back(number);
+      partition_.firstRung_.push_back(number);
       number += static_cast<uint32_t>(routine.rungs.size());
     }
-    cut_.rungCount_ = number;
+    partition_.rungCount_ = number;
   }
 
   void cutRoutine(uint32_t routine) {
     const std::vector<Rung>& rungs = module_.routines[routine].rungs;
     markHeads(routine);
     measure(rungs);
-    std::vector<uint32_t>& chunkOf = cut_.chunkOfRung_.emplace_back();
-    cut_.after_.emplace_back(rungs.size());
+    std::vector<uint32_t>& chunkOf = partition_.chunkOfRung_.emplace_back();
+    partition_.after_.emplace_back(rungs.size());
     const auto count = static_cast<uint32_t>(rungs.size());
     for (uint32_t first = 0; first < count;) {
       const uint32_t end = chunkEnd(routine, first);
-      chunkOf.insert(chunkOf.end(), end - first, static_cast<uint32_t>(cut_.chunks_.size()));
-      cut_.chunks_.push_back({.routine = RoutineId{routine}, .firstRung = first, .rungCount = end - first});
+      chunkOf.insert(chunkOf.end(), end - first, static_cast<uint32_t>(partition_.chunks_.size()));
+      partition_.chunks_.push_back({.routine = RoutineId{routine}, .firstRung = first, .rungCount = end - first});
       for (uint32_t i = first; i < end; ++i)
         forTargets(rungs[i].transfer, [&](uint32_t target) {
           if (target >= end) heads_[target] = true;
         });
-      weigh(rungs, cut_.chunks_.back());
+      weigh(rungs, partition_.chunks_.back());
       first = end;
     }
   }
@@ -78,7 +79,7 @@ private:
 
   void weigh(const std::vector<Rung>& rungs, Chunk& chunk) {
     const uint32_t end = chunk.firstRung + chunk.rungCount;
-    std::vector<uint32_t>& after = cut_.after_[chunk.routine.index];
+    std::vector<uint32_t>& after = partition_.after_[chunk.routine.index];
     for (uint32_t i = end; i-- > chunk.firstRung;) {
       const Transfer& transfer = rungs[i].transfer;
       uint32_t least = UINT32_MAX;
@@ -140,21 +141,23 @@ private:
 
   void findPartEnds() {
     for (size_t t = 0; t < module_.tasks.size(); ++t) {
-      std::vector<uint32_t>& ends = cut_.partEnds_.emplace_back();
-      for (uint32_t rung : module_.tasks[t].borders) ends.push_back(cut_.chunkAt(module_.tasks[t].entry, rung));
+      std::vector<uint32_t>& ends = partition_.partEnds_.emplace_back();
+      for (uint32_t rung : module_.tasks[t].borders) ends.push_back(partition_.chunkAt(module_.tasks[t].entry, rung));
     }
   }
 
-  Cut& cut_;
+  Partition& partition_;
   const Module& module_;
-  CutOptions options_;
+  PartitionOptions options_;
   // Of the routine in hand, by rung.
   std::vector<bool> heads_;
   std::vector<int32_t> crossing_;
   std::vector<size_t> opsBefore_;
 };
 
-Cut::Cut(const Module& module, const CutOptions& options) : module_(&module) { Cutter(*this, options).run(); }
+Partition::Partition(const Module& module, const PartitionOptions& options) : module_(&module) {
+  Partitioner(*this, options).run();
+}
 
 namespace {
 
@@ -177,7 +180,7 @@ bool hasExitsOf(const Transfer& code, const Transfer& shape, uint32_t next) {
 
 } // namespace
 
-Cut Cut::over(const Module& module) const {
+Partition Partition::over(const Module& module) const {
   RUNG_CHECK(module.routines.size() == module_->routines.size(), "another form of a module has its routines");
   for (size_t r = 0; r < module.routines.size(); ++r) {
     const std::vector<Rung>& code = module.routines[r].rungs;
@@ -186,18 +189,18 @@ Cut Cut::over(const Module& module) const {
     for (uint32_t i = 0; i < code.size(); ++i)
       RUNG_CHECK(hasExitsOf(code[i].transfer, shape[i].transfer, i + 1), "a rung has an exit that its shape has not");
   }
-  Cut other = *this;
+  Partition other = *this;
   other.module_ = &module;
   return other;
 }
 
-uint32_t Cut::chunkAt(RoutineId routine, uint32_t rung) const {
+uint32_t Partition::chunkAt(RoutineId routine, uint32_t rung) const {
   const uint32_t chunk = chunkOfRung_[routine.index][rung];
   RUNG_CHECK(chunks_[chunk].firstRung == rung, "control may enter a chunk at its head only");
   return chunk;
 }
 
-Destination Cut::destination(RoutineId routine, uint32_t from, uint32_t to) const {
+Destination Partition::destination(RoutineId routine, uint32_t from, uint32_t to) const {
   const std::vector<uint32_t>& chunkOf = chunkOfRung_[routine.index];
   if (to <= from || chunkOf[to] != chunkOf[from]) return {.chunk = chunkAt(routine, to)};
   const std::vector<uint32_t>& after = after_[routine.index];
@@ -205,8 +208,8 @@ Destination Cut::destination(RoutineId routine, uint32_t from, uint32_t to) cons
       .chunk = chunkOf[to], .rung = to, .extra = weightOf(module_->at(routine).rungs[to]) + after[to] - after[from]};
 }
 
-Exit exitOf(const Cut& cut, RoutineId routine, uint32_t rung) {
-  const std::vector<Rung>& rungs = cut.module().at(routine).rungs;
+Exit exitOf(const Partition& partition, RoutineId routine, uint32_t rung) {
+  const std::vector<Rung>& rungs = partition.module().at(routine).rungs;
   const Transfer& transfer = rungs[rung].transfer;
   Exit exit{.kind = transfer.kind,
             .cond = transfer.cond,
@@ -216,10 +219,10 @@ Exit exitOf(const Cut& cut, RoutineId routine, uint32_t rung) {
             .targets = {}};
   const bool goesOn =
       transfer.kind == TransferKind::Next || transfer.kind == TransferKind::Call || transfer.cond.valid();
-  if (goesOn && rung + 1 < rungs.size()) exit.otherwise = cut.destination(routine, rung, rung + 1);
-  if (transfer.kind == TransferKind::Goto) exit.taken = cut.destination(routine, rung, transfer.target);
-  if (transfer.kind == TransferKind::Call) exit.taken = {.chunk = cut.entry(transfer.callee)};
-  for (uint32_t target : transfer.targets) exit.targets.push_back(cut.destination(routine, rung, target));
+  if (goesOn && rung + 1 < rungs.size()) exit.otherwise = partition.destination(routine, rung, rung + 1);
+  if (transfer.kind == TransferKind::Goto) exit.taken = partition.destination(routine, rung, transfer.target);
+  if (transfer.kind == TransferKind::Call) exit.taken = {.chunk = partition.entry(transfer.callee)};
+  for (uint32_t target : transfer.targets) exit.targets.push_back(partition.destination(routine, rung, target));
   return exit;
 }
 

@@ -1,5 +1,5 @@
-// The weight of the heaviest run: compared with all ways of small programs, one after the other.
-#include "ir/analysis/heaviest.h"
+// The weight of the longest run: compared with all paths of small programs, one after the other.
+#include "ir/analysis/longest_path.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ namespace {
 
 using Open = std::set<std::pair<uint32_t, uint32_t>>; // routine and rung
 
-// From a rung to the end of its routine; nothing: control may go in circles.
-std::optional<uint64_t> heaviestWay(const Module& module, RoutineId routine, uint32_t rung, Open& open) {
+// From a rung to the end of its routine; nothing: control may go in loops.
+std::optional<uint64_t> longestPath(const Module& module, RoutineId routine, uint32_t rung, Open& open) {
   const std::vector<Rung>& rungs = module.at(routine).rungs;
   if (rung >= rungs.size()) return 0;
   if (!open.insert({routine.index, rung}).second) return std::nullopt;
@@ -26,7 +26,7 @@ std::optional<uint64_t> heaviestWay(const Module& module, RoutineId routine, uin
   uint64_t most = 0;
   bool endless = false;
   const auto way = [&](uint32_t to, uint64_t before) {
-    const std::optional<uint64_t> rest = heaviestWay(module, routine, to, open);
+    const std::optional<uint64_t> rest = longestPath(module, routine, to, open);
     endless = endless || !rest;
     most = std::max(most, before + rest.value_or(0));
   };
@@ -34,7 +34,7 @@ std::optional<uint64_t> heaviestWay(const Module& module, RoutineId routine, uin
   if (transfer.kind == TransferKind::Goto) way(transfer.target, 0);
   for (const uint32_t target : transfer.targets) way(target, 0);
   if (transfer.kind == TransferKind::Call) {
-    const std::optional<uint64_t> callee = heaviestWay(module, transfer.callee, 0, open);
+    const std::optional<uint64_t> callee = longestPath(module, transfer.callee, 0, open);
     endless = endless || !callee;
     way(rung + 1, callee.value_or(0));
   }
@@ -43,7 +43,7 @@ std::optional<uint64_t> heaviestWay(const Module& module, RoutineId routine, uin
   return most + std::max(1u, rungs[rung].weight);
 }
 
-TEST(HeaviestRun, IsThatOfAllWays) {
+TEST(LongestRun, IsThatOfAllWays) {
   uint32_t endless = 0;
   uint32_t bounded = 0;
   for (uint64_t seed = 0; seed < 400; ++seed) {
@@ -51,27 +51,27 @@ TEST(HeaviestRun, IsThatOfAllWays) {
     Module module = randomModule(seed, {.rungs = 6, .ops = 4});
     for (Routine& routine : module.routines)
       for (size_t i = 0; i < routine.rungs.size(); ++i) routine.rungs[i].weight = 1 + static_cast<uint32_t>(i % 3);
-    const Cut cut(module, {.maxChunkRungs = 2});
+    const Partition partition(module, {.maxChunkRungs = 2});
     for (uint32_t t = 0; t < module.tasks.size(); ++t) {
       Task& task = module.tasks[t];
       if (task.parts != 1) continue;
       Open open;
-      const std::optional<uint64_t> expected = heaviestWay(module, task.entry, 0, open);
+      const std::optional<uint64_t> expected = longestPath(module, task.entry, 0, open);
       endless += expected ? 0 : 1;
       bounded += expected ? 1 : 0;
-      const HeaviestRun found = heaviestRun(cut, TaskId{t});
-      EXPECT_EQ(found.circles, !expected.has_value());
+      const LongestRun found = longestRun(partition, TaskId{t});
+      EXPECT_EQ(found.loops, !expected.has_value());
       if (expected) EXPECT_EQ(found.weight, *expected);
       EXPECT_GT(found.weight, 0u);
       task.budget = 2;
-      EXPECT_EQ(heaviestRun(cut, TaskId{t}).weight, std::min(found.weight, 2u));
+      EXPECT_EQ(longestRun(partition, TaskId{t}).weight, std::min(found.weight, 2u));
     }
   }
   EXPECT_GT(bounded, 50u);
   EXPECT_GT(endless, 50u);
 }
 
-TEST(HeaviestRun, IsThatOfTheHeaviestPart) {
+TEST(LongestRun, IsThatOfTheHeaviestPart) {
   for (uint64_t seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
     Module module = randomModule(seed, {.rungs = 40, .ops = 4, .jumps = false});
@@ -90,34 +90,34 @@ TEST(HeaviestRun, IsThatOfTheHeaviestPart) {
       for (uint32_t i = from; i < to; ++i) weight += rungs[i].weight;
       most = std::max(most, weight);
     }
-    EXPECT_EQ(heaviestRun(Cut(module, {.maxChunkRungs = 3}), TaskId{0}).weight, most);
+    EXPECT_EQ(longestRun(Partition(module, {.maxChunkRungs = 3}), TaskId{0}).weight, most);
   }
 }
 
-// Of all ways from each chunk of the task's routine on.
+// Of all paths from each chunk of the task's routine on.
 TEST(StraightEnd, IsWhereTheLastCircleEnds) {
   uint32_t between = 0;
   for (uint64_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
     const Module module = randomModule(seed, {.rungs = 8, .ops = 4});
-    const Cut cut(module, {.maxChunkRungs = 2});
+    const Partition partition(module, {.maxChunkRungs = 2});
     for (uint32_t t = 0; t < module.tasks.size(); ++t) {
       const Task& task = module.tasks[t];
       if (task.parts != 1) continue;
       Straight expected;
       uint64_t most = 0;
-      for (auto c = static_cast<uint32_t>(cut.chunks().size()); c-- > 0;) {
-        if (cut.chunks()[c].routine != task.entry) continue;
+      for (auto c = static_cast<uint32_t>(partition.chunks().size()); c-- > 0;) {
+        if (partition.chunks()[c].routine != task.entry) continue;
         Open open;
-        const std::optional<uint64_t> way = heaviestWay(module, task.entry, cut.chunks()[c].firstRung, open);
+        const std::optional<uint64_t> way = longestPath(module, task.entry, partition.chunks()[c].firstRung, open);
         if (!way) break;
         most = std::max(most, *way);
         expected = {.chunk = c, .weight = static_cast<uint32_t>(most)};
       }
-      const Straight found = heaviestRun(cut, TaskId{t}).straight;
+      const Straight found = longestRun(partition, TaskId{t}).straight;
       EXPECT_EQ(found.chunk, expected.chunk);
       EXPECT_EQ(found.weight, expected.weight);
-      between += found.chunk != RUNG_PC_DONE && found.chunk != cut.entry(task.entry) ? 1 : 0;
+      between += found.chunk != RUNG_PC_DONE && found.chunk != partition.entry(task.entry) ? 1 : 0;
     }
   }
   EXPECT_GT(between, 30u);
@@ -141,15 +141,15 @@ Module weighted(uint64_t seed) {
   return module;
 }
 
-TEST(HeaviestWay, IsAWayAndCostsWhatItSays) {
+TEST(LongestPath, IsAWayAndCostsWhatItSays) {
   uint32_t calls = 0;
   for (uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     const Module module = weighted(seed);
-    const Cut cut(module, {.maxChunkRungs = 2});
-    const std::vector<uint64_t> weights = rungWeights(cut);
+    const Partition partition(module, {.maxChunkRungs = 2});
+    const std::vector<uint64_t> weights = rungWeights(partition);
     for (uint32_t t = 0; t < module.tasks.size(); ++t) {
-      const HeaviestWay way = heaviestWay(cut, TaskId{t}, weights);
+      const LongestPath way = longestPath(partition, TaskId{t}, weights);
       ASSERT_FALSE(way.routines.empty());
       EXPECT_EQ(way.routines[0].routine, module.tasks[t].entry);
       EXPECT_EQ(way.routines[0].cost, way.cost);
@@ -164,7 +164,7 @@ TEST(HeaviestWay, IsAWayAndCostsWhatItSays) {
       }
       for (const RoutineWay& routine : way.routines) {
         const std::vector<Rung>& rungs = module.at(routine.routine).rungs;
-        const uint32_t first = cut.rungNumber(routine.routine, 0);
+        const uint32_t first = partition.rungNumber(routine.routine, 0);
         uint64_t cost = 0;
         for (size_t i = 0; i < routine.rungs.size(); ++i) {
           cost += weights[routine.rungs[i]];
@@ -188,19 +188,19 @@ std::vector<RoutineId> reachedRoutines(const Module& module, TaskId task) {
   return reached;
 }
 
-TEST(HeaviestWay, NamesTheRungsOfCircles) {
+TEST(LongestPath, NamesTheRungsOfCircles) {
   uint32_t found = 0;
   for (uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     const Module module = weighted(seed);
-    const Cut cut(module, {.maxChunkRungs = 3});
+    const Partition partition(module, {.maxChunkRungs = 3});
     for (uint32_t t = 0; t < module.tasks.size(); ++t) {
       if (module.tasks[t].parts != 1) continue;
-      const HeaviestWay way = heaviestWay(cut, TaskId{t}, rungWeights(cut));
+      const LongestPath way = longestPath(partition, TaskId{t}, rungWeights(partition));
       std::map<uint32_t, size_t> circleOf;
-      for (size_t c = 0; c < way.circles.size(); ++c)
-        for (const uint32_t rung : way.circles[c]) EXPECT_TRUE(circleOf.emplace(rung, c).second);
-      found += static_cast<uint32_t>(way.circles.size());
+      for (size_t c = 0; c < way.loops.size(); ++c)
+        for (const uint32_t rung : way.loops[c]) EXPECT_TRUE(circleOf.emplace(rung, c).second);
+      found += static_cast<uint32_t>(way.loops.size());
       for (const RoutineId routine : reachedRoutines(module, TaskId{t})) {
         const std::vector<Rung>& rungs = module.at(routine).rungs;
         const auto reachedFrom = [&](uint32_t rung) { // in at least one step
@@ -214,11 +214,11 @@ TEST(HeaviestWay, NamesTheRungsOfCircles) {
         std::set<uint32_t> ran = reachedFrom(0);
         ran.insert(0);
         for (const uint32_t rung : ran) {
-          const uint32_t number = cut.rungNumber(routine, rung);
+          const uint32_t number = partition.rungNumber(routine, rung);
           EXPECT_EQ(reachedFrom(rung).contains(rung), circleOf.contains(number));
           for (const uint32_t other : ran)
             if (circleOf.contains(number) && reachedFrom(rung).contains(other) && reachedFrom(other).contains(rung))
-              EXPECT_EQ(circleOf[number], circleOf[cut.rungNumber(routine, other)]);
+              EXPECT_EQ(circleOf[number], circleOf[partition.rungNumber(routine, other)]);
         }
       }
     }
@@ -227,7 +227,7 @@ TEST(HeaviestWay, NamesTheRungsOfCircles) {
 }
 
 // The length of a routine is not limited by the stack.
-TEST(HeaviestRun, OfManyRungs) {
+TEST(LongestRun, OfManyRungs) {
   Module module = randomModule(1, {.rungs = 4, .jumps = false});
   std::vector<Rung>& rungs = module.routines[module.tasks[0].entry.index].rungs;
   rungs.resize(200'000, rungs[0]);
@@ -237,7 +237,7 @@ TEST(HeaviestRun, OfManyRungs) {
   }
   module.tasks[0].parts = 1;
   module.tasks[0].borders.clear();
-  EXPECT_EQ(heaviestRun(Cut(module, {}), TaskId{0}).weight, 400'000u);
+  EXPECT_EQ(longestRun(Partition(module, {}), TaskId{0}).weight, 400'000u);
 }
 
 } // namespace

@@ -28,11 +28,11 @@ bool isCompare(const Op& op) {
 
 bool mayBeKnown(const Op& op) { return isWindow(op) || isCompare(op); }
 
-class Guard {
+class RangeVersioning {
 public:
-  explicit Guard(const Module& module) : module_(module), values_(module), ranges_(module) {}
+  explicit RangeVersioning(const Module& module) : module_(module), values_(module), ranges_(module) {}
 
-  // Whether the rung has got ways.
+  // Whether the rung has got paths.
   bool run(Rung& rung) {
     rung_ = &rung;
     findIndexCells(rung, cells_);
@@ -201,8 +201,8 @@ private:
 
 } // namespace
 
-void guardIndices(Module& module, Settled& settled) {
-  Guard guard(module);
+void versionRanges(Module& module, Settled& settled) {
+  RangeVersioning guard(module);
   settled.eachOpen(module, kNothingSettled, [&](Rung& rung, uint32_t, uint8_t before) {
     return guard.run(rung) ? uint8_t{kNothingSettled} : before;
   });

@@ -18,7 +18,7 @@
 
 namespace rung::ir {
 
-struct CutOptions {
+struct PartitionOptions {
   uint32_t maxChunkRungs = 256; // fewer: the host's jump from chunk to chunk shows; more: compilers slow down
   uint32_t maxChunkOps = 1024;
 };
@@ -38,13 +38,13 @@ struct Destination {
   bool inside() const { return rung != RUNG_NONE; }
 };
 
-class Cut {
+class Partition {
 public:
   // `module`, a shape, has passed the verifier and outlives the cut.
-  Cut(const Module& module, const CutOptions& options);
+  Partition(const Module& module, const PartitionOptions& options);
 
   // The same chunks of another form of the module, whose rungs have the same exits, or fewer: that is checked.
-  Cut over(const Module& module) const;
+  Partition over(const Module& module) const;
 
   const Module& module() const { return *module_; }
   const std::vector<Chunk>& chunks() const { return chunks_; }
@@ -63,7 +63,7 @@ public:
   const std::vector<uint32_t>& partEnds(TaskId task) const { return partEnds_[task.index]; }
 
 private:
-  friend class Cutter;
+  friend class Partitioner;
   const Module* module_;
   std::vector<Chunk> chunks_;
   std::vector<std::vector<uint32_t>> chunkOfRung_; // per routine and rung: the chunk it is in
@@ -82,6 +82,6 @@ struct Exit {
   Destination otherwise;            // where it goes when cond is 0, and where a Call comes back to
   std::vector<Destination> targets; // Switch
 };
-Exit exitOf(const Cut& cut, RoutineId routine, uint32_t rung);
+Exit exitOf(const Partition& partition, RoutineId routine, uint32_t rung);
 
 } // namespace rung::ir

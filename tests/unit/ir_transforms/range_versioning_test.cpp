@@ -1,4 +1,4 @@
-// Guards: the short ways of a rung, for numbers of the program or for small ones, and rungs that get none.
+// Guards: the short paths of a rung, for numbers of the program or for small ones, and rungs that get none.
 #include <gtest/gtest.h>
 
 #include "ir/transforms/passes.h"
@@ -24,7 +24,7 @@ store.bit B[0.0], %10
 store_bit_at.bit D[1 count 60], %2, %0, %7
 note "a coil")";
 
-TEST(Guard, SmallNumbers) {
+TEST(RangeVersioning, SmallNumbers) {
   Module module = moduleOf(kRung, "} goto 2 if %7");
   runPasses(module, {.verifyEach = true});
   EXPECT_EQ(bodyOf(module), R"(%0:i32 = load D[0]
@@ -55,7 +55,7 @@ note "a coil"
 }
 
 // What the program puts into the cell, and what it computes of it.
-TEST(Guard, NumbersOfTheProgram) {
+TEST(RangeVersioning, NumbersOfTheProgram) {
   Module module = moduleOf({{"MAIN",
                              {{"%0:i32 = const 0\nstore.i32 D[0], %0"},
                               {"%0:i32 = const 7\nstore.i32 D[0], %0"},
@@ -63,7 +63,7 @@ TEST(Guard, NumbersOfTheProgram) {
                               {"%0:i32 = load D[1]\n%1:i32 = load D[0]\n%2:i32 = load_at D[10 count 30], %0\n"
                                "store_at.i32 D[20 count 9], %1, %2"}}}},
                            {"MAIN"});
-  guardIndices(module);
+  versionRanges(module);
   foldConstants(module);
   reuseValues(module);
   foldConstants(module);
@@ -94,22 +94,22 @@ endif
 )");
 }
 
-TEST(Guard, FiveNumbersAreTooMany) {
+TEST(RangeVersioning, FiveNumbersAreTooMany) {
   std::vector<RungText> rungs;
   for (int i = 0; i < 5; ++i) rungs.push_back({"%0:i32 = const " + std::to_string(i) + "\nstore.i32 D[0], %0"});
   rungs.push_back({"%0:i32 = load D[0]\n%1:i32 = load_at D[10 count 30], %0\nstore_at.i32 D[20 count 9], %0, %1"});
   const Module before = moduleOf({{"MAIN", rungs}}, {"MAIN"});
   Module module = before;
-  guardIndices(module);
+  versionRanges(module);
   EXPECT_EQ(bodyOf(module, RoutineId{0}, 5), bodyOf(before, RoutineId{0}, 5));
 }
 
 bool isGuarded(const std::string& lines) {
-  const std::string body = after(guardIndices, lines);
+  const std::string body = after(versionRanges, lines);
   return body.find("else") != std::string::npos;
 }
 
-TEST(Guard, OnlyWhereItPays) {
+TEST(RangeVersioning, OnlyWhereItPays) {
   const std::string index = "%0:i32 = load D[0]\n%1:i32 = const 10\n%2:i32 = add %0, %1\n";
   const std::string compares = "%3:i32 = const 60\n%4:bit = lt_u.i32 %2, %3\n%5:bit = le_u.i32 %3, %2\n";
   const std::string load = "%6:i32 = load_at D[0 count 60], %2\n";
@@ -122,7 +122,7 @@ TEST(Guard, OnlyWhereItPays) {
       << "known anyway";
 }
 
-TEST(Guard, AsManyCellsAsFew) {
+TEST(RangeVersioning, AsManyCellsAsFew) {
   std::string lines;
   for (int i = 0; i < 3; ++i) lines += "%" + std::to_string(i) + ":i32 = load D[" + std::to_string(i) + "]\n";
   lines += "%3:i32 = const 40\n";
@@ -130,12 +130,12 @@ TEST(Guard, AsManyCellsAsFew) {
     lines += "store_at.i32 D[10 count 40], %" + std::to_string(i) + ", %0\n";
     lines += "%" + std::to_string(4 + i) + ":bit = lt_u.i32 %" + std::to_string(i) + ", %3\n";
   }
-  EXPECT_TRUE(isGuarded(lines)) << after(guardIndices, lines);
+  EXPECT_TRUE(isGuarded(lines)) << after(versionRanges, lines);
   EXPECT_FALSE(isGuarded(lines + "%7:i32 = load D[3]\nstore_at.i32 D[10 count 40], %7, %0")) << "a fourth";
 }
 
-TEST(Guard, AnIndexThatTheRungChanges) {
-  const std::string body = after(guardIndices, R"(%0:i32 = load D[0]
+TEST(RangeVersioning, AnIndexThatTheRungChanges) {
+  const std::string body = after(versionRanges, R"(%0:i32 = load D[0]
 %1:i32 = const 60
 %2:bit = lt_u.i32 %0, %1
 store_at.i32 D[1 count 60], %0, %0

@@ -1,5 +1,5 @@
 // The scan of the component: pins, time, faults, auxiliary functions, and that a step allocates nothing.
-#include "machine/host/box.h"
+#include "machine/host/plc_host.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ using rung::test::allocationsOf;
 using testing::Bench;
 using testing::kMs;
 
-TEST(Box, PinsOfAllTypes) {
+TEST(PlcHost, PinsOfAllTypes) {
   Bench b(host::testing::gskProgram(), R"(
 in.i = { type = "bit", name = "X0.0" }
 out.o = { type = "bit", name = "Y0.0" }
@@ -67,7 +67,7 @@ struct Counted {
   int writes = 0;
 };
 
-TEST(Box, ReadsAndWritesEachPinOnceAStep) {
+TEST(PlcHost, ReadsAndWritesEachPinOnceAStep) {
   Bench b(host::testing::gskProgram(), R"(
 in.i = { type = "bit", name = "X0.0" }
 out.o = { type = "bit", name = "Y0.0" }
@@ -90,7 +90,7 @@ abort = [{ pin = "i", edge = "fall" }]
                          }};
   Counted i, o, done;
   const PinCell cells[] = {{.any = &i}, {.any = &o}, {.any = &done}};
-  b.box->connect(cells, access);
+  b.host->connect(cells, access);
   i.reads = o.writes = done.writes = 0;
   b.scans(1);
   EXPECT_EQ(i.reads, 1);
@@ -104,38 +104,38 @@ abort = [{ pin = "i", edge = "fall" }]
   EXPECT_EQ(i.writes + o.reads + done.reads, 0);
 }
 
-TEST(Box, ASliceRunsWhenItsTimeHasCome) {
+TEST(PlcHost, ASliceRunsWhenItsTimeHasCome) {
   Bench b(host::testing::gskProgram(), R"(out.count = { type = "u32", name = "D0:2" })");
   ASSERT_THAT(b.errors, IsEmpty());
   for (int ms = 1; ms <= 80; ++ms) {
-    EXPECT_EQ(b.box->step(kMs), ms % 8 == 0 ? StepResult::Ran : StepResult::Waiting) << ms;
+    EXPECT_EQ(b.host->step(kMs), ms % 8 == 0 ? StepResult::Ran : StepResult::Waiting) << ms;
     EXPECT_EQ(b["count"].u32, static_cast<uint32_t>(ms / 8));
   }
-  EXPECT_EQ(b.box->state().passes, 10u);
-  for (int i = 0; i < 8; ++i) b.box->step(3 * kMs); // 24 ms in steps that do not divide the period
+  EXPECT_EQ(b.host->state().passes, 10u);
+  for (int i = 0; i < 8; ++i) b.host->step(3 * kMs); // 24 ms in steps that do not divide the period
   EXPECT_EQ(b["count"].u32, 13u);
-  b.box->step(20 * kMs); // two are due and one runs; 4 ms are owed
+  b.host->step(20 * kMs); // two are due and one runs; 4 ms are owed
   EXPECT_EQ(b["count"].u32, 14u);
-  EXPECT_EQ(b.box->state().missed, 1u);
-  b.box->step(4 * kMs);
+  EXPECT_EQ(b.host->state().missed, 1u);
+  b.host->step(4 * kMs);
   EXPECT_EQ(b["count"].u32, 15u);
 }
 
-TEST(Box, PassesInAStepAreBounded) {
+TEST(PlcHost, PassesInAStepAreBounded) {
   Bench b(host::testing::gskProgram(), R"(out.count = { type = "u32", name = "D0:2" })", {}, 11);
-  b.box->step(88 * kMs); // one is due, ten are late
+  b.host->step(88 * kMs); // one is due, ten are late
   EXPECT_EQ(b["count"].u32, 11u);
-  EXPECT_EQ(b.box->state().missed, 0u);
-  b.box->step(804 * kMs);
+  EXPECT_EQ(b.host->state().missed, 0u);
+  b.host->step(804 * kMs);
   EXPECT_EQ(b["count"].u32, 22u);
-  EXPECT_EQ(b.box->state().missed, 89u);
-  b.box->step(3 * kMs);
+  EXPECT_EQ(b.host->state().missed, 89u);
+  b.host->step(3 * kMs);
   EXPECT_EQ(b["count"].u32, 22u);
-  b.box->step(kMs); // the time of what was left out has passed, too
+  b.host->step(kMs); // the time of what was left out has passed, too
   EXPECT_EQ(b["count"].u32, 23u);
 }
 
-TEST(Box, ASlottedScheduleCountsWholePasses) {
+TEST(PlcHost, ASlottedScheduleCountsWholePasses) {
   Bench b(host::testing::nctProgram(), R"(
 in.i = { type = "bit", name = "0056.17" }
 out.o = { type = "bit", name = "0400.00" }
@@ -143,16 +143,16 @@ out.on = { type = "bit", name = "N_ON" }
 )");
   ASSERT_THAT(b.errors, IsEmpty());
   b["i"].bit = true;
-  b.box->step(5 * kMs);
-  EXPECT_EQ(b.box->state().passes, 0u);
+  b.host->step(5 * kMs);
+  EXPECT_EQ(b.host->state().passes, 0u);
   EXPECT_FALSE(b["o"].bit);
-  b.box->step(5 * kMs);
-  EXPECT_EQ(b.box->state().passes, 1u);
+  b.host->step(5 * kMs);
+  EXPECT_EQ(b.host->state().passes, 1u);
   EXPECT_TRUE(b["o"].bit);
   EXPECT_TRUE(b["on"].bit); // the NC's constant signal, without a line in the map
 }
 
-TEST(Box, ConstantsHold) {
+TEST(PlcHost, ConstantsHold) {
   Bench b(host::testing::gskProgram(), R"(
 const."X0.0" = true
 out.o = { type = "bit", name = "Y0.0" }
@@ -168,7 +168,7 @@ out.f = { type = "u32", name = "F20:2" }
   EXPECT_EQ(b["f"].u32, 7u);
 }
 
-TEST(Box, BitsOfACell) {
+TEST(PlcHost, BitsOfACell) {
   Bench b(host::testing::gskProgram(), R"(
 in.key = { type = "bit", name = "X0", bits = 2 }
 in.byte = { type = "bit", name = "F10", bits = 8 }
@@ -192,7 +192,7 @@ out.o = { type = "bit", name = "Y0.0" }
 }
 
 // D0 counts scans; who has written last counts.
-TEST(Box, PinsThatBothSidesWrite) {
+TEST(PlcHost, PinsThatBothSidesWrite) {
   Bench b(host::testing::gskProgram(), R"(
 io.count = { type = "u32", name = "D0:2" }
 io.free = { type = "s32", name = "D40:4" }
@@ -207,7 +207,7 @@ io.free = { type = "s32", name = "D40:4" }
   EXPECT_EQ(b["free"].s32, -5);
 }
 
-TEST(Box, Parameters) {
+TEST(PlcHost, Parameters) {
   Bench b(host::testing::gskProgram(), R"(
 param.count = { type = "u32", name = "D0:2", value = 100 }
 param.own = { type = "u32", name = "D40:2" }
@@ -228,7 +228,7 @@ out.real-now = { type = "s32", name = "F20:2" }
   EXPECT_EQ(b["count-now"].u32, 8u);
 }
 
-TEST(Box, SafeValues) {
+TEST(PlcHost, SafeValues) {
   Bench b(host::testing::gskProgram(), R"(
 in.i = { type = "bit", name = "X0.0" }
 in.bad = { type = "bit", name = "X1.0" }
@@ -247,18 +247,18 @@ out.speed = { type = "float", name = "D0:2", safe = -1.5 }
   EXPECT_FALSE(b["brake"].bit);
   EXPECT_EQ(b["speed"].real, 1);
   b["bad"].bit = true;
-  EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
+  EXPECT_EQ(b.host->step(8 * kMs), StepResult::Failed);
   EXPECT_FALSE(b["o"].bit);
   EXPECT_TRUE(b["kept"].bit);
   EXPECT_TRUE(b["brake"].bit);
   EXPECT_EQ(b["speed"].real, -1.5);
   b["brake"].bit = false;
-  EXPECT_EQ(b.box->close(), "");
+  EXPECT_EQ(b.host->close(), "");
   EXPECT_TRUE(b["brake"].bit);
   EXPECT_TRUE(b["kept"].bit);
 }
 
-TEST(Box, AFaultClearsTheOutputsForGood) {
+TEST(PlcHost, AFaultClearsTheOutputsForGood) {
   Bench b(host::testing::gskProgram(),
           R"(
 in.i = { type = "bit", name = "X0.0" }
@@ -272,20 +272,20 @@ out.fc = { type = "float", name = "D0:2" }
   EXPECT_TRUE(b["o"].bit);
   EXPECT_EQ(b["fc"].real, 2.0);
   b["bad"].bit = true;
-  EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
-  EXPECT_EQ(b.box->fault()->line, 42u);
+  EXPECT_EQ(b.host->step(8 * kMs), StepResult::Failed);
+  EXPECT_EQ(b.host->fault()->line, 42u);
   EXPECT_FALSE(b["o"].bit);
   EXPECT_EQ(b["count"].u32, 0u);
   EXPECT_EQ(b["fc"].real, 0.0);
   EXPECT_TRUE(b["i"].bit); // inputs are HAL's
   b["bad"].bit = false;
-  EXPECT_EQ(b.box->step(8 * kMs), StepResult::Waiting);
+  EXPECT_EQ(b.host->step(8 * kMs), StepResult::Waiting);
   EXPECT_FALSE(b["o"].bit);
-  EXPECT_EQ(b.box->state().passes, 2u);
+  EXPECT_EQ(b.host->state().passes, 2u);
 }
 
 // The end code 6 of a window function that the CNC does not provide (man. l.8668-8676).
-TEST(Box, WindowRequestsEndAtOnceWithCode6) {
+TEST(PlcHost, WindowRequestsEndAtOnceWithCode6) {
   Bench b(host::testing::gskProgram(), R"(
 in.ask = { type = "bit", name = "X1.1" }
 out.state = { type = "u32", name = "D12" }
@@ -297,7 +297,7 @@ out.end = { type = "u32", name = "D13" }
   EXPECT_EQ(b["end"].u32, 6u);
 }
 
-TEST(Box, MachinePositionsComeFromHal) {
+TEST(PlcHost, MachinePositionsComeFromHal) {
   Bench b(host::testing::gskProgram(), R"(
 in.x = { type = "float", name = "NC.MPOS.1", scale = 1000 }
 in.y = { type = "s32", name = "NC.MPOS.2" }
@@ -339,15 +339,15 @@ in.value = { type = "s32", name = "F10:4" }
     ASSERT_THAT(b.errors, IsEmpty());
     EXPECT_EQ(allocationsOf([&] { b.scans(5); }), 0);
     EXPECT_EQ(b["count"].u32, 5 * round);
-    EXPECT_EQ(b.box->close(), "");
+    EXPECT_EQ(b.host->close(), "");
   }
   Bench nowhere(host::testing::gskProgram(), "", (folder / "none" / "plc").string());
   EXPECT_THAT(nowhere.errors, ElementsAre(::testing::HasSubstr("cannot write")));
-  EXPECT_EQ(nowhere.box, nullptr);
+  EXPECT_EQ(nowhere.host, nullptr);
   Bench first(host::testing::gskProgram(), "", file);
   Bench second(host::testing::gskProgram(), "", file);
   EXPECT_THAT(second.errors, ElementsAre(::testing::HasSubstr("is in use by another process")));
-  EXPECT_EQ(second.box, nullptr);
+  EXPECT_EQ(second.host, nullptr);
 }
 
 // Counts in D0, which a fault makes safe; with X0.0 the program stops when it has counted.
@@ -374,9 +374,9 @@ out.count = { type = "u32", name = "D0" }
     ASSERT_THAT(b.errors, IsEmpty());
     b.scans(5);
     b["stop"].bit = true;
-    EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
-    EXPECT_EQ(b.box->step(8 * kMs), StepResult::Waiting);
-    EXPECT_EQ(b.box->close(), "");
+    EXPECT_EQ(b.host->step(8 * kMs), StepResult::Failed);
+    EXPECT_EQ(b.host->step(8 * kMs), StepResult::Waiting);
+    EXPECT_EQ(b.host->close(), "");
   }
   Bench b(program.program, R"(
 out.count = { type = "u32", name = "D0" }
@@ -393,10 +393,10 @@ TEST_F(BoxRetained, NctLearnsThatItsMemoryIsLost) {
   const auto start = [&] {
     Bench b(host::testing::nctProgram(), R"(out.ok = { type = "bit", name = "N_NVRAMOK" })", file);
     EXPECT_THAT(b.errors, IsEmpty());
-    b.box->step(10 * kMs);
+    b.host->step(10 * kMs);
     const bool ok = b["ok"].bit;
     EXPECT_EQ(ok, b.warnings.empty());
-    EXPECT_EQ(b.box->close(), "");
+    EXPECT_EQ(b.host->close(), "");
     return ok;
   };
   EXPECT_TRUE(start());
@@ -407,7 +407,7 @@ TEST_F(BoxRetained, NctLearnsThatItsMemoryIsLost) {
   for (const char* ending : {".a", ".b"}) std::filesystem::remove(file + ending);
   EXPECT_FALSE(start());
   {
-    EXPECT_EQ(Bench(host::testing::gskProgram(), "", file).box->close(), "");
+    EXPECT_EQ(Bench(host::testing::gskProgram(), "", file).host->close(), "");
   }
   EXPECT_FALSE(start()); // it is another program's
 }
@@ -454,7 +454,7 @@ out.asked = { type = "bit", name = "REQ_BACKUP_MEM" }
   ASSERT_THAT(b.errors, IsEmpty());
   const runtime::RetainMap map(program.program);
   const auto onDisk = [&] { return runtime::RetainStore(file, map.layout().hash, map.size()).load().bytes.at(0); };
-  const auto step = [&] { ASSERT_EQ(b.box->step(20 * kMs), StepResult::Ran); };
+  const auto step = [&] { ASSERT_EQ(b.host->step(20 * kMs), StepResult::Ran); };
   const auto ask = [&] {
     b["ask"].bit = false;
     step();
@@ -463,7 +463,7 @@ out.asked = { type = "bit", name = "REQ_BACKUP_MEM" }
     EXPECT_TRUE(b["asked"].bit); // nothing can be on disk in the same scan
   };
   // The program counts its scans in a byte: it does not scan while it waits for the disk.
-  const auto saves = [&](uint64_t count) { return test::soon([&] { return b.box->state().saves >= count; }); };
+  const auto saves = [&](uint64_t count) { return test::soon([&] { return b.host->state().saves >= count; }); };
   const auto answered = [&] {
     return test::soon([&] { return step(), !b["asked"].bit; }, std::chrono::milliseconds(10));
   };
@@ -473,19 +473,19 @@ out.asked = { type = "bit", name = "REQ_BACKUP_MEM" }
   ASSERT_TRUE(saves(1));
   ASSERT_TRUE(answered());
   EXPECT_EQ(onDisk(), 5); // of the fifth scan, where it was asked for
-  EXPECT_EQ(b.box->state().saves, 1u);
+  EXPECT_EQ(b.host->state().saves, 1u);
   for (const char* ending : {".a.tmp", ".b.tmp"}) std::filesystem::create_directory(file + ending);
   ask();
-  ASSERT_TRUE(test::soon([&] { return b.box->failsToSave(); }));
+  ASSERT_TRUE(test::soon([&] { return b.host->failsToSave(); }));
   for (int i = 0; i < 20; ++i) step();
   EXPECT_TRUE(b["asked"].bit); // the program waits
   EXPECT_EQ(onDisk(), 5);
   for (const char* ending : {".a.tmp", ".b.tmp"}) std::filesystem::remove(file + ending);
   ASSERT_TRUE(saves(2));
   ASSERT_TRUE(answered());
-  EXPECT_FALSE(b.box->failsToSave());
+  EXPECT_FALSE(b.host->failsToSave());
   EXPECT_GT(onDisk(), 5);
-  EXPECT_EQ(b.box->close(), "");
+  EXPECT_EQ(b.host->close(), "");
 }
 
 // Without a file there is nothing to wait for.
@@ -497,12 +497,12 @@ in.ask = { type = "bit", name = "ASK" }
 out.asked = { type = "bit", name = "REQ_BACKUP_MEM" }
 )");
   b["ask"].bit = true;
-  b.box->step(20 * kMs);
+  b.host->step(20 * kMs);
   EXPECT_FALSE(b["asked"].bit);
-  EXPECT_EQ(b.box->state().saves, 0u);
+  EXPECT_EQ(b.host->state().saves, 0u);
 }
 
-TEST(Box, MessagesWaitForWhoTakesThem) {
+TEST(PlcHost, MessagesWaitForWhoTakesThem) {
   Bench b(host::testing::gskProgram(), R"(in.show = { type = "bit", name = "X1.2" })");
   b["show"].bit = true;
   b.scans(2);
@@ -511,7 +511,7 @@ TEST(Box, MessagesWaitForWhoTakesThem) {
 }
 
 // The NC's part of messages works here too: the program learns what is on the screen, and CANCEL is a pin.
-TEST(Box, NctMessages) {
+TEST(PlcHost, NctMessages) {
   Bench b(host::testing::nctProgram(), R"(
 in.show = { type = "bit", name = "0056.18" }
 in.cancel = { type = "bit", name = "N_CLRMSG" }
@@ -520,7 +520,7 @@ out.any = { type = "bit", name = "N_MSGA" }
 out.code = { type = "u32", name = "N_ACTMSG" }
 )");
   ASSERT_THAT(b.errors, IsEmpty());
-  const auto cycle = [&] { b.box->step(10 * kMs); };
+  const auto cycle = [&] { b.host->step(10 * kMs); };
   b["show"].bit = true;
   cycle();
   EXPECT_FALSE(b["on"].bit);
@@ -543,7 +543,7 @@ out.code = { type = "u32", name = "N_ACTMSG" }
       ElementsAre(uint32_t{RUNG_MESSAGE_SHOW_LOG}, uint32_t{RUNG_MESSAGE_CLEAR}, uint32_t{RUNG_MESSAGE_SHOW_LOG}));
 }
 
-TEST(Box, RefusesMapsThatDoNotFit) {
+TEST(PlcHost, RefusesMapsThatDoNotFit) {
   EXPECT_THAT(Bench(host::testing::gskProgram(), "in.a = { type = \"bit\", name = \"Y0.0\" }\ntimeout = 0").errors,
               ElementsAre("m.map:2:11: timeout: found 0, expected seconds, above 0 and at most 1000000; write for "
                           "example timeout = 30",
@@ -553,7 +553,7 @@ TEST(Box, RefusesMapsThatDoNotFit) {
 
 // ---- after a fault -----------------------------------------------------------------------------------------------
 
-TEST(Box, AResetRestartsTheProgram) {
+TEST(PlcHost, AResetRestartsTheProgram) {
   Bench b(host::testing::gskProgram(), R"(
 in.bad = { type = "bit", name = "X1.0" }
 in.i = { type = "bit", name = "X0.0" }
@@ -563,32 +563,32 @@ out.count = { type = "u32", name = "D0:2" }
   b["i"].bit = true;
   b.scans(3);
   b["bad"].bit = true;
-  EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
-  EXPECT_FALSE(b.box->running());
-  EXPECT_EQ(b.box->faultLine(), 42u) << "at once: a host shows it together with the fault";
+  EXPECT_EQ(b.host->step(8 * kMs), StepResult::Failed);
+  EXPECT_FALSE(b.host->running());
+  EXPECT_EQ(b.host->faultLine(), 42u) << "at once: a host shows it together with the fault";
   EXPECT_FALSE(b["o"].bit);
   std::vector<std::string> reports;
-  EXPECT_TRUE(b.box->serve(reports));
+  EXPECT_TRUE(b.host->serve(reports));
   EXPECT_THAT(
       reports,
       ElementsAre("the program has stopped: dead-loop (rung 1 \"all of it\", main.pmc:42); output pins have their safe "
                   "values until pin reset rises"));
   reports.clear();
-  EXPECT_FALSE(b.box->serve(reports)); // nobody has asked
+  EXPECT_FALSE(b.host->serve(reports)); // nobody has asked
   b["bad"].bit = false;
-  EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Waiting);
-  EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Waiting); // until it is served
-  EXPECT_TRUE(b.box->serve(reports));
+  EXPECT_EQ(b.host->step(8 * kMs, true), StepResult::Waiting);
+  EXPECT_EQ(b.host->step(8 * kMs, true), StepResult::Waiting); // until it is served
+  EXPECT_TRUE(b.host->serve(reports));
   EXPECT_THAT(reports, ElementsAre("the program has been restarted"));
-  EXPECT_TRUE(b.box->running());
-  EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Ran);
+  EXPECT_TRUE(b.host->running());
+  EXPECT_EQ(b.host->step(8 * kMs, true), StepResult::Ran);
   EXPECT_TRUE(b["o"].bit);
   EXPECT_EQ(b["count"].u32, 1u); // from the beginning
   b["bad"].bit = true;           // the pin that is still on does not restart it again
-  EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Failed);
-  EXPECT_EQ(b.box->step(8 * kMs, true), StepResult::Waiting);
-  b.box->serve(reports);
-  EXPECT_FALSE(b.box->running());
+  EXPECT_EQ(b.host->step(8 * kMs, true), StepResult::Failed);
+  EXPECT_EQ(b.host->step(8 * kMs, true), StepResult::Waiting);
+  b.host->serve(reports);
+  EXPECT_FALSE(b.host->running());
 }
 
 TEST_F(BoxRetained, ARestartTakesTheLastWholeScan) {
@@ -600,17 +600,17 @@ out.count = { type = "u32", name = "D0:2" }
           file);
   b.scans(5);
   b["bad"].bit = true;
-  EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
+  EXPECT_EQ(b.host->step(8 * kMs), StepResult::Failed);
   b["bad"].bit = false;
-  b.box->step(8 * kMs, true);
+  b.host->step(8 * kMs, true);
   std::vector<std::string> reports;
-  EXPECT_TRUE(b.box->serve(reports));
+  EXPECT_TRUE(b.host->serve(reports));
   EXPECT_THAT(reports, ElementsAre(HasSubstr("dead-loop"), "the program has been restarted")) << "both, at once";
   b.scans(1);
   EXPECT_EQ(b["count"].u32, 6u);
 }
 
-TEST(Box, ItsEndSwitchesTheOutputsOff) {
+TEST(PlcHost, ItsEndSwitchesTheOutputsOff) {
   Bench b(host::testing::gskProgram(), R"(
 in.i = { type = "bit", name = "X0.0" }
 out.o = { type = "bit", name = "Y0.0" }
@@ -618,17 +618,17 @@ out.o = { type = "bit", name = "Y0.0" }
   b["i"].bit = true;
   b.scans(1);
   EXPECT_TRUE(b["o"].bit);
-  EXPECT_EQ(b.box->close(), "");
+  EXPECT_EQ(b.host->close(), "");
   EXPECT_FALSE(b["o"].bit);
 }
 
 // N_SIMU says that the NC runs on a simulator; a program passes its interlocks by then.
-TEST(Box, AMachineIsNoSimulator) {
+TEST(PlcHost, AMachineIsNoSimulator) {
   Bench b(host::testing::nctProgram(), R"(
 out.simulator = { type = "bit", name = "N_SIMU" }
 out.ready = { type = "bit", name = "N_NCREADY" }
 )");
-  b.box->step(10 * kMs);
+  b.host->step(10 * kMs);
   EXPECT_FALSE(b["simulator"].bit);
   EXPECT_TRUE(b["ready"].bit);
 }
@@ -658,12 +658,12 @@ TEST(Functions, OneHandshake) {
   ASSERT_THAT(b.errors, IsEmpty());
   b.scans(1);
   EXPECT_EQ(b["m"].s32, 0); // a pin that is 0 from the beginning has not fallen
-  EXPECT_FALSE(b.box->functions().busy());
+  EXPECT_FALSE(b.host->functions().busy());
   b["change"].bit = true;
   b.scans(1); // the code
   EXPECT_EQ(b["m"].s32, 6);
   EXPECT_FALSE(b["mf"].bit);
-  EXPECT_TRUE(b.box->functions().busy());
+  EXPECT_TRUE(b.host->functions().busy());
   b.scans(1); // the strobe; the program answers in the same scan
   EXPECT_TRUE(b["mf"].bit);
   EXPECT_TRUE(b["done"].bit);
@@ -676,12 +676,12 @@ TEST(Functions, OneHandshake) {
   b.scans(1);
   EXPECT_EQ(b["m"].s32, 0);
   EXPECT_TRUE(b["changed"].bit);
-  EXPECT_FALSE(b.box->functions().busy());
+  EXPECT_FALSE(b.host->functions().busy());
   b.scans(5); // it is done once
   EXPECT_FALSE(b["mf"].bit);
   EXPECT_TRUE(b["changed"].bit);
   b["change"].bit = false;
-  EXPECT_EQ(b.box->step(kMs), StepResult::Waiting); // the acknowledge does not wait for a slice
+  EXPECT_EQ(b.host->step(kMs), StepResult::Waiting); // the acknowledge does not wait for a slice
   EXPECT_FALSE(b["changed"].bit);
 }
 
@@ -705,10 +705,10 @@ TEST(Functions, TheAcknowledgeIsOfTheLastCause) {
   b.scans(3);
   EXPECT_EQ(b["t"].s32, 5);
   b["prepare"].bit = false;
-  b.box->step(kMs);
+  b.host->step(kMs);
   b["number"].s32 = 7;
   b["prepare"].bit = true;
-  b.box->step(kMs);
+  b.host->step(kMs);
   b["held"].bit = false;
   bool early = false;
   for (int i = 0; i < 20 && b["t"].s32 == 5; ++i) {
@@ -726,7 +726,7 @@ TEST(Functions, OfOneKindWaitInTheirOrder) {
   Bench b(host::testing::gskProgram(), kFunctions);
   std::vector<int32_t> codes;
   const auto oneMs = [&] {
-    b.box->step(kMs);
+    b.host->step(kMs);
     if (b["mf"].bit && (codes.empty() || codes.back() != b["m"].s32)) codes.push_back(b["m"].s32);
   };
   b["cw"].bit = true; // all of this between two slices
@@ -818,20 +818,20 @@ TEST(Functions, AnAbortEndsThemAndWhatItSendsGoesAtOnce) {
   b.scans(5);
   EXPECT_FALSE(b["changed"].bit);
   EXPECT_FALSE(b["prepared"].bit);
-  EXPECT_FALSE(b.box->functions().busy());
+  EXPECT_FALSE(b.host->functions().busy());
 }
 
 TEST(Functions, OneThatTakesTooLongShows) {
   Bench b(host::testing::gskProgram(), kFunctions);
   b["held"].bit = true;
   b["change"].bit = true;
-  for (int i = 0; i < 1500; ++i) b.box->step(kMs);
-  EXPECT_FALSE(b.box->functions().late());
-  EXPECT_FALSE(b.box->functions().state().oldest[0].late);
+  for (int i = 0; i < 1500; ++i) b.host->step(kMs);
+  EXPECT_FALSE(b.host->functions().late());
+  EXPECT_FALSE(b.host->functions().state().oldest[0].late);
   b["prepare"].bit = true;
-  b.box->step(2 * kMs);
-  EXPECT_TRUE(b.box->functions().late());
-  const FunctionState state = b.box->functions().state();
+  b.host->step(2 * kMs);
+  EXPECT_TRUE(b.host->functions().late());
+  const FunctionState state = b.host->functions().state();
   EXPECT_EQ(state.count, 2u);
   const FunctionState::Function& first = state.oldest[0];
   EXPECT_EQ(std::tuple(first.kind, first.code, first.channel), std::tuple(RUNG_FUNCTION_M, 6u, 0u));
@@ -844,8 +844,8 @@ TEST(Functions, OneThatTakesTooLongShows) {
   b["held"].bit = false; // it still ends
   b.scans(4);
   EXPECT_TRUE(b["changed"].bit);
-  b.box->step(kMs);
-  EXPECT_FALSE(b.box->functions().late());
+  b.host->step(kMs);
+  EXPECT_FALSE(b.host->functions().late());
 }
 
 TEST(Functions, NoAcknowledgeWhenTheCauseHasGone) {
@@ -862,11 +862,11 @@ class RestartedFunctions : public ::testing::Test {
 protected:
   void restart() {
     b["bad"].bit = true;
-    EXPECT_EQ(b.box->step(8 * kMs), StepResult::Failed);
+    EXPECT_EQ(b.host->step(8 * kMs), StepResult::Failed);
     b["bad"].bit = false;
-    b.box->step(0, true);
+    b.host->step(0, true);
     std::vector<std::string> reports;
-    EXPECT_TRUE(b.box->serve(reports));
+    EXPECT_TRUE(b.host->serve(reports));
   }
 
   Bench b{host::testing::gskProgram(), std::string(kFunctions) + R"(in.bad = { type = "bit", name = "X1.0" })"};
@@ -891,16 +891,16 @@ TEST_F(RestartedFunctions, AreNewWithoutTheirPins) {
   b["held"].bit = true;
   b["change"].bit = b["prepare"].bit = true;
   b.scans(200);
-  EXPECT_TRUE(b.box->functions().late());
+  EXPECT_TRUE(b.host->functions().late());
   EXPECT_EQ(b["m"].s32, 6);
   EXPECT_TRUE(b["tf"].bit);
   b["cw"].bit = b["change"].bit = b["prepare"].bit = false;
   restart();
-  EXPECT_FALSE(b.box->functions().late());
+  EXPECT_FALSE(b.host->functions().late());
   b.scans(3);
   EXPECT_EQ(b["m"].s32, 0); // nor has "cw", which is off, fallen
   EXPECT_FALSE(b["tf"].bit);
-  EXPECT_FALSE(b.box->functions().busy());
+  EXPECT_FALSE(b.host->functions().busy());
 }
 
 TEST(Functions, PinsOfAbortsAreEdgesAfterARestart) {
@@ -943,11 +943,11 @@ TEST(Functions, WhatFindsTheQueueFullIsCounted) {
       R"(send = [{ pin = "a", edge = "rise", function = "M", code = 3 }])"); // no slice runs, so nothing is finished
   for (uint32_t i = 0; i < FunctionQueue::kRoom + 3; ++i) {
     b["a"].bit = true;
-    b.box->step(kMs / 1000);
+    b.host->step(kMs / 1000);
     b["a"].bit = false;
-    b.box->step(kMs / 1000);
+    b.host->step(kMs / 1000);
   }
-  EXPECT_EQ(b.box->functions().lost(), 3u);
+  EXPECT_EQ(b.host->functions().lost(), 3u);
 }
 
 // Two functions for the two levels of a pin: the last level arrives, even where some before it were lost.
@@ -956,15 +956,15 @@ TEST(Functions, TheEndOfALevelIsNotLost) {
   ASSERT_THAT(b.errors, IsEmpty());
   b.scans(1);
   b["change"].bit = true; // takes a place, so that the last one that finds room is the beginning of a level
-  b.box->step(kMs / 1000);
+  b.host->step(kMs / 1000);
   for (uint32_t i = 0; i < FunctionQueue::kRoom / 2; ++i)
     for (const bool on : {true, false}) {
       b["cw"].bit = on;
-      b.box->step(kMs / 1000);
+      b.host->step(kMs / 1000);
     }
-  EXPECT_EQ(b.box->functions().lost(), 1u);
+  EXPECT_EQ(b.host->functions().lost(), 1u);
   uint32_t begun[7] = {};
-  for (int32_t former = 0, i = 0; b.box->functions().busy() && i < 1000; ++i) {
+  for (int32_t former = 0, i = 0; b.host->functions().busy() && i < 1000; ++i) {
     b.scans(1);
     const int32_t now = b["m"].s32;
     if (now != former && now != 0) ++begun[now];
@@ -972,19 +972,19 @@ TEST(Functions, TheEndOfALevelIsNotLost) {
   }
   EXPECT_EQ(begun[3], FunctionQueue::kRoom / 2);
   EXPECT_EQ(begun[5], FunctionQueue::kRoom / 2) << "the last one found the queue full, and its cause is still there";
-  EXPECT_EQ(b.box->functions().lost(), 1u);
+  EXPECT_EQ(b.host->functions().lost(), 1u);
 }
 
 // ---- real time -----------------------------------------------------------------------------------------------------
 
 int allocationsIn(Bench& b, int64_t ms) {
   return allocationsOf([&] {
-    for (int64_t i = 0; i < ms; ++i) b.box->step(kMs);
+    for (int64_t i = 0; i < ms; ++i) b.host->step(kMs);
   });
 }
 
 // By hand, so that what calls the host in every scan is among it; tests/realtime does it with compiled programs.
-TEST(Box, AStepAllocatesNothing) {
+TEST(PlcHost, AStepAllocatesNothing) {
   Bench gsk(host::testing::gskProgram(), kFunctions);
   gsk["change"].bit = gsk["cw"].bit = true;
   EXPECT_EQ(allocationsIn(gsk, 200), 0);
@@ -1000,7 +1000,7 @@ out.o = { type = "bit", name = "Y0.0" }
   EXPECT_EQ(allocationsIn(busy, 100), 0);
   busy["bad"].bit = true;
   EXPECT_EQ(allocationsIn(busy, 8), 0);
-  EXPECT_STREQ(busy.box->fault()->code, "dead-loop");
+  EXPECT_STREQ(busy.host->fault()->code, "dead-loop");
 
   Bench nct(host::testing::nctProgram(), R"(
 in.i = { type = "bit", name = "0056.17" }
@@ -1012,7 +1012,7 @@ in.show = { type = "bit", name = "0056.18" }
   EXPECT_EQ(allocationsIn(nct, 500), 0);
   nct["show"].bit = false;
   EXPECT_EQ(allocationsIn(nct, 500), 0);
-  EXPECT_EQ(nct.box->state().passes, 200u);
+  EXPECT_EQ(nct.host->state().passes, 200u);
 }
 
 } // namespace

@@ -38,7 +38,7 @@ private:
   // What replaces the results of operation i, from the result `skip` on: the operands of `from`.
   void resultsAre(uint32_t i, const Op& from, uint32_t skip = 0) {
     for (uint32_t k = 0; k < from.argCount; ++k)
-      writer_.replace({op(i).result.index + skip + k}, writer_.nowArg(from, k));
+      writer_.replace({op(i).result.index + skip + k}, writer_.mappedArg(from, k));
   }
 
   uint32_t fold(uint32_t i) {
@@ -59,7 +59,7 @@ private:
 
   uint32_t beginIf(uint32_t i) {
     uint64_t cond = 0;
-    if (!isConstant(writer_, writer_.nowArg(op(i), 0), cond)) {
+    if (!isConstant(writer_, writer_.mappedArg(op(i), 0), cond)) {
       writer_.copy(op(i));
       open_.push_back({.inlined = false, .yields = {}});
       return i;
@@ -78,7 +78,7 @@ private:
       open_.pop_back();
       return end;
     }
-    for (uint32_t k = 0; k < op(i).argCount; ++k) open_.back().yields.push_back(writer_.nowArg(op(i), k));
+    for (uint32_t k = 0; k < op(i).argCount; ++k) open_.back().yields.push_back(writer_.mappedArg(op(i), k));
     writer_.copy(op(i));
     return i;
   }
@@ -90,7 +90,7 @@ private:
       writer_.copy(op(i));
       // What both regions yield was there before.
       for (uint32_t k = 0; k < op(i).argCount; ++k)
-        if (const ValueId yield = writer_.nowArg(op(i), k); yield == open_.back().yields[k]) {
+        if (const ValueId yield = writer_.mappedArg(op(i), k); yield == open_.back().yields[k]) {
           writer_.replace({op(i).result.index + k}, yield);
           changed_ = true;
         }

@@ -27,7 +27,7 @@ public:
     writer_.finish(rung);
   }
   bool changed() const { return changed_; }
-  ValueId now(ValueId old) const { return writer_.now(old); }
+  ValueId mapped(ValueId old) const { return writer_.mapped(old); }
 
 private:
   static constexpr uint32_t kNone = RUNG_NONE;
@@ -117,9 +117,9 @@ void orderOperations(Module& module, Marks* marks, GivenNumbers* given) {
       order.run(module.routines[r].rungs[i]);
       if (!order.changed()) continue;
       if (marks != nullptr)
-        for (Mark& mark : marks->of(RoutineId{r}, i)) mark.value = order.now(mark.value);
+        for (Mark& mark : marks->of(RoutineId{r}, i)) mark.value = order.mapped(mark.value);
       if (given != nullptr)
-        for (GivenNumber& number : given->of(RoutineId{r}, i)) number.value = order.now(number.value);
+        for (GivenNumber& number : given->of(RoutineId{r}, i)) number.value = order.mapped(number.value);
     }
 }
 

@@ -146,7 +146,7 @@ private:
   }
   std::vector<ValueId> leaving() const {
     std::vector<ValueId> now;
-    for (const ValueId value : transferValues()) now.push_back(writer_.now(value));
+    for (const ValueId value : transferValues()) now.push_back(writer_.mapped(value));
     return now;
   }
 
@@ -166,7 +166,7 @@ private:
     if (index.isOne() || index.high >= op.count) return false;       // of one folding makes a place
     const uint64_t most = std::bit_ceil(index.high - index.low + 1); // elements, as many as a mask lets through
     const ValueId base = constant(op, 0 - index.low);
-    const ValueId number = writer_.putBefore(op, OpCode::Add, Type::I32, {writer_.nowArg(op, 0), base}).result;
+    const ValueId number = writer_.putBefore(op, OpCode::Add, Type::I32, {writer_.mappedArg(op, 0), base}).result;
     const ValueId element = writer_.putBefore(op, OpCode::And, Type::I32, {number, constant(op, most - 1)}).result;
     const uint32_t unitBits = module_.spaces[op.ref].unitBytes * 8;
     const ValueId bit = isOfBit(op) ? bitNumber(op, unitBits) : ValueId{};
@@ -180,7 +180,7 @@ private:
 
   ValueId bitNumber(const Op& op, uint32_t unitBits) {
     const Range& bit = ranges_.of(arg(*rung_, op, 1));
-    const ValueId number = writer_.nowArg(op, 1);
+    const ValueId number = writer_.mappedArg(op, 1);
     if (bit.isOne() || bit.high >= unitBits) return number;
     return writer_.putBefore(op, OpCode::And, Type::I32, {number, constant(op, std::bit_ceil(bit.high + 1) - 1)})
         .result;

@@ -116,7 +116,7 @@ private:
         continue;
       }
       ++next;
-      if (op.resultCount != 0) writer_.replace(op.result, writer_.now(same_[op.result.index]));
+      if (op.resultCount != 0) writer_.replace(op.result, writer_.mapped(same_[op.result.index]));
     }
     writer_.finish(rung);
   }

@@ -10,7 +10,7 @@ namespace rung::ir {
 
 void RungRewriter::start(const Rung& rung) {
   rung_ = &rung;
-  now_.assign(rung.values.size(), ValueId{});
+  mapped_.assign(rung.values.size(), ValueId{});
   ops_.clear();
   args_.clear();
   values_.clear();
@@ -30,7 +30,7 @@ Op& RungRewriter::append(const Op& op) {
 Op& RungRewriter::copy(const Op& op) {
   Op& added = ops_.emplace_back(op);
   added.firstArg = static_cast<uint32_t>(args_.size());
-  for (uint32_t i = 0; i < op.argCount; ++i) args_.push_back(nowArg(op, i));
+  for (uint32_t i = 0; i < op.argCount; ++i) args_.push_back(mappedArg(op, i));
   if (op.resultCount != 0) added.result = {static_cast<uint32_t>(values_.size())};
   for (uint32_t i = 0; i < op.resultCount; ++i) {
     const ValueId old{op.result.index + i};
@@ -47,7 +47,7 @@ Op& RungRewriter::copySome(const Op& op, std::span<const uint8_t> keep) {
   Op& added = append(op);
   for (uint32_t i = 0; i < op.argCount; ++i) {
     if (keep[i] == 0) continue;
-    args_.push_back(nowArg(op, i));
+    args_.push_back(mappedArg(op, i));
     ++added.argCount;
     if (op.resultCount == 0) continue;
     const ValueId old{op.result.index + i};
@@ -112,8 +112,8 @@ void RungRewriter::closeIf(const Op& at, std::span<const ValueId> yields, std::s
 
 void RungRewriter::finish(Rung& rung) {
   Transfer& transfer = rung.transfer;
-  if (transfer.cond.valid()) transfer.cond = now(transfer.cond);
-  if (transfer.value.valid()) transfer.value = now(transfer.value);
+  if (transfer.cond.valid()) transfer.cond = mapped(transfer.cond);
+  if (transfer.value.valid()) transfer.value = mapped(transfer.value);
   // Copied, not swapped: storage that a large rung needed must not stay with a small one.
   rung.ops.assign(ops_.begin(), ops_.end());
   rung.args.assign(args_.begin(), args_.end());

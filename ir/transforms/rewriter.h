@@ -14,9 +14,9 @@ public:
   void start(const Rung& rung);
 
   // What an old value has become in the new rung; invalid while it has no value there.
-  ValueId now(ValueId old) const { return now_[old.index]; }
-  ValueId nowArg(const Op& op, uint32_t i) const { return now(rung_->args[op.firstArg + i]); }
-  void replace(ValueId old, ValueId by) { now_[old.index] = by; }
+  ValueId mapped(ValueId old) const { return mapped_[old.index]; }
+  ValueId mappedArg(const Op& op, uint32_t i) const { return mapped(rung_->args[op.firstArg + i]); }
+  void replace(ValueId old, ValueId by) { mapped_[old.index] = by; }
 
   // The operation as it is, with today's operands.
   Op& copy(const Op& op);
@@ -59,7 +59,7 @@ private:
   }
 
   const Rung* rung_ = nullptr;
-  std::vector<ValueId> now_; // by old value
+  std::vector<ValueId> mapped_; // by old value
   std::vector<Op> ops_;
   std::vector<ValueId> args_;
   std::vector<NewValue> values_;

@@ -35,9 +35,9 @@ bool oppositeOf(OpCode code, Opposite& opposite) {
 class Simplifier {
 public:
   Simplifier(const Module& module, RungRewriter& writer, const Op& op) : module_(module), writer_(writer), op_(op) {
-    if (op.argCount > 0) a_ = writer.nowArg(op, 0);
-    if (op.argCount > 1) b_ = writer.nowArg(op, 1);
-    if (op.argCount > 2) c_ = writer.nowArg(op, 2);
+    if (op.argCount > 0) a_ = writer.mappedArg(op, 0);
+    if (op.argCount > 1) b_ = writer.mappedArg(op, 1);
+    if (op.argCount > 2) c_ = writer.mappedArg(op, 2);
   }
 
   bool run();

@@ -309,7 +309,7 @@ void RungCheck::host() {
         fail(Rule::Host, i, fmt::format("argument {} is {}", k, typeName(argType(op, k))));
   });
   eachOp(Attr::BranchWeights, [&](const Op& op, size_t i) {
-    if (op.ref > kSeldom) fail(Rule::Form, i, "there are no such branchWeights");
+    if (op.ref > kSeldom) fail(Rule::Form, i, "there are no such branch weights");
   });
   eachOp(Attr::Fault, [&](const Op& op, size_t i) {
     if (op.ref >= module_.faults.size()) fail(Rule::Host, i, "the fault does not exist");

@@ -49,7 +49,7 @@ struct Command {
   rung_force_info force{};
 };
 
-// What became of an command.
+// What became of a command.
 struct CommandResult {
   int32_t status = RUNG_OK; // enum rung_status; RUNG_FAILED also where nobody scans
   std::string problem;      // a sentence, unless it is done
@@ -58,7 +58,7 @@ struct CommandResult {
 
 class CommandSlot {
 public:
-  // The status of an command, and the sentence that goes with it, where it is not done.
+  // The status of a command, and the sentence that goes with it, where it is not done.
   struct Outcome {
     int32_t status = RUNG_OK;
     const char* problem = ""; // until the command is answered

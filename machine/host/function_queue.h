@@ -30,7 +30,7 @@ struct FunctionState {
 // queues a function, the dialect's handshake hands it to the program, and the acknowledge pin comes on when the program
 // has finished it; it falls with the pin that caused the function.
 //
-// Functions of one kind and channel begin in their command. What else they wait for is the dialect's rule: a function
+// Functions of one kind and channel begin in their order. What else they wait for is the dialect's rule: a function
 // begins as soon as the handshake takes it.
 
 class FunctionQueue {

@@ -61,7 +61,7 @@ std::string listed(std::span<const std::string_view> names) {
 
 std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-// Line breaks with the blanks environment them become one blank.
+// Line breaks with the blanks around them become one blank.
 std::string inOneLine(std::string_view text) {
   text = text::trimmed(text);
   std::string line;

@@ -21,7 +21,7 @@ using FilePlace = std::string;
 // "A, B or C".
 std::string listed(std::span<const std::string_view> names);
 std::string inQuotes(std::string_view text);
-// Line breaks with the blanks environment them become one blank.
+// Line breaks with the blanks around them become one blank.
 std::string inOneLine(std::string_view text);
 
 // The whole file; "" or why it cannot be read.
@@ -48,7 +48,7 @@ protected:
   void complainAt(const FilePlace& where, const std::string& what);
   // <OUTER> holds no <NAME>; `expected` is "<A> or <B>", or empty where a text is.
   void complainAboutChild(std::string_view name, const std::string& expected);
-  // What is environment an element and belongs to nothing.
+  // What is around an element and belongs to nothing.
   void complainAboutText();
 
   std::vector<Open> open_; // the innermost one last

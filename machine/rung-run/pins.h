@@ -18,7 +18,7 @@ public:
   Pins(const Pins&) = delete;
   Pins& operator=(const Pins&) = delete;
 
-  // In the command of the map, and one more.
+  // In the order of the map, and one more.
   const host::PinCell* cells() const noexcept { return cells_.data(); }
 
 private:

@@ -11,7 +11,7 @@
 
 namespace rung::rung_run {
 
-// A control that is simulated environment one program. Texts say what is wrong; "" is nothing.
+// A control that is simulated around one program. Texts say what is wrong; "" is nothing.
 class Simulation {
 public:
   virtual ~Simulation() = default;

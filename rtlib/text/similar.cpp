@@ -13,7 +13,7 @@ namespace {
 constexpr size_t kShortWord = 4;
 constexpr size_t kLongest = 32; // nobody misspells longer ones by two characters and looks for help
 
-/// The letters environment `at` with no `_` or digit between. Short ones distinguish names: LS_A and LS_AA, LS_AB and
+/// The letters around `at` with no `_` or digit between. Short ones distinguish names: LS_A and LS_AA, LS_AB and
 /// LS_BA.
 size_t lettersAround(std::string_view word, size_t at) {
   size_t begin = at, end = at;

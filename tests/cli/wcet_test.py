@@ -146,7 +146,7 @@ class Wcet(unittest.TestCase):
         self.assertTrue(report["slice"]["fits"])
         main = tasks["MAIN"]
         self.assertEqual((main["steps"], main["way_steps"], main["budget"], main["parts"]), (27, 27, 1000000, 1))
-        self.assertEqual(main["circles"], [])
+        self.assertEqual(main["loops"], [])
         self.assertGreater(main["instructions"], 20)
         self.assertLess(main["instructions"], 400)
         self.assertEqual(main["calls"], [])
@@ -169,13 +169,13 @@ class Wcet(unittest.TestCase):
 """)
         self.assertRegex(self.slice(source), r"^, including process-image copies: TIME: 27 steps of TIME at most \(rung .*\), and the period is TIME$")
 
-    def test_list_with_a_circle(self):
+    def test_list_with_a_loop(self):
         tasks, report = self.tasks(self.write("a.pmc", LIST))
-        self.assertTrue(report["slice"]["circles"])
-        self.assertEqual((tasks["LEVEL1"]["steps"], tasks["LEVEL1"]["circles"]), (3, []))
+        self.assertTrue(report["slice"]["loops"])
+        self.assertEqual((tasks["LEVEL1"]["steps"], tasks["LEVEL1"]["loops"]), (3, []))
         level2 = tasks["LEVEL2"]
         self.assertEqual((level2["steps"], level2["way_steps"]), (1000000, 13))
-        self.assertEqual([circle["rungs"] for circle in level2["circles"]], [[[3, 5]]])
+        self.assertEqual([loop["rungs"] for loop in level2["loops"]], [[[3, 5]]])
         self.assertEqual(level2["way"][0]["rungs"], [[2, 6]])
         self.assertGreater(level2["instructions"], 1000000)
         text = self.text(self.write("a.pmc", LIST))

@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   using namespace rung;
   using namespace rung::host_sim;
   cli::CommandLine app({.name = "rung_host_sim",
-                        .description = "Simulates hosts to which everything happens in an command of their own",
+                        .description = "Simulates hosts to which everything happens in an order of their own",
                         .exitStatus = "0 nothing wrong, 1 a seed goes wrong, 2 wrong usage",
                         .guide = "",
                         .seeAlso = {}});

@@ -1,5 +1,5 @@
 // A host without a machine: its program between pins, the thread that scans it, the one that serves it, its clients and
-// its disk, on a clock that passes when one of them waits. Whatever happens, happens in the command of its calls.
+// its disk, on a clock that passes when one of them waits. Whatever happens, happens in the order of its calls.
 #pragma once
 #include <cstdint>
 #include <deque>
@@ -90,7 +90,7 @@ public:
   rung_instance* instance() { return host_->instance(); }
   // Of the program, whatever its state.
   int64_t cell(const std::string& name) const;
-  // What has become of the program, in the command in which it has.
+  // What has become of the program, in the order in which it has.
   struct Change {
     enum class Kind : uint8_t { Replaced, Fault, Restart };
     Kind kind = Kind::Replaced;

@@ -37,8 +37,11 @@ LAYERS = {
                                         "rtlib/nc") for dialect in ("gsk", "nct", "technol")},
     "machine/host": ("rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run", "rtlib/nc", "rtlib/nc/control"),
     "machine/io": ("machine/host", "rtlib"),
-    "machine/compile": ("compiler", "frontend", "codegen", "ir", "rtlib"),
-    "machine/rungctl": ("machine", "rtlib"),
+    **{f"machine/{folder}": ("machine/host", "machine/io", "machine/control", "machine/compile", "machine/command-line", "rtlib/abi",
+                             "rtlib/text", "rtlib/load", "rtlib/run/clock.h", "rtlib/run/realtime.h")
+       for folder in ("compile", "control", "rung-run", "rung-hal")},
+    "machine/rung-compile": ("machine/compile", "compiler", "frontend", "codegen", "ir", "rtlib"),
+    "machine/rungctl": ("machine", "machine/rung-compile/collect.h", "rtlib"),
 }
 FREE = ("tests", "examples")  # may include everything, but nobody includes them
 
@@ -74,7 +77,7 @@ NAMESPACES = {
     "frontend/network": "frontend::network",
     **{f"frontend/dialects/{dialect}": f"frontend::{dialect}" for dialect in ("gsk", "nct", "technol")},
     "codegen": "codegen", "compiler": "compiler",
-    "machine/host": "host", "machine/io": "io", "machine/control": "control", "machine/compile": "compile",
+    "machine/host": "host", "machine/io": "io", "machine/control": "control", "machine/compile": "compile", "machine/rung-compile": "rung_compile",
     "machine/command-line": "cli", "machine/rung-run": "rung_run", "machine/rung-hal": "hal", "machine/rungctl": "rungctl",
     "sim": "sim", "sim/plugin": "rung_run",  # what rung-run declares, it defines
     "tools/rungc": "rungc", "tools/scenario": "scenario", "tools/report": "report", "tools/view": "view", "tools/bind": "bind",

@@ -104,7 +104,7 @@ constexpr To narrow(From a) noexcept {
     return static_cast<To>(a);
 }
 
-// ---- integers: wrap environment
+// ---- integers: wrap around
 // --------------------------------------------------------------------------------------
 template <class U>
 constexpr U add(U a, U b) noexcept {

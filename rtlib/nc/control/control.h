@@ -84,7 +84,7 @@ struct DefinedMessage {
 // Characters that Control::describe may write; longer texts are cut off.
 inline constexpr size_t kMessageLine = 400;
 
-// What the software of a CNC does environment its PLC program, whatever the machine: power-on and power-off, signals
+// What the software of a CNC does around its PLC program, whatever the machine: power-on and power-off, signals
 // that the program takes for granted (clocks, first cycle, "ready"), messages, retained cells, names. One class a
 // dialect (gsk/, nct/, technol/). A host that drives a real machine and the simulation alike put it beside the program.
 //

@@ -1,5 +1,5 @@
 // Reading a program's sources: which files go along.
-#include "machine/compile/collect.h"
+#include "machine/rung-compile/collect.h"
 
 #include <filesystem>
 #include <fstream>
@@ -8,7 +8,7 @@
 
 #include "frontend/dialects/dialect.h"
 
-namespace rung::compile {
+namespace rung::rung_compile {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,4 +76,4 @@ TEST_F(Collecting, RefusesTooMuchWithoutReadingIt) {
 }
 
 } // namespace
-} // namespace rung::compile
+} // namespace rung::rung_compile

@@ -99,7 +99,7 @@ TEST(Orders, OfSeveralThreadsWaitForEachOther) {
   EXPECT_EQ(wrong, 0);
 }
 
-// Whichever comes first: an command is done and says so, or it is not done.
+// Whichever comes first: a command is done and says so, or it is not done.
 TEST(Orders, AreWithdrawnOrDone) {
   CommandSlot slot;
   std::atomic<int> done{0};

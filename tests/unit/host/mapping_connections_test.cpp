@@ -41,10 +41,10 @@ lamp = 3
 [modbus-client.discrete-inputs]
 start = { at = 9, safe = true }
 [modbus-client.holding-registers]
-speed = { at = 1, format = "s32", command = "low-first", safe = -4 }
+speed = { at = 1, format = "s32", order = "low-first", safe = -4 }
 turns = { at = 65535 }
 [modbus-client.input-registers]
-load = { at = 4, format = "f32", command = "high-first", safe = "hold" }
+load = { at = 4, format = "f32", order = "high-first", safe = "hold" }
 keys = 0
 )");
   ASSERT_EQ(map.connections.size(), 1u);

@@ -1,4 +1,4 @@
-// The simulated CAN devices with a program's cells environment them.
+// The simulated CAN devices with a program's cells around them.
 #pragma once
 #include <gtest/gtest.h>
 

@@ -232,13 +232,13 @@ Module callChain(uint32_t routines) {
   return m;
 }
 
-TEST(VerifyCalls, NoCircles) {
+TEST(VerifyCalls, NoLoops) {
   Module m = callChain(3);
   m.routines[2].rungs[0].transfer = {.kind = TransferKind::Call, .callee = RoutineId{0}};
-  expectBroken(m, Rule::Calls, "in a circle", 0);
+  expectBroken(m, Rule::Calls, "in a loop", 0);
   m = callChain(1);
   m.routines[0].rungs[0].transfer = {.kind = TransferKind::Call, .callee = RoutineId{0}};
-  expectBroken(m, Rule::Calls, "in a circle", 0);
+  expectBroken(m, Rule::Calls, "in a loop", 0);
 }
 
 TEST(VerifyCalls, NotTooDeep) {

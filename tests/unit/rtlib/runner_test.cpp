@@ -555,7 +555,7 @@ TEST_F(RunnerTest, HooksRunTasksOutsideTasksOnly) {
   EXPECT_EQ(takeTrace(), (Trace{0, 1}));
 }
 
-// Others are left out, and what was environment them is one step.
+// Others are left out, and what was around them is one step.
 TEST_F(RunnerTest, HooksThatHaveWork) {
   test.addChunk(step<0, RUNG_PC_DONE>);
   test.addTask("MAIN", 0);

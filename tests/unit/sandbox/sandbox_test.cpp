@@ -1,5 +1,5 @@
 // What a process cannot do any more once it is in the sandbox. Each attempt is one process.
-#include "machine/compile/sandbox.h"
+#include "machine/rung-compile/sandbox.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 #include <csignal>
 #include <cstring>
 
-namespace rung::compile {
+namespace rung::rung_compile {
 namespace {
 
 constexpr Limits kLimits{.processorSeconds = 1, .memory = size_t{512} << 20, .fileSize = 1 << 20};
@@ -152,4 +152,4 @@ TEST(Sandbox, ClosesWhatIsOpen) {
 }
 
 } // namespace
-} // namespace rung::compile
+} // namespace rung::rung_compile

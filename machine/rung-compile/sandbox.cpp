@@ -1,5 +1,5 @@
 // See sandbox.h.
-#include "machine/compile/sandbox.h"
+#include "machine/rung-compile/sandbox.h"
 
 #include <fcntl.h>
 #include <grp.h>
@@ -19,7 +19,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace rung::compile {
+namespace rung::rung_compile {
 namespace {
 
 constexpr uid_t kNobody = 65534; // and the group of that user
@@ -221,4 +221,4 @@ std::string becomeUser(uid_t user, const Limits& limits) {
   return setLimits(limits) ? "" : because("cannot set limits");
 }
 
-} // namespace rung::compile
+} // namespace rung::rung_compile

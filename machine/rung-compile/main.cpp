@@ -12,18 +12,18 @@
 #include <string_view>
 #include <vector>
 
-#include "machine/compile/collect.h"
-#include "machine/compile/compile_forces.h"
-#include "machine/compile/compile_sources.h"
 #include "machine/compile/forced_code_maker.h"
-#include "machine/compile/sandbox.h"
 #include "machine/compile/sources.h"
+#include "machine/rung-compile/collect.h"
+#include "machine/rung-compile/compile_forces.h"
+#include "machine/rung-compile/compile_sources.h"
+#include "machine/rung-compile/sandbox.h"
 #include "rtlib/load/file.h"
 
 namespace {
 
 using namespace rung;
-using compile::Limits;
+using rung_compile::Limits;
 
 constexpr int kWrongUsage = 2;
 constexpr Limits kLimits{.processorSeconds = compile::kMostProcessorSeconds,
@@ -46,8 +46,8 @@ std::string warmUp() {
   if (!makeOutput()) return std::string("cannot make a memory file: ") + std::strerror(errno);
   const std::string name = "warm-up.pmc";
   const std::string text = "dialect gsk\nFUNC END1\nLD X0.0\nOUT Y0.0\nFUNC END2\n";
-  const compile::Outcome outcome =
-      compile::compileSources(packed(compile::Sources{.files = {name}, .texts = {{name, text}}}));
+  const rung_compile::Outcome outcome =
+      rung_compile::compileSources(compile::packed(compile::Sources{.files = {name}, .texts = {{name, text}}}));
   return outcome.verdict == compile::kVerdictCompiled ? "" : "the compiler does not work: " + outcome.report;
 }
 
@@ -76,26 +76,26 @@ std::string writeImage(std::string_view bytes) {
 struct Work { // of the process
   const char* input;
   size_t most; // bytes of it
-  compile::Outcome (*compile)(std::string_view bytes);
+  rung_compile::Outcome (*compile)(std::string_view bytes);
 };
-constexpr Work kSources{"sources", compile::kMostBytes, &compile::compileSources};
-constexpr Work kForces{"forces", compile::kMostPackedForces, &compile::compileForces};
+constexpr Work kSources{"sources", compile::kMostBytes, &rung_compile::compileSources};
+constexpr Work kForces{"forces", compile::kMostPackedForces, &rung_compile::compileForces};
 
 int compileInput(const Work& work) {
   std::string bytes;
   if (!readInput(bytes, work.most))
     return answer(compile::kVerdictFailed, std::string("the ") + work.input + " have more than " +
                                                std::to_string(work.most) + " bytes, expected no more");
-  const compile::Outcome outcome = work.compile(bytes);
+  const rung_compile::Outcome outcome = work.compile(bytes);
   if (outcome.verdict != compile::kVerdictCompiled) return answer(outcome.verdict, outcome.report);
   const std::string problem = writeImage(outcome.image);
   return problem.empty() ? answer(outcome.verdict, outcome.report) : answer(compile::kVerdictFailed, problem);
 }
 
 int compileForHost(const Work& work) {
-  std::string problem = compile::giveUpRights(compile::kImageFile, kLimits);
+  std::string problem = rung_compile::giveUpRights(compile::kImageFile, kLimits);
   if (problem.empty()) problem = warmUp();
-  if (problem.empty()) problem = compile::enterSandbox();
+  if (problem.empty()) problem = rung_compile::enterSandbox();
   return problem.empty() ? compileInput(work) : answer(compile::kVerdictFailed, problem);
 }
 
@@ -103,10 +103,10 @@ int collectForHost(std::string_view number, const std::vector<std::string>& file
   uid_t user = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), user);
   if (error != std::errc() || end != number.data() + number.size() || files.empty()) return kWrongUsage;
-  if (const std::string problem = compile::becomeUser(user, kLimits); !problem.empty())
+  if (const std::string problem = rung_compile::becomeUser(user, kLimits); !problem.empty())
     return answer(compile::kVerdictFailed, problem);
-  const compile::Collected collected = compile::collect(files);
-  return collected.sources ? answer(compile::kVerdictSources, packed(*collected.sources))
+  const rung_compile::Collected collected = rung_compile::collect(files);
+  return collected.sources ? answer(compile::kVerdictSources, compile::packed(*collected.sources))
                            : answer(compile::kVerdictErrors, collected.report);
 }
 
@@ -114,8 +114,8 @@ bool isOpen(int file) { return fcntl(file, F_GETFD) >= 0; }
 
 } // namespace
 
-// Without words: packed sources come by standard input. --forces: packed forces. --collect --user NUMBER -- FILE…: it
-// reads files.
+// Without words: compile::packed sources come by standard input. --forces: compile::packed forces. --collect --user
+// NUMBER -- FILE…: it reads files.
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   const bool hasFiles = fcntl(compile::kImageFile, F_GET_SEALS) >= 0 && isOpen(compile::kAnswerFile);

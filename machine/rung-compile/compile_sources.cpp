@@ -1,5 +1,5 @@
 // See compile_sources.h.
-#include "machine/compile/compile_sources.h"
+#include "machine/rung-compile/compile_sources.h"
 
 #include <vector>
 
@@ -11,10 +11,10 @@
 #include "machine/compile/sources.h"
 #include "rtlib/load/seal.h"
 
-namespace rung::compile {
+namespace rung::rung_compile {
 namespace {
 
-compiler::CompileRequest requestOf(const Sources& sources) {
+compiler::CompileRequest requestOf(const compile::Sources& sources) {
   compiler::CompileRequest request;
   request.dialect = sources.dialect;
   request.name = sources.name;
@@ -36,12 +36,12 @@ void checkNames(const compiler::Compiled& compiled, const SourceManager& sources
 std::string reportOf(const Diagnostics& diagnostics, const SourceManager& sources) {
   std::string report = renderText(diagnostics, sources) + closingLine(diagnostics);
   constexpr std::string_view kCut = "\n(more has been left out)\n";
-  if (report.size() <= kMostReport - kCut.size()) return report;
-  report.resize(kMostReport - kCut.size());
+  if (report.size() <= compile::kMostReport - kCut.size()) return report;
+  report.resize(compile::kMostReport - kCut.size());
   return report.append(kCut);
 }
 
-Outcome compile(const Sources& given) {
+Outcome compile(const compile::Sources& given) {
   SourceManager sources(given.texts);
   std::vector<FileId> files;
   for (const std::string& name : given.files) files.push_back(sources.addFile(name).value());
@@ -50,13 +50,13 @@ Outcome compile(const Sources& given) {
   if (compiled) checkNames(*compiled, sources, diagnostics);
   std::string report = reportOf(diagnostics, sources);
   if (!compiled || diagnostics.hasErrors())
-    return {.verdict = kVerdictErrors, .report = std::move(report), .image = {}};
+    return {.verdict = compile::kVerdictErrors, .report = std::move(report), .image = {}};
   codegen::LlvmOptions options;
   options.debugInfo = false;
   Result<std::string> object = codegen::buildLlvmSharedObjectByOutput(*compiled->layout, compiled->codeHash, options);
   if (object.ok()) object = compiler::withIr(object.value(), *compiled);
   if (!object.ok()) return failed(object.error());
-  return {.verdict = kVerdictCompiled, .report = std::move(report), .image = runtime::sealed(object.value())};
+  return {.verdict = compile::kVerdictCompiled, .report = std::move(report), .image = runtime::sealed(object.value())};
 }
 
 } // namespace
@@ -64,9 +64,9 @@ Outcome compile(const Sources& given) {
 Outcome compileSources(std::string_view packed) {
   return outcomeOf([&] {
     std::string problem;
-    const std::optional<Sources> given = unpacked(packed, problem);
+    const std::optional<compile::Sources> given = compile::unpacked(packed, problem);
     return given ? compile(*given) : failed(std::move(problem));
   });
 }
 
-} // namespace rung::compile
+} // namespace rung::rung_compile

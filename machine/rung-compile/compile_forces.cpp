@@ -1,5 +1,5 @@
 // See compile_forces.h. The file comes from a program that the host runs; it is believed nothing all the same.
-#include "machine/compile/compile_forces.h"
+#include "machine/rung-compile/compile_forces.h"
 
 #include <algorithm>
 #include <optional>
@@ -11,7 +11,7 @@
 #include "machine/compile/forced_code_maker.h"
 #include "rtlib/load/seal.h"
 
-namespace rung::compile {
+namespace rung::rung_compile {
 namespace {
 
 bool liesIn(const ir::Module& module, const rung_forced_byte& forced) {
@@ -20,7 +20,7 @@ bool liesIn(const ir::Module& module, const rung_forced_byte& forced) {
   return forced.byte < uint64_t{space.unitBytes} * space.units;
 }
 
-Outcome compile(const Forces& forces) {
+Outcome compile(const compile::Forces& forces) {
   const Result<compiler::Compiled> compiled =
       compiler::irOf(runtime::readSealed(forces.program).image, {.code = forces.codeHash, .layout = forces.layoutHash});
   if (!compiled.ok()) return failed(compiled.error());
@@ -34,7 +34,7 @@ Outcome compile(const Forces& forces) {
   options.debugInfo = false;
   const Result<std::string> object = codegen::buildLlvmSharedObjectByOutput(forced.layout, running.codeHash, options);
   if (!object.ok()) return failed(object.error());
-  return {.verdict = kVerdictCompiled, .report = {}, .image = runtime::sealed(object.value())};
+  return {.verdict = compile::kVerdictCompiled, .report = {}, .image = runtime::sealed(object.value())};
 }
 
 } // namespace
@@ -42,9 +42,9 @@ Outcome compile(const Forces& forces) {
 Outcome compileForces(std::string_view packed) {
   return outcomeOf([&] {
     std::string problem;
-    const std::optional<Forces> given = unpackedForces(packed, problem);
+    const std::optional<compile::Forces> given = compile::unpackedForces(packed, problem);
     return given ? compile(*given) : failed(std::move(problem));
   });
 }
 
-} // namespace rung::compile
+} // namespace rung::rung_compile

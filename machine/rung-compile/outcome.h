@@ -10,7 +10,7 @@
 #include "ir/support/check.h"
 #include "machine/compile/sources.h"
 
-namespace rung::compile {
+namespace rung::rung_compile {
 
 struct Outcome {
   std::string_view verdict; // machine/compile/sources.h
@@ -18,7 +18,9 @@ struct Outcome {
   std::string image; // sealed, of a program that is compiled
 };
 
-inline Outcome failed(std::string why) { return {.verdict = kVerdictFailed, .report = std::move(why), .image = {}}; }
+inline Outcome failed(std::string why) {
+  return {.verdict = compile::kVerdictFailed, .report = std::move(why), .image = {}};
+}
 
 // Runs what gives an outcome, and may throw.
 template <class Compile>
@@ -26,9 +28,9 @@ Outcome outcomeOf(Compile compile) try {
   const ThrowingChecks throwing;
   return compile();
 } catch (const std::bad_alloc&) {
-  return failed(fmt::format("the program needs more than {} MB to be compiled", kMostMemory >> 20));
+  return failed(fmt::format("the program needs more than {} MB to be compiled", compile::kMostMemory >> 20));
 } catch (const std::exception& error) { // of the compiler itself
   return failed(error.what());
 }
 
-} // namespace rung::compile
+} // namespace rung::rung_compile

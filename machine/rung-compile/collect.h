@@ -6,17 +6,17 @@
 
 #include "machine/compile/sources.h"
 
-namespace rung::compile {
+namespace rung::rung_compile {
 
 struct Collected {
-  std::optional<Sources> sources; // nothing: `report` says why
-  std::string report;             // errors as rungc prints them
-  std::string diagnostics;        // the same as JSON; "" where nothing is wrong in a source
-  bool unreadable = false;        // a file that is named cannot be read
+  std::optional<compile::Sources> sources; // nothing: `report` says why
+  std::string report;                      // errors as rungc prints them
+  std::string diagnostics;                 // the same as JSON; "" where nothing is wrong in a source
+  bool unreadable = false;                 // a file that is named cannot be read
 };
 
 // `names`: files in their order, or one folder of a project or project file. Files that all belong to a project are
 // compiled as that project, as by rungc.
 Collected collect(const std::vector<std::string>& names, bool color = false);
 
-} // namespace rung::compile
+} // namespace rung::rung_compile

@@ -4,7 +4,7 @@
 
 #include <sys/types.h>
 
-namespace rung::compile {
+namespace rung::rung_compile {
 
 struct Limits {
   unsigned processorSeconds;
@@ -26,4 +26,4 @@ std::string enterSandbox();
 // why not.
 std::string becomeUser(uid_t user, const Limits& limits);
 
-} // namespace rung::compile
+} // namespace rung::rung_compile

@@ -2,11 +2,11 @@
 #pragma once
 #include <string_view>
 
-#include "machine/compile/outcome.h"
+#include "machine/rung-compile/outcome.h"
 
-namespace rung::compile {
+namespace rung::rung_compile {
 
 // Opens no file; the linker writes to standard output (see buildLlvmSharedObjectByOutput).
 Outcome compileSources(std::string_view packed);
 
-} // namespace rung::compile
+} // namespace rung::rung_compile

@@ -1,5 +1,5 @@
 // See collect.h. The front end itself finds out which files there are: what it opens is sent.
-#include "machine/compile/collect.h"
+#include "machine/rung-compile/collect.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,13 +9,13 @@
 #include "frontend/dialects/dialect.h"
 #include "ir/support/diag_render.h"
 
-namespace rung::compile {
+namespace rung::rung_compile {
 namespace {
 
 namespace fs = std::filesystem;
 
 std::string tooLarge(uintmax_t bytes) {
-  return fmt::format("the sources have {} bytes, expected at most {}", bytes, kMostBytes);
+  return fmt::format("the sources have {} bytes, expected at most {}", bytes, compile::kMostBytes);
 }
 
 std::string textOf(const Diagnostics& diagnostics, const SourceManager& sources, bool color) {
@@ -29,7 +29,7 @@ public:
 
   Collected collect(const std::vector<std::string>& names) {
     if (!findProject(names)) return std::move(result_);
-    Sources sources;
+    compile::Sources sources;
     frontend::CompileOptions options;
     if (project_) takeProject(sources, options);
     sources.files = project_ ? project_->files : names;
@@ -70,7 +70,7 @@ private:
     return true;
   }
 
-  void takeProject(Sources& sources, frontend::CompileOptions& options) {
+  void takeProject(compile::Sources& sources, frontend::CompileOptions& options) {
     sources.dialect = project_->dialect;
     sources.name = project_->name;
     sources.includePaths = project_->includePaths;
@@ -84,11 +84,11 @@ private:
   }
 
   // Of a dialect that is not known the compiler says it.
-  bool compile(const Sources& sources, frontend::CompileOptions& options) {
+  bool compile(const compile::Sources& sources, frontend::CompileOptions& options) {
     std::vector<FileId> files;
     for (const std::string& name : sources.files) {
       std::error_code error; // of a file without a size, such as a pipe
-      if (const uintmax_t bytes = fs::file_size(name, error); !error && bytes > kMostBytes)
+      if (const uintmax_t bytes = fs::file_size(name, error); !error && bytes > compile::kMostBytes)
         return fail(tooLarge(bytes));
       const Result<FileId> file = sources_.addFile(name);
       result_.unreadable = !file.ok();
@@ -117,14 +117,14 @@ private:
 Collected collect(const std::vector<std::string>& names, bool color) {
   Collected result = Collector(color).collect(names);
   if (!result.sources) return result;
-  const size_t bytes = packed(*result.sources).size();
+  const size_t bytes = compile::packed(*result.sources).size();
   const size_t files = result.sources->texts.size();
-  if (bytes > kMostBytes)
+  if (bytes > compile::kMostBytes)
     result.report = tooLarge(bytes);
-  else if (files > kMostFiles)
-    result.report = fmt::format("the program has {} files, expected at most {}", files, kMostFiles);
+  else if (files > compile::kMostFiles)
+    result.report = fmt::format("the program has {} files, expected at most {}", files, compile::kMostFiles);
   if (!result.report.empty()) result.sources.reset();
   return result;
 }
 
-} // namespace rung::compile
+} // namespace rung::rung_compile

@@ -2,12 +2,12 @@
 #pragma once
 #include <string_view>
 
-#include "machine/compile/outcome.h"
+#include "machine/rung-compile/outcome.h"
 
-namespace rung::compile {
+namespace rung::rung_compile {
 
 // Opens no file; the linker writes to standard output (see buildLlvmSharedObjectByOutput). The file that is made
 // carries no IR.
 Outcome compileForces(std::string_view packed);
 
-} // namespace rung::compile
+} // namespace rung::rung_compile

@@ -1,45 +1,27 @@
 // See commands.h.
 #include "machine/host/commands.h"
 
-#include <cassert>
 #include <cstring>
-#include <thread>
 
 namespace rung::host {
 
-void CommandSlot::keep(const Outcome& outcome) noexcept {
-  status_ = outcome.status;
-  const size_t length = strnlen(outcome.problem, sizeof problem_ - 1);
-  std::memcpy(problem_, outcome.problem, length);
-  problem_[length] = '\0';
-}
-
-// False: it is done after all.
-bool CommandSlot::withdraw() noexcept {
-  for (int expected = kPosted; !state_.compare_exchange_weak(expected, kFree, std::memory_order_acquire);
-       expected = kPosted) {
-    if (expected == kDone) return false;
-    std::this_thread::yield(); // taken: not for long
-  }
-  return true;
-}
-
-void CommandSlot::post(const Command& command) {
-  assert(state_.load(std::memory_order_relaxed) == kFree);
-  order_ = command;
-  status_ = RUNG_OK;
-  problem_[0] = '\0';
-  state_.store(kPosted, std::memory_order_release);
+void CommandSlot::Posted::keep(const Outcome& outcome) noexcept {
+  status = outcome.status;
+  const size_t length = strnlen(outcome.problem, sizeof problem - 1);
+  std::memcpy(problem, outcome.problem, length);
+  problem[length] = '\0';
 }
 
 CommandResult CommandSlot::take(Command& command) {
-  if (!isDone() && withdraw()) {
-    if (status_ == RUNG_LATER) return {RUNG_LATER, problem_};
+  const bool done = slot_.isDone() || !slot_.withdraw();
+  const Posted& posted = slot_.command();
+  if (!done) {
+    if (posted.status == RUNG_LATER) return {RUNG_LATER, posted.problem};
     return {RUNG_FAILED, "the scan thread does not run"};
   }
-  command = order_;
-  const CommandResult answer{status_, problem_};
-  state_.store(kFree, std::memory_order_release);
+  command = posted.command;
+  CommandResult answer{posted.status, posted.problem};
+  slot_.release();
   return answer;
 }
 

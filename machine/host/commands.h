@@ -1,7 +1,5 @@
-// What another thread asks of the thread that scans a program, which does it between two slices: a slot for one command
-// at a time, in which neither waits for the other.
+// What another thread asks of the thread that scans a program, which does it between two slices.
 #pragma once
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <mutex>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "machine/host/function_queue.h"
+#include "rtlib/core/handover.h"
 #include "rtlib/run/clock.h"
 #include "rung/runtime.h"
 
@@ -71,8 +70,8 @@ public:
   CommandResult give(Command& command, std::chrono::nanoseconds time, runtime::Clock& clock, Meanwhile meanwhile) {
     constexpr int64_t kLookNs = 200'000;
     const std::lock_guard lock(giving_);
-    post(command);
-    for (const int64_t end = clock.nowNs() + time.count(); !isDone() && clock.nowNs() < end;) {
+    slot_.post({.command = command});
+    for (const int64_t end = clock.nowNs() + time.count(); !slot_.isDone() && clock.nowNs() < end;) {
       clock.sleep(kLookNs);
       meanwhile();
     }
@@ -82,25 +81,24 @@ public:
   // The scan thread, between two slices: `execute` does the command and gives an Outcome.
   template <class Execute>
   void take(Execute execute) noexcept {
-    int expected = kPosted;
-    if (!state_.compare_exchange_strong(expected, kTaken, std::memory_order_acquire)) return;
-    keep(execute(order_));
-    state_.store(status_ == RUNG_LATER ? kPosted : kDone, std::memory_order_release);
+    slot_.take([&](Posted& posted) {
+      posted.keep(execute(posted.command));
+      return posted.status != RUNG_LATER;
+    });
   }
 
 private:
-  static constexpr int kFree = 0, kPosted = 1, kTaken = 2, kDone = 3;
-  void post(const Command& command);
-  bool isDone() const noexcept { return state_.load(std::memory_order_acquire) == kDone; }
+  struct Posted {
+    void keep(const Outcome& outcome) noexcept;
+
+    Command command;
+    int32_t status = RUNG_OK;
+    char problem[512] = "";
+  };
   CommandResult take(Command& command);
-  void keep(const Outcome& outcome) noexcept;
-  bool withdraw() noexcept;
 
   std::mutex giving_;
-  std::atomic<int> state_{kFree};
-  Command order_;
-  int32_t status_ = RUNG_OK;
-  char problem_[512] = "";
+  core::Slot<Posted> slot_;
 };
 
 } // namespace rung::host

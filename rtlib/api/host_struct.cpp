@@ -19,30 +19,7 @@ namespace {
 
 constexpr int kTries = 4; // a slice; one that writes all the time would hold up the scan
 
-uint64_t counterAt(const uint8_t* at, uint32_t bytes) noexcept {
-  switch (bytes) {
-  case 1: return __atomic_load_n(at, __ATOMIC_ACQUIRE);
-  case 2: return __atomic_load_n(reinterpret_cast<const uint16_t*>(at), __ATOMIC_ACQUIRE);
-  case 4: return __atomic_load_n(reinterpret_cast<const uint32_t*>(at), __ATOMIC_ACQUIRE);
-  default: return __atomic_load_n(reinterpret_cast<const uint64_t*>(at), __ATOMIC_ACQUIRE);
-  }
-}
-
 bool isAligned(const uint8_t* at, uint32_t bytes) noexcept { return reinterpret_cast<uintptr_t>(at) % bytes == 0; }
-
-// Of memory that is being written: each word is read once, whole.
-void copyShared(const uint8_t* from, uint8_t* to, uint32_t bytes) noexcept {
-  while (bytes != 0) {
-    if (bytes >= 8 && isAligned(from, 8)) {
-      const uint64_t word = __atomic_load_n(reinterpret_cast<const uint64_t*>(from), __ATOMIC_RELAXED);
-      std::memcpy(to, &word, sizeof word);
-      from += 8, to += 8, bytes -= 8;
-    } else {
-      *to++ = __atomic_load_n(from++, __ATOMIC_RELAXED);
-      --bytes;
-    }
-  }
-}
 
 std::span<const rung_member> membersOf(const rung_layout& layout) { return {layout.members, layout.member_count}; }
 
@@ -57,8 +34,8 @@ HostStruct::HostStruct(const rung_layout& layout, uint8_t* address)
   whole_.resize(layout.bytes);
 }
 
-std::vector<HostStruct::Range> HostStruct::inputRanges(const rung_layout& layout) {
-  std::vector<Range> all, joined;
+std::vector<core::GuardedMemory::Range> HostStruct::inputRanges(const rung_layout& layout) {
+  std::vector<core::GuardedMemory::Range> all, joined;
   for (const rung_member& member : membersOf(layout))
     if (toProgram(member)) all.emplace_back(member.offset, member.bytes);
   std::ranges::sort(all);
@@ -71,22 +48,14 @@ std::vector<HostStruct::Range> HostStruct::inputRanges(const rung_layout& layout
   return joined;
 }
 
-// The writer counts `head` first and `tail` last; so the reader looks at them the other way round.
-bool HostStruct::copyWhole() noexcept {
-  const uint64_t tail = counterAt(address_ + layout_.tail, layout_.counter_bytes);
-  for (const auto& [offset, bytes] : ranges_) copyShared(address_ + offset, copy_.data() + offset, bytes);
-  __atomic_thread_fence(__ATOMIC_ACQUIRE);
-  return counterAt(address_ + layout_.head, layout_.counter_bytes) == tail;
-}
-
 void HostStruct::take() noexcept {
-  for (int i = 0; i < kTries; ++i) {
-    if (!copyWhole()) continue;
+  const core::GuardedMemory memory(address_, layout_.head, layout_.tail, layout_.counter_bytes);
+  if (memory.copy(ranges_, copy_.data(), kTries)) {
     for (const auto& [offset, bytes] : ranges_) std::memcpy(whole_.data() + offset, copy_.data() + offset, bytes);
     inconsistent_ = 0;
-    return;
+  } else if (inconsistent_ != UINT32_MAX) {
+    ++inconsistent_;
   }
-  if (inconsistent_ != UINT32_MAX) ++inconsistent_;
 }
 
 // ---- checks ------------------------------------------------------------------------------------------------------

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <utility>
 #include <vector>
 
+#include "rtlib/core/handover.h"
 #include "rung/runtime.h"
 
 namespace rung::api {
@@ -26,13 +26,11 @@ public:
   uint32_t inconsistent() const { return inconsistent_; } // slices
 
 private:
-  using Range = std::pair<uint32_t, uint32_t>; // offset, bytes
-  static std::vector<Range> inputRanges(const rung_layout& layout);
-  bool copyWhole() noexcept;
+  static std::vector<core::GuardedMemory::Range> inputRanges(const rung_layout& layout);
 
   rung_layout layout_;
   uint8_t* address_;
-  std::vector<Range> ranges_; // of its members to the program
+  std::vector<core::GuardedMemory::Range> ranges_; // of its members to the program
   std::vector<uint8_t> copy_, whole_;
   uint32_t inconsistent_ = 0;
 };

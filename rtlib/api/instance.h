@@ -11,7 +11,7 @@
 #include "rtlib/api/host_struct.h"
 #include "rtlib/api/image.h"
 #include "rtlib/api/watch.h"
-#include "rtlib/core/ring.h"
+#include "rtlib/core/handover.h"
 #include "rtlib/nc/control/control.h"
 #include "rtlib/run/instance.h"
 #include "rtlib/run/pace.h"
@@ -91,7 +91,7 @@ struct rung_instance {
   uint32_t functionChannels = 0;                  // a bit for each that a function was handed over in
   // The replacement that holds the program before this one: a fault puts that back.
   std::atomic<rung_replacement*> former{nullptr};
-  rung::api::ScanUse puttingBack;
+  rung::core::ScanUse puttingBack;
   // The program that a fault has stopped, where another one has taken its place since, and that fault; it is referred
   // to until the next power-on.
   std::atomic<rung::api::Generation*> faulted{nullptr};

@@ -65,7 +65,7 @@ using namespace rung::api;
 
 rung_watch::rung_watch(rung_instance& of, std::vector<rung_cell> watched, uint32_t depth)
     : instance(of), cells(std::move(watched)), scratch_(words()), newest_(words()), depth_(depth),
-      ring_(depth * words()) {
+      kept_(depth * words()), ring_(depth) {
   for (const rung_cell cell : cells) instance.generations.names.hold(cell);
 }
 
@@ -83,25 +83,25 @@ void rung_watch::take(const rung_instance& from, const SampleHead& head) noexcep
 
   newest_.publish(scratch_);
   if (depth_ == 0) return;
-  const uint64_t written = written_.load(std::memory_order_relaxed);
-  if (written - taken_.load(std::memory_order_acquire) == depth_) {
+  const std::optional<size_t> slot = ring_.back();
+  if (!slot) {
     lost_.fetch_add(1, std::memory_order_relaxed);
     return;
   }
-  std::ranges::copy(scratch_, ring_.begin() + static_cast<ptrdiff_t>(written % depth_ * words()));
-  written_.store(written + 1, std::memory_order_release);
+  std::ranges::copy(scratch_, kept_.begin() + static_cast<ptrdiff_t>(*slot * words()));
+  ring_.push();
 }
 
 int32_t rung_watch::newest(rung_value* values, rung_sample& sample) const noexcept {
   uint64_t head[kHeadWords];
-  const rung::runtime::Looked looked = newest_.read([&](size_t i, uint64_t word) {
+  const rung::core::Looked looked = newest_.read([&](size_t i, uint64_t word) {
     if (i < kHeadWords)
       head[i] = word;
     else
       values[i - kHeadWords] = valueOfWord(word);
   });
-  if (looked == rung::runtime::Looked::Empty) return RUNG_EMPTY;
-  if (looked == rung::runtime::Looked::Interrupted)
+  if (looked == rung::core::Looked::Empty) return RUNG_EMPTY;
+  if (looked == rung::core::Looked::Interrupted)
     return fail(RUNG_LATER, "the thread was interrupted again and again while it read; try again");
   show(head, sample);
   sample.lost = lost_.load(std::memory_order_relaxed);
@@ -109,13 +109,13 @@ int32_t rung_watch::newest(rung_value* values, rung_sample& sample) const noexce
 }
 
 int32_t rung_watch::next(rung_value* values, rung_sample& sample) noexcept {
-  const uint64_t taken = taken_.load(std::memory_order_relaxed);
-  if (written_.load(std::memory_order_acquire) == taken) return RUNG_EMPTY;
-  const uint64_t* words = ring_.data() + taken % depth_ * this->words();
+  const std::optional<size_t> slot = ring_.front();
+  if (!slot) return RUNG_EMPTY;
+  const uint64_t* words = kept_.data() + *slot * this->words();
   show(words, sample);
   for (size_t i = 0; i < cells.size(); ++i) values[i] = valueOfWord(words[kHeadWords + i]);
   sample.lost = lost_.load(std::memory_order_relaxed);
-  taken_.store(taken + 1, std::memory_order_release);
+  ring_.pop();
   return RUNG_OK;
 }
 

@@ -1,36 +1,15 @@
-// Keeps what another thread ends alive while the scan thread uses it. That thread first takes it away from where the
-// scan thread looks for it, and then waits until the scan thread is out. The scan thread enters before it looks. The
-// order of both is one for all threads, so one of the two sees the other.
+// Cells that other threads look at: what the scan thread leaves for them at the end of a pass, without waiting.
 #pragma once
 #include <array>
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include "rtlib/api/error.h"
-#include "rtlib/record/latest.h"
+#include "rtlib/core/handover.h"
 
 namespace rung::api {
-
-class ScanUse {
-public:
-  // Scan thread. An exchange and a fence where a store and a load would do: emulators of processors let a load overtake
-  // the store before it, which the processors themselves do not.
-  void enter() noexcept { inside_.exchange(true); }
-  void leave() noexcept { inside_.store(false); }
-  // The other one.
-  void wait() const noexcept {
-    std::atomic_thread_fence(std::memory_order_seq_cst);
-    while (inside_.load()) std::this_thread::yield();
-  }
-
-private:
-  std::atomic<bool> inside_{false};
-};
-
-// Cells that other threads look at: what the scan thread leaves for them at the end of a pass, without waiting.
 
 // What is known of a sample, beside its values.
 struct SampleHead {
@@ -60,7 +39,7 @@ private:
 
   std::mutex changes_;
   std::atomic<uint32_t> count_{0};
-  ScanUse sampling_;
+  core::ScanUse sampling_;
   std::array<std::atomic<rung_watch*>, RUNG_MOST_WATCHES> watches_{};
 };
 
@@ -88,11 +67,10 @@ private:
   size_t words() const noexcept { return kHeadWords + cells.size(); }
 
   std::vector<uint64_t> scratch_; // the scan thread's: head and values of this pass
-  rung::runtime::Latest newest_;
+  rung::core::Published newest_;
   // Samples that wait, of one writer and one reader.
   uint32_t depth_;
-  std::vector<uint64_t> ring_;
-  std::atomic<uint64_t> written_{0};
-  std::atomic<uint64_t> taken_{0};
+  std::vector<uint64_t> kept_;
+  rung::core::SlotRing ring_; // of `kept_`
   std::atomic<uint64_t> lost_{0};
 };

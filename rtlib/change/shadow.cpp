@@ -47,7 +47,7 @@ bool hasWholeRuns(const rung_program& program, std::span<const rung_step> steps)
 Shadow::Shadow(const rung_program& live, const Runnable& next, DescribePlace describe, uint32_t passes, uint32_t room)
     : live_(live), next_(next), transfer_(live, next.program), describe_(describe),
       lengthUs_(static_cast<int64_t>(scanPeriodUs(live)) * passes), problem_(compareSchedules()), records_(room),
-      runner_(next.program, next_.block.get(), ctx_, next_.parts.data(), next.engine) {
+      ring_(room), runner_(next.program, next_.block.get(), ctx_, next_.parts.data(), next.engine) {
   ctx_.host = &api_;
   ctx_.host_data = this;
   ctx_.prof = next_.counters();
@@ -178,9 +178,9 @@ void Shadow::begins(const Instance& live, uint32_t task) {
   if (recording_ != ShadowState::Running) return;
   if (&live.program() != &live_) return finish(ShadowState::Stopped);
   if (live.nowUs() > endUs_) return finish(ShadowState::Finished);
-  const uint64_t number = recorded_.load(std::memory_order_relaxed);
-  if (number - done_.load(std::memory_order_acquire) == records_.size()) return finish(ShadowState::TooSlow);
-  current_ = &records_[number % records_.size()];
+  const std::optional<size_t> slot = ring_.back();
+  if (!slot) return finish(ShadowState::TooSlow);
+  current_ = &records_[*slot];
   current_->task = task;
   current_->nowUs = live.nowUs();
   current_->requestCount = 0;
@@ -225,7 +225,7 @@ void Shadow::ended(const Instance& live, uint32_t) {
     if (current_->atOnce[i].state == RUNG_SERVICE_PENDING && openCount_ < open_.size()) open_[openCount_++] = ticket;
   }
   std::memcpy(current_->after.data(), live.block().data(), live_.memory_size);
-  recorded_.store(recorded_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  ring_.push();
 }
 
 // ---- the other ------------------------------------------------------------------------------------------------------
@@ -239,9 +239,9 @@ bool Shadow::work() {
     runner_.advance(start_.nowUs - runner_.nowUs());
     begun_ = true;
   }
-  const uint64_t done = done_.load(std::memory_order_relaxed);
-  if (done == recorded_.load(std::memory_order_acquire)) return false;
-  Record& record = records_[done % records_.size()];
+  const std::optional<size_t> slot = ring_.front();
+  if (!slot) return false;
+  Record& record = records_[*slot];
   takeChanges(record);
   holdForced(record, present_);
   runTask(record);
@@ -249,7 +249,7 @@ bool Shadow::work() {
   holdForced(record, former_);
   if (!runner_.faulted()) compare(record);
   ++runs_;
-  done_.store(done + 1, std::memory_order_release);
+  ring_.pop();
   return true;
 }
 
@@ -341,8 +341,7 @@ void Shadow::note(const std::string& name, bool service, const Record& record, c
 ShadowState Shadow::state() const {
   if (runner_.faulted()) return ShadowState::Faulted;
   const ShadowState state = recording_;
-  const bool waits = done_.load() != recorded_.load();
-  return state != ShadowState::Prepared && waits ? ShadowState::Running : state;
+  return state != ShadowState::Prepared && !ring_.empty() ? ShadowState::Running : state;
 }
 
 std::string Shadow::faultText() const { return runtime::faultText(*next_.program, runner_.fault()); }

@@ -161,8 +161,7 @@ private:
   // ---- both threads ----
   std::atomic<ShadowState> recording_{ShadowState::Prepared};
   std::vector<Record> records_;
-  std::atomic<uint64_t> recorded_{0};
-  std::atomic<uint64_t> done_{0};
+  core::SlotRing ring_;                                                 // of `records_`
   Record start_;                                                        // `before`: where it began; its answers: all
   std::array<core::ServiceRecord, core::ServiceQueue::kRecords> known_; // what the new program knows of tickets
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "rtlib/core/ring.h"
+#include "rtlib/core/handover.h"
 #include "rung/program.h"
 
 namespace rung::core {

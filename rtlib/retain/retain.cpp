@@ -7,6 +7,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <exception>
@@ -158,9 +159,8 @@ bool RetainStore::save(std::span<const uint8_t> bytes, const RetainLayout& layou
 // ---- saver -------------------------------------------------------------------------------------------------------
 
 RetainChannel::RetainChannel(RetainLayout layout, uint32_t rawSize, uint32_t imageSize, Pack pack)
-    : layout_(std::move(layout)), imageSize_(imageSize), pack_(std::move(pack)) {
-  for (Offer& offer : offers_) offer.raw.resize(rawSize);
-}
+    : layout_(std::move(layout)), imageSize_(imageSize), pack_(std::move(pack)),
+      offers_({.raw = std::vector<uint8_t>(rawSize)}) {}
 
 RetainChannel::RetainChannel(const RetainMap& map)
     : RetainChannel(map.layout(), map.rawSize(), map.size(),
@@ -170,7 +170,7 @@ void RetainChannel::enter(int64_t saver) noexcept {
   if (saver_ == saver) return;
   saver_ = saver;
   newest_ = 0;
-  for (Offer& offer : offers_) offer.ticket = 0;
+  for (Offer& offer : offers_.values()) offer.ticket = 0;
 }
 
 RetainSaver::RetainSaver(std::unique_ptr<RetainTarget> target, std::unique_ptr<RetainChannel> channel,
@@ -194,14 +194,13 @@ RetainSaver::~RetainSaver() {
 }
 
 std::string RetainSaver::problem() const {
-  std::array<char, PublishedText::kMost> text{};
+  std::array<char, core::PublishedText::kMost> text{};
   return {text.data(), problem(text)};
 }
 
 void RetainSaver::take(RetainChannel& channel) {
-  if ((channel.shared_.load(std::memory_order_acquire) & RetainChannel::kFresh) != 0)
-    channel.front_ = channel.shared_.exchange(channel.front_, std::memory_order_acq_rel) & ~RetainChannel::kFresh;
-  const RetainChannel::Offer& offer = channel.offers_[channel.front_];
+  channel.offers_.take();
+  const RetainChannel::Offer& offer = channel.offers_.front();
   if (offer.ticket <= pending_.ticket) return;
   if (pending_.layout.hash != channel.layout_.hash) pending_.layout = channel.layout_;
   pending_.bytes.assign(channel.imageSize_, 0);

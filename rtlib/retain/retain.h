@@ -2,7 +2,6 @@
 // layout and a checksum, and is replaced as a whole (write, fsync, rename), so a crash at any moment leaves a good
 // one. BASE.lock keeps a second process out.
 #pragma once
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -15,8 +14,8 @@
 #include <thread>
 #include <vector>
 
+#include "rtlib/core/handover.h"
 #include "rtlib/load/file.h"
-#include "rtlib/record/published_text.h"
 #include "rtlib/retain/retained_cells.h"
 #include "rtlib/run/instance.h"
 
@@ -78,7 +77,6 @@ private:
   // Forgets what was offered to another saver.
   void enter(int64_t saver) noexcept;
 
-  static constexpr uint32_t kFresh = 4; // of shared: the saver has not seen this one
   struct Offer {
     std::vector<uint8_t> raw;
     uint64_t ticket = 0; // 0: nothing was offered
@@ -87,13 +85,9 @@ private:
   RetainLayout layout_;
   uint32_t imageSize_;
   Pack pack_;
-  // One belongs to the scan thread, one to the saver, and the third is what they exchange.
-  std::array<Offer, 3> offers_;
+  core::Newest<Offer> offers_;
   uint64_t newest_ = 0; // ticket of the last offer; the scan thread's
-  uint32_t back_ = 0;   // so is this
-  uint32_t front_ = 1;  // the saver's
-  std::atomic<uint32_t> shared_{2};
-  int64_t saver_ = 0; // RetainSaver::begun_
+  int64_t saver_ = 0;   // RetainSaver::begun_
 };
 
 // Takes images from the scan thread and saves them on its own. `offer` copies and returns at once, whatever the saver
@@ -113,20 +107,17 @@ public:
   // they grow from 1.
   template <class Copy>
   uint64_t offerFrom(Copy copy) noexcept {
-    RetainChannel::Offer& offer = channel_->offers_[channel_->back_];
+    RetainChannel::Offer& offer = channel_->offers_.back();
     copy(std::span<uint8_t>(offer.raw));
     offer.ticket = channel_->newest_ = ++lastTicket_;
-    channel_->back_ = channel_->shared_.exchange(channel_->back_ | RetainChannel::kFresh, std::memory_order_acq_rel) &
-                      ~RetainChannel::kFresh;
+    channel_->offers_.publish();
     return lastTicket_;
   }
   uint64_t offer(const Instance& instance) noexcept {
     return offerFrom([&](std::span<uint8_t> to) { instance.copyRetained(to); });
   }
   // The saver has seen what was offered last: a copy is worth its time again.
-  bool taken() const noexcept {
-    return (channel_->shared_.load(std::memory_order_acquire) & RetainChannel::kFresh) == 0;
-  }
+  bool taken() const noexcept { return channel_->offers_.taken(); }
   // Another program has taken over: what is offered from now on goes through its channel. What was offered last, of
   // whichever program of before, is saved all the same, until there is something newer. `channel` gets the former
   // channel; it must not end before `settle` has returned.
@@ -189,7 +180,7 @@ private:
   std::atomic<uint64_t> saved_{0};
   std::atomic<uint64_t> failed_{0};
   std::atomic<bool> failing_{false};
-  PublishedText problem_;
+  core::PublishedText problem_;
   std::chrono::milliseconds period_;
   std::mutex mutex_;
   std::condition_variable wake_;

@@ -35,7 +35,7 @@ LAYERS = {
     **{f"frontend/dialects/{dialect}": ("frontend/syntax", "frontend/table", "frontend/sema", "frontend/lower", "frontend/ladder",
                                         "frontend/network", "frontend/network/lower", "frontend/dialects/dialect.h", "ir/support", "ir/core", "rtlib/abi", "rtlib/text",
                                         "rtlib/nc") for dialect in ("gsk", "nct", "technol")},
-    "machine/host": ("rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run", "rtlib/nc", "rtlib/nc/control"),
+    "machine/host": ("rtlib/abi", "rtlib/text", "rtlib/core/handover.h", "rtlib/load", "rtlib/run", "rtlib/nc", "rtlib/nc/control"),
     "machine/io": ("machine/host", "rtlib"),
     **{f"machine/{folder}": ("machine/host", "machine/io", "machine/control", "machine/compile", "machine/command-line", "rtlib/abi",
                              "rtlib/text", "rtlib/load", "rtlib/run/clock.h", "rtlib/run/realtime.h")

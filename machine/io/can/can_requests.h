@@ -9,7 +9,7 @@
 #include "machine/io/can/controller.h"
 #include "machine/io/device_call.h"
 #include "rtlib/change/relocation.h"
-#include "rtlib/core/ring.h"
+#include "rtlib/core/handover.h"
 #include "rtlib/nc/control/technol/cells.h"
 
 namespace rung::io {

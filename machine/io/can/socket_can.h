@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "machine/io/can/channel.h"
-#include "rtlib/core/ring.h"
+#include "rtlib/core/handover.h"
 
 struct can_frame; // NOLINT(readability-identifier-naming): of the kernel
 

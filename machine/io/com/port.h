@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "machine/io/device_call.h"
-#include "rtlib/core/ring.h"
+#include "rtlib/core/handover.h"
 
 namespace rung::io {
 

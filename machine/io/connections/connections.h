@@ -15,7 +15,7 @@
 
 #include "machine/host/mapping_file.h"
 #include "machine/host/pins.h"
-#include "machine/io/connections/triple_buffer.h"
+#include "rtlib/core/handover.h"
 
 namespace rung::io {
 
@@ -93,8 +93,8 @@ private:
   std::vector<ExchangedPin> inputs_, outputs_;
   std::optional<uint32_t> statusPin_;
   int64_t timeoutNs_;
-  TripleBuffer<Heard> heard_;
-  TripleBuffer<std::vector<double>> said_;
+  core::Newest<Heard> heard_;
+  core::Newest<std::vector<double>> said_;
   std::atomic<bool> alive_{false};
   std::atomic<uint64_t> losses_{0}, exchanges_{0};
 };

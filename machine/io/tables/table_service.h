@@ -11,7 +11,7 @@
 #include "machine/io/device_call.h"
 #include "machine/io/tables/table_files.h"
 #include "machine/io/tables/table_requests.h"
-#include "rtlib/core/ring.h"
+#include "rtlib/core/handover.h"
 
 namespace rung::io {
 

@@ -629,27 +629,4 @@ TEST_F(SaverTest, NothingThrownLeavesTheThread) {
   EXPECT_EQ(s.problem(), std::bad_alloc().what());
 }
 
-TEST(PublishedText, IsReadWholeOrNotAtAll) {
-  PublishedText text;
-  char buffer[PublishedText::kMost];
-  EXPECT_EQ(text.read(buffer), 0u);
-  std::atomic<bool> stop{false};
-  std::thread setter([&] {
-    for (unsigned i = 0; !stop.load(); ++i) {
-      text.set(std::string(10 + i % 400, static_cast<char>('a' + i % 26)));
-      std::this_thread::yield();
-    }
-  });
-  for (int found = 0; found < 500;) {
-    const size_t size = text.read(buffer);
-    if (size == 0) continue;
-    ++found;
-    EXPECT_EQ(std::string_view(buffer, size).find_first_not_of(buffer[0]), std::string_view::npos);
-  }
-  stop.store(true);
-  setter.join();
-  text.set(std::string(1000, 'x'));
-  EXPECT_EQ(text.read(buffer), PublishedText::kMost);
-}
-
 } // namespace

@@ -1,0 +1,384 @@
+// All ways in which one thread hands something to another, at least one of the two being the thread that scans: no side
+// locks, allocates (but in a constructor) or makes a system call, and the scan thread never waits. Which to take:
+//
+//   Ring, FixedRing  every element, in order                              one writer, one reader
+//   SlotRing         the same, of records that are used where they lie    one writer, one reader
+//   Newest           the newest value, whole, and whether it is new       one writer, one reader
+//   Published        the newest value, whole                              one writer, any readers
+//   PublishedText    the same of a text                                   one writer, any readers
+//   Slot             one command to the scan thread, and its result       one that asks at a time, the scan thread
+//   ScanUse          the end of an object that the scan thread may use    one that ends it, the scan thread
+//   GuardedMemory    memory of a host, whose writer counts its changes    the host, the scan thread
+//
+// Bounds: each call takes as long as copying its value. Published::read tries three times, GuardedMemory::copy as often
+// as its caller says. Slot::withdraw and ScanUse::wait, which are not for the scan thread, wait for the one command
+// that the scan thread executes, and for one use by it; there alone `yield` is called.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <thread>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace rung::core {
+
+// ---- every element -----------------------------------------------------------------------------------------------
+
+// A bounded queue. What does not fit is refused and counted. Indices run freely and wrap; the capacity is a power of
+// two.
+//
+// Either side may drop what the ring holds. The consumer pops it. The producer cannot, for the consumer may be reading
+// an element just then: it marks all elements so far as dropped, and the consumer passes over them the next time it
+// looks. Until then they keep their room.
+template <class T>
+class Ring {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+  // `storage` holds `capacity` elements, a power of two, and outlives the ring.
+  Ring(T* storage, uint32_t capacity) noexcept : storage_(storage), mask_(capacity - 1) {
+    assert(capacity != 0 && (capacity & mask_) == 0);
+  }
+  Ring(const Ring&) = delete;
+  Ring& operator=(const Ring&) = delete;
+
+  uint32_t capacity() const noexcept { return mask_ + 1; }
+
+  // Producer. False: full, the element is lost and counted.
+  bool push(const T& item) noexcept {
+    const uint32_t tail = tail_.load(std::memory_order_relaxed);
+    const uint32_t head = head_.load(std::memory_order_acquire);
+    if (!isAfter(dropped_.load(std::memory_order_relaxed), head)) dropped_.store(head, std::memory_order_relaxed);
+    if (tail - head > mask_) {
+      lost_.store(lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+      return false;
+    }
+    storage_[tail & mask_] = item;
+    tail_.store(tail + 1, std::memory_order_release);
+    return true;
+  }
+  // Drops all elements so far, and counts those that are refused from 0 again. What the consumer is reading at this
+  // moment it may still get.
+  void drop() noexcept {
+    dropped_.store(tail_.load(std::memory_order_relaxed), std::memory_order_release);
+    lost_.store(0, std::memory_order_relaxed);
+  }
+
+  // Consumer. The oldest element is number 0; null when there are not that many.
+  const T* peek(uint32_t number = 0) const noexcept {
+    const uint32_t first = oldest();
+    return tail_.load(std::memory_order_acquire) - first <= number ? nullptr : &storage_[(first + number) & mask_];
+  }
+  bool pop(T& item) noexcept {
+    uint32_t first = oldest();
+    const bool there = first != tail_.load(std::memory_order_acquire);
+    if (there) item = storage_[first++ & mask_];
+    if (first != head_.load(std::memory_order_relaxed)) head_.store(first, std::memory_order_release);
+    return there;
+  }
+
+  // Either thread; exact only for the consumer, and then a lower bound.
+  uint32_t size() const noexcept {
+    const uint32_t first = oldest();
+    return tail_.load(std::memory_order_acquire) - first;
+  }
+  // Elements refused since the last drop.
+  uint32_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
+
+private:
+  // Indices wrap: `a` is at most the capacity away from `b`, for the producer keeps `dropped_` near `head_`.
+  static bool isAfter(uint32_t a, uint32_t b) noexcept { return static_cast<int32_t>(a - b) > 0; }
+  uint32_t oldest() const noexcept {
+    const uint32_t dropped = dropped_.load(std::memory_order_acquire);
+    const uint32_t head = head_.load(std::memory_order_acquire);
+    return isAfter(dropped, head) ? dropped : head;
+  }
+
+  T* storage_;
+  uint32_t mask_;
+  alignas(64) std::atomic<uint32_t> head_{0}; // written by the consumer
+  alignas(64) std::atomic<uint32_t> tail_{0}; // written by the producer
+  std::atomic<uint32_t> dropped_{0};          // elements before it count no more; written by the producer
+  std::atomic<uint32_t> lost_{0};             // written by the producer
+};
+
+template <class T, uint32_t N>
+struct RingStorage {
+  T items[N];
+};
+
+// A ring with its own storage.
+template <class T, uint32_t N>
+class FixedRing : private RingStorage<T, N>, public Ring<T> {
+  static_assert(N > 0 && (N & (N - 1)) == 0, "the capacity must be a power of two");
+
+public:
+  FixedRing() noexcept : RingStorage<T, N>{}, Ring<T>(RingStorage<T, N>::items, N) {}
+};
+
+// The numbers of slots that their user keeps, filled and read in turn.
+class SlotRing {
+public:
+  explicit SlotRing(size_t slots) noexcept : slots_(slots) {}
+
+  // Producer: the slot to fill; none: all are full. It keeps this number until `push`.
+  std::optional<size_t> back() const noexcept {
+    const uint64_t pushed = pushed_.load(std::memory_order_relaxed);
+    if (pushed - popped_.load(std::memory_order_acquire) == slots_) return std::nullopt;
+    return pushed % slots_;
+  }
+  void push() noexcept { pushed_.store(pushed_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
+
+  // Consumer: the oldest slot that is full; none: all are empty. It keeps this number until `pop`.
+  std::optional<size_t> front() const noexcept {
+    const uint64_t popped = popped_.load(std::memory_order_relaxed);
+    if (pushed_.load(std::memory_order_acquire) == popped) return std::nullopt;
+    return popped % slots_;
+  }
+  void pop() noexcept { popped_.store(popped_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
+
+  // Any thread; exact for both sides.
+  bool empty() const noexcept { return popped_.load() == pushed_.load(); }
+
+private:
+  size_t slots_;
+  std::atomic<uint64_t> pushed_{0}, popped_{0};
+};
+
+// ---- the newest value --------------------------------------------------------------------------------------------
+
+// Values that the reader gets whole, the newest that is complete; what it does not fetch is replaced by the next one.
+// Three values: one belongs to the writer, one to the reader, and the third is what they exchange.
+template <class T>
+class Newest {
+public:
+  explicit Newest(const T& initial) : values_{initial, initial, initial} {}
+
+  // Writer: fills all of `back`, which has an older value, and publishes it.
+  T& back() noexcept { return values_[back_]; }
+  void publish() noexcept { back_ = middle_.exchange(back_ | kNew, std::memory_order_acq_rel) & kIndex; }
+
+  // Reader: true where `front` is a newer value than before.
+  bool take() noexcept {
+    if (taken()) return false;
+    front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;
+    return true;
+  }
+  const T& front() const noexcept { return values_[front_]; }
+
+  // Any thread: the reader has what was published last.
+  bool taken() const noexcept { return (middle_.load(std::memory_order_acquire) & kNew) == 0; }
+
+  // Before or after both threads.
+  std::array<T, 3>& values() noexcept { return values_; }
+
+private:
+  static constexpr uint8_t kIndex = 3, kNew = 4;
+
+  std::array<T, 3> values_;
+  std::atomic<uint8_t> middle_{2}; // an index, and whether it was published since it was last taken
+  uint8_t back_ = 0;               // of the writer
+  uint8_t front_ = 1;              // of the reader
+};
+
+enum class Looked : uint8_t { Found, Empty, Interrupted };
+
+// The newest value for any number of readers, as words. A reader that interrupts the writer, even for good, finds the
+// value before, whole; one that is itself interrupted while it reads tries again, a few times at most.
+class Published {
+public:
+  explicit Published(size_t words) : words_(words) {
+    for (Copy& copy : copies_) copy.words = std::vector<std::atomic<uint64_t>>(words);
+  }
+
+  // Writer.
+  void publish(std::span<const uint64_t> words) noexcept {
+    assert(words.size() == words_);
+    const uint64_t number = newest_.load(std::memory_order_relaxed) + 1;
+    Copy& copy = copies_[number % kCopies];
+    copy.holds.store(kNone, std::memory_order_relaxed);
+    std::atomic_thread_fence(std::memory_order_release);
+    for (size_t i = 0; i < words_; ++i) copy.words[i].store(words[i], std::memory_order_relaxed);
+    copy.holds.store(number, std::memory_order_release);
+    newest_.store(number, std::memory_order_release);
+  }
+
+  bool empty() const noexcept { return newest_.load(std::memory_order_acquire) == kNone; }
+
+  // Readers. `take` gets the number of each word and the word; what it has got means something where the result is
+  // Found.
+  template <class Take>
+  Looked read(Take take) const noexcept {
+    for (int tries = 0; tries < kTries; ++tries) {
+      const uint64_t number = newest_.load(std::memory_order_acquire);
+      if (number == kNone) return Looked::Empty;
+      const Copy& copy = copies_[number % kCopies];
+      if (copy.holds.load(std::memory_order_acquire) != number) continue;
+      for (size_t i = 0; i < words_; ++i) take(i, copy.words[i].load(std::memory_order_relaxed));
+      std::atomic_thread_fence(std::memory_order_acquire);
+      if (copy.holds.load(std::memory_order_relaxed) == number) return Looked::Found;
+    }
+    return Looked::Interrupted;
+  }
+
+private:
+  static constexpr uint64_t kNone = 0; // numbers are from 1
+  static constexpr uint32_t kCopies = 4;
+  static constexpr int kTries = 3;
+  struct Copy {
+    std::atomic<uint64_t> holds{kNone}; // the number of the value in it; none while it is written
+    std::vector<std::atomic<uint64_t>> words;
+  };
+  size_t words_;
+  std::array<Copy, kCopies> copies_;
+  std::atomic<uint64_t> newest_{kNone};
+};
+
+class PublishedText {
+public:
+  static constexpr size_t kMost = 512;
+
+  // Writer. What does not fit is cut off.
+  void set(std::string_view text) noexcept {
+    std::array<uint64_t, kWords> words{};
+    words[0] = std::min(text.size(), kMost);
+    std::memcpy(&words[1], text.data(), words[0]);
+    published_.publish(words);
+  }
+
+  // Readers. The number of characters that `to` now holds; 0 where none was set, or it was set again and again
+  // meanwhile.
+  size_t read(std::span<char> to) const noexcept {
+    std::array<uint64_t, kWords> words{};
+    if (published_.read([&](size_t i, uint64_t word) { words[i] = word; }) != Looked::Found) return 0;
+    const size_t size = std::min<size_t>(words[0], to.size());
+    std::memcpy(to.data(), &words[1], size);
+    return size;
+  }
+
+private:
+  static constexpr size_t kWords = 1 + kMost / sizeof(uint64_t);
+  Published published_{kWords};
+};
+
+// ---- commands and ends -------------------------------------------------------------------------------------------
+
+// A command to the scan thread, with room for its result. Threads that ask do so one after the other: post, look
+// whether it is done, withdraw it or use it, release.
+template <class Command>
+class Slot {
+public:
+  // A thread that asks.
+  void post(const Command& command) {
+    assert(state_.load(std::memory_order_relaxed) == kFree);
+    command_ = command;
+    state_.store(kPosted, std::memory_order_release);
+  }
+  bool isDone() const noexcept { return state_.load(std::memory_order_acquire) == kDone; }
+  // True: it is not done, and will not be. False: it is done after all.
+  bool withdraw() noexcept {
+    for (int expected = kPosted; !state_.compare_exchange_weak(expected, kFree, std::memory_order_acquire);
+         expected = kPosted) {
+      if (expected == kDone) return false;
+      std::this_thread::yield(); // taken: not for long
+    }
+    return true;
+  }
+  // Done or withdrawn: with its result, or that of the last try.
+  const Command& command() const noexcept { return command_; }
+  void release() noexcept { state_.store(kFree, std::memory_order_release); }
+
+  // The scan thread. `execute` gets the command; false: it is to be tried again.
+  template <class Execute>
+  void take(Execute execute) noexcept {
+    int expected = kPosted;
+    if (!state_.compare_exchange_strong(expected, kTaken, std::memory_order_acquire)) return;
+    state_.store(execute(command_) ? kDone : kPosted, std::memory_order_release);
+  }
+
+private:
+  static constexpr int kFree = 0, kPosted = 1, kTaken = 2, kDone = 3;
+  std::atomic<int> state_{kFree};
+  Command command_{};
+};
+
+// Keeps what another thread ends alive while the scan thread uses it. That thread first takes it away from where the
+// scan thread looks for it, and then waits until the scan thread is out. The scan thread enters before it looks. The
+// order of both is one for all threads, so one of the two sees the other.
+class ScanUse {
+public:
+  // The scan thread. An exchange and a fence where a store and a load would do: emulators of processors let a load
+  // overtake the store before it, which the processors themselves do not.
+  void enter() noexcept { inside_.exchange(true); }
+  void leave() noexcept { inside_.store(false); }
+  // The other one.
+  void wait() const noexcept {
+    std::atomic_thread_fence(std::memory_order_seq_cst);
+    while (inside_.load()) std::this_thread::yield();
+  }
+
+private:
+  std::atomic<bool> inside_{false};
+};
+
+// ---- memory of a host --------------------------------------------------------------------------------------------
+
+// Memory whose writer increases the counter `head` before each change and the counter `tail` after it. Both are aligned
+// and of 1, 2, 4 or 8 bytes.
+class GuardedMemory {
+public:
+  using Range = std::pair<uint32_t, uint32_t>; // offset, bytes
+
+  GuardedMemory(const uint8_t* address, uint32_t head, uint32_t tail, uint32_t counterBytes) noexcept
+      : address_(address), head_(address + head), tail_(address + tail), counterBytes_(counterBytes) {}
+
+  // Reader. The ranges, to the same offsets of `to`; false: changed during each of the tries, `to` is of no use.
+  bool copy(std::span<const Range> ranges, uint8_t* to, int tries) const noexcept {
+    while (tries-- > 0)
+      if (copyOnce(ranges, to)) return true;
+    return false;
+  }
+
+private:
+  // The writer counts `head` first and `tail` last; so the reader looks at them the other way round.
+  bool copyOnce(std::span<const Range> ranges, uint8_t* to) const noexcept {
+    const uint64_t tail = counter(tail_);
+    for (const auto& [offset, bytes] : ranges) copyShared(address_ + offset, to + offset, bytes);
+    __atomic_thread_fence(__ATOMIC_ACQUIRE);
+    return counter(head_) == tail;
+  }
+  uint64_t counter(const uint8_t* at) const noexcept {
+    switch (counterBytes_) {
+    case 1: return __atomic_load_n(at, __ATOMIC_ACQUIRE);
+    case 2: return __atomic_load_n(reinterpret_cast<const uint16_t*>(at), __ATOMIC_ACQUIRE);
+    case 4: return __atomic_load_n(reinterpret_cast<const uint32_t*>(at), __ATOMIC_ACQUIRE);
+    default: return __atomic_load_n(reinterpret_cast<const uint64_t*>(at), __ATOMIC_ACQUIRE);
+    }
+  }
+  // Each word is read once, whole.
+  static void copyShared(const uint8_t* from, uint8_t* to, uint32_t bytes) noexcept {
+    while (bytes != 0) {
+      if (bytes >= 8 && reinterpret_cast<uintptr_t>(from) % 8 == 0) {
+        const uint64_t word = __atomic_load_n(reinterpret_cast<const uint64_t*>(from), __ATOMIC_RELAXED);
+        std::memcpy(to, &word, sizeof word);
+        from += 8, to += 8, bytes -= 8;
+      } else {
+        *to++ = __atomic_load_n(from++, __ATOMIC_RELAXED);
+        --bytes;
+      }
+    }
+  }
+
+  const uint8_t *address_, *head_, *tail_;
+  uint32_t counterBytes_;
+};
+
+} // namespace rung::core

@@ -11,16 +11,16 @@ using nlohmann::json;
 
 namespace {
 
-runtime::VcdName describe(const std::string& program, const json& name) {
-  runtime::VcdName made{.name = name.value("name", ""), .scope = program};
+runtime::TracedName describe(const std::string& program, const json& name) {
+  runtime::TracedName made{.name = name.value("name", ""), .scope = program};
   const std::string type = name.value("type", "bit");
-  if (type == "real") made.kind = runtime::VcdKind::Real;
+  if (type == "real") made.kind = runtime::TracedKind::Real;
   if (type.starts_with('i')) made.width = text::numberIn<uint32_t>(std::string_view(type).substr(1)).value_or(1);
   return made;
 }
 
-runtime::VcdValue valueOf(const json& value) {
-  runtime::VcdValue made{.known = !value.is_null()};
+runtime::TracedValue valueOf(const json& value) {
+  runtime::TracedValue made{.known = !value.is_null()};
   if (value.is_boolean())
     made.integer = value.get<bool>() ? 1 : 0;
   else if (value.is_number_integer())
@@ -33,7 +33,7 @@ runtime::VcdValue valueOf(const json& value) {
 } // namespace
 
 Trace::Trace(std::ostream& out, const std::string& program, const json& names) : vcd_(out) {
-  std::vector<runtime::VcdName> described;
+  std::vector<runtime::TracedName> described;
   for (const json& name : names) described.push_back(describe(program, name));
   values_.resize(described.size());
   vcd_.begin(program, described);
@@ -42,10 +42,7 @@ Trace::Trace(std::ostream& out, const std::string& program, const json& names) :
 void Trace::add(const json& event) {
   const json& values = event.at("values");
   for (size_t i = 0; i < values_.size() && i < values.size(); ++i) values_[i] = valueOf(values[i]);
-  const uint64_t lost = event.value("lost", uint64_t{0});
-  if (lost != lost_) vcd_.comment(std::to_string(lost - lost_) + " scans are missing here");
-  lost_ = lost;
-  vcd_.sample(event.value("us", int64_t{0}), values_);
+  vcd_.sample(event.value("us", int64_t{0}), values_, event.value("lost", uint64_t{0}));
   ++passes_;
   lastPass_ = event.value("pass", uint64_t{0});
 }

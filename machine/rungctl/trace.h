@@ -22,8 +22,7 @@ public:
 
 private:
   runtime::VcdWriter vcd_;
-  std::vector<runtime::VcdValue> values_;
-  uint64_t lost_ = 0;
+  std::vector<runtime::TracedValue> values_;
   uint64_t passes_ = 0;
   uint64_t lastPass_ = 0;
 };

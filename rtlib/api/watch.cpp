@@ -175,12 +175,12 @@ using namespace rung::api;
 
 namespace {
 
-runtime::VcdName describe(rung_instance& instance, const Generation& program, rung_cell cell) {
+runtime::TracedName describe(rung_instance& instance, const Generation& program, rung_cell cell) {
   const LocatedCell& located = *program.cells.at(cell);
   const bool inMemory = located.state == CellState::Good && located.ref.kind != runtime::RefKind::Constant;
-  runtime::VcdName name{.name = instance.generations.names.nameOf(cell)};
+  runtime::TracedName name{.name = instance.generations.names.nameOf(cell)};
   name.scope = inMemory ? program.program().spaces[located.ref.space].name : "constants";
-  if (located.type == RUNG_TYPE_F64) name.kind = runtime::VcdKind::Real;
+  if (located.type == RUNG_TYPE_F64) name.kind = runtime::TracedKind::Real;
   name.width = inMemory ? located.ref.width : 64;
   return name;
 }
@@ -190,6 +190,7 @@ runtime::VcdName describe(rung_instance& instance, const Generation& program, ru
 struct rung_trace {
   rung_trace(rung_watch& of, const char* path) : watch(of), out(path, std::ios::binary), vcd(out) {
     const std::shared_ptr<const Generation> program = watch.instance.generations.running();
+    std::vector<runtime::TracedName> names;
     for (const rung_cell cell : watch.cells) names.push_back(describe(watch.instance, *program, cell));
     values.resize(names.size());
     shown.resize(names.size());
@@ -199,14 +200,9 @@ struct rung_trace {
   bool writeNext() {
     rung_sample sample{};
     if (watch.next(values.data(), sample) != RUNG_OK) return false;
-    if (sample.lost != lost) vcd.comment(std::to_string(sample.lost - lost) + " scans are missing here");
-    lost = sample.lost;
-    for (size_t i = 0; i < values.size(); ++i) {
-      shown[i].known = true;
-      shown[i].integer = static_cast<uint64_t>(values[i].integer);
-      shown[i].real = values[i].real;
-    }
-    vcd.sample(sample.now_us, shown);
+    for (size_t i = 0; i < values.size(); ++i)
+      shown[i] = {.known = true, .integer = static_cast<uint64_t>(values[i].integer), .real = values[i].real};
+    vcd.sample(sample.now_us, shown, sample.lost);
     return true;
   }
 
@@ -214,10 +210,8 @@ struct rung_trace {
   rung_watch& watch;
   std::ofstream out;
   runtime::VcdWriter vcd;
-  std::vector<runtime::VcdName> names;
   std::vector<rung_value> values;
-  std::vector<runtime::VcdValue> shown;
-  uint64_t lost = 0;
+  std::vector<runtime::TracedValue> shown;
 };
 
 namespace {

@@ -40,52 +40,54 @@ std::string real(double value) {
   return {text.data(), static_cast<size_t>(length)};
 }
 
-std::string unknown(const VcdName& name, const std::string& code) {
+std::string unknown(const TracedName& name, const std::string& code) {
   switch (name.kind) {
-  case VcdKind::Real: return "rnan " + code;
-  case VcdKind::Text: return "s_ " + code;
-  case VcdKind::Integer: break;
+  case TracedKind::Real: return "rnan " + code;
+  case TracedKind::Text: return "s_ " + code;
+  case TracedKind::Integer: break;
   }
   return (name.width == 1 ? "x" : "bx ") + code;
 }
 
-std::string change(const VcdName& name, const VcdValue& value, const std::string& code) {
+std::string change(const TracedName& name, const TracedValue& value, const std::string& code) {
   if (!value.known) return unknown(name, code);
   switch (name.kind) {
-  case VcdKind::Real: return 'r' + real(value.real) + ' ' + code;
-  case VcdKind::Text: return 's' + word(value.text) + ' ' + code;
-  case VcdKind::Integer: break;
+  case TracedKind::Real: return 'r' + real(value.real) + ' ' + code;
+  case TracedKind::Text: return 's' + word(value.text) + ' ' + code;
+  case TracedKind::Integer: break;
   }
   return name.width == 1 ? binary(value.integer, 1) + code : 'b' + binary(value.integer, name.width) + ' ' + code;
 }
 
 } // namespace
 
-void VcdWriter::begin(std::string_view program, std::span<const VcdName> names) {
+void VcdWriter::begin(std::string_view program, std::span<const TracedName> names) {
   names_.assign(names.begin(), names.end());
   last_.resize(names.size());
   out_ << "$version rungc $end\n$timescale 1 us $end\n$scope module " << word(program) << " $end\n";
   std::vector<std::string> scopes;
-  for (const VcdName& name : names)
+  for (const TracedName& name : names)
     if (std::ranges::find(scopes, name.scope) == scopes.end()) scopes.push_back(name.scope);
   for (const std::string& scope : scopes) writeScope(scope);
   out_ << "$upscope $end\n$enddefinitions $end\n";
 }
 
 void VcdWriter::writeScope(const std::string& scope) {
-  constexpr std::string_view kTypes[] = {"wire", "real", "string"}; // by VcdKind
+  constexpr std::string_view kTypes[] = {"wire", "real", "string"}; // by TracedKind
   out_ << "$scope module " << word(scope) << " $end\n";
   for (size_t i = 0; i < names_.size(); ++i) {
-    const VcdName& name = names_[i];
+    const TracedName& name = names_[i];
     if (name.scope != scope) continue;
-    const uint32_t width = name.kind == VcdKind::Real ? 64 : name.kind == VcdKind::Text ? 1 : name.width;
+    const uint32_t width = name.kind == TracedKind::Real ? 64 : name.kind == TracedKind::Text ? 1 : name.width;
     out_ << "$var " << kTypes[static_cast<size_t>(name.kind)] << ' ' << width << ' ' << codeOf(i) << ' '
          << word(name.name) << " $end\n";
   }
   out_ << "$upscope $end\n";
 }
 
-void VcdWriter::sample(int64_t us, std::span<const VcdValue> values) {
+void VcdWriter::sample(int64_t us, std::span<const TracedValue> values, uint64_t lost) {
+  if (lost != lost_) out_ << "$comment " << lost - lost_ << " scans are missing here $end\n";
+  lost_ = lost;
   const bool first = !time_;
   if (first) {
     stamp(us);
@@ -101,8 +103,6 @@ void VcdWriter::sample(int64_t us, std::span<const VcdValue> values) {
   if (first) out_ << "$end\n";
   end_ = us;
 }
-
-void VcdWriter::comment(std::string_view text) { out_ << "$comment " << text << " $end\n"; }
 
 void VcdWriter::end() {
   if (time_) stamp(end_);

@@ -10,16 +10,16 @@
 
 namespace rung::runtime {
 
-enum class VcdKind : uint8_t { Integer, Real, Text };
+enum class TracedKind : uint8_t { Integer, Real, Text };
 
-struct VcdName {
+struct TracedName {
   std::string name;
   std::string scope; // a group of names
-  VcdKind kind = VcdKind::Integer;
+  TracedKind kind = TracedKind::Integer;
   uint32_t width = 1; // of an integer, in bits
 };
 
-struct VcdValue {
+struct TracedValue {
   bool known = false;   // the name is there now
   uint64_t integer = 0; // its lowest bits
   double real = 0;
@@ -30,11 +30,9 @@ class VcdWriter {
 public:
   explicit VcdWriter(std::ostream& out) : out_(out) {}
   // Once, before the samples.
-  void begin(std::string_view program, std::span<const VcdName> names);
-  // The values of all names at a time that is not before the last one.
-  void sample(int64_t us, std::span<const VcdValue> values);
-  // A remark at the place of the next sample.
-  void comment(std::string_view text);
+  void begin(std::string_view program, std::span<const TracedName> names);
+  // The values of all names at a time that is not before the last one. `lost`: scans so far that have no sample.
+  void sample(int64_t us, std::span<const TracedValue> values, uint64_t lost = 0);
   // The last sample ends the picture, even if nothing has changed in it.
   void end();
 
@@ -43,10 +41,11 @@ private:
   void stamp(int64_t us);
 
   std::ostream& out_;
-  std::vector<VcdName> names_;
+  std::vector<TracedName> names_;
   std::vector<std::string> last_;
   std::optional<int64_t> time_;
   int64_t end_ = 0;
+  uint64_t lost_ = 0;
 };
 
 } // namespace rung::runtime

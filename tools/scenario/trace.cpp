@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "rtlib/record/vcd.h"
 #include "tools/report/cross_reference.h"
 #include "tools/report/place_names.h"
 #include "tools/scenario/names.h"
@@ -21,6 +20,24 @@ bool isQuantity(std::string_view name) { return name.starts_with("NC."); }
 // The area of the place; "NC" for what lies in no memory.
 const char* areaOf(const rung_program& program, const std::optional<runtime::Ref>& place) {
   return place && place->kind != runtime::RefKind::Constant ? program.spaces[place->space].name : "NC";
+}
+
+runtime::TracedKind kindOf(ValueKind kind) {
+  switch (kind) {
+  case ValueKind::Int: return runtime::TracedKind::Integer;
+  case ValueKind::Real: return runtime::TracedKind::Real;
+  case ValueKind::Text: break;
+  }
+  return runtime::TracedKind::Text;
+}
+
+// Bits and bytes without a sign, wider integers with one.
+runtime::TracedValue tracedOf(const Reading& value) {
+  const bool isSigned = value.kind == ValueKind::Int && value.width > 8;
+  return {.known = true,
+          .integer = isSigned ? static_cast<uint64_t>(signedOf(value)) : value.integer,
+          .real = value.real,
+          .text = value.text};
 }
 
 } // namespace
@@ -60,11 +77,11 @@ Result<std::unique_ptr<Trace>> Trace::open(const std::string& path, const std::v
                                            const runtime::Instance& instance, const sim::SimulatedNc& nc) {
   const rung_program& program = instance.program();
   std::vector<Source> sources;
-  std::vector<TracedName> traced;
+  std::vector<runtime::TracedName> traced;
   for (const std::string& name : names) {
     NamedValue source(name, instance, nc);
     const Reading reading = source.read(instance, nc).value_or(Reading{});
-    traced.push_back({name, areaOf(program, source.place()), reading.kind, reading.width});
+    traced.push_back({name, areaOf(program, source.place()), kindOf(reading.kind), reading.width});
     sources.push_back({std::move(source), reading.kind});
   }
   std::unique_ptr<Trace> trace(new Trace(path));
@@ -82,11 +99,12 @@ void Trace::replaced(const Session& session, const NextProgram&) {
 }
 
 void Trace::sample(const runtime::Instance& instance, const sim::SimulatedNc& nc, uint64_t scan) {
+  readings_.clear();
+  readings_.reserve(sources_.size()); // it stays where it is: texts of `values_` are in it
   values_.clear();
   for (const Source& source : sources_) {
-    std::optional<Reading> value = source.value.read(instance, nc);
-    if (value && value->kind != source.kind) value.reset();
-    values_.push_back(std::move(value));
+    const std::optional<Reading>& value = readings_.emplace_back(source.value.read(instance, nc));
+    values_.push_back(value && value->kind == source.kind ? tracedOf(*value) : runtime::TracedValue{});
   }
   writer_->sample(instance.nowUs(), scan, values_);
 }
@@ -103,75 +121,63 @@ namespace {
 
 // ---- VCD ---------------------------------------------------------------------------------------------------------
 
-static_assert(static_cast<int>(ValueKind::Int) == static_cast<int>(runtime::VcdKind::Integer) &&
-              static_cast<int>(ValueKind::Real) == static_cast<int>(runtime::VcdKind::Real) &&
-              static_cast<int>(ValueKind::Text) == static_cast<int>(runtime::VcdKind::Text));
-
 class VcdTrace final : public TraceWriter {
 public:
   explicit VcdTrace(std::ostream& out) : vcd_(out) {}
   ~VcdTrace() override { vcd_.end(); }
 
-  void begin(std::string_view program, std::span<const TracedName> names) override {
-    std::vector<runtime::VcdName> shown;
-    for (const TracedName& name : names)
-      shown.push_back({name.name, name.scope, static_cast<runtime::VcdKind>(name.kind), name.width});
-    vcd_.begin(program, shown);
+  void begin(std::string_view program, std::span<const runtime::TracedName> names) override {
+    vcd_.begin(program, names);
   }
-  void sample(int64_t us, uint64_t, std::span<const std::optional<Reading>> values) override {
-    shown_.clear();
-    for (const std::optional<Reading>& value : values)
-      shown_.push_back(value ? runtime::VcdValue{true, value->integer, value->real, value->text} : runtime::VcdValue{});
-    vcd_.sample(us, shown_);
-  }
+  void sample(int64_t us, uint64_t, std::span<const runtime::TracedValue> values) override { vcd_.sample(us, values); }
 
 private:
   runtime::VcdWriter vcd_;
-  std::vector<runtime::VcdValue> shown_;
 };
 
 // ---- CSV (RFC 4180) ----------------------------------------------------------------------------------------------
 
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+std::string field(std::string_view text) {
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
   std::string out = "\"";
   for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + '"';
 }
 
-// Bits and bytes without a sign, wider integers with one.
-std::string csvValue(const TracedName& name, const Reading& value) {
-  switch (name.kind) {
-  case ValueKind::Real: return fmt::format("{}", value.real);
-  case ValueKind::Text: return field(value.text);
-  case ValueKind::Int: break;
+std::string csvValue(runtime::TracedKind kind, const runtime::TracedValue& value) {
+  switch (kind) {
+  case runtime::TracedKind::Real: return fmt::format("{}", value.real);
+  case runtime::TracedKind::Text: return field(value.text);
+  case runtime::TracedKind::Integer: break;
   }
-  return name.width <= 8 ? fmt::format("{}", value.integer) : fmt::format("{}", signedOf(value));
+  return fmt::format("{}", static_cast<int64_t>(value.integer));
 }
 
 class CsvWriter final : public TraceWriter {
 public:
   explicit CsvWriter(std::ostream& out) : out_(out) {}
 
-  void begin(std::string_view, std::span<const TracedName> names) override {
-    names_.assign(names.begin(), names.end());
+  void begin(std::string_view, std::span<const runtime::TracedName> names) override {
     out_ << "time_s,scan";
-    for (const TracedName& name : names) out_ << ',' << field(name.name);
+    for (const runtime::TracedName& name : names) {
+      kinds_.push_back(name.kind);
+      out_ << ',' << field(name.name);
+    }
     out_ << '\n';
   }
 
-  void sample(int64_t us, uint64_t scan, std::span<const std::optional<Reading>> values) override {
+  void sample(int64_t us, uint64_t scan, std::span<const runtime::TracedValue> values) override {
     fmt::print(out_, "{:.6f},{}", static_cast<double>(us) / 1e6, scan);
     for (size_t i = 0; i < values.size(); ++i) {
       out_ << ',';
-      if (const std::optional<Reading>& value = values[i]) out_ << csvValue(names_[i], *value);
+      if (values[i].known) out_ << csvValue(kinds_[i], values[i]);
     }
     out_ << '\n';
   }
 
 private:
   std::ostream& out_;
-  std::vector<TracedName> names_;
+  std::vector<runtime::TracedKind> kinds_;
 };
 
 } // namespace

@@ -11,26 +11,20 @@
 
 #include "ir/analysis/uses.h"
 #include "ir/support/result.h"
+#include "rtlib/record/vcd.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/session.h"
 #include "tools/scenario/values.h"
 
 namespace rung::scenario {
 
-struct TracedName {
-  std::string name;
-  std::string scope; // the area of the program, or "NC"
-  ValueKind kind = ValueKind::Int;
-  uint32_t width = 1; // of an integer, in bits
-};
-
 class TraceWriter {
 public:
   virtual ~TraceWriter() = default;
   // Once, before the samples.
-  virtual void begin(std::string_view program, std::span<const TracedName> names) = 0;
-  // The values of all names at a time that is not before the last one; nothing for a name that is not there now.
-  virtual void sample(int64_t us, uint64_t scan, std::span<const std::optional<Reading>> values) = 0;
+  virtual void begin(std::string_view program, std::span<const runtime::TracedName> names) = 0;
+  // The values of all names at a time that is not before the last one; some of names that are not known now.
+  virtual void sample(int64_t us, uint64_t scan, std::span<const runtime::TracedValue> values) = 0;
 };
 
 // By the ending of the file's name, .vcd or .csv; null for another one.
@@ -77,7 +71,9 @@ private:
     ValueKind kind = ValueKind::Int; // as the file has it
   };
   std::vector<Source> sources_;
-  std::vector<std::optional<Reading>> values_; // of the last sample
+  // Of the last sample.
+  std::vector<std::optional<Reading>> readings_;
+  std::vector<runtime::TracedValue> values_;
 };
 
 } // namespace rung::scenario

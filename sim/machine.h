@@ -40,8 +40,8 @@ public:
   // A whole pass of the schedule, or its rest, after a fault its time alone; a slot; one run of the fast task by
   // itself; a slice.
   void scan();
-  void slot() { (void)rung_instance_slot(instance_.handle()); }
-  void fast() { (void)rung_instance_fast(instance_.handle()); }
+  void slot() { (void)instance_.slot(); }
+  void fast() { (void)instance_.fast(); }
   void slice() { (void)instance_.slice(); }
   // The operator or the machine does something between two scans.
   template <class Act>

@@ -43,7 +43,7 @@ void run(const char* program, const char* nextProgram) {
       plc.powerOn();
     }
     if (ms >= 1000 && !changed) { // a new program, while the axis moves
-      changed = rung::check(rung_instance_replace(plc.handle(), change.handle())) == RUNG_OK;
+      changed = rung::check(plc.replace(change)) == RUNG_OK;
       if (changed) std::printf("%d ms: the new program runs\n", ms);
     }
     axis.move();

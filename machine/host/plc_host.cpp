@@ -50,7 +50,7 @@ PlcHost::PlcHost(const Image& image, File map, const Options& options)
                                      .catch_up = options.catchUp},
       plc_(options.newInstance ? options.newInstance(image, options_) : Instance(image, &options_)),
       kept_(!options.retain.empty()), reset_(options.reset), pins_(map_.pins), clock_(*options.clock) {
-  if (kept_) check(rung_instance_keep(plc_.handle(), options.retain.c_str()));
+  if (kept_) plc_.keep(options.retain);
 }
 
 // No exception may go through the library, which is one of C.
@@ -163,9 +163,7 @@ void PlcHost::connect(const PinCell* cells, const PinAccess& access) noexcept {
 }
 
 std::string PlcHost::stopText(const rung_fault_info& fault) const {
-  rung_program_info program{};
-  program.size = sizeof program;
-  rung_instance_program(plc_.handle(), &program);
+  const rung_program_info program = plc_.program();
   const bool isOthers = program.faulted != 0;
   std::string text = isOthers ? "the program " + std::string(program.faulted_name) : "the program";
   text += " has stopped: " + std::string(fault.text) + "; output pins have their safe values until " + reset_;
@@ -200,10 +198,9 @@ void PlcHost::restart() {
 
 // When it begins to fail, why it fails for another reason, and when it is good again.
 void PlcHost::reportSaving() {
-  char text[512] = "";
-  if (rung_instance_unsaved(plc_.handle(), text, sizeof text) != RUNG_OK) text[0] = '\0';
-  if (unsaved_ == text) return;
-  unsaved_ = text;
+  const std::string problem = plc_.unsaved().value_or("");
+  if (unsaved_ == problem) return;
+  unsaved_ = problem;
   reports_.push_back(unsaved_.empty() ? "the retained memory is written again"
                                       : "the retained memory is not written: " + unsaved_);
 }
@@ -279,7 +276,7 @@ std::string PlcHost::close() {
 bool PlcHost::powerOffDone() noexcept {
   ending_ = true;
   if (restarting()) return false;
-  if (rung_instance_begin_power_off(plc_.handle()) == RUNG_LATER) return false;
+  if (plc_.beginPowerOff()) return false;
   ended_.store(true, std::memory_order_release);
   // What the control runs first may have faulted: `serve` reports that as any other fault.
   if (running() && (state().flags & RUNG_STATE_FAULTED) != 0) stop();
@@ -310,10 +307,9 @@ bool PlcHost::beginStep(int64_t ns, bool reset) noexcept {
   commands_.take([this](Command& command) { return execute(command); });
   const State state = state_.load(std::memory_order_acquire);
   if (state == State::Stopped && asked) state_.store(State::Restarting, std::memory_order_release);
-  if (state == State::Stopped) rung_instance_sample(plc_.handle());
+  if (state == State::Stopped) plc_.sample();
   if (state != State::Running) return false;
-  if (!map_.axisGroups.empty())
-    rung_instance_serving(plc_.handle(), live_.served.load(std::memory_order_acquire) ? 1 : 0);
+  if (!map_.axisGroups.empty()) plc_.serving(live_.served.load(std::memory_order_acquire));
   pins_.read();
   functions_->sample(pins_, ns);
   return true;

@@ -72,12 +72,12 @@ public:
   // How long the program may run in a step before that counts as a fault; 0: its budgets alone count.
   void setTimeLimit(int64_t ns) noexcept {
     constexpr int64_t kHour = 3'600'000'000'000; // more is none
-    rung_instance_limit(plc_.handle(), std::min(ns, kHour));
+    plc_.limit(std::min(ns, kHour));
   }
   // For the thread of the steps, between two of them: reads what a step reads of the program, as long as
   // CLOCK_MONOTONIC has not come to `untilNs`, so that the next one finds it in the processor's caches.
   void prefetch(int64_t untilNs) const noexcept {
-    if (running()) rung_instance_prefetch(plc_.handle(), untilNs);
+    if (running()) plc_.prefetch(untilNs);
   }
   // Whether a restart after a fault may begin, before a step: it waits while the host still moves something.
   void setRestartable(bool is) noexcept { restartable_ = is; }

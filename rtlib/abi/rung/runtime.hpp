@@ -1,5 +1,5 @@
 // rung/runtime.h for C++20: handles that end themselves, values by their C++ type, errors as exceptions. What is called
-// in a scan throws nothing and gives the status. What is not here is called through handle().
+// in a scan throws nothing and gives the status. Each function of rung/runtime.h is here; it says what they do.
 #ifndef RUNG_RUNTIME_HPP
 #define RUNG_RUNTIME_HPP
 
@@ -38,6 +38,18 @@ Struct sized() {
   return out;
 }
 
+// Of the library: major << 16 | minor.
+inline uint32_t runtimeVersion() noexcept { return rung_runtime_version(); }
+
+// All that `get` gives for the numbers from 0 on, until there is nothing more.
+template <class Struct, class Get>
+std::vector<Struct> each(Get get) {
+  std::vector<Struct> all;
+  auto one = sized<Struct>();
+  for (uint32_t i = 0; check(get(i, &one)) == RUNG_OK; ++i) all.push_back(one);
+  return all;
+}
+
 // What a name is for this access (enum rung_access, added up). Nothing: it cannot be found, and rung_error_text says
 // why.
 inline std::optional<rung_cell_info> cellInfo(rung_instance* instance, const std::string& name, int32_t access) {
@@ -65,7 +77,19 @@ public:
     check(rung_image_open_memory(file, name.c_str(), &image));
     return Image(image);
   }
+  // Over a program in memory, with what its chunks find in rung_ctx::engine; `release` is called with `owner` at its
+  // end.
+  static Image adopt(const rung_program& program, void* engine, void (*release)(void*) = nullptr,
+                     void* owner = nullptr) {
+    rung_image* image = nullptr;
+    check(rung_image_adopt(&program, engine, release, owner, &image));
+    return Image(image);
+  }
   rung_image* handle() const noexcept { return image_.get(); }
+  void serve(const rung_code_maker& maker) { check(rung_image_serve(handle(), &maker)); }
+  std::vector<rung_symbol_info> symbols() const {
+    return each<rung_symbol_info>([this](uint32_t i, auto* out) { return rung_image_symbol(handle(), i, out); });
+  }
   const rung_program& program() const noexcept { return *rung_image_program(image_.get()); }
 
 private:
@@ -90,6 +114,10 @@ inline std::string fileOf(const rung_image* image, size_t most = static_cast<siz
 enum class Access : int32_t { Read = RUNG_READ, Write = RUNG_WRITE };
 enum class Power : int32_t { Cold = RUNG_COLD, Warm = RUNG_WARM };
 
+class Replacement;
+class Shadow;
+class Forces;
+
 class Instance {
 public:
   explicit Instance(const Image& image, const rung_instance_options* options = nullptr) {
@@ -101,6 +129,13 @@ public:
   rung_instance* handle() const noexcept { return instance_.get(); }
 
   void keep(const std::string& path) { check(rung_instance_keep(handle(), path.c_str())); }
+  void flush() { check(rung_instance_flush(handle())); }
+  // Why the last try to write retained memory failed; nothing: it did not.
+  std::optional<std::string> unsaved() const {
+    char text[512];
+    return check(rung_instance_unsaved(handle(), text, sizeof text)) == RUNG_OK ? std::optional<std::string>(text)
+                                                                                : std::nullopt;
+  }
   // RUNG_FAULTED: what runs at a power-on has faulted.
   int32_t powerOn(Power power = Power::Warm) {
     return check(rung_instance_power_on(handle(), static_cast<int32_t>(power)));
@@ -113,6 +148,13 @@ public:
   int32_t runDueFast(int64_t elapsedNs) noexcept { return rung_instance_run_due_fast(handle(), elapsedNs); }
   int32_t slice() noexcept { return rung_instance_slice(handle()); }
   int32_t scan() noexcept { return rung_instance_scan(handle()); }
+  int32_t slot() noexcept { return rung_instance_slot(handle()); }
+  int32_t fast() noexcept { return rung_instance_fast(handle()); }
+  int32_t sample() noexcept { return rung_instance_sample(handle()); }
+  int32_t stop() noexcept { return rung_instance_stop(handle()); }
+  int32_t start() noexcept { return rung_instance_start(handle()); }
+  int32_t limit(int64_t ns) noexcept { return rung_instance_limit(handle(), ns); }
+  int32_t prefetch(int64_t untilNs) const noexcept { return rung_instance_prefetch(handle(), untilNs); }
 
   rung_state state() const {
     auto out = sized<rung_state>();
@@ -134,6 +176,7 @@ public:
     check(rung_instance_find(handle(), name.c_str(), static_cast<int32_t>(access), &cell));
     return cell;
   }
+  void release(rung_cell cell) { check(rung_instance_release(handle(), cell)); }
   rung_cell_info describe(rung_cell cell) const {
     auto out = sized<rung_cell_info>();
     check(rung_instance_cell(handle(), cell, &out));
@@ -157,6 +200,15 @@ public:
     else
       out.integer = static_cast<int64_t>(value);
     check(rung_instance_write(handle(), cell, element, 1, &out));
+  }
+  // The first elements of cells; a value for each, or RUNG_BAD_ARGUMENT.
+  int32_t readAll(std::span<const rung_cell> cells, std::span<rung_value> values) const noexcept {
+    rung_value* to = values.size() == cells.size() ? values.data() : nullptr;
+    return rung_instance_read_all(handle(), cells.data(), static_cast<uint32_t>(cells.size()), to);
+  }
+  int32_t writeAll(std::span<const rung_cell> cells, std::span<const rung_value> values) noexcept {
+    const rung_value* from = values.size() == cells.size() ? values.data() : nullptr;
+    return rung_instance_write_all(handle(), cells.data(), static_cast<uint32_t>(cells.size()), from);
   }
   std::string text(rung_cell cell) const {
     std::string out(4 * size_t{describe(cell).count} + 1, 0); // a byte of memory has at most four in UTF-8
@@ -187,9 +239,69 @@ public:
     bindBlock(name, block, RUNG_FROM_PROGRAM);
   }
 
+  // A struct of the host, which outlives the instance, with the layout that rungc bind has made.
+  template <class T>
+  void bindStruct(const rung_layout& layout, T& address) {
+    check(rung_instance_bind_struct(handle(), &layout, &address));
+  }
+  // Slices in a row without a whole copy of a struct that is bound; none: it has no counters.
+  std::optional<uint32_t> inconsistent(const void* address) const noexcept {
+    uint32_t slices = 0;
+    return rung_instance_inconsistent(handle(), address, &slices) == RUNG_OK ? std::optional(slices) : std::nullopt;
+  }
+
   std::optional<rung_message_info> nextMessage() {
     auto out = sized<rung_message_info>();
     return check(rung_instance_next_message(handle(), &out)) == RUNG_OK ? std::optional(out) : std::nullopt;
+  }
+  void defineMessage(uint32_t number, uint32_t flags, const std::string& text) {
+    check(rung_instance_define_message(handle(), number, flags, text.c_str()));
+  }
+  std::vector<rung_message_info> shown() const {
+    return each<rung_message_info>([this](uint32_t i, auto* out) { return rung_instance_shown(handle(), i, out); });
+  }
+
+  // Requests that wait (RUNG_QUEUE), and their answers.
+  std::optional<rung_request> nextRequest() {
+    auto out = sized<rung_request>();
+    return check(rung_instance_next_request(handle(), &out)) == RUNG_OK ? std::optional(out) : std::nullopt;
+  }
+  int32_t answer(const rung_reply& reply) noexcept { return rung_instance_answer(handle(), &reply); }
+
+  // Functions of a part program; channels are from 0.
+  int32_t beginFunction(uint32_t channel, rung_function_kind kind, uint32_t code, uint32_t& line) noexcept {
+    return rung_instance_begin_function(handle(), channel, kind, code, &line);
+  }
+  int32_t functionDone(uint32_t channel, uint32_t line) noexcept {
+    return rung_instance_function_done(handle(), channel, line);
+  }
+  int32_t abortFunctions(uint32_t channel) noexcept { return rung_instance_abort_functions(handle(), channel); }
+  bool carriesFunction(uint32_t channel, rung_function_kind kind, uint32_t code) const noexcept {
+    return rung_instance_carries_function(handle(), channel, kind, code) == RUNG_OK;
+  }
+  void groupFunction(uint32_t channel, uint32_t code, uint32_t group) {
+    check(rung_instance_group_function(handle(), channel, code, group));
+  }
+  void highSpeedFunctions(uint32_t channel) { check(rung_instance_high_speed_functions(handle(), channel)); }
+  int32_t serving(bool isServed) noexcept { return rung_instance_serving(handle(), isServed ? 1 : 0); }
+  void axisGroup(uint32_t axis, uint32_t group) { check(rung_instance_axis_group(handle(), axis, group)); }
+
+  // Another program takes over, runs beside this one, a set of forces is in effect; each until it ends, or its end is
+  // asked for.
+  int32_t replace(const Replacement& replacement) noexcept;
+  int32_t beginShadow(const Shadow& shadow) noexcept;
+  int32_t endShadow() noexcept { return rung_instance_shadow(handle(), nullptr); }
+  int32_t force(const Forces& forces) noexcept;
+  int32_t endForces() noexcept { return rung_instance_force(handle(), nullptr); }
+  // What is forced now.
+  std::vector<rung_force_info> forced() const {
+    return each<rung_force_info>([this](uint32_t i, auto* out) { return rung_instance_forced(handle(), i, out); });
+  }
+
+  // Of the index-th rung of the program's tables; nothing: there are not so many.
+  std::optional<rung_profile> profile(uint32_t index) const {
+    auto out = sized<rung_profile>();
+    return check(rung_instance_profile(handle(), index, &out)) == RUNG_OK ? std::optional(out) : std::nullopt;
   }
   std::optional<rung_profile> worstRung() const {
     auto out = sized<rung_profile>();
@@ -233,9 +345,10 @@ private:
 // Another program for an instance (rung_replacement_new); it ends before the instance does.
 class Replacement {
 public:
-  Replacement(Instance& instance, const Image& image) {
+  // `memory`: of the new program, for the life of the instance; empty: the library's.
+  Replacement(Instance& instance, const Image& image, std::span<uint8_t> memory = {}) {
     rung_replacement* replacement = nullptr;
-    check(rung_replacement_new(instance.handle(), image.handle(), nullptr, 0, &replacement));
+    check(rung_replacement_new(instance.handle(), image.handle(), memory.data(), memory.size(), &replacement));
     replacement_.reset(replacement);
   }
   rung_replacement* handle() const noexcept { return replacement_.get(); }
@@ -247,16 +360,10 @@ public:
   }
   void allowLate() { check(rung_replacement_allow_late(handle())); }
   std::vector<rung_change> changes() const {
-    std::vector<rung_change> all;
-    auto change = sized<rung_change>();
-    for (uint32_t i = 0; check(rung_replacement_change(handle(), i, &change)) == RUNG_OK; ++i) all.push_back(change);
-    return all;
+    return each<rung_change>([this](uint32_t i, auto* out) { return rung_replacement_change(handle(), i, out); });
   }
   std::vector<rung_rung_change> rungs() const {
-    std::vector<rung_rung_change> all;
-    auto change = sized<rung_rung_change>();
-    for (uint32_t i = 0; check(rung_replacement_rung(handle(), i, &change)) == RUNG_OK; ++i) all.push_back(change);
-    return all;
+    return each<rung_rung_change>([this](uint32_t i, auto* out) { return rung_replacement_rung(handle(), i, out); });
   }
 
 private:
@@ -281,31 +388,11 @@ public:
   }
   // Of the last report.
   std::vector<rung_difference> differences() const {
-    std::vector<rung_difference> all;
-    auto difference = sized<rung_difference>();
-    for (uint32_t i = 0; check(rung_shadow_difference(handle(), i, &difference)) == RUNG_OK; ++i)
-      all.push_back(difference);
-    return all;
+    return each<rung_difference>([this](uint32_t i, auto* out) { return rung_shadow_difference(handle(), i, out); });
   }
 
 private:
   std::unique_ptr<rung_shadow, Ends<rung_shadow, rung_shadow_free>> shadow_;
-};
-
-// The passes of a watch as a file for wave viewers (rung_trace_new); it ends before the watch does. Whoever wants to
-// know whether the file is whole ends it by rung_trace_free(release()).
-class Trace {
-public:
-  Trace(rung_watch* watch, const std::string& path) {
-    rung_trace* trace = nullptr;
-    check(rung_trace_new(watch, path.c_str(), &trace));
-    trace_.reset(trace);
-  }
-  rung_trace* handle() const noexcept { return trace_.get(); }
-  rung_trace* release() noexcept { return trace_.release(); }
-
-private:
-  std::unique_ptr<rung_trace, Ends<rung_trace, rung_trace_free>> trace_;
 };
 
 // A set of forced cells (rung_forces_new), for the program that runs or for that of a replacement. It ends before the
@@ -326,13 +413,13 @@ private:
   std::unique_ptr<rung_forces, Ends<rung_forces, rung_forces_free>> forces_;
 };
 
-// What is forced now (rung_instance_forced).
-inline std::vector<rung_force_info> forcedCells(const Instance& instance) {
-  std::vector<rung_force_info> all;
-  auto force = sized<rung_force_info>();
-  for (uint32_t i = 0; check(rung_instance_forced(instance.handle(), i, &force)) == RUNG_OK; ++i) all.push_back(force);
-  return all;
+inline int32_t Instance::replace(const Replacement& replacement) noexcept {
+  return rung_instance_replace(handle(), replacement.handle());
 }
+inline int32_t Instance::beginShadow(const Shadow& shadow) noexcept {
+  return rung_instance_shadow(handle(), shadow.handle());
+}
+inline int32_t Instance::force(const Forces& forces) noexcept { return rung_instance_force(handle(), forces.handle()); }
 
 // Cells that other threads look at (rung_watch_new); it ends before the instance does.
 class Watch {
@@ -362,6 +449,25 @@ private:
 
   size_t count_;
   std::unique_ptr<rung_watch, Ends<rung_watch, rung_watch_free>> watch_;
+};
+
+// The passes of a watch as a file for wave viewers (rung_trace_new); it ends before the watch does.
+class Trace {
+public:
+  Trace(Watch& watch, const std::string& path) {
+    rung_trace* trace = nullptr;
+    check(rung_trace_new(watch.handle(), path.c_str(), &trace));
+    trace_.reset(trace);
+  }
+  rung_trace* handle() const noexcept { return trace_.get(); }
+
+  // False: no pass waited.
+  bool write() { return check(rung_trace_write(handle())) == RUNG_OK; }
+  // Throws where the file is not whole, which the destructor does not say.
+  void end() { check(rung_trace_free(trace_.release())); }
+
+private:
+  std::unique_ptr<rung_trace, Ends<rung_trace, rung_trace_free>> trace_;
 };
 
 } // namespace rung

@@ -89,7 +89,7 @@ TEST(Compiler, AProgramIsChangedFromItsSource) {
   const Compilation second(text);
   const rung::Image next = second.image();
   const rung::Replacement change(plc, next);
-  ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
+  ASSERT_EQ(plc.replace(change), RUNG_OK);
   plc.scan();
   EXPECT_TRUE(plc.read<bool>(plc.find("Y0.1")));
 }
@@ -111,7 +111,7 @@ void expectForced(rung::Instance& plc) {
   const std::array<rung_forced_cell, 1> cells{{{"Y0.0", "test", {.integer = 1}}}};
   {
     const rung::Forces lit(plc, cells);
-    ASSERT_EQ(rung_instance_force(plc.handle(), lit.handle()), RUNG_OK) << rung_error_text();
+    ASSERT_EQ(plc.force(lit), RUNG_OK) << rung_error_text();
     plc.scan();
     EXPECT_TRUE(plc.read<bool>(lamp));
     plc.write(off, 1);

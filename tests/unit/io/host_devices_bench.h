@@ -51,7 +51,7 @@ public:
     const Image next = adopted(others_.emplace_back(program, scenarioProgram(program)).program());
     Replacement& replacement = replacements_.emplace_back(*plc, next);
     replacement.allowLate();
-    EXPECT_TRUE(soon([&] { return rung_instance_replace(plc->handle(), replacement.handle()) == RUNG_OK; }));
+    EXPECT_TRUE(soon([&] { return plc->replace(replacement) == RUNG_OK; }));
   }
   // A millisecond, and none of it is spent.
   void step() {

@@ -149,11 +149,11 @@ TEST_F(Blocks, GoOverToAnotherProgram) {
   plc_->scan();
   EXPECT_EQ(host_.y[0], 9);
   EXPECT_EQ(late[0], 9);
-  EXPECT_EQ(rung_instance_replace(plc_->handle(), change.handle()), RUNG_OK);
+  EXPECT_EQ(plc_->replace(change), RUNG_OK);
   plc_->scan();
   EXPECT_THAT(host_.y, testing::Each(0)) << "it has no such names";
   EXPECT_EQ(late[0], 0);
-  EXPECT_EQ(rung_instance_replace(plc_->handle(), change.handle()), RUNG_OK);
+  EXPECT_EQ(plc_->replace(change), RUNG_OK);
   plc_->scan();
   EXPECT_EQ(host_.y[0], 9);
   EXPECT_EQ(late[0], 9);

@@ -105,7 +105,7 @@ protected:
     return {name, owner, {.integer = value}};
   }
   rung::Forces forces(const std::vector<rung_forced_cell>& cells) { return rung::Forces(plc_, cells); }
-  int32_t put(const rung::Forces& forces) { return rung_instance_force(plc_.handle(), forces.handle()); }
+  int32_t put(const rung::Forces& forces) { return plc_.force(forces); }
   int64_t value(const char* name) { return plc_.read<int64_t>(plc_.find(name)); }
   int32_t failing(const std::vector<rung_forced_cell>& cells) {
     rung_forces* none = nullptr;
@@ -122,7 +122,7 @@ TEST_F(Forcing, AnInputAtItsLatch) {
   const rung_cell door = plc_.find("DOOR", rung::Access::Write);
   {
     const rung::Forces open = forces({cell("DOOR", 1, "me")});
-    EXPECT_TRUE(rung::forcedCells(plc_).empty()) << "prepared, not in effect";
+    EXPECT_TRUE(plc_.forced().empty()) << "prepared, not in effect";
     ASSERT_EQ(put(open), RUNG_OK);
     EXPECT_EQ(value("DOOR"), 1);
     EXPECT_EQ(value("LATCHED"), 1) << "before it is copied";
@@ -131,7 +131,7 @@ TEST_F(Forcing, AnInputAtItsLatch) {
     plc_.scan();
     EXPECT_EQ(value("SEEN"), 8);
     EXPECT_EQ(value("LATCHED"), 1) << "wherever it is copied to";
-    const std::vector<rung_force_info> all = rung::forcedCells(plc_);
+    const std::vector<rung_force_info> all = plc_.forced();
     ASSERT_EQ(all.size(), 1u);
     EXPECT_STREQ(all[0].name, "DOOR");
     EXPECT_STREQ(all[0].owner, "me");
@@ -139,7 +139,7 @@ TEST_F(Forcing, AnInputAtItsLatch) {
     EXPECT_EQ(all[0].value.integer, 1);
     EXPECT_EQ(all[0].since_us, 0);
   } // a set that is in effect ends with its handle
-  EXPECT_TRUE(rung::forcedCells(plc_).empty());
+  EXPECT_TRUE(plc_.forced().empty());
   plc_.write(door, 0);
   plc_.scan();
   EXPECT_EQ(value("SEEN"), 0);
@@ -154,13 +154,13 @@ TEST_F(Forcing, AnotherSetTakesItsPlaceAndTimesLast) {
   ASSERT_EQ(put(two), RUNG_OK);
   plc_.scan();
   EXPECT_EQ(value("SEEN"), 0x08);
-  const std::vector<rung_force_info> all = rung::forcedCells(plc_);
+  const std::vector<rung_force_info> all = plc_.forced();
   ASSERT_EQ(all.size(), 2u);
   EXPECT_STREQ(all[0].name, "DOOR");
   EXPECT_EQ(all[0].since_us, 0);
   EXPECT_EQ(all[1].since_us, 8000);
-  ASSERT_EQ(rung_instance_force(plc_.handle(), nullptr), RUNG_OK);
-  EXPECT_TRUE(rung::forcedCells(plc_).empty());
+  ASSERT_EQ(plc_.endForces(), RUNG_OK);
+  EXPECT_TRUE(plc_.forced().empty());
   ASSERT_EQ(put(one), RUNG_OK) << "a set serves as often as one likes";
 }
 
@@ -168,11 +168,11 @@ TEST_F(Forcing, TheValueIsThatOfTheCell) {
   const rung::Forces even = forces({cell("DOOR", 74)});
   ASSERT_EQ(put(even), RUNG_OK);
   EXPECT_EQ(value("DOOR"), 0);
-  EXPECT_EQ(rung::forcedCells(plc_)[0].value.integer, 0);
+  EXPECT_EQ(plc_.forced()[0].value.integer, 0);
   plc_.scan();
   const rung::Forces zero = forces({cell("DOOR", 0)});
   ASSERT_EQ(put(zero), RUNG_OK);
-  EXPECT_EQ(rung::forcedCells(plc_)[0].since_us, 0) << "it is forced to the same as before";
+  EXPECT_EQ(plc_.forced()[0].since_us, 0) << "it is forced to the same as before";
 }
 
 TEST_F(Forcing, WhatTheProgramWritesNeedsACompiler) {
@@ -203,23 +203,23 @@ TEST_F(Forcing, EndsAtAFault) {
   plc_.scan();
   ASSERT_EQ(put(lit), RUNG_OK);
   while (!plc_.fault()) plc_.scan();
-  EXPECT_TRUE(rung::forcedCells(plc_).empty());
+  EXPECT_TRUE(plc_.forced().empty());
   EXPECT_EQ(value("LAMP"), 0) << "safe outputs win";
   EXPECT_EQ(put(lit), RUNG_FAULTED);
-  EXPECT_TRUE(rung::forcedCells(plc_).empty());
+  EXPECT_TRUE(plc_.forced().empty());
 }
 
 TEST_F(Forcing, EndsAtAStopAndAPowerOn) {
   const rung::Forces open = forces({cell("DOOR", 1)});
   ASSERT_EQ(put(open), RUNG_OK);
-  ASSERT_EQ(rung_instance_stop(plc_.handle()), RUNG_OK);
-  EXPECT_TRUE(rung::forcedCells(plc_).empty());
+  ASSERT_EQ(plc_.stop(), RUNG_OK);
+  EXPECT_TRUE(plc_.forced().empty());
   EXPECT_EQ(put(open), RUNG_WRONG_STATE);
   EXPECT_THAT(rung_error_text(), HasSubstr("stopped"));
-  ASSERT_EQ(rung_instance_start(plc_.handle()), RUNG_OK);
+  ASSERT_EQ(plc_.start(), RUNG_OK);
   ASSERT_EQ(put(open), RUNG_OK);
   plc_.powerOn();
-  EXPECT_TRUE(rung::forcedCells(plc_).empty());
+  EXPECT_TRUE(plc_.forced().empty());
   plc_.scan();
   EXPECT_EQ(value("SEEN"), 0);
   plc_.powerOff();
@@ -236,8 +236,8 @@ TEST_F(Forcing, EndsWhenAnotherProgramTakesOver) {
   EXPECT_EQ(put(later), RUNG_WRONG_STATE) << "of a program that does not run yet";
   ASSERT_EQ(put(now), RUNG_OK);
   plc_.scan();
-  ASSERT_EQ(rung_instance_replace(plc_.handle(), change.handle()), RUNG_OK);
-  EXPECT_TRUE(rung::forcedCells(plc_).empty());
+  ASSERT_EQ(plc_.replace(change), RUNG_OK);
+  EXPECT_TRUE(plc_.forced().empty());
   EXPECT_EQ(put(now), RUNG_WRONG_STATE);
   ASSERT_EQ(put(later), RUNG_OK) << "kept, without a scan between";
   plc_.scan();
@@ -254,7 +254,7 @@ TEST_F(Forcing, SetsArePreparedBesideTheScan) {
       if (rung_forces* next = handedOver.exchange(nullptr); next != nullptr)
         put += rung_instance_force(plc_.handle(), next) == RUNG_OK ? 1 : 0;
       if (plc_.scan() == RUNG_FAULTED) plc_.powerOn(rung::Power::Cold);
-      held += rung::forcedCells(plc_).empty() ? 0 : 1;
+      held += plc_.forced().empty() ? 0 : 1;
     }
   });
   std::vector<rung::Forces> sets;
@@ -279,9 +279,9 @@ TEST_F(Forcing, BadArguments) {
   EXPECT_EQ(failing({cell("LIMIT", 1)}), RUNG_WRONG_TYPE);
   EXPECT_EQ(failing({cell("DOOR", 1), cell("PORT", 0)}), RUNG_BAD_ARGUMENT);
   EXPECT_THAT(rung_error_text(), HasSubstr("different values in one place: DOOR and PORT"));
-  const rung::Instance other(image_);
+  rung::Instance other(image_);
   const rung::Forces open = forces({cell("DOOR", 1), cell("PORT", 8)});
-  EXPECT_EQ(rung_instance_force(other.handle(), open.handle()), RUNG_WRONG_STATE) << "off";
+  EXPECT_EQ(other.force(open), RUNG_WRONG_STATE) << "off";
   rung_code_maker maker{.size = sizeof maker};
   EXPECT_EQ(rung_image_serve(image_.handle(), &maker), RUNG_BAD_ARGUMENT);
   serve();
@@ -298,7 +298,7 @@ TEST_F(Forcing, ACompilerThatNeedsTime) {
   EXPECT_EQ(failing({cell("COUNT", 9)}), RUNG_LATER);
   EXPECT_STREQ(rung_error_text(), "this compiler is at work");
   EXPECT_THROW(forces({cell("COUNT", 9)}), rung::Error);
-  EXPECT_TRUE(rung::forcedCells(plc_).empty());
+  EXPECT_TRUE(plc_.forced().empty());
   maker_.answer = RUNG_OK;
   const rung::Forces made = forces({cell("COUNT", 9)});
   ASSERT_EQ(put(made), RUNG_OK);

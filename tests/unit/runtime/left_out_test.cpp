@@ -147,7 +147,7 @@ TEST_F(BytesThatCopiesLeaveOut, AreThereForTheNextProgramAndWhoLooksAtThatAlone)
   const rung::Image other = adopted(next.link());
   const rung_cell seen1000 = plc.find("SEEN1000");
   rung::Replacement replacement(plc, other);
-  rung::check(rung_instance_replace(plc.handle(), replacement.handle()));
+  rung::check(plc.replace(replacement));
   scanWith(6);
   EXPECT_EQ(block[kSeen + 10], 6);
   EXPECT_EQ(plc.read<int>(seen1000), 6);

@@ -125,7 +125,7 @@ TEST_P(ReplacingInRealTime, NeitherAllocatesNorEntersTheKernel) {
   int calls = 0;
   const auto use = [&] {
     for (int i = 0; i < 3 && status == RUNG_OK; ++i) {
-      status = rung_instance_replace(plc.handle(), change.handle());
+      status = plc.replace(change);
       rung_instance_scan(plc.handle());
     }
   };
@@ -145,7 +145,7 @@ TEST_P(ReplacingInRealTime, BeforeThePowerOnToo) {
   rung::Instance plc(first);
   {
     rung::Replacement change(plc, second);
-    for (int i = 0; i < 2; ++i) EXPECT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(plc.replace(change), RUNG_OK);
   }
   EXPECT_EQ(plc.powerOn(), RUNG_OK);
   EXPECT_EQ(plc.scan(), RUNG_OK);

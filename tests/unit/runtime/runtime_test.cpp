@@ -106,14 +106,16 @@ TEST_F(Runtime, CallsFromC) {
   EXPECT_EQ(rung_instance_scan(reinterpret_cast<rung_instance*>(image_->handle())), RUNG_BAD_HANDLE);
 }
 
+constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+
 bool isOfTheInterface(std::string_view function) {
-  for (const std::string_view kind : {"rung_image_", "rung_instance_", "rung_replacement_", "rung_watch_"})
+  for (const std::string_view kind : {"rung_image_", "rung_instance_", "rung_replacement_", "rung_watch_",
+                                      "rung_trace_", "rung_shadow_", "rung_forces_"})
     if (function.starts_with(kind) && function.size() > kind.size()) return true;
   return function == "rung_error_text" || function == "rung_runtime_version";
 }
 
 std::set<std::string> functionsIn(const char* path) {
-  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
   std::ifstream file(path);
   const std::string text(std::istreambuf_iterator<char>(file), {});
   std::set<std::string> names;
@@ -131,6 +133,26 @@ TEST(RuntimeHeader, EveryFunctionIsCalledFromC) {
   const std::set<std::string> called = functionsIn(RUNG_TEST_FILE);
   EXPECT_GT(declared.size(), 40u);
   for (const std::string& name : declared) EXPECT_TRUE(called.contains(name)) << name;
+}
+
+// Functions and those that are given to others; comments aside.
+std::set<std::string> namesIn(const char* path) {
+  std::ifstream file(path);
+  std::set<std::string> names;
+  for (std::string line; std::getline(file, line);) {
+    line.resize(std::min(line.find("//"), line.size()));
+    for (size_t begin = line.find("rung_"); begin != std::string::npos;) {
+      const size_t end = std::min(line.find_first_not_of(kLetters, begin), line.size());
+      names.insert(line.substr(begin, end - begin));
+      begin = line.find("rung_", end);
+    }
+  }
+  return names;
+}
+
+TEST(RuntimeHeader, EveryFunctionIsReachedFromCpp) {
+  const std::set<std::string> reached = namesIn(RUNG_TEST_CPP_HEADER);
+  for (const std::string& name : functionsIn(RUNG_TEST_HEADER)) EXPECT_TRUE(reached.contains(name)) << name;
 }
 
 TEST_F(Runtime, RunsByTheClockOfItsHost) {
@@ -153,11 +175,11 @@ TEST_F(Runtime, RunsByTheClockOfItsHost) {
 TEST_F(Runtime, StopsAndStarts) {
   rung::Instance plc = started();
   const rung_cell count = plc.find("COUNT");
-  rung_instance_stop(plc.handle());
+  plc.stop();
   scan(plc, 3);
   EXPECT_EQ(plc.read<int>(count), 0);
   EXPECT_EQ(plc.state().flags & RUNG_STATE_STOPPED, uint32_t{RUNG_STATE_STOPPED});
-  rung_instance_start(plc.handle());
+  plc.start();
   scan(plc, 3);
   EXPECT_EQ(plc.read<int>(count), 3);
 }
@@ -333,7 +355,7 @@ TEST_F(Runtime, ABoundOutputStaysOneWhereItIsOverwritten) {
   plc.bindOutput("LATCHED_DOOR", latched);
   plc.powerOn();
   const rung::Replacement change(plc, *image_);
-  ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
+  ASSERT_EQ(plc.replace(change), RUNG_OK);
   plc.write(plc.find("DOOR", rung::Access::Write), true);
   scan(plc);
   EXPECT_TRUE(latched);
@@ -524,10 +546,10 @@ TEST_F(Runtime, AnotherProgramTakesOver) {
   EXPECT_THAT(changed, ElementsAre("SPEED", "WORDS"));
   const rung_cell later = plc.find("STATE"); // found while the change is prepared
   plc.slice();
-  EXPECT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_LATER);
+  EXPECT_EQ(plc.replace(change), RUNG_LATER);
   EXPECT_STREQ(rung_error_text(), "the program is within a scan");
   scan(plc);
-  ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
+  ASSERT_EQ(plc.replace(change), RUNG_OK);
   EXPECT_EQ(plc.state().generation, 1u);
   EXPECT_EQ(plc.describe(words).byte, 10u);
   EXPECT_EQ(plc.read<int>(words), 77);
@@ -535,7 +557,7 @@ TEST_F(Runtime, AnotherProgramTakesOver) {
   EXPECT_EQ(statusOf([&] { plc.read<double>(speed); }), RUNG_NOT_FOUND) << "the new program does not have it";
   scan(plc);
   EXPECT_EQ(passes, 6);
-  ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK) << "back again";
+  ASSERT_EQ(plc.replace(change), RUNG_OK) << "back again";
   EXPECT_EQ(plc.describe(words).byte, 8u);
   EXPECT_EQ(plc.read<double>(speed), 0);
 }
@@ -552,15 +574,15 @@ TEST_F(Runtime, AProgramThatMayBeLateIsRefused) {
   EXPECT_EQ(change.report().steps, 1'000'000'000u);
   EXPECT_EQ(change.report().period_ns, 4'000'000u);
   EXPECT_GT(change.report().slice_ns, change.report().period_ns);
-  EXPECT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_REFUSED);
+  EXPECT_EQ(plc.replace(change), RUNG_REFUSED);
   EXPECT_THAT(rung_error_text(), HasSubstr("1000000000 steps of "));
   EXPECT_THAT(rung_error_text(), HasSubstr("the period is 4 ms"));
   change.allowLate();
-  ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
-  ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK) << "back again";
+  ASSERT_EQ(plc.replace(change), RUNG_OK);
+  ASSERT_EQ(plc.replace(change), RUNG_OK) << "back again";
   rung::Replacement there(plc, image);
   there.allowLate();
-  ASSERT_EQ(rung_instance_replace(plc.handle(), there.handle()), RUNG_OK);
+  ASSERT_EQ(plc.replace(there), RUNG_OK);
 }
 
 uint32_t workOtherwise(uint8_t* mem, rung_ctx* ctx, uint32_t chunk) {
@@ -580,8 +602,8 @@ TEST_F(Runtime, AProgramRunsBesideTheOneThatRuns) {
   EXPECT_FALSE(shadow.work());
   EXPECT_EQ(shadow.report().state, RUNG_SHADOW_PREPARED);
   scan(plc, 2);
-  ASSERT_EQ(rung_instance_shadow(plc.handle(), shadow.handle()), RUNG_OK);
-  EXPECT_EQ(rung_instance_shadow(plc.handle(), shadow.handle()), RUNG_WRONG_STATE) << "it has one";
+  ASSERT_EQ(plc.beginShadow(shadow), RUNG_OK);
+  EXPECT_EQ(plc.beginShadow(shadow), RUNG_WRONG_STATE) << "it has one";
   plc.write(plc.find("ASKS", rung::Access::Write), 1);
   for (int i = 0; i < 8; ++i) {
     scan(plc);
@@ -602,9 +624,9 @@ TEST_F(Runtime, AProgramRunsBesideTheOneThatRuns) {
   EXPECT_EQ(differences[0].runs, 4u);
   EXPECT_EQ(differences[0].first_us, 7 * 8000);
   EXPECT_EQ(plc.read<int>(plc.find("LAMP")), 1);
-  ASSERT_EQ(rung_instance_shadow(plc.handle(), nullptr), RUNG_OK);
+  ASSERT_EQ(plc.endShadow(), RUNG_OK);
   EXPECT_EQ(shadow.report().state, RUNG_SHADOW_STOPPED);
-  EXPECT_EQ(rung_instance_shadow(plc.handle(), shadow.handle()), RUNG_WRONG_STATE) << "once";
+  EXPECT_EQ(plc.beginShadow(shadow), RUNG_WRONG_STATE) << "once";
 }
 
 TEST_F(Runtime, AShadowFitsItsInstance) {
@@ -625,11 +647,11 @@ TEST_F(Runtime, AShadowFitsItsInstance) {
   EXPECT_EQ(statusOf([&] { rung::Shadow(plc, *image_, 0); }), RUNG_BAD_ARGUMENT);
   EXPECT_EQ(statusOf([&] { rung::Shadow(plc, *image_, 1, 5000); }), RUNG_BAD_ARGUMENT);
   const rung::Shadow shadow(plc, *image_, 1);
-  EXPECT_EQ(rung_instance_shadow(other.handle(), shadow.handle()), RUNG_BAD_ARGUMENT);
+  EXPECT_EQ(other.beginShadow(shadow), RUNG_BAD_ARGUMENT);
   plc.slice();
-  EXPECT_EQ(rung_instance_shadow(plc.handle(), shadow.handle()), RUNG_LATER);
+  EXPECT_EQ(plc.beginShadow(shadow), RUNG_LATER);
   plc.slice();
-  EXPECT_EQ(rung_instance_shadow(plc.handle(), shadow.handle()), RUNG_OK);
+  EXPECT_EQ(plc.beginShadow(shadow), RUNG_OK);
   plc.powerOn();
   rung_shadow_info report{.size = sizeof report};
   ASSERT_EQ(rung_shadow_report(shadow.handle(), &report), RUNG_OK);
@@ -652,7 +674,7 @@ TEST_F(Runtime, RetainedMemoryOfANewProgram) {
     plc.write(plc.find("WORDS", rung::Access::Write), 5);
     rung::Replacement change(plc, image);
     scan(plc);
-    ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
+    ASSERT_EQ(plc.replace(change), RUNG_OK);
     plc.write(plc.find("WORDS", rung::Access::Write), 6);
     plc.setText(plc.find("NOTE", rung::Access::Write), "ab");
     scan(plc);
@@ -677,10 +699,10 @@ TEST_F(Runtime, AReplacementFitsItsInstance) {
   const rung::Image image = adopted(next);
   const rung::Image foreignImage = adopted(foreign);
   rung::Replacement change(plc, image), second(plc, image);
-  EXPECT_EQ(rung_instance_replace(other.handle(), change.handle()), RUNG_BAD_ARGUMENT);
+  EXPECT_EQ(other.replace(change), RUNG_BAD_ARGUMENT);
   EXPECT_EQ(statusOf([&] { rung::Replacement(plc, foreignImage); }), RUNG_REFUSED);
-  ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
-  EXPECT_EQ(rung_instance_replace(plc.handle(), second.handle()), RUNG_WRONG_STATE) << "made for the former program";
+  ASSERT_EQ(plc.replace(change), RUNG_OK);
+  EXPECT_EQ(plc.replace(second), RUNG_WRONG_STATE) << "made for the former program";
 }
 
 TEST_F(Runtime, ImagesStayAsLongAsTheyAreUsed) {
@@ -793,13 +815,13 @@ TEST_F(Runtime, APassIsALineOfATrace) {
   rung::Instance plc = started();
   const rung_cell cells[] = {plc.find("COUNT"), plc.find("SPEED", rung::Access::Write), plc.find("LATCHED_DOOR")};
   rung::Watch watch(plc, cells, 2);
-  rung::Trace trace(watch.handle(), path);
-  EXPECT_EQ(rung_trace_write(trace.handle()), RUNG_EMPTY);
+  rung::Trace trace(watch, path);
+  EXPECT_FALSE(trace.write());
   scan(plc, 2);
-  EXPECT_EQ(rung_trace_write(trace.handle()), RUNG_OK);
+  EXPECT_TRUE(trace.write());
   plc.write(cells[1], 0.5);
   scan(plc, 3); // of which one has no room
-  EXPECT_EQ(rung_trace_free(trace.release()), RUNG_OK);
+  trace.end();
   std::ifstream file(path);
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), R"($version rungc $end
 $timescale 1 us $end
@@ -934,7 +956,7 @@ TEST_F(Runtime, AfterAFaultTheFormerProgramIsPutBack) {
     scan(plc, 3);
     std::optional<rung::Replacement> change;
     change.emplace(plc, image);
-    ASSERT_EQ(rung_instance_replace(plc.handle(), change->handle()), RUNG_OK);
+    ASSERT_EQ(plc.replace(*change), RUNG_OK);
     if (confirmed) change.reset();
     scan(plc, 6);
     EXPECT_EQ(count, 9);
@@ -957,7 +979,7 @@ TEST_F(Runtime, WhatWasPutBackByHandIsNotReplacedByAFault) {
   const rung::Image image = adopted(next);
   rung::Instance plc = started();
   const rung::Replacement change(plc, image);
-  for (int i = 0; i < 2; ++i) ASSERT_EQ(rung_instance_replace(plc.handle(), change.handle()), RUNG_OK);
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(plc.replace(change), RUNG_OK);
   scan(plc, 200);
   EXPECT_TRUE(plc.fault());
   EXPECT_EQ(plc.state().generation, 2u);

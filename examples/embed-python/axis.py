@@ -3,7 +3,7 @@
 import sys
 from ctypes import c_bool, c_int32, c_uint8
 
-import rung  # needs rtlib/python in PYTHONPATH, and the library where rung.py looks for it
+import rung  # where it is not installed: with lib/python of a build in PYTHONPATH
 
 
 class Axis:

@@ -29,9 +29,10 @@ import threading
 import weakref
 from collections import namedtuple
 from collections.abc import Iterable
-from ctypes import (CFUNCTYPE, POINTER, byref, c_char, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32,
-                    c_uint64, c_void_p)
+from ctypes import POINTER, byref, c_double, c_int32, c_int64, c_size_t, c_uint32, c_uint64, c_void_p
 from keyword import iskeyword
+
+import _rung_abi as _abi
 
 __all__ = ["Access", "Answer", "Cell", "CellInfo", "Change", "ChangeKind", "Difference", "Direction", "Error", "Fault",
            "Force", "Forces", "FunctionKind", "Image", "Instance", "LogLevel", "Message", "MessageOp", "Power",
@@ -40,153 +41,43 @@ __all__ = ["Access", "Answer", "Cell", "CellInfo", "Change", "ChangeKind", "Diff
            "Watch", "version", "COLD", "WARM", "READ", "WRITE", "REAL", "TO_PROGRAM", "FROM_PROGRAM", "BOUND_REAL", "M",
            "S", "T", "B", "H", "KEY", "QUEUE"]
 
-_MAJOR, _MINOR = 0, 1  # of the header that this module was written for
-_NONE = 0xFFFFFFFF  # RUNG_NONE
-_MOST_ARGS = 16  # RUNG_MAX_SERVICE_ARGS
+_NONE = _abi.RUNG_NONE
+_MOST_ARGS = _abi.RUNG_MAX_SERVICE_ARGS
 
 
 # ---- enums of C ------------------------------------------------------------------------------------------------------
 
-class Status(enum.IntEnum):
-    """What a call gave: of Error.status those below 0."""
-    OK = 0
-    EMPTY = 1
-    LATER = 2
-    FAULTED = 3
-    BAD_HANDLE = -1
-    BAD_ARGUMENT = -2
-    WRONG_THREAD = -3
-    WRONG_STATE = -4
-    NOT_FOUND = -5
-    WRONG_TYPE = -6
-    OVERWRITTEN = -7
-    REFUSED = -8
-    OUT_OF_MEMORY = -9
-    FAILED = -10
+def _enum(name, of, prefix, doc, kind=enum.IntEnum):
+    """An enum of C, whose names lose their prefix."""
+    members = {member.removeprefix(prefix): value for member, value in _abi.ENUMS[of].items()}
+    made = kind(name, members, module=__name__)
+    made.__doc__ = doc
+    return made
 
 
-class Power(enum.IntEnum):
-    """COLD: memory as a new machine has it; WARM: retained memory keeps its contents."""
-    COLD = 0
-    WARM = 1
-
-
-class Access(enum.IntEnum):
-    """What a cell is found for. WRITE includes reading, of the place that is written; REAL is added to one of them for
-    the real of 64 bits that begins there."""
-    READ = 0
-    WRITE = 1
-    REAL = 2
-
-
-class Direction(enum.IntEnum):
-    """When a bound variable is copied: before or after every slice. BOUND_REAL is added for the real that REAL would find."""
-    TO_PROGRAM = 0
-    FROM_PROGRAM = 1
-    BOUND_REAL = 2
-
-
-class FunctionKind(enum.IntEnum):
-    """Functions of a part program; KEY: one of the panel or the screen, which is pressed and released."""
-    M = 0
-    S = 1
-    T = 2
-    B = 3
-    H = 4
-    KEY = 5
-
-
-class LogLevel(enum.IntEnum):
-    """The first argument of a `log` callback."""
-    INFO = 0
-    WARNING = 1
-    ERROR = 2
-
-
-class StateFlags(enum.IntFlag):
-    """Of State.flags; AT_START: between two passes, UNSAVED: the last try to write retained memory has failed."""
-    ON = 1
-    STOPPED = 2
-    FAULTED = 4
-    AT_START = 8
-    UNSAVED = 16
-
-
-class Type(enum.IntEnum):
-    """Of cells and symbols."""
-    BIT = 1
-    I8 = 2
-    I16 = 3
-    I32 = 4
-    I64 = 5
-    F64 = 6
-    TEXT = 7
-
-
-_BITS = {Type.BIT: 1, Type.I8: 8, Type.I16: 16, Type.I32: 32}  # of the narrower ones
-
-
-class SymbolFlags(enum.IntFlag):
-    """Of Symbol.flags."""
-    READONLY = 1
-    HIDDEN = 2
-    CONST = 4
-    AREA = 8
-
-
-class MessageOp(enum.IntEnum):
-    """What the program does with a message."""
-    CLEAR = 0
-    SHOW = 1
-    SHOW_LOG = 2
-    LOG = 3
-
-
-class ChangeKind(enum.IntEnum):
-    """What becomes of a cell or a state when another program takes over."""
-    NEW = 0
-    REMOVED = 1
-    MOVED = 2
-    RENAMED = 3
-    RETYPED = 4
-    RELEASED = 5
-    CUT = 6
-
-
-class RungChangeKind(enum.IntEnum):
-    """What becomes of a rung when another program takes over."""
-    NEW = 0
-    REMOVED = 1
-    CHANGED = 2
-    MOVED = 3
-
-
-class ShadowState(enum.IntEnum):
-    """Of a Shadow."""
-    PREPARED = 0
-    RUNNING = 1
-    FINISHED = 2
-    TOO_SLOW = 3
-    STOPPED = 4
-    FAULTED = 5
-
-
-class _Answering(enum.IntEnum):
-    REFUSE = 0
-    ANSWER = 1
-    QUEUE = 2
-
-
-class _MessageFlags(enum.IntFlag):
-    LASTS = 1
-    LOGGED_ONLY = 2
-
-
-class _InstanceFlags(enum.IntFlag):
-    MEASURE = 1
-    QUEUE_REQUESTS = 2
-    SAVE_AT_ONCE = 4
-
+Status = _enum("Status", "rung_status", "RUNG_", "What a call gave: of Error.status those below 0.")
+Power = _enum("Power", "rung_power", "RUNG_",
+              "COLD: memory as a new machine has it; WARM: retained memory keeps its contents.")
+Access = _enum("Access", "rung_access", "RUNG_", "What a cell is found for. WRITE includes reading, of the place that is "
+               "written; REAL is added to one of them for the real of 64 bits that begins there.")
+Direction = _enum("Direction", "rung_direction", "RUNG_", "When a bound variable is copied: before or after every slice. "
+                  "BOUND_REAL is added for the real that REAL would find.")
+FunctionKind = _enum("FunctionKind", "rung_function_kind", "RUNG_FUNCTION_", "Functions of a part program; KEY: one of the "
+                     "panel or the screen, which is pressed and released.")
+LogLevel = _enum("LogLevel", "rung_log_level", "RUNG_LOG_", "The first argument of a `log` callback.")
+StateFlags = _enum("StateFlags", "rung_state_flags", "RUNG_STATE_", "Of State.flags; AT_START: between two passes, UNSAVED: "
+                   "the last try to write retained memory has failed.", enum.IntFlag)
+Type = _enum("Type", "rung_type", "RUNG_TYPE_", "Of cells and symbols.")
+SymbolFlags = _enum("SymbolFlags", "rung_symbol_flags", "RUNG_SYMBOL_", "Of Symbol.flags.", enum.IntFlag)
+MessageOp = _enum("MessageOp", "rung_message_op", "RUNG_MESSAGE_", "What the program does with a message.")
+ChangeKind = _enum("ChangeKind", "rung_change_kind", "RUNG_CHANGE_",
+                   "What becomes of a cell or a state when another program takes over.")
+RungChangeKind = _enum("RungChangeKind", "rung_rung_change_kind", "RUNG_RUNG_",
+                       "What becomes of a rung when another program takes over.")
+ShadowState = _enum("ShadowState", "rung_shadow_state", "RUNG_SHADOW_", "Of a Shadow.")
+_Answering = _enum("_Answering", "rung_answer", "RUNG_", "Of a `request` callback.")
+_MessageFlags = _enum("_MessageFlags", "rung_message_flags", "RUNG_MESSAGE_", "Of Instance.define_message.", enum.IntFlag)
+_InstanceFlags = _enum("_InstanceFlags", "rung_instance_flags", "RUNG_", "Of an Instance.", enum.IntFlag)
 
 COLD, WARM = Power
 READ, WRITE, REAL = Access
@@ -194,11 +85,12 @@ TO_PROGRAM, FROM_PROGRAM, BOUND_REAL = Direction
 M, S, T, B, H, KEY = FunctionKind
 QUEUE = _Answering.QUEUE
 
-# enum rung_host_type. One of 64 bits without a sign has the bits of one with a sign.
-_HOST_TYPES = {kind: number for number, kind in enumerate(
-    (ctypes.c_bool, ctypes.c_int8, ctypes.c_uint8, ctypes.c_int16, ctypes.c_uint16, c_int32, c_uint32, c_int64,
-     ctypes.c_float, c_double), start=1)}
-_HOST_TYPES[c_uint64] = _HOST_TYPES[c_int64]
+_BITS = {Type.BIT: 1, Type.I8: 8, Type.I16: 16, Type.I32: 32}  # of the narrower ones
+
+# One of 64 bits without a sign has the bits of one with a sign.
+_HOST_TYPES = {kind: _abi.ENUMS["rung_host_type"][f"RUNG_HOST_{name}"] for kind, name in {
+    ctypes.c_bool: "BOOL", ctypes.c_int8: "I8", ctypes.c_uint8: "U8", ctypes.c_int16: "I16", ctypes.c_uint16: "U16",
+    c_int32: "I32", c_uint32: "U32", c_int64: "I64", c_uint64: "I64", ctypes.c_float: "F32", c_double: "F64"}.items()}
 
 
 def _member(kind, value):
@@ -220,169 +112,6 @@ class Error(Exception):
 
     def __str__(self):
         return self.args[1]
-
-
-# ---- structs of C ----------------------------------------------------------------------------------------------------
-
-class _Struct(ctypes.Structure):
-    """A struct that begins with its size."""
-
-    def __init__(self, **values):
-        super().__init__(size=ctypes.sizeof(self), **values)
-
-
-class rung_image_options(_Struct):
-    _fields_ = [("size", c_uint32), ("allow_unsealed", c_uint32), ("keys_folder", c_char_p)]
-
-
-class rung_request(_Struct):
-    _fields_ = [("size", c_uint32), ("ticket", c_uint32), ("service", c_char_p), ("arg_count", c_uint32),
-                ("reserved", c_uint32), ("args", c_int64 * _MOST_ARGS)]
-
-
-class rung_reply(_Struct):
-    _fields_ = [("size", c_uint32), ("ticket", c_uint32), ("error", c_uint32), ("result_count", c_uint32),
-                ("results", c_int64 * _MOST_ARGS)]
-
-
-_LogFunction = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
-_RequestFunction = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(rung_request), POINTER(rung_reply))
-_FaultFunction = CFUNCTYPE(None, c_void_p, c_void_p)
-
-
-class rung_instance_options(_Struct):
-    _fields_ = [("size", c_uint32), ("flags", c_uint32), ("memory", c_void_p), ("memory_bytes", c_size_t),
-                ("user", c_void_p), ("log", _LogFunction), ("request", _RequestFunction), ("fault", _FaultFunction),
-                ("catch_up", c_uint32), ("most_overruns", c_uint32)]
-
-
-class rung_state(_Struct):
-    _fields_ = [("size", c_uint32), ("flags", c_uint32), ("generation", c_uint32), ("due_us", c_uint32),
-                ("now_us", c_int64), ("wait_ns", c_int64), ("passes", c_uint64), ("missed", c_uint64),
-                ("last_ns", c_int64), ("worst_ns", c_int64), ("lost_messages", c_uint32),
-                ("refused_requests", c_uint32), ("stray_replies", c_uint32), ("program", c_uint32),
-                ("saves", c_uint64), ("failed_saves", c_uint64)]
-
-
-class rung_program_info(_Struct):
-    _fields_ = [("size", c_uint32), ("number", c_uint32), ("faulted", c_uint32), ("reserved", c_uint32),
-                ("name", c_char * 128), ("faulted_name", c_char * 128)]
-
-
-class rung_fault_info(_Struct):
-    _fields_ = [("size", c_uint32), ("rung", c_uint32), ("line", c_uint32), ("reserved", c_uint32), ("code", c_char_p),
-                ("file", c_char_p), ("task", c_char_p), ("text", c_char * 256)]
-
-
-class rung_cell_info(_Struct):
-    _fields_ = [("size", c_uint32), ("type", c_uint32), ("count", c_uint32), ("access", c_uint32), ("space", c_uint32),
-                ("byte", c_uint32), ("bit", c_uint32), ("reserved", c_uint32), ("address", c_char * 64)]
-
-
-class rung_value(ctypes.Union):
-    _fields_ = [("integer", c_int64), ("real", c_double)]
-
-
-class rung_symbol_info(_Struct):
-    _fields_ = [("size", c_uint32), ("type", c_uint32), ("count", c_uint32), ("flags", c_uint32), ("space", c_uint32),
-                ("byte", c_uint32), ("bit", c_uint32), ("reserved", c_uint32), ("value", c_int64), ("name", c_char_p),
-                ("comment", c_char_p)]
-
-
-class rung_variable(ctypes.Structure):
-    _fields_ = [("name", c_char_p), ("address", c_void_p), ("type", c_uint32), ("direction", c_uint32),
-                ("scale", c_double)]
-
-
-class rung_block(ctypes.Structure):
-    _fields_ = [("name", c_char_p), ("address", c_void_p), ("bytes", c_uint32), ("direction", c_uint32)]
-
-
-class rung_member(ctypes.Structure):
-    _fields_ = [("name", c_char_p), ("member", c_char_p), ("offset", c_uint32), ("bytes", c_uint32), ("type", c_uint32),
-                ("direction", c_uint32), ("bit", c_uint32), ("bits", c_uint32), ("scale", c_double)]
-
-
-_MovedFunction = CFUNCTYPE(c_char_p)
-
-
-class rung_layout(_Struct):
-    _fields_ = [("size", c_uint32), ("bytes", c_uint32), ("name", c_char_p), ("text", c_char_p), ("hash", c_uint64),
-                ("members", POINTER(rung_member)), ("member_count", c_uint32), ("counter_bytes", c_uint32),
-                ("head", c_uint32), ("tail", c_uint32), ("moved", _MovedFunction)]
-
-
-class rung_message_info(_Struct):
-    _fields_ = [("size", c_uint32), ("op", c_uint32), ("number", c_uint32), ("channel", c_int32), ("index", c_int32),
-                ("real", c_uint32), ("value", rung_value), ("text", c_char * 400)]
-
-
-class rung_profile(_Struct):
-    _fields_ = [("size", c_uint32), ("rung", c_uint32), ("line", c_uint32), ("reserved", c_uint32), ("file", c_char_p),
-                ("title", c_char_p), ("runs", c_uint64), ("total_ns", c_double), ("max_ns", c_double)]
-
-
-class rung_sample(_Struct):
-    _fields_ = [("size", c_uint32), ("generation", c_uint32), ("pass", c_uint64), ("now_us", c_int64),
-                ("lost", c_uint64)]
-
-
-class rung_replacement_info(_Struct):
-    _fields_ = [("size", c_uint32), ("kept_cells", c_uint32), ("kept_states", c_uint32), ("changes", c_uint32),
-                ("bytes", c_uint64), ("steps", c_uint64), ("slice_ns", c_uint64), ("period_ns", c_uint64),
-                ("bound", c_char_p), ("program", c_uint32), ("next", c_uint32)]
-
-
-class rung_change(_Struct):
-    _fields_ = [("size", c_uint32), ("kind", c_uint32), ("is_state", c_uint32), ("reserved", c_uint32),
-                ("name", c_char_p), ("former", c_char_p)]
-
-
-class rung_rung_change(_Struct):
-    _fields_ = [("size", c_uint32), ("kind", c_uint32), ("rung", c_uint32), ("line", c_uint32), ("file", c_char_p),
-                ("title", c_char_p)]
-
-
-class rung_shadow_info(_Struct):
-    _fields_ = [("size", c_uint32), ("state", c_uint32), ("differences", c_uint32), ("reserved", c_uint32),
-                ("runs", c_uint64), ("fault", c_char_p)]
-
-
-class rung_difference(_Struct):
-    _fields_ = [("size", c_uint32), ("type", c_uint32), ("name", c_char_p), ("first_us", c_int64), ("runs", c_uint64),
-                ("running", rung_value), ("next", rung_value)]
-
-
-class rung_forced_cell(ctypes.Structure):
-    _fields_ = [("name", c_char_p), ("owner", c_char_p), ("value", rung_value), ("access", c_uint32),
-                ("reserved", c_uint32)]
-
-
-class rung_force_info(_Struct):
-    _fields_ = [("size", c_uint32), ("type", c_uint32), ("value", rung_value), ("since_us", c_int64),
-                ("name", c_char_p), ("owner", c_char_p)]
-
-
-_ReleaseFunction = CFUNCTYPE(None, c_void_p)
-
-
-class rung_forced_code(ctypes.Structure):
-    _fields_ = [("chunk_fns", POINTER(c_void_p)), ("engine", c_void_p), ("release", _ReleaseFunction),
-                ("owner", c_void_p)]
-
-
-_ForceFunction = CFUNCTYPE(c_int32, c_void_p, c_void_p, c_void_p, c_void_p, c_uint32, POINTER(rung_forced_code),
-                           c_char_p, c_size_t)
-
-
-class rung_code_maker(_Struct):
-    _fields_ = [("size", c_uint32), ("reserved", c_uint32), ("force", _ForceFunction), ("release", _ReleaseFunction),
-                ("user", c_void_p)]
-
-
-class rung_program(ctypes.Structure):
-    """As far as this module reads it."""
-    _fields_ = [("size", c_uint32), ("abi_version", c_uint32), ("name", c_char_p), ("dialect", c_char_p)]
 
 
 # ---- what Python gets of them ----------------------------------------------------------------------------------------
@@ -414,26 +143,26 @@ def _member_of(kind):
     return lambda value: _member(kind, value)
 
 
-State = _record("State", rung_state, "Of Instance.state.", flags=StateFlags)
-Program = _record("Program", rung_program_info, "Of Instance.program: who runs. faulted 0: no fault has put it back.")
-Fault = _record("Fault", rung_fault_info, "Of Instance.fault. rung 0: none, line 0: unknown.")
-CellInfo = _record("CellInfo", rung_cell_info, "Of Cell.info. space None: a constant.",
+State = _record("State", _abi.rung_state, "Of Instance.state.", flags=StateFlags)
+Program = _record("Program", _abi.rung_program_info, "Of Instance.program: who runs. faulted 0: no fault has put it back.")
+Fault = _record("Fault", _abi.rung_fault_info, "Of Instance.fault. rung 0: none, line 0: unknown.")
+CellInfo = _record("CellInfo", _abi.rung_cell_info, "Of Cell.info. space None: a constant.",
                    type=_member_of(Type), access=_member_of(Access), space=_space)
-Symbol = _record("Symbol", rung_symbol_info, "Of Image.symbols. space None: a constant, with its value.",
+Symbol = _record("Symbol", _abi.rung_symbol_info, "Of Image.symbols. space None: a constant, with its value.",
                  type=_member_of(Type), flags=SymbolFlags, space=_space)
-Message = _record("Message", rung_message_info, "Of Instance.messages and .shown. value: a float or an int.",
+Message = _record("Message", _abi.rung_message_info, "Of Instance.messages and .shown. value: a float or an int.",
                   op=_member_of(MessageOp))
-Profile = _record("Profile", rung_profile, "Of Instance.profile: a rung, how often and how long it ran. rung 0: the "
+Profile = _record("Profile", _abi.rung_profile, "Of Instance.profile: a rung, how often and how long it ran. rung 0: the "
                   "compiler's.")
-Sample = _record("Sample", rung_sample, "Of a Watch: when its values were so.")
-Report = _record("Report", rung_replacement_info, "Of Replacement.report.")
-ShadowReport = _record("ShadowReport", rung_shadow_info, "Of Shadow.report.", state=_member_of(ShadowState))
-Difference = _record("Difference", rung_difference, "Of Shadow.differences. type None: a service that the new program "
+Sample = _record("Sample", _abi.rung_sample, "Of a Watch: when its values were so.")
+Report = _record("Report", _abi.rung_replacement_info, "Of Replacement.report.")
+ShadowReport = _record("ShadowReport", _abi.rung_shadow_info, "Of Shadow.report.", state=_member_of(ShadowState))
+Difference = _record("Difference", _abi.rung_difference, "Of Shadow.differences. type None: a service that the new program "
                      "alone requests. running, next: a float or an int.", type=lambda t: _member(Type, t) if t else None)
-Force = _record("Force", rung_force_info, "Of Instance.forced: a cell that is held at a value. value: a float or an int.",
+Force = _record("Force", _abi.rung_force_info, "Of Instance.forced: a cell that is held at a value. value: a float or an int.",
                 type=_member_of(Type))
-Change = _record("Change", rung_change, "Of Replacement.changes.", kind=_member_of(ChangeKind), is_state=bool)
-RungChange = _record("RungChange", rung_rung_change, "Of Replacement.rungs.", kind=_member_of(RungChangeKind))
+Change = _record("Change", _abi.rung_change, "Of Replacement.changes.", kind=_member_of(ChangeKind), is_state=bool)
+RungChange = _record("RungChange", _abi.rung_rung_change, "Of Replacement.rungs.", kind=_member_of(RungChangeKind))
 
 Request = namedtuple("Request", "ticket service args", module=__name__)
 Request.__doc__ = "A service that the program asks for: its number, name, and arguments as integers."
@@ -522,101 +251,10 @@ def _number(kind):
 
 # ---- functions of C --------------------------------------------------------------------------------------------------
 
-_Text, _Path = _argument(_text), _argument(_path)
-_I32, _U32, _I64, _U64 = map(_number, (c_int32, c_uint32, c_int64, c_uint64))
-_New = POINTER(c_void_p)
-_Values = POINTER(rung_value)
-_Cells = POINTER(c_uint32)
-
-# The result, and the arguments.
-_FUNCTIONS = {
-    "rung_error_text": (c_char_p,),
-    "rung_runtime_version": (c_uint32,),
-    "rung_image_open": (c_int32, _Path, POINTER(rung_image_options), _New),
-    "rung_image_open_memory": (c_int32, _I32, c_char_p, _New),
-    "rung_image_adopt": (c_int32, c_void_p, c_void_p, c_void_p, c_void_p, _New),
-    "rung_image_program": (POINTER(rung_program), _Handle),
-    "rung_image_close": (c_int32, _Handle),
-    "rung_image_symbol": (c_int32, _Handle, _U32, POINTER(rung_symbol_info)),
-    "rung_instance_new": (c_int32, _Handle, POINTER(rung_instance_options), _New),
-    "rung_instance_free": (c_int32, _Handle),
-    "rung_instance_power_on": (c_int32, _Handle, _I32),
-    "rung_instance_power_off": (c_int32, _Handle),
-    "rung_instance_begin_power_off": (c_int32, _Handle),
-    "rung_instance_stop": (c_int32, _Handle),
-    "rung_instance_start": (c_int32, _Handle),
-    "rung_instance_run_due": (c_int32, _Handle, _I64),
-    "rung_instance_run_due_fast": (c_int32, _Handle, _I64),
-    "rung_instance_slice": (c_int32, _Handle),
-    "rung_instance_scan": (c_int32, _Handle),
-    "rung_instance_slot": (c_int32, _Handle),
-    "rung_instance_fast": (c_int32, _Handle),
-    "rung_instance_sample": (c_int32, _Handle),
-    "rung_instance_limit": (c_int32, _Handle, _I64),
-    "rung_instance_prefetch": (c_int32, _Handle, _I64),
-    "rung_instance_state": (c_int32, _Handle, POINTER(rung_state)),
-    "rung_instance_program": (c_int32, _Handle, POINTER(rung_program_info)),
-    "rung_instance_fault": (c_int32, _Handle, POINTER(rung_fault_info)),
-    "rung_instance_find": (c_int32, _Handle, _Text, _I32, _Cells),
-    "rung_instance_cell": (c_int32, _Handle, _U32, POINTER(rung_cell_info)),
-    "rung_instance_describe": (c_int32, _Handle, _Handle, _Text, _I32, POINTER(rung_cell_info), POINTER(c_int64)),
-    "rung_instance_release": (c_int32, _Handle, _U32),
-    "rung_instance_read": (c_int32, _Handle, _U32, _U32, _U32, _Values),
-    "rung_instance_write": (c_int32, _Handle, _U32, _U32, _U32, _Values),
-    "rung_instance_read_all": (c_int32, _Handle, _Cells, _U32, _Values),
-    "rung_instance_write_all": (c_int32, _Handle, _Cells, _U32, _Values),
-    "rung_instance_read_text": (c_int32, _Handle, _U32, c_char_p, c_size_t),
-    "rung_instance_write_text": (c_int32, _Handle, _U32, c_char_p),
-    "rung_instance_bind": (c_int32, _Handle, POINTER(rung_variable), _U32),
-    "rung_instance_bind_blocks": (c_int32, _Handle, POINTER(rung_block), _U32),
-    "rung_instance_bind_struct": (c_int32, _Handle, POINTER(rung_layout), c_void_p),
-    "rung_instance_inconsistent": (c_int32, _Handle, c_void_p, POINTER(c_uint32)),
-    "rung_instance_next_message": (c_int32, _Handle, POINTER(rung_message_info)),
-    "rung_instance_define_message": (c_int32, _Handle, _U32, _U32, _Text),
-    "rung_instance_shown": (c_int32, _Handle, _U32, POINTER(rung_message_info)),
-    "rung_instance_next_request": (c_int32, _Handle, POINTER(rung_request)),
-    "rung_instance_answer": (c_int32, _Handle, POINTER(rung_reply)),
-    "rung_instance_begin_function": (c_int32, _Handle, _U32, _I32, _U32, POINTER(c_uint32)),
-    "rung_instance_function_done": (c_int32, _Handle, _U32, _U32),
-    "rung_instance_carries_function": (c_int32, _Handle, _U32, _I32, _U32),
-    "rung_instance_group_function": (c_int32, _Handle, _U32, _U32, _U32),
-    "rung_instance_high_speed_functions": (c_int32, _Handle, _U32),
-    "rung_instance_axis_group": (c_int32, _Handle, _U32, _U32),
-    "rung_instance_serving": (c_int32, _Handle, _I32),
-    "rung_instance_abort_functions": (c_int32, _Handle, _U32),
-    "rung_instance_keep": (c_int32, _Handle, _Path),
-    "rung_instance_flush": (c_int32, _Handle),
-    "rung_instance_unsaved": (c_int32, _Handle, c_char_p, c_size_t),
-    "rung_instance_profile": (c_int32, _Handle, _U32, POINTER(rung_profile)),
-    "rung_instance_worst_rung": (c_int32, _Handle, POINTER(rung_profile)),
-    "rung_instance_clear_profile": (c_int32, _Handle),
-    "rung_watch_new": (c_int32, _Handle, _Cells, _U32, _U32, _New),
-    "rung_watch_free": (c_int32, _Handle),
-    "rung_watch_newest": (c_int32, _Handle, _Values, POINTER(rung_sample)),
-    "rung_watch_next": (c_int32, _Handle, _Values, POINTER(rung_sample)),
-    "rung_trace_new": (c_int32, _Handle, _Path, _New),
-    "rung_trace_write": (c_int32, _Handle),
-    "rung_trace_free": (c_int32, _Handle),
-    "rung_replacement_new": (c_int32, _Handle, _Handle, c_void_p, c_size_t, _New),
-    "rung_replacement_free": (c_int32, _Handle),
-    "rung_replacement_report": (c_int32, _Handle, POINTER(rung_replacement_info)),
-    "rung_replacement_allow_late": (c_int32, _Handle),
-    "rung_replacement_change": (c_int32, _Handle, _U32, POINTER(rung_change)),
-    "rung_replacement_rung": (c_int32, _Handle, _U32, POINTER(rung_rung_change)),
-    "rung_instance_replace": (c_int32, _Handle, _Handle),
-    "rung_shadow_new": (c_int32, _Handle, _Handle, _U32, _U32, _New),
-    "rung_shadow_free": (c_int32, _Handle),
-    "rung_instance_shadow": (c_int32, _Handle, _Handle),
-    "rung_shadow_work": (c_int32, _Handle),
-    "rung_shadow_report": (c_int32, _Handle, POINTER(rung_shadow_info)),
-    "rung_shadow_difference": (c_int32, _Handle, _U32, POINTER(rung_difference)),
-    "rung_forces_new": (c_int32, _Handle, _Handle, POINTER(rung_forced_cell), _U32, _New),
-    "rung_forces_free": (c_int32, _Handle),
-    "rung_instance_force": (c_int32, _Handle, _Handle),
-    "rung_instance_forced": (c_int32, _Handle, _U32, POINTER(rung_force_info)),
-    "rung_image_serve": (c_int32, _Handle, POINTER(rung_code_maker)),
-    "rung_image_file": (c_int32, _Handle, _U64, c_void_p, POINTER(c_size_t)),
-}
+# What the words of the parameters mean.
+_KINDS = {"handle": _Handle, "new": POINTER(c_void_p), "text": _argument(_text), "path": _argument(_path),
+          "int32_t": _number(c_int32), "uint32_t": _number(c_uint32), "int64_t": _number(c_int64),
+          "uint64_t": _number(c_uint64), "size_t": c_size_t}
 
 
 def _find():
@@ -631,7 +269,8 @@ def _find():
 
 def _declared(library, name):
     function = getattr(library, name)
-    function.restype, *function.argtypes = _FUNCTIONS[name]
+    function.restype, *parameters = _abi.FUNCTIONS[name]
+    function.argtypes = [_KINDS.get(kind, kind) for kind in parameters]
     return function
 
 
@@ -642,10 +281,11 @@ def _load():
         library = ctypes.CDLL(path)
         version_there = _declared(library, "rung_runtime_version")()
         major, minor = version_there >> 16, version_there & 0xFFFF
-        if major != _MAJOR or minor < _MINOR:
+        if major != _abi.RUNG_RUNTIME_MAJOR or minor < _abi.RUNG_RUNTIME_MINOR:
             raise ImportError(f"{path} is version {major}.{minor} of librung-runtime, but this module needs version "
-                              f"{_MAJOR}.{_MINOR}, or a later one of {_MAJOR}")
-        for name in _FUNCTIONS:
+                              f"{_abi.RUNG_RUNTIME_MAJOR}.{_abi.RUNG_RUNTIME_MINOR}, or a later one of "
+                              f"{_abi.RUNG_RUNTIME_MAJOR}")
+        for name in _abi.FUNCTIONS:
             _declared(library, name)
     except (OSError, AttributeError) as wrong:
         raise ImportError(f"librung-runtime cannot be loaded: {wrong}; the environment variable RUNG_RUNTIME may name "
@@ -689,6 +329,9 @@ def version():
 
 
 # ---- callbacks -------------------------------------------------------------------------------------------------------
+
+_CALLBACKS = dict(_abi.rung_instance_options._fields_)  # by the names of their members
+
 
 class _Raised(threading.local):
     """The first exception of a callback within the call that this thread is in: none can pass through C."""
@@ -767,7 +410,7 @@ class Image(_Closing):
         the public keys for signed programs, else the system's are taken. Error: REFUSED, OUT_OF_MEMORY."""
         self._handle = _Handle("rung_image_close")
         keys = None if keys_folder is None else _path(keys_folder)
-        options = rung_image_options(allow_unsealed=bool(allow_unsealed), keys_folder=keys)
+        options = _abi.rung_image_options(allow_unsealed=bool(allow_unsealed), keys_folder=keys)
         _call(_library.rung_image_open, path, byref(options), byref(self._handle))
         weakref.finalize(self, self._handle.free)
         program = _library.rung_image_program(self).contents
@@ -779,7 +422,7 @@ class Image(_Closing):
 
     def symbols(self):
         """The author's names, constants included, one Symbol after the other in the order of their bytes."""
-        return (symbol.shown() for symbol in _each(self, _library.rung_image_symbol, rung_symbol_info))
+        return (symbol.shown() for symbol in _each(self, _library.rung_image_symbol, _abi.rung_symbol_info))
 
 
 # ---- cells -----------------------------------------------------------------------------------------------------------
@@ -802,7 +445,7 @@ class Cell:
         return self._look().shown()
 
     def _look(self):
-        info = rung_cell_info()
+        info = _abi.rung_cell_info()
         _call(_library.rung_instance_cell, self._handle, self._number, byref(info))
         return info
 
@@ -813,7 +456,7 @@ class Cell:
             return self._read_text(first, count)
         # The library refuses more elements than the cell has, so there is room for those alone.
         room = _integer(count, 0, _NONE)
-        values = (rung_value * (room if room < 2 else min(room, self._look().count)))()
+        values = (_abi.rung_value * (room if room < 2 else min(room, self._look().count)))()
         _call(_library.rung_instance_read, self._handle, self._number, first, count, values)
         shown = [self._shown(value) for value in values]
         return shown[0] if count == 1 else shown
@@ -842,8 +485,8 @@ class Cell:
         bits = self._bits() if bits is None else bits
         try:
             if self._type == Type.F64:
-                return rung_value(real=_real(value))
-            return rung_value(integer=_integer(value, -(1 << bits - 1) if bits > 1 else 0, (1 << bits) - 1))
+                return _abi.rung_value(real=_real(value))
+            return _abi.rung_value(integer=_integer(value, -(1 << bits - 1) if bits > 1 else 0, (1 << bits) - 1))
         except Error as wrong:
             raise Error(wrong.status, f"{self.name}: {wrong}") from None
 
@@ -858,10 +501,10 @@ class Cell:
         if first != 0:
             raise Error(Status.BAD_ARGUMENT, f"{self.name} is a text, which is written as a whole")
         try:
-            text = _text(value)
+            _text(value)
         except Error as wrong:
             raise Error(wrong.status, f"{self.name}: {wrong}") from None
-        _call(_library.rung_instance_write_text, self._handle, self._number, text)
+        _call(_library.rung_instance_write_text, self._handle, self._number, value)
 
 
 # ---- instances -------------------------------------------------------------------------------------------------------
@@ -894,18 +537,18 @@ class Instance(_Closing):
         Error: OUT_OF_MEMORY.
         """
         me = weakref.ref(self)  # its callbacks do not keep it alive
-        options = rung_instance_options(flags=bool(measure) * _InstanceFlags.MEASURE
+        options = _abi.rung_instance_options(flags=bool(measure) * _InstanceFlags.MEASURE
                                         | bool(queue_requests) * _InstanceFlags.QUEUE_REQUESTS
                                         | bool(save_at_once) * _InstanceFlags.SAVE_AT_ONCE,
                                         catch_up=_integer(catch_up, 0, _NONE),
                                         most_overruns=_integer(most_overruns, 0, _NONE))
         if log is not None:
-            options.log = _callback(_LogFunction, lambda _, level, text: log(_member(LogLevel, level), _decoded(text)))
+            options.log = _callback(_CALLBACKS["log"], lambda _, level, text: log(_member(LogLevel, level), _decoded(text)))
         if request is not None:
-            options.request = _callback(_RequestFunction, lambda _, __, asked, reply: _answered(
+            options.request = _callback(_CALLBACKS["request"], lambda _, __, asked, reply: _answered(
                 request(me(), _request(asked.contents)), reply.contents), _Answering.REFUSE)
         if fault is not None:
-            options.fault = _callback(_FaultFunction, lambda *_: fault(me()))
+            options.fault = _callback(_CALLBACKS["fault"], lambda *_: fault(me()))
         self._handle = _Handle("rung_instance_free")
         self._cells = {}
         self._parts = []  # handles of what ends before it
@@ -985,19 +628,19 @@ class Instance(_Closing):
 
     def state(self):
         """A State: clocks, counters since the power-on, and flags, as in `StateFlags.ON in plc.state().flags`."""
-        state = rung_state()
+        state = _abi.rung_state()
         _call(_library.rung_instance_state, self, byref(state))
         return state.shown()
 
     def program(self):
         """The Program that runs, and the one whose fault has put that back."""
-        program = rung_program_info()
+        program = _abi.rung_program_info()
         _call(_library.rung_instance_program, self, byref(program))
         return program.shown()
 
     def fault(self):
         """The Fault that has stopped the program; None: there is none."""
-        fault = rung_fault_info()
+        fault = _abi.rung_fault_info()
         status = _call(_library.rung_instance_fault, self, byref(fault))
         return None if status == Status.EMPTY else fault.shown()
 
@@ -1014,7 +657,7 @@ class Instance(_Closing):
     def describe(self, name, access=READ, replacement=None):
         """What a name is, a CellInfo, without a cell for it: in the program that runs or, with a Replacement, in that
         one's new program. Errors as of cell."""
-        info, constant = rung_cell_info(), ctypes.c_int64()
+        info, constant = _abi.rung_cell_info(), ctypes.c_int64()
         _call(_library.rung_instance_describe, self, _Handle() if replacement is None else replacement, name, access,
               byref(info), byref(constant))
         return info.shown()
@@ -1045,7 +688,7 @@ class Instance(_Closing):
         of cell; WRONG_TYPE, a text."""
         names = list(names)
         cells = [self.cell(name) for name in names]
-        values = (rung_value * len(cells))()
+        values = (_abi.rung_value * len(cells))()
         _call(_library.rung_instance_read_all, self, _cell_numbers(cells), len(cells), values)
         return {name: cell._shown(value) for name, cell, value in zip(names, cells, values)}
 
@@ -1064,7 +707,7 @@ class Instance(_Closing):
         if type(variable) not in _HOST_TYPES:
             raise Error(Status.WRONG_TYPE, f"{name}: a bound variable is a bool, an integer, a float or a double of "
                                            f"ctypes, not {variable!r}")
-        bound = rung_variable(_text(name), ctypes.addressof(variable), _HOST_TYPES[type(variable)],
+        bound = _abi.rung_variable(_text(name), ctypes.addressof(variable), _HOST_TYPES[type(variable)],
                               _integer(direction, 0, _NONE), _real(scale))
         _call(_library.rung_instance_bind, self, byref(bound), 1)
         self._used.append(variable)
@@ -1074,7 +717,7 @@ class Instance(_Closing):
         dialect lays them out: TO_PROGRAM, a run of a task takes what it may read where it begins; FROM_PROGRAM after
         every slice; then it is 0 after a fault and after the power-off. Errors as of cell; OVERWRITTEN, for any of its
         bytes; BAD_ARGUMENT, a block that does not begin with a byte or is too long."""
-        bound = rung_block(_text(name), ctypes.addressof(block), ctypes.sizeof(block),
+        bound = _abi.rung_block(_text(name), ctypes.addressof(block), ctypes.sizeof(block),
                            _integer(direction, 0, _NONE))
         _call(_library.rung_instance_bind_blocks, self, byref(bound), 1)
         self._used.append(block)
@@ -1084,7 +727,7 @@ class Instance(_Closing):
     def messages(self):
         """The messages that the program has shown, cleared or logged and nobody has taken yet, one Message after the
         other."""
-        message = rung_message_info()
+        message = _abi.rung_message_info()
         while _call(_library.rung_instance_next_message, self, byref(message)) != Status.EMPTY:
             yield _message(message)
 
@@ -1097,11 +740,11 @@ class Instance(_Closing):
 
     def shown(self):
         """What the operator sees now: a list of Message."""
-        return [_message(message) for message in _each(self, _library.rung_instance_shown, rung_message_info)]
+        return [_message(message) for message in _each(self, _library.rung_instance_shown, _abi.rung_message_info)]
 
     def next_request(self):
         """The next Request that waits for an answer; None: there is none."""
-        asked = rung_request()
+        asked = _abi.rung_request()
         status = _call(_library.rung_instance_next_request, self, byref(asked))
         return None if status == Status.EMPTY else _request(asked)
 
@@ -1109,7 +752,7 @@ class Instance(_Closing):
         """Answers a request of next_request, by the same thread: at most 16 integers, and whether the service has
         failed. The program sees it before its next slice. False: there are more answers than it can have asked for; try
         again after a slice. Error: BAD_ARGUMENT, WRONG_TYPE."""
-        reply = rung_reply(ticket=_integer(ticket, 0, _NONE))
+        reply = _abi.rung_reply(ticket=_integer(ticket, 0, _NONE))
         _fill(reply, results, error)
         return _call(_library.rung_instance_answer, self, byref(reply)) != Status.LATER
 
@@ -1180,11 +823,11 @@ class Instance(_Closing):
     def profile(self):
         """How often and how long each rung ran since the power-on, one Profile after the other. Error: WRONG_STATE, the
         program was not built with `rungc build --profile`."""
-        return (entry.shown() for entry in _each(self, _library.rung_instance_profile, rung_profile))
+        return (entry.shown() for entry in _each(self, _library.rung_instance_profile, _abi.rung_profile))
 
     def worst_rung(self):
         """The Profile of the rung whose longest run took longest; None: none has run. Errors as of profile."""
-        worst = rung_profile()
+        worst = _abi.rung_profile()
         status = _call(_library.rung_instance_worst_rung, self, byref(worst))
         return None if status == Status.EMPTY else worst.shown()
 
@@ -1217,11 +860,11 @@ class Instance(_Closing):
     def forced(self):
         """A list of Force: what is forced now, in the order of the names."""
         return [force.shown()._replace(value=force.value.real if force.type == Type.F64 else force.value.integer)
-                for force in _each(self, _library.rung_instance_forced, rung_force_info)]
+                for force in _each(self, _library.rung_instance_forced, _abi.rung_force_info)]
 
 
 def _values(values):
-    return (rung_value * len(values))(*values)
+    return (_abi.rung_value * len(values))(*values)
 
 
 def _cell_numbers(cells):
@@ -1272,7 +915,7 @@ class Watch(_Part):
         return iter(lambda: self._sample(_library.rung_watch_next), None)
 
     def _sample(self, function):
-        values, sample = (rung_value * len(self._cells))(), rung_sample()
+        values, sample = (_abi.rung_value * len(self._cells))(), _abi.rung_sample()
         if _call(function, self, values, byref(sample)) == Status.EMPTY:
             return None
         return sample.shown(), {name: cell._shown(value) for name, cell, value in zip(self._names, self._cells, values)}
@@ -1312,7 +955,7 @@ class Replacement(_Part):
     def report(self):
         """A Report of what replace would do now: how many names and states stay, how many change, the bytes that are
         copied; and how long a slice of the new program may last on this machine, and how long it may, also as a sentence."""
-        report = rung_replacement_info()
+        report = _abi.rung_replacement_info()
         _call(_library.rung_replacement_report, self, byref(report))
         return report.shown()
 
@@ -1322,12 +965,12 @@ class Replacement(_Part):
 
     def changes(self):
         """What replace would change now: a list of Change, cells before states, each in the order of their names."""
-        return [change.shown() for change in _each(self, _library.rung_replacement_change, rung_change)]
+        return [change.shown() for change in _each(self, _library.rung_replacement_change, _abi.rung_change)]
 
     def rungs(self):
         """Which rungs are not the same then: a list of RungChange, in the order of the new program, then those that were
         removed."""
-        return [change.shown() for change in _each(self, _library.rung_replacement_rung, rung_rung_change)]
+        return [change.shown() for change in _each(self, _library.rung_replacement_rung, _abi.rung_rung_change)]
 
 
 class Shadow(_Part):
@@ -1349,7 +992,7 @@ class Shadow(_Part):
 
     def report(self):
         """A ShadowReport."""
-        report = rung_shadow_info()
+        report = _abi.rung_shadow_info()
         _call(_library.rung_shadow_report, self, byref(report))
         return report.shown()
 
@@ -1358,7 +1001,7 @@ class Shadow(_Part):
         def shown(difference):
             of = (lambda value: value.real) if difference.type == Type.F64 else (lambda value: value.integer)
             return difference.shown()._replace(running=of(difference.running), next=of(difference.next))
-        return [shown(difference) for difference in _each(self, _library.rung_shadow_difference, rung_difference)]
+        return [shown(difference) for difference in _each(self, _library.rung_shadow_difference, _abi.rung_difference)]
 
 
 class Forces(_Part):
@@ -1372,7 +1015,7 @@ class Forces(_Part):
         forced; with access=REAL the real of 64 bits that begins there. With a Replacement for its program, else for the
         one that runs. Error: NOT_FOUND; WRONG_TYPE, a text, a constant, or no room for a real; REFUSED, the program writes
         a cell, and no compiler serves its image; LATER, the compiler is at work: try again; BAD_ARGUMENT."""
-        cells = (rung_forced_cell * len(values))()
+        cells = (_abi.rung_forced_cell * len(values))()
         for cell, (name, value) in zip(cells, values.items()):
             cell.name, cell.owner, cell.access = _text(name), _text(owner), access
             cell.value = self._given(value) if replacement is not None else plc.cell(name, access)._given(value)
@@ -1383,5 +1026,5 @@ class Forces(_Part):
     def _given(value):
         """For a program that does not run yet: its cells are not looked at here."""
         if isinstance(value, float):
-            return rung_value(real=value)
-        return rung_value(integer=_integer(value, -1 << 63, (1 << 64) - 1))
+            return _abi.rung_value(real=value)
+        return _abi.rung_value(integer=_integer(value, -1 << 63, (1 << 64) - 1))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The Python module rtlib/python/rung.py: against the C header, and with programs of every dialect. python_test.py RUNGC LIBRUNG_RUNTIME"""
+"""The Python module rung: against the C header, and with programs of every dialect.
+python_test.py RUNGC LIBRUNG_RUNTIME FOLDER_OF_THE_MODULE"""
 import ctypes
 import enum
 import gc
@@ -24,7 +25,7 @@ RUNTIME = None
 rung = None  # the module
 
 ROOT = Path(__file__).resolve().parents[2]
-MODULE = ROOT / "rtlib/python/rung.py"
+MODULE = None  # rung.py
 ABI = ROOT / "rtlib/abi"
 HEADER = (ABI / "rung/runtime.h").read_text()
 FOLDER = None  # temporary, of the programs
@@ -168,7 +169,7 @@ class Header(unittest.TestCase):
 
     @staticmethod
     def structs():
-        return {name: kind for name, kind in vars(rung).items() if name.startswith("rung_") and isinstance(kind, type)}
+        return {name: kind for name, kind in vars(rung._abi).items() if name.startswith("rung_")}
 
     @staticmethod
     def tag(kind):
@@ -188,30 +189,32 @@ class Header(unittest.TestCase):
                 asked.append(f'printf("{name}.{field} %zu %zu %s\\n", offsetof({name}, {field}), sizeof((({name}*)0)->{field}), '
                              f"TYPE((({name}*)0)->{field}));")
                 expected.append(f"{name}.{field} {getattr(kind, field).offset} {ctypes.sizeof(of)} {self.tag(of)}")
-            if name != "rung_program":  # of which only the beginning is read
-                asked.append(f'printf("{name} %zu\\n", sizeof({name}));')
-                expected.append(f"{name} {ctypes.sizeof(kind)}")
+            asked.append(f'printf("{name} %zu\\n", sizeof({name}));')
+            expected.append(f"{name} {ctypes.sizeof(kind)}")
         self.assertEqual(self.output("\n".join(asked)), expected)
         declared = set(re.findall(r"^typedef (?:struct|union) (rung_\w+) \{", HEADER, re.MULTILINE))
         self.assertEqual(declared, set(structs) - {"rung_program"})
 
     def test_every_struct_has_its_size(self):
         for name, kind in self.structs().items():
-            if hasattr(kind, "size") and name != "rung_program":
+            if hasattr(kind, "size"):
                 self.assertEqual(kind().size, ctypes.sizeof(kind), name)
 
     def test_every_function_is_declared_with_its_types(self):
         declared = re.findall(r"^RUNG_API ([^;(]*?)(\w+)\(((?:[^;()]|\([^()]*\))*)\);", HEADER, re.MULTILINE)
         self.assertEqual(len(declared), HEADER.count("\nRUNG_API "))
-        self.assertEqual({name for _, name, _ in declared}, set(rung._FUNCTIONS))
+        self.assertEqual({name for _, name, _ in declared}, set(rung._abi.FUNCTIONS))
         results = {"int32_t": ctypes.c_int32, "uint32_t": ctypes.c_uint32, "const char*": ctypes.c_char_p,
-                   "const rung_program*": ctypes.POINTER(rung.rung_program)}
+                   "const rung_program*": ctypes.POINTER(rung._abi.rung_program)}
         handles = dict.fromkeys(("rung_image*", "rung_instance*", "rung_watch*", "rung_replacement*", "rung_forces*", "rung_trace*", "rung_shadow*"), (rung._Handle,))
-        types = {"int32_t": (rung._I32,), "uint32_t": (rung._U32,), "rung_cell": (rung._U32,), "int64_t": (rung._I64,), "uint64_t": (rung._U64,),
-                 "size_t": (ctypes.c_size_t,), "char*": (rung._Text, rung._Path, ctypes.c_char_p), "rung_program*": (ctypes.c_void_p,),
-                 "void*": (ctypes.c_void_p,), "uint32_t*": (ctypes.POINTER(ctypes.c_uint32),), "int64_t*": (ctypes.POINTER(ctypes.c_int64),), "size_t*": (ctypes.POINTER(ctypes.c_size_t),), "rung_cell*": (rung._Cells,)}
-        types |= {f"{name}*": (ctypes.POINTER(kind),) for name, kind in self.structs().items() if name != "rung_program"}
-        types |= handles | {f"{name}*": (rung._New,) for name in handles}
+        kinds = rung._KINDS
+        types = {name: (kinds[name],) for name in ("int32_t", "uint32_t", "int64_t", "uint64_t", "size_t")}
+        types |= {"rung_cell": types["uint32_t"], "char*": (kinds["text"], kinds["path"], ctypes.c_char_p), "void*": (ctypes.c_void_p,),
+                  "callback": (ctypes.CFUNCTYPE(None, ctypes.c_void_p),)}
+        types |= {f"{name}*": (ctypes.POINTER(getattr(ctypes, kind)),) for name, kind in
+                  {"uint32_t": "c_uint32", "int64_t": "c_int64", "size_t": "c_size_t", "rung_cell": "c_uint32"}.items()}
+        types |= {f"{name}*": (ctypes.POINTER(kind),) for name, kind in self.structs().items()}
+        types |= handles | {f"{name}*": (kinds["new"],) for name in handles}
         for result, name, parameters in declared:
             with self.subTest(function=name):
                 function = getattr(rung._library, name)
@@ -219,7 +222,7 @@ class Header(unittest.TestCase):
                 wanted = [] if parameters == "void" else parameters.split(",")
                 self.assertEqual(len(function.argtypes), len(wanted))
                 for parameter, given in zip(wanted, function.argtypes):
-                    kind = "void*" if "(*" in parameter else re.sub(r"\bconst |\w+$", "", " ".join(parameter.split())).strip()
+                    kind = "callback" if "(*" in parameter else re.sub(r"\bconst |\w+$", "", " ".join(parameter.split())).strip()
                     self.assertIn(given, types[kind], parameter)
 
     def test_enums_are_those_of_c(self):
@@ -248,7 +251,7 @@ class Header(unittest.TestCase):
 
     def test_further_constants(self):
         lines = self.output('printf("%u %u\\n%u\\n%u\\n", RUNG_RUNTIME_MAJOR, RUNG_RUNTIME_MINOR, RUNG_NONE, RUNG_MAX_SERVICE_ARGS);')
-        self.assertEqual(lines, [f"{rung._MAJOR} {rung._MINOR}", str(rung._NONE), str(rung._MOST_ARGS)])
+        self.assertEqual(lines, [f"{rung._abi.RUNG_RUNTIME_MAJOR} {rung._abi.RUNG_RUNTIME_MINOR}", str(rung._NONE), str(rung._MOST_ARGS)])
 
     def test_everything_public_is_described(self):
         for name in rung.__all__:
@@ -275,8 +278,8 @@ class Loading(unittest.TestCase):
         self.assertEqual(done.stdout.strip().split(") ")[0], "(0, 1")
         self.assertEqual(os.path.normpath(done.stdout.strip().split(") ")[1]), str(library))
 
-    def refused(self, text, module=MODULE, **environment):
-        done = self.imports(module, **environment)
+    def refused(self, text, module=None, **environment):
+        done = self.imports(module or MODULE, **environment)
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr.splitlines()[-1], f"^ImportError: .*{text}")
 
@@ -290,7 +293,8 @@ class Loading(unittest.TestCase):
 
             module = Path(folder) / "lib/python/site/rung.py"
             module.parent.mkdir(parents=True)
-            shutil.copy(MODULE, module)
+            for file in (MODULE, MODULE.with_name("_rung_abi.py")):
+                shutil.copy(file, module.parent)
             self.refused("librung-runtime.so.0.*RUNG_RUNTIME", module)
             self.loaded(module, "librung-runtime.so.0", LD_LIBRARY_PATH=str(Path(RUNTIME).parent))
             for place in ("lib/lib", "lib/python/lib", "lib/python/site"):  # from the farthest to the nearest
@@ -1005,7 +1009,7 @@ class Callbacks(Case):
             return -3
 
         with self.assertRaisesRegex(ValueError, "both") as caught:
-            rung._run(failing, rung._callback(rung._LogFunction, lambda _, level, text: raising(level, text.decode())))
+            rung._run(failing, rung._callback(rung._CALLBACKS["log"], lambda _, level, text: raising(level, text.decode())))
         self.assertEqual(caught.exception.__context__.status, rung.Status.WRONG_THREAD)  # neither is lost
 
     def test_another_thread(self):
@@ -1444,7 +1448,8 @@ class Example(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    RUNGC, RUNTIME = (os.path.abspath(sys.argv.pop(1)) for _ in range(2))
+    RUNGC, RUNTIME, folder = (os.path.abspath(sys.argv.pop(1)) for _ in range(3))
+    MODULE = Path(folder) / "rung.py"
     os.environ["RUNG_RUNTIME"] = RUNTIME
     os.chdir(ROOT)
     sys.dont_write_bytecode = True

@@ -260,8 +260,7 @@ def main():
     parser.add_argument("--seed", default=str(random.randrange(10**6)))
     options = parser.parse_args()
     print(f"seed {options.seed}", flush=True)
-    os.environ["RUNG_RUNTIME"] = str(options.bin.parent / "lib/librung-runtime.so")
-    sys.path.insert(0, str(ROOT / "rtlib/python"))
+    sys.path.insert(0, str(options.bin.parent / "lib/python"))
     import rung  # pylint: disable=import-outside-toplevel
     with folder() as place:
         fine = rung_run(rung, options, place)

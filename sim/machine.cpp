@@ -7,12 +7,6 @@
 
 namespace rung::sim {
 
-rung::Image imageOf(const rung_program& program, void* engine) {
-  rung_image* image = nullptr;
-  check(rung_image_adopt(&program, engine, nullptr, nullptr, &image));
-  return rung::Image(image);
-}
-
 rung::Instance Machine::instanceOf(const rung::Image& image, std::unique_ptr<SimulatedNc> nc, Clock clock,
                                    Machine& self) {
   auto options = sized<rung_instance_options>();
@@ -27,8 +21,8 @@ rung::Instance Machine::instanceOf(const rung::Image& image, std::unique_ptr<Sim
 }
 
 Machine::Machine(const rung_program& program, void* engine, std::unique_ptr<SimulatedNc> nc, Clock clock)
-    : nc_(nc.get()), image_(imageOf(program, engine)), instance_(instanceOf(image_, std::move(nc), clock, *this)),
-      inside_(api::insideOf(*instance_.handle())) {}
+    : nc_(nc.get()), image_(rung::Image::adopt(program, engine)),
+      instance_(instanceOf(image_, std::move(nc), clock, *this)), inside_(api::insideOf(*instance_.handle())) {}
 
 void Machine::powerOn(nc::PowerOn kind) {
   instance_.powerOn(kind == nc::PowerOn::Warm ? rung::Power::Warm : rung::Power::Cold);

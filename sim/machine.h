@@ -65,7 +65,4 @@ private:
   runtime::Instance& inside_;
 };
 
-// An image of a program that is in memory already and outlives it.
-rung::Image imageOf(const rung_program& program, void* engine);
-
 } // namespace rung::sim

@@ -17,8 +17,8 @@
 #include "rtlib/load/file.h"
 #include "rtlib/load/program_info.h"
 #include "rtlib/load/so_engine.h"
+#include "rung/runtime.hpp"
 #include "tests/fuzz/mutations.h"
-#include "tests/support/adopted_image.h"
 
 namespace {
 
@@ -84,14 +84,14 @@ uint32_t hostile(std::mt19937_64& random, uint32_t former) {
 
 // What a host does with a program that has passed the check.
 void use(const rung_program& program, runtime::Engine& engine) try {
-  Instance plc(test::adopted(program, engine.context()));
+  Instance plc(Image::adopt(program, engine.context()));
   plc.powerOn();
   for (int i = 0; i < 3; ++i) plc.scan();
   for (uint32_t i = 0; i < program.symbol_count; i += 1 + program.symbol_count / 8) {
     rung_cell cell = 0;
     (void)rung_instance_find(plc.handle(), program.symbols[i].name, RUNG_READ, &cell);
   }
-  const Image next = test::adopted(program, engine.context());
+  const Image next = Image::adopt(program, engine.context());
   rung_replacement* replacement = nullptr;
   if (rung_replacement_new(plc.handle(), next.handle(), nullptr, 0, &replacement) == RUNG_OK)
     (void)rung_instance_replace(plc.handle(), replacement);

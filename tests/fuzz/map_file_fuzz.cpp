@@ -16,8 +16,8 @@
 #include "ir/support/check.h"
 #include "machine/host/binding.h"
 #include "machine/host/mapping_file.h"
+#include "rung/runtime.hpp"
 #include "tests/fuzz/mapped_programs.h"
-#include "tests/support/adopted_image.h"
 #include "tests/support/compiled_program.h"
 
 namespace {
@@ -92,7 +92,7 @@ void checkMap(const host::File& map) {
 
 struct Bound {
   explicit Bound(const fuzz::MappedProgram& source)
-      : compiled(source.file, source.text, compiler::EngineKind::Interp), image(test::adopted(compiled.program())) {}
+      : compiled(source.file, source.text, compiler::EngineKind::Interp), image(Image::adopt(compiled.program())) {}
 
   testing::CompiledProgram compiled;
   Image image;

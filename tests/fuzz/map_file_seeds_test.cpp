@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "machine/host/binding.h"
+#include "rung/runtime.hpp"
 #include "tests/fuzz/mapped_programs.h"
-#include "tests/support/adopted_image.h"
 #include "tests/support/compiled_program.h"
 
 namespace rung::fuzz {
@@ -23,7 +23,7 @@ TEST(MapFileSeeds, BindWithoutErrors) {
     const std::string text(std::istreambuf_iterator<char>(file), {});
     ASSERT_NE(text, "") << path;
     const testing::CompiledProgram program(source.file, source.text, compiler::EngineKind::Interp);
-    const Instance instance(test::adopted(program.program()));
+    const Instance instance(Image::adopt(program.program()));
     std::vector<std::string> errors;
     const host::File map = host::parseMap(text, path, errors);
     host::bindMap(map, instance.handle(), program.program(), errors);

@@ -7,7 +7,7 @@
 #include "compiler/compile.h"
 #include "ir/support/check.h"
 #include "ir/support/diag_render.h"
-#include "tests/support/adopted_image.h"
+#include "rung/runtime.hpp"
 
 namespace rung::host_sim {
 namespace {
@@ -151,7 +151,7 @@ Programs::~Programs() = default;
 
 Image Programs::image(size_t version) const {
   const Made& made = *made_[version];
-  Image image = test::adopted(made.engine->program(), made.engine->context());
+  Image image = Image::adopt(made.engine->program(), made.engine->context());
   check(compiler::serveImage(image.handle(), [&made] { return Result<const compiler::Compiled*>(&made.compiled); },
                              compiler::EngineKind::Interp, {}));
   return image;

@@ -8,7 +8,6 @@
 #include "rtlib/run/realtime.h"
 #include "tests/realtime/guard.h"
 #include "tests/realtime/places.h"
-#include "tests/support/adopted_image.h"
 #include "tests/support/fake_clock.h"
 
 namespace rung::test {
@@ -141,7 +140,7 @@ Outcome runInBox(const rung_program& program, host::File map, const std::string&
   std::vector<std::string> errors;
   std::vector<std::string> reports;
   const std::unique_ptr<host::PlcHost> host =
-      host::PlcHost::make(test::adopted(program), std::move(map), {.retain = retain}, errors, reports);
+      host::PlcHost::make(Image::adopt(program), std::move(map), {.retain = retain}, errors, reports);
   for (const std::string& error : errors) outcome.problem += error + "\n";
   if (!host) return outcome;
   Pins pins(host->pins());
@@ -173,8 +172,8 @@ Outcome runInBox(const rung_program& program, host::File map, const std::string&
 Outcome runFastApart(const rung_program& program, const host::File& map) {
   Outcome outcome;
   std::vector<std::string> reports;
-  const std::unique_ptr<host::PlcHost> whole = host::PlcHost::make(test::adopted(program), map, {}, reports, reports);
-  const std::unique_ptr<host::PlcHost> apart = host::PlcHost::make(test::adopted(program), map, {}, reports, reports);
+  const std::unique_ptr<host::PlcHost> whole = host::PlcHost::make(Image::adopt(program), map, {}, reports, reports);
+  const std::unique_ptr<host::PlcHost> apart = host::PlcHost::make(Image::adopt(program), map, {}, reports, reports);
   Pins wholePins(whole->pins());
   Pins apartPins(apart->pins());
   whole->connect(wholePins.cells());

@@ -45,7 +45,7 @@ void Lane::powerOn(nc::PowerOn kind) {
 
 std::string Lane::replace(runtime::Engine& next, const compiler::GetCompiled& compiled, ReplaceReport& report) try {
   const rung_program& former = instance().program();
-  rung::Image image = sim::imageOf(next.program(), next.context());
+  rung::Image image = rung::Image::adopt(next.program(), next.context());
   serveWith(image, next, compiled);
   rung::Replacement replacement(machine_.instance(), image);
   replacement.allowLate(); // the clock of a scenario waits

@@ -62,7 +62,7 @@ std::string Shadows::begin(const Lanes& lanes, const std::vector<runtime::Engine
   end();
   std::vector<InLane> inLanes;
   for (size_t i = 0; i < lanes.size(); ++i) {
-    rung::Image image = sim::imageOf(engines[i]->program(), engines[i]->context());
+    rung::Image image = rung::Image::adopt(engines[i]->program(), engines[i]->context());
     rung::Shadow shadow(lanes[i]->machine().instance(), image, RUNG_MOST_SHADOW_PASSES,
                         roomFor(lanes[i]->instance().program()));
     inLanes.push_back({std::move(image), std::move(shadow)});

@@ -79,7 +79,7 @@ public:
   }
   // Over a program in memory, with what its chunks find in rung_ctx::engine; `release` is called with `owner` at its
   // end.
-  static Image adopt(const rung_program& program, void* engine, void (*release)(void*) = nullptr,
+  static Image adopt(const rung_program& program, void* engine = nullptr, void (*release)(void*) = nullptr,
                      void* owner = nullptr) {
     rung_image* image = nullptr;
     check(rung_image_adopt(&program, engine, release, owner, &image));

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "machine/host/plc_host.h"
-#include "tests/support/adopted_image.h"
 
 namespace rung::host::testing {
 
@@ -28,7 +27,7 @@ public:
     values.resize(map.pins.size());
     for (PinValue& value : values) cells.push_back({.any = &value});
     try {
-      host = PlcHost::make(test::adopted(program), std::move(map), {.retain = retain, .catchUp = catchUp}, errors,
+      host = PlcHost::make(Image::adopt(program), std::move(map), {.retain = retain, .catchUp = catchUp}, errors,
                            warnings);
     } catch (const Error& error) {
       errors.emplace_back(error.what());

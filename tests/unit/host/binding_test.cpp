@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "rtlib/load/program_info.h"
-#include "tests/support/adopted_image.h"
+#include "rung/runtime.hpp"
 #include "tests/support/words.h"
 #include "tests/unit/host/test_program.h"
 
@@ -21,7 +21,7 @@ struct Cell {
 };
 
 struct Bound {
-  explicit Bound(const rung_program& program) : plc(test::adopted(program)) {}
+  explicit Bound(const rung_program& program) : plc(Image::adopt(program)) {}
   template <class Link>
   Cell cell(const Link& link) {
     const rung_cell found =

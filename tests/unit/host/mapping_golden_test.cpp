@@ -10,7 +10,6 @@
 #include "machine/host/mapping_file.h"
 #include "machine/host/message_texts.h"
 #include "rung/runtime.hpp"
-#include "tests/support/adopted_image.h"
 #include "tests/support/cases.h"
 #include "tests/support/faultless_map.h"
 #include "tests/support/words.h"
@@ -63,7 +62,7 @@ Errors refused(const std::string& text) {
 }
 
 Errors bound(const rung_program& program, const std::string& text) {
-  const Instance plc(test::adopted(program));
+  const Instance plc(Image::adopt(program));
   Errors errors;
   const File map = parseMap(text, "m.map", errors);
   bindMap(map, plc.handle(), program, errors);
@@ -95,7 +94,7 @@ Errors inFiles(const std::string& text) {
 
 Errors inMessages(const rung_program& program, const std::string& text) {
   const ReadFile read = readerOf(text);
-  const Instance plc(test::adopted(program));
+  const Instance plc(Image::adopt(program));
   Errors errors;
   defineMessages(test::faultlessMap(read("m.map")), plc.handle(), errors, read);
   return errors;

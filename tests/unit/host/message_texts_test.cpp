@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "rung/runtime.hpp"
-#include "tests/support/adopted_image.h"
 #include "tests/support/words.h"
 #include "tests/unit/host/test_program.h"
 
@@ -29,7 +28,7 @@ std::string message(const std::string& number) {
 }
 
 std::vector<std::string> errorsOf(const File& map, const rung_program& program, const ReadFile& read) {
-  const Image image = test::adopted(program);
+  const Image image = Image::adopt(program);
   const Instance instance(image);
   std::vector<std::string> errors;
   defineMessages(map, instance.handle(), errors, read);

@@ -915,7 +915,7 @@ abort = [{ pin = "on", edge = "rise" }, { pin = "off", edge = "fall" }]
   const PinCell cells[] = {{.bit = &a}, {.bit = &on}, {.bit = &off}};
   Pins pins(map.pins);
   pins.connect(cells, kVariables);
-  Instance plc(test::adopted(host::testing::gskProgram()));
+  Instance plc(Image::adopt(host::testing::gskProgram()));
   plc.powerOn();
   // Whether a function that is under way is still so after the pins have been looked at.
   FunctionQueue functions(map, plc.handle());

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "machine/host/binding.h"
-#include "tests/support/adopted_image.h"
+#include "rung/runtime.hpp"
 #include "tests/support/words.h"
 #include "tests/unit/host/test_program.h"
 
@@ -12,7 +12,7 @@ namespace rung::host {
 namespace {
 
 std::string templateOf(const rung_program& program, const std::vector<host::UsedName>& used) {
-  const Instance instance(test::adopted(program));
+  const Instance instance(Image::adopt(program));
   const std::string text = host::templateMap(instance.handle(), program, used);
   std::vector<std::string> errors;
   const File map = parseMap(text, "t.map", errors);

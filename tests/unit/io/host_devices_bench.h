@@ -9,7 +9,6 @@
 #include <string>
 
 #include "machine/io/host_devices.h"
-#include "tests/support/adopted_image.h"
 #include "tests/support/compiled_program.h"
 #include "tests/support/patience.h"
 
@@ -34,7 +33,7 @@ public:
   DeviceBench& operator=(const DeviceBench&) = delete;
 
   void begin() {
-    image_.emplace(adopted(compiled_.program()));
+    image_.emplace(Image::adopt(compiled_.program()));
     plc.emplace(devices.instance(*image_, sized<rung_instance_options>()));
     plc->powerOn(Power::Cold);
     devices.start();
@@ -48,7 +47,7 @@ public:
   }
   // That program takes over, at its next pass.
   void replaceBy(const std::string& program) {
-    const Image next = adopted(others_.emplace_back(program, scenarioProgram(program)).program());
+    const Image next = Image::adopt(others_.emplace_back(program, scenarioProgram(program)).program());
     Replacement& replacement = replacements_.emplace_back(*plc, next);
     replacement.allowLate();
     EXPECT_TRUE(soon([&] { return plc->replace(replacement) == RUNG_OK; }));

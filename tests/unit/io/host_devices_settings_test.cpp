@@ -101,7 +101,7 @@ TEST(DeviceSettings, MistakesOfTheChannelsFile) {
 TEST(DeviceSettings, OtherDialects) {
   rung::testing::CompiledProgram gsk("a.pmc", "dialect gsk\nFUNC END1\nFUNC END2\n");
   HostDevices devices;
-  EXPECT_THROW(devices.instance(rung::test::adopted(gsk.program()), rung::sized<rung_instance_options>()),
+  EXPECT_THROW(devices.instance(rung::Image::adopt(gsk.program()), rung::sized<rung_instance_options>()),
                std::runtime_error);
 }
 
@@ -140,7 +140,7 @@ TEST(DeviceSettings, PinsOfAnalogueOutputs) {
   ASSERT_EQ(map.pins.size(), 16u);
   EXPECT_EQ(map.pins.back().name, "analog-out-16");
   EXPECT_EQ(map.pins.back().type, host::PinType::Float);
-  Instance plc(test::adopted(spindles.program()));
+  Instance plc(Image::adopt(spindles.program()));
   std::vector<std::string> errors;
   const host::Binding bound = host::bindMap(map, plc.handle(), spindles.program(), errors);
   EXPECT_THAT(errors, IsEmpty());

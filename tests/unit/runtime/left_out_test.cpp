@@ -11,7 +11,6 @@
 
 namespace {
 
-using rung::test::adopted;
 using rung::test::TestProgram;
 
 // A run copies AREA over SEEN. A rung takes byte 1000 of SEEN to COPY; nothing reads its byte 10.
@@ -71,7 +70,7 @@ protected:
   }
 
   TestProgram program = made();
-  rung::Image image = adopted(program.link());
+  rung::Image image = rung::Image::adopt(program.link());
   rung::Instance plc{image};
   rung_cell area10, area1000, copy;
 };
@@ -144,7 +143,7 @@ TEST_F(BytesThatCopiesLeaveOut, AreThereForVariablesAndBlocks) {
 TEST_F(BytesThatCopiesLeaveOut, AreThereForTheNextProgramAndWhoLooksAtThatAlone) {
   TestProgram next = made();
   next.reads[1] = {kSeen + 10, 1}; // of SEEN; so byte 1000 is left out
-  const rung::Image other = adopted(next.link());
+  const rung::Image other = rung::Image::adopt(next.link());
   const rung_cell seen1000 = plc.find("SEEN1000");
   rung::Replacement replacement(plc, other);
   rung::check(plc.replace(replacement));

@@ -11,7 +11,7 @@ namespace rung::bench {
 
 struct Recorder::Beside {
   Beside(scenario::Session& of, const compiler::Compiled& program)
-      : session(of), engine(engineOf(program)), image(sim::imageOf(engine->program(), engine->context())),
+      : session(of), engine(engineOf(program)), image(rung::Image::adopt(engine->program(), engine->context())),
         replay(image), inSlots(of.nc().control().runsInSlots()) {}
 
   static std::unique_ptr<runtime::Engine> engineOf(const compiler::Compiled& program) {

@@ -225,9 +225,9 @@ json Controller::answer(const Peer& peer, const json& request) {
     const std::string wanted = textOf(request, "do");
     const auto* command = std::ranges::find(kRows, wanted, &Row::name);
     if (command == std::end(kRows)) throw Refused("found \"" + wanted + "\", expected a command of this protocol");
-    if (command->permission && !plc_.map().allowed[static_cast<size_t>(*command->permission)]) {
+    if (command->permission && !plc_.map().permissions[static_cast<size_t>(*command->permission)]) {
       const std::string right(host::kRemoteNames[static_cast<size_t>(*command->permission)]);
-      throw Refused("\"" + right + "\" is not allowed here; for it the mapping file needs [rungctl] allow = [\"" +
+      throw Refused("\"" + right + "\" is not allowed here; for it the mapping file needs [rungctl] permissions = [\"" +
                     right + "\"]");
     }
     const bool changes = command->permission && *command->permission != host::Remote::Serve;
@@ -587,12 +587,12 @@ json Controller::map(const Peer&, const json&) {
                     {"line", pin.at.line}});
     if (!values.empty()) pins.back()["value"] = jsonOf(pin.type, values[i]);
   }
-  json allowed = json::array();
+  json permissions = json::array();
   for (size_t i = 0; i < std::size(host::kRemoteNames); ++i)
-    if (map.allowed[i]) allowed.push_back(host::kRemoteNames[i]);
-  json never = json::array();
-  for (const host::Protected& cell : map.never) never.push_back(cell.name);
-  return {{"files", map.paths}, {"pins", pins}, {"allow", allowed}, {"never", never}};
+    if (map.permissions[i]) permissions.push_back(host::kRemoteNames[i]);
+  json protectedNames = json::array();
+  for (const host::Protected& cell : map.protectedCells) protectedNames.push_back(cell.name);
+  return {{"files", map.paths}, {"pins", pins}, {"permissions", permissions}, {"protected", protectedNames}};
 }
 
 json Controller::profile(const Peer&, const json& request) { return profileOf(plc_, request); }
@@ -624,11 +624,11 @@ std::vector<Controller::Range> Controller::rangesOf(const std::string& name) con
 // By where the names are in the program that runs: a reload may have moved them.
 void Controller::refuseProtected(const std::string& name) const {
   const std::vector<Range> wanted = rangesOf(name);
-  for (const host::Protected& cell : plc_.map().never) {
+  for (const host::Protected& cell : plc_.map().protectedCells) {
     const std::vector<Range> kept = rangesOf(cell.name);
     if (kept.empty()) throw Refused("whether " + name + " is protected is not known: " + cell.name + " is not found");
     if (shareOf(cell.name, wanted) != Share::None)
-      throw Refused(name + " is protected by the mapping file ([rungctl] never)");
+      throw Refused(name + " is protected by the mapping file ([rungctl] protected)");
   }
 }
 

@@ -122,7 +122,7 @@ public:
     for (const Link& link : map_.links) addLink(binding.links, link);
     for (const NamedOnly& name : map_.namedOnly) checkName(name);
     for (const Constant& constant : map_.constants) addConstant(binding.constants, constant);
-    for (const Protected& cell : map_.never) checkProtected(cell);
+    for (const Protected& cell : map_.protectedCells) checkProtected(cell);
     checkShared(written_, "pin");
     checkShared(constants_, "constant");
     checkConstants();
@@ -328,7 +328,7 @@ private:
   }
 
   void checkProtected(const Protected& cell) {
-    Entry entry{"rungctl.never", cell.name, cell.at, Use::Output};
+    Entry entry{"rungctl.protected", cell.name, cell.at, Use::Output};
     const std::optional<Place> place = lookUp(entry);
     if (place && place->space == RUNG_NONE) fail(cell.at, entry.where, mistakeOf(Misfit::Constant, *place, entry));
   }

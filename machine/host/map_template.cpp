@@ -99,7 +99,8 @@ public:
         ": a first list, made of what its rungs use.\n"
         "# Remove what the machine does not connect, and give the pins names of your own. Signals that a\n"
         "# [[send]] table drives are for it alone.\n\n"
-        "# What rungctl may change; by default nothing:\n# [rungctl]\n# allow = [\"set\", \"force\", \"reload\"]\n\n";
+        "# What rungctl may change; by default nothing:\n# [rungctl]\n# permissions = [\"set\", \"force\", "
+        "\"reload\"]\n\n";
     text += inputs_.empty() && !narrow_.empty() ? "[in]\n" : table("in", inputs_, "");
     if (!narrow_.empty())
       text += "# Numbers of 16 bits; of a greater one the pin's upper bits are lost:\n" + rows(narrow_, "# ") + '\n';

@@ -29,7 +29,7 @@ constexpr PinType kPinTypes[] = {PinType::Bit, PinType::S32, PinType::U32, PinTy
 constexpr double kLongestTimeout = 1e6; // seconds
 constexpr double kShortestTimeout = 1e-9;
 
-constexpr std::string_view kAllowed =
+constexpr std::string_view kPermissions =
     "a list of \"set\", \"force\", \"reload\", \"start\", \"stop\", \"reset\", \"profile\" and \"serve\"";
 
 constexpr int64_t kMostBits = 32;
@@ -167,25 +167,25 @@ private:
     if (table != nullptr) readKeys(*table, "rungctl", kRemoteKeys, map);
     return table != nullptr;
   }
-  bool takeAllowed(const toml::node& node, File& map) {
+  bool takePermissions(const toml::node& node, File& map) {
     const toml::array* list = node.as_array();
     if (list == nullptr) return false;
     for (const toml::node& element : *list) {
       const auto known = std::ranges::find(kRemoteNames, textOf(element));
       if (known != std::end(kRemoteNames))
-        map.allowed[known - std::begin(kRemoteNames)] = true;
+        map.permissions[known - std::begin(kRemoteNames)] = true;
       else
-        fail(positionOf(element), "rungctl.allow: found " + shown(element) + " in the list, expected " +
-                                      std::string(kAllowed) +
+        fail(positionOf(element), "rungctl.permissions: found " + shown(element) + " in the list, expected " +
+                                      std::string(kPermissions) +
                                       text::didYouMean(text::mostSimilar(textOf(element), kRemoteNames)));
     }
     return true;
   }
-  bool takeNever(const toml::node& node, File& map) {
+  bool takeProtected(const toml::node& node, File& map) {
     const toml::array* list = node.as_array();
     return list != nullptr && std::ranges::all_of(*list, [&](const toml::node& element) {
-             map.never.push_back({textOf(element), positionOf(element)});
-             return !map.never.back().name.empty();
+             map.protectedCells.push_back({textOf(element), positionOf(element)});
+             return !map.protectedCells.back().name.empty();
            });
   }
 
@@ -303,7 +303,7 @@ const Reader::Key<File> Reader::kFileKeys[] = {
     {"axis-groups", false, "a table", "[axis-groups] and AXIS = \"GROUP\" in the lines after it",
      &Reader::takeAxisGroups},
     {"abort", false, "a list of tables", "[[abort]] and its keys in the lines after it", &Reader::takeAborts},
-    {"rungctl", false, "a table", "[rungctl] and allow = [ … ] in the lines after it", &Reader::takeRemote},
+    {"rungctl", false, "a table", "[rungctl] and permissions = [ … ] in the lines after it", &Reader::takeRemote},
     {"modbus-client", false, "a list of tables", "[[modbus-client]] and its keys in the lines after it",
      &Reader::takeClients},
     {"devices", false, "a table", "[devices] and com = { 1 = \"/dev/ttyUSB0\" } in the lines after it",
@@ -313,8 +313,8 @@ const Reader::Key<File> Reader::kFileKeys[] = {
 };
 
 const Reader::Key<File> Reader::kRemoteKeys[] = {
-    {"allow", false, kAllowed, "allow = [\"set\"]", &Reader::takeAllowed},
-    {"never", false, "a list of names of the program", "never = [\"X0.0\"]", &Reader::takeNever},
+    {"permissions", false, kPermissions, "permissions = [\"set\"]", &Reader::takePermissions},
+    {"protected", false, "a list of names of the program", "protected = [\"X0.0\"]", &Reader::takeProtected},
 };
 
 const Reader::Key<PinRow> Reader::kType = {"type", true, "\"bit\", \"s32\", \"u32\" or \"float\"", "type = \"bit\"",

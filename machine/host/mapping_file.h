@@ -198,8 +198,8 @@ struct File {
   std::vector<Group> groups;
   std::vector<MessageFile> messageFiles;
   std::vector<AxisGroup> axisGroups;
-  bool allowed[std::size(kRemoteNames)] = {}; // by Remote
-  std::vector<Protected> never;
+  bool permissions[std::size(kRemoteNames)] = {}; // by Remote
+  std::vector<Protected> protectedCells;
   std::vector<Connection> connections;
   std::vector<DeviceSetting> devices;
   std::vector<Edge> aborts;          // reset, emergency stop: every function ends

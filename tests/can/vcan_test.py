@@ -46,7 +46,7 @@ class Vcan(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         folder = Path(self.folder.name)
-        (folder / "can.map").write_text('[rungctl]\nallow = ["set", "reload"]\n' + self.constants, encoding="utf-8")
+        (folder / "can.map").write_text('[rungctl]\npermissions = ["set", "reload"]\n' + self.constants, encoding="utf-8")
         self.log = open(folder / "log", "w+", encoding="utf-8")
         self.addCleanup(self.log.close)
         self.process = subprocess.Popen([BIN / "rung-run", FOLDER / f"{self.program}.so", folder / "can.map", "--can", "2=vcan0", *self.options],

@@ -127,7 +127,7 @@ def expect(condition, what):
 
 # A change of the programs of `remote`, by the ending of their files: a rung more.
 EDITS = {".pmc": ("FUNC END2", "LD   COOLANT_FLOW\nOUT  R90.0\n\nFUNC END2")}
-REMOTE = '\n[rungctl]\nallow = ["set", "force", "reload"]\nnever = ["ESTOP_OK"]\n'
+REMOTE = '\n[rungctl]\npermissions = ["set", "force", "reload"]\nprotected = ["ESTOP_OK"]\n'
 
 
 def prepare_remote(bench, options):
@@ -448,7 +448,7 @@ def sources(bench, options):
         expect(name == "first.pmc" or text != source, f"{name} is the same")
         bench.file(name, text)
     map_text = (HERE / "stuck.map").read_text(encoding="utf-8")
-    bench.file("program.map", map_text + '\n[rungctl]\nallow = ["reload"]\n')
+    bench.file("program.map", map_text + '\n[rungctl]\npermissions = ["reload"]\n')
     shutil.copy(Path(options.rungc).parent / "rungctl", bench.home)
     load = LOAD.format(options="names=box", prefix="box").replace("so=@DIR@/program.so", "source=@DIR@/first.pmc")
     show = "show pin box\n"

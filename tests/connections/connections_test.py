@@ -734,7 +734,7 @@ class Simulated(unittest.TestCase):
 
     def test_the_functions_of_a_part_program(self):
         self.begin("""[rungctl]
-allow = ["set"]
+permissions = ["set"]
 [in]
 start = { type = "bit", name = "X7.2" }
 estop-ok = { type = "bit", name = "X8.4" }
@@ -767,7 +767,7 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
         """An example's project between bits by shared memory: what sets its inputs, and what waits for an output."""
         table = lambda pins: "".join(f'{pin} = {{ type = "bit", name = "{name}" }}\n' for pin, name in pins.items())
         places = [f"{pin} = {at}" for pins in (inputs, outputs) for at, pin in enumerate(pins)]
-        text = (f'{keys}[rungctl]\nallow = ["set"]\n[in]\n{table(inputs)}[out]\n{table(outputs)}[shared-memory]\nname = "test-{os.getpid()}"\n'
+        text = (f'{keys}[rungctl]\npermissions = ["set"]\n[in]\n{table(inputs)}[out]\n{table(outputs)}[shared-memory]\nname = "test-{os.getpid()}"\n'
                 f'timeout = 60\npins = {{ {", ".join(places)} }}\n')
         options = [word for key, value in config.items() for word in ("--config", f"{key}={value}")]
         self.host = Host(BIN, text, options=["--simulate", *options], program=Path("examples", example))
@@ -873,12 +873,12 @@ pins = { start = 0, estop-ok = 1, answer = 2, m-code = 0 }
         self.assertIn('"set" is not allowed here', refused("reset"))
         self.assertIn("expected KEY=VALUE", refused("program", "G0"))
         self.assertEqual(self.host.end(), OK)
-        self.begin('[rungctl]\nallow = ["set"]\n', ["--simulate"])
+        self.begin('[rungctl]\npermissions = ["set"]\n', ["--simulate"])
         self.assertIn("block 1: a number is missing after 'Y'", refused("program", "blocks=G0 X7 Y"))
         self.assertIn("dance", refused("dance"))
 
     def test_without_a_simulation_there_are_no_events(self):
-        self.begin('[rungctl]\nallow = ["set"]\n', [])
+        self.begin('[rungctl]\npermissions = ["set"]\n', [])
         done = subprocess.run([BIN / "rungctl", "event", "reset"], capture_output=True, text=True, env=self.host.environment)
         self.assertIn("this host does not simulate a control; use rung-run --simulate", done.stderr)
 

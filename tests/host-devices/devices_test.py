@@ -26,7 +26,7 @@ from root import go_to_root
 BIN = None
 OK, USAGE, ENVIRONMENT = 0, 2, 3
 PROGRAMS = Path("tests/scenarios/technol")
-MAP = '[rungctl]\nallow = ["set"]\n'
+MAP = '[rungctl]\npermissions = ["set"]\n'
 
 
 def word(text):

@@ -35,8 +35,8 @@ timeout = 0.101
 status = "far-ok"
 pins = { far = 0, lamp = 0 }
 [rungctl]
-allow = ["set", "force", "reload", "start", "stop", "reset", "profile", "serve"]
-never = ["OTHER"]
+permissions = ["set", "force", "reload", "start", "stop", "reset", "profile", "serve"]
+protected = ["OTHER"]
 )";
 constexpr const char* kRetained = "/disk/retained";
 

@@ -220,7 +220,7 @@ class BrokenForceCompilers(Forcing):
 
 class ForcesOfDialects(SourceHost):
     """Programs that write by computed addresses: hardly a cell that may not be written."""
-    map = '[rungctl]\nallow = ["set", "force", "reload"]\n'
+    map = '[rungctl]\npermissions = ["set", "force", "reload"]\n'
 
     def run_example(self, name):
         self.end()

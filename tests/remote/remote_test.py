@@ -38,8 +38,8 @@ run = { type = "bit", name = "X0.0" }
 [out]
 lamp = { type = "bit", name = "Y0.0" }
 [rungctl]
-allow = ["set", "force", "reload", "stop", "start", "reset", "profile"]
-never = ["X0.2"]
+permissions = ["set", "force", "reload", "stop", "start", "reset", "profile"]
+protected = ["X0.2"]
 """
 
 
@@ -571,8 +571,8 @@ class Reals(Host):
 run = { type = "bit", name = "7100.01" }
 limit = { type = "float", name = "REAL.7010" }
 [rungctl]
-allow = ["set", "force"]
-never = ["REAL.7020"]
+permissions = ["set", "force"]
+protected = ["REAL.7020"]
 """
 
     def test_set_and_get(self):
@@ -648,7 +648,7 @@ level = { type = "float", name = "D16:4", scale = 10 }
 [out]
 y5 = { type = "bit", name = "Y5", bits = 2 }
 [rungctl]
-allow = ["set"]
+permissions = ["set"]
 """
 
     def test_the_pin_that_writes_a_bit_is_named(self):
@@ -664,7 +664,7 @@ allow = ["set"]
 
 class FullDisk(Host):
     """What rungctl prints goes to a full disk: each command says so."""
-    map = MAP.replace('allow = [', 'allow = ["serve", ')
+    map = MAP.replace('permissions = [', 'permissions = ["serve", ')
     build_options = ("--profile",)
     commands = {"hosts": [], "status": [], "messages": [], "get": ["X0.0"], "watch": ["X0.0"], "trace": ["X0.0", "-o", "{home}/full.vcd", "--for", "0.1"],
                 "set": ["D8:2", "1"], "event": ["reset"], "force": ["D8:2", "1"], "unforce": ["--all"], "forced": [], "reload": ["{program}"],
@@ -835,7 +835,7 @@ class Rights(Host):
         for words, right in ((["set", "D8:2", "1"], "set"), (["force", "D8:2", "1"], "force"), (["unforce", "D8:2"], "force"),
                              (["stop"], "stop"), (["start"], "start"), (["reset"], "reset"), (["rollback"], "reload"),
                              (["reload", self.program], "reload")):
-            self.assertIn(f'"{right}" is not allowed here; for it the mapping file needs [rungctl] allow = ["{right}"]',
+            self.assertIn(f'"{right}" is not allowed here; for it the mapping file needs [rungctl] permissions = ["{right}"]',
                           self.ctl(*words, status=WRONG))
         self.ctl("status")
         self.assertIn("build it with rungc build --profile", self.ctl("profile", status=WRONG))
@@ -850,7 +850,7 @@ class Rights(Host):
 
 
 class Protected(Host):
-    map = MAP.replace('never = ["X0.2"]', 'never = ["GUARD"]')
+    map = MAP.replace('protected = ["X0.2"]', 'protected = ["GUARD"]')
 
     def test_a_name_is_protected_where_a_reload_has_moved_it(self):
         moved = self.home / "moved.pmc"
@@ -873,7 +873,7 @@ class Named(Host):
         for before, after, text in (
                 ("symbol GO X0.0", "symbol RUN X0.0", "plc.map:2:30: in.run.name: found an unknown name GO"),
                 ("symbol LAMP Y0.0", "symbol LIGHT Y0.0", "plc.map:4:31: out.lamp.name: found an unknown name LAMP"),
-                ("symbol GUARD X0.2\n", "", "plc.map:7:10: rungctl.never: found an unknown name GUARD"),
+                ("symbol GUARD X0.2\n", "", "plc.map:7:14: rungctl.protected: found an unknown name GUARD"),
                 ("symbol GO X0.0", "symbol GO Y0.5", "in.run.name: found GO, an output of the program")):
             with self.subTest(after=after):
                 answer = self.ctl("reload", self.program_with(before, after), "--yes", status=WRONG)
@@ -921,7 +921,7 @@ MODULE_HALT
 MODULE_HALT_END
 STOP
 """
-    map = '[rungctl]\nallow = ["set", "reload"]\n'
+    map = '[rungctl]\npermissions = ["set", "reload"]\n'
 
     def test_a_latch_that_was_left_on(self):
         other = self.home / "other.plc"

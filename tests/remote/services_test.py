@@ -96,7 +96,7 @@ TOOL = {"event": "service", "quantity": "tool-number", "channel": 0, "number": 0
 
 
 class Provider(Host):
-    map = '[rungctl]\nallow = ["set", "serve"]\n'
+    map = '[rungctl]\npermissions = ["set", "serve"]\n'
 
     def provider(self):
         made, lines = self.connect()

@@ -29,7 +29,7 @@ MACHINES = {"mill": ("examples/gsk-mill", "examples/gsk-mill/mill.map", 8, "exam
                         "examples/nct-turning-centre, 590 rungs, NCT"),
             "centre": ("examples/technol-machining-centre", "examples/technol-machining-centre/linuxcnc/centre.map", 20,
                        "examples/technol-machining-centre, 584 rungs, TECHNOL")}
-ALLOW = '\n[rungctl]\nallow = ["reload"]\n'
+ALLOW = '\n[rungctl]\npermissions = ["reload"]\n'
 CLOCKS = r"""
 #include <stdio.h>
 #include <time.h>

@@ -270,13 +270,13 @@ pump = { type = "bit", name = "Y0.2" }
 }
 
 TEST(MapFile, WhatRungctlMayDo) {
-  const File map = faultlessMap("[rungctl]\nallow = [\"set\", \"stop\"]\nnever = [\"X0.0\", \"ESTOP\"]\n");
-  EXPECT_TRUE(map.allowed[static_cast<size_t>(Remote::Set)]);
-  EXPECT_TRUE(map.allowed[static_cast<size_t>(Remote::Stop)]);
-  EXPECT_FALSE(map.allowed[static_cast<size_t>(Remote::Force)]);
-  ASSERT_EQ(map.never.size(), 2u);
-  EXPECT_EQ(map.never[1].name, "ESTOP");
-  EXPECT_EQ(map.never[1].at, (Position{3, 18}));
+  const File map = faultlessMap("[rungctl]\npermissions = [\"set\", \"stop\"]\nprotected = [\"X0.0\", \"ESTOP\"]\n");
+  EXPECT_TRUE(map.permissions[static_cast<size_t>(Remote::Set)]);
+  EXPECT_TRUE(map.permissions[static_cast<size_t>(Remote::Stop)]);
+  EXPECT_FALSE(map.permissions[static_cast<size_t>(Remote::Force)]);
+  ASSERT_EQ(map.protectedCells.size(), 2u);
+  EXPECT_EQ(map.protectedCells[1].name, "ESTOP");
+  EXPECT_EQ(map.protectedCells[1].at, (Position{3, 22}));
 }
 
 TEST(MapFile, Includes) {

@@ -26,7 +26,7 @@ constexpr const char* kHead =
     ": a first list, made of what its rungs use.\n"
     "# Remove what the machine does not connect, and give the pins names of your own. Signals "
     "that a\n# [[send]] table drives are for it alone.\n\n"
-    "# What rungctl may change; by default nothing:\n# [rungctl]\n# allow = [\"set\", \"force\", \"reload\"]\n\n";
+    "# What rungctl may change; by default nothing:\n# [rungctl]\n# permissions = [\"set\", \"force\", \"reload\"]\n\n";
 
 TEST(Template, WhatTheMachineAndTheNcHave) {
   const std::string text = templateOf(testing::gskProgram(), {{"X0.0", true, false},

@@ -162,8 +162,11 @@ std::string withContents(ReferencePage& page) {
 std::string dialectReference(const Dialect& dialect) {
   ReferencePage page;
   page.section(fmt::format("{}: reference", dialect.name),
-               fmt::format("{}. Made by `rungc doc {}` from the tables of the dialect; do not edit.", dialect.title,
-                           dialect.name),
+               fmt::format("{}. This page is for everyone who writes or reads programs of this control. It lists the "
+                           "instructions with their operands, the configuration, the faults, the memory and the "
+                           "signals, and says where the control's manual describes them. Made by `rungc doc {}` from "
+                           "the tables of the dialect; do not edit.",
+                           dialect.title, dialect.name),
                "", 1);
   for (std::string_view group : groupsOf(dialect)) {
     page.section(group, "");
@@ -187,8 +190,10 @@ std::string dialectReference(const Dialect& dialect) {
 
 std::string diagnosticReference() {
   ReferencePage page;
-  page.section("Diagnostics", "Every code that the compiler reports. Made by `rungc doc diagnostics`; do not edit.", "",
-               1);
+  page.section("Diagnostics",
+               "This page explains every error and warning of the compiler, by the code that a message shows in "
+               "brackets; `rungc explain CODE` prints the same for one. Made by `rungc doc diagnostics`; do not edit.",
+               "", 1);
   for (const DiagInfo* info : sortedDiags())
     page.section(info->code, fmt::format("{}: {}\n\n{}", info->severity == Severity::Error ? "Error" : "Warning",
                                          info->message, info->explanation));
@@ -197,8 +202,12 @@ std::string diagnosticReference() {
 
 std::string operationReference() {
   ReferencePage page;
-  page.section("Operations of the IR", "Made by `rungc doc ir` from ir/core/ops.def; do not edit.",
-               "operation | types | meaning", 1);
+  page.section(
+      "Operations of the IR",
+      "This page is for developers of Rung. It lists the operations of the intermediate representation into which "
+      "every program is lowered ([ir.md](../ir.md) introduces it), and the passes that optimise it. Made by "
+      "`rungc doc ir` from ir/core/ops.def; do not edit.",
+      "operation | types | meaning", 1);
   for (const ir::OpInfo& info : ir::allOps()) {
     std::string types;
     for (int t = 1; t < ir::kTypeCount; ++t)

@@ -16,6 +16,29 @@
 
 namespace rung::frontend {
 
+// Text of Markdown in lines of at most 100 characters; code spans and blocks of code stay whole.
+inline std::string wrapped(std::string_view text) {
+  constexpr ptrdiff_t kColumns = 100;
+  if (text.starts_with("```")) return std::string(text);
+  std::string lines;
+  ptrdiff_t column = 0;
+  size_t begin = 0; // of the word
+  bool code = false;
+  for (size_t i = 0; i <= text.size(); ++i) {
+    const char c = i < text.size() ? text[i] : ' ';
+    if (c == '`') code = !code;
+    if (i < text.size() && c != '\n' && (c != ' ' || code)) continue;
+    const std::string_view word = text.substr(begin, i - begin);
+    const ptrdiff_t width = std::ranges::count_if(word, [](char letter) { return (letter & 0xC0) != 0x80; });
+    const bool full = column > 0 && column + 1 + width > kColumns;
+    if (column > 0) lines += full ? '\n' : ' ';
+    (lines += word) += c == '\n' ? "\n" : "";
+    column = c == '\n' ? 0 : width + (column == 0 || full ? 0 : column + 1);
+    begin = i + 1;
+  }
+  return lines;
+}
+
 class ReferencePage {
 public:
   struct Heading {
@@ -30,7 +53,7 @@ public:
       put(text_, "{:#>{}} {}\n\n", "", level, title);
       headings_.push_back({level, std::string(title)});
     }
-    if (!text.empty()) put(text_, "{}\n{}", text, columns.empty() ? "" : "\n");
+    if (!text.empty()) put(text_, "{}\n{}", wrapped(text), columns.empty() ? "" : "\n");
     if (columns.empty()) return;
     put(text_, "| {} |\n|", columns);
     for (auto n = std::ranges::count(columns, '|'); n >= 0; --n) text_ += " --- |";

@@ -138,7 +138,7 @@ struct Controller::Watching {
     for (size_t i = 0; i < values.size(); ++i) list.push_back(valueOf(i));
     sent = values;
     begun = true;
-    return {{"event", "values"}, {"pass", sample.pass}, {"us", sample.now_us}, {"lost", sample.lost}, {"values", list}};
+    return {{"event", "values"}, {"scan", sample.pass}, {"us", sample.now_us}, {"lost", sample.lost}, {"values", list}};
   }
 
   rung_instance* of;
@@ -300,7 +300,7 @@ json Controller::status(const Peer&, const json&) {
   out["powered_off"] = plc_.ended();
   if (!answer.ok()) return out;
   const uint32_t flags = order.state.flags;
-  out["passes"] = order.state.passes;
+  out["scans"] = order.state.passes;
   out["missed"] = order.state.missed;
   out["restarts"] = plc_.restarts();
   out["functions"] = jsonOf(order.functions);
@@ -492,7 +492,7 @@ json Controller::get(const Peer&, const json& request) {
   }
   json values = json::object();
   for (size_t i = 0; i < names.size(); ++i) values[names[i]] = toJson(once.types[i], once.values[i]);
-  return {{"pass", sample.pass}, {"us", sample.now_us}, {"values", values}};
+  return {{"scan", sample.pass}, {"us", sample.now_us}, {"values", values}};
 }
 
 void Controller::serveClients(Sink& sink) {
@@ -994,9 +994,9 @@ void Controller::endShadow() {
 }
 
 json Controller::shadow(const Peer& peer, const json& request) {
-  const auto passes = request.find("passes");
+  const auto passes = request.find("scans");
   if (passes == request.end() || !passes->is_number_unsigned() || *passes == 0 || *passes > kMostShadowPasses)
-    throw Refused("found no number \"passes\" from 1 to 100000 in the request, expected one");
+    throw Refused("found no number \"scans\" from 1 to 100000 in the request, expected one");
   if (shadow_ != nullptr && shadowsFor_ != peer.number)
     throw Refused("another client is running a shadow; try again when it has ended");
   if (const std::optional<rung_state> now = stateNow(); now && (now->flags & RUNG_STATE_STOPPED) != 0)

@@ -104,7 +104,7 @@ std::string functionsOf(const json& answer) {
 std::string runningOf(const json& answer) {
   return fmt::format("{}: {} scans, {} missed{}; program time {:.3f} s{}\n",
                      answer.value("stopped", false) ? "stopped by the operator" : "running",
-                     answer.value("passes", uint64_t{0}), answer.value("missed", uint64_t{0}),
+                     answer.value("scans", uint64_t{0}), answer.value("missed", uint64_t{0}),
                      answer.value("restarts", uint64_t{0}) != 0 ? " since the last reset" : "",
                      static_cast<double>(answer.value("us", int64_t{0})) / 1e6,
                      answer.value("unsaved", false) ? "; the retained memory cannot be written" : "");
@@ -194,7 +194,7 @@ int watch(Client& client, const Words& words) {
 void addRest(Client& client, const Words& words, rungctl::Trace& trace) {
   using std::chrono::milliseconds;
   // 0 where no pass ends any more.
-  const uint64_t newest = client.ask({{"do", "get"}, {"names", words.names}}).value("pass", uint64_t{0});
+  const uint64_t newest = client.ask({{"do", "get"}, {"names", words.names}}).value("scan", uint64_t{0});
   const milliseconds patience(newest == 0 ? 0 : 2000);
   while (newest == 0 || trace.lastPass() < newest) {
     const std::optional<json> event = client.event(patience);
@@ -225,7 +225,7 @@ int trace(Client& client, const Words& words) {
   const std::string problem = fill(client, words, trace);
   trace.end();
   if (!file.flush()) return fail("cannot write " + words.file, cli::kEnvironment);
-  print(words, {{"ok", true}, {"passes", trace.passes()}},
+  print(words, {{"ok", true}, {"scans", trace.passes()}},
         fmt::format("wrote {}: {} {}", words.file, trace.passes(), trace.passes() == 1 ? "scan" : "scans"));
   return problem.empty() ? int{cli::kOk} : fail(problem);
 }

@@ -145,15 +145,15 @@ class Wcet(unittest.TestCase):
         self.assertGreater(report["slice"]["time_ns"], 0)
         self.assertTrue(report["slice"]["fits"])
         main = tasks["MAIN"]
-        self.assertEqual((main["steps"], main["way_steps"], main["budget"], main["parts"]), (27, 27, 1000000, 1))
+        self.assertEqual((main["steps"], main["path_steps"], main["budget"], main["parts"]), (27, 27, 1000000, 1))
         self.assertEqual(main["loops"], [])
         self.assertGreater(main["instructions"], 20)
         self.assertLess(main["instructions"], 400)
         self.assertEqual(main["calls"], [])
-        self.assertEqual(main["way"][0], {
+        self.assertEqual(main["path"][0], {
             "routine": "MAIN", "runs": 1, "steps": 27, "rungs": [[1, 7]], "index": [[0, 6]],
             "calls": [{"rung": 5, "index": 4, "routine": "MAIN.SBN2"}, {"rung": 6, "index": 5, "routine": "MAIN.SBN2"}]})
-        self.assertEqual(main["way"][1], {
+        self.assertEqual(main["path"][1], {
             "routine": "MAIN.SBN2", "runs": 2, "steps": 6, "rungs": [[8, 10]], "index": [[7, 9]], "calls": []})
         self.assertNotIn("measured", main)
 
@@ -174,9 +174,9 @@ class Wcet(unittest.TestCase):
         self.assertTrue(report["slice"]["loops"])
         self.assertEqual((tasks["LEVEL1"]["steps"], tasks["LEVEL1"]["loops"]), (3, []))
         level2 = tasks["LEVEL2"]
-        self.assertEqual((level2["steps"], level2["way_steps"]), (1000000, 13))
+        self.assertEqual((level2["steps"], level2["path_steps"]), (1000000, 13))
         self.assertEqual([loop["rungs"] for loop in level2["loops"]], [[[3, 5]]])
-        self.assertEqual(level2["way"][0]["rungs"], [[2, 6]])
+        self.assertEqual(level2["path"][0]["rungs"], [[2, 6]])
         self.assertGreater(level2["instructions"], 1000000)
         text = self.text(self.write("a.pmc", LIST))
         self.assertIn("LEVEL2: at most 1000000 steps, the whole budget: the program may loop\n", text)
@@ -197,7 +197,7 @@ class Wcet(unittest.TestCase):
 
     def test_assembler_with_two_ways(self):
         tasks, _ = self.tasks(self.write("a.plc", ASSEMBLER))
-        self.assertEqual((tasks["MAIN"]["steps"], tasks["MAIN"]["way"][0]["rungs"]), (8, [[1, 1], [3, 4]]))
+        self.assertEqual((tasks["MAIN"]["steps"], tasks["MAIN"]["path"][0]["rungs"]), (8, [[1, 1], [3, 4]]))
         self.assertIn("  MODULE_MAIN: rungs 1, 3-4\n", self.text(self.write("a.plc", ASSEMBLER)))
 
     def test_calls_of_the_host(self):
@@ -227,7 +227,7 @@ class Wcet(unittest.TestCase):
             for task in tasks.values():
                 self.assertEqual(task.get("no_instructions"), None, task["name"])
                 self.assertLessEqual(task["measured"]["steps"], task["steps"], task["name"])
-                self.assertLessEqual(task["way_steps"], task["budget"], task["name"])
+                self.assertLessEqual(task["path_steps"], task["budget"], task["name"])
                 calls = sum(call["count"] * call["call_ns"] for call in task["calls"])
                 self.assertAlmostEqual(task["time_ns"], task["steps"] * report["slice"]["step_ns"] + calls, places=0)
 

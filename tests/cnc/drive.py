@@ -225,7 +225,7 @@ def counters():
     before = program_state()
     passes(50)
     after = program_state()
-    scans, took = (after[name] - before[name] for name in ("passes", "us"))
+    scans, took = (after[name] - before[name] for name in ("scans", "us"))
     check(scans >= 50 and abs(took - 8000 * scans) <= 8000, f"{scans} scans in {took} us, not one in 8 ms")
     check(0 < pin("scan.time") <= hal.get_value("rung.scan.tmax"), "the times that HAL measures")
 

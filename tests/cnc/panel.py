@@ -49,7 +49,7 @@ def put(name, value):
 def period_us():
     """From one pass of the program to the next."""
     state = program_state()
-    return state["us"] // state["passes"]
+    return state["us"] // state["scans"]
 
 
 def press(key, until=None):

@@ -81,8 +81,8 @@ class Host:
 
     def pass_by(self, count):
         """Waits for that many passes of the program."""
-        end = self.status()["passes"] + count
-        if not wait_until(lambda: self.status()["passes"] >= end):
+        end = self.status()["scans"] + count
+        if not wait_until(lambda: self.status()["scans"] >= end):
             raise AssertionError(f"it does not run: {self.logged()}")
 
     def end(self):

@@ -391,7 +391,7 @@ void Model::requestOther(const Event& event) {
   if (what == "get" || what == "watch") request["names"] = {event.name};
   if (what == "set")
     request.update({{"name", event.name}, {"value", event.name == kScans ? json(7) : json(event.value % 2 != 0)}});
-  if (what == "shadow") request.update({{"program", "/programs/" + event.name}, {"passes", 5}});
+  if (what == "shadow") request.update({{"program", "/programs/" + event.name}, {"scans", 5}});
   const uint64_t before = counted_;
   const bool done = ask(event, request).value("ok", false);
   follow();

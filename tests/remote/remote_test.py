@@ -110,7 +110,7 @@ class Host(unittest.TestCase):
         return json.loads(self.ctl("get", name, "--json"))["values"][name]
 
     def passes(self):
-        return json.loads(self.ctl("status", "--json"))["passes"]
+        return json.loads(self.ctl("status", "--json"))["scans"]
 
     def pass_by(self, count):
         """Waits for that many passes of the program."""
@@ -297,7 +297,7 @@ class Commands(Host):
     def shadowed(self):
         made, lines = self.connect()
         lines.readline()
-        made.sendall(json.dumps({"do": "shadow", "program": str(self.program), "passes": 100000}).encode() + b"\n")
+        made.sendall(json.dumps({"do": "shadow", "program": str(self.program), "scans": 100000}).encode() + b"\n")
         self.assertTrue(json.loads(lines.readline())["ok"])
 
         def ask(**request):
@@ -1094,7 +1094,7 @@ class Protocol(Host):
                 '{"do":"set","name":"D8:2","value":-5}', '{"do":"force","name":"X0.3","value":true}', '{"do":"forced"}',
                 '{"do":"unforce","all":true}', '{"do":"reload","program":"/dev/zero","yes":true}', '{"do":"messages"}',
                 '{"do":"map"}', '{"do":"profile","top":5,"by":"longest"}', '{"do":"clear-profile"}', '{"do":"compile"}', '{"do":"compiled"}',
-                '{"do":"sources","first":true,"piece":"cnVuZw=="}', '{"do":"reload","compiled":true}', '{"do":"shadow","program":"/x","passes":5}', '{"do":"compared"}',
+                '{"do":"sources","first":true,"piece":"cnVuZw=="}', '{"do":"reload","compiled":true}', '{"do":"shadow","program":"/x","scans":5}', '{"do":"compared"}',
                 '{"do":"set","name":"X0.3","value":1e400}', '{"do":"set","name":"D8:2","value":18446744073709551615}']
         words = sorted({word for line in good for word in re.findall(r'"[^"]*"|-?\d+|true|false|[{}:,\[\]]', line)} | {"null", "1.5", '""'})
         made, lines = self.connect()

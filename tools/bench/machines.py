@@ -18,10 +18,13 @@ MACHINES = {
 PROFILED = "part program"
 HEAD = """## Instructions of the example machines
 
-Exact counts by callgrind: a program built by `rungc build`, in a host of the runtime library with the control of its dialect. What the machine does comes from a
-recording; writing it into the program's memory is not counted. The unit is a scan, for GSK a slot of 8 ms. After each one a hash of the program's
-memory is compared with the interpreter's. `./dev bench --count` prints this table and the next ones only. "With its profile": built with `--profile-use` from the
-counts that `rungc profile -o` took of the part program. Cache lines of code: lines of 64 bytes that the compiled rungs execute in one scan or slot; a scan after a sleep loads each of them.
+Exact counts by callgrind: a program built by `rungc build`, in a host of the runtime library with
+the control of its dialect. What the machine does comes from a recording; writing it into the
+program's memory is not counted. The unit is a scan, for GSK a slot of 8 ms. After each one a hash
+of the program's memory is compared with the interpreter's. `./dev bench --count` prints this table
+and the next ones only. "With its profile": built with `--profile-use` from the counts that
+`rungc profile -o` took of the part program. Cache lines of code: lines of 64 bytes that the
+compiled rungs execute in one scan or slot; a scan after a sleep loads each of them.
 """
 
 

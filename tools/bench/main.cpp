@@ -135,15 +135,23 @@ int printDocument() {
   if (!folder.ok()) return 3;
   fmt::print("{}", R"(# Performance
 
-Written by `./dev bench`; do not edit. All programs are generated from a seed (tools/bench/generated): one description becomes a program in each dialect, and the
-same as straight-line C++. All read the same inputs, and their results are compared before anything is measured. Ratios in the first tables are to C++ with one
-byte per bit, compiled by clang++ at -O3: medians of pairs that run hot and in turn in one process. Absolute times depend on the machine. A scan is that of the
-host's runner, without a control, with its copies of the NC area.
-Resident memory is the peak of the process, compiler included. Code is the memory that a loaded shared object takes, or the size of the JIT's object files.
-"Full" is bit logic with one timer, one counter and two integer operations for every ten rungs of it; figures per rung count its bit logic alone.
+This page says how fast programs run that Rung has compiled, how long compiling takes, and how that
+compares with hand-written C++ and with other systems. It is for those who want to know whether a
+program keeps its period, and for developers of Rung.
 
-Two engines are far above 1: the interpreter, which defines the results and is not meant to be fast, and fast compilation, in which LLVM selects instructions
-quickly, without passes, and keeps every value of a rung in memory. It is for trying a change at once.
+Written by `./dev bench`; do not edit. All programs are generated from a seed
+(tools/bench/generated): one description becomes a program in each dialect, and the same as
+straight-line C++. All read the same inputs, and their results are compared before anything is
+measured. Ratios in the first tables are to C++ with one byte per bit, compiled by clang++ at -O3:
+medians of pairs that run hot and in turn in one process. Absolute times depend on the machine. A
+scan is that of the host's runner, without a control, with its copies of the NC area. Resident
+memory is the peak of the process, compiler included. Code is the memory that a loaded shared object
+takes, or the size of the JIT's object files. "Full" is bit logic with one timer, one counter and
+two integer operations for every ten rungs of it; figures per rung count its bit logic alone.
+
+Two engines are far above 1: the interpreter, which defines the results and is not meant to be fast,
+and fast compilation, in which LLVM selects instructions quickly, without passes, and keeps every
+value of a rung in memory. It is for trying a change at once.
 
 )");
   int status = 0;

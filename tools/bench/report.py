@@ -29,28 +29,39 @@ COLD = (("full", 1000), ("bits", 1000), ("timers-running", 100), ("counters", 10
 
 COUNTS_HEAD = """## Instructions of generated programs
 
-Exact counts by callgrind, as above: a scan in the host's runner, without a control, after twenty others. A program is drawn from a seed (tools/bench/generated)
-and written in each dialect, and as straight-line C++ in two forms, one byte per bit and 64 bits per word, compiled by g++ and clang++ at -O3. All get the same inputs,
-some of which change before each scan, and must give the same outputs: bits, words, tables and floating-point numbers are compared after each of 400 scans. The
-reference is the straight-line form with the fewest instructions. "Bit logic of arrays" consists of groups of 50 isomorphic rungs over adjacent bits: alarms that latch, and
-their lamps. "Full" is bit logic with one timer, one counter and two integer operations for every ten rungs of it. A dash: the control cannot hold that many rungs, or has no
-such instruction. In brackets: how many of these are in the compiled rungs; the others are the runner's.
+Exact counts by callgrind, as above: a scan in the host's runner, without a control, after twenty
+others. A program is drawn from a seed (tools/bench/generated) and written in each dialect, and as
+straight-line C++ in two forms, one byte per bit and 64 bits per word, compiled by g++ and clang++
+at -O3. All get the same inputs, some of which change before each scan, and must give the same
+outputs: bits, words, tables and floating-point numbers are compared after each of 400 scans. The
+reference is the straight-line form with the fewest instructions. "Bit logic of arrays" consists of
+groups of 50 isomorphic rungs over adjacent bits: alarms that latch, and their lamps. "Full" is bit
+logic with one timer, one counter and two integer operations for every ten rungs of it. A dash: the
+control cannot hold that many rungs, or has no such instruction. In brackets: how many of these are
+in the compiled rungs; the others are the runner's.
 """
 PEERS_HEAD = """### The same programs in other systems
 
-ClassicLadder interprets its rungs; matiec and STruC++ translate Structured Text (IEC 61131-3) into C and C++, compiled at -O3 by gcc and clang. The one with fewer instructions
-counts. Results are compared with ours after each of 400 scans, with the same inputs. In Structured Text a bit is a BOOL, an integer a UDINT, a table an array. No
-variable is in the I/O image, so nothing is copied before and after a scan; our counts include the copies, as above. A timer is the standard's TON, which keeps the elapsed time
-as well; a counter is written with IF and assignments, because the standard's CTU stops at its preset. Ratios are ours to theirs.
-Left out: mechanisms, which Structured Text does not have, and programs of more than 1,000 rungs, because each becomes one function, which takes too long to compile.
-ClassicLadder has bit logic only: its timers count in tenths of a second, and its arithmetic is text, which it parses in every scan.
+ClassicLadder interprets its rungs; matiec and STruC++ translate Structured Text (IEC 61131-3) into
+C and C++, compiled at -O3 by gcc and clang. The one with fewer instructions counts. Results are
+compared with ours after each of 400 scans, with the same inputs. In Structured Text a bit is a
+BOOL, an integer a UDINT, a table an array. No variable is in the I/O image, so nothing is copied
+before and after a scan; our counts include the copies, as above. A timer is the standard's TON,
+which keeps the elapsed time as well; a counter is written with IF and assignments, because the
+standard's CTU stops at its preset. Ratios are ours to theirs. Left out: mechanisms, which
+Structured Text does not have, and programs of more than 1,000 rungs, because each becomes one
+function, which takes too long to compile. ClassicLadder has bit logic only: its timers count in
+tenths of a second, and its arithmetic is text, which it parses in every scan.
 """
 COLD_HEAD = """## Cold scans
 
-A task of 1 ms always runs after a sleep. Here our scan and the reference's run in turn in one process, each after a sleep of 1 ms, 2,000 times. What
-changes at the machine is written before the time is taken, to addresses that were looked up before. "10 %" is the 10th percentile. "Disturbed": before the sleep other work
-touches 2 MB. "Early", ours only: the thread wakes 250 µs early, prefetches what a scan reads, and waits ([real-time.md](real-time.md#waking-early)). "Hot": one scan directly
-after another. Times are in microseconds and include two readings of the clock. Ratios are from one run.
+A task of 1 ms always runs after a sleep. Here our scan and the reference's run in turn in one
+process, each after a sleep of 1 ms, 2,000 times. What changes at the machine is written before the
+time is taken, to addresses that were looked up before. "10 %" is the 10th percentile. "Disturbed":
+before the sleep other work touches 2 MB. "Early", ours only: the thread wakes 250 µs early,
+prefetches what a scan reads, and waits ([real-time.md](real-time.md#waking-early)). "Hot": one scan
+directly after another. Times are in microseconds and include two readings of the clock. Ratios are
+from one run.
 """
 TOUCHED_HEAD = """### What a scan touches
 
@@ -60,8 +71,10 @@ Cache lines of 64 bytes and pages of 4 kB, by callgrind's model of a cache that 
 | --- | --- | --- | --- | --- |"""
 COST_HEAD = """## What an instruction costs
 
-Measured as makers of controls do: a program of 100 equal rungs minus the empty program, divided by 100. The condition is 1 and stays so, and what follows it is executed in
-every scan; a rung consists of its contact and what the row names. Hot: one scan directly after another, median; cold: after a sleep of 1 ms, 10th percentile.
+Measured as makers of controls do: a program of 100 equal rungs minus the empty program, divided by 100.
+The condition is 1 and stays so, and what follows it is executed in every scan; a rung consists of
+its contact and what the row names. Hot: one scan directly after another, median; cold: after a
+sleep of 1 ms, 10th percentile.
 """
 
 

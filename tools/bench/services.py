@@ -19,8 +19,10 @@ SIMULATION = ("rung::sim::SimulatedNc::respond(", "rung::sim::technol::Simulated
               "rung::sim::technol::Exchange::onHook(")
 HEAD = f"""## Instructions of TECHNOL's device services
 
-Exact counts by callgrind, as above: programs of tools/bench/services, whose devices are simulated; a scan is the average of {SCANS}. "Idle": the mechanisms that use a service are in the
-program but not started. "In use": each scan does what the row says, unless the row names another rate. The last column is the cost of the simulated devices and their answers; no other column includes it.
+Exact counts by callgrind, as above: programs of tools/bench/services, whose devices are simulated;
+a scan is the average of {SCANS}. "Idle": the mechanisms that use a service are in the program but
+not started. "In use": each scan does what the row says, unless the row names another rate. The last
+column is the cost of the simulated devices and their answers; no other column includes it.
 """
 
 

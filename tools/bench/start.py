@@ -15,10 +15,12 @@ LARGE = 10_000
 STAGES = ("process", "check", "lowering", "verifier", "uses", "passes", "layout", "hash", "engine and scan")
 HEAD = """## Start
 
-Programs start as in `rungc run`: interpreted, while one thread per core compiles them with all optimisations. CPU time, in ms, is that of all threads: for the start
-of the process, for each stage of the compiler, and for the creation of the engine with the first scan. Real time is from `main` until the last code unit is
-optimised, on {cores} cores, and includes the loading of LLVM. Medians of {runs} runs ({large_runs} for programs of {large:,} rungs and more). The generated programs are bit
-logic. Memory is the peak of the process.
+Programs start as in `rungc run`: interpreted, while one thread per core compiles them with all
+optimisations. CPU time, in ms, is that of all threads: for the start of the process, for each stage
+of the compiler, and for the creation of the engine with the first scan. Real time is from `main`
+until the last code unit is optimised, on {cores} cores, and includes the loading of LLVM. Medians
+of {runs} runs ({large_runs} for programs of {large:,} rungs and more). The generated programs are
+bit logic. Memory is the peak of the process.
 """
 
 

@@ -437,7 +437,7 @@ Json wayJson(const ir::RoutineWay& way, const Bounds& bounds, const rung_program
 Json taskJson(const TaskBound& task, const Bounds& bounds, const rung_program& program) {
   Json json = {{"name", task.name},          {"period_us", task.periodUs}, {"parts", task.parts},
                {"part", task.way.part + 1},  {"budget", task.budget},      {"steps", task.steps},
-               {"way_steps", task.way.cost}, {"time_ns", task.ns()}};
+               {"path_steps", task.way.cost}, {"time_ns", task.ns()}};
   json["instructions"] = task.instructions ? Json(*task.instructions) : Json(nullptr);
   if (!task.instructions) json["no_instructions"] = task.noInstructions;
   json["calls"] = Json::array();
@@ -447,8 +447,8 @@ Json taskJson(const TaskBound& task, const Bounds& bounds, const rung_program& p
                              {"call_ns", calls.function.ns}});
   json["loops"] = Json::array();
   for (const std::vector<uint32_t>& loop : task.way.loops) json["loops"].push_back(rungsJson(loop, program));
-  json["way"] = Json::array();
-  for (const ir::RoutineWay& way : task.way.routines) json["way"].push_back(wayJson(way, bounds, program));
+  json["path"] = Json::array();
+  for (const ir::RoutineWay& way : task.way.routines) json["path"].push_back(wayJson(way, bounds, program));
   if (task.seen)
     json["measured"] = {{"runs", task.seen->runs}, {"steps", task.seen->steps}, {"time_ns", task.seen->ns}};
   return json;

@@ -155,7 +155,7 @@ Element Reader::elementOf(std::string_view name) {
   return kind_ == ControlFileKind::Channel ? inChannel(parent, name) : Element::Foreign;
 }
 
-// What is around an element is not a text of the ones read here.
+// Text around elements is not a text of the ones read here.
 void Reader::checkText() {
   constexpr Element kWithTexts[] = {Element::Foreign, Element::Plc, Element::Device};
   const bool foreign = elements_.empty() || std::ranges::find(kWithTexts, elements_.back()) != std::end(kWithTexts);

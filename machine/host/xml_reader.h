@@ -48,7 +48,7 @@ protected:
   void complainAt(const FilePlace& where, const std::string& what);
   // <OUTER> holds no <NAME>; `expected` is "<A> or <B>", or empty where a text is.
   void complainAboutChild(std::string_view name, const std::string& expected);
-  // What is around an element and belongs to nothing.
+  // Reports text around an element, where none is expected.
   void complainAboutText();
 
   std::vector<Open> open_; // the innermost one last

@@ -1,8 +1,8 @@
-// Cells that a person holds at a value while a program runs: which bits of its memory these are, and whether its own
-// code would write them. Made and looked at outside real time; Instance::force puts it in effect.
+// The cells that a person holds at a value while a program runs: which bits of its memory these are, and whether the
+// program's own code would write them. Created and inspected outside real time; Instance::force puts it in effect.
 //
-// A cell that is copied at the border of a task (an input and what a task reads of it, an output and its image) is
-// forced wherever it is copied to and from.
+// A cell that process-image copies connect with others (an input and what a task reads of it, an output and its image)
+// is forced together with all of these.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -28,14 +28,15 @@ struct ForcedCell {
 
 class Forcing {
 public:
-  // Of a program that runs with its own code, whose chunks find `engine` in their context. The program outlives it.
+  // For a program that runs with its own code, whose chunks find `engine` in their context. The program outlives this
+  // object.
   Forcing(const rung_program& program, void* engine, std::span<const ForcedCell> cells);
 
   // Why the cells cannot be forced together; "" when they can.
   const std::string& problem() const { return problem_; }
-  // By space and byte.
+  // The forced bytes, sorted by space and byte.
   const std::vector<rung_forced_byte>& bytes() const { return bytes_; }
-  // Whether the program's own code may write some of them: other code is needed then.
+  // Whether the program's own code may write some of the cells: then it has to be replaced by other code (setCode).
   bool needsCode() const { return needsCode_; }
   // Code for all chunks that leaves the forced bits as they are.
   void setCode(const core::Code& code) { code_ = code; }
@@ -64,7 +65,7 @@ private:
   core::Code code_;
 };
 
-// Where a byte of the memory block is copied to and from at the borders of tasks.
+// The process-image copies (task entry and exit) that read or write a byte of the memory block.
 
 // Calls visit(offset) for each byte that this one is copied to or from.
 template <class Visit>
@@ -76,9 +77,9 @@ void forCopiesOf(const rung_program& program, uint32_t offset, Visit visit) {
   }
 }
 
-// Which bits of the memory block a program's own code may write.
+// The bits of the memory block that a program's own code may write.
 
-// Those of one byte. Allocates nothing.
+// The bits of one byte, as a mask. Allocates nothing.
 inline uint8_t writtenBits(const rung_program& program, uint32_t offset) {
   const std::span<const rung_written> writes(program.writes, program.write_count);
   const auto after = std::ranges::upper_bound(writes, offset, {}, &rung_written::offset);

@@ -1,5 +1,5 @@
-// Where another program has what lies at a place of the one that it replaces: places whose addresses the compiler gives
-// out are found again by the symbol that they lie in, all others by their address.
+// Finds a place of one program in the program that replaces it: places whose addresses the compiler assigns are found
+// by the symbol that contains them, all others by their address.
 #pragma once
 #include <optional>
 
@@ -10,11 +10,11 @@ namespace rung::runtime {
 
 class Relocation {
 public:
-  // Both outlive it.
+  // Both programs outlive this object.
   Relocation(const rung_program& from, const rung_program& to) : from_(&from), to_(&to) {}
 
-  // Nothing: the other program has no such place, or a cell of another type there. The first symbol that the whole
-  // place lies in counts. Looks at each symbol; allocates nothing.
+  // The place in the other program. Nothing: it has no such place, or a cell of another type there. The first symbol
+  // that contains the whole place counts. Looks at every symbol; allocates nothing.
   std::optional<Ref> place(const Ref& place) const noexcept;
 
 protected:

@@ -1,5 +1,5 @@
-// Whether two instances of one program, run by different engines, are in the same state: memory, clock, fault, messages
-// that wait, service requests and tickets. Profile counters do not count.
+// Compares two instances of one program that different engines run: memory, clock, fault, waiting messages, service
+// requests and tickets. Profile counters do not count.
 #pragma once
 #include <array>
 #include <atomic>
@@ -19,41 +19,43 @@
 
 namespace rung::runtime {
 
-// How a reader would write a bit, or the byte that an integer of 8 bits lies in.
+// Describes a bit, or the byte in which an integer of 8 bits lies, as a user would write it.
 using DescribePlace = std::string (*)(const rung_program& program, const Ref& place);
 
-// The first difference, with the place described ("D10 (COUNT): 3 here, 4 there"); nothing when there is none. Layouts
-// may differ; then only the spaces are compared, not the compiler's own slots.
+// The first difference, with its place described ("D10 (COUNT): 3 here, 4 there"); nothing if there is none. If the
+// layouts differ, only the spaces are compared, not the compiler's own slots.
 std::optional<std::string> firstDifference(const Instance& here, const Instance& there, DescribePlace describe);
 
-// A program that is to take over runs beside the one that it would replace, on what that one reads and is answered, and
-// where its outputs differ is reported: before anything is replaced.
+// A shadow: a program that is to take over runs beside the running one, on the same inputs and answers, and differences
+// of its outputs are reported before anything is replaced.
 //
-// The thread that scans records every run of a task: what the memory held before and after it, what the program asked
-// its host and which answers came. Another thread runs the new program on that. Recording copies the memory block twice
-// a run and never waits: where the other thread is late by more runs than there is room for, the shadow ends.
+// The scan thread records every run of a task: the memory before and after it, the requests that the program made to
+// its host, and the answers that came. Another thread runs the new program on these records. Recording copies the
+// memory block twice per run and never waits: if the other thread falls behind by more runs than there is room for, the
+// shadow ends.
 //
-// Nothing of the shadow gets out: its memory is its own, messages and requests go nowhere. A request that the running
-// program has made as well, in the same run, has that one's answers; any other stays unanswered, and is reported.
+// A shadow has no effect outside: its memory is its own, and its messages and requests go nowhere. A request that the
+// running program also made, in the same run, gets the same answers; any other request stays unanswered, and is
+// reported.
 //
-// What the machine, the NC and the host have written shows as what changed in memory between two runs; the shadow gets
-// it at the same place in time, by name and address as a replacement would. So the schedules must be the same. What a
-// person forces in the running program has its value in the shadow, too, before and after each run.
+// What the machine, the NC and the host have written appears as a change of memory between two runs; the shadow gets it
+// at the same point in time, by name and address as in a replacement. So the schedules must be equal. Forced cells of
+// the running program have their values in the shadow, too, before and after each run.
 
 enum class ShadowState : uint8_t {
   Prepared, // not begun
   Running,
-  Finished, // all passes are over
+  Finished, // all scans have run
   TooSlow,  // there was no room for a run
   Stopped,  // the running program was stopped by a fault, was replaced, or its host ended the shadow
-  Faulted,  // the new program
+  Faulted,  // the new program has stopped with a fault
 };
 
 struct ShadowDifference {
   std::string name; // of the output; of a request that the new program alone makes: the service
   bool service = false;
   int64_t firstUs = 0; // the program's clock when it was seen first
-  uint64_t runs = 0;   // of tasks after which it was seen
+  uint64_t runs = 0;   // runs of tasks after which it was seen
   Ref ref;             // in the new program
   uint64_t live = 0;   // the values that were seen first: bits, as readRaw gives them
   uint64_t next = 0;
@@ -61,35 +63,36 @@ struct ShadowDifference {
 
 class Shadow final : public TaskWatch {
 public:
-  // `live` and `next` are programs of one dialect and outlive the shadow. It ends after `passes` of the schedule;
-  // `room`: for so many runs of tasks.
+  // `live` and `next` are programs of one dialect, which outlive the shadow. The shadow ends after `passes` scans; it
+  // has room for the records of `room` runs of tasks.
   Shadow(const rung_program& live, const Runnable& next, DescribePlace describe, uint32_t passes, uint32_t room);
 
   // Why the two cannot run side by side; "" when they can.
   const std::string& problem() const { return problem_; }
-  // Which state the new program begins with.
+  // The transfer that gives the new program its initial state.
   const StateTransfer& transfer() const { return transfer_; }
 
-  // ---- the thread that scans; nothing here allocates or waits ----
+  // ---- scan thread; nothing here allocates or waits ----
 
-  // Between two passes; the instance's task watch is the shadow from now on. Like a replacement.
+  // Begins, between two scans: the shadow becomes the instance's task watch. The results are those of
+  // Instance::replace.
   ReplaceResult begin(Instance& live) noexcept;
-  // It stops being that. What is recorded can still be run.
+  // Ends: the shadow is no longer the instance's task watch. Recorded runs can still be executed.
   void end(Instance& live) noexcept;
   void begins(const Instance& live, uint32_t task) override;
   void ended(const Instance& live, uint32_t task) override;
-  // The running program makes a request.
+  // Records a request of the running program.
   void requested(const core::ServiceRequest& request) noexcept;
 
-  // ---- one other thread, or the same ----
+  // ---- any one thread ----
 
-  // Runs what was recorded of one run. False: nothing waits.
+  // Executes one recorded run in the new program. False: no record waits.
   bool work();
-  // Of what has been run.
+  // The results of the runs that have been executed.
   ShadowState state() const;
   uint64_t runs() const { return runs_; }
   std::string faultText() const; // of the new program; "" without a fault
-  // By name.
+  // Sorted by name.
   std::vector<ShadowDifference> differences() const;
 
 private:
@@ -111,7 +114,7 @@ private:
     uint32_t answerCount = 0;
     std::array<core::ServiceRecord, kMostRequests> atOnce; // of the requests, after the run
   };
-  // A cell that both programs have; without a name a byte, whose bits are compared.
+  // A cell of both programs; without a name it is a byte, whose bits are compared one by one.
   struct Output {
     Ref live, next;
     std::string name;
@@ -152,7 +155,7 @@ private:
   std::vector<bool> inParts_;      // by those of the running one
   std::vector<uint32_t> services_; // of the running program, by those of the new one
   std::vector<Output> outputs_;
-  // Most outputs of the running program can be compared where they come to lie in the new one's block: all at once.
+  // Most outputs of the running program are compared all at once, at their places in the new program's block.
   std::vector<uint64_t> mask_;          // of that block: bytes of such outputs
   std::vector<OutputByte> outputBytes_; // of these, ascending
   std::vector<uint32_t> others_;        // outputs that are compared one by one
@@ -165,13 +168,13 @@ private:
   Record start_;                                                        // `before`: where it began; its answers: all
   std::array<core::ServiceRecord, core::ServiceQueue::kRecords> known_; // what the new program knows of tickets
 
-  // ---- the thread that scans ----
+  // ---- scan thread ----
   Record* current_ = nullptr;
   int64_t endUs_ = 0;
   std::array<uint32_t, core::ServiceQueue::kMaxPending> open_{}; // tickets that are not answered
   uint32_t openCount_ = 0;
 
-  // ---- the other ----
+  // ---- the thread that calls `work` ----
   rung_host_api api_{sizeof(rung_host_api), 0, message, serviceRequest, servicePoll, serviceResult};
   rung_ctx ctx_{};
   core::Runner runner_;

@@ -1,22 +1,21 @@
-// How the state of a running program goes over to another program of its dialect that takes its place. Cells of spaces
-// keep their contents by address; a cell with a name keeps them where the name has gone; what the compiler made for an
-// instruction (edges, times) goes where its rung has gone (rung_alignment.h). What the new program has and the old one
-// had not starts with its initial contents. So does what has no name in a space whose addresses the compiler gives out
-// (RUNG_SPACE_ALLOCATED).
+// Transfers the state of a running program to another program of its dialect that replaces it. Cells of spaces keep
+// their contents by address; a cell with a name keeps them at the new place of its name; what the compiler made for an
+// instruction (edges, times) follows its rung (rung_alignment.h). What only the new program has starts with its initial
+// contents. So does everything without a name in a space whose addresses the compiler assigns (RUNG_SPACE_ALLOCATED).
 //
-// A plan is made outside real time and reports what it will do. Running it copies bytes, and nothing else: its time is
-// in proportion to the bytes of state.
+// The plan is made outside real time and reports what it will do. Running it only copies bytes, in time proportional to
+// the bytes of state.
 //
-// A name whose cell was elsewhere takes its contents along, with all bytes that instructions reach through it
-// (rung_symbol::reach), but for inputs, which the machine or the NC writes. Its
-// former place starts anew, unless another name stays there. A name that is new starts anew where other names were
-// before; where none was, or one of the same extent that is gone (it was renamed), it keeps what is there.
+// If a name has moved, its contents move with it, including all bytes that instructions reach through it
+// (rung_symbol::reach); inputs are an exception, because the machine or the NC writes them. The former place starts
+// anew, unless another name stays there. A new name starts anew if other names were at its place; if no name was there,
+// or one of the same extent that is gone (it was renamed), it keeps the contents.
 //
-// An output that the old program wrote and the new one does not write starts anew: nobody would ever switch it off.
-// Outputs are the spaces that the program alone writes for the machine or the NC, and what a fault clears.
+// An output that the old program wrote and the new one does not write starts anew, because no code would ever switch it
+// off. Outputs are the spaces that only the program writes for the machine or the NC, and what a fault clears.
 //
-// What all instructions share under a key that begins with @, and one of them holds at a time, is free again when that
-// one is gone: it holds it while its own slot, whose key ends with that key, is not 0.
+// State with a key that begins with @ is shared by all instructions, and held by one at a time: by the one whose own
+// slot, whose key ends with that key, is not 0. When that instruction is gone, the state is free again.
 //
 // A mechanism continues at the same instruction. While it waits at one that the new program does not have, the new
 // program cannot take over.
@@ -52,48 +51,49 @@ struct StateChange {
   std::string formerName; // Renamed
 };
 
-// A rung as drawn that is not the same in both programs.
+// A rung, as drawn, that differs between the two programs.
 struct RungChange {
   RungKind kind = RungKind::Changed; // of one that both have
   uint32_t before = RUNG_NONE;       // in the former program's table; RUNG_NONE: it is new
   uint32_t after = RUNG_NONE;        // in the new one's; RUNG_NONE: it was removed
 };
 
-// What a user of the program's dialect calls a place of it that has no name of its own.
+// Names a place that has no name of its own, as users of the program's dialect would.
 using PlaceName = std::string (*)(const rung_program& program, const Ref& place);
 // "Y+3", "Y+3.5".
 std::string plainPlaceName(const rung_program& program, const Ref& place);
 
 class StateTransfer {
 public:
-  // Both have passed checkProgram and outlive the plan. Throws std::length_error when the spaces of one have 512 MB or
-  // more.
+  // Both programs have passed checkProgram and outlive the plan. Throws std::length_error if the spaces of one have 512
+  // MB or more.
   StateTransfer(const rung_program& from, const rung_program& to, PlaceName nameOf = plainPlaceName);
 
   const rung_program& from() const { return *from_; }
 
-  // Cells in the order of their names, then slots; what keeps its contents and its place is not among them.
+  // The changes: cells sorted by name, then slots. What keeps its contents and its place is left out.
   std::span<const StateChange> changes() const { return changes_; }
-  // In the order of the new program, then those that were removed.
+  // The changed rungs in the order of the new program, then the removed ones.
   std::span<const RungChange> rungs() const { return rungs_; }
   uint32_t keptCells() const { return keptCells_; } // names that stay where they are
   uint32_t keptSlots() const { return keptSlots_; }
 
-  // The key of a mechanism of the old program that waits where the new one has no place for it; null: there is none.
+  // The key of a mechanism of the old program that waits at an instruction which the new one does not have; null: there
+  // is none.
   const char* waiting(const uint8_t* from) const noexcept;
-  // From the block of the old program to that of the new one, which holds its initial contents. Between two passes of
-  // the schedule; nothing waits. Allocates nothing.
+  // Copies from the memory block of the old program to that of the new one, which holds its initial contents. Between
+  // two scans, while no request waits. Allocates nothing.
   void run(const uint8_t* from, uint8_t* to) const noexcept;
-  // What `run` writes.
+  // The number of bytes that `run` writes.
   uint64_t bytes() const { return bytes_; }
 
-  // Of the first `bytes` of the new program's block: which `run` writes as a whole.
+  // Which of the first `bytes` of the new program's block `run` writes as a whole.
   std::vector<bool> written(uint32_t bytes) const;
-  // Of the first `bytes` of a block: which keep their contents where they are.
+  // Which of the first `bytes` of a block keep their contents at their place.
   std::vector<bool> staying(uint32_t bytes) const;
-  // The same but for what stays at these: for two programs in one block.
+  // This transfer without the bytes that stay: for two programs that share one block.
   StateTransfer without(const std::vector<bool>& staying) const;
-  // The longest spans of those of `count` bytes from `first` that do not stay.
+  // The longest spans, within `count` bytes from `first`, of bytes that do not stay.
   static std::vector<rung_span> leaving(const std::vector<bool>& staying, uint32_t first, uint32_t count);
 
 private:
@@ -116,7 +116,7 @@ private:
     return move.kind == MoveKind::Unpack ? 8 * uint64_t{move.count} : move.count;
   }
 
-  // By what the number in a continuation's cell is replaced.
+  // A mechanism's continuation: the new numbers that replace the number in its cell.
   struct Points {
     const char* key = nullptr;
     uint32_t from = 0; // offsets in the memory blocks; to: RUNG_NONE when the new program has no such mechanism
@@ -125,7 +125,7 @@ private:
     uint32_t count = 0;
   };
 
-  // Of an instruction that is gone, and what it may have held.
+  // An instruction that is gone, and the shared state that it may have held.
   struct Holder {
     uint32_t slot = 0; // in the former program's memory block
     uint32_t slotBytes = 0;

@@ -1,5 +1,5 @@
-// The machine's clock, and waiting on it, for threads that are not in a scan. A host hands it to its parts; a test
-// hands in one of its own, on which time passes when the test says so.
+// The computer's clock, for the threads that may wait: a host passes one Clock to all its parts. A test passes a clock
+// of its own, whose time advances only when the test says so.
 #pragma once
 #include <atomic>
 #include <cassert>
@@ -16,17 +16,17 @@ public:
   virtual ~Clock() = default;
   virtual int64_t nowNs() noexcept = 0; // CLOCK_MONOTONIC
   virtual int64_t dateS() noexcept = 0; // seconds since 1970, UTC
-  virtual void sleep(int64_t ns) = 0;   // other threads run meanwhile
+  virtual void sleep(int64_t ns) = 0;   // gives the processor to other threads
 };
 
 Clock& systemClock() noexcept;
 
-// What comments promise of threads, and a debug build checks: one thread at a time is in a piece of the program, and
-// does not come into it again from within.
+// Alone checks, in debug builds, a promise that comments make about threads: only one thread at a time executes a
+// section of code, and never enters it again from within.
 
 class Alone {
 public:
-  // Until the end of the scope.
+  // Marks the section: entered here, left at the end of the scope.
   class In {
   public:
 #ifndef NDEBUG
@@ -51,12 +51,12 @@ private:
   std::atomic<bool> inside_{false};
 };
 
-// What a program's host uses of the machine: handed in, so that a test can have another one.
+// The disk and the period of saving that a host of a program uses. A test passes a disk of its own.
 
 struct Outside {
   Disk* disk = &systemDisk();
-  // How often a thread of its own looks whether retained memory is to be written; nothing: as the dialect needs it; 0:
-  // RetainSaver has no thread.
+  // How often the thread of RetainSaver checks whether retained memory has to be written. Nothing: as the dialect needs
+  // it. 0: RetainSaver has no thread.
   std::optional<std::chrono::milliseconds> savePeriod;
 };
 

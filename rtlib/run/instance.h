@@ -1,7 +1,7 @@
-// One running program: its memory, context, queues, counters and virtual clock. Everything is allocated when it is
-// made; starting, scanning and running tasks allocate nothing (what hooks do is theirs).
+// One running program: its memory, context, queues, counters and virtual clock. The constructor allocates everything;
+// starting, scanning and running tasks allocate nothing (hooks may).
 //
-// An instance belongs to one thread, but for the host's side of `messages()` and `services()`.
+// An instance belongs to one thread, except the host's side of `messages()` and `services()`.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -23,28 +23,33 @@ namespace rung::runtime {
 
 class Instance;
 
-// The control's place in the schedule. onHook and onFault may run tasks; onLatch runs none, and may write to the
-// program's memory; respond runs inside a task: it may run none, and it may read the program's memory but not write it.
+// The calls by which the control takes part in the schedule. onHook and onFault may run tasks. onLatch must not run
+// tasks, but may write to the program's memory. respond is called within a task: it must not run tasks, and may read
+// the program's memory but not write it.
 class ScheduleHooks {
 public:
   virtual ~ScheduleHooks() = default;
   virtual void onHook(Instance& instance, uint32_t work) { (void)instance, (void)work; }
-  // What onHook has something to do for, a bit each; it is not called for the others. See Instance::worksChanged.
+  // The kinds of work for which onHook has something to do, a bit each; onHook is not called for the others. See
+  // Instance::worksChanged.
   virtual uint32_t works() const { return ~0u; }
-  // The fault is recorded and the outputs are safe. Tasks run here a last time; faults of theirs are ignored.
+  // Called when a fault has been recorded and the outputs have their safe values. The hook may run tasks a last time;
+  // their faults are ignored.
   virtual void onFault(Instance& instance) { (void)instance; }
-  // A run of a task begins, with its input copies: what it reads from elsewhere is brought in. See setLatching.
+  // Called at the beginning of a run of a task, together with its input copies: brings in what the task reads from
+  // elsewhere. See setLatching.
   virtual void onLatch(Instance& instance, uint32_t task) { (void)instance, (void)task; }
-  // Another program has taken over, of the same dialect: places that were looked up in the former one mean nothing now.
+  // Called after another program of the same dialect has taken over: places that were looked up in the former one are
+  // invalid now.
   virtual void onReplace(Instance& instance) { (void)instance; }
-  // True: the reply is filled in and the request does not enter the queue.
+  // Answers a service request at once. True: the reply is filled in, and the request does not enter the queue.
   virtual bool respond(Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) {
     (void)instance, (void)request, (void)reply;
     return false;
   }
 };
 
-// Looks on while tasks run: both calls are around a run of a task or a part. They run no task.
+// An observer that is called before and after each run of a task or of a part of one. It must not run tasks.
 class TaskWatch {
 public:
   virtual ~TaskWatch() = default;
@@ -54,11 +59,11 @@ public:
 
 class Instance {
 public:
-  // What it runs and the hooks outlive the instance. It starts cold.
+  // The program of `runnable` and the hooks outlive the instance. The instance starts cold.
   explicit Instance(const Runnable& runnable, ScheduleHooks* hooks = nullptr);
-  // A program without an engine of its own.
+  // The same for a program whose chunks need no engine.
   explicit Instance(const rung_program& program, ScheduleHooks* hooks = nullptr) : Instance(Runnable{program}, hooks) {}
-  // The same of an engine, which outlives the instance; an interpreter's program needs it.
+  // The same for the program of an engine, which outlives the instance; a program of the interpreter needs its engine.
   explicit Instance(Engine& engine, ScheduleHooks* hooks = nullptr)
       : Instance(Runnable{engine.program(), engine.context()}, hooks) {}
   Instance(const Instance&) = delete;
@@ -69,35 +74,36 @@ public:
     hooks_ = hooks;
     setRunnerHooks();
   }
-  // ScheduleHooks::works says something else than when it was asked for last. Not while the program runs.
+  // Asks ScheduleHooks::works again, because its result has changed. Not while the program runs.
   void worksChanged() { setRunnerHooks(); }
   void setTaskWatch(TaskWatch* watch); // null: none, which costs nothing
   void setLatching(bool latching);     // whether onLatch is called; not at first
 
-  // Whether tasks copy, at their borders, only what rungs touch, for hosts that look at none of the bytes that are left
-  // out; not at first. When that ends, these are brought in. While a task watch looks on, all is copied.
+  // Whether process-image copies (task entry and exit) leave out bytes that no rung touches, for hosts that do not look
+  // at those bytes; initially no. When this is switched off, the bytes left out are copied once. While a task watch is
+  // set, everything is copied.
   void setNeededCopiesOnly(bool only) noexcept;
   bool neededCopiesOnly() const noexcept { return neededCopiesOnly_; }
   const core::NeededCopies& neededCopies() const noexcept { return loaded_.neededCopies; }
   const std::shared_ptr<const CopyLists>& copyLists() const noexcept { return loaded_.copyLists; }
 
-  // Memory as the program's tables say, queues empty, no fault, schedule at its beginning; clock and profile continue.
-  // The host's side of the queues may be active meanwhile.
+  // Initializes the memory as the program's tables say, empties the queues, clears the fault, and sets the schedule to
+  // its beginning; clock and profile continue. The host's side of the queues may be used at the same time.
   void coldStart();
-  // The same, but the retained spans keep their contents.
+  // The same as coldStart, except that the retained spans keep their contents.
   void warmStart();
 
-  // Another program takes over, with the state that it has in common with this one (Replacement::transfer). Clock,
-  // queues and tickets continue, profile counters start at 0, and a program that had stopped on a fault stays stopped,
-  // as the new one. The replacement then holds the former program: given again, it puts that back, and cells that only
-  // that one has begin as `own` says. If the result is not Replaced, nothing has happened. Allocates nothing, but for
-  // what onReplace does.
+  // Replaces the program by that of `replacement`, with the state that both have in common (Replacement::transfer).
+  // Clock, queues and tickets continue; profile counters start at 0; if the program had stopped on a fault, the new one
+  // is stopped as well. Afterwards the replacement holds the former program: passing it again puts that program back,
+  // and cells that only that program has begin as `own` says. If the result is not Replaced, nothing has happened.
+  // Allocates nothing, except in onReplace.
   ReplaceResult replace(Replacement& replacement, OwnContents own = OwnContents::Initial);
-  // How many programs have taken over: what was looked up under another number is to be looked up again.
+  // The number of programs that have taken over: what was looked up under another number has to be looked up again.
   uint32_t generation() const { return generation_; }
 
-  // From the present place of the schedule: to its end, to the end of a slot; one run of the fast list. Nothing after a
-  // fault.
+  // Run the schedule from its present position to its end (scan) or to the end of a slot; fast runs the fast list once.
+  // After a fault they do nothing.
   void scan();
   void slot();
   void fast();
@@ -106,11 +112,12 @@ public:
   // One run of a task by itself, outside the schedule. False: fault, unknown task, or called from within a task.
   bool runTask(uint32_t task);
   bool runTask(std::string_view name);
-  // Stops the program with one of its own faults. False: it has no such fault, or is stopped already.
+  // Stops the program with one of the faults that it declares. False: it does not declare this fault, or is stopped
+  // already.
   bool halt(std::string_view fault);
-  // The machine is too slow for it. False: it is stopped already.
+  // Stops the program because the computer is too slow for it. False: it is stopped already.
   bool haltOverrun();
-  // For a real clock; see core::Runner.
+  // For a host on a real clock; see core::Runner.
   void setTimeLimit(core::TimeLimit limit) { runner_.setTimeLimit(limit); }
   uint32_t sliceDelayUs() const { return runner_.sliceDelayUs(); }
   void slice();
@@ -118,7 +125,7 @@ public:
   void sliceToFast();
   bool withinSlice() const { return runner_.withinSlice(); }
 
-  // See core::Runner. False: a fault has stopped the program.
+  // Puts forces in effect; see core::Runner. False: a fault has stopped the program.
   bool force(const Forcing& forcing) {
     runner_.force(forcing.code(), forcing.held());
     return !faulted();
@@ -144,9 +151,9 @@ public:
   uint64_t read(const Ref& ref) const { return readRaw(memory(), ref); }
   double readReal(const Ref& ref) const { return runtime::readReal(memory(), ref); }
   std::string readText(const Ref& ref) const { return runtime::readText(memory(), ref); }
-  // What the machine, a person or a test writes between two scans. Each gives nothing when the value is written. Where
-  // another place is copied over `ref` before the program reads it, nothing is written, and that place is the result:
-  // a value lasts there. (A control writes what it likes with writeRaw.)
+  // Write a value between two scans, for the machine, a person or a test. An empty result: the value was written. If
+  // another place is copied over `ref` before the program reads it, nothing is written, and the result is that other
+  // place, where a value would last. (A control writes with writeRaw, which does not check this.)
   [[nodiscard]] std::optional<Ref> write(const Ref& ref, uint64_t value);
   [[nodiscard]] std::optional<Ref> writeReal(const Ref& ref, double value);
   [[nodiscard]] std::optional<Ref> writeText(const Ref& ref, std::string_view text);
@@ -156,11 +163,12 @@ public:
   core::ServiceQueue& services() { return port_->services; }
   const core::ServiceQueue& services() const { return port_->services; }
 
-  // One entry a rung; empty when the program is not instrumented.
+  // The profile, one entry per rung; empty if the program is not instrumented.
   std::span<const rung_prof> profile() const { return loaded_.profile; }
   void clearProfile();
 
-  // The retained spans, one after the other: what RetainStore keeps. restoreRetained is false when the size is wrong.
+  // The contents of the retained spans, one after the other: what RetainStore saves. restoreRetained returns false if
+  // the size is wrong.
   uint32_t retainedSize() const { return static_cast<uint32_t>(loaded_.retained.size()); }
   void copyRetained(std::span<uint8_t> to) const; // of retainedSize()
   bool restoreRetained(std::span<const uint8_t> from);

@@ -1,4 +1,4 @@
-// The lists of core::NeededCopies for one program, made of its tables. Allocates when it is made.
+// The lists of core::NeededCopies for one program, computed from its tables. The constructor allocates.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -15,7 +15,7 @@ namespace rung::runtime {
 
 class CopyLists {
 public:
-  // `whole`: nothing is left out.
+  // `whole`: the copies leave nothing out.
   CopyLists(const rung_program& program, bool whole);
 
   core::NeededCopies views() const noexcept { return {.copies = copies_, .tasks = tasks_, .leftOut = leftOut_}; }
@@ -36,8 +36,8 @@ private:
   std::vector<rung_copy> leftOut_;
 };
 
-// Places that the input copies of a task overwrite before the program reads them: what a host writes there is lost, and
-// lasts where the copy comes from.
+// Finds the places that the input copies of a task overwrite before the program reads them. A value that a host writes
+// there is lost; written to the source of the copy it lasts.
 
 class Overwritten {
 public:
@@ -52,28 +52,29 @@ private:
   const rung_program* program_;
 };
 
-// A program beside the memory that one instance of it needs: what another program replaces.
+// LoadedProgram: a program together with the memory that one instance of it needs; replacing a program replaces this.
 
-// What an instance runs. All outlive it; the program has passed checkProgram.
+// What an instance runs. The members outlive the instance, and the program has passed checkProgram.
 struct Runnable {
   const rung_program& program;
-  void* engine = nullptr; // what the chunks find in rung_ctx::engine
+  void* engine = nullptr; // rung_ctx::engine of its chunks
   uint8_t* memory =
       nullptr; // the memory block, of core::Memory::kLeastBlock bytes at least; null: of the instance's own
-  // Names for its services, which outlive the instance's queue of requests; null: the program's own.
+  // Names of the services of the program, which outlive the instance's queue of requests; null: the program's own.
   const char* const* services = nullptr;
 };
 
-// A program with all the memory that one instance of it needs; its memory block holds the initial contents.
+// A program with all the memory that one instance of it needs. Its memory block holds the initial contents.
 struct LoadedProgram {
-  // The memory block, where it is the instance's own, has `leastBytes` or more, and room for a program that has grown.
+  // If the memory block belongs to the instance, it has `leastBytes` or more, so that a program that has grown fits
+  // into it.
   explicit LoadedProgram(const Runnable& runnable, uint32_t leastBytes = 0);
   void clear() noexcept; // memory as the program's tables say
   // For rung_ctx::prof.
   rung_prof* counters() noexcept { return profile.empty() ? nullptr : profile.data(); }
 
   struct FreeBlock {
-    size_t align; // 0: of somebody else
+    size_t align; // 0: the block belongs to the caller
     void operator()(uint8_t* block) const;
   };
   const rung_program* program;
@@ -83,12 +84,12 @@ struct LoadedProgram {
   std::unique_ptr<uint8_t, FreeBlock> block;
   std::vector<rung_prof> profile;     // one a rung; empty when the program is not instrumented
   std::vector<core::PartState> parts; // one a task
-  std::vector<rung_step> steps;       // room for those of a pass
+  std::vector<rung_step> steps;       // room for the steps of a scan
   std::vector<uint8_t> retained;      // room for a warm start
   Overwritten overwritten;
-  // Whole in a block of somebody else, who may look at all of it.
+  // The lists for copies; they leave nothing out in a block of the caller's, because the caller may look at all of it.
   std::shared_ptr<const CopyLists> copyLists;
-  core::NeededCopies neededCopies; // in these
+  core::NeededCopies neededCopies; // views of copyLists
 };
 
 } // namespace rung::runtime

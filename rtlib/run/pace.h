@@ -1,6 +1,7 @@
-// What is due of a program's schedule on a clock that runs beside the program's. A pass that is late runs; of more,
-// which the host may have caught up, whole passes are left out: the program's clock is moved over them, so timers stay
-// right. A machine that leaves out some again and again is too slow for the program. Nothing allocates.
+// Decides which slices of a program's schedule are due on a clock outside the program, such as the computer's. A late
+// scan still runs; of several late scans the host may catch up `catchUp`, and the others are skipped: the program's
+// clock advances over them, so its timers stay right. If scans are skipped again and again, the computer is too slow
+// for the program. Allocates nothing.
 #pragma once
 #include <cstdint>
 
@@ -9,35 +10,35 @@
 namespace rung::runtime {
 
 struct PaceOptions {
-  uint32_t catchUp = 1;        // passes that run one after the other where time is lost; 1: the one that is due
-  uint32_t mostOverruns = 500; // passes in a row that begin where others are left out; 0: any number
+  uint32_t catchUp = 1;        // late scans that run in succession; 1: only the one that is due
+  uint32_t mostOverruns = 500; // successive scans before which others were skipped; 0: any number
 };
 
 class Pace {
 public:
-  // The instance outlives it.
+  // The instance outlives this object.
   explicit Pace(Instance& instance, const PaceOptions& options = {});
-  // Another program has taken over.
+  // Another program has taken over in the instance.
   void programChanged() noexcept;
-  // The schedule takes time (scanPeriodUs); without it nothing is ever due.
+  // Whether the schedule takes time (scanPeriodUs); if not, nothing is ever due.
   bool hasPeriod() const noexcept { return passUs_ > 0; }
 
-  // The other clock has advanced by `ns`.
+  // The outside clock has advanced by `ns`.
   void elapse(int64_t ns) noexcept { lagNs_ += ns; }
-  // The time until the next slice is due; 0 and less: it is, for so long.
+  // The time until the next slice is due; 0 or less: it has been due for so long.
   int64_t untilNextNs() const noexcept { return delayNs() - lagNs_; }
-  // True: the next slice is due, and the caller runs it now. Where a pass begins with it, passes may be left out.
+  // True: the next slice is due, and the caller must run it now. If a scan begins with it, scans may be skipped here.
   bool take() noexcept;
-  // More than mostOverruns: nothing is due any more, until `restart`.
+  // Scans were skipped more than mostOverruns times in succession: nothing is due any more, until `restart`.
   bool overloaded() const noexcept { return overloaded_; }
-  // The program begins anew, in time.
+  // The program begins anew, and is not late.
   void restart() noexcept {
     lagNs_ = 0;
     overruns_ = 0;
     overloaded_ = false;
   }
 
-  // Passes that were left out.
+  // The number of scans that were skipped.
   uint64_t missed() const noexcept { return missed_; }
 
 private:

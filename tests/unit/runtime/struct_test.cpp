@@ -25,7 +25,7 @@ struct NcBlock {
   uint8_t fields[8] = {};
   double feed = 0;
   int32_t flag = 0;
-  int32_t copy = 0; // of `position`: a inconsistent copy shows
+  int32_t copy = 0; // of `position`: an inconsistent copy shows
   uint8_t buttons[4] = {};
   uint8_t lamps[8] = {};
   uint32_t tail = 0;

@@ -1,5 +1,5 @@
-// Compiles sources in a process of its own, which the host starts, in which nothing of the host's can be reached
-// (docs/security.md). What it does wrong harms that process alone.
+// Compiles sources in a separate process, which the host starts, and which can reach nothing of the host
+// (docs/security.md). Errors of the compiler harm only that process.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -12,7 +12,8 @@
 
 namespace rung::compile {
 
-// A process that has been started, for the thread that has done it.
+// A compiler process. All functions are for the thread that has started it, except that a thread of its own waits for
+// the process.
 class Compilation {
 public:
   enum class State : uint8_t {
@@ -27,22 +28,22 @@ public:
   };
   static constexpr unsigned kMostSeconds = 60; // of the clock
 
-  // Starts to compile them; any bytes may be given. The process has a lower priority than all of the host, and takes
-  // them for nothing else than `input`.
+  // Starts to compile packed sources or forces; `packed` may be any bytes. The process has a lower priority than all of
+  // the host, and accepts the bytes only as `input`.
   explicit Compilation(std::string packed, Input input = Input::Sources);
-  // Starts to compile these files, which that process reads first, with the rights of `user`: sources, or a project.
+  // Starts to compile these files (sources, or a project), which the process reads first, with the rights of `user`.
   Compilation(const std::vector<std::string>& files, uid_t user);
-  // Ends the process where it still runs.
+  // Ends the process if it still runs.
   ~Compilation();
   Compilation(const Compilation&) = delete;
   Compilation& operator=(const Compilation&) = delete;
 
   State state() const { return state_.load(std::memory_order_acquire); }
-  // For sources that are read here and now.
+  // Waits for the end of the process: for a host that compiles its program at its start.
   State wait();
-  // From here on not while it runs.
-  const std::string& report() const { return report_; } // also warnings of a program that is compiled
-  // A memory file, for rung_image_open_memory, of a program that is compiled; as long as the compilation.
+  // The functions below must not be called while the process runs.
+  const std::string& report() const { return report_; } // errors, or the warnings of a compiled program
+  // A memory file with the compiled program, for rung_image_open_memory; valid as long as this object.
   int image() const { return image_; }
 
 private:
@@ -64,12 +65,11 @@ private:
   std::thread worker_;
 };
 
-// The program that a host starts to compile sources, rung-compile.
+// The path of rung-compile, the program that a host starts to compile sources.
 
-// Its path. An unprivileged process (rtlib/load/trust.h) takes the one of the environment variable RUNG_COMPILE, if
-// that is set, or else one beside its own program, where a build has it, or where an installation below the prefix of
-// that program has it. Empty, and `problem` says why: it is not there, or others than root, or the process's own user,
-// could have changed it.
+// An unprivileged process (rtlib/load/trust.h) uses the environment variable RUNG_COMPILE, if it is set. Otherwise the
+// program is beside the host's own program, as in a build, or where an installation with the same prefix has it. Empty,
+// and `problem` says why: it does not exist, or users other than root and the process's own could have changed it.
 std::string compilerProgram(std::string& problem);
 
 } // namespace rung::compile

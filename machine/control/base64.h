@@ -1,4 +1,4 @@
-// Bytes of any kind within JSON.
+// Base64: arbitrary bytes within JSON.
 #pragma once
 #include <optional>
 #include <string>
@@ -7,6 +7,6 @@
 namespace rung::control {
 
 std::string toBase64(std::string_view bytes);
-std::optional<std::string> fromBase64(std::string_view text); // nothing where it is none
+std::optional<std::string> fromBase64(std::string_view text); // nothing: not base64
 
 } // namespace rung::control

@@ -1,4 +1,4 @@
-// Sources that a client sends, and the program that is compiled of them in a process of its own: one at a time, of one
+// Compiles, in a separate process, the sources that a client of the host's socket sends: one program at a time, for one
 // client at a time.
 #pragma once
 #include <chrono>
@@ -15,16 +15,16 @@
 
 namespace rung::control {
 
-// For the thread that answers requests, which never waits here. The answers are those of docs/control-protocol.md; what
-// cannot be done throws Refused.
+// Service thread; no function waits. The answers are described in docs/control-protocol.md; a request that cannot be
+// carried out throws Refused.
 class CompileService {
 public:
   nlohmann::json sources(const Peer& peer, const nlohmann::json& request);
   nlohmann::json compile(const Peer& peer, const nlohmann::json& request);
   nlohmann::json compiled(const Peer& peer, const nlohmann::json& request);
-  // What the client's sources have become; throws Refused where they have not been compiled.
+  // The program compiled from the client's sources; throws Refused if they have not been compiled.
   const Image& image(const Peer& peer) const;
-  // Its process ends, too.
+  // The client has disconnected: its compiler process is ended.
   void gone(const Peer& peer);
 
 private:
@@ -34,7 +34,7 @@ private:
   void load();
   void require(const Peer& peer) const;
 
-  uint32_t owner_ = 0; // number of the client; 0: nobody
+  uint32_t owner_ = 0; // number of the client; 0: none
   Clock::time_point lastUse_;
   std::string packed_;
   std::unique_ptr<compile::Compilation> compilation_;

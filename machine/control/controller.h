@@ -1,4 +1,5 @@
-// What rungctl may ask of a program that runs between the pins of a host: docs/control-protocol.md lists it.
+// Executes the commands of rungctl for a program that runs between the pins of a host; docs/control-protocol.md lists
+// them.
 #pragma once
 #include <functional>
 #include <map>
@@ -20,26 +21,26 @@
 
 namespace rung::control {
 
-// For the thread that serves the plc; orders go to the scan thread, which it waits for.
+// Service thread (that of PlcHost::serve). Commands that need the scan thread are posted to it, and waited for.
 class Controller final : public Handler {
 public:
   static constexpr int kProtocol = 1;
 
-  // `image` is what the plc began with. `log`, which outlives this, gets what the program and its host report, and
-  // every change that somebody has made.
+  // `image` is the program with which the host started. `log` outlives this object, and gets the reports of the program
+  // and its host, and every change made by a client.
   Controller(std::string host, host::PlcHost& plc, const Image& image, Log& log,
              std::unique_ptr<Programs> programs = programsOfMachine());
   ~Controller() override; // before the plc
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
 
-  // Messages are kept in this file, too. Before the first turn.
+  // Stores messages in this file, too. Before the first turn.
   void keepHistory(const std::string& path) { historyFile_ = std::make_unique<HistoryFile>(history_, path); }
-  // What the host adds to its status. Before the first request.
+  // Sets what the host adds to its status. Before the first request.
   void addToStatus(std::function<void(nlohmann::json&)> add) { addToStatus_ = std::move(add); }
 
-  // A simulated control around the program: `act` does an event of it, in the scan thread, and says what is wrong.
-  // Before the first request.
+  // For a program with a simulated control: `act` executes an event of the simulation in the scan thread, and returns
+  // what is wrong. Before the first request.
   using Event = std::function<std::string(const std::string& name, const nlohmann::json& keys)>;
   void setSimulation(Event act) { simulation_ = std::move(act); }
 
@@ -47,17 +48,18 @@ public:
   nlohmann::json answer(const Peer& peer, const nlohmann::json& request) override;
   void gone(const Peer& peer) override;
 
-  // In each turn of the thread, before the requests of clients: what the plc needs from time to time and reports then,
-  // and what the program has shown. Each line goes to the log, is kept for those who ask later, and is sent to those
-  // who follow. `sink`: null where there are no clients.
+  // First part of each turn, before the requests of clients: does the regular work of the host, and takes its reports
+  // and the program's messages. Each line goes to the log, into the history, and to the clients that follow. `sink`:
+  // null if there are no clients.
   void serveProgram(Sink* sink);
-  // After them: sends what has changed to those who watch, the program's questions to the client that serves it, and
-  // the answer to each client whose force is done; compares what a shadow has recorded, for a part of a turn.
+  // Last part of each turn, after the requests: sends changed values to the clients that watch them, the program's
+  // requests to the client that serves it, and the answer to each client whose force is ready; compares what a shadow
+  // has recorded, for part of a turn.
   void serveClients(Sink& sink);
 
 private:
   struct Watching;
-  struct Range { // of bits of a space
+  struct Range { // bits of a space
     uint32_t space = 0;
     uint64_t first = 0;
     uint64_t count = 0;
@@ -71,7 +73,7 @@ private:
   enum class Share : uint8_t { None, Part, All };
   struct Row {
     const char* name = nullptr;
-    std::optional<host::Remote> permission; // that the mapping file must give
+    std::optional<host::Remote> permission; // permission that the mapping file must give
     nlohmann::json (Controller::*run)(const Peer&, const nlohmann::json&) = nullptr;
   };
   static const Row kRows[];
@@ -119,7 +121,7 @@ private:
   void waitForPass(uint64_t passes);
   Share shareOf(const std::string& name, const std::vector<Range>& wanted) const;
   host::Command give(host::Command order, std::chrono::milliseconds time = host::PlcHost::kPatience);
-  struct NextProgram { // that a request names
+  struct NextProgram { // the program named by a request
     std::optional<Image> opened;
     const Image* image = nullptr;
     std::string text; // for people
@@ -159,26 +161,26 @@ private:
   host::PlcHost& plc_;
   Services services_;
   std::string dialect_;
-  std::vector<std::string> symbols_, formerSymbols_; // of the last program that was given, and of the one before
+  std::vector<std::string> symbols_, formerSymbols_; // of the last program loaded, and of the one before
   Log& log_;
   std::function<void(nlohmann::json&)> addToStatus_;
   Event simulation_;                   // empty: there is none
-  std::vector<std::string> heldNames_; // cells that are forced, as far as this thread has heard
+  std::vector<std::string> heldNames_; // forced cells, as far as this thread knows
   History history_;
-  std::unique_ptr<HistoryFile> historyFile_;               // null: it is in memory alone
-  uint32_t restarts_ = 0;                                  // of the plc, when messages were noted
+  std::unique_ptr<HistoryFile> historyFile_;               // null: the history is only in memory
+  uint32_t restarts_ = 0;                                  // restarts of the program when messages were last noted
   std::map<uint32_t, std::unique_ptr<Watching>> watching_; // by peer
   std::vector<uint32_t> following_;                        // messages
   CompileService compiler_;
   std::unique_ptr<Programs> programs_;
-  std::unique_ptr<ForceChange> pending_; // for whose code the compiler is at work
+  std::unique_ptr<ForceChange> pending_; // the change whose code is being compiled
   Forces forces_;
   struct EndShadow {
     void operator()(rung_shadow* shadow) const noexcept { rung_shadow_free(shadow); }
   };
   std::unique_ptr<rung_shadow, EndShadow> shadow_;
-  uint32_t shadowsFor_ = 0; // the peer that has begun the last one
-  nlohmann::json compared_; // of the last one, once it is over; null before
+  uint32_t shadowsFor_ = 0; // the peer that has begun the last shadow
+  nlohmann::json compared_; // results of the last shadow, once it has ended; null before
   struct EndReplacement {
     void operator()(rung_replacement* replacement) const noexcept { rung_replacement_free(replacement); }
   };

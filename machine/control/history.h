@@ -1,4 +1,4 @@
-// What a host has reported: when each message of the program came and when it went, and what else has happened.
+// The history of a host's reports: when each message of the program appeared and disappeared, and other events.
 #pragma once
 #include <condition_variable>
 #include <cstdint>
@@ -13,53 +13,53 @@
 
 namespace rung::control {
 
-// For one thread. Times are in seconds since 1970.
+// Service thread. Times are in seconds since 1970.
 class History {
 public:
-  static constexpr size_t kMost = 1000; // entries; the oldest ones go
+  static constexpr size_t kMost = 1000; // entries; the oldest ones are dropped
   static constexpr size_t kMostShown = 1000;
   static constexpr int64_t kPauseS = 10;     // between two lines of an entry that changes again and again
   static constexpr uint32_t kMostLines = 50; // in a second
 
   using Key = std::tuple<uint32_t, int32_t, int32_t>; // of a message: number, channel, index
   struct Entry {
-    uint64_t number = 0;    // they count on, over starts of the host
+    uint64_t number = 0;    // continues over starts of the host
     std::optional<Key> key; // of a message, which comes and goes; nothing: an event of one moment
     std::string text;
     int64_t cameS = 0;
     std::optional<int64_t> wentS;
-    uint32_t times = 1; // that it came: a message that flickers is one entry
+    uint32_t times = 1; // how often it came: a message that flickers is one entry
     bool cut = false;   // the host has ended while it was on; without wentS it is not known when
-    // The lines of it that have been written.
+    // The lines written for this entry.
     bool changed = true; // since then
     uint32_t lines = 0;
     int64_t lineS = 0; // of the last one
   };
 
-  // `again`: a message comes so often that it gets no new entry.
+  // A message appears. `again`: it appears so often that it gets no new entry.
   void come(const Key& key, const std::string& text, int64_t nowS, bool again);
-  // Its text; "" where it was not on.
+  // A message disappears. The result is its text; "": it was not on.
   std::string go(const Key& key, int64_t nowS);
-  // The program is switched on anew: none is on. The texts of those that were.
+  // The program is switched on again, so no message is on. The result is the texts of those that were.
   std::vector<std::string> goAll(int64_t nowS);
   void happen(const std::string& text, int64_t nowS);
-  // The host ends.
+  // The host ends: messages that are on are marked as cut.
   void end(int64_t nowS);
 
   const std::deque<Entry>& entries() const { return entries_; }
-  // Messages that are on, by their keys, also where their entries have gone.
+  // Messages that are on, sorted by key, including those whose entries were dropped.
   std::vector<Entry> shown() const;
   bool isOn(const Entry& entry) const;
-  // The host was started since: it is not of an earlier one.
+  // Whether the entry was made since this start of the host.
   bool isNew(const Entry& entry) const { return entry.number >= first_; }
 
-  // ---- as lines of text, of which a later one of the same entry replaces the former one
+  // ---- as lines of text; a later line of an entry replaces the former one
 
-  // What has changed, as far as it may be written now: little of what changes all the time.
+  // Lines for the changes, as far as they may be written now: entries that change all the time are written rarely.
   std::string takeLines(int64_t nowS);
-  // All of it.
+  // Lines for all entries.
   std::string takeAll();
-  // The lines of a host that has ended; before anything else. False: some are not lines of this kind.
+  // Reads the lines of a host that has ended; call it first. False: some of the lines are not valid.
   bool read(const std::string& text);
 
 private:
@@ -78,23 +78,23 @@ private:
   uint32_t lines_ = 0;   // in that second
 };
 
-// A history on disk: a file to which lines are added as entries come, by a thread of its own, as a disk may take its
-// time. After a crash at any moment all but the last lines are there.
+// The history on disk: a thread appends lines to a file as entries come, because a disk may be slow. After a crash at
+// any moment all but the last lines are there.
 
-// For the thread of the history.
+// Service thread, like History; a thread of its own writes.
 class HistoryFile {
 public:
-  static constexpr size_t kMostBytes = 1 << 20; // a longer file is replaced by one with the entries that are left
-  static constexpr int64_t kRetryS = 10;        // after a write that has failed
+  static constexpr size_t kMostBytes = 1 << 20; // a longer file is replaced by one with the present entries
+  static constexpr int64_t kRetryS = 10;        // after a failed write
 
-  // The history outlives it. What is in the file is read before anything else is in the history.
+  // The history outlives this object. The constructor reads the file, before the history has any entries.
   HistoryFile(History& history, std::string path);
-  ~HistoryFile(); // all of the history is on disk, where that can be
+  ~HistoryFile(); // writes all of the history, if possible
   HistoryFile(const HistoryFile&) = delete;
   HistoryFile& operator=(const HistoryFile&) = delete;
 
-  // From time to time: has written what has changed. What people should know of it, or "": it fails, for another reason
-  // than before, or works again.
+  // Called in each turn: writes what has changed. The result is what users should know, or "": writing fails, for
+  // another reason than before, or works again.
   std::string tick(int64_t nowS);
 
 private:
@@ -111,7 +111,7 @@ private:
   std::string problem_; // as it was reported
   bool anew_ = false;   // the file is to be replaced
   int64_t triedS_ = 0;
-  mutable std::mutex mutex_; // for the rest; while it is busy, that is the thread's
+  mutable std::mutex mutex_; // protects the members below; while busy_, they belong to the writing thread
   std::condition_variable changed_;
   bool busy_ = false;
   bool ending_ = false;

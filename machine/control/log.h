@@ -1,5 +1,4 @@
-// The lines that a host writes, each with its time. What comes again and again is written a few times, and then
-// counted.
+// The log of a host: lines with their times. A line that is repeated is written a few times, and then only counted.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -10,24 +9,24 @@
 
 namespace rung::control {
 
-// "2026-11-25 10:52:27", of the place of the machine.
+// "2026-11-25 10:52:27", in local time.
 std::string dateText(int64_t seconds);
 
-// For one thread.
+// Service thread.
 class Log {
 public:
   using Write = std::function<void(const std::string& line)>;
-  // The clock outlives it.
+  // The clock outlives the log.
   Log(runtime::Clock& clock, Write write) : clock_(clock), write_(std::move(write)) {}
-  ~Log(); // what was counted is written
+  ~Log(); // writes the counts
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
-  // False: it has been written so often within kPauseS that it is counted alone.
+  // Writes a line. False: it was written so often within kPauseS that it is only counted.
   bool line(const std::string& text);
-  // Written, however often it comes: what a person does.
+  // Writes a line even if it is repeated: for actions of persons.
   void always(const std::string& text) { write(clock_.dateS(), text); }
-  // From time to time: writes how often a line has come that does not come any more, or has been counted for kPauseS.
+  // Called in each turn: writes how often a line was counted, when it stops coming, or after kPauseS.
   void tick() { settle(clock_.dateS()); }
 
   static constexpr uint32_t kMost = 5;   // times that a line is written
@@ -49,7 +48,7 @@ private:
 
   runtime::Clock& clock_;
   Write write_;
-  std::list<Known> known_; // the one that has come last is the first
+  std::list<Known> known_; // the latest one first
 };
 
 } // namespace rung::control

@@ -1,4 +1,4 @@
-// What the rungs of a running program have cost, of one that was built with --profile.
+// The profile of a running program that was built with --profile: what its rungs have cost.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
@@ -6,7 +6,8 @@
 
 namespace rung::control {
 
-// The answer to `profile` (docs/control-protocol.md). Throws Refused, also where the program does not count its rungs.
+// The answer to `profile` (docs/control-protocol.md). Throws Refused, for example if the program does not count its
+// rungs.
 nlohmann::json profileOf(host::PlcHost& plc, const nlohmann::json& request);
 
 } // namespace rung::control

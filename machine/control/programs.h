@@ -1,4 +1,4 @@
-// Where a controller gets programs and code with forced cells from. A test has them made already.
+// The source of programs, and of code with forced cells, for a controller. A test provides prepared ones.
 #pragma once
 #include <memory>
 #include <string>
@@ -10,15 +10,15 @@ namespace rung::control {
 class Programs {
 public:
   virtual ~Programs() = default;
-  // A compiled program; throws rung::Error where it cannot be loaded.
+  // Loads a compiled program; throws rung::Error if it cannot be loaded.
   virtual Image open(const std::string& path) = 0;
-  // From now on code with forced cells can be had for a program of this image (rung_forces_new).
+  // From now on code with forced cells can be made for a program of this image (rung_forces_new).
   virtual void serveForces(const Image& image) = 0;
-  // What is being made is not wanted any more.
+  // Cancels the code that is being made.
   virtual void abandon() = 0;
 };
 
-// Files, and the compiler process of the machine.
+// Programs from files, and code from the compiler process (machine/compile).
 std::unique_ptr<Programs> programsOfMachine();
 
 } // namespace rung::control

@@ -1,4 +1,4 @@
-// Requests of the program that are answered from outside: by whoever is connected to the host's socket for that.
+// Requests of the program to its CNC, which a client of the host's socket answers.
 #pragma once
 #include <chrono>
 #include <functional>
@@ -15,25 +15,26 @@
 
 namespace rung::control {
 
-// For the thread that serves the plc. What nobody answers in time is refused as where no CNC is there.
+// Service thread. A request that is not answered in time is refused as if there were no CNC.
 class Services {
 public:
   static constexpr std::chrono::seconds kPatience{5};
 
   explicit Services(host::PlcHost& plc) : plc_(plc) {}
 
-  // The commands of docs/control-protocol.md; they throw Refused.
+  // Commands of docs/control-protocol.md; they throw Refused.
   nlohmann::json serve(const Peer& peer, const nlohmann::json& request);
   nlohmann::json live(const Peer& peer, const nlohmann::json& request);
   nlohmann::json served(const Peer& peer, const nlohmann::json& request);
 
   void gone(const Peer& peer);
-  // Passes new requests on, and refuses those that have waited too long. A provider that has promised a sign of life
-  // and gives none counts as gone: what moved has stopped, and it must learn of it before anything moves again.
+  // Passes new requests on, and refuses those that have waited too long. A provider that has promised signs of life and
+  // sends none counts as disconnected: all motion has stopped, and the program must learn of it before anything moves
+  // again.
   void work(Sink& sink);
-  // What the operator should know, since it was asked last.
+  // Takes the reports for the operator since the last call.
   std::vector<std::string> takeReports() { return std::exchange(reports_, {}); }
-  // A request of this peer, of whatever kind, is a sign of life.
+  // Any request of this peer is a sign of life.
   void heard(const Peer& peer);
 
 private:
@@ -49,10 +50,10 @@ private:
 
   host::PlcHost& plc_;
   void lose(const std::string& why);
-  uint32_t provider_ = 0; // its number as a peer; 0: there is none
-  int64_t aliveNs_ = 0;   // that it may be silent; 0: for any time
+  uint32_t provider_ = 0; // number of the serving peer; 0: none
+  int64_t aliveNs_ = 0;   // how long it may be silent; 0: without limit
   int64_t heardNs_ = 0;
-  bool isLost_ = false; // it was served, and is no more: what was under way is not done
+  bool isLost_ = false; // the provider has gone: what was in progress is not done
   std::vector<std::string> reports_;
   std::map<uint32_t, Waiting> waiting_; // by ticket
 };

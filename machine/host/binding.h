@@ -1,4 +1,4 @@
-// The entries of a mapping file with their names looked up in a program: what is to be bound to its cells.
+// The entries of a mapping file, with their names looked up in a program: what is to be bound to the program's cells.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -15,8 +15,8 @@ struct PinLink {
   PinType type = PinType::Bit;
   Direction direction = Direction::In;
   std::string name;
-  double scale = 1;            // float: the program's units in one of HAL's
-  bool words = false;          // the real that words of the program hold
+  double scale = 1;            // float: the program's units in one unit of HAL
+  bool words = false;          // the name is a real stored in words
   std::vector<uint32_t> bits;  // pins of a cell's bits, from the lowest one on: the cell is of type U32 then
   std::optional<double> value; // of a parameter, at the start
 };
@@ -31,16 +31,17 @@ struct ConstLink {
 struct Binding {
   std::vector<PinLink> links;
   std::vector<ConstLink> constants;
-  std::vector<std::string> warnings; // as `errors`: what works, but hardly as it is meant
+  std::vector<std::string> warnings; // in the form of `errors`: entries that work, but hardly as intended
 };
 
-// Every name that does not exist or does not suit its entry is one text in `errors`, "PATH:LINE:COLUMN: what is wrong";
-// so are functions that the control does not hand over. `program`: the tables of the instance's image.
+// Looks up all names. Every name that does not exist or does not suit its entry is one text in `errors`,
+// "PATH:LINE:COLUMN: what is wrong"; so are functions that the control does not support. `program`: the tables of the
+// instance's image.
 Binding bindMap(const File& map, rung_instance* instance, const rung_program& program,
                 std::vector<std::string>& errors);
 
-// The same for the new program of a replacement, whose tables `program` is: without what concerns the control, which
-// stays.
+// The same for the new program of a replacement, whose tables are `program`, except for the entries that concern the
+// control, which does not change.
 Binding bindMap(const File& map, rung_instance* instance, const rung_replacement* replacement,
                 const rung_program& program, std::vector<std::string>& errors);
 

@@ -1,4 +1,5 @@
-// What another thread asks of the thread that scans a program, which does it between two slices.
+// Commands from another thread to the scan thread, which executes them between two slices: a slot for one command at a
+// time. Neither thread waits for the other in it.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -15,16 +16,16 @@ namespace rung::host {
 
 struct Command {
   enum class Kind : uint8_t {
-    State,   // the instance's state, and that of functions
-    Write,   // `value` into `cell`; `former` is what was there, `state` the instance's state then
-    Forced,  // the force in effect number `index`
-    Force,   // `forces` are in effect from now on; null: none
-    Replace, // by the program of `replacement`; the instance's state then
-    Shadow,  // `shadow` begins; null: it ends
+    State,   // returns the state of the instance and of functions
+    Write,   // writes `value` into `cell`; returns the former value and the instance's state
+    Forced,  // returns force number `index` of those in effect
+    Force,   // puts `forces` in effect; null: none
+    Replace, // puts the program of `replacement` in place; returns the instance's state
+    Shadow,  // begins `shadow`; null: ends the present one
     Stop,
     Start,
     Restart, // after a fault
-    Act,     // `act` does it, with `actor`
+    Act,     // calls `act` with `actor`
     Profile, // the counters of the rungs from `index` on, `count` of them at most, into `profiles`; `count`: of how
              // many
     ClearProfile,
@@ -36,11 +37,12 @@ struct Command {
   uint32_t count = 0;
   rung_forces* forces = nullptr;
   rung_replacement* replacement = nullptr;
-  const std::vector<rung_cell>* dead = nullptr; // with that: inputs of the running program that become 0; the caller's
+  const std::vector<rung_cell>* dead =
+      nullptr; // for Replace: inputs of the running program that become 0; belongs to the caller
   rung_shadow* shadow = nullptr;
   void (*act)(void* actor) = nullptr;
   void* actor = nullptr;
-  rung_profile* profiles = nullptr; // the caller's
+  rung_profile* profiles = nullptr; // belongs to the caller
   // Results.
   rung_value former{};
   rung_state state{};
@@ -48,24 +50,25 @@ struct Command {
   rung_force_info force{};
 };
 
-// What became of a command.
+// The result of a command.
 struct CommandResult {
-  int32_t status = RUNG_OK; // enum rung_status; RUNG_FAILED also where nobody scans
-  std::string problem;      // a sentence, unless it is done
+  int32_t status = RUNG_OK; // enum rung_status; RUNG_FAILED also if no thread scans the program
+  std::string problem;      // a sentence, if the command was not executed
   bool ok() const { return status == RUNG_OK || status == RUNG_EMPTY; }
 };
 
 class CommandSlot {
 public:
-  // The status of a command, and the sentence that goes with it, where it is not done.
+  // The status of a command, with a sentence if it was not executed.
   struct Outcome {
     int32_t status = RUNG_OK;
-    const char* problem = ""; // until the command is answered
+    const char* problem = ""; // valid until the command is answered
   };
 
-  // For all threads but the scan's, which may wait here for each other. Results are in `command`. What the scan thread
-  // cannot do now it tries again, until the time is over: then the command is withdrawn, and has done nothing. Between
-  // two looks, `meanwhile` does what others may wait for.
+  // Any thread except the scan thread; callers may wait here for each other. Posts a command and waits for its results,
+  // which are stored in `command`. What the scan thread cannot do at the moment it tries again, until the time is over:
+  // then the command is withdrawn, and has had no effect. Between two checks `meanwhile` is called, for work that must
+  // not wait.
   template <class Meanwhile>
   CommandResult give(Command& command, std::chrono::nanoseconds time, runtime::Clock& clock, Meanwhile meanwhile) {
     constexpr int64_t kLookNs = 200'000;
@@ -78,7 +81,7 @@ public:
     return take(command);
   }
 
-  // The scan thread, between two slices: `execute` does the command and gives an Outcome.
+  // Scan thread, between two slices: `execute` carries out the command and returns an Outcome.
   template <class Execute>
   void take(Execute execute) noexcept {
     slot_.take([&](Posted& posted) {

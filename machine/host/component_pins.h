@@ -1,5 +1,5 @@
-// The pins that LinuxCNC's component makes for every program besides those of the map (machine/rung-hal), and what HAL
-// takes as a pin's name.
+// The pins that LinuxCNC's component (machine/rung-hal) creates for every program besides those of the map, and the
+// rules of HAL for names of pins.
 #pragma once
 #include <string>
 #include <string_view>
@@ -18,10 +18,10 @@ enum class OwnPin : uint8_t {
   FunctionsTimeout,
   FunctionsLost,
   Reset,    // restarts the program after a fault
-  PowerOff, // its regular end begins, while its pins are those of the machine
+  PowerOff, // begins the regular end of the program, while its pins are still connected
   PoweredOff,
-  Serving, // somebody answers what the program asks, and lives
-  MaxTime, // microseconds that the program may run in one call; 0: its budgets alone count
+  Serving, // a client answers the program's requests, and is alive
+  MaxTime, // maximum time of the program in one call, in microseconds; 0: only its budgets apply
 };
 
 struct OwnPinRow {
@@ -30,7 +30,7 @@ struct OwnPinRow {
   Direction direction; // as of the map: In is written by HAL
 };
 
-// By OwnPin.
+// Indexed by OwnPin.
 inline constexpr OwnPinRow kOwnPins[] = {
     {"fault", PinType::Bit, Direction::Out},          {"fault-line", PinType::U32, Direction::Out},
     {"scans", PinType::U32, Direction::Out},          {"missed", PinType::U32, Direction::Out},
@@ -42,10 +42,10 @@ inline constexpr OwnPinRow kOwnPins[] = {
 
 bool isOwnPin(std::string_view name);
 
-// HAL's names have 47 characters, with the program's name and a point before the pin's: "rung.".
+// HAL's names have at most 47 characters; the program's name and a point, "rung.", precede that of the pin.
 inline constexpr size_t kLongestPinName = 47 - std::string_view("rung.").size();
 
-// Names of pins that the component or HAL does not take: each is a mistake.
+// Reports names of pins that the component or HAL does not accept.
 void checkPinNames(const File& map, std::vector<std::string>& errors);
 
 } // namespace rung::host

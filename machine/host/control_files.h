@@ -3,8 +3,8 @@
 // (ChannelConfig, man. l.5575-5757, l.13255-13291, l.16073-16108) and those of its devices.
 //
 // Elements and attributes that the manual does not name are mistakes inside the elements read here; around these, in
-// the channel's configuration, everything else belongs to other parts of the control and is passed over. Texts are
-// UTF-8. Nothing of this runs while a PLC program does.
+// the channel's configuration, everything else belongs to other parts of the control and is skipped. Texts are UTF-8.
+// None of this runs while a PLC program is running.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -71,11 +71,11 @@ struct TerminalDefinition {
 enum class DeviceKind : uint8_t { Axis, CanChannel, ComChannel, Servo };
 struct DeviceDefinition {
   struct Attribute {
-    std::string name, value; // of any name: the owner of the device knows its attributes
+    std::string name, value; // any names: the code for the device knows its attributes
   };
   DeviceKind kind = DeviceKind::Axis;
   uint32_t number = 0;               // 0 to 15
-  std::vector<Attribute> attributes; // but No
+  std::vector<Attribute> attributes; // without No
   FilePlace place;
 };
 
@@ -90,10 +90,10 @@ struct ControlFiles {
 
 enum class ControlFileKind : uint8_t { Messages, Constants, Channel };
 
-// Adds what the file says to `files`. "" or what is wrong with it, a line "FILE:LINE:COLUMN: ..." each; `files` is then
-// as before.
+// Adds the contents of the file to `files`. "", or the errors, one line "FILE:LINE:COLUMN: ..." each; then `files` is
+// unchanged.
 std::string readControlFile(ControlFileKind kind, const std::string& path, ControlFiles& files);
-// The same of a text; `name` is the file's in messages.
+// The same for a text; `name` is that of the file in messages.
 std::string parseControlFile(ControlFileKind kind, std::string_view name, std::string_view text, ControlFiles& files);
 
 } // namespace rung::host

@@ -1,4 +1,4 @@
-// A first mapping file for a program: its inputs, outputs and functions, as a person would begin to write them.
+// Writes a first mapping file for a program: its inputs, outputs and functions, as a person would begin.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -9,20 +9,20 @@
 
 namespace rung::host {
 
-// A place that rungs of the program use, by its name.
+// A place, by its name, that rungs of the program use.
 struct UsedName {
   std::string name;
   bool read = false;
-  bool written = false; // it, or a part of it
+  bool written = false; // the place, or part of it, is written
 };
 
-// A mapping file without mistakes and warnings. Input is what the machine or the NC writes, output what they read; of
-// memory that both sides share what no rung writes, or what no rung reads, and the rest of it is in comments. Of the
-// program's own memory only what no rung writes is there, in comments, too. `program`: the tables of the instance's
-// image.
+// The text of a mapping file without errors and warnings. Its inputs are what the machine or the NC writes, its outputs
+// what they read. Of memory that both sides share it has as inputs what no rung writes, as outputs what no rung reads,
+// and the rest in comments. Of the program's own memory it has only what no rung writes, in comments. `program`: the
+// tables of the instance's image.
 std::string templateMap(rung_instance* instance, const rung_program& program, std::span<const UsedName> used);
 
-// Whose the cells of a program are: the machine's and the NC's to write, theirs to read, or the program's own.
+// Which side owns the cells of a program: written by the machine and the NC, read by them, or the program's own.
 
 // Bits of a space.
 struct Bits {
@@ -33,7 +33,7 @@ struct Bits {
 };
 Bits bitsOf(const rung_cell_info& info);
 
-// Of a program; a signal's direction says more than the memory that it lies in.
+// The sides of a program's cells; the direction of a signal is more exact than the memory in which it lies.
 class Sides {
 public:
   Sides(rung_instance* instance, const rung_program& program);

@@ -1,5 +1,5 @@
-// The mapping file: which HAL pins there are, and which names of the PLC program they refer to. It is TOML;
-// docs/mapping-file.md describes its tables. This is the file alone; binding.h looks the names up in a program.
+// The contents of a mapping file: the HAL pins, and the names of the PLC program to which they refer. The file is TOML;
+// docs/mapping-file.md describes its tables. This header has the file alone; binding.h looks up the names in a program.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -30,36 +30,36 @@ struct Position {
 enum class Direction : uint8_t {
   In,        // HAL to the program
   Out,       // the program to HAL
-  Io,        // both: each takes what the other has written last
-  Parameter, // a person's, to the program
+  Io,        // both: each side reads what the other has written last
+  Parameter, // set by a person, read by the program
 };
 
 inline bool toProgram(Direction direction) { return direction != Direction::Out; }
 inline bool fromProgram(Direction direction) { return direction == Direction::Out || direction == Direction::Io; }
 
-// A HAL pin or parameter to make. One that is named in several places is made once.
+// A HAL pin or parameter to create. A pin that is named in several places is created once.
 struct Pin {
   std::string name;
   PinType type = PinType::Bit;
   Direction direction = Direction::In;
   Position at;         // the first of these places
-  double safe = 0;     // the value where the program does not run: before its first scan, after a fault, at the end
-  bool holds = false;  // it keeps its last value then instead
-  bool ofHost = false; // the host itself reads and writes it, also where the program does not run
+  double safe = 0;     // value while the program does not run: before its first scan, after a fault, at the end
+  bool holds = false;  // keeps its last value instead
+  bool ofHost = false; // read and written by the host itself, also while the program does not run
 };
 
 // in, out, io, param: the pin and the name are the same quantity.
 struct Link {
   uint32_t pin = 0; // in File::pins
   std::string name;
-  double scale = 1; // float: the program's units in one of HAL's; not 0, finite
+  double scale = 1; // float: the program's units in one unit of HAL; not 0, finite
   // Not empty: pins for the bits of the cell from its lowest one on, `pin` is the first.
   std::vector<uint32_t> bits;
-  std::optional<double> value; // of a parameter, at the start; else, and of io pins, what the program has then
+  std::optional<double> value; // of a parameter, at the start; without it, and for io pins, the value of the program
   Position at;                 // of the name
 };
 
-// A name of a pin with other mistakes: it is looked up, too, so that all mistakes are said at once.
+// The name of a pin with other errors: it is looked up, too, so that all errors are reported at once.
 struct NamedOnly {
   std::string where; // its key, for messages
   std::string name;
@@ -67,7 +67,7 @@ struct NamedOnly {
   Direction direction = Direction::In;
 };
 
-// true and false are bits; integers are S32 where they are negative and U32 otherwise.
+// An entry of [const]: true and false are bits; negative integers are S32, others U32.
 struct Constant {
   PinType type = PinType::Bit;
   std::string name;
@@ -75,13 +75,13 @@ struct Constant {
   Position at;
 };
 
-// A pin at a level that it has not had before.
+// A pin that changes to a level.
 struct Edge {
   uint32_t pin = 0; // in File::pins
   bool rising = true;
 };
 
-// send: an edge of a pin hands a function to the program.
+// send: an edge of a pin passes a function to the program.
 struct Send {
   Edge edge;
   rung_function_kind kind = RUNG_FUNCTION_M;
@@ -92,14 +92,14 @@ struct Send {
   Position at;
 };
 
-// m-groups: the group that the machine has an M function in.
+// m-groups: the group of an M function on this machine.
 struct Group {
   uint32_t code = 0;
   uint32_t group = 0;
   Position at; // of the code
 };
 
-// PlcErrors: a file of the control's own that has the texts of messages.
+// PlcErrors: a file of the control that contains texts of messages.
 struct MessageFile {
   std::string path;
   Position at;
@@ -112,21 +112,21 @@ struct AxisGroup {
   Position at; // of the axis
 };
 
-// rungctl: what may be done from outside while the program runs.
+// rungctl: what clients may do while the program runs.
 enum class Remote : uint8_t { Set, Force, Reload, Start, Stop, Reset, Profile, Serve };
 inline constexpr std::string_view kRemoteNames[] = {"set",  "force", "reload",  "start",
-                                                    "stop", "reset", "profile", "serve"}; // by Remote
+                                                    "stop", "reset", "profile", "serve"}; // indexed by Remote
 
-// rungctl: a cell that is neither set nor forced.
+// rungctl: a cell that clients can neither set nor force.
 struct Protected {
   std::string name;
   Position at;
 };
 
-// Where the value of a pin is on the other side of a connection.
+// The kind of place of a pin's value on the other side of a connection.
 enum class Area : uint8_t { Coil, DiscreteInput, HoldingRegister, InputRegister, Memory };
 
-// How it is written there.
+// The format of the value there.
 enum class Format : uint8_t {
   Bit, // a byte of memory: 0 or 1
   S16, // a register
@@ -137,20 +137,20 @@ enum class Format : uint8_t {
   F64, // eight bytes of memory
 };
 uint32_t registersOf(Format format); // 1 or 2
-uint32_t bytesOf(Format format);     // of memory; 0: it is for registers alone
+uint32_t bytesOf(Format format);     // in memory; 0: only for registers
 
 struct ConnectedPin {
   uint32_t pin = 0; // in File::pins
   Area area = Area::Coil;
-  uint32_t place = 0; // of Modbus from 0, of memory in bytes
+  uint32_t place = 0; // Modbus: from 0; memory: in bytes
   Format format = Format::Bit;
-  bool lowFirst = false; // of two registers the first has the lower bits
+  bool lowFirst = false; // the first of two registers has the lower bits
   double safe = 0;       // of an input: its value while the connection is silent
   bool holds = false;    // it keeps its last value then instead
   Position at;           // of the place
 };
 
-// modbus-client, modbus-server, shared-memory: a way by which values of pins come and go. rung-run serves them.
+// modbus-client, modbus-server, shared-memory: a connection that carries values of pins. rung-run serves them.
 struct Connection {
   enum class Kind : uint8_t { ModbusClient, ModbusServer, SharedMemory };
   Kind kind = Kind::ModbusClient;
@@ -158,10 +158,10 @@ struct Connection {
   uint16_t port = 502;
   uint8_t unit = 1;                  // of the device
   std::string name;                  // of the shared memory
-  int64_t periodNs = 10'000'000;     // of a client and of shared memory, between two exchanges
-  int64_t timeoutNs = 1'000'000'000; // after which a silent connection counts as lost
-  uint32_t connections = 8;          // that a server accepts at a time
-  uint32_t requests = 1000;          // that a server answers in a second, of each of them
+  int64_t periodNs = 10'000'000;     // client and shared memory: between two exchanges
+  int64_t timeoutNs = 1'000'000'000; // a connection that is silent for longer is lost
+  uint32_t connections = 8;          // that a server accepts at the same time
+  uint32_t requests = 1000;          // that a server answers per second and connection
   std::optional<uint32_t> statusPin; // in File::pins: an input bit, on while the connection is not lost
   std::vector<ConnectedPin> pins;
   Position at;
@@ -171,13 +171,13 @@ struct Connection {
 };
 std::string_view kindName(Connection::Kind kind); // the table
 
-// devices: what a TECHNOL program's services are on this machine (machine/io). The host knows which keys and
-// values it takes; paths are from the folder of the file.
+// devices: the devices of a TECHNOL program on this machine (machine/io). The host checks keys and values; paths are
+// relative to the folder of the file.
 struct DeviceSetting {
   enum class Kind : uint8_t {
     Can,  // a channel and its interface
     Com,  // a port and its device
-    Axis, // one that the program positions, and what the names of its pins begin with
+    Axis, // an axis that the program positions, and the prefix of its pins' names
     SharedFile,
     Config, // a key of the control's configuration and its value
   };
@@ -187,7 +187,7 @@ struct DeviceSetting {
   Position at; // of the value
 };
 
-// Everything in the order of the files, where one is included.
+// A mapping file with the files that it includes; everything is in the order in which it is written.
 struct File {
   std::vector<std::string> paths; // the file, and those that it includes
   std::vector<Pin> pins;
@@ -202,42 +202,42 @@ struct File {
   std::vector<Protected> protectedCells;
   std::vector<Connection> connections;
   std::vector<DeviceSetting> devices;
-  std::vector<Edge> aborts;          // reset, emergency stop: every function ends
+  std::vector<Edge> aborts;          // edges that end every function: reset, emergency stop
   int64_t timeoutNs = 0;             // of a function; 0: none
-  std::optional<Position> highSpeed; // where the high-speed handshake is asked for
+  std::optional<Position> highSpeed; // place of `high-speed = true`
 
   // "PATH:LINE:COLUMN: what"
   std::string message(Position at, std::string_view what) const;
 };
 
-// The text of a file; throws std::exception, whose text says why there is none: "cannot read PATH: …".
+// Reads the text of a file; throws std::exception with the reason: "cannot read PATH: …".
 using ReadFile = std::function<std::string(const std::string& path)>;
 
-// Whether a path is one of a mapping file by its name, as a program's is not.
+// Whether a path, by its name, is that of a mapping file and not of a program.
 bool isNamedAsMap(std::string_view path);
 
-// From the disk: regular files of at most 1 MB.
+// Reads from the disk: regular files of at most 1 MB.
 std::string readFromDisk(const std::string& path);
 
-// Every mistake is one entry of `errors`, PATH:LINE:COLUMN with what was found, what was expected and how to fix it, in
-// the order of the files; the entries without mistakes are in the result. Where a text is not TOML, nothing is in it,
-// and there is one error, the first of its syntax. Included files are read by `read`.
+// Every error is one entry of `errors`, PATH:LINE:COLUMN with what was found, what was expected and how to fix it, in
+// the order of the files; the result has the entries without errors. If a text is not TOML, the result is empty, and
+// there is one error, the first of its syntax. `read` reads included files.
 File parseMap(std::string_view text, const std::string& path, std::vector<std::string>& errors,
               const ReadFile& read = readFromDisk);
-// The same for a file that is read, too.
+// The same for a file, which `read` reads, too.
 File loadMap(const std::string& path, std::vector<std::string>& errors, const ReadFile& read = readFromDisk);
 
-// For hosts that serve no connections: each is a mistake.
+// For hosts without connections: reports each connection as an error.
 void refuseConnections(const File& map, std::string_view host, std::vector<std::string>& errors);
-// For hosts that move no axes: each is a mistake.
+// For hosts that move no axes: reports each axis as an error.
 void refuseAxes(const File& map, std::string_view host, std::vector<std::string>& errors);
 
 std::string_view pinTypeName(PinType type);
 std::string_view tableName(Direction direction); // "in"
 
-// What is wrong with an entry of a file that refers to a program.
+// An error in an entry of a file that refers to a program.
 
-// In the order of a message.
+// The parts of the message, in its order.
 struct Mistake {
   std::string found;
   std::string expected;
@@ -246,9 +246,9 @@ struct Mistake {
   std::string text() const { return "found " + found + ", expected " + expected + "; " + fix; }
 };
 
-// What was meant by a name that a program does not have.
+// Suggestions for names that a program does not have.
 
-// The name with the symbol that it may have meant, which the program may have; "" when none is close.
+// The name, with a symbol of the program that is close to it; "" if none is.
 template <class Symbols, class NameOf = std::identity>
 std::string meantName(std::string_view name, Symbols&& symbols, NameOf nameOf = {}) {
   const std::string_view head = text::headOf(name);

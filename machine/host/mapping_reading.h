@@ -1,4 +1,4 @@
-// What the readers of a mapping file's tables share: values of TOML, tables of keys, and mistakes with their places.
+// Shared by the readers of a mapping file's tables: values of TOML, tables of keys, and errors with their places.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace rung::host {
 
-// A value as a file has it; of tables and lists the kind.
+// A value as written in the file; for tables and lists their kind.
 std::string shown(const toml::node& node);
-// "" where the value is not a text.
+// The text of a value; "" if it is not a text.
 std::string textOf(const toml::node& node);
-// Integers, too; nothing where the value is not a finite number.
+// The number of a value, which may be an integer; nothing if it is not a finite number.
 std::optional<double> numberOf(const toml::node& node);
 bool isPinName(std::string_view word);
-// A path in a file, from the folder of that file.
+// A path named in a file, relative to the folder of that file.
 std::string beside(const std::string& path, const std::string& included);
 
 // toml++ keeps the keys of a table sorted by name.
@@ -40,7 +40,8 @@ struct Number {
   Position at;
 };
 
-// A key of a table that is read into a Row; `take`, of the reader, gives false where the value is not what is expected.
+// A key of a table that is read into a Row; `take`, a function of the reader, returns false if the value is not as
+// expected.
 template <class Reader, class Row>
 struct Key {
   std::string_view name;
@@ -50,13 +51,13 @@ struct Key {
   bool (Reader::*take)(const toml::node&, Row&) = nullptr;
 };
 
-// The files of a map that are being read, and what is wrong with them.
+// The files of a map that are being read, and their errors.
 class Reading {
 public:
   explicit Reading(File& map) : map_(map) {}
 
   File& map() { return map_; }
-  // The file that is being read, in File::paths.
+  // The file that is being read, as an index of File::paths.
   uint32_t file() const { return file_; }
   void setFile(uint32_t file) { file_ = file; }
 
@@ -64,19 +65,20 @@ public:
     return {region.begin.line, region.begin.column, file_};
   }
   Position positionOf(const toml::node& node) const { return positionOf(node.source()); }
-  // "line 5", with its file where that is another one.
+  // "line 5", with its file if that is another one.
   std::string lineOf(Position at) const;
 
   void fail(Position at, std::string what) { errors_.emplace_back(at, std::move(what)); }
   void wrong(Position at, const std::string& where, const std::string& found, std::string_view expected,
              std::string_view example);
   size_t mistakes() const { return errors_.size(); }
-  // In the order of the files.
+  // The errors, in the order of the files.
   std::vector<std::string> errors();
 
-  // Of 32 bits where it is an integer; nothing where it is something else, or not finite.
+  // A number, of 32 bits if it is an integer; nothing if it is something else, or not finite.
   std::optional<Number> numberWithType(const toml::node& node) const;
-  // True or false for a bit, a number for the others, an integer where the type has no others.
+  // Reports a value that does not fit the type: true or false for a bit, a number for the others, an integer if the
+  // type has only integers.
   void checkNumber(const std::optional<Number>& number, PinType type, const std::string& where);
 
   // Reads a table by its keys; `where` is its name in messages, "" for the file. False: there were mistakes.
@@ -106,7 +108,7 @@ private:
     return names;
   }
   void unknownKey(const toml::key& key, std::string_view where, const std::vector<std::string_view>& known);
-  // Whether an unknown key of the table may mean `name`: that is reported, once.
+  // Whether an unknown key of the table is probably a misspelt `name`: that is reported once.
   static bool isMisspelt(std::string_view name, const toml::table& table, const std::vector<std::string_view>& known);
 
   File& map_;

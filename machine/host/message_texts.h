@@ -1,4 +1,4 @@
-// The texts of messages that a control keeps in a file of its own, which the map names (File::messageFiles).
+// The texts of messages that a control stores in a separate file, which the map names (File::messageFiles).
 #pragma once
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace rung::host {
 
-// Gives the instance what the files say, before its first power-on. Every mistake is one entry of `errors`: with its
-// place in the map if the file is missing or the dialect takes none, else with its place in the file.
+// Passes the contents of the files to the instance, before its first power-on. Every error is one entry of `errors`:
+// with its place in the map if the file is missing or the dialect accepts none, otherwise with its place in the file.
 void defineMessages(const File& map, rung_instance* instance, std::vector<std::string>& errors,
                     const ReadFile& read = readFromDisk);
 

@@ -1,5 +1,5 @@
-// Where the value of a HAL pin is, and how it is read and written. HAL redirects these pointers when a pin is linked to
-// a signal, so they lie in HAL's memory and are read anew in every scan.
+// Access to the values of HAL pins. HAL redirects the pointers when a pin is linked to a signal, so they lie in HAL's
+// memory and are read again in every scan.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -17,7 +17,7 @@ union PinCell {
   void* any;
 };
 
-// A value of a pin, or of a constant.
+// The value of a pin or of a constant.
 union Value {
   bool bit;
   int32_t s32;
@@ -25,31 +25,31 @@ union Value {
   double real = 0;
 };
 
-// By the type of the pin. A host whose cells are not as wide as their types has its own.
+// Functions that read and write pins, by type. A host whose cells are not as wide as their types has its own.
 struct PinAccess {
   Value (*read)(PinType type, const PinCell& cell) noexcept;
   void (*write)(PinType type, const PinCell& cell, const Value& value) noexcept;
 };
 
-// Cells that point to variables of the pins' types.
+// For cells that point to variables of the pins' types.
 extern const PinAccess kVariables;
 
-// The pins of a map as a step sees them: each is read once before it, and written once after it where it was set, so
-// that all that looks at a pin within a step finds the same value. One thread at a time.
+// The pins of a map in one step of the host: each input is read once before the step, and each output that was set is
+// written once after it, so that all code within a step sees the same values. One thread at a time.
 
 class Pins {
 public:
-  // Their values begin with 0.
+  // The values begin with 0.
   explicit Pins(const std::vector<host::Pin>& pins);
   // As many cells as there are pins, in their order; cells and access outlive this.
   void connect(const PinCell* cells, const PinAccess& access) noexcept;
   bool connected() const noexcept { return cells_ != nullptr; }
 
-  // Those that bring something to the program; they are connected.
+  // Reads the pins that are inputs of the program. The pins must be connected.
   void read() noexcept;
-  // All of them, as they are on the other side.
+  // Reads all pins as they are on HAL's side.
   void look(std::span<Value> values) const noexcept;
-  // Those that have been set since; they are connected.
+  // Writes the pins that were set since the last call. The pins must be connected.
   void write() noexcept;
 
   const Value& operator[](uint32_t pin) const noexcept { return pins_[pin].value; }

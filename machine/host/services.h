@@ -1,5 +1,6 @@
-// What a CNC says of itself again and again, for requests that are answered within the scan that asks. Written by the
-// thread that serves, read by the scan; each value is one of a moment, all of them may be of different ones.
+// The last reported state of a CNC, for requests that are answered within the scan that makes them. Written by the
+// service thread, read by the scan thread; each value is consistent in itself, but different values may be of different
+// moments.
 #pragma once
 #include <array>
 #include <atomic>
@@ -15,39 +16,39 @@ namespace rung::host {
 inline constexpr uint32_t kMostAxes = 9;
 
 struct Live {
-  std::atomic<bool> served{false}; // somebody answers requests
-  std::atomic<bool> known{false};  // and has said what is below
-  std::atomic<uint32_t> line{0};   // of the part program that is carried out; 0: none
+  std::atomic<bool> served{false}; // a client answers requests
+  std::atomic<bool> known{false};  // and has reported the values below
+  std::atomic<uint32_t> line{0};   // line of the running part program; 0: none
   std::atomic<uint32_t> axes{0};
   std::array<std::atomic<double>, kMostAxes> machine{}; // positions in machine coordinates
 };
 
-// What a PLC program asks of its CNC and what it gets, in the words of no dialect: docs/control-protocol.md has the
-// names. Lengths are in mm, angles in degrees, axes count from 0 in the order of the machine.
+// Requests of a PLC program to its CNC and their answers, independent of dialects; docs/control-protocol.md has the
+// names. Lengths are in mm, angles in degrees; axes count from 0 in the order of the machine.
 
 enum class Quantity : uint8_t {
   MacroVariable,
-  ToolLength, // of the tool or offset `number`; so are the next three
+  ToolLength, // of the tool or offset `number`, like the next three
   ToolLengthWear,
   ToolRadius,
   ToolRadiusWear,
   WorkOffset, // `number` 0: of all work coordinate systems; 1 to 6: G54 to G59; from 7 on the further ones
   ToolNumber, // `number` 0: in the spindle; 1: preselected
-  AxisMove,   // of an axis that the program has for itself: always a write
+  AxisMove,   // motion of an axis that belongs to the program: always a write
 };
 inline constexpr std::string_view kQuantityNames[] = {"macro-variable", "tool-length",      "tool-length-wear",
                                                       "tool-radius",    "tool-radius-wear", "work-offset",
                                                       "tool-number",    "axis-move"}; // by Quantity
 
-// What an axis of the program does, until the next move or its reset.
+// How an axis of the program moves, until the next motion or its reset.
 enum class Way : uint8_t {
   To,    // a position in its coordinate system
   By,    // a distance
   At,    // a position in machine coordinates
   Home,  // its reference point
   Dwell, // `value` seconds
-  Jog,   // by the program's signals, or on and on: in the direction of `value`, which is 1 or -1 then
-  Stop,  // where it is; what waits is forgotten
+  Jog,   // continuously in the direction of `value`, 1 or -1; 0: by the program's signals
+  Stop,  // stops; waiting motions are dropped
 };
 inline constexpr std::string_view kWayNames[] = {"to", "by", "at", "home", "dwell", "jog", "stop"}; // by Way
 
@@ -56,20 +57,20 @@ struct Operation {
   bool write = false;
   uint32_t channel = 0; // from 0
   uint32_t number = 0;
-  uint32_t axis = 0;      // of a work offset; of a move, from 0 in the order of the program
+  uint32_t axis = 0;      // of a work offset; of a motion: from 0 in the order of the program
   double value = 0;       // to be written
   Way way = Way::To;      // of a move
   double speed = 0;       // of a move, per minute; 0: rapid
-  bool untilOver = false; // a move is done when it is over; else, when it is taken
+  bool untilOver = false; // a motion is answered at its end, otherwise when it is accepted
 };
 
 enum class Outcome : uint8_t {
   Done,
-  NoQuantity, // the CNC has nothing of the kind
-  NoNumber,   // but none of this number, or no such channel
+  NoQuantity, // the CNC has no such data
+  NoNumber,   // no such number or channel
   NoAxis,
   BadValue,
-  NotNow, // it is not switched on, or at work, or locked; and where nobody answers
+  NotNow, // off, busy or locked; also if no client answers
 };
 inline constexpr std::string_view kOutcomeNames[] = {"done",    "no-quantity", "no-number",
                                                      "no-axis", "bad-value",   "not-now"}; // by Outcome
@@ -79,27 +80,27 @@ struct NcAnswer {
   double value = 0; // that was read
 };
 
-// Requests of the dialects' programs as operations, and outcomes as the dialects' own results and errors.
+// Converts requests of the dialects' programs to operations, and outcomes to the dialects' results and errors.
 
-// A request that waits for its answer: the program that has asked may have been replaced meanwhile.
+// A request that waits for its answer. The program that made it may have been replaced by then.
 struct Request {
-  std::string service; // as rung_request has it
+  std::string service; // as in rung_request
   rung_request given{};
-  bool reads() const; // there is a result
+  bool reads() const; // whether it has a result
 };
 
-// For the scan, in rung_instance_options::request: an enum rung_answer. Where nobody serves, and for what no operation
-// is like, the control refuses at once. Allocates nothing.
+// Scan thread, in rung_instance_options::request: returns an enum rung_answer. If no client serves, or no operation
+// corresponds to the request, the control refuses at once. Allocates nothing.
 int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;
 
-// Nothing: `refusal` is the answer.
+// The operation of a request; nothing: `refusal` is the answer.
 std::optional<Operation> operationOf(const Request& request, rung_reply& refusal);
 rung_reply replyOf(const Request& request, const NcAnswer& answer);
 
-// The dialects' parts of translate.h. `is` says whether a request is the dialect's, and may wait for an answer.
+// The parts of the dialects. `is`: whether a request belongs to the dialect and may wait for an answer.
 
-// The window functions of GSK25i (man. §9.3) and its PLC axis control (§9.2). Window functions of high speed are
-// answered at once, or by no one.
+// The window functions of GSK25i (man. §9.3) and its PLC axis control (§9.2). High-speed window functions are answered
+// at once or not at all.
 namespace gsk {
 bool is(std::string_view service) noexcept;
 int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;
@@ -107,7 +108,7 @@ std::optional<Operation> operationOf(const Request& request, rung_reply& refusal
 rung_reply replyOf(const Request& request, const NcAnswer& answer);
 } // namespace gsk
 
-// MACR, MACW, MOVCMND and SCP of NCT (man. §6.15-§6.17). SCP is answered at once, or by no one.
+// MACR, MACW, MOVCMND and SCP of NCT (man. §6.15-§6.17). SCP is answered at once or not at all.
 namespace nct {
 bool is(std::string_view service) noexcept;
 int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;

@@ -1,5 +1,5 @@
-// What the readers of the control's XML files share: the parser (expat) with its limits and encodings, the elements
-// that are open, mistakes with their places, and attributes. A reader says what the elements mean.
+// Shared by the readers of the control's XML files: the parser (expat) with its limits and encodings, the open
+// elements, errors with their places, and attributes. Each reader knows the meaning of its elements.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -15,21 +15,21 @@ struct XML_ParserStruct;
 
 namespace rung::host {
 
-// Where something is written, for messages about it: "FILE:LINE:COLUMN".
+// A place in a file, for messages: "FILE:LINE:COLUMN".
 using FilePlace = std::string;
 
 // "A, B or C".
 std::string listed(std::span<const std::string_view> names);
 std::string inQuotes(std::string_view text);
-// Line breaks with the blanks around them become one blank.
+// Replaces line breaks, with the blanks around them, by one blank.
 std::string inOneLine(std::string_view text);
 
-// The whole file; "" or why it cannot be read.
+// Reads the whole file; "", or why it cannot be read.
 std::string textOfFile(const std::string& path, std::string& text);
 
 class XmlReader {
 public:
-  explicit XmlReader(std::string_view name); // the file's in messages
+  explicit XmlReader(std::string_view name); // name of the file in messages
   virtual ~XmlReader() = default;
   XmlReader(const XmlReader&) = delete;
   XmlReader& operator=(const XmlReader&) = delete;
@@ -40,19 +40,19 @@ protected:
     uint64_t line;
   };
 
-  // "" or the mistakes, a line "FILE:LINE:COLUMN: ..." each.
+  // Parses a text. "", or the errors, one line "FILE:LINE:COLUMN: ..." each.
   std::string parse(std::string_view text);
 
-  FilePlace place() const; // of what is being read
+  FilePlace place() const; // the place that is being read
   void complain(const std::string& what) { complainAt(place(), what); }
   void complainAt(const FilePlace& where, const std::string& what);
-  // <OUTER> holds no <NAME>; `expected` is "<A> or <B>", or empty where a text is.
+  // Reports that <OUTER> must not contain <NAME>; `expected` is "<A> or <B>", or empty if a text was expected.
   void complainAboutChild(std::string_view name, const std::string& expected);
   // Reports text around an element, where none is expected.
   void complainAboutText();
 
-  std::vector<Open> open_; // the innermost one last
-  std::string text_;       // since the last beginning or end of an element
+  std::vector<Open> open_; // innermost last
+  std::string text_;       // text since the last beginning or end of an element
 
 private:
   friend class Attributes;
@@ -60,7 +60,8 @@ private:
     void operator()(XML_ParserStruct* parser) const;
   };
 
-  // An element begins, which is not among the open ones yet when `opens` is asked; ends, when it still is.
+  // Called at the beginning of an element (`opens` before it is among the open ones) and at its end (while it still
+  // is).
   virtual void opens(std::string_view name) = 0;
   virtual void begin(std::string_view name, const char** attributes) = 0;
   virtual void end() = 0;
@@ -72,20 +73,20 @@ private:
   size_t complaintCount_ = 0;
 };
 
-// The attributes of one element: each is asked for by its name, what is left over at the end is unknown. Names in any
-// case (the manual writes MinVal and Minval).
+// The attributes of one element. Each is requested by its name; those not requested until `finish` are unknown. Names
+// are not case-sensitive (the manual writes MinVal and Minval).
 class Attributes {
 public:
   Attributes(XmlReader& reader, const char** list);
 
   std::string required(std::string_view name);
-  // Without blanks at its ends; "" where it is not given.
+  // The value without blanks at its ends; "" if the attribute is missing.
   std::string optional(std::string_view name);
   void flag(std::string_view name, bool& value);
   void number(std::string_view name, uint32_t most, uint32_t& value);
   void real(std::string_view name, double& value);
   void real(std::string_view name, std::optional<double>& value);
-  // One of the names, which number the values of E.
+  // One of the names, in the order of the values of E.
   template <class E>
   void oneOf(std::string_view name, std::span<const std::string_view> names, E& value) {
     const std::string text = required(name);

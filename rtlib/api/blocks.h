@@ -1,5 +1,5 @@
-// Blocks of the host's memory for bytes of a space (rung_instance_bind_blocks), and which bytes of them lie
-// where in each program that the instance has or may get.
+// Blocks of the host's memory that are bound to bytes of a space (rung_instance_bind_blocks), and their places in every
+// program that the instance runs or may run.
 #pragma once
 #include <cstdint>
 #include <mutex>
@@ -19,7 +19,7 @@ struct HostBlock {
   bool input = false;
 };
 
-// What is wrong with a program for a block.
+// Whether a block can be bound in a program, or why not.
 enum class BlockState : uint8_t {
   Good,
   Gone,        // the program does not have the name
@@ -29,7 +29,7 @@ enum class BlockState : uint8_t {
   Overwritten, // another place is copied over its input
 };
 
-// The first byte of a block.
+// The place of a block's first byte in a program.
 struct BlockPlace {
   BlockState state = BlockState::Gone;
   uint32_t space = RUNG_NONE;
@@ -37,31 +37,32 @@ struct BlockPlace {
 };
 BlockPlace locateBlock(const Environment& environment, const rung_program& program, const HostBlock& block);
 
-// The blocks in one program. Copying allocates nothing.
+// The copies between all blocks and one program. Copying allocates nothing.
 class BlockPlan {
 public:
-  // `copies`: of this program; their lists outlive the plan.
+  // `copies` belongs to this program; its lists outlive the plan.
   BlockPlan(const rung_program& program, const core::NeededCopies& copies)
       : program_(&program), copies_(copies), reads_(program.task_count) {}
 
   void add(const Environment& environment, const HostBlock& block);
 
-  // What a run of the task reads; and what no task of the schedule reads, which others may look at.
+  // Copy inputs: `latch` those that a run of the task reads; `readRest` those that no task of the schedule reads, but a
+  // host may look at.
   void latch(uint8_t* memory, uint32_t task) const noexcept { copyIn(reads_[task], memory); }
   void readRest(uint8_t* memory) const noexcept { copyIn(rest_, memory); }
   void write(const uint8_t* memory) const noexcept;
   void clear() const noexcept;
-  // One of the blocks has bytes that the copies leave out.
+  // Whether a block contains bytes that process-image copies leave out.
   bool seesLeftOut() const noexcept { return seesLeftOut_; }
 
 private:
-  static constexpr uint32_t kNowhere = RUNG_NONE; // as an offset: the program does not have the bytes
-  // Bytes of a block that lie together in the program's memory.
+  static constexpr uint32_t kNowhere = RUNG_NONE; // an offset: the program does not have the bytes
+  // Bytes of a block that are adjacent in the program's memory.
   struct Piece {
     uint8_t* host;
     uint32_t offset; // in the memory block
     uint32_t bytes;
-    bool expanded; // there: a byte a bit
+    bool expanded; // in the program's memory each bit has a byte
   };
   static void copyIn(const std::vector<Piece>& pieces, uint8_t* memory) noexcept;
   static void append(std::vector<Piece>& pieces, const Piece& byte);
@@ -78,12 +79,12 @@ private:
   std::vector<Piece> outputs_;
 };
 
-// The blocks, and every plan that has them. For any thread, but not in real time.
+// All blocks of an instance, and every plan that contains them. Any thread, but not in real time.
 class HostBlocks {
 public:
-  // Adds to every plan. The instance of the plans' programs does not run meanwhile.
+  // Adds the blocks to every plan. The programs of the plans must not run at the same time.
   void add(const Environment& environment, const std::vector<HostBlock>& blocks);
-  // From now on the plan has all blocks.
+  // From now on the plan contains all blocks.
   void join(const Environment& environment, BlockPlan& plan);
   void leave(BlockPlan& plan);
 
@@ -93,9 +94,9 @@ private:
   std::vector<BlockPlan*> plans_;
 };
 
-// A block in the program that runs: RUNG_OK, or what is wrong.
+// Checks a block in the running program: RUNG_OK, or what is wrong.
 int32_t checkPlace(const rung_instance& instance, const HostBlock& block);
-// Blocks whose places are good.
+// Adds blocks whose places have been checked.
 void addBlocks(rung_instance& instance, const std::vector<HostBlock>& given);
 
 } // namespace rung::api

@@ -1,6 +1,6 @@
-// The cells of an instance that its host has found by name: a number for each, and where it lies in the program that
-// runs. A replacement has a second table for its program, made outside real time; what is found later is entered in
-// both.
+// The cells that the host of an instance has looked up by name: a number for each, and its place in the running
+// program. A replacement has a second table, for its own program, made outside real time; cells that are looked up
+// later are entered in both.
 #pragma once
 #include <array>
 #include <atomic>
@@ -18,15 +18,15 @@
 
 namespace rung::api {
 
-// How a cell is used in the program that runs.
+// Whether a cell can be used in the running program, or why not.
 enum class CellState : uint8_t {
   Good,
   Gone,        // the program does not have the name
-  Overwritten, // for writing: another place is copied over it
-  Constant,    // for writing
-  Controls,    // for writing: the control itself writes it
-  Released,    // nobody has its number
-  Retyped,     // it was a real, a text or neither when it was found, and is not any more
+  Overwritten, // cannot be written: another place is copied over it
+  Constant,    // cannot be written
+  Controls,    // cannot be written: the control itself writes it
+  Released,    // its number is not in use
+  Retyped,     // its type differs from when it was looked up: real, text or neither
 };
 
 // The type of one element.
@@ -34,7 +34,7 @@ rung_type typeOf(const runtime::Ref& ref);
 
 struct LocatedCell {
   CellState state = CellState::Gone;
-  bool writes = false; // as it was found
+  bool writes = false; // as it was looked up
   rung_type type = RUNG_TYPE_BIT;
   runtime::Ref ref;
   core::Place place; // of the first element
@@ -42,29 +42,29 @@ struct LocatedCell {
 
 struct CellName {
   std::string name;
-  int32_t access = RUNG_READ; // enum rung_access, added up
+  int32_t access = RUNG_READ; // enum rung_access, combined
   auto operator<=>(const CellName&) const = default;
 };
 
-// Where the cells of one program lie. Read by the scan thread while others are entered.
+// The places of the cells in one program. The scan thread reads the table while other threads enter cells.
 class CellTable {
 public:
   static constexpr uint32_t kMostCells = 1 << 16;
 
-  // `copies`: of this program; their lists outlive the table.
+  // `copies` belongs to this program; its lists outlive the table.
   CellTable(const rung_program& program, const core::NeededCopies& copies) : program_(&program), copies_(copies) {}
   const rung_program& program() const { return *program_; }
 
-  // One of the cells lies where the copies leave something out.
+  // Whether a cell lies where process-image copies leave bytes out.
   bool seesLeftOut() const noexcept { return seesLeftOut_.load(std::memory_order_relaxed); }
 
-  // Null: no cell has this number.
+  // The cell with this number, or null.
   const LocatedCell* at(rung_cell cell) const noexcept {
     if (cell >= count_.load(std::memory_order_acquire)) return nullptr;
     return &(*blocks_[cell / kBlock])[cell % kBlock];
   }
   void add(const LocatedCell& cell);
-  // Of a number that nobody uses.
+  // Replaces the cell of a number that is not in use.
   void set(rung_cell number, const LocatedCell& cell);
 
 private:
@@ -78,23 +78,22 @@ private:
   std::atomic<uint32_t> count_{0};
 };
 
-// The names, and every table that has their places. For any thread, but not in real time: names are looked up under a
-// lock.
+// The names of the cells, and every table that has their places. Any thread, but not in real time: the look-up locks.
 class CellNames {
 public:
-  // The cell of this name, which has one more user; it is located in every table. `state` says what is wrong with it in
-  // the program: then it is not entered, and gets no user. False: there are too many cells.
+  // Looks up a name, adds a user to its cell, and enters its place in every table. If `state` says that the cell cannot
+  // be used in the program, it is not entered and gets no user. False: there are too many cells.
   bool find(const Environment& environment, const rung_program& program, const CellName& name, CellState& state,
             rung_cell& cell);
-  // It has one more user, or one less. False: no cell has this number.
+  // Add or remove a user of a cell. False: no cell has this number.
   bool hold(rung_cell cell);
   bool release(rung_cell cell);
-  // As it was found; nothing where no cell has this number.
+  // The type at the look-up; nothing if no cell has this number.
   std::optional<rung_type> typeOf(rung_cell cell);
-  std::string nameOf(rung_cell cell); // of a cell that there is
-  // Where it lies in the program; nothing where no cell has this number.
+  std::string nameOf(rung_cell cell); // the cell must exist
+  // The place of a cell in a program; nothing if no cell has this number.
   std::optional<LocatedCell> locate(const Environment& environment, const rung_program& program, rung_cell cell);
-  // From now on the table has all cells.
+  // From now on the table contains all cells.
   void join(const Environment& environment, CellTable& table);
   void leave(CellTable& table);
 
@@ -108,13 +107,13 @@ private:
   bool takeNumber(rung_cell& cell);
 
   std::mutex mutex_;
-  std::map<CellName, rung_cell> numbers_; // of those that are used
+  std::map<CellName, rung_cell> numbers_; // of the numbers in use
   std::vector<Entry> entries_;            // by number
   std::vector<rung_cell> free_;
   std::vector<CellTable*> tables_;
 };
 
-// Where the name lies in a program; `as`: what it was when it was found.
+// The place of a name in a program; `as`: its type at the look-up.
 LocatedCell locateCell(const Environment& environment, const rung_program& program, const CellName& name,
                        const rung_type* as = nullptr);
 

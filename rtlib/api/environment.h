@@ -1,6 +1,6 @@
-// What is around a program besides its host: the control of its dialect, or a simulated NC with that control in it. A
-// simulation has its part in the schedule and writes where the NC writes, which no host of the library may: it is
-// compiled into the process (newInstance) and sees the program from inside.
+// The environment of a program besides its host: the control of its dialect, or a simulated NC that contains this
+// control. A simulation takes part in the schedule and writes where the NC writes, which hosts of the library may not
+// do: it is compiled into the process (newInstance) and sees the program from inside.
 #pragma once
 #include <memory>
 #include <optional>
@@ -13,30 +13,31 @@
 
 namespace rung::api {
 
-// Where nothing else is said, the control alone. Hooks, parts and messages are the scan thread's.
+// The defaults are those of the control alone. The scan thread calls hooks, parts and messages.
 class Environment : public runtime::ScheduleHooks {
 public:
   virtual nc::Control& control() = 0;
   virtual const nc::Control& control() const = 0;
 
   virtual void powerOn(runtime::Instance& instance, nc::PowerOn kind) { control().powerOn(instance, kind); }
-  // Around what one call of the host runs: a slice, a slot, a scan or the fast task.
+  // Called before and after the part that a call of the host runs: a slice, a slot, a scan or the fast task.
   virtual void beforePart(runtime::Instance& instance) { (void)instance; }
   virtual void afterPart(runtime::Instance& instance) { control().afterSlice(instance); }
-  // A message that the program has sent.
+  // Receives a message that the program has sent.
   virtual void accept(const runtime::Instance& instance, const rung_message& message) {
     (void)instance;
     control().accept(message);
   }
-  // Where the environment itself reads and writes in a program, as nc::Control has it for the control; null: they
-  // look that up in programChanged, which is not real time then.
+  // The places of a program that the environment itself reads and writes, as nc::Control has them for the control;
+  // null: it looks them up in programChanged, which then is not real time.
   virtual std::unique_ptr<nc::Places> locate(const rung_program& program) const { return (void)program, nullptr; }
-  // Another program has taken over, whose places these are; they get those of the former one. Allocates nothing.
+  // Called after another program has taken over: `places` are that program's, and receive those of the former one.
+  // Allocates nothing.
   virtual void exchangePlaces(std::unique_ptr<nc::Places>& places) noexcept { (void)places; }
-  // Another program has taken over from `former`, which still exists; its places are in use already.
+  // Called after another program has taken over from `former`, which still exists; the new places are in use already.
   virtual void programChanged(runtime::Instance& instance, const rung_program& former) { (void)instance, (void)former; }
 
-  // The place that a name is for whoever reads it, and the one that the NC or the machine writes.
+  // The place where a name is read, and the one that the NC or the machine writes.
   virtual std::optional<runtime::Ref> readPlace(const rung_program& program, std::string_view name) const {
     return control().readPlace(program, name);
   }
@@ -51,24 +52,25 @@ public:
   }
 };
 
-// By rung_program::dialect.
+// The control of a dialect (rung_program::dialect) without a simulation.
 std::unique_ptr<Environment> controlAlone(std::string_view dialect);
 
 // rung_instance_new with this environment; null: the control alone.
 int32_t newInstance(rung_image* image, const rung_instance_options* options, std::unique_ptr<Environment> environment,
                     rung_instance** instance);
 
-// The program as its environment sees it, as long as the handle is alive. Running, power, replacing and forcing are the
-// library's alone.
+// The program as its environment sees it, as long as the handle exists. Only the library runs it, switches its power,
+// replaces it and forces cells.
 runtime::Instance& insideOf(rung_instance& instance) noexcept;
 
-// Before the instance is switched on first: where it keeps its retained memory, and whether a thread writes that.
+// Sets, before the first power-on, where the instance stores its retained memory, and whether a thread writes it.
 void setOutside(rung_instance& instance, const runtime::Outside& outside);
-// Where no thread does: writes what is to be written, or the power is gone and nothing is written any more.
+// For tests without a saver thread: lookForSaving writes what is due; cutPower simulates a power failure, after which
+// nothing is written.
 void lookForSaving(rung_instance& instance) noexcept;
 void cutPower(rung_instance& instance) noexcept;
 
-// What an environment does of its own between two calls of the host may send messages: they are taken.
+// Passes on messages that the environment itself has caused between two calls of the host.
 void takeMessages(rung_instance& instance) noexcept;
 
 } // namespace rung::api

@@ -1,5 +1,5 @@
-// How the functions of a library of C report what was wrong: a status, and a sentence for the thread. Each library has
-// sentences of its own.
+// How the functions of a C library report errors: a status, and a sentence per thread. Each library has its own
+// sentences.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace rung::api {
 
-// Keeps the sentence and gives the status. Allocates nothing.
+// Stores the sentence and returns the status. Allocates nothing.
 [[gnu::format(printf, 2, 3)]] int32_t fail(rung_status status, const char* format, ...) noexcept;
 // The sentence of the thread's last error, "" before the first.
 const char* errorText() noexcept;
 
-// Runs what may throw; no exception leaves the library.
+// Runs a body that may throw; no exception leaves the library.
 template <class Body>
 int32_t contained(Body body) noexcept {
   try {
@@ -31,7 +31,7 @@ int32_t contained(Body body) noexcept {
   }
 }
 
-// Handles as a library of C gives them away: each is marked with its kind as long as it is alive.
+// Handles of a C library: each is marked with its kind as long as it exists.
 
 inline constexpr uint32_t kImageMark = 0x52494D47;
 inline constexpr uint32_t kInstanceMark = 0x52494E53;
@@ -42,14 +42,14 @@ inline constexpr uint32_t kShadowMark = 0x52534857;
 inline constexpr uint32_t kForcesMark = 0x52465243;
 inline constexpr uint32_t kCompilationMark = 0x52434D50;
 
-// The handle, where it is one; else null.
+// The handle if it is valid and of this kind; else null.
 template <class Handle>
 Handle* checked(Handle* handle, uint32_t mark) noexcept {
   const bool aligned = reinterpret_cast<uintptr_t>(handle) % alignof(Handle) == 0;
   return handle != nullptr && aligned && handle->mark == mark ? handle : nullptr;
 }
 
-// A freed handle is not one: as far as its memory has no other use yet.
+// Clears the mark, so that a freed handle is detected as long as its memory is not used again.
 template <class Handle>
 void release(Handle* handle) {
   *const_cast<volatile uint32_t*>(&handle->mark) = 0;
@@ -60,7 +60,7 @@ inline int32_t failHandle(const char* name) noexcept {
   return fail(RUNG_BAD_HANDLE, "the handle is not that of %s: null, of another kind, or freed before", name);
 }
 
-// What the function that ends a handle does. Null is allowed.
+// The body of a function that frees a handle. Null is allowed.
 template <class Handle>
 int32_t endHandle(Handle* handle, uint32_t mark, const char* name) {
   if (handle == nullptr) return RUNG_OK;
@@ -69,7 +69,8 @@ int32_t endHandle(Handle* handle, uint32_t mark, const char* name) {
   return RUNG_OK;
 }
 
-// The structs of rung/runtime.h between a host and a library of different age: `size` says what the host knows.
+// Copies structs of rung/runtime.h between a host and a library of different versions: `size` says which fields the
+// host knows.
 
 inline int32_t failSize(const char* name) noexcept {
   return fail(
@@ -79,15 +80,15 @@ inline int32_t failSize(const char* name) noexcept {
       name);
 }
 
-// A host knows no field, or knows them up to one of them: the size of a struct of any version is a multiple of its
-// alignment, so no field is cut.
+// Whether a size is possible: the host knows all fields up to some field. The size of a struct of any version is a
+// multiple of its alignment, so no field is cut.
 template <class Struct>
 bool hasSize(const Struct* host) noexcept {
   constexpr uint32_t kMost = 1 << 16;
   return host->size >= 2 * sizeof(uint32_t) && host->size <= kMost && host->size % alignof(Struct) == 0;
 }
 
-// What the host gives; null: as `to` has it. False: its size cannot be right, or it asks for something that this
+// Copies a struct from the host; null leaves `to` as it is. False: its size is impossible, or it sets a field that this
 // library does not know.
 template <class Struct>
 bool takeStruct(const Struct* host, Struct& to) noexcept {
@@ -100,7 +101,7 @@ bool takeStruct(const Struct* host, Struct& to) noexcept {
   return true;
 }
 
-// What the host gets: as much of it as it knows, and zeros where it knows more.
+// Copies a struct to the host: the fields that it knows, and zeros for fields that only it knows.
 template <class Struct>
 int32_t giveStruct(Struct* host, const Struct& from) noexcept {
   if (host == nullptr || !hasSize(host)) return failSize("the struct for the result");
@@ -112,7 +113,7 @@ int32_t giveStruct(Struct* host, const Struct& from) noexcept {
   return RUNG_OK;
 }
 
-// The characters that fit, ended by 0.
+// Copies the characters that fit, and ends them with 0.
 inline void putText(std::span<char> to, std::string_view from) noexcept {
   *std::ranges::copy(text::wholeCharacters(from, to.size() - 1), to.begin()).out = 0;
 }

@@ -1,4 +1,4 @@
-// A program that instances run, shared by the image's handle, instances and replacements.
+// A loaded program, shared by the image's handle, instances and replacements.
 #pragma once
 #include <atomic>
 #include <cassert>
@@ -33,20 +33,20 @@ struct Image {
   void* engine = nullptr; // rung_ctx::engine
   void (*release)(void* owner) = nullptr;
   void* owner = nullptr;
-  std::vector<uint32_t> symbols; // the author's, in the program's table
+  std::vector<uint32_t> symbols; // symbols of the author, by index in the program's table
   runtime::Footprint footprint;
-  // Entered once, by any thread; null: no compiler serves the image.
+  // The compiler that serves the image, set once, by any thread; null: none.
   mutable std::atomic<const rung_code_maker*> maker{nullptr};
 };
 
-// A program of an instance, with what the instance's host has there. Who runs is one pointer to one of them. What a
-// program has left, messages, a fault, refers to its generation, and so does what was prepared for it:
-// replacements, sets of forces, shadows.
+// A program of an instance, with the cells and blocks of the host in it. Which program runs is one pointer to a
+// generation. Whatever belongs to a program (messages, a fault, and what was prepared for it: replacements, sets of
+// forces, shadows) refers to its generation.
 
 class Generations;
 
 struct Generation {
-  // `lists`: of the program, as its memory is used. `all` outlives it.
+  // `lists` are the copy lists of the program. `all` outlives the generation.
   Generation(Generations& all, uint32_t ofInstance, std::shared_ptr<const Image> of,
              std::shared_ptr<const runtime::CopyLists> lists);
   ~Generation();
@@ -54,7 +54,7 @@ struct Generation {
   Generation& operator=(const Generation&) = delete;
 
   const rung_program& program() const noexcept { return image->program; }
-  // A message or a fault refers to it from now on, or does so no longer. Any thread.
+  // Add or remove a reference by a message or a fault. Any thread.
   void refer() noexcept { references_.fetch_add(1, std::memory_order_relaxed); }
   void forget() noexcept {
     [[maybe_unused]] const uint32_t before = references_.fetch_sub(1, std::memory_order_release);
@@ -64,7 +64,7 @@ struct Generation {
 
   const uint32_t number; // among the programs of the instance, from 1, in the order in which they were prepared
   const std::shared_ptr<const Image> image;
-  const std::shared_ptr<const runtime::CopyLists> copyLists; // what cells and plan look at
+  const std::shared_ptr<const runtime::CopyLists> copyLists; // used by cells and plan
   CellTable cells;
   BlockPlan blockPlan;
   runtime::ProfileClock clock; // of a program that counts and times its rungs
@@ -74,15 +74,15 @@ private:
   std::atomic<uint32_t> references_{0};
 };
 
-// Those of an instance: the one that runs, and all that somebody holds or refers to.
+// The generations of an instance: the running one, and all that are held or referred to.
 class Generations {
 public:
-  // For any thread, but not in real time. Lets go what nobody needs any more.
+  // Adds a generation, and frees those that are not needed any more. Any thread, but not in real time.
   std::shared_ptr<Generation> add(const Environment& environment, std::shared_ptr<const Image> image,
                                   std::shared_ptr<const runtime::CopyLists> lists);
-  // The one that runs at this moment; it stays alive, and may run no longer.
+  // The generation that runs at this moment; the result keeps it alive, though another one may run by then.
   std::shared_ptr<Generation> running();
-  // `see` gets that; none is let go meanwhile.
+  // Calls `see` with the running generation; none is freed during the call.
   template <class See>
   void look(See see) const {
     const std::lock_guard lock(mutex_);
@@ -90,11 +90,11 @@ public:
   }
   void letGo();
 
-  // Scan thread: which one runs. Somebody holds the next one.
+  // Scan thread: the running generation, and the change to the next one, which the caller keeps alive.
   Generation& now() const noexcept { return *now_.load(std::memory_order_acquire); }
   void enter(Generation& next) noexcept { now_.store(&next, std::memory_order_release); }
 
-  // What all of them have, each at places of its own.
+  // Names and blocks of all generations; each has its own places for them.
   CellNames names;
   HostBlocks blocks;
 
@@ -107,13 +107,13 @@ private:
   std::atomic<Generation*> now_{nullptr};
 };
 
-// Names of the services of an instance's programs. A request that waits has one of them, whichever program runs when it
-// is taken, and whether the one that asks for it exists still.
+// The names of the services of an instance's programs. A waiting request refers to one of them, even if another program
+// runs by the time the request is taken, and the one that made it no longer exists.
 
 class ServiceNames {
 public:
-  // By the numbers of the services; valid as long as this. Programs that number them alike have one list. Any thread,
-  // but not in real time.
+  // The names by service number, valid as long as this object. Programs that number their services equally share a
+  // list. Any thread, but not in real time.
   const char* const* of(const rung_program& program);
 
 private:

@@ -1,4 +1,4 @@
-// What others ask of a replacement.
+// Functions of replacements and shadows that other parts of the library call.
 #pragma once
 #include <memory>
 
@@ -6,21 +6,21 @@
 
 namespace rung::api {
 
-// The program that would take over with it. A status, and a sentence where it is an error.
+// The program of a replacement. The result is a status; after an error there is a sentence.
 int32_t nextOf(const rung_instance& instance, const rung_replacement* replacement, std::shared_ptr<Generation>& next);
 
-// Whether a program can take over from those of the instance, or run beside them: it is of their dialect.
+// Checks that a program has the dialect of the instance, so that it can replace its program or run beside it.
 int32_t checkDialect(const rung_instance& instance, const rung_program& program) noexcept;
 
-// RUNG_LATER, and the sentence why: `result` is what the instance has said.
+// RUNG_LATER with a sentence that explains `result`, the result of the instance.
 int32_t failLater(const rung_instance& instance, runtime::ReplaceResult result,
                   const runtime::StateTransfer& transfer) noexcept;
 
-// What the rest of an instance needs of its shadow.
+// Functions of shadows.
 
-// The running program makes a request.
+// Reports a request of the running program to the shadow. Scan thread.
 void shadowRequest(rung_instance& instance, const core::ServiceRequest& request) noexcept;
-// The instance has a shadow no longer.
+// Ends the instance's shadow.
 void endShadow(rung_instance& instance) noexcept;
 
 } // namespace rung::api

@@ -1,5 +1,5 @@
-// The parts of a scan as an instance's host asks for them, and what is around each: functions, bound variables, saving,
-// messages, times. Nothing here allocates, locks or throws.
+// Runs the parts of a scan that a host requests, with everything before and after them: functions, bound variables,
+// saving, messages, times. Scan thread; nothing here allocates, locks or throws.
 #pragma once
 #include "rtlib/api/instance.h"
 #include "rtlib/run/realtime.h"
@@ -8,7 +8,7 @@ namespace rung::api {
 
 void beforePart(rung_instance& instance) noexcept;
 void afterPart(rung_instance& instance) noexcept;
-// What the program has written means nothing any more: bound variables and blocks become 0.
+// Sets bound variables and blocks to 0, because the outputs of the program are no longer valid.
 void clearOutputs(rung_instance& instance) noexcept;
 
 // `part` runs a slice, a slot, a scan or the fast task.
@@ -22,21 +22,21 @@ void runPart(rung_instance& instance, Part part) noexcept {
   afterPart(instance);
 }
 
-// After a fault: the program before this one, where there is one, with its state. It stays stopped.
+// After a fault: puts the former program back, if there is one, with its state. It stays stopped.
 void putFormerBack(rung_instance& instance) noexcept;
-// Forces may have ended by themselves.
+// Updates the handle of the forces in effect, because a fault or a power-on may have ended them.
 void settleForces(rung_instance& instance) noexcept;
-// A fault goes to the host's callback, once.
+// Reports a fault to the host's callback, once.
 void reportFault(rung_instance& instance) noexcept;
 inline int32_t statusOf(const rung_instance& instance) noexcept {
   return instance.running.faulted() ? RUNG_FAULTED : RUNG_OK;
 }
 
-// Whether a program can have this memory block; null: the library allocates one.
+// Checks a memory block for a program; null: the library allocates one.
 int32_t checkMemory(const rung_program& program, const void* memory, size_t bytes) noexcept;
 
 rung_request shown(const core::ServiceRequest& request, const nc::Control& control) noexcept;
-// Queues a message for the host. A message that finds no room is lost, and counted.
+// Queues a message for the host. If the queue is full, the message is lost, and counted.
 void say(rung_instance& instance, const rung_message& message) noexcept;
 core::ServiceReply taken(const rung_reply& reply) noexcept;
 

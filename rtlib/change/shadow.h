@@ -31,7 +31,7 @@ std::optional<std::string> firstDifference(const Instance& here, const Instance&
 //
 // The scan thread records every run of a task: the memory before and after it, the requests that the program made to
 // its host, and the answers that came. Another thread runs the new program on these records. Recording copies the
-// memory block twice per run and never waits: if the other thread falls behind by more runs than there is room for, the
+// memory block twice per run and never waits: if the other thread is late by more runs than there is room for, the
 // shadow ends.
 //
 // A shadow has no effect outside: its memory is its own, and its messages and requests go nowhere. A request that the

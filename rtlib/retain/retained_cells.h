@@ -1,11 +1,11 @@
-// The retained cells of a program, as a description that lies beside their image on disk: which bytes of its spaces are
-// kept, and the names in them. Another program finds its own cells there (retained_take.h).
+// A description of a program's retained cells, which is stored beside their image on disk: which bytes of the program's
+// spaces are retained, and the names in them. Another program finds its own cells with it (retained_take.h).
 //
-// A description is a text, compressed; its length as a text comes first, in four bytes, low byte first. Of each line
-// the first word says what it is, its fields are separated by tabs:
-//   dialect NAME · space NAME FLAGS BYTES · kept SPACE FIRST COUNT · cell NAME SPACE BYTE BIT TYPE COUNT REACH
-// Spaces are numbered in their order; BYTES is up to the last one that is kept. An image has the bytes of one `kept`
-// after those of the one before. Cells are all that are kept as a whole, in the order of their names.
+// A description is a compressed text, after its uncompressed length in four bytes, low byte first. The first word of a
+// line says what it is; its fields are separated by tabs: dialect NAME · space NAME FLAGS BYTES · kept SPACE FIRST
+// COUNT · cell NAME SPACE BYTE BIT TYPE COUNT REACH. Spaces are numbered in their order; BYTES counts up to the last
+// retained one. An image consists of the bytes of each `kept` line, in their order. Cells are those that are retained
+// completely, sorted by name.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -23,40 +23,40 @@ struct RetainLayout {
       : hash(hashGiven), description(std::move(descriptionGiven)) {}
 
   uint64_t hash;           // equal hashes: images are interchangeable, cell by cell
-  std::string description; // whatever bytes; "": nobody else can use the image
+  std::string description; // any bytes; "": only a program of the same hash can use the image
 };
 
-// Bytes of a space that are kept.
+// Consecutive retained bytes of a space.
 struct RetainRun {
   uint32_t space = RUNG_NONE;
   uint32_t first = 0; // logical
   uint32_t count = 0;
 };
 
-// All `bits` from a bit of a space on, which is counted from the beginning of the space, are kept, in one run.
+// Whether `bits` bits from `firstBit` on, counted from the beginning of the space, are all retained, in one run.
 bool isKept(std::span<const RetainRun> runs, uint32_t space, uint64_t firstBit, uint64_t bits);
 
-// Of a program, and the bytes of it that are kept, in the order of the image.
+// The layout for a program and its retained bytes, in the order of the image.
 RetainLayout retainLayoutOf(const rung_program& program, std::span<const RetainRun> runs);
 
-// Which parts of a program's memory are kept, by the addresses of the dialect: K0 to K31 and so on, whatever
-// representation the layout gave them. So the image of one program fits every other program of the dialect that keeps
-// the same cells at the same addresses.
+// The retained parts of a program's memory, by the addresses of the dialect (K0 to K31 and so on), whatever
+// representation the layout has chosen for them. So an image fits every program of the dialect that retains the same
+// cells at the same addresses.
 
 class RetainMap {
 public:
   explicit RetainMap(const rung_program& program);
 
   const RetainLayout& layout() const { return layout_; }
-  uint32_t size() const { return size_; } // of an image
+  uint32_t size() const { return size_; } // size of an image
 
-  // Between an image and the bytes as Instance::copyRetained and restoreRetained take them.
+  // Convert between an image and the bytes of Instance::copyRetained and restoreRetained.
   void pack(std::span<const uint8_t> raw, std::span<uint8_t> image) const;
   void unpack(std::span<const uint8_t> image, std::span<uint8_t> raw) const;
   uint32_t rawSize() const { return rawSize_; }
 
 private:
-  // Bytes that lie together.
+  // Adjacent bytes.
   struct Piece {
     uint32_t space;
     uint32_t first; // logical

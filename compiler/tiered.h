@@ -2,9 +2,9 @@
 // chunk as that is compiled. Whichever code a chunk has does the same, so it is exchanged at any moment; it costs a
 // running program nothing.
 //
-// Where the interpreter may need more than the period of the schedule, because the program is long or may go in
-// loops, or memory from the heap, the program begins with machine code that is compiled fast, and whoever makes the
-// engine waits for that. On a virtual clock, where no time passes meanwhile, it begins in the interpreter in any case.
+// Where the interpreter may need more than the period of the schedule, because the program is long or may go in loops,
+// or memory from the heap, the program begins with machine code that is compiled fast, and the creation of the engine
+// waits for it. On a virtual clock, where no time passes meanwhile, it begins in the interpreter in any case.
 #pragma once
 #include <atomic>
 #include <memory>

@@ -37,7 +37,7 @@ public:
   // Throws rung::Error where retained memory cannot be taken or saved.
   void powerOn(nc::PowerOn kind);
   void powerOff() { instance_.powerOff(); }
-  // A whole pass of the schedule, or its rest, after a fault its time alone; a slot; one run of the fast task by
+  // A whole scan of the schedule, or its rest, after a fault its time alone; a slot; one run of the fast task by
   // itself; a slice.
   void scan();
   void slot() { (void)instance_.slot(); }

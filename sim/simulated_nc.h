@@ -64,13 +64,13 @@ public:
   // After a power-on: the connections whose ends do not exist or do not fit. They are not served.
   virtual std::vector<NcProblem> connectionProblems() const { return {}; }
 
-  // Null: nobody. They outlive it.
+  // Null: none. They outlive it.
   void setAnswers(Answers* answers) { answers_ = answers; }
   bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) final {
     return (answers_ != nullptr && answers_->respond(instance, request, reply)) || serve(instance, request, reply) ||
            (answers_ != nullptr && answers_->takeUnanswered(instance, request, reply));
   }
-  // Somebody has answered a request that waited, between two scans; `bytes` are those of the answer.
+  // A waiting request was answered, between two scans; `bytes` are those of the answer.
   virtual void answered(runtime::Instance& instance, const core::ServiceRequest& request, std::string_view bytes) {
     (void)instance, (void)request, (void)bytes;
   }
@@ -111,7 +111,8 @@ public:
   virtual std::vector<std::string_view> events() const { return {}; }
   virtual std::string event(runtime::Instance& instance, std::string_view name, const std::vector<NcArgument>& keys);
   virtual std::string plcCommand(runtime::Instance& instance, std::string_view command);
-  // What has left a port and nobody has seen is as the keys say, or there is nothing (`none`). "" or what is wrong.
+  // What has left a port and has not been checked is as the keys say, or there is nothing (`none`). "" or what is
+  // wrong.
   virtual std::string expectSent(std::string_view port, const std::vector<NcArgument>& keys);
 
   // What is shown is the control's, what is logged is kept here.
@@ -122,7 +123,7 @@ public:
 protected:
   // Whether the log gets a line for this message.
   virtual bool isLogged(const rung_message& message) const;
-  // True: the machine answers, within the scan. False: the request waits for somebody.
+  // True: the machine answers, within the scan. False: the request waits for an answer from elsewhere.
   virtual bool serve(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) {
     (void)instance, (void)request, (void)reply;
     return false;
@@ -138,7 +139,7 @@ private:
   Answers* answers_ = nullptr;
 };
 
-// By rung_program::dialect; a plain model for a dialect that has none of its own.
+// By rung_program::dialect; a plain model for a dialect without one.
 std::unique_ptr<SimulatedNc> makeSimulatedNc(std::string_view dialect);
 
 std::unique_ptr<SimulatedNc> makeSimulatedPlain(); // of a dialect without a control of its own

@@ -35,7 +35,8 @@ Result<std::string> emitObject(const ir::Layout& layout, uint64_t codeHash, cons
 Result<std::string> buildLlvmSharedObject(const ir::Layout& layout, uint64_t codeHash, const LlvmOptions& options);
 
 // The same for a process that cannot open files: the linker writes to its standard output, which is a memory file and
-// nobody else's. The linker opens nothing but /proc/self/fd/N, N being a file that is open already, to read it.
+// used by no other process. The linker opens nothing but /proc/self/fd/N, N being a file that is open already, to read
+// it.
 Result<std::string> buildLlvmSharedObjectByOutput(const ir::Layout& layout, uint64_t codeHash,
                                                   const LlvmOptions& options);
 

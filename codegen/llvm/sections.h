@@ -11,8 +11,8 @@ namespace rung::codegen {
 // The object with one more section.
 Result<std::string> withSection(std::string_view object, std::string_view name, std::string_view contents);
 
-// What the section holds; nothing where the object has none of this name, or is not one. Fails where LLVM cannot be
-// loaded.
+// What the section holds; nothing if the object has no section of this name, or the file is not an object. Fails where
+// LLVM cannot be loaded.
 Result<std::optional<std::string>> sectionOf(std::string_view object, std::string_view name);
 
 } // namespace rung::codegen

@@ -49,7 +49,7 @@ struct OperandUse {
   Access access = Access::Read;
   bool isVariable = false; // `place` is as wide as the instruction takes a variable, whatever its declaration says
   bool isSet = false;      // a coil that sets the bit and never resets it
-  bool isDue = false;      // the coil that an instruction must have, whether somebody looks at it or not
+  bool isDue = false;      // the coil that an instruction must have, whether it is read or not
 };
 
 // An operand that is a place in the program: a label, a subprogram.

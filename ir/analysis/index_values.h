@@ -1,5 +1,5 @@
 // Which numbers a program puts into cells that its indices come from: programs call one routine for each unit of a
-// machine, and give it the unit by constants. What is found here is likely and not certain: whoever uses it asks.
+// machine, and give it the unit by constants. What is found here is likely and not certain: the caller has to check it.
 #pragma once
 #include <span>
 #include <unordered_map>

@@ -67,7 +67,7 @@ public:
 
 private:
   enum class Mark : uint8_t { New, Open, Done };
-  static constexpr uint32_t kClosed = UINT32_MAX; // as an order: its loop, if it is in one, is known
+  static constexpr uint32_t kClosed = UINT32_MAX; // a number for `order`: its loop, if it is in one, is known
 
   uint32_t number(Place place) const { return partition_.rungNumber(place.routine, place.rung); }
   const std::vector<Rung>& rungsOf(RoutineId routine) const { return partition_.module().at(routine).rungs; }

@@ -1,5 +1,5 @@
 // What values a rung may compute, when it is known what some cells may hold before it. A cell is a fixed place of an
-// integer; nobody else writes it while the rung runs.
+// integer; no other code writes it while the rung runs.
 #pragma once
 #include <span>
 #include <vector>

@@ -14,7 +14,7 @@ constexpr uint32_t bitWidth(Type type) {
   constexpr uint32_t kWidths[kTypeCount] = {0, 1, 8, 16, 32, 64, 64};
   return kWidths[static_cast<int>(type)];
 }
-// Bytes in memory; a Bit has none of its own.
+// Bytes in memory; a Bit has no bytes of its own.
 constexpr uint32_t byteWidth(Type type) { return bitWidth(type) / 8; }
 constexpr bool isInt(Type type) { return type >= Type::I8 && type <= Type::I64; }
 constexpr std::string_view typeName(Type type) {

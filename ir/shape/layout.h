@@ -1,5 +1,5 @@
 // What every engine obeys: where a program's memory lies, and how its rungs are cut into chunks. The two know nothing
-// of each other; whoever needs one of them takes that one.
+// of each other; code that needs only one of them includes that one.
 #pragma once
 #include <utility>
 

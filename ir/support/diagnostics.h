@@ -132,7 +132,7 @@ public:
   /// How many were counted but not kept.
   size_t droppedCount() const { return dropped_; }
   bool has(Diag id) const;
-  /// Of so many errors nobody reads suggestions, and to look for them takes long in a file of rubbish.
+  /// With so many errors suggestions are not read, and searching for them takes long in a file of rubbish.
   bool suggests() const { return errors_ <= 100; }
 
   /// In the order of reporting.

@@ -1,5 +1,5 @@
 // A latch is read where it comes from, as long as that still holds the same: what a task copies when it begins, and
-// nothing writes until the task has ended. A latch that nobody reads then is not copied any more.
+// nothing writes until the task has ended. A latch that is not read any more is no longer copied.
 //
 // Only of a task whose run is one piece: between two parts of a run the machine, the NC and other tasks write.
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Latch {
   }
 };
 
-// Nobody but rungs knows its name, and its bits are numbered as those of its source are.
+// Only rungs know its name, and its bits are numbered as those of its source are.
 bool isLatch(const Module& module, const Copy& copy) {
   const Space& to = module.at(copy.to);
   return !copy.masked && (to.flags & RUNG_SPACE_HIDDEN) != 0 && to.unitBytes == module.at(copy.from.space).unitBytes &&

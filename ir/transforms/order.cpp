@@ -52,7 +52,7 @@ private:
         for (uint32_t k = 0; k < op.argCount; ++k) need(rung_->args[op.firstArg + k]);
     need(rung_->transfer.cond);
     need(rung_->transfer.value);
-    for (uint32_t value = 0; value < rung_->values.size(); ++value) need({value}); // what nobody needs
+    for (uint32_t value = 0; value < rung_->values.size(); ++value) need({value}); // values that are not used
   }
 
   // Operands before the operation, without recursion: rungs may be long.

@@ -9,7 +9,7 @@
 
 namespace rung::ir {
 
-// Rungs and declarations that `render` shows; one is mostly enough, and a text of thousands helps nobody.
+// Rungs and declarations that `render` shows; one is mostly enough, and a text of thousands does not help.
 constexpr int kMaxShown = 20;
 
 std::string_view ruleName(Rule rule) {

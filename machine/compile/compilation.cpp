@@ -203,7 +203,7 @@ void Compilation::end(State state, std::string report) {
   state_.store(state, std::memory_order_release);
 }
 
-// False: nobody waits for it any more.
+// False: the result is no longer wanted.
 bool Compilation::take(pid_t process) {
   const std::lock_guard lock(changes_);
   process_ = process;
@@ -229,7 +229,7 @@ Compilation::Outcome Compilation::run(const std::vector<std::string>& words, con
   siginfo_t ended{};
   while (waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
   }
-  take(0); // its number is nobody else's yet
+  take(0); // its number is not reused yet
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
   const size_t line = outcome.answer.find('\n');

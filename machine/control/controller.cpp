@@ -27,7 +27,7 @@ constexpr uint32_t kMostForces = 64;
 constexpr size_t kMostChanges = 1000; // that a report lists
 constexpr uint32_t kMostShadowPasses = 100'000;
 constexpr uint32_t kShadowRoom = 256;  // runs of tasks that wait to be compared
-constexpr uint32_t kPassesKept = 4096; // of a watch of all passes
+constexpr uint32_t kPassesKept = 4096; // of a watch of all scans
 
 std::string textOf(const json& request, const char* key) {
   const auto found = request.find(key);
@@ -161,7 +161,7 @@ struct Controller::HeldCell {
   }
 };
 
-// Of the set of forces, as somebody has asked for it.
+// Of the set of forces, as a client has requested it.
 struct Controller::ForceChange {
   Peer peer;
   std::vector<HeldCell> before;
@@ -1057,7 +1057,7 @@ void Controller::finishShadow(json report) {
   endShadow();
 }
 
-// Nothing where nobody scans the program.
+// Nothing if no thread scans the program.
 std::optional<rung_state> Controller::stateNow() {
   host::Command look{.kind = host::Command::Kind::State};
   return plc_.post(look).ok() ? std::optional(look.state) : std::nullopt;

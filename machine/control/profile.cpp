@@ -37,7 +37,7 @@ Wanted wantedOf(const json& request) {
   return wanted;
 }
 
-// All rungs of the program's tables. Their counters are not those of one pass: the program continues meanwhile.
+// All rungs of the program's tables. Their counters are not those of one scan: the program continues meanwhile.
 std::vector<rung_profile> countersOf(host::PlcHost& plc) {
   std::vector<rung_profile> all;
   int32_t status = RUNG_OK;

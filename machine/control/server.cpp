@@ -71,7 +71,7 @@ Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(us
   unlink(path_.c_str()); // of a host that was killed
   socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (socket_ < 0) refuse(path_);
-  // Whoever may use the folder may connect; then the user is asked for.
+  // Every user who may use the folder can connect; then the user is checked.
   if (bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       chmod(path_.c_str(), 0600) != 0 || listen(socket_, static_cast<int>(kMostPeers)) != 0) {
     close(socket_);
@@ -185,7 +185,7 @@ void Connection::end(std::string problem) {
   problem_ = std::move(problem);
 }
 
-// At most one line more than is taken at a time: whoever floods us waits in their own buffers.
+// At most one line more than is taken at a time: a client that sends too much waits in its own buffers.
 void Connection::receive() {
   char bytes[16384];
   while (!ended_ && in_.size() <= longest_) {

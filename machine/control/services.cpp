@@ -113,7 +113,7 @@ json Services::served(const Peer& peer, const json& request) {
   return json::object();
 }
 
-// Nobody answers what waits.
+// The waiting requests have no provider any more.
 void Services::gone(const Peer& peer) {
   if (peer.number == provider_) lose("the connection has ended");
 }
@@ -173,7 +173,7 @@ void Services::refuseLate() {
   });
 }
 
-// As the control does where nobody serves (rtlib/nc/control/control.h).
+// As the control does without a provider (rtlib/nc/control/control.h).
 void Services::refuse(const host::Request& request) {
   plc_.answer({.size = sizeof(rung_reply), .ticket = request.given.ticket, .error = 1});
 }

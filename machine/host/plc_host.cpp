@@ -415,8 +415,8 @@ CommandSlot::Outcome PlcHost::execute(Command& command) noexcept {
   return {status == RUNG_WRONG_THREAD ? int32_t{RUNG_LATER} : status, rung_error_text()}; // who serves it has it
 }
 
-// An input that nobody feeds any more keeps nothing that permits something. Where the new program cannot take over now,
-// its pin feeds it again before the next slice.
+// An input without a pin must not keep a value that permits something. Where the new program cannot take over now, its
+// pin feeds it again before the next slice.
 int32_t PlcHost::replace(Command& command) noexcept {
   const rung_value none{};
   if (command.dead != nullptr)

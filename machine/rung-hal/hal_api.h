@@ -1,6 +1,6 @@
 // Pins and parameters in both of HAL's interfaces. That of LinuxCNC 2.9 gives pointers to variables as wide as their
-// types; that which LinuxCNC's master has had since July 2026 gives references to cells of 64 bits, of which whoever
-// writes fills all. Both redirect what a pin's cell holds, so cells lie in HAL's memory.
+// types; that which LinuxCNC's master has had since July 2026 gives references to cells of 64 bits, of which a writer
+// fills all bits. Both redirect what a pin's cell holds, so cells lie in HAL's memory.
 #pragma once
 #include <hal.h>
 

@@ -1,4 +1,4 @@
-// Whose rights open files: LinuxCNC's real-time process has root's, whoever has started it.
+// The rights with which files are opened: LinuxCNC's real-time process has root's, whichever user has started it.
 #pragma once
 #include <sys/fsuid.h>
 #include <unistd.h>

@@ -55,7 +55,7 @@ struct Options {
   std::string sharedFile;
 };
 
-// Nobody may be there to read it: it does not end for that.
+// The reader of the output may have gone: the process does not end for that.
 void write(const std::string& line) { std::cerr << "rung-run: " << line << std::endl; }
 // Where no log is made yet.
 // What a compiler says has several lines.
@@ -219,7 +219,7 @@ host::PlcHost::NewInstance surroundingsOf(const Options& options, const Image& i
   return [&devices](const Image& of, const rung_instance_options& with) { return devices.instance(of, with); };
 }
 
-// A real-time thread that is awake for most of the time takes its processor away from all others.
+// A real-time thread that is active for most of the time takes its processor away from all others.
 void checkEarly(const Options& options) {
   constexpr unsigned kPart = 4;
   const unsigned most = options.periodUs / kPart;

@@ -34,7 +34,7 @@ void ScanThread::run(std::promise<std::string> begun) {
   ended_ = true;
 }
 
-// A step counts from when it is due, however long before that the thread is awake.
+// A step counts from when it is due, however long before that the thread wakes.
 void ScanThread::waitFor(int64_t due) const noexcept {
   runtime::sleepUntil(due - options_.earlyNs);
   if (options_.earlyNs == 0) return;

@@ -26,7 +26,8 @@ using nlohmann::json;
 
 namespace {
 
-// Who listens there: somebody else could have made the folder first. "" of the user himself, and of root.
+// Checks which user listens there: another user could have created the folder first. "" of the user himself, and of
+// root.
 std::string strangerOf(int made) {
   ucred who{};
   socklen_t size = sizeof who;
@@ -36,7 +37,7 @@ std::string strangerOf(int made) {
   return "belongs to user " + std::to_string(who.uid) + ", and is not used";
 }
 
-// -1 with errno: nobody listens there.
+// -1 with errno: no host listens there.
 int connected(const std::string& path) {
   const sockaddr_un address = control::socketAddress(path);
   const int made = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);

@@ -193,7 +193,7 @@ int watch(Client& client, const Words& words) {
 // What the program has done until now and has not arrived yet: a busy machine lets this process wait.
 void addRest(Client& client, const Words& words, rungctl::Trace& trace) {
   using std::chrono::milliseconds;
-  // 0 where no pass ends any more.
+  // 0 where no scan ends any more.
   const uint64_t newest = client.ask({{"do", "get"}, {"names", words.names}}).value("scan", uint64_t{0});
   const milliseconds patience(newest == 0 ? 0 : 2000);
   while (newest == 0 || trace.lastPass() < newest) {
@@ -203,9 +203,9 @@ void addRest(Client& client, const Words& words, rungctl::Trace& trace) {
   }
 }
 
-// Until its time is over or somebody ends it. What came before the host has gone is in the trace, too; then why.
+// Until its time is over or the user ends it. What came before the host has gone is in the trace, too; then why.
 std::string fill(Client& client, const Words& words, rungctl::Trace& trace) try {
-  constexpr std::chrono::milliseconds kTurn(100); // it ends in time where no pass comes, too
+  constexpr std::chrono::milliseconds kTurn(100); // it ends in time where no scan comes, too
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(words.seconds);
   while (gStop == 0 && (words.seconds == 0 || std::chrono::steady_clock::now() < end))
     if (const std::optional<json> event = client.event(kTurn); event && event->value("event", "") == "values")
@@ -221,7 +221,7 @@ int trace(Client& client, const Words& words) {
   if (!file) return fail("cannot write " + words.file, cli::kEnvironment);
   const json begun = asked(client, {{"do", "watch"}, {"names", words.names}, {"all", true}});
   rungctl::Trace trace(file, client.greeting().value("program", ""), begun["names"]);
-  file.flush(); // its head shows a reader that no pass is missed from now on
+  file.flush(); // its head shows a reader that no scan is missed from now on
   const std::string problem = fill(client, words, trace);
   trace.end();
   if (!file.flush()) return fail("cannot write " + words.file, cli::kEnvironment);

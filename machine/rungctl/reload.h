@@ -4,7 +4,7 @@
 
 namespace rung::rungctl {
 
-// The exit status. `stop` is not 0 where nobody waits for it any more.
+// The exit status. `stop` is not 0 when the user has interrupted the command.
 int reload(Client& client, const Words& words, const volatile int& stop);
 int rollback(Client& client, const Words& words);
 

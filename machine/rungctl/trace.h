@@ -1,4 +1,4 @@
-// The passes of a watch as a value change dump.
+// The scans of a watch as a value change dump.
 #pragma once
 #include <cstdint>
 #include <ostream>

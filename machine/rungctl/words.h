@@ -29,7 +29,7 @@ struct Words {
   bool all = false;
   bool follow = false;
   bool on = false;
-  unsigned shadow = 0; // passes
+  unsigned shadow = 0; // scans
   bool yes = false;
   bool late = false;
   unsigned top = 20;

@@ -62,7 +62,7 @@ std::shared_ptr<Generation> Generations::add(const Environment& environment, std
 std::shared_ptr<Generation> Generations::running() {
   const std::lock_guard lock(mutex_);
   const auto found = std::ranges::find(all_, now_.load(std::memory_order_acquire), &std::shared_ptr<Generation>::get);
-  assert(found != all_.end()); // the one that runs is never let go
+  assert(found != all_.end()); // the running one is never freed
   return *found;
 }
 

@@ -1,4 +1,4 @@
-// Another program for an instance: prepared outside real time, put in its place between two passes.
+// Another program for an instance: prepared outside real time, put in its place between two scans.
 #include "rtlib/api/replacing.h"
 
 #include <atomic>
@@ -39,7 +39,7 @@ struct rung_replacement {
   }
 
   const rung_program& program(bool theFormer) const noexcept { return (theFormer ? former : next)->program(); }
-  // The one of its two programs that it holds, where the other one runs.
+  // The generation that the replacement holds: of its two programs, the one that does not run.
   Generation& held() const noexcept { return holdsFormer ? *former : *next; }
 
   uint32_t mark = kReplacementMark;

@@ -50,7 +50,7 @@ void Watches::remove(rung_watch& watch) {
 }
 
 void Watches::sampleEach(const rung_instance& instance, bool onlyNew) noexcept {
-  const uint64_t broken = instance.running.faulted() ? 1 : 0; // the pass that the fault has ended
+  const uint64_t broken = instance.running.faulted() ? 1 : 0; // the scan that the fault has ended
   const SampleHead head{instance.running.generation(), instance.passes + broken,
                         static_cast<uint64_t>(instance.running.nowUs())};
   sampling_.enter();

@@ -30,7 +30,7 @@ std::string differentSteps(const rung_program& a, std::span<const rung_step> ste
   return std::ranges::equal(stepsA, stepsB, same) ? "" : "the schedule of the new program is another one";
 }
 
-// Whether a pass of the schedule ends all runs that it begins: the shadow begins with a pass, and its runs with it.
+// Whether a scan of the schedule ends all runs that it begins: the shadow begins with a scan, and its runs with it.
 bool hasWholeRuns(const rung_program& program, std::span<const rung_step> steps) {
   std::vector<uint64_t> parts(program.task_count);
   for (const rung_step& step : steps)

@@ -144,7 +144,7 @@ inline void writePlaces(Memory memory, std::span<const ListedPlace> places, std:
   }
 }
 
-// The border copies of tasks short of the bytes that no rung touches: an NC's area has thousands of bytes, and a
+// The process-image copies of tasks without the bytes that no rung touches: an NC's area has thousands of bytes, and a
 // program looks at few of them. Who looks at the memory from outside needs what is left out, too.
 
 struct NeededCopies {

@@ -44,7 +44,7 @@ uint32_t ServiceQueue::freeTicket() noexcept {
 }
 
 uint32_t ServiceQueue::request(uint32_t service, const int64_t* args, uint32_t count) noexcept {
-  // Checked first, so that a program sees the same refusals whoever answers.
+  // Checked first, so that a program sees the same refusals whatever answers it.
   if (pending_ == kMaxPending) {
     refused_.store(refused() + 1, std::memory_order_relaxed);
     return 0;

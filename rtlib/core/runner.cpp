@@ -1,4 +1,4 @@
-// The chunk loop, the border copies and the schedule.
+// The chunk loop, the process-image copies and the schedule.
 #include "rtlib/core/runner.h"
 
 #include <algorithm>
@@ -183,7 +183,7 @@ bool isBounded(const rung_task& task) noexcept {
 
 } // namespace
 
-// As runChunks, of a bounded task, where nobody looks at the time.
+// As runChunks, of a bounded task, without a look at the clock.
 inline uint32_t Runner::runBounded(uint32_t pc, uint32_t limit) noexcept {
   uint8_t* const memory = memory_;
   rung_ctx* const ctx = ctx_;
@@ -470,14 +470,14 @@ inline void Runner::doStep(const rung_step& step) noexcept {
   hold();
 }
 
-// The list of the pass under way, else that of the one that begins.
+// The list of the scan under way, else that of the one that begins.
 std::span<const rung_step> Runner::realTimePass() const noexcept {
   if (position_ != 0) return list_;
   if (program_->slice_count != 0) return {program_->slices, program_->slice_count};
   return {program_->scan, program_->scan_count};
 }
 
-// The same where nobody waits for the time of the steps.
+// The same without waiting for the time of the steps.
 std::span<const rung_step> Runner::pass() noexcept {
   if (position_ != 0) return list_;
   if (joined_.empty()) {
@@ -487,7 +487,7 @@ std::span<const rung_step> Runner::pass() noexcept {
   return joined_;
 }
 
-// The steps of the pass under way, up to its end, a fault, or a step after which `ends` says so; it is asked where
+// The steps of the scan under way, up to its end, a fault, or a step after which `ends` says so; it is asked where
 // another one follows.
 template <class Ends>
 inline void Runner::walk(std::span<const rung_step> list, const Ends& ends) noexcept {

@@ -38,7 +38,7 @@ struct RunnerHooks {
   void (*step)(void* data, uint32_t work) = nullptr; // RUNG_STEP_HOOK; may run tasks
   void (*fault)(void* data) = nullptr;               // after a fault; may run tasks
   void* data = nullptr;
-  // Around every run of a task or a part, border copies included; runs nothing.
+  // Around every run of a task or a part, process-image copies included; runs nothing.
   void (*task)(void* data, uint32_t task, bool begins) = nullptr;
   // Before that, where a run begins: brings in what it reads.
   void (*latch)(void* data, uint32_t task) = nullptr;
@@ -68,11 +68,11 @@ struct ForcedBits {
 class Runner {
 public:
   // `parts` has an entry for each task; `engine`: what the program's own code needs in its context; `room`: for as many
-  // steps as rung_program::scan has, so that a pass takes fewer; or null. All outlive the runner.
+  // steps as rung_program::scan has, so that a scan takes fewer; or null. All outlive the runner.
   Runner(const rung_program& program, uint8_t* memory, rung_ctx& ctx, PartState* parts, void* engine = nullptr,
          rung_step* room = nullptr) noexcept;
 
-  // Work that is new among them is done from the next pass on.
+  // Work that is new among them is done from the next scan on.
   void setHooks(RunnerHooks hooks) noexcept {
     hooks_ = hooks;
     joined_ = {};
@@ -87,7 +87,7 @@ public:
   const NeededCopies* copies() const noexcept { return copies_; }
   // What runs longer ends with kMaxTimeFault.
   void setTimeLimit(TimeLimit limit) noexcept { limit_ = limit; }
-  // Another program takes over, between two passes: its memory, part states and room; the clock continues, a fault
+  // Another program takes over, between two scans: its memory, part states and room; the clock continues, a fault
   // stays. From then on the caller keeps the new ones alive, and no longer those of before.
   void setProgram(const rung_program& program, uint8_t* memory, PartState* parts, void* engine,
                   rung_step* room) noexcept;
@@ -117,9 +117,9 @@ public:
   void fast() noexcept;
 
   // For a real clock: how long to wait before the next slice, and the slice: one ADVANCE and what follows it up to the
-  // next ADVANCE or the end of the list. A pass of a list without ADVANCE takes a period of the main task, spent at its
-  // beginning. Where the program has a list of slices, a pass that begins with a slice is one of that list, and whoever
-  // continues it stays in it.
+  // next ADVANCE or the end of the list. A scan of a list without ADVANCE takes a period of the main task, spent at its
+  // beginning. Where the program has a list of slices, a scan that begins with a slice is one of that list, and a
+  // caller that continues it stays in it.
   uint32_t sliceDelayUs() const noexcept;
   void slice() noexcept;
   // A slice comes next in which the fast task runs.
@@ -206,9 +206,9 @@ private:
   int64_t deadline_ = 0;
   rung_step* room_;
   std::span<const rung_step> joined_; // rung_program::scan, with room in fewer steps; empty: not made yet
-  std::span<const rung_step> list_;   // the pass under way: rung_program::scan, that in fewer steps, or ::slices
+  std::span<const rung_step> list_;   // the scan under way: rung_program::scan, that in fewer steps, or ::slices
   uint32_t position_ = 0;             // in it
-  uint32_t untimedPeriodUs_ = 0;      // what a pass of a list without ADVANCE takes
+  uint32_t untimedPeriodUs_ = 0;      // what a scan of a list without ADVANCE takes
   bool faulted_ = false;
   bool stopped_ = false;
   bool inTask_ = false;

@@ -21,7 +21,7 @@ constexpr uint32_t kMaxAlign = 4096;
 constexpr uint32_t kMostMemory = 64u << 20; // bytes
 constexpr uint32_t kMostBudget = 1u << 26;  // steps; a compiler gives a million, or in proportion to the program
 constexpr uint32_t kMostTimes = 1000;       // that a step of the schedule runs its task
-constexpr uint64_t kMostRuns = 100'000;     // of tasks in a pass
+constexpr uint64_t kMostRuns = 100'000;     // of tasks in a scan
 constexpr uint64_t kLongestPassUs = 3'600'000'000;
 constexpr uint32_t kSpaceFlags = RUNG_SPACE_INPUT | RUNG_SPACE_OUTPUT | RUNG_SPACE_HIDDEN | RUNG_SPACE_ALLOCATED;
 constexpr uint32_t kSymbolFlags = RUNG_SYMBOL_READONLY | RUNG_SYMBOL_HIDDEN | RUNG_SYMBOL_CONST | RUNG_SYMBOL_AREA;
@@ -439,7 +439,7 @@ private:
     if (scanPeriodUs(p_) == 0)
       fail("the scan list takes no time: it has no step that advances the clock, and the main task has no period");
   }
-  // What one pass runs.
+  // What one scan runs.
   void checkTimes(const char* list, std::span<const rung_step> steps) {
     uint64_t runs = 0;
     for (const rung_step& step : steps)

@@ -37,7 +37,7 @@ std::string unfinishedName(const std::string& path) {
   return path + text.data();
 }
 
-// A file that nobody else has, nor has prepared a link for.
+// A file that no other process has, nor has prepared a link for.
 File createUnfinished(int folder, const std::string& path, mode_t mode, std::string& name) {
   for (int attempt = 0; attempt < 8; ++attempt) {
     name = unfinishedName(path);

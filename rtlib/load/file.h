@@ -27,7 +27,7 @@ public:
 
   bool ok() const { return fd_ >= 0; }
   int fd() const { return fd_; }
-  // Whoever asks owns it from then on.
+  // The caller owns it from then on.
   int release() { return std::exchange(fd_, -1); }
   // False, with errno: what was written may not be there.
   bool close();
@@ -52,14 +52,14 @@ struct Writing {
   bool lasts = false;     // on the disk when the function returns, whatever happens to the machine then
 };
 
-// The second half of replacing a file: `unfinished`, a file of the same folder that nobody else uses, gets the bytes
-// through `file` and then the name; it is gone when that fails. Empty, or why not.
+// The second half of replacing a file: `unfinished`, a file of the same folder that no other process uses, gets the
+// bytes through `file` and then the name; it is gone when that fails. Empty, or why not.
 std::string finishReplacing(int folder, File file, const std::string& unfinished, const std::string& name,
                             std::string_view bytes, const Writing& writing);
 
 // The name, seen from an open folder or from AT_FDCWD, leads to the whole old file or to the whole new one at any time,
-// also where several processes write to one name; whoever has the old file open or loaded keeps it as it was. Empty, or
-// why not.
+// also where several processes write to one name; a process that has the old file open or loaded keeps it unchanged.
+// Empty, or why not.
 std::string replaceFileIn(int folder, const std::string& name, std::string_view bytes, const Writing& writing = {});
 // The same for a path that a user has named: a link is followed, a device or a pipe is just written to. Empty, or
 // "cannot write 'PATH': why".
@@ -98,7 +98,7 @@ public:
   virtual bool read(const std::string& path, size_t most, std::string& bytes, std::string& problem) = 0;
   // As replaceDiskFile.
   virtual bool replace(const std::string& path, std::span<const uint8_t> bytes, std::string& error) = 0;
-  // As lockDiskFile. Null: `error` says why, or it is "" where somebody else has it. `made`: there was no file before.
+  // As lockDiskFile. Null: `error` says why, or it is "" if another process has it. `made`: there was no file before.
   virtual std::unique_ptr<Lock> lock(const std::string& path, bool& made, std::string& error) = 0;
 };
 Disk& systemDisk() noexcept;

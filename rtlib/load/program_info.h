@@ -41,7 +41,7 @@ std::string_view messageText(const rung_program& program, uint32_t number);  // 
 
 // The sum of the ADVANCE steps of a list.
 uint64_t advanceUs(std::span<const rung_step> steps);
-// Time of one pass of the scan list: its ADVANCE steps, else the main task's period.
+// Time of one scan of the schedule: its ADVANCE steps, else the main task's period.
 uint64_t scanPeriodUs(const rung_program& program);
 
 // `rung 3 "title", main.pmc:12`, of what is not drawn `LEVEL1, main.pmc:12`; line 0 means the rung's first line.

@@ -24,7 +24,7 @@ std::string becauseOfErrno() { return std::strerror(errno); }
 
 constexpr int kSeals = F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
 
-// A descriptor that nobody can write to any more, with the bytes of another.
+// A descriptor that cannot be written to any more, with the bytes of another.
 File sealedCopy(int from, std::string& problem) {
   std::string bytes;
   problem = readAll(from, kMostBytes, bytes);
@@ -113,7 +113,7 @@ File openSealed(int from, std::string& problem) {
 std::string freshNameOf(int fd) {
   static std::atomic<uint64_t> loads = 0; // as the dynamic linker's names, of the whole process
   const std::string self = std::to_string(::getpid());
-  // Where /proc shows the processes of another name space, the number would be somebody else's there.
+  // Where /proc shows the processes of another name space, the number would be another process's there.
   std::array<char, 32> shown{};
   const ssize_t length = ::readlink("/proc/self", shown.data(), shown.size());
   const bool isSelf = length > 0 && self == std::string_view(shown.data(), static_cast<size_t>(length));

@@ -42,8 +42,8 @@ public:
   // Null, and `error` says why, when the file is damaged, may not be trusted, cannot be loaded or is not a program of
   // this version.
   static std::unique_ptr<SoEngine> open(const std::string& path, std::string& error, const SoOptions& options = {});
-  // The same of a memory file that a process has made which the caller trusts: what is in it is checked, and that
-  // nobody can change it any more. `file` stays the caller's.
+  // The same of a memory file that a process has made which the caller trusts: what is in it is checked, and that it
+  // can no longer be changed. `file` stays the caller's.
   static std::unique_ptr<SoEngine> openMemory(int file, const std::string& name, std::string& error);
   ~SoEngine() override;
 

@@ -38,7 +38,7 @@ std::string octal(uint32_t mode) {
   return text.data();
 }
 
-// What somebody whom the process does not trust could do to a file.
+// What a user whom the process does not trust could do to a file.
 enum class Weakness : uint8_t { None, ForeignOwner, OthersWrite, GroupWrites };
 
 Weakness weaknessOf(const FileFacts& file, const ProcessIds& ids) {
@@ -96,7 +96,7 @@ File openKeysFolder(const std::string& path, const ProcessIds& ids, std::string&
   return File();
 }
 
-// Nothing where the file holds no key, or where somebody else could have put it there.
+// Nothing where the file holds no key, or if another user could have put it there.
 std::optional<PublicKey> readKey(int folder, const char* name, const ProcessIds& ids) {
   const File file(::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   const std::optional<FileFacts> facts = factsOf(file.fd());

@@ -1,12 +1,12 @@
 // Whose machine code a process runs. The rules are functions of facts; what asks the system is below them.
 //
-// A process is *privileged* if its effective or saved user is root while its real, saved or file-system user is not:
-// it has root's rights and serves somebody else, as LinuxCNC's rtapi_app does.
+// A process is *privileged* if its effective or saved user is root while its real, saved or file-system user is not: it
+// has root's rights and serves another user, as LinuxCNC's rtapi_app does.
 //
-//   privileged    the file belongs to root, and root alone may write to it; or a key of kKeysFolder has signed it.
-//                 It has a seal, names no folders to search, and needs the system's C and C++ libraries at most.
-//   any other     the file belongs to root or to the effective user, and others may not write to it (its group may, if
-//                 that is the process's own effective group); or a key has signed it.
+// privileged the file belongs to root, and root alone may write to it; or a key of kKeysFolder has signed it. It has a
+// seal, names no folders to search, and needs the system's C and C++ libraries at most. any other the file belongs to
+// root or to the effective user, and others may not write to it (its group may, if that is the process's own effective
+// group); or a key has signed it.
 //
 // Only user and group are looked at: rights that a program file has as capabilities are not seen.
 #pragma once
@@ -57,8 +57,8 @@ std::string dependencyProblem(const ElfObject& object);
 
 // ---- what the system says ----
 
-// Why somebody else than root could change a file, or put another in its place; empty: nobody can. `path` is absolute,
-// and none of its parts is a link.
+// Why a user other than root could change a file, or put another in its place; empty: no other user can. `path` is
+// absolute, and none of its parts is a link.
 std::string rootsFileProblem(const std::string& path);
 
 // Public keys, NAME.pub. In a privileged process the only place, and a constant: neither an option nor the environment

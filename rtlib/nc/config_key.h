@@ -16,7 +16,7 @@ enum class ConfigForm : uint8_t {
   Number,   // any number
   Duration, // of `least` to `most` microseconds, with its unit
   File,     // relative to what names it
-  Text,     // checked by whoever reads it; `takes` says what it is
+  Text,     // checked by its reader; `takes` says what it is
 };
 
 struct ConfigKey {

@@ -88,7 +88,7 @@ void Instance::setLatching(bool latching) {
   setRunnerHooks();
 }
 
-// ---- border copies -----------------------------------------------------------------------------------------------
+// ---- process-image copies ----------------------------------------------------------------------------------------
 
 void Instance::setNeededCopiesOnly(bool only) noexcept {
   if (only == neededCopiesOnly_) return;

@@ -91,7 +91,7 @@ public:
     return most;
   }
 
-  // The time of a slice without its chunks: border copies and schedule.
+  // The time of a slice without its chunks: process-image copies and schedule.
   int64_t longestRest() {
     const std::vector<rung_chunk_fn> idle(program_.chunk_count,
                                           [](uint8_t*, rung_ctx*, uint32_t) -> uint32_t { return RUNG_PC_DONE; });

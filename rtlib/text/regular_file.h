@@ -1,4 +1,4 @@
-// Files that somebody has named, of whatever kind they are: devices and pipes, which would never end or be waited for,
+// Files that a user has named, of whatever kind they are: devices and pipes, which would never end or be waited for,
 // and what is too large are refused.
 #pragma once
 #include <cerrno>

@@ -11,7 +11,7 @@ namespace rung::text {
 namespace {
 
 constexpr size_t kShortWord = 4;
-constexpr size_t kLongest = 32; // nobody misspells longer ones by two characters and looks for help
+constexpr size_t kLongest = 32; // longer names are rarely misspelt by two characters
 
 /// The letters around `at` with no `_` or digit between. Short ones distinguish names: LS_A and LS_AA, LS_AB and
 /// LS_BA.

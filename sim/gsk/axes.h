@@ -31,7 +31,7 @@ private:
 };
 
 // The axes of the simulated CNC: positions in 0.0001 mm (or degrees), reference points, travel limits and the signals
-// of motion. Whoever moves an axis calls `move`; `beginSlot` and `writeSignals` bracket a slot.
+// of motion. Code that moves an axis calls `move`; `beginSlot` and `writeSignals` bracket a slot.
 
 inline constexpr uint32_t kAxes = 8;
 inline constexpr uint32_t kSlotMs = 8;

@@ -73,8 +73,8 @@ public:
   }
 
 protected:
-  // A high-speed request is answered in the scan of the call (man. l.8505). Nobody has prepared this one: scripted, the
-  // function is not provided (inventory §18).
+  // A high-speed request is answered in the scan of the call (man. l.8505). No answer was prepared for this one:
+  // scripted, the function is not provided (inventory §18).
   bool serve(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) override {
     const auto window = windowRequest(instance, request);
     if (!window) return false;

@@ -7,7 +7,8 @@ namespace rung::sim::gsk {
 
 namespace {
 
-// Of a machine nobody has set up. An axis parameter that has no value of its own takes that of the first axis.
+// The tables of a machine that has not been set up. An axis parameter that has no value of its own takes that of the
+// first axis.
 int64_t defaultOf(uint32_t parameter) {
   switch (parameter) {
   case kParamDryRun: return 3000;

@@ -173,7 +173,7 @@ void Channels::releaseWaiting() {
   }
 }
 
-// The RESET key (l.6558), pressed by an event or by whoever writes the signal: then for all channels.
+// The RESET key (l.6558), pressed by an event, or by a write to the signal: then for all channels.
 void Channels::followResetKey() {
   const SignalMemory& signals = links().signals;
   const bool down = signals.get(resetKey_);

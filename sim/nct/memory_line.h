@@ -24,7 +24,7 @@ enum WindowsError : int32_t {
   kWindowsUnreachable = 10051, // not on the loopback
   kWindowsReset = 10054,
   kWindowsTimeout = 10060,
-  kWindowsRefused = 10061,      // nobody listens there
+  kWindowsRefused = 10061,      // no listener
   kWindowsDisconnected = 10101, // the other side has closed the connection
 };
 
@@ -51,7 +51,7 @@ public:
   virtual int32_t connect(Endpoint to, int settleMs) = 0;
   // 0 or an error; nothing: still connecting.
   virtual std::optional<int32_t> connected() = 0;
-  // After `listen`, while nobody is connected: accepts the next client that waits.
+  // After `listen`, while no client is connected: accepts the next client that waits.
   virtual void accept() = 0;
   // Data can be sent and received: UDP, or a stream that this side has not closed.
   virtual bool isOpen() const = 0;
@@ -66,7 +66,7 @@ public:
 };
 
 // A network of two in memory: the control and its device, each with ports of its own. What one sends the other can
-// receive at once, in order. Addresses do not count: there is nobody else.
+// receive at once, in order. Addresses are ignored: there is no other device.
 
 // Bytes that have been sent and not yet received.
 class Inbox {

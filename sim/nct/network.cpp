@@ -8,7 +8,7 @@ namespace rung::sim::nct {
 
 namespace {
 
-constexpr int64_t kConnectUs = 5'000'000; // until a connection that nobody answers has failed
+constexpr int64_t kConnectUs = 5'000'000; // until an unanswered connection has failed
 constexpr int kSettleMs = 100;            // on the virtual clock: the loopback needs no time of the program
 
 } // namespace

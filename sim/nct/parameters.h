@@ -34,7 +34,7 @@ public:
   double real(const ParameterPlace& place, uint32_t index = 0) const {
     return index < place.count_ ? values_[place.first_ + index] : 0;
   }
-  // Another number after each change: whoever keeps something made of parameters makes it anew then.
+  // A new number after each change: what was computed from parameters has to be computed again then.
   uint32_t revision() const { return revision_; }
   // Against Topic::config alone: what a topic finds out while it is configured (the axes that exist).
   void setInitial(uint32_t number, uint32_t index, double value);
@@ -69,7 +69,7 @@ private:
   std::vector<double> values_;
   std::vector<double> initial_;         // as delivered, with the configuration
   uint32_t checksum_ = 0;               // of values_, made anew by every change
-  uint32_t revision_ = 1;               // nobody has seen it at first
+  uint32_t revision_ = 1;               // initially unseen by all users
   std::vector<BitSignal> constantBits_; // N_P00 to N_P77
   WordSignal constantWords_{"N_PDW1"};
   RealSignal constantReals_{"N_PDB1"};

@@ -143,7 +143,7 @@ private:
     return {};
   }
 
-  // Whoever writes AN_PLCA of an axis acknowledges it from then on.
+  // If a program writes AN_PLCA of an axis, it acknowledges from then on.
   void noteWritten(const runtime::Ref& place) const {
     const nc::Signal& acknowledge = *findSignal(nc::nctSignals(), "AN_PLCA");
     const uint32_t first = acknowledge.byteOffset + acknowledge.bit / 8;

@@ -228,7 +228,7 @@ void forCells(const CartridgeShape& shape, uint32_t index, const ToolPattern& p,
         continue;
       if (!shape.matrix)
         visit(static_cast<size_t>((x % width + width) % width)); // the ring
-      else if (x >= 0 && x < width && y >= 0 && y < height)      // room beyond the edge is nobody's
+      else if (x >= 0 && x < width && y >= 0 && y < height)      // room beyond the edge belongs to no tool
         visit(static_cast<size_t>(y * width + x));
     }
 }

@@ -110,7 +110,7 @@ public:
   void keep(Kept& kept) { kept.values(std::span(rows_)); }
 
 private:
-  std::vector<ToolRow> rows_ = std::vector<ToolRow>(1); // row 0 is nobody's
+  std::vector<ToolRow> rows_ = std::vector<ToolRow>(1); // row 0 is not used
 };
 
 // The cartridge management table (man. 6.26.2, l.4443-4497): which tool, by its data number, is in which pot.

@@ -193,7 +193,7 @@ bool Ports::anySwitch(const runtime::Instance& instance) const {
   return false;
 }
 
-// Bits that somebody has changed since they were forced are new.
+// Bits that were changed since they were forced are new.
 void Ports::restore(runtime::Instance& instance, const Family& family, uint32_t number, Port& port) {
   if (!port.active) return;
   const uint8_t now = read(instance, family, number);

@@ -47,7 +47,7 @@ def put(name, value):
 
 @functools.cache
 def period_us():
-    """From one pass of the program to the next."""
+    """From one scan of the program to the next."""
     state = program_state()
     return state["us"] // state["scans"]
 

@@ -80,7 +80,7 @@ class Host:
         return self.ctl("status")
 
     def pass_by(self, count):
-        """Waits for that many passes of the program."""
+        """Waits for that many scans of the program."""
         end = self.status()["scans"] + count
         if not wait_until(lambda: self.status()["scans"] >= end):
             raise AssertionError(f"it does not run: {self.logged()}")

@@ -1141,7 +1141,7 @@ class Watching(Case):
             self.assertIsNone(watch.newest())
             plc.write_all({"SPEED": 2.5, "WORDS": 7})
             plc.scan(3)
-            plc["COUNT"] = 50  # not at the end of a pass
+            plc["COUNT"] = 50  # not at the end of a scan
             sample, values = watch.newest()
             self.assertEqual(values, {"COUNT": 3, "SPEED": 2.5, "WORDS": 7})
             self.assertEqual((sample.pass_, sample.now_us, sample.generation, sample.lost), (3, plc.state().now_us, 0, 0))

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr int64_t kMs = 1'000'000;
 
-// Message 99 at each pass while SHOW is on; MODULE_DONE switches LAMP off.
+// Message 99 at each scan while SHOW is on; MODULE_DONE switches LAMP off.
 constexpr const char* kMessages = R"(DATA
         DFM SHOW,LAMP
 DATA_END

@@ -220,7 +220,7 @@ Outcome runOnClock(const rung_program& program, const std::string& retain) {
     bare.afterSlice();
     bare.guard().exit();
     bare.betweenSlices();
-    clock.setLateness(bare.outcome().slices % 400 == 0 ? 350 * kNsInMs : 0); // passes are left out, too
+    clock.setLateness(bare.outcome().slices % 400 == 0 ? 350 * kNsInMs : 0); // scans are left out, too
     bare.guard().enter();
     return bare.goesOn();
   };

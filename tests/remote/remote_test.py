@@ -113,12 +113,12 @@ class Host(unittest.TestCase):
         return json.loads(self.ctl("status", "--json"))["scans"]
 
     def pass_by(self, count):
-        """Waits for that many passes of the program."""
+        """Waits for that many scans of the program."""
         end = self.passes() + count
         self.wait(lambda: self.passes() >= end)
 
     def trace(self, out, *words):
-        """A trace of names into a file, which sees every pass from the next one on."""
+        """A trace of names into a file, which sees every scan from the next one on."""
         tracing = subprocess.Popen([BIN / "rungctl", "trace", *words, "-o", out], env=self.environment, stdout=subprocess.DEVNULL)
         self.addCleanup(tracing.wait)
         self.addCleanup(tracing.kill)
@@ -555,7 +555,7 @@ class Profile(Host):
         self.wait(lambda: executions() > 200)
         before = self.passes()
         self.assertTrue(self.ctl("profile", "--reset").endswith("the counters start again from 0\n"))
-        self.assertLessEqual(executions(), self.passes() - before)  # one a pass, and none of the 200
+        self.assertLessEqual(executions(), self.passes() - before)  # one a scan, and none of the 200
         self.assertIn(": clear the profile", self.logged())
 
     def test_wrong_words(self):

@@ -5,7 +5,7 @@
 //   rung_replace FOLDER COUNT [--bounds]
 //
 // FOLDER has what rung_replace_programs has built. Prints what the replacements have cost the scan thread in processor
-// time: the call alone, and the pause, which is the call with the first pass of the new program, less a usual pass of
+// time: the call alone, and the pause, which is the call with the first scan of the new program, less a usual scan of
 // that program; the same quantile of both is compared. With --bounds the pause may not be longer than a usual pass, in
 // the median and in 99 %: a ratio, which a slower machine has, too. Processor time is not free of what else the machine
 // does: that empties caches. So there are kTries runs at most, of which one has to keep the bounds. 1: it was none, or
@@ -85,8 +85,8 @@ private:
 struct Figures {
   Times call; // rung_instance_replace
   // By the program that runs:
-  Times first[kPrograms]; // the call and the pass that follows
-  Times usual[kPrograms]; // other passes
+  Times first[kPrograms]; // the call and the scan that follows
+  Times usual[kPrograms]; // other scans
 };
 
 // The running program and its machine, on a thread of their own.
@@ -197,7 +197,7 @@ private:
   Model model_;
   std::mt19937 random_{3};
   uint64_t passes_ = 0;
-  int64_t spentNs_ = 0; // in the pass that runs
+  int64_t spentNs_ = 0; // in the scan that runs
   uint32_t program_ = 0;
   bool replaced_ = false;
   uint32_t next_ = 0; // the number of `handed_`

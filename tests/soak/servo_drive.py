@@ -3,7 +3,7 @@
 
 plan.json: seconds without a change, changes of each program, and the hosts with the program files that they change to.
 With each row goes a mark: 0 nothing, 1 the time without a change, from 2 on each change; seen.json has the
-hosts of these, and how many passes each program has made in the time without a change.
+hosts of these, and how many scans each program has made in the time without a change.
 """
 import json
 import subprocess

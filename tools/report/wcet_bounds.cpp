@@ -435,8 +435,8 @@ Json wayJson(const ir::RoutineWay& way, const Bounds& bounds, const rung_program
 }
 
 Json taskJson(const TaskBound& task, const Bounds& bounds, const rung_program& program) {
-  Json json = {{"name", task.name},          {"period_us", task.periodUs}, {"parts", task.parts},
-               {"part", task.way.part + 1},  {"budget", task.budget},      {"steps", task.steps},
+  Json json = {{"name", task.name},           {"period_us", task.periodUs}, {"parts", task.parts},
+               {"part", task.way.part + 1},   {"budget", task.budget},      {"steps", task.steps},
                {"path_steps", task.way.cost}, {"time_ns", task.ns()}};
   json["instructions"] = task.instructions ? Json(*task.instructions) : Json(nullptr);
   if (!task.instructions) json["no_instructions"] = task.noInstructions;
@@ -454,7 +454,7 @@ Json taskJson(const TaskBound& task, const Bounds& bounds, const rung_program& p
   return json;
 }
 
-// Null where nobody knows: a bound that has each loop once may show that a slice is too long, not that it fits.
+// Null if it is not known: a bound that counts each loop once can show that a slice is too long, but not that it fits.
 Json fitsJson(const runtime::ScanBound& slice) {
   if (slice.loops && slice.fits()) return nullptr;
   return slice.fits();

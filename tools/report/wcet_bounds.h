@@ -50,7 +50,7 @@ struct TaskBound {
   std::optional<uint64_t> instructions; // of the program's code, without those of the host's functions
   std::string noInstructions;           // why there are none
   std::vector<HostCalls> calls;         // most of each function that a run may call
-  double codeNs = 0;                    // without border copies
+  double codeNs = 0;                    // without process-image copies
   std::optional<Seen> seen;
 
   double callsNs() const;
@@ -62,7 +62,7 @@ struct Bounds {
   std::string program;
   std::vector<std::string> routines; // by id
   std::vector<TaskBound> tasks;
-  runtime::ScanBound slice; // the bound of a replacement: of all, border copies included
+  runtime::ScanBound slice; // the bound of a replacement: including process-image copies
   std::string measured;     // by what Seen was measured; "": nothing was
 };
 

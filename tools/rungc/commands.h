@@ -80,7 +80,7 @@ int writeFile(const std::string& text, const std::string& out);
 // To a file, or with "" or "-" to standard output.
 int writeOutput(const std::string& text, const std::string& out = {});
 
-// A sealed program file: on the disk, and nobody but its owner may write to it. Gives the exit status.
+// A sealed program file: on the disk, writable only by its owner. Gives the exit status.
 int writeProgram(const std::string& out, const std::string& file);
 
 void addCheck(CommandLine& app, int& status);

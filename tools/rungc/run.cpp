@@ -386,7 +386,7 @@ std::optional<Program> compileProgram(const RunOptions& options, const SourceOpt
   }
   SourceManager sources;
   compiler::CompileRequest request;
-  request.keepBuilt = options.prompt || !options.scenarioFile.empty(); // whoever may force cells
+  request.keepBuilt = options.prompt || !options.scenarioFile.empty(); // a prompt or a scenario may force cells
   if (options.scenario.periodUs > 0) request.options.config["period_us"] = std::to_string(options.scenario.periodUs);
   Program program;
   program.compiled = compileChecked(sources, source, request, status);

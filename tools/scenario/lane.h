@@ -29,7 +29,7 @@ struct ReplaceReport {
   uint32_t keptCells = 0;
   uint32_t keptStates = 0;
   std::string bound;                         // rung_replacement_info::bound
-  std::vector<runtime::StateChange> changes; // those that nobody has taken out
+  std::vector<runtime::StateChange> changes; // those that no statement has taken
 
   // Takes it out; "" or what is there instead.
   std::string take(const runtime::StateChange& change);
@@ -74,7 +74,7 @@ public:
     takeLog();
     return problem;
   }
-  // Nobody will look: requests are refused, and what the log holds is dropped.
+  // No statement will look at them: requests are refused, and what the log holds is dropped.
   void ignore();
 
 private:

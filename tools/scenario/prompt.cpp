@@ -63,7 +63,7 @@ bool runPrompt(Console& console, Signal& signal, const std::function<void()>& be
 namespace {
 
 constexpr double kQuietSeconds = 2;
-constexpr double kPauseSeconds = 0.1; // more often nobody can read
+constexpr double kPauseSeconds = 0.1; // faster output cannot be read
 constexpr size_t kUsualWidth = 80;
 
 size_t widthOf(int terminal) {

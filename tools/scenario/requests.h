@@ -96,8 +96,7 @@ public:
   // While a task runs: answers a request with what is prepared for it. A request with an operand block is kept back and
   // answered by `take`. False: nothing is prepared.
   bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) override;
-  // A device of TECHNOL that nobody has answered for: what continues at once gets the answer of its table, all else
-  // waits.
+  // A device of TECHNOL without a scripted answer: what continues at once gets the answer of its table, all else waits.
   bool takeUnanswered(runtime::Instance& instance, const core::ServiceRequest& request,
                       core::ServiceReply& reply) override;
   // Who learns what was answered between two scans. It outlives this.
@@ -132,7 +131,7 @@ private:
   sim::SimulatedNc* nc_ = nullptr;
   std::vector<Claimed> claimed_;   // requests with an operand block, answered when the scan is over
   std::vector<Asked> queued_;      // what is in the program's queue, as far as it has bytes
-  std::vector<Asked> waiting_;     // requests that nobody has looked at, oldest first
+  std::vector<Asked> waiting_;     // requests that no statement has looked at, oldest first
   std::vector<Asked> taken_;       // requests that expect_call consumed, oldest first
   std::vector<Prepared> prepared_; // answers that wait for their request
   std::vector<std::pair<uint32_t, std::string>> bytes_; // of answers, by their ticket

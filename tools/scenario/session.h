@@ -81,7 +81,7 @@ public:
   // Why the program stopped; "" when it runs or an expect_fault has named the fault.
   std::string unexpectedFault() const;
 
-  // Nobody will look at requests and at the log: after every scan, requests are refused and the log is dropped.
+  // No statement will look at requests and the log: after every scan, requests are refused and the log is dropped.
   void setUnattended() { unattended_ = true; }
   // On the machine's clock, slice by slice, with the first engine: until the program stops or the interrupt says so.
   runtime::RealTimeStats runRealTime();

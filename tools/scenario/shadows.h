@@ -21,9 +21,9 @@ public:
   // After every scan: the shadow does what that has recorded.
   void work();
 
-  // A difference of this name was seen, and nobody has taken it out; now it is. "" or what is wrong.
+  // Takes a difference of this name that was seen and not taken before. "" or what is wrong.
   std::string expectDifference(const Lanes& lanes, const std::string& name);
-  // "" or what was seen that nobody has taken out, and what has ended the shadow before its time.
+  // "" or the differences that were not taken, and what has ended the shadow before its time.
   std::string expectNone(const Lanes& lanes);
   // What the first engine's shadow has shown since the last call: differences seen for the first time, its end.
   std::vector<std::string> news();

@@ -37,7 +37,7 @@ int64_t signedOf(const Reading& integer);
 
 // "", or why a place that can be written cannot hold the value.
 std::string valueProblem(const runtime::Instance& instance, const runtime::Ref& place, const Value& value);
-// The cell of this name, at this place, with the value, for whoever forces it. The name outlives the result.
+// The cell of this name, at this place, with the value, for a force. The name outlives the result.
 Result<rung_forced_cell> forcedCell(const runtime::Instance& instance, const std::string& name,
                                     const runtime::Ref& place, const Value& value);
 

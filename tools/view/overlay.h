@@ -35,7 +35,7 @@ struct ElementOverlay {
   SourcePlace place;
   bool off = false;    // seen: a contact that passes no power, a coil that is off, a box without power
   bool on = false;     // seen: a contact that passes power, a coil that is on, a box with power
-  bool decided = true; // contacts: one alone decided what its rung does, or nobody asked
+  bool decided = true; // contacts: one alone decided what its rung does, or this was not asked for
   std::string detail;  // to be read at the element
 };
 
@@ -54,7 +54,7 @@ Seen seenOf(const ElementOverlay& element);
 // Which of the colours a rung has, 0 for none, up to kHeatSteps; `hottest` is the most that a rung of its program has.
 inline constexpr int kHeatSteps = 5;
 int heatStep(const Run& run, double hottest);
-// What is written at a rung: its label, or "ran", "never ran"; nothing where nobody asked.
+// What is written at a rung: its label, or "ran", "never ran"; nothing if it was not asked for.
 std::string_view labelOf(const Run& run);
 
 // Fills what the drawing says of runs. Places that it does not have are passed over.

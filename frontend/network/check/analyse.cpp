@@ -285,7 +285,7 @@ void Analysis::resolveJumps() {
   });
 }
 
-// No other level than the main program does: also where nobody calls it.
+// No other level than the main program does: even if it is not called.
 bool Analysis::runsInMainAlone(const Unit& unit) const {
   for (uint32_t level = 0; level < unit.runBy.size(); ++level)
     if (unit.runBy[level] && level != language_.mainLevel()) return false;

@@ -46,7 +46,7 @@ using Effects = std::map<Bit, Effect>;
 
 // A bit of which the walk through a unit keeps track.
 struct State {
-  std::vector<Place> live; // coils whose value nobody has looked at yet
+  std::vector<Place> live; // coils whose value has not been read yet
   Effect effect;
 };
 
@@ -209,7 +209,7 @@ void CoilCheck::coil(const Place& place, bool reads, bool passable) {
     if (!outside && bits_.at(keyOf(step.bit))) state.live.push_back(place);
     return;
   }
-  if (!outside && !bits_.at(keyOf(step.bit))) return; // nobody sees it: a coil only because a function needs one
+  if (!outside && !bits_.at(keyOf(step.bit))) return; // not visible: a coil only because a function needs one
   if (!reads) {
     overwrite(state, place, place.network, false);
     if (!state.effect.certain && !passable && !flow_->canPass(place.network)) state.effect.certain = place;

@@ -226,7 +226,7 @@ void ParameterCheck::noteSibling(DiagBuilder& report, size_t parameters) const {
 
 bool ParameterCheck::check(const std::vector<Word>& words) {
   const auto operands = function_.row->info.operands.all();
-  if (words.size() != operands.size()) { // nobody knows which one is missing
+  if (words.size() != operands.size()) { // it is unknown which one is missing
     DiagBuilder report = context_.diagnostics.report(diag::WrongParameterCount, function_.range);
     report << function_.row->info.mnemonic << operands.size() << words.size();
     std::string names;

@@ -44,7 +44,7 @@ public:
   void step(int64_t ns) noexcept;
   DriveInputs& inputs(uint32_t axis) { return axes_[axis - 1].in; }
   DriveOutputs outputs(uint32_t axis) const;
-  // At the end of a pass: what the program wants until the next.
+  // At the end of a scan: what the program wants until the next.
   void take(const core::Memory& memory, const AxisCells& cells) noexcept;
   // Before MODULE_INPUT.
   void show(const core::Memory& memory, const AxisCells& cells) noexcept;
@@ -72,7 +72,7 @@ private:
 
   struct Axis : DrivenAxis {
     double maxDifference = 0.01;    // of a place that is reached; mm
-    double followingErrorLimit = 0; // mm; 0: nobody looks
+    double followingErrorLimit = 0; // mm; 0: not checked
     bool spindle = false;
     bool begun = false; // a place has come
     DriveInputs in;
@@ -91,7 +91,7 @@ private:
   AxisPermits permits_;
   AxisReport report_;
   AxisMask added_ = 0;
-  AxisMask loops_ = 0;       // VAZBA_x at the end of the last pass
+  AxisMask loops_ = 0;       // VAZBA_x at the end of the last scan
   Masks refused_{}, lost_{}; // since the last POS_INIT that has succeeded
   std::array<AxisMask, kObstacles> refusedReported_{}, lostReported_{};
 };

@@ -122,7 +122,7 @@ public:
   };
 
   void reset() { *this = PositioningUnits(); }
-  // `allowed`: the axis exists, its position loop is closed and nobody else moves it.
+  // `allowed`: the axis exists, its position loop is closed and no other part moves it.
   void init(DrivenAxis& axis, uint32_t number, bool allowed);
   // Distance in µm (1/1000 °), acceleration in mm/s² (l.12224-12238).
   Mode program(const DrivenAxis& axis, uint32_t number, int32_t length, uint16_t acceleration);

@@ -79,7 +79,7 @@ public:
   // Another program has taken over: orders continue with its procedures and its buffers. Those that lack one of them
   // end. Allocates nothing.
   void relocate(const CanPlaces& former, const CanPlaces& now, const runtime::Relocation& relocation) noexcept;
-  // The oldest such order that nobody took, of at most 64; any one thread.
+  // The oldest such order that was not taken, of at most 64; any one thread.
   bool takeEnded(EndedOrder& order) { return ended_.pop(order); }
   void answer(CanRequest order, DeviceCall& call);
   // After the ticks of a scan: what has come goes into the buffers of orders, and their procedures run; else it waits

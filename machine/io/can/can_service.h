@@ -22,8 +22,8 @@ public:
   void adopt(uint32_t channel, int descriptor);
   void configure() { settings_.configure(control_); }
 
-  // ---- whoever ends the host, and reports
-  // The program is over: units get outputs that are 0, drives are disabled, and the interfaces are left.
+  // ---- the end of the host, and reports The program is over: units get outputs that are 0, drives are disabled, and
+  // the interfaces are left.
   void close();
   // Null: the channel does not exist. Counts and state: any thread.
   const SocketCan* port(uint32_t channel) const { return isOpen_[channel - 1] ? &ports_[channel - 1] : nullptr; }
@@ -41,7 +41,7 @@ public:
   void answer(CanRequest order, DeviceCall& call) { calls_.answer(order, call); }
   // Before MODULE_INPUT: what has come is in the cells, and procedures of orders have run.
   void show(runtime::Instance& instance, const CanPlaces& places) noexcept;
-  // At the end of a pass: what the program wants until the next.
+  // At the end of a scan: what the program wants until the next.
   void take(const core::Memory& memory, const CanPlaces& places) noexcept;
   // A program that is stopped has no orders, and its packets are dropped.
   void dropPackets(runtime::Instance& instance, const CanPlaces& places) noexcept;

@@ -67,7 +67,7 @@ struct CanPacket {
   bool operator==(const CanPacket&) const = default;
   bool isObject(uint16_t object) const { return (id & kCanObject) == object; }
   uint8_t node() const { return static_cast<uint8_t>(id & kCanNode); }
-  // The node itself has sent it, not somebody to it.
+  // The node itself has sent the packet; it was not sent to the node.
   bool isFromNode() const {
     const auto object = static_cast<uint16_t>(id & kCanObject);
     constexpr uint16_t kObjects[] = {kEmergency, kTpdo1, kTpdo2, kTpdo3, kTpdo4, kSdoAnswer, kHeartbeat};

@@ -1,7 +1,7 @@
-// The two CAN channels of a control with all that it does itself on them: drives on channel 1, units on channel 2
-// (man. l.3242, l.9210). The buses are ports, simulated or real; without a port a channel is not active.
+// The two CAN channels of a control with all that it does itself on them: drives on channel 1, units on channel 2 (man.
+// l.3242, l.9210). The buses are ports, simulated or real; without a port a channel is not active.
 //
-// A millisecond: transmit; a simulated bus works; receive. Then whoever runs the program takes the packets that have
+// A millisecond: transmit; a simulated bus works; receive. Then the host of the program takes the packets that have
 // come, one by one (takeReceived), and gives them to channel(n).deliver, which says whose procedures are due.
 #pragma once
 #include "machine/io/can/drives.h"

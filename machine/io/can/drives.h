@@ -116,7 +116,7 @@ public:
   void tick(const DriveOrders& orders, DriveStates& states, CanPort& port);
   // A packet has come. True: the control alone was meant.
   bool take(const CanPacket& packet);
-  // The oldest message that nobody took; of more than 16 the newest are lost.
+  // The oldest message that was not taken; of more than 16 the newest are lost.
   bool takeMessage(DriveMessage& message) { return messages_.pop(message); }
 
   // CAN_AX_SEND: fills in what the program leaves open of CAN_AX_SEND_PACKET and sends it (man. l.9480-9493).
@@ -140,7 +140,7 @@ private:
   uint32_t syncPeriod_ = 1, sinceSync_ = 0;
   bool started_ = false;
 
-  uint32_t waitsFor_ = 0; // node, 0: nobody
+  uint32_t waitsFor_ = 0; // node; 0: none
   bool isToSend_ = false;
   CanPacket question_, answer_;
 

@@ -24,7 +24,7 @@ public:
     uint64_t lost = 0;     // received while the program took none
     uint64_t full = 0;     // attempts to send that found the interface's queue full
     uint64_t errors = 0;   // error frames
-    uint64_t timeouts = 0; // of those, ones that report a time-out of the transmission, or that nobody acknowledges it
+    uint64_t timeouts = 0; // of those, ones that report a time-out of the transmission, or a missing acknowledgement
   };
 
   SocketCan() = default;

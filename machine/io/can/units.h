@@ -56,7 +56,7 @@ public:
   bool areStarted() const;
   // A millisecond. Of `states`, `errors` is read, too.
   void tick(const UnitOrders& orders, UnitStates& states, CanPort& port);
-  // The oldest message that nobody took.
+  // The oldest message that was not taken.
   bool takeMessage(UnitMessage& message) { return messages_.pop(message); }
   // A packet has come. True: the control alone was meant, the program does not get it.
   bool take(const CanPacket& packet);

@@ -49,7 +49,7 @@ public:
   void refreshOutputs();
   // Of all inputs, in their order, as clients have written them.
   const std::vector<double>& inputs();
-  // As if nobody had written them, but for those that hold their values.
+  // As if they had not been written, except those that hold their values.
   void resetInputs();
   modbus_mapping_t* tables() noexcept { return tables_.get(); }
 

@@ -79,7 +79,7 @@ void SharedMemory::checkOwner(int file) const {
     refuse("/dev/shm" + name_ + " may be used by others than its user; remove it");
 }
 
-// Whoever has mapped it already stays connected: its sequence continues.
+// Programs that have mapped it already stay connected: its sequence continues.
 void SharedMemory::layOut() {
   header_.outputsSize = static_cast<uint32_t>(outputs_.size());
   header_.inputsAt = header_.outputsAt + header_.outputsSize;

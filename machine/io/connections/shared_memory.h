@@ -1,5 +1,5 @@
 // Shared memory with another program of the same user: docs/mapping-file.md describes what lies in it. It is read and
-// written by calls of the system and not mapped, so that a program that shortens it ends nobody but itself.
+// written by calls of the system and not mapped, so that a program that shortens it ends only itself.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -89,7 +89,7 @@ public:
 
   // The same answer until the ticket is forgotten; of a ticket that is not known, kNoMaster.
   virtual Answer poll(Ticket ticket) const noexcept = 0;
-  // A request that is forgotten before its end is carried out all the same, and nobody asks for its answer.
+  // A request that is forgotten before its end is carried out all the same, and its answer is not read.
   virtual void forget(Ticket ticket) noexcept = 0;
 
   // As it was last seen.

@@ -47,7 +47,7 @@ bool isRobust(const pthread_mutex_t& mutex) {
 }
 
 void repair(pthread_mutex_t& mutex, pthread_mutex_t asLocked) {
-  asLocked.__data.__lock |= kWaiters; // somebody may wait
+  asLocked.__data.__lock |= kWaiters; // a thread may wait
   std::memcpy(&mutex, &asLocked, sizeof mutex);
 }
 #else
@@ -152,7 +152,7 @@ constexpr Head kHead{kMagic,
                      sizeof(pthread_mutex_t),
                      offsetof(Layout, areas)};
 constexpr mode_t kMode = 0600, kOthers = 0077;
-constexpr int kTries = 100; // of a lock that somebody has while the file is made
+constexpr int kTries = 100; // of a lock that is held while the file is created
 constexpr auto kBetweenTries = std::chrono::milliseconds(10);
 
 static_assert(sizeof(Head) == 32 && alignof(pthread_mutex_t) <= sizeof(Head));

@@ -2,10 +2,11 @@
 // the process, or of a file that other programs map as well; a program of theirs finds below what lies there, and uses
 // the mutexes with pthread_mutex_lock.
 //
-// Reading and writing never wait and allocate nothing; of a file, each asks the system once how long it is. An area
-// that somebody has locked is to be asked again. A program that ended while it had locked one loses it. What others
-// write over the head, the mutexes, or the length of the file is an error of reading and writing, and no bytes are
-// moved. No program can be kept from doing that within the microsecond of an access; so the file is the user's alone.
+// Reading and writing never wait and allocate nothing; of a file, each asks the system once how long it is. For an area
+// that another program has locked the instruction has to be repeated. A program that ended while it had locked one
+// loses it. What other programs write over the head, the mutexes, or the length of the file is an error of reading and
+// writing, and no bytes are moved. No program can be kept from doing that within the microsecond of an access; so the
+// file is the user's alone.
 #pragma once
 #include <array>
 #include <atomic>
@@ -63,7 +64,7 @@ public:
 
   // Before the program runs: the areas are those of the file from then on. It is made where there is none, with mode
   // 0600, and holds a shared flock on it as long as the areas live; other programs that map it must hold one as well.
-  // Whoever finds nobody else begins with areas that are 0 and unlocked, else they are as the others have them. "" or
+  // The first program begins with areas that are 0 and unlocked; later ones find them as the others have them. "" or
   // why not ("cannot use FILE: ..."); the areas are then as before.
   std::string mapFile(const std::string& path);
 
@@ -71,12 +72,13 @@ public:
   AreaResult read(uint32_t area, uint32_t offset, std::span<uint8_t> to) noexcept;
   AreaResult write(uint32_t area, uint32_t offset, std::span<const uint8_t> from) noexcept;
 
-  // Somebody holds the mutex, for this object (event SA_LOCK). False: there is no such area.
+  // Another program holds the mutex, for this object (event SA_LOCK). False: there is no such area.
   bool hold(uint32_t area, bool on) noexcept;
-  // A power-up of a simulated control: the areas are 0, and nobody holds them.
+  // A power-up of a simulated control: the areas are 0, and not locked.
   void clear() noexcept;
 
-  // For whoever sets and looks beside the program, whoever holds the mutex: without it. Empty: there is no such area.
+  // For tests, which set and read values beside the program: without the mutex, whichever thread holds it. Empty: there
+  // is no such area.
   std::span<uint8_t> bytes(uint32_t area) noexcept;
 
 private:
@@ -103,7 +105,7 @@ bool isHead(const SharedAreas::Head& head) noexcept;
 // Ours, whatever the version, or one whose making was interrupted.
 bool mayBeMadeAnew(const SharedAreas::Head& head) noexcept;
 
-// `asLocked` is a copy of the mutex from when it was locked. Broken: it was written over since, so that somebody else
+// `asLocked` is a copy of the mutex from when it was locked. Broken: it was written over since, so that another program
 // may have locked it as well; it is then sound again.
 AreaResult unlockArea(pthread_mutex_t& mutex, const pthread_mutex_t& asLocked) noexcept;
 

@@ -3,7 +3,7 @@
 //
 // What the program asks (PLCT_*) is answered without allocating, waiting or throwing: a table has room for its lines
 // and texts from its loading on. One thread at a time uses the tables; where a scan may not wait for files, requests
-// come to the thread of the host that has them, as tickets (l.18671: the instructions take several passes).
+// come to the thread of the host that has them, as tickets (l.18671: the instructions take several scans).
 //
 // Texts and IDs of columns are bytes as in the program's memory (Windows-1250), except where UTF-8 is named.
 #pragma once
@@ -74,7 +74,7 @@ public:
   TableError selectedLine(uint32_t table, uint32_t& line) const noexcept;
   TableError select(uint32_t table, uint32_t line) noexcept;
   // The oldest kind of change first (elements, then the selected line); it is then taken. Several changes of a kind
-  // that nobody asked for are one.
+  // that were not requested are one.
   TableError takeChange(uint32_t table, TableChange& change) noexcept;
   TableError lineCount(uint32_t table, uint32_t& count) const noexcept;
 
@@ -104,7 +104,7 @@ public:
   // Takes the contents of an image, and there are no marks of changes then. False where it is not one, or tables were
   // loaded from other files since: these stay as they are. An empty image changes no contents.
   bool restoreKept(std::span<const uint8_t> image) noexcept;
-  // A power-up: nobody has changed anything yet.
+  // A power-up: nothing has been changed yet.
   void forgetChanges() noexcept;
 
 private:

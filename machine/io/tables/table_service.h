@@ -1,5 +1,5 @@
 // PLC tables in a thread of the host, which has their files, too: what the program asks are tickets that go there by a
-// ring, and answers come back by another (man. l.18671: the instructions take several passes).
+// ring, and answers come back by another (man. l.18671: the instructions take several scans).
 #pragma once
 #include <array>
 #include <atomic>

@@ -148,8 +148,8 @@ enum rung_copy_kind {
   RUNG_COPY_MASKED = 1, /* to := (to and not mask) or (from and mask); mask := 0 */
 };
 
-/* A transfer that the host does at the border of a task's run: input latches, images, register sets. Its pieces do not
- * overlap; each lies in ranges that follow one another in memory, and all of these have one representation. */
+/* A transfer that the host does at the entry or exit of a task's run: input latches, images, register sets. Its pieces
+ * do not overlap; each lies in ranges that follow one another in memory, and all of these have one representation. */
 typedef struct rung_copy {
   uint32_t kind; /* enum rung_copy_kind */
   uint32_t from; /* offsets in the memory block */
@@ -208,7 +208,7 @@ typedef struct rung_task {
   uint32_t read_first; /* in `reads`: what a run may read of spaces, its `begin` copies included */
   uint32_t read_count;
   uint32_t change_first;    /* in `changes`: where all lies that a run may change. When one changes nothing, the next */
-  uint32_t change_count;    /* right after it does not either. 0: nobody promises that, or there is too much of it */
+  uint32_t change_count;    /* right after it does not either. 0: this is not known, or there is too much of it */
   uint32_t loop_free_chunk; /* from it on, outside of calls, control goes in no loops; RUNG_PC_DONE: nowhere */
   uint32_t loop_free_weight; /* of the longest way from there, or from a later chunk */
 } rung_task;

@@ -1,6 +1,6 @@
 // Elementary functions of doubles: square root, power, sine and the rest. They are computed in integers, with 110 bits
 // and more, and rounded once: no library, no optimiser and no machine can make them differ, and all but one in 2^50
-// results are the double nearest to the exact value. Part of sem.hpp, which includes it; nobody else does.
+// results are the double nearest to the exact value. Part of sem.hpp, the only file that includes it.
 //
 // Values in here are fixed-point numbers of 128 bits ("Q1.127": one bit before the point) and Wide, a floating-point
 // number with 128 bits. Helpers that are used in many places are calls: programs carry one copy of each.

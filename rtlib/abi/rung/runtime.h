@@ -135,7 +135,7 @@ typedef struct rung_reply {
 } rung_reply;
 
 enum rung_instance_flags {
-  RUNG_MEASURE = 1,        /* the times of passes are measured: two looks at the clock a slice */
+  RUNG_MEASURE = 1,        /* the times of scans are measured: two looks at the clock a slice */
   RUNG_QUEUE_REQUESTS = 2, /* without a `request` callback: requests wait for rung_instance_next_request */
   RUNG_SAVE_AT_ONCE = 4,   /* what the program asks to be saved is on disk when a call returns, which is not real time
                               then: for hosts whose program runs faster than its clock */
@@ -158,9 +158,9 @@ typedef struct rung_instance_options {
   /* A fault has stopped the program, within a scan or the power-on: what its dialect clears is 0, and so are the bound
    * variables that the program writes. */
   void (*fault)(void* user, rung_instance* instance);
-  /* Of rung_instance_run_due. How many passes run in one call where time was lost; 0: one, the pass that is due. */
+  /* Of rung_instance_run_due. How many scans run in one call where time was lost; 0: one, the scan that is due. */
   uint32_t catch_up;
-  /* After so many passes in a row that begin where others were left out the machine is too slow for the program: the
+  /* After so many scans in a row that begin where others were left out the machine is too slow for the program: the
    * fault "overrun". 0: 500; RUNG_NONE: never. */
   uint32_t most_overruns;
 } rung_instance_options;
@@ -203,7 +203,7 @@ RUNG_API int32_t rung_instance_start(rung_instance* instance);
 /* ---- running --------------------------------------------------------------------------------------------------- */
 
 /* The clock of the host has advanced by `elapsed_ns` (0 to one hour): what is due of the schedule runs now, slice by
- * slice. Where passes are late, `catch_up` of rung_instance_options run; the others are left out, and timers stay
+ * slice. Where scans are late, `catch_up` of rung_instance_options run; the others are left out, and timers stay
  * right. RUNG_FAULTED. [rt] */
 RUNG_API int32_t rung_instance_run_due(rung_instance* instance, int64_t elapsed_ns);
 
@@ -214,7 +214,7 @@ RUNG_API int32_t rung_instance_run_due(rung_instance* instance, int64_t elapsed_
 RUNG_API int32_t rung_instance_run_due_fast(rung_instance* instance, int64_t elapsed_ns);
 
 /* One slice of the schedule: the clock advances to its time, and what belongs there runs (see `due_us` of rung_state).
- * The rest of a pass, whatever the time; the rest of a slot, for dialects that have slots; one run of the fast task by
+ * The rest of a scan, whatever the time; the rest of a slot, for dialects that have slots; one run of the fast task by
  * itself. RUNG_FAULTED. [rt] */
 RUNG_API int32_t rung_instance_slice(rung_instance* instance);
 RUNG_API int32_t rung_instance_scan(rung_instance* instance);
@@ -239,7 +239,7 @@ enum rung_state_flags {
   RUNG_STATE_ON = 1,       /* switched on */
   RUNG_STATE_STOPPED = 2,  /* by rung_instance_stop */
   RUNG_STATE_FAULTED = 4,  /* by a fault */
-  RUNG_STATE_AT_START = 8, /* between two passes of the schedule */
+  RUNG_STATE_AT_START = 8, /* between two scans of the schedule */
   RUNG_STATE_UNSAVED = 16, /* the last try to write retained memory has failed */
 };
 
@@ -251,10 +251,10 @@ typedef struct rung_state {
   int64_t now_us;            /* the program's clock */
   int64_t wait_ns;           /* of rung_instance_run_due: until the next slice is due; 0 or less: it is */
   uint64_t passes;           /* of the schedule, since the power-on */
-  uint64_t missed;           /* passes that rung_instance_run_due has left out */
-  int64_t last_ns;           /* time of the last pass that is over, with RUNG_MEASURE */
+  uint64_t missed;           /* scans that rung_instance_run_due has left out */
+  int64_t last_ns;           /* time of the last scan that is over, with RUNG_MEASURE */
   int64_t worst_ns;          /* the longest since the power-on, with RUNG_MEASURE */
-  uint32_t lost_messages;    /* nobody took them in time */
+  uint32_t lost_messages;    /* dropped, because the host did not take them in time */
   uint32_t refused_requests; /* of services: too many were unanswered */
   uint32_t stray_replies;    /* to tickets that nothing waited for */
   uint32_t program;          /* the number of the one that runs (rung_instance_program) */
@@ -410,8 +410,8 @@ typedef struct rung_variable {
   double scale;       /* of RUNG_HOST_F32 and F64: units of the program in one of the host's; 0: 1 */
 } rung_variable;
 
-/* Binds variables of the host to cells, in addition to those that are bound: from now on they are copied at the borders
- * of slices. An integer that a narrower cell does not hold loses its upper bits; of a wider variable from a cell the
+/* Binds variables of the host to cells, in addition to those that are bound: from now on they are copied before and
+ * after slices. An integer that a narrower cell does not hold loses its upper bits; of a wider variable from a cell the
  * upper ones are its sign, or 0 where the variable has none. A real is rounded to an integer cell and held in its
  * range. All or none; errors as of rung_instance_find. */
 RUNG_API int32_t rung_instance_bind(rung_instance* instance, const rung_variable* variables, uint32_t count);
@@ -426,8 +426,8 @@ typedef struct rung_block {
 
 /* Binds blocks, in addition to those that are bound. Of a block to the program, a run of a task takes the bytes that
  * the task may read, once, where it begins, before its input copies; a task that begins within another one may take the
- * same byte again. What no task of the schedule reads is taken before every slice, for the control and for whoever
- * looks at it. Where a variable is bound to the same cell, the block counts. All or none; errors as of
+ * same byte again. Bytes that no task of the schedule reads are taken before every slice, for the control and
+ * for the host. Where a variable is bound to the same cell, the block counts. All or none; errors as of
  * rung_instance_find, RUNG_OVERWRITTEN for any of its bytes, RUNG_WRONG_TYPE for a constant. */
 RUNG_API int32_t rung_instance_bind_blocks(rung_instance* instance, const rung_block* blocks, uint32_t count);
 
@@ -547,9 +547,9 @@ RUNG_API int32_t rung_instance_group_function(rung_instance* instance, uint32_t 
  * other. RUNG_NOT_FOUND: the dialect has no such handshake. */
 RUNG_API int32_t rung_instance_high_speed_functions(rung_instance* instance, uint32_t channel);
 
-/* Whether somebody carries out what is asked of the CNC; so it is until something else is said. While nobody does, no
- * signal says that an axis of the program is at rest; one that was under way is an alarm of its dialect, and is stopped
- * when somebody is there again. [rt] */
+/* Whether a CNC carries out the requests of the program; initially yes. Without a CNC no signal says that an axis of
+ * the program has stopped; an axis that was moving is an alarm of its dialect, and is stopped when the CNC is there
+ * again. [rt] */
 RUNG_API int32_t rung_instance_serving(rung_instance* instance, int32_t is_served);
 
 /* ---- axes of the program --------------------------------------------------------------------------------------- */
@@ -601,7 +601,7 @@ RUNG_API int32_t rung_instance_clear_profile(rung_instance* instance);
 
 /* ---- watching --------------------------------------------------------------------------------------------------- */
 
-/* Cells that other threads look at while the program runs: their values at the end of a pass, all of one pass. Looking
+/* Cells that other threads look at while the program runs: their values at the end of a scan, all of one scan. Looking
  * does not disturb the scan, which never waits for it. */
 typedef struct rung_watch rung_watch;
 
@@ -612,10 +612,10 @@ typedef struct rung_sample {
   uint32_t generation; /* see rung_state */
   uint64_t pass;       /* of the schedule, since the power-on, from 1; also the one that a fault has ended */
   int64_t now_us;      /* the program's clock */
-  uint64_t lost;       /* passes since the power-on of the watch that rung_watch_next could not keep */
+  uint64_t lost;       /* scans since the power-on of the watch that rung_watch_next could not keep */
 } rung_sample;
 
-/* Watches the first elements of `count` cells, from the end of this pass on. `depth`: how many passes are kept for
+/* Watches the first elements of `count` cells, from the end of this scan on. `depth`: how many scans are kept for
  * rung_watch_next, at most 1000000; 0: none. RUNG_WRONG_TYPE: a text; RUNG_WRONG_STATE: there are RUNG_MOST_WATCHES.
  * Any thread. */
 RUNG_API int32_t rung_watch_new(rung_instance* instance, const rung_cell* cells, uint32_t count, uint32_t depth,
@@ -623,22 +623,22 @@ RUNG_API int32_t rung_watch_new(rung_instance* instance, const rung_cell* cells,
 /* Null is allowed. Any thread; before its instance. */
 RUNG_API int32_t rung_watch_free(rung_watch* watch);
 
-/* The values of the last pass that is over, or of the moment of a fault. RUNG_EMPTY: none has ended since the watch
- * began; RUNG_LATER: the calling thread was interrupted for several passes while it read, several times. A cell that
- * the program no longer has is 0. Any thread, and several at a time; it waits for nobody. [rt] */
+/* The values of the last scan that is over, or of the moment of a fault. RUNG_EMPTY: none has ended since the watch
+ * began; RUNG_LATER: the calling thread was interrupted for several scans while it read, several times. A cell that
+ * the program no longer has is 0. Any thread, and several at a time; it never waits. [rt] */
 RUNG_API int32_t rung_watch_newest(const rung_watch* watch, rung_value* values, rung_sample* sample);
 
-/* The values of every pass, one after the other. RUNG_EMPTY: none waits. Any thread, one at a time. [rt] */
+/* The values of every scan, one after the other. RUNG_EMPTY: none waits. Any thread, one at a time. [rt] */
 RUNG_API int32_t rung_watch_next(rung_watch* watch, rung_value* values, rung_sample* sample);
 
-/* The passes of a watch as a file for wave viewers (value change dump): it takes them in the place of
+/* The scans of a watch as a file for wave viewers (value change dump): it takes them in the place of
  * rung_watch_next. */
 typedef struct rung_trace rung_trace;
 
-/* Begins a file. RUNG_FAILED: it cannot be written; RUNG_BAD_ARGUMENT: the watch keeps no passes. Any thread. */
+/* Begins a file. RUNG_FAILED: it cannot be written; RUNG_BAD_ARGUMENT: the watch keeps no scans. Any thread. */
 RUNG_API int32_t rung_trace_new(rung_watch* watch, const char* path, rung_trace** trace);
-/* Writes all passes that wait; where some were lost, a remark says so. RUNG_EMPTY: none waited; RUNG_FAILED. The thread
- * that takes the watch's passes. */
+/* Writes all scans that wait; where some were lost, a remark says so. RUNG_EMPTY: none waited; RUNG_FAILED. The thread
+ * that takes the watch's scans. */
 RUNG_API int32_t rung_trace_write(rung_trace* trace);
 /* Writes what waits, and ends the file. RUNG_FAILED: it could not be written. Null is allowed. Before its watch. */
 RUNG_API int32_t rung_trace_free(rung_trace* trace);
@@ -726,7 +726,7 @@ RUNG_API int32_t rung_replacement_rung(const rung_replacement* replacement, uint
  * it is prepared anew. Where RUNG_LATER would be given at a fault, the new program stays.
  * RUNG_REFUSED: a slice of the new program may last longer than its period, and the sentence has the figures (see
  * rung_replacement_allow_late). Of jumps that may go in loops each counts once: rung_instance_limit ends them in
- * time. RUNG_LATER: within a pass of the schedule, or a mechanism or a service request waits that the new program does
+ * time. RUNG_LATER: within a scan of the schedule, or a mechanism or a service request waits that the new program does
  * not know; RUNG_WRONG_STATE: it was made for another program than the one that runs. [rt] */
 RUNG_API int32_t rung_instance_replace(rung_instance* instance, rung_replacement* replacement);
 
@@ -740,7 +740,7 @@ typedef struct rung_shadow rung_shadow;
 enum rung_shadow_state {
   RUNG_SHADOW_PREPARED = 0,
   RUNG_SHADOW_RUNNING = 1,
-  RUNG_SHADOW_FINISHED = 2, /* all passes are compared */
+  RUNG_SHADOW_FINISHED = 2, /* all scans are compared */
   RUNG_SHADOW_TOO_SLOW = 3, /* there was no room for a run, or for its more than 32 requests */
   RUNG_SHADOW_STOPPED = 4,  /* by the host, a fault of the instance's program, its power-on or its replacement */
   RUNG_SHADOW_FAULTED = 5,  /* the new program */
@@ -749,7 +749,7 @@ enum rung_shadow_state {
 #define RUNG_MOST_SHADOW_PASSES 1000000u
 #define RUNG_MOST_SHADOW_ROOM 4096u
 
-/* Prepares a shadow for `passes` passes of the schedule, with room for `room` runs of tasks that wait for
+/* Prepares a shadow for `passes` scans of the schedule, with room for `room` runs of tasks that wait for
  * rung_shadow_work: its time. Each takes the instance's memory block twice. Any thread: the instance may be scanned by
  * its own meanwhile, but must not be freed. RUNG_REFUSED: of another dialect or schedule. */
 RUNG_API int32_t rung_shadow_new(rung_instance* instance, rung_image* image, uint32_t passes, uint32_t room,
@@ -795,8 +795,8 @@ RUNG_API int32_t rung_shadow_difference(const rung_shadow* shadow, uint32_t inde
 
 /* ---- forcing ----------------------------------------------------------------------------------------------------- */
 
-/* Cells that a person holds at a value: whoever reads one within a scan reads that value, also after a rung has written
- * it. A set is prepared, and then put in effect as a whole; one set is in effect at a time. */
+/* Cells that a person holds at a value: every reader within a scan gets that value, even after a rung has written the
+ * cell. A set is prepared, and then put in effect as a whole; one set is in effect at a time. */
 typedef struct rung_forces rung_forces;
 
 typedef struct rung_forced_cell {

@@ -125,7 +125,7 @@ public:
 
   // Looks up where the control reads and writes in a program of its dialect. Any thread, but not in real time.
   virtual std::unique_ptr<Places> locate(const rung_program& program) const { return (void)program, nullptr; }
-  // Another program has taken over, between two passes: `places`, of that program, are what the control uses from now
+  // Another program has taken over, between two scans: `places`, of that program, are what the control uses from now
   // on; it gets those of the former one. Allocates nothing.
   void exchangePlaces(runtime::Instance& instance, std::unique_ptr<Places>& places) noexcept;
   // The same for a host that has not looked them up beforehand.
@@ -139,8 +139,8 @@ public:
   // No CNC is there to answer: see refuse.h.
   bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) override;
 
-  // The place that a name of the program or of the NC's interface refers to for somebody who reads it, and for the NC
-  // or the machine that writes it. Nothing when the name is unknown.
+  // The place that a name of the program or of the NC's interface refers to for a reader, and for the NC or the machine
+  // that writes it. Nothing when the name is unknown.
   virtual std::optional<runtime::Ref> readPlace(const rung_program& program, std::string_view name) const;
   virtual std::optional<runtime::Ref> writePlace(const rung_program& program, std::string_view name) const {
     return readPlace(program, name);
@@ -167,7 +167,7 @@ public:
     return (void)instance, these.empty();
   }
   // For programs whose messages are bits: the next one that has come or gone since the last call, in `message`. False:
-  // there is none. Between two passes; allocates nothing.
+  // there is none. Between two scans; allocates nothing.
   virtual bool nextChange(const runtime::Instance& instance, rung_message& message) noexcept {
     return (void)instance, (void)message, false;
   }
@@ -193,7 +193,7 @@ public:
   // The program commands this axis by the signals of a group, from now on, and the host's CNC moves it; both count from
   // 0. False: the dialect has no such axis or group.
   virtual bool setAxisGroup(uint32_t axis, uint32_t group) { return (void)axis, (void)group, false; }
-  // Whether somebody carries out what is asked of the CNC; so it is until something else is said.
+  // Whether a CNC carries out the program's requests; initially yes.
   virtual void setServed(bool served) { (void)served; }
   // The service of requests that the control itself makes for the program, outside of its tasks: its number, which no
   // program has, and its text as rung_program::services has it.
@@ -223,7 +223,7 @@ private:
   std::unique_ptr<Places> places_;
 };
 
-// By rung_program::dialect; a plain control for a dialect that has none of its own.
+// By rung_program::dialect; a plain control for a dialect without one.
 std::unique_ptr<Control> makeControl(std::string_view dialect);
 
 // The retained memory of a program on disk, as its control wants it: what every host does that is given a file for it.

@@ -60,7 +60,7 @@ std::string addressBy(const NameGrammar& grammar, const rung_program& program, c
 
 } // namespace
 
-// ---- grammar of a dialect that has none of its own ---------------------------------------------------------------
+// ---- grammar of a dialect without one of its own ----------------------------------------------------------------
 
 const rung_symbol* NameGrammar::symbol(const rung_program& program, std::string_view name) const {
   return runtime::findSymbol(program, name);

@@ -1,5 +1,5 @@
 // How a TECHNOL program asks the devices of its control (man. ch. 9, 11-13, 17-19, 23, 26): a service a mnemonic, whose
-// arguments are the operands that the instruction reads. The compiler writes the request, the control and whoever
+// arguments are the operands that the instruction reads. The compiler writes the request, the control and the code that
 // answers for a device read it, scenarios name it.
 //
 // A service that waits is polled in every run of the instruction until it is answered; all others are answered when
@@ -25,7 +25,7 @@ struct DeviceService {
   bool waits = false;
   // Answered later, though the program continues at once: by cells of the interface (man. l.7964, l.9491).
   bool lasts = false;
-  // The first results of one that nobody answers: while a scenario writes down what is asked, and where there is no
+  // The first results of a request without an answer: while a scenario writes down what is asked, and where there is no
   // such device.
   int64_t unanswered[2] = {};
   int64_t refused[2] = {};

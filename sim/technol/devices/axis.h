@@ -148,7 +148,7 @@ struct Complaint {
   }
 };
 
-// Those that nobody has fetched yet; the newest are lost when there are too many.
+// Messages that have not been fetched yet; the newest are lost when there are too many.
 class Complaints {
 public:
   void add(const Complaint& complaint) {

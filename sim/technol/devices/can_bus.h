@@ -117,7 +117,7 @@ public:
   UnitWires* wires(uint32_t group, uint32_t board);
   const io::Inouts* inouts(uint32_t group, uint32_t board) const { return control_.units().find(group, board); }
   const SimulatedUnit* unit(uint32_t group, uint32_t board) const;
-  // An object of a drive; nothing: it has none of these numbers.
+  // An object of a drive; nothing: it has no object of these numbers.
   std::optional<uint32_t> driveObject(uint32_t drive, uint32_t index, uint32_t subindex) const;
   uint32_t drives() const { return control_.drives().count(); }
 

@@ -150,7 +150,7 @@ void SimulatedUnit::receive(const CanPacket& packet, NodePackets& answers) {
   }
 }
 
-// Bytes of RPDO1 go where they are mapped; a display that nobody has mapped shows nothing.
+// Bytes of RPDO1 go where they are mapped; a display that is not mapped shows nothing.
 void SimulatedUnit::takeOver() {
   for (uint32_t i = 0; i < kPdoFields; ++i) {
     const sdo::Object field = rpdo_[i];

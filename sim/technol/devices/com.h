@@ -14,7 +14,7 @@ namespace rung::sim::technol {
 // One port's line.
 class ComLine {
 public:
-  static constexpr uint32_t kSentBytes = 65536; // that have left, until somebody has seen them
+  static constexpr uint32_t kSentBytes = 65536; // sent bytes that have not been checked
 
   explicit ComLine(io::com::Port& port) : port_(port) {}
 

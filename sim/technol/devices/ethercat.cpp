@@ -13,7 +13,7 @@ using Kind = EthercatRequest::Kind;
 
 namespace {
 
-// A request that nobody answers: it waits, then it has failed.
+// A request without an answer: it waits, then it has failed.
 std::optional<uint32_t> timeOut(const EthercatRequest& request) {
   return request.ageMs < EtherCat::kTimeoutMs ? std::nullopt : std::optional<uint32_t>(kTimedOut);
 }

@@ -344,7 +344,7 @@ void EthercatImage::powerOn() {
   }
 }
 
-// An output that nobody has written leaves its object as the mailbox or the configuration has set it.
+// An output that was never written leaves its object as the mailbox or the configuration has set it.
 void EthercatImage::putOutputs() {
   for (uint32_t i = 0; i < count(); ++i)
     if (entries_[i].isWritten && isExchanged(i)) slaves_.objectAt(entries_[i].object).value = entries_[i].value;

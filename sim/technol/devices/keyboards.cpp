@@ -136,7 +136,7 @@ void HandwheelDisplay::clear() {
 }
 
 void HandwheelDisplay::show(std::span<const uint8_t, 8> order) {
-  if (std::equal(order.begin(), order.end(), last_.begin())) return; // nobody else writes there
+  if (std::equal(order.begin(), order.end(), last_.begin())) return; // only this code writes there
   std::copy(order.begin(), order.end(), last_.begin());
   const uint8_t size = order[6];
   if (size >= kSizes) return;

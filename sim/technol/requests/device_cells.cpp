@@ -75,7 +75,7 @@ std::optional<NcCell> panelCell(const AxisOutputs& out, std::string_view name) {
   return NcCell{.width = 8, .bits = out.knobSelected[*axis]};
 }
 
-// What panels show of SHIFT and the handwheel: cells of the program (l.10940-10944), as the last pass has left them.
+// What panels show of SHIFT and the handwheel: cells of the program (l.10940-10944), as the last scan has left them.
 std::optional<NcCell> shownCell(const AxisInputs& in, const AxisRequests& requests, std::string_view name) {
   if (text::equalsIgnoringCase(name, "ReqShift")) return NcCell{.width = 1, .bits = requests.shiftSelected ? 1u : 0u};
   if (text::equalsIgnoringCase(name, "ActShift")) return NcCell{.width = 1, .bits = requests.shiftActive ? 1u : 0u};

@@ -202,7 +202,7 @@ void SimulatedDevices::blockStarted(runtime::Instance& instance) {
 void SimulatedDevices::beforeInput(runtime::Instance& instance, ModuleCells& cells) {
   if (!simulated_) return canCalls_.deliver(instance, canPlaces_);
   pass(instance, cells, static_cast<int64_t>(runtime::scanPeriodUs(instance.program())));
-  devicesUs_ = std::max(devicesUs_, instance.nowUs()); // passes may be left out on a real clock
+  devicesUs_ = std::max(devicesUs_, instance.nowUs()); // scans may be left out on a real clock
 }
 
 void SimulatedDevices::idle(runtime::Instance& instance, ModuleCells& cells) {

@@ -51,11 +51,11 @@ public:
   void fault(runtime::Instance& instance);
   // A block of the part program has begun, whose motion PO_OSxPI says.
   void blockStarted(runtime::Instance& instance);
-  // The hook before MODULE_INPUT: the devices do what they do in one pass.
+  // The hook before MODULE_INPUT: the devices do what they do in one scan.
   void beforeInput(runtime::Instance& instance, ModuleCells& cells);
   // The program does not run; the devices do, up to the time of now.
   void idle(runtime::Instance& instance, ModuleCells& cells);
-  // False: nobody here answers.
+  // False: no simulated device answers.
   bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply);
   // Lines for the log since the last call.
   void takeLog(std::vector<std::string>& log);
@@ -73,8 +73,8 @@ public:
   std::optional<std::string> writeCell(std::string_view name, const NcCell& value);
   std::string cellProblem(std::string_view name) const;
   bool cellMayCome(std::string_view name) const;
-  // What has left a port, COM[n] or CAN[n], and nobody has seen: it is taken where it is as the keys say. "" or what is
-  // wrong.
+  // What has left a port, COM[n] or CAN[n], and has not been checked: it is compared where it is as the keys say. "" or
+  // what is wrong.
   std::string expectSent(std::string_view port, std::span<const NcArgument> keys);
 
   // The tables, as the control stores them (SimulatedNc::keptSize).

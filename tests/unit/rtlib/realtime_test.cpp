@@ -84,7 +84,7 @@ TEST_F(RealTimeTest, PassesThatAreTooLateAreCountedAndTheClockIsRight) {
   EXPECT_EQ(clock.ns(), 1126 * kMs);
 }
 
-// Whole passes only: what a pass has begun it ends.
+// Whole scans only: what a scan has begun it ends.
 TEST_F(RealTimeTest, NoPassIsLeftHalfDone) {
   test.scan = {{RUNG_STEP_ADVANCE, RUNG_NONE, 2000},
                {RUNG_STEP_RUN, 0, 1},
@@ -95,7 +95,7 @@ TEST_F(RealTimeTest, NoPassIsLeftHalfDone) {
   FakeClock clock;
   int slices = 0;
   const RealTimeStats stats = runRealTime(instance, slice(instance), [&] {
-    if (++slices == 1) clock.advance(100 * kMs); // at 102 ms: the second slice is 97 ms late, the next pass 95 ms
+    if (++slices == 1) clock.advance(100 * kMs); // at 102 ms: the second slice is 97 ms late, the next scan 95 ms
     return slices < 2 + 2 * 11;
   });
   EXPECT_EQ(stats.missed, 19u);

@@ -507,7 +507,7 @@ TEST_F(RunnerTest, SlicesOfTheirOwnList) {
   EXPECT_EQ(takeTrace(), (Trace{0, 0, 1}));
   EXPECT_EQ(runner->nowUs(), 4000);
   runner->slice();
-  runner->scan(); // what is left of the pass
+  runner->scan(); // what is left of the scan
   EXPECT_EQ(takeTrace(), (Trace{0, 1, 0}));
   EXPECT_TRUE(runner->atListStart());
   EXPECT_EQ(runner->nowUs(), 6000);
@@ -577,7 +577,7 @@ TEST_F(RunnerTest, HooksThatHaveWork) {
   EXPECT_EQ(callsOfRest(0b11), (Calls{0, 1, 0, 1}));
   EXPECT_EQ(takeTrace(), (Trace{0, 0, 0, 0, 0, 0, 0, 0}));
   EXPECT_EQ(runner->nowUs(), 80);
-  // Within a pass work that is gone is left out at once, and what is new waits for the next one.
+  // Within a scan work that is gone is left out at once, and what is new waits for the next one.
   runner->slot();
   EXPECT_FALSE(runner->atListStart());
   EXPECT_EQ(std::exchange(called, {}), (Calls{0, 1, 0}));

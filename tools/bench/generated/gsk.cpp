@@ -12,7 +12,7 @@ constexpr uint32_t kFirstX = 9, kFirstF = 64;
 constexpr uint32_t kRelayBytes = 1000;          // R; the control's own are after them
 constexpr uint32_t kSignalBytes = 200;          // G, F
 constexpr uint32_t kFixedTimers = 200;          // numbers of TMRB
-constexpr uint32_t kZero = 8 * kRelayBytes - 1; // a relay that nobody writes
+constexpr uint32_t kZero = 8 * kRelayBytes - 1; // a relay that is never written
 // D: words, tables, what indexed transfers and counters need.
 constexpr uint32_t kDataBytes = 1860;
 constexpr uint32_t kTableBytes = 1040;

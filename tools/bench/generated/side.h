@@ -31,7 +31,7 @@ public:
   virtual Values values() const = 0;
 };
 
-// Ours: a whole pass of the schedule, without a control. All places are found when it is made.
+// Ours: a whole scan, without a control. All places are found when it is made.
 class Ours final : public Side {
 public:
   // Fails where the program lacks one of the places.

@@ -1,7 +1,8 @@
-// The straight-line form of a work: the C++ that somebody would write by hand for it.
+// The straight-line form of a work: the C++ that a programmer would write by hand for it.
 //
 // FROZEN: published figures are ratios to what this makes. It is only changed where it is wrong, and never so that it
-// becomes slower or ours looks better; whoever changes it measures all figures anew and says so.
+// becomes slower or ours looks better; after a change of it all figures have to be measured again, which the change has
+// to say.
 #pragma once
 #include <cstdint>
 #include <string>

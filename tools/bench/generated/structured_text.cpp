@@ -1,4 +1,4 @@
-// One statement an element (see structured_text.h), each as somebody would write it by hand.
+// One statement an element (see structured_text.h), each as a programmer would write it by hand.
 #include "tools/bench/generated/structured_text.h"
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // What a generated program does, without a dialect: a list of elements over numbered bits, words and reals. Each
-// dialect writes it in its own language (form.h), and straight.h as the C++ that somebody would write by hand.
+// dialect writes it in its own language (form.h), and straight.h as the C++ that a programmer would write by hand.
 #pragma once
 #include <cstdint>
 #include <optional>

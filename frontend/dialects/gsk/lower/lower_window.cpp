@@ -33,8 +33,9 @@ private:
   ValueId word(uint32_t offset) { return f_.load(Type::I16, at(offset)); }
   ir::SlotId ticket() { return f_.slot("ticket", Type::I32); }
   ir::SlotId length() { return f_.slot("length", Type::I16); }
-  // One for all low-speed functions of the program. The one that has taken it has a state that is not idle: whoever
-  // replaces the program knows from its key what an instruction that is gone has held (rtlib/change/state_transfer.h).
+  // One for all low-speed functions of the program. The instruction that has taken it has a state that is not idle: a
+  // replacement of the program knows from its key what an instruction that is gone has held
+  // (rtlib/change/state_transfer.h).
   static constexpr const char* kLock = "@window/lock";
   ir::SlotId lock() { return f_.shared(kLock, Type::Bit); }
   ir::SlotId state() { return f_.slot(std::string("state") + kLock, Type::I8); }
@@ -173,7 +174,7 @@ Step WindowLowering::awaited() {
   return {finished, finished, endOf(asked), b_.serviceResult(asked, 1), b_.slotLoad(length())};
 }
 
-// Nobody waits for the answer: it is thrown away, and the lock is free when it has come.
+// No network waits for the answer: it is discarded, and releases the lock when it arrives.
 Step WindowLowering::unwanted() {
   const ValueId there = frontend::isAnswered(b_, b_.slotLoad(ticket()));
   setState(kAbandoned);

@@ -137,7 +137,7 @@ private:
 
   // After the last byte of the NC area that is in two memories: the words of signals, which the NC reads and writes,
   // what a rung names beyond them, and what it may reach by `!`. A word that is only reached by an index in the
-  // synchronised memory, and that the NC does not know, is in one memory: nobody sees a difference.
+  // synchronised memory, and that the NC does not know, is in one memory: the difference is not visible.
   uint32_t findSynchronisedEnd() const {
     const uint32_t nvram = config_.plcNvram * 4;
     uint32_t end = nc::areaBytes(nc::nctSignals(), "M");
@@ -170,7 +170,7 @@ private:
                   .end = {},
                   .borders = {}};
     synchronisedEnd_ = findSynchronisedEnd();
-    // What INT0 wrote without `!` since the last cycle must outlive the synchronisation; nobody reads the time-slice
+    // What INT0 wrote without `!` since the last cycle must outlive the synchronisation; no code reads the time-slice
     // memory between here and the end of the run.
     task.begin = toTimeSlice(int0.written);
     // All but FLAGS; word 0001 of the time-slice memory is always 0, so what was written there is gone.

@@ -35,8 +35,8 @@ private:
 
 // Time as the runs of a task see it.
 struct RunTime {
-  // i32, written where a run begins: the milliseconds since the run before. Invalid: nobody asks for it, or the runs
-  // are not whole milliseconds apart, so that each timer has its own rest.
+  // i32, written where a run begins: the milliseconds since the run before. Invalid: no timer needs it, or the runs are
+  // not whole milliseconds apart, so that each timer has its own rest.
   ir::SlotId passedMs;
 };
 

@@ -101,7 +101,7 @@ ValueId ArrayServiceLowering::run() {
   return b_.choose(b_.or_(enable, b_.ne(state, is(kIdle))), work, [&] { return b_.bit(false); });
 }
 
-// The state when an answer that nobody waits for has been dropped.
+// The state after an unwanted answer has been dropped.
 ValueId ArrayServiceLowering::freed(ValueId enable, ValueId state) {
   const ValueId given = b_.and_(b_.eq(state, is(kPending)), b_.not_(enable));
   return b_.choose(

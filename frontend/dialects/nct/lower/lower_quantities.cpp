@@ -38,7 +38,7 @@ public:
   // `ask` gives a ticket, `take` gets it when its answer is there. Gives the output.
   template <class Ask, class Take>
   ValueId run(Ask ask, Take take);
-  // EN is FALSE, or an operand is not valid. An answer that is still to come is nobody's.
+  // EN is FALSE, or an operand is not valid. A pending answer is dropped.
   void forget() {
     for (SlotId slot : {waiting_, settled_, shown_}) b_.slotStore(slot, b_.bit(false));
   }

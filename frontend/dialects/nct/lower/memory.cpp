@@ -100,7 +100,7 @@ bool Memory::masked(const Place& place) const {
   return place.word >= config_.firstOutput && place.word < config_.plcNvram;
 }
 
-// For masks of computed places: the index is the word's own number. Bits of inputs are set there, and nobody reads
+// For masks of computed places: the index is the word's own number. Bits of inputs are set there, and no code reads
 // them.
 ir::Window Memory::maskWindow(const Place& place) {
   if (place.window.count == 1)

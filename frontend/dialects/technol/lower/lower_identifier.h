@@ -13,7 +13,7 @@ namespace rung::frontend::technol {
 std::vector<ir::ValueId> identifierWords(Memory& memory, const Operand& id, uint32_t words);
 // Makes a variable known to the control; `head` are the arguments before the identifier. A ticket.
 ir::ValueId defineRequest(Memory& memory, std::span<const ir::ValueId> head, const Operand& id);
-// Whether a result is not 0; 0 where nobody answers.
+// Whether a result is not 0; 0 if there is no answer.
 ir::ValueId answersYes(ir::RungBuilder& b, ir::ValueId ticket, uint32_t result);
 
 } // namespace rung::frontend::technol

@@ -80,7 +80,7 @@ void lowerToSpindle(Lowering& l, std::span<const Operand> o, int) {
   storeOutput(l.b(), request);
 }
 
-// POLOHV_x is 1 until the axis has been positioned; 0 written there ends it (man. l.7964-7973). Where nobody positions
+// POLOHV_x is 1 until the axis has been positioned; 0 written there ends it (man. l.7964-7973). If no device positions
 // axes it stays 0, so that no program waits for ever.
 void lowerToAxis(Lowering& l, std::span<const Operand> o, int) {
   ir::RungBuilder& b = l.b();

@@ -8,7 +8,7 @@ namespace rung::frontend::technol {
 
 class Marking {
 public:
-  // `marks` may be null: nobody asks.
+  // `marks` may be null: not wanted.
   Marking(const SourceProgram& program, Emitter& emitter, ir::Marks* marks)
       : program_(program), emitter_(emitter), marks_(marks) {}
 

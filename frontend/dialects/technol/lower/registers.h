@@ -1,6 +1,6 @@
 // The registers RLO, DR, DR_REAL, BX and the stack inside one rung: values of the rung, read from their slots when
 // first needed and written back at the rung's end if they changed. DR is kept in pieces: an operation on w bits
-// replaces only the low part (man. l.1034), and the 64 bits are put together when somebody wants them.
+// replaces only the low part (man. l.1034), and the 64 bits are put together when they are needed.
 //
 // No function here may be called inside an open region of the builder: values made there do not outlive it.
 #pragma once

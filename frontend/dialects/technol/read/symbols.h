@@ -72,7 +72,7 @@ public:
   uint32_t require(const Token& name, uint32_t file);
   // A bit name that may only follow an address.
   uint32_t findWeight(std::string_view name, uint32_t file);
-  // A member of an interface structure; kNone when it has none of this name.
+  // A member of an interface structure; kNone if it has no member of this name.
   uint32_t findMember(const char* structure, std::string_view member);
   void noteUndefined(const Token& name, uint32_t file, NameHint hint) {
     noteUndeclared({{name.text, name.range()}, file, hint});

@@ -15,7 +15,7 @@ public:
   bool any() const { return served_ != 0; }
   // Whatever the axes do is nothing that the program has ordered.
   void powerOn();
-  // A slot, before the program. `served`: somebody carries commands out.
+  // A slot, before the program. `served`: a CNC carries out the commands.
   void step(const gsk::SignalsIo& io, core::ServiceQueue& services, bool served);
 
   std::optional<uint32_t> groupOf(uint32_t axis) const override { return axes_[axis].group; }
@@ -41,7 +41,7 @@ private:
   std::array<Axis, GskAxisGroups::kAxes> axes_;
   uint8_t served_ = 0;  // groups that have an axis
   uint8_t given_ = 0;   // axes that have a group
-  uint8_t unknown_ = 0; // axes that may move from before the power-on, or while nobody was there
+  uint8_t unknown_ = 0; // axes that may move from before the power-on, or while no CNC was there
   uint8_t lost_ = 0;    // of these, those that the program had moved
   bool isServed_ = true;
   const gsk::SignalsIo* io_ = nullptr; // of the slot; so is the next

@@ -1,6 +1,6 @@
 // PLC axis control (man. §9.2, l.7566-8289): the groups A-H take blocks from G by EBUF and EBSY, buffer them, carry
 // them out in their order and answer in F. Dwells and the handshake of auxiliary functions are done here; axes are
-// moved by whoever is the CNC beside the program, a simulated one and a host's alike.
+// moved by the CNC beside the program, a simulated one or the host's.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -26,7 +26,7 @@ public:
   struct Motion {
     bool moving = false;
     bool stopping = false; // by `stop`: nothing can begin
-    bool unknown = false;  // nobody says what the axis does: it is not at rest
+    bool unknown = false;  // no report of what the axis does: it does not count as stopped
     bool lost = false;     // it was under way then
     bool overPositive = false, overNegative = false;
   };

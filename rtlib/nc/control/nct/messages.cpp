@@ -177,7 +177,7 @@ bool Messages::cancel(uint32_t code) {
   return true;
 }
 
-// N_CLRMSG is 1 for the one cycle after a button; set by somebody else it clears the message on top with its rising
+// N_CLRMSG is 1 for the one cycle after a button; set by another writer it clears the message on top with its rising
 // edge.
 void Messages::press(const SignalWord& common, bool inCycle) {
   const bool pressed = common.get(clear_);

@@ -53,7 +53,7 @@ public:
   // in the program's queue.
   enum class Slice : uint8_t { Alone, First, Further }; // in no PLC cycle; its first one; another one
   void timeSlice(const SignalMemory& signals, SignalWord& common, Slice slice, uint32_t lost);
-  // After a PLC cycle; the first time slice of the next one makes up for it where nobody called.
+  // After a PLC cycle; the first time slice of the next one makes up for it if this was not called.
   void endCycle();
 
   std::vector<ShownMessage> shown(const rung_program& program) const;

@@ -43,7 +43,7 @@ std::unique_ptr<Places> NctControl::locate(const rung_program& program) const {
   return std::make_unique<NctPlaces>(program);
 }
 
-// Between two passes, so the next time slice is the first of a cycle.
+// Between two scans, so the next time slice is the first of a cycle.
 void NctControl::usePlaces(runtime::Instance& instance, Places& places) noexcept {
   auto& of = static_cast<NctPlaces&>(places);
   ts_ = nct::SignalMemory(instance, of.timeSlice);

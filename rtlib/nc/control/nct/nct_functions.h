@@ -40,8 +40,8 @@ public:
 
   // A machine hands functions over as they come. A line is free when its acknowledge is 1: after an abort the program
   // may still be busy with the function that was on it. M codes begin in their order, one a PLC cycle. S and T leave
-  // the spindle (CN_SSEL), its range (CN_RNGREQ) and the place of the tool to whoever knows them; spindle 1 and range
-  // 11 where those say nothing.
+  // the spindle (CN_SSEL), its range (CN_RNGREQ) and the place of the tool to the part that knows them; spindle 1 and
+  // range 11 where those say nothing.
   bool supports(FunctionKind kind, uint32_t) const override { return kind <= FunctionKind::B; }
   std::optional<uint32_t> start(FunctionKind kind, uint32_t code) override;
   void step() override;

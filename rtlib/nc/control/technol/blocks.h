@@ -63,7 +63,7 @@ public:
   // Central annulment: the block under way is given up where it is, and a block in that mode, without motion, follows
   // (man. l.6748-6761, 10826). Programs that hold a block wait for it (l.5180-5183, 6444-6447). A stop ends with it.
   void annul(runtime::Instance& instance);
-  // One pass, between MODULE_INPUT and MODULE_MAIN; where nothing waits the modules follow each other in it.
+  // One scan, between MODULE_INPUT and MODULE_MAIN; where nothing waits the modules follow each other in it.
   void supervise(runtime::Instance& instance);
 
 private:

@@ -55,7 +55,7 @@ void Operation::send(runtime::Instance& instance, PlcEvent event) const {
 }
 
 // STOPPI is the program's to take back; the control resets the others (l.6402-6414, 11022-11030), which the host sees
-// for a pass.
+// for a scan.
 void Operation::takeRequests(runtime::Instance& instance) {
   const core::Memory memory = instance.memory();
   const bool key = get(instance, places_->stop);

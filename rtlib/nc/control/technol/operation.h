@@ -26,7 +26,7 @@ public:
   // Where one program has the cells.
   class Places {
   public:
-    Places() = default; // a program that has none of them
+    Places() = default; // a program without these cells
     explicit Places(const rung_program& program);
 
   private:
@@ -51,7 +51,7 @@ public:
   // Those of the program that runs now, which outlive their use.
   void use(const Places& places) { places_ = &places; }
 
-  // Before a pass, when the host has written its signals.
+  // Before a scan, when the host has written its signals.
   void beforePass(runtime::Instance& instance);
   // After a slice, for a host that has called beforePass.
   void afterSlice(runtime::Instance& instance) const;

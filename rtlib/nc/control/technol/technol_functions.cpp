@@ -135,7 +135,7 @@ std::optional<uint32_t> TechnolFunctions::press(uint32_t code) {
   return kKeyLine;
 }
 
-// Between two passes.
+// Between two scans.
 void TechnolFunctions::step() {
   if (key_ == Key::None || !instance_->atListStart()) return;
   const auto code = static_cast<uint64_t>(static_cast<int64_t>(static_cast<int32_t>(keyCode_)));

@@ -2,7 +2,7 @@
 // code and its change bit into the command block (man. l.6682-6968, 6978-7136) and sends the block through
 // MODULE_BLOCK_INIT and MODULE_BLOCK_DONE (blocks.h); the function is finished when the block is. Blocks follow each
 // other, so functions do (l.2682-2711). Reset and emergency stop are the central annulment (Blocks::annul).
-// A key is a PLCCommand of the control's configuration: _ON_CMD learns that it is pressed, and in the next pass that it
+// A key is a PLCCommand of the control's configuration: _ON_CMD learns that it is pressed, and in the next scan that it
 // is released (l.1614-1624).
 #pragma once
 #include <array>
@@ -30,7 +30,7 @@ public:
   // Where one program has the cells.
   class Places {
   public:
-    Places() = default; // a program that has none of them
+    Places() = default; // a program without these cells
     explicit Places(const rung_program& program);
 
   private:

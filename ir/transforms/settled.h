@@ -1,11 +1,12 @@
 // Which rungs a pass need not look at again, as it would leave them as they are. A pass of single rungs goes over the
 // others, and says of each what holds then:
 //
-// fold, reuse What changed a rung may have made more to do, for all passes. Reuse itself is done, but where it took a
-// store out of a loop: a loop that writes nothing hides nothing that was read before it. dead Done. It removes what is
-// not used, except stores: no operand and no value that is there already. transient It takes stores away: folding asks
-// for none. Their operands may be unused now, and loops without them may write nothing. guard A rung that gets paths of
-// its own is a new one.
+//   fold, reuse   What changed a rung may have made more to do, for all passes. Reuse itself is done, but where it took
+//                 a store out of a loop: a loop that writes nothing hides nothing that was read before it.
+//   dead          Done. It removes what is not used, except stores: no operand and no value that is there already.
+//   transient     It takes stores away: folding asks for none. Their operands may be unused now, and loops without
+//                 them may write nothing.
+//   versions      A rung that gets paths of its own is a new one.
 #pragma once
 #include <cstddef>
 #include <cstdint>

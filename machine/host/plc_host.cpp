@@ -315,7 +315,7 @@ bool PlcHost::beginStep(int64_t ns, bool reset) noexcept {
   return true;
 }
 
-// Functions begin where a slice does, and so do inputs.
+// Before a slice: functions begin, and inputs are read.
 StepResult PlcHost::run(int64_t ns, int32_t (*due)(rung_instance*, int64_t)) noexcept {
   const rung_state before = state();
   if (before.wait_ns <= ns && !sliceBegun_) {

@@ -1,4 +1,4 @@
-// How regularly a thread scans: what it counts itself, for others to look at meanwhile.
+// How regularly a scan thread runs: figures that it counts itself, and other threads read.
 #pragma once
 #include <array>
 #include <atomic>
@@ -18,13 +18,13 @@
 namespace rung::rung_run {
 
 struct Step {
-  int64_t beginNs = 0;  // since the thread began
+  int64_t beginNs = 0;  // since the start of the thread
   int64_t periodNs = 0; // since the beginning of the step before
-  int64_t lateNs = 0;   // after it was due
+  int64_t lateNs = 0;   // how late it began
   int64_t tookNs = 0;
 };
 
-// Of all steps so far; each figure by itself, as the thread runs on.
+// Figures of all steps so far; each is consistent in itself, as the thread continues to run.
 struct StepFigures {
   uint64_t steps = 0;
   uint64_t overruns = 0; // steps that began a whole period late, or later
@@ -33,7 +33,7 @@ struct StepFigures {
   int64_t late99Ns = 0; // 99 % of the steps began no later than this; at most a quarter too high
   int64_t late999Ns = 0;
   int64_t latestNs = 0;
-  int64_t meanNs = 0; // of the time that steps took
+  int64_t meanNs = 0; // mean time of a step
   struct Worst {
     int64_t tookNs = 0;
     int64_t beginNs = 0;
@@ -43,9 +43,9 @@ struct StepFigures {
 
 class StepTimes {
 public:
-  // The scan thread.
+  // Scan thread: counts a step.
   void add(const Step& step, bool isOverrun) noexcept;
-  // Any thread.
+  // Any thread: the figures.
   StepFigures figures() const;
   uint64_t steps() const noexcept { return steps_.load(std::memory_order_relaxed); }
 
@@ -63,15 +63,15 @@ private:
   struct WorstStep {
     std::atomic<int64_t> tookNs{0}, beginNs{0};
   };
-  std::array<WorstStep, kWorst> worst_{}; // the longest first
+  std::array<WorstStep, kWorst> worst_{}; // longest first
 };
 
-// The thread that scans a program on the machine's clock: a step of the host at each multiple of the period, between
-// the newest inputs of its connections and their outputs.
+// The scan thread of a program on the computer's clock: one step of the host at each multiple of the period, between
+// reading the newest inputs of its connections and writing their outputs.
 
 struct ScanOptions {
   int64_t periodNs = 1'000'000;
-  int64_t earlyNs = 0; // it wakes so long before a step is due; less than the period
+  int64_t earlyNs = 0; // the thread wakes so long before a step is due; less than the period
   runtime::RealTimeOptions thread;
 };
 
@@ -84,11 +84,11 @@ public:
   ScanThread(const ScanThread&) = delete;
   ScanThread& operator=(const ScanThread&) = delete;
 
-  // "" or what the system does not grant.
+  // "", or what the system does not grant.
   std::string start();
-  // When the program needs no more steps; a few at most, unless it waits for its machine.
+  // Ends the thread when the program needs no more steps: after a few at most, unless it waits for its machine.
   void end();
-  // The same in two: it may be that it waits for the thread that serves the host.
+  // The same in two calls, because the scan thread may have to wait for the service thread.
   void beginEnd() noexcept { ending_ = true; }
   bool hasEnded() const noexcept { return ended_; }
 

@@ -1,5 +1,5 @@
-// The machine's service manager (systemd), where it has started this process: it learns when the program scans, that it
-// still does, and that it ends. Of the thread that serves; without a service manager nothing happens.
+// Reports to the service manager (systemd), if it has started this process: that the program scans, that it still does,
+// and that it ends. Service thread; without a service manager nothing happens.
 #pragma once
 #include <cstdint>
 
@@ -10,8 +10,8 @@ public:
   ServiceManager();
 
   void ready() const;
-  // In every turn, with the number of steps so far: the manager's watchdog is fed by steps alone, at twice its rate. A
-  // thread that scans no more, or one that serves no more, lets it end the process.
+  // Called in every turn, with the number of steps so far: only steps feed the manager's watchdog, at twice its rate.
+  // If the scan thread or the service thread stops, the manager ends the process.
   void feed(uint64_t steps, int64_t nowNs);
   void stopping() const;
 

@@ -1,5 +1,5 @@
-// What the plug-in with the simulated controls offers rung-run, which loads it where that is asked for. Both are of one
-// build, which is checked: what goes between them is C++.
+// The interface of the plug-in with the simulated controls for rung-run, which loads it on request. Both must be of one
+// build, which is checked, because C++ objects pass between them.
 #pragma once
 #include <string>
 #include <string_view>
@@ -19,12 +19,12 @@ public:
   // ---- before the instance
 
   virtual std::string config(const std::string& key, const std::string& value) = 0;
-  // Once: the program within the simulated control, which it owns.
+  // Once: creates the program within the simulated control, which owns it.
   virtual Instance instance(const Image& image, const rung_instance_options& options) = 0;
 
   // ---- after its power-on
 
-  // What in the control's own files does not fit the program, and is not served.
+  // What in the control's own files does not fit the program, and is ignored.
   virtual std::vector<std::string> problems() const = 0;
 
   // ---- the thread that scans, between two slices
@@ -39,7 +39,7 @@ using MakeSimulation = Simulation* (*)(const char* dialect);
 inline constexpr const char* kMakeSimulation = "rung_make_simulation";
 inline constexpr const char* kSimulationPlugin = "rung-simulation.so";
 
-// Another one for other sources of the runtime, of which both have a copy, and of what goes between them.
+// The build text: it differs if the sources of the runtime, of which both have a copy, or of this interface differ.
 std::string_view simulationVersion();
 // Of the file that includes this.
 inline std::string simulationBuild() { return std::string(__VERSION__) + " " + std::string(simulationVersion()); }

@@ -1,4 +1,4 @@
-// What rung-run says about itself: the figures of its scan thread and of its connections.
+// The status of rung-run: the figures of its scan thread and of its connections.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace rung::rung_run {
 
-// For people, at the end.
+// Text for users, at the end of the process.
 std::vector<std::string> report(const StepFigures& steps, const std::vector<io::Figures>& connections);
 // "clock" and "connections" of the answer to rungctl's `status` (docs/control-protocol.md).
 void addStatus(nlohmann::json& status, int64_t periodNs, const StepFigures& steps,

@@ -1,4 +1,4 @@
-// A host's socket as rungctl uses it: a request and its answer, and what the host sends by itself.
+// The connection of rungctl with a host's socket: requests with their answers, and events.
 #pragma once
 #include <chrono>
 #include <deque>
@@ -12,7 +12,7 @@
 
 namespace rung::rungctl {
 
-// A host, and the connection with it.
+// A connection with a host.
 struct Reached {
   std::string host;
   control::Connection connection;
@@ -20,17 +20,18 @@ struct Reached {
 
 class Client {
 public:
-  // The host of this name, or the only one where it is empty. Throws std::runtime_error: there is no host, or not this
-  // one, or it speaks another protocol.
+  // Connects to the host of this name, or to the only host if the name is empty. Throws std::runtime_error: there is no
+  // host, or not this one, or it uses another protocol.
   explicit Client(const std::string& host);
 
   const nlohmann::json& greeting() const { return greeting_; }
   static constexpr std::chrono::seconds kAnswer{15};
-  // Waits for the answer. Throws std::runtime_error where the host has gone, or a signal ends the wait.
+  // Sends a request and waits for the answer. Throws std::runtime_error if the host has ended, or a signal ends the
+  // wait.
   nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds patience = kAnswer);
-  // The next event; waits for it, until `stop` is not 0. Throws std::runtime_error where the host has ended.
+  // Waits for the next event, until `stop` is not 0. Throws std::runtime_error if the host has ended.
   std::optional<nlohmann::json> event(const volatile int& stop);
-  // The same within that time.
+  // The same, for at most that time.
   std::optional<nlohmann::json> event(std::chrono::milliseconds patience);
 
   // For lines that are passed on as they are.
@@ -44,13 +45,13 @@ private:
   control::Connection connection_;
   nlohmann::json greeting_;
   std::deque<nlohmann::json> events_;
-  bool interrupted_ = false; // the last wait, by a signal
+  bool interrupted_ = false; // a signal ended the last wait
 };
 
-// Lines of the protocol between another program and a host, as they are.
+// Passes lines of the protocol unchanged between another program and a host.
 
-// From `in` to the host and from the host to `out`, until one of them ends or `stop` is not 0. Throws
-// std::runtime_error where a line is longer than a request may be.
+// Passes lines from `in` to the host and from the host to `out`, until one of them ends or `stop` is not 0. Throws
+// std::runtime_error if a line is longer than a request may be.
 void relay(control::Connection& host, int in, std::ostream& out, const volatile int& stop);
 
 } // namespace rung::rungctl

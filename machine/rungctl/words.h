@@ -1,4 +1,4 @@
-// The words of a command, and what every command does with them: it asks, prints and fails.
+// The arguments of commands, and what all commands do with them: request, print and fail.
 #pragma once
 #include <chrono>
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace rung::rungctl {
 
-// What all commands take.
+// Arguments of all commands.
 struct Common {
   std::string host;
   bool asJson = false;
 };
 
-// A command, its words, and what it does with a host.
+// A command, its arguments, and its action on a host.
 struct Words {
   Common common;
   std::vector<std::string> names;
@@ -38,9 +38,9 @@ struct Words {
   bool profile = false; // of sources
 };
 
-// Says why on standard error; gives the status.
+// Prints the reason on standard error; returns the exit status.
 int fail(const std::string& message, int status = cli::kWrong);
-// The answer, where it is good; throws std::runtime_error with the host's sentence.
+// The answer, if it is ok; throws std::runtime_error with the host's sentence.
 nlohmann::json asked(Client& client, const nlohmann::json& request,
                      std::chrono::milliseconds patience = Client::kAnswer);
 // A text without quotes.

@@ -1,5 +1,5 @@
-// What a program says to its host and asks of it. Both directions are bounded; a message or request that does not fit
-// is refused, counted, and reported by the counters.
+// The messages and service requests of a program to its host. Both directions are bounded; a message or request that
+// does not fit is refused, and counted.
 //
 // The program's side of both classes belongs to the scan thread, the host's side to one other thread (or the same one).
 // A completed request becomes visible to the program at `deliver`, between two scans; a responder answers at once.
@@ -44,7 +44,7 @@ struct ServiceResponder {
   void* data = nullptr;
 };
 
-// What the program knows of one ticket.
+// The state of one ticket, as the program sees it.
 struct ServiceRecord {
   uint32_t ticket = 0; // 0: never used
   uint32_t state = RUNG_SERVICE_NONE;

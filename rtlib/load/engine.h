@@ -1,4 +1,4 @@
-// An engine: something that holds a runnable program, be it a loaded .so, JIT code or an interpreter's tables.
+// An engine owns a runnable program: a loaded .so, JIT code or an interpreter's tables.
 #pragma once
 #include <string_view>
 
@@ -13,10 +13,10 @@ public:
   Engine& operator=(const Engine&) = delete;
   virtual ~Engine() = default;
 
-  // Valid while the engine lives, as is every instance of it.
+  // The program; valid, like every instance of it, as long as the engine exists.
   virtual const rung_program& program() const = 0;
   virtual std::string_view name() const = 0; // "so", "jit", "interp"
-  // What the program's chunks find in rung_ctx::engine.
+  // rung_ctx::engine of the program's chunks.
   virtual void* context() { return nullptr; }
 };
 

@@ -12,7 +12,7 @@
 
 namespace rung::runtime {
 
-// Owns a file descriptor.
+// A file descriptor, closed by the destructor.
 class File {
 public:
   explicit File(int fd = -1) : fd_(fd) {}
@@ -29,7 +29,7 @@ public:
   int fd() const { return fd_; }
   // The caller owns it from then on.
   int release() { return std::exchange(fd_, -1); }
-  // False, with errno: what was written may not be there.
+  // Closes the file. False, with errno: written data may be lost.
   bool close();
 
 private:
@@ -39,11 +39,11 @@ private:
 // False, with errno.
 bool writeAll(int fd, std::string_view bytes);
 
-// All bytes of the file, from its start, wherever the descriptor's position is. Empty, or what went wrong: also when
-// they are more than `most`.
+// Reads all bytes of the file from its start, whatever the descriptor's position is. Empty, or the reason of a failure;
+// more than `most` bytes are one.
 std::string readAll(int fd, size_t most, std::string& bytes);
 
-// The folder of a path, "." of a bare name.
+// The folder of a path; "." for a name without folder.
 std::string folderOf(const std::string& path);
 
 struct Writing {
@@ -85,7 +85,7 @@ struct DiskLock {
   std::string error; // "" when another process has the lock
 };
 
-// Where such files are. A test has one in memory, which is full, or loses its power, when the test says so.
+// The place of such files. A test has one in memory, which becomes full or loses its power on request.
 class Disk {
 public:
   // As long as it exists, the file is locked.
@@ -106,7 +106,7 @@ Disk& systemDisk() noexcept;
 // frees it too. The file is made where there is none, and stays.
 DiskLock lockDiskFile(const std::string& path);
 
-// Where a library lies in the memory of the process: what its tables may point to.
+// The memory of a loaded library in the process: its tables may only point into it.
 
 class MappedFile {
 public:

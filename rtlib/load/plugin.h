@@ -1,12 +1,12 @@
-// Libraries of a program of ours that it loads when it first needs them: those in lib/rung below the folder that its
-// own folder lies in, as they are built and installed.
+// Plug-ins: libraries that one of Rung's programs loads when it first needs them, from lib/rung beside the folder of
+// the program, as in a build and an installation.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace rung::runtime {
 
-// Where the program lies that this process runs; "" where the system does not say.
+// The folder of this process's program; "": unknown.
 std::string folderOfProgram();
 
 class Plugin {

@@ -1,11 +1,16 @@
 // The seal of a program file: a SHA-256 digest of all that lies before it, and optionally an Ed25519 signature of the
 // digest. It follows the image, where neither the dynamic linker nor a debugger looks. The digest shows damage, and
-// nothing else: everyone who changes a file can seal it again. Where it comes from, only a signature shows, and its
+// nothing else: everyone who changes a file can seal it again. Its origin is shown only by a signature and by its
 // owner.
 //
-// From the start of the seal, numbers with the low byte first: 0 digest of the image, SHA-256 32 bytes 32 1: signed, 0:
-// the next two are zero 4 36 identity of the signer's public key 16 52 signature, Ed25519 64 116 check: of the SHA-256
-// of bytes 0 to 115, the first 8 124 version of this format 4 128 "RungSeal" 8 the last bytes of the file
+// From the start of the seal, numbers with the low byte first:
+//    0  digest of the image, SHA-256            32 bytes
+//   32  1: signed, 0: the next two are zero      4
+//   36  identity of the signer's public key     16
+//   52  signature, Ed25519                      64
+//  116  check: of the SHA-256 of bytes 0 to 115, the first                8
+//  124  version of this format                   4
+//  128  "RungSeal"                               8   the last bytes of the file
 #pragma once
 #include <array>
 #include <cstdint>

@@ -1,12 +1,12 @@
 // Whose machine code a process runs. The rules are functions of facts; what asks the system is below them.
 //
-// A process is *privileged* if its effective or saved user is root while its real, saved or file-system user is not: it
-// has root's rights and serves another user, as LinuxCNC's rtapi_app does.
+// A process is *privileged* if its effective or saved user is root while its real, saved or file-system user is not:
+// it has root's rights and serves another user, as LinuxCNC's rtapi_app does.
 //
-// privileged the file belongs to root, and root alone may write to it; or a key of kKeysFolder has signed it. It has a
-// seal, names no folders to search, and needs the system's C and C++ libraries at most. any other the file belongs to
-// root or to the effective user, and others may not write to it (its group may, if that is the process's own effective
-// group); or a key has signed it.
+//   privileged    the file belongs to root, and root alone may write to it; or a key of kKeysFolder has signed it.
+//                 It has a seal, names no folders to search, and needs the system's C and C++ libraries at most.
+//   any other     the file belongs to root or to the effective user, and others may not write to it (its group may, if
+//                 that is the process's own effective group); or a key has signed it.
 //
 // Only user and group are looked at: rights that a program file has as capabilities are not seen.
 #pragma once

@@ -1,4 +1,4 @@
-// The clock that instrumented programs measure with, calibrated.
+// The calibrated clock of instrumented programs.
 #pragma once
 
 namespace rung::runtime {
@@ -9,7 +9,7 @@ struct ProfileClock {
   double costNs() const { return nsPerTick * costTicks; }
 };
 
-// Measured against CLOCK_MONOTONIC once a process (about 10 ms).
+// Calibrates against CLOCK_MONOTONIC, once per process (about 10 ms).
 const ProfileClock& calibratedClock();
 
 } // namespace rung::runtime

@@ -2,10 +2,10 @@
 // spaces are retained, and the names in them. Another program finds its own cells with it (retained_take.h).
 //
 // A description is a compressed text, after its uncompressed length in four bytes, low byte first. The first word of a
-// line says what it is; its fields are separated by tabs: dialect NAME · space NAME FLAGS BYTES · kept SPACE FIRST
-// COUNT · cell NAME SPACE BYTE BIT TYPE COUNT REACH. Spaces are numbered in their order; BYTES counts up to the last
-// retained one. An image consists of the bytes of each `kept` line, in their order. Cells are those that are retained
-// completely, sorted by name.
+// line says what it is; its fields are separated by tabs:
+//   dialect NAME · space NAME FLAGS BYTES · kept SPACE FIRST COUNT · cell NAME SPACE BYTE BIT TYPE COUNT REACH
+// Spaces are numbered in their order; BYTES counts up to the last retained one. An image consists of the bytes of each
+// `kept` line, in their order. Cells are those that are retained completely, sorted by name.
 #pragma once
 #include <cstdint>
 #include <span>

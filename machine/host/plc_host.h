@@ -1,6 +1,5 @@
-// A PLC program between HAL pins: all that LinuxCNC's component and rung-run have in common, without HAL itself. The
-// constructor allocates everything; `step` allocates nothing, takes no lock and makes no system call. Two threads use a
-// host: the scan thread, which calls the steps, and the service thread, which calls `serve` and `post`.
+// A PLC program between HAL pins: all that the component does, without RTAPI. Everything is allocated when the host is
+// made; `step` allocates nothing, takes no lock and makes no system call.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -34,63 +33,61 @@ class PlcHost {
 public:
   using NewInstance = std::function<Instance(const Image& image, const rung_instance_options& options)>;
   struct Options {
-    std::string retain;                              // FILE of FILE.a and FILE.b; "": none, the program starts cold
-    NewInstance newInstance = {};                    // creates the instance if the program has a simulated control
-    runtime::Clock* clock = &runtime::systemClock(); // for everything except steps; outlives the host
+    std::string retain;                              // FILE of FILE.a and FILE.b; "": it starts cold
+    NewInstance newInstance = {};                    // of a program that is not in a control alone
+    runtime::Clock* clock = &runtime::systemClock(); // for all but steps; outlives the host
     uint32_t catchUp = 0;                            // as in rung_instance_options
-    const char* reset = "pin reset rises";           // what restarts a stopped program, in messages
+    const char* reset = "pin reset rises";           // what restarts a program that has stopped, for people
   };
-  // Null, and `errors` say why: the map does not fit the program. Throws rung::Error if it does, but the program cannot
-  // be switched on because another process uses its retained memory. `warnings`: what the operator should know about
-  // the retained memory.
+  // Null, and `errors` say why, when the map does not fit the program. Throws rung::Error where it does, but the
+  // program cannot be switched on: another process has its retained memory. `warnings`, then, too: what the operator
+  // should know of the retained memory.
   static std::unique_ptr<PlcHost> make(const Image& image, File map, const Options& options,
                                        std::vector<std::string>& errors, std::vector<std::string>& warnings);
-  // Scan thread, between two steps: begins the regular end of the program, and is called again after each step. True:
-  // the program needs no more steps, and has had its last ones with fresh inputs. No restart begins any more; one that
-  // `serve` has begun is waited for.
+  // A regular end, for the thread of the steps between two of them: begins it, and is asked again after each step.
+  // True: the program needs no more of them, and has had them with fresh inputs. Nothing is restarted any more; a
+  // restart that `serve` has begun is waited for.
   bool powerOffDone() noexcept;
   bool ending() const noexcept { return ending_; }                               // any thread
   bool ended() const noexcept { return ended_.load(std::memory_order_acquire); } // any thread
-  // After the last step, or if no more steps are possible: runs the program's last scans, sets output pins to their
-  // safe values, and saves the retained memory; "", or why that failed.
+  // After the last step, or where none can come any more: the program's last scans run where they have not, output pins
+  // have their safe values then, and what is retained is on disk; "" or why not.
   std::string close();
 
   const std::vector<Pin>& pins() const { return map_.pins; }
-  // Connects the pins with the host's cells: as many as there are pins, in the same order; they outlive the host, and
-  // get the initial values.
+  // As many cells as there are pins, in their command; they outlive the host. They get the values that they begin with.
   void connect(const PinCell* cells, const PinAccess& access = kVariables) noexcept;
 
-  // Scan thread. The clock advances by `ns`: the part of the program's schedule that is due runs on fresh inputs. A
-  // step in which nothing is due only watches for edges. After a fault all output pins have their safe values until
-  // `reset` rises and `serve` has restarted the program.
+  // The clock of the thread advances by `ns`: what is due of the program's schedule runs on fresh inputs. A step that
+  // runs nothing only watches for edges. After a fault all output pins have their safe values, until `reset` rises and
+  // `serve` has restarted the program.
   StepResult step(int64_t ns, bool reset = false) noexcept;
-  // Scan thread. The same for a host that calls the fast task separately, in the same thread: runs a slice that is due
-  // up to the end of its fast task. The next step runs the rest, and is given the time since then.
+  // The same for a host that runs the fast task in a place of its own, in the same thread: a slice that is due runs up
+  // to the end of its fast task. Its rest is the next step's, which is given the time since.
   StepResult stepFast(int64_t ns, bool reset = false) noexcept;
-  // Sets output pins to their safe values, because the program is not run any more.
+  // The program is not run any more: output pins have their safe values.
   void clearPins() noexcept;
-  // Scan thread: the present values of all pins; `values` has as many elements as there are pins. Nothing is read
-  // before `connect`.
+  // The scan thread: as they are at this moment. As many values as there are pins; nothing is read before `connect`.
   void lookAtPins(std::span<Value> values) const noexcept { pins_.look(values); }
-  // The time that the program may run in a step without a fault; 0: only its budgets apply.
+  // How long the program may run in a step before that counts as a fault; 0: its budgets alone count.
   void setTimeLimit(int64_t ns) noexcept {
-    constexpr int64_t kHour = 3'600'000'000'000; // a longer limit has no effect
-    rung_instance_limit(plc_.handle(), std::min(ns, kHour));
+    constexpr int64_t kHour = 3'600'000'000'000; // more is none
+    plc_.limit(std::min(ns, kHour));
   }
-  // Scan thread, between two steps: reads the data that a step of the program reads, until CLOCK_MONOTONIC reaches
-  // `untilNs`, so that the next step finds it in the processor's caches.
+  // For the thread of the steps, between two of them: reads what a step reads of the program, as long as
+  // CLOCK_MONOTONIC has not come to `untilNs`, so that the next one finds it in the processor's caches.
   void prefetch(int64_t untilNs) const noexcept {
     if (running()) plc_.prefetch(untilNs);
   }
-  // Scan thread, before a step: whether a restart after a fault may begin; it waits while the host still moves an axis.
+  // Whether a restart after a fault may begin, before a step: it waits while the host still moves something.
   void setRestartable(bool is) noexcept { restartable_ = is; }
-  // Service thread: the scan thread executes the command in its next step (see commands.h). While this waits, a restart
-  // that the scan thread requests is carried out.
+  // The thread of `serve`; the scan thread does it in its next step (see commands.h). While it waits, a restart that
+  // the scan thread asks for is done.
   CommandResult post(Command& command, std::chrono::milliseconds time = kPatience);
   static constexpr std::chrono::milliseconds kPatience{1000};
-  // Any one thread at a time. False: no new message of the program.
+  // One thread at a time, any. False: the program has shown nothing since.
   bool nextMessage(rung_message_info& message) const noexcept;
-  // The program's requests to its CNC, if a client serves them (`live().served`). One thread at a time. False: no
+  // What the program asks of a CNC that somebody serves (`live().served`), for one thread at a time. False: no
   // request waits.
   Live& live() noexcept { return live_; }
   bool nextRequest(Request& request) const;
@@ -98,7 +95,7 @@ public:
   rung_instance* instance() const noexcept { return plc_.handle(); }
   const File& map() const noexcept { return map_; }
   runtime::Clock& clock() const noexcept { return clock_; }
-  // A value that is written into the program before every slice.
+  // What is written into the program before every slice.
   struct Feed {
     std::string name;              // of the cell
     std::string by;                // "pin door" or "a constant of the mapping file"
@@ -106,41 +103,41 @@ public:
   };
   const std::vector<Feed>& feeds() const noexcept { return feeds_; }
 
-  // The entries of the map that are affected when the new program of a replacement takes over. Not for the scan thread.
+  // What the map loses when the new program of a replacement takes over; not for the scan thread.
   struct Losses {
-    std::vector<std::string> mistakes; // errors as at the start: the program cannot take over
+    std::vector<std::string> mistakes; // as at the start: the program does not take over
     std::vector<std::string>
         moved; // pins whose cells are elsewhere then, or gone: where that is not meant it does not either
-    std::vector<rung_cell> dead; // inputs that no longer have a pin
+    std::vector<rung_cell> dead; // inputs that no pin feeds any more
   };
   Losses lossesBy(const rung_replacement* replacement, const rung_program& next) const;
-  // The same for a program that has already run with this map, and so has no errors.
+  // Of one that ran, with this map, already: it makes no mistakes.
   Losses lossesBy(const rung_replacement* replacement) const;
 
-  // Service thread, repeatedly: the work that a step must not do itself, such as describing a fault and restarting the
-  // program. True: there was such work, and `reports` says what the operator should know about it.
+  // Not the scan thread, again and again: what a step must not do itself, a fault in words, and the restart after it.
+  // True: there was something of that, and `reports` says what the operator should know of it.
   bool serve(std::vector<std::string>& reports);
   bool running() const noexcept { return state_.load(std::memory_order_acquire) == State::Running; }
-  // Whether `serve` is restarting the program: no other code may use what belongs to it.
+  // `serve` has the program: nothing else may touch what belongs to it.
   bool restarting() const noexcept { return state_.load(std::memory_order_acquire) == State::Restarting; }
 
-  // Service thread, while the program does not run.
+  // While it does not run, for the thread that serves it.
   std::optional<rung_fault_info> fault() const noexcept;
-  // The source line of the last fault; 0: none. Any thread.
+  // The line of the last fault; 0: none. Any thread.
   uint32_t faultLine() const noexcept { return faultLine_.load(std::memory_order_relaxed); }
-  // The state of the instance. Scan thread while the program runs.
+  // Of the instance; while it runs, for the scan thread.
   rung_state state() const noexcept;
   bool failsToSave() const noexcept { return (state().flags & RUNG_STATE_UNSAVED) != 0; }
   const FunctionQueue& functions() const { return *functions_; }
-  // How often `serve` has restarted the program. Service thread.
+  // How often `serve` has switched the program on again; its thread.
   uint32_t restarts() const noexcept { return restarts_; }
-  // Why the last restart has failed; "": it has not.
+  // Why the last restart has failed; "" where it has not.
   const std::string& restartProblem() const noexcept { return restartProblem_; }
 
 private:
   PlcHost(const Image& image, File map, const Options& options);
 
-  // Stopped: by a fault. Restarting: the instance belongs to the service thread.
+  // Stopped: by a fault. Restarting: the instance belongs to `serve`.
   enum class State : uint8_t { Running, Stopped, Restarting };
 
   template <class Link>
@@ -149,7 +146,7 @@ private:
   void beginWith(size_t link, bool first) noexcept;
   Value valueInProgram(const PinLink& link) noexcept;
   void setPins(const PinLink& link, const Value& value) noexcept;
-  int32_t start(std::string& problem); // an error status and its reason, or RUNG_OK
+  int32_t start(std::string& problem); // the status, and why it is none
   std::string stopText(const rung_fault_info& fault) const;
   void stop() noexcept;
   void reportFault();
@@ -182,18 +179,18 @@ private:
   runtime::Clock& clock_;
   bool wasReset_ = false;
   bool restartable_ = true;
-  std::atomic<bool> ending_{false}; // powerOffDone was called
+  std::atomic<bool> ending_{false}; // `ends` was asked
   std::atomic<bool> ended_ = false;
-  bool hasRun_ = false;     // a slice since the power-on: outputs are the program's
+  bool hasRun_ = false;     // a slice, since it was switched on: outputs are the program's
   bool sliceBegun_ = false; // by `stepFast`
-  // Service thread.
-  bool reported_ = false; // the present fault was reported
-  std::string unsaved_;   // the last reported reason why retained memory was not saved; "": it was
+  // The thread of `serve`.
+  bool reported_ = false; // the fault that has stopped it
+  std::string unsaved_;   // why retained memory was not saved, as it was reported; ""
   std::vector<std::string> reports_;
   uint32_t restarts_ = 0;
   std::string restartProblem_;
-  runtime::Alone scans_;  // scan thread
-  runtime::Alone serves_; // service thread
+  runtime::Alone scans_;  // the thread of the steps
+  runtime::Alone serves_; // the thread of `serve` and `command`
   std::atomic<uint32_t> faultLine_{0};
   std::atomic<State> state_{State::Running};
 };

@@ -1,4 +1,4 @@
-// Reads the sources of a program and the files that they include, with the rights of the calling process.
+// Reads the sources of a program, and what they include, with the rights of whoever runs this.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,10 +9,10 @@
 namespace rung::rung_compile {
 
 struct Collected {
-  std::optional<Sources> sources; // nothing: see `report`
-  std::string report;             // errors as rungc prints them
-  std::string diagnostics;        // the same as JSON; "" if no source has an error
-  bool unreadable = false;        // a named file cannot be read
+  std::optional<compile::Sources> sources; // nothing: `report` says why
+  std::string report;                      // errors as rungc prints them
+  std::string diagnostics;                 // the same as JSON; "" where nothing is wrong in a source
+  bool unreadable = false;                 // a file that is named cannot be read
 };
 
 // `names`: files in their order, or one folder of a project or project file. Files that all belong to a project are

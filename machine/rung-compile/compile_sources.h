@@ -1,4 +1,4 @@
-// Compiles packed sources to a program file in memory.
+// From packed sources to a program file, in memory.
 #pragma once
 #include <string_view>
 

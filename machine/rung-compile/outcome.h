@@ -1,4 +1,4 @@
-// The result of a compilation, as the compiler process reports it to the host.
+// What came of a compilation, for the host.
 #pragma once
 #include <exception>
 #include <fmt/format.h>
@@ -15,14 +15,14 @@ namespace rung::rung_compile {
 struct Outcome {
   std::string_view verdict; // machine/compile/sources.h
   std::string report;
-  std::string image; // the sealed file of a compiled program
+  std::string image; // sealed, of a program that is compiled
 };
 
 inline Outcome failed(std::string why) {
   return {.verdict = compile::kVerdictFailed, .report = std::move(why), .image = {}};
 }
 
-// Runs a compilation that may throw, and turns exceptions into an outcome.
+// Runs what gives an outcome, and may throw.
 template <class Compile>
 Outcome outcomeOf(Compile compile) try {
   const ThrowingChecks throwing;

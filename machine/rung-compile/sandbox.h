@@ -1,4 +1,4 @@
-// The sandbox of the compiler process: what remains of its rights is its memory and the open files.
+// What is left to a process that compiles for somebody else: its memory, and the files that are open.
 #pragma once
 #include <string>
 
@@ -12,18 +12,18 @@ struct Limits {
   size_t fileSize; // bytes of a file that it writes
 };
 
-// Gives up all rights that the compiler does not need: root's user and groups, capabilities and the means to regain
-// them, inspection by other processes, and priority. Files above `lastFile` are closed. "", or what could not be given
-// up: then the process must end.
+// All that can be given up before the compiler has begun: root's user and groups, capabilities, the way back to them,
+// being looked at by others, and priority. Files above `lastFile` are closed. "" or what could not be given up: then
+// the process must end.
 std::string giveUpRights(int lastFile, const Limits& limits);
 
-// From now on the process cannot open files, create processes, threads or connections, map memory as code, or reach
-// other processes: the system refuses it (seccomp). When the linker opens /proc/self/fd/N, it gets a duplicate of the
-// open file N. "", or the reason of a failure.
+// From here on the process opens no file, makes no process, thread or connection, maps no memory as code, and reaches
+// no other process; the system refuses it (seccomp). Of /proc/self/fd/N, which the linker opens, it gets a duplicate of
+// the open file N. "" or why not.
 std::string enterSandbox();
 
-// Changes from root to a user, so that files are read with that user's rights; the limits apply, too. "", or the reason
-// of a failure.
+// For a process that reads files as their user: root's rights are given up for the user's; the limits hold, too. "" or
+// why not.
 std::string becomeUser(uid_t user, const Limits& limits);
 
 } // namespace rung::rung_compile

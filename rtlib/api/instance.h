@@ -1,4 +1,4 @@
-// The rung_instance of the C API: the running program, the control of its dialect, and what the host has bound to it.
+// What a rung_instance is: the running program, the control of its dialect, and what its host has bound to it.
 #pragma once
 #include <atomic>
 #include <memory>
@@ -18,8 +18,7 @@
 
 namespace rung::api {
 
-// A message that waits for the host, and the generation that sent it: that has its texts, and is referred to until the
-// message is taken.
+// A message that waits to be taken, and whose it is: that has its texts, and is referred to until then.
 struct Said {
   rung_message message{};
   Generation* by = nullptr;
@@ -28,15 +27,14 @@ struct Said {
 struct BoundVariable {
   rung_cell cell = 0;
   rung_host_type type = RUNG_HOST_BOOL;
-  bool truth = false; // the cell gets 0 or 1: whether the variable is not 0
-  // For a bit-field: its lowest bit in the byte at the address, the number of its bits, and of the bytes that contain
-  // them; bits 0: not a bit-field.
+  bool truth = false; // the cell takes whether the variable is 0
+  // Of a bit-field: its lowest bit in the byte at the address, how many bits, in how many bytes; bits 0: it is none.
   uint8_t bit = 0, bits = 0, bytes = 0;
   void* address = nullptr;
   double scale = 1;
 };
 
-// Connects the environment with the schedule, and reports to the host's callbacks.
+// The place of the environment in the schedule, with what the host wants to hear of it.
 class Hooks final : public runtime::ScheduleHooks {
 public:
   explicit Hooks(rung_instance& instance) : instance_(instance) {}
@@ -57,8 +55,8 @@ struct rung_instance {
                 std::unique_ptr<rung::api::Environment> environment, bool controlAlone);
   ~rung_instance();
 
-  // Process-image copies leave out bytes that no rung touches, until the host looks up or binds something there. A
-  // simulated environment sees all of the memory.
+  // Border copies leave out what no rung touches, until the host finds or binds something there. Environment see all
+  // of the memory.
   void beginLeavingOut() noexcept {
     running.setNeededCopiesOnly(controlAlone && !running.neededCopies().leftOut.empty() && !seesLeftOut());
   }
@@ -66,17 +64,17 @@ struct rung_instance {
     if (running.neededCopiesOnly() && seesLeftOut()) running.setNeededCopiesOnly(false);
   }
   bool seesLeftOut() const noexcept { return now().cells.seesLeftOut() || now().blockPlan.seesLeftOut(); }
-  rung::api::Generation& now() const noexcept { return generations.now(); } // the running program
+  rung::api::Generation& now() const noexcept { return generations.now(); } // the program that runs
 
   uint32_t mark = rung::api::kInstanceMark;
-  // The thread that is inside a call of the API; 0: none.
+  // The thread that is inside a call; 0: none.
   mutable std::atomic<uintptr_t> inside{0};
 
   rung_instance_options options;
   std::string dialect; // of all its programs
   std::unique_ptr<rung::api::Environment> environment;
-  rung::nc::Control* control; // part of `environment`
-  bool controlAlone;          // `environment` is the control without a simulation
+  rung::nc::Control* control; // in `environment`
+  bool controlAlone;          // there
   rung::api::ServiceNames serviceNames;
   rung::api::Hooks hooks;
   rung::runtime::Instance running;
@@ -89,22 +87,22 @@ struct rung_instance {
   rung::runtime::Outside outside;
   std::string keptFile;                           // "": nothing is kept
   std::unique_ptr<rung::nc::Retention> retention; // from the first power-on, where something is kept
-  std::mutex retentionChanges;                    // held while `retention` is replaced
-  uint32_t functionChannels = 0;                  // channels in which a function was passed to the program, a bit each
-  // The replacement that holds the former program: a fault puts that program back.
+  std::mutex retentionChanges;                    // held while that is made anew
+  uint32_t functionChannels = 0;                  // a bit for each that a function was handed over in
+  // The replacement that holds the program before this one: a fault puts that back.
   std::atomic<rung_replacement*> former{nullptr};
-  rung::api::ScanUse puttingBack;
-  // The program that a fault has stopped, if another one has taken its place since, and that fault; referred to until
-  // the next power-on.
+  rung::core::ScanUse puttingBack;
+  // The program that a fault has stopped, where another one has taken its place since, and that fault; it is referred
+  // to until the next power-on.
   std::atomic<rung::api::Generation*> faulted{nullptr};
   rung_fault fault{};
   rung_forces* forces = nullptr;             // in effect
-  std::atomic<rung_shadow*> shadow{nullptr}; // the one that has begun
+  std::atomic<rung_shadow*> shadow{nullptr}; // that has begun
   bool on = false;
   bool faultReported = false; // to the host's callback
-  bool wasOn = false;         // its memory has contents to be retained
+  bool wasOn = false;         // its memory holds something to be retained
   bool ending = false;        // its power-off has begun
-  uint64_t lastPass = 0;      // number of the last scan that the power-off waits for
+  uint64_t lastPass = 0;      // and does not wait longer for the program than to that one
   uint64_t passes = 0;
   int64_t passNs = 0;
   int64_t lastPassNs = 0;
@@ -115,12 +113,12 @@ namespace rung::api {
 
 // When a call is allowed.
 enum class When : uint8_t {
-  Always,  // also in a callback of the same instance
-  Outside, // not in a callback of the instance
-  On,      // not in a callback, and only while the program is switched on
+  Always,  // in a callback of the same instance, too
+  Outside, // of its callbacks
+  On,      // outside, while the program is switched on
 };
 
-// One call of the API by the host: checks that the handle is valid and that no other thread is inside.
+// One call of the host: the handle is good, and no other thread is inside.
 class Call {
 public:
   explicit Call(const rung_instance* handle, When when = When::Outside) noexcept;
@@ -141,9 +139,9 @@ private:
   int32_t status_ = RUNG_OK;
 };
 
-// The instance of a handle, for functions that may be called at any time; null: the handle is not valid.
+// The same for what may be called at any time.
 rung_instance* instanceOf(const rung_instance* handle) noexcept;
-// Whether the calling thread is inside a call for the instance.
+// This thread is inside a call for the instance.
 bool isInCallback(const rung_instance& instance) noexcept;
 int32_t failCallback() noexcept;
 

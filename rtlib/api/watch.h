@@ -1,7 +1,4 @@
-// ScanUse protects an object that the scan thread uses and another thread frees. The other thread first removes the
-// object from where the scan thread finds it, then waits until the scan thread has left; the scan thread enters before
-// it looks for the object. All these accesses are sequentially consistent, so at least one of the two threads sees the
-// other.
+// Cells that other threads look at: what the scan thread leaves for them at the end of a pass, without waiting.
 #pragma once
 #include <array>
 #include <atomic>
@@ -14,24 +11,7 @@
 
 namespace rung::api {
 
-class ScanUse {
-public:
-  // Scan thread: stores a sample.
-  void enter() noexcept { inside_.exchange(true); }
-  void leave() noexcept { inside_.store(false); }
-  // The thread that frees the object: waits until the scan thread has left.
-  void wait() const noexcept {
-    std::atomic_thread_fence(std::memory_order_seq_cst);
-    while (inside_.load()) std::this_thread::yield();
-  }
-
-private:
-  std::atomic<bool> inside_{false};
-};
-
-// Watches: at the end of a scan, the scan thread stores the values of cells for other threads, without waiting.
-
-// The head of a sample, before its values.
+// What is known of a sample, beside its values.
 struct SampleHead {
   uint64_t generation = 0;
   uint64_t pass = 0;
@@ -43,13 +23,13 @@ class Watches {
 public:
   // Any thread. False: there are too many.
   bool add(rung_watch& watch);
-  void remove(rung_watch& watch); // afterwards the scan thread does not use it
+  void remove(rung_watch& watch); // the scan thread does not touch it any more
 
-  // Scan thread, at the end of a scan: takes a sample for each watch.
+  // Scan thread, at the end of a pass.
   void sample(const rung_instance& instance) noexcept {
     if (count_.load(std::memory_order_relaxed) != 0) sampleEach(instance, false);
   }
-  // Scan thread: takes a sample only for watches that have none yet.
+  // Those that have no sample yet.
   void sampleNew(const rung_instance& instance) noexcept {
     if (count_.load(std::memory_order_relaxed) != 0) sampleEach(instance, true);
   }
@@ -67,12 +47,11 @@ private:
 
 struct rung_watch {
   rung_watch(rung_instance& of, std::vector<rung_cell> watched, uint32_t depth);
-  ~rung_watch(); // no other thread may use it
+  ~rung_watch(); // no thread looks at it any more
 
   // Scan thread.
   void take(const rung_instance& from, const rung::api::SampleHead& head) noexcept;
-  // Any thread: read the newest or the next sample. RUNG_EMPTY: there is no sample yet, or none waits; RUNG_LATER: the
-  // reader was interrupted repeatedly.
+  // Any thread. RUNG_EMPTY: no sample yet, or none that waits; RUNG_LATER: interrupted again and again.
   int32_t newest(rung_value* values, rung_sample& sample) const noexcept;
   int32_t next(rung_value* values, rung_sample& sample) noexcept;
 
@@ -87,9 +66,9 @@ private:
   static constexpr size_t kHeadWords = 3;
   size_t words() const noexcept { return kHeadWords + cells.size(); }
 
-  std::vector<uint64_t> scratch_; // scan thread: head and values of this scan
-  rung::runtime::Latest newest_;
-  // A ring of waiting samples, for one writer and one reader.
+  std::vector<uint64_t> scratch_; // the scan thread's: head and values of this pass
+  rung::core::Published newest_;
+  // Samples that wait, of one writer and one reader.
   uint32_t depth_;
   std::vector<uint64_t> kept_;
   rung::core::SlotRing ring_; // of `kept_`

@@ -55,128 +55,29 @@ def _enum(name, of, prefix, doc, kind=enum.IntEnum):
     return made
 
 
-class Power(enum.IntEnum):
-    """COLD: memory as a new machine has it; WARM: retained memory keeps its contents."""
-    COLD = 0
-    WARM = 1
-
-
-class Access(enum.IntEnum):
-    """What a cell is found for. WRITE includes reading, of the place that is written; REAL is added to one of them for
-    the real of 64 bits that begins there."""
-    READ = 0
-    WRITE = 1
-    REAL = 2
-
-
-class Direction(enum.IntEnum):
-    """When a bound variable is copied: before or after every slice. BOUND_REAL is added for the real that REAL would find."""
-    TO_PROGRAM = 0
-    FROM_PROGRAM = 1
-    BOUND_REAL = 2
-
-
-class FunctionKind(enum.IntEnum):
-    """Functions of a part program; KEY: one of the panel or the screen, which is pressed and released."""
-    M = 0
-    S = 1
-    T = 2
-    B = 3
-    H = 4
-    KEY = 5
-
-
-class LogLevel(enum.IntEnum):
-    """The first argument of a `log` callback."""
-    INFO = 0
-    WARNING = 1
-    ERROR = 2
-
-
-class StateFlags(enum.IntFlag):
-    """Of State.flags; AT_START: between two scans, UNSAVED: the last try to write retained memory has failed."""
-    ON = 1
-    STOPPED = 2
-    FAULTED = 4
-    AT_START = 8
-    UNSAVED = 16
-
-
-class Type(enum.IntEnum):
-    """Of cells and symbols."""
-    BIT = 1
-    I8 = 2
-    I16 = 3
-    I32 = 4
-    I64 = 5
-    F64 = 6
-    TEXT = 7
-
-
-_BITS = {Type.BIT: 1, Type.I8: 8, Type.I16: 16, Type.I32: 32}  # of the narrower ones
-
-
-class SymbolFlags(enum.IntFlag):
-    """Of Symbol.flags."""
-    READONLY = 1
-    HIDDEN = 2
-    CONST = 4
-    AREA = 8
-
-
-class MessageOp(enum.IntEnum):
-    """What the program does with a message."""
-    CLEAR = 0
-    SHOW = 1
-    SHOW_LOG = 2
-    LOG = 3
-
-
-class ChangeKind(enum.IntEnum):
-    """What becomes of a cell or a state when another program takes over."""
-    NEW = 0
-    REMOVED = 1
-    MOVED = 2
-    RENAMED = 3
-    RETYPED = 4
-    RELEASED = 5
-    CUT = 6
-
-
-class RungChangeKind(enum.IntEnum):
-    """What becomes of a rung when another program takes over."""
-    NEW = 0
-    REMOVED = 1
-    CHANGED = 2
-    MOVED = 3
-
-
-class ShadowState(enum.IntEnum):
-    """Of a Shadow."""
-    PREPARED = 0
-    RUNNING = 1
-    FINISHED = 2
-    TOO_SLOW = 3
-    STOPPED = 4
-    FAULTED = 5
-
-
-class _Answering(enum.IntEnum):
-    REFUSE = 0
-    ANSWER = 1
-    QUEUE = 2
-
-
-class _MessageFlags(enum.IntFlag):
-    LASTS = 1
-    LOGGED_ONLY = 2
-
-
-class _InstanceFlags(enum.IntFlag):
-    MEASURE = 1
-    QUEUE_REQUESTS = 2
-    SAVE_AT_ONCE = 4
-
+Status = _enum("Status", "rung_status", "RUNG_", "What a call gave: of Error.status those below 0.")
+Power = _enum("Power", "rung_power", "RUNG_",
+              "COLD: memory as a new machine has it; WARM: retained memory keeps its contents.")
+Access = _enum("Access", "rung_access", "RUNG_", "What a cell is found for. WRITE includes reading, of the place that is "
+               "written; REAL is added to one of them for the real of 64 bits that begins there.")
+Direction = _enum("Direction", "rung_direction", "RUNG_", "When a bound variable is copied: before or after every slice. "
+                  "BOUND_REAL is added for the real that REAL would find.")
+FunctionKind = _enum("FunctionKind", "rung_function_kind", "RUNG_FUNCTION_", "Functions of a part program; KEY: one of the "
+                     "panel or the screen, which is pressed and released.")
+LogLevel = _enum("LogLevel", "rung_log_level", "RUNG_LOG_", "The first argument of a `log` callback.")
+StateFlags = _enum("StateFlags", "rung_state_flags", "RUNG_STATE_", "Of State.flags; AT_START: between two passes, UNSAVED: "
+                   "the last try to write retained memory has failed.", enum.IntFlag)
+Type = _enum("Type", "rung_type", "RUNG_TYPE_", "Of cells and symbols.")
+SymbolFlags = _enum("SymbolFlags", "rung_symbol_flags", "RUNG_SYMBOL_", "Of Symbol.flags.", enum.IntFlag)
+MessageOp = _enum("MessageOp", "rung_message_op", "RUNG_MESSAGE_", "What the program does with a message.")
+ChangeKind = _enum("ChangeKind", "rung_change_kind", "RUNG_CHANGE_",
+                   "What becomes of a cell or a state when another program takes over.")
+RungChangeKind = _enum("RungChangeKind", "rung_rung_change_kind", "RUNG_RUNG_",
+                       "What becomes of a rung when another program takes over.")
+ShadowState = _enum("ShadowState", "rung_shadow_state", "RUNG_SHADOW_", "Of a Shadow.")
+_Answering = _enum("_Answering", "rung_answer", "RUNG_", "Of a `request` callback.")
+_MessageFlags = _enum("_MessageFlags", "rung_message_flags", "RUNG_MESSAGE_", "Of Instance.define_message.", enum.IntFlag)
+_InstanceFlags = _enum("_InstanceFlags", "rung_instance_flags", "RUNG_", "Of an Instance.", enum.IntFlag)
 
 COLD, WARM = Power
 READ, WRITE, REAL = Access
@@ -501,7 +402,7 @@ class Image(_Closing):
     """A compiled program.
 
     `name` and `dialect` are its own. Instances and replacements may outlive it. It is closed by close, at the end of
-    its `with`, or when it is no longer used.
+    its `with`, or when nobody uses it any more.
     """
 
     def __init__(self, path, *, allow_unsealed=False, keys_folder=None):
@@ -531,7 +432,7 @@ class Cell:
     cell of that name there; Error NOT_FOUND, WRONG_TYPE or OVERWRITTEN where there is none that serves."""
 
     def __init__(self, handle, name, access):
-        # Not the instance: an unused one ends, even if its cells are still in use.
+        # Not the instance: one that nobody uses any more ends, whoever keeps its cells.
         self._handle, self.name = handle, name
         number = c_uint32()
         _call(_library.rung_instance_find, handle, name, access, byref(number))
@@ -611,7 +512,7 @@ class Cell:
 class Instance(_Closing):
     """A program that runs: its memory, clock, queues, and the part of the control that belongs to its dialect.
 
-    It ends by close, at the end of its `with`, or when it is no longer used; only power_off switches it off.
+    It ends by close, at the end of its `with`, or when nobody uses it any more; nothing switches it off but power_off.
 
     Methods that run the program give True, or False where a fault has stopped it, now or before (see fault). After an
     exception in a callback the call that led to it runs to its end and then raises that exception, the first of them.
@@ -626,7 +527,7 @@ class Instance(_Closing):
             does after an exception.
         fault(plc): a fault has stopped the program, within a scan.
         log(level, text): what an operator should know, with its LogLevel.
-        measure: the times of scans are measured, for State.last_ns and .worst_ns.
+        measure: the times of passes are measured, for State.last_ns and .worst_ns.
         queue_requests: without `request`, all requests wait for next_request.
         save_at_once: what the program asks to be saved is on disk when a call returns; for a program that runs faster
             than its clock.
@@ -708,7 +609,7 @@ class Instance(_Closing):
         return self._ran(_library.rung_instance_slice)
 
     def scan(self, count=1):
-        """Runs the rest of a scan, and `count` - 1 more, as long as no fault stops them. Error: WRONG_STATE, the
+        """Runs the rest of a pass, and `count` - 1 more, as long as no fault stops them. Error: WRONG_STATE, the
         program is off."""
         return all(self._ran(_library.rung_instance_scan) for _ in range(_integer(count, 1, _NONE)))
 
@@ -824,7 +725,7 @@ class Instance(_Closing):
     # -- messages and services --
 
     def messages(self):
-        """The messages that the program has shown, cleared or logged and that were not taken yet, one Message after the
+        """The messages that the program has shown, cleared or logged and nobody has taken yet, one Message after the
         other."""
         message = _abi.rung_message_info()
         while _call(_library.rung_instance_next_message, self, byref(message)) != Status.EMPTY:
@@ -990,14 +891,14 @@ class _Part(_Closing):
 
 
 class Watch(_Part):
-    """Names that other threads look at while the program runs: their values at the end of a scan, all of one scan.
+    """Names that other threads look at while the program runs: their values at the end of a pass, all of one pass.
 
     It ends by close, at the end of its `with`, or with its instance.
     """
 
     def __init__(self, plc, names, depth=0):
-        """Watches names, of an array its first element, from the end of this scan on; from any thread, where they were
-        read before. `depth`: how many scans are kept for samples, at most 1,000,000. Errors as of Instance.cell;
+        """Watches names, of an array its first element, from the end of this pass on; from any thread, where they were
+        read before. `depth`: how many passes are kept for samples, at most 1,000,000. Errors as of Instance.cell;
         WRONG_TYPE, a text; WRONG_STATE, there are 16 already; BAD_ARGUMENT."""
         self._names = list(names)
         self._cells = [plc.cell(name) for name in self._names]
@@ -1005,12 +906,12 @@ class Watch(_Part):
                          len(self._cells), depth)
 
     def newest(self):
-        """(Sample, {name: value}) of the last scan that is over, or of the moment of a fault; None: none has ended
+        """(Sample, {name: value}) of the last pass that is over, or of the moment of a fault; None: none has ended
         since the watch began. A name that the program no longer has is 0. Any thread, and several at a time."""
         return self._sample(_library.rung_watch_newest)
 
     def samples(self):
-        """(Sample, {name: value}) of every scan that waits, one after the other. Any thread, one at a time."""
+        """(Sample, {name: value}) of every pass that waits, one after the other. Any thread, one at a time."""
         return iter(lambda: self._sample(_library.rung_watch_next), None)
 
     def _sample(self, function):
@@ -1021,13 +922,13 @@ class Watch(_Part):
 
 
 class Trace(_Part):
-    """The scans of a Watch as a file for wave viewers: it takes them in the place of Watch.samples.
+    """The passes of a Watch as a file for wave viewers: it takes them in the place of Watch.samples.
 
     It ends by close, at the end of its `with`, or with its instance.
     """
 
     def __init__(self, watch, path):
-        """Begins a file (value change dump). Error: BAD_ARGUMENT, the watch keeps no scans; FAILED."""
+        """Begins a file (value change dump). Error: BAD_ARGUMENT, the watch keeps no passes; FAILED."""
         self._handle = _Handle("rung_trace_free")
         _call(_library.rung_trace_new, watch, path, byref(self._handle))
         self._plc, self._watch = watch._plc, watch
@@ -1035,7 +936,7 @@ class Trace(_Part):
         self._plc._parts.insert(self._plc._parts.index(watch._handle), self._handle)
 
     def write(self):
-        """Writes all scans that wait. False: none waited. Error: FAILED."""
+        """Writes all passes that wait. False: none waited. Error: FAILED."""
         return _call(_library.rung_trace_write, self) != Status.EMPTY
 
 
@@ -1080,7 +981,7 @@ class Shadow(_Part):
     """
 
     def __init__(self, plc, image, passes, room=64):
-        """For so many scans of the schedule, with room for so many runs of tasks that wait for `work`. Error: REFUSED,
+        """For so many passes of the schedule, with room for so many runs of tasks that wait for `work`. Error: REFUSED,
         a program of another dialect or schedule; BAD_ARGUMENT; OUT_OF_MEMORY."""
         super().__init__(plc, "rung_shadow_free", _library.rung_shadow_new, image, _integer(passes, 0, _NONE),
                          _integer(room, 0, _NONE))
@@ -1104,7 +1005,7 @@ class Shadow(_Part):
 
 
 class Forces(_Part):
-    """Names that a person holds at a value: every reader within a scan gets that value (Instance.force).
+    """Names that a person holds at a value: whoever reads one within a scan reads that value (Instance.force).
 
     It ends by close, at the end of its `with`, or with its instance; one that is in effect ends then, too.
     """

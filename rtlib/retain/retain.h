@@ -1,6 +1,6 @@
-// Retained memory on disk. Two files, BASE.a and BASE.b, are written in turn. Each has a generation number, its layout
-// and a checksum, and is replaced as a whole (write, fsync, rename), so a crash at any moment leaves a good one.
-// BASE.lock keeps other processes out.
+// The retained memory on disk. Two files, BASE.a and BASE.b, are written in turn; each has a generation number, its
+// layout and a checksum, and is replaced as a whole (write, fsync, rename), so a crash at any moment leaves a good
+// one. BASE.lock keeps a second process out.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -23,29 +23,28 @@ namespace rung::runtime {
 
 struct RetainImage {
   bool found = false;      // false: start cold
-  std::string description; // of an image with another layout, which was found instead: `bytes` are its contents
+  std::string description; // not found, but an image of another layout, which has this: `bytes` are its
   std::vector<uint8_t> bytes;
   uint64_t generation = 0;
-  std::string report; // what was wrong with the files; "": nothing, or this is the first start
+  std::string report; // what was wrong with the files, "" when nothing was; nor is a first start
 };
 
-// A place that stores images. Its functions block, so the scan thread must not call them.
+// Where images are kept. Blocks: not for the scan thread.
 class RetainTarget {
 public:
   virtual ~RetainTarget() = default;
-  // Stores the image of a program with this layout. True: it is stored permanently. False: `error` says what was not
+  // True: the image, of a program with this layout, is kept, whatever happens now. False: `error` says what was not
   // written and why.
   virtual bool save(std::span<const uint8_t> bytes, const RetainLayout& layout, std::string& error) = 0;
 };
 
 class RetainStore final : public RetainTarget {
 public:
-  // `base` is the path of the files without .a and .b. Bytes saved under another layout or size are not `found`. The
-  // disk outlives the store.
+  // `base` is a path without ending; bytes saved under another layout or size are not `found`. The disk outlives it.
   RetainStore(std::string base, RetainLayout layout, uint32_t size, Disk& disk = systemDisk());
 
-  // Locks the files, in all processes, until this store ends. A caller that loads in order to save later locks first;
-  // `save` locks, too. False: `error` says why.
+  // From now until this store ends no other one saves here, in no process. Whoever loads in order to save later locks
+  // first; `save` does it too. False: `error` says why.
   bool lock(std::string& error);
   RetainImage load();
   bool save(std::span<const uint8_t> bytes, std::string& error) { return save(bytes, layout_, error); }
@@ -63,22 +62,21 @@ private:
   bool looked_ = false; // generation_ and newestIsB_ are known
 };
 
-// What the scan thread copies for the saver thread, for one program: the bytes, and how they become an image.
+// What the scan thread copies for the saver, of one program: its bytes, and how they become an image.
 class RetainChannel {
 public:
-  // Converts the bytes that the scan thread copied into the image. Saver thread.
+  // How the bytes that were copied in the scan become the image; runs on the saver's thread.
   using Pack = std::function<void(std::span<const uint8_t> raw, std::span<uint8_t> image)>;
 
   RetainChannel(RetainLayout layout, uint32_t rawSize, uint32_t imageSize, Pack pack);
-  // For the retained memory of an instance.
+  // Of the retained memory of an instance.
   explicit RetainChannel(const RetainMap& map);
 
 private:
   friend class RetainSaver;
-  // Discards what was offered to another saver.
+  // Forgets what was offered to another saver.
   void enter(int64_t saver) noexcept;
 
-  static constexpr uint32_t kFresh = 4; // in `shared_`: the saver has not taken this offer yet
   struct Offer {
     std::vector<uint8_t> raw;
     uint64_t ticket = 0; // 0: nothing was offered
@@ -87,31 +85,26 @@ private:
   RetainLayout layout_;
   uint32_t imageSize_;
   Pack pack_;
-  // Triple buffer: one offer belongs to the scan thread, one to the saver, and the third is exchanged between them.
-  std::array<Offer, 3> offers_;
-  uint64_t newest_ = 0; // ticket of the last offer; scan thread
-  uint32_t back_ = 0;   // scan thread
-  uint32_t front_ = 1;  // saver thread
-  std::atomic<uint32_t> shared_{2};
-  int64_t saver_ = 0; // RetainSaver::begun_
+  core::Newest<Offer> offers_;
+  uint64_t newest_ = 0; // ticket of the last offer; the scan thread's
+  int64_t saver_ = 0;   // RetainSaver::begun_
 };
 
-// Saves, on a thread of its own, the images that the scan thread offers. `offer` copies and returns at once, whatever
-// the saver is doing. Of several offered images only the newest is saved, whichever program it is of; an image equal to
-// the last one is not written again. An image that could not be saved is retried until it is on disk or a newer one is
-// offered.
+// Takes images from the scan thread and saves them on its own. `offer` copies and returns at once, whatever the saver
+// is doing; of several images the newest is saved, of whichever program it is. An image like the last one is not
+// written again. One that could not be saved is kept, and tried again until it is on disk or a newer one comes.
 class RetainSaver {
 public:
-  // Checks for images once per `period`, because waking the saver would cost the scan thread a system call. 0: there is
-  // no thread; the caller checks by `look`.
+  // Looks for images once a `period`, because waking it would cost the scan thread a system call. 0: it has no thread,
+  // and looks where that is asked for.
   RetainSaver(std::unique_ptr<RetainTarget> target, std::unique_ptr<RetainChannel> channel,
               std::chrono::milliseconds period);
   ~RetainSaver(); // tries to save what was offered last
   RetainSaver(const RetainSaver&) = delete;
   RetainSaver& operator=(const RetainSaver&) = delete;
 
-  // Scan thread. `copy` fills a span of rawSize bytes; it must not allocate or throw. The result is the image's ticket;
-  // tickets ascend from 1.
+  // Scan thread. `copy` fills a span of rawSize bytes; it allocates nothing and does not throw. The image's ticket:
+  // they grow from 1.
   template <class Copy>
   uint64_t offerFrom(Copy copy) noexcept {
     RetainChannel::Offer& offer = channel_->offers_.back();
@@ -123,13 +116,11 @@ public:
   uint64_t offer(const Instance& instance) noexcept {
     return offerFrom([&](std::span<uint8_t> to) { instance.copyRetained(to); });
   }
-  // Scan thread. Whether the saver has taken the last offer, so that another copy is useful.
-  bool taken() const noexcept {
-    return (channel_->shared_.load(std::memory_order_acquire) & RetainChannel::kFresh) == 0;
-  }
-  // Scan thread, after another program has taken over: later offers use its channel. The last offer of a former program
-  // is still saved, unless there is a newer one. `channel` receives the former channel, which must exist until `settle`
-  // has returned.
+  // The saver has seen what was offered last: a copy is worth its time again.
+  bool taken() const noexcept { return channel_->offers_.taken(); }
+  // Another program has taken over: what is offered from now on goes through its channel. What was offered last, of
+  // whichever program of before, is saved all the same, until there is something newer. `channel` gets the former
+  // channel; it must not end before `settle` has returned.
   void swapChannel(std::unique_ptr<RetainChannel>& channel) noexcept {
     channel->enter(begun_);
     if (channel_->newest_ > formerNewest_) {
@@ -142,27 +133,27 @@ public:
 
   // Any thread, without a lock.
   uint64_t stored() const noexcept { return stored_.load(std::memory_order_acquire); } // ticket of the newest on disk
-  bool failing() const noexcept { return failing_.load(std::memory_order_acquire); }   // the last attempt failed
+  bool failing() const noexcept { return failing_.load(std::memory_order_acquire); }   // the last try went wrong
   uint64_t saved() const noexcept { return saved_.load(std::memory_order_relaxed); }   // images written
-  uint64_t failed() const noexcept { return failed_.load(std::memory_order_relaxed); } // failed attempts
-  // The reason of the last failure. The result is the number of characters; 0 while the text changes.
+  uint64_t failed() const noexcept { return failed_.load(std::memory_order_relaxed); } // tries that went wrong
+  // Why the last failed try failed; the number of characters, 0 while it changes.
   size_t problem(std::span<char> to) const noexcept { return problem_.read(to); }
 
-  // Any thread, but not in a scan. Saves the last offer if it is not on disk.
+  // Not in a scan, any thread. Saves what was offered last, where that is not on disk.
   void look() noexcept;
-  // Any thread, but not in a scan. Afterwards the saver no longer uses the former channel.
+  // The saver has all that it needs of the channel of before, and uses it no more.
   void settle() noexcept;
-  // Any thread, but not in a scan. Like `look`; true: the last offer is on disk.
+  // As `look`. True: what was offered last is on disk.
   bool flush() noexcept {
     look();
     return !failing();
   }
-  // Simulates a power failure: nothing is saved any more.
+  // The power is gone: nothing more is saved.
   void abandon() noexcept;
   std::string problem() const;
 
 private:
-  struct Image { // the image that is to be written
+  struct Image { // that is to be on disk
     uint64_t ticket = 0;
     RetainLayout layout{0};
     std::vector<uint8_t> bytes;
@@ -173,15 +164,15 @@ private:
   bool save(std::string& error);
 
   std::unique_ptr<RetainTarget> target_;
-  int64_t begun_;                          // in ns; unique among the savers of the process
-  std::unique_ptr<RetainChannel> channel_; // scan thread
+  int64_t begun_;                          // in ns: no other saver of the process has the same
+  std::unique_ptr<RetainChannel> channel_; // the scan thread's
   std::atomic<RetainChannel*> former_{
       nullptr}; // for the saver: one of before with the newest offer, and the present one
   std::atomic<RetainChannel*> current_;
   uint64_t lastTicket_ = 0, formerNewest_ = 0; // the scan thread's
-  std::mutex looking_;                         // held by `look` and `settle`
+  std::mutex looking_;                         // held while somebody looks
   Image pending_;
-  std::vector<uint8_t> onDisk_; // if it is known
+  std::vector<uint8_t> onDisk_; // where it is known
   uint64_t onDiskLayout_ = 0;
   bool onDiskKnown_ = false;
   bool abandoned_ = false; // under looking_

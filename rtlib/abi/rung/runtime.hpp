@@ -395,22 +395,6 @@ private:
   std::unique_ptr<rung_shadow, Ends<rung_shadow, rung_shadow_free>> shadow_;
 };
 
-// The scans of a watch as a file for wave viewers (rung_trace_new); it ends before the watch does. A caller that wants
-// to know whether the file is whole ends it by rung_trace_free(release()).
-class Trace {
-public:
-  Trace(rung_watch* watch, const std::string& path) {
-    rung_trace* trace = nullptr;
-    check(rung_trace_new(watch, path.c_str(), &trace));
-    trace_.reset(trace);
-  }
-  rung_trace* handle() const noexcept { return trace_.get(); }
-  rung_trace* release() noexcept { return trace_.release(); }
-
-private:
-  std::unique_ptr<rung_trace, Ends<rung_trace, rung_trace_free>> trace_;
-};
-
 // A set of forced cells (rung_forces_new), for the program that runs or for that of a replacement. It ends before the
 // instance does; while it is in effect, in the instance's thread.
 class Forces {

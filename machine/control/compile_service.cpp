@@ -1,10 +1,10 @@
-// See source_desk.h.
+// See compile_service.h.
 #include "machine/control/compile_service.h"
 
 #include <nlohmann/json.hpp>
 
+#include "machine/compile/forced_code_maker.h"
 #include "machine/compile/sources.h"
-#include "machine/control/base64.h"
 #include "machine/control/values.h"
 
 namespace rung::control {
@@ -13,6 +13,17 @@ using compile::Compilation;
 using nlohmann::json;
 
 namespace {
+
+class OfMachine final : public Programs {
+public:
+  ~OfMachine() override { maker_->abandon(); }
+  Image open(const std::string& path) override { return Image(path); }
+  void serveForces(const Image& image) override { maker_->serve(image); }
+  void abandon() override { maker_->abandon(); }
+
+private:
+  std::shared_ptr<compile::ForcedCodeMaker> maker_ = compile::ForcedCodeMaker::make();
+};
 
 constexpr std::chrono::seconds kIdle(30); // then another client may take the place
 
@@ -31,6 +42,8 @@ std::string pieceOf(const json& request) {
 }
 
 } // namespace
+
+std::unique_ptr<Programs> programsOfMachine() { return std::make_unique<OfMachine>(); }
 
 void CompileService::begin(uint32_t owner) {
   compilation_.reset(); // its process ends
@@ -74,6 +87,7 @@ json CompileService::compile(const Peer& peer, const json&) {
   const size_t bytes = packed_.size();
   compilation_ = std::make_unique<Compilation>(std::exchange(packed_, {}));
   lastUse_ = Clock::now();
+  plc_.logChange(peer, "compile " + std::to_string(bytes) + " bytes of sources");
   return {{"bytes", bytes}};
 }
 

@@ -1,4 +1,4 @@
-// The host's socket: lines of bounded length between two processes, without waiting, and the server that answers them.
+// Lines between two processes, of a bounded length, without waiting.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -15,30 +15,29 @@ namespace rung::control {
 class Connection {
 public:
   static constexpr size_t kLongestRequest = size_t{64} << 10;
-  static constexpr size_t kLongestAnswer = size_t{4} << 20; // also the limit of unsent bytes
+  static constexpr size_t kLongestAnswer = size_t{4} << 20; // and the most that waits until the other side takes it
 
-  // A connection over a socket, which it closes at its end; `longest` is the longest line that it accepts.
+  // Of a socket, which it closes; `longest` is the longest line that it takes.
   Connection(int socket, size_t longest) : socket_(socket), longest_(longest) {}
   Connection(Connection&& other) noexcept;
   Connection& operator=(Connection&& other) noexcept;
   ~Connection();
 
   int socket() const { return socket_; }
-  // Whether the connection has ended: the other side has closed it, or breaks the rules (`problem` says which). Nothing
-  // is read or sent any more.
+  // The other side has gone, or breaks the rules: `problem` says which. No more is read or sent.
   bool ended() const { return ended_; }
   const std::string& problem() const { return problem_; }
   bool wantsToSend() const { return !ended_ && !out_.empty(); }
 
-  // Reads what has arrived.
+  // Takes what has come.
   void receive();
   bool hasLine() const { return in_.find('\n') != std::string::npos; }
   // The next whole line, without its end.
   std::optional<std::string> line();
-  // Sends a line, as far as the other side accepts it; sendMore sends the rest.
+  // A line; sent as far as the other side takes it.
   void send(std::string_view line);
   void sendMore();
-  // Ends the connection after everything has been sent.
+  // After what is sent.
   void end(std::string problem);
 
 private:
@@ -49,50 +48,51 @@ private:
   std::string in_, out_;
 };
 
-// The receiver of a host's answers and events: the clients of a socket, or a test.
+// Where a host's answers and events go: to the clients of a socket, or to a test.
 
 class Sink {
 public:
   virtual ~Sink() = default;
-  // Sends an event to a client; nothing happens if that client has disconnected.
+  // To one of those who have asked; to nobody where that one has gone.
   virtual void send(uint32_t peer, const nlohmann::json& event) = 0;
-  // Sends an answer that a handler has postponed. Until then no further request of the client is read.
+  // The answer that a handler has not given before. Until then nothing else that the client sends is looked at.
   virtual void answer(uint32_t peer, const nlohmann::json& answer) = 0;
 };
 
-// The server at a host's socket: its user and root may send requests, one JSON object per line
-// (docs/control-protocol.md).
+// The socket of a host: its user, and root, may send requests, one JSON object a line (docs/control-protocol.md).
 
-// A client, as the system identifies it.
+constexpr int kProtocol = 1;
+
+// Who asks, as the system knows them.
 struct Peer {
   uint32_t number = 0; // of the connection, from 1, never used again
   uid_t user = 0;
   pid_t process = 0;
-  std::string name; // of the user; the number if the user has no name
+  std::string name; // of the user; the number where there is none
 };
 
 class Handler {
 public:
   virtual ~Handler() = default;
-  // The first line that a client gets.
+  // What the host says first.
   virtual nlohmann::json greeting() = 0;
-  // The answer to one request, which may be any JSON; null: it follows by Sink::answer.
+  // The answer to one request, any JSON; null: it comes later, by Sink::answer.
   virtual nlohmann::json answer(const Peer& peer, const nlohmann::json& request) = 0;
   virtual void gone(const Peer& peer) = 0;
 };
 
-// Service thread.
+// For one thread.
 class Server final : public Sink {
 public:
   static constexpr size_t kMostPeers = 16;
 
-  // Listens at the socket of this host. Throws std::runtime_error if that is not possible, or another host has it.
+  // Listens at the place of this host. Throws std::runtime_error: something is wrong with it, or another host has it.
   Server(const std::string& host, uid_t user, Handler& handler);
-  ~Server() override; // removes the socket
+  ~Server() override; // nothing is left of the socket
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // Answers the requests that have arrived; waits at most `wait` for one.
+  // Answers what has come; waits for it no longer than that.
   void serve(std::chrono::milliseconds wait);
   void send(uint32_t peer, const nlohmann::json& event) override;
   void answer(uint32_t peer, const nlohmann::json& answer) override;
@@ -113,7 +113,7 @@ private:
   uid_t user_;
   Handler& handler_;
   int socket_ = -1;
-  bool pauses_ = false; // the system had no file descriptor for another client: accepts none for a turn
+  bool pauses_ = false; // the system had no file for another client: for a turn none is asked for
   uint32_t lastPeer_ = 0;
   std::list<Client> clients_;
 };

@@ -1,17 +1,63 @@
 // See values.h.
 #include "machine/control/values.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include <nlohmann/json.hpp>
+#include <sodium.h>
 
+#include "rtlib/text/controls.h"
 #include "rtlib/text/number.h"
 #include "rung/types.hpp"
 
 namespace rung::control {
 
 using nlohmann::json;
+
+std::string textOf(const json& request, const char* key) {
+  const auto found = request.find(key);
+  if (found == request.end() || !found->is_string())
+    throw Refused(std::string("found no text \"") + key + "\" in the request, expected one");
+  std::string text = found->get<std::string>();
+  if (text::hasControls(text))
+    throw Refused(std::string("found a control character in \"") + key + "\", expected none");
+  return text;
+}
+
+bool flagOf(const json& request, const char* key) {
+  const auto found = request.find(key);
+  if (found == request.end()) return false;
+  if (!found->is_boolean())
+    throw Refused(std::string("found no true or false for \"") + key + "\", expected one of them");
+  return found->get<bool>();
+}
+
+std::vector<std::string> namesOf(const json& request) {
+  constexpr size_t kMostNames = 256;
+  const auto found = request.find("names");
+  const bool good = found != request.end() && found->is_array() && !found->empty() && found->size() <= kMostNames &&
+                    std::ranges::all_of(*found, &json::is_string);
+  if (found != request.end() && found->is_array() && found->size() > kMostNames)
+    throw Refused("found " + std::to_string(found->size()) + " names, expected at most " + std::to_string(kMostNames) +
+                  ", because all come from one scan; ask for them in parts");
+  if (!good) throw Refused("found no list \"names\" of 1 to 256 texts in the request, expected one");
+  auto names = found->get<std::vector<std::string>>();
+  if (std::ranges::any_of(names, [](const std::string& name) { return text::hasControls(name); }))
+    throw Refused("found a control character in \"names\", expected none");
+  return names;
+}
+
+std::string joined(const std::vector<std::string>& texts, const char* between) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : between) + text;
+  return all;
+}
+
+// ---- values of cells -----------------------------------------------------------------------------------------------
+
+std::string shown(uint32_t type, rung_value value) { return toJson(type, value).dump(); }
 
 std::string typeName(uint32_t type) {
   switch (type) {
@@ -86,6 +132,26 @@ rung_value fromJson(uint32_t type, const json& value, const std::string& name) {
   if (bits < 64 && made.integer < -(int64_t{1} << (bits - 1)))
     refuse("at least " + std::to_string(-(int64_t{1} << (bits - 1))));
   return made;
+}
+
+// ---- bytes ---------------------------------------------------------------------------------------------------------
+
+std::string toBase64(std::string_view bytes) {
+  std::string text(sodium_base64_ENCODED_LEN(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
+  sodium_bin2base64(text.data(), text.size(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                    sodium_base64_VARIANT_ORIGINAL);
+  text.pop_back(); // the 0 at its end
+  return text;
+}
+
+std::optional<std::string> fromBase64(std::string_view text) {
+  std::string bytes(text.size() / 4 * 3 + 3, '\0');
+  size_t length = 0;
+  const int status = sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), text.data(),
+                                       text.size(), nullptr, &length, nullptr, sodium_base64_VARIANT_ORIGINAL);
+  if (status != 0) return std::nullopt;
+  bytes.resize(length);
+  return bytes;
 }
 
 } // namespace rung::control

@@ -1,9 +1,12 @@
-// Values of cells as JSON: a bit is true or false, an integer and a real are numbers; NaN and infinity are texts. A
-// byte has no sign, wider integers have one.
+// What requests and answers hold, as JSON: texts and names, values of cells, bytes. Of cells a bit is true or false, an
+// integer and a real are numbers; a real that is none is null. A byte has no sign, wider integers have one.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -11,16 +14,27 @@
 
 namespace rung::control {
 
-// A request cannot be carried out. The text is for the user: found, expected, what to do.
+// Something that is asked for cannot be done; the text is for the person who asks: found, expected, what to do.
 class Refused : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
 
+// Of a request, by their keys; throw Refused where they are not there, or are something else.
+std::string textOf(const nlohmann::json& request, const char* key);
+bool flagOf(const nlohmann::json& request, const char* key); // without it: false
+std::vector<std::string> namesOf(const nlohmann::json& request);
+
+std::string joined(const std::vector<std::string>& texts, const char* between);
+
 // `type`: enum rung_type, not of a text.
 nlohmann::json toJson(uint32_t type, rung_value value);
-// Throws Refused if the value does not fit the type; integers may be signed as the cell, or unsigned.
+// Throws Refused where it is none of the type; integers may have the sign of the cell, or none.
 rung_value fromJson(uint32_t type, const nlohmann::json& value, const std::string& name);
-std::string typeName(uint32_t type); // "bit", "i16", "real"
+std::string typeName(uint32_t type);                // "bit", "i16", "real"
+std::string shown(uint32_t type, rung_value value); // for people
+
+std::string toBase64(std::string_view bytes);
+std::optional<std::string> fromBase64(std::string_view text); // nothing where it is none
 
 } // namespace rung::control

@@ -17,7 +17,6 @@
 #include <utility>
 #include <vector>
 
-#include "machine/control/controller.h"
 #include "machine/control/place.h"
 
 namespace rung::rungctl {
@@ -93,7 +92,7 @@ Client::Client(Reached reached) : host_(std::move(reached.host)), connection_(st
   if (!first) throw std::runtime_error("the host " + host_ + " does not answer");
   if (first->contains("error")) throw std::runtime_error((*first)["error"].get<std::string>());
   greeting_ = *first;
-  if (greeting_.value("rung", "") != "host" || greeting_.value("protocol", 0) != control::Controller::kProtocol)
+  if (greeting_.value("rung", "") != "host" || greeting_.value("protocol", 0) != control::kProtocol)
     throw std::runtime_error("the host " + host_ + " speaks another protocol: " + greeting_.dump());
 }
 

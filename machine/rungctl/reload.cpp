@@ -15,8 +15,8 @@
 #include <thread>
 #include <vector>
 
-#include "machine/control/base64.h"
-#include "machine/rung-compile/collect.h"
+#include "machine/compile/collect.h"
+#include "machine/control/values.h"
 
 namespace rung::rungctl {
 
@@ -69,7 +69,7 @@ std::string stateOf(const json& report) {
 // The program runs beside the other one until it has been compared. "", or why it does not take over.
 std::string whatSpeaksAgainst(Client& client, const Words& words, const volatile int& stop, json request) {
   request["do"] = "shadow";
-  request["scans"] = words.shadow;
+  request["passes"] = words.shadow;
   asked(client, request);
   json report;
   do {
@@ -116,7 +116,7 @@ void sendSources(Client& client, const std::string& packed) {
 
 // The host has compiled them, where the status is kOk; else what is wrong has been said.
 int compileThere(Client& client, const Words& words, const volatile int& stop) {
-  rung_compile::Collected collected = rung_compile::collect(words.files, isatty(STDERR_FILENO) != 0);
+  compile::Collected collected = compile::collect(words.files, isatty(STDERR_FILENO) != 0);
   if (!collected.sources)
     return failSources(words, collected.report, collected.diagnostics,
                        collected.unreadable ? cli::kEnvironment : cli::kWrong);

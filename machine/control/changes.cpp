@@ -1,0 +1,254 @@
+// See changes.h.
+#include "machine/control/changes.h"
+
+#include <chrono>
+#include <iterator>
+#include <utility>
+
+#include "machine/control/values.h"
+
+namespace rung::control {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr size_t kMostChanges = 1000; // that a report lists
+constexpr uint32_t kMostShadowPasses = 100'000;
+constexpr uint32_t kShadowRoom = 256; // runs of tasks that wait to be compared
+constexpr std::chrono::seconds kTakeOverTime(3);
+
+std::string programOf(const json& request) {
+  std::string path = textOf(request, "program");
+  if (!path.starts_with('/')) throw Refused("found the path " + path + ", expected an absolute one");
+  return path;
+}
+
+const char* changeName(uint32_t kind) {
+  constexpr const char* kNames[] = {"new",     "removed",  "moved", "renamed",
+                                    "retyped", "released", "cut"}; // enum rung_change_kind
+  return kind < std::size(kNames) ? kNames[kind] : "changed";
+}
+
+const char* rungChangeName(uint32_t kind) {
+  constexpr const char* kNames[] = {"new", "removed", "changed", "moved"}; // enum rung_rung_change_kind
+  return kind < std::size(kNames) ? kNames[kind] : "changed";
+}
+
+bool loses(uint32_t kind) {
+  return kind == RUNG_CHANGE_REMOVED || kind == RUNG_CHANGE_RETYPED || kind == RUNG_CHANGE_RELEASED ||
+         kind == RUNG_CHANGE_CUT;
+}
+
+// What becomes of the state when the replacement's program takes over.
+json reportOf(const rung_replacement* replacement, std::string& lost) {
+  auto info = sized<rung_replacement_info>();
+  check(rung_replacement_report(replacement, &info));
+  json changes = json::array();
+  auto change = sized<rung_change>();
+  for (uint32_t i = 0; i < kMostChanges && rung_replacement_change(replacement, i, &change) == RUNG_OK; ++i) {
+    changes.push_back({{"kind", changeName(change.kind)},
+                       {"name", change.name},
+                       {"former", change.former},
+                       {"state", change.is_state != 0}});
+    if (loses(change.kind)) lost += (lost.empty() ? "" : ", ") + std::string(change.name);
+  }
+  json rungs = json::array();
+  auto rung = sized<rung_rung_change>();
+  for (uint32_t i = 0; i < kMostChanges && rung_replacement_rung(replacement, i, &rung) == RUNG_OK; ++i)
+    rungs.push_back({{"kind", rungChangeName(rung.kind)},
+                     {"rung", rung.rung},
+                     {"title", rung.title},
+                     {"file", rung.file},
+                     {"line", rung.line}});
+  return {{"kept_cells", info.kept_cells},
+          {"kept_states", info.kept_states},
+          {"rungs", rungs},
+          {"changes", changes},
+          {"bound", info.bound}};
+}
+
+} // namespace
+
+// A file, or what has been compiled for this client.
+Changes::NextProgram Changes::nextProgram(const Peer& peer, const json& request) {
+  NextProgram next;
+  if (flagOf(request, "compiled")) {
+    next.image = &compiler_.image(peer);
+    next.text = std::string(next.image->program().name) + ", compiled here from sources";
+  } else {
+    next.text = programOf(request);
+    next.opened = programs_.open(next.text);
+  }
+  return next;
+}
+
+// ---- reload and rollback -------------------------------------------------------------------------------------------
+
+// Ends forces; `why`: for those that are being made.
+json Changes::putInPlace(rung_replacement* replacement, const std::vector<rung_cell>& dead, json report,
+                         const char* why) {
+  const std::vector<std::string> ended = forces_.activeNames();
+  const host::Command done =
+      plc_.post({.kind = host::Command::Kind::Replace, .replacement = replacement, .dead = &dead}, kTakeOverTime);
+  forces_.programChanged();
+  forces_.refusePending(why);
+  report["ended_forces"] = ended;
+  report["stopped"] = (done.state.flags & RUNG_STATE_STOPPED) != 0; // by the operator, as the program before
+  if (plc_.host().running() && (done.state.flags & RUNG_STATE_STOPPED) == 0) waitForPass(done.state.passes);
+  report["waits"] = !plc_.host().running(); // for a reset
+  auto info = sized<rung_replacement_info>();
+  check(rung_replacement_report(replacement, &info));
+  report["put_back"] = info.next == 0; // by a fault, already
+  return report;
+}
+
+// The first one after so many, or its fault: then it is known whether the new program can run at all.
+void Changes::waitForPass(uint64_t passes) {
+  constexpr int64_t kMostNs = 300'000'000, kLookNs = 1'000'000;
+  constexpr uint32_t kEnd = RUNG_STATE_FAULTED | RUNG_STATE_STOPPED;
+  for (const int64_t end = plc_.host().clock().nowNs() + kMostNs; plc_.host().clock().nowNs() < end;
+       plc_.host().clock().sleep(kLookNs)) {
+    const std::optional<rung_state> now = plc_.state();
+    if (!now || (now->flags & kEnd) != 0 || now->passes != passes) return;
+  }
+}
+
+json Changes::reload(const Peer& peer, const json& request) {
+  const NextProgram next = nextProgram(peer, request);
+  const Image& image = next.get();
+  programs_.serveForces(image);
+  rung_replacement* made = nullptr;
+  check(rung_replacement_new(plc_.instance(), image.handle(), nullptr, 0, &made));
+  decltype(replacement_) replacement(made);
+  const host::PlcHost::Losses pins = plc_.host().lossesBy(made, image.program());
+  if (!pins.mistakes.empty())
+    throw Refused("the mapping file does not fit the new program:\n" + joined(pins.mistakes, "\n") +
+                  "\nnothing has changed");
+  std::string lost;
+  json report = reportOf(made, lost);
+  report["program"] = next.text;
+  report["pins"] = pins.moved;
+  if ((!lost.empty() || !pins.moved.empty()) && !flagOf(request, "yes")) {
+    report["ok"] = false;
+    report["needs"] = "yes";
+    report["error"] = (pins.moved.empty() ? "" : "pins lose or change their variables: " + joined(pins.moved, "; ")) +
+                      (pins.moved.empty() || lost.empty() ? "" : "; ") +
+                      (lost.empty() ? "" : "the new program loses state: " + lost);
+    return report;
+  }
+  if (flagOf(request, "late")) check(rung_replacement_allow_late(made));
+  report = putInPlace(made, pins.dead, std::move(report),
+                      "another program has taken over in the meantime; all forces have ended");
+  replacement_ = std::move(replacement);
+  cells_.learnSymbols(image.program());
+  plc_.logChange(peer, "reload " + next.text + forces_.endedForces());
+  return report;
+}
+
+json Changes::rollback(const Peer& peer, const json&) {
+  if (replacement_ == nullptr)
+    throw Refused("no program has been reloaded, so there is no former program to return to");
+  std::string lost;
+  const host::PlcHost::Losses pins = plc_.host().lossesBy(replacement_.get());
+  json report = reportOf(replacement_.get(), lost);
+  auto info = sized<rung_replacement_info>();
+  check(rung_replacement_report(replacement_.get(), &info));
+  report["again"] = info.next == info.program; // the reloaded program, which a rollback has taken away
+  report["pins"] = pins.moved;
+  report = putInPlace(replacement_.get(), pins.dead, std::move(report),
+                      "the former program has taken over in the meantime; all forces have ended");
+  report["program"] = plc_.program().name;
+  plc_.logChange(peer, "rollback to " + report["program"].get<std::string>() + forces_.endedForces());
+  return report;
+}
+
+// ---- shadow --------------------------------------------------------------------------------------------------------
+
+// Its end is a command, too: the scan thread writes into it.
+void Changes::endShadow() {
+  if (shadow_ == nullptr) return;
+  plc_.post({.kind = host::Command::Kind::Shadow, .shadow = nullptr});
+  shadow_.reset();
+}
+
+json Changes::shadow(const Peer& peer, const json& request) {
+  const auto passes = request.find("passes");
+  if (passes == request.end() || !passes->is_number_unsigned() || *passes == 0 || *passes > kMostShadowPasses)
+    throw Refused("found no number \"passes\" from 1 to 100000 in the request, expected one");
+  if (shadow_ != nullptr && shadowsFor_ != peer.number)
+    throw Refused("another client is running a shadow; try again when it has ended");
+  if (const std::optional<rung_state> now = plc_.state(); now && (now->flags & RUNG_STATE_STOPPED) != 0)
+    throw Refused("the operator has stopped the program, so there is nothing to compare; start it first");
+  const NextProgram next = nextProgram(peer, request);
+  endShadow();
+  rung_shadow* made = nullptr;
+  check(rung_shadow_new(plc_.instance(), next.get().handle(), passes->get<uint32_t>(), kShadowRoom, &made));
+  shadow_.reset(made);
+  shadowsFor_ = peer.number;
+  compared_ = nullptr;
+  plc_.post({.kind = host::Command::Kind::Shadow, .shadow = made}, kTakeOverTime);
+  plc_.logChange(peer, "shadow " + next.text + " for " + std::to_string(passes->get<uint32_t>()) + " scans");
+  return json::object();
+}
+
+json Changes::compared(const Peer& peer, const json&) {
+  if (shadow_ != nullptr && shadowsFor_ == peer.number) return shadowReport();
+  if (compared_.is_null() || shadowsFor_ != peer.number) throw Refused("there is no shadow; \"shadow\" starts one");
+  return compared_;
+}
+
+json Changes::shadowReport() {
+  auto info = sized<rung_shadow_info>();
+  check(rung_shadow_report(shadow_.get(), &info));
+  constexpr const char* kStates[] = {"prepared", "running", "finished",
+                                     "too-slow", "stopped", "faulted"}; // by rung_shadow_state
+  json differences = json::array();
+  auto difference = sized<rung_difference>();
+  for (uint32_t i = 0; i < kMostChanges && rung_shadow_difference(shadow_.get(), i, &difference) == RUNG_OK; ++i) {
+    json row = {{"name", difference.name}, {"runs", difference.runs}, {"first_us", difference.first_us}};
+    if (difference.type != 0) { // else it is a service that the new program alone requests
+      row["running"] = toJson(difference.type, difference.running);
+      row["next"] = toJson(difference.type, difference.next);
+    }
+    differences.push_back(row);
+  }
+  return {{"state", info.state < std::size(kStates) ? kStates[info.state] : "unknown"},
+          {"runs", info.runs},
+          {"fault", info.fault},
+          {"differences", differences}};
+}
+
+void Changes::compareShadow() {
+  constexpr int kMostRuns = 200;
+  if (shadow_ == nullptr) return;
+  for (int i = 0; i < kMostRuns; ++i)
+    if (rung_shadow_work(shadow_.get()) != RUNG_OK) break;
+  json report = shadowReport();
+  if (report["state"] == "prepared" || report["state"] == "running") return;
+  finishShadow(std::move(report));
+}
+
+// All of it that is still of use is the report.
+void Changes::finishShadow(json report) {
+  compared_ = std::move(report);
+  endShadow();
+}
+
+void Changes::programStopped() {
+  if (shadow_ == nullptr) return;
+  json report = shadowReport();
+  report["state"] = "stopped";
+  finishShadow(std::move(report));
+}
+
+void Changes::gone(const Peer& peer) {
+  if (shadow_ == nullptr || shadowsFor_ != peer.number) return;
+  try {
+    endShadow();
+    // Without a step of the scan thread it ends when it is over. NOLINTNEXTLINE(bugprone-empty-catch)
+  } catch (const Refused&) {
+  }
+}
+
+} // namespace rung::control

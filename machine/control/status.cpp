@@ -1,0 +1,219 @@
+// See status.h.
+#include "machine/control/status.h"
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "machine/control/values.h"
+#include "machine/host/mapping_file.h"
+
+namespace rung::control {
+
+using nlohmann::json;
+
+json Status::greeting() const {
+  return {{"rung", "host"},
+          {"protocol", kProtocol},
+          {"host", host_},
+          {"program", plc_.program().name},
+          {"dialect", dialect_}};
+}
+
+// ---- state ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+json jsonOf(const host::FunctionState& functions) {
+  json list = json::array();
+  for (uint32_t i = 0; i < std::min(functions.count, host::FunctionState::kMost); ++i) {
+    const host::FunctionState::Function& function = functions.oldest[i];
+    list.push_back({{"function", host::kFunctionKinds[function.kind]},
+                    {"code", function.code},
+                    {"channel", function.channel + 1},
+                    {"us", function.ageNs / 1000},
+                    {"begun", function.begun},
+                    {"late", function.late}});
+  }
+  return {{"count", functions.count}, {"lost", functions.lost}, {"oldest", list}};
+}
+
+} // namespace
+
+json Status::status(const Peer&, const json&) {
+  const rung_program_info program = plc_.program();
+  json out = {{"host", host_}, {"program", program.name}, {"dialect", dialect_}};
+  if (program.faulted != 0) out["fault_of"] = program.faulted_name;
+  if (addToStatus_) addToStatus_(out);
+  host::Command look{.kind = host::Command::Kind::State};
+  const host::CommandResult answer = plc_.host().post(look);
+  out["scanned"] = answer.ok();
+  out["powered_off"] = plc_.host().ended();
+  if (!answer.ok()) return out;
+  const uint32_t flags = look.state.flags;
+  out["passes"] = look.state.passes;
+  out["missed"] = look.state.missed;
+  out["restarts"] = plc_.host().restarts();
+  out["functions"] = jsonOf(look.functions);
+  out["us"] = look.state.now_us;
+  out["stopped"] = (flags & RUNG_STATE_STOPPED) != 0;
+  out["unsaved"] = (flags & RUNG_STATE_UNSAVED) != 0;
+  out["faulted"] = (flags & RUNG_STATE_FAULTED) != 0;
+  if (!plc_.host().restartProblem().empty()) out["restart_problem"] = plc_.host().restartProblem();
+  const bool faulted = (flags & RUNG_STATE_FAULTED) != 0; // a fault of after the command is of another moment
+  if (const std::optional<rung_fault_info> fault = faulted ? plc_.host().fault() : std::nullopt) {
+    out["fault"] = fault->text;
+    out["file"] = fault->file;
+    out["line"] = fault->line;
+  }
+  return out;
+}
+
+// ---- pins ----------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// What the program has a pin for, as the mapping file says it: "DOOR", "bit 3 of X0", "M3", "done of M3".
+std::vector<std::string> usesOf(const host::File& map, uint32_t pin) {
+  std::vector<std::string> uses;
+  for (const host::Link& link : map.links) {
+    const auto bit = std::ranges::find(link.bits, pin);
+    if (bit != link.bits.end())
+      uses.push_back("bit " + std::to_string(bit - link.bits.begin()) + " of " + link.name);
+    else if (link.bits.empty() && link.pin == pin)
+      uses.push_back(link.name);
+  }
+  for (const host::Send& send : map.sends) {
+    const std::string kind(host::kFunctionKinds[send.kind]);
+    const std::string function = send.codePin ? kind : kind + std::to_string(send.code);
+    if (send.edge.pin == pin) uses.push_back(function);
+    if (send.codePin == pin) uses.push_back("code of " + function);
+    if (send.donePin == pin) uses.push_back("done of " + function);
+  }
+  for (const host::Edge& abort : map.aborts)
+    if (abort.pin == pin) uses.emplace_back("abort");
+  for (const host::Connection& connection : map.connections)
+    if (connection.statusPin == pin) uses.push_back("status of " + connection.title());
+  return uses;
+}
+
+json jsonOf(host::PinType type, const host::Value& value) {
+  switch (type) {
+  case host::PinType::Bit: return value.bit;
+  case host::PinType::S32: return value.s32;
+  case host::PinType::U32: return value.u32;
+  case host::PinType::Float: return toJson(RUNG_TYPE_F64, {.real = value.real});
+  }
+  return nullptr;
+}
+
+} // namespace
+
+// Empty: no thread scans the program.
+std::vector<host::Value> Status::pinValues() {
+  struct {
+    const host::PlcHost& plc;
+    std::vector<host::Value> values;
+  } looking{plc_.host(), std::vector<host::Value>(plc_.host().pins().size())};
+  host::Command look{.kind = host::Command::Kind::Act,
+                     .act =
+                         [](void* actor) {
+                           auto& what = *static_cast<decltype(looking)*>(actor);
+                           what.plc.lookAtPins(what.values);
+                         },
+                     .actor = &looking};
+  return plc_.host().post(look).ok() ? looking.values : std::vector<host::Value>();
+}
+
+json Status::map(const Peer&, const json&) {
+  const host::File& map = plc_.host().map();
+  const std::vector<host::Value> values = pinValues();
+  json pins = json::array();
+  for (uint32_t i = 0; i < map.pins.size(); ++i) {
+    const host::Pin& pin = map.pins[i];
+    pins.push_back({{"name", pin.name},
+                    {"type", host::pinTypeName(pin.type)},
+                    {"table", host::tableName(pin.direction)},
+                    {"uses", usesOf(map, i)},
+                    {"file", map.paths[pin.at.file]},
+                    {"line", pin.at.line}});
+    if (!values.empty()) pins.back()["value"] = jsonOf(pin.type, values[i]);
+  }
+  json allowed = json::array();
+  for (size_t i = 0; i < std::size(host::kRemoteNames); ++i)
+    if (map.allowed[i]) allowed.push_back(host::kRemoteNames[i]);
+  json never = json::array();
+  for (const host::Protected& cell : map.never) never.push_back(cell.name);
+  return {{"files", map.paths}, {"pins", pins}, {"allow", allowed}, {"never", never}};
+}
+
+// ---- profile -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr uint32_t kMostRungs = 10'000; // of an answer
+constexpr uint32_t kAtOnce = 64;        // a step of the scan thread reads no more
+
+struct Wanted {
+  uint32_t top = kMostRungs;
+  bool byLongest = false;
+};
+
+Wanted wantedOf(const json& request) {
+  Wanted wanted;
+  if (const auto top = request.find("top"); top != request.end()) {
+    if (!top->is_number_unsigned() || *top == 0 || *top > kMostRungs)
+      throw Refused("found " + top->dump() + " for \"top\", expected a number from 1 to " + std::to_string(kMostRungs));
+    wanted.top = top->get<uint32_t>();
+  }
+  const json by = request.value("by", json("time"));
+  if (by != "time" && by != "longest")
+    throw Refused("found " + by.dump() + " for \"by\", expected \"time\" or \"longest\"");
+  wanted.byLongest = by == "longest";
+  return wanted;
+}
+
+json rowOf(const rung_profile& rung) {
+  return {{"rung", rung.rung},       {"file", rung.file},        {"line", rung.line},    {"title", rung.title},
+          {"executions", rung.runs}, {"time_ns", rung.total_ns}, {"max_ns", rung.max_ns}};
+}
+
+} // namespace
+
+// All rungs of the program's tables. Their counters are not those of one pass: the program continues meanwhile.
+std::vector<rung_profile> Status::counters() {
+  std::vector<rung_profile> all;
+  int32_t status = RUNG_OK;
+  while (status == RUNG_OK) {
+    const auto first = static_cast<uint32_t>(all.size());
+    all.resize(first + kAtOnce);
+    host::Command look{
+        .kind = host::Command::Kind::Profile, .index = first, .count = kAtOnce, .profiles = all.data() + first};
+    const host::CommandResult result = plc_.host().post(look);
+    if (!result.ok()) throw Refused(result.problem);
+    all.resize(first + look.count);
+    status = result.status;
+  }
+  return all;
+}
+
+json Status::profile(const Peer&, const json& request) {
+  const Wanted wanted = wantedOf(request);
+  std::vector<rung_profile> rungs = counters();
+  double time = 0;
+  double outside = 0; // what the compiler made: in no drawing
+  for (const rung_profile& rung : rungs) (rung.rung == 0 ? outside : time) += rung.total_ns;
+  std::erase_if(rungs, [](const rung_profile& rung) { return rung.rung == 0; });
+  const size_t count = rungs.size();
+  std::erase_if(rungs, [](const rung_profile& rung) { return rung.runs == 0; });
+  std::ranges::stable_sort(rungs, std::greater(), wanted.byLongest ? &rung_profile::max_ns : &rung_profile::total_ns);
+  json rows = json::array();
+  for (size_t i = 0; i < rungs.size() && i < wanted.top; ++i) rows.push_back(rowOf(rungs[i]));
+  return {
+      {"count", count}, {"ran", rungs.size()}, {"time_ns", time + outside}, {"outside_ns", outside}, {"rungs", rows}};
+}
+
+} // namespace rung::control

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <utility>
 
 namespace rung::rung_run {
 
@@ -23,36 +22,22 @@ void ScanThread::run(std::promise<std::string> begun) {
   const runtime::RealTimeThread realTime(options_.thread);
   begun.set_value(realTime.problem());
   if (!realTime.problem().empty()) return;
-  int64_t last = begunNs_ = runtime::monotonicNs();
-  for (int64_t due = last + options_.periodNs; !(ending_ && host_.powerOffDone()); due += options_.periodNs) {
-    waitFor(due);
-    step(due, last);
-    // Periods that have passed meanwhile are over: the next step catches up what is due.
-    const int64_t late = runtime::monotonicNs() - due;
-    if (late > options_.periodNs) due += late / options_.periodNs * options_.periodNs;
-  }
+  runtime::runSteps(*this, options_.earlyNs);
   ended_ = true;
 }
 
-// A step counts from when it is due, however long before that the thread wakes.
-void ScanThread::waitFor(int64_t due) const noexcept {
-  runtime::sleepUntil(due - options_.earlyNs);
-  if (options_.earlyNs == 0) return;
-  host_.prefetch(due);
-  runtime::waitAwake(due);
+// Periods that have passed meanwhile are over: the next step catches up what is due.
+int64_t ScanThread::dueAfter(int64_t dueNs, int64_t nowNs) noexcept {
+  const int64_t late = nowNs - dueNs;
+  const int64_t passed = late > options_.periodNs ? late / options_.periodNs : 0;
+  return dueNs + (passed + 1) * options_.periodNs;
 }
 
-void ScanThread::step(int64_t due, int64_t& last) noexcept {
-  const int64_t begin = runtime::monotonicNs();
-  const int64_t period = begin - std::exchange(last, begin);
-  connections_.readInputs(pins_.cells(), begin);
-  if (!host_.restarting()) devices_.step(period);
-  host_.step(period);
+void ScanThread::step(int64_t nowNs, int64_t elapsedNs) {
+  connections_.readInputs(pins_.cells(), nowNs);
+  if (!host_.restarting()) devices_.step(elapsedNs);
+  host_.step(elapsedNs);
   connections_.writeOutputs(pins_.cells());
-  const int64_t late = begin - due;
-  times_.add(
-      {.beginNs = begin - begunNs_, .periodNs = period, .lateNs = late, .tookNs = runtime::monotonicNs() - begin},
-      late >= options_.periodNs);
 }
 
 namespace {

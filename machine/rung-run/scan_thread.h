@@ -17,12 +17,7 @@
 
 namespace rung::rung_run {
 
-struct Step {
-  int64_t beginNs = 0;  // since the start of the thread
-  int64_t periodNs = 0; // since the beginning of the step before
-  int64_t lateNs = 0;   // how late it began
-  int64_t tookNs = 0;
-};
+using runtime::Step;
 
 // Figures of all steps so far; each is consistent in itself, as the thread continues to run.
 struct StepFigures {
@@ -75,12 +70,12 @@ struct ScanOptions {
   runtime::RealTimeOptions thread;
 };
 
-class ScanThread {
+class ScanThread final : runtime::Steps {
 public:
   ScanThread(host::PlcHost& host, const Pins& pins, io::Connections& connections, io::HostDevices& devices,
              const ScanOptions& options)
       : host_(host), pins_(pins), connections_(connections), devices_(devices), options_(options) {}
-  ~ScanThread() { end(); }
+  ~ScanThread() override { end(); }
   ScanThread(const ScanThread&) = delete;
   ScanThread& operator=(const ScanThread&) = delete;
 
@@ -98,8 +93,12 @@ public:
 
 private:
   void run(std::promise<std::string> begun);
-  void waitFor(int64_t due) const noexcept;
-  void step(int64_t due, int64_t& last) noexcept;
+  // Of the loop.
+  int64_t dueAfter(int64_t dueNs, int64_t nowNs) noexcept override;
+  void prepare(int64_t untilNs) noexcept override { host_.prefetch(untilNs); }
+  void step(int64_t nowNs, int64_t elapsedNs) override;
+  void stepped(const Step& step) override { times_.add(step, step.lateNs >= options_.periodNs); }
+  bool ended() override { return ending_ && host_.powerOffDone(); }
 
   host::PlcHost& host_;
   const Pins& pins_;
@@ -109,7 +108,6 @@ private:
   std::thread thread_;
   std::atomic<bool> ending_{false};
   std::atomic<bool> ended_{false};
-  int64_t begunNs_ = 0;
   StepTimes times_;
 };
 

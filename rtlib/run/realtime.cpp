@@ -66,28 +66,72 @@ void becomeHelper() noexcept {
   pthread_sigmask(SIG_BLOCK, &all, nullptr);
 }
 
+namespace {
+
+// A step counts from when it is due, however long before that the thread is awake.
+void waitFor(Steps& steps, int64_t dueNs, int64_t earlyNs) noexcept {
+  sleepUntil(dueNs - earlyNs);
+  if (earlyNs == 0) return;
+  steps.prepare(dueNs);
+  waitAwake(dueNs);
+}
+
+// Each slice of an instance is a step.
+class Slices final : public Steps {
+public:
+  Slices(Instance& instance, const std::function<void()>& slice, const std::function<bool()>& keepGoing)
+      : instance_(instance), slice_(slice), keepGoing_(keepGoing) {}
+
+  int64_t dueAfter(int64_t, int64_t nowNs) noexcept override {
+    if (stats_.slices == 0) begunNs_ = nowNs;
+    return begunNs_ + pace_.untilNextNs();
+  }
+  void step(int64_t nowNs, int64_t elapsedNs) override {
+    begunNs_ = nowNs;
+    pace_.elapse(elapsedNs);
+    pace_.take();
+    slice_();
+  }
+  void stepped(const Step& step) override {
+    ++stats_.slices;
+    stats_.missed = pace_.missed();
+    stats_.maxLateNs = std::max(stats_.maxLateNs, step.lateNs);
+    stats_.maxRunNs = std::max(stats_.maxRunNs, step.tookNs);
+  }
+  bool ended() override { return stats_.slices != 0 && (instance_.faulted() || !keepGoing_()); }
+
+  const RealTimeStats& stats() const { return stats_; }
+
+private:
+  Instance& instance_;
+  const std::function<void()>& slice_;
+  const std::function<bool()>& keepGoing_;
+  Pace pace_{instance_, {.mostOverruns = 0}}; // a person sees how many were missed
+  int64_t begunNs_ = 0;                       // when the last step began
+  RealTimeStats stats_;
+};
+
+} // namespace
+
+void runSteps(Steps& steps, int64_t earlyNs) {
+  const int64_t begun = monotonicNs();
+  int64_t last = begun;
+  for (int64_t due = steps.dueAfter(begun, begun); !steps.ended();) {
+    waitFor(steps, due, earlyNs);
+    const int64_t begin = monotonicNs();
+    const int64_t elapsed = begin - std::exchange(last, begin);
+    steps.step(begin, elapsed);
+    const int64_t end = monotonicNs();
+    steps.stepped({.beginNs = begin - begun, .periodNs = elapsed, .lateNs = begin - due, .tookNs = end - begin});
+    due = steps.dueAfter(due, end);
+  }
+}
+
 RealTimeStats runRealTime(Instance& instance, const std::function<void()>& slice,
                           const std::function<bool()>& keepGoing) {
-  RealTimeStats stats;
-  Pace pace(instance, {.mostOverruns = 0}); // a person sees how many were missed
-  int64_t now = monotonicNs();
-  const auto look = [&] {
-    const int64_t before = std::exchange(now, monotonicNs());
-    pace.elapse(now - before);
-  };
-  do {
-    if (pace.untilNextNs() > 0) sleepUntil(now + pace.untilNextNs());
-    look();
-    stats.maxLateNs = std::max(stats.maxLateNs, -pace.untilNextNs());
-    pace.take();
-    slice();
-    ++stats.slices;
-    const int64_t start = now;
-    look();
-    stats.maxRunNs = std::max(stats.maxRunNs, now - start);
-  } while (!instance.faulted() && keepGoing());
-  stats.missed = pace.missed();
-  return stats;
+  Slices slices(instance, slice, keepGoing);
+  runSteps(slices);
+  return slices.stats();
 }
 
 } // namespace rung::runtime

@@ -1,5 +1,5 @@
-// Runs an instance on the computer's clock: each slice at its time on CLOCK_MONOTONIC. Late slices are caught up as
-// pace.h says.
+// The real-time loop, on the machine's CLOCK_MONOTONIC: of rung-run's scan thread, and of an instance by itself. What
+// is late of a program's schedule is caught up, or left out, by pace.h.
 #pragma once
 #include <sched.h>
 
@@ -46,6 +46,29 @@ private:
 // writes to a closed pipe.
 void becomeHelper() noexcept;
 
+struct Step {
+  int64_t beginNs = 0;  // since the loop began
+  int64_t periodNs = 0; // since the beginning of the step before
+  int64_t lateNs = 0;   // after it was due
+  int64_t tookNs = 0;
+};
+
+// What is done in steps, all in the thread of the loop.
+class Steps {
+public:
+  virtual ~Steps() = default;
+  // When the next step is due, after one that was due then and has ended now; first, with the beginning of the loop.
+  virtual int64_t dueAfter(int64_t dueNs, int64_t nowNs) noexcept = 0;
+  // Where the thread wakes early: prepares the step until it is due.
+  virtual void prepare(int64_t untilNs) noexcept { (void)untilNs; }
+  virtual void step(int64_t nowNs, int64_t elapsedNs) = 0; // since the beginning of the step before
+  virtual void stepped(const Step& step) = 0;              // its times, once it has ended
+  virtual bool ended() = 0;                                // before each step: no more is needed
+};
+
+// In the calling thread, which wakes `earlyNs` before a step is due.
+void runSteps(Steps& steps, int64_t earlyNs = 0);
+
 struct RealTimeStats {
   uint64_t slices = 0;
   uint64_t missed = 0;   // scans that were skipped
@@ -53,8 +76,8 @@ struct RealTimeStats {
   int64_t maxRunNs = 0;
 };
 
-// Calls `slice`, which runs a slice of the instance, whenever one is due, on the calling thread, until `keepGoing`
-// (asked after every slice) returns false or a fault stops the program.
+// The slices of an instance, whenever one is due, as steps: calls `slice`, which runs one, until `keepGoing`, asked
+// after every slice, says no, or a fault stops the program.
 RealTimeStats runRealTime(Instance& instance, const std::function<void()>& slice,
                           const std::function<bool()>& keepGoing);
 

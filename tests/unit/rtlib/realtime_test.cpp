@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "tests/support/fake_clock.h"
 #include "tests/unit/rtlib/test_program.h"
@@ -143,6 +144,55 @@ TEST_F(RealTimeTest, SleepsOnTheMachinesClock) {
   const RealTimeStats stats = runRealTime(instance, slice(instance), [&] { return ++slices < 5; });
   EXPECT_GE(monotonicNs() - start, 10 * kMs);
   EXPECT_EQ(instance.nowUs(), 2000 * static_cast<int64_t>(5 + stats.missed));
+}
+
+// ---- the loop by itself ----
+
+// A step each 10 ms, of which one takes longer.
+class TenMs final : public Steps {
+public:
+  explicit TenMs(FakeClock& clock) : clock_(clock) {}
+  int64_t dueAfter(int64_t dueNs, int64_t) noexcept override { return dueNs + 10 * kMs; }
+  void prepare(int64_t untilNs) noexcept override {
+    prepared.push_back(untilNs);
+    clock_.advance(untilNs - clock_.ns());
+  }
+  void step(int64_t nowNs, int64_t elapsedNs) override {
+    begun.push_back(nowNs);
+    elapsed.push_back(elapsedNs);
+    if (begun.size() == 2) clock_.advance(13 * kMs);
+  }
+  void stepped(const Step& step) override { done.push_back(step); }
+  bool ended() override { return begun.size() == 4; }
+
+  std::vector<int64_t> prepared, begun, elapsed;
+  std::vector<Step> done;
+
+private:
+  FakeClock& clock_;
+};
+
+TEST(StepsTest, BeginWhenTheyAreDueAndAreTimed) {
+  FakeClock clock(1000 * kMs);
+  TenMs steps(clock);
+  runSteps(steps);
+  EXPECT_THAT(steps.begun, testing::ElementsAre(1010 * kMs, 1020 * kMs, 1033 * kMs, 1040 * kMs));
+  EXPECT_THAT(steps.elapsed, testing::ElementsAre(10 * kMs, 10 * kMs, 13 * kMs, 7 * kMs));
+  EXPECT_TRUE(steps.prepared.empty());
+  ASSERT_EQ(steps.done.size(), 4u);
+  EXPECT_EQ(steps.done[1].tookNs, 13 * kMs);
+  EXPECT_EQ(steps.done[2].beginNs, 33 * kMs);
+  EXPECT_EQ(steps.done[2].periodNs, 13 * kMs);
+  EXPECT_EQ(steps.done[2].lateNs, 3 * kMs);
+}
+
+TEST(StepsTest, ArePreparedByAThreadThatIsAwakeEarly) {
+  FakeClock clock(1000 * kMs);
+  TenMs steps(clock);
+  runSteps(steps, kMs);
+  EXPECT_THAT(steps.prepared, testing::ElementsAre(1010 * kMs, 1020 * kMs, 1030 * kMs, 1040 * kMs));
+  EXPECT_EQ(steps.begun[0], 1010 * kMs);
+  EXPECT_EQ(clock.sleeps(), 4);
 }
 
 // ---- what is asked of the system ----

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "machine/control/turn.h"
 #include "machine/control/values.h"
 #include "rung/types.hpp"
 
@@ -166,11 +167,10 @@ json Cells::watch(const Peer& peer, const json& request) {
 void Cells::gone(const Peer& peer) { watching_.erase(peer.number); }
 
 void Cells::sendValues(Sink& sink) {
-  constexpr int kMostPasses = 500; // in a turn
   for (auto& [peer, watching] : watching_) {
     auto sample = sized<rung_sample>();
     if (watching->all) {
-      for (int i = 0; i < kMostPasses; ++i) {
+      for (int i = 0; i < turn::kMostPasses; ++i) {
         if (rung_watch_next(watching->watch, watching->values.data(), &sample) != RUNG_OK) break;
         sink.send(peer, watching->event(sample));
       }

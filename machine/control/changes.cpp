@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "machine/control/turn.h"
 #include "machine/control/values.h"
 
 namespace rung::control {
@@ -220,9 +221,8 @@ json Changes::shadowReport() {
 }
 
 void Changes::compareShadow() {
-  constexpr int kMostRuns = 200;
   if (shadow_ == nullptr) return;
-  for (int i = 0; i < kMostRuns; ++i)
+  for (int i = 0; i < turn::kMostShadowRuns; ++i)
     if (rung_shadow_work(shadow_.get()) != RUNG_OK) break;
   json report = shadowReport();
   if (report["state"] == "prepared" || report["state"] == "running") return;

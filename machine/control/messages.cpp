@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "machine/control/turn.h"
 #include "machine/control/values.h"
 
 namespace rung::control {
@@ -73,11 +74,9 @@ void Messages::writeHistory(Sink* sink) {
   if (!problem.empty()) report(problem, sink);
 }
 
-// As many as fit into a turn: who waits for a restart or an answer does not wait for a program that never ends talking.
 void Messages::passMessages(Sink* sink) {
-  constexpr int kMostMessages = 64;
   rung_message_info message{};
-  for (int i = 0; i < kMostMessages && plc_.nextMessage(message); ++i) pass(message, sink);
+  for (int i = 0; i < turn::kMostMessages && plc_.nextMessage(message); ++i) pass(message, sink);
 }
 
 void Messages::pass(const rung_message_info& message, Sink* sink) {

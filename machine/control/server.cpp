@@ -2,7 +2,6 @@
 #include "machine/control/server.h"
 
 #include <nlohmann/json.hpp>
-#include <poll.h>
 #include <pwd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -60,40 +59,45 @@ bool isDeep(std::string_view line) {
 
 json problemOf(const std::string& text) { return {{"ok", false}, {"error", text}}; }
 
-} // namespace
-
-Server::Server(const std::string& host, uid_t user, Handler& handler) : user_(user), handler_(handler) {
+// Where a host of this name listens, in a folder that is made for it.
+std::string placeOf(const std::string& host, uid_t user) {
   if (const std::string wrong = wrongHostName(host); !wrong.empty()) throw std::runtime_error(wrong);
-  path_ = socketPath(prepareFolder(user), host);
-  const sockaddr_un address = socketAddress(path_);
+  std::string path = socketPath(prepareFolder(user), host);
   if (const std::string another = socketOf(user, host); isServed(another))
     throw std::runtime_error(another + ": another host is called " + host + "; choose another name");
-  unlink(path_.c_str()); // of a host that was killed
-  socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (socket_ < 0) refuse(path_);
-  // Every user who may use the folder can connect; then the user is checked.
-  if (bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      chmod(path_.c_str(), 0600) != 0 || listen(socket_, static_cast<int>(kMostPeers)) != 0) {
-    close(socket_);
-    refuse(path_);
-  }
+  return path;
 }
 
-Server::~Server() {
-  close(socket_);
-  unlink(path_.c_str());
+host::Socket listenAt(const std::string& path) {
+  const sockaddr_un address = socketAddress(path);
+  unlink(path.c_str()); // of a host that was killed
+  host::Socket made(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (made.number() < 0) refuse(path);
+  // Whoever may use the folder may connect; then the user is asked for.
+  if (bind(made.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      chmod(path.c_str(), 0600) != 0 || listen(made.number(), static_cast<int>(Server::kMostPeers)) != 0)
+    refuse(path);
+  return made;
 }
 
-void Server::serve(std::chrono::milliseconds wait) {
-  std::vector<pollfd> waiting = {{std::exchange(pauses_, false) ? -1 : socket_, POLLIN, 0}};
-  const bool hasRequests = std::ranges::any_of(clients_, &Client::hasRequest);
-  if (hasRequests) wait = std::chrono::milliseconds(0);
+} // namespace
+
+Server::Server(const std::string& host, uid_t user, Handler& handler)
+    : path_(placeOf(host, user)), user_(user), handler_(handler), listening_(listenAt(path_)) {}
+
+Server::~Server() { unlink(path_.c_str()); }
+
+bool Server::awaits(std::vector<pollfd>& sockets) {
+  sockets.push_back(listening_.awaited());
   for (const Client& client : clients_) {
     const int events = (client.waits ? POLLRDHUP : POLLIN) | (client.connection.wantsToSend() ? POLLOUT : 0);
-    waiting.push_back({client.connection.socket(), static_cast<short>(events), 0});
+    sockets.push_back({client.connection.socket(), static_cast<short>(events), 0});
   }
-  if (poll(waiting.data(), waiting.size(), static_cast<int>(wait.count())) <= 0 && !hasRequests) return;
-  auto event = waiting.begin() + 1;
+  return std::ranges::any_of(clients_, &Client::hasRequest);
+}
+
+void Server::serve(std::span<const pollfd> sockets) {
+  auto event = sockets.begin() + 1;
   for (Client& client : clients_) {
     if ((event->revents & POLLOUT) != 0) client.connection.sendMore();
     const bool isCalled = (event->revents & ~POLLOUT) != 0;
@@ -103,18 +107,16 @@ void Server::serve(std::chrono::milliseconds wait) {
       read(client);
     ++event;
   }
-  if (waiting.front().revents != 0) accept();
+  if (sockets.front().revents != 0) accept(listening_.accept());
   forget();
 }
 
-void Server::accept() {
-  const int made = accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-  pauses_ = made < 0 && errno != EAGAIN && errno != ECONNABORTED;
-  if (made < 0) return;
-  Client client{{.number = ++lastPeer_}, Connection(made, Connection::kLongestRequest)};
+void Server::accept(host::Socket made) {
+  if (made.number() < 0) return;
+  Client client{{.number = ++lastPeer_}, Connection(std::move(made), Connection::kLongestRequest)};
   ucred who{};
   socklen_t size = sizeof who;
-  const bool known = getsockopt(made, SOL_SOCKET, SO_PEERCRED, &who, &size) == 0;
+  const bool known = getsockopt(client.connection.socket(), SOL_SOCKET, SO_PEERCRED, &who, &size) == 0;
   client.peer.user = who.uid;
   client.peer.process = who.pid;
   client.peer.name = nameOf(who.uid);
@@ -162,24 +164,6 @@ void Server::answer(uint32_t peer, const json& answer) {
   send(peer, answer);
 }
 
-Connection::Connection(Connection&& other) noexcept
-    : socket_(std::exchange(other.socket_, -1)), longest_(other.longest_), ended_(other.ended_),
-      problem_(std::move(other.problem_)), in_(std::move(other.in_)), out_(std::move(other.out_)) {}
-
-Connection& Connection::operator=(Connection&& other) noexcept {
-  std::swap(socket_, other.socket_);
-  std::swap(longest_, other.longest_);
-  std::swap(ended_, other.ended_);
-  std::swap(problem_, other.problem_);
-  std::swap(in_, other.in_);
-  std::swap(out_, other.out_);
-  return *this;
-}
-
-Connection::~Connection() {
-  if (socket_ >= 0) close(socket_);
-}
-
 void Connection::end(std::string problem) {
   ended_ = true;
   problem_ = std::move(problem);
@@ -189,7 +173,7 @@ void Connection::end(std::string problem) {
 void Connection::receive() {
   char bytes[16384];
   while (!ended_ && in_.size() <= longest_) {
-    const ssize_t got = recv(socket_, bytes, sizeof bytes, MSG_DONTWAIT);
+    const ssize_t got = recv(socket(), bytes, sizeof bytes, MSG_DONTWAIT);
     if (got > 0)
       in_.append(bytes, static_cast<size_t>(got));
     else if (got < 0 && errno == EINTR)
@@ -222,7 +206,7 @@ void Connection::send(std::string_view line) {
 
 void Connection::sendMore() {
   while (!ended_ && !out_.empty()) {
-    const ssize_t sent = ::send(socket_, out_.data(), out_.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    const ssize_t sent = ::send(socket(), out_.data(), out_.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent > 0)
       out_.erase(0, static_cast<size_t>(sent));
     else if (sent < 0 && errno == EINTR)

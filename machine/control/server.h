@@ -1,14 +1,18 @@
 // Lines between two processes, of a bounded length, without waiting.
 #pragma once
-#include <chrono>
 #include <cstdint>
 #include <list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 #include <sys/types.h>
+
+#include "machine/host/socket.h"
 
 namespace rung::control {
 
@@ -17,13 +21,10 @@ public:
   static constexpr size_t kLongestRequest = size_t{64} << 10;
   static constexpr size_t kLongestAnswer = size_t{4} << 20; // and the most that waits until the other side takes it
 
-  // Of a socket, which it closes; `longest` is the longest line that it takes.
-  Connection(int socket, size_t longest) : socket_(socket), longest_(longest) {}
-  Connection(Connection&& other) noexcept;
-  Connection& operator=(Connection&& other) noexcept;
-  ~Connection();
+  // `longest` is the longest line that it takes.
+  Connection(host::Socket socket, size_t longest) : socket_(std::move(socket)), longest_(longest) {}
 
-  int socket() const { return socket_; }
+  int socket() const { return socket_.number(); }
   // The other side has gone, or breaks the rules: `problem` says which. No more is read or sent.
   bool ended() const { return ended_; }
   const std::string& problem() const { return problem_; }
@@ -41,7 +42,7 @@ public:
   void end(std::string problem);
 
 private:
-  int socket_ = -1;
+  host::Socket socket_;
   size_t longest_;
   bool ended_ = false;
   std::string problem_;
@@ -88,12 +89,14 @@ public:
 
   // Listens at the place of this host. Throws std::runtime_error: something is wrong with it, or another host has it.
   Server(const std::string& host, uid_t user, Handler& handler);
-  ~Server() override; // nothing is left of the socket
+  ~Server() override; // nothing is left of its place
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // Answers what has come; waits for it no longer than that.
-  void serve(std::chrono::milliseconds wait);
+  // Adds what it waits for, for poll. True: a request is here already.
+  bool awaits(std::vector<pollfd>& sockets);
+  // These, after that: answers what has come, one request of each client.
+  void serve(std::span<const pollfd> sockets);
   void send(uint32_t peer, const nlohmann::json& event) override;
   void answer(uint32_t peer, const nlohmann::json& answer) override;
   const std::string& path() const { return path_; }
@@ -105,15 +108,14 @@ private:
     bool waits = false; // for an answer
     bool hasRequest() const { return !waits && connection.hasLine(); }
   };
-  void accept();
+  void accept(host::Socket made);
   void read(Client& client);
   void forget();
 
   std::string path_;
   uid_t user_;
   Handler& handler_;
-  int socket_ = -1;
-  bool pauses_ = false; // the system had no file for another client: for a turn none is asked for
+  host::Listener listening_;
   uint32_t lastPeer_ = 0;
   std::list<Client> clients_;
 };

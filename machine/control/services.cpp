@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "machine/control/turn.h"
 #include "machine/control/values.h"
 
 namespace rung::control {
@@ -133,7 +134,7 @@ void Services::work(Sink& sink) {
   if (provider_ != 0) checkService(sink);
   refuseLate();
   host::Request request;
-  while (plc_.nextRequest(request)) pass(sink, std::exchange(request, {}));
+  for (int i = 0; i < turn::kMostServices && plc_.nextRequest(request); ++i) pass(sink, std::exchange(request, {}));
 }
 
 // A provider that serves no more learns of it before anything moves again.

@@ -26,6 +26,7 @@
 #include "machine/compile/sources.h"
 #include "machine/control/controller.h"
 #include "machine/control/server.h"
+#include "machine/control/service_loop.h"
 #include "machine/host/component_pins.h"
 #include "machine/host/plc_host.h"
 #include "machine/io/analog/analog.h"
@@ -95,11 +96,9 @@ struct PlcInstance {
 
 struct Component {
   std::vector<std::unique_ptr<PlcInstance>> instances;
-  std::thread service; // reports faults, restarts
+  std::thread service; // reports faults, restarts, answers rungctl
   std::atomic<bool> ending{false};
 };
-
-constexpr std::chrono::milliseconds kServicePeriod(20);
 
 Component* component = nullptr; // RTAPI gives rtapi_app_exit no argument
 int componentId = -1;
@@ -378,19 +377,6 @@ void reportDevices(PlcInstance& c) {
   for (const std::string& line : c.devices->report()) (void)c.log->line(line);
 }
 
-void serveOnce(PlcInstance& c) {
-  reportConflict(c);
-  c.controller->serveProgram(c.server.get());
-  reportDevices(c);
-}
-
-// Answers rungctl, or waits as long.
-void serveRemote(const PlcInstance& c, std::chrono::milliseconds wait) {
-  if (c.server == nullptr) return std::this_thread::sleep_for(wait);
-  c.server->serve(wait);
-  c.controller->serveClients(*c.server);
-}
-
 // The program runs without a socket, too.
 void listen(PlcInstance& c) {
   try {
@@ -413,13 +399,17 @@ int guarded(Action action) noexcept {
   return -ENOMEM;
 }
 
-void serve(Component& c) {
-  const std::chrono::milliseconds wait = kServicePeriod / static_cast<int>(c.instances.size());
-  while (!c.ending.load())
-    for (const auto& instance : c.instances) {
-      guarded([&] { return serveOnce(*instance), 0; });
-      guarded([&] { return serveRemote(*instance, wait), 0; });
-    }
+// Begins the thread that serves all instances.
+void beginService(Component& c) {
+  control::ServiceLoop loop([](const char* problem) { complain("%s: %s\n", kModule, problem); });
+  for (const auto& instance : c.instances)
+    loop.add({.controller = instance->controller.get(), .server = instance->server.get(), .report = [&c = *instance] {
+                reportConflict(c);
+                reportDevices(c);
+              }});
+  c.service = std::thread([&c, loop = std::move(loop)]() mutable {
+    while (!c.ending.load()) loop.turn();
+  });
 }
 
 int exportFunction(PlcInstance& c, const char* name, void (*code)(void*, long)) {
@@ -444,7 +434,7 @@ int start() {
     if (instance->devices != nullptr) instance->devices->start();
     listen(*instance);
   }
-  c.service = std::thread([&c] { serve(c); });
+  beginService(c);
   for (const auto& instance : c.instances)
     if (const int result = exportFunctions(*instance); result != 0) return result;
   return hal_ready(componentId);
@@ -465,8 +455,9 @@ void endScans(Component& c) {
 }
 
 void closeProgram(PlcInstance& c) {
-  if (!c.controller) return;                // it was not loaded
-  guarded([&] { return serveOnce(c), 0; }); // a fault of the last moment
+  if (!c.controller) return; // it was not loaded
+  // A fault of the last moment.
+  guarded([&] { return c.controller->serveProgram(c.server.get()), 0; });
   const std::string error = c.host->close();
   if (c.devices != nullptr) c.devices->end();
   reportDevices(c);

@@ -2,17 +2,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <iostream>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <ranges>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "machine/command-line/usage.h"
@@ -20,6 +19,7 @@
 #include "machine/control/controller.h"
 #include "machine/control/log.h"
 #include "machine/control/place.h"
+#include "machine/control/service_loop.h"
 #include "machine/host/plc_host.h"
 #include "machine/io/connections/connections.h"
 #include "machine/io/host_devices.h"
@@ -33,8 +33,6 @@
 namespace {
 
 using namespace rung;
-
-volatile std::sig_atomic_t gEnd = 0; // of SIGINT, SIGTERM and SIGHUP: the only thing a signal handler may touch
 
 struct Options {
   std::string program;
@@ -67,11 +65,12 @@ void print(const std::string& text) {
 
 // The program has its regular end, whatever ends the process: a terminal that is closed, a limit of processor time,
 // too.
-void catchSignals() {
+constexpr std::initializer_list<int> kEndSignals = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
+
+// They are errors of a write, then.
+void ignoreSignals() {
   struct sigaction action{};
-  action.sa_handler = [](int) { gEnd = 1; };
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) sigaction(signal, &action, nullptr);
-  action.sa_handler = SIG_IGN; // they are errors of a write, then
+  action.sa_handler = SIG_IGN;
   for (const int signal : {SIGPIPE, SIGXFSZ}) sigaction(signal, &action, nullptr);
 }
 
@@ -79,14 +78,19 @@ void catchSignals() {
 class Run {
 public:
   Run(const Options& options, const Image& image, std::unique_ptr<host::PlcHost> host, rung_run::Simulation* simulation,
-      io::HostDevices& devices)
-      : devices_(devices), host_(std::move(host)), pins_(*host_), connections_(host_->map()),
+      io::HostDevices& devices, control::Signals& signals)
+      : signals_(signals), devices_(devices), host_(std::move(host)), pins_(*host_), connections_(host_->map()),
         log_(host_->clock(), write), controller_(options.name, *host_, image, log_),
         server_(options.name, getuid(), controller_),
         scans_(*host_, pins_, connections_, devices,
                {.periodNs = int64_t{options.periodUs} * 1000,
                 .earlyNs = int64_t{options.earlyUs} * 1000,
-                .thread = {.priority = options.priority, .lockMemory = options.lockMemory}}) {
+                .thread = {.priority = options.priority, .lockMemory = options.lockMemory}}),
+        loop_([](const char* problem) { std::fprintf(stderr, "rung-run: %s\n", problem); }, &signals) {
+    loop_.add({.controller = &controller_,
+               .server = &server_,
+               .report = [this] { report(); },
+               .turnDone = [this] { manager_.feed(scans_.steps(), host_->clock().nowNs()); }});
     if (!options.retain.empty()) controller_.keepHistory(options.retain + ".messages");
     controller_.addToStatus([this](nlohmann::json& status) {
       rung_run::addStatus(status, scans_.periodNs(), scans_.figures(), connections_.figures());
@@ -104,20 +108,11 @@ public:
     if (const std::string wrong = scans_.start(); !wrong.empty()) return log_.always(wrong), int{cli::kEnvironment};
     log_.always("listening at " + server_.path());
     manager_.ready();
-    while (gEnd == 0) guarded([&] { turn(); });
+    while (!signals_.came()) loop_.turn();
     return end();
   }
 
 private:
-  void turn() {
-    constexpr std::chrono::milliseconds kTurn(20);
-    controller_.serveProgram(&server_);
-    server_.serve(kTurn);
-    report();
-    controller_.serveClients(server_);
-    manager_.feed(scans_.steps(), host_->clock().nowNs());
-  }
-
   void report() {
     connections_.report([this](const std::string& line) { (void)log_.line(line); });
     for (const std::string& line : devices_.report()) (void)log_.line(line);
@@ -127,15 +122,15 @@ private:
   int end() {
     std::string error = "the program was not switched off";
     manager_.stopping();
-    guarded([&] { waitForEnd(); });
-    guarded([&] { controller_.serveProgram(&server_); }); // a fault of the last moment
-    guarded([&] { error = host_->close(); });
-    guarded([&] { devices_.end(); });
-    guarded([&] { controller_.serveProgram(&server_); });
-    guarded([&] { report(); });
-    guarded([&] { connections_.writeOutputs(pins_.cells()); }); // their safe values
-    guarded([&] { connections_.end(); });
-    guarded([&] {
+    loop_.guarded([&] { waitForEnd(); });
+    loop_.guarded([&] { controller_.serveProgram(&server_); }); // a fault of the last moment
+    loop_.guarded([&] { error = host_->close(); });
+    loop_.guarded([&] { devices_.end(); });
+    loop_.guarded([&] { controller_.serveProgram(&server_); });
+    loop_.guarded([&] { report(); });
+    loop_.guarded([&] { connections_.writeOutputs(pins_.cells()); }); // their safe values
+    loop_.guarded([&] { connections_.end(); });
+    loop_.guarded([&] {
       for (const std::string& line : rung_run::report(scans_.figures(), connections_.figures())) log_.always(line);
     });
     if (!error.empty()) log_.always(error);
@@ -148,24 +143,15 @@ private:
     const int64_t begun = host_->clock().nowNs();
     bool said = false;
     for (scans_.beginEnd(); !scans_.hasEnded();) {
-      guarded([&] { turn(); });
+      loop_.turn();
       if (said || host_->clock().nowNs() - begun < kSoonNs) continue;
-      guarded([&] { log_.always("the program is being switched off: its last scans run"); });
+      loop_.guarded([&] { log_.always("the program is being switched off: its last scans run"); });
       said = true;
     }
     scans_.end();
   }
 
-  // A turn that fails, where memory is short, is not the last one.
-  template <class Action>
-  void guarded(Action action) noexcept {
-    try {
-      action();
-    } catch (const std::exception& problem) {
-      std::fprintf(stderr, "rung-run: %s\n", problem.what());
-    }
-  }
-
+  control::Signals& signals_;
   io::HostDevices& devices_;
   std::unique_ptr<host::PlcHost> host_;
   rung_run::Pins pins_;
@@ -175,6 +161,7 @@ private:
   control::Server server_;
   rung_run::ScanThread scans_;
   rung_run::ServiceManager manager_;
+  control::ServiceLoop loop_;
 };
 
 Image imageOf(const Options& options) {
@@ -236,7 +223,8 @@ int run(const Options& options) try {
     throw rung_run::WrongOption("found the mapping file " + options.program +
                                 " as the program, expected PROGRAM and then MAP" +
                                 (host::isNamedAsMap(options.map) ? "" : "; exchange the two"));
-  catchSignals();
+  ignoreSignals();
+  control::Signals signals(kEndSignals);
   const Image image = imageOf(options);
   if (!options.simulate && namesDevices(options) && !isOfTechnol(image))
     throw rung_run::WrongOption(
@@ -266,7 +254,7 @@ int run(const Options& options) try {
   if (!problem.empty()) print(problem);
   if (host == nullptr) return hasMap && problem.empty() ? cli::kWrong : cli::kEnvironment;
   host->setTimeLimit(int64_t{options.maxTimeUs} * 1000);
-  return Run(options, image, std::move(host), simulation.get(), devices).run();
+  return Run(options, image, std::move(host), simulation.get(), devices, signals).run();
 } catch (const rung_run::WrongOption& wrong) {
   print(wrong.what());
   return cli::kUsage;

@@ -54,7 +54,7 @@ int connected(const std::string& path) {
 }
 
 Reached reachedBy(std::string host, int made) {
-  return {std::move(host), control::Connection(made, control::Connection::kLongestAnswer)};
+  return {std::move(host), control::Connection(host::Socket(made), control::Connection::kLongestAnswer)};
 }
 
 Reached reach(const std::string& host) {

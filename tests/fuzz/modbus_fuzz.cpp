@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "ir/support/check.h"
+#include "machine/host/socket.h"
 #include "machine/io/connections/modbus_image.h"
-#include "machine/io/connections/socket.h"
 #include "tests/support/faultless_map.h"
 
 namespace {
@@ -44,8 +44,8 @@ struct Server {
   Server() {
     int ends[2] = {};
     RUNG_CHECK(socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0, "there are sockets");
-    near = Socket(ends[0]);
-    far = Socket(ends[1]);
+    near = host::Socket(ends[0]);
+    far = host::Socket(ends[1]);
     modbus_set_socket(context, near.number());
   }
 
@@ -53,7 +53,7 @@ struct Server {
   Exchange exchange{map, map.connections.at(0)};
   ModbusImage image{exchange};
   modbus_t* context = modbus_new_tcp(nullptr, 502);
-  Socket near, far;
+  host::Socket near, far;
 };
 
 // A whole answer to the transaction of the request.

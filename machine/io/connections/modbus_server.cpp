@@ -9,12 +9,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <new>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "rtlib/run/realtime.h"
@@ -23,7 +21,6 @@ namespace rung::io {
 namespace {
 
 constexpr int kTurnMs = 20; // of the wait for clients
-constexpr std::chrono::milliseconds kPause(5);
 constexpr double kBurstSeconds = 0.02;
 
 struct Address {
@@ -48,9 +45,9 @@ Address addressOf(const host::Connection& connection) {
   return address;
 }
 
-Socket listenAt(const host::Connection& connection) {
+host::Socket listenAt(const host::Connection& connection) {
   const Address address = addressOf(connection);
-  Socket made(socket(address.bytes.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  host::Socket made(socket(address.bytes.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const int yes = 1;
   setsockopt(made.number(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   if (bind(made.number(), reinterpret_cast<const sockaddr*>(&address.bytes), address.size) == 0 &&
@@ -92,7 +89,7 @@ void ModbusServer::run(const std::atomic<bool>& ending) noexcept {
 }
 
 void ModbusServer::turn() {
-  std::vector<pollfd> waiting = {{listening_.number(), POLLIN, 0}};
+  std::vector<pollfd> waiting = {listening_.awaited()};
   for (const Client& client : clients_) // one that has used up its requests is not listened to
     waiting.push_back({client.socket.number(), static_cast<short>(client.allowance >= 1 ? POLLIN : 0), 0});
   poll(waiting.data(), waiting.size(), waitFor());
@@ -110,8 +107,8 @@ int ModbusServer::waitFor() const {
 }
 
 void ModbusServer::accept(int64_t now) {
-  Socket made(accept4(listening_.number(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  if (made.number() < 0) return std::this_thread::sleep_for(kPause); // it has gone, or the system has no more
+  host::Socket made = listening_.accept();
+  if (made.number() < 0) return;
   makeRoom(now);
   if (clients_.size() >= mostClients_)
     return setProblem("a client was refused: the maximum number of clients is connected");

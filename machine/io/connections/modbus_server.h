@@ -9,9 +9,9 @@
 
 #include <modbus.h>
 
+#include "machine/host/socket.h"
 #include "machine/io/connections/connections.h"
 #include "machine/io/connections/modbus_image.h"
-#include "machine/io/connections/socket.h"
 
 namespace rung::io {
 
@@ -23,7 +23,7 @@ public:
 
 private:
   struct Client {
-    Socket socket;
+    host::Socket socket;
     int64_t heardNs = 0;    // of its last whole message, or of its beginning
     int64_t refilledNs = 0; // when `allowance` was last added to
     double allowance = 1;   // requests that may be answered now
@@ -53,7 +53,7 @@ private:
   Exchange& exchange_;
   ModbusImage image_;
   std::unique_ptr<modbus_t, Free> context_;
-  Socket listening_;
+  host::Listener listening_;
   std::list<Client> clients_;
   int64_t writtenNs_ = 0;
 };

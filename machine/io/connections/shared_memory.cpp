@@ -59,8 +59,8 @@ void SharedMemory::refuse(const std::string& found) const { throw std::runtime_e
 
 // shm_open follows no symbolic links. What is not ours is not kept open.
 void SharedMemory::open() {
-  file_ = Socket();
-  Socket file(shm_open(name_.c_str(), O_RDWR | O_CREAT, kMode));
+  file_ = host::Socket();
+  host::Socket file(shm_open(name_.c_str(), O_RDWR | O_CREAT, kMode));
   if (file.number() < 0) refuse("cannot open /dev/shm" + name_ + ": " + openProblem(errno));
   checkOwner(file.number());
   if (flock(file.number(), LOCK_EX | LOCK_NB) != 0)

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "machine/host/socket.h"
 #include "machine/io/connections/connections.h"
-#include "machine/io/connections/socket.h"
 
 namespace rung::io {
 
@@ -52,7 +52,7 @@ private:
   std::string name_; // with the slash
   Exchange& exchange_;
   int64_t periodNs_;
-  Socket file_;
+  host::Socket file_;
   Header header_;
   uint32_t taken_ = 0; // sequence of the inputs that were last taken
   std::vector<uint8_t> outputs_, inputs_;

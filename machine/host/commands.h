@@ -50,7 +50,7 @@ struct Command {
   rung_force_info force{};
 };
 
-// The result of a command.
+// What became of a command.
 struct CommandResult {
   int32_t status = RUNG_OK; // enum rung_status; RUNG_FAILED also if no thread scans the program
   std::string problem;      // a sentence, if the command was not executed
@@ -59,7 +59,7 @@ struct CommandResult {
 
 class CommandSlot {
 public:
-  // The status of a command, with a sentence if it was not executed.
+  // The status of a command, and the sentence that goes with it, where it is not done.
   struct Outcome {
     int32_t status = RUNG_OK;
     const char* problem = ""; // valid until the command is answered

@@ -30,8 +30,8 @@ struct FunctionState {
 // queues a function, the dialect's handshake passes it to the program, and the acknowledge pin is switched on when the
 // program has finished it; it is switched off together with the pin that caused the function.
 //
-// Functions of one kind and channel begin in their order. Other conditions are the dialect's: a function begins as soon
-// as the handshake accepts it. All functions: scan thread.
+// Functions of one kind and channel begin in their order. What else they wait for is the dialect's rule: a function
+// begins as soon as the handshake takes it.
 
 class FunctionQueue {
 public:

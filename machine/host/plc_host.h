@@ -55,7 +55,7 @@ public:
   std::string close();
 
   const std::vector<Pin>& pins() const { return map_.pins; }
-  // As many cells as there are pins, in their command; they outlive the host. They get the values that they begin with.
+  // As many cells as there are pins, in their order; they outlive the host. They get the values that they begin with.
   void connect(const PinCell* cells, const PinAccess& access = kVariables) noexcept;
 
   // The clock of the thread advances by `ns`: what is due of the program's schedule runs on fresh inputs. A step that

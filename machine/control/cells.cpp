@@ -65,7 +65,7 @@ struct Cells::Watching {
     for (size_t i = 0; i < values.size(); ++i) list.push_back(valueOf(i));
     sent = values;
     begun = true;
-    return {{"event", "values"}, {"pass", sample.pass}, {"us", sample.now_us}, {"lost", sample.lost}, {"values", list}};
+    return {{"event", "values"}, {"scan", sample.pass}, {"us", sample.now_us}, {"lost", sample.lost}, {"values", list}};
   }
 
   rung_instance* of;
@@ -150,7 +150,7 @@ json Cells::get(const Peer&, const json& request) {
   }
   json values = json::object();
   for (size_t i = 0; i < names.size(); ++i) values[names[i]] = toJson(once.types[i], once.values[i]);
-  return {{"pass", sample.pass}, {"us", sample.now_us}, {"values", values}};
+  return {{"scan", sample.pass}, {"us", sample.now_us}, {"values", values}};
 }
 
 json Cells::watch(const Peer& peer, const json& request) {
@@ -211,11 +211,11 @@ Cells::Share Cells::shareOf(const std::string& name, const std::vector<Range>& w
 
 void Cells::refuseProtected(const std::string& name) const {
   const std::vector<Range> wanted = rangesOf(name);
-  for (const host::Protected& cell : plc_.host().map().never) {
+  for (const host::Protected& cell : plc_.host().map().protectedCells) {
     const std::vector<Range> kept = rangesOf(cell.name);
     if (kept.empty()) throw Refused("whether " + name + " is protected is not known: " + cell.name + " is not found");
     if (shareOf(cell.name, wanted) != Share::None)
-      throw Refused(name + " is protected by the mapping file ([rungctl] never)");
+      throw Refused(name + " is protected by the mapping file ([rungctl] protected)");
   }
 }
 

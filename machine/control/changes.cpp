@@ -174,9 +174,9 @@ void Changes::endShadow() {
 }
 
 json Changes::shadow(const Peer& peer, const json& request) {
-  const auto passes = request.find("passes");
+  const auto passes = request.find("scans");
   if (passes == request.end() || !passes->is_number_unsigned() || *passes == 0 || *passes > kMostShadowPasses)
-    throw Refused("found no number \"passes\" from 1 to 100000 in the request, expected one");
+    throw Refused("found no number \"scans\" from 1 to 100000 in the request, expected one");
   if (shadow_ != nullptr && shadowsFor_ != peer.number)
     throw Refused("another client is running a shadow; try again when it has ended");
   if (const std::optional<rung_state> now = plc_.state(); now && (now->flags & RUNG_STATE_STOPPED) != 0)

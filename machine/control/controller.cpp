@@ -68,9 +68,9 @@ const Controller::Request& Controller::requestOf(const json& request) const {
   const std::string wanted = textOf(request, "do");
   const auto* found = std::ranges::find(kRequests, wanted, &Request::name);
   if (found == std::end(kRequests)) throw Refused("found \"" + wanted + "\", expected a command of this protocol");
-  if (found->permission && !plc_.host().map().allowed[static_cast<size_t>(*found->permission)]) {
+  if (found->permission && !plc_.host().map().permissions[static_cast<size_t>(*found->permission)]) {
     const std::string right(host::kRemoteNames[static_cast<size_t>(*found->permission)]);
-    throw Refused("\"" + right + "\" is not allowed here; for it the mapping file needs [rungctl] allow = [\"" + right +
+    throw Refused("\"" + right + "\" is not allowed here; for it the mapping file needs [rungctl] permissions = [\"" + right +
                   "\"]");
   }
   const bool changes = found->permission && *found->permission != host::Remote::Serve;

@@ -54,7 +54,7 @@ json Status::status(const Peer&, const json&) {
   out["powered_off"] = plc_.host().ended();
   if (!answer.ok()) return out;
   const uint32_t flags = look.state.flags;
-  out["passes"] = look.state.passes;
+  out["scans"] = look.state.passes;
   out["missed"] = look.state.missed;
   out["restarts"] = plc_.host().restarts();
   out["functions"] = jsonOf(look.functions);
@@ -142,12 +142,12 @@ json Status::map(const Peer&, const json&) {
                     {"line", pin.at.line}});
     if (!values.empty()) pins.back()["value"] = jsonOf(pin.type, values[i]);
   }
-  json allowed = json::array();
+  json permissions = json::array();
   for (size_t i = 0; i < std::size(host::kRemoteNames); ++i)
-    if (map.allowed[i]) allowed.push_back(host::kRemoteNames[i]);
-  json never = json::array();
-  for (const host::Protected& cell : map.never) never.push_back(cell.name);
-  return {{"files", map.paths}, {"pins", pins}, {"allow", allowed}, {"never", never}};
+    if (map.permissions[i]) permissions.push_back(host::kRemoteNames[i]);
+  json protectedNames = json::array();
+  for (const host::Protected& cell : map.protectedCells) protectedNames.push_back(cell.name);
+  return {{"files", map.paths}, {"pins", pins}, {"permissions", permissions}, {"protected", protectedNames}};
 }
 
 // ---- profile -------------------------------------------------------------------------------------------------------

@@ -3,10 +3,8 @@
 
 #include <fmt/format.h>
 #include <fnmatch.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -26,89 +24,99 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 10> kKeys = {"name", "dialect",   "files",    "encoding", "include",
-                                                    "nc",   "scenarios", "bindings", "config"};
+constexpr std::string_view kDialects = "\"nct\", \"gsk\" or \"technol\"";
+constexpr std::string_view kFiles = "a list of texts such as [\"main.lad\", \"io.lad\"]";
+constexpr std::string_view kInclude = "a list of texts such as [\"../common\"]";
+constexpr std::string_view kScenarios = "a list of texts such as [\"*.scn\"]";
+constexpr std::string_view kBindings = "a list of texts such as [\"nc_binding.h\"]";
 
-std::string_view kindOf(const toml::node& node) {
-  switch (node.type()) {
-  case toml::node_type::table: return "a table";
-  case toml::node_type::array: return "a list";
-  case toml::node_type::string: return "a text";
-  case toml::node_type::integer:
-  case toml::node_type::floating_point: return "a number";
-  case toml::node_type::boolean: return "true or false";
-  default: return "a date or a time";
-  }
-}
-
-class Reader {
+class Reader : public text::TomlReading {
 public:
   Reader(SourceManager& sources, FileId file, Diagnostics& diagnostics)
-      : sources_(sources), file_(file), diagnostics_(diagnostics) {}
+      : sources_(sources), fileId_(file), diagnostics_(diagnostics) {}
 
   Project read(const std::string& path) {
     project_.file = path;
     project_.folder = fs::path(path).parent_path().string();
-    try {
-      readTable(text::parse(sources_.text(file_), path));
-    } catch (const toml::parse_error& error) {
-      diagnostics_.report(diag::ProjectSyntax, rangeOf(error.source())) << error.description();
-    }
+    if (const std::optional<toml::table> table = parse(sources_.text(fileId_)))
+      readKeys(*this, *table, "", kKeys, project_);
+    for (const text::TomlMistake& mistake : mistakes()) report(mistake);
+    if (project_.name.empty()) project_.name = folderName();
+    for (Setting& setting : project_.config) placeFile(setting);
+    std::ranges::stable_sort(project_.config, {}, &Setting::begin);
     return std::move(project_);
   }
 
 private:
-  SourcePos positionOf(toml::source_position at) const {
-    const uint32_t line = std::clamp<uint32_t>(at.line, 1, sources_.lineCount(file_));
-    const std::string_view text = sources_.lineText(file_, line);
+  using Key = text::TomlKey<Reader, Project>;
+  static const Key kKeys[9];
+
+  // ---- places and reports
+
+  SourcePos sourcePos(text::Position at) const {
+    const uint32_t line = std::clamp<uint32_t>(at.line, 1, sources_.lineCount(fileId_));
+    const std::string_view text = sources_.lineText(fileId_, line);
     size_t offset = 0;
     for (uint32_t column = 1; column < at.column && offset < text.size(); ++column)
       offset += decodeUtf8(text, offset).length;
-    return sources_.position(file_, static_cast<size_t>(text.data() - sources_.text(file_).data()) + offset);
+    return sources_.position(fileId_, static_cast<size_t>(text.data() - sources_.text(fileId_).data()) + offset);
   }
   // Of a text over several lines the first one is meant.
-  SourceRange rangeOf(const toml::source_region& region) const {
-    const SourcePos begin = positionOf(region.begin);
-    const SourcePos end = region.end.line == region.begin.line ? positionOf(region.end) : begin;
-    return {begin, std::max(begin, end)};
+  SourceRange rangeOf(text::Position at, text::Position end) const {
+    const SourcePos begin = sourcePos(at);
+    return {begin, end.line == at.line ? std::max(begin, sourcePos(end)) : begin};
   }
-  SourceRange start() const { return sources_.range(file_, 0, 0); }
-
-  void wrong(std::string_view key, const toml::node& node, std::string_view expected, std::string_view found) {
-    diagnostics_.report(diag::ProjectValue, rangeOf(node.source())) << key << found << expected;
+  SourceRange rangeOf(const toml::node& node) const {
+    const toml::source_position& end = node.source().end;
+    return rangeOf(positionOf(node), {end.line, end.column});
   }
 
-  void reportUnknown(const toml::key& key) {
-    const SourceRange range = rangeOf(key.source());
+  void report(const text::TomlMistake& mistake) {
+    using Kind = text::TomlMistake::Kind;
+    const SourceRange range = rangeOf(mistake.at, mistake.end);
+    switch (mistake.kind) {
+    case Kind::Syntax: diagnostics_.report(diag::ProjectSyntax, range) << mistake.found; break;
+    case Kind::UnknownKey: reportUnknown(mistake, range); break;
+    case Kind::MissingKey:
+      diagnostics_.report(diag::MissingProjectKey, sources_.range(fileId_, 0, 0))
+          << mistake.found << fmt::format("write {}", mistake.example);
+      break;
+    case Kind::Value:
+    case Kind::Other:
+      diagnostics_.report(diag::ProjectValue, range) << mistake.where << mistake.found << mistake.expected;
+    }
+  }
+
+  void reportUnknown(const text::TomlMistake& mistake, SourceRange range) {
     DiagBuilder report = diagnostics_.report(diag::UnknownProjectKey, range);
-    report << key.str();
+    report << mistake.found;
     const frontend::Dialect* dialect = frontend::findDialect(project_.dialect);
     const frontend::ForeignWord* foreign =
-        dialect == nullptr ? nullptr : frontend::findForeign(dialect->foreignKeys, key.str());
+        dialect == nullptr ? nullptr : frontend::findForeign(dialect->foreignKeys, mistake.found);
     if (foreign != nullptr) return frontend::explainForeign(report, range, *foreign, false);
-    const text::Likely meant = text::likeliest(key.str(), kKeys);
-    suggest(report, range, meant);
-    if (meant.word.empty())
+    suggest(report, range, mistake.meant);
+    if (mistake.meant.word.empty())
       report.note("the keys of a project file are name, dialect, files, include, nc, scenarios, bindings; those "
                   "of the dialect's configuration belong in the table [config]");
   }
 
-  void readTable(const toml::table& table) {
-    if (const toml::node* node = table.get("name")) readName(*node);
-    if (project_.name.empty()) project_.name = folderName();
-    readDialect(table.get("dialect"));
-    for (const auto& [key, node] : table)
-      if (std::find(kKeys.begin(), kKeys.end(), key.str()) == kKeys.end()) reportUnknown(key);
-    readFiles(table.get("files"));
-    if (const toml::node* node = table.get("include")) readInclude(*node);
-    if (const toml::node* node = table.get("encoding")) readEncoding(*node);
-    if (const toml::node* node = table.get("nc")) readNc(*node);
-    if (const toml::node* node = table.get("scenarios")) readScenarios(*node);
-    if (const toml::node* node = table.get("bindings")) readBindings(*node);
-    if (const toml::node* node = table.get("config")) readConfig(*node);
-    for (Setting& setting : project_.config) placeFile(setting);
-    std::stable_sort(project_.config.begin(), project_.config.end(),
-                     [](const Setting& a, const Setting& b) { return a.begin < b.begin; });
+  void missing(const toml::node& node, const std::string& path, std::string_view what) {
+    diagnostics_.report(diag::MissingProjectFile, rangeOf(node)) << path << what;
+  }
+
+  // ---- keys
+
+  // Calls act(text, node) for every text of a list. False: it is not a list.
+  template <class Act>
+  bool forTexts(std::string_view key, const toml::node& node, std::string_view expected, Act act) {
+    const toml::array* list = node.as_array();
+    if (list == nullptr) return false;
+    for (const toml::node& element : *list)
+      if (const auto text = element.value_exact<std::string>())
+        act(*text, element);
+      else
+        wrong(element, key, expected, "");
+    return true;
   }
 
   std::string folderName() const {
@@ -117,108 +125,94 @@ private:
     return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   }
 
-  std::optional<std::string> textOf(std::string_view key, const toml::node& node, std::string_view expected) {
-    const auto text = node.value_exact<std::string>();
-    if (!text) wrong(key, node, expected, kindOf(node));
-    return text;
-  }
-
-  // Calls act(text, node) for every text of a list.
-  template <class Act>
-  void forTexts(std::string_view key, const toml::node& node, std::string_view example, Act act) {
-    const toml::array* list = node.as_array();
-    const std::string expected = fmt::format("a list of texts such as {}", example);
-    if (list == nullptr) return wrong(key, node, expected, kindOf(node));
-    for (const toml::node& element : *list)
-      if (const auto text = textOf(key, element, expected)) act(*text, element);
-  }
-
   std::string inFolder(std::string_view name) const {
     return (fs::path(project_.folder) / name).lexically_normal().string();
   }
 
-  void readName(const toml::node& node) {
-    const auto text = textOf("name", node, "a text");
-    if (!text) return;
-    if (text->empty() || text->find('/') != std::string::npos)
-      wrong("name", node, "a name without a folder", fmt::format("'{}'", *text));
-    project_.name = *text;
+  bool takeName(const toml::node& node, Project& project) {
+    project.name = text::stringOf(node);
+    return !project.name.empty() && project.name.find('/') == std::string::npos;
   }
 
-  void readDialect(const toml::node* node) {
-    if (node == nullptr) {
-      diagnostics_.report(diag::MissingProjectKey, start())
-          << "dialect" << "write dialect = \"nct\", \"gsk\" or \"technol\"";
-      return;
-    }
-    constexpr std::string_view kExpected = "\"nct\", \"gsk\" or \"technol\"";
-    const auto text = textOf("dialect", *node, kExpected);
-    if (!text) return;
-    if (frontend::findDialect(*text) == nullptr) wrong("dialect", *node, kExpected, fmt::format("'{}'", *text));
-    project_.dialect = *text;
+  bool takeDialect(const toml::node& node, Project& project) {
+    project.dialect = text::stringOf(node);
+    return frontend::findDialect(project.dialect) != nullptr;
   }
 
-  void readFiles(const toml::node* node) {
-    constexpr std::string_view kExample = "[\"main.lad\", \"io.lad\"]";
-    if (node == nullptr) {
-      diagnostics_.report(diag::MissingProjectKey, start()) << "files" << fmt::format("write files = {}", kExample);
-      return;
-    }
-    forTexts("files", *node, kExample, [&](const std::string& name, const toml::node& element) {
-      project_.files.push_back(inFolder(name));
+  bool takeFiles(const toml::node& node, Project& project) {
+    if (node.is_array() && node.as_array()->empty())
+      wrong(node.source(), "files", "an empty list", "at least one file", "");
+    return forTexts("files", node, kFiles, [&](const std::string& name, const toml::node& element) {
+      project.files.push_back(inFolder(name));
       std::error_code error;
-      if (!fs::is_regular_file(project_.files.back(), error)) missing(element, project_.files.back(), "a file");
-    });
-    if (node->is_array() && node->as_array()->empty()) wrong("files", *node, "at least one file", "an empty list");
-  }
-
-  void readInclude(const toml::node& node) {
-    forTexts("include", node, "[\"../common\"]", [&](const std::string& name, const toml::node& element) {
-      project_.includePaths.push_back(inFolder(name));
-      std::error_code error;
-      if (!fs::is_directory(project_.includePaths.back(), error))
-        missing(element, project_.includePaths.back(), "a folder");
+      if (!fs::is_regular_file(project.files.back(), error)) missing(element, project.files.back(), "a file");
     });
   }
 
-  void missing(const toml::node& node, const std::string& path, std::string_view what) {
-    diagnostics_.report(diag::MissingProjectFile, rangeOf(node.source())) << path << what;
+  bool takeInclude(const toml::node& node, Project& project) {
+    return forTexts("include", node, kInclude, [&](const std::string& name, const toml::node& element) {
+      project.includePaths.push_back(inFolder(name));
+      std::error_code error;
+      if (!fs::is_directory(project.includePaths.back(), error))
+        missing(element, project.includePaths.back(), "a folder");
+    });
   }
 
-  void readNc(const toml::node& node) {
-    constexpr std::string_view kExpected = "\"scripted\" or \"simulated\"";
-    const auto text = textOf("nc", node, kExpected);
-    if (!text) return;
-    if (*text != "scripted" && *text != "simulated") return wrong("nc", node, kExpected, fmt::format("'{}'", *text));
-    addSetting("nc", *text, node);
+  bool takeNc(const toml::node& node, Project&) {
+    const std::string text = text::stringOf(node);
+    addSetting("nc", text, node);
+    return text == "scripted" || text == "simulated";
   }
 
-  void readEncoding(const toml::node& node) {
-    constexpr std::string_view kExpected = "the name of an encoding, such as \"gb18030\"";
-    const auto text = textOf("encoding", node, kExpected);
-    if (!text) return;
-    if (!knowsEncoding(*text)) return wrong("encoding", node, kExpected, fmt::format("'{}'", *text));
-    addSetting("encoding", *text, node);
+  bool takeEncoding(const toml::node& node, Project&) {
+    const std::string text = text::stringOf(node);
+    addSetting("encoding", text, node);
+    return knowsEncoding(text);
   }
 
-  void readScenarios(const toml::node& node) {
-    forTexts("scenarios", node, "[\"*.scn\"]", [&](const std::string& pattern, const toml::node& element) {
-      const std::vector<std::string> found = matchPattern(project_.folder, pattern);
+  bool takeScenarios(const toml::node& node, Project& project) {
+    return forTexts("scenarios", node, kScenarios, [&](const std::string& pattern, const toml::node& element) {
+      const std::vector<std::string> found = matchPattern(project.folder, pattern);
       if (found.empty() && !isPattern(pattern)) missing(element, inFolder(pattern), "a file");
       for (const std::string& file : found)
-        if (std::find(project_.scenarios.begin(), project_.scenarios.end(), file) == project_.scenarios.end())
-          project_.scenarios.push_back(file);
+        if (std::ranges::find(project.scenarios, file) == project.scenarios.end()) project.scenarios.push_back(file);
     });
   }
 
   // They may be missing: rungc bind makes them of the project.
-  void readBindings(const toml::node& node) {
-    forTexts("bindings", node, "[\"nc_binding.h\"]",
-             [&](const std::string& name, const toml::node&) { project_.bindings.push_back(inFolder(name)); });
+  bool takeBindings(const toml::node& node, Project& project) {
+    return forTexts("bindings", node, kBindings,
+                    [&](const std::string& name, const toml::node&) { project.bindings.push_back(inFolder(name)); });
+  }
+
+  bool takeConfig(const toml::node& node, Project&) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) return false;
+    for (const std::string_view key : {"nc", "encoding"})
+      if (const toml::node* own = table->get(key))
+        wrong(own->source(), "config", std::string(key),
+              fmt::format("keys of the dialect; write {} = before the tables", key), "");
+    readSettings(*table, "");
+    return true;
+  }
+
+  // `tmr.1 = 480` and `[config.tmr]` with `1 = 480` are the key tmr.1.
+  void readSettings(const toml::table& table, const std::string& prefix) {
+    for (const auto& [name, node] : table) {
+      const std::string key = prefix + std::string(name.str());
+      if (const toml::table* inner = node.as_table())
+        readSettings(*inner, key + ".");
+      else if (node.is_string())
+        addSetting(key, text::stringOf(node), node);
+      else if (node.is_number())
+        addSetting(key, text::shown(node), node);
+      else
+        wrong(node, key, "a text or a number", "");
+    }
   }
 
   void addSetting(const std::string& key, std::string value, const toml::node& node) {
-    const SourceRange range = rangeOf(node.source());
+    const SourceRange range = rangeOf(node);
     project_.config.push_back({key, std::move(value), sources_.offsetOf(range.begin), sources_.offsetOf(range.end)});
   }
 
@@ -230,41 +224,28 @@ private:
     std::error_code error;
     const std::string path = inFolder(setting.value);
     if (!fs::exists(path, error))
-      diagnostics_.report(diag::MissingProjectFile, sources_.range(file_, setting.begin, setting.end))
+      diagnostics_.report(diag::MissingProjectFile, sources_.range(fileId_, setting.begin, setting.end))
           << path << nc::takesOf(*row);
     setting.value = fs::absolute(path, error).string();
   }
 
-  // `tmr.1 = 480` and `[config.tmr]` with `1 = 480` are the key tmr.1.
-  void readSettings(const toml::table& table, const std::string& prefix) {
-    for (const auto& [name, node] : table) {
-      const std::string key = prefix + std::string(name.str());
-      if (const toml::table* inner = node.as_table())
-        readSettings(*inner, key + ".");
-      else if (const auto text = node.value_exact<std::string>())
-        addSetting(key, *text, node);
-      else if (const auto integer = node.value_exact<int64_t>())
-        addSetting(key, std::to_string(*integer), node);
-      else if (const auto real = node.value_exact<double>())
-        addSetting(key, fmt::format("{}", *real), node);
-      else
-        wrong(key, node, "a text or a number", kindOf(node));
-    }
-  }
-
-  void readConfig(const toml::node& node) {
-    const toml::table* table = node.as_table();
-    if (table == nullptr) return wrong("config", node, "a table, [config]", kindOf(node));
-    for (const std::string_view key : {"nc", "encoding"})
-      if (const toml::node* own = table->get(key))
-        wrong("config", *own, fmt::format("keys of the dialect; write {} = before the tables", key), key);
-    readSettings(*table, "");
-  }
-
   SourceManager& sources_;
-  FileId file_;
+  FileId fileId_;
   Diagnostics& diagnostics_;
   Project project_;
+};
+
+const Reader::Key Reader::kKeys[] = {
+    {"name", false, "a name without a folder", "name = \"mill\"", &Reader::takeName},
+    {"dialect", true, kDialects, "dialect = \"nct\", \"gsk\" or \"technol\"", &Reader::takeDialect},
+    {"files", true, kFiles, "files = [\"main.lad\", \"io.lad\"]", &Reader::takeFiles},
+    {"encoding", false, "the name of an encoding, such as \"gb18030\"", "encoding = \"gb18030\"",
+     &Reader::takeEncoding},
+    {"include", false, kInclude, "include = [\"../common\"]", &Reader::takeInclude},
+    {"nc", false, "\"scripted\" or \"simulated\"", "nc = \"simulated\"", &Reader::takeNc},
+    {"scenarios", false, kScenarios, "scenarios = [\"*.scn\"]", &Reader::takeScenarios},
+    {"bindings", false, kBindings, "bindings = [\"nc_binding.h\"]", &Reader::takeBindings},
+    {"config", false, "a table, [config]", "[config] and KEY = VALUE in the lines after it", &Reader::takeConfig},
 };
 
 } // namespace

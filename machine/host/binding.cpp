@@ -28,7 +28,7 @@ enum class Use : uint8_t { Input, Output, Constant }; // HAL writes the first an
 struct Entry {
   std::string where; // its key, for messages
   std::string name;
-  Position at;
+  text::Position at;
   Use use = Use::Input;
   PinType type = PinType::Bit;
   double value = 0;     // of a constant, or of a parameter at the start
@@ -138,7 +138,7 @@ private:
   struct Written {
     uint32_t space;
     uint64_t first, end;
-    Position at;
+    text::Position at;
     std::string where, name;
   };
 
@@ -466,7 +466,7 @@ private:
     return place && misfitOf(*place, entry) == Misfit::None ? meant : std::string();
   }
 
-  std::nullopt_t fail(Position at, const std::string& where, const Mistake& mistake) {
+  std::nullopt_t fail(text::Position at, const std::string& where, const Mistake& mistake) {
     errors_.push_back(map_.message(at, where + ": " + mistake.text()));
     return std::nullopt;
   }

@@ -42,7 +42,7 @@ std::optional<int64_t> integerIn(const toml::node& node, int64_t least, int64_t 
 }
 
 std::optional<int64_t> nanosecondsOf(const toml::node& node) {
-  const std::optional<double> seconds = numberOf(node);
+  const std::optional<double> seconds = text::numberOf(node);
   if (!seconds || !(*seconds >= kShortestTime && *seconds <= kLongestTime)) return std::nullopt;
   return static_cast<int64_t>(*seconds * 1e9);
 }
@@ -168,7 +168,7 @@ void ConnectionReader::readTable(const toml::table& table, Connection::Kind kind
 }
 
 bool ConnectionReader::takeHost(const toml::node& node, Row& row) {
-  row.connection.host = textOf(node);
+  row.connection.host = text::stringOf(node);
   return isAddress(row.connection.host);
 }
 
@@ -186,7 +186,7 @@ bool ConnectionReader::takeUnit(const toml::node& node, Row& row) {
 }
 
 bool ConnectionReader::takeName(const toml::node& node, Row& row) {
-  row.connection.name = textOf(node);
+  row.connection.name = text::stringOf(node);
   return isPinName(row.connection.name) && row.connection.name.size() <= kLongestName;
 }
 
@@ -216,15 +216,15 @@ bool ConnectionReader::takeRequests(const toml::node& node, Row& row) {
 }
 
 bool ConnectionReader::takeStatus(const toml::node& node, Row& row) {
-  if (!isPinName(textOf(node))) return false;
-  row.status = Place{textOf(node), reading_.positionOf(node)};
+  if (!isPinName(text::stringOf(node))) return false;
+  row.status = Place{text::stringOf(node), reading_.positionOf(node)};
   return true;
 }
 
 bool ConnectionReader::takePins(const toml::node& node, Area area, Row& row) {
   const toml::table* table = node.as_table();
   if (table == nullptr) return false;
-  for (const auto& [key, value] : inFileOrder(*table)) {
+  for (const auto& [key, value] : text::inFileOrder(*table)) {
     PinRow pin{.pin = {std::string(key->str()), reading_.positionOf(key->source())}, .area = area};
     const std::string where =
         std::string(kindName(row.connection.kind)) + "." + std::string(areaName(area)) + "." + pin.pin.text;
@@ -238,8 +238,7 @@ bool ConnectionReader::readPin(const toml::node& node, const std::string& where,
   const toml::table* table = node.as_table();
   if (table == nullptr) {
     if (takeAt(node, pin)) return true;
-    reading_.wrong(reading_.positionOf(node), where, shown(node), "a number from 0 to 65535, or a table",
-                   pin.pin.text + " = 10");
+    reading_.wrong(node, where, "a number from 0 to 65535, or a table", pin.pin.text + " = 10");
     return false;
   }
   return isRegister(pin.area) ? reading_.readKeys(*this, *table, where, kRegisterKeys, pin)
@@ -254,7 +253,7 @@ bool ConnectionReader::takeAt(const toml::node& node, PinRow& pin) {
 }
 
 bool ConnectionReader::takeFormat(const toml::node& node, PinRow& pin) {
-  const auto* const found = std::ranges::find(kFormatNames, textOf(node));
+  const auto* const found = std::ranges::find(kFormatNames, text::stringOf(node));
   pin.formatAt = reading_.positionOf(node);
   if (found == std::end(kFormatNames) || found->empty()) return false;
   pin.format = static_cast<Format>(found - std::begin(kFormatNames));
@@ -262,7 +261,7 @@ bool ConnectionReader::takeFormat(const toml::node& node, PinRow& pin) {
 }
 
 bool ConnectionReader::takeOrder(const toml::node& node, PinRow& pin) {
-  const std::string order = textOf(node);
+  const std::string order = text::stringOf(node);
   pin.lowFirst = order == "low-first";
   pin.orderAt = reading_.positionOf(node);
   return *pin.lowFirst || order == "high-first";
@@ -270,7 +269,7 @@ bool ConnectionReader::takeOrder(const toml::node& node, PinRow& pin) {
 
 bool ConnectionReader::takeSafe(const toml::node& node, PinRow& pin) {
   pin.safeAt = reading_.positionOf(node);
-  pin.holds = textOf(node) == "hold";
+  pin.holds = text::stringOf(node) == "hold";
   if (!pin.holds) pin.safe = reading_.numberWithType(node);
   return pin.holds || pin.safe;
 }
@@ -383,8 +382,8 @@ bool ConnectionReader::checkOrder(const PinRow& row, Format format, const std::s
   const bool isTwo = isRegister(row.area) && registersOf(format) == 2;
   if (isTwo == row.lowFirst.has_value()) return true;
   if (isTwo)
-    reading_.wrong(row.formatAt, where, "two registers without an order", "\"high-first\" or \"low-first\"",
-                   "order = \"high-first\"");
+    reading_.fail(row.formatAt, where + ": found two registers without an order, expected \"high-first\" or "
+                                        "\"low-first\"; write for example order = \"high-first\"");
   else
     reading_.fail(row.orderAt, where + ".order: found an order of one register, expected a format of 32 bits; remove "
                                        "it, or write for example format = \"s32\"");
@@ -392,14 +391,14 @@ bool ConnectionReader::checkOrder(const PinRow& row, Format format, const std::s
 }
 
 bool ConnectionReader::checkSafe(const PinRow& row, const Pin& pin, const std::string& where) {
-  const size_t before = reading_.mistakes();
+  const size_t before = reading_.mistakes().size();
   if ((row.safe || row.holds) && pin.direction != Direction::In)
     reading_.fail(row.safeAt, where +
                                   ".safe: found one for an output pin, expected one only for an input pin; write it "
                                   "where the pin is, in [out]");
   else
     reading_.checkNumber(row.safe, pin.type, where + ".safe");
-  return reading_.mistakes() == before;
+  return reading_.mistakes().size() == before;
 }
 
 bool ConnectionReader::checkPlace(const ConnectedPin& pin, const Connection& connection, const std::string& where) {
@@ -425,8 +424,8 @@ bool ConnectionReader::checkPlace(const ConnectedPin& pin, const Connection& con
 }
 
 // An input has one source.
-bool ConnectionReader::reserve(uint32_t pin, Position at, const std::string& where) {
-  std::optional<Position>& source = sources_[pin];
+bool ConnectionReader::reserve(uint32_t pin, text::Position at, const std::string& where) {
+  std::optional<text::Position>& source = sources_[pin];
   if (source)
     reading_.fail(at, where + ": found an input pin that is connected in " + reading_.lineOf(*source) +
                           " already, expected one source for it; remove one of them");

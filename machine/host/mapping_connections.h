@@ -25,23 +25,23 @@ private:
     Place pin;
     Area area = Area::Coil;
     uint32_t place = 0;
-    Position placeAt;
+    text::Position placeAt;
     std::optional<Format> format;
-    Position formatAt;
+    text::Position formatAt;
     std::optional<bool> lowFirst;
-    Position orderAt;
+    text::Position orderAt;
     std::optional<Number> safe;
     bool holds = false;
-    Position safeAt;
+    text::Position safeAt;
   };
   struct Row {
     Connection connection;
     std::optional<Place> status;
-    Position timeoutAt;
+    text::Position timeoutAt;
     std::vector<PinRow> pins;
   };
   template <class Of>
-  using Key = Key<ConnectionReader, Of>;
+  using Key = text::TomlKey<ConnectionReader, Of>;
 
   static const Key<Row> kHost, kPort, kPeriod, kTimeout, kStatus;
   static const Key<Row> kCoils, kDiscreteInputs, kHoldingRegisters, kInputRegisters;
@@ -84,11 +84,11 @@ private:
   bool checkSafe(const PinRow& row, const Pin& pin, const std::string& where);
   bool checkOrder(const PinRow& row, Format format, const std::string& where);
   bool checkPlace(const ConnectedPin& pin, const Connection& connection, const std::string& where);
-  bool reserve(uint32_t pin, Position at, const std::string& where);
+  bool reserve(uint32_t pin, text::Position at, const std::string& where);
 
   Reading& reading_;
   std::vector<Row> rows_;
-  std::vector<std::optional<Position>> sources_; // by pin: what connects an input already
+  std::vector<std::optional<text::Position>> sources_; // by pin: what connects an input already
 };
 
 } // namespace rung::host

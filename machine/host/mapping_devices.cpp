@@ -13,7 +13,7 @@ using Kind = DeviceSetting::Kind;
 // A setting of the configuration is a text, a number, or true and false for 1 and 0; nothing: it is none of these.
 std::optional<std::string> settingOf(const toml::node& node) {
   if (const auto truth = node.value_exact<bool>()) return *truth ? "1" : "0";
-  if (node.is_string() || node.is_number()) return node.is_string() ? textOf(node) : shown(node);
+  if (node.is_string() || node.is_number()) return node.is_string() ? text::stringOf(node) : text::shown(node);
   return std::nullopt;
 }
 
@@ -31,7 +31,7 @@ public:
   void read(const toml::table& table) { reading_.readKeys(*this, table, "devices", kKeys, map_); }
 
 private:
-  static const Key<DeviceReader, File> kKeys[5];
+  static const text::TomlKey<DeviceReader, File> kKeys[5];
 
   bool takeCan(const toml::node& node, File&) { return takeNames(node, Kind::Can, "devices.can", "2 = \"can0\""); }
   bool takeCom(const toml::node& node, File&) {
@@ -40,11 +40,10 @@ private:
   bool takeNames(const toml::node& node, Kind kind, const std::string& where, std::string_view example) {
     const toml::table* table = node.as_table();
     if (table == nullptr) return false;
-    for (const auto& [key, value] : inFileOrder(*table)) {
-      const std::string device = textOf(*value);
+    for (const auto& [key, value] : text::inFileOrder(*table)) {
+      const std::string device = text::stringOf(*value);
       if (device.empty())
-        reading_.wrong(reading_.positionOf(*value), where + "." + std::string(key->str()), shown(*value),
-                       "the name of a device", example);
+        reading_.wrong(*value, where + "." + std::string(key->str()), "the name of a device", example);
       else
         add(kind, key->str(), device, *value);
     }
@@ -53,7 +52,7 @@ private:
   bool takeAxes(const toml::node& node, File&) {
     const toml::table* table = node.as_table();
     if (table == nullptr) return false;
-    for (const auto& [key, value] : inFileOrder(*table)) takeAxis(*key, *value);
+    for (const auto& [key, value] : text::inFileOrder(*table)) takeAxis(*key, *value);
     return true;
   }
   void takeAxis(const toml::key& key, const toml::node& node) {
@@ -73,26 +72,26 @@ private:
     if (settings != nullptr) takeAxisSettings(number, *settings);
   }
   void takeAxisPins(const std::string& axis, const toml::node& node) {
-    if (isPinName(textOf(node))) return add(Kind::Axis, axis, textOf(node), node);
-    reading_.wrong(reading_.positionOf(node), "devices.axes." + axis, shown(node),
+    if (isPinName(text::stringOf(node))) return add(Kind::Axis, axis, text::stringOf(node), node);
+    reading_.wrong(node, "devices.axes." + axis,
                    "what the names of its pins begin with: letters, digits, '-', '_' and '.'",
                    axis + " = \"table\", or " + axis + " = { pins = \"table\", FeedRT = 6000 }");
   }
   void takeAxisSettings(const std::string& axis, const toml::table& table) {
-    for (const auto& [key, value] : inFileOrder(table)) {
+    for (const auto& [key, value] : text::inFileOrder(table)) {
       const std::string name = axis + "." + std::string(key->str());
       if (key->str() != "pins") takeSetting("axis." + name, "devices.axes." + name, *value, "FeedRT = 6000");
     }
   }
   bool takeSharedFile(const toml::node& node, File&) {
-    if (textOf(node).empty()) return false;
-    add(Kind::SharedFile, "", beside(textOf(node)), node);
+    if (text::stringOf(node).empty()) return false;
+    add(Kind::SharedFile, "", beside(text::stringOf(node)), node);
     return true;
   }
   bool takeConfig(const toml::node& node, File&) {
     const toml::table* table = node.as_table();
     if (table == nullptr) return false;
-    for (const auto& [key, value] : inFileOrder(*table))
+    for (const auto& [key, value] : text::inFileOrder(*table))
       takeSetting(std::string(key->str()), "devices.config." + std::string(key->str()), *value,
                   "\"COM[1].ComSpeed\" = 19200");
     return true;
@@ -101,7 +100,7 @@ private:
   void takeSetting(const std::string& name, const std::string& where, const toml::node& value,
                    std::string_view example) {
     const auto setting = settingOf(value);
-    if (!setting) return reading_.wrong(reading_.positionOf(value), where, shown(value), "a text or a number", example);
+    if (!setting) return reading_.wrong(value, where, "a text or a number", example);
     add(Kind::Config, name, namesFile(name) ? beside(*setting) : *setting, value);
   }
 
@@ -115,7 +114,7 @@ private:
   File& map_;
 };
 
-const Key<DeviceReader, File> DeviceReader::kKeys[] = {
+const text::TomlKey<DeviceReader, File> DeviceReader::kKeys[] = {
     {"can", false, "a table of channels and interfaces", "can = { 2 = \"can0\" }", &DeviceReader::takeCan},
     {"com", false, "a table of ports and devices", "com = { 1 = \"/dev/ttyUSB0\" }", &DeviceReader::takeCom},
     {"axes", false, "a table of axes and their pins", "axes = { 4 = \"table\" }", &DeviceReader::takeAxes},

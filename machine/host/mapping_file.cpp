@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <toml++/toml.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,7 +18,6 @@
 #include "rtlib/text/number.h"
 #include "rtlib/text/regular_file.h"
 #include "rtlib/text/similar.h"
-#include "rtlib/text/toml.h"
 
 namespace rung::host {
 
@@ -48,9 +46,9 @@ struct PinRow {
   std::optional<PinType> type;
   std::vector<Place> names;
   std::optional<double> scale;
-  Position scaleAt;
+  text::Position scaleAt;
   int64_t bits = 0;
-  Position bitsAt;
+  text::Position bitsAt;
   std::optional<Number> value;
   std::optional<Number> safe;
   bool holds = false;
@@ -73,7 +71,7 @@ std::string bitName(const std::string& name, int64_t bit, int64_t bits) {
 
 struct EdgeRow {
   std::string pin;
-  Position pinAt;
+  text::Position pinAt;
   bool rising = true;
 };
 
@@ -98,7 +96,7 @@ public:
 
 private:
   template <class Row>
-  using Key = Key<Reader, Row>;
+  using Key = text::TomlKey<Reader, Row>;
 
   static const Key<File> kFileKeys[18];
   static const Key<File> kRemoteKeys[2];
@@ -119,13 +117,13 @@ private:
   void include(const toml::node& node);
   bool takeMessageFiles(const toml::node& node, File& map) {
     return takePaths(node, [&](const toml::node& path) {
-      map.messageFiles.push_back({beside(map.paths[file()], textOf(path)), positionOf(path)});
+      map.messageFiles.push_back({beside(map.paths[file()], text::stringOf(path)), positionOf(path)});
     });
   }
   // A path, or a list of paths.
   template <class Take>
   static bool takePaths(const toml::node& node, Take take) {
-    const auto isText = [](const toml::node& element) { return !textOf(element).empty(); };
+    const auto isText = [](const toml::node& element) { return !text::stringOf(element).empty(); };
     const toml::array* list = node.as_array();
     if (list == nullptr ? !isText(node) : list->empty() || !std::ranges::all_of(*list, isText)) return false;
     if (list == nullptr)
@@ -135,7 +133,7 @@ private:
     return true;
   }
   bool takeTimeout(const toml::node& node, File& map) {
-    const std::optional<double> seconds = numberOf(node);
+    const std::optional<double> seconds = text::numberOf(node);
     if (!seconds || !(*seconds >= kShortestTimeout && *seconds <= kLongestTimeout)) return false;
     if (timeoutAt_)
       fail(positionOf(node),
@@ -171,20 +169,20 @@ private:
     const toml::array* list = node.as_array();
     if (list == nullptr) return false;
     for (const toml::node& element : *list) {
-      const auto known = std::ranges::find(kRemoteNames, textOf(element));
+      const auto known = std::ranges::find(kRemoteNames, text::stringOf(element));
       if (known != std::end(kRemoteNames))
         map.permissions[known - std::begin(kRemoteNames)] = true;
       else
-        fail(positionOf(element), "rungctl.permissions: found " + shown(element) + " in the list, expected " +
+        fail(positionOf(element), "rungctl.permissions: found " + text::shown(element) + " in the list, expected " +
                                       std::string(kPermissions) +
-                                      text::didYouMean(text::mostSimilar(textOf(element), kRemoteNames)));
+                                      text::didYouMean(text::mostSimilar(text::stringOf(element), kRemoteNames)));
     }
     return true;
   }
   bool takeProtected(const toml::node& node, File& map) {
     const toml::array* list = node.as_array();
     return list != nullptr && std::ranges::all_of(*list, [&](const toml::node& element) {
-             map.protectedCells.push_back({textOf(element), positionOf(element)});
+             map.protectedCells.push_back({text::stringOf(element), positionOf(element)});
              return !map.protectedCells.back().name.empty();
            });
   }
@@ -200,7 +198,7 @@ private:
 
   // Keys of a pin.
   bool takeType(const toml::node& node, PinRow& row) {
-    const auto found = std::ranges::find(kPinTypes, textOf(node), pinTypeName);
+    const auto found = std::ranges::find(kPinTypes, text::stringOf(node), pinTypeName);
     if (found == std::end(kPinTypes)) return false;
     row.type = *found;
     return true;
@@ -212,11 +210,11 @@ private:
     return takeOneName(node, row);
   }
   bool takeOneName(const toml::node& node, PinRow& row) {
-    row.names.push_back({textOf(node), positionOf(node)});
+    row.names.push_back({text::stringOf(node), positionOf(node)});
     return !row.names.back().text.empty();
   }
   bool takeScale(const toml::node& node, PinRow& row) {
-    row.scale = numberOf(node);
+    row.scale = text::numberOf(node);
     row.scaleAt = positionOf(node);
     return row.scale.value_or(0) != 0;
   }
@@ -231,13 +229,13 @@ private:
   }
   bool takeParameterValue(const toml::node& node, PinRow& row) { return takeNumber(node, row.value); }
   bool takeSafe(const toml::node& node, PinRow& row) {
-    row.holds = textOf(node) == "hold";
+    row.holds = text::stringOf(node) == "hold";
     return row.holds || takeNumber(node, row.safe);
   }
 
   // Keys of a function and of an abort.
   std::optional<Place> pinNameOf(const toml::node& node) {
-    Place name{textOf(node), positionOf(node)};
+    Place name{text::stringOf(node), positionOf(node)};
     return isPinName(name.text) ? std::optional(std::move(name)) : std::nullopt;
   }
   bool takeEdgePin(const toml::node& node, EdgeRow& row) {
@@ -246,14 +244,14 @@ private:
     return name.has_value();
   }
   bool takeEdge(const toml::node& node, EdgeRow& row) {
-    const std::string direction = textOf(node);
+    const std::string direction = text::stringOf(node);
     row.rising = direction == "rise";
     return row.rising || direction == "fall";
   }
   bool takeSendPin(const toml::node& node, SendRow& row) { return takeEdgePin(node, row.edge); }
   bool takeSendEdge(const toml::node& node, SendRow& row) { return takeEdge(node, row.edge); }
   bool takeFunction(const toml::node& node, SendRow& row) {
-    const auto kind = std::ranges::find(kFunctionKinds, textOf(node));
+    const auto kind = std::ranges::find(kFunctionKinds, text::stringOf(node));
     row.kind = static_cast<rung_function_kind>(kind - std::begin(kFunctionKinds));
     return kind != std::end(kFunctionKinds);
   }
@@ -280,11 +278,11 @@ private:
     if (!index) return std::nullopt;
     return Edge{*index, row.rising};
   }
-  void addSend(const SendRow& row, Position at);
+  void addSend(const SendRow& row, text::Position at);
 
   const ReadFile& read_;
   ConnectionReader connections_{*this};
-  std::optional<Position> timeoutAt_;
+  std::optional<text::Position> timeoutAt_;
 };
 
 const Reader::Key<File> Reader::kFileKeys[] = {
@@ -351,17 +349,12 @@ void Reader::read(std::string_view text, const std::string& path) {
   const uint32_t before = file();
   setFile(static_cast<uint32_t>(map().paths.size()));
   map().paths.push_back(path);
-  try {
-    readKeys(text::parse(text), "", kFileKeys, map());
-  } catch (const toml::parse_error& error) {
-    fail(positionOf(error.source()),
-         std::string(error.description()) + "; the file must be TOML; the rest is checked once this is corrected");
-  }
+  if (const std::optional<toml::table> table = parse(text)) readKeys(*table, "", kFileKeys, map());
   setFile(before);
 }
 
 void Reader::include(const toml::node& node) {
-  const std::string path = beside(map().paths[file()], textOf(node));
+  const std::string path = beside(map().paths[file()], text::stringOf(node));
   const auto wrongFile = [&](const std::string& found, const std::string& expectedAndFix) {
     fail(positionOf(node), "include: found " + found + ", expected " + expectedAndFix);
   };
@@ -373,7 +366,7 @@ void Reader::include(const toml::node& node) {
   try {
     text = read_(path);
   } catch (const std::exception& error) {
-    return wrongFile(textOf(node),
+    return wrongFile(text::stringOf(node),
                      std::string("a file (") + error.what() + "); write its path, from the folder of this file");
   }
   read(text, path);
@@ -383,21 +376,20 @@ template <size_t N>
 bool Reader::takePins(const toml::node& node, Direction direction, const Key<PinRow> (&keys)[N]) {
   const toml::table* entries = node.as_table();
   if (entries == nullptr) return false;
-  for (const auto& [key, pinNode] : inFileOrder(*entries)) readPin(*key, *pinNode, direction, keys);
+  for (const auto& [key, pinNode] : text::inFileOrder(*entries)) readPin(*key, *pinNode, direction, keys);
   return true;
 }
 
 template <size_t N>
 void Reader::readPin(const toml::key& key, const toml::node& node, Direction direction, const Key<PinRow> (&keys)[N]) {
-  const size_t before = mistakes();
+  const size_t before = mistakes().size();
   const Place name{std::string(key.str()), positionOf(key.source())};
   const std::string where = std::string(tableName(direction)) + "." + name.text;
   if (!isPinName(name.text))
     fail(name.at,
          where + ": found \"" + name.text + "\", expected the name of a pin: letters, digits, '-', '_' and '.'");
   const toml::table* entry = node.as_table();
-  if (entry == nullptr)
-    return wrong(positionOf(node), where, shown(node), "a table", name.text + " = { type = \"bit\", name = \"X0.0\" }");
+  if (entry == nullptr) return wrong(node, where, "a table", name.text + " = { type = \"bit\", name = \"X0.0\" }");
   if (isUnquotedName(node))
     return fail(name.at, where + ": found a name with a dot, expected quotes around it; write for example \"" +
                              name.text + ".1\" = { … }");
@@ -405,7 +397,7 @@ void Reader::readPin(const toml::key& key, const toml::node& node, Direction dir
   readKeys(*entry, where, keys, row);
   if (row.type) checkRow(row, direction, where);
   Link link{.scale = row.scale.value_or(1)};
-  const bool good = mistakes() == before && makePins(name, row, direction, link);
+  const bool good = mistakes().size() == before && makePins(name, row, direction, link);
   if (row.value) link.value = row.value->value;
   for (Place& place : row.names) {
     link.name = std::move(place.text);
@@ -455,7 +447,7 @@ bool Reader::makePins(const Place& name, const PinRow& row, Direction direction,
 bool Reader::takeConstants(const toml::node& node, File& map) {
   const toml::table* table = node.as_table();
   if (table == nullptr) return false;
-  for (const auto& [key, value] : inFileOrder(*table)) {
+  for (const auto& [key, value] : text::inFileOrder(*table)) {
     Constant constant{PinType::Bit, std::string(key->str()), 0, positionOf(key->source())};
     const std::string where = "const." + constant.name;
     if (constant.name.empty())
@@ -466,8 +458,7 @@ bool Reader::takeConstants(const toml::node& node, File& map) {
       fail(constant.at, where + ": found a name with a dot, expected quotes around it; write for example \"" +
                             constant.name + ".1\" = true");
     else
-      wrong(positionOf(*value), where, shown(*value),
-            "true, false, an integer from -2147483648 to 4294967295, or a real number",
+      wrong(*value, where, "true, false, an integer from -2147483648 to 4294967295, or a real number",
             "\"" + constant.name + "\" = 1");
   }
   return true;
@@ -486,15 +477,15 @@ bool Reader::takeList(const toml::node& node, std::string_view name, const Key<R
 }
 
 bool Reader::takeSends(const toml::node& node, File&) {
-  return takeList(node, "send", kSendKeys, [this](const SendRow& row, Position at) { addSend(row, at); });
+  return takeList(node, "send", kSendKeys, [this](const SendRow& row, text::Position at) { addSend(row, at); });
 }
 
 bool Reader::takeGroups(const toml::node& node, File& map) {
   const toml::table* table = node.as_table();
   if (table == nullptr) return false;
-  for (const auto& [key, value] : inFileOrder(*table)) {
+  for (const auto& [key, value] : text::inFileOrder(*table)) {
     const std::string_view name = key->str();
-    const Position at = positionOf(key->source());
+    const text::Position at = positionOf(key->source());
     const std::optional<uint32_t> code = text::numberIn<uint32_t>(name);
     const auto group = value->value_exact<int64_t>();
     // 70 and 070 are two keys.
@@ -506,7 +497,7 @@ bool Reader::takeGroups(const toml::node& node, File& map) {
       fail(at, "m-groups: found M" + std::to_string(*code) + ", which is in " + lineOf(first->at) +
                    " already, expected one group for each function; remove one of the lines");
     else if (!group || !std::in_range<uint32_t>(*group))
-      wrong(positionOf(*value), "m-groups." + std::string(name), shown(*value), "the number of a group", "70 = 10");
+      wrong(*value, "m-groups." + std::string(name), "the number of a group", "70 = 10");
     else
       map.groups.push_back({*code, static_cast<uint32_t>(*group), at});
   }
@@ -516,11 +507,11 @@ bool Reader::takeGroups(const toml::node& node, File& map) {
 bool Reader::takeAxisGroups(const toml::node& node, File& map) {
   const toml::table* table = node.as_table();
   if (table == nullptr) return false;
-  for (const auto& [key, value] : inFileOrder(*table)) {
+  for (const auto& [key, value] : text::inFileOrder(*table)) {
     const std::string_view name = key->str();
-    const Position at = positionOf(key->source());
+    const text::Position at = positionOf(key->source());
     const std::optional<uint32_t> axis = text::numberIn<uint32_t>(name);
-    const std::string group = textOf(*value);
+    const std::string group = text::stringOf(*value);
     const auto first = std::ranges::find(map.axisGroups, axis.value_or(0) - 1, &AxisGroup::axis);
     if (axis.value_or(0) == 0)
       fail(at, "axis-groups: found \"" + std::string(name) +
@@ -529,8 +520,7 @@ bool Reader::takeAxisGroups(const toml::node& node, File& map) {
       fail(at, "axis-groups: found axis " + std::to_string(*axis) + ", which is in " + lineOf(first->at) +
                    " already, expected one group for each axis; remove one of the lines");
     else if (group.size() != 1 || group[0] < 'A' || group[0] > 'Z')
-      wrong(positionOf(*value), "axis-groups." + std::string(name), shown(*value), "the letter of a group",
-            "4 = \"A\"");
+      wrong(*value, "axis-groups." + std::string(name), "the letter of a group", "4 = \"A\"");
     else
       map.axisGroups.push_back({*axis - 1, static_cast<uint32_t>(group[0] - 'A'), at});
   }
@@ -538,18 +528,18 @@ bool Reader::takeAxisGroups(const toml::node& node, File& map) {
 }
 
 bool Reader::takeAborts(const toml::node& node, File& map) {
-  return takeList(node, "abort", kAbortKeys, [&](const EdgeRow& row, Position) {
+  return takeList(node, "abort", kAbortKeys, [&](const EdgeRow& row, text::Position) {
     if (const std::optional<Edge> cause = edge(row)) map.aborts.push_back(*cause);
   });
 }
 
-void Reader::addSend(const SendRow& row, Position at) {
-  const size_t before = mistakes();
+void Reader::addSend(const SendRow& row, text::Position at) {
+  const size_t before = mistakes().size();
   Send sent{.kind = row.kind, .channel = row.channel - 1, .code = row.code, .at = at};
   sent.edge = edge(row.edge).value_or(Edge{});
   if (row.codePin) sent.codePin = pin(*row.codePin, PinType::S32, Direction::In);
   if (row.donePin) sent.donePin = pin(*row.donePin, PinType::Bit, Direction::Out);
-  if (mistakes() == before) map().sends.push_back(sent);
+  if (mistakes().size() == before) map().sends.push_back(sent);
 }
 
 std::optional<uint32_t> Reader::pin(const Place& name, PinType type, Direction direction) {
@@ -593,7 +583,7 @@ std::string_view pinTypeName(PinType type) {
   return "?";
 }
 
-std::string File::message(Position at, std::string_view what) const {
+std::string File::message(text::Position at, std::string_view what) const {
   return paths[at.file] + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": " + std::string(what);
 }
 
@@ -611,7 +601,7 @@ File parseMap(std::string_view text, const std::string& path, std::vector<std::s
   Reader reader(map, read);
   reader.read(text, path);
   reader.resolve();
-  for (std::string& error : reader.errors()) errors.push_back(std::move(error));
+  std::ranges::move(reader.errors(), std::back_inserter(errors));
   return map;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rtlib/text/name_parts.h"
+#include "rtlib/text/position.h"
 #include "rtlib/text/similar.h"
 #include "rung/runtime.h"
 
@@ -18,14 +19,6 @@ namespace rung::host {
 enum class PinType : uint8_t { Bit, S32, U32, Float };
 
 inline constexpr std::string_view kFunctionKinds[] = {"M", "S", "T", "B", "H", "key"}; // by rung_function_kind
-
-// Line and column are from 1; columns count characters.
-struct Position {
-  uint32_t line = 1;
-  uint32_t column = 1;
-  uint32_t file = 0; // in File::paths
-  bool operator==(const Position&) const = default;
-};
 
 enum class Direction : uint8_t {
   In,        // HAL to the program
@@ -42,7 +35,7 @@ struct Pin {
   std::string name;
   PinType type = PinType::Bit;
   Direction direction = Direction::In;
-  Position at;         // the first of these places
+  text::Position at;         // the first of these places
   double safe = 0;     // value while the program does not run: before its first scan, after a fault, at the end
   bool holds = false;  // keeps its last value instead
   bool ofHost = false; // read and written by the host itself, also while the program does not run
@@ -56,14 +49,14 @@ struct Link {
   // Not empty: pins for the bits of the cell from its lowest one on, `pin` is the first.
   std::vector<uint32_t> bits;
   std::optional<double> value; // of a parameter, at the start; without it, and for io pins, the value of the program
-  Position at;                 // of the name
+  text::Position at;                 // of the name
 };
 
 // The name of a pin with other errors: it is looked up, too, so that all errors are reported at once.
 struct NamedOnly {
   std::string where; // its key, for messages
   std::string name;
-  Position at;
+  text::Position at;
   Direction direction = Direction::In;
 };
 
@@ -72,7 +65,7 @@ struct Constant {
   PinType type = PinType::Bit;
   std::string name;
   double value = 0; // holds every 32-bit integer exactly; finite
-  Position at;
+  text::Position at;
 };
 
 // A pin that changes to a level.
@@ -89,27 +82,27 @@ struct Send {
   int32_t code = 0;
   std::optional<uint32_t> codePin; // instead of `code`
   std::optional<uint32_t> donePin;
-  Position at;
+  text::Position at;
 };
 
 // m-groups: the group of an M function on this machine.
 struct Group {
   uint32_t code = 0;
   uint32_t group = 0;
-  Position at; // of the code
+  text::Position at; // of the code
 };
 
 // PlcErrors: a file of the control that contains texts of messages.
 struct MessageFile {
   std::string path;
-  Position at;
+  text::Position at;
 };
 
 // axis-groups: the signals by which the program commands an axis; both count from 0.
 struct AxisGroup {
   uint32_t axis = 0;
   uint32_t group = 0;
-  Position at; // of the axis
+  text::Position at; // of the axis
 };
 
 // rungctl: what clients may do while the program runs.
@@ -120,7 +113,7 @@ inline constexpr std::string_view kRemoteNames[] = {"set",  "force", "reload",  
 // rungctl: a cell that clients can neither set nor force.
 struct Protected {
   std::string name;
-  Position at;
+  text::Position at;
 };
 
 // The kind of place of a pin's value on the other side of a connection.
@@ -147,7 +140,7 @@ struct ConnectedPin {
   bool lowFirst = false; // the first of two registers has the lower bits
   double safe = 0;       // of an input: its value while the connection is silent
   bool holds = false;    // it keeps its last value then instead
-  Position at;           // of the place
+  text::Position at;     // of the place
 };
 
 // modbus-client, modbus-server, shared-memory: a connection that carries values of pins. rung-run serves them.
@@ -164,7 +157,7 @@ struct Connection {
   uint32_t requests = 1000;          // that a server answers per second and connection
   std::optional<uint32_t> statusPin; // in File::pins: an input bit, on while the connection is not lost
   std::vector<ConnectedPin> pins;
-  Position at;
+  text::Position at;
 
   // "modbus-client 192.168.0.10:502"
   std::string title() const;
@@ -184,12 +177,12 @@ struct DeviceSetting {
   Kind kind = Kind::Config;
   std::string key;
   std::string value;
-  Position at; // of the value
+  text::Position at; // of the value
 };
 
 // A mapping file with the files that it includes; everything is in the order in which it is written.
 struct File {
-  std::vector<std::string> paths; // the file, and those that it includes
+  std::vector<std::string> paths; // the file, and those that it includes; Position::file counts them
   std::vector<Pin> pins;
   std::vector<Link> links;
   std::vector<NamedOnly> namedOnly;
@@ -204,10 +197,10 @@ struct File {
   std::vector<DeviceSetting> devices;
   std::vector<Edge> aborts;          // edges that end every function: reset, emergency stop
   int64_t timeoutNs = 0;             // of a function; 0: none
-  std::optional<Position> highSpeed; // place of `high-speed = true`
+  std::optional<text::Position> highSpeed; // place of `high-speed = true`
 
   // "PATH:LINE:COLUMN: what"
-  std::string message(Position at, std::string_view what) const;
+  std::string message(text::Position at, std::string_view what) const;
 };
 
 // Reads the text of a file; throws std::exception with the reason: "cannot read PATH: …".

@@ -1,13 +1,11 @@
-// See reading.h.
+// See mapping_reading.h.
 #include "machine/host/mapping_reading.h"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <cstdint>
+#include <functional>
 #include <limits>
-#include <tuple>
-
-#include "rtlib/text/similar.h"
 
 namespace rung::host {
 namespace {
@@ -16,27 +14,6 @@ constexpr int64_t kLeast = std::numeric_limits<int32_t>::min(); // of integers
 constexpr int64_t kMost = std::numeric_limits<uint32_t>::max();
 
 } // namespace
-
-std::string shown(const toml::node& node) {
-  if (node.is_table()) return "a table";
-  if (node.is_array()) return "a list";
-  if (const auto text = node.value_exact<std::string>()) return "\"" + *text + "\"";
-  if (const auto integer = node.value_exact<int64_t>()) return std::to_string(*integer);
-  if (const auto boolean = node.value_exact<bool>()) return *boolean ? "true" : "false";
-  if (const auto real = node.value_exact<double>()) {
-    char text[32];
-    return {text, std::to_chars(std::begin(text), std::end(text), *real).ptr};
-  }
-  return "a date or a time";
-}
-
-std::string textOf(const toml::node& node) { return node.value_exact<std::string>().value_or(""); }
-
-std::optional<double> numberOf(const toml::node& node) {
-  if (const auto integer = node.value_exact<int64_t>()) return static_cast<double>(*integer);
-  if (const auto real = node.value_exact<double>(); real && std::isfinite(*real)) return real;
-  return std::nullopt;
-}
 
 std::string beside(const std::string& path, const std::string& included) {
   const size_t slash = path.rfind('/');
@@ -48,53 +25,20 @@ bool isPinName(std::string_view word) {
   return !word.empty() && word.find_first_not_of(kAllowed) == std::string_view::npos;
 }
 
-std::vector<Entry> inFileOrder(const toml::table& table) {
-  std::vector<Entry> entries;
-  for (const auto& [key, node] : table) entries.emplace_back(&key, &node);
-  std::ranges::sort(entries, {}, [](const Entry& entry) {
-    const toml::source_position& begin = entry.first->source().begin;
-    return std::pair(begin.line, begin.column);
-  });
-  return entries;
+std::string Reading::lineOf(text::Position at) const {
+  return "line " + std::to_string(at.line) + (at.file == file() ? "" : " of " + map_.paths[at.file]);
 }
 
-std::string Reading::lineOf(Position at) const {
-  return "line " + std::to_string(at.line) + (at.file == file_ ? "" : " of " + map_.paths[at.file]);
-}
-
-void Reading::wrong(Position at, const std::string& where, const std::string& found, std::string_view expected,
-                    std::string_view example) {
-  fail(at, where + ": found " + found + ", expected " + std::string(expected) + "; write for example " +
-               std::string(example));
-}
-
-void Reading::unknownKey(const toml::key& key, std::string_view where, const std::vector<std::string_view>& known) {
-  std::string all;
-  for (const std::string_view name : known) all += (all.empty() ? "" : ", ") + std::string(name);
-  fail(positionOf(key.source()), (where.empty() ? "the file" : std::string(where)) + ": found an unknown key " +
-                                     std::string(key.str()) + ", expected " + all +
-                                     text::didYouMean(text::mostSimilar(key.str(), known)));
-}
-
-bool Reading::isMisspelt(std::string_view name, const toml::table& table, const std::vector<std::string_view>& known) {
-  return std::ranges::any_of(table, [&](const auto& entry) {
-    const std::string_view key = entry.first.str();
-    return std::ranges::find(known, key) == known.end() && text::mostSimilar(key, known) == name;
-  });
-}
-
-std::vector<std::string> Reading::errors() {
-  std::ranges::stable_sort(errors_, {}, [](const auto& error) {
-    const Position& at = error.first;
-    return std::tuple(at.file, at.line, at.column);
-  });
+std::vector<std::string> Reading::errors() const {
+  std::vector<text::TomlMistake> sorted = mistakes();
+  std::ranges::stable_sort(sorted, std::less(), &text::TomlMistake::at);
   std::vector<std::string> texts;
-  for (const auto& [at, what] : errors_) texts.push_back(map_.message(at, what));
+  for (const text::TomlMistake& mistake : sorted) texts.push_back(map_.message(mistake.at, mistake.text()));
   return texts;
 }
 
 std::optional<Number> Reading::numberWithType(const toml::node& node) const {
-  Number number{.found = shown(node), .at = positionOf(node)};
+  Number number{.found = text::shown(node), .at = positionOf(node)};
   if (const auto bit = node.value_exact<bool>()) {
     number.type = PinType::Bit;
     number.value = *bit ? 1 : 0;

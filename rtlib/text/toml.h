@@ -1,66 +1,123 @@
-// TOML within bounds: toml++ follows the parts of a key by recursion, and a key of a hundred thousand parts would end
-// the process. Numbers of another base are 0x20 here, and 16#20 as in scenarios is refused.
+// Reading files of TOML: tables by tables of their keys, and every mistake with its position. Numbers of another base
+// are 0x20 here; 16#20 as in scenarios is refused.
 #pragma once
 #include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <toml++/toml.h>
 
-#include "rtlib/text/end_of_file.h"
+#include "rtlib/text/position.h"
+#include "rtlib/text/similar.h"
 
 namespace rung::text {
 
-inline constexpr size_t kMostParts = 64; // of a key
+// A value as a file has it; of tables and lists the kind.
+std::string shown(const toml::node& node);
+// "" where the value is not a text.
+std::string stringOf(const toml::node& node);
+// Integers, too; nothing where the value is not a finite number.
+std::optional<double> numberOf(const toml::node& node);
 
-// Past the string that begins there.
-inline size_t endOfString(std::string_view text, size_t at) {
-  const std::string_view quote = text.substr(at, 1), longQuote = text.substr(at, 3);
-  const bool isLong = longQuote.size() == 3 && longQuote[1] == quote[0] && longQuote[2] == quote[0];
-  const std::string_view end = isLong ? longQuote : quote;
-  for (at += end.size(); at < text.size() && text.substr(at, end.size()) != end; ++at) {
-    if (!isLong && text[at] == '\n') return at; // it has no end, which the parser says
-    if (quote == "\"" && text[at] == '\\') ++at;
-  }
-  return at + end.size();
-}
+// toml++ keeps the keys of a table sorted by name.
+using TomlEntry = std::pair<const toml::key*, const toml::node*>;
+std::vector<TomlEntry> inFileOrder(const toml::table& table);
 
-// What the parser must not get, or would not refuse; null text: nothing.
-struct Wrong {
-  size_t at = 0;
-  const char* text = nullptr;
+// A key of a table that is read into a Row; `take`, of the reader, gives false where the value is not what is expected.
+template <class Reader, class Row>
+struct TomlKey {
+  std::string_view name;
+  bool needed = false;
+  std::string_view expected;
+  std::string_view example;
+  bool (Reader::*take)(const toml::node&, Row&) = nullptr;
 };
 
-// 16#20 is 16 and a comment for it.
-inline Wrong findWrong(std::string_view text) {
-  static_assert(kMostParts == 64, "as the sentence says");
-  size_t parts = 1;
-  for (size_t at = 0; at < text.size();) {
-    const char c = text[at];
-    if (c == '"' || c == '\'') {
-      at = endOfString(text, at);
-      continue;
-    }
-    const bool afterDigit = at > 0 && text[at - 1] >= '0' && text[at - 1] <= '9';
-    if (c == '#' && afterDigit) return {at, "# begins a comment: write 0x20 for 16#20, or a blank before the comment"};
-    if (c == '#') at = std::min(text.find('\n', at), text.size() - 1);
-    if (std::string_view("=,{}[]\n#").find(c) != std::string_view::npos) parts = 1;
-    if (c == '.' && ++parts > kMostParts) return {at, "a key has more than 64 parts"};
-    ++at;
-  }
-  return {};
-}
+struct TomlMistake {
+  enum class Kind : uint8_t {
+    Syntax,     // `found`: what is not TOML
+    UnknownKey, // `found`: the key; `expected`: all keys
+    MissingKey, // `found`: the key
+    Value,
+    Other, // `found`: the message
+  };
+  Kind kind = Kind::Other;
+  Position at;
+  Position end;
+  std::string where = {}; // the key with the tables that it is in; "" for the file
+  std::string found;
+  std::string expected = {};
+  std::string example = {};
+  Likely meant = {}; // of an unknown key
 
-// Throws toml::parse_error. `path` is for its places.
-inline toml::table parse(std::string_view text, std::string_view path = {}) {
-  text = upToEndOfFile(text);
-  const Wrong wrong = findWrong(text);
-  if (wrong.text == nullptr) return toml::parse(text, path);
-  toml::source_position place{1, 1};
-  for (const char c : text.substr(0, wrong.at)) {
-    ++place.column;
-    if (c == '\n') place = {place.line + 1, 1};
+  std::string text() const;
+};
+
+// One or several files that are being read, and what is wrong with them.
+class TomlReading {
+public:
+  // The number of the file that is being read, for positions.
+  uint32_t file() const { return file_; }
+  void setFile(uint32_t file) { file_ = file; }
+
+  // Nothing: the text is not TOML, which is a mistake. (The parser follows the parts of a key by recursion: a key of a
+  // hundred thousand parts would end the process, and is refused before.)
+  std::optional<toml::table> parse(std::string_view text);
+
+  Position positionOf(const toml::source_region& region) const {
+    return {region.begin.line, region.begin.column, file_};
   }
-  throw toml::parse_error(wrong.text, place);
-}
+  Position positionOf(const toml::node& node) const { return positionOf(node.source()); }
+
+  void fail(Position at, std::string message) {
+    mistakes_.push_back({.at = at, .end = at, .found = std::move(message)});
+  }
+  // The value of a key is something else than expected.
+  void wrong(const toml::node& node, std::string_view where, std::string_view expected, std::string_view example) {
+    wrong(node.source(), where, shown(node), expected, example);
+  }
+  void wrong(const toml::source_region& at, std::string_view where, std::string found, std::string_view expected,
+             std::string_view example);
+
+  // In the order in which they were found.
+  const std::vector<TomlMistake>& mistakes() const { return mistakes_; }
+
+  // Reads a table by its keys; `where` is its name in messages, "" for the file. False: there were mistakes.
+  template <class Reader, class Row, size_t N>
+  bool readKeys(Reader& reader, const toml::table& table, std::string_view where, const TomlKey<Reader, Row> (&keys)[N],
+                Row& row) {
+    const size_t before = mistakes_.size();
+    const std::string prefix = where.empty() ? "" : std::string(where) + ".";
+    std::vector<std::string_view> names;
+    for (const auto& key : keys) names.push_back(key.name);
+    for (const auto& [key, node] : inFileOrder(table)) {
+      const auto known = std::ranges::find(keys, key->str(), &TomlKey<Reader, Row>::name);
+      if (known == std::end(keys))
+        unknownKey(*key, where, names);
+      else if (!(reader.*known->take)(*node, row))
+        wrong(*node, prefix + std::string(known->name), known->expected, known->example);
+    }
+    for (const auto& key : keys)
+      if (key.needed && !table.contains(key.name) && !isMisspelt(key.name, table, names))
+        missingKey(key.name, table, where, key.expected, key.example);
+    return mistakes_.size() == before;
+  }
+
+private:
+  void add(TomlMistake::Kind kind, const toml::source_region& at, std::string_view where, std::string found,
+           std::string_view expected, std::string_view example);
+  void unknownKey(const toml::key& key, std::string_view where, const std::vector<std::string_view>& known);
+  void missingKey(std::string_view name, const toml::table& table, std::string_view where, std::string_view expected,
+                  std::string_view example);
+  // Whether an unknown key of the table may mean `name`: that is reported, once.
+  static bool isMisspelt(std::string_view name, const toml::table& table, const std::vector<std::string_view>& known);
+
+  uint32_t file_ = 0;
+  std::vector<TomlMistake> mistakes_;
+};
 
 } // namespace rung::text

@@ -141,7 +141,7 @@ class Discovery(Cli):
         self.assertIn("rung.toml:1:1: error: 'dialekt' is not a key of a project file [unknown-project-key]", err)
         self.assertIn("did you mean dialect?", err)
         self.assertIn("rung.toml:2:10: error: 'gone.lad' is not a file [missing-project-file]", err)
-        self.assertIn("3 errors; try `rungc explain", err)
+        self.assertIn("2 errors; try `rungc explain", err)
 
     def test_include_paths(self):
         main = (ROOT / "tools/rungc/templates/technol/main.plc").read_text()

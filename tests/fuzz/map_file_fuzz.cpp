@@ -39,7 +39,7 @@ void checkError(std::string_view error) {
   RUNG_CHECK(error.size() > 1 && error[0] == ' ', "an error says what is wrong");
 }
 
-void checkPlace(const host::Position& at) { RUNG_CHECK(at.line > 0 && at.column > 0, "an entry has a place"); }
+void checkPlace(const text::Position& at) { RUNG_CHECK(at.line > 0 && at.column > 0, "an entry has a place"); }
 
 void checkMap(const host::File& map) {
   std::set<std::string_view> names;

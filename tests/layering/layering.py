@@ -58,7 +58,7 @@ FOREIGN = {
     "modbus.h": ("machine/io/connections",),
     "modbus/": ("machine/io/connections",),
     "pugixml.hpp": ("tools/rungc",),
-    "toml++/": ("rtlib/text", "machine/host", "compiler", "tools/bind"),
+    "toml++/": ("rtlib/text",),
     "utf8proc.h": ("ir/support",),
     "zlib.h": ("rtlib/load", "rtlib/retain", "compiler"),
     "sodium.h": ("rtlib/load", "rtlib/retain", "machine/control", "machine/compile"),

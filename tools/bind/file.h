@@ -1,22 +1,17 @@
 // The binding file: which members of a host's struct are which names of the PLC program. It is TOML; docs/bind.md
 // describes its tables. This is the file alone; binding.h looks members and names up.
 #pragma once
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "rtlib/text/position.h"
+
 namespace rung::bind {
 
-// Line and column are from 1.
-struct Position {
-  uint32_t line = 1;
-  uint32_t column = 1;
-};
-
 struct Error {
-  Position at;
+  text::Position at;
   std::string text;
 };
 
@@ -26,12 +21,12 @@ struct Entry {
   std::string name; // of the program
   double scale = 0; // 0: none is given
   bool cut = false; // upper bits that do not fit are left out
-  Position at;
+  text::Position at;
 };
 
 struct Counter {
   std::string member;
-  Position at;
+  text::Position at;
 };
 
 struct File {

@@ -73,14 +73,14 @@ edge = "rise"
   EXPECT_EQ(map.pins[0].name, "start");
   EXPECT_EQ(map.pins[0].type, PinType::Bit);
   EXPECT_EQ(map.pins[0].direction, Direction::In);
-  EXPECT_EQ(map.pins[0].at, (Position{6, 1}));
+  EXPECT_EQ(map.pins[0].at, (text::Position{6, 1}));
   EXPECT_EQ(map.pins[1].name, "feed.1");
   EXPECT_EQ(map.pins[1].type, PinType::Float);
   EXPECT_EQ(map.pins[1].direction, Direction::Out);
   ASSERT_EQ(inputs(map).size(), 1u);
   EXPECT_EQ(inputs(map)[0].name, "X0.0");
   EXPECT_EQ(inputs(map)[0].scale, 1);
-  EXPECT_EQ(inputs(map)[0].at, (Position{6, 32}));
+  EXPECT_EQ(inputs(map)[0].at, (text::Position{6, 32}));
   ASSERT_EQ(outputs(map).size(), 1u);
   EXPECT_EQ(outputs(map)[0].pin, 1u);
   EXPECT_EQ(outputs(map)[0].name, "AN_FEED,#1");
@@ -88,7 +88,7 @@ edge = "rise"
   ASSERT_EQ(map.constants.size(), 1u);
   EXPECT_EQ(map.constants[0].name, "D4:4");
   EXPECT_EQ(map.constants[0].value, -12);
-  EXPECT_EQ(map.constants[0].at, (Position{12, 1}));
+  EXPECT_EQ(map.constants[0].at, (text::Position{12, 1}));
   ASSERT_EQ(map.sends.size(), 2u);
   EXPECT_EQ(map.pins[map.sends[0].edge.pin].name, "spindle-on");
   EXPECT_FALSE(map.sends[0].edge.rising);
@@ -96,7 +96,7 @@ edge = "rise"
   EXPECT_EQ(map.sends[0].code, 5);
   EXPECT_FALSE(map.sends[0].codePin.has_value());
   EXPECT_FALSE(map.sends[0].donePin.has_value());
-  EXPECT_EQ(map.sends[0].at, (Position{14, 1}));
+  EXPECT_EQ(map.sends[0].at, (text::Position{14, 1}));
   EXPECT_EQ(map.pins[map.sends[1].edge.pin].name, "prepare");
   EXPECT_EQ(map.sends[0].channel, 0u);
   EXPECT_EQ(map.sends[1].channel, 1u);
@@ -110,7 +110,7 @@ edge = "rise"
   EXPECT_EQ(map.pins[map.aborts[0].pin].name, "estop");
   EXPECT_TRUE(map.aborts[0].rising);
   EXPECT_EQ(map.timeoutNs, 2'500'000'000);
-  EXPECT_EQ(map.highSpeed, (Position{3, 14}));
+  EXPECT_EQ(map.highSpeed, (text::Position{3, 14}));
 }
 
 TEST(MapFile, NothingIsNeeded) {
@@ -141,7 +141,7 @@ send = [{ pin = "cw", edge = "rise", function = "M", code = 3 },
   ASSERT_EQ(inputs(map).size(), 2u);
   EXPECT_EQ(inputs(map)[0].name, "X0.0");
   EXPECT_EQ(inputs(map)[1].name, "X0.1");
-  EXPECT_EQ(inputs(map)[1].at, (Position{2, 41}));
+  EXPECT_EQ(inputs(map)[1].at, (text::Position{2, 41}));
   EXPECT_EQ(map.sends.size(), 2u);
 }
 
@@ -276,7 +276,7 @@ TEST(MapFile, WhatRungctlMayDo) {
   EXPECT_FALSE(map.permissions[static_cast<size_t>(Remote::Force)]);
   ASSERT_EQ(map.protectedCells.size(), 2u);
   EXPECT_EQ(map.protectedCells[1].name, "ESTOP");
-  EXPECT_EQ(map.protectedCells[1].at, (Position{3, 22}));
+  EXPECT_EQ(map.protectedCells[1].at, (text::Position{3, 22}));
 }
 
 TEST(MapFile, Includes) {

@@ -23,27 +23,6 @@ namespace rung::scenario {
 
 namespace {
 
-// What the words after a statement's first one name.
-Names namesOf(std::string_view statement, size_t index) {
-  if (statement == "print") return Names::Values;
-  if (statement == "unforce") return Names::Values;
-  if (statement == "replace" || statement == "shadow") return Names::Files;
-  if (index != 1) return Names::None;
-  if (statement == "set" || statement == "force" || statement == "expect" || statement == "expect_range")
-    return Names::Values;
-  if (statement == "expect_call" || statement == "expect_no_call" || statement == "prepare") return Names::Services;
-  if (statement == "include") return Names::Files;
-  if (statement == "plc") return Names::PlcCommands;
-  return statement == "block" ? Names::BlockCommands : Names::None;
-}
-
-// Of the program's start: they have nothing to do at a prompt.
-bool isForPrompt(const StatementForm& form) {
-  constexpr std::string_view kStart[] = {"program", "dialect",      "config",         "connect",
-                                         "period",  "expect_error", "expect_warning", "allow_errors"};
-  return std::ranges::find(kStart, form.word) == std::end(kStart);
-}
-
 // By blanks; the last word may be empty.
 std::vector<std::string> typedWords(std::string_view line) {
   std::vector<std::string> words(1);
@@ -79,25 +58,25 @@ std::string faultLine(const runtime::Instance& instance) {
 
 std::span<const Console::Command> Console::commands() {
   static constexpr Command kCommands[] = {
-      {{"toggle", "toggle NAME", "inverts a bit"}, Names::Values, &Console::toggle},
+      {{"toggle", "toggle NAME", "inverts a bit"}, Words::Value, &Console::toggle},
       {{"watch", "watch [NAME…]", "prints their changes; without names: lists the watched ones"},
-       Names::Values,
+       Words::Values,
        &Console::watch},
-      {{"unwatch", "unwatch NAME…", "stops watching them"}, Names::Values, &Console::unwatch},
-      {{"why", "why NAME", "the rungs that write it, and what they read"}, Names::Values, &Console::why},
-      {{"forces", "forces", "lists the forced variables"}, Names::None, &Console::forces},
-      {{"messages", "messages", "the messages on the screen"}, Names::None, &Console::messages},
-      {{"save", "save FILE.scn", "saves the session as a scenario"}, Names::Files, &Console::save},
-      {{"help", "help [WORD]", "all statements, or one"}, Names::Statements, &Console::help},
-      {{"quit", "quit", "ends the run, as does Ctrl-D"}, Names::None, &Console::quit},
+      {{"unwatch", "unwatch NAME…", "stops watching them"}, Words::Values, &Console::unwatch},
+      {{"why", "why NAME", "the rungs that write it, and what they read"}, Words::Value, &Console::why},
+      {{"forces", "forces", "lists the forced variables"}, Words::Other, &Console::forces},
+      {{"messages", "messages", "the messages on the screen"}, Words::Other, &Console::messages},
+      {{"save", "save FILE.scn", "saves the session as a scenario"}, Words::File, &Console::save},
+      {{"help", "help [WORD]", "all statements, or one"}, Words::Statement, &Console::help},
+      {{"quit", "quit", "ends the run, as does Ctrl-D"}, Words::Other, &Console::quit},
   };
   return kCommands;
 }
 
 std::vector<std::string> Console::words() {
   std::vector<std::string> words;
-  for (const StatementForm& form : statementForms())
-    if (isForPrompt(form)) words.emplace_back(form.word);
+  for (const StatementInfo& info : StatementInfo::all())
+    if (info.atPrompt()) words.emplace_back(info.form.word);
   for (const Command& command : commands()) words.emplace_back(command.form.word);
   return words;
 }
@@ -161,14 +140,14 @@ Outcome Console::execute(const Statement& statement) {
   const std::optional<Problem> problem = session_.execute(statement);
   watch_.look(session_);
   for (const std::string& line : session_.shadowNews()) print_(line);
-  const bool named = statement.kind == Kind::Expect || statement.kind == Kind::ExpectRange;
+  const StatementInfo& info = StatementInfo::of(statement);
   if (problem) {
     const std::string text = problem->file.empty() ? problem->message : textOf(*problem);
-    return fail(text + (named ? explainer_.why(statement.name, wantsReal(statement)) : ""));
+    return fail(text + (info.expectsValue() ? explainer_.why(statement.name, wantsReal(statement)) : ""));
   }
   const bool typed = statement.file.empty();
-  if (typed && isExpectation(statement.kind)) print_("ok");
-  if (typed && statement.kind == Kind::Replace)
+  if (typed && info.expects) print_("ok");
+  if (typed && info.program == OtherProgram::TakesOver)
     for (const std::string& line : session_.report().lines()) print_(line);
   return record(statement, scans, us);
 }
@@ -176,16 +155,17 @@ Outcome Console::execute(const Statement& statement) {
 Outcome Console::record(const Statement& s, uint64_t scansBefore, int64_t usBefore) {
   const uint64_t scans = session_.scans() - scansBefore;
   const int64_t us = session_.nowUs() - usBefore;
-  const bool counts = s.kind == Kind::Scan || s.kind == Kind::Fast || s.kind == Kind::Slot;
+  const StatementInfo& info = StatementInfo::of(s);
+  const bool counts = info.advances == Advance::Scans || info.advances == Advance::Parts;
   if (counts && scans < s.count) {
-    recording_.add(fmt::format("{} {}", s.text.substr(0, s.text.find_first_of(" \t")), scans));
+    recording_.add(fmt::format("{} {}", info.form.word, scans));
     return Outcome::Interrupted;
   }
-  if (s.kind == Kind::Run && us < s.microseconds) {
+  if (info.advances == Advance::Time && us < s.microseconds) {
     recording_.add(us > 0 ? fmt::format("run {}us", us) : fmt::format("scan {}", scans));
     return Outcome::Interrupted;
   }
-  if (s.kind == Kind::Replace || s.kind == Kind::Shadow)
+  if (info.program != OtherProgram::None)
     recordProgram(s);
   else
     recording_.add(s.text);
@@ -195,7 +175,7 @@ Outcome Console::record(const Statement& s, uint64_t scansBefore, int64_t usBefo
 void Console::recordProgram(const Statement& s) {
   const std::vector<std::string> files = programPaths(s);
   const bool object = files.size() == 1 && files[0].ends_with(".so");
-  const std::string word = s.text.substr(0, s.text.find_first_of(" \t"));
+  const std::string word(StatementInfo::of(s).form.word);
   recording_.addProgram(
       word, files, object ? fmt::format("a scenario names sources, not a shared object: {} its sources", word) : "");
 }
@@ -218,10 +198,12 @@ Outcome Console::include(const std::string& file) {
 
 std::vector<std::string> Console::completions(std::string_view line) {
   const std::vector<std::string> typed = typedWords(line);
-  if (typed.size() == 1) return completion_.of(Names::Statements, typed[0]);
+  const size_t index = typed.size() - 1;
+  if (index == 0) return completion_.of(Words::Statement, 1, typed[0]);
   for (const Command& command : commands())
-    if (command.form.word == typed[0]) return completion_.of(command.names, typed.back());
-  return completion_.of(namesOf(typed[0], typed.size() - 1), typed.back());
+    if (command.form.word == typed[0]) return completion_.of(command.words, index, typed.back());
+  const StatementInfo* info = findStatement(typed[0]);
+  return info == nullptr ? std::vector<std::string>() : completion_.of(info->words, index, typed.back());
 }
 
 // ---- commands ------------------------------------------------------------------------------------------------------
@@ -297,8 +279,8 @@ Outcome Console::help(std::span<const std::string> words) {
     print_(formLine(form));
     found = true;
   };
-  for (const StatementForm& form : statementForms())
-    if (isForPrompt(form)) offer(form);
+  for (const StatementInfo& info : StatementInfo::all())
+    if (info.atPrompt()) offer(info.form);
   for (const Command& command : commands()) offer(command.form);
   return found ? Outcome::Done : fail(fmt::format("'{}' is not a statement; help lists them", words[0]));
 }
@@ -520,16 +502,19 @@ const std::vector<std::string>& Completion::values() {
   return values_;
 }
 
-std::vector<std::string> Completion::of(Names names, std::string_view word) {
+std::vector<std::string> Completion::of(Words words, size_t index, std::string_view word) {
+  if (index > 1 && words != Words::Values && words != Words::Files) return {};
   std::vector<std::string> found;
-  switch (names) {
-  case Names::None: return {};
-  case Names::Values: found = beginning(word, values()); break;
-  case Names::Services: found = beginning(word, services(session_.instance().program())); break;
-  case Names::Statements: found = beginning(word, statements_); break;
-  case Names::Files: found = inQuotes(beginning(withoutQuote(word), files(withoutQuote(word)))); break;
-  case Names::PlcCommands: found = beginning(word, {"clear", "start", "stop"}); break;
-  case Names::BlockCommands: found = beginning(word, {"done", "start"}); break;
+  switch (words) {
+  case Words::Other: return {};
+  case Words::Value:
+  case Words::Values: found = beginning(word, values()); break;
+  case Words::Service: found = beginning(word, services(session_.instance().program())); break;
+  case Words::Statement: found = beginning(word, statements_); break;
+  case Words::File:
+  case Words::Files: found = inQuotes(beginning(withoutQuote(word), files(withoutQuote(word)))); break;
+  case Words::PlcCommand: found = beginning(word, {"clear", "start", "stop"}); break;
+  case Words::BlockCommand: found = beginning(word, {"done", "start"}); break;
   }
   std::ranges::sort(found);
   return found;

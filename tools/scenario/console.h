@@ -13,6 +13,7 @@
 #include "tools/scenario/explain.h"
 #include "tools/scenario/names.h"
 #include "tools/scenario/session.h"
+#include "tools/scenario/statements.h"
 
 namespace rung::scenario {
 
@@ -90,17 +91,14 @@ private:
 
 // What the last word of a line at the prompt can become.
 
-// What a word of a statement or command names.
-enum class Names : uint8_t { None, Values, Services, Statements, Files, PlcCommands, BlockCommands };
-
 class Completion {
 public:
   // `statements`: the words of all statements and commands. The session outlives this and has started.
   Completion(const Session& session, std::vector<std::string> statements)
       : session_(session), statements_(std::move(statements)) {}
 
-  // Sorted; case does not matter. Those that the word begins, or nothing.
-  std::vector<std::string> of(Names names, std::string_view word);
+  // Of word `index` of a line, which begins with a word whose others are these. Sorted; case does not matter.
+  std::vector<std::string> of(Words words, size_t index, std::string_view word);
 
 private:
   const std::vector<std::string>& values();
@@ -137,7 +135,7 @@ public:
 private:
   struct Command {
     StatementForm form;
-    Names names = Names::None; // of its words
+    Words words = Words::Other;
     Outcome (Console::*run)(std::span<const std::string> words) = nullptr;
   };
   static std::span<const Command> commands();

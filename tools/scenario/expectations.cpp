@@ -28,8 +28,12 @@ std::string setValue(Lane& lane, const Statement& s) {
 
 std::string expectValue(const Lane& lane, const Statement& s) {
   const Result<Reading> reading = readName(lane.instance(), lane.nc(), s.name, wantsReal(s));
-  if (!reading.ok()) return reading.error();
-  return s.kind == Kind::ExpectRange ? checkRange(reading.value(), s) : checkValue(reading.value(), s);
+  return reading.ok() ? checkValue(reading.value(), s) : reading.error();
+}
+
+std::string expectRange(const Lane& lane, const Statement& s) {
+  const Result<Reading> reading = readName(lane.instance(), lane.nc(), s.name, wantsReal(s));
+  return reading.ok() ? checkRange(reading.value(), s) : reading.error();
 }
 
 // Of several messages with this number one must (or none may) have the properties.

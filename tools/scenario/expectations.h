@@ -8,7 +8,8 @@
 namespace rung::scenario {
 
 std::string setValue(Lane& lane, const Statement& s);
-std::string expectValue(const Lane& lane, const Statement& s); // expect and expect_range
+std::string expectValue(const Lane& lane, const Statement& s);
+std::string expectRange(const Lane& lane, const Statement& s);
 std::string expectMessage(const Lane& lane, const Statement& s);
 std::string expectLog(Lane& lane, const Statement& s);
 std::string expectFault(const Lane& lane, const Statement& s);

@@ -17,8 +17,15 @@ namespace {
 
 constexpr std::string_view kQuantity = "NC.";
 
-bool namesValue(Kind kind) {
-  return kind == Kind::Set || kind == Kind::Force || kind == Kind::Expect || kind == Kind::ExpectRange;
+// Names of values of the program or the NC that a statement reads or writes.
+std::vector<std::string> valueNames(const Statement& s) {
+  const Words named = StatementInfo::of(s).words;
+  if (named == Words::Value) return {s.name};
+  if (named != Words::Values) return {};
+  std::vector<std::string> names = s.words;
+  for (const KeyValue& item : s.keys)
+    if (!item.key.empty()) names.push_back(item.key);
+  return names;
 }
 
 } // namespace
@@ -83,16 +90,11 @@ std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& 
       problems.push_back(problemAt(s, unknownName(*running, nc, name) + std::string(isMessage ? kMessageNote : "")));
   };
   for (const Statement& s : scenario.statements) {
-    if (s.kind == Kind::Replace) {
+    if (StatementInfo::of(s).program == OtherProgram::TakesOver) {
       running = next.front();
       next = next.subspan(1);
     }
-    if (namesValue(s.kind)) check(s, s.name);
-    if (s.kind == Kind::Unforce)
-      for (const std::string& name : s.words) check(s, name);
-    if (s.kind != Kind::Print) continue;
-    for (const KeyValue& item : s.keys)
-      if (!item.key.empty()) check(s, item.key);
+    for (const std::string& name : valueNames(s)) check(s, name);
   }
   return problems;
 }
@@ -101,8 +103,9 @@ std::vector<Problem> unfitValues(const Scenario& scenario, const runtime::Instan
                                  const sim::SimulatedNc& nc) {
   std::vector<Problem> problems;
   for (const Statement& s : scenario.statements) {
-    if (s.kind == Kind::Replace) break;
-    const auto place = s.kind == Kind::Set ? nc.readPlace(instance.program(), s.name) : std::nullopt;
+    const StatementInfo& info = StatementInfo::of(s);
+    if (info.program == OtherProgram::TakesOver) break;
+    const auto place = info.sets ? nc.readPlace(instance.program(), s.name) : std::nullopt;
     if (!place) continue;
     if (std::string problem = valueProblem(instance, *place, s.value); !problem.empty())
       problems.push_back(problemAt(s, std::move(problem)));

@@ -42,7 +42,7 @@ std::string unknownName(const rung_program& program, const sim::SimulatedNc& nc,
 // been started; `next` are those that take over from it, one for each replace statement.
 std::vector<Problem> unknownNames(const Scenario& scenario, const rung_program& program,
                                   std::span<const rung_program* const> next, const sim::SimulatedNc& nc);
-// Values that a name of the program cannot hold, of set statements before the first replace.
+// Values that a name of the program cannot hold, of set statements before another program takes over.
 std::vector<Problem> unfitValues(const Scenario& scenario, const runtime::Instance& instance,
                                  const sim::SimulatedNc& nc);
 

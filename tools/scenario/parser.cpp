@@ -30,8 +30,6 @@ Result<std::string> readText(const std::string& path) {
   return contents;
 }
 
-bool advances(Kind kind) { return kind == Kind::Scan || kind == Kind::Fast || kind == Kind::Slot || kind == Kind::Run; }
-
 class Reader {
 public:
   explicit Reader(Scenario& scenario) : scenario_(scenario) {}
@@ -72,8 +70,9 @@ private:
   // Gives "" or what is wrong.
   std::string take(Statement statement) {
     if (statement.kind == Kind::Include) return include(statement.name);
-    advanced_ = advanced_ || advances(statement.kind);
-    if (advanced_ && preparesStart(statement.kind)) return "config, connect and period must come before the first scan";
+    const StatementInfo& info = StatementInfo::of(statement);
+    advanced_ = advanced_ || info.advances != Advance::Nothing;
+    if (advanced_ && info.stage == Stage::Start) return "config, connect and period must come before the first scan";
     scenario_.statements.push_back(std::move(statement));
     return {};
   }
@@ -153,32 +152,12 @@ std::string textOf(const Problem& problem) {
   return fmt::format("{}:{}: {}", problem.file, problem.line, problem.message);
 }
 
-bool isExpectation(Kind kind) {
-  switch (kind) {
-  case Kind::Expect:
-  case Kind::ExpectRange:
-  case Kind::ExpectMessage:
-  case Kind::ExpectLog:
-  case Kind::ExpectCall:
-  case Kind::ExpectNoCall:
-  case Kind::ExpectSent:
-  case Kind::ExpectError:
-  case Kind::ExpectWarning:
-  case Kind::ExpectFault:
-  case Kind::ExpectChange:
-  case Kind::ExpectNoChange:
-  case Kind::ExpectDifference:
-  case Kind::ExpectNoDifference: return true;
-  default: return false;
-  }
-}
-
 bool wantsReal(const Statement& statement) {
   return statement.near || statement.value.kind == ValueKind::Real || statement.high.kind == ValueKind::Real;
 }
 
 bool expectsNothing(const Scenario& scenario) {
-  return std::ranges::none_of(scenario.statements, [](const Statement& s) { return isExpectation(s.kind); });
+  return std::ranges::none_of(scenario.statements, [](const Statement& s) { return StatementInfo::of(s).expects; });
 }
 
 } // namespace rung::scenario

@@ -10,6 +10,7 @@
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/explain.h"
 #include "tools/scenario/names.h"
+#include "tools/scenario/statements.h"
 
 namespace rung::scenario {
 namespace {
@@ -63,7 +64,8 @@ private:
     if (!compileNamed(settings) || !start()) return;
     std::vector<const rung_program*> next;
     for (const NamedProgram& named : named_)
-      if (named.statement->kind == Kind::Replace) next.push_back(&named.next.engines[0]->program());
+      if (StatementInfo::of(*named.statement).program == OtherProgram::TakesOver)
+        next.push_back(&named.next.engines[0]->program());
     add(result_.problems, unknownNames(scenario_, session_.instance().program(), next, session_.nc()));
     add(result_.problems, unfitValues(scenario_, session_.instance(), session_.nc()));
     if (!result_.problems.empty() || !observe(program_->compiled())) return;
@@ -79,7 +81,7 @@ private:
   bool compileNamed(const CompileSettings& settings) {
     bool good = true;
     for (const Statement& s : scenario_.statements) {
-      if (s.kind != Kind::Replace && (s.kind != Kind::Shadow || s.words.empty())) continue;
+      if (StatementInfo::of(s).program == OtherProgram::None || s.words.empty()) continue;
       const std::vector<std::string> files = programPaths(s);
       if (std::shared_ptr<StoredProgram> same = programOf(files)) {
         named_.push_back({&s, files, std::move(same), {}});
@@ -196,15 +198,15 @@ private:
 
   void runStatements() {
     for (const Statement& s : scenario_.statements) {
-      if (belongsToStart(s.kind)) continue;
+      const StatementInfo& info = StatementInfo::of(s);
+      if (info.stage != Stage::Run) continue;
       std::optional<Problem> problem = session_.execute(s);
       if (session_.scans() != result_.scans) lastSet_ = nullptr;
       result_.scans = session_.scans();
-      if (s.kind == Kind::Set) lastSet_ = &s;
+      if (info.sets) lastSet_ = &s;
       if (!problem) continue;
-      const bool expectation = s.kind == Kind::Expect || s.kind == Kind::ExpectRange;
-      if (expectation) problem->message += unseenSet();
-      if (expectation && explainer_) problem->message += explainer_->why(s.name, wantsReal(s));
+      if (info.expectsValue()) problem->message += unseenSet();
+      if (info.expectsValue() && explainer_) problem->message += explainer_->why(s.name, wantsReal(s));
       result_.problems.push_back(std::move(*problem));
       return; // what follows would only repeat it
     }

@@ -2,7 +2,6 @@
 // of each statement; what a name or a key means is the dialect's business and is decided when the scenario runs.
 #pragma once
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,46 +13,12 @@
 
 namespace rung::scenario {
 
+// Statements by their names in statements.def. Include is never in Scenario::statements: the statements of the file
+// are.
 enum class Kind : uint8_t {
-  Include, // never in Scenario::statements: the statements of the file are
-  Program,
-  Dialect,
-  Config,
-  Connect,
-  Period,
-  Set,
-  Scan,
-  Fast,
-  Slot,
-  Run,
-  Expect,
-  ExpectRange,
-  ExpectMessage,
-  ExpectLog,
-  ExpectCall,
-  ExpectNoCall,
-  ExpectSent,
-  Reply,
-  Prepare,
-  BlockStart,
-  BlockDone,
-  Event,
-  Plc,
-  ColdStart,
-  WarmStart,
-  ExpectError,
-  ExpectWarning,
-  ExpectFault,
-  AllowErrors,
-  Print,
-  Replace,
-  ExpectChange,
-  ExpectNoChange,
-  Shadow,
-  ExpectDifference,
-  ExpectNoDifference,
-  Force,
-  Unforce,
+#define RUNG_STATEMENT(kind, ...) kind,
+#include "tools/scenario/statements.def"
+#undef RUNG_STATEMENT
 };
 
 enum class ValueKind : uint8_t { Int, Real, Text };
@@ -79,7 +44,7 @@ struct Statement {
   uint32_t line = 0; // from 1
   std::string text;  // as written, without blanks around it
   std::string name;  // Include: the file; Set, Expect…: the name; Config: the key; Event, ExpectCall, Prepare…: the
-                     // service or event; ExpectSent: the port; Plc: the command
+                     // service or event; ExpectSent: the port; Plc, Block: the command
   std::vector<std::string> words; // Program, Replace, Shadow: files; Connect: source and destination; Unforce: names
   Value value;                    // Set, Force, Expect, ExpectRange (low); Config; ExpectLog, ExpectFault: the text
   Value high;                     // ExpectRange
@@ -127,15 +92,6 @@ Result<Scenario> readStatements(const std::string& path);
 // One line without a file. The text of a failure begins in small letters and names no line.
 Result<Statement> parseStatement(std::string_view line);
 
-// How a statement is written, and what it does: for help and completion.
-struct StatementForm {
-  std::string_view word;
-  std::string_view form;
-  std::string_view meaning;
-};
-std::span<const StatementForm> statementForms();
-
-bool isExpectation(Kind kind);
 // The statement compares real numbers.
 bool wantsReal(const Statement& statement);
 // It expects nothing: it passes whatever the program does, unless that stops with a fault.

@@ -9,27 +9,18 @@
 #include "rtlib/nc/names/names.h"
 #include "tools/scenario/expectations.h"
 #include "tools/scenario/names.h"
+#include "tools/scenario/statements.h"
 #include "tools/scenario/values.h"
 
 namespace rung::scenario {
+namespace {
+
+constexpr const char* kNotReplaced = "no program has been replaced";
+
+} // namespace
 
 std::string scanText(uint64_t scan, int64_t us) {
   return fmt::format("scan {}, {:.3f} s", scan, static_cast<double>(us) / 1e6);
-}
-
-bool belongsToStart(Kind kind) {
-  switch (kind) {
-  case Kind::Include:
-  case Kind::Program:
-  case Kind::Dialect:
-  case Kind::Config:
-  case Kind::Connect:
-  case Kind::Period:
-  case Kind::ExpectError:
-  case Kind::ExpectWarning:
-  case Kind::AllowErrors: return true;
-  default: return false;
-  }
 }
 
 // ---- start ---------------------------------------------------------------------------------------------------------
@@ -118,8 +109,8 @@ std::string Session::advance(uint64_t count, Lane::Advance how) {
   return {};
 }
 
-std::string Session::runFor(int64_t us) {
-  const int64_t end = nowUs() + us;
+std::string Session::runFor(const Statement& s) {
+  const int64_t end = nowUs() + s.microseconds;
   while (nowUs() < end) {
     const int64_t before = nowUs();
     if (std::string problem = advanceOnce(&sim::Machine::scan); !problem.empty()) return problem;
@@ -205,71 +196,87 @@ std::string Session::replace(const Statement& s) {
   return difference();
 }
 
-std::string Session::expectChange(const Statement& s) {
-  if (!report_) return "no program has been replaced";
-  return s.kind == Kind::ExpectChange ? report_->take(s.change) : report_->expectNone();
-}
+std::string Session::expectChange(const Statement& s) { return report_ ? report_->take(s.change) : kNotReplaced; }
+std::string Session::expectNoChange(const Statement&) { return report_ ? report_->expectNone() : kNotReplaced; }
 
 std::optional<Problem> Session::execute(const Statement& s) {
+  const StatementInfo& info = StatementInfo::of(s);
+  std::string problem;
   statement_ = &s;
-  std::string problem = run(s);
+  if (info.run != nullptr)
+    problem = (this->*info.run)(s);
+  else if (info.stage == Stage::Include)
+    problem = "a file can be included by a scenario only";
+  else
+    problem = "the program has started; this statement belongs to the start of a scenario";
   statement_ = nullptr;
   if (problem.empty()) return std::nullopt;
   return problemAt(s, atScan(std::move(problem)));
 }
 
-std::string Session::run(const Statement& s) {
-  switch (s.kind) {
-  case Kind::Include: return "a file can be included by a scenario only";
-  case Kind::Program:
-  case Kind::Dialect:
-  case Kind::Config:
-  case Kind::Connect:
-  case Kind::Period:
-  case Kind::ExpectError:
-  case Kind::ExpectWarning:
-  case Kind::AllowErrors: return "the program has started; this statement belongs to the start of a scenario";
-  case Kind::Set: return forLanes([&](Lane& lane) { return setValue(lane, s); });
-  case Kind::Scan: return advance(s.count, &sim::Machine::scan);
-  case Kind::Fast: return advance(s.count, &sim::Machine::fast);
-  case Kind::Slot:
-    if (!nc().control().runsInSlots()) return "only the second level of a GSK program is run in slots (8 ms)";
-    return advance(s.count, &sim::Machine::slot);
-  case Kind::Run: return runFor(s.microseconds);
-  case Kind::Expect:
-  case Kind::ExpectRange: return forLanes([&](Lane& lane) { return expectValue(lane, s); });
-  case Kind::ExpectMessage: return forLanes([&](Lane& lane) { return expectMessage(lane, s); });
-  case Kind::ExpectLog: return forLanes([&](Lane& lane) { return expectLog(lane, s); });
-  case Kind::ExpectCall: return forLanes([&](Lane& lane) { return lane.requests().expectCall(lane.instance(), s); });
-  case Kind::ExpectNoCall:
-    return forLanes([&](Lane& lane) { return lane.requests().expectNoCall(lane.instance(), s); });
-  case Kind::ExpectSent: return operate([&](auto& nc, auto&) { return nc.expectSent(s.name, arguments(s.keys)); });
-  case Kind::Reply: return forLanes([&](Lane& lane) { return lane.requests().reply(lane.instance(), s); });
-  case Kind::Prepare: return forLanes([&](Lane& lane) { return lane.requests().prepare(lane.instance(), s); });
-  case Kind::BlockStart:
-    return operate([&](auto& nc, auto& program) { return nc.blockStart(program, arguments(s.keys)); });
-  case Kind::BlockDone: return operate([&](auto& nc, auto& program) { return nc.blockDone(program); });
-  case Kind::Event:
-    return operate([&](auto& nc, auto& program) { return nc.event(program, s.name, arguments(s.keys)); });
-  case Kind::Plc: return operate([&](auto& nc, auto& program) { return nc.plcCommand(program, s.name); });
-  case Kind::ColdStart: return restart(nc::PowerOn::Cold);
-  case Kind::WarmStart: return restart(nc::PowerOn::Warm);
-  case Kind::Print: return print(s);
-  case Kind::Replace: return replace(s);
-  case Kind::Shadow: return shadow(s);
-  case Kind::ExpectDifference: return shadows_.expectDifference(lanes_, s.name);
-  case Kind::ExpectNoDifference: return shadows_.expectNone(lanes_);
-  case Kind::Force: return forces_.set(lanes_, s.name, s.value);
-  case Kind::Unforce: return forces_.clear(lanes_, s.words);
-  case Kind::ExpectChange:
-  case Kind::ExpectNoChange: return expectChange(s);
-  case Kind::ExpectFault: {
-    std::string problem = forLanes([&](Lane& lane) { return expectFault(lane, s); });
-    faultExpected_ = faultExpected_ || problem.empty();
-    return problem;
-  }
-  }
-  return {};
+std::string Session::set(const Statement& s) {
+  return forLanes([&](Lane& lane) { return setValue(lane, s); });
 }
+
+std::string Session::scan(const Statement& s) { return advance(s.count, &sim::Machine::scan); }
+std::string Session::fast(const Statement& s) { return advance(s.count, &sim::Machine::fast); }
+std::string Session::slot(const Statement& s) {
+  if (!nc().control().runsInSlots()) return "only the second level of a GSK program is run in slots (8 ms)";
+  return advance(s.count, &sim::Machine::slot);
+}
+
+std::string Session::expect(const Statement& s) {
+  return forLanes([&](Lane& lane) { return expectValue(lane, s); });
+}
+std::string Session::expectRange(const Statement& s) {
+  return forLanes([&](Lane& lane) { return scenario::expectRange(lane, s); });
+}
+std::string Session::expectMessage(const Statement& s) {
+  return forLanes([&](Lane& lane) { return scenario::expectMessage(lane, s); });
+}
+std::string Session::expectLog(const Statement& s) {
+  return forLanes([&](Lane& lane) { return scenario::expectLog(lane, s); });
+}
+std::string Session::expectFault(const Statement& s) {
+  std::string problem = forLanes([&](Lane& lane) { return scenario::expectFault(lane, s); });
+  faultExpected_ = faultExpected_ || problem.empty();
+  return problem;
+}
+
+std::string Session::expectCall(const Statement& s) {
+  return forLanes([&](Lane& lane) { return lane.requests().expectCall(lane.instance(), s); });
+}
+std::string Session::expectNoCall(const Statement& s) {
+  return forLanes([&](Lane& lane) { return lane.requests().expectNoCall(lane.instance(), s); });
+}
+std::string Session::reply(const Statement& s) {
+  return forLanes([&](Lane& lane) { return lane.requests().reply(lane.instance(), s); });
+}
+std::string Session::prepare(const Statement& s) {
+  return forLanes([&](Lane& lane) { return lane.requests().prepare(lane.instance(), s); });
+}
+
+std::string Session::expectSent(const Statement& s) {
+  return operate([&](auto& nc, auto&) { return nc.expectSent(s.name, arguments(s.keys)); });
+}
+std::string Session::block(const Statement& s) {
+  if (s.name == "done") return operate([](auto& nc, auto& program) { return nc.blockDone(program); });
+  return operate([&](auto& nc, auto& program) { return nc.blockStart(program, arguments(s.keys)); });
+}
+std::string Session::event(const Statement& s) {
+  return operate([&](auto& nc, auto& program) { return nc.event(program, s.name, arguments(s.keys)); });
+}
+std::string Session::plc(const Statement& s) {
+  return operate([&](auto& nc, auto& program) { return nc.plcCommand(program, s.name); });
+}
+
+std::string Session::coldStart(const Statement&) { return restart(nc::PowerOn::Cold); }
+std::string Session::warmStart(const Statement&) { return restart(nc::PowerOn::Warm); }
+
+std::string Session::expectDifference(const Statement& s) { return shadows_.expectDifference(lanes_, s.name); }
+std::string Session::expectNoDifference(const Statement&) { return shadows_.expectNone(lanes_); }
+
+std::string Session::force(const Statement& s) { return forces_.set(lanes_, s.name, s.value); }
+std::string Session::unforce(const Statement& s) { return forces_.clear(lanes_, s.words); }
 
 } // namespace rung::scenario

@@ -49,9 +49,6 @@ public:
   virtual void printed(const std::string& line) { (void)line; }
 };
 
-// Statements that choose the program and what it is started with, or say what the compiler reports.
-bool belongsToStart(Kind kind);
-
 class Session {
 public:
   // Files that the NC's configuration names lie in `folder`.
@@ -109,19 +106,13 @@ public:
   void setInterrupt(std::function<bool()> interrupted) { interrupted_ = std::move(interrupted); }
 
 private:
-  std::string run(const Statement& s);
   // The problem with scan and time at the end of its first line.
   std::string atScan(std::string problem) const;
   std::string advance(uint64_t count, Lane::Advance how);
   std::string advanceOnce(Lane::Advance how);
   std::string afterScan();
-  std::string runFor(int64_t us);
   std::string restart(nc::PowerOn kind);
-  std::string print(const Statement& s);
   Result<NextProgram> makeProgram(const Statement& s);
-  std::string replace(const Statement& s);
-  std::string shadow(const Statement& s);
-  std::string expectChange(const Statement& s);
   std::string difference() const;
   bool interrupted() const { return interrupted_ && interrupted_(); }
 
@@ -137,6 +128,37 @@ private:
     return forLanes([&](Lane& lane) { return lane.operate(act); });
   }
   std::string prefixed(const Lane& lane, const std::string& problem) const;
+
+  friend struct StatementInfo; // its rows name the functions that run statements
+  std::string set(const Statement& s);
+  std::string scan(const Statement& s);
+  std::string fast(const Statement& s);
+  std::string slot(const Statement& s);
+  std::string runFor(const Statement& s);
+  std::string expect(const Statement& s);
+  std::string expectRange(const Statement& s);
+  std::string expectMessage(const Statement& s);
+  std::string expectLog(const Statement& s);
+  std::string expectCall(const Statement& s);
+  std::string expectNoCall(const Statement& s);
+  std::string expectSent(const Statement& s);
+  std::string reply(const Statement& s);
+  std::string prepare(const Statement& s);
+  std::string block(const Statement& s);
+  std::string event(const Statement& s);
+  std::string plc(const Statement& s);
+  std::string coldStart(const Statement& s);
+  std::string warmStart(const Statement& s);
+  std::string expectFault(const Statement& s);
+  std::string print(const Statement& s);
+  std::string replace(const Statement& s);
+  std::string expectChange(const Statement& s);
+  std::string expectNoChange(const Statement& s);
+  std::string shadow(const Statement& s);
+  std::string expectDifference(const Statement& s);
+  std::string expectNoDifference(const Statement& s);
+  std::string force(const Statement& s);
+  std::string unforce(const Statement& s);
 
   std::string folder_;
   sim::Clock clock_;

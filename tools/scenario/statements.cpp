@@ -1,4 +1,4 @@
-// One statement of a scenario: a table of forms, each with a function that reads its words.
+// One statement of a scenario: a parser with a function for each row of statements.def, and the table of the rows.
 #include "tools/scenario/statements.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 #include "rtlib/text/similar.h"
-#include "tools/scenario/lane.h"
+#include "tools/scenario/session.h"
 #include "tools/scenario/words.h"
 
 namespace rung::scenario {
@@ -24,13 +24,11 @@ constexpr Synonym kSynonyms[] = {{"wait", "run"},     {"sleep", "run"},    {"del
                                  {"step", "scan"},    {"cycle", "scan"},   {"echo", "print"},    {"show", "print"},
                                  {"log", "print"},    {"load", "program"}, {"import", "include"}};
 
+std::string_view wordOf(const StatementInfo& info) { return info.form.word; }
+
 bool startsWithDigit(std::string_view text) { return !text.empty() && text::isDigit(text[0]); }
 
-// Statements that decide how the program is compiled and started.
-bool shapesStart(Kind kind) {
-  return kind == Kind::Include || kind == Kind::Program || kind == Kind::Dialect || kind == Kind::ExpectError ||
-         kind == Kind::AllowErrors || preparesStart(kind);
-}
+} // namespace
 
 class LineParser {
 public:
@@ -39,6 +37,8 @@ public:
   ParsedLine run();
 
 private:
+  friend struct StatementInfo; // its rows name the functions that read statements
+
   bool done() const { return next_ >= words_.size(); }
   const std::string& word() const { return words_[next_].text; }
   bool fail(std::string message) {
@@ -63,9 +63,9 @@ private:
     if (numeric && into.kind == ValueKind::Text) return fail("expected a number");
     return true;
   }
-  bool takeCount();
-  bool takeDuration();
-  bool takeText() {
+  bool count();
+  bool duration();
+  bool text() {
     if (done()) return fail("expected a text");
     s_.value.kind = ValueKind::Text;
     for (; !done(); ++next_) s_.value.text += (s_.value.text.empty() ? "" : " ") + word();
@@ -86,7 +86,7 @@ private:
     return true;
   }
 
-  bool set() { return takeWord(s_.name, "a name") && takeValue(s_.value); }
+  bool nameAndValue() { return takeWord(s_.name, "a name") && takeValue(s_.value); }
   bool expect() {
     if (!takeWord(s_.name, "a name")) return false;
     if (done() || word() != "~") return takeValue(s_.value);
@@ -111,7 +111,7 @@ private:
     if (!done() && (word() == "on" || word() == "off")) s_.on = words_[next_++].text == "on";
     return takeKeys(s_.keys);
   }
-  bool expectCode() {
+  bool code() {
     std::string first;
     if (!takeWord(first, "a diagnostic code")) return false;
     s_.name = first;
@@ -122,14 +122,9 @@ private:
     return takeWord(s_.name, "a diagnostic code");
   }
   bool block() {
-    std::string what;
-    if (!takeWord(what, "start or done")) return false;
-    if (what == "done") {
-      s_.kind = Kind::BlockDone;
-      return true;
-    }
-    if (what != "start") return fail(fmt::format("expected start or done, found '{}'", what));
-    return takeKeys(s_.keys);
+    if (!takeWord(s_.name, "start or done")) return false;
+    if (s_.name == "start") return takeKeys(s_.keys);
+    return s_.name == "done" || fail(fmt::format("expected start or done, found '{}'", s_.name));
   }
   bool plc() {
     if (!takeWord(s_.name, "stop, start or clear")) return false;
@@ -146,7 +141,7 @@ private:
     for (; !done(); ++next_) s_.words.push_back(word());
     return !s_.words.empty() || fail("expected a file");
   }
-  bool names() {
+  bool words() {
     for (; !done(); ++next_) s_.words.push_back(word());
     return true;
   }
@@ -155,13 +150,13 @@ private:
     s_.words.resize(2);
     return takeWord(s_.words[0], "a source") && takeWord(s_.words[1], "a destination");
   }
-  bool config() { return takeWord(s_.name, "a key") && takeText(); }
-  bool period() { return takeDuration() && (s_.microseconds > 0 || fail("a period must be longer than 0")); }
+  bool config() { return takeWord(s_.name, "a key") && text(); }
+  bool period() { return duration() && (s_.microseconds > 0 || fail("a period must be longer than 0")); }
   bool call() { return takeWord(s_.name, "a service") && takeKeys(s_.keys); }
   bool event() { return takeWord(s_.name, "an event") && takeKeys(s_.keys); }
   bool noCall() { return done() || takeWord(s_.name, "a service"); }
   bool print();
-  bool difference() { return takeWord(s_.name, "a name"); }
+  bool name() { return takeWord(s_.name, "a name"); }
   bool nothing() { return true; }
   bool include() { return takeWord(s_.name, "a file"); }
   bool dialect() { return takeWord(s_.name, "a dialect"); }
@@ -181,97 +176,7 @@ private:
   size_t next_ = 1;
   std::string error_;
   bool mayShapeStart_ = false;
-
-  struct Row {
-    StatementForm form;
-    Kind kind = Kind::Program;
-    bool (LineParser::*read)() = nullptr;
-  };
-  static const Row* find(std::string_view word);
-  static const Row kRows[];
-  friend std::vector<StatementForm> formsOfRows();
 };
-
-using P = LineParser;
-const P::Row P::kRows[] = {
-    {{"program", "program FILE…", "the source files under test"}, Kind::Program, &P::program},
-    {{"include", "include FILE", "the statements of another file"}, Kind::Include, &P::include},
-    {{"dialect", "dialect nct|technol|gsk", "needed where the files do not say"}, Kind::Dialect, &P::dialect},
-    {{"config", "config KEY VALUE", "a configuration value, before the first scan"}, Kind::Config, &P::config},
-    {{"connect", "connect SRC DST", "TECHNOL: binds a symbol to a terminal"}, Kind::Connect, &P::connect},
-    {{"period", "period 10ms", "the main task's period"}, Kind::Period, &P::period},
-    {{"set", "set NAME VALUE", "writes a variable, an input or a signal of the NC"}, Kind::Set, &P::set},
-    {{"scan", "scan [N]", "runs N scans"}, Kind::Scan, &P::takeCount},
-    {{"fast", "fast [N]", "runs only the fast task, N times"}, Kind::Fast, &P::takeCount},
-    {{"slot", "slot [N]", "GSK: runs N slots of 8 ms"}, Kind::Slot, &P::takeCount},
-    {{"run", "run 250ms", "runs scans until this much time has passed"}, Kind::Run, &P::takeDuration},
-    {{"expect", "expect NAME VALUE | expect NAME ~ VALUE TOLERANCE", "NAME has this value"}, Kind::Expect, &P::expect},
-    {{"expect_range", "expect_range NAME LOW HIGH", "NAME lies between them"}, Kind::ExpectRange, &P::expectRange},
-    {{"expect_message", "expect_message NUMBER [on|off] [KEY=VALUE …]", "the message is, or is not, displayed"},
-     Kind::ExpectMessage,
-     &P::expectMessage},
-    {{"expect_log", "expect_log TEXT", "a new log entry contains TEXT"}, Kind::ExpectLog, &P::takeText},
-    {{"expect_call", "expect_call SERVICE [KEY=VALUE …]", "the next request is this one; removes it from the queue"},
-     Kind::ExpectCall,
-     &P::call},
-    {{"expect_no_call", "expect_no_call [SERVICE]", "no such request is pending"}, Kind::ExpectNoCall, &P::noCall},
-    {{"expect_sent", "expect_sent PORT KEY=VALUE… | expect_sent PORT none",
-      "TECHNOL: the next data sent by a serial port or a CAN channel"},
-     Kind::ExpectSent,
-     &P::sent},
-    {{"reply", "reply [KEY=VALUE …]", "answers the oldest pending request"}, Kind::Reply, &P::reply},
-    {{"prepare", "prepare SERVICE [KEY=VALUE …] -> [KEY=VALUE …]", "prepares the answer to the next such request"},
-     Kind::Prepare,
-     &P::prepare},
-    {{"block", "block start [KEY=VALUE …] | block done", "the NC starts a block, or has finished its motion"},
-     Kind::BlockStart,
-     &P::block},
-    {{"event", "event NAME [KEY=VALUE …]", "an event of the NC or a command of the operator"}, Kind::Event, &P::event},
-    {{"plc", "plc stop|start|clear", "a command of the operator to the PLC"}, Kind::Plc, &P::plc},
-    {{"cold_start", "cold_start", "off and on; nothing is retained"}, Kind::ColdStart, &P::nothing},
-    {{"warm_start", "warm_start", "off and on; retained memory is kept"}, Kind::WarmStart, &P::nothing},
-    {{"expect_error", "expect_error [LINE] CODE", "compiling fails with this error"},
-     Kind::ExpectError,
-     &P::expectCode},
-    {{"allow_errors", "allow_errors", "compiling may report errors that are not expected, too"},
-     Kind::AllowErrors,
-     &P::nothing},
-    {{"expect_warning", "expect_warning [LINE] CODE", "compiling reports this warning"},
-     Kind::ExpectWarning,
-     &P::expectCode},
-    {{"expect_fault", "expect_fault TEXT", "the program has stopped with a fault that contains TEXT"},
-     Kind::ExpectFault,
-     &P::takeText},
-    {{"print", "print NAME…|\"TEXT\"…", "writes values and texts to the result"}, Kind::Print, &P::print},
-    {{"replace", "replace FILE…", "another program takes over, with the state of this one"},
-     Kind::Replace,
-     &P::program},
-    {{"expect_change",
-      "expect_change new|removed|moved|retyped|released|cut [state] NAME | expect_change renamed FORMER NAME",
-      "the replacement has made this change to a variable, or to internal state"},
-     Kind::ExpectChange,
-     &P::expectChange},
-    {{"expect_no_change", "expect_no_change", "the replacement has made no other change"},
-     Kind::ExpectNoChange,
-     &P::nothing},
-    {{"shadow", "shadow [FILE…]", "runs a program beside this one to compare them; without files: ends it"},
-     Kind::Shadow,
-     &P::names},
-    {{"expect_difference", "expect_difference NAME",
-      "the shadow had another value there, or was alone in requesting it"},
-     Kind::ExpectDifference,
-     &P::difference},
-    {{"expect_no_difference", "expect_no_difference", "the shadow has no other difference"},
-     Kind::ExpectNoDifference,
-     &P::nothing},
-    {{"force", "force NAME VALUE", "forces a variable to a value for every reader"}, Kind::Force, &P::set},
-    {{"unforce", "unforce [NAME…]", "releases them; without names: all"}, Kind::Unforce, &P::names},
-};
-
-const LineParser::Row* LineParser::find(std::string_view word) {
-  const auto* row = std::ranges::find(kRows, word, [](const Row& r) { return r.form.word; });
-  return row == std::end(kRows) ? nullptr : row;
-}
 
 bool LineParser::notAValue(const std::string& text) {
   if (text == "=" || text == "==")
@@ -282,7 +187,7 @@ bool LineParser::notAValue(const std::string& text) {
   return fail(fmt::format("'{}' is not a value: expected a number, on, off, true, false or a text in quotes", text));
 }
 
-bool LineParser::takeCount() {
+bool LineParser::count() {
   if (done()) return true;
   const std::string unit = next_ + 1 < words_.size() ? words_[next_ + 1].text : std::string();
   const std::string time = isTimeUnit(unit) ? word() + unit : word();
@@ -297,7 +202,7 @@ bool LineParser::takeCount() {
   return true;
 }
 
-bool LineParser::takeDuration() {
+bool LineParser::duration() {
   if (done()) return fail("expected a time such as 250ms or 2s");
   std::string text = word();
   ++next_;
@@ -340,47 +245,70 @@ std::string LineParser::unknown() {
   std::string_view meant;
   for (const Synonym& synonym : kSynonyms)
     if (synonym.word == word) meant = synonym.statement;
-  if (meant.empty()) meant = text::mostSimilar(word, kRows, [](const Row& row) { return row.form.word; });
+  if (meant.empty()) meant = text::mostSimilar(word, StatementInfo::all(), wordOf);
   if (meant.empty() && (word.starts_with(';') || word.starts_with("//")))
     return fmt::format("unknown statement '{}'; a comment begins with '#'", word);
   if (meant.empty() && words_.size() > 1 && words_[1].text == "=") meant = "set";
   if (meant.empty()) return fmt::format("unknown statement '{}'", word);
-  const Row& row = *find(meant);
-  mayShapeStart_ = shapesStart(row.kind);
-  return fmt::format("unknown statement '{}'; did you mean: {}", word, row.form.form);
+  const StatementInfo& info = *findStatement(meant);
+  mayShapeStart_ = info.shapesStart();
+  return fmt::format("unknown statement '{}'; did you mean: {}", word, info.form.form);
 }
 
 ParsedLine LineParser::run() {
-  const Row* row = find(words_[0].text);
-  if (row == nullptr) {
+  const StatementInfo* info = findStatement(words_[0].text);
+  if (info == nullptr) {
     std::string problem = unknown();
     return {{}, std::move(problem), mayShapeStart_};
   }
-  s_.kind = row->kind;
-  if ((this->*row->read)() && !done()) {
+  s_.kind = info->kind;
+  if ((this->*info->parse)() && !done()) {
     const bool remark = word().starts_with(';') || word().starts_with("//");
     fail(fmt::format("unexpected '{}' after the statement{}", word(), remark ? "; a comment begins with '#'" : ""));
   }
-  if (error_.empty()) return {std::move(s_), {}, shapesStart(row->kind)};
+  if (error_.empty()) return {std::move(s_), {}, info->shapesStart()};
   if (error_.starts_with("expected") || error_.starts_with("unexpected"))
-    error_ += fmt::format(" (the statement is: {})", row->form.form);
-  if (row->kind == Kind::Expect && isMessageWord(s_.name)) error_ += kMessageNote;
-  return {{}, std::move(error_), shapesStart(row->kind)};
+    error_ += fmt::format(" (the statement is: {})", info->form.form);
+  if (info->kind == Kind::Expect && isMessageWord(s_.name)) error_ += kMessageNote;
+  return {{}, std::move(error_), info->shapesStart()};
 }
 
-std::vector<StatementForm> formsOfRows() {
-  std::vector<StatementForm> forms;
-  for (const LineParser::Row& row : LineParser::kRows) forms.push_back(row.form);
-  return forms;
+// ---- the table -----------------------------------------------------------------------------------------------------
+
+constexpr StatementInfo StatementInfo::kRows[] = {
+#define RUNG_STATEMENT(itsKind, word, text, meaning, ...)                                                              \
+  {.kind = Kind::itsKind, .form = {word, text, meaning}, __VA_ARGS__},
+#include "tools/scenario/statements.def"
+#undef RUNG_STATEMENT
+};
+
+namespace {
+
+constexpr bool isComplete(const StatementInfo& info) {
+  const StatementForm& form = info.form;
+  const bool acts = info.advances != Advance::Nothing || info.program != OtherProgram::None || info.sets;
+  return !form.word.empty() && form.form.starts_with(form.word) && !form.meaning.empty() && info.parse != nullptr &&
+         (info.run != nullptr) == (info.stage == Stage::Run) && info.expects == form.word.starts_with("expect") &&
+         (info.stage == Stage::Run || !acts);
 }
 
 } // namespace
 
+const StatementInfo& StatementInfo::of(Kind kind) {
+  static_assert(std::ranges::all_of(kRows, isComplete), "a row of statements.def lacks something");
+  return kRows[static_cast<size_t>(kind)];
+}
+
+std::span<const StatementInfo> StatementInfo::all() { return kRows; }
+
+const StatementInfo* findStatement(std::string_view word) {
+  const auto found = std::ranges::find(StatementInfo::all(), word, wordOf);
+  return found == StatementInfo::all().end() ? nullptr : &*found;
+}
+
 bool isMessageWord(std::string_view name) {
   return text::equalsIgnoringCase(name, "message") || text::equalsIgnoringCase(name, "msg");
 }
-
-bool preparesStart(Kind kind) { return kind == Kind::Config || kind == Kind::Connect || kind == Kind::Period; }
 
 ParsedLine parseLine(std::string_view line) {
   std::vector<ScenarioWord> words;
@@ -397,11 +325,6 @@ Result<Statement> parseStatement(std::string_view line) {
   if (!parsed.problem.empty()) return failure(std::move(parsed.problem));
   if (!parsed.statement) return failure("expected a statement");
   return std::move(*parsed.statement);
-}
-
-std::span<const StatementForm> statementForms() {
-  static const std::vector<StatementForm> kForms = formsOfRows();
-  return kForms;
 }
 
 } // namespace rung::scenario

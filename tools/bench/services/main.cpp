@@ -12,6 +12,7 @@
 
 #include "rtlib/load/so_engine.h"
 #include "tools/scenario/session.h"
+#include "tools/scenario/statements.h"
 
 namespace {
 
@@ -33,8 +34,10 @@ void play(scenario::Session& session, const scenario::Scenario& scenario) {
   for (const scenario::Statement& s : scenario.statements)
     if (s.kind == scenario::Kind::Config) check(session.config(s.name, s.value.text));
   for (const sim::NcProblem& problem : session.start()) check(problem.text);
-  for (const scenario::Statement& s : scenario.statements)
-    if (const auto problem = belongsToStart(s.kind) ? std::nullopt : session.execute(s)) check(textOf(*problem));
+  for (const scenario::Statement& s : scenario.statements) {
+    if (scenario::StatementInfo::of(s).stage != scenario::Stage::Run) continue;
+    if (const auto problem = session.execute(s)) check(textOf(*problem));
+  }
 }
 
 void count(const std::string& program, const std::string& path, unsigned long scans) {

@@ -14,6 +14,7 @@
 #include "rtlib/record/histogram.h"
 #include "rtlib/record/profile_clock.h"
 #include "rung/program.h"
+#include "tools/report/scan_times.h"
 
 namespace rung::report {
 
@@ -99,6 +100,41 @@ struct ProfileReport {
 // either may be null. Without operations the order is that of the time.
 ProfileReport makeReport(const rung_program& program, const ProfileCollector* operations, const ProfileCollector* ticks,
                          const runtime::ProfileClock& clock, Order order);
+
+// A rung that did more in one scan than it usually does.
+struct Cause {
+  Row row;
+  double value = 0;
+  double usual = 0;      // median of all scans
+  bool onlyThen = false; // it ran in no other scan
+};
+
+// The scan that took the most. What it took and what is usual: operations, or nanoseconds.
+struct WorstScan {
+  bool known = false;
+  std::string scenario;
+  uint64_t scan = 0;  // of this scenario, from 1
+  int64_t timeUs = 0; // when it ended
+  std::string file;   // of the statement that ran it
+  uint32_t line = 0;
+  double value = 0;
+  double usual = 0;          // median of all scans
+  std::vector<Cause> causes; // the largest difference first
+};
+
+struct Profile {
+  ProfileReport report;
+  std::string engine;
+  std::vector<std::string> scenarios;
+  uint64_t codeHash = 0;
+  uint64_t scans = 0; // of one run
+  uint32_t repeat = 0;
+  Spread scanOperations;
+  std::vector<Deadline> deadlines; // the whole scan first
+  double measuredScanNs = 0;       // median of a whole scan with counters and clock
+  WorstScan worstByOperations;
+  WorstScan worstByTime;
+};
 
 enum class SumBy : uint8_t { Routine, Module, File };
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ir/support/result.h"
-#include "tools/report/profiler.h"
+#include "tools/report/profile_rungs.h"
 
 namespace rung::report {
 

@@ -38,7 +38,7 @@ bool isScenario(const std::string& name) {
 }
 
 // Gives the exit status.
-int sortNames(const ProfileOptions& options, report::Request& request) {
+int sortNames(const ProfileOptions& options, scenario::ProfileRequest& request) {
   std::vector<std::string> scenarios;
   for (const std::vector<std::string>* names : {&options.scenarios, &options.files})
     for (const std::string& name : *names) (isScenario(name) ? scenarios : request.programs).push_back(name);
@@ -64,7 +64,7 @@ Result<report::Baseline> openBaseline(const std::string& path) {
 }
 
 int runProfile(const ProfileOptions& options) {
-  report::Request request;
+  scenario::ProfileRequest request;
   const auto engine = compiler::engineFromName(options.engine);
   if (!engine || *engine == compiler::EngineKind::Tiered) // whose times are of two engines
     return usageError("--engine takes one of interp, cpp, llvm and jit");
@@ -81,10 +81,10 @@ int runProfile(const ProfileOptions& options) {
   }
   ir::BranchCounts branches;
   if (!options.out.empty()) request.branches = &branches;
-  const report::Outcome outcome = [&] {
+  const scenario::ProfileOutcome outcome = [&] {
     scenario::Working working("compiling");
     request.progress = [&](const std::string& text) { working.say(text); };
-    return report::profileScenarios(request);
+    return scenario::profileScenarios(request);
   }();
   if (!outcome.done) {
     printResult({outcome.scenario, 0, outcome.result});

@@ -3,11 +3,11 @@
 #include <string>
 
 #include "ir/support/result.h"
-#include "tools/report/profiler.h"
+#include "tools/scenario/profiler.h"
 
 namespace rung::rungc {
 
 // The page, of the program that the request's scenarios run. Fails when it cannot be read any more.
-Result<std::string> profilePage(const report::Profile& profile, const report::Request& request);
+Result<std::string> profilePage(const report::Profile& profile, const scenario::ProfileRequest& request);
 
 } // namespace rung::rungc

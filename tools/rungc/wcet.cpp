@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "compiler/engines.h"
-#include "tools/report/wcet_measure.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/run_scenario.h"
 #include "tools/scenario/prompt.h"
+#include "tools/scenario/wcet_measure.h"
 
 namespace rung::rungc {
 namespace {
@@ -25,11 +25,11 @@ int findBounds(const WcetOptions& options, const ConfigPairs& config, const comp
   const scenario::Working working("measuring");
   bounds = report::boundsOf(compiled, engine);
   if (options.scenarioFile.empty()) return kOk;
-  const report::Drive drive{.name = options.scenarioFile,
-                            .config = config,
-                            .connects = options.scenario.connects,
-                            .statements = options.scenario.statements};
-  const Result<void> done = report::measure(compiled, engine, drive, bounds);
+  const scenario::TaskDrive drive{.name = options.scenarioFile,
+                                  .config = config,
+                                  .connects = options.scenario.connects,
+                                  .statements = options.scenario.statements};
+  const Result<void> done = scenario::measureTasks(compiled, engine, drive, bounds);
   if (done.ok()) return kOk;
   fmt::print(stderr, "rungc: {}\n", done.error());
   return kWrong;

@@ -1,13 +1,15 @@
 // The measurements (see profiler.h).
-#include "tools/report/profiler.h"
+#include "tools/scenario/profiler.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
 #include "tools/report/profile_branches.h"
+#include "tools/report/scan_times.h"
+#include "tools/scenario/statements.h"
 
-namespace rung::report {
+namespace rung::scenario {
 namespace {
 
 constexpr size_t kMaxCauses = 5;
@@ -23,27 +25,28 @@ struct Place {
 };
 
 // What all measurements share: which scan this is.
-class Measurement : public scenario::Observer {
+class Measurement : public Observer {
 public:
   virtual void rewind() { scans_ = 0; }
-  void enter(const scenario::Scenario& scenario) { scenario_ = scenario.path; }
+  void enter(const Scenario& scenario) { scenario_ = scenario.path; }
   uint64_t scans() const { return scans_; }
   const rung_program* program() const { return program_; }
   // The scenarios are not all of one program.
   bool differs() const { return differs_; }
   bool replaced() const { return replaced_; }
 
-  void started(scenario::Session& session) override {
+  void started(Session& session) override {
     const rung_program& program = session.instance().program();
     differs_ = differs_ || (program_ != nullptr && program_->code_hash != program.code_hash);
     program_ = &program;
     if (!differs_) begin(session.instance());
   }
-  void replaced(const scenario::Session&, const scenario::NextProgram&) override { replaced_ = true; }
-  void scanned(const scenario::Session& session) override {
+  void replaced(const Session&, const NextProgram&) override { replaced_ = true; }
+  void scanned(const Session& session) override {
     if (differs_ || replaced_) return;
-    const scenario::Statement& s = *session.statement();
-    const bool whole = s.kind == scenario::Kind::Scan || s.kind == scenario::Kind::Run;
+    const Statement& s = *session.statement();
+    const Advance advances = StatementInfo::of(s).advances;
+    const bool whole = advances == Advance::Scans || advances == Advance::Time;
     end(session.instance(), whole, Place{scenario_, session.scans(), session.nowUs(), s.file, s.line});
     scans_ += whole ? 1 : 0;
   }
@@ -65,17 +68,18 @@ private:
 class RungMeasurement : public Measurement {
 public:
   explicit RungMeasurement(double cost) : collector_(0, cost) {}
-  const ProfileCollector& collector() const { return collector_; }
+  const report::ProfileCollector& collector() const { return collector_; }
   const Place& place() const { return place_; }
   const std::vector<uint64_t>& remembered() const { return remembered_; }
 
 protected:
   void begin(runtime::Instance& instance) override {
-    if (collector_.rungs().empty()) collector_ = ProfileCollector(instance.program().rung_count, collector_.cost());
+    if (collector_.rungs().empty())
+      collector_ = report::ProfileCollector(instance.program().rung_count, collector_.cost());
     collector_.started(instance.profile());
   }
 
-  ProfileCollector collector_; // of no rungs before the first start
+  report::ProfileCollector collector_; // of no rungs before the first start
   Place place_;
   std::vector<uint64_t> remembered_;
 };
@@ -116,7 +120,7 @@ public:
     Measurement::rewind();
     times_.rewind();
   }
-  const ScanTimes& times() const { return times_; }
+  const report::ScanTimes& times() const { return times_; }
   size_t longest() const {
     const std::vector<uint64_t>& values = times_.scans().values();
     return static_cast<size_t>(std::max_element(values.begin(), values.end()) - values.begin());
@@ -130,7 +134,7 @@ protected:
   void end(const runtime::Instance&, bool whole, const Place&) override { times_.scanned(whole); }
 
 private:
-  ScanTimes times_;
+  report::ScanTimes times_;
 };
 
 // Time of rungs: remembers the shortest times of the rungs in scan `which`.
@@ -141,7 +145,7 @@ public:
     RungMeasurement::rewind();
     times_.rewind();
   }
-  const ScanTimes& times() const { return times_; }
+  const report::ScanTimes& times() const { return times_; }
 
 protected:
   void begin(runtime::Instance& instance) override {
@@ -161,38 +165,39 @@ protected:
 
 private:
   size_t which_;
-  ScanTimes times_;
+  report::ScanTimes times_;
 };
 
 // Of all scans: 0 when the rung runs in fewer than half of them.
-double usualOf(const ProfileCollector& collector, uint32_t which) {
-  const ProfileCollector::Rung& rung = collector.rungs()[which];
+double usualOf(const report::ProfileCollector& collector, uint32_t which) {
+  const report::ProfileCollector::Rung& rung = collector.rungs()[which];
   const double idle = static_cast<double>(collector.scans() - rung.scans) / static_cast<double>(collector.scans());
   return idle >= 0.5 ? 0 : std::max(0.0, rung.perScan.quantile((0.5 - idle) / (1 - idle)) - collector.cost());
 }
 
-WorstScan explain(const ProfileReport& report, const RungMeasurement& measured, double scale, double value,
-                  double usual) {
+report::WorstScan explain(const report::ProfileReport& report, const RungMeasurement& measured, double scale,
+                          double value, double usual) {
   const Place& place = measured.place();
-  WorstScan worst{true, place.scenario, place.scan, place.timeUs, place.file, place.line, value, usual, {}};
-  const ProfileCollector& collector = measured.collector();
-  for (const std::vector<Row>* rows : {&report.rows, &report.added})
-    for (const Row& row : *rows) {
-      Cause cause{row, static_cast<double>(measured.remembered()[row.rung]) * scale,
-                  usualOf(collector, row.rung) * scale, row.scans == 1};
+  report::WorstScan worst{true, place.scenario, place.scan, place.timeUs, place.file, place.line, value, usual, {}};
+  const report::ProfileCollector& collector = measured.collector();
+  for (const std::vector<report::Row>* rows : {&report.rows, &report.added})
+    for (const report::Row& row : *rows) {
+      report::Cause cause{row, static_cast<double>(measured.remembered()[row.rung]) * scale,
+                          usualOf(collector, row.rung) * scale, row.scans == 1};
       if (cause.value - cause.usual >= kCauseShare * value) worst.causes.push_back(std::move(cause));
     }
-  std::stable_sort(worst.causes.begin(), worst.causes.end(),
-                   [](const Cause& a, const Cause& b) { return a.value - a.usual > b.value - b.usual; });
+  std::stable_sort(worst.causes.begin(), worst.causes.end(), [](const report::Cause& a, const report::Cause& b) {
+    return a.value - a.usual > b.value - b.usual;
+  });
   if (worst.causes.size() > kMaxCauses) worst.causes.resize(kMaxCauses);
   return worst;
 }
 
 class Profiler {
 public:
-  explicit Profiler(const Request& request) : request_(request) {}
+  explicit Profiler(const ProfileRequest& request) : request_(request) {}
 
-  Outcome run() {
+  ProfileOutcome run() {
     CountOperations operations;
     compiler::EngineOptions counting;
     counting.countOperations = true;
@@ -220,19 +225,19 @@ private:
   // Runs all scenarios `repeat` times.
   bool measure(const char* what, Measurement& measurement, uint32_t repeat, compiler::EngineKind engine,
                const compiler::EngineOptions& options, bool instrument) {
-    scenario::RunOptions run;
+    RunOptions run;
     run.engines = {engine};
     run.engine = options;
     run.instrument = instrument;
     run.programs = request_.programs;
-    run.store = stores_.emplace_back(std::make_unique<scenario::EngineStore>()).get();
-    run.started = [&measurement](scenario::Session& session, const compiler::Compiled&) {
+    run.store = stores_.emplace_back(std::make_unique<EngineStore>()).get();
+    run.started = [&measurement](Session& session, const compiler::Compiled&) {
       session.addObserver(measurement);
       return std::string();
     };
     for (uint32_t i = 0; i < repeat; ++i) {
       measurement.rewind();
-      for (const scenario::Scenario& scenario : request_.scenarios) {
+      for (const Scenario& scenario : request_.scenarios) {
         measurement.enter(scenario);
         if (request_.progress)
           request_.progress(fmt::format("{}, run {} of {}: {}", what, i + 1, repeat, scenario.path));
@@ -256,7 +261,7 @@ private:
     RunOnly runs;
     compiler::EngineOptions watched;
     watched.observer = [&](const compiler::Compiled& compiled) {
-      return std::make_unique<BranchCounter>(*compiled.module, counts);
+      return std::make_unique<report::BranchCounter>(*compiled.module, counts);
     };
     return measure("counting branches", runs, 1, compiler::EngineKind::Interp, watched, false);
   }
@@ -275,35 +280,35 @@ private:
     return true;
   }
 
-  Profile assemble(const CountOperations& operations, const TimeScans& scans, const TimeRungs& rungs) const {
+  report::Profile assemble(const CountOperations& operations, const TimeScans& scans, const TimeRungs& rungs) const {
     const rung_program& program = *rungs.program();
     const double scale = runtime::calibratedClock().nsPerTick;
-    Profile profile;
-    profile.report =
-        makeReport(program, &operations.collector(), &rungs.collector(), runtime::calibratedClock(), request_.order);
+    report::Profile profile;
+    profile.report = report::makeReport(program, &operations.collector(), &rungs.collector(),
+                                        runtime::calibratedClock(), request_.order);
     profile.engine = compiler::engineName(request_.engine);
-    for (const scenario::Scenario& scenario : request_.scenarios) profile.scenarios.push_back(scenario.path);
+    for (const Scenario& scenario : request_.scenarios) profile.scenarios.push_back(scenario.path);
     profile.codeHash = scans.program()->code_hash;
     profile.scans = operations.scans();
     profile.repeat = request_.repeat;
-    profile.scanOperations = spreadOf(operations.totals(), 1);
+    profile.scanOperations = report::spreadOf(operations.totals(), 1);
     profile.deadlines = scans.times().deadlines(program, runtime::calibratedClock());
-    profile.measuredScanNs = spreadOf(rungs.times().scans().values(), scale).median;
+    profile.measuredScanNs = report::spreadOf(rungs.times().scans().values(), scale).median;
     if (operations.scans() == 0) return profile;
-    const Spread& counts = profile.scanOperations;
+    const report::Spread& counts = profile.scanOperations;
     profile.worstByOperations = explain(profile.report, operations, 1, counts.max, counts.median);
-    const Spread& times = profile.deadlines[0].ns;
+    const report::Spread& times = profile.deadlines[0].ns;
     profile.worstByTime = explain(profile.report, rungs, scale, times.max, times.median);
     return profile;
   }
 
-  const Request& request_;
-  Outcome outcome_;
-  std::vector<std::unique_ptr<scenario::EngineStore>> stores_; // of the measurements; their programs are reported on
+  const ProfileRequest& request_;
+  ProfileOutcome outcome_;
+  std::vector<std::unique_ptr<EngineStore>> stores_; // of the measurements; their programs are reported on
 };
 
 } // namespace
 
-Outcome profileScenarios(const Request& request) { return Profiler(request).run(); }
+ProfileOutcome profileScenarios(const ProfileRequest& request) { return Profiler(request).run(); }
 
-} // namespace rung::report
+} // namespace rung::scenario

@@ -197,6 +197,22 @@ function(rung_add_version name)
   rung_add_library(rung_${name} SOURCES "${version}")
 endfunction()
 
+# rung_embed(VARIABLE HEADER file NAMESPACE name FUNCTION name FOLDER folder FILES file...): a source, named by the variable,
+# with the function that the header declares, which gives the files of the folder as texts (rtlib/text/embedded.h).
+function(rung_embed variable)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER;NAMESPACE;FUNCTION;FOLDER" "FILES")
+  list(JOIN arg_FILES "," files)
+  list(TRANSFORM arg_FILES PREPEND "${arg_FOLDER}/")
+  set(source "${CMAKE_CURRENT_BINARY_DIR}/${arg_FUNCTION}.cpp")
+  set(script "${PROJECT_SOURCE_DIR}/cmake/embed.cmake")
+  add_custom_command(OUTPUT "${source}"
+    COMMAND "${CMAKE_COMMAND}" "-DOUT=${source}" "-DHEADER=${arg_HEADER}" "-DNAMESPACE=${arg_NAMESPACE}"
+      "-DFUNCTION=${arg_FUNCTION}" "-DFOLDER=${arg_FOLDER}" "-DFILES=${files}" -P "${script}"
+    DEPENDS ${arg_FILES} "${script}"
+    COMMENT "Embedding ${arg_FOLDER}" VERBATIM)
+  set(${variable} "${source}" PARENT_SCOPE)
+endfunction()
+
 # rung_add_fuzzer(NAME SOURCES file... LIBS target...): libFuzzer program build/bin/fuzz/rung_fuzz_NAME.
 function(rung_add_fuzzer name)
   if(NOT RUNG_FUZZ)

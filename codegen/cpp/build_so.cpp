@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "codegen/cpp/cpp_emitter.h"
-#include "codegen/cpp/embedded_headers.h"
 #include "codegen/process/process.h"
 #include "ir/support/put.h"
 #include "ir/support/temporary_folder.h"
@@ -62,7 +61,7 @@ std::string cppBuildIdentity(std::string_view text, const CppBuildOptions& optio
   const std::vector<std::string> words = driverWords(options);
   std::string identity = words.empty() ? "" : compilerFacts(words[0]);
   for (const std::string& word : words) identity += '\n' + word;
-  for (const EmbeddedHeader& header : embeddedHeaders()) put(identity, "\n{}\n{}", header.name, header.text);
+  for (const text::EmbeddedFile& header : abiHeaders()) put(identity, "\n{}\n{}", header.name, header.text);
   return identity.append("\n").append(text);
 }
 
@@ -70,7 +69,7 @@ Result<std::string> buildCppSharedObject(std::string_view text, const CppBuildOp
   TemporaryFolder folder;
   if (!folder.ok()) return failure(fmt::format("cannot make a temporary folder: {}", std::strerror(errno)));
   bool written = writeFile(folder / "program.cpp", text);
-  for (const EmbeddedHeader& header : embeddedHeaders())
+  for (const text::EmbeddedFile& header : abiHeaders())
     written = written && writeFile(folder / header.name, header.text);
   if (!written) return failure("cannot write the generated C++ to a temporary folder");
 

@@ -7,6 +7,7 @@
 
 #include "ir/shape/layout.h"
 #include "ir/support/result.h"
+#include "rtlib/text/embedded.h"
 
 namespace rung::codegen {
 
@@ -29,8 +30,10 @@ struct CppBuildOptions {
 // All that decides the bytes of buildCppSharedObject: the text with its headers, the options, and which compiler it is.
 std::string cppBuildIdentity(std::string_view text, const CppBuildOptions& options);
 
-// Compiles the text to the bytes of a shared object. The headers that the text includes are built into this library.
-// Fails with what the compiler said.
+// Compiles the text to the bytes of a shared object. Fails with what the compiler said.
 Result<std::string> buildCppSharedObject(std::string_view text, const CppBuildOptions& options);
+
+// The headers of rtlib/abi that the text includes, by their names there: "rung/gen.hpp". The build makes this function.
+std::span<const text::EmbeddedFile> abiHeaders();
 
 } // namespace rung::codegen

@@ -170,7 +170,7 @@ class New(Cli):
             self.assertIn(f"cd 'my-{dialect}' && rungc test", out)
             cwd = self.path / f"my-{dialect}"
             self.assertIn("*.so", (cwd / ".gitignore").read_text())
-            self.assertNotIn("@NAME@", "".join(path.read_text() for path in cwd.rglob("*") if path.is_file()))
+            self.assertNotIn("{{NAME}}", "".join(path.read_text() for path in cwd.rglob("*") if path.is_file()))
             out, err = self.rungc("check", "--strict", cwd=cwd)
             self.assertIn("no warnings", out)
             self.assertEqual(err, "")

@@ -10,7 +10,7 @@ HEADING = 40
 def style_of(page):
     """The page's rules for drawings, in the colours of a light screen."""
     colours = dict(re.findall(r"--(\w+):(#\w+)", page.split("}", 1)[0]))
-    rules = re.search(r"^path\{fill:none.*?(?=@page)", page, re.MULTILINE).group()
+    rules = re.search(r"^path \{.*?(?=/\* On paper)", page, re.MULTILINE | re.DOTALL).group()
     return re.sub(r"var\(--(\w+)\)", lambda match: colours[match[1]], rules)
 
 

@@ -11,8 +11,46 @@
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
-
 namespace {
+
+namespace fs = std::filesystem;
+
+// Where the file goes in a project of this dialect; empty for one of another dialect.
+std::string placeOf(const text::EmbeddedFile& file, std::string_view dialect) {
+  if (file.name == "gitignore") return ".gitignore";
+  const size_t slash = file.name.find('/');
+  return file.name.substr(0, slash) == dialect ? std::string(file.name.substr(slash + 1)) : std::string();
+}
+
+bool writeTemplate(const fs::path& path, const std::string& text) {
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  std::ofstream file(path, std::ios::binary);
+  file << text << std::flush;
+  return file.good();
+}
+
+// Writes program, scenario, project file and .gitignore of this dialect, with the name of the project in them, into a
+// folder that is empty or does not exist; gives the files. Fails with a text for the user.
+Result<std::vector<std::string>> makeProject(std::string_view dialect, const std::string& folder) {
+  std::error_code error;
+  const fs::path root = fs::path(folder).lexically_normal();
+  if (fs::exists(root, error) && !fs::is_directory(root, error)) return failure(fmt::format("'{}' is a file", folder));
+  if (fs::exists(root, error) && !fs::is_empty(root, error))
+    return failure(fmt::format("the folder '{}' is not empty; a new project needs one of its own", folder));
+  const fs::path whole = fs::absolute(root, error).lexically_normal();
+  const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  const text::Mark marks[] = {{"NAME", name}};
+  std::vector<std::string> written;
+  for (const text::EmbeddedFile& file : projectTemplates()) {
+    const std::string place = placeOf(file, dialect);
+    if (place.empty()) continue;
+    written.push_back((root / place).lexically_normal().string());
+    if (!writeTemplate(written.back(), text::filled(file.text, marks)))
+      return failure(fmt::format("cannot write '{}'", written.back()));
+  }
+  return written;
+}
 
 int makeNew(const std::string& dialect, const std::string& folder) {
   if (frontend::findDialect(dialect) == nullptr)
@@ -38,68 +76,6 @@ void addNew(CommandLine& app, int& status) {
   command.option("DIALECT", options->dialect, "nct, gsk or technol").required();
   command.option("DIR", options->folder, "The folder to create; its name is the name of the project").required();
   command.onRun([options, &status] { status = makeNew(options->dialect, options->folder); });
-}
-
-// Writing a new project (see new_project.h): the files of templates/DIALECT with the name of the project in them.
-
-namespace {
-
-namespace fs = std::filesystem;
-
-struct TemplateFile {
-  std::string_view path; // DIALECT/NAME; without a dialect it is part of all
-  std::string_view text;
-};
-
-constexpr TemplateFile kTemplates[] = {
-#include "templates.inc"
-};
-
-constexpr std::string_view kNameMark = "@NAME@";
-
-std::string filled(std::string_view text, const std::string& name) {
-  std::string out;
-  for (size_t at = text.find(kNameMark); at != std::string_view::npos; at = text.find(kNameMark)) {
-    out += std::string(text.substr(0, at)) + name;
-    text.remove_prefix(at + kNameMark.size());
-  }
-  return out + std::string(text);
-}
-
-// Where the file goes in a project of this dialect; empty for one of another dialect.
-std::string placeOf(const TemplateFile& file, std::string_view dialect) {
-  if (file.path == "gitignore") return ".gitignore";
-  const size_t slash = file.path.find('/');
-  return file.path.substr(0, slash) == dialect ? std::string(file.path.substr(slash + 1)) : std::string();
-}
-
-bool writeTemplate(const fs::path& path, const std::string& text) {
-  std::error_code error;
-  fs::create_directories(path.parent_path(), error);
-  std::ofstream file(path, std::ios::binary);
-  file << text << std::flush;
-  return file.good();
-}
-
-} // namespace
-
-Result<std::vector<std::string>> makeProject(std::string_view dialect, const std::string& folder) {
-  std::error_code error;
-  const fs::path root = fs::path(folder).lexically_normal();
-  if (fs::exists(root, error) && !fs::is_directory(root, error)) return failure(fmt::format("'{}' is a file", folder));
-  if (fs::exists(root, error) && !fs::is_empty(root, error))
-    return failure(fmt::format("the folder '{}' is not empty; a new project needs one of its own", folder));
-  const fs::path whole = fs::absolute(root, error).lexically_normal();
-  const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
-  std::vector<std::string> written;
-  for (const TemplateFile& file : kTemplates) {
-    const std::string place = placeOf(file, dialect);
-    if (place.empty()) continue;
-    written.push_back((root / place).lexically_normal().string());
-    if (!writeTemplate(written.back(), filled(file.text, name)))
-      return failure(fmt::format("cannot write '{}'", written.back()));
-  }
-  return written;
 }
 
 } // namespace rung::rungc

@@ -1,15 +1,10 @@
-// A small complete project to begin with.
+// What the build makes for rungc new.
 #pragma once
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "ir/support/result.h"
+#include "rtlib/text/embedded.h"
 
 namespace rung::rungc {
 
-// Writes program, scenario, project file and .gitignore of this dialect into a folder that is empty or does not exist;
-// gives the files. Fails with a text for the user.
-Result<std::vector<std::string>> makeProject(std::string_view dialect, const std::string& folder);
+// The files of templates/: DIALECT/NAME; without a dialect one is part of all projects.
+std::span<const text::EmbeddedFile> projectTemplates();
 
 } // namespace rung::rungc

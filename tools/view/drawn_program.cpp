@@ -2,9 +2,11 @@
 #include "tools/view/drawn_program.h"
 
 #include <algorithm>
+#include <map>
 
 #include "frontend/dialects/gsk/gsk.h"
 #include "frontend/dialects/gsk/language.h"
+#include "frontend/syntax/word_lexer.h"
 #include "tools/report/cross_reference.h"
 
 namespace rung::view {
@@ -40,6 +42,52 @@ std::optional<Program> drawnProgram(SourceManager& sources, std::span<const File
                                .messages = module->messages,
                                .origins = {ladders->networks, ladders->elements},
                                .authors = {files.begin(), files.end()}});
+}
+
+std::vector<TableRow> rowsOf(const ir::Module& module) {
+  std::map<uint32_t, TableRow> rows; // by the rung's number over all routines, in which the source has them
+  uint32_t index = 0;
+  for (const ir::Routine& routine : module.routines) {
+    for (const ir::Rung& rung : routine.rungs) {
+      const uint32_t at = rung.origin.index == RUNG_NONE ? index : rung.origin.index;
+      ++index;
+      if (rung.number == 0) continue;
+      const bool known = rung.begin.line > 0;
+      rows[at] = {rung.number,
+                  ir::homeOf(routine, rung),
+                  rung.title,
+                  {known ? module.files[rung.begin.file.index] : "", rung.begin.line, 0},
+                  rung.lastLine};
+    }
+  }
+  std::vector<TableRow> list;
+  for (auto& [at, row] : rows) list.push_back(std::move(row));
+  return list;
+}
+
+Listing listingOf(const SourceManager& sources, std::span<const FileId> files, std::string_view control,
+                  std::vector<TableRow> rows, const std::vector<std::string>& included) {
+  std::vector<std::string> names;
+  for (const FileId file : files) names.emplace_back(sources.name(file));
+  Listing listing{titleOf(shownFiles(names)), std::string(control), std::move(rows), {}};
+  // As they are written, whatever routine comes first; one that is several in the module is one here.
+  std::ranges::stable_sort(listing.rows, {}, &TableRow::number);
+  const auto again = std::ranges::unique(listing.rows, {}, &TableRow::number);
+  listing.rows.erase(again.begin(), again.end());
+  std::map<std::string_view, FileId> readable; // the last of a name: what a dialect has made of its bytes
+  for (uint32_t i = 0; i < sources.fileCount(); ++i) readable[sources.name(FileId{i})] = FileId{i};
+  const auto add = [&](const std::string& path) {
+    const auto file = readable.find(path);
+    const auto [text, isNew] = listing.texts.try_emplace(path);
+    if (!isNew || file == readable.end()) return;
+    frontend::LineReader lines(sources, file->second);
+    for (frontend::SourceLine line; lines.next(line);) text->second.emplace_back(line.text);
+  };
+  for (const TableRow& row : listing.rows) add(row.place.file);
+  std::ranges::for_each(names, add);
+  std::ranges::for_each(included, add);
+  std::erase_if(listing.texts, [](const auto& text) { return text.second.empty(); });
+  return listing;
 }
 
 std::optional<Listing> listedProgram(SourceManager& sources, std::span<const FileId> files,

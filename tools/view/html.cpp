@@ -1,20 +1,194 @@
-// The page (see html.h).
+// The pages (see html.h). They are filled into the files of page/.
 #include "tools/view/html.h"
 
 #include <algorithm>
+#include <map>
 #include <span>
 #include <utility>
 
 #include "ir/support/put.h"
-#include "tools/view/html_page.h"
-#include "tools/view/html_runs.h"
+#include "rtlib/text/blanks.h"
 #include "tools/view/layout.h"
-#include "tools/view/pieces.h"
-#include "tools/view/program.h"
+#include "tools/view/style.h"
 #include "tools/view/svg.h"
 
 namespace rung::view {
 namespace {
+
+struct PageHead {
+  std::string_view title;
+  std::string_view control;
+  size_t rungs = 0;
+  std::string style; // rules of this page, after those of all
+};
+
+// As a value of `content`.
+std::string cssText(std::string_view text) {
+  std::string out = "\"";
+  for (char c : text) {
+    if (c == '"' || c == '\\' || c == '<' || static_cast<unsigned char>(c) < 0x20)
+      put(out, "\\{:x} ", static_cast<unsigned char>(c));
+    else
+      out += c;
+  }
+  return out + '"';
+}
+
+// "main.lad:12", with a link where there is one; nothing for a place without a line.
+void appendPlace(std::string& out, const SourceFile& file, uint32_t line, const PageOptions& options) {
+  if (line == 0) return;
+  const std::string link = options.linkTo ? options.linkTo(file, line) : "";
+  const std::string text = fmt::format("{}:{}", escaped(file.name), line);
+  if (link.empty())
+    put(out, "<i class=\"f\">{}</i>", text);
+  else
+    put(out, "<a class=\"f\" href=\"{}\">{}</a>", escaped(link), text);
+}
+
+// What is common to all pages; the colours are properties: those of paper, in the dark the others.
+std::string commonRules() {
+  std::string light;
+  std::string dark;
+  for (const ColourInfo& info : kColourInfos) {
+    put(light, "--{}:{};", info.name, info.light);
+    put(dark, "--{}:{};", info.name, info.dark);
+  }
+  const text::Mark marks[] = {{"LIGHT", light}, {"DARK", dark}};
+  return text::filled(text::textOf(pageFiles(), "page.css"), marks);
+}
+
+std::string paperRules(const PageHead& head, const PageOptions& options) {
+  std::string state = options.revision.empty() ? "" : "Revision " + options.revision;
+  if (!options.date.empty()) state += (state.empty() ? "" : ", ") + options.date;
+  const std::string values[] = {cssText(head.title), cssText(head.control), cssText(state)};
+  const text::Mark marks[] = {{"TITLE", values[0]}, {"CONTROL", values[1]}, {"STATE", values[2]}};
+  return text::filled(text::textOf(pageFiles(), "paper.css"), marks);
+}
+
+// On paper every page has the heading, and its number.
+std::string wholePage(const PageHead& head, const PageOptions& options, std::string_view body) {
+  const std::string title = escaped(head.title);
+  const std::string style = commonRules() + pictureStyle(true) + paperRules(head, options) + head.style;
+  std::string facts = fmt::format("<span>{}</span><span>{} rung{}</span>", escaped(head.control), head.rungs,
+                                  head.rungs == 1 ? "" : "s");
+  if (!options.revision.empty()) put(facts, "<span>Revision {}</span>", escaped(options.revision));
+  if (!options.date.empty()) put(facts, "<span>{}</span>", escaped(options.date));
+  const text::Mark marks[] = {{"TITLE", title},
+                              {"STYLE", style},
+                              {"FACTS", facts},
+                              {"BODY", body},
+                              {"SCRIPT", text::textOf(pageFiles(), "page.js")}};
+  return text::filled(text::textOf(pageFiles(), "page.html"), marks);
+}
+
+// What runs say of a program: the summary on top, a label at a rung.
+
+// A rung as the summary lists it.
+struct RunRow {
+  uint32_t number = 0;
+  std::string_view title;
+  const Run* run = nullptr;
+};
+
+struct RunsOnPage {
+  const RunSummary* summary = nullptr;
+  std::vector<RunRow> rungs;
+  bool elements = false; // some of them say what was seen of them
+};
+
+constexpr size_t kListed = 10; // of the rungs that take most
+constexpr int kBar = 90;       // pixels of the longest bar
+
+// The most that a rung has: colours and bars are relative to it.
+double hottest(const std::vector<RunRow>& rungs) {
+  double most = 0;
+  for (const RunRow& row : rungs) most = std::max(most, row.run->heat);
+  return most;
+}
+
+// Classes of a rung, " H3" or " N"; nothing where nothing is known.
+std::string classesOf(const Run& run, double hottest) {
+  if (run.state == Run::State::Never) return " N";
+  return run.state == Run::State::Ran ? fmt::format(" H{}", heatStep(run, hottest)) : "";
+}
+
+// What a rung took, with a bar.
+void appendRun(std::string& out, const Run& run, double hottest) {
+  if (run.state == Run::State::Unasked) return;
+  put(out, "<i class=\"o\"");
+  if (!run.detail.empty()) put(out, " title=\"{}\"", escaped(run.detail));
+  out += ">";
+  const int bar = run.heat > 0 ? std::max(1, static_cast<int>(run.heat / hottest * kBar)) : 0;
+  if (bar > 0) put(out, "<s class=\"s{}\" style=\"width:{}px\"></s>", heatStep(run, hottest), bar);
+  put(out, "{}</i>", escaped(labelOf(run)));
+}
+
+void appendLegend(std::string& out, const RunsOnPage& runs) {
+  out += "<p class=\"lg\">";
+  if (!runs.summary->heat.empty()) {
+    out += "<span>least ";
+    for (int step = 1; step <= kHeatSteps; ++step) put(out, "<i class=\"sw H{}\"></i>", step);
+    put(out, " most: {}</span>", escaped(runs.summary->heat));
+  }
+  const auto never = [](const RunRow& row) { return row.run->state == Run::State::Never; };
+  if (std::any_of(runs.rungs.begin(), runs.rungs.end(), never))
+    out += "<span><i class=\"sw N\"></i> rung that never ran</span>";
+  if (runs.elements)
+    out += "<span>contacts, coils and boxes: <i class=\"sw qa\"></i> all seen</span>"
+           "<span><i class=\"sw qp\"></i> seen in part</span><span><i class=\"sw qn\"></i> never ran</span>";
+  out += "</p>\n";
+}
+
+void appendMost(std::string& out, const RunsOnPage& runs) {
+  std::vector<RunRow> rows;
+  for (const RunRow& row : runs.rungs)
+    if (row.run->heat > 0) rows.push_back(row);
+  if (rows.empty()) return;
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const RunRow& a, const RunRow& b) { return a.run->heat > b.run->heat; });
+  const double most = rows[0].run->heat;
+  rows.resize(std::min(rows.size(), kListed));
+  out += "<h3>Most</h3>\n<ol class=\"most\">\n";
+  for (const RunRow& row : rows) {
+    put(out, "<li><a href=\"#r{0}\">Rung {0}</a> <span>{1}</span> ", row.number, escaped(row.title));
+    appendRun(out, *row.run, most);
+    out += "</li>\n";
+  }
+  out += "</ol>\n";
+}
+
+// "4, 8–12": a link to the first of neighbours.
+void appendNever(std::string& out, const std::vector<RunRow>& rungs) {
+  std::string list;
+  size_t count = 0;
+  for (size_t i = 0; i < rungs.size();) {
+    size_t end = i;
+    while (end < rungs.size() && rungs[end].run->state == Run::State::Never) ++end;
+    if (end == i) {
+      ++i;
+      continue;
+    }
+    put(list, "{0}<a href=\"#r{1}\">{1}", list.empty() ? "" : ", ", rungs[i].number);
+    if (end - i > 1) put(list, "\u2013{}", rungs[end - 1].number);
+    list += "</a>";
+    count += end - i;
+    i = end;
+  }
+  if (count > 0) put(out, "<p>{} rung{} never ran: {}</p>\n", count, count == 1 ? "" : "s", list);
+}
+
+// Lines, legend, the rungs that take most and those that never ran. Nothing without a summary.
+void appendRuns(std::string& out, const RunsOnPage& runs) {
+  if (runs.summary->title.empty()) return;
+  put(out, "<section id=\"run\" aria-label=\"{0}\"><h2>{0}</h2>\n", escaped(runs.summary->title));
+  for (const std::string& line : runs.summary->lines) put(out, "<p>{}</p>\n", escaped(line));
+  appendLegend(out, runs);
+  appendMost(out, runs);
+  appendNever(out, runs.rungs);
+  out += "</section>\n";
+}
+
+// The page of a program that is drawn.
 
 constexpr size_t kTableRows = 100;
 constexpr size_t kGroup = 40;
@@ -28,7 +202,7 @@ public:
   std::string run();
 
 private:
-  void head();
+  std::string style() const;
   void runs();
   void contents();
   size_t group(size_t first);
@@ -51,14 +225,14 @@ private:
 };
 
 // Every file has its name at the foot of its pages.
-void Page::head() {
-  std::string style = fmt::format("figcaption{{max-width:{}px}}\n", rail_ + kMargin);
+std::string Page::style() const {
+  std::string style = fmt::format("figcaption {{ max-width: {}px; }}\n", rail_ + kMargin);
   if (program_.files.size() == 1)
-    put(style, "@page{{@bottom-center{{content:{}}}}}\n", cssText(program_.files[0].name));
+    put(style, "@page {{ @bottom-center {{ content: {}; }} }}\n", cssText(program_.files[0].name));
   for (const Block& block : program_.blocks)
     if (block.kind == Block::Kind::File)
-      put(style, "@page f{}{{@bottom-center{{content:{}}}}}\n", block.place.file, cssText(block.text));
-  beginPage(out_, {program_.title, program_.control, program_.figures.size(), style}, options_);
+      put(style, "@page f{} {{ @bottom-center {{ content: {}; }} }}\n", block.place.file, cssText(block.text));
+  return style;
 }
 
 void Page::runs() {
@@ -208,19 +382,190 @@ size_t Page::group(size_t first) {
 }
 
 std::string Page::run() {
-  head();
   runs();
   contents();
   out_ += "<main>\n";
   for (size_t first = 0; first < program_.blocks.size();) first = group(first);
   for (size_t i = 0; i < program_.tables.size(); ++i) table(program_.tables[i], i);
   out_ += "</main>\n";
-  endPage(out_);
-  return std::move(out_);
+  return wholePage({program_.title, program_.control, program_.figures.size(), style()}, options_, out_);
+}
+
+// The page of a program that has no drawing: the lines of its source by rung.
+
+using FileLine = std::pair<std::string_view, uint32_t>;
+
+std::string withoutTabs(std::string_view line) {
+  constexpr size_t kTab = 8;
+  std::string text;
+  for (const char c : line) c == '\t' ? text.append(kTab - text.size() % kTab, ' ') : text += c;
+  return text;
+}
+
+class TablePage {
+public:
+  TablePage(const Listing& listing, const Overlay& overlay, const PageOptions& options)
+      : listing_(listing), overlay_(overlay), options_(options) {
+    for (const RungOverlay& rung : overlay.rungs) {
+      if (rung.number != 0)
+        byNumber_.emplace(rung.number, &rung.run);
+      else
+        byPlace_.emplace(FileLine{rung.place.file, rung.place.line}, &rung.run);
+    }
+    for (const ElementOverlay& element : overlay.elements)
+      elements_.emplace(FileLine{element.place.file, element.place.line}, &element);
+    for (size_t i = 0; i < listing.rows.size(); ++i) lastOf_[listing.rows[i].place.file] = i;
+  }
+  std::string run();
+
+private:
+  bool hasRuns() const { return !overlay_.title.empty(); }
+  const Run& runOf(const TableRow& row) const;
+  std::string missingIn(const TableRow& row) const;
+  void lines(std::string_view file, uint32_t first, uint32_t last);
+  void linesBetween(const std::string& file, uint32_t end);
+  void contents();
+  void head(std::string_view title, size_t index);
+  void row(const TableRow& row);
+  void filesWithoutRungs();
+
+  const Listing& listing_;
+  const Overlay& overlay_;
+  const PageOptions& options_;
+  std::map<uint32_t, const Run*> byNumber_;
+  std::map<FileLine, const Run*> byPlace_;
+  std::multimap<FileLine, const ElementOverlay*> elements_;
+  std::map<std::string_view, size_t> lastOf_;  // the last row of each file
+  std::map<std::string_view, uint32_t> shown_; // of each file: up to this line
+  double hottest_ = 0;
+  std::string out_;
+};
+
+const Run& TablePage::runOf(const TableRow& row) const {
+  static const Run kNothing;
+  if (const auto at = byNumber_.find(row.number); at != byNumber_.end()) return *at->second;
+  const auto at = byPlace_.find({row.place.file, row.place.line});
+  return at == byPlace_.end() ? kNothing : *at->second;
+}
+
+// "14 never closed, 16 never on": by line.
+std::string TablePage::missingIn(const TableRow& row) const {
+  std::string text;
+  auto at = elements_.lower_bound({row.place.file, row.place.line});
+  const auto end = elements_.upper_bound({row.place.file, std::max(row.place.line, row.lastLine)});
+  for (; at != end; ++at) {
+    const std::string badge = badgeOf(*at->second);
+    if (badge.empty()) continue;
+    put(text, "{}<span title=\"{}\">line {} {}</span>", text.empty() ? "" : "<br>", escaped(at->second->detail),
+        at->second->place.line, badge);
+  }
+  return text;
+}
+
+// Lines of the source, as far as it is there.
+void TablePage::lines(std::string_view file, uint32_t first, uint32_t last) {
+  const auto text = listing_.texts.find(std::string(file));
+  if (text == listing_.texts.end() || first == 0) return;
+  out_ += "<pre>";
+  for (uint32_t line = first; line <= std::min<size_t>(last, text->second.size()); ++line)
+    put(out_, "<i>{}</i>{}\n", line, escaped(withoutTabs(text->second[line - 1])));
+  out_ += "</pre>";
+}
+
+// What has not been shown yet before line `end`: remarks, declarations, the beginnings and ends of modules.
+void TablePage::linesBetween(const std::string& file, uint32_t end) {
+  const auto text = listing_.texts.find(file);
+  if (text == listing_.texts.end()) return;
+  uint32_t first = shown_[file] + 1;
+  uint32_t last = std::min<uint32_t>(end, static_cast<uint32_t>(text->second.size()) + 1) - 1;
+  const auto isBlank = [&](uint32_t line) { return text::trimmed(text->second[line - 1]).empty(); };
+  while (first <= last && isBlank(first)) ++first;
+  while (first <= last && isBlank(last)) --last;
+  if (first > last) return;
+  put(out_, "<tr><td class=\"b\" colspan=\"{}\">", hasRuns() ? 4 : 2);
+  lines(file, first, last);
+  out_ += "</td></tr>\n";
+}
+
+void TablePage::row(const TableRow& row) {
+  const Run& run = runOf(row);
+  linesBetween(row.place.file, row.place.line);
+  uint32_t& shown = shown_[row.place.file];
+  shown = std::max({shown, row.place.line, row.lastLine});
+  put(out_, "<tr class=\"Q{0}\" id=\"r{1}\"><th scope=\"row\">{1}</th><td>", classesOf(run, hottest_), row.number);
+  if (!row.title.empty()) put(out_, "<b>{}</b> ", escaped(row.title));
+  const std::string& path = row.place.file;
+  appendPlace(out_, {path, path.substr(path.find_last_of('/') + 1)}, row.place.line, options_);
+  lines(path, row.place.line, std::max(row.place.line, row.lastLine));
+  out_ += "</td>";
+  if (hasRuns()) {
+    out_ += "<td>";
+    appendRun(out_, run, hottest_);
+    put(out_, "</td><td class=\"g\">{}</td>", missingIn(row));
+  }
+  out_ += "</tr>\n";
+}
+
+// The routines with their rungs.
+void TablePage::contents() {
+  const std::vector<TableRow>& rows = listing_.rows;
+  out_ += "<nav aria-label=\"Contents\"><h2>Contents</h2><ul>\n";
+  for (size_t first = 0, end = 0; first < rows.size(); first = end) {
+    while (end < rows.size() && rows[end].routine == rows[first].routine) ++end;
+    put(out_, "<li class=\"c0\"><a href=\"#m{}\">{}</a><i>{}", first, escaped(rows[first].routine), rows[first].number);
+    if (end - first > 1) put(out_, "\u2013{}", rows[end - 1].number);
+    out_ += "</i></li>\n";
+  }
+  out_ += "</ul><p class=\"C\">Numbers are those of rungs.</p></nav>\n";
+}
+
+void TablePage::head(std::string_view title, size_t index) {
+  put(out_, "<h3 id=\"m{}\">{}</h3>\n<table class=\"{}\"><thead><tr><th>Rung</th><th>Source</th>", index,
+      escaped(title), hasRuns() ? "Y" : "Y L");
+  if (hasRuns()) out_ += "<th>Run</th><th>Not seen</th>";
+  out_ += "</tr></thead><tbody>\n";
+}
+
+// They declare what the others use.
+void TablePage::filesWithoutRungs() {
+  size_t index = listing_.rows.size();
+  for (const auto& [path, text] : listing_.texts) {
+    if (lastOf_.contains(path)) continue;
+    head(path.substr(path.find_last_of('/') + 1), index++);
+    linesBetween(path, UINT32_MAX);
+    out_ += "</tbody></table>\n";
+  }
+}
+
+std::string TablePage::run() {
+  const RunSummary summary{overlay_.title, overlay_.summary, overlay_.heat};
+  const std::vector<TableRow>& rows = listing_.rows;
+  RunsOnPage runs{&summary, {}, !overlay_.elements.empty()};
+  for (const TableRow& row : rows) runs.rungs.push_back({row.number, row.title, &runOf(row)});
+  hottest_ = hottest(runs.rungs);
+  appendRuns(out_, runs);
+  contents();
+  out_ += "<main>\n";
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (i == 0 || rows[i].routine != rows[i - 1].routine) {
+      if (i > 0) out_ += "</tbody></table>\n";
+      head(rows[i].routine, i);
+    }
+    row(rows[i]);
+    if (lastOf_[rows[i].place.file] == i) linesBetween(rows[i].place.file, UINT32_MAX);
+  }
+  if (!rows.empty()) out_ += "</tbody></table>\n";
+  filesWithoutRungs();
+  out_ += "</main>\n";
+  return wholePage({listing_.title, listing_.control, rows.size(), {}}, options_, out_);
 }
 
 } // namespace
 
 std::string renderHtml(const Program& program, const PageOptions& options) { return Page(program, options).run(); }
+
+std::string renderTable(const Listing& listing, const Overlay& overlay, const PageOptions& options) {
+  return TablePage(listing, overlay, options).run();
+}
 
 } // namespace rung::view

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tools/view/sheet.h"
-#include "tools/view/text.h"
+#include "tools/view/style.h"
 
 namespace rung::view {
 
@@ -101,5 +101,11 @@ using Cuts = std::vector<int>;
 // `left`, `width`: of the cells. `needed`: where the right rail of the whole would be, `rail`: where it is to be.
 // A band may be wider where there is no place for a cut.
 Cuts chooseCuts(const Sheet& sheet, const std::vector<int>& left, const std::vector<int>& width, int needed, int rail);
+
+// A drawing that is higher than a page, cut between its rows.
+
+// Pieces of at most `most` pixels where the rows allow it, from top to bottom, with the coordinates of the whole; the
+// drawing itself when it is not higher. Every shape is in one piece; vertical wires continue from piece to piece.
+std::vector<Picture> piecesOf(const Picture& picture, int most);
 
 } // namespace rung::view

@@ -1,15 +1,10 @@
 // What runs of a program say of it, laid over its drawing: which rungs take the time (a profile), what was seen of each
-// element (coverage). A program that has no drawing gets a page with a row for each of its rungs.
+// element (coverage).
 #pragma once
-#include <map>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "ir/core/module.h"
-#include "ir/support/source.h"
-#include "tools/view/html.h"
 #include "tools/view/program.h"
 
 namespace rung::view {
@@ -59,31 +54,5 @@ std::string_view labelOf(const Run& run);
 
 // Fills what the drawing says of runs. Places that it does not have are passed over.
 void lay(const Overlay& overlay, Program& program);
-
-// A rung of a program that has no drawing.
-struct TableRow {
-  uint32_t number = 0;
-  std::string routine;
-  std::string title;
-  SourcePlace place;
-  uint32_t lastLine = 0;
-};
-// The numbered rungs of a module in the order in which the source has them.
-std::vector<TableRow> rowsOf(const ir::Module& module);
-
-// A program without a drawing, as it is read.
-struct Listing {
-  std::string title;
-  std::string control;
-  std::vector<TableRow> rows;
-  std::map<std::string, std::vector<std::string>> texts; // lines, by path; a file that cannot be read is not there
-};
-// `files` are those that the program has been made of, from `sources`; `included` may name them again.
-Listing listingOf(const SourceManager& sources, std::span<const FileId> files, std::string_view control,
-                  std::vector<TableRow> rows, const std::vector<std::string>& included);
-
-// A page in the look of renderHtml: the source by rung, with what was not seen of a rung's elements beside it. Nothing
-// is said of runs where the overlay is empty.
-std::string renderTable(const Listing& listing, const Overlay& overlay, const PageOptions& options = {});
 
 } // namespace rung::view

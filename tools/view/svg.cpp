@@ -203,7 +203,7 @@ std::string Poster::run() {
   put(out,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\">\n",
       width, height);
-  put(out, "<title>{}</title>\n<style>{}</style>\n", escaped(program_.title), pictureStyle(false));
+  put(out, "<title>{}</title>\n<style>\n{}</style>\n", escaped(program_.title), pictureStyle(false));
   put(out, "<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n{}</svg>\n", width, height, body_);
   return out;
 }
@@ -238,25 +238,20 @@ void appendPicture(std::string& out, const Picture& picture, bool onPage) {
 }
 
 std::string pictureStyle(bool onPage) {
-  const auto colour = [&](Colour one) {
-    const ColourInfo& info = infoOf(one);
-    return onPage ? fmt::format("var(--{})", info.name) : std::string(info.light);
-  };
-  std::string css;
-  put(css,
-      "path{{fill:none;stroke:{};stroke-width:1.5}}.e{{stroke-width:3}}.s{{stroke-width:2}}"
-      ".d{{stroke-width:6;stroke-linecap:round}}.h{{fill:{};stroke:none}}.am{{text-anchor:middle}}"
-      ".ae{{text-anchor:end}}.a a{{fill:{}}}a:hover{{text-decoration:underline}}",
-      colour(Colour::Ink), colour(Colour::Head), colour(Colour::Link));
-  put(css,
-      ".qa,.qp,.qn{{fill-opacity:.12;rx:4px}}.qa{{fill:{0};stroke:{0}}}"
-      ".qp{{fill:{1};stroke:{1};stroke-dasharray:6 2}}.qn{{fill:{2};stroke:{2};stroke-width:2;stroke-dasharray:3 3}}",
-      colour(Colour::Good), colour(Colour::Part), colour(Colour::Warn));
+  std::array<std::string, kColours> colours;
+  std::array<text::Mark, kColours> marks;
+  for (size_t i = 0; i < kColours; ++i) {
+    const ColourInfo& info = kColourInfos[i];
+    colours[i] = onPage ? fmt::format("var(--{})", info.name) : std::string(info.light);
+    marks[i] = {info.name, colours[i]};
+  }
+  std::string css = text::filled(text::textOf(pageFiles(), "picture.css"), marks);
   for (size_t i = 0; i < kStyles; ++i) {
     const StyleInfo& info = infoOf(static_cast<Style>(i));
-    put(css, ".{}{{font:{}{}{}px {};fill:{}}}", info.cssClass, info.italic ? "italic " : "", info.bold ? "bold " : "",
-        info.size, info.mono ? "DejaVu Sans Mono,Consolas,Menlo,monospace" : "Arial,Helvetica,DejaVu Sans,sans-serif",
-        colour(info.colour));
+    put(css, ".{} {{ font: {}{}{}px {}; fill: {}; }}\n", info.cssClass, info.italic ? "italic " : "",
+        info.bold ? "bold " : "", info.size,
+        info.mono ? "DejaVu Sans Mono, Consolas, Menlo, monospace" : "Arial, Helvetica, DejaVu Sans, sans-serif",
+        colours[static_cast<size_t>(info.colour)]);
   }
   return css;
 }

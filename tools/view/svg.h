@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "rtlib/text/embedded.h"
 #include "tools/view/layout.h"
 #include "tools/view/program.h"
 
@@ -13,7 +14,7 @@ std::string escaped(std::string_view text);
 
 // Lines and texts of a rung, for a <g> or <svg>. Names lead to their rows on a page, which has them.
 void appendPicture(std::string& out, const Picture& picture, bool onPage);
-// The rules of style that pictures need; on a page colours are named (see colours.h).
+// The rules of style that pictures need; on a page colours are named (see style.h).
 std::string pictureStyle(bool onPage);
 
 // Where the right rail is of all rungs that can be cut to it.
@@ -22,6 +23,9 @@ int commonRail(const Program& program);
 std::string nameOf(const Figure& figure);
 // "main.lad:12", or nothing.
 std::string textOf(const Program& program, const Place& place);
+
+// The files of page/; the build makes this function.
+std::span<const text::EmbeddedFile> pageFiles();
 
 std::string renderSvg(const Program& program);
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/view/drawn.h"
-#include "tools/view/pieces.h"
+#include "tools/view/layout.h"
 #include "tools/view/svg.h"
 
 namespace rung::view::test {

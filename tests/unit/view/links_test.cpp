@@ -206,9 +206,9 @@ TEST(ViewPage, PaperHasTitleDateRevisionAndPages) {
   const auto drawn = draw("t.lad", std::string(kCalls));
   drawn->program.title = "Lathe \"7\" </style>\\";
   const std::string page = renderHtml(drawn->program, {"22 Nov", "C2", {}});
-  EXPECT_NE(page.find(R"(@top-left{content:"Lathe \22 7\22  \3c /style>\5c ";)"), std::string::npos);
-  EXPECT_NE(page.find(R"(@bottom-left{content:"Revision C2, 22 Nov";)"), std::string::npos);
-  EXPECT_NE(page.find(R"(@bottom-center{content:"t.lad"})"), std::string::npos);
+  EXPECT_NE(page.find(R"(@top-left { content: "Lathe \22 7\22  \3c /style>\5c ";)"), std::string::npos);
+  EXPECT_NE(page.find(R"(@bottom-left { content: "Revision C2, 22 Nov";)"), std::string::npos);
+  EXPECT_NE(page.find(R"(@bottom-center { content: "t.lad"; })"), std::string::npos);
   EXPECT_NE(page.find(R"("Page " counter(page) " of " counter(pages))"), std::string::npos);
   EXPECT_EQ(page.find("Lathe \"7\" </style>"), std::string::npos);
 }

@@ -1,5 +1,5 @@
-// Widths of characters (see text.h).
-#include "tools/view/text.h"
+// Widths of characters.
+#include "tools/view/style.h"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,7 @@
 #include "ir/support/utf8.h"
 
 namespace rung::view {
+
 namespace {
 
 constexpr std::array<StyleInfo, kStyles> kInfos = {{

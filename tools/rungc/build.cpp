@@ -1,6 +1,7 @@
-// rungc build and rungc emit: a shared object, or any text on the way to it.
-#include <filesystem>
+// rungc build, emit and check: a shared object, any text on the way to it, or the mistakes alone.
 #include <fmt/format.h>
+
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -17,6 +18,7 @@
 #include "tools/scenario/prompt.h"
 
 namespace rung::rungc {
+
 namespace {
 
 struct BuildOptions {
@@ -216,6 +218,19 @@ void addEmit(CommandLine& app, int& status) {
     SourceManager sources;
     if (const auto compiled = compileWithProfile(sources, *options, requestOf(*options), status))
       status = emitText(*compiled, *options);
+  });
+}
+
+// rungc check: reports every mistake of a program, and what looks like one.
+
+void addCheck(CommandLine& app, int& status) {
+  Command command = app.add("check", "Report all mistakes in a program");
+  auto options = std::make_shared<SourceOptions>();
+  addSourceOptions(command, *options);
+  command.onRun([options, &status] {
+    SourceManager sources;
+    const auto compiled = compileChecked(sources, *options, {}, status);
+    if (compiled) printSummary(*compiled, *options, "");
   });
 }
 

@@ -11,8 +11,7 @@
 
 #include "rtlib/text/regular_file.h"
 #include "tools/rungc/commands.h"
-#include "tools/rungc/coverage_overlay.h"
-#include "tools/rungc/page_with.h"
+#include "tools/rungc/pages.h"
 
 namespace rung::rungc {
 namespace {
@@ -86,8 +85,7 @@ int CoverageRun::writePages(const report::CoverageReport& report, const std::str
     const auto origin = origins_.find(program.files);
     if (origin == origins_.end()) continue;
     const auto& [dialect, project, options] = origin->second;
-    const Result<std::string> page =
-        pageWith(overlayOf(program), program.files, *frontend::findDialect(dialect), options, project);
+    const Result<std::string> page = coveragePage(program, *frontend::findDialect(dialect), options, project);
     if (!page.ok()) return environmentError(page.error());
     const std::string out = numbered(path, ++pages);
     if (const int status = writeFile(page.value(), out); status != kOk) return status;

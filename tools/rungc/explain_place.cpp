@@ -1,5 +1,5 @@
-// Names and operands at a place of the source (see explain_place.h).
-#include "tools/rungc/explain_place.h"
+// Names and operands at a place of the source (see explain.h).
+#include "tools/rungc/explain.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -20,7 +20,6 @@
 #include "tools/report/odd_names.h"
 #include "tools/report/place_names.h"
 #include "tools/rungc/commands.h"
-#include "tools/rungc/plain_text.h"
 
 namespace rung::rungc {
 namespace {

@@ -11,7 +11,7 @@
 #include "tools/report/profile_branches.h"
 #include "tools/report/profile_text.h"
 #include "tools/rungc/commands.h"
-#include "tools/rungc/profile_page.h"
+#include "tools/rungc/pages.h"
 #include "tools/rungc/scenarios.h"
 #include "tools/scenario/prompt.h"
 

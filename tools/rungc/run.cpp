@@ -17,7 +17,6 @@
 #include "rtlib/nc/config_key.h"
 #include "tools/rungc/commands.h"
 #include "tools/rungc/retained_files.h"
-#include "tools/rungc/run_scenario.h"
 #include "tools/rungc/scenarios.h"
 #include "tools/scenario/compile_step.h"
 #include "tools/scenario/console.h"

@@ -11,10 +11,14 @@
 #include <filesystem>
 #include <iterator>
 #include <sstream>
+#include <utility>
 
+#include "frontend/dialects/dialect.h"
 #include "ir/support/utf8.h"
+#include "rtlib/nc/config_key.h"
 #include "tools/rungc/commands.h"
 #include "tools/scenario/scenario.h"
+#include "tools/scenario/session.h"
 
 namespace rung::rungc {
 
@@ -201,6 +205,123 @@ std::string junitXml(const std::vector<TestCase>& tests) {
   std::ostringstream out;
   document.save(out, "  ", pugi::format_default, pugi::encoding_utf8);
   return std::move(out).str();
+}
+
+// The scenario of a run.
+
+namespace {
+
+namespace fs = std::filesystem;
+using scenario::Kind;
+using scenario::Statement;
+
+std::string inFolderOf(const std::string& file, const std::string& name) {
+  return (fs::path(file).parent_path() / name).lexically_normal().string();
+}
+
+// Files that the control reads lie relative to the scenario.
+std::string configOf(const Statement& s) {
+  for (const frontend::Dialect* dialect : frontend::allDialects()) {
+    const nc::ConfigKey* row = nc::findConfigKey(dialect->configKeys, s.name);
+    if (row != nullptr && row->form == nc::ConfigForm::File && row->reader == nc::ConfigReader::Control)
+      return s.name + "=" + inFolderOf(s.file, s.value.text);
+  }
+  return s.name + "=" + s.value.text;
+}
+
+// A scenario without a program runs that of the project that it lies in.
+int findProgram(const std::string& path, const std::vector<std::string>& programs, SourceOptions& options) {
+  if (!options.files.empty() || !options.projectFile.empty()) return kOk;
+  if (!programs.empty()) {
+    options.files = programs;
+    options.noProject = true;
+    return kOk;
+  }
+  const auto project = compiler::findUpwards(fs::path(path).parent_path().lexically_normal().string());
+  if (!project) return usageError(fmt::format("{} names no program and is not in a project: name the program", path));
+  options.projectFile = *project;
+  return kOk;
+}
+
+} // namespace
+
+int readRunScenario(const std::string& path, SourceOptions& options, RunScenario& scenario) {
+  Result<scenario::Scenario> read = scenario::readStatements(path);
+  if (!read.ok()) return environmentError(read.error());
+  for (const scenario::Problem& problem : read.value().problems) fmt::print(stderr, "{}\n", textOf(problem));
+  if (!read.value().problems.empty()) return kWrong;
+  std::vector<std::string> programs;
+  std::vector<std::string> config;
+  std::string dialect;
+  for (Statement& s : read.value().statements) {
+    switch (s.kind) {
+    case Kind::Program:
+      for (const std::string& file : s.words) programs.push_back(inFolderOf(s.file, file));
+      break;
+    case Kind::Dialect: dialect = s.name; break;
+    case Kind::Config: config.push_back(configOf(s)); break;
+    case Kind::Connect: scenario.connects.push_back(std::move(s)); break;
+    case Kind::Period: scenario.periodUs = s.microseconds; break;
+    case Kind::ExpectError:
+      return usageError(
+          fmt::format("{}:{}: the program of this scenario does not compile, so it cannot be run", s.file, s.line));
+    case Kind::ExpectWarning:
+    case Kind::AllowErrors: break; // the diagnostics are shown
+    default: scenario.statements.push_back(std::move(s));
+    }
+  }
+  options.config.insert(options.config.begin(), config.begin(), config.end());
+  const bool ownProgram = options.files.empty() && options.projectFile.empty();
+  if (ownProgram && options.dialect.empty()) options.dialect = dialect;
+  return findProgram(path, programs, options);
+}
+
+// The trace of a scenario.
+
+void ScenarioTrace::addTo(Command command) {
+  Option trace =
+      command.option("--trace", path_,
+                     "Write the values of names after every scan to FILE.vcd (changes) or FILE.csv (one row per scan)");
+  command.option("--watch", names_, "Names to trace; default: every name and address that the rungs use")
+      .needs(trace)
+      .manyValues();
+}
+
+std::string ScenarioTrace::problem(size_t scenarios) const {
+  if (!wanted()) return {};
+  if (scenarios != 1) return fmt::format("--trace takes one scenario, not {}", scenarios);
+  const std::string file = scenario::traceFileProblem(path_);
+  return file.empty() ? file : "--trace: " + file;
+}
+
+void ScenarioTrace::attach(scenario::RunOptions& run) {
+  if (!wanted()) return;
+  refused_ = false;
+  run.started = [this](scenario::Session& session, const compiler::Compiled& program) {
+    return begin(session, program);
+  };
+}
+
+std::string ScenarioTrace::begin(scenario::Session& session, const compiler::Compiled& program) {
+  const rung_program& tables = session.instance().program();
+  const std::vector<std::string> names =
+      names_.empty() ? scenario::defaultTraceNames(tables, program.uses.get()) : names_;
+  std::string unknown = scenario::Trace::nameProblem(names, session.instance(), session.nc());
+  refused_ = !unknown.empty();
+  if (refused_) return "--watch: " + unknown;
+  Result<std::unique_ptr<scenario::Trace>> trace =
+      scenario::Trace::open(path_, names, session.instance(), session.nc());
+  if (!trace.ok()) return trace.error();
+  trace_ = std::move(trace).value();
+  session.addObserver(*trace_);
+  return {};
+}
+
+std::string ScenarioTrace::finish() {
+  if (trace_ == nullptr) return {};
+  const std::string error = trace_->finish();
+  trace_.reset();
+  return error;
 }
 
 } // namespace rung::rungc

@@ -1,10 +1,15 @@
-// Which scenarios a command runs: files, folders with all that lies below, and a filter.
+// What the commands that run scenarios share: which ones they run, their results, the trace of one, the start of one.
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "machine/command-line/command_line.h"
+#include "tools/rungc/commands.h"
 #include "tools/scenario/runner.h"
+#include "tools/scenario/scenario.h"
+#include "tools/scenario/trace.h"
 
 namespace rung::rungc {
 
@@ -26,8 +31,6 @@ struct TestCase {
 
 std::string junitXml(const std::vector<TestCase>& tests);
 
-// What the commands that run scenarios share: names of engines, one scenario from file to result, the lines about it.
-
 // "interp,jit", "all": fails with a text for the user.
 Result<std::vector<compiler::EngineKind>> enginesOf(const std::string& names);
 // Reads, parses and runs one file.
@@ -36,5 +39,42 @@ TestCase runOne(const std::string& path, const scenario::RunOptions& options);
 void printResult(const TestCase& test, bool color = false);
 // "12 ms" or "1.25 s"
 std::string shownSeconds(double seconds);
+
+// `rungc run --scenario FILE`: which program a scenario runs, how it starts it, and its statements.
+
+struct RunScenario {
+  std::vector<scenario::Statement> statements; // for the running program
+  std::vector<scenario::Statement> connects;
+  int64_t periodUs = 0; // 0: the program's own
+};
+
+// Reads the file. Program, dialect and configuration go into the options, before those of the command line; where the
+// options name files, those are the program. Gives the exit status; mistakes are printed.
+int readRunScenario(const std::string& path, SourceOptions& options, RunScenario& scenario);
+
+// `rungc test --trace FILE --watch NAME…`: the values of names while one scenario runs, in a file.
+
+class ScenarioTrace {
+public:
+  void addTo(cli::Command command);
+
+  bool wanted() const { return !path_.empty(); }
+  // Why it cannot be for so many scenarios; "" when it can.
+  std::string problem(size_t scenarios) const;
+  // The run begins the trace when the program has started; this object outlives it.
+  void attach(scenario::RunOptions& run);
+  // After the run. An unknown name is a usage error.
+  bool refused() const { return refused_; }
+  // "" or why the file could not be written.
+  std::string finish();
+
+private:
+  std::string begin(scenario::Session& session, const compiler::Compiled& program);
+
+  std::string path_;
+  std::vector<std::string> names_;
+  std::unique_ptr<scenario::Trace> trace_;
+  bool refused_ = false;
+};
 
 } // namespace rung::rungc

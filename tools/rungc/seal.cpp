@@ -1,9 +1,11 @@
-// rungc seal: a seal for program files, and with a key a signature.
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
+// rungc seal and key: a seal for program files, with a key a signature; keys to sign with.
 #include <fcntl.h>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -17,6 +19,7 @@
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
+
 namespace {
 
 constexpr size_t kMostBytes = size_t{1} << 30;
@@ -107,6 +110,44 @@ void addSeal(CommandLine& app, int& status) {
   command.option("--sign", options->key, "Sign with this secret key (see rungc help key)");
   command.flag("-q,--quiet", options->quiet, "Print only errors");
   command.onRun([options, &status] { status = sealFiles(*options); });
+}
+
+// rungc key: keys to sign programs with.
+
+namespace {
+
+constexpr unsigned kSecretMode = 0600;
+constexpr unsigned kPublicMode = 0644;
+
+// A key is never written over another.
+int newKey(const std::string& path) {
+  const runtime::SecretKey key = runtime::SecretKey::make();
+  const std::string publicPath = path + ".pub";
+  std::string wrong = runtime::replaceFile(publicPath, runtime::textOf(key.publicKey()),
+                                           {.mode = kPublicMode, .mayReplace = false, .lasts = true});
+  if (!wrong.empty()) return environmentError(wrong);
+  wrong = runtime::replaceFile(path, key.text(), {.mode = kSecretMode, .mayReplace = false, .lasts = true});
+  if (!wrong.empty()) {
+    std::remove(publicPath.c_str());
+    return environmentError(wrong);
+  }
+  fmt::print("key {}: sign with {}, and keep it secret; install {} in {} on the machines\n",
+             runtime::textOf(key.publicKey().id()), path, publicPath, runtime::kKeysFolder);
+  return kOk;
+}
+
+} // namespace
+
+void addKey(CommandLine& app, int& status) {
+  struct Options {
+    std::string action;
+    std::string file;
+  };
+  Command command = app.add("key", "Create a key for signing programs");
+  auto options = std::make_shared<Options>();
+  command.option("ACTION", options->action, "new: create a key").required().oneOf({"new"});
+  command.option("FILE", options->file, "The file of the secret key; FILE.pub becomes the public key").required();
+  command.onRun([options, &status] { status = newKey(options->file); });
 }
 
 } // namespace rung::rungc

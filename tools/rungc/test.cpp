@@ -1,22 +1,98 @@
 // rungc test: scenarios on one or several engines.
-#include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
 #include <iterator>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <thread>
-#include <unistd.h>
+#include <utility>
 
 #include "tools/rungc/commands.h"
 #include "tools/rungc/coverage.h"
 #include "tools/rungc/file_watch.h"
-#include "tools/rungc/scenario_trace.h"
 #include "tools/rungc/scenarios.h"
-#include "tools/rungc/test_pool.h"
 #include "tools/scenario/prompt.h"
 
 namespace rung::rungc {
 namespace {
+
+// Runs scenarios on several threads, which share compiled programs (EngineStore) and nothing else, and hands the
+// results on in order.
+
+struct PoolCalls {
+  // On the caller's thread, in the order of the files. False: no further scenario is begun, and no further result
+  // given.
+  std::function<bool(TestCase)> finished;
+  // On the caller's thread, now and then while nothing is finished: the file whose result is waited for.
+  std::function<void(const std::string& file)> waiting;
+};
+
+constexpr std::chrono::milliseconds kTick{200};
+
+class Pool {
+public:
+  Pool(const std::vector<std::string>& files, const scenario::RunOptions& options)
+      : files_(files), options_(options), results_(files.size()) {}
+
+  void run(unsigned threads, const PoolCalls& calls) {
+    std::vector<std::jthread> workers;
+    for (size_t i = 0; i < std::min<size_t>(threads, files_.size()); ++i) workers.emplace_back([this] { work(); });
+    for (size_t i = 0; i < files_.size(); ++i)
+      if (!calls.finished(take(i, calls))) break;
+    const std::lock_guard lock(mutex_);
+    next_ = files_.size();
+  }
+
+private:
+  void work() {
+    for (size_t i = begin(); i < files_.size(); i = begin()) {
+      TestCase result = runOne(files_[i], options_);
+      const std::lock_guard lock(mutex_);
+      results_[i] = std::move(result);
+      changed_.notify_one();
+    }
+  }
+
+  size_t begin() {
+    const std::lock_guard lock(mutex_);
+    return next_ < files_.size() ? next_++ : files_.size();
+  }
+
+  TestCase take(size_t i, const PoolCalls& calls) {
+    std::unique_lock lock(mutex_);
+    std::optional<TestCase>& result = results_[i];
+    while (!result) {
+      if (changed_.wait_for(lock, kTick, [&] { return result.has_value(); })) continue;
+      lock.unlock();
+      calls.waiting(files_[i]);
+      lock.lock();
+    }
+    TestCase taken = std::move(*result);
+    result.reset();
+    return taken;
+  }
+
+  const std::vector<std::string>& files_;
+  const scenario::RunOptions& options_;
+  std::mutex mutex_; // of what follows
+  std::condition_variable changed_;
+  std::vector<std::optional<TestCase>> results_;
+  size_t next_ = 0;
+};
+
+void runAll(const std::vector<std::string>& files, const scenario::RunOptions& options, unsigned threads,
+            const PoolCalls& calls) {
+  Pool(files, options).run(threads, calls);
+}
+
+// The command.
 
 struct TestOptions {
   std::vector<std::string> names; // files and folders

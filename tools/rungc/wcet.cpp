@@ -6,7 +6,7 @@
 
 #include "compiler/engines.h"
 #include "tools/rungc/commands.h"
-#include "tools/rungc/run_scenario.h"
+#include "tools/rungc/scenarios.h"
 #include "tools/scenario/prompt.h"
 #include "tools/scenario/wcet_measure.h"
 

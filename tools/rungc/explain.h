@@ -1,14 +1,19 @@
-// `rungc explain FILE:LINE:COLUMN`: what is written there, in the program that the file belongs to; and of a word what
-// the project has by that name.
+// What rungc explain prints: entries of the reference, what is written at a place of a source, names of a project.
 #pragma once
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/reference.h"
 
 namespace rung::rungc {
 
+// Entries of the reference as a terminal shows them: tables aligned, long cells over several lines, no marks of
+// headings.
+std::string plainText(std::string_view markdown);
+
+// `rungc explain FILE:LINE:COLUMN`.
 struct SourcePlace {
   std::string file;
   uint32_t line = 0;   // from 1

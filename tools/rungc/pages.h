@@ -1,0 +1,19 @@
+// Pages of a program with what runs have shown: on its drawing; where its dialect has none, as a table of its rungs.
+// The program is read again from its files; both fail when it cannot be read any more, or has errors now.
+#pragma once
+#include <string>
+
+#include "frontend/dialects/dialect.h"
+#include "ir/support/result.h"
+#include "tools/report/coverage_report.h"
+#include "tools/report/profiler.h"
+
+namespace rung::rungc {
+
+// Of the program that the request's scenarios run.
+Result<std::string> profilePage(const report::Profile& profile, const report::Request& request);
+// `project`: the title; empty: the files are.
+Result<std::string> coveragePage(const report::Program& program, const frontend::Dialect& dialect,
+                                 const frontend::CompileOptions& options, const std::string& project);
+
+} // namespace rung::rungc

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "codegen/cpp/cpp_emitter.h"
-#include "codegen/llvm/code_version.h"
+#include "codegen/llvm/embedded.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "codegen/process/process.h"
 #include "compiler/object_folder.h"

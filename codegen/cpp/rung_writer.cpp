@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "ir/core/eval.h"
-#include "ir/core/long_rungs.h"
 #include "ir/core/op_info.h"
 #include "ir/core/ops.h"
+#include "ir/core/regions.h"
 #include "ir/support/check.h"
 #include "ir/support/put.h"
 

@@ -18,7 +18,7 @@
 #include "codegen/llvm/code_unit_numbers.h"
 #include "ir/shape/partition.h"
 #include "ir/support/check.h"
-#include "ir/support/contained.h"
+#include "ir/support/result.h"
 #include "rtlib/run/realtime.h"
 
 namespace rung::codegen {

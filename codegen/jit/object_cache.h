@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "codegen/llvm/code_version.h"
+#include "codegen/llvm/embedded.h"
 #include "codegen/llvm/llvm_emitter.h"
 #include "codegen/llvm/module_part.h"
 #include "rtlib/load/trust.h"

@@ -1,10 +1,13 @@
 // The structs of rung/program.h that code touches, as LLVM types for a target. Field numbers are those of the C
 // structs, and their offsets are checked against where C puts them on the target.
 #pragma once
+#include "rung/program.h"
 
 namespace llvm {
+class Constant;
 class DataLayout;
 class LLVMContext;
+class Module;
 class StructType;
 } // namespace llvm
 
@@ -27,5 +30,11 @@ struct AbiTypes {
   llvm::StructType* hostApi;
   llvm::StructType* ctx;
 };
+
+// The tables of a rung_program as LLVM constants, by walking the field lists of ir/image/abi_fields.h.
+
+// Adds the exported constant rung_program_table and all that it points to. `chunkTable` is the array of chunk
+// functions.
+void addProgramTables(llvm::Module& module, const rung_program& program, llvm::Constant* chunkTable);
 
 } // namespace rung::codegen

@@ -1,4 +1,5 @@
-// The last pass over LLVM's IR, right before instructions are selected: what every earlier one would undo.
+// The last pass over LLVM's IR, right before instructions are selected: what every earlier one would undo. It
+// cuts long blocks and, on x86, puts comparisons in the place of negations.
 #pragma once
 #include <memory>
 

@@ -160,7 +160,7 @@ void ChunkEmitter::emitOp(const Op& op) {
   values_[op.result.index] = through ? throughMemory(value) : value;
 }
 
-// See long_rungs.h; volatile, or it would be optimised away.
+// See regions.h; volatile, or it would be optimised away.
 ChunkEmitter::Value* ChunkEmitter::throughMemory(Value* value) {
   Value* place = scratch(valueSpace_, builder_.getInt64Ty());
   builder_.CreateStore(value, place, true);

@@ -11,7 +11,7 @@
 #include "codegen/llvm/debug_info.h"
 #include "codegen/llvm/llvm_module.h"
 #include "codegen/plan/chunk_plan.h"
-#include "ir/core/long_rungs.h"
+#include "ir/core/regions.h"
 
 namespace rung::codegen {
 

@@ -21,10 +21,10 @@
 #include <llvm/Transforms/Scalar/SimplifyCFG.h>
 #include <llvm/Transforms/Utils/Local.h>
 
+#include "codegen/llvm/abi_types.h"
 #include "codegen/llvm/chunk_emitter.h"
 #include "codegen/llvm/code_unit_numbers.h"
 #include "codegen/llvm/embedded.h"
-#include "codegen/llvm/table_constants.h"
 #include "ir/image/program_image.h"
 
 namespace rung::codegen {

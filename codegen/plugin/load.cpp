@@ -1,5 +1,5 @@
 // The side of the programs (see functions.h): each function of LLVM's back end loads the plug-in and hands over.
-#include "codegen/llvm/code_version.h"
+#include "codegen/llvm/embedded.h"
 #include "codegen/plugin/functions.h"
 #include "rtlib/load/plugin.h"
 

@@ -1,8 +1,8 @@
 // The side of the plug-in (see functions.h).
 #include "codegen/plugin/functions.h"
 
-#include "codegen/llvm/code_version.h"
-#include "ir/support/contained.h"
+#include "codegen/llvm/embedded.h"
+#include "ir/support/result.h"
 
 namespace rung::codegen {
 namespace {

@@ -12,7 +12,6 @@
 #include "frontend/sema/analysis.h"
 #include "frontend/sema/foreign_word.h"
 #include "frontend/table/instruction.h"
-#include "ir/core/given_numbers.h"
 #include "ir/core/marks.h"
 #include "ir/core/module.h"
 #include "ir/support/diagnostics.h"

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "frontend/syntax/word_lexer.h"
+#include "frontend/table/instruction.h"
 #include "ir/support/diagnostics.h"
 #include "ir/support/ids.h"
 #include "ir/support/source.h"
@@ -130,5 +131,18 @@ std::string elementText(const Element& element, std::span<const Word> operands);
 
 /// One line an element: `e2 [/STOP] n1 -> n2`, pins after the first as `R=n3`, `.` for no output. Then its comments.
 std::string dumpRung(const Rung& rung);
+
+// What the rows of a dialect say of the pins of a drawing.
+
+/// Whether two names of pins are one to the dialect.
+using SameName = bool (*)(std::string_view a, std::string_view b);
+
+/// The pins of a box against those of its row: reports those that are missing, and those that it does not have.
+bool checkPins(const frontend::InstructionInfo& info, std::span<const Pin> drawn, SourceRange box, SameName same,
+               Diagnostics& diagnostics);
+
+/// Whether a pin is at the left rail although its element needs a condition, or is not although it takes none. How that
+/// is said is the dialect's business.
+bool isMisplaced(const frontend::InstructionInfo& info, const Pin& pin);
 
 } // namespace rung::frontend::ladder

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "frontend/ladder/text/format.h"
-#include "frontend/network/convert/gap_writer.h"
+#include "frontend/network/convert/writers.h"
 #include "frontend/network/read/ladder_reader.h"
 #include "frontend/network/read/list_reader.h"
 #include "frontend/network/read/reading.h"

@@ -1,9 +1,9 @@
 // Ways to find a row, and names as messages have them.
 #include "frontend/network/language.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "frontend/network/operand_kind.h"
 #include "ir/support/check.h"

@@ -9,12 +9,31 @@
 #include <string_view>
 
 #include "frontend/ladder/text/ladder_file.h"
-#include "frontend/network/row.h"
 #include "frontend/sema/foreign_word.h"
+#include "frontend/table/instruction.h"
 #include "ir/support/diagnostics.h"
 #include "rtlib/nc/signal.h"
 
 namespace rung::frontend::network {
+
+// The row of an instruction of this family of languages: what reading, checking and converting a program ask of it.
+// lower/lowered_row.h adds the lowering.
+
+// Instructions that shape the program; everything else is Plain.
+enum class Control : uint8_t { Plain, LevelEnd, Sp, Spe, Jmp, Jmpe, Jmpb, Jmpc, Lbl, Call, CallU, Com, Come };
+
+constexpr bool isEnd(Control control) { return control == Control::LevelEnd || control == Control::Spe; }
+
+struct Row {
+  frontend::InstructionInfo info;
+  Control control = Control::Plain;
+  // Numbers of this class that appear twice in a program give a warning.
+  enum class Numbers : uint8_t { Free, Timer, Counter, Edge } numbers = Numbers::Free;
+  bool ignoresCondition = false; // one value before it is accepted, and has no effect
+  bool hasTable = false;
+  uint32_t recordBytes = 0; // of an operand of kind Record
+  bool built = true;        // else it is known, and refused by name
+};
 
 // The statements of a list (P12). Declarations are allowed in lists as in ladder text, for conversions.
 // clang-format off

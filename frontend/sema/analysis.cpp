@@ -1,4 +1,4 @@
-// Names and places of a program's text (see analysis.h).
+// Names and places of a program's text.
 #include "frontend/sema/analysis.h"
 
 namespace rung::frontend {

@@ -2,7 +2,6 @@
 // Words are separated by blanks and tabs; a comment runs to the end of the line; a quoted text is one word. Nothing is
 // reported here: the caller knows what its language forbids (see LineWords for what it needs to decide).
 #pragma once
-
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -63,5 +62,14 @@ void splitWords(const SourceLine& line, const WordRules& rules, LineWords& out);
 
 /// Reports bad-encoding at the first byte that is not UTF-8 (or is NUL: not a text at all) and returns false then.
 bool checkEncoding(const SourceManager& sources, FileId file, Diagnostics& diagnostics);
+
+// Characters that mean nothing outside comments and texts.
+
+/// Reports the character at `offset` of a text that begins at `begin`. One that only looks like an ASCII character (of
+/// another alphabet, of a word processor, full width) is put right by a fix.
+void reportBadCharacter(std::string_view text, size_t offset, SourcePos begin, Diagnostics& diagnostics);
+
+/// The look-alike's part of the report, where the character is one.
+void noteLookAlike(std::string_view text, size_t offset, SourcePos begin, DiagBuilder& report);
 
 } // namespace rung::frontend

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "ir/core/ids.h"
 #include "ir/core/op_code.h"
 #include "ir/core/type.h"
 #include "rung/program.h"

@@ -1,6 +1,7 @@
 // Which operations open and close the regions of a rung: for passes, interpreter and emitters, none of which looks for
 // them itself.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,5 +18,16 @@ struct Region {
 };
 // By operation; nothing is said of those that have to do with no region. False when there are no others.
 bool findRegions(const Rung& rung, std::vector<Region>& regions);
+
+// Compilers take a time that grows with the square of the length of a chain of operations: a line of 10,000 contacts
+// took LLVM 25 s. A rung that long is dealt with in stretches: what a chain has computed goes through memory from one
+// to the next, where it ends for whatever looks along it, and all else is computed in each stretch.
+
+inline constexpr size_t kStretch = 256; // operations
+
+inline bool isLong(const Rung& rung) { return rung.ops.size() >= 16 * kStretch; }
+
+// By value, whether it goes through memory. Empty: none, as in all rungs of a usual length.
+std::vector<bool> valuesThroughMemory(const Rung& rung);
 
 } // namespace rung::ir

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string_view>
 
+#include "ir/support/ids.h"
+
 namespace rung::ir {
 
 enum class Type : uint8_t { None, Bit, I8, I16, I32, I64, F64 };
@@ -50,5 +52,16 @@ inline constexpr TypeSet kAllTypes = kBitsAndInts | kFloat;
 inline constexpr TypeSet kIntsAndFloat = kInts | kFloat;
 inline constexpr TypeSet kI64 = setOf(Type::I64);
 inline constexpr TypeSet kBitToI32 = kBitsAndInts & static_cast<TypeSet>(~kI64);
+
+// Typed indices of the IR: what refers to what. An id is an index into one vector of its owner, never a pointer.
+
+using SpaceId = Id<struct SpaceTag>;     // in Module::spaces
+using SlotId = Id<struct SlotTag>;       // in Module::slots
+using RoutineId = Id<struct RoutineTag>; // in Module::routines
+using TaskId = Id<struct TaskTag>;       // in Module::tasks
+using FaultId = Id<struct FaultTag>;     // in Module::faults
+using ServiceId = Id<struct ServiceTag>; // in Module::services
+using ValueId = Id<struct ValueTag>;     // in Rung::values; never crosses a rung
+using FileIndex = Id<struct PathTag>;    // in Module::files
 
 } // namespace rung::ir

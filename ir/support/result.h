@@ -1,7 +1,7 @@
 // Result<T>: a value, or what went wrong in the environment (files, libraries, limits) as a text.
 // Mistakes in a user's program are not a Result; they go to Diagnostics.
 #pragma once
-
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -67,5 +67,18 @@ public:
 private:
   std::variant<std::monostate, Failure> state_;
 };
+
+// What fails within the compiler as a Result.
+
+/// What `body` gives, a Result; a failure with the text of a RUNG_CHECK in it, which then does not end the process.
+template <class Body>
+auto contained(Body body) -> decltype(body()) {
+  try {
+    const ThrowingChecks throwing;
+    return body();
+  } catch (const std::logic_error& error) {
+    return failure(error.what());
+  }
+}
 
 } // namespace rung

@@ -1,4 +1,4 @@
-// The table of passes, and running them (see passes.h).
+// The table of passes, and running them.
 #include "ir/transforms/passes.h"
 
 #include <algorithm>

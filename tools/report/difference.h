@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ir/core/given_numbers.h"
+#include "ir/core/marks.h"
 #include "ir/core/module.h"
 
 namespace rung::report {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ir/core/given_numbers.h"
+#include "ir/core/marks.h"
 #include "ir/core/module.h"
 #include "tools/report/difference_cells.h"
 

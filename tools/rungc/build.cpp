@@ -18,7 +18,6 @@
 #include "tools/scenario/prompt.h"
 
 namespace rung::rungc {
-
 namespace {
 
 struct BuildOptions {

@@ -17,7 +17,6 @@
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
-
 namespace {
 
 constexpr size_t kShown = 40; // of what a search finds

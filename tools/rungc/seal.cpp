@@ -19,7 +19,6 @@
 #include "tools/rungc/commands.h"
 
 namespace rung::rungc {
-
 namespace {
 
 constexpr size_t kMostBytes = size_t{1} << 30;

@@ -7,7 +7,6 @@
 #include <string_view>
 
 namespace rung::view {
-
 namespace {
 
 using Kind = Cell::Kind;

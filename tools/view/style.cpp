@@ -7,7 +7,6 @@
 #include "ir/support/utf8.h"
 
 namespace rung::view {
-
 namespace {
 
 constexpr std::array<StyleInfo, kStyles> kInfos = {{

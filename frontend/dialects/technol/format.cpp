@@ -2,10 +2,16 @@
 // between words of an operand stay, as one.
 #include "frontend/dialects/technol/format.h"
 
-#include "frontend/dialects/technol/read/encoding.h"
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
 #include "frontend/dialects/technol/read/file_reader.h"
+#include "frontend/dialects/technol/read/lexer.h"
 #include "frontend/syntax/page.h"
 #include "ir/support/check.h"
+#include "ir/support/put.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::technol {
@@ -185,6 +191,44 @@ std::optional<std::string> format(SourceManager& sources, FileId file, Diagnosti
     Diagnostics discarded;
     out = Formatter(sources, sources.addBuffer(std::string(sources.name(file)), std::string(text)), discarded).run();
     RUNG_CHECK(!discarded.hasErrors(), "words are the same in all encodings");
+  }
+  return out;
+}
+
+// Numbered lines.
+
+namespace {
+
+using LineOfFile = std::pair<std::string_view, uint32_t>;
+
+std::map<LineOfFile, uint32_t> rungNumbers(const ir::Module& module) {
+  std::map<LineOfFile, uint32_t> numbers;
+  for (const ir::Routine& routine : module.routines)
+    for (const ir::Rung& rung : routine.rungs)
+      if (rung.number != 0)
+        numbers.emplace(LineOfFile(module.files[rung.begin.file.index], rung.begin.line), rung.number);
+  return numbers;
+}
+
+} // namespace
+
+std::string listing(const SourceManager& sources, std::span<const FileId> files, const ir::Module& module) {
+  const std::map<LineOfFile, uint32_t> numbers = rungNumbers(module);
+  std::string out;
+  for (const FileId file : files) {
+    if (!out.empty()) out += '\n';
+    put(out, "; {}\n; line rung\n", sources.name(file));
+    const uint32_t lines = sources.lineCount(file);
+    for (uint32_t line = 1; line <= lines; ++line) {
+      const std::string_view text = sources.lineText(file, line);
+      if (line == lines && text.empty()) break; // after the last line end
+      const auto number = numbers.find({sources.name(file), line});
+      const std::string rung = number == numbers.end() ? "" : std::to_string(number->second);
+      if (text.empty())
+        put(out, "{:6}\n", line);
+      else
+        put(out, "{:6} {:>5}  {}\n", line, rung, text);
+    }
   }
   return out;
 }

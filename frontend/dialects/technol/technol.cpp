@@ -6,7 +6,6 @@
 #include "frontend/dialects/technol/check/analysis.h"
 #include "frontend/dialects/technol/check/check_program.h"
 #include "frontend/dialects/technol/format.h"
-#include "frontend/dialects/technol/listing.h"
 #include "frontend/dialects/technol/lower/assemble.h"
 #include "frontend/dialects/technol/read/reader.h"
 #include "frontend/dialects/technol/reference.h"

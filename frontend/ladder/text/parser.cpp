@@ -1,6 +1,4 @@
 // Statements of ladder text; the drawings go to the scanner and the wiring.
-#include "frontend/ladder/text/ladder_file.h"
-
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -8,8 +6,10 @@
 
 #include "frontend/ladder/text/drawing.h"
 #include "frontend/ladder/text/keywords.h"
+#include "frontend/ladder/text/ladder_file.h"
 #include "frontend/ladder/text/list_word.h"
-#include "frontend/syntax/bad_character.h"
+#include "frontend/syntax/word_lexer.h"
+#include "ir/support/check.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/meant.h"
@@ -317,6 +317,25 @@ std::string_view peekDialect(const SourceManager& sources, FileId file) {
     return found ? words.words[1].text : std::string_view();
   }
   return {};
+}
+
+// The lines of a rung that was parsed before, as tokens again.
+
+Drawing readDrawing(const SourceManager& sources, FileId file, const Rung& rung, FindBox findBox) {
+  Drawing drawing;
+  Diagnostics discarded;
+  const char* const begin = sources.text(file).data();
+  for (uint32_t number = rung.firstLine + 1; number <= rung.lastLine; ++number) {
+    const std::string_view text = sources.lineText(file, number);
+    const size_t first = text.find_first_not_of(' ');
+    if (first == std::string_view::npos || text[first] == ';') continue;
+    const auto offset = static_cast<size_t>(text.data() - begin);
+    scanDrawingLine({number, text, sources.position(file, offset)}, drawing, discarded);
+  }
+  dropRightRail(drawing);
+  groupPins(drawing, findBox, discarded);
+  RUNG_CHECK(!drawing.bad, "the rung was parsed without errors");
+  return drawing;
 }
 
 } // namespace rung::frontend::ladder

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "frontend/ladder/text/drawing.h"
-#include "frontend/syntax/bad_character.h"
+#include "frontend/syntax/word_lexer.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/utf8.h"

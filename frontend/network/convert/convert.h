@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "frontend/network/convert/gap_writer.h"
+#include "frontend/network/convert/writers.h"
 
 namespace rung::frontend::network {
 

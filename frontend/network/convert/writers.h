@@ -1,12 +1,64 @@
-// A program as text.
+// A program as text: what the readers of both forms keep of it, and the writers of both.
 #pragma once
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
-#include "frontend/network/convert/source_program.h"
+#include "frontend/network/program.h"
+#include "frontend/syntax/page.h"
 
 namespace rung::frontend::network {
 
+// A program without errors, with everything that its author wrote. Both forms are read to it and written from it.
+
+struct SourceProgram {
+  const SourceManager& sources;
+  Program program;
+  Gap preamble; // up to the last declaration before all networks; with the one Dialect
+  Gap tail;     // after all networks
+};
+
+SourceProgram readSource(const Language& language, SourceManager& sources, std::span<const FileId> files);
+
 std::string writeList(const Language& language, const SourceProgram& source);
 std::string writeLadder(const Language& language, const SourceProgram& source);
+
+// Gaps as text, for the writers of both forms.
+
+enum class Form : uint8_t { List, Ladder };
+
+inline constexpr size_t kCommentColumn = 18; // of a list
+// A command of a list with its operand, which may be empty.
+std::string commandText(const Language& language, Command command, std::string_view operand);
+
+// The text of a program, laid out as `rungc format` does.
+class GapPage {
+public:
+  GapPage(const Language& language, Form form)
+      : language_(language), form_(form), lines_({}, form == Form::List ? kCommentColumn : 0) {}
+  void line(std::string_view text, std::string_view comment = {}) { lines_.line(std::string(text), remark(comment)); }
+  void comment(std::string_view text) { lines_.comment(text.empty() ? ";" : std::string("; ").append(text)); }
+  void blank() { lines_.blank(); }
+  void gap(const Gap& gap);
+  std::string take() { return lines_.take(); }
+
+private:
+  static std::string remark(std::string_view comment) {
+    return comment.empty() ? std::string() : std::string("; ").append(comment);
+  }
+  void declaration(const Item& item);
+
+  const Language& language_;
+  Form form_;
+  Page lines_;
+};
+
+// Blank lines at both ends gone, others single, sections apart.
+Gap tidy(const Gap& gap);
+// `gap` with every comment that would be taken for the title, but is not, made none by a further ';'.
+Gap protect(Gap gap, std::string_view title);
+// The comment that the rule of titles finds; nullopt where there is none.
+std::optional<size_t> titleIn(const Gap& gap);
 
 } // namespace rung::frontend::network

@@ -93,4 +93,13 @@ private:
   ir::ValueId output_{};
 };
 
+// Lowering of the instructions that shape the program.
+
+void lowerMark(Lowering& f);
+void lowerEnd(Lowering& f);
+void lowerJump(Lowering& f);
+void lowerCall(Lowering& f);
+void lowerLeave(Lowering& f);
+void lowerCommonLine(Lowering& f);
+
 } // namespace rung::frontend::network

@@ -1,6 +1,6 @@
 // A row with its lowering.
 #pragma once
-#include "frontend/network/row.h"
+#include "frontend/network/language.h"
 
 namespace rung::frontend::network {
 

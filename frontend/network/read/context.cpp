@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "frontend/ladder/text/fix.h"
-#include "frontend/network/read/list_syntax.h"
+#include "frontend/network/read/list_reader.h"
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/operand.h"
 #include "rtlib/text/letters.h"

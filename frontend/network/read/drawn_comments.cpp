@@ -1,15 +1,17 @@
 // Comments to commands.
 #include "frontend/network/read/drawn_comments.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <map>
 #include <unordered_map>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "frontend/network/read/canonical.h"
 #include "frontend/network/read/gaps.h"
 #include "rtlib/text/blanks.h"
+#include "rtlib/text/letters.h"
 
 namespace rung::frontend::network {
 namespace {
@@ -150,6 +152,34 @@ void attachComments(const Language& language, const ladder::Rung& rung, Network&
     if (isAbove) ++drawn;
     attachment.line(comment, isAbove);
   }
+}
+
+// Comments to titles.
+
+namespace {
+
+bool isDecoration(std::string_view text) {
+  return std::ranges::none_of(
+      text, [](char c) { return text::isDigit(c) || text::isLetter(c) || static_cast<signed char>(c) < 0; });
+}
+
+} // namespace
+
+std::optional<std::string_view> sectionIn(std::string_view comment) {
+  constexpr std::string_view kBegin = "section \"";
+  if (!comment.starts_with(kBegin)) return std::nullopt;
+  const std::string_view text = comment.substr(kBegin.size());
+  if (text.find('"') + 1 != text.size()) return std::nullopt;
+  return text.substr(0, text.size() - 1);
+}
+
+bool isTitle(std::string_view comment) { return !isDecoration(comment) && comment[0] != ';'; }
+
+void TitleRule::comment(std::string_view text) {
+  if (sectionIn(text)) return statement();
+  if (!isTitle(text)) return;
+  if (!inBlock_) title_ = text;
+  inBlock_ = true;
 }
 
 } // namespace rung::frontend::network

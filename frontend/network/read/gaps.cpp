@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "frontend/network/read/title.h"
+#include "frontend/network/read/drawn_comments.h"
 #include "rtlib/text/blanks.h"
 
 namespace rung::frontend::network {

@@ -1,6 +1,6 @@
 // What is between the commands of a program, while it is read: it belongs to what comes next.
 #pragma once
-#include "frontend/network/gap.h"
+#include "frontend/network/program.h"
 #include "frontend/syntax/word_lexer.h"
 
 namespace rung::frontend::network {

@@ -6,13 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "frontend/ladder/pin_rules.h"
+#include "frontend/ladder/rung.h"
 #include "frontend/ladder/text/list_word.h"
 #include "frontend/network/read/canonical.h"
 #include "frontend/network/read/condition.h"
 #include "frontend/network/read/drawn_comments.h"
 #include "frontend/network/read/network_builder.h"
-#include "frontend/network/read/title.h"
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/ladder.h"
 #include "ir/support/diag/source.h"

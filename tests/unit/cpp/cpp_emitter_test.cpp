@@ -8,7 +8,7 @@
 #include "codegen/cpp/cpp_emitter.h"
 #include "codegen/cpp/table_writer.h"
 #include "ir/core/builder.h"
-#include "ir/core/long_rungs.h"
+#include "ir/core/regions.h"
 #include "rtlib/load/seal.h"
 #include "rtlib/load/so_engine.h"
 #include "rtlib/nc/names/names.h"

@@ -3,7 +3,7 @@
 #include <set>
 #include <sstream>
 
-#include "frontend/network/read/list_syntax.h"
+#include "frontend/network/read/list_reader.h"
 #include "ir/text/text.h"
 #include "tests/support/long_run.h"
 #include "tests/unit/gsk/convert.h"

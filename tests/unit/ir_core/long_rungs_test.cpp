@@ -1,5 +1,5 @@
 // Which values of a long rung go through memory.
-#include "ir/core/long_rungs.h"
+#include "ir/core/regions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,8 @@
 // Items of modules, arithmetic, comparisons and edges, as the dialects' lowerings ask for them.
 #include <gtest/gtest.h>
 
-#include "frontend/lower/arithmetic.h"
-#include "frontend/lower/compare.h"
-#include "frontend/lower/edge.h"
 #include "frontend/lower/module_items.h"
+#include "frontend/lower/operations.h"
 #include "ir/core/ops.h"
 
 namespace rung::frontend {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/network/lower/lower_control.h"
+#include "frontend/network/lower/lower_function.h"
 #include "frontend/network/operand_kind.h"
 #include "ir/support/diag/gsk.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-#include "frontend/sema/uses_by_place.h"
+#include "frontend/sema/analysis.h"
 
 namespace rung::frontend {
 namespace {

@@ -7,8 +7,7 @@
 #include "frontend/dialects/dialect.h"
 #include "frontend/dialects/gsk/areas.h"
 #include "frontend/dialects/gsk/language.h"
-#include "frontend/lower/arithmetic.h"
-#include "frontend/lower/edge.h"
+#include "frontend/lower/operations.h"
 #include "frontend/network/lower/lower_function.h"
 #include "frontend/network/read/context.h"
 

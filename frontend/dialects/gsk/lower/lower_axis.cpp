@@ -1,4 +1,6 @@
 // PLC axis control: hands command blocks to the CNC over the signals of a group (§9; man. l.3241-3393, 7591-7803).
+#include <vector>
+
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "rtlib/nc/gsk/axis_commands.h"
 
@@ -100,5 +102,74 @@ void AxisLowering::run() {
 } // namespace
 
 void lowerAxisControl(Lowering& f) { AxisLowering(f).run(); }
+
+// Signals that say where a machine axis is (§10; man. l.3397-3555).
+
+namespace {
+
+using ir::Type;
+using ir::ValueId;
+
+constexpr uint32_t kZones = 8;
+// Machine positions that the CNC gives: one each of the axes 1-8 (signals of axes are 1-8 as well, man. l.3368).
+constexpr uint32_t kMachineAxes = 8;
+constexpr uint32_t kPositionBytes = 4;
+
+// What the NC writes before each slot, axis n at byte 4(n-1), in 0.001 mm. A program that does not look at positions
+// has none.
+ir::Window machinePositions(Lowering& f) {
+  return f.hidden("@MPOS", kPositionBytes * kMachineAxes, kPositionBytes * (kMachineAxes - 1) + 1);
+}
+
+// A block: the number of the axis in one byte, then limits of 4 bytes (man. l.3437-3447; P56).
+struct Limits {
+  ValueId position;            // 0 where there is no such axis
+  std::vector<ValueId> values; // signed, in 0.001 mm
+  ValueId result;              // bit 0: no such axis, bit 1: limits not ascending (P55)
+  ValueId good;
+};
+
+Limits limitsOf(Lowering& f, uint32_t count) {
+  ir::RungBuilder& b = f.b;
+  network::Address address = f.param(0).address;
+  const ValueId axis = b.sub(b.zextOrTrunc(Type::I32, f.load(Type::I8, address)), b.i32(1));
+  Limits limits;
+  limits.position = b.loadAt(Type::I32, machinePositions(f), b.mul(axis, b.i32(kPositionBytes)));
+  address.byte += 1;
+  for (uint32_t i = 0; i < count; ++i, address.byte += 4) limits.values.push_back(f.load(Type::I32, address));
+  ValueId descending = b.bit(false);
+  for (uint32_t i = 1; i < count; ++i) descending = b.or_(descending, b.ltS(limits.values[i], limits.values[i - 1]));
+  const ValueId noAxis = b.leU(b.i32(kMachineAxes), axis);
+  limits.result = b.select(noAxis, b.constant(Type::I8, 1), b.constant(Type::I8, 0));
+  limits.result = b.or_(limits.result, b.select(descending, b.constant(Type::I8, 2), b.constant(Type::I8, 0)));
+  limits.good = b.not_(b.or_(noAxis, descending));
+  return limits;
+}
+
+} // namespace
+
+// Bit 7 is the zone below limit I; each limit that the position has reached leads one bit further down.
+void lowerPositionZones(Lowering& f) {
+  f.b.when(f.act(), [&] {
+    ir::RungBuilder& b = f.b;
+    const Limits limits = limitsOf(f, kZones - 1);
+    ValueId zone = b.i32(0);
+    for (ValueId limit : limits.values) zone = b.add(zone, b.zextOrTrunc(Type::I32, b.leS(limit, limits.position)));
+    const ValueId bits = b.shrU(b.constant(Type::I8, 0x80), zone);
+    f.store(f.param(1).address, b.select(limits.good, bits, b.constant(Type::I8, 0)));
+    f.store(f.param(2).address, limits.result);
+  });
+}
+
+// Both limits belong to the zone (man. l.3555).
+void lowerPositionRange(Lowering& f) {
+  f.latchedOutput(f.act(), {}, [&] {
+    ir::RungBuilder& b = f.b;
+    const Limits limits = limitsOf(f, 2);
+    f.store(f.param(1).address, limits.result);
+    const ValueId inside = b.and_(b.leS(limits.values[0], limits.position), b.leS(limits.position, limits.values[1]));
+    return b.and_(inside, limits.good);
+  });
+}
 
 } // namespace rung::frontend::gsk

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "frontend/dialects/gsk/lower/lower.h"
-#include "frontend/lower/request.h"
+#include "frontend/lower/operations.h"
 #include "rtlib/nc/gsk/window_functions.h"
 
 namespace rung::frontend::gsk {

@@ -6,7 +6,7 @@
 #include "frontend/dialects/gsk/lower/lower.h"
 #include "frontend/dialects/gsk/rows/instructions.h"
 #include "frontend/dialects/gsk/rows/operand_kinds.h"
-#include "frontend/network/lower/lower_control.h"
+#include "frontend/network/lower/lower_function.h"
 
 namespace rung::frontend::gsk {
 

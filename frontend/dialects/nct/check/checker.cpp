@@ -8,7 +8,7 @@
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "frontend/dialects/nct/rows/operand_kinds.h"
 #include "frontend/dialects/nct/signal_text.h"
-#include "frontend/ladder/pin_rules.h"
+#include "frontend/ladder/rung.h"
 #include "frontend/ladder/text/fix.h"
 #include "frontend/ladder/text/list_word.h"
 #include "frontend/sema/operand_count.h"

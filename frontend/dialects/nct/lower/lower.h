@@ -6,12 +6,10 @@
 
 #include "frontend/dialects/nct/lower/memory.h"
 #include "frontend/dialects/nct/rows/instructions.h"
-#include "frontend/lower/arithmetic.h"
-#include "frontend/lower/compare.h"
-#include "frontend/lower/edge.h"
 #include "frontend/lower/module_items.h"
+#include "frontend/lower/operations.h"
 #include "ir/core/builder.h"
-#include "ir/core/given_numbers.h"
+#include "ir/core/marks.h"
 
 namespace rung::frontend::nct {
 

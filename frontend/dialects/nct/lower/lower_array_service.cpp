@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "frontend/dialects/nct/lower/lower.h"
-#include "frontend/lower/request.h"
+#include "frontend/lower/operations.h"
 #include "ir/support/diag/nct.h"
 #include "rtlib/nc/nct/operand_block.h"
 #include "rtlib/nc/nct/service_functions.h"

@@ -5,7 +5,6 @@
 
 #include "frontend/dialects/nct/lower/memory.h"
 #include "frontend/dialects/nct/program.h"
-#include "ir/core/given_numbers.h"
 #include "ir/core/marks.h"
 #include "ir/core/module.h"
 

@@ -5,7 +5,7 @@
 // out of its range it reads 0 and writes nothing, so a store needs no condition of its own.
 #pragma once
 #include "frontend/dialects/nct/config.h"
-#include "frontend/dialects/nct/read/operand.h"
+#include "frontend/dialects/nct/read/symbols.h"
 #include "ir/core/builder.h"
 
 namespace rung::frontend::nct {

@@ -3,7 +3,6 @@
 #pragma once
 #include <optional>
 
-#include "frontend/dialects/nct/read/operand.h"
 #include "frontend/dialects/nct/read/symbols.h"
 
 namespace rung::frontend::nct {

@@ -1,11 +1,11 @@
-// Names of a program (see symbols.h).
+// Names of a program.
 #include "frontend/dialects/nct/read/symbols.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "frontend/dialects/nct/read/operand_parser.h"
 #include "frontend/ladder/text/fix.h"

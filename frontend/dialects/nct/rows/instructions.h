@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "frontend/dialects/nct/config.h"
-#include "frontend/dialects/nct/read/operand.h"
+#include "frontend/dialects/nct/read/symbols.h"
 #include "frontend/sema/foreign_word.h"
 #include "frontend/table/instruction.h"
 #include "ir/core/builder.h"

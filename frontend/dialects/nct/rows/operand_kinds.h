@@ -1,6 +1,6 @@
 // Kinds of operands: what a row may ask for. A new kind is one descriptor here, and the rows that name it.
 #pragma once
-#include "frontend/dialects/nct/read/operand.h"
+#include "frontend/dialects/nct/read/symbols.h"
 #include "frontend/table/instruction.h"
 
 namespace rung::frontend::nct {

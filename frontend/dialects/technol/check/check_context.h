@@ -1,11 +1,75 @@
 // What the check of a row sees: the statement, and what the statements before it have left.
 #pragma once
-
-#include "frontend/dialects/technol/check/calls.h"
 #include "frontend/dialects/technol/check/equation.h"
-#include "frontend/dialects/technol/check/registers_kept.h"
+#include "frontend/dialects/technol/program.h"
+#include "frontend/sema/call_graph.h"
 
 namespace rung::frontend::technol {
+
+// Which procedures call which.
+
+class ProcedureCalls {
+public:
+  explicit ProcedureCalls(const SourceProgram& program)
+      : graph_(program.procedures.size()), onMessage_(program.procedureNamed(kOnMessage)) {}
+
+  // A call in a procedure, or outside all of them (kNone).
+  void add(uint32_t caller, uint32_t callee, SourceRange at) {
+    if (caller != kNone) graph_.add(caller, callee, at);
+  }
+  // A message that is made calls the procedure of messages, where there is one; not inside that one.
+  void addMessage(uint32_t caller, SourceRange at) {
+    if (onMessage_ != kNone && caller != onMessage_) add(caller, onMessage_, at);
+  }
+  // Reports circles, and where there are none chains of calls that are too long.
+  void check(const SourceProgram& program, Diagnostics& diagnostics) const;
+
+private:
+  void checkDepth(std::span<const uint32_t> calleesFirst, Diagnostics& diagnostics) const;
+
+  CallGraph graph_; // of SourceProgram::procedures
+  uint32_t onMessage_ = kNone;
+};
+
+// What the registers hold as far as it shows in the order of the source: values that a wait loses, and reals that are
+// calculated with as integers.
+
+// RLO and DR after a wait, when other code has run.
+class LostRegisters {
+public:
+  explicit LostRegisters(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void forget() { rlo_ = dr_ = false; }
+  // Before and after the work of a statement; `waits`: control may leave the unit in it.
+  void begin(const Statement& statement, bool readsDr);
+  void finish(const Row& row, bool waits);
+
+private:
+  void reportIf(bool& lost, bool reads, const Statement& statement, std::string_view name);
+
+  Diagnostics& diagnostics_;
+  bool rlo_ = false;
+  bool dr_ = false;
+};
+
+// What an instruction does with the number in DR.
+enum class DrUse : uint8_t { LoadInteger, LoadReal, Integer, Real };
+
+// The rules on mixing real and integer arithmetic (man. l.1551).
+class Mixing {
+public:
+  explicit Mixing(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void forget() { state_ = State::No; }
+  void note(DrUse kind, const Statement& statement);
+
+private:
+  enum class State : uint8_t { No, Real, IntegerOnReal };
+
+  Diagnostics& diagnostics_;
+  State state_ = State::No;
+  const Statement* integer_ = nullptr; // what worked on the real value
+};
 
 struct CheckContext {
   const SourceProgram& program;

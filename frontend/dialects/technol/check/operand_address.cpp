@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "frontend/dialects/technol/check/operand_parser.h"
-#include "frontend/dialects/technol/read/encoding.h"
+#include "frontend/dialects/technol/read/lexer.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/diag/technol.h"

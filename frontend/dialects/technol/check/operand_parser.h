@@ -1,6 +1,5 @@
 // Reads the operands of a statement.
 #pragma once
-
 #include "frontend/dialects/technol/check/typed.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
 

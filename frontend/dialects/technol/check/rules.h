@@ -1,7 +1,6 @@
 // The checks of rows that look at several operands at once or at the place of the statement, by family. They run when
 // each operand by itself is right.
 #pragma once
-
 #include <span>
 
 namespace rung::frontend::technol {
@@ -9,7 +8,7 @@ namespace rung::frontend::technol {
 struct CheckContext;
 struct Operand;
 
-// rules_data.cpp
+// Data.
 void checkLoad(const CheckContext& c, std::span<const Operand> o, int);
 void checkArithmetic(const CheckContext& c, std::span<const Operand> o, int);
 void checkRealUse(const CheckContext& c, std::span<const Operand> o, int);
@@ -17,14 +16,14 @@ void checkToReal(const CheckContext& c, std::span<const Operand> o, int);
 void checkToInteger(const CheckContext& c, std::span<const Operand> o, int);
 void checkMove(const CheckContext& c, std::span<const Operand> o, int);
 
-// rules_flow.cpp
+// Flow.
 void checkEmptyStack(const CheckContext& c, std::span<const Operand> o, int);
 void checkJump(const CheckContext& c, std::span<const Operand> o, int);
 void checkTimedEx(const CheckContext& c, std::span<const Operand> o, int);
 void checkTimer(const CheckContext& c, std::span<const Operand> o, int);
 void checkCall(const CheckContext& c, std::span<const Operand> o, int);
 
-// rules_text.cpp
+// Texts and bytes.
 void checkMoveMemory(const CheckContext& c, std::span<const Operand> o, int);
 void checkClear(const CheckContext& c, std::span<const Operand> o, int);
 void checkTexts(const CheckContext& c, std::span<const Operand> o, int);
@@ -32,7 +31,7 @@ void checkNumberToText(const CheckContext& c, std::span<const Operand> o, int);
 void checkCopyBytes(const CheckContext& c, std::span<const Operand> o, int);
 void checkCompareBytes(const CheckContext& c, std::span<const Operand> o, int);
 
-// rules_control.cpp
+// Messages, mechanisms, what is shared with the control.
 void checkMessage(const CheckContext& c, std::span<const Operand> o, int);
 void checkBitMessage(const CheckContext& c, std::span<const Operand> o, int);
 void checkDefine(const CheckContext& c, std::span<const Operand> o, int);
@@ -41,7 +40,7 @@ void checkShareVariable(const CheckContext& c, std::span<const Operand> o, int);
 void checkShareBit(const CheckContext& c, std::span<const Operand> o, int);
 void checkConfiguration(const CheckContext& c, std::span<const Operand> o, int kind);
 
-// rules_service.cpp; `form` is the DataForm of the data operand
+// Services; `form` is the DataForm of the data operand.
 void checkService(const CheckContext& c, std::span<const Operand> o, int form);
 void checkPacket(const CheckContext& c, std::span<const Operand> o, int);
 void checkRecord(const CheckContext& c, std::span<const Operand> o, int);

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "frontend/dialects/technol/lower/presets.h"
+#include "frontend/dialects/technol/lower/system_routines.h"
 #include "rtlib/nc/faults.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"

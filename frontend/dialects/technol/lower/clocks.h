@@ -4,7 +4,7 @@
 #include <array>
 #include <map>
 
-#include "frontend/dialects/technol/lower/state.h"
+#include "frontend/dialects/technol/lower/memory.h"
 
 namespace rung::frontend::technol {
 

@@ -1,9 +1,8 @@
-// Requests to devices (see device_request.h).
+// Requests to devices.
 #include "frontend/dialects/technol/lower/device_request.h"
 
-#include "frontend/dialects/technol/lower/putting.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
-#include "frontend/lower/request.h"
+#include "frontend/lower/operations.h"
 #include "ir/support/check.h"
 
 namespace rung::frontend::technol {

@@ -1,13 +1,15 @@
 // A request to a device of the control (rtlib/nc/technol/services.h) as operations: its arguments, its results, and the
 // bytes that its answer brings.
 #pragma once
-
 #include <string>
 #include <vector>
 
 #include "frontend/dialects/technol/lower/areas.h"
 #include "frontend/dialects/technol/lower/lowering.h"
+#include "frontend/dialects/technol/read/symbols.h"
+#include "ir/support/check.h"
 #include "rtlib/nc/technol/services.h"
+#include "rtlib/nc/technol/signals.h"
 
 namespace rung::frontend::technol {
 
@@ -53,5 +55,72 @@ const Operand* lengthIn(std::span<const OperandInfo> infos, std::span<const Oper
 ir::ValueId bytesArgument(Emitter& emitter, const Area& area, ir::ValueId count);
 // Puts the first `count` bytes of an answer, at most `most`, there.
 void fetchBytes(Emitter& emitter, ir::ValueId ticket, const Area& to, ir::ValueId count, uint32_t most);
+
+// Cells of the interface that instructions of axes and drives write beside their request.
+
+inline constexpr int64_t kMostAxes = 16;
+
+inline const nc::Signal& interfaceSignal(std::string_view name) {
+  const nc::Signal* signal = nc::findSignal(nc::technolSignals(), name, "I");
+  RUNG_CHECK(signal != nullptr, "a cell that the interface lacks");
+  return *signal;
+}
+inline ir::Place placeOf(std::string_view name) {
+  const nc::Signal& signal = interfaceSignal(name);
+  return {.space = kInterfaceSpace, .byte = signal.byteOffset, .bit = signal.bit};
+}
+
+// Whether an axis, i64, exists: 1 to 16.
+inline ir::ValueId isAxis(ir::RungBuilder& b, ir::ValueId axis) {
+  const ir::ValueId number = b.sub(axis, b.constant(ir::Type::I64, 1));
+  return b.ltU(number, b.constant(ir::Type::I64, kMostAxes));
+}
+
+// Sets the bit of an axis, i64, in two bytes of eight axes each, where `when` is 1.
+inline void setBitOfAxis(ir::RungBuilder& b, std::string_view low, std::string_view high, ir::ValueId axis,
+                         ir::ValueId when) {
+  const ir::ValueId number = b.zextOrTrunc(ir::Type::I32, b.sub(axis, b.constant(ir::Type::I64, 1)));
+  const ir::ValueId isLow = b.ltU(number, b.i32(8));
+  const ir::ValueId bit = b.and_(number, b.i32(7));
+  const auto set = [&](std::string_view byte, ir::ValueId where) {
+    const ir::Window window{.space = kInterfaceSpace, .byte = placeOf(byte).byte, .count = 1};
+    b.when(b.and_(when, where), [&] { b.storeBitAt(window, b.i32(0), bit, b.bit(true)); });
+  };
+  set(low, isLow);
+  set(high, b.not_(isLow));
+}
+
+// Bytes that the control gives in the results of several requests, eight a word, put into the program's memory.
+
+// What each request brings.
+struct PartSize {
+  uint32_t bytes = 0;     // at most
+  uint32_t firstWord = 0; // among its results
+};
+
+// Puts the words of one request, which begin at the byte `first` of the area.
+inline void putWords(ir::RungBuilder& b, const Area& to, ir::ValueId count, ir::ValueId ticket, ir::ValueId first,
+                     uint32_t words, uint32_t firstWord) {
+  for (uint32_t w = 0; w < words; ++w) {
+    const ir::ValueId word = b.serviceResult(ticket, firstWord + w);
+    const ir::ValueId begin = b.add(first, b.i32(int64_t{w} * 8));
+    const auto in = b.loop(8, std::array{word});
+    const ir::ValueId number = b.add(begin, in[0]);
+    b.when(b.ltU(number, count), [&] { storeByte(b, to, number, b.zextOrTrunc(ir::Type::I8, in[1])); });
+    b.endLoop(std::array{b.shrU(in[1], b.i32(8))});
+  }
+}
+
+// The first `count` bytes (i32), at most `most`; `request` asks for a part by its number (i32) and gives the ticket.
+template <class Request>
+void putParts(ir::RungBuilder& b, const Area& to, ir::ValueId count, uint32_t most, PartSize size, Request request) {
+  if (most == 0) return;
+  const uint32_t parts = (most + size.bytes - 1) / size.bytes;
+  const uint32_t words = parts > 1 ? size.bytes / 8 : (most + 7) / 8;
+  const ir::ValueId part = b.loop(parts)[0];
+  const ir::ValueId first = b.mul(part, b.i32(size.bytes));
+  b.when(b.ltU(first, count), [&] { putWords(b, to, count, request(part), first, words, size.firstWord); });
+  b.endLoop();
+}
 
 } // namespace rung::frontend::technol

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "frontend/dialects/technol/lower/texts.h"
+#include "frontend/dialects/technol/lower/lower_text.h"
 
 namespace rung::frontend::technol {
 

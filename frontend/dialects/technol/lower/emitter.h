@@ -8,7 +8,7 @@
 #include "frontend/dialects/technol/lower/host_cells.h"
 #include "frontend/dialects/technol/lower/routine_builder.h"
 #include "frontend/lower/module_items.h"
-#include "ir/core/given_numbers.h"
+#include "ir/core/marks.h"
 
 namespace rung::frontend::technol {
 

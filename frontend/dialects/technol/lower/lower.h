@@ -3,8 +3,7 @@
 
 #include <span>
 
-#include "frontend/lower/arithmetic.h"
-#include "frontend/lower/compare.h"
+#include "frontend/lower/operations.h"
 #include "ir/core/builder.h"
 
 namespace rung::frontend::technol {
@@ -56,7 +55,7 @@ void lowerCompareText(Lowering& l, std::span<const Operand> o, int);
 void lowerCopyBytes(Lowering& l, std::span<const Operand> o, int);
 void lowerCompareBytes(Lowering& l, std::span<const Operand> o, int);
 
-// lower_count.cpp
+// lower_data.cpp: counters
 void lowerTimer(Lowering& l, std::span<const Operand> o, int);
 void lowerCounter(Lowering& l, std::span<const Operand> o, int kind);
 
@@ -68,7 +67,7 @@ void lowerExWhile(Lowering& l, std::span<const Operand> o, int level); // EX0: 0
 void lowerTimedEx(Lowering& l, std::span<const Operand> o, int level);
 void lowerWait(Lowering& l, std::span<const Operand> o, int);
 
-// lower_calls.cpp
+// procedures.cpp
 void lowerCall(Lowering& l, std::span<const Operand> o, int);
 void lowerFinished(Lowering& l, std::span<const Operand> o, int hostCell);
 
@@ -80,7 +79,7 @@ void lowerBitMessage(Lowering& l, std::span<const Operand> o, int);
 void lowerDefine(Lowering& l, std::span<const Operand> o, int kind);
 void lowerUpdate(Lowering& l, std::span<const Operand> o, int);
 
-// lower_share.cpp
+// lower_exchange.cpp: shared variables
 void lowerShareVariable(Lowering& l, std::span<const Operand> o, int);
 void lowerShareBit(Lowering& l, std::span<const Operand> o, int);
 
@@ -89,7 +88,7 @@ void lowerService(Lowering& l, std::span<const Operand> o, int form);
 void lowerPolled(Lowering& l, std::span<const Operand> o, int form);
 void lowerShared(Lowering& l, std::span<const Operand> o, int form);
 
-// lower_can.cpp
+// lower_channels.cpp: CAN
 void lowerCanSend(Lowering& l, std::span<const Operand> o, int);
 void lowerCanReceive(Lowering& l, std::span<const Operand> o, int);
 void lowerCanOrder(Lowering& l, std::span<const Operand> o, int);
@@ -109,7 +108,7 @@ void lowerRamp(Lowering& l, std::span<const Operand> o, int);
 void lowerPositionMode(Lowering& l, std::span<const Operand> o, int);
 void lowerPositionControl(Lowering& l, std::span<const Operand> o, int);
 
-// lower_com.cpp
+// lower_channels.cpp: COM
 void lowerComSend(Lowering& l, std::span<const Operand> o, int);
 void lowerComReceive(Lowering& l, std::span<const Operand> o, int);
 void lowerComControl(Lowering& l, std::span<const Operand> o, int);

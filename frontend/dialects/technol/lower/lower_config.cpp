@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 
+#include "frontend/dialects/technol/lower/device_request.h"
 #include "frontend/dialects/technol/lower/lower.h"
-#include "frontend/dialects/technol/lower/lower_identifier.h"
+#include "frontend/dialects/technol/lower/lower_exchange.h"
+#include "frontend/dialects/technol/lower/lower_text.h"
 #include "frontend/dialects/technol/lower/lowering.h"
-#include "frontend/dialects/technol/lower/putting.h"
-#include "frontend/dialects/technol/lower/texts.h"
 
 #include "rtlib/nc/technol/services.h"
 

@@ -1,5 +1,4 @@
 // The positioning unit: motions of an axis that the program controls by two records of its own (man. ch. 19).
-#include "frontend/dialects/technol/lower/device_bits.h"
 #include "frontend/dialects/technol/lower/device_request.h"
 #include "frontend/dialects/technol/lower/lower.h"
 

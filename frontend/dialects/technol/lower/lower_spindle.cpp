@@ -1,5 +1,4 @@
 // Analogue outputs, spindles and axes (man. ch. 12, 13.1).
-#include "frontend/dialects/technol/lower/device_bits.h"
 #include "frontend/dialects/technol/lower/device_request.h"
 #include "frontend/dialects/technol/lower/lower.h"
 

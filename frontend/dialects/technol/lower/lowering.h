@@ -1,12 +1,35 @@
 // What the lowering function of a row sees: the current statement, the emitter, the program's memory, and the parts
 // that statements share.
 #pragma once
-
 #include "frontend/dialects/technol/check/typed.h"
-#include "frontend/dialects/technol/lower/marking.h"
+#include "frontend/dialects/technol/lower/emitter.h"
 #include "frontend/dialects/technol/lower/system_routines.h"
+#include "ir/core/marks.h"
 
 namespace rung::frontend::technol {
+
+// Notes, for coverage, which values of a rung are contacts and which is the power into a coil.
+
+class Marking {
+public:
+  // `marks` may be null: nobody asks.
+  Marking(const SourceProgram& program, Emitter& emitter, ir::Marks* marks)
+      : program_(program), emitter_(emitter), marks_(marks) {}
+
+  // A bit that LDR, LA, LO or LX asks.
+  void contact(const Statement& statement, ir::ValueId value) { note(ir::MarkKind::Contact, statement, value); }
+  // What an instruction does by RLO is what the equation decides.
+  void decision(const Statement& statement);
+  // RLO of a comparison, an edge or a timer that ran in `rung`, as far as that continues: contacts mark themselves.
+  void result(const Statement& statement, uint32_t rung);
+
+private:
+  void note(ir::MarkKind kind, const Statement& statement, ir::ValueId value);
+
+  const SourceProgram& program_;
+  Emitter& emitter_;
+  ir::Marks* marks_;
+};
 
 class Lowering {
 public:

@@ -1,6 +1,5 @@
 // Procedures (man. ch. 3.17), and those that the control calls (man. l.1609).
 #pragma once
-
 #include "frontend/dialects/technol/lower/emitter.h"
 
 namespace rung::frontend::technol {

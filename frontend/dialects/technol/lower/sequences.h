@@ -2,7 +2,7 @@
 // continues is the number of a state; it begins with a switch over them.
 #pragma once
 
-#include "frontend/dialects/technol/lower/state.h"
+#include "frontend/dialects/technol/lower/memory.h"
 
 namespace rung::frontend::technol {
 

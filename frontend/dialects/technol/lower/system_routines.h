@@ -1,10 +1,10 @@
 // Routines that the compiler makes: what runs before MODULE_INIT, CLEAR of all data, procedures that the control calls.
 #pragma once
-
-#include "frontend/dialects/technol/lower/bit_messages.h"
 #include "frontend/dialects/technol/lower/clocks.h"
+#include "frontend/dialects/technol/lower/lower_message.h"
 #include "frontend/dialects/technol/lower/procedures.h"
 #include "frontend/dialects/technol/lower/sequences.h"
+#include "ir/core/builder.h"
 
 namespace rung::frontend::technol {
 
@@ -42,5 +42,10 @@ struct Event {
 };
 std::vector<Event> makeEvents(const SourceProgram& program, Emitter& emitter, const Procedures& procedures,
                               Clocks& clocks);
+
+// Cells of the interface that the control presets: when it is switched on, and when MODULE_INIT starts.
+
+void addPowerOnPresets(ir::Module& module);
+void storeStartPresets(ir::RungBuilder& b);
 
 } // namespace rung::frontend::technol

@@ -1,8 +1,8 @@
 // Declarations (see declare.h).
 #include "frontend/dialects/technol/read/declare.h"
 
-#include "frontend/dialects/technol/read/constant.h"
-#include "frontend/dialects/technol/read/encoding.h"
+#include "frontend/dialects/technol/read/lexer.h"
+#include "frontend/dialects/technol/read/symbols.h"
 #include "frontend/dialects/technol/rows/operand_kinds.h"
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/operand.h"

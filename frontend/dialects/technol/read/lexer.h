@@ -2,14 +2,16 @@
 // A name is letters, digits and `_ ? @` (man. l.18-27); a number begins with a digit and runs over letters, so that
 // 0F8H is one token; it contains a point only between decimal digits, so that BUN+3.ALFA keeps its point.
 #pragma once
-
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "frontend/syntax/word_lexer.h"
+#include "ir/support/diagnostics.h"
+#include "ir/support/source.h"
 
 namespace rung::frontend::technol {
 
@@ -47,5 +49,19 @@ std::optional<Number> parseNumber(std::string_view text);
 void reportBadNumber(const Token& token, std::string_view written, Diagnostics& diagnostics);
 // The same of $1F, which is two tokens; false where these are something else.
 bool reportForeignNumber(std::span<const Token> tokens, Diagnostics& diagnostics);
+
+// Sources as UTF-8. Those that do not say what they are written in are UTF-8, Windows-1250 or CP852, found out by their
+// letters. A byte becomes one character, so that lines and columns stay.
+
+// The file itself, or a decoded copy of the same name. Nothing after a report (bad-encoding).
+std::optional<FileId> readable(SourceManager& sources, FileId file, Diagnostics& diagnostics);
+
+// The byte of a text of one character; nothing when it is not a single character of Windows-1250.
+std::optional<uint8_t> characterByte(std::string_view text);
+
+// Reports each character of a text that Windows-1250 lacks; true: there is none.
+bool checkCharacters(const Token& text, Diagnostics& diagnostics);
+// The text as the memory holds it, after these reports.
+std::string memoryText(const Token& text, Diagnostics& diagnostics);
 
 } // namespace rung::frontend::technol

@@ -1,8 +1,8 @@
 // Reads files into statements (see reader.h).
 #include "frontend/dialects/technol/read/reader.h"
 
-#include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/file_reader.h"
+#include "frontend/dialects/technol/read/lexer.h"
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/technol.h"

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <array>
 
-#include "frontend/dialects/technol/read/encoding.h"
 #include "frontend/dialects/technol/read/file_reader.h"
+#include "frontend/dialects/technol/read/lexer.h"
 #include "frontend/sema/operand_count.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/diag/technol.h"

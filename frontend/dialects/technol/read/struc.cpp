@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "frontend/dialects/technol/read/constant.h"
-#include "frontend/dialects/technol/read/encoding.h"
+#include "frontend/dialects/technol/read/lexer.h"
+#include "frontend/dialects/technol/read/symbols.h"
 #include "ir/support/diag/source.h"
 #include "ir/support/diag/technol.h"
 #include "ir/support/hash.h"

@@ -2,7 +2,6 @@
 // local names first (labels, DATA_LOCAL, EQUI outside DATA), then the global ones of all files, then those of the NC
 // interface and the predefined constants, which are entered at their first use.
 #pragma once
-
 #include <set>
 #include <span>
 #include <string>
@@ -98,6 +97,28 @@ private:
   std::set<SourcePos> reportedAgain_; // inclusions
   Diagnostics& diagnostics_;
   std::unordered_map<const nc::Signal*, uint32_t> members_; // of structures of the control, those that are in use
+};
+
+// Constant expressions: numbers, characters, constants and members, with + and - between.
+
+// Reads those of one file.
+class ConstantReader {
+public:
+  ConstantReader(Symbols& symbols, Diagnostics& diagnostics, uint32_t file)
+      : symbols_(symbols), diagnostics_(diagnostics), file_(file) {}
+
+  // Nothing after a report; `otherwise` is its place where there are no tokens.
+  std::optional<int64_t> value(std::span<const Token> tokens, SourceRange otherwise);
+
+private:
+  std::optional<int64_t> term(const Token& token);
+  std::optional<int64_t> named(const Token& name);
+  std::optional<int64_t> syntax(SourceRange at, const std::string& found);
+  std::optional<int64_t> badNumber(const Token& token);
+
+  Symbols& symbols_;
+  Diagnostics& diagnostics_;
+  uint32_t file_;
 };
 
 } // namespace rung::frontend::technol

@@ -1,7 +1,6 @@
 // What a program says to its control and asks it by identifiers: these as words of eight characters, requests that the
 // control answers at once.
 #pragma once
-
 #include <vector>
 
 #include "frontend/dialects/technol/lower/memory.h"

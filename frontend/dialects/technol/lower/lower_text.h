@@ -1,6 +1,5 @@
 // Texts as instructions read and write them (man. ch. 3.18): characters up to a terminator, inside their variable.
 #pragma once
-
 #include <array>
 
 #include "frontend/dialects/technol/lower/areas.h"

@@ -1,0 +1,341 @@
+// Programs as text (see writers.h).
+#include "frontend/network/convert/writers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <ranges>
+
+#include "frontend/network/convert/drawing.h"
+#include "frontend/network/read/canonical.h"
+#include "frontend/network/read/condition.h"
+#include "frontend/network/read/drawn_comments.h"
+#include "frontend/network/read/gaps.h"
+#include "frontend/network/read/reading.h"
+#include "ir/support/check.h"
+
+namespace rung::frontend::network {
+
+// What the readers keep, and what a program begins with.
+
+namespace {
+
+using Kind = Item::Kind;
+
+// The gap that the files begin with: that of the dialect. Without one it is of a list, which has the order of units.
+Gap& firstGap(SourceProgram& source) {
+  std::vector<Gap*> gaps;
+  for (Unit& unit : source.program.units) {
+    if (!unit.lead.empty()) gaps.push_back(&unit.lead);
+    for (size_t i = 0; i < withoutEnd(unit).size(); ++i) gaps.push_back(&unit.networks[i].gap);
+  }
+  gaps.push_back(&source.tail);
+  const auto at = std::ranges::find_if(
+      gaps, [](const Gap* gap) { return std::ranges::find(*gap, Kind::Dialect, &Item::kind) != gap->end(); });
+  return at == gaps.end() ? *gaps[0] : **at;
+}
+
+// With one dialect statement, before all others.
+void splitPreamble(SourceProgram& source) {
+  Gap& gap = firstGap(source);
+  auto dialect = std::ranges::find(gap, Kind::Dialect, &Item::kind);
+  if (dialect == gap.end()) dialect = gap.insert(gap.begin(), {Kind::Dialect});
+  const auto isStatement = [](const Item& item) { return item.kind != Kind::Comment && item.kind != Kind::Blank; };
+  std::rotate(std::ranges::find_if(gap, isStatement), dialect, dialect + 1);
+  const auto isOfPreamble = [&](const Item& item) { return isStatement(item) && item.kind != Kind::Section; };
+  const auto end = std::ranges::find_if(gap | std::views::reverse, isOfPreamble).base();
+  source.preamble.assign(std::make_move_iterator(gap.begin()), std::make_move_iterator(end));
+  gap.erase(gap.begin(), end);
+}
+
+} // namespace
+
+SourceProgram readSource(const Language& language, SourceManager& sources, std::span<const FileId> files) {
+  Diagnostics heard; // all of it is reported
+  Context context{.language = language, .sources = sources, .diagnostics = heard};
+  context.gaps.keep();
+  SourceProgram source{.sources = sources, .program = Program(language), .preamble = {}, .tail = {}};
+  Reading reading(context, source.program);
+  for (FileId file : files) reading.add(file);
+  reading.read();
+  RUNG_CHECK(!heard.hasErrors(), "the program has no errors");
+  source.tail = context.gaps.take();
+  splitPreamble(source);
+  return source;
+}
+
+// Comments, declarations and sections between networks.
+
+namespace {
+
+using Kind = Item::Kind;
+constexpr Table kNames; // symbol, const
+
+} // namespace
+
+std::string commandText(const Language& language, Command command, std::string_view operand) {
+  const std::string_view name = language.nameOf(command);
+  return operand.empty() ? std::string(name) : fmt::format("{:<4} {}", name, operand);
+}
+
+void GapPage::declaration(const Item& item) {
+  lines_.row(kNames, {item.kind == Kind::Symbol ? "symbol" : "const", item.text, item.value}, remark(item.comment));
+}
+
+void GapPage::gap(const Gap& gap) {
+  for (const Item& item : gap) {
+    switch (item.kind) {
+    case Kind::Comment: comment(item.text); break;
+    case Kind::Blank: blank(); break;
+    case Kind::Dialect: line(fmt::format("dialect {}", language_.name), item.comment); break;
+    case Kind::Section: line(fmt::format("{}section \"{}\"", form_ == Form::List ? "; " : "", item.text)); break;
+    case Kind::Symbol:
+    case Kind::Const: declaration(item); break;
+    }
+  }
+}
+
+Gap tidy(const Gap& gap) {
+  Gap result;
+  bool wanted = false;
+  for (const Item& item : gap) {
+    const bool section = item.kind == Kind::Section;
+    if (item.kind == Kind::Blank) {
+      wanted = true;
+      continue;
+    }
+    if ((wanted || section) && !result.empty()) result.push_back({Kind::Blank});
+    result.push_back(item);
+    wanted = section;
+  }
+  if (!result.empty() && result.back().kind == Kind::Section) result.push_back({Kind::Blank});
+  return result;
+}
+
+std::optional<size_t> titleIn(const Gap& gap) {
+  TitleRule rule;
+  std::optional<size_t> found;
+  for (size_t i = 0; i < gap.size(); ++i) {
+    const std::string_view before = rule.title();
+    if (gap[i].kind == Kind::Comment)
+      rule.comment(gap[i].text);
+    else if (gap[i].kind == Kind::Blank)
+      rule.blank();
+    else
+      rule.statement();
+    if (rule.title().empty())
+      found.reset();
+    else if (rule.title().data() != before.data())
+      found = i;
+  }
+  return found;
+}
+
+Gap protect(Gap gap, std::string_view title) {
+  const auto found = titleIn(gap);
+  if (found ? gap[*found].text == title : title.empty()) return gap;
+  size_t keep = gap.size();
+  for (size_t i = 0; i < gap.size(); ++i)
+    if (gap[i].kind == Kind::Comment && gap[i].text == title) keep = i;
+  for (size_t i = 0; i < gap.size(); ++i)
+    if (i != keep && gap[i].kind == Kind::Comment && isTitle(gap[i].text)) gap[i].text.insert(0, "; ");
+  if (keep == gap.size() && !title.empty()) gap.push_back({Kind::Comment, std::string(title)});
+  return gap;
+}
+
+// A program as ladder text.
+
+namespace {
+
+using Kind = Item::Kind;
+
+class LadderWriter {
+public:
+  LadderWriter(const Language& language, const SourceProgram& source) : language_(language), source_(source) {}
+  std::string run();
+
+private:
+  void begin(const Unit& unit);
+  void network(const Network& network);
+  void rung(Gap gap, std::string_view title);
+  void drawing(const Network& network);
+
+  const Language& language_;
+  const SourceProgram& source_;
+  GapPage page_{language_, Form::Ladder};
+};
+
+void LadderWriter::begin(const Unit& unit) {
+  page_.blank();
+  page_.gap(tidy(unit.lead));
+  page_.line(unit.kind == UnitKind::Subprogram
+                 ? fmt::format("module {} {}", language_.subprogram, source_.sources.text(unit.nameRange))
+                 : fmt::format("module {}", language_.levels[unit.number].name),
+             unit.comment);
+  for (const Written& command : unit.condition)
+    page_.comment(fmt::format("{} {}{}{}", kConditionComment, language_.nameOf(command.command),
+                              command.operand.empty() ? "" : " ", command.operand));
+}
+
+// The title is after the word `rung` where it begins the last block of comments: so it is found again there.
+void LadderWriter::rung(Gap gap, std::string_view title) {
+  const auto at = titleIn(gap);
+  const auto isComment = [](const Item& item) { return item.kind == Kind::Comment; };
+  const bool begins = at && (*at == 0 || gap[*at - 1].kind != Kind::Comment) &&
+                      std::all_of(gap.begin() + static_cast<ptrdiff_t>(*at), gap.end(), isComment) &&
+                      title.find('"') == std::string_view::npos;
+  const bool alone = begins && *at + 1 == gap.size();
+  if (begins) gap.erase(gap.begin() + static_cast<ptrdiff_t>(*at));
+  page_.gap(gap);
+  if (alone || (!gap.empty() && gap.back().kind != Kind::Comment)) page_.blank();
+  page_.line(begins ? fmt::format("rung \"{}\"", title) : "rung");
+}
+
+void LadderWriter::drawing(const Network& network) {
+  const Drawing drawing = draw(language_, network);
+  std::vector<std::string> tags;
+  const auto addTagged = [&](bool before, uint32_t command, std::string_view text) {
+    if (tags.empty()) tags = tagsOf(language_, network);
+    page_.comment(fmt::format("{}{}{}{}", before ? "-> " : "", tags[command], text.empty() ? "" : " ", text));
+  };
+  const std::string hint = blocksHint(language_, logicOf(network.written));
+  if (!hint.empty()) page_.comment(hint);
+  std::vector<const std::string*> remarks(drawing.lines.size(), nullptr);
+  std::vector<const std::vector<std::string>*> above(drawing.lines.size(), nullptr);
+  for (uint32_t i = 0; i < network.written.size(); ++i) {
+    const Written& command = network.written[i];
+    const uint32_t line = drawing.lineOf[i];
+    if (!command.before.empty() && line != kNone && line > 0 && drawing.ends[line].first == i &&
+        std::ranges::none_of(command.before, looksTagged))
+      above[line] = &command.before;
+    else
+      for (const std::string& text : command.before) addTagged(true, i, text);
+    if (command.comment.empty()) continue;
+    if (line != kNone && drawing.ends[line].last == i)
+      remarks[line] = &command.comment;
+    else
+      addTagged(false, i, command.comment);
+  }
+  for (size_t line = 0; line < drawing.lines.size(); ++line) {
+    if (above[line] != nullptr)
+      for (const std::string& text : *above[line]) page_.comment(text);
+    page_.line(drawing.lines[line], remarks[line] == nullptr ? std::string_view() : *remarks[line]);
+  }
+}
+
+// After `module SUB Pn` the blank line ends the condition, or says that the comments after it are none.
+void LadderWriter::network(const Network& network) {
+  page_.blank();
+  const std::string title = clean(network.title);
+  rung(tidy(protect(network.gap, title)), title);
+  drawing(network);
+}
+
+std::string LadderWriter::run() {
+  page_.gap(tidy(source_.preamble));
+  for (const Unit& unit : source_.program.units) {
+    const bool nothing = unit.lead.empty() && unit.comment.empty() && withoutEnd(unit).empty();
+    if (nothing && unit.kind == UnitKind::Level && unit.number != language_.mainLevel()) continue;
+    begin(unit);
+    for (const Network& network : withoutEnd(unit)) this->network(network);
+  }
+  page_.blank();
+  page_.gap(tidy(source_.tail));
+  return page_.take();
+}
+
+} // namespace
+
+std::string writeLadder(const Language& language, const SourceProgram& source) {
+  return LadderWriter(language, source).run();
+}
+
+// A program as a command list.
+
+namespace {
+
+class ListWriter {
+public:
+  ListWriter(const Language& language, const SourceProgram& source) : language_(language), source_(source) {}
+  std::string run();
+
+private:
+  void command(const Written& command);
+  void function(const Row& row, std::string_view comment = {}) {
+    page_.line(commandText(language_, Command::Function, row.info.mnemonic), comment);
+  }
+  void begin(const Unit& unit);
+  void end(const Unit& unit);
+  void network(const Network& network);
+  Gap afterPending(const Gap& gap) {
+    pending_.insert(pending_.end(), gap.begin(), gap.end());
+    return std::exchange(pending_, {});
+  }
+  // Something with comments before it is set apart.
+  void lead(const Gap& gap) {
+    if (!gap.empty()) page_.blank();
+    page_.gap(gap);
+  }
+
+  const Language& language_;
+  const SourceProgram& source_;
+  GapPage page_{language_, Form::List};
+  Gap pending_; // what the first level begins with: it has no command of its own
+};
+
+void ListWriter::command(const Written& command) {
+  for (const std::string& text : command.before) page_.comment(text);
+  page_.line(commandText(language_, command.command, command.operand), command.comment);
+}
+
+void ListWriter::network(const Network& network) {
+  lead(tidy(protect(afterPending(network.gap), clean(network.title))));
+  for (const Written& command : network.written) this->command(command);
+}
+
+void ListWriter::begin(const Unit& unit) {
+  Gap gap = afterPending(unit.lead);
+  if (unit.kind == UnitKind::Level && unit.number == 0) {
+    pending_ = std::move(gap);
+    if (!unit.comment.empty()) pending_.push_back({Item::Kind::Comment, unit.comment});
+    return;
+  }
+  page_.blank();
+  page_.gap(tidy(gap));
+  if (unit.kind == UnitKind::Level) {
+    function(language_.endOf(unit.number - 1), unit.comment);
+  } else {
+    for (const Written& command : unit.condition) this->command(command);
+    function(language_.rowOf(Control::Sp), unit.comment);
+    page_.line(commandText(language_, Command::Parameter, source_.sources.text(unit.nameRange)));
+  }
+  page_.blank();
+}
+
+void ListWriter::end(const Unit& unit) {
+  const bool isLevel = unit.kind == UnitKind::Level;
+  if (isLevel && unit.number + 1 != language_.levels.size()) return; // the next one begins with it
+  page_.blank();
+  function(isLevel ? language_.endOf(unit.number) : language_.rowOf(Control::Spe));
+}
+
+std::string ListWriter::run() {
+  page_.gap(tidy(source_.preamble));
+  page_.blank();
+  for (const Unit& unit : source_.program.units) {
+    begin(unit);
+    for (const Network& network : withoutEnd(unit)) this->network(network);
+    end(unit);
+  }
+  lead(tidy(source_.tail));
+  return page_.take();
+}
+
+} // namespace
+
+std::string writeList(const Language& language, const SourceProgram& source) {
+  return ListWriter(language, source).run();
+}
+
+} // namespace rung::frontend::network

@@ -160,7 +160,7 @@ view::Overlay overlayOf(const report::Program& program) {
 
 } // namespace
 
-Result<std::string> profilePage(const report::Profile& profile, const report::Request& request) {
+Result<std::string> profilePage(const report::Profile& profile, const scenario::ProfileRequest& request) {
   const scenario::CompileStep step = scenario::compileProgram(request.scenarios[0], request.programs, {});
   if (!step.program) return failure("the program was changed while its scenarios ran");
   const compiler::Compiled& compiled = *step.program;

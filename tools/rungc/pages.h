@@ -6,12 +6,12 @@
 #include "frontend/dialects/dialect.h"
 #include "ir/support/result.h"
 #include "tools/report/coverage_report.h"
-#include "tools/report/profiler.h"
+#include "tools/scenario/profiler.h"
 
 namespace rung::rungc {
 
 // Of the program that the request's scenarios run.
-Result<std::string> profilePage(const report::Profile& profile, const report::Request& request);
+Result<std::string> profilePage(const report::Profile& profile, const scenario::ProfileRequest& request);
 // `project`: the title; empty: the files are.
 Result<std::string> coveragePage(const report::Program& program, const frontend::Dialect& dialect,
                                  const frontend::CompileOptions& options, const std::string& project);

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "machine/compile/collect.h"
+#include "machine/rung-compile/collect.h"
 #include "machine/control/values.h"
 
 namespace rung::rungctl {

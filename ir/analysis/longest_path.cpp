@@ -49,7 +49,7 @@ public:
     return longest_[number(start)];
   }
 
-  // The longest way from there, in its routine.
+  // The longest path from there, in its routine.
   RoutineWay wayFrom(Place place) {
     RoutineWay way{.routine = place.routine, .cost = from(place), .rungs = {}, .calls = {}};
     for (; place.rung != RUNG_NONE; place.rung = next_[number(place)]) {
@@ -154,7 +154,7 @@ private:
   // By rung number.
   std::vector<Mark> marks_;
   std::vector<uint64_t> longest_;
-  std::vector<uint32_t> next_;   // on the longest way, in the same routine; RUNG_NONE: it ends
+  std::vector<uint32_t> next_;   // on the longest path, in the same routine; RUNG_NONE: it ends
   std::vector<uint32_t> order_;  // in which rungs were opened
   std::vector<uint32_t> lowest_; // that can be reached and is not in a loop that is known
   std::vector<uint8_t> leadsToCircle_;

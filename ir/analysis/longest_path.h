@@ -1,4 +1,4 @@
-// The longest way that control can take through a task: with what a step costs on a machine, the longest that a run
+// The longest path that control can take through a task: with what a step costs on a machine, the longest that a run
 // may last there. Whatever else rungs cost is added up along paths in the same manner.
 #pragma once
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace rung::ir {
 // The end of a run's loops.
 struct Straight {
   uint32_t chunk = RUNG_PC_DONE; // from it on, outside of calls, control goes in no loops; RUNG_PC_DONE: never
-  uint32_t weight = 0;           // of the longest way from there or from a later chunk, at most UINT32_MAX
+  uint32_t weight = 0;           // of the longest path from there or from a later chunk, at most UINT32_MAX
 };
 
 struct LongestRun {

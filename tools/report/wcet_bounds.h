@@ -25,7 +25,7 @@ struct HostFunction {
 std::vector<HostFunction> measureHostFunctions();
 
 // The longest that a run of each task may take: in steps, as budgets count them, in machine instructions, in calls of
-// the host's functions, and in time on this machine; and the longest way with its rungs.
+// the host's functions, and in time on this machine; and the longest path with its rungs.
 
 struct HostCalls {
   HostFunction function;

@@ -210,7 +210,7 @@ typedef struct rung_task {
   uint32_t change_first;    /* in `changes`: where all lies that a run may change. When one changes nothing, the next */
   uint32_t change_count;    /* right after it does not either. 0: this is not known, or there is too much of it */
   uint32_t loop_free_chunk; /* from it on, outside of calls, control goes in no loops; RUNG_PC_DONE: nowhere */
-  uint32_t loop_free_weight; /* of the longest way from there, or from a later chunk */
+  uint32_t loop_free_weight; /* of the longest path from there, or from a later chunk */
 } rung_task;
 
 #define RUNG_MOST_CHANGES 16u /* `changes` of a task */

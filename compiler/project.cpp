@@ -96,8 +96,9 @@ private:
     if (foreign != nullptr) return frontend::explainForeign(report, range, *foreign, false);
     suggest(report, range, mistake.meant);
     if (mistake.meant.word.empty())
-      report.note("the keys of a project file are name, dialect, files, include, nc, scenarios, bindings; those "
-                  "of the dialect's configuration belong in the table [config]");
+      report.note(fmt::format("the keys of a project file are {}; those of the dialect's configuration belong in the "
+                              "table [config]",
+                              mistake.expected));
   }
 
   void missing(const toml::node& node, const std::string& path, std::string_view what) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <set>
 #include <sstream>
 #include <unistd.h>
 
@@ -141,13 +143,29 @@ TEST(ScenarioParser, OneLineAlone) {
   EXPECT_FALSE(parseStatement("  # nothing").ok());
 }
 
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 TEST(ScenarioParser, ThePageHasEveryStatement) {
-  std::ifstream in("docs/scenario-format.md");
-  std::ostringstream page;
-  page << in.rdbuf();
-  ASSERT_FALSE(page.str().empty()) << "run from the root";
+  const std::string page = contents("docs/scenario-format.md");
+  ASSERT_FALSE(page.empty()) << "run from the root";
   for (const StatementInfo& info : StatementInfo::all())
-    EXPECT_NE(page.str().find("`" + std::string(info.form.word)), std::string::npos) << info.form.word;
+    EXPECT_NE(page.find("`" + std::string(info.form.word)), std::string::npos) << info.form.word;
+}
+
+TEST(ScenarioParser, AScenarioHasEveryStatement) {
+  std::set<Kind> seen;
+  const auto note = [&](const std::filesystem::path& file) {
+    std::istringstream lines(contents(file));
+    for (std::string line; std::getline(lines, line);)
+      if (const Result<Statement> statement = parseStatement(line); statement.ok()) seen.insert(statement.value().kind);
+  };
+  for (const char* folder : {"tests/scenarios", "tests/fuzz/scenario_seeds"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+      if (entry.path().extension() == ".scn") note(entry.path());
+  for (const StatementInfo& info : StatementInfo::all()) EXPECT_TRUE(seen.contains(info.kind)) << info.form.word;
 }
 
 TEST(ScenarioParser, OnlyWhatTheStartNeedsMakesItUnknown) {

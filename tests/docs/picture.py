@@ -42,5 +42,5 @@ def picture(page, rungs):
     size = f"{widest + 2 * MARGIN} {y + MARGIN - GAP}"
     width, height = size.split()
     return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {size}" role="img">\n<title>{title}</title>\n'
-            f'<style>{style_of(page)}</style>\n<rect width="{width}" height="{height}" fill="#fff"/>\n'
+            f'<style>\n{style_of(page)}</style>\n<rect width="{width}" height="{height}" fill="#fff"/>\n'
             f'<text class="M" x="{MARGIN}" y="28">{title}</text>\n{"".join(parts)}</svg>\n')

@@ -148,7 +148,7 @@ int32_t rung_compile(const rung_source* sources, uint32_t count, const rung_comp
   rung_compile_options given{};
   if (!api::takeStruct(options, given)) return api::failSize("rung_compile_options");
   if (given.engine > RUNG_ENGINE_TIERED) return fail(RUNG_BAD_ARGUMENT, "%u is not an enum rung_engine", given.engine);
-  return contained([&] {
+  return compiler::contained([&] {
     auto made = std::make_unique<rung_compilation>();
     const int32_t status = compileInto(sources, count, given, *made);
     if (status == RUNG_OK || status == RUNG_REFUSED) *compilation = made.release();
@@ -201,7 +201,7 @@ int32_t rung_compilation_image(rung_compilation* compilation, rung_image** image
   if (handle == nullptr) return failHandle("a compilation");
   if (image == nullptr) return fail(RUNG_BAD_ARGUMENT, "the pointer that receives the image is null");
   if (!handle->program->compiled) return failErrors();
-  return contained([&] {
+  return compiler::contained([&] {
     Result<std::unique_ptr<runtime::Engine>> made =
         makeEngine(handle->kind, *handle->program->compiled, handle->engine);
     if (!made.ok()) return fail(RUNG_FAILED, "%s", made.error().c_str());
@@ -224,7 +224,7 @@ int32_t rung_compilation_write(rung_compilation* compilation, const char* path) 
   if (handle == nullptr) return failHandle("a compilation");
   if (path == nullptr) return fail(RUNG_BAD_ARGUMENT, "the name of the file is null");
   if (!handle->program->compiled) return failErrors();
-  return contained([&] {
+  return compiler::contained([&] {
     const Compiled& compiled = *handle->program->compiled;
     Result<std::string> object = sharedObject(compiled, handle->engine);
     if (object.ok()) object = withIr(object.value(), compiled);
@@ -237,7 +237,7 @@ int32_t rung_compilation_write(rung_compilation* compilation, const char* path) 
 int32_t rung_compiler_serve(rung_image* image) {
   const rung_program* program = rung_image_program(image);
   if (program == nullptr) return failHandle("an image");
-  return contained([&] {
+  return compiler::contained([&] {
     const std::string file = fileOf(image);
     if (file.empty()) return fail(RUNG_REFUSED, "the image was not opened from a file: its maker serves it");
     Result<Compiled> compiled = irOf(runtime::readSealed(file).image, hashesOf(*program));

@@ -48,13 +48,13 @@ private:
     default: break;                 // one result each
     }
     rewriter_.copy(op);
-    rewriter_.replace(op.result, flipped(op, rewriter_.now(op.result)));
+    rewriter_.replace(op.result, flipped(op, rewriter_.mapped(op.result)));
   }
 
   // The operation uses other values for `count` of its operands.
   void spoilArgs(const Op& op, uint32_t first, uint32_t count) {
     std::vector<ValueId> wrong;
-    for (uint32_t i = 0; i < count; ++i) wrong.push_back(flipped(op, rewriter_.nowArg(op, first + i)));
+    for (uint32_t i = 0; i < count; ++i) wrong.push_back(flipped(op, rewriter_.mappedArg(op, first + i)));
     const Op& written = rewriter_.copy(op);
     for (uint32_t i = 0; i < count; ++i) rewriter_.setArg(written, first + i, wrong[i]);
   }

@@ -30,7 +30,7 @@ def targets(build):
     replies = (build / ".cmake/api/v1/reply").glob("codemodel-v2-*.json")
     reply = max(replies, key=lambda path: path.stat().st_mtime, default=None)
     if reply is None:
-        fail(f"{build} is not a configured build folder with tests")
+        fail(f"{build} has no answer of CMake's file API: configure it once more")
     listed = json.loads(reply.read_text())["configurations"][0]["targets"]
     return {one["id"]: json.loads((reply.parent / one["jsonFile"]).read_text()) for one in listed}
 

@@ -27,7 +27,7 @@ void foldConstants(Module& module, Settled& settled);         // constants, alge
 void reuseValues(Module& module, Settled& settled);           // an equal operation, load or stored value above is used
 void removeDeadOps(Module& module, Settled& settled);         // results that nothing uses, regions without effect
 void removeTransientStores(Module& module, Settled& settled); // values of registers between rungs that nothing reads
-void versionRanges(Module& module, Settled& settled);         // short paths through a rung, for likely indices
+void versionRanges(Module& module, Settled& settled);         // versions of a rung for likely indices
 
 // A row of the table. One of the two functions: the first may change which rungs there are, the second goes over rungs
 // that are not settled.

@@ -6,7 +6,7 @@
 //   dead          Done. It takes away what nobody uses, stores apart: no operand and no value that is there already.
 //   transient     It takes stores away: folding asks for none. Their operands may be unused now, and loops without
 //                 them may write nothing.
-//   guard         A rung that gets paths of its own is a new one.
+//   versions      A rung that gets versions is a new one.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What happens to a simulated host, in a command that a seed decides, and whether the host is right after each of it.
+// What happens to a simulated host, in an order that a seed decides, and whether the host is right after each of it.
 #pragma once
 #include <cstdint>
 #include <string>

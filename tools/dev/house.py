@@ -85,7 +85,7 @@ def sizes():
 
 
 def rows(edges):
-    """Parts by height: whoever uses others is above them."""
+    """Parts by height: a part is above those that it uses."""
     height = {}
 
     def of(part):

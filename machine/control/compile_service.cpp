@@ -1,4 +1,4 @@
-// See source_desk.h.
+// See compile_service.h.
 #include "machine/control/compile_service.h"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// See reading.h.
+// See mapping_reading.h.
 #include "machine/host/mapping_reading.h"
 
 #include <charconv>

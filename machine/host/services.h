@@ -96,7 +96,7 @@ int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply)
 std::optional<Operation> operationOf(const Request& request, rung_reply& refusal);
 rung_reply replyOf(const Request& request, const NcAnswer& answer);
 
-// The dialects' parts of translate.h. `is` says whether a request is the dialect's, and may wait for an answer.
+// The dialects' parts of it. `is` says whether a request is the dialect's, and may wait for an answer.
 
 // The window functions of GSK25i (man. §9.3) and its PLC axis control (§9.2). Window functions of high speed are
 // answered at once, or by no one.

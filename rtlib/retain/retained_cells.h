@@ -1,5 +1,5 @@
 // The retained cells of a program, as a description that lies beside their image on disk: which bytes of its spaces are
-// kept, and the names in them. Another program finds its own cells there (retained_take.h).
+// kept, and the names in them. Another program finds its own cells there (retained_memory.h).
 //
 // A description is a text, compressed; its length as a text comes first, in four bytes, low byte first. Of each line
 // the first word says what it is, its fields are separated by tabs:

@@ -31,8 +31,8 @@ using RetainTake = void (*)(const rung_program& program, const RetainMap& map, R
 void takeRetainedOf(const rung_program& program, const RetainMap& map, RetainImage& image);
 
 // The retained memory of a running program on disk, as a host uses it: taken at the start, saved while the program
-// runs, and at its end. Files: FILE.a and FILE.b (see retain.h), by the dialect's addresses (see retain_map.h);
-// what another program has left there, by name and address (see retained_take.h).
+// runs, and at its end. Files: FILE.a and FILE.b (see retain.h), by the dialect's addresses (see retained_cells.h);
+// what another program has left there, by name and address (RetainTake).
 //
 // Only whole scans are saved: what a fault leaves of the scan that it stopped never reaches the disk.
 

@@ -1,4 +1,4 @@
-// The measurements (see measure.h).
+// The measurements (see wcet_measure.h).
 #include "tools/report/wcet_measure.h"
 
 #include <fmt/format.h>

@@ -40,7 +40,7 @@ void addNew(CommandLine& app, int& status) {
   command.onRun([options, &status] { status = makeNew(options->dialect, options->folder); });
 }
 
-// Writing a new project (see new_project.h): the files of templates/DIALECT with the name of the project in them.
+// Writing a new project: the files of templates/DIALECT with the name of the project in them.
 
 namespace {
 

@@ -15,7 +15,7 @@ LAYERS = {
     "frontend": ("ir/support", "ir/core", "rtlib/abi", "rtlib/text", "rtlib/nc"),
     "codegen": ("ir", "rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run"),
     "compiler": ("frontend", "codegen", "ir", "rtlib"),
-    "machine": ("rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run/clock.h", "rtlib/run/clock.h", "rtlib/run/realtime.h"),
+    "machine": HOST,
     "sim": ("machine/host", "machine/io", "machine/rung-run/simulation_plugin.h", "rtlib"),
     "tools": ("compiler", "sim", "machine/host", "machine/command-line", "frontend", "codegen", "ir", "rtlib"),
     # Walls within them.

@@ -1,5 +1,5 @@
-// Packing and unpacking (see kept_ir.h). The section holds the size of the text (8 bytes, low byte first), and the text
-// compressed by zlib: a line with the passes, then the module as its front end built it.
+// Packing and unpacking (see embedded_ir.h). The section holds the size of the text (8 bytes, low byte first), and the
+// text compressed by zlib: a line with the passes, then the module as its front end built it.
 #include "compiler/embedded_ir.h"
 
 #include <array>

@@ -18,7 +18,7 @@ std::string diagnosticReference();
 std::string operationReference();
 // What is known about a diagnostic code, a fault, or (of every dialect that has it) a mnemonic, a kind of operands, a
 // configuration key, a signal; nothing when unknown. Markdown, as all of these. From here on all is for a reader who
-// has no manual (manual_lines.h). `only`: a dialect, or null.
+// has no manual. `only`: a dialect, or null.
 std::optional<std::string> explain(std::string_view word, const frontend::Dialect* only = nullptr);
 // What there is to be explained, and a list of one kind of it: a dialect, "diagnostics", "faults", "config".
 std::string explainTopics();

@@ -438,7 +438,7 @@ void ChunkEmitter::emitSwitch(const Exit& exit) {
   returnValue(areSymbols ? builder_.CreatePtrToInt(chunk, builder_.getInt32Ty()) : chunk);
 }
 
-// After an if with the condition of the jump its two regions go their paths without meeting.
+// After an if with the condition of the jump its two regions go their ways without meeting.
 bool ChunkEmitter::leaveFromRegions(const Exit& exit) {
   const bool same = join_ && join_->cond == exit.cond && join_->end == builder_.GetInsertBlock() && join_->end->empty();
   if (!same) return false;

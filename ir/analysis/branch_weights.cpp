@@ -1,4 +1,4 @@
-// BranchWeights of ifs from counts (see branchWeights.h).
+// Branch weights of ifs from counts (see branch_weights.h).
 #include "ir/analysis/branch_weights.h"
 
 #include <algorithm>

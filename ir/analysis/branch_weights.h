@@ -1,4 +1,4 @@
-// How often the branches of a program are taken, as runs of it have shown, and the branchWeights of its ifs by that.
+// How often the branches of a program are taken, as runs of it have shown, and the branch weights of its ifs by that.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ struct BranchWeightsResult {
   size_t unknown = 0; // without: the rung is new, another one now, or was made by another compiler
 };
 
-// Sets the branchWeights of the ifs of a module that no pass has changed.
+// Sets the branch weights of the ifs of a module that no pass has changed.
 BranchWeightsResult setBranchWeights(Module& module, const BranchCounts& counts);
 
 } // namespace rung::ir

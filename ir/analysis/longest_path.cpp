@@ -1,4 +1,5 @@
-// The longest path through the graph of rungs (see longest.h), without recursion: a routine may have 50,000 of them.
+// The longest path through the graph of rungs (see longest_path.h), without recursion: a routine may have 50,000 of
+// them.
 #include "ir/analysis/longest_path.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What rungs cost, by their numbers: what paths (longest.h) add up.
+// What rungs cost, by their numbers: what paths (longest_path.h) add up.
 #pragma once
 #include <cstdint>
 #include <vector>

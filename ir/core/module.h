@@ -116,7 +116,7 @@ struct Continuation {
   SlotId slot; // invalid: in the space
   SpaceId space;
   uint32_t byte = 0;
-  std::vector<std::string> points; // distinct each other
+  std::vector<std::string> points; // each differs from the others
 };
 
 // The enum rung_type of a type; None is the byte that a name without a type names.

@@ -22,7 +22,7 @@ namespace rung::ir {
 //   dead          Done. It takes away what nobody uses, stores apart: no operand and no value that is there already.
 //   transient     It takes stores away: folding asks for none. Their operands may be unused now, and loops without
 //                 them may write nothing.
-//   guard         A rung that gets paths of its own is a new one.
+//   versions      A rung that gets versions is a new one.
 
 // Of one rung: a set of passes that would leave it as it is.
 enum Settles : uint8_t {
@@ -69,7 +69,7 @@ void foldConstants(Module& module, Settled& settled);         // constants, alge
 void reuseValues(Module& module, Settled& settled);           // an equal operation, load or stored value above is used
 void removeDeadOps(Module& module, Settled& settled);         // results that nothing uses, regions without effect
 void removeTransientStores(Module& module, Settled& settled); // values of registers between rungs that nothing reads
-void versionRanges(Module& module, Settled& settled);         // short paths through a rung, for likely indices
+void versionRanges(Module& module, Settled& settled);         // versions of a rung for likely indices
 
 // A row of the table. One of the two functions: the first may change which rungs there are, the second goes over rungs
 // that are not settled.

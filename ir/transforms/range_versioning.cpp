@@ -32,7 +32,7 @@ class RangeVersioning {
 public:
   explicit RangeVersioning(const Module& module) : module_(module), values_(module), ranges_(module) {}
 
-  // Whether the rung has got paths.
+  // Whether the rung has got versions.
   bool run(Rung& rung) {
     rung_ = &rung;
     findIndexCells(rung, cells_);

@@ -25,7 +25,7 @@ namespace rung::control {
 // For the thread that serves the plc; commands go to the scan thread, which it waits for.
 class Controller final : public Handler {
 public:
-  // `image` is what the plc began with. `log`, which outlives this, gets what the program and its host report, and
+  // `image` is what the host began with. `log`, which outlives this, gets what the program and its host report, and
   // every change that somebody has made.
   Controller(std::string host, host::PlcHost& plc, const Image& image, Log& log,
              std::unique_ptr<Programs> programs = programsOfMachine());

@@ -333,7 +333,7 @@ private:
     if (place && place->space == RUNG_NONE) fail(cell.at, entry.where, mistakeOf(Misfit::Constant, *place, entry));
   }
 
-  // A constant says what is meant, distinct a pin, whose value is rounded.
+  // A constant says what is meant, unlike a pin, whose value is rounded.
   bool isWhole(const Entry& constant, const Place& place) {
     const bool isReal = place.isReal() || place.type == RUNG_TYPE_BIT || inWords(constant);
     if (isReal || constant.value == std::floor(constant.value)) return true;

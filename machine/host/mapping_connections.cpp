@@ -1,4 +1,4 @@
-// See connections.h.
+// See mapping_connections.h.
 #include "machine/host/mapping_connections.h"
 
 #include <arpa/inet.h>

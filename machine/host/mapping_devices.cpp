@@ -1,4 +1,4 @@
-// The table [devices] (see devices.h).
+// The table [devices] (see mapping_devices.h).
 #include "machine/host/mapping_devices.h"
 
 #include "rtlib/nc/technol/services.h"

@@ -1,14 +1,6 @@
 // The faults of each dialect.
 #include "rtlib/nc/faults.h"
 
-#include <algorithm>
-#include <functional>
-#include <span>
-
-#include "rtlib/nc/gsk/signals.h"
-#include "rtlib/nc/nct/signals.h"
-#include "rtlib/nc/technol/signals.h"
-
 namespace rung::nc {
 
 namespace {
@@ -81,31 +73,5 @@ const Fault* findFault(std::string_view dialect, std::string_view text) {
 }
 
 std::string_view shortName(const Fault& fault) { return fault.text.substr(0, fault.text.find(':')); }
-
-namespace {
-
-std::string_view noteIn(const SignalTable& table, std::span<const SignalNote> notes, const Signal& signal) {
-  const std::less<const Signal*> isBefore; // of rows that may be those of another table
-  const Signal* const first = table.data();
-  if (isBefore(&signal, first) || !isBefore(&signal, first + table.size())) return {};
-  const auto row = static_cast<uint16_t>(&signal - first);
-  const auto at = std::ranges::lower_bound(notes, row, {}, &SignalNote::row);
-  return at != notes.end() && at->row == row ? at->text : std::string_view();
-}
-
-} // namespace
-
-std::string_view noteOf(const Signal& signal) {
-  for (const std::string_view note :
-       {noteIn(gskSignals(), gskSignalNotes(), signal), noteIn(nctSignals(), nctSignalNotes(), signal),
-        noteIn(technolSignals(), technolSignalNotes(), signal)})
-    if (!note.empty()) return note;
-  return {};
-}
-
-std::string meaningWithNote(const Signal& signal) {
-  const std::string_view note = noteOf(signal);
-  return note.empty() ? signal.meaning : std::string(signal.meaning).append(" (").append(note).append(")");
-}
 
 } // namespace rung::nc

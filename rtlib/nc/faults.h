@@ -2,10 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
-#include <string>
 #include <string_view>
-
-#include "rtlib/nc/signal.h"
 
 namespace rung::nc {
 
@@ -30,18 +27,5 @@ std::span<const Fault> faultsOf(std::string_view dialect);
 const Fault* findFault(std::string_view dialect, std::string_view text);
 // What `rungc explain` finds it by: the text up to its colon.
 std::string_view shortName(const Fault& fault);
-
-// The text after "//" in DIALECT/signals.csv: where the manual contradicts itself about a signal, or leaves a name out.
-// It is for readers who compare with the manual, and not part of the meaning of a signal.
-
-struct SignalNote {
-  uint16_t row; // of the dialect's table
-  const char* text;
-};
-
-// Of a row of one of the dialects' tables; "" for most.
-std::string_view noteOf(const Signal& signal);
-// For reference pages: the meaning with the note in brackets.
-std::string meaningWithNote(const Signal& signal);
 
 } // namespace rung::nc

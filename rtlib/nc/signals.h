@@ -1,10 +1,26 @@
-// The signals of a dialect's control, by the dialect's name.
+// The signals of a dialect's control, by the dialect's name, and the notes on them.
 #pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+
 #include "rtlib/nc/signal.h"
 
 namespace rung::nc {
 
 // By rung_program::dialect; null for one that does not exist.
 const SignalTable* signalsOf(std::string_view dialect);
+
+// The text after "//" in DIALECT/signals.csv: where the manual contradicts itself about a signal, or leaves a name out.
+// It is for readers who compare with the manual, and not part of the meaning of a signal.
+struct SignalNote {
+  uint16_t row; // of the dialect's table
+  const char* text;
+};
+
+// Of a row of one of the dialects' tables; "" for most.
+std::string_view noteOf(const Signal& signal);
+// For reference pages: the meaning with the note in brackets.
+std::string meaningWithNote(const Signal& signal);
 
 } // namespace rung::nc

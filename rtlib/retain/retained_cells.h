@@ -1,5 +1,5 @@
 // A description of a program's retained cells, which is stored beside their image on disk: which bytes of the program's
-// spaces are retained, and the names in them. Another program finds its own cells with it (retained_take.h).
+// spaces are retained, and the names in them. Another program finds its own cells with it (retained_memory.h).
 //
 // A description is a compressed text, after its uncompressed length in four bytes, low byte first. The first word of a
 // line says what it is; its fields are separated by tabs:

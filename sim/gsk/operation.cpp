@@ -1,4 +1,4 @@
-// Automatic run of the simulated CNC (see operation.h). The reading of a block is in block_motion.cpp.
+// Automatic run of the simulated CNC (see operation.h). The reading of a block is in axes.cpp.
 #include "sim/gsk/operation.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The simulated CNC (see simulator.h). Its quantities are in quantities.cpp.
+// The simulated CNC (see simulator.h). Its quantities are in part_program.cpp.
 #include "sim/gsk/simulator.h"
 
 #include <cmath>

@@ -165,7 +165,7 @@ private:
   bool rotary(uint32_t axis) const;
   void name(std::string_view names);
 
-  // axis_handshakes.cpp: requests and acknowledgements, positions as signals; once a PLC cycle
+  // Requests and acknowledgements, positions as signals; once a PLC cycle
   void acknowledge(uint32_t axis);
   struct Coupling {
     const BitSignal &request, &slave, &master;
@@ -177,7 +177,7 @@ private:
   void writeSwitches();
   bool atStrokeLimit(uint32_t axis, bool positive) const;
 
-  // axis_motion.cpp: every time slice
+  // Every time slice
   void stepPlc(uint32_t axis);
   void reset(uint32_t axis);
   void take(uint32_t axis);

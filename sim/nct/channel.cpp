@@ -1,4 +1,4 @@
-// Modes, conditions, start and stop of a channel (see channel.h). Execution of blocks: channel_run.cpp.
+// Modes, conditions, start and stop of a channel (see channel.h). Execution of blocks.
 #include "sim/nct/channel.h"
 
 #include <algorithm>

@@ -5,6 +5,9 @@ import re
 import sys
 from pathlib import Path
 
+# What a host sees of the runtime: its headers, and what works with files and the clock of this computer.
+HOST = ("rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run/clock.h", "rtlib/run/realtime.h")
+
 # Folder -> what it may include besides itself; the longest folder that a file is in counts. "rung/NAME.h" is rtlib/abi.
 LAYERS = {
     "rtlib": (),
@@ -12,7 +15,7 @@ LAYERS = {
     "frontend": ("ir/support", "ir/core", "rtlib/abi", "rtlib/text", "rtlib/nc"),
     "codegen": ("ir", "rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run"),
     "compiler": ("frontend", "codegen", "ir", "rtlib"),
-    "machine": ("rtlib/abi", "rtlib/text", "rtlib/load", "rtlib/run/clock.h", "rtlib/run/clock.h", "rtlib/run/realtime.h"),
+    "machine": HOST,
     "sim": ("machine/host", "machine/io", "machine/rung-run/simulation_plugin.h", "rtlib"),
     "tools": ("compiler", "sim", "machine/host", "machine/command-line", "frontend", "codegen", "ir", "rtlib"),
     # Walls within them.
@@ -37,8 +40,7 @@ LAYERS = {
                                         "rtlib/nc") for dialect in ("gsk", "nct", "technol")},
     "machine/host": ("rtlib/abi", "rtlib/text", "rtlib/core/handover.h", "rtlib/load", "rtlib/run", "rtlib/nc", "rtlib/nc/control"),
     "machine/io": ("machine/host", "rtlib"),
-    **{f"machine/{folder}": ("machine/host", "machine/io", "machine/control", "machine/compile", "machine/command-line", "rtlib/abi",
-                             "rtlib/text", "rtlib/load", "rtlib/run/clock.h", "rtlib/run/realtime.h")
+    **{f"machine/{folder}": ("machine/host", "machine/io", "machine/control", "machine/compile", "machine/command-line", *HOST)
        for folder in ("compile", "control", "rung-run", "rung-hal")},
     "machine/rung-compile": ("machine/compile", "compiler", "frontend", "codegen", "ir", "rtlib"),
     "machine/rungctl": ("machine", "machine/rung-compile/collect.h", "rtlib"),

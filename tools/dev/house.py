@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws docs/house.svg, the parts of the project with their sizes and who uses whom, from what CMake knows of the build.
 
-    house.py BUILD            draws it
+    house.py BUILD            draws it; configures BUILD, a build folder, so that CMake answers
     house.py BUILD --check    exit 1 and the difference where the picture shows other parts or other uses than the build
 """
 import json
@@ -27,10 +27,12 @@ def fail(text):
 
 def targets(build):
     """{identity: target} of CMake's file API."""
-    replies = (build / ".cmake/api/v1/reply").glob("codemodel-v2-*.json")
-    reply = max(replies, key=lambda path: path.stat().st_mtime, default=None)
-    if reply is None:
-        fail(f"{build} is not a configured build folder with tests")
+    folder = build / ".cmake/api/v1"
+    (folder / "query").mkdir(parents=True, exist_ok=True)
+    (folder / "query/codemodel-v2").touch()
+    if subprocess.run(["cmake", str(build)], stdout=subprocess.DEVNULL).returncode != 0:
+        fail(f"{build} cannot be configured")
+    reply = max((folder / "reply").glob("codemodel-v2-*.json"), key=lambda path: path.stat().st_mtime)
     listed = json.loads(reply.read_text())["configurations"][0]["targets"]
     return {one["id"]: json.loads((reply.parent / one["jsonFile"]).read_text()) for one in listed}
 
@@ -85,7 +87,7 @@ def sizes():
 
 
 def rows(edges):
-    """Parts by height: whoever uses others is above them."""
+    """Parts by height: a part is above those that it uses."""
     height = {}
 
     def of(part):

@@ -36,7 +36,7 @@ enum Alone : uint8_t { kOpenOff = 1, kOpenOn = 2, kClosedOff = 4, kClosedOn = 8 
 struct Deciding {
   uint32_t condition = 0; // in Rung::conditions
   uint8_t alone = 0;      // of enum Alone
-  // The outcome was seen both paths, by this condition alone (masking MC/DC).
+  // The outcome was seen both ways, by this condition alone (masking MC/DC).
   bool bothWays() const {
     return (alone & (kOpenOff | kClosedOn)) == (kOpenOff | kClosedOn) ||
            (alone & (kOpenOn | kClosedOff)) == (kOpenOn | kClosedOff);
@@ -82,7 +82,7 @@ struct Totals {
   Share rungs;         // run
   Share contacts;      // open and closed
   Share coils;         // on and off
-  Share decided;       // conditions of a decision that decided it alone both paths
+  Share decided;       // conditions of a decision that decided it alone both ways
   uint64_t oneWay = 0; // conditions that decided in one direction only
   Totals& operator+=(const Totals& other);
 };

@@ -292,7 +292,7 @@ private:
 
   using Place = std::pair<uint32_t, uint32_t>; // space and byte
 
-  // The name that the author knows is the one of the control. The other, of the compiler, is distinct any other.
+  // The name that the author knows is the one of the control. The other, of the compiler, is unlike any other.
   void name(const Place& place, const Cell& cell, const FormerNames& former) {
     std::string shown, key;
     for (const Symbol& symbol : module_.symbols) {

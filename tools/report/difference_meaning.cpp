@@ -1,4 +1,4 @@
-// The meaning of a rung as a hash (see meaning.h).
+// The meaning of a rung as a hash (see difference_meaning.h).
 #include "tools/report/difference_meaning.h"
 
 #include <algorithm>

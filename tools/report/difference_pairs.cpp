@@ -1,4 +1,4 @@
-// Rungs side by side (see pairs.h).
+// Rungs side by side (see difference_pairs.h).
 #include "tools/report/difference_pairs.h"
 
 #include <algorithm>

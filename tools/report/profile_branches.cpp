@@ -1,4 +1,4 @@
-// Counts of branches, and their file (see branches.h).
+// Counts of branches, and their file (see profile_branches.h).
 #include "tools/report/profile_branches.h"
 
 #include <fmt/format.h>

@@ -15,10 +15,10 @@
 #include "ir/support/diag/gsk.h"
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/structure.h"
-#include "rtlib/nc/faults.h"
 #include "rtlib/nc/gsk/axis_commands.h"
 #include "rtlib/nc/gsk/signals.h"
 #include "rtlib/nc/gsk/window_functions.h"
+#include "rtlib/nc/signals.h"
 
 namespace rung::frontend::gsk {
 namespace {

@@ -7,13 +7,13 @@
 #include "ir/support/diag/nct.h"
 #include "ir/support/diag/operand.h"
 #include "ir/support/diag/structure.h"
-#include "rtlib/nc/faults.h"
 #include "rtlib/nc/nct/axis_codes.h"
 #include "rtlib/nc/nct/messages.h"
 #include "rtlib/nc/nct/parameters.h"
 #include "rtlib/nc/nct/scope_symbols.h"
 #include "rtlib/nc/nct/service_functions.h"
 #include "rtlib/nc/nct/windows.h"
+#include "rtlib/nc/signals.h"
 
 namespace rung::frontend::nct {
 namespace {

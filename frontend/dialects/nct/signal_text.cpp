@@ -7,8 +7,8 @@
 
 #include "frontend/dialects/nct/read/symbols.h"
 #include "frontend/dialects/nct/reference.h"
-#include "rtlib/nc/faults.h"
 #include "rtlib/nc/nct/service_functions.h"
+#include "rtlib/nc/signals.h"
 #include "rtlib/text/letters.h"
 #include "rtlib/text/number.h"
 

@@ -6,7 +6,7 @@
 
 #include "frontend/dialects/technol/read/symbols.h"
 #include "ir/support/diag/technol.h"
-#include "rtlib/nc/faults.h"
+#include "rtlib/nc/signals.h"
 #include "rtlib/nc/technol/services.h"
 #include "rtlib/nc/technol/signals.h"
 #include "rtlib/text/letters.h"

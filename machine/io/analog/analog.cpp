@@ -70,7 +70,7 @@ void addAnalogPins(host::File& map, const rung_program& program) {
   }
 }
 
-// Requests to analogue outputs (see analog_requests.h). Results are the port that has changed and its value.
+// Requests to analogue outputs. Results are the port that has changed and its value.
 
 namespace {
 

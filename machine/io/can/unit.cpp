@@ -1,4 +1,4 @@
-// One unit: errors, mode, inputs and outputs (see unit.h). What is asked of it is in unit_requests.cpp.
+// One unit: errors, mode, inputs and outputs (see unit.h). What is asked of it is in units.cpp.
 #include "machine/io/can/unit.h"
 
 #include "machine/io/can/units.h"

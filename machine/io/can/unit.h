@@ -31,7 +31,7 @@ std::string textOf(const UnitMessage& message);
 // it by SDO (man. l.3502-3678, l.4074-4263). All units together are CanUnits (units.h).
 //
 // A unit that is new, has come back after a silence or says that it has booted is taken out of the exchange of process
-// data, gets the mapping of its PDOs (unit_mapping.h), in which alone CiA 301 lets it change, and is started.
+// data, gets the mapping of its PDOs, in which alone CiA 301 lets it change, and is started.
 
 // Groups are 1 INOUT08, 2 KLA50 and EPU, 3 handwheel (man. l.3287-3291).
 inline constexpr uint32_t kUnitGroups = 3, kInOut08 = 1, kPanel = 2, kHandwheel = 3;
@@ -118,7 +118,7 @@ private:
   uint32_t unheardMs_ = 0; // since anything came
   bool timedOut_ = false;
   bool isPrepared_ = false, isStarted_ = false; // it has left, and joined, the exchange of process data
-  uint32_t waiting_ = 0;                        // requests by SDO, a bit each (unit_requests.h)
+  uint32_t waiting_ = 0;                        // requests by SDO, a bit each (units.cpp)
   uint32_t late_ = 0;                           // those that were not answered, for the time when no other waits
   uint32_t underWay_ = 0;                       // the bit of the one that was sent
   uint32_t refused_ = 0;                        // what the unit would not write
@@ -129,7 +129,7 @@ private:
   enum class Segment : uint8_t { None, Due, Asked } segment_ = Segment::None; // of a text that is longer than 4 bytes
 };
 
-// Objects of units (man. l.4390-4463, l.4567-4663); those that every node has are in sdo.h.
+// Objects of units (man. l.4390-4463, l.4567-4663); those that every node has are in drives.h.
 
 inline constexpr sdo::Object kTpdo2Id{0x1801, 1}, kTpdo2Type{0x1801, 2}; // COB-ID and type of transmission (CiA 301)
 inline constexpr uint32_t kNotValid = 0x8000'0000;                       // of a COB-ID: the PDO is not sent
@@ -147,7 +147,7 @@ inline constexpr uint8_t kDisplayInitialise = 1, kDisplayEnable = 2, kDisplayRow
 // whose number is fixed, and fields without use have to be mapped, too (man. l.4705-4714, l.4780-4790); the control
 // maps them by the objects 1600h and 1A00h. TPDO2 is fixed: what the unit's analogue inputs are.
 //
-// The manual names the objects (unit_objects.h) and the structures of programs (l.4074-4185, l.7492-7503), but not
+// The manual names the objects and the structures of programs (l.4074-4185, l.7492-7503), but not
 // which byte is what: the control decides that.
 
 inline constexpr uint32_t kPdoFields = 8;

@@ -2,7 +2,7 @@
 // them, sends their outputs and takes their inputs by SYNC and PDOs, reads and writes their objects by SDO, keeps the
 // structure INOUTS of each, and notices errors and time-outs. It knows packets, so the units may be simulated or real.
 //
-// The identifiers of PDOs are those of l.4370-4383, their bytes those of unit_mapping.h; TPDO2 is ANL0 to ANL7. A unit
+// The identifiers of PDOs are those of l.4370-4383, their bytes those of UnitMapping; TPDO2 is ANL0 to ANL7. A unit
 // reports errors by emergency packets.
 #pragma once
 #include <cstdint>

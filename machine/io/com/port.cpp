@@ -149,7 +149,7 @@ std::string readPortKey(std::string_view key, PortKey& port) {
 
 } // namespace com
 
-// Requests to serial ports (see com_requests.h). RLO, the first result, is 1 for an error.
+// Requests to serial ports. RLO, the first result, is 1 for an error.
 
 namespace {
 

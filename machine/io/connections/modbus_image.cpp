@@ -101,7 +101,7 @@ void ModbusImage::resetInputs() {
     if (!pin.place.holds) set(pin, pin.place.safe);
 }
 
-// See modbus_request.h. The numbers are those of the "MODBUS Application Protocol Specification V1.1b3".
+// The numbers are those of the "MODBUS Application Protocol Specification V1.1b3".
 
 namespace {
 

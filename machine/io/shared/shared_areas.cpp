@@ -136,7 +136,7 @@ std::span<uint8_t> SharedAreas::bytes(uint32_t area) noexcept {
   return area < kAreas ? std::span<uint8_t>(layout_->areas[area].bytes) : std::span<uint8_t>();
 }
 
-// The file of shared areas (see shared_areas.h): making it, and joining the others who have mapped it.
+// The file of shared areas: making it, and joining the others who have mapped it.
 
 namespace {
 

@@ -158,7 +158,7 @@ TableError PlcTables::lineCount(uint32_t table, uint32_t& count) const noexcept 
   return TableError::None;
 }
 
-// The image of PLC tables that outlives a power-off (see plc_tables.h): a head, and each table with a head of its own.
+// The image of PLC tables that outlives a power-off: a head, and each table with a head of its own.
 
 namespace {
 

@@ -136,7 +136,7 @@ public:
   // After a scan, a slot or a slice.
   virtual void afterSlice(runtime::Instance& instance) { (void)instance; }
 
-  // No CNC is there to answer: see refuse.h.
+  // No CNC is there to answer: see refuse().
   bool respond(runtime::Instance& instance, const core::ServiceRequest& request, core::ServiceReply& reply) override;
 
   // The place that a name of the program or of the NC's interface refers to for a reader, and for the NC or the machine

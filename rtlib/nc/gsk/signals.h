@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "rtlib/nc/faults.h"
+#include "rtlib/nc/signals.h"
 
 namespace rung::nc {
 

@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "rtlib/nc/faults.h"
+#include "rtlib/nc/signals.h"
 
 namespace rung::nc {
 

@@ -11,7 +11,7 @@
 
 #include <span>
 
-#include "rtlib/nc/faults.h"
+#include "rtlib/nc/signals.h"
 
 namespace rung::nc {
 

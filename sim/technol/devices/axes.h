@@ -1,6 +1,6 @@
 // The axes of the simulated TECHNOL control with all that moves them: spindles, SPI_AX, positioning units, references,
 // manual motion (man. chapters 12, 13.1, 15, 19, 20). It knows nothing of the program's memory: cells come and go as
-// plain structs (axis_cells.h). Axes and ports are numbered from 1. After configuring nothing allocates but what gives
+// plain structs (axis.h). Axes and ports are numbered from 1. After configuring nothing allocates but what gives
 // texts.
 #pragma once
 #include <array>

@@ -66,7 +66,7 @@ bool SimulatedCanBus::transmit(const CanPacket& packet) {
   return state() == BusState::Active && wire_.push(onBus(packet));
 }
 
-// Keys of the CAN devices (see can_devices.h): those of the control's channels, and objects of the simulated drives.
+// Keys of the CAN devices: those of the control's channels, and objects of the simulated drives.
 
 using namespace io;
 
@@ -135,7 +135,7 @@ std::optional<std::string> CanDevices::configureObject(std::string_view key, std
   return "";
 }
 
-// The simulated CAN devices (see can_devices.h). Their configuration is in can_configuration.cpp.
+// The simulated CAN devices.
 
 using namespace io;
 

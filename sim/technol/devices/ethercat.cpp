@@ -1,4 +1,4 @@
-// The simulated EtherCAT net at work (see ethercat.h); its configuration is in ethercat_configuration.cpp.
+// The simulated EtherCAT net at work (see ethercat.h); and its configuration.
 #include "sim/technol/devices/ethercat.h"
 
 #include <algorithm>

@@ -68,7 +68,7 @@ public:
   std::optional<double> quantity(std::string_view name) const;
   std::optional<std::string> setQuantity(std::string_view name, double value);
   // SA0+n:w, PlcTableN.…, KnobSelAxN, Pos6ShiftAxN, DISPTOCn.Shown[row][column], structures of the units on CAN
-  // (unit_cells.h), process data of the simulated net and positions of modules (module_points.h).
+  // (device_cells.h), process data of the simulated net and positions of modules (module_points.h).
   std::optional<NcCell> readCell(std::string_view name) const;
   std::optional<std::string> writeCell(std::string_view name, const NcCell& value);
   std::string cellProblem(std::string_view name) const;
@@ -101,7 +101,7 @@ private:
   std::string manualEvent(const EventKeys& keys);
   std::string commandEvent(const EventKeys& keys);
   std::string handwheelEvent(const EventKeys& keys);
-  // Those of bus_events.cpp.
+  // Events of buses.
   static std::span<const Event> portEvents();
   std::string canEvent(const EventKeys& keys);
   std::string unitEvent(const EventKeys& keys);

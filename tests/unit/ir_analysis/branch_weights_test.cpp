@@ -1,4 +1,4 @@
-// BranchWeights of ifs from counts of earlier runs.
+// Branch weights of ifs from counts of earlier runs.
 #include "ir/analysis/branch_weights.h"
 
 #include <gtest/gtest.h>

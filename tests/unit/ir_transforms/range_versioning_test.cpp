@@ -1,4 +1,4 @@
-// Guards: the short paths of a rung, for numbers of the program or for small ones, and rungs that get none.
+// Versions of a rung, for numbers of the program or for small ones, and rungs that get none.
 #include <gtest/gtest.h>
 
 #include "ir/transforms/passes.h"

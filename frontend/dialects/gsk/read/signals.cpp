@@ -8,8 +8,8 @@
 
 #include "frontend/dialects/gsk/language.h"
 #include "ir/support/diag/gsk.h"
-#include "rtlib/nc/faults.h"
 #include "rtlib/nc/gsk/signals.h"
+#include "rtlib/nc/signals.h"
 #include "rtlib/text/letters.h"
 
 namespace rung::frontend::gsk {

@@ -116,7 +116,7 @@ void sendSources(Client& client, const std::string& packed) {
 
 // The host has compiled them, where the status is kOk; else what is wrong has been said.
 int compileThere(Client& client, const Words& words, const volatile int& stop) {
-  compile::Collected collected = compile::collect(words.files, isatty(STDERR_FILENO) != 0);
+  rung_compile::Collected collected = rung_compile::collect(words.files, isatty(STDERR_FILENO) != 0);
   if (!collected.sources)
     return failSources(words, collected.report, collected.diagnostics,
                        collected.unreadable ? cli::kEnvironment : cli::kWrong);

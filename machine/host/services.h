@@ -79,40 +79,33 @@ struct NcAnswer {
   double value = 0; // that was read
 };
 
-// Requests of the dialects' programs as operations, and outcomes as the dialects' own results and errors.
+// Requests of a dialect's programs as operations, and outcomes as the dialect's own results and errors. Of a dialect
+// that asks nothing of the kind, everything is refused.
+class Translation {
+public:
+  virtual ~Translation() = default;
 
-// A request that waits for its answer: the program that has asked may have been replaced meanwhile.
-struct Request {
-  std::string service; // as rung_request has it
-  rung_request given{};
-  bool reads() const; // there is a result
+  // For the scan, in rung_instance_options::request: an enum rung_answer. What no operation is like, the control
+  // refuses at once. Allocates nothing.
+  virtual int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) const noexcept {
+    return (void)request, (void)live, (void)reply, RUNG_REFUSE;
+  }
+  // Nothing: `refusal` is the answer.
+  virtual std::optional<Operation> operationOf(const rung_request& request, rung_reply& refusal) const {
+    return (void)request, (void)refusal, std::nullopt;
+  }
+  virtual rung_reply replyOf(const rung_request& request, const NcAnswer& answer) const {
+    return {.size = sizeof(rung_reply), .ticket = request.ticket, .error = answer.outcome == Outcome::Done ? 0u : 1u};
+  }
 };
 
-// For the scan, in rung_instance_options::request: an enum rung_answer. Where nobody serves, and for what no operation
-// is like, the control refuses at once. Allocates nothing.
-int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;
+// By rung_program::dialect.
+const Translation& translationOf(std::string_view dialect);
 
-// Nothing: `refusal` is the answer.
-std::optional<Operation> operationOf(const Request& request, rung_reply& refusal);
-rung_reply replyOf(const Request& request, const NcAnswer& answer);
-
-// The dialects' parts of translate.h. `is` says whether a request is the dialect's, and may wait for an answer.
-
-// The window functions of GSK25i (man. §9.3) and its PLC axis control (§9.2). Window functions of high speed are
-// answered at once, or by no one.
-namespace gsk {
-bool is(std::string_view service) noexcept;
-int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;
-std::optional<Operation> operationOf(const Request& request, rung_reply& refusal);
-rung_reply replyOf(const Request& request, const NcAnswer& answer);
-} // namespace gsk
-
-// MACR, MACW, MOVCMND and SCP of NCT (man. §6.15-§6.17). SCP is answered at once, or by no one.
-namespace nct {
-bool is(std::string_view service) noexcept;
-int32_t atOnce(const rung_request& request, const Live& live, rung_reply& reply) noexcept;
-std::optional<Operation> operationOf(const Request& request);
-rung_reply replyOf(const Request& request, const NcAnswer& answer);
-} // namespace nct
+// Window functions (man. §9.3) and PLC axis control (§9.2). Window functions of high speed are answered at once, or by
+// no one.
+const Translation& gskTranslation();
+// MACR, MACW, MOVCMND and SCP (man. §6.15-§6.17). SCP is answered at once, or by no one.
+const Translation& nctTranslation();
 
 } // namespace rung::host

@@ -237,7 +237,7 @@ class rung_image_options(_Struct):
 
 class rung_request(_Struct):
     _fields_ = [("size", c_uint32), ("ticket", c_uint32), ("service", c_char_p), ("arg_count", c_uint32),
-                ("reserved", c_uint32), ("args", c_int64 * _MOST_ARGS)]
+                ("kind", c_uint32), ("args", c_int64 * _MOST_ARGS)]
 
 
 class rung_reply(_Struct):

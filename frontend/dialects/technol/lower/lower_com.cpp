@@ -14,7 +14,7 @@ void lowerComSend(Lowering& l, std::span<const Operand> o, int) {
   if (o[1].given())
     request.addOperand(1, o[1]);
   else
-    request.add("val", l.b().zextOrTrunc(Type::I64, l.r().dr(Type::I8)));
+    request.add(l.b().zextOrTrunc(Type::I64, l.r().dr(Type::I8)));
   request.send();
   l.r().setRlo(request.flag("RLO"));
 }

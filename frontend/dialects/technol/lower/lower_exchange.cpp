@@ -95,7 +95,7 @@ void takeElement(Emitter& emitter, const Operand& target, uint32_t offset) {
   ir::Place at = target.place;
   at.byte += offset;
   const ValueId place = emitter.address(Type::I64, nc::placeArgument(at.space.index, at.byte, at.bit), at);
-  const ValueId ticket = b.serviceRequest(emitter.service(nc::kUpdateService), std::array{place});
+  const ValueId ticket = b.serviceRequest(emitter.service(nc::technol::ServiceKind::UpdateInput), std::array{place});
   b.when(answersYes(b, ticket, 0), [&] { b.store(at, fromBits(b, b.serviceResult(ticket, 1), target.type)); });
 }
 

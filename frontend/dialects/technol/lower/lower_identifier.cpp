@@ -54,7 +54,7 @@ ValueId defineRequest(Memory& memory, std::span<const ValueId> head, const Opera
   std::vector<ValueId> args(head.begin(), head.end());
   const auto words = identifierWords(memory, id, nc::kDefineWords);
   args.insert(args.end(), words.begin(), words.end());
-  return memory.emitter().b().serviceRequest(memory.emitter().service(nc::kDefineService), args);
+  return memory.emitter().b().serviceRequest(memory.emitter().service(nc::technol::ServiceKind::Define), args);
 }
 
 ValueId answersYes(ir::RungBuilder& b, ValueId ticket, uint32_t result) {
